@@ -1,0 +1,61 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+
+namespace runnel {
+
+/// Everything in Runnel that has to do with time uses these two. A Time counts from the start of
+/// its clock: of the application for a simulated clock, of the machine for the steady one.
+using Duration = std::chrono::nanoseconds;
+struct TimeOrigin {
+  using duration = Duration;
+  using rep = Duration::rep;
+  using period = Duration::period;
+  using time_point = std::chrono::time_point<TimeOrigin>;
+  static constexpr bool is_steady = true;
+};
+using Time = TimeOrigin::time_point;
+
+[[nodiscard]] constexpr double ToSeconds(Duration duration) noexcept {
+  return std::chrono::duration<double>(duration).count();
+}
+[[nodiscard]] constexpr double ToSeconds(Time time) noexcept {
+  return ToSeconds(time.time_since_epoch());
+}
+/// Rounds to the nearest nanosecond. Precondition: |seconds| < 9.2e9.
+[[nodiscard]] constexpr Duration FromSeconds(double seconds) noexcept {
+  return Duration(static_cast<std::int64_t>(seconds * 1e9 + (seconds < 0 ? -0.5 : 0.5)));
+}
+
+/// Where time comes from. Threads: Now() may be called from any thread.
+class Clock {
+ public:
+  virtual ~Clock() = default;
+  [[nodiscard]] virtual Time Now() const noexcept = 0;
+};
+
+/// The machine's monotonic clock.
+class SteadyClock final : public Clock {
+ public:
+  [[nodiscard]] Time Now() const noexcept override;
+};
+
+/// A clock that moves only when told to: simulated time, and time in tests.
+/// Threads: Now() from any thread; Advance() and Set() from one thread at a time.
+class ManualClock final : public Clock {
+ public:
+  [[nodiscard]] Time Now() const noexcept override {
+    return Time(Duration(now_.load(std::memory_order_acquire)));
+  }
+  /// Never moves backwards: an earlier `time` is ignored.
+  void Set(Time time) noexcept;
+  void Advance(Duration duration) noexcept { Set(Now() + duration); }
+
+ private:
+  // release in Set(), acquire in Now(): who reads a time also sees what was done before it came.
+  std::atomic<std::int64_t> now_{0};
+};
+
+}  // namespace runnel

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+namespace runnel {
+
+/// A place in a text file. Lines and columns count from 1; 0 means unknown.
+struct SourcePosition {
+  std::string file;
+  int line = 0;
+  int column = 0;
+
+  friend bool operator==(const SourcePosition&, const SourcePosition&) = default;
+};
+
+/// Something that a user got wrong, told so that the user can mend it: what, where, and the cure.
+///
+/// Threads: a value; copies are independent.
+struct Error {
+  std::string message;           ///< one sentence, without a full stop
+  std::string path = {};         ///< of the framework element concerned, "" if none
+  SourcePosition position = {};  ///< in the user's file, if the error comes from one
+  std::string hint = {};         ///< the cure, for example "did you mean 'scan'?"; "" if unknown
+
+  /// "file:line:column: path: message; hint", leaving out what is unknown.
+  [[nodiscard]] std::string ToString() const;
+
+  friend bool operator==(const Error&, const Error&) = default;
+};
+
+}  // namespace runnel

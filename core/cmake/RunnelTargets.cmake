@@ -1,0 +1,75 @@
+# The verbs that every CMakeLists.txt of the tree is written in. Each makes ordinary targets, so
+# that target_* commands can still be added by hand.
+
+get_filename_component(RUNNEL_ROOT "${CMAKE_CURRENT_LIST_DIR}/../.." ABSOLUTE)
+
+# runnel_library(<name> [SOURCES ...] HEADERS ... [DEPENDS ...] [PRIVATE_DEPENDS ...])
+# A library runnel_<name>, known to others as runnel::<name>. Without SOURCES it is header-only.
+# Its headers are installed under their path from the root of the tree, and each must compile alone
+# (target all_verify_interface_header_sets).
+function(runnel_library name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;HEADERS;DEPENDS;PRIVATE_DEPENDS")
+  if(arg_SOURCES)
+    add_library(runnel_${name})
+    target_sources(runnel_${name} PRIVATE ${arg_SOURCES})
+    set(scope PUBLIC)
+    target_link_libraries(runnel_${name} PRIVATE $<BUILD_INTERFACE:runnel_warnings> ${arg_PRIVATE_DEPENDS})
+  else()
+    add_library(runnel_${name} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  add_library(runnel::${name} ALIAS runnel_${name})
+  target_sources(runnel_${name} ${scope}
+    FILE_SET HEADERS BASE_DIRS "${RUNNEL_ROOT}" FILES ${arg_HEADERS})
+  target_compile_features(runnel_${name} ${scope} cxx_std_20)
+  target_link_libraries(runnel_${name} ${scope} ${arg_DEPENDS})
+  set_target_properties(runnel_${name} PROPERTIES EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON)
+  install(TARGETS runnel_${name} EXPORT runnelTargets
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/runnel)
+endfunction()
+
+# runnel_plugin(<name> SOURCES ... [DEPENDS ...])
+# A loadable library lib/runnel/plugins/<name>.so, which the runtime finds by <name>. Works in this
+# tree and, after find_package(runnel), in any other.
+function(runnel_plugin name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS")
+  add_library(runnel_plugin_${name} MODULE ${arg_SOURCES})
+  target_compile_features(runnel_plugin_${name} PRIVATE cxx_std_20)
+  target_link_libraries(runnel_plugin_${name} PRIVATE ${arg_DEPENDS})
+  if(TARGET runnel_warnings)
+    target_link_libraries(runnel_plugin_${name} PRIVATE runnel_warnings)
+  endif()
+  set_target_properties(runnel_plugin_${name} PROPERTIES
+    PREFIX "" OUTPUT_NAME "${name}" CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
+    LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/lib/runnel/plugins")
+  install(TARGETS runnel_plugin_${name}
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/runnel/plugins)
+endfunction()
+
+# runnel_test(<name> SOURCES ... [DEPENDS ...] [LABELS ...] [TIMEOUT seconds])
+# A GoogleTest program; each of its test cases becomes a CTest test called <name>/<Suite>.<Case>.
+function(runnel_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "SOURCES;DEPENDS;LABELS")
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 120)
+  endif()
+  if(NOT arg_LABELS)
+    set(arg_LABELS unit)
+  endif()
+  add_executable(test_${name} ${arg_SOURCES})
+  target_include_directories(test_${name} PRIVATE "${RUNNEL_ROOT}")
+  target_link_libraries(test_${name} PRIVATE
+    runnel_warnings ${arg_DEPENDS} GTest::gmock GTest::gtest_main)
+  gtest_discover_tests(test_${name} TEST_PREFIX "${name}/" DISCOVERY_TIMEOUT 60
+    PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT})
+endfunction()
+
+# runnel_bench(<name> SOURCES ... [DEPENDS ...]): a Google Benchmark program bin/bench_<name>.
+function(runnel_bench name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS")
+  add_executable(bench_${name} ${arg_SOURCES})
+  target_include_directories(bench_${name} PRIVATE "${RUNNEL_ROOT}")
+  target_link_libraries(bench_${name} PRIVATE
+    runnel_warnings ${arg_DEPENDS} benchmark::benchmark benchmark::benchmark_main)
+endfunction()

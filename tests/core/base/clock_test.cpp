@@ -1,0 +1,34 @@
+#include "core/base/clock.h"
+
+#include <gtest/gtest.h>
+
+namespace runnel {
+namespace {
+
+TEST(ManualClockTest, MovesOnlyWhenTold) {
+  ManualClock clock;
+  EXPECT_EQ(ToSeconds(clock.Now()), 0.0);
+  clock.Advance(FromSeconds(0.25));
+  EXPECT_EQ(ToSeconds(clock.Now()), 0.25);
+}
+
+TEST(ManualClockTest, NeverMovesBackwards) {
+  ManualClock clock;
+  clock.Set(Time(FromSeconds(2)));
+  clock.Set(Time(FromSeconds(1)));
+  EXPECT_EQ(ToSeconds(clock.Now()), 2.0);
+}
+
+TEST(SteadyClockTest, DoesNotGoBackwards) {
+  const SteadyClock clock;
+  const Time first = clock.Now();
+  EXPECT_GE(clock.Now(), first);
+}
+
+TEST(FromSecondsTest, RoundsToTheNearestNanosecond) {
+  EXPECT_EQ(FromSeconds(0.1).count(), 100'000'000);
+  EXPECT_EQ(FromSeconds(-0.1).count(), -100'000'000);
+}
+
+}  // namespace
+}  // namespace runnel
