@@ -1,0 +1,38 @@
+#pragma once
+
+#include "modules/types/algorithm/point.h"
+
+namespace runnel {
+
+/// Where a body is in the world: metres, and the heading in rad, 0 along x, counter-clockwise.
+struct Pose2 {
+  double x = 0.0;
+  double y = 0.0;
+  double heading = 0.0;
+
+  friend constexpr bool operator==(const Pose2&, const Pose2&) = default;
+};
+
+[[nodiscard]] constexpr Point2 Position(const Pose2& pose) { return {pose.x, pose.y}; }
+
+/// From the body's frame (x ahead, y left) into the frame of the pose.
+[[nodiscard]] inline Point2 ToWorld(const Pose2& pose, Point2 local) {
+  const double c = std::cos(pose.heading), s = std::sin(pose.heading);
+  return {pose.x + c * local.x - s * local.y, pose.y + s * local.x + c * local.y};
+}
+/// The way back: from the frame of the pose into the body's frame.
+[[nodiscard]] inline Point2 ToBody(const Pose2& pose, Point2 world) {
+  const double c = std::cos(pose.heading), s = std::sin(pose.heading);
+  const Point2 offset = world - Position(pose);
+  return {c * offset.x + s * offset.y, -s * offset.x + c * offset.y};
+}
+
+/// How a planar body moves, in its own frame: m/s ahead, rad/s counter-clockwise.
+struct Twist2 {
+  double forward = 0.0;
+  double turn = 0.0;
+
+  friend constexpr bool operator==(const Twist2&, const Twist2&) = default;
+};
+
+}  // namespace runnel
