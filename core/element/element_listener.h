@@ -1,0 +1,27 @@
+#pragma once
+
+namespace runnel {
+
+class FrameworkElement;
+
+/// Told of every change of the structure, in the order of the changes. Schedulers, network links
+/// and viewers live on it.
+///
+/// Threads:  called under the structure lock, by the thread that makes the change. A listener may
+///           change the structure itself, but must not wait for another thread that does.
+/// Errors:   must not throw.
+class ElementListener {
+ public:
+  virtual ~ElementListener() = default;
+
+  /// The element and all below it have become ready: they are complete and configured.
+  virtual void OnReady(FrameworkElement& /*element*/) {}
+  /// The element and all below it are about to be deleted; they are still whole, and marked
+  /// deleted.
+  virtual void OnDeleted(FrameworkElement& /*element*/) {}
+  /// Ports: data now flows, or no longer flows, from one to the other.
+  virtual void OnConnected(FrameworkElement& /*from*/, FrameworkElement& /*to*/) {}
+  virtual void OnDisconnected(FrameworkElement& /*from*/, FrameworkElement& /*to*/) {}
+};
+
+}  // namespace runnel

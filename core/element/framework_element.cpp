@@ -1,0 +1,91 @@
+#include "core/element/framework_element.h"
+
+#include <algorithm>
+#include <mutex>
+
+#include "core/base/nearest_name.h"
+#include "core/element/element_path.h"
+#include "core/element/runtime.h"
+
+namespace runnel {
+
+FrameworkElement::FrameworkElement(RootTag, Runtime& runtime)
+    : kind_(ElementKind::kRuntime), life_cycle_(LifeCycle::kReady), runtime_(&runtime) {}
+
+FrameworkElement::FrameworkElement(const Placement& placement, ElementKind kind)
+    : name_(placement.name), kind_(kind), parent_(&placement.parent), runtime_(parent_->runtime_) {
+  const std::lock_guard lock(runtime_->structure_mutex());
+  if (const auto name_is_good = CheckElementName(name_); !name_is_good) {
+    Error error = name_is_good.error();
+    error.path = parent_->path();
+    throw ElementError(std::move(error));
+  }
+  if (parent_->life_cycle_ == LifeCycle::kDeleted) {
+    throw ElementError(
+        {.message = "cannot create '" + name_ + "' in an element that is being deleted",
+         .path = parent_->path()});
+  }
+  if (!parent_->children_by_name_.emplace(name_, this).second) {
+    throw ElementError({.message = "there is already an element called '" + name_ + "'",
+                        .path = parent_->path(),
+                        .hint = "choose another name"});
+  }
+  parent_->children_.push_back(this);
+  serial_ = runtime_->NextSerial();
+}
+
+FrameworkElement::~FrameworkElement() {
+  if (parent_ == nullptr) return;
+  const std::lock_guard lock(runtime_->structure_mutex());
+  while (!owned_.empty()) owned_.pop_back();  // what was made last goes first
+  std::erase(parent_->children_, this);
+  parent_->children_by_name_.erase(name_);
+}
+
+std::string FrameworkElement::path() const {
+  if (parent_ == nullptr) return "/";
+  std::string path;
+  for (const FrameworkElement* element = this; element->parent_ != nullptr;
+       element = element->parent_) {
+    path.insert(0, "/" + element->name_);
+  }
+  return path;
+}
+
+FrameworkElement* FrameworkElement::FindChild(std::string_view child_name) const {
+  const auto found = children_by_name_.find(child_name);
+  return found == children_by_name_.end() ? nullptr : found->second;
+}
+
+Result<FrameworkElement*> FrameworkElement::Find(std::string_view path) const {
+  const FrameworkElement* at = this;
+  if (IsAbsolutePath(path)) at = &runtime_->root();
+  for (const std::string_view part : SplitPath(path)) {
+    const FrameworkElement* next = at->FindChild(part);
+    if (part == ".") next = at;
+    if (part == "..") next = at->parent_;
+    if (next == nullptr) {
+      std::vector<std::string> names;
+      for (const FrameworkElement* child : at->children_) names.push_back(child->name_);
+      return Error{.message = "no '" + std::string(part) + "' in " + at->path(),
+                   .path = this->path(),
+                   .hint = NearestNameHint(part, names)};
+    }
+    at = next;
+  }
+  return const_cast<FrameworkElement*>(at);
+}
+
+bool FrameworkElement::IsAtOrBelow(const FrameworkElement& ancestor) const noexcept {
+  const FrameworkElement* element = this;
+  while (element != nullptr && element != &ancestor) element = element->parent_;
+  return element != nullptr;
+}
+
+void FrameworkElement::Visit(const std::function<void(FrameworkElement&)>& visit) {
+  visit(*this);
+  // By index: a visitor may add children.
+  for (std::size_t i = 0; i < children_.size(); ++i) children_[i]->Visit(visit);
+}
+
+}  // namespace runnel

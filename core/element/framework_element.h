@@ -1,0 +1,138 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <typeindex>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/element/annotation.h"
+
+namespace runnel {
+
+class FrameworkElement;
+class Runtime;
+
+/// Where a new element goes: below `parent`, under `name`. Elements take it as the only argument
+/// that all of them share, so that `using Module::Module;` is all the constructor a module needs.
+struct Placement {
+  FrameworkElement& parent;
+  std::string name;
+};
+
+/// What an element is to a person who looks at the tree.
+enum class ElementKind {
+  kRuntime,
+  kGroup,
+  kModule,
+  kPortGroup,
+  kPort,
+  kParameter,
+  kThread,
+  kOther
+};
+
+/// The three stations of an element's life. Only a ready module is executed.
+enum class LifeCycle {
+  kConstructed,  ///< exists, can be configured and connected
+  kReady,        ///< configured, Prepare() has succeeded
+  kDeleted,      ///< taken out; its memory lives on until no thread can see it any more
+};
+
+/// The node of which everything in an application is made: groups, modules, ports and parameters
+/// form one tree, in which a path such as "/robot/guard/input/scan" names each (FINROC,
+/// section 4.2).
+///
+/// Ownership:  a parent owns the children that it was given by Runtime::Create(); an element that
+/// is
+///             a member of a C++ object (a port of a module) belongs to that object and is only
+///             listed.
+/// Threads:    the tree is read and changed under Runtime::structure_mutex(). Functions marked
+///             "locks" take it themselves. name(), path() and runtime() never change and need none.
+/// Errors:     a constructor throws ElementError for a bad or duplicate name.
+class FrameworkElement {
+ public:
+  explicit FrameworkElement(const Placement& placement, ElementKind kind = ElementKind::kOther);
+  virtual ~FrameworkElement();
+  FrameworkElement(const FrameworkElement&) = delete;
+  FrameworkElement& operator=(const FrameworkElement&) = delete;
+
+  [[nodiscard]] const std::string& name() const noexcept { return name_; }
+  [[nodiscard]] std::string path() const;
+  [[nodiscard]] ElementKind kind() const noexcept { return kind_; }
+  [[nodiscard]] LifeCycle life_cycle() const noexcept { return life_cycle_; }
+  /// nullptr for the runtime, the root.
+  [[nodiscard]] FrameworkElement* parent() const noexcept { return parent_; }
+  [[nodiscard]] Runtime& runtime() const noexcept { return *runtime_; }
+  /// In the order of their creation.
+  [[nodiscard]] const std::vector<FrameworkElement*>& children() const noexcept {
+    return children_;
+  }
+  /// The number of elements that the runtime had made before this one: an order that does not
+  /// depend on addresses.
+  [[nodiscard]] std::uint64_t serial() const noexcept { return serial_; }
+
+  [[nodiscard]] FrameworkElement* FindChild(std::string_view child_name) const;
+  /// Follows `path` from here, or from the root if it begins with '/'. ".." is the parent. The
+  /// error names the part that is not there and what comes nearest to it.
+  [[nodiscard]] Result<FrameworkElement*> Find(std::string_view path) const;
+  [[nodiscard]] bool IsAtOrBelow(const FrameworkElement& ancestor) const noexcept;
+  /// Calls `visit` for this element and all below it, parents before children.
+  void Visit(const std::function<void(FrameworkElement&)>& visit);
+
+  /// Keeps one annotation of each type; a later one takes the place of the earlier.
+  template <typename T>
+  T& Annotate(std::unique_ptr<T> annotation) {
+    T& reference = *annotation;
+    annotations_[typeid(T)] = std::move(annotation);
+    return reference;
+  }
+  /// nullptr if there is none.
+  template <typename T>
+  [[nodiscard]] T* FindAnnotation() const {
+    const auto found = annotations_.find(typeid(T));
+    return found == annotations_.end() ? nullptr : static_cast<T*>(found->second.get());
+  }
+
+ protected:
+  /// Called once when the element becomes ready: parameters are set, ports are there. Open files
+  /// and reserve memory here. An error or an exception keeps the whole new structure from becoming
+  /// ready.
+  virtual Result<void> Prepare() { return {}; }
+  /// Called under the structure lock before the element is deleted; undo here what ties it to
+  /// others.
+  virtual void Detach() noexcept {}
+
+ private:
+  friend class Runtime;
+  struct RootTag {};
+  FrameworkElement(RootTag, Runtime& runtime);
+
+  std::string name_;
+  ElementKind kind_;
+  LifeCycle life_cycle_ = LifeCycle::kConstructed;
+  FrameworkElement* parent_ = nullptr;
+  Runtime* runtime_ = nullptr;
+  std::uint64_t serial_ = 0;
+  std::vector<FrameworkElement*> children_;
+  std::map<std::string, FrameworkElement*, std::less<>> children_by_name_;
+  std::vector<std::unique_ptr<FrameworkElement>> owned_;
+  std::map<std::type_index, std::unique_ptr<Annotation>> annotations_;
+};
+
+/// Thrown by the constructor of an element that cannot be placed where it was to go.
+class ElementError : public std::runtime_error {
+ public:
+  explicit ElementError(Error error)
+      : std::runtime_error(error.ToString()), error_(std::move(error)) {}
+  [[nodiscard]] const Error& error() const noexcept { return error_; }
+
+ private:
+  Error error_;
+};
+
+}  // namespace runnel

@@ -1,0 +1,94 @@
+#include "core/element/runtime.h"
+
+#include <algorithm>
+
+#include "core/lockfree/thread_epoch.h"
+
+namespace runnel {
+
+namespace {
+
+Result<void> Refuse(const FrameworkElement& element, std::string message, std::string hint = {}) {
+  return Error{.message = std::move(message), .path = element.path(), .hint = std::move(hint)};
+}
+
+}  // namespace
+
+Runtime::Runtime() : root_(FrameworkElement::RootTag{}, *this) {}
+
+Runtime::~Runtime() {
+  // Reverse order: what was made later may refer to what was made before.
+  while (!root_.owned_.empty()) {
+    if (!Delete(*root_.owned_.back())) root_.owned_.pop_back();
+  }
+}
+
+void Runtime::Adopt(std::unique_ptr<FrameworkElement> element) {
+  const std::lock_guard lock(structure_mutex_);
+  FrameworkElement& parent = *element->parent_;
+  parent.owned_.push_back(std::move(element));
+}
+
+Result<void> Runtime::MakeReady(FrameworkElement& element) {
+  const std::lock_guard lock(structure_mutex_);
+  std::vector<FrameworkElement*> prepared;
+  Result<void> result;
+  element.Visit([&](FrameworkElement& each) {
+    if (!result || each.life_cycle_ != LifeCycle::kConstructed) return;
+    try {
+      result = each.Prepare();
+    } catch (const std::exception& exception) {
+      result = Error{.message = exception.what()};
+    }
+    prepared.push_back(&each);
+  });
+  if (!result) {
+    Error error = result.error();
+    if (error.path.empty()) error.path = prepared.back()->path();
+    return error;
+  }
+  for (FrameworkElement* each : prepared) each->life_cycle_ = LifeCycle::kReady;
+  ForEachListener([&](ElementListener& listener) { listener.OnReady(element); });
+  return {};
+}
+
+Result<void> Runtime::Delete(FrameworkElement& element) {
+  if (EpochGuard::HeldByThisThread()) {
+    return Refuse(element, "an element cannot be deleted from within a cycle",
+                  "ask another thread to do it");
+  }
+  std::unique_ptr<FrameworkElement> taken;
+  {
+    const std::lock_guard lock(structure_mutex_);
+    FrameworkElement* const parent = element.parent_;
+    if (parent == nullptr) return Refuse(element, "the root cannot be deleted");
+    auto& owned = parent->owned_;
+    const auto found =
+        std::ranges::find_if(owned, [&](auto& each) { return each.get() == &element; });
+    if (found == owned.end()) {
+      return Refuse(element, "a part of another element cannot be deleted by itself",
+                    "delete " + parent->path());
+    }
+    element.Visit([](FrameworkElement& each) { each.life_cycle_ = LifeCycle::kDeleted; });
+    ForEachListener([&](ElementListener& listener) { listener.OnDeleted(element); });
+    element.Visit([](FrameworkElement& each) { each.Detach(); });
+    taken = std::move(*found);
+    owned.erase(found);
+  }
+  // From here on no thread finds the element anew; wait for those that have found it before. The
+  // lock is free meanwhile, so that a cycle that needs it can come to its end.
+  WaitForReaders();
+  return {};
+}
+
+void Runtime::AddListener(ElementListener& listener) {
+  const std::lock_guard lock(structure_mutex_);
+  listeners_.push_back(&listener);
+}
+
+void Runtime::RemoveListener(ElementListener& listener) {
+  const std::lock_guard lock(structure_mutex_);
+  std::erase(listeners_, &listener);
+}
+
+}  // namespace runnel

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <concepts>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "core/base/clock.h"
+#include "core/base/ordered_mutex.h"
+#include "core/element/element_listener.h"
+#include "core/element/framework_element.h"
+
+namespace runnel {
+
+/// The root of one tree of elements, with the lock that guards its structure. There may be several
+/// in a process; they know nothing of each other.
+///
+/// Ownership:  owns every element made by Create(), and deletes them in reverse order.
+/// Threads:    Create, MakeReady, Delete and the listener functions lock by themselves. Whoever
+/// makes
+///             several changes that belong together, or looks at the tree, holds structure_mutex().
+class Runtime {
+ public:
+  Runtime();
+  ~Runtime();
+  Runtime(const Runtime&) = delete;
+  Runtime& operator=(const Runtime&) = delete;
+
+  [[nodiscard]] FrameworkElement& root() noexcept { return root_; }
+  [[nodiscard]] OrderedMutex& structure_mutex() noexcept { return structure_mutex_; }
+
+  /// Makes a T from Placement{parent, name} and the further arguments; the parent owns it. Throws
+  /// what T's constructor throws, ElementError among it, and then nothing has changed.
+  template <std::derived_from<FrameworkElement> T, typename... Arguments>
+  T& Create(FrameworkElement& parent, std::string name, Arguments&&... arguments) {
+    const std::lock_guard lock(structure_mutex_);
+    auto element = std::make_unique<T>(Placement{parent, std::move(name)},
+                                       std::forward<Arguments>(arguments)...);
+    T& reference = *element;
+    Adopt(std::move(element));
+    return reference;
+  }
+  /// Gives an element that was made otherwise (by a plugin's factory) to its parent.
+  void Adopt(std::unique_ptr<FrameworkElement> element);
+
+  /// Calls Prepare() of the element and all below that are not ready yet, parents first; if all
+  /// succeed they are ready and the listeners told, else none is. Exceptions become errors.
+  Result<void> MakeReady(FrameworkElement& element);
+
+  /// Takes the element and all below it out, waits until no thread can see them, and destroys them.
+  /// Errors: from within Update() (the thread would wait for itself); an element that is a member
+  /// of another object; the root.
+  Result<void> Delete(FrameworkElement& element);
+
+  /// The listener must outlive the runtime or be removed. Locks.
+  void AddListener(ElementListener& listener);
+  void RemoveListener(ElementListener& listener);
+  /// Calls `notify` for each listener, under the lock. For those who change the structure: the
+  /// ports.
+  template <typename Notify>
+  void ForEachListener(Notify&& notify) {
+    const std::lock_guard lock(structure_mutex_);
+    for (std::size_t i = 0; i < listeners_.size(); ++i) notify(*listeners_[i]);
+  }
+
+  /// The time outside of cycles. The steady clock unless another is set before anything runs; the
+  /// clock must outlive the runtime.
+  [[nodiscard]] const Clock& clock() const noexcept { return *clock_; }
+  void set_clock(const Clock& clock) noexcept { clock_ = &clock; }
+
+ private:
+  friend class FrameworkElement;
+  std::uint64_t NextSerial() noexcept { return next_serial_++; }
+
+  OrderedMutex structure_mutex_{LockLevel::kStructure};
+  SteadyClock steady_clock_;
+  const Clock* clock_ = &steady_clock_;
+  std::uint64_t next_serial_ = 1;
+  std::vector<ElementListener*> listeners_;
+  FrameworkElement root_;
+};
+
+}  // namespace runnel

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+#include "core/lockfree/cache_line.h"
+
+namespace runnel {
+
+/// Where a value stands among the publications of its source.
+struct Publication {
+  std::int64_t stamp = 0;      ///< ns, the time of the cycle that published it
+  std::uint64_t sequence = 0;  ///< 1 for the first publication of the source
+  std::uint64_t order = 0;     ///< among sources that share an input; 0 if this source shares none
+};
+
+/// The newest value of a small, trivially copyable type: the cheap path of the ports.
+///
+/// Four cells are written in turn, so that a reader never waits for a writer: it copies the newest
+/// complete cell, and starts again only if the writer came round to that very cell meanwhile.
+///
+/// Threads:     one thread at a time may Publish(); any number may Read() at any time.
+/// Progress:    Publish() is wait-free and writes to no line that readers write; Read() is
+///              lock-free: it repeats only if at least three publications have happened meanwhile.
+/// Allocation:  none.
+/// No data race: every shared word is an atomic; see README.md for the pairing of the orders.
+template <typename T, template <typename> class Atomic = std::atomic>
+class LatestValue {
+  static_assert(std::is_trivially_copyable_v<T>,
+                "LatestValue copies words: T must be trivially copyable; use LatestBuffer instead");
+
+ public:
+  void Publish(const T& value, std::int64_t stamp, std::uint64_t order = 0) noexcept {
+    const std::uint64_t sequence = ++published_;
+    Cell& cell = cells_[sequence % kCells];
+    // relaxed: the release stores of the words below carry it to whoever sees one of them.
+    cell.sequence.store(kBeingWritten, std::memory_order_relaxed);
+    std::array<std::uint64_t, kWords> words{};
+    std::memcpy(words.data(), &value, sizeof(T));
+    // release: pairs with the acquire loads of the words in Read(). A reader that sees one of these
+    // words also sees kBeingWritten, or something later, in the check that ends its copy.
+    for (std::size_t i = 0; i < kWords; ++i) {
+      cell.words[i].store(words[i], std::memory_order_release);
+    }
+    cell.stamp.store(stamp, std::memory_order_release);
+    cell.order.store(order, std::memory_order_release);
+    // release: a reader of this number sees the words above as they are.
+    cell.sequence.store(sequence, std::memory_order_release);
+    // release: pairs with the acquire in Read(): the whole cell is visible with its number.
+    newest_.store(sequence, std::memory_order_release);
+  }
+
+  /// Copies the newest value to `value`. Returns false before the first publication.
+  bool Read(T& value, Publication& publication) const noexcept {
+    for (;;) {
+      // acquire: pairs with the last store in Publish().
+      const std::uint64_t sequence = newest_.load(std::memory_order_acquire);
+      if (sequence == 0) return false;
+      const Cell& cell = cells_[sequence % kCells];
+      std::array<std::uint64_t, kWords> words;
+      // acquire: keeps the check below from moving up, and makes it see at least the state that a
+      // writer of one of these words had set before.
+      for (std::size_t i = 0; i < kWords; ++i) {
+        words[i] = cell.words[i].load(std::memory_order_acquire);
+      }
+      publication.stamp = cell.stamp.load(std::memory_order_acquire);
+      publication.order = cell.order.load(std::memory_order_acquire);
+      // relaxed: the acquire loads above order it.
+      if (cell.sequence.load(std::memory_order_relaxed) != sequence) continue;
+      publication.sequence = sequence;
+      std::memcpy(static_cast<void*>(&value), words.data(), sizeof(T));
+      return true;
+    }
+  }
+
+  /// The number of publications so far; what Read() would return, at least. Any thread.
+  [[nodiscard]] std::uint64_t sequence() const noexcept {
+    return newest_.load(std::memory_order_acquire);
+  }
+
+ private:
+  static constexpr std::size_t kCells = 4;
+  static constexpr std::size_t kWords = (sizeof(T) + 7) / 8;
+  static constexpr std::uint64_t kBeingWritten = 0;
+
+  struct alignas(kCacheLineSize) Cell {
+    Atomic<std::uint64_t> sequence{0};
+    Atomic<std::int64_t> stamp{0};
+    Atomic<std::uint64_t> order{0};
+    std::array<Atomic<std::uint64_t>, kWords> words{};
+  };
+
+  std::array<Cell, kCells> cells_;
+  alignas(kCacheLineSize) Atomic<std::uint64_t> newest_{0};
+  std::uint64_t published_ = 0;  // the writer's own
+};
+
+}  // namespace runnel

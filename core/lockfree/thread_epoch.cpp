@@ -1,0 +1,111 @@
+#include "core/lockfree/thread_epoch.h"
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "core/base/check.h"
+
+namespace runnel {
+
+namespace internal {
+thread_local constinit ProcessEpochDomain::Participant* thread_participant = nullptr;
+}  // namespace internal
+
+namespace {
+
+using Participant = ProcessEpochDomain::Participant;
+
+// Gives the participant of a thread that ends to the next thread that starts.
+struct ThreadRegistration {
+  ~ThreadRegistration() {
+    if (internal::thread_participant == nullptr) return;
+    // release: pairs with the acquire in RegisterThread(); the depth is handed over too.
+    internal::thread_participant->taken.store(false, std::memory_order_release);
+    internal::thread_participant = nullptr;
+  }
+};
+
+struct Retired {
+  std::uint64_t epoch;
+  std::function<void()> destroy;
+};
+
+struct RetiredList {
+  std::mutex mutex;
+  std::vector<Retired> entries;
+};
+
+// Never destroyed: ports of static lifetime may retire parts while the process ends.
+RetiredList& TheRetired() {
+  static auto* const list = new RetiredList;
+  return *list;
+}
+
+}  // namespace
+
+ProcessEpochDomain& ProcessEpochs() noexcept {
+  static constinit ProcessEpochDomain domain;
+  return domain;
+}
+
+Participant& internal::RegisterThread() {
+  static thread_local ThreadRegistration registration;
+  for (Participant* participant = ProcessEpochs().first(); participant != nullptr;
+       participant = participant->next) {
+    bool expected = false;
+    if (participant->taken.compare_exchange_strong(expected, true, std::memory_order_acquire,
+                                                   std::memory_order_relaxed)) {
+      return *(thread_participant = participant);
+    }
+  }
+  // Never freed: the domain looks at it for ever, and there are as many as threads at one time.
+  thread_participant = new Participant;
+  ProcessEpochs().Add(*thread_participant);
+  return *thread_participant;
+}
+
+void Retire(std::function<void()> destroy) {
+  {
+    const std::lock_guard lock(TheRetired().mutex);
+    TheRetired().entries.push_back({ProcessEpochs().Advance(), std::move(destroy)});
+  }
+  CollectRetired();
+}
+
+std::size_t CollectRetired() {
+  std::vector<Retired> due;
+  std::size_t left = 0;
+  {
+    const std::lock_guard lock(TheRetired().mutex);
+    std::vector<Retired>& entries = TheRetired().entries;
+    const auto first_due = std::stable_partition(
+        entries.begin(), entries.end(),
+        [](const Retired& entry) { return !ProcessEpochs().HasPassed(entry.epoch); });
+    due.assign(std::make_move_iterator(first_due), std::make_move_iterator(entries.end()));
+    entries.erase(first_due, entries.end());
+    left = entries.size();
+  }
+  // Outside the lock: a destructor may retire further parts.
+  for (const Retired& entry : due) entry.destroy();
+  return left;
+}
+
+void WaitForReaders() {
+  RUNNEL_CHECK(!EpochGuard::HeldByThisThread(),
+               "a thread cannot wait for readers while it reads itself, as in Update()");
+  const std::uint64_t epoch = ProcessEpochs().Advance();
+  for (int round = 0; !ProcessEpochs().HasPassed(epoch); ++round) {
+    if (round < 64) {
+      std::this_thread::yield();
+    } else {
+      std::this_thread::sleep_for(std::chrono::microseconds(50));
+    }
+  }
+  CollectRetired();
+}
+
+}  // namespace runnel

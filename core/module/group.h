@@ -1,0 +1,15 @@
+#pragma once
+
+#include "core/element/framework_element.h"
+
+namespace runnel {
+
+/// A composite: modules and other groups that serve one purpose, behind an interface of ports of
+/// its own (ProxyPort, made below the group). What is inside can be exchanged without the outside
+/// knowing.
+class Group final : public FrameworkElement {
+ public:
+  explicit Group(const Placement& placement) : FrameworkElement(placement, ElementKind::kGroup) {}
+};
+
+}  // namespace runnel

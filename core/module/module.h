@@ -1,0 +1,67 @@
+#pragma once
+
+#include <memory>
+
+#include "core/base/clock.h"
+#include "core/element/framework_element.h"
+#include "core/port/port_owner.h"
+
+namespace runnel {
+
+class PortGroup;
+
+/// A component: ports and parameters as public members, and one function that is called in each
+/// cycle.
+///
+///     class Doubler final : public runnel::Module {
+///      public:
+///       using Module::Module;
+///       Input<double> value{this, "value"};
+///       Output<double> doubled{this, "doubled"};
+///
+///      private:
+///       void Update() override {
+///         if (const auto read = value.Read(); read.is_new()) doubled.Publish(2 * *read);
+///       }
+///     };
+///
+/// Life:        constructed (no side effects, please: tools make instances just to list the ports)
+/// →
+///              Prepare(): parameters are set; open files, reserve memory, say what is wrong →
+///              Update() again and again → destructor.
+/// Threads:     Update() is called by one thread at a time. Prepare() and the destructor never run
+/// at
+///              the same time as Update().
+/// Errors:      an exception out of Update() stops this module alone and is reported with its path.
+/// Allocation:  Update() should neither allocate, lock, nor call the system.
+/// Source:      FINROC's modules.
+class Module : public FrameworkElement, public PortOwner {
+ public:
+  explicit Module(const Placement& placement);
+  ~Module() override;
+
+  [[nodiscard]] FrameworkElement& InputGroup() override;
+  [[nodiscard]] FrameworkElement& OutputGroup() override;
+
+ protected:
+  virtual void Update() = 0;
+
+  /// The time of the current cycle; outside of one, that of the runtime's clock.
+  [[nodiscard]] Time now() const noexcept;
+  /// Planned time from cycle to cycle; 0 outside of a cycle or without a plan.
+  [[nodiscard]] static Duration period() noexcept;
+
+  /// For module kinds with other groups than "input" and "output": makes the group when first
+  /// asked.
+  [[nodiscard]] FrameworkElement& LazyGroup(std::unique_ptr<PortGroup>& group, const char* name);
+
+  struct NoTasks {};
+  /// For module kinds that annotate their own tasks.
+  Module(const Placement& placement, NoTasks);
+
+ private:
+  std::unique_ptr<PortGroup> input_group_;
+  std::unique_ptr<PortGroup> output_group_;
+};
+
+}  // namespace runnel

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <concepts>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/element/framework_element.h"
+
+namespace runnel {
+
+/// A class that can be made from a Placement, as `using Module::Module;` makes it.
+template <typename M>
+concept PlaceableElement =
+    std::derived_from<M, FrameworkElement> && std::constructible_from<M, const Placement&>;
+
+/// One kind of module that applications can contain.
+struct ModuleType {
+  std::string name;     ///< "motion/collision_guard"
+  std::string summary;  ///< one line
+  std::string plugin;   ///< the library that it came with
+  std::function<std::unique_ptr<FrameworkElement>(const Placement&)> make;
+};
+
+/// The kinds of modules that are known, by name.
+///
+/// Threads:  not thread-safe; plugins are loaded by one thread, or under the structure lock.
+class ModuleRegistry {
+ public:
+  /// Errors: the name is taken (the message names the plugin that has it) or malformed.
+  Result<void> Add(ModuleType type);
+  void RemovePlugin(std::string_view plugin);
+
+  [[nodiscard]] const ModuleType* Find(std::string_view name) const;
+  /// The type called `name`, or an error with the nearest name that there is.
+  [[nodiscard]] Result<const ModuleType*> Get(std::string_view name) const;
+  /// All types, sorted by name.
+  [[nodiscard]] std::vector<const ModuleType*> All() const;
+
+  /// Makes a module and gives it to `parent`. Whatever its constructor throws comes back as an
+  /// error, and then nothing has changed.
+  Result<FrameworkElement*> Create(std::string_view type, FrameworkElement& parent,
+                                   std::string name) const;
+
+ private:
+  std::map<std::string, ModuleType, std::less<>> types_;
+};
+
+}  // namespace runnel

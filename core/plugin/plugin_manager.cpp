@@ -1,0 +1,139 @@
+#include "core/plugin/plugin_manager.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <set>
+
+#include <dlfcn.h>
+
+#include "core/base/nearest_name.h"
+#include "core/plugin/plugin_entry.h"
+#include "core/plugin/shared_library.h"
+
+namespace runnel {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The folder that holds the core's own library.
+fs::path CoreFolder() {
+  Dl_info info;
+  if (dladdr(reinterpret_cast<const void*>(&CoreAbiFingerprint), &info) == 0) return {};
+  return fs::absolute(info.dli_fname).parent_path();
+}
+
+void AppendEnvironmentFolders(std::vector<fs::path>& folders) {
+  const char* const variable = std::getenv("RUNNEL_PLUGIN_PATH");
+  std::string_view rest = variable != nullptr ? variable : "";
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find(':'), rest.size());
+    if (end > 0) folders.emplace_back(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+}
+
+Error Refusal(const fs::path& file, std::string why, std::string hint = {}) {
+  return {.message = "the plugin " + file.string() + " is refused: " + std::move(why),
+          .hint = std::move(hint)};
+}
+
+// Reads only what never changes its place before it trusts the rest.
+Result<const PluginEntry*> Handshake(const SharedLibrary& library) {
+  const auto entry_function =
+      reinterpret_cast<const PluginEntry* (*)()>(library.FindSymbol(kPluginEntrySymbol));
+  if (entry_function == nullptr) {
+    return Refusal(library.file(), std::string("it has no entry ") + kPluginEntrySymbol,
+                   "write RUNNEL_PLUGIN(name, registry) { … } in one of its sources");
+  }
+  const PluginEntry* const entry = entry_function();
+  if (entry == nullptr) return Refusal(library.file(), "its entry is empty");
+  if (entry->abi_version != kPluginAbiVersion) {
+    return Refusal(library.file(),
+                   "it was built for plugin ABI " + std::to_string(entry->abi_version) +
+                       ", this core has " + std::to_string(kPluginAbiVersion),
+                   "rebuild the plugin");
+  }
+  if (entry->entry_size != sizeof(PluginEntry)) {
+    return Refusal(library.file(), "its entry has another size than this core's",
+                   "rebuild the plugin");
+  }
+  if (std::strcmp(entry->fingerprint, CoreAbiFingerprint()) != 0) {
+    return Refusal(library.file(),
+                   std::string("it was built with '") + entry->fingerprint + "', this core with '" +
+                       CoreAbiFingerprint() + "'",
+                   "rebuild the plugin with the compiler of the core");
+  }
+  return entry;
+}
+
+}  // namespace
+
+PluginManager::PluginManager() {
+  AppendEnvironmentFolders(search_path_);
+  search_path_.push_back(CoreFolder() / RUNNEL_PLUGIN_FOLDER);
+}
+
+void PluginManager::AddSearchFolder(fs::path folder) {
+  search_path_.insert(search_path_.begin(), std::move(folder));
+}
+
+Result<void> PluginManager::Load(std::string_view name) {
+  const auto file = FindFile(name);
+  if (!file) return file.error();
+  std::string plugin = file->stem().string();
+  if (std::ranges::find(loaded_, plugin) != loaded_.end()) return {};
+  return Register(plugin, *file);
+}
+
+Result<void> PluginManager::Register(const std::string& name, const fs::path& file) {
+  const auto library = SharedLibrary::Open(file);
+  if (!library) return library.error();
+  const auto entry = Handshake(*library);
+  if (!entry) return entry.error();
+  registry_.plugin_ = name;
+  try {
+    (*entry)->register_plugin(registry_);
+  } catch (const ElementError& error) {
+    registry_.RemovePlugin(name);
+    return Refusal(file, error.error().message);
+  } catch (const std::exception& exception) {
+    registry_.RemovePlugin(name);
+    return Refusal(file, std::string("its registration failed: ") + exception.what());
+  } catch (...) {
+    registry_.RemovePlugin(name);
+    return Refusal(file, "its registration failed with an exception of unknown type");
+  }
+  loaded_.push_back(name);
+  return {};
+}
+
+Result<fs::path> PluginManager::FindFile(std::string_view name) const {
+  std::error_code ignored;
+  if (name.find('/') != std::string_view::npos) {
+    if (fs::exists(name, ignored)) return fs::path(name);
+    return Error{.message = "there is no plugin file '" + std::string(name) + "'"};
+  }
+  std::string folders;
+  for (const fs::path& folder : search_path_) {
+    fs::path file = folder / (std::string(name) + ".so");
+    if (fs::exists(file, ignored)) return file;
+    folders += (folders.empty() ? "" : ", ") + folder.string();
+  }
+  return Error{.message = "no plugin '" + std::string(name) + "' in " + folders,
+               .hint = NearestNameHint(name, Available())};
+}
+
+std::vector<std::string> PluginManager::Available() const {
+  std::set<std::string> names;
+  std::error_code ignored;
+  for (const fs::path& folder : search_path_) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+      if (entry.path().extension() == ".so") names.insert(entry.path().stem().string());
+    }
+  }
+  return {names.begin(), names.end()};
+}
+
+}  // namespace runnel

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/plugin/module_registry.h"
+#include "core/plugin/plugin_registry.h"
+
+namespace runnel {
+
+/// Finds plugin libraries, checks that they can be trusted, and has them register what they bring.
+///
+/// Where it looks for plugin `motion`, in this order: the folders of the environment variable
+/// RUNNEL_PLUGIN_PATH (separated by ':'), then `runnel/plugins` beside the core's own library,
+/// which is right in a build tree and in an install tree. The file is `motion.so`. A name with a
+/// '/' is a file.
+///
+/// Ownership:  of nothing that outlives it but the libraries, which stay in memory.
+/// Threads:    not thread-safe.
+/// Errors:     a library that is refused leaves nothing behind in the registries.
+class PluginManager {
+ public:
+  PluginManager();
+
+  [[nodiscard]] ModuleRegistry& modules() noexcept { return modules_; }
+  [[nodiscard]] const ModuleRegistry& modules() const noexcept { return modules_; }
+  /// To offer further registries to plugins, before loading any.
+  [[nodiscard]] PluginRegistry& registry() noexcept { return registry_; }
+
+  [[nodiscard]] const std::vector<std::filesystem::path>& search_path() const noexcept {
+    return search_path_;
+  }
+  /// Looked at before all others.
+  void AddSearchFolder(std::filesystem::path folder);
+
+  /// Loads the plugin unless it is loaded already. Errors: not found (with where it was looked for
+  /// and the nearest name), not loadable, no entry, another ABI, throwing registration, duplicate
+  /// type.
+  Result<void> Load(std::string_view name);
+  /// The names of the plugins that could be loaded from the search path, sorted.
+  [[nodiscard]] std::vector<std::string> Available() const;
+  [[nodiscard]] const std::vector<std::string>& loaded() const noexcept { return loaded_; }
+
+ private:
+  [[nodiscard]] Result<std::filesystem::path> FindFile(std::string_view name) const;
+  Result<void> Register(const std::string& name, const std::filesystem::path& file);
+
+  ModuleRegistry modules_;
+  PluginRegistry registry_{modules_};
+  std::vector<std::filesystem::path> search_path_;
+  std::vector<std::string> loaded_;
+};
+
+}  // namespace runnel

@@ -1,0 +1,32 @@
+#include "core/port/channel.h"
+
+namespace runnel {
+
+namespace {
+
+std::uint64_t NextChannelNumber() noexcept {
+  static std::atomic<std::uint64_t> last{0};
+  // relaxed: only that the numbers differ matters.
+  return last.fetch_add(1, std::memory_order_relaxed) + 1;
+}
+
+}  // namespace
+
+ChannelBase::ChannelBase() : number_(NextChannelNumber()) {}
+
+ChannelBase::~ChannelBase() { delete subscribers_.load(std::memory_order_relaxed); }
+
+void ChannelBase::SetSubscribers(Subscribers subscribers) {
+  const Subscribers* next = subscribers.empty() ? nullptr : new Subscribers(std::move(subscribers));
+  const Subscribers* previous = subscribers_.exchange(next, std::memory_order_seq_cst);
+  if (previous != nullptr) Retire([previous] { delete previous; });
+}
+
+std::uint64_t ChannelBase::DrawOrder() noexcept {
+  static std::atomic<std::uint64_t> last{0};
+  // relaxed: the number decides which of two values is the later one for all readers alike; it
+  // travels with the value and orders no other memory.
+  return last.fetch_add(1, std::memory_order_relaxed) + 1;
+}
+
+}  // namespace runnel

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "core/base/clock.h"
+
+namespace runnel {
+
+/// The cycle that the calling thread is in: what an executor sets once for all modules of a cycle,
+/// so that publishing needs no clock and all values of a cycle bear the same time.
+struct Cycle {
+  Time now{};         ///< when the cycle began, on the application's clock
+  Duration period{};  ///< planned time from cycle to cycle; 0 if there is no plan
+};
+
+/// nullptr outside of a cycle. Threads: each has its own.
+[[nodiscard]] const Cycle* CurrentCycle() noexcept;
+
+/// Makes `cycle` the calling thread's current one for the scope's life. May be nested.
+class CycleScope {
+ public:
+  explicit CycleScope(const Cycle& cycle) noexcept;
+  ~CycleScope();
+  CycleScope(const CycleScope&) = delete;
+  CycleScope& operator=(const CycleScope&) = delete;
+
+ private:
+  Cycle cycle_;
+  const Cycle* outer_;
+};
+
+namespace internal {
+extern thread_local constinit const Cycle* current_cycle __attribute__((tls_model("initial-exec")));
+}  // namespace internal
+
+inline const Cycle* CurrentCycle() noexcept { return internal::current_cycle; }
+
+}  // namespace runnel

@@ -1,0 +1,273 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/port/channel.h"
+#include "core/port/input_queue.h"
+#include "core/port/lease.h"
+#include "core/port/port.h"
+#include "core/port/port_owner.h"
+#include "core/types/type_of.h"
+
+namespace runnel {
+
+/// The part of an input that does not depend on the type of its values.
+class InputBase : public Port {
+ public:
+  [[nodiscard]] bool is_required() const noexcept override { return options_.required; }
+  [[nodiscard]] bool is_trigger() const noexcept { return options_.trigger; }
+
+  /// Has `waker` told of new data; nullptr for nobody. Locks.
+  void SetWaker(Waker* waker);
+  /// Values lost because the queue was full, since the queue was made.
+  [[nodiscard]] virtual std::uint64_t dropped() const noexcept = 0;
+
+ protected:
+  InputBase(const Placement& placement, const TypeInfo& type, InputOptions options);
+
+  void Rebind(const std::vector<Source>& sources) final;
+  /// Typed inputs: bind to the channels of `sources`; the queue that publishers shall fill, or
+  /// nullptr.
+  virtual QueueSink* Bind(const std::vector<Source>& sources) = 0;
+  /// Typed inputs: Bind() has taken effect everywhere; put first values into a new queue.
+  virtual void Bound() = 0;
+
+ private:
+  static void UpdateChannel(Port& output);
+
+  const InputOptions options_;
+  Waker* waker_ = nullptr;
+  QueueSink* sink_ = nullptr;
+  std::vector<Source> sources_;
+};
+
+/// Where a module reads values of type T.
+///
+/// Two ways of reading, which do not disturb each other:
+///   latest value   Read(), Peek(): the newest value of whatever is connected
+///   queue          Take(), Drain(): each value once, in order, if the connection has a queue
+///
+/// Threads:     one thread at a time may Read, Take and Drain (a module's Update() does); Peek()
+/// and
+///              LookAtValue() from any thread. Connecting and publishing go on meanwhile.
+/// Progress:    lock-free: reading repeats only if a newer value came meanwhile.
+/// Allocation:  none.
+/// Several sources: the value published last counts, the same one for every reader.
+template <typename T>
+class Input final : public InputBase {
+ public:
+  Input(PortOwner* owner, std::string name, InputOptions options = {})
+      : Input(owner->InputGroup(), std::move(name), std::move(options)) {}
+  /// Into a certain group.
+  Input(FrameworkElement& group, std::string name, InputOptions options = {})
+      : InputBase({group, std::move(name)}, TypeOf<T>(), std::move(options)) {}
+  ~Input() override {
+    SetWaker(nullptr);
+    DisconnectAll();
+    Replace(nullptr);
+  }
+
+  /// The newest value, with whether it is new since the last Read().
+  [[nodiscard]] Lease<T> Read() noexcept {
+    const Newest newest = FindNewest();
+    if (!newest.held.has_value()) return {};
+    const std::uint64_t sequence = newest.held.publication().sequence;
+    // relaxed: this thread's own notes, atomic only so that a viewer may look at them.
+    const bool same_source = last_source_.exchange_relaxed(newest.source) == newest.source;
+    const std::uint64_t last = last_sequence_.exchange_relaxed(sequence);
+    const bool is_new = !same_source || sequence != last;
+    const std::uint64_t missed = same_source && sequence > last ? sequence - last - 1 : 0;
+    return {std::move(newest).held, is_new ? Freshness::kNew : Freshness::kOld,
+            last == 0 ? 0 : missed};
+  }
+  /// The newest value without marking it as read. Any thread.
+  [[nodiscard]] Lease<T> Peek() const noexcept {
+    Newest newest = FindNewest();
+    const bool seen = newest.held.has_value() && last_source_.load_relaxed() == newest.source &&
+                      last_sequence_.load_relaxed() == newest.held.publication().sequence;
+    return {std::move(newest.held), seen ? Freshness::kOld : Freshness::kNew, 0};
+  }
+  /// The oldest value that waits in the queue; empty if none does, or if no connection has a queue.
+  [[nodiscard]] Lease<T> Take() noexcept {
+    const EpochGuard guard;
+    const Binding* binding = binding_.load(std::memory_order_seq_cst);
+    if (binding == nullptr) return {};
+    typename InputQueue<T>::Entry entry;
+    while (binding->Pop(entry)) {
+      Link* link = binding->FindLink(entry.source);
+      const std::uint64_t sequence = entry.held.publication().sequence;
+      // A value may lie in the queue twice just after connecting (see Bound()).
+      if (link != nullptr && sequence <= link->taken) continue;
+      const std::uint64_t last = link != nullptr ? std::exchange(link->taken, sequence) : 0;
+      const std::uint64_t missed = last == 0 ? 0 : sequence - last - 1;
+      return {std::move(entry.held), Freshness::kNew, missed};
+    }
+    return {};
+  }
+  /// Takes all that wait, oldest first, and calls `use(lease)` for each; returns how many.
+  template <typename Use>
+  std::size_t Drain(Use&& use) {
+    std::size_t count = 0;
+    for (auto lease = Take(); lease; lease = Take(), ++count) use(lease);
+    return count;
+  }
+
+  [[nodiscard]] std::uint64_t dropped() const noexcept override {
+    const EpochGuard guard;
+    const Binding* binding = binding_.load(std::memory_order_seq_cst);
+    return binding != nullptr && binding->queue ? binding->queue->dropped() : 0;
+  }
+  [[nodiscard]] std::uint64_t publications() const noexcept override {
+    const EpochGuard guard;
+    const Binding* binding = binding_.load(std::memory_order_seq_cst);
+    std::uint64_t sum = 0;
+    if (binding != nullptr) {
+      for (const auto& link : binding->links) sum += link->channel->publications();
+    }
+    return sum;
+  }
+  bool LookAtValue(const Look& look) const override {
+    const Lease<T> lease = Peek();
+    if (lease) look(&*lease, lease.stamp());
+    return lease.has_value();
+  }
+
+ private:
+  // What the reader keeps about one source; lives as long as the connection.
+  struct Link {
+    Channel<T>* channel;
+    std::uint64_t taken = 0;  // sequence of the value taken last; the reader's own
+  };
+  // What reading needs; never changed but for the reader's own notes, replaced as a whole.
+  struct Binding {
+    std::vector<std::shared_ptr<Link>> links;  // shared by the binding before and after a change
+    std::shared_ptr<InputQueue<T>> queue;      // likewise
+    // Queues that a longer one has replaced: what waits in them comes first.
+    std::vector<std::shared_ptr<InputQueue<T>>> older_queues;
+
+    [[nodiscard]] bool Pop(typename InputQueue<T>::Entry& entry) const noexcept {
+      for (const auto& older : older_queues) {
+        if (older->Pop(entry)) return true;
+      }
+      return queue && queue->Pop(entry);
+    }
+    [[nodiscard]] Link* FindLink(std::uint64_t number) const noexcept {
+      for (const auto& link : links) {
+        if (link->channel->number() == number) return link.get();
+      }
+      return nullptr;
+    }
+  };
+  struct Newest {
+    internal::HeldValue<T> held;
+    std::uint64_t source = 0;
+  };
+  struct RelaxedNumber {
+    [[nodiscard]] std::uint64_t load_relaxed() const noexcept {
+      return value.load(std::memory_order_relaxed);
+    }
+    // One thread writes: no read-modify-write is needed.
+    std::uint64_t exchange_relaxed(std::uint64_t next) noexcept {
+      const std::uint64_t before = load_relaxed();
+      value.store(next, std::memory_order_relaxed);
+      return before;
+    }
+    std::atomic<std::uint64_t> value{0};
+  };
+
+  [[nodiscard]] Newest FindNewest() const noexcept {
+    const EpochGuard guard;
+    // seq_cst: one order with Replace() and the epoch's operations; see lockfree/epoch.h.
+    const Binding* binding = binding_.load(std::memory_order_seq_cst);
+    if (binding == nullptr) return {};
+    Newest newest;
+    for (const auto& link : binding->links) {
+      Newest candidate{link->channel->Read(), link->channel->number()};
+      if (IsLater(candidate, newest)) newest = std::move(candidate);
+    }
+    return newest;
+  }
+  // By the common order of sources that share an input, which every reader sees alike. Values from
+  // before the sharing have none; their time and then the age of their source decide.
+  static bool IsLater(const Newest& a, const Newest& b) noexcept {
+    if (!a.held.has_value() || !b.held.has_value()) return a.held.has_value();
+    const Publication& p = a.held.publication();
+    const Publication& q = b.held.publication();
+    if (p.order != q.order) return p.order > q.order;
+    if (p.stamp != q.stamp) return p.stamp > q.stamp;
+    return a.source > b.source;
+  }
+
+  QueueSink* Bind(const std::vector<Source>& sources) override {
+    if (sources.empty()) {
+      Replace(nullptr);
+      return nullptr;
+    }
+    const Binding* before = binding_.load(std::memory_order_relaxed);
+    auto next = std::make_unique<Binding>();
+    ConnectOptions options;
+    fresh_.clear();
+    for (const Source& source : sources) {
+      // The types are equal: connecting has checked it.
+      auto* channel = static_cast<Channel<T>*>(ChannelOf(*source.output));
+      next->links.push_back(KeepOrMakeLink(before, *channel));
+      if (source.options.queue > options.queue) options = source.options;
+    }
+    if (options.queue > 0) next->queue = KeepOrMakeQueue(before, options);
+    KeepWaitingValues(before, *next);
+    InputQueue<T>* const queue = next->queue.get();
+    Replace(next.release());
+    return queue;
+  }
+  std::shared_ptr<Link> KeepOrMakeLink(const Binding* before, Channel<T>& channel) {
+    if (before != nullptr) {
+      for (const auto& link : before->links) {
+        if (link->channel == &channel) return link;
+      }
+    }
+    fresh_.push_back(&channel);
+    return std::make_shared<Link>(Link{&channel});
+  }
+  std::shared_ptr<InputQueue<T>> KeepOrMakeQueue(const Binding* before,
+                                                 const ConnectOptions& options) {
+    if (before != nullptr && before->queue && before->queue->room() == options.queue &&
+        before->queue->on_full() == options.on_full) {
+      return before->queue;
+    }
+    return std::make_shared<InputQueue<T>>(options.queue, options.on_full);
+  }
+  static void KeepWaitingValues(const Binding* before, Binding& next) {
+    if (before == nullptr) return;
+    for (const auto& older : before->older_queues) {
+      if (older->size() > 0) next.older_queues.push_back(older);
+    }
+    if (before->queue && before->queue != next.queue) next.older_queues.push_back(before->queue);
+  }
+  // A new connection delivers the last value at once. It is read after publishers have begun to
+  // fill the queue, so that none is lost; one that is there twice for that reason, Take() leaves
+  // out.
+  void Bound() override {
+    const Binding* binding = binding_.load(std::memory_order_relaxed);
+    if (binding == nullptr || !binding->queue) return;
+    for (Channel<T>* channel : fresh_) {
+      auto held = channel->Read();
+      if (held.has_value()) binding->queue->Push({std::move(held), channel->number()});
+    }
+    fresh_.clear();
+  }
+  void Replace(const Binding* next) {
+    const Binding* previous = binding_.exchange(next, std::memory_order_seq_cst);
+    if (previous != nullptr) Retire([previous] { delete previous; });
+  }
+
+  std::atomic<const Binding*> binding_{nullptr};
+  std::vector<Channel<T>*> fresh_;  // sources that have just been connected; structure lock
+  RelaxedNumber last_source_;
+  RelaxedNumber last_sequence_;
+};
+
+}  // namespace runnel

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <type_traits>
+#include <utility>
+
+#include "core/base/check.h"
+#include "core/base/clock.h"
+#include "core/lockfree/buffer_pool.h"
+#include "core/port/port_options.h"
+
+namespace runnel {
+
+/// Whether values of T travel as copies of their bytes (cheap) or in buffers of a pool. Specialise
+/// it to false for a type that shall always travel in buffers.
+template <typename T>
+inline constexpr bool kIsCheap = std::is_trivially_copyable_v<T> && sizeof(T) <= 256;
+
+namespace internal {
+
+/// A value of a cheap type, copied.
+template <typename T>
+class CopiedValue {
+ public:
+  [[nodiscard]] bool has_value() const noexcept { return publication_.sequence != 0; }
+  [[nodiscard]] const T& value() const noexcept {
+    return *std::launder(reinterpret_cast<const T*>(bytes_.data()));
+  }
+  [[nodiscard]] const Publication& publication() const noexcept { return publication_; }
+
+  [[nodiscard]] T& writable() noexcept {
+    return *std::launder(reinterpret_cast<T*>(bytes_.data()));
+  }
+  [[nodiscard]] Publication& writable_publication() noexcept { return publication_; }
+
+ private:
+  alignas(T) std::array<std::byte, sizeof(T)> bytes_;  // read only if has_value()
+  Publication publication_;
+};
+
+/// A value in a buffer, leased.
+template <typename T>
+class LeasedValue {
+ public:
+  using Buffer = typename BufferPool<T>::Buffer;
+
+  LeasedValue() = default;
+  /// Takes over one lease that the caller holds; nullptr is no value.
+  explicit LeasedValue(Buffer* buffer) noexcept : buffer_(buffer) {}
+  LeasedValue(const LeasedValue& other) noexcept : buffer_(other.buffer_) {
+    if (buffer_ != nullptr) buffer_->AddLease();
+  }
+  LeasedValue(LeasedValue&& other) noexcept : buffer_(std::exchange(other.buffer_, nullptr)) {}
+  LeasedValue& operator=(LeasedValue other) noexcept {
+    std::swap(buffer_, other.buffer_);
+    return *this;
+  }
+  ~LeasedValue() {
+    if (buffer_ != nullptr) buffer_->DropLease();
+  }
+
+  [[nodiscard]] bool has_value() const noexcept { return buffer_ != nullptr; }
+  [[nodiscard]] const T& value() const noexcept { return std::as_const(*buffer_).value(); }
+  [[nodiscard]] const Publication& publication() const noexcept { return buffer_->publication; }
+
+ private:
+  Buffer* buffer_ = nullptr;
+};
+
+template <typename T>
+using HeldValue = std::conditional_t<kIsCheap<T>, CopiedValue<T>, LeasedValue<T>>;
+
+}  // namespace internal
+
+/// Read access to one published value. The value does not change while the lease is held, and lives
+/// as long as the lease, whatever becomes of the port, the module and the connection meanwhile.
+///
+///     if (const auto pose = pose_input.Read()) Use(*pose, pose.stamp());
+///
+/// Ownership:   of one reference to the value's buffer (none for cheap types: a copy).
+/// Threads:     one lease belongs to one thread at a time; copies are independent.
+/// Allocation:  none.
+/// Errors:      looking at an empty lease throws ProgrammingError.
+template <typename T>
+class Lease {
+ public:
+  Lease() = default;
+  Lease(internal::HeldValue<T> held, Freshness freshness, std::uint64_t missed) noexcept
+      : held_(std::move(held)), freshness_(freshness), missed_(missed) {}
+
+  [[nodiscard]] bool has_value() const noexcept { return held_.has_value(); }
+  explicit operator bool() const noexcept { return has_value(); }
+  const T& operator*() const { return Checked().value(); }
+  const T* operator->() const { return &Checked().value(); }
+  [[nodiscard]] T value_or(T otherwise) const { return has_value() ? held_.value() : otherwise; }
+
+  [[nodiscard]] Freshness freshness() const noexcept {
+    return has_value() ? freshness_ : Freshness::kNoData;
+  }
+  [[nodiscard]] bool is_new() const noexcept { return freshness() == Freshness::kNew; }
+  /// The time of the cycle that published the value.
+  [[nodiscard]] Time stamp() const { return Time(Duration(Checked().publication().stamp)); }
+  /// 1 for the first value that the source has published, and so on.
+  [[nodiscard]] std::uint64_t sequence() const { return Checked().publication().sequence; }
+  /// How many values of the same source came and went unseen since the last read of this input.
+  [[nodiscard]] std::uint64_t missed() const noexcept { return missed_; }
+
+ private:
+  const internal::HeldValue<T>& Checked() const {
+    RUNNEL_CHECK(has_value(), "the lease is empty: no data has come yet");
+    return held_;
+  }
+
+  internal::HeldValue<T> held_;
+  Freshness freshness_ = Freshness::kNoData;
+  std::uint64_t missed_ = 0;
+};
+
+}  // namespace runnel

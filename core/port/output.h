@@ -1,0 +1,98 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "core/element/runtime.h"
+#include "core/port/channel.h"
+#include "core/port/cycle.h"
+#include "core/port/loan.h"
+#include "core/port/port.h"
+#include "core/port/port_owner.h"
+#include "core/types/type_of.h"
+
+namespace runnel {
+
+/// Where a module publishes values of type T.
+///
+///     Output<RangeScan> scan{this, "scan"};
+///     …
+///     auto loan = scan.Loan();        // a free buffer, never a copy
+///     Fill(*loan);
+///     scan.Publish(std::move(loan));
+///
+/// Ownership:   owns the channel with the buffers; leases that are still out keep their buffers.
+/// Threads:     one thread at a time may Loan and Publish (a module's Update() does); connecting
+/// and
+///              reading go on meanwhile.
+/// Progress:    Publish() is lock-free, and does not visit inputs that read only the latest value.
+/// Allocation:  none, unless a growing pool has run out of buffers (growths() counts it).
+/// Time:        values bear the time of the cycle; outside of a cycle, that of the runtime's clock.
+template <typename T>
+class Output final : public Port {
+ public:
+  using Factory = typename BufferPool<T>::Factory;
+
+  /// `factory` makes the buffers' first values, for types without default constructor.
+  Output(PortOwner* owner, std::string name, OutputOptions options = {}, Factory factory = {})
+      : Output(owner->OutputGroup(), std::move(name), std::move(options), std::move(factory)) {}
+  /// Into a certain group.
+  Output(FrameworkElement& group, std::string name, OutputOptions options = {},
+         Factory factory = {})
+      : Port({group, std::move(name)}, Direction::kOutput, TypeOf<T>(), options.description),
+        channel_(std::make_unique<Channel<T>>(options.pool, std::move(factory))) {}
+  ~Output() override {
+    DisconnectAll();
+    // Readers that found the channel before it was disconnected may still be looking at it.
+    Retire([channel = channel_.release()] { delete channel; });
+  }
+
+  /// A buffer to fill; empty if a pool of fixed size is exhausted.
+  [[nodiscard]] runnel::Loan<T> Loan() { return channel_->MakeLoan(); }
+
+  PublishStatus Publish(runnel::Loan<T>&& loan) {
+    return channel_->Publish(std::move(loan), PublicationTime());
+  }
+  /// Copies or moves the value into a buffer (cheap types: straight into the slot).
+  PublishStatus Publish(const T& value) requires(kIsCheap<T> || std::is_copy_assignable_v<T>) {
+    if constexpr (kIsCheap<T>) {
+      return channel_->PublishValue(value, PublicationTime());
+    } else {
+      auto loan = Loan();
+      if (!loan) return PublishStatus::kNoBuffer;
+      *loan = value;
+      return Publish(std::move(loan));
+    }
+  }
+  PublishStatus Publish(T&& value) requires(!kIsCheap<T>) {
+    auto loan = Loan();
+    if (!loan) return PublishStatus::kNoBuffer;
+    *loan = std::move(value);
+    return Publish(std::move(loan));
+  }
+
+  [[nodiscard]] std::uint64_t publications() const noexcept override {
+    return channel_->publications();
+  }
+  /// How often the pool had to allocate since the start.
+  [[nodiscard]] std::uint64_t growths() const noexcept { return channel_->growths(); }
+
+  bool LookAtValue(const Look& look) const override {
+    const auto held = channel_->Read();
+    if (!held.has_value()) return false;
+    look(&held.value(), Time(Duration(held.publication().stamp)));
+    return true;
+  }
+
+ private:
+  [[nodiscard]] ChannelBase* channel() noexcept override { return channel_.get(); }
+  [[nodiscard]] Time PublicationTime() const noexcept {
+    const Cycle* cycle = CurrentCycle();
+    return cycle != nullptr ? cycle->now : runtime().clock().Now();
+  }
+
+  std::unique_ptr<Channel<T>> channel_;
+};
+
+}  // namespace runnel

@@ -1,0 +1,158 @@
+#include "core/port/port.h"
+
+#include <algorithm>
+
+#include "core/element/runtime.h"
+#include "core/types/type_info.h"
+
+namespace runnel {
+
+namespace {
+
+Error Refusal(const Port& from, std::string message, std::string hint = {}) {
+  return {.message = std::move(message), .path = from.path(), .hint = std::move(hint)};
+}
+
+bool CanSend(const Port& port) {
+  return port.is_proxy() || port.direction() == Port::Direction::kOutput;
+}
+bool CanReceive(const Port& port) {
+  return port.is_proxy() || port.direction() == Port::Direction::kInput;
+}
+
+bool IsConnected(const Port& from, const Port& to) {
+  return std::ranges::any_of(from.outgoing(),
+                             [&](const Connection& each) { return each.to == &to; });
+}
+
+// Only interface ports pass data on, so only through them a circle can close.
+bool Reaches(const Port& from, const Port& to) {
+  if (&from == &to) return true;
+  return std::ranges::any_of(from.outgoing(), [&](const Connection& each) {
+    return each.to == &to || (each.to->is_proxy() && Reaches(*each.to, to));
+  });
+}
+
+void AddOnce(std::vector<Port*>& ports, Port* port) {
+  if (std::ranges::find(ports, port) == ports.end()) ports.push_back(port);
+}
+
+// Of two stretches of one way, the one that asks for a queue decides; of two queues, the longer.
+const ConnectOptions& Stronger(const ConnectOptions& a, const ConnectOptions& b) {
+  return b.queue > a.queue ? b : a;
+}
+
+}  // namespace
+
+Port::Port(const Placement& placement, Direction direction, const TypeInfo& type,
+           std::string description)
+    : FrameworkElement(placement, ElementKind::kPort),
+      direction_(direction),
+      type_(type),
+      description_(std::move(description)) {}
+
+Port::~Port() = default;
+
+Result<void> Port::CheckConnection(const Port& from, const Port& to) {
+  if (&from.runtime() != &to.runtime()) {
+    return Refusal(from, "cannot connect to a port of another runtime");
+  }
+  for (const Port* port : {&from, &to}) {
+    if (port->life_cycle() == LifeCycle::kDeleted) {
+      return Refusal(*port, "the port is being deleted and cannot be connected");
+    }
+  }
+  if (&from == &to) return Refusal(from, "a port cannot be connected to itself");
+  if (!CanSend(from)) {
+    return Refusal(from, "is an input and cannot send",
+                   CanSend(to) ? "did you mean to write 'from' and 'to' the other way round?" : "");
+  }
+  if (!CanReceive(to)) return Refusal(to, "is an output and cannot receive");
+  if (&from.type() != &to.type()) {
+    return Refusal(from, "carries " + from.type().name() + ", but " + to.path() + " takes " +
+                             to.type().name());
+  }
+  if (IsConnected(from, to)) return Refusal(from, "is connected to " + to.path() + " already");
+  if (from.is_proxy() && to.is_proxy() && Reaches(to, from)) {
+    return Refusal(from, "connecting to " + to.path() + " would close a circle of interface ports");
+  }
+  return {};
+}
+
+Result<void> Port::Connect(Port& from, Port& to, const ConnectOptions& options) {
+  const std::lock_guard lock(from.runtime().structure_mutex());
+  if (auto possible = CheckConnection(from, to); !possible) return possible;
+  from.outgoing_.push_back({&from, &to, options});
+  to.incoming_.push_back(&from);
+  to.RebindSinks();
+  from.runtime().ForEachListener(
+      [&](ElementListener& listener) { listener.OnConnected(from, to); });
+  return {};
+}
+
+bool Port::RemoveEdge(Port& from, Port& to) {
+  const auto removed =
+      std::erase_if(from.outgoing_, [&](const Connection& each) { return each.to == &to; });
+  std::erase(to.incoming_, &from);
+  return removed > 0;
+}
+
+Result<void> Port::Disconnect(Port& from, Port& to) {
+  const std::lock_guard lock(from.runtime().structure_mutex());
+  if (!RemoveEdge(from, to)) return Refusal(from, "is not connected to " + to.path());
+  to.RebindSinks();
+  from.runtime().ForEachListener(
+      [&](ElementListener& listener) { listener.OnDisconnected(from, to); });
+  return {};
+}
+
+void Port::DisconnectAll() {
+  const std::lock_guard lock(runtime().structure_mutex());
+  while (!outgoing_.empty()) (void)Disconnect(*this, *outgoing_.back().to);
+  while (!incoming_.empty()) (void)Disconnect(*incoming_.back(), *this);
+}
+
+void Port::Detach() noexcept { DisconnectAll(); }
+
+void Port::CollectSources(const ConnectOptions& options, std::vector<Source>& sources) const {
+  for (Port* from : incoming_) {
+    const auto edge = std::ranges::find_if(from->outgoing_,
+                                           [&](const Connection& each) { return each.to == this; });
+    const ConnectOptions& stronger = Stronger(options, edge->options);
+    if (from->is_proxy()) {
+      from->CollectSources(stronger, sources);
+    } else if (std::ranges::none_of(sources, [&](auto& each) { return each.output == from; })) {
+      sources.push_back({from, stronger});
+    }
+  }
+}
+
+void Port::RebindSinks() {
+  for (Port* sink : Sinks()) {
+    std::vector<Source> sources;
+    sink->CollectSources({}, sources);
+    sink->Rebind(sources);
+  }
+}
+
+std::vector<Port*> Port::Sources() const {
+  if (!is_proxy() && direction_ == Direction::kOutput) return {const_cast<Port*>(this)};
+  std::vector<Source> sources;
+  CollectSources({}, sources);
+  std::vector<Port*> ports;
+  for (const Source& source : sources) ports.push_back(source.output);
+  return ports;
+}
+
+std::vector<Port*> Port::Sinks() const {
+  if (!is_proxy() && direction_ == Direction::kInput) return {const_cast<Port*>(this)};
+  std::vector<Port*> sinks;
+  for (const Connection& each : outgoing_) {
+    for (Port* sink : each.to->Sinks()) AddOnce(sinks, sink);
+  }
+  return sinks;
+}
+
+void Port::Rebind(const std::vector<Source>&) {}
+
+}  // namespace runnel

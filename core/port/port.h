@@ -1,0 +1,98 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/base/clock.h"
+#include "core/element/framework_element.h"
+#include "core/port/port_options.h"
+#include "core/port/waker.h"
+
+namespace runnel {
+
+class ChannelBase;
+class Port;
+class TypeInfo;
+
+/// One edge of the data-flow graph, as it was made.
+struct Connection {
+  Port* from;
+  Port* to;
+  ConnectOptions options;
+};
+
+/// What every port has: a direction, a type, connections. Data flows from outputs to inputs,
+/// directly or through the interface ports of groups (ProxyPort), which cost nothing: an input is
+/// bound to the outputs at the far end.
+///
+/// Threads:  connecting and looking at connections under the structure lock (the functions take
+/// it);
+///           meanwhile others may publish and read.
+class Port : public FrameworkElement {
+ public:
+  enum class Direction { kInput, kOutput };
+
+  ~Port() override;
+
+  [[nodiscard]] Direction direction() const noexcept { return direction_; }
+  [[nodiscard]] const TypeInfo& type() const noexcept { return type_; }
+  [[nodiscard]] const std::string& description() const noexcept { return description_; }
+  /// An interface port of a group, which only passes on.
+  [[nodiscard]] virtual bool is_proxy() const noexcept { return false; }
+  [[nodiscard]] virtual bool is_required() const noexcept { return false; }
+
+  [[nodiscard]] const std::vector<Connection>& outgoing() const noexcept { return outgoing_; }
+  [[nodiscard]] const std::vector<Port*>& incoming() const noexcept { return incoming_; }
+
+  /// The ends of the flow through this port: the outputs that feed it (itself, if it is an output
+  /// that publishes), and the inputs that it feeds. In the order of connecting.
+  [[nodiscard]] std::vector<Port*> Sources() const;
+  [[nodiscard]] std::vector<Port*> Sinks() const;
+
+  /// Lets data flow between two ports of one runtime and one type. Works while both are in use.
+  /// Errors: wrong types, wrong directions, a second connection between the same two, a circle of
+  /// interface ports, ports being deleted; nothing has changed then.
+  static Result<void> Connect(Port& from, Port& to, const ConnectOptions& options = {});
+  static Result<void> Disconnect(Port& from, Port& to);
+  void DisconnectAll();
+
+  /// Shows the newest value to `look`, without marking it as read; false if there is none. For
+  /// viewers that know the type by its TypeInfo only. Any thread.
+  using Look = std::function<void(const void* value, Time stamp)>;
+  virtual bool LookAtValue(const Look& look) const = 0;
+  /// How many values have passed this port's source. Any thread.
+  [[nodiscard]] virtual std::uint64_t publications() const noexcept { return 0; }
+
+ protected:
+  Port(const Placement& placement, Direction direction, const TypeInfo& type,
+       std::string description);
+
+  /// What an input is bound to: one output and how the connection to it behaves.
+  struct Source {
+    Port* output;
+    ConnectOptions options;
+  };
+  /// Inputs: take `sources` for the outputs to read from, from now on.
+  virtual void Rebind(const std::vector<Source>& sources);
+  /// Outputs: the channel that inputs are bound to; nullptr for other ports.
+  [[nodiscard]] virtual ChannelBase* channel() noexcept { return nullptr; }
+  /// Gives derived ports access to one another's channel.
+  static ChannelBase* ChannelOf(Port& port) noexcept { return port.channel(); }
+
+  void Detach() noexcept override;
+
+ private:
+  static Result<void> CheckConnection(const Port& from, const Port& to);
+  void CollectSources(const ConnectOptions& options, std::vector<Source>& sources) const;
+  void RebindSinks();
+  static bool RemoveEdge(Port& from, Port& to);
+
+  const Direction direction_;
+  const TypeInfo& type_;
+  const std::string description_;
+  std::vector<Connection> outgoing_;
+  std::vector<Port*> incoming_;
+};
+
+}  // namespace runnel

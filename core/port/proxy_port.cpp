@@ -1,0 +1,19 @@
+#include "core/port/proxy_port.h"
+
+#include <algorithm>
+#include <mutex>
+
+#include "core/element/runtime.h"
+
+namespace runnel {
+
+ProxyPort::ProxyPort(const Placement& placement, Direction direction, const TypeInfo& type,
+                     std::string description)
+    : Port(placement, direction, type, std::move(description)) {}
+
+bool ProxyPort::LookAtValue(const Look& look) const {
+  const std::lock_guard lock(runtime().structure_mutex());
+  return std::ranges::any_of(Sources(), [&](Port* source) { return source->LookAtValue(look); });
+}
+
+}  // namespace runnel

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/port/waker.h"
+
+namespace runnel {
+
+/// The part of an input's queue that a channel keeps without knowing its type.
+class QueueSink {
+ public:
+  virtual ~QueueSink() = default;
+  /// How many values can wait.
+  [[nodiscard]] virtual std::size_t room() const noexcept = 0;
+};
+
+/// Those a publisher has to visit: queues and wakers. Readers of the latest value are not among
+/// them; they look at the publisher's slot. Never changed once made; a channel swaps whole lists.
+struct Subscribers {
+  std::vector<QueueSink*> queues;
+  std::vector<Waker*> wakers;
+
+  [[nodiscard]] bool empty() const noexcept { return queues.empty() && wakers.empty(); }
+};
+
+}  // namespace runnel
