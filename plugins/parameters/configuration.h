@@ -1,0 +1,54 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/diagnostics.h"
+#include "core/base/result.h"
+
+namespace runnel {
+
+/// Values from outside the application file: a configuration file, which several applications may
+/// share, and the command line.
+///
+///     <configuration>
+///       <section name="safety">
+///         <value name="stop_distance">0.25</value>     <!-- /safety/stop_distance -->
+///       </section>
+///     </configuration>
+///
+/// A parameter takes its value from the command line if it is named there, else from the
+/// configuration file, else from the application file, else its default.
+///
+/// Threads: not thread-safe.
+class Configuration {
+ public:
+  struct Entry {
+    std::string text;
+    SourcePosition position;
+    bool used = false;
+  };
+
+  /// Adds what the file says. Errors go to `diagnostics`, all of them; then nothing has been added.
+  void Load(const std::string& file, Diagnostics& diagnostics);
+  /// Adds "name=value". Errors: no '=', no name, given twice.
+  Result<void> AddArgument(std::string_view argument);
+
+  /// The entry of a configuration file, by its path ("/safety/stop_distance"); nullptr if none.
+  [[nodiscard]] const Entry* FindEntry(std::string_view path);
+  /// The argument of the command line, by its name; nullptr if none.
+  [[nodiscard]] const Entry* FindArgument(std::string_view name);
+
+  /// Arguments that nothing has asked for are typing errors: their names.
+  [[nodiscard]] std::vector<std::string> UnusedArguments() const;
+  /// All paths of the configuration file, for hints.
+  [[nodiscard]] std::vector<std::string> EntryPaths() const;
+
+ private:
+  std::map<std::string, Entry, std::less<>> entries_;
+  std::map<std::string, Entry, std::less<>> arguments_;
+};
+
+}  // namespace runnel
