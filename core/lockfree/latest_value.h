@@ -27,7 +27,8 @@ struct Publication {
 ///              lock-free: it repeats only if at least three publications have happened meanwhile.
 /// Allocation:  none.
 /// No data race: every shared word is an atomic; see README.md for the pairing of the orders.
-template <typename T, template <typename> class Atomic = std::atomic>
+/// @tparam Atomic  replaced in tests. @tparam kCells  fewer in tests, so that a lap is soon run.
+template <typename T, template <typename> class Atomic = std::atomic, std::size_t kCells = 4>
 class LatestValue {
   static_assert(std::is_trivially_copyable_v<T>,
                 "LatestValue copies words: T must be trivially copyable; use LatestBuffer instead");
@@ -47,8 +48,8 @@ class LatestValue {
     }
     cell.stamp.store(stamp, std::memory_order_release);
     cell.order.store(order, std::memory_order_release);
-    // release: a reader of this number sees the words above as they are.
-    cell.sequence.store(sequence, std::memory_order_release);
+    // relaxed: the release store below carries it.
+    cell.sequence.store(sequence, std::memory_order_relaxed);
     // release: pairs with the acquire in Read(): the whole cell is visible with its number.
     newest_.store(sequence, std::memory_order_release);
   }
@@ -82,7 +83,6 @@ class LatestValue {
   }
 
  private:
-  static constexpr std::size_t kCells = 4;
   static constexpr std::size_t kWords = (sizeof(T) + 7) / 8;
   static constexpr std::uint64_t kBeingWritten = 0;
 

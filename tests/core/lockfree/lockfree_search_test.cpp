@@ -1,0 +1,219 @@
+// Searches the schedules and memory orders of each lock-free structure; see searched_atomic.h.
+
+#include "searched_atomic.h"
+// The search must come first: it renames what the standard headers below use.
+
+#include "core/lockfree/bounded_queue.h"
+#include "core/lockfree/epoch.h"
+#include "core/lockfree/latest_buffer.h"
+#include "core/lockfree/latest_value.h"
+
+namespace runnel::test {
+namespace {
+
+constexpr unsigned kIterations = 20000;
+
+struct Pair {
+  std::uint64_t a;
+  std::uint64_t b;
+};
+
+// A reader sees both halves of one publication, with its number and stamp, and never an older one
+// than it has seen already. With few cells the writer laps the reader in a short schedule.
+template <std::size_t kCells>
+struct LatestValueSuite : rl::test_suite<LatestValueSuite<kCells>, 2> {
+  LatestValue<Pair, SearchedAtomic, kCells> latest;
+
+  void thread(unsigned index) {
+    if (index == 0) {
+      for (std::uint64_t i = 1; i <= 4; ++i) {
+        latest.Publish({i, 10 * i}, static_cast<std::int64_t>(100 * i), 1000 * i);
+      }
+      return;
+    }
+    std::uint64_t last = 0;
+    for (int i = 0; i < 2; ++i) {
+      Pair pair;
+      Publication publication;
+      if (!latest.Read(pair, publication)) continue;
+      RL_ASSERT(pair.b == 10 * pair.a);
+      RL_ASSERT(publication.sequence == pair.a);
+      RL_ASSERT(publication.stamp == static_cast<std::int64_t>(100 * pair.a));
+      RL_ASSERT(publication.order == 1000 * pair.a);
+      RL_ASSERT(publication.sequence >= last);
+      last = publication.sequence;
+    }
+  }
+};
+
+TEST(LatestValueSearch, ReaderSeesWholeValuesInOrder) {
+  EXPECT_TRUE(Search<LatestValueSuite<1>>(kIterations));
+  EXPECT_TRUE(Search<LatestValueSuite<2>>(kIterations));
+  EXPECT_TRUE(Search<LatestValueSuite<4>>(kIterations));
+}
+
+// Two writers, two readers: each value is taken once, and what one put in before pushing the other
+// may touch after popping. Room for one forces every lap.
+struct BoundedQueueSuite : rl::test_suite<BoundedQueueSuite, 4> {
+  BoundedQueue<SearchedPlain, SearchedAtomic> queue{2};
+  rl::var<int> seen[5];
+
+  void before() {
+    for (auto& each : seen) each($) = 0;
+  }
+  void thread(unsigned index) {
+    if (index < 2) {
+      for (int i = 1; i <= 2; ++i) {
+        (void)queue.TryPush(SearchedPlain(static_cast<int>(2 * index) + i));
+      }
+      return;
+    }
+    for (int i = 0; i < 2; ++i) {
+      SearchedPlain value;
+      if (!queue.TryPop(value)) continue;
+      RL_ASSERT(value.Get() >= 1 && value.Get() <= 4);
+      auto& count = seen[value.Get()];
+      RL_ASSERT(count($) == 0);
+      count($) = 1;
+    }
+  }
+};
+
+TEST(BoundedQueueSearch, EachValueIsTakenOnceAndWhole) {
+  EXPECT_TRUE(Search<BoundedQueueSuite>(kIterations));
+}
+
+// A writer publishes three values from two buffers while two readers lease and look. A buffer that is
+// written while leased, or leased while being recycled, is a race on its plain value.
+struct BufferSuite : rl::test_suite<BufferSuite, 3> {
+  using Pool = BufferPool<SearchedPlain, SearchedAtomic>;
+  typename Pool::Owner pool = Pool::Make({.buffers = 2, .may_grow = false}, {});
+  LatestBuffer<SearchedPlain, SearchedAtomic> latest;
+
+  void thread(unsigned index) {
+    if (index == 0) {
+      for (int i = 1; i <= 3; ++i) {
+        auto* buffer = pool->Loan();
+        if (buffer == nullptr) continue;
+        buffer->value().Set(i);
+        latest.Replace(*pool, pool->Share(*buffer));
+      }
+      return;
+    }
+    int last = 0;
+    for (int i = 0; i < 2; ++i) {
+      auto* buffer = latest.Read(*pool);
+      if (buffer == nullptr) continue;
+      const int value = buffer->value().Get();
+      RL_ASSERT(value >= last);
+      RL_ASSERT(buffer->value().Get() == value);
+      last = value;
+      buffer->DropLease();
+    }
+  }
+  void after() { latest.Clear(*pool); }
+};
+
+TEST(LatestBufferSearch, LeasedValueIsNeitherChangedNorRecycled) {
+  EXPECT_TRUE(Search<BufferSuite>(kIterations));
+}
+
+// Any thread may loan from a pool: two that pop and push at once never hold the same buffer.
+struct FreeListSuite : rl::test_suite<FreeListSuite, 3> {
+  using Pool = BufferPool<SearchedPlain, SearchedAtomic>;
+  typename Pool::Owner pool = Pool::Make({.buffers = 2, .may_grow = false}, {});
+
+  void thread(unsigned index) {
+    for (int i = 0; i < 3; ++i) {
+      auto* buffer = pool->Loan();
+      if (buffer == nullptr) continue;
+      const int mine = static_cast<int>(10 * index) + i;
+      buffer->value().Set(mine);
+      RL_ASSERT(buffer->value().Get() == mine);
+      buffer->DropLoan();
+    }
+  }
+};
+
+TEST(BufferPoolSearch, NoBufferIsLoanedTwiceAtOnce) {
+  EXPECT_TRUE(Search<FreeListSuite>(kIterations));
+}
+
+// The owner closes the pool while a lease is out: the buffers go with whoever comes last, once.
+struct ClosingSuite : rl::test_suite<ClosingSuite, 2> {
+  struct Counted : SearchedPlain {
+    Counted() { ++alive(); }
+    ~Counted() {
+      Set(-1);  // a race if anybody still looks
+      --alive();
+    }
+    static int& alive() {
+      static int count = 0;
+      return count;
+    }
+  };
+  using Pool = BufferPool<Counted, SearchedAtomic>;
+  typename Pool::Owner pool = Pool::Make({.buffers = 2, .may_grow = false}, {});
+  typename Pool::Buffer* leased = nullptr;
+
+  void before() {
+    leased = pool->Loan();
+    leased->value().Set(7);
+    (void)pool->Share(*leased);
+  }
+  void thread(unsigned index) {
+    if (index == 0) {
+      pool.reset();
+    } else {
+      RL_ASSERT(leased->value().Get() == 7);
+      leased->DropLease();
+    }
+  }
+  void after() { RL_ASSERT(Counted::alive() == 0); }
+};
+
+TEST(BufferPoolSearch, ClosedPoolGoesWithItsLastLease) {
+  EXPECT_TRUE(Search<ClosingSuite>(kIterations));
+}
+
+// A writer swaps a part out and destroys it after the epoch has passed; readers never see it die.
+struct EpochSuite : rl::test_suite<EpochSuite, 3> {
+  struct Part {
+    SearchedPlain alive{1};
+  };
+  EpochDomain<SearchedAtomic> domain;
+  EpochDomain<SearchedAtomic>::Participant participants[2];
+  Part parts[3];
+  SearchedAtomic<Part*> current{&parts[0]};
+
+  void before() {
+    for (auto& each : participants) domain.Add(each);
+  }
+  void thread(unsigned index) {
+    if (index < 2) {
+      for (int i = 0; i < 2; ++i) {
+        domain.Enter(participants[index]);
+        Part* const part = current.load(std::memory_order_seq_cst);
+        RL_ASSERT(part->alive.Get() == 1);
+        domain.Leave(participants[index]);
+      }
+      return;
+    }
+    for (int i = 1; i <= 2; ++i) {
+      Part* const old = current.exchange(&parts[i], std::memory_order_seq_cst);
+      const std::uint64_t epoch = domain.Advance();
+      for (int patience = 0; patience < 4; ++patience) {
+        if (!domain.HasPassed(epoch)) continue;
+        old->alive.Set(0);
+        break;
+      }
+    }
+  }
+};
+
+TEST(EpochSearch, PartIsDestroyedOnlyWhenNobodyLooks) {
+  EXPECT_TRUE(Search<EpochSuite>(kIterations));
+}
+
+}  // namespace
+}  // namespace runnel::test

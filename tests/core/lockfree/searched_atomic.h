@@ -1,0 +1,124 @@
+#pragma once
+
+// The search over interleavings and weak memory: Relacy runs a few threads as fibers, decides at each
+// atomic operation who goes on and which of the allowed values a load sees, and checks that plain data
+// is never touched by two threads without a happens-before edge between them.
+
+#include <atomic>
+#include <cstdint>
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+// Relacy predates these warnings, and redefines words of the language, which are given back below.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wall"
+#pragma GCC diagnostic ignored "-Wextra"
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wpedantic"
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wnon-virtual-dtor"
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+#include <relacy/relacy.hpp>
+#pragma GCC diagnostic pop
+#undef memory_order_relaxed
+#undef memory_order_consume
+#undef memory_order_acquire
+#undef memory_order_release
+#undef memory_order_acq_rel
+#undef memory_order_seq_cst
+#undef new
+#undef delete
+#undef malloc
+#undef calloc
+#undef realloc
+#undef free
+#undef assert
+
+namespace runnel::test {
+
+inline rl::memory_order Searched(std::memory_order order) {
+  switch (order) {
+    case std::memory_order_relaxed:
+      return rl::mo_relaxed;
+    case std::memory_order_consume:
+    case std::memory_order_acquire:
+      return rl::mo_acquire;
+    case std::memory_order_release:
+      return rl::mo_release;
+    case std::memory_order_acq_rel:
+      return rl::mo_acq_rel;
+    case std::memory_order_seq_cst:
+      return rl::mo_seq_cst;
+  }
+  return rl::mo_seq_cst;
+}
+
+/// Stands in for std::atomic in the structures under test.
+template <typename T>
+class SearchedAtomic {
+ public:
+  SearchedAtomic() : SearchedAtomic(T{}) {}
+  SearchedAtomic(T value) { atomic_.store(value, rl::mo_relaxed, $); }
+
+  T load(std::memory_order order) const { return atomic_.load(Searched(order), $); }
+  void store(T value, std::memory_order order) { atomic_.store(value, Searched(order), $); }
+  T exchange(T value, std::memory_order order) {
+    return atomic_.rmw(rl::rmw_type_t<rl::rmw_type_swap>(), value, Searched(order), $);
+  }
+  T fetch_add(T value, std::memory_order order) {
+    return atomic_.rmw(rl::rmw_type_t<rl::rmw_type_add>(), value, Searched(order), $);
+  }
+  T fetch_sub(T value, std::memory_order order) {
+    return atomic_.rmw(rl::rmw_type_t<rl::rmw_type_sub>(), value, Searched(order), $);
+  }
+  bool compare_exchange_weak(T& expected, T desired, std::memory_order ok, std::memory_order fail) {
+    return atomic_.compare_exchange(rl::bool_t<true>(), expected, desired, Searched(ok),
+                                    Searched(fail), $);
+  }
+  bool compare_exchange_strong(T& expected, T desired, std::memory_order ok,
+                               std::memory_order fail) {
+    return atomic_.compare_exchange(rl::bool_t<false>(), expected, desired, Searched(ok),
+                                    Searched(fail), $);
+  }
+
+ private:
+  rl::atomic<T> atomic_;
+};
+
+/// Plain data: the search reports two threads that touch it without an order between them.
+class SearchedPlain {
+ public:
+  SearchedPlain() { Set(0); }
+  explicit SearchedPlain(int value) { Set(value); }
+  SearchedPlain(SearchedPlain&& other) noexcept { Set(other.Get()); }
+  SearchedPlain& operator=(SearchedPlain&& other) noexcept {
+    Set(other.Get());
+    return *this;
+  }
+  [[nodiscard]] int Get() const { return value_($); }
+  void Set(int value) { value_($) = value; }
+
+ private:
+  mutable rl::var<int> value_;
+};
+
+/// Runs `Suite` through `iterations` random schedules; true if none failed.
+template <typename Suite>
+bool Search(unsigned iterations) {
+  rl::test_params parameters;
+  parameters.iteration_count = iterations;
+  parameters.search_type = rl::random_scheduler_type;
+  parameters.progress_output_period = 1000000;
+  parameters.execution_depth_limit = 10000;
+  std::ostringstream output;
+  parameters.output_stream = &output;
+  parameters.progress_stream = &output;
+  const bool passed = rl::simulate<Suite>(parameters);
+  if (!passed) std::cout << output.str();
+  return passed;
+}
+
+}  // namespace runnel::test
