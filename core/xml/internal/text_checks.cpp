@@ -1,0 +1,55 @@
+#include "core/xml/internal/text_checks.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdint>
+
+namespace runnel::internal {
+
+namespace {
+
+constexpr std::array<std::string_view, 5> kNamedEntities{"amp", "lt", "gt", "quot", "apos"};
+constexpr std::size_t kLongestEntity = 12;
+
+bool IsXmlCharacter(std::uint32_t code) {
+  if (code < 0x20) return code == '\t' || code == '\n' || code == '\r';
+  return code <= 0x10FFFF && (code < 0xD800 || code > 0xDFFF) && code != 0xFFFE && code != 0xFFFF;
+}
+
+bool IsNumericEntity(std::string_view name) {
+  if (!name.starts_with('#')) return false;
+  const bool hexadecimal = name.starts_with("#x");
+  name.remove_prefix(hexadecimal ? 2 : 1);
+  std::uint32_t code = 0;
+  const auto [end, error] =
+      std::from_chars(name.data(), name.data() + name.size(), code, hexadecimal ? 16 : 10);
+  return error == std::errc() && end == name.data() + name.size() && IsXmlCharacter(code);
+}
+
+}  // namespace
+
+std::size_t CharacterLength(std::string_view text) {
+  const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  if (byte(0) < 0x80) return IsXmlCharacter(byte(0)) ? 1 : 0;
+  const std::size_t length = byte(0) >= 0xF0 ? 4 : byte(0) >= 0xE0 ? 3 : 2;
+  if (byte(0) < 0xC2 || byte(0) > 0xF4 || text.size() < length) return 0;
+  std::uint32_t code = byte(0) & (0xFFU >> (length + 1));
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xC0U) != 0x80U) return 0;
+    code = (code << 6U) | (byte(i) & 0x3FU);
+  }
+  constexpr std::array<std::uint32_t, 5> kLeastCode{0, 0, 0x80, 0x800, 0x10000};
+  return code >= kLeastCode[length] && IsXmlCharacter(code) ? length : 0;
+}
+
+std::string EntityFault(std::string_view text) {
+  const std::size_t end = text.substr(0, kLongestEntity).find(';');
+  if (end == std::string_view::npos) return "'&' begins an entity that no ';' ends";
+  const std::string_view name = text.substr(1, end - 1);
+  if (std::ranges::find(kNamedEntities, name) != kNamedEntities.end()) return "";
+  if (IsNumericEntity(name)) return "";
+  return "no entity '" + std::string(text.substr(0, end + 1)) + "'";
+}
+
+}  // namespace runnel::internal

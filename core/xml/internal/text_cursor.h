@@ -1,0 +1,67 @@
+#pragma once
+
+#include <string_view>
+
+#include "core/xml/internal/start_tags.h"
+
+namespace runnel::internal {
+
+inline bool IsXmlSpace(char letter) {
+  return letter == ' ' || letter == '\t' || letter == '\n' || letter == '\r';
+}
+// The same letters as in tinyxml2, so that both find the same names.
+inline bool IsXmlNameStart(char letter) {
+  return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') || letter == ':' ||
+         letter == '_' || static_cast<unsigned char>(letter) >= 128;
+}
+inline bool IsXmlNameLetter(char letter) {
+  return IsXmlNameStart(letter) || (letter >= '0' && letter <= '9') || letter == '.' ||
+         letter == '-';
+}
+
+/// Walks through a text and knows at which line and column it is.
+class TextCursor {
+ public:
+  explicit TextCursor(std::string_view text) : rest_(text) {}
+
+  [[nodiscard]] bool at_end() const { return rest_.empty(); }
+  [[nodiscard]] TextPlace place() const { return place_; }
+  [[nodiscard]] std::string_view rest() const { return rest_; }
+  /// '\0' at the end.
+  [[nodiscard]] char next() const { return rest_.empty() ? '\0' : rest_.front(); }
+  [[nodiscard]] bool Sees(std::string_view expected) const { return rest_.starts_with(expected); }
+
+  /// Steps over `count` bytes and returns them. Precondition: as many are left.
+  std::string_view Take(std::size_t count) {
+    const std::string_view taken = rest_.substr(0, count);
+    for (const char letter : taken) {
+      if (letter == '\n') {
+        ++place_.line;
+        place_.column = 1;
+      } else if ((static_cast<unsigned char>(letter) & 0xC0U) != 0x80U) {
+        ++place_.column;  // a byte that continues a UTF-8 character is not counted
+      }
+    }
+    rest_.remove_prefix(count);
+    return taken;
+  }
+
+  template <typename Predicate>
+  std::string_view TakeWhile(Predicate predicate) {
+    std::size_t count = 0;
+    while (count < rest_.size() && predicate(rest_[count])) ++count;
+    return Take(count);
+  }
+
+  std::string_view TakeName() {
+    return IsXmlNameStart(next()) ? TakeWhile(IsXmlNameLetter) : std::string_view();
+  }
+  /// True if there was any.
+  bool SkipSpace() { return !TakeWhile(IsXmlSpace).empty(); }
+
+ private:
+  std::string_view rest_;
+  TextPlace place_;
+};
+
+}  // namespace runnel::internal

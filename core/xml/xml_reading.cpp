@@ -1,0 +1,107 @@
+#include "core/xml/xml_reading.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <vector>
+
+#include "core/base/nearest_name.h"
+#include "core/xml/internal/text_cursor.h"
+
+namespace runnel {
+
+namespace {
+
+std::optional<double> NumberOf(const XmlAttribute& attribute, Diagnostics& diagnostics) {
+  const std::optional<double> number = ParseNumber(attribute.value);
+  if (!number) {
+    diagnostics.Add({.message = attribute.name + "=\"" + attribute.value + "\" is no number",
+                     .position = attribute.value_position,
+                     .hint = "write a finite decimal number, for example -1.5"});
+  }
+  return number;
+}
+
+void ReportMissing(XmlElement element, std::string_view attribute, Diagnostics& diagnostics) {
+  diagnostics.Add({.message = "<" + element.name() + "> has no '" + std::string(attribute) + "'",
+                   .position = element.position(),
+                   .hint = "add " + std::string(attribute) + "=\"…\""});
+}
+
+bool Contains(std::span<const std::string> names, const std::string& name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+/// A name already given cannot be what the user meant by another one.
+std::vector<std::string> NotYetGiven(XmlElement element, std::span<const std::string> known) {
+  std::vector<std::string> free;
+  for (const std::string& name : known) {
+    if (element.Attribute(name) == nullptr) free.push_back(name);
+  }
+  return free;
+}
+
+}  // namespace
+
+std::optional<double> ParseNumber(std::string_view text) {
+  while (!text.empty() && internal::IsXmlSpace(text.front())) text.remove_prefix(1);
+  while (!text.empty() && internal::IsXmlSpace(text.back())) text.remove_suffix(1);
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  double number = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto [stopped, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || stopped != end || !std::isfinite(number)) return std::nullopt;
+  return number;
+}
+
+std::optional<double> ReadNumber(XmlElement element, std::string_view attribute,
+                                 Diagnostics& diagnostics) {
+  if (const XmlAttribute* found = element.Attribute(attribute)) {
+    return NumberOf(*found, diagnostics);
+  }
+  ReportMissing(element, attribute, diagnostics);
+  return std::nullopt;
+}
+
+double ReadNumberOr(XmlElement element, std::string_view attribute, double fallback,
+                    Diagnostics& diagnostics) {
+  const XmlAttribute* const found = element.Attribute(attribute);
+  return found == nullptr ? fallback : NumberOf(*found, diagnostics).value_or(fallback);
+}
+
+const std::string* ReadText(XmlElement element, std::string_view attribute,
+                            Diagnostics& diagnostics) {
+  if (const XmlAttribute* found = element.Attribute(attribute)) return &found->value;
+  ReportMissing(element, attribute, diagnostics);
+  return nullptr;
+}
+
+void CheckAttributes(XmlElement element, std::span<const std::string> known,
+                     Diagnostics& diagnostics) {
+  for (const XmlAttribute& attribute : element.attributes()) {
+    if (Contains(known, attribute.name)) continue;
+    const std::vector<std::string> candidates = NotYetGiven(element, known);
+    diagnostics.Add({.message = "<" + element.name() + "> knows no '" + attribute.name + "'",
+                     .position = attribute.position,
+                     .hint = candidates.empty() ? "leave it out"
+                                                : NearestNameHint(attribute.name, candidates)});
+  }
+}
+
+void CheckChildren(XmlElement element, std::span<const std::string> known,
+                   Diagnostics& diagnostics) {
+  for (const XmlElement child : element.children()) {
+    if (Contains(known, child.name())) continue;
+    diagnostics.Add(
+        {.message = "no <" + child.name() + "> may stand in <" + element.name() + ">",
+         .position = child.position(),
+         .hint = known.empty() ? "leave it out" : NearestNameHint(child.name(), known)});
+  }
+  if (!element.text().empty()) {
+    diagnostics.Add({.message = "no text may stand in <" + element.name() + ">",
+                     .position = element.position(),
+                     .hint = "leave out '" + element.text().substr(0, 40) + "'"});
+  }
+}
+
+}  // namespace runnel
