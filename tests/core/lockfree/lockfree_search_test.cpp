@@ -83,8 +83,8 @@ TEST(BoundedQueueSearch, EachValueIsTakenOnceAndWhole) {
   EXPECT_TRUE(Search<BoundedQueueSuite>(kIterations));
 }
 
-// A writer publishes three values from two buffers while two readers lease and look. A buffer that is
-// written while leased, or leased while being recycled, is a race on its plain value.
+// A writer publishes three values from two buffers while two readers lease and look. A buffer that
+// is written while leased, or leased while being recycled, is a race on its plain value.
 struct BufferSuite : rl::test_suite<BufferSuite, 3> {
   using Pool = BufferPool<SearchedPlain, SearchedAtomic>;
   typename Pool::Owner pool = Pool::Make({.buffers = 2, .may_grow = false}, {});

@@ -1,8 +1,8 @@
 #pragma once
 
-// The search over interleavings and weak memory: Relacy runs a few threads as fibers, decides at each
-// atomic operation who goes on and which of the allowed values a load sees, and checks that plain data
-// is never touched by two threads without a happens-before edge between them.
+// The search over interleavings and weak memory: Relacy runs a few threads as fibers, decides at
+// each atomic operation who goes on and which of the allowed values a load sees, and checks that
+// plain data is never touched by two threads without a happens-before edge between them.
 
 #include <atomic>
 #include <cstdint>
