@@ -18,7 +18,8 @@ CycleRunner::~CycleRunner() { delete schedule_.load(std::memory_order_seq_cst); 
 
 void CycleRunner::Install(std::unique_ptr<const Schedule> schedule) {
   // seq_cst: one order with the epoch's operations; see core/lockfree/epoch.h.
-  const Schedule* const previous = schedule_.exchange(schedule.release(), std::memory_order_seq_cst);
+  const Schedule* const previous =
+      schedule_.exchange(schedule.release(), std::memory_order_seq_cst);
   if (previous != nullptr) Retire([previous] { delete previous; });
 }
 

@@ -21,7 +21,8 @@ struct CycleTimes {
 /// Runs the cycles of one thread container; both executors are built on it. It outlives the
 /// container until its last cycle has ended.
 ///
-/// Threads:     RunCycle() and Record() by one thread at a time; Install() under the structure lock;
+/// Threads:     RunCycle() and Record() by one thread at a time; Install() under the structure
+/// lock;
 ///              Activate() and statistics() from any thread.
 /// Allocation:  none in RunCycle(), apart from what a module that throws makes itself.
 class CycleRunner {

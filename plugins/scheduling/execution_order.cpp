@@ -25,9 +25,8 @@ class Sorter {
  public:
   explicit Sorter(std::vector<Task> tasks) : tasks_(std::move(tasks)) {
     // Rule 3 becomes the order of the indices. Stable: an element's own order is kept.
-    std::ranges::stable_sort(tasks_, {}, [](const Task& task) {
-      return std::pair(task.phase, task.element->serial());
-    });
+    std::ranges::stable_sort(
+        tasks_, {}, [](const Task& task) { return std::pair(task.phase, task.element->serial()); });
     before_.resize(tasks_.size());
     edges_ = internal::FindDataEdges(tasks_);
     std::erase_if(edges_, [&](const DataEdge& edge) { return IsFeedback(edge); });
@@ -83,9 +82,8 @@ class Sorter {
     std::size_t index = 0;
     const auto is_the_place = [&] {
       return !IsPlaced(index) && !WaitsForItsElement(index) &&
-             std::ranges::all_of(upstream[index], [&](std::size_t each) {
-               return upstream[each].contains(index);
-             });
+             std::ranges::all_of(upstream[index],
+                                 [&](std::size_t each) { return upstream[each].contains(index); });
     };
     while (!is_the_place()) ++index;
     return index;

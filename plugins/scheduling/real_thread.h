@@ -35,9 +35,7 @@ class RealThread {
   void RunFreely();
   void RunOnData();
   void RunUnplanned();
-  [[nodiscard]] bool stopping() const noexcept {
-    return stopping_.load(std::memory_order_acquire);
-  }
+  [[nodiscard]] bool stopping() const noexcept { return stopping_.load(std::memory_order_acquire); }
 
   const std::shared_ptr<CycleRunner> runner_;
   FaultDesk& desk_;

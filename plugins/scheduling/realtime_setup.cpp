@@ -1,12 +1,12 @@
 #include "plugins/scheduling/realtime_setup.h"
 
-#include <sys/mman.h>
-#include <sys/resource.h>
-
 #include <cerrno>
 #include <cstddef>
 #include <cstring>
 #include <string>
+
+#include <sys/mman.h>
+#include <sys/resource.h>
 
 namespace runnel {
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <pthread.h>
-
 #include <optional>
+
+#include <pthread.h>
 
 #include "core/base/error.h"
 

@@ -19,8 +19,8 @@ struct CompiledSchedules {
     std::shared_ptr<CycleRunner> runner;
     std::unique_ptr<Schedule> schedule;
   };
-  std::vector<Thread> threads;   ///< in the order in which the containers were made
-  std::vector<Error> warnings;   ///< loops that were cut, modules that never run
+  std::vector<Thread> threads;        ///< in the order in which the containers were made
+  std::vector<Error> warnings;        ///< loops that were cut, modules that never run
   bool has_unassigned_tasks = false;  ///< there are tasks, but no container
 };
 

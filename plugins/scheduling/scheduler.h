@@ -38,8 +38,8 @@ struct SchedulerOptions {
 };
 
 /// Runs an application: finds everything in the tree that has tasks (Executable) and is ready,
-/// brings it into the order of the data flow, and has it run by its thread containers. Follows every
-/// change of the structure, also while running: a change takes effect from the next cycle on.
+/// brings it into the order of the data flow, and has it run by its thread containers. Follows
+/// every change of the structure, also while running: a change takes effect from the next cycle on.
 ///
 /// Ownership:  must be destroyed before the runtime. One per runtime.
 /// Threads:    Start, Stop, Step and RunUntil from one thread at a time, outside of cycles and

@@ -51,8 +51,7 @@ bool SimulatedExecutor::Step() {
 }
 
 void SimulatedExecutor::RunPeriodic(Lane& lane) {
-  const bool is_planned =
-      lane.runner->options().activation == ThreadOptions::Activation::kPeriod;
+  const bool is_planned = lane.runner->options().activation == ThreadOptions::Activation::kPeriod;
   const Time due = lane.due.next();
   clock_.Set(due);
   const Time start = clock_.Now();  // later, if a module has let time pass in its cycle

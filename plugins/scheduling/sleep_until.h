@@ -1,9 +1,9 @@
 #pragma once
 
-#include <time.h>
-
 #include <algorithm>
 #include <chrono>
+
+#include <time.h>
 
 #include "core/base/clock.h"
 

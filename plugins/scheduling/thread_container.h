@@ -14,7 +14,8 @@ class CycleRunner;
 /// A thread as an element of the tree: runs the modules assigned to it, one after the other along
 /// the data flow, in cycles (FINROC's ThreadContainer). Without a Scheduler it does nothing.
 ///
-/// Threads:  options() and statistics() from any thread. Errors: the constructor throws ElementError
+/// Threads:  options() and statistics() from any thread. Errors: the constructor throws
+/// ElementError
 ///           for a period that is not positive or a priority out of 0 .. 99.
 class ThreadContainer final : public FrameworkElement {
  public:

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <semaphore.h>
-
 #include <atomic>
+
+#include <semaphore.h>
 
 namespace runnel {
 
