@@ -3,9 +3,22 @@
 #include <algorithm>
 
 #include "core/base/check.h"
+#include "core/element/element_path.h"
 #include "plugins/runtime_construction/tags/built_in_tags.h"
 
 namespace runnel {
+
+const XmlAttribute* TagUse::Find(std::string_view attribute) const {
+  if (std::ranges::find(unusable, attribute) != unusable.end()) return nullptr;
+  return xml.Attribute(attribute);
+}
+
+std::string TagUse::path() const {
+  const XmlAttribute* const name = Find("name");
+  const std::string parent_path = parent.path();
+  if (name == nullptr || !CheckElementName(name->value)) return parent_path;
+  return (parent_path == "/" ? "" : parent_path) + "/" + name->value;
+}
 
 const XmlAttribute& TagUse::Get(std::string_view attribute) const {
   const XmlAttribute* const found = Find(attribute);

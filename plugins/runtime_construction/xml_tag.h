@@ -19,16 +19,20 @@ class BuildContext;
 /// One tag of an application file, as whoever builds the application meets it. Its attributes have
 /// been checked against the rules: those that are required are there, and all values are of their
 /// kind.
+///
+/// Copies are cheap enough to be kept by deferred actions.
 struct TagUse {
   XmlElement xml;
   FrameworkElement& parent;  ///< what the enclosing tag has made
   BuildContext& context;
+  std::vector<std::string> unusable = {};  ///< attributes that have been complained about
 
-  [[nodiscard]] const XmlAttribute* Find(std::string_view attribute) const {
-    return xml.Attribute(attribute);
-  }
+  /// nullptr if it is not there or unusable.
+  [[nodiscard]] const XmlAttribute* Find(std::string_view attribute) const;
   /// Precondition: the rules require the attribute.
   [[nodiscard]] const XmlAttribute& Get(std::string_view attribute) const;
+  /// Of what the tag makes, whether it has been made or not: the parent's, and the name, if any.
+  [[nodiscard]] std::string path() const;
 };
 
 /// A word of the language of application files. Plugins add their own:
