@@ -1,12 +1,11 @@
 #include "plugins/runtime_construction/attribute_rule.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
-#include <utility>
 
 #include "core/base/nearest_name.h"
 #include "core/element/element_path.h"
+#include "core/types/duration_text.h"
 #include "core/xml/xml_reading.h"
 
 namespace runnel {
@@ -14,7 +13,6 @@ namespace runnel {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n";
-constexpr double kLongestDuration = 9.2e9;  // s; more does not fit into nanoseconds
 
 std::string Quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
 
@@ -43,6 +41,13 @@ Result<void> CheckNumber(std::string_view value) {
   return Error{.message = Quoted(value) + " is not a number"};
 }
 
+Result<void> CheckDuration(std::string_view value) {
+  const auto duration = ParseDuration(value);
+  if (!duration) return duration.error();
+  if (*duration > Duration::zero()) return {};
+  return Error{.message = Quoted(value) + " is not longer than nothing"};
+}
+
 Result<void> CheckChoice(const AttributeRule& rule, std::string_view value) {
   if (std::ranges::find(rule.choices, value) != rule.choices.end()) return {};
   return Error{.message = Quoted(value) + " is not possible for " + rule.name,
@@ -68,7 +73,7 @@ Result<void> CheckAttributeValue(const AttributeRule& rule, std::string_view val
     case AttributeKind::kFlag:
       return WithoutValue(ParseFlag(value));
     case AttributeKind::kDuration:
-      return WithoutValue(ParseDuration(value));
+      return CheckDuration(value);
     case AttributeKind::kChoice:
       return CheckChoice(rule, value);
   }
@@ -88,23 +93,6 @@ Result<bool> ParseFlag(std::string_view text) {
   if (text == "true") return true;
   if (text == "false") return false;
   return Error{.message = Quoted(text) + " is neither true nor false"};
-}
-
-Result<Duration> ParseDuration(std::string_view text) {
-  static constexpr std::array<std::pair<std::string_view, double>, 5> kUnits{
-      {{"ns", 1e-9}, {"us", 1e-6}, {"ms", 1e-3}, {"min", 60.0}, {"s", 1.0}}};
-  for (const auto& [unit, seconds] : kUnits) {
-    if (!text.ends_with(unit)) continue;
-    const auto number = ParseNumber(text.substr(0, text.size() - unit.size()));
-    if (!number || *number * seconds > kLongestDuration) break;
-    const Duration duration = FromSeconds(*number * seconds);
-    if (duration <= Duration::zero()) {
-      return Error{.message = Quoted(text) + " is not longer than nothing"};
-    }
-    return duration;
-  }
-  return Error{.message = Quoted(text) + " is not a duration",
-               .hint = "write a number and its unit (ns, us, ms, s, min), like '50ms'"};
 }
 
 std::vector<std::string> SplitBlanks(std::string_view text) {

@@ -5,7 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/clock.h"
 #include "core/base/result.h"
 
 namespace runnel {
@@ -19,7 +18,7 @@ enum class AttributeKind {
   kCount,     ///< 0, 1, 2 …
   kNumber,    ///< finite
   kFlag,      ///< true or false
-  kDuration,  ///< a number and ns, us, ms, s or min: "50ms"
+  kDuration,  ///< longer than nothing, with unit: "50ms"
   kChoice,    ///< one of AttributeRule::choices
 };
 
@@ -35,11 +34,10 @@ struct AttributeRule {
 /// Whether `value` may stand in the attribute; the error says what may.
 Result<void> CheckAttributeValue(const AttributeRule& rule, std::string_view value);
 
-/// The values of attributes, for those who handle tags. Errors say what is wrong, without a place.
+/// The values of attributes, for those who handle tags (durations: core/types/duration_text.h).
+/// Errors say what is wrong, without a place.
 Result<std::size_t> ParseCount(std::string_view text);
 Result<bool> ParseFlag(std::string_view text);
-/// Positive, rounded to nanoseconds.
-Result<Duration> ParseDuration(std::string_view text);
 [[nodiscard]] std::vector<std::string> SplitBlanks(std::string_view text);
 
 }  // namespace runnel

@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <utility>
 
 #include "plugins/runtime_construction/build_context.h"
 #include "plugins/runtime_construction/plugin_loading.h"
@@ -20,7 +21,9 @@ FrameworkElement* Load(const TagUse& use) {
   const auto loaded = LoadPlugin(Located(plugin.value, context), context.plugins(), context.tags());
   if (!loaded) {
     context.MarkPluginMissing();
-    context.Report(loaded.error(), plugin.value_position, use.parent);
+    Error error = loaded.error();
+    error.path = TagUse{*use.xml.parent(), use.parent, context}.path();  // not made yet
+    context.Report(std::move(error), plugin.value_position, use.parent);
   }
   return &use.parent;
 }
