@@ -1,5 +1,6 @@
 #include "plugins/scheduling/cycle_runner.h"
 
+#include <algorithm>
 #include <exception>
 
 #include "core/lockfree/thread_epoch.h"
@@ -52,6 +53,12 @@ void CycleRunner::RunActivated(const Schedule& schedule, Time now, FaultDesk& de
     if (entry.element->in_pass()) RunTask(entry, now, desk);
     if (entry.is_last) entry.element->set_in_pass(false);
   }
+  // What came during the pass for those further down has been used in it; what came for those
+  // further up, or from other threads, is for the next one.
+  (void)TakeActivation();
+  const bool more = std::ranges::any_of(
+      schedule.entries, [](const auto& entry) { return entry.element->is_activated(); });
+  if (more) activated_.store(true, std::memory_order_release);
 }
 
 void CycleRunner::RunTask(const Schedule::Entry& entry, Time now, FaultDesk& desk) noexcept {

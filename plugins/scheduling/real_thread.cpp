@@ -62,8 +62,7 @@ void RealThread::RunOnData() {
     // Data may have come while no thread was waiting for it.
     if (!runner_->is_activated()) runner_->event().Wait();
     if (stopping()) return;
-    (void)runner_->TakeActivation();
-    RunUnplanned();
+    if (runner_->TakeActivation()) RunUnplanned();
   }
 }
 

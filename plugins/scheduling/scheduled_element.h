@@ -55,6 +55,9 @@ class ScheduledElement final : public Waker {
     // acq_rel: pairs with the release in Wake(): the data are there.
     return activated_.exchange(false, std::memory_order_acq_rel);
   }
+  [[nodiscard]] bool is_activated() const noexcept {
+    return activated_.load(std::memory_order_acquire);
+  }
   /// A note of the executor's for the time of one triggered pass: the element's tasks are to run.
   void set_in_pass(bool in_pass) noexcept { in_pass_.store(in_pass, std::memory_order_relaxed); }
   [[nodiscard]] bool in_pass() const noexcept { return in_pass_.load(std::memory_order_relaxed); }

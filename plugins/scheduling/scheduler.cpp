@@ -58,6 +58,8 @@ void Scheduler::OnConnected(FrameworkElement& from, FrameworkElement& to) {
 
 void Scheduler::OnDisconnected(FrameworkElement& from, FrameworkElement& to) {
   OnConnected(from, to);
+  // A deletion takes off many connections at once: the supervisor looks at what has come of it.
+  if (is_outdated_ && is_running_) desk_.event().Notify();
 }
 
 void Scheduler::OnAssigned(FrameworkElement&, ThreadContainer&) { Changed(); }
@@ -167,6 +169,8 @@ void Scheduler::Supervise() {
   while (supervises_.load(std::memory_order_acquire)) {
     desk_.event().Wait();
     desk_.Attend();
+    const std::lock_guard lock(runtime_.structure_mutex());
+    if (is_running_) BringUpToDate();
   }
 }
 
