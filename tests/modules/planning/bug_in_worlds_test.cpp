@@ -29,6 +29,12 @@ void PrintTo(const Scene& scene, std::ostream* stream) { *stream << scene.name; 
 
 /// At most the perimeter of a polygon grown by the safe distance.
 double Grown(double perimeter) { return perimeter + 2 * kPi * 0.35; }
+double Grown(const Polygon& polygon) {
+  double perimeter = Distance(polygon.back(), polygon.front());
+  for (std::size_t i = 1; i < polygon.size(); ++i)
+    perimeter += Distance(polygon[i - 1], polygon[i]);
+  return Grown(perimeter);
+}
 
 // A cup 4 m wide and 3 m deep that opens to the left, walls of 0.1 m.
 Polygon Cup() {
@@ -84,12 +90,12 @@ std::vector<Scene> Scenes() {
         {6, 0}},
        kReached,
        Grown(4) + Grown(4) + Grown(5) + Grown(3.6)},
-      {"Cup", {World({Cup()}), {-3, 0.1}, {3, 0.2}}, kReached, Grown(20), 2},
-      {"StartInCup", {World({Cup()}), {0, 0.1}, {3, 0.2}}, kReached, Grown(20), 2},
-      {"GoalInCupFromBehind", {World({Cup()}), {3, 0.1}, {0, 0.2}}, kReached, Grown(20), 2},
-      {"Spiral", {World({Spiral()}), {-5, 0.7}, {0.6, 0.9}}, kReached, Grown(62), 4},
-      {"OutOfTheSpiral", {World({Spiral()}), {0.6, 0.9}, {6, 1.3}}, kReached, Grown(62), 4},
-      {"Comb", {World({Comb()}), {-5, 0.4}, {5, 0.5}}, kReached, Grown(46), 12},
+      {"Cup", {World({Cup()}), {-3, 0.1}, {3, 0.2}}, kReached, Grown(Cup()), 2},
+      {"StartInCup", {World({Cup()}), {0, 0.1}, {3, 0.2}}, kReached, Grown(Cup()), 2},
+      {"GoalInCupFromBehind", {World({Cup()}), {3, 0.1}, {0, 0.2}}, kReached, Grown(Cup()), 2},
+      {"Spiral", {World({Spiral()}), {-5, 0.7}, {0.6, 0.9}}, kReached, Grown(Spiral()), 4},
+      {"OutOfTheSpiral", {World({Spiral()}), {0.6, 0.9}, {6, 1.3}}, kReached, Grown(Spiral()), 4},
+      {"Comb", {World({Comb()}), {-5, 0.4}, {5, 0.5}}, kReached, Grown(Comb()), 12},
       {"GoalWalledIn",
        {World({Box(0, 0, 3, 3), Box(0, 0, 2.8, 2.8)}), {-4, 0}, {0.3, 0.2}},
        kUnreachable,
