@@ -57,7 +57,8 @@ void InfraredAdaptor::Carve(const Cone& cone, const Pose2& pose) {
 }
 
 void InfraredAdaptor::MarkArc(const Cone& cone, const Pose2& pose) {
-  if (IsExplained(cone, pose)) return;
+  const double length = 2 * cone.half_width * cone.echo;
+  if (length > configuration_.certain_arc && IsExplained(cone, pose)) return;
   // All of the arc known to be free contradicts the echo: the newer reading is right.
   if (!MarkArcPoints(cone, pose, false)) MarkArcPoints(cone, pose, true);
 }

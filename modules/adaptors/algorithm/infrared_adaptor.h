@@ -11,6 +11,8 @@ struct InfraredAdaptorConfiguration {
   double safe_distance = 0.35;  ///< m, from the body's centre to any boundary
   /// m; a cone is free up to its echo less this, which is more than half a cell's diagonal.
   double refutation_margin = 0.05;
+  /// m; the place of an echo on an arc not longer than this counts as known.
+  double certain_arc = 0.20;
   double arc_step = 0.03;  ///< m between the points that stand for an echo's arc
 };
 
