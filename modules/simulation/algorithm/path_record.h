@@ -3,9 +3,17 @@
 #include <cstddef>
 #include <vector>
 
-#include "modules/simulation/algorithm/trajectory_svg.h"
+#include "modules/types/algorithm/point.h"
 
 namespace runnel {
+
+/// What a robot that finds its way round obstacles was about at a moment; it colours the path.
+enum class PathMode { kDrivingToGoal, kFollowingWall, kGoingToLeavePoint };
+
+struct PathSample {
+  Point2 position;
+  PathMode mode = PathMode::kDrivingToGoal;
+};
 
 /// Remembers a path of any length in memory of a fixed size: points nearer to the last one than the
 /// spacing are left out, and whenever the memory is full, every other point is, and the spacing
