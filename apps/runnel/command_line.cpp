@@ -1,10 +1,37 @@
 #include "apps/runnel/command_line.h"
 
+#include <algorithm>
+#include <iostream>
+
 #include <CLI/CLI.hpp>
+
+#include "core/base/nearest_name.h"
+#include "core/xml/xml_reading.h"
 
 namespace runnel::program {
 
 namespace {
+
+const std::vector<std::string> kCommands{"run", "check", "modules", "version"};
+
+ExitCode Refuse(const std::string& message, const std::string& hint) {
+  std::cerr << "error: " << message << "; " << hint << '\n';
+  return ExitCode::kBadInput;
+}
+
+bool IsUnknownCommand(const std::string& word) {
+  return !word.starts_with('-') && std::ranges::find(kCommands, word) == kCommands.end();
+}
+
+// CLI11's own checks name bounds with three hundred digits.
+std::string CheckNotNegative(const std::string& text) {
+  const auto number = ParseNumber(text);
+  return number && *number >= 0 ? "" : "'" + text + "' is not a number from 0 up";
+}
+std::string CheckPositive(const std::string& text) {
+  const auto number = ParseNumber(text);
+  return number && *number > 0 ? "" : "'" + text + "' is not a number above 0";
+}
 
 void AddApplicationArguments(CLI::App& command, ApplicationArguments& arguments) {
   command.add_option("application", arguments.file, "application file (XML)")
@@ -31,11 +58,11 @@ CLI::App& AddRun(CLI::App& program, RunArguments& arguments) {
       "--fast", [&arguments] { arguments.speed = 0; }, "simulated time passes as fast as it can");
   run.add_option("--speed", arguments.speed, "of simulated time; 1 is real time")
       ->type_name("FACTOR")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CheckNotNegative)
       ->excludes(fast);
   run.add_option("--duration", arguments.duration, "ends the run after so long, simulated or real")
       ->type_name("SECONDS")
-      ->check(CLI::PositiveNumber);
+      ->check(CheckPositive);
   run.add_flag("--quiet", arguments.quiet, "no progress, only how the run ended");
   run.add_flag("--statistics", arguments.statistics,
                "at the end, how punctual the threads were and how long their cycles took");
@@ -60,10 +87,17 @@ CommandLine ParseCommandLine(int count, const char* const* words) {
       ->type_name("PLUGIN");
   program.add_subcommand("version", "says which version this is");
 
+  if (count > 1 && IsUnknownCommand(words[1])) {
+    return Refuse("there is no command '" + std::string(words[1]) + "'",
+                  NearestNameHint(words[1], kCommands));
+  }
   try {
     program.parse(count, words);
+  } catch (const CLI::Success& help) {
+    program.exit(help);
+    return ExitCode::kDone;
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? ExitCode::kDone : ExitCode::kBadInput;
+    return Refuse(error.what(), "see 'runnel --help' or 'runnel run --help'");
   }
   if (run.parsed()) return run_arguments;
   if (check.parsed()) return check_arguments;
