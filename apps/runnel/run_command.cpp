@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdio>
 #include <iostream>
+#include <optional>
 
 #include "apps/runnel/progress_display.h"
 #include "apps/runnel/run_report.h"
@@ -10,6 +11,7 @@
 #include "apps/runnel/statistics_table.h"
 #include "apps/runnel/stop_signal.h"
 #include "apps/runnel/workplace.h"
+#include "plugins/runtime_construction/source_place.h"
 #include "plugins/scheduling/xml_scheduling_tags.h"
 
 namespace runnel::program {
@@ -50,9 +52,13 @@ void PrintError(const Error& error) {
   std::cerr << diagnostics.ToString();
 }
 
-void PrintWarnings(const std::vector<Error>& warnings) {
+void PrintWarnings(std::vector<Error> warnings, const FrameworkElement& root) {
   Diagnostics diagnostics;
-  for (const Error& warning : warnings) diagnostics.AddWarning(warning);
+  for (Error& warning : warnings) {
+    const auto element = root.Find(warning.path);
+    if (element && warning.position.file.empty()) warning.position = FindSourcePlace(**element);
+    diagnostics.AddWarning(std::move(warning));
+  }
   std::cerr << diagnostics.ToString();
 }
 
@@ -81,7 +87,7 @@ class Session {
         display_(!arguments.quiet) {}
 
   ExitCode Run(Runtime& runtime) {
-    PrintWarnings(scheduler_.Warnings());
+    PrintWarnings(scheduler_.Warnings(), root_);
     const StopSignal stop_signal(scheduler_);
     std::optional<Duration> limit;
     if (arguments_.duration) limit = FromSeconds(*arguments_.duration);
@@ -140,19 +146,17 @@ class Session {
 
 ExitCode Run(const RunArguments& arguments) {
   Workplace workplace;
-  const BuildOutcome outcome = workplace.Build(arguments.application, BuildMode::kRun);
+  std::optional<Scheduler> scheduler;
+  // Before modules become ready, so that they see the right clock from the start.
+  const auto schedule = [&](FrameworkElement& application) -> Result<void> {
+    const auto options = ChooseOptions(arguments, application);
+    if (!options) return options.error();
+    scheduler.emplace(workplace.runtime(), *options);
+    return AddFaultRules(application, *scheduler);
+  };
+  const BuildOutcome outcome = workplace.Build(arguments.application, BuildMode::kRun, schedule);
   if (outcome.application == nullptr) return ExitCode::kBadInput;
-  const auto options = ChooseOptions(arguments, *outcome.application);
-  if (!options) {
-    PrintError(options.error());
-    return ExitCode::kBadInput;
-  }
-  Scheduler scheduler(workplace.runtime(), *options);
-  if (auto added = AddFaultRules(*outcome.application, scheduler); !added) {
-    PrintError(added.error());
-    return ExitCode::kBadInput;
-  }
-  return Session(arguments, *outcome.application, scheduler).Run(workplace.runtime());
+  return Session(arguments, *outcome.application, *scheduler).Run(workplace.runtime());
 }
 
 }  // namespace runnel::program

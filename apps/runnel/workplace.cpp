@@ -18,13 +18,14 @@ void Workplace::ReadConfiguration(const ApplicationArguments& arguments, Diagnos
   }
 }
 
-BuildOutcome Workplace::Build(const ApplicationArguments& arguments, BuildMode mode) {
+BuildOutcome Workplace::Build(const ApplicationArguments& arguments, BuildMode mode,
+                              BeforeReady before_ready) {
   Diagnostics before;
   ReadConfiguration(arguments, before);
   // A mistake there does not keep those in the application file from being told, but from running.
-  BuildOutcome outcome =
-      BuildApplication(arguments.file, {runtime_, plugins_, tags_, configuration_},
-                       before.ok() ? mode : BuildMode::kCheck);
+  if (!before.ok()) mode = BuildMode::kCheck;
+  BuildOutcome outcome = BuildApplication(
+      arguments.file, {runtime_, plugins_, tags_, configuration_, std::move(before_ready)}, mode);
   for (const Error& error : before.errors()) outcome.diagnostics.Add(error);
   std::cerr << outcome.diagnostics.ToString();
   return outcome;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "apps/runnel/command_line.h"
 #include "core/base/diagnostics.h"
 #include "core/element/runtime.h"
@@ -14,9 +16,12 @@ class Workplace {
  public:
   Workplace();
 
+  using BeforeReady = std::function<Result<void>(FrameworkElement& application)>;
+
   /// Builds the application with its configuration files and settings; says on stderr what is wrong
   /// and what is doubtful. `application` of the outcome is nullptr where the mode leaves none.
-  [[nodiscard]] BuildOutcome Build(const ApplicationArguments& arguments, BuildMode mode);
+  [[nodiscard]] BuildOutcome Build(const ApplicationArguments& arguments, BuildMode mode,
+                                   BeforeReady before_ready = {});
 
   [[nodiscard]] Runtime& runtime() noexcept { return runtime_; }
   [[nodiscard]] PluginManager& plugins() noexcept { return plugins_; }
