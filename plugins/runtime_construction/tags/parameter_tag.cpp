@@ -62,8 +62,7 @@ std::vector<Candidate> Candidates(const TagUse& use) {
   }
   if (const XmlAttribute* name = use.Find("command_line")) {
     const Configuration::Entry* const entry = context.configuration().FindArgument(name->value);
-    // File names on a command line start where the user is.
-    if (entry != nullptr) candidates.push_back({entry->text, entry->position, {}});
+    if (entry != nullptr) candidates.push_back({entry->text, entry->position, context.folder()});
   }
   return candidates;
 }
