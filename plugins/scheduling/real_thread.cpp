@@ -20,7 +20,9 @@ RealThread::~RealThread() {
 std::optional<Error> RealThread::Prioritize() {
   const int priority = runner_->options().priority;
   if (priority == 0) return {};
-  return UseFifoScheduling(thread_.native_handle(), priority);
+  auto warning = UseFifoScheduling(thread_.native_handle(), priority);
+  if (warning) warning->path = runner_->path();
+  return warning;
 }
 
 void RealThread::RequestStop() noexcept {
