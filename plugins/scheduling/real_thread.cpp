@@ -33,6 +33,11 @@ void RealThread::RequestStop() noexcept {
 void RealThread::Run(Time first) {
   { const EpochGuard registers_this_thread; }
   PrefaultStack();
+  RunCycles(first);
+  ended_.store(true, std::memory_order_release);
+}
+
+void RealThread::RunCycles(Time first) {
   switch (runner_->options().activation) {
     case ThreadOptions::Activation::kPeriod:
       return RunPeriodically(first);
