@@ -196,7 +196,7 @@ class Input final : public InputBase {
     if (!a.held.has_value() || !b.held.has_value()) return a.held.has_value();
     const Publication& p = a.held.publication();
     const Publication& q = b.held.publication();
-    if (p.order != q.order) return p.order > q.order;
+    if (p.order != 0 && q.order != 0) return p.order > q.order;
     if (p.stamp != q.stamp) return p.stamp > q.stamp;
     return a.source > b.source;
   }
