@@ -37,7 +37,8 @@ void AddOnce(std::vector<Port*>& ports, Port* port) {
   if (std::ranges::find(ports, port) == ports.end()) ports.push_back(port);
 }
 
-// Of two stretches of one way, the one that asks for a queue decides; of two queues, the longer.
+// Of two stretches of one way, or two ways from one source, the one that asks for a queue decides;
+// of two queues, the longer.
 const ConnectOptions& Stronger(const ConnectOptions& a, const ConnectOptions& b) {
   return b.queue > a.queue ? b : a;
 }
@@ -121,8 +122,13 @@ void Port::CollectSources(const ConnectOptions& options, std::vector<Source>& so
     const ConnectOptions& stronger = Stronger(options, edge->options);
     if (from->is_proxy()) {
       from->CollectSources(stronger, sources);
-    } else if (std::ranges::none_of(sources, [&](auto& each) { return each.output == from; })) {
+      continue;
+    }
+    const auto known = std::ranges::find(sources, from, &Source::output);
+    if (known == sources.end()) {
       sources.push_back({from, stronger});
+    } else {
+      known->options = Stronger(known->options, stronger);
     }
   }
 }
