@@ -1,6 +1,7 @@
 #include "core/port/port.h"
 
 #include <algorithm>
+#include <exception>
 
 #include "core/element/runtime.h"
 #include "core/types/type_info.h"
@@ -85,7 +86,13 @@ Result<void> Port::Connect(Port& from, Port& to, const ConnectOptions& options) 
   if (auto possible = CheckConnection(from, to); !possible) return possible;
   from.outgoing_.push_back({&from, &to, options});
   to.incoming_.push_back(&from);
-  to.RebindSinks();
+  try {
+    to.RebindSinks();
+  } catch (const std::exception& exception) {  // no memory for the queue
+    RemoveEdge(from, to);
+    to.RebindSinks();
+    return Refusal(from, "cannot be connected to " + to.path() + ": " + exception.what());
+  }
   from.runtime().ForEachListener(
       [&](ElementListener& listener) { listener.OnConnected(from, to); });
   return {};
