@@ -10,6 +10,7 @@ namespace {
 constexpr double kFaced = DegreesToRadians(8.0);  // rad of bearing at which the robot faces a point
 constexpr double kProgress = 0.10;                // m that count as having got on
 constexpr double kClearanceNoise = 0.02;          // m, of the distance to a boundary followed
+constexpr int kSecondLooks = 3;       // in a task, so that it ends whatever the sensors say
 constexpr double kFalseLeave = 0.05;  // m nearer to the goal, at which a hit is a new one
 
 double BearingTo(const BugInput& input, Point2 point) {
@@ -84,6 +85,10 @@ Twist2 BugAlgorithm::MotionToGoal(BugState& state, const BugInput& input) const 
   const WayAhead way = LookAlong(input.surroundings, bearing,
                                  TravelRadius(configuration_.driving, input.surroundings));
   if (way.free_range < std::min(configuration_.hit_range, state.status.distance_to_goal)) {
+    // Face what may not be there: looked at, it proves to be there or is gone.
+    if (input.surroundings.is_vague && std::abs(way.obstacle_bearing) > kFaced) {
+      return TurnTowards(configuration_.driving, way.obstacle_bearing);
+    }
     Hit(state, input, way.obstacle_bearing);
     return {};
   }
@@ -110,10 +115,20 @@ Twist2 BugAlgorithm::IdentifyLeavePoint(BugState& state, const BugInput& input) 
     return MoveToLeavePoint(state, input);
   }
   if (CompleteCycleAroundObstacle(state) && !LeavePointFound(state)) {
+    return FinishFruitlessLap(state, input);
+  }
+  return WallFollowing(state, input);
+}
+
+Twist2 BugAlgorithm::FinishFruitlessLap(BugState& state, const BugInput& input) const {
+  // What was hit may have been none, a vague echo say: then the way is free where it was not.
+  if (state.second_looks == kSecondLooks || !FreeTowardsGoal(input)) {
     GiveUp(state, Unreachability::kEnclosed);
     return {};
   }
-  return WallFollowing(state, input);
+  ++state.second_looks;
+  state.status.mode = PlannerMode::kFacingGoal;
+  return FaceGoal(state, input);
 }
 
 Twist2 BugAlgorithm::MoveToLeavePoint(BugState& state, const BugInput& input) const {
