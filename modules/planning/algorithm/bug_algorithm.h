@@ -86,7 +86,6 @@ class BugAlgorithm {
   Twist2 GoAhead(const BugState& state, const BugInput& input, double bearing) const;
   void Hit(BugState& state, const BugInput& input, double contact_bearing) const;
   void Leave(BugState& state, const BugInput& input) const;
-  bool IsOutOfRoom(BugState& state, const BugInput& input) const;
 
   BugConfiguration configuration_;
 };
