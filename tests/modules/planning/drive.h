@@ -35,11 +35,11 @@ struct Outcome {
 /// With RUNNEL_TRAJECTORIES=<folder> every run leaves its trajectory there, for a look at it.
 class Trace {
  public:
-  Trace() {
+  explicit Trace(const std::string& run) {
     const char* folder = std::getenv("RUNNEL_TRAJECTORIES");
     if (folder == nullptr) return;
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    std::string name = std::string(test->test_suite_name()) + "." + test->name();
+    std::string name = std::string(test->test_suite_name()) + "." + test->name() + run;
     for (char& c : name) c = c == '/' ? '_' : c;
     file_.open(std::string(folder) + "/" + name + ".txt");
   }
@@ -70,15 +70,15 @@ inline std::unique_ptr<BugAlgorithm> Make(Variant variant, BoundaryDirection dir
   return std::make_unique<Bug2>(configuration);
 }
 
-inline Outcome Drive(Variant variant, BoundaryDirection direction, Sensor sensor,
-                     const Task& task) {
+inline Outcome Drive(Variant variant, BoundaryDirection direction, Sensor sensor, const Task& task,
+                     const std::string& run = "") {
   const auto algorithm = Make(variant, direction);
   Robot robot({task.start.x, task.start.y, task.heading});
   LaserAdaptor laser;
   InfraredAdaptor infrared;
   BugState state;
   Outcome outcome;
-  Trace trace;
+  Trace trace(run);
   for (int step = 0; step < kMostSteps; ++step) {
     const Pose2 pose = robot.pose();
     const Surroundings surroundings = sensor == Sensor::kLaser
