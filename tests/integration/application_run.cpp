@@ -47,6 +47,7 @@ ApplicationRun RunApplication(const ApplicationChoice& choice) {
   if (!document) throw std::runtime_error(document.error().ToString());
 
   PluginManager plugins;
+  plugins.AddSearchFolder(RUNNEL_TEST_PLUGINS);
   XmlTagRegistry tags;
   AddSchedulingTags(tags);
   plugins.registry().Offer(tags);
