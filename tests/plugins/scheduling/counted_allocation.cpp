@@ -23,6 +23,14 @@ int runnel::testing::AllocationsOfThisThread() { return allocations_of_this_thre
 
 void* operator new(std::size_t size) { return CountedAllocation(size); }
 void* operator new[](std::size_t size) { return CountedAllocation(size); }
+// Those that do not throw too: AddressSanitizer brings its own, which do not call these.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  ++allocations_of_this_thread;
+  return std::malloc(size == 0 ? 1 : size);
+}
+void* operator new[](std::size_t size, const std::nothrow_t& nothrow) noexcept {
+  return operator new(size, nothrow);
+}
 void* operator new(std::size_t size, std::align_val_t alignment) {
   ++allocations_of_this_thread;
   const auto step = static_cast<std::size_t>(alignment);
@@ -36,3 +44,5 @@ void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete[](void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
+void operator delete[](void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
