@@ -33,7 +33,13 @@ void ReportUnknownArguments(XmlElement root, const Configuration& configuration,
   }
 }
 
-void MakeReady(FrameworkElement& application, BuildContext& context) {
+void MakeReady(FrameworkElement& application, const BuildTools& tools, BuildContext& context) {
+  if (tools.before_ready) {
+    if (auto prepared = tools.before_ready(application); !prepared) {
+      context.Report(prepared.error(), FindSourcePlace(application), application);
+      return;
+    }
+  }
   Runtime& runtime = context.runtime();
   const auto ready = runtime.MakeReady(application);
   if (ready) return;
@@ -42,13 +48,13 @@ void MakeReady(FrameworkElement& application, BuildContext& context) {
   context.Report(ready.error(), FindSourcePlace(at), at);
 }
 
-FrameworkElement* Build(XmlElement root, BuildContext& context, BuildMode mode,
-                        Diagnostics& diagnostics) {
+FrameworkElement* Build(XmlElement root, const BuildTools& tools, BuildContext& context,
+                        BuildMode mode, Diagnostics& diagnostics) {
   FrameworkElement* const application = ApplicationReader(context).Read(root);
   context.RunDeferred();
   if (application != nullptr) CheckRequiredInputs(*application, context);
-  ReportUnknownArguments(root, context.configuration(), diagnostics);
-  if (diagnostics.ok() && mode == BuildMode::kRun) MakeReady(*application, context);
+  ReportUnknownArguments(root, tools.configuration, diagnostics);
+  if (diagnostics.ok() && mode == BuildMode::kRun) MakeReady(*application, tools, context);
   return application;
 }
 
@@ -60,7 +66,7 @@ BuildOutcome BuildApplication(const XmlDocument& document, const std::filesystem
   BuildContext context(tools, folder, outcome.diagnostics);
   {
     const std::lock_guard lock(tools.runtime.structure_mutex());
-    outcome.application = Build(document.root(), context, mode, outcome.diagnostics);
+    outcome.application = Build(document.root(), tools, context, mode, outcome.diagnostics);
   }
   if (outcome.application == nullptr) return outcome;
   if (!outcome.diagnostics.ok() || mode == BuildMode::kCheck) {

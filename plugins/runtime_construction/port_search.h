@@ -6,15 +6,11 @@
 
 namespace runnel {
 
-/// The element that a path names, or nullptr after reporting what is not there (unless that has
-/// been reported before).
-[[nodiscard]] FrameworkElement* SearchElement(const PathUse& use, BuildContext& context);
-
 /// Which end of a connection a path names. Decides between an input and an output of one name.
 enum class ConnectionEnd { kFrom, kTo };
 
 /// The port that a path names. "laser/scan" is short for "laser/output/scan": the groups between a
-/// module and its ports may be left out. nullptr after reporting, as SearchElement().
+/// module and its ports may be left out. nullptr after reporting what is not there.
 [[nodiscard]] Port* SearchPort(const PathUse& use, ConnectionEnd end, BuildContext& context);
 
 /// The same, without reporting.

@@ -17,8 +17,4 @@ namespace runnel {
 [[nodiscard]] XmlTag ConnectTag();
 [[nodiscard]] XmlTag ParameterTag();
 
-/// For tags that make an element called like their attribute "name": whether the name is still
-/// free. False after reporting.
-[[nodiscard]] bool CheckNameIsFree(const TagUse& use);
-
 }  // namespace runnel

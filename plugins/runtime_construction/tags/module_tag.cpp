@@ -1,5 +1,6 @@
 #include "core/base/nearest_name.h"
 #include "plugins/runtime_construction/build_context.h"
+#include "plugins/runtime_construction/name_check.h"
 #include "plugins/runtime_construction/tags/built_in_tags.h"
 
 namespace runnel {
@@ -26,7 +27,7 @@ FrameworkElement* MakeModule(const TagUse& use) {
     }
     return nullptr;
   }
-  if (!CheckNameIsFree(use)) return nullptr;
+  if (!CheckNameIsFree(use, use.parent)) return nullptr;
   const auto made = modules.Create(type.value, use.parent, use.Get("name").value);
   if (made) return *made;
   report(made.error(), use.xml.position());

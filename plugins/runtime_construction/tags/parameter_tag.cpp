@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "core/base/nearest_name.h"
-#include "core/element/configurable.h"
 #include "plugins/parameters/file_path.h"
 #include "plugins/runtime_construction/build_context.h"
+#include "plugins/runtime_construction/configurable_search.h"
 #include "plugins/runtime_construction/tags/built_in_tags.h"
 
 namespace runnel {
@@ -15,33 +15,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct NamedConfigurable {
-  std::string name;
-  Configurable* configurable;
-};
-
-// Whatever can be set directly below the module or in one of its groups.
-std::vector<NamedConfigurable> ConfigurablesOf(const FrameworkElement& module) {
-  std::vector<NamedConfigurable> found;
-  const auto add = [&](FrameworkElement* element) {
-    if (auto* const configurable = dynamic_cast<Configurable*>(element)) {
-      found.push_back({element->name(), configurable});
-    }
-  };
-  for (FrameworkElement* child : module.children()) {
-    add(child);
-    if (child->kind() != ElementKind::kPortGroup) continue;
-    for (FrameworkElement* inner : child->children()) add(inner);
-  }
-  return found;
-}
-
 Configurable* FindConfigurable(const TagUse& use) {
   const XmlAttribute& name = use.Get("name");
   std::vector<std::string> names;
-  for (const NamedConfigurable& each : ConfigurablesOf(use.parent)) {
-    if (each.name == name.value) return each.configurable;
-    names.push_back(each.name);
+  for (const ConfigurableElement& each : ConfigurablesOf(use.parent)) {
+    if (each.element->name() == name.value) return each.configurable;
+    names.push_back(each.element->name());
   }
   use.context.Report({.message = "there is no parameter '" + name.value + "'",
                       .hint = NearestNameHint(name.value, names)},
@@ -83,8 +62,7 @@ std::vector<Candidate> Candidates(const TagUse& use) {
   }
   if (const XmlAttribute* name = use.Find("command_line")) {
     const Configuration::Entry* const entry = context.configuration().FindArgument(name->value);
-    // File names on a command line start where the user is.
-    if (entry != nullptr) candidates.push_back({entry->text, entry->position, {}});
+    if (entry != nullptr) candidates.push_back({entry->text, entry->position, context.folder()});
   }
   return candidates;
 }

@@ -7,6 +7,7 @@
 #include "core/port/proxy_port.h"
 #include "core/types/type_info.h"
 #include "plugins/runtime_construction/build_context.h"
+#include "plugins/runtime_construction/name_check.h"
 #include "plugins/runtime_construction/path_use.h"
 #include "plugins/runtime_construction/port_search.h"
 #include "plugins/runtime_construction/source_place.h"
@@ -63,7 +64,7 @@ const TypeInfo* ConnectedType(const TagUse& use) {
 void MakePort(const TagUse& use) {
   const std::string& name = use.Get("name").value;
   const XmlAttribute* const named = use.Find("type");
-  const bool is_free = CheckNameIsFree(use);
+  const bool is_free = CheckNameIsFree(use, use.parent);
   const TypeInfo* const type = named != nullptr ? NamedType(*named, use) : ConnectedType(use);
   if (!is_free || type == nullptr) {
     use.context.MarkMissing(use.parent, name);

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "plugins/runtime_construction/port_search.h"
+#include "plugins/runtime_construction/path_walk.h"
 #include "tests/plugins/runtime_construction/test_application.h"
 
 namespace runnel::testing {

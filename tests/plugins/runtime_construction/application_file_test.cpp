@@ -174,6 +174,32 @@ TEST(ApplicationFile, CanBeBuiltTwiceUnderTwoNames) {
   EXPECT_EQ(workshop.runtime.root().children().size(), 2u);
 }
 
+TEST(ApplicationFile, IsShownToTheProgramBeforeItIsReady) {
+  Workshop workshop;
+  LifeCycle seen = LifeCycle::kDeleted;
+  Result<void> answer;
+  const auto build = [&](BuildMode mode) {
+    const auto document =
+        XmlDocument::Parse("<application name='demo'><group name='g'/></application>", "app.xml");
+    return BuildApplication(
+        *document, "/apps",
+        {workshop.runtime, workshop.plugins, workshop.tags, workshop.configuration,
+         [&](FrameworkElement& application) {
+           seen = application.FindChild("g")->life_cycle();
+           return answer;
+         }},
+        mode);
+  };
+  (void)build(BuildMode::kCheck);
+  EXPECT_EQ(seen, LifeCycle::kDeleted) << "not asked in a check";
+  answer = Error{.message = "no room"};
+  EXPECT_EQ(build(BuildMode::kRun).diagnostics.ToString(), "app.xml:1:1: error: /demo: no room\n");
+  EXPECT_TRUE(workshop.runtime.root().children().empty());
+  answer = {};
+  EXPECT_TRUE(build(BuildMode::kRun).application);
+  EXPECT_EQ(seen, LifeCycle::kConstructed);
+}
+
 TEST(ApplicationFile, IsOnlyLookedAtInACheck) {
   Workshop workshop;
   // A module that cannot become ready, since its file is not there, is right nevertheless.
