@@ -24,6 +24,9 @@ std::string Escaped(std::string_view text) {
       case '\n':
         escaped += "&#10;";
         break;
+      case '\r':
+        escaped += "&#13;";
+        break;
       case '\t':
         escaped += "&#9;";
         break;
