@@ -110,9 +110,11 @@ Result<void> WriteWorldFile(const std::filesystem::path& path, const World& worl
   file << WriteWorld(world);
   file.close();
   if (file) return {};
-  return Error{.message = "the world cannot be written",
-               .position = {.file = path.string()},
-               .hint = "is its folder there, and may you write in it?"};
+  Error error;
+  error.message = "the world cannot be written";
+  error.position.file = path.string();
+  error.hint = "is its folder there, and may you write in it?";
+  return error;
 }
 
 }  // namespace runnel
