@@ -4,19 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "modules/simulation/algorithm/path_record.h"
 #include "modules/simulation/algorithm/robot_options.h"
 #include "modules/simulation/algorithm/world.h"
 #include "modules/types/algorithm/pose.h"
 
 namespace runnel {
-
-/// What a robot that finds its way round obstacles was about at a moment; it colours the path.
-enum class PathMode { kDrivingToGoal, kFollowingWall, kGoingToLeavePoint };
-
-struct PathSample {
-  Point2 position;
-  PathMode mode = PathMode::kDrivingToGoal;
-};
 
 /// How a verdict is coloured.
 enum class VerdictTone { kGood, kNeutral, kBad };

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/clock.h"
+#include "core/types/type_builder.h"
+
+namespace runnel {
+
+/// The types that need no description by anybody else. Duration reads and writes "20ms", a Time is
+/// the duration since its clock's start. Lists are called after their elements: "double[]",
+/// "Pose2[3]".
+void Describe(TypeBuilder<bool>& type);
+void Describe(TypeBuilder<std::int8_t>& type);
+void Describe(TypeBuilder<std::int16_t>& type);
+void Describe(TypeBuilder<std::int32_t>& type);
+void Describe(TypeBuilder<std::int64_t>& type);
+void Describe(TypeBuilder<std::uint8_t>& type);
+void Describe(TypeBuilder<std::uint16_t>& type);
+void Describe(TypeBuilder<std::uint32_t>& type);
+void Describe(TypeBuilder<std::uint64_t>& type);
+void Describe(TypeBuilder<float>& type);
+void Describe(TypeBuilder<double>& type);
+void Describe(TypeBuilder<std::string>& type);
+void Describe(TypeBuilder<Duration>& type);
+void Describe(TypeBuilder<Time>& type);
+
+/// Vectors of bool have no elements that could be pointed at.
+template <typename E>
+requires(!std::same_as<E, bool>) void Describe(TypeBuilder<std::vector<E>>& type) {
+  using List = std::vector<E>;
+  type.Name(TypeOf<E>().name() + "[]")
+      .Elements(TypeKind::kSequence,
+                {.type = &TypeOf<E>(),
+                 .is_fixed = false,
+                 .rows = [](const void*) -> std::size_t { return 1; },
+                 .columns = [](const void* at) { return static_cast<const List*>(at)->size(); },
+                 .resize =
+                     [](void* at, std::size_t, std::size_t columns) {
+                       if constexpr (std::default_initializable<E>) {
+                         static_cast<List*>(at)->resize(columns);
+                         return true;
+                       } else {
+                         return columns == static_cast<List*>(at)->size();
+                       }
+                     },
+                 .element = [](void* at, std::size_t index) -> void* {
+                   return &(*static_cast<List*>(at))[index];
+                 }});
+}
+
+template <typename E, std::size_t count>
+void Describe(TypeBuilder<std::array<E, count>>& type) {
+  using List = std::array<E, count>;
+  type.Name(TypeOf<E>().name() + "[" + std::to_string(count) + "]")
+      .Elements(TypeKind::kSequence,
+                {.type = &TypeOf<E>(),
+                 .is_fixed = true,
+                 .rows = [](const void*) -> std::size_t { return 1; },
+                 .columns = [](const void*) { return count; },
+                 .resize = [](void*, std::size_t, std::size_t columns) { return columns == count; },
+                 .element = [](void* at, std::size_t index) -> void* {
+                   return &(*static_cast<List*>(at))[index];
+                 }});
+}
+
+}  // namespace runnel

@@ -1,0 +1,230 @@
+#include "core/types/text_form.h"
+
+#include "core/base/nearest_name.h"
+#include "core/types/text_cursor.h"
+#include "core/types/type_info.h"
+
+namespace runnel {
+
+namespace {
+
+std::string EnumerationText(const TypeInfo& type, const void* value) {
+  const std::int64_t number = type.enumeration().get(value);
+  for (const EnumeratorInfo& each : type.enumerators()) {
+    if (each.value == number) return each.name;
+  }
+  return std::to_string(number);  // a value that nobody named; reads back, too
+}
+
+// FieldInfo::address and ElementOperations::element give a way to change the value; here nobody
+// does.
+void* Mutable(const void* value) { return const_cast<void*>(value); }
+
+// `inner`: within a structure or a sequence, where strings need marks at their ends.
+std::string Text(const TypeInfo& type, const void* value, bool inner);
+
+std::string StructureText(const TypeInfo& type, const void* value) {
+  std::string text = "{";
+  for (const FieldInfo& field : type.fields()) {
+    if (text.size() > 1) text += ", ";
+    text += field.name + ": " + Text(*field.type, field.address(Mutable(value)), true);
+  }
+  return text + "}";
+}
+
+std::string RowText(const TypeInfo& type, const void* value, std::size_t row) {
+  const ElementOperations& elements = type.elements();
+  const std::size_t columns = elements.columns(value);
+  std::string text = "[";
+  for (std::size_t i = 0; i < columns; ++i) {
+    if (i > 0) text += ", ";
+    text += Text(*elements.type, elements.element(Mutable(value), row * columns + i), true);
+  }
+  return text + "]";
+}
+
+std::string MatrixText(const TypeInfo& type, const void* value) {
+  std::string text = "[";
+  for (std::size_t row = 0; row < type.elements().rows(value); ++row) {
+    if (row > 0) text += ", ";
+    text += RowText(type, value, row);
+  }
+  return text + "]";
+}
+
+std::string Text(const TypeInfo& type, const void* value, bool inner) {
+  switch (type.kind()) {
+    case TypeKind::kOpaque:
+      return "?";
+    case TypeKind::kLeaf: {
+      std::string text = type.leaf().to_text(value);
+      return inner && type.leaf().needs_quotes ? Quoted(text) : text;
+    }
+    case TypeKind::kEnumeration:
+      return EnumerationText(type, value);
+    case TypeKind::kStructure:
+      return StructureText(type, value);
+    case TypeKind::kSequence:
+      return RowText(type, value, 0);
+    case TypeKind::kMatrix:
+      return MatrixText(type, value);
+  }
+  return "?";
+}
+
+Result<void> ReadEnumeration(const TypeInfo& type, std::string_view text, void* value) {
+  std::vector<std::string> names;
+  for (const EnumeratorInfo& each : type.enumerators()) {
+    if (each.name == text || std::to_string(each.value) == text) {
+      type.enumeration().set(value, each.value);
+      return {};
+    }
+    names.push_back(each.name);
+  }
+  return Error{.message = "there is no " + type.name() + " '" + std::string(text) + "'",
+               .hint = NearestNameHint(text, names)};
+}
+
+Result<void> Read(const TypeInfo& type, TextCursor& cursor, void* value);
+
+Result<void> ReadField(const TypeInfo& type, TextCursor& cursor, void* value) {
+  const std::string_view name = cursor.TakeWord();
+  const FieldInfo* field = type.FindField(name);
+  if (field == nullptr) {
+    std::vector<std::string> names;
+    for (const FieldInfo& each : type.fields()) names.push_back(each.name);
+    return Error{.message = type.name() + " has no field '" + std::string(name) + "'",
+                 .hint = NearestNameHint(name, names)};
+  }
+  if (!cursor.Skip(':')) return cursor.Expected("':' after '" + field->name + "'");
+  return Read(*field->type, cursor, field->address(value));
+}
+
+Result<void> ReadStructure(const TypeInfo& type, TextCursor& cursor, void* value) {
+  if (!cursor.Skip('{')) return cursor.Expected("'{' before a " + type.name());
+  if (cursor.Skip('}')) return {};
+  do {
+    if (auto read = ReadField(type, cursor, value); !read) return read;
+  } while (cursor.Skip(','));
+  if (!cursor.Skip('}')) return cursor.Expected("',' or '}' in a " + type.name());
+  return {};
+}
+
+// Makes room one by one, since nobody has counted the elements before.
+Result<void> ReadElement(const TypeInfo& type, TextCursor& cursor, void* value, std::size_t rows,
+                         std::size_t columns, std::size_t index) {
+  const ElementOperations& elements = type.elements();
+  if (!elements.is_fixed && !elements.resize(value, rows, columns)) {
+    return Error{.message = "a " + type.name() + " cannot have that many elements"};
+  }
+  if (index >= elements.rows(value) * elements.columns(value)) {
+    return Error{.message = "too many elements for a " + type.name()};
+  }
+  return Read(*elements.type, cursor, elements.element(value, index));
+}
+
+Result<void> ReadSequence(const TypeInfo& type, TextCursor& cursor, void* value) {
+  if (!cursor.Skip('[')) return cursor.Expected("'[' before a " + type.name());
+  std::size_t count = 0;
+  if (!cursor.Skip(']')) {
+    do {
+      if (auto read = ReadElement(type, cursor, value, 1, count + 1, count); !read) return read;
+      ++count;
+    } while (cursor.Skip(','));
+    if (!cursor.Skip(']')) return cursor.Expected("',' or ']' in a " + type.name());
+  }
+  if (!type.elements().resize(value, 1, count)) {
+    return Error{.message = "too few elements for a " + type.name()};
+  }
+  return {};
+}
+
+// The first row tells how many columns there are; so the text is gone through twice.
+Result<std::pair<std::size_t, std::size_t>> ShapeOfMatrix(TextCursor cursor) {
+  std::size_t rows = 0, columns = 0;
+  if (!cursor.Skip('[')) return cursor.Expected("'[' before a matrix");
+  if (cursor.Skip(']')) return std::pair{rows, columns};
+  do {
+    if (!cursor.Skip('[')) return cursor.Expected("'[' before a row");
+    std::size_t count = 0;
+    if (!cursor.Skip(']')) {
+      do {
+        cursor.TakeToken();
+        ++count;
+      } while (cursor.Skip(','));
+      if (!cursor.Skip(']')) return cursor.Expected("',' or ']' in a row");
+    }
+    if (rows > 0 && count != columns) return Error{.message = "the rows differ in length"};
+    columns = count;
+    ++rows;
+  } while (cursor.Skip(','));
+  return std::pair{rows, columns};
+}
+
+Result<void> ReadMatrix(const TypeInfo& type, TextCursor& cursor, void* value) {
+  const ElementOperations& elements = type.elements();
+  const auto shape = ShapeOfMatrix(cursor);
+  if (!shape) return shape.error();
+  const auto [rows, columns] = *shape;
+  if (!elements.resize(value, rows, columns)) {
+    return Error{.message = std::to_string(rows) + " rows of " + std::to_string(columns) +
+                            " are no " + type.name()};
+  }
+  cursor.Skip('[');
+  for (std::size_t index = 0; index < rows * columns; ++index) {
+    if (index % columns == 0) cursor.Skip('[');
+    if (auto read = Read(*elements.type, cursor, elements.element(value, index)); !read) {
+      return read;
+    }
+    if (!cursor.Skip(',')) {
+      cursor.Skip(']');
+      cursor.Skip(',');
+    }
+  }
+  while (columns == 0 && cursor.Skip('[')) {
+    cursor.Skip(']');
+    cursor.Skip(',');
+  }
+  if (!cursor.Skip(']')) return cursor.Expected("']' after a " + type.name());
+  return {};
+}
+
+Result<void> Read(const TypeInfo& type, TextCursor& cursor, void* value) {
+  switch (type.kind()) {
+    case TypeKind::kOpaque:
+      return Error{.message = "a " + type.name() + " has no text form"};
+    case TypeKind::kLeaf: {
+      std::string text;
+      if (!type.leaf().needs_quotes) {
+        return type.leaf().from_text(cursor.TakeToken(), value);
+      }
+      if (!cursor.TakeQuoted(text)) return cursor.Expected("a text in quotation marks");
+      return type.leaf().from_text(text, value);
+    }
+    case TypeKind::kEnumeration:
+      return ReadEnumeration(type, cursor.TakeToken(), value);
+    case TypeKind::kStructure:
+      return ReadStructure(type, cursor, value);
+    case TypeKind::kSequence:
+      return ReadSequence(type, cursor, value);
+    case TypeKind::kMatrix:
+      return ReadMatrix(type, cursor, value);
+  }
+  return Error{.message = "a " + type.name() + " has no text form"};
+}
+
+}  // namespace
+
+std::string ToText(const TypeInfo& type, const void* value) { return Text(type, value, false); }
+
+Result<void> SetFromText(const TypeInfo& type, std::string_view text, void* value) {
+  if (type.kind() == TypeKind::kLeaf) {
+    return type.leaf().from_text(type.leaf().needs_quotes ? text : WithoutBlanks(text), value);
+  }
+  TextCursor cursor(text);
+  if (auto read = Read(type, cursor, value); !read) return read;
+  if (!cursor.AtEnd()) return cursor.Expected("the end");
+  return {};
+}
+
+}  // namespace runnel

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <concepts>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "core/types/type_info.h"
+
+namespace runnel {
+
+template <typename T>
+const TypeInfo& TypeOf();
+
+/// What is to be said about a field beside its name.
+struct FieldOptions {
+  std::string unit = {};
+  std::string description = {};
+};
+
+/// Writes the description of T. The author of a type puts beside it, in its namespace (or in
+/// runnel, for types of others):
+///
+///     inline void Describe(TypeBuilder<Pose2>& type) {
+///       type.Name("Pose2").Field("x", &Pose2::x, {.unit = "m"}).Field("y", &Pose2::y,
+///           {.unit = "m"}).Field("heading", &Pose2::heading, {.unit = "rad"});
+///     }
+///     inline void Describe(TypeBuilder<Side>& type) {
+///       type.Name("Side").Value("left", Side::kLeft).Value("right", Side::kRight);
+///     }
+///
+/// A name alone makes the type opaque: ports carry it, nobody looks inside.
+template <typename T>
+class TypeBuilder {
+ public:
+  explicit TypeBuilder(TypeInfo& type) : type_(type) {
+    if constexpr (std::is_default_constructible_v<T>) {
+      type_.make_ = [] { return std::static_pointer_cast<void>(std::make_shared<T>()); };
+    }
+  }
+
+  TypeBuilder& Name(std::string name) {
+    type_.name_ = std::move(name);
+    return *this;
+  }
+
+  /// A public member of T or of a base class.
+  template <typename Member, typename Owner>
+  requires std::derived_from<T, Owner> TypeBuilder& Field(std::string name, Member Owner::*member,
+                                                          FieldOptions options = {}) {
+    type_.kind_ = TypeKind::kStructure;
+    type_.fields_.push_back({std::move(name), &TypeOf<Member>(), std::move(options.unit),
+                             std::move(options.description), [member](void* structure) -> void* {
+                               return &(static_cast<T*>(structure)->*member);
+                             }});
+    return *this;
+  }
+
+  TypeBuilder& Value(std::string name, T value) requires std::is_enum_v<T> {
+    type_.kind_ = TypeKind::kEnumeration;
+    type_.enumeration_ = {
+        [](const void* at) { return static_cast<std::int64_t>(*static_cast<const T*>(at)); },
+        [](void* at, std::int64_t number) { *static_cast<T*>(at) = static_cast<T>(number); }};
+    type_.enumerators_.push_back({std::move(name), static_cast<std::int64_t>(value)});
+    return *this;
+  }
+
+  /// For types with a text form of their own.
+  TypeBuilder& Leaf(const LeafOperations& operations) {
+    type_.kind_ = TypeKind::kLeaf;
+    type_.leaf_ = operations;
+    return *this;
+  }
+  /// For containers. `kind` is kSequence or kMatrix.
+  TypeBuilder& Elements(TypeKind kind, const ElementOperations& operations) {
+    type_.kind_ = kind;
+    type_.elements_ = operations;
+    return *this;
+  }
+
+ private:
+  TypeInfo& type_;
+};
+
+}  // namespace runnel

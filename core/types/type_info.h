@@ -1,0 +1,129 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <typeindex>
+#include <vector>
+
+#include "core/base/result.h"
+
+namespace runnel {
+
+class BinaryReader;
+class BinaryWriter;
+class TypeInfo;
+
+enum class TypeKind {
+  kOpaque,       ///< has a name, and nothing inside that anybody may look at
+  kLeaf,         ///< one value with a text form of its own: bool, numbers, string, duration, time
+  kEnumeration,  ///< one of a few names
+  kStructure,    ///< named fields
+  kSequence,     ///< any or a fixed number of elements of one type
+  kMatrix,       ///< rows and columns of elements of one type
+};
+
+/// A public member of a structure.
+struct FieldInfo {
+  std::string name;
+  const TypeInfo* type;
+  std::string unit;  ///< SI, "" for none
+  std::string description;
+  std::function<void*(void* structure)> address;
+};
+
+/// One name of an enumeration.
+struct EnumeratorInfo {
+  std::string name;
+  std::int64_t value;
+};
+
+/// How a leaf becomes text and bytes, and back.
+struct LeafOperations {
+  std::string (*to_text)(const void* value);
+  Result<void> (*from_text)(std::string_view text, void* value);
+  void (*write)(const void* value, BinaryWriter& writer);
+  bool (*read)(BinaryReader& reader, void* value);  ///< false: not what write() writes
+  bool needs_quotes;  ///< within structures the text stands in quotation marks
+};
+
+struct EnumerationOperations {
+  std::int64_t (*get)(const void* value);
+  void (*set)(void* value, std::int64_t number);
+};
+
+/// Sequences and matrices; a sequence is one row, of which only the columns count. Elements are
+/// counted row by row.
+struct ElementOperations {
+  const TypeInfo* type;
+  bool is_fixed;  ///< the number of elements is part of the type
+  std::size_t (*rows)(const void* value);
+  std::size_t (*columns)(const void* value);
+  /// False if the type cannot have that many.
+  bool (*resize)(void* value, std::size_t rows, std::size_t columns);
+  void* (*element)(void* value, std::size_t index);
+};
+
+/// What can be known of a type at run time: its name and what is inside, so that values can be
+/// shown, set from text, sent and recorded by code that was compiled without the type.
+///
+/// One object per C++ type and process, made by TypeOf<T>(); compare by address.
+///
+/// Threads:  never changes once TypeOf() has returned it; any thread.
+class TypeInfo {
+ public:
+  explicit TypeInfo(std::type_index cpp_type) : cpp_type_(cpp_type) {}
+  TypeInfo(const TypeInfo&) = delete;
+  TypeInfo& operator=(const TypeInfo&) = delete;
+
+  [[nodiscard]] const std::string& name() const noexcept { return name_; }
+  [[nodiscard]] TypeKind kind() const noexcept { return kind_; }
+  [[nodiscard]] std::type_index cpp_type() const noexcept { return cpp_type_; }
+  /// Whether values have a text and a binary form: nothing in them is opaque.
+  [[nodiscard]] bool is_transparent() const;
+
+  /// Of a structure, in the order of their description.
+  [[nodiscard]] std::span<const FieldInfo> fields() const noexcept { return fields_; }
+  [[nodiscard]] const FieldInfo* FindField(std::string_view name) const;
+  /// Of an enumeration.
+  [[nodiscard]] std::span<const EnumeratorInfo> enumerators() const noexcept {
+    return enumerators_;
+  }
+  [[nodiscard]] const LeafOperations& leaf() const noexcept { return leaf_; }
+  [[nodiscard]] const EnumerationOperations& enumeration() const noexcept { return enumeration_; }
+  [[nodiscard]] const ElementOperations& elements() const noexcept { return elements_; }
+
+  /// False only while the description is being written, by the thread that writes it.
+  [[nodiscard]] bool is_complete() const noexcept { return is_complete_; }
+
+  /// A new value as `T{}` makes it; nullptr if the type has no default constructor. Allocates.
+  [[nodiscard]] std::shared_ptr<void> Make() const { return make_ ? make_() : nullptr; }
+
+ private:
+  template <typename T>
+  friend class TypeBuilder;
+  friend class TypeRegistry;
+
+  const std::type_index cpp_type_;
+  std::string name_;
+  TypeKind kind_ = TypeKind::kOpaque;
+  bool is_complete_ = false;
+  std::vector<FieldInfo> fields_;
+  std::vector<EnumeratorInfo> enumerators_;
+  LeafOperations leaf_{};
+  EnumerationOperations enumeration_{};
+  ElementOperations elements_{};
+  std::shared_ptr<void> (*make_)() = nullptr;
+};
+
+/// The type called `name` among those that have been asked for in this process; nullptr if there is
+/// none. Locks.
+[[nodiscard]] const TypeInfo* FindType(std::string_view name);
+/// All types that have been asked for, sorted by name. Locks.
+[[nodiscard]] std::vector<const TypeInfo*> RegisteredTypes();
+
+}  // namespace runnel

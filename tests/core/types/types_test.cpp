@@ -1,0 +1,252 @@
+#include <cstdint>
+#include <limits>
+#include <memory>
+
+#include <gmock/gmock.h>
+
+#include "core/base/check.h"
+#include "core/types/binary_form.h"
+#include "core/types/eigen_types.h"
+#include "core/types/type_of.h"
+
+namespace example {
+
+struct Point {
+  double x = 1.0;
+  double y = 2.0;
+  friend bool operator==(const Point&, const Point&) = default;
+};
+enum class Side : std::uint8_t { kLeft, kRight = 7 };
+struct Path {
+  std::string name;
+  std::vector<Point> points;
+  std::array<std::int16_t, 2> counts{};
+  Side side = Side::kLeft;
+  bool is_closed = false;
+  runnel::Duration age{};
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  Eigen::MatrixXd covariance;
+  std::vector<Path> branches;
+  friend bool operator==(const Path&, const Path&) = default;
+};
+struct Handle {
+  std::unique_ptr<int> resource;
+};
+struct Impostor {};
+
+void Describe(runnel::TypeBuilder<Point>& type) {
+  type.Name("Point").Field("x", &Point::x, {.unit = "m"}).Field("y", &Point::y, {.unit = "m"});
+}
+void Describe(runnel::TypeBuilder<Side>& type) {
+  type.Name("Side").Value("left", Side::kLeft).Value("right", Side::kRight);
+}
+void Describe(runnel::TypeBuilder<Path>& type) {
+  type.Name("Path")
+      .Field("name", &Path::name)
+      .Field("points", &Path::points)
+      .Field("counts", &Path::counts)
+      .Field("side", &Path::side)
+      .Field("is_closed", &Path::is_closed)
+      .Field("age", &Path::age)
+      .Field("offset", &Path::offset)
+      .Field("covariance", &Path::covariance)
+      .Field("branches", &Path::branches);
+}
+void Describe(runnel::TypeBuilder<Handle>& type) { type.Name("Handle"); }
+void Describe(runnel::TypeBuilder<Impostor>& type) { type.Name("Point"); }
+
+}  // namespace example
+
+namespace runnel {
+namespace {
+
+using example::Path;
+using example::Point;
+using example::Side;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+Path SomePath() {
+  Path path;
+  path.name = "a \"long\" way\\\n";
+  path.points = {{0.1, -3}, {1e300, 5}};
+  path.counts = {-4, 32767};
+  path.side = Side::kRight;
+  path.is_closed = true;
+  path.age = std::chrono::milliseconds(20);
+  path.offset << 1, 2, 3;
+  path.covariance.resize(2, 3);
+  path.covariance << 1, 2, 3, 4, 5, 6;
+  path.branches.resize(1);
+  path.branches[0].covariance.resize(2, 0);
+  return path;
+}
+
+template <typename T>
+std::string WhyNot(std::string_view text) {
+  const auto read = FromText<T>(text);
+  return read ? "it could be read" : read.error().message + " | " + read.error().hint;
+}
+
+template <typename T>
+std::vector<std::byte> Bytes(const T& value) {
+  std::vector<std::byte> bytes;
+  EXPECT_TRUE(ToBinary(TypeOf<T>(), &value, bytes));
+  return bytes;
+}
+
+TEST(TypeOf, IsOneObjectPerTypeThatCanBeFoundByName) {
+  EXPECT_EQ(&TypeOf<Point>(), &TypeOf<Point>());
+  EXPECT_EQ(FindType("Point"), &TypeOf<Point>());
+  EXPECT_EQ(FindType("Nothing"), nullptr);
+  EXPECT_THAT(RegisteredTypes(), testing::Contains(&TypeOf<Point>()));
+}
+
+TEST(TypeOf, RefusesASecondTypeOfTheSameNameAgainAndAgain) {
+  ASSERT_EQ(TypeOf<Point>().name(), "Point");
+  EXPECT_THROW((void)TypeOf<example::Impostor>(), ProgrammingError);
+  EXPECT_THROW((void)TypeOf<example::Impostor>(), ProgrammingError);
+  EXPECT_EQ(FindType("Point"), &TypeOf<Point>());
+}
+
+TEST(TypeOf, NamesListsAfterTheirElements) {
+  EXPECT_EQ(TypeOf<std::vector<Point>>().name(), "Point[]");
+  EXPECT_EQ((TypeOf<std::array<std::vector<float>, 3>>().name()), "float[][3]");
+  EXPECT_EQ(TypeOf<Eigen::Vector3d>().name(), "vector double[3]");
+  EXPECT_EQ((TypeOf<Eigen::Matrix<float, 2, Eigen::Dynamic>>().name()), "matrix float[2x]");
+}
+
+TEST(TypeOf, SaysWhatIsInside) {
+  const TypeInfo& type = TypeOf<Point>();
+  ASSERT_EQ(type.fields().size(), 2u);
+  EXPECT_EQ(type.fields()[1].name, "y");
+  EXPECT_EQ(type.fields()[1].unit, "m");
+  EXPECT_EQ(type.fields()[1].type, &TypeOf<double>());
+  Point point;
+  *static_cast<double*>(type.FindField("y")->address(&point)) = 8;
+  EXPECT_EQ(point.y, 8);
+  EXPECT_TRUE(TypeOf<Path>().is_transparent());
+  EXPECT_FALSE(TypeOf<example::Handle>().is_transparent());
+}
+
+TEST(TextForm, ReadsBackWhatItWrote) {
+  const Path path = SomePath();
+  const auto read = FromText<Path>(TextOf(path));
+  ASSERT_TRUE(read) << TextOf(path) << "\n" << read.error().ToString();
+  EXPECT_EQ(*read, path) << TextOf(path);
+}
+
+TEST(TextForm, IsWhatAPersonWouldWrite) {
+  EXPECT_EQ(TextOf(0.1), "0.1");
+  EXPECT_EQ(TextOf(true), "true");
+  EXPECT_EQ(TextOf(Side::kRight), "right");
+  EXPECT_EQ(TextOf(std::string("a, b")), "a, b");
+  EXPECT_EQ(TextOf(Point{}), "{x: 1, y: 2}");
+  EXPECT_EQ(TextOf(std::vector<std::string>{"a", "b c"}), "[\"a\", \"b c\"]");
+  const Eigen::Matrix2d matrix{{1, 2}, {3, 4}};
+  EXPECT_EQ(TextOf(matrix), "[[1, 2], [3, 4]]");
+  EXPECT_EQ(TextOf(example::Handle{}), "?");
+}
+
+TEST(TextForm, LeavesFieldsThatAreNotNamedAsTheyAre) {
+  EXPECT_EQ(*FromText<Point>(" { y : -5 } "), (Point{1, -5}));
+  EXPECT_EQ(*FromText<Point>("{}"), Point{});
+}
+
+TEST(TextForm, KeepsEveryNumberExactly) {
+  for (const double number : {0.1, 1.0 / 3, 5e-324, std::numeric_limits<double>::max(),
+                              -std::numeric_limits<double>::infinity()}) {
+    EXPECT_EQ(*FromText<double>(TextOf(number)), number);
+  }
+  EXPECT_NE(*FromText<double>("nan"), *FromText<double>("nan"));
+  EXPECT_EQ(*FromText<std::int64_t>(TextOf(std::numeric_limits<std::int64_t>::min())),
+            std::numeric_limits<std::int64_t>::min());
+}
+
+TEST(TextForm, SaysWhatIsWrong) {
+  EXPECT_THAT(WhyNot<double>("1,5"), HasSubstr("'1,5' is no number"));
+  EXPECT_THAT(WhyNot<double>(""), HasSubstr("is no number"));
+  EXPECT_THAT(WhyNot<std::int32_t>("1.5"), HasSubstr("no whole number"));
+  EXPECT_THAT(WhyNot<std::uint8_t>("256"),
+              HasSubstr("does not fit into uint8 | allowed is 0 .. 255"));
+  EXPECT_THAT(WhyNot<bool>("yes"), HasSubstr("neither true nor false"));
+  EXPECT_THAT(WhyNot<Side>("lfet"), HasSubstr("there is no Side 'lfet' | did you mean 'left'?"));
+  EXPECT_THAT(WhyNot<Point>("{z: 1}"), HasSubstr("Point has no field 'z'"));
+  EXPECT_THAT(WhyNot<Point>("{x 1}"), HasSubstr("expected ':' after 'x' before '1}'"));
+  EXPECT_THAT(WhyNot<Point>("{x: 1"), HasSubstr("expected ',' or '}' in a Point at the end"));
+  EXPECT_THAT(WhyNot<Point>("{x: 1} y"), HasSubstr("expected the end before 'y'"));
+  EXPECT_THAT(WhyNot<std::vector<double>>("[1, , 2]"), HasSubstr("is no number"));
+  EXPECT_THAT(WhyNot<std::vector<std::string>>("[a]"), HasSubstr("quotation marks"));
+  EXPECT_THAT(WhyNot<Eigen::Vector3d>("[1, 2]"), HasSubstr("too few"));
+  EXPECT_THAT(WhyNot<Eigen::Vector3d>("[1, 2, 3, 4]"), HasSubstr("too many"));
+  EXPECT_THAT(WhyNot<Eigen::MatrixXd>("[[1, 2], [3]]"), HasSubstr("rows differ"));
+  EXPECT_THAT(WhyNot<Eigen::Matrix2d>("[[1, 2]]"), HasSubstr("1 rows of 2"));
+  EXPECT_THAT(WhyNot<example::Handle>("{}"), HasSubstr("no text form"));
+}
+
+TEST(TextForm, OfDurationsHasAUnit) {
+  EXPECT_EQ(TextOf(Duration(std::chrono::milliseconds(20))), "20ms");
+  EXPECT_EQ(TextOf(Duration(1'500'000'000)), "1.5s");
+  EXPECT_EQ(TextOf(Duration(-1)), "-1ns");
+  EXPECT_EQ(TextOf(Duration::min()), "-9223372036.854775808s");
+  EXPECT_EQ(*FromText<Duration>("0.5 min"), std::chrono::seconds(30));
+  EXPECT_EQ(*FromText<Duration>("20us"), std::chrono::microseconds(20));
+  EXPECT_THAT(WhyNot<Duration>("20"), HasSubstr("write a number and a unit"));
+  EXPECT_THAT(WhyNot<Duration>("1e300s"), HasSubstr("no duration"));
+}
+
+TEST(BinaryForm, ReadsBackWhatItWrote) {
+  const Path path = SomePath();
+  const auto bytes = Bytes(path);
+  BinaryReader reader(bytes);
+  Path read;
+  ASSERT_TRUE(FromBinary(TypeOf<Path>(), reader, &read));
+  EXPECT_EQ(read, path);
+  EXPECT_EQ(reader.remaining(), 0u);
+}
+
+TEST(BinaryForm, IsLittleEndianWithCountsBefore) {
+  EXPECT_THAT(Bytes(std::vector<std::int16_t>{1, -2}),
+              ElementsAre(std::byte{2}, std::byte{0}, std::byte{0}, std::byte{0}, std::byte{1},
+                          std::byte{0}, std::byte{0xfe}, std::byte{0xff}));
+  EXPECT_EQ(Bytes(Eigen::Vector3d::Zero().eval()).size(), 24u) << "fixed sizes need no count";
+}
+
+TEST(BinaryForm, RefusesEveryPartOfAMessage) {
+  const auto bytes = Bytes(SomePath());
+  for (std::size_t length = 0; length < bytes.size(); ++length) {
+    BinaryReader reader(std::span<const std::byte>(bytes).first(length));
+    Path read;
+    EXPECT_FALSE(FromBinary(TypeOf<Path>(), reader, &read)) << length;
+  }
+}
+
+TEST(BinaryForm, DoesNotBelieveACountBeyondTheBytes) {
+  const std::vector<std::byte> bytes(4, std::byte{0xff});
+  BinaryReader reader(bytes);
+  std::vector<double> list;
+  EXPECT_FALSE(FromBinary(TypeOf<std::vector<double>>(), reader, &list));
+  EXPECT_EQ(list.capacity(), 0u);
+}
+
+TEST(BinaryForm, RefusesValuesThatDoNotExist) {
+  const std::vector<std::byte> two{std::byte{2}};
+  BinaryReader reader(two);
+  bool flag = false;
+  EXPECT_FALSE(FromBinary(TypeOf<bool>(), reader, &flag));
+  const std::vector<std::byte> unnamed(8, std::byte{1});
+  BinaryReader side_reader(unnamed);
+  Side side{};
+  EXPECT_FALSE(FromBinary(TypeOf<Side>(), side_reader, &side));
+  std::vector<std::byte> bytes;
+  const example::Handle handle;
+  EXPECT_FALSE(ToBinary(TypeOf<example::Handle>(), &handle, bytes));
+}
+
+TEST(TypeInfo, MakesValues) {
+  const auto point = TypeOf<Point>().Make();
+  EXPECT_EQ(*static_cast<Point*>(point.get()), Point{});
+}
+
+}  // namespace
+}  // namespace runnel
