@@ -10,10 +10,17 @@
 namespace runnel {
 
 FrameworkElement::FrameworkElement(RootTag, Runtime& runtime)
-    : kind_(ElementKind::kRuntime), life_cycle_(LifeCycle::kReady), runtime_(&runtime) {}
+    : path_("/"),
+      kind_(ElementKind::kRuntime),
+      life_cycle_(LifeCycle::kReady),
+      runtime_(&runtime) {}
 
 FrameworkElement::FrameworkElement(const Placement& placement, ElementKind kind)
-    : name_(placement.name), kind_(kind), parent_(&placement.parent), runtime_(parent_->runtime_) {
+    : name_(placement.name),
+      path_((placement.parent.parent_ != nullptr ? placement.parent.path_ : "") + "/" + name_),
+      kind_(kind),
+      parent_(&placement.parent),
+      runtime_(parent_->runtime_) {
   const std::lock_guard lock(runtime_->structure_mutex());
   if (const auto name_is_good = CheckElementName(name_); !name_is_good) {
     Error error = name_is_good.error();
@@ -31,25 +38,33 @@ FrameworkElement::FrameworkElement(const Placement& placement, ElementKind kind)
                         .hint = "choose another name"});
   }
   parent_->children_.push_back(this);
+  is_listed_ = true;
   serial_ = runtime_->NextSerial();
 }
 
 FrameworkElement::~FrameworkElement() {
-  if (parent_ == nullptr) return;
+  if (!is_listed_) return;
   const std::lock_guard lock(runtime_->structure_mutex());
-  while (!owned_.empty()) owned_.pop_back();  // what was made last goes first
-  std::erase(parent_->children_, this);
-  parent_->children_by_name_.erase(name_);
+  DestroyOwned();
+  // Members of an object above, which outlive this group: a module's parameters.
+  for (FrameworkElement* child : children_) {
+    child->parent_ = nullptr;
+    child->is_listed_ = false;
+  }
+  LeaveParent();
 }
 
-std::string FrameworkElement::path() const {
-  if (parent_ == nullptr) return "/";
-  std::string path;
-  for (const FrameworkElement* element = this; element->parent_ != nullptr;
-       element = element->parent_) {
-    path.insert(0, "/" + element->name_);
+void FrameworkElement::LeaveParent() noexcept {
+  std::erase(parent_->children_, this);
+  parent_->children_by_name_.erase(name_);
+  is_listed_ = false;
+}
+
+void FrameworkElement::DestroyOwned() noexcept {
+  while (!owned_.empty()) {
+    owned_.back()->DestroyOwned();
+    owned_.pop_back();  // what was made last goes first
   }
-  return path;
 }
 
 FrameworkElement* FrameworkElement::FindChild(std::string_view child_name) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -62,7 +63,7 @@ class FrameworkElement {
   FrameworkElement& operator=(const FrameworkElement&) = delete;
 
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
-  [[nodiscard]] std::string path() const;
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
   [[nodiscard]] ElementKind kind() const noexcept { return kind_; }
   [[nodiscard]] LifeCycle life_cycle() const noexcept { return life_cycle_; }
   /// nullptr for the runtime, the root.
@@ -112,12 +113,19 @@ class FrameworkElement {
   struct RootTag {};
   FrameworkElement(RootTag, Runtime& runtime);
 
+  // Out of the parent's list: from then on nobody finds the element from the root.
+  void LeaveParent() noexcept;
+  // The children before this element, so that none sees its parent half destroyed.
+  void DestroyOwned() noexcept;
+
   std::string name_;
+  std::string path_;  // kept: an element that has been taken out may outlive its parents
   ElementKind kind_;
   LifeCycle life_cycle_ = LifeCycle::kConstructed;
   FrameworkElement* parent_ = nullptr;
   Runtime* runtime_ = nullptr;
   std::uint64_t serial_ = 0;
+  bool is_listed_ = false;  // among the children of its parent
   std::vector<FrameworkElement*> children_;
   std::map<std::string, FrameworkElement*, std::less<>> children_by_name_;
   std::vector<std::unique_ptr<FrameworkElement>> owned_;

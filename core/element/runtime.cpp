@@ -39,6 +39,8 @@ Result<void> Runtime::MakeReady(FrameworkElement& element) {
       result = each.Prepare();
     } catch (const std::exception& exception) {
       result = Error{.message = exception.what()};
+    } catch (...) {
+      result = Error{.message = "failed with an exception of unknown type"};
     }
     prepared.push_back(&each);
   });
@@ -62,6 +64,9 @@ Result<void> Runtime::Delete(FrameworkElement& element) {
     const std::lock_guard lock(structure_mutex_);
     FrameworkElement* const parent = element.parent_;
     if (parent == nullptr) return Refuse(element, "the root cannot be deleted");
+    if (element.life_cycle_ == LifeCycle::kDeleted) {
+      return Refuse(element, "is being deleted already");
+    }
     auto& owned = parent->owned_;
     const auto found =
         std::ranges::find_if(owned, [&](auto& each) { return each.get() == &element; });
@@ -72,12 +77,17 @@ Result<void> Runtime::Delete(FrameworkElement& element) {
     element.Visit([](FrameworkElement& each) { each.life_cycle_ = LifeCycle::kDeleted; });
     ForEachListener([&](ElementListener& listener) { listener.OnDeleted(element); });
     element.Visit([](FrameworkElement& each) { each.Detach(); });
-    taken = std::move(*found);
-    owned.erase(found);
+    element.LeaveParent();
+    // Anew, since what listeners and Detach() did may have moved it.
+    const auto place =
+        std::ranges::find_if(owned, [&](auto& each) { return each.get() == &element; });
+    taken = std::move(*place);
+    owned.erase(place);
   }
   // From here on no thread finds the element anew; wait for those that have found it before. The
   // lock is free meanwhile, so that a cycle that needs it can come to its end.
   WaitForReaders();
+  taken->DestroyOwned();
   return {};
 }
 

@@ -84,7 +84,9 @@ class Channel final : public ChannelBase {
   PublishStatus Publish(Loan<T>&& loan, Time now) {
     if (!loan) return PublishStatus::kNoBuffer;
     if constexpr (kIsCheap<T>) {
-      return PublishValue(*loan, now);
+      const T value = *loan;
+      loan.Drop();
+      return PublishValue(value, now);
     } else {
       auto* buffer = std::exchange(loan.slot_, nullptr);
       Publication& publication = buffer->publication;

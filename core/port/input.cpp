@@ -49,7 +49,8 @@ void InputBase::UpdateChannel(Port& output) {
     shares_an_input = shares_an_input || input.sources_.size() > 1;
   }
   channel.ReserveFor(waiting);
-  channel.SetOrdered(shares_an_input);
+  // Once numbered, always numbered: else a number from before would outdo a later value.
+  if (shares_an_input) channel.SetOrdered(true);
   channel.SetSubscribers(std::move(subscribers));
 }
 

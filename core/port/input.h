@@ -68,7 +68,6 @@ class Input final : public InputBase {
   ~Input() override {
     SetWaker(nullptr);
     DisconnectAll();
-    Replace(nullptr);
   }
 
   /// The newest value, with whether it is new since the last Read().
@@ -197,7 +196,7 @@ class Input final : public InputBase {
     if (!a.held.has_value() || !b.held.has_value()) return a.held.has_value();
     const Publication& p = a.held.publication();
     const Publication& q = b.held.publication();
-    if (p.order != q.order) return p.order > q.order;
+    if (p.order != 0 && q.order != 0) return p.order > q.order;
     if (p.stamp != q.stamp) return p.stamp > q.stamp;
     return a.source > b.source;
   }
@@ -251,6 +250,8 @@ class Input final : public InputBase {
   // fill the queue, so that none is lost; one that is there twice for that reason, Take() leaves
   // out.
   void Bound() override {
+    for (auto& each : replaced_) Retire([replaced = each.release()] { delete replaced; });
+    replaced_.clear();
     const Binding* binding = binding_.load(std::memory_order_relaxed);
     if (binding == nullptr || !binding->queue) return;
     for (Channel<T>* channel : fresh_) {
@@ -259,12 +260,15 @@ class Input final : public InputBase {
     }
     fresh_.clear();
   }
+  // The previous binding owns the queue that publishers may still find; it goes in Bound().
   void Replace(const Binding* next) {
-    const Binding* previous = binding_.exchange(next, std::memory_order_seq_cst);
-    if (previous != nullptr) Retire([previous] { delete previous; });
+    replaced_.emplace_back();
+    replaced_.back().reset(binding_.exchange(next, std::memory_order_seq_cst));
   }
 
   std::atomic<const Binding*> binding_{nullptr};
+  std::vector<std::unique_ptr<const Binding>>
+      replaced_;                    // between Bind() and Bound(); structure lock
   std::vector<Channel<T>*> fresh_;  // sources that have just been connected; structure lock
   RelaxedNumber last_source_;
   RelaxedNumber last_sequence_;

@@ -23,20 +23,20 @@ class InputQueue final : public QueueSink {
 
   InputQueue(std::size_t capacity, OnFull on_full) : queue_(capacity), on_full_(on_full) {}
 
-  /// Returns false if the queue was full and refuses.
+  /// Returns false if the queue was full and refuses. Ends after a few attempts in any case: a
+  /// publisher never waits for a reader that was stopped while it emptied the very cell that is
+  /// needed; then the new value is dropped, whatever the policy.
   bool Push(Entry entry) noexcept {
-    while (!queue_.TryPush(std::move(entry))) {
-      // relaxed: a statistic.
-      dropped_.fetch_add(1, std::memory_order_relaxed);
-      if (on_full_ == OnFull::kRefuse) return false;
-      if (on_full_ == OnFull::kDropNewest) return true;
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+      if (queue_.TryPush(std::move(entry))) return true;
+      if (on_full_ != OnFull::kDropOldest) break;
+      // Not full and yet no room: a reader is at work there, and dropping others would not help.
+      if (queue_.size() < queue_.capacity()) continue;
       Entry oldest;
-      if (!queue_.TryPop(oldest)) {
-        // A reader has just made room, or is making it: then nothing was dropped.
-        dropped_.fetch_sub(1, std::memory_order_relaxed);
-      }
+      if (queue_.TryPop(oldest)) CountDropped();
     }
-    return true;
+    CountDropped();
+    return on_full_ != OnFull::kRefuse;
   }
   [[nodiscard]] bool Pop(Entry& entry) noexcept { return queue_.TryPop(entry); }
 
@@ -48,6 +48,11 @@ class InputQueue final : public QueueSink {
   }
 
  private:
+  static constexpr int kAttempts = 16;
+
+  // relaxed: a statistic.
+  void CountDropped() noexcept { dropped_.fetch_add(1, std::memory_order_relaxed); }
+
   BoundedQueue<Entry> queue_;
   const OnFull on_full_;
   std::atomic<std::uint64_t> dropped_{0};

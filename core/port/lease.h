@@ -17,7 +17,8 @@ namespace runnel {
 /// Whether values of T travel as copies of their bytes (cheap) or in buffers of a pool. Specialise
 /// it to false for a type that shall always travel in buffers.
 template <typename T>
-inline constexpr bool kIsCheap = std::is_trivially_copyable_v<T> && sizeof(T) <= 256;
+inline constexpr bool kIsCheap =
+    std::is_trivially_copyable_v<T>&& std::is_copy_constructible_v<T> && sizeof(T) <= 256;
 
 namespace internal {
 

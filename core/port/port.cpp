@@ -1,6 +1,7 @@
 #include "core/port/port.h"
 
 #include <algorithm>
+#include <exception>
 
 #include "core/element/runtime.h"
 #include "core/types/type_info.h"
@@ -37,7 +38,8 @@ void AddOnce(std::vector<Port*>& ports, Port* port) {
   if (std::ranges::find(ports, port) == ports.end()) ports.push_back(port);
 }
 
-// Of two stretches of one way, the one that asks for a queue decides; of two queues, the longer.
+// Of two stretches of one way, or two ways from one source, the one that asks for a queue decides;
+// of two queues, the longer.
 const ConnectOptions& Stronger(const ConnectOptions& a, const ConnectOptions& b) {
   return b.queue > a.queue ? b : a;
 }
@@ -84,7 +86,13 @@ Result<void> Port::Connect(Port& from, Port& to, const ConnectOptions& options) 
   if (auto possible = CheckConnection(from, to); !possible) return possible;
   from.outgoing_.push_back({&from, &to, options});
   to.incoming_.push_back(&from);
-  to.RebindSinks();
+  try {
+    to.RebindSinks();
+  } catch (const std::exception& exception) {  // no memory for the queue
+    RemoveEdge(from, to);
+    to.RebindSinks();
+    return Refusal(from, "cannot be connected to " + to.path() + ": " + exception.what());
+  }
   from.runtime().ForEachListener(
       [&](ElementListener& listener) { listener.OnConnected(from, to); });
   return {};
@@ -121,8 +129,13 @@ void Port::CollectSources(const ConnectOptions& options, std::vector<Source>& so
     const ConnectOptions& stronger = Stronger(options, edge->options);
     if (from->is_proxy()) {
       from->CollectSources(stronger, sources);
-    } else if (std::ranges::none_of(sources, [&](auto& each) { return each.output == from; })) {
+      continue;
+    }
+    const auto known = std::ranges::find(sources, from, &Source::output);
+    if (known == sources.end()) {
       sources.push_back({from, stronger});
+    } else {
+      known->options = Stronger(known->options, stronger);
     }
   }
 }

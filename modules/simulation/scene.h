@@ -16,6 +16,7 @@ namespace runnel {
 struct Scene {
   std::shared_ptr<const World> world;
   std::shared_ptr<const RayCaster> rays;  ///< what a sensor at the robot's height can see
+  double robot_radius = 0.0;              ///< m
 };
 
 inline void Describe(TypeBuilder<Scene>& type) { type.Name("Scene"); }

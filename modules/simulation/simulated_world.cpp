@@ -32,14 +32,16 @@ Result<void> SimulatedWorld::Prepare() {
   if (!description) {
     return Error{.message = "the world cannot be used:\n" + diagnostics.ToString(), .path = path()};
   }
-  PhysicsOptions options{.step = step.Get()};
+  PhysicsOptions options;
+  options.step = step.Get();
   options.robot.radius = robot_radius.Get();
   options.robot.maximum_speed = maximum_speed.Get();
   options.robot.maximum_turn_rate = maximum_turn_rate.Get();
   description_ = std::make_shared<const World>(std::move(*description));
   physics_ = std::make_unique<PhysicsWorld>(*description_, options);
   scene_ = {description_,
-            std::make_shared<const RayCaster>(OutlineOf(*description_), EyeHeight(options.robot))};
+            std::make_shared<const RayCaster>(OutlineOf(*description_), EyeHeight(options.robot)),
+            options.robot.radius};
   return {};
 }
 

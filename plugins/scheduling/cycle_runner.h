@@ -2,6 +2,8 @@
 
 #include <atomic>
 #include <memory>
+#include <string>
+#include <utility>
 
 #include "core/base/clock.h"
 #include "plugins/scheduling/cycle_statistics.h"
@@ -27,11 +29,14 @@ struct CycleTimes {
 /// Allocation:  none in RunCycle(), apart from what a module that throws makes itself.
 class CycleRunner {
  public:
-  explicit CycleRunner(const ThreadOptions& options) : options_(options) {}
+  CycleRunner(std::string path, const ThreadOptions& options)
+      : path_(std::move(path)), options_(options) {}
   ~CycleRunner();
   CycleRunner(const CycleRunner&) = delete;
   CycleRunner& operator=(const CycleRunner&) = delete;
 
+  /// Of its container.
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
   [[nodiscard]] const ThreadOptions& options() const noexcept { return options_; }
   [[nodiscard]] bool waits_for_data() const noexcept {
     return options_.activation == ThreadOptions::Activation::kTrigger;
@@ -68,6 +73,7 @@ class CycleRunner {
   void RunTask(const Schedule::Entry& entry, Time now, FaultDesk& desk) noexcept;
   void RunActivated(const Schedule& schedule, Time now, FaultDesk& desk) noexcept;
 
+  const std::string path_;
   const ThreadOptions options_;
   std::atomic<const Schedule*> schedule_{nullptr};
   std::atomic<bool> activated_{false};

@@ -62,16 +62,18 @@ void FaultDesk::Attend() {
   FaultRecord* record = raised_.exchange(nullptr, std::memory_order_acquire);
   for (; record != nullptr; record = record->next_) records.emplace_back(record);
   std::ranges::reverse(records);
-  for (const auto& each : records) {
-    std::vector<FaultRule> rules;
-    {
-      const std::lock_guard lock(mutex_);
-      rules = rules_;
-    }
-    Log(each->fault());
-    for (const FaultRule& rule : rules) {
-      if (Covers(rule.of, each->fault().path)) Apply(rule, each->fault());
-    }
+  for (const auto& each : records) Report(each->fault());
+}
+
+void FaultDesk::Report(const Fault& fault) {
+  std::vector<FaultRule> rules;
+  {
+    const std::lock_guard lock(mutex_);
+    log_.push_back(fault);
+    rules = rules_;
+  }
+  for (const FaultRule& rule : rules) {
+    if (Covers(rule.of, fault.path)) Apply(rule, fault);
   }
 }
 

@@ -45,6 +45,8 @@ class FaultDesk {
 
   /// Applies the rules to what has been raised, in the order of raising, and logs it.
   void Attend();
+  /// Logs the fault and applies the rules to it, at once. Outside of cycles.
+  void Report(const Fault& fault);
   /// What has been logged since the last call, oldest first.
   [[nodiscard]] std::vector<Fault> Take();
 

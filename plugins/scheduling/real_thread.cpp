@@ -20,7 +20,9 @@ RealThread::~RealThread() {
 std::optional<Error> RealThread::Prioritize() {
   const int priority = runner_->options().priority;
   if (priority == 0) return {};
-  return UseFifoScheduling(thread_.native_handle(), priority);
+  auto warning = UseFifoScheduling(thread_.native_handle(), priority);
+  if (warning) warning->path = runner_->path();
+  return warning;
 }
 
 void RealThread::RequestStop() noexcept {
@@ -31,6 +33,11 @@ void RealThread::RequestStop() noexcept {
 void RealThread::Run(Time first) {
   { const EpochGuard registers_this_thread; }
   PrefaultStack();
+  RunCycles(first);
+  ended_.store(true, std::memory_order_release);
+}
+
+void RealThread::RunCycles(Time first) {
   switch (runner_->options().activation) {
     case ThreadOptions::Activation::kPeriod:
       return RunPeriodically(first);

@@ -28,9 +28,12 @@ class RealThread {
   [[nodiscard]] std::optional<Error> Prioritize();
   /// Lets the current cycle be the last, and does not wait for its end.
   void RequestStop() noexcept;
+  /// True when joining will not take long.
+  [[nodiscard]] bool has_ended() const noexcept { return ended_.load(std::memory_order_acquire); }
 
  private:
   void Run(Time first);
+  void RunCycles(Time first);
   void RunPeriodically(Time first);
   void RunFreely();
   void RunOnData();
@@ -40,6 +43,7 @@ class RealThread {
   const std::shared_ptr<CycleRunner> runner_;
   FaultDesk& desk_;
   std::atomic<bool> stopping_{false};
+  std::atomic<bool> ended_{false};
   std::thread thread_;  // last: everything is there when it starts
 };
 

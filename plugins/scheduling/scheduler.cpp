@@ -108,6 +108,7 @@ void Scheduler::StartThreads(Time first) {
     ending_.push_back(std::move(thread));
   }
   std::erase(threads_, nullptr);
+  std::erase_if(ending_, [](const auto& thread) { return thread->has_ended(); });
   for (const auto& runner : runners_) {
     const bool has_thread = std::ranges::any_of(
         threads_, [&](const auto& thread) { return thread->runner() == runner; });

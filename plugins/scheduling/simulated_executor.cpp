@@ -1,6 +1,7 @@
 #include "plugins/scheduling/simulated_executor.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 namespace runnel {
@@ -28,14 +29,15 @@ SimulatedExecutor::Lane* SimulatedExecutor::NextPeriodic() {
 }
 
 CycleRunner* SimulatedExecutor::NextActivated() const {
+  if (is_time_stuck_) return nullptr;
   const auto next =
       std::ranges::find_if(waiting_, [](const auto& runner) { return runner->is_activated(); });
   return next == waiting_.end() ? nullptr : next->get();
 }
 
-std::optional<Time> SimulatedExecutor::NextDue() const {
+std::optional<Time> SimulatedExecutor::NextDue() {
   if (NextActivated() != nullptr) return clock_.Now();
-  const Lane* const next = const_cast<SimulatedExecutor*>(this)->NextPeriodic();
+  const Lane* const next = NextPeriodic();
   if (next == nullptr) return {};
   return std::max(next->due.next(), clock_.Now());
 }
@@ -45,6 +47,7 @@ bool SimulatedExecutor::Step() {
     Lane* const next = NextPeriodic();
     if (next == nullptr) return false;
     RunPeriodic(*next);
+    is_time_stuck_ = false;
   }
   RunActivated();
   return true;
@@ -63,15 +66,25 @@ void SimulatedExecutor::RunPeriodic(Lane& lane) {
 }
 
 void SimulatedExecutor::RunActivated() {
-  for (int cycles = 0; cycles < kMostTriggeredCycles && !desk_.stop_requested(); ++cycles) {
+  for (int cycles = 0; !desk_.stop_requested(); ++cycles) {
     CycleRunner* const next = NextActivated();
     if (next == nullptr) return;
+    if (cycles == kMostTriggeredCycles) return ReportEndlessLoop(*next);
     (void)next->TakeActivation();
     const Time now = clock_.Now();
     const Duration execution = next->RunCycle({now, now, Duration::zero()}, desk_);
     next->Record({now, now, execution, false});
     desk_.Attend();
   }
+}
+
+void SimulatedExecutor::ReportEndlessLoop(const CycleRunner& runner) {
+  is_time_stuck_ = true;
+  if (std::exchange(endless_loop_is_reported_, true)) return;
+  desk_.Report({runner.path(),
+                "modules set each other off without end while no time passes, " +
+                    std::to_string(kMostTriggeredCycles) + " cycles until now",
+                clock_.Now()});
 }
 
 }  // namespace runnel

@@ -27,13 +27,13 @@ class SimulatedExecutor {
   void SetRunners(const std::vector<std::shared_ptr<CycleRunner>>& runners);
 
   /// When something is to be run next: now, if data waits for a module; nullopt if nothing ever.
-  [[nodiscard]] std::optional<Time> NextDue() const;
+  [[nodiscard]] std::optional<Time> NextDue();
   /// Moves the clock to NextDue() and runs the one cycle, and what its data sets off. Ends early
   /// when a fault rule asks for the application to be stopped. False if there is nothing to run.
   bool Step();
 
-  /// How many cycles data may set off at one and the same time. Modules that set off each other for
-  /// ever get on with it in the next step.
+  /// How many cycles data may set off at one and the same time. Modules that set each other off for
+  /// ever are reported as a fault of their thread, and go on after the next periodic cycle.
   static constexpr int kMostTriggeredCycles = 1000;
 
  private:
@@ -46,11 +46,14 @@ class SimulatedExecutor {
   [[nodiscard]] CycleRunner* NextActivated() const;
   void RunPeriodic(Lane& lane);
   void RunActivated();
+  void ReportEndlessLoop(const CycleRunner& runner);
 
   FaultDesk& desk_;
   ManualClock clock_;
   std::vector<Lane> periodic_;
   std::vector<std::shared_ptr<CycleRunner>> waiting_;
+  bool is_time_stuck_ = false;  // what data set off did not come to an end
+  bool endless_loop_is_reported_ = false;
 };
 
 }  // namespace runnel

@@ -37,7 +37,7 @@ void CheckOptions(const FrameworkElement& container, const ThreadOptions& option
 
 ThreadContainer::ThreadContainer(const Placement& placement, const ThreadOptions& options)
     : FrameworkElement(placement, ElementKind::kThread),
-      runner_(std::make_shared<CycleRunner>(options)) {
+      runner_(std::make_shared<CycleRunner>(path(), options)) {
   CheckOptions(*this, options);
 }
 
@@ -60,6 +60,7 @@ ThreadContainer& CreateThread(Runtime& runtime, const std::string& name,
 
 void AssignThread(FrameworkElement& element, ThreadContainer& thread) {
   Runtime& runtime = element.runtime();
+  RUNNEL_CHECK(&runtime == &thread.runtime(), "a thread runs modules of its own runtime only");
   const std::lock_guard lock(runtime.structure_mutex());
   element.Annotate(std::make_unique<ThreadAssignment>(thread.serial()));
   runtime.ForEachListener([&](ElementListener& listener) {

@@ -57,8 +57,20 @@ void InfraredAdaptor::Carve(const Cone& cone, const Pose2& pose) {
 }
 
 void InfraredAdaptor::MarkArc(const Cone& cone, const Pose2& pose) {
+  const double length = 2 * cone.half_width * cone.echo;
+  if (length > configuration_.certain_arc && IsExplained(cone, pose)) return;
   // All of the arc known to be free contradicts the echo: the newer reading is right.
   if (!MarkArcPoints(cone, pose, false)) MarkArcPoints(cone, pose, true);
+}
+
+bool InfraredAdaptor::IsExplained(const Cone& cone, const Pose2& pose) const {
+  bool is_explained = false;
+  map_.ForEachBoundary([&](Point2 point) {
+    const Point2 local = ToBody(pose, point);
+    is_explained |= std::abs(Norm(local) - cone.echo) < configuration_.refutation_margin &&
+                    std::abs(WrapAngle(Direction(local) - cone.bearing)) < cone.half_width;
+  });
+  return is_explained;
 }
 
 bool InfraredAdaptor::MarkArcPoints(const Cone& cone, const Pose2& pose, bool even_where_free) {

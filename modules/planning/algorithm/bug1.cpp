@@ -50,11 +50,12 @@ std::optional<Twist2> Bug1::GoToLeavePoint(BugState& state, const BugInput& inpu
   const Point2 gap = *state.leave_point - Position(input.pose);
   const bool is_behind = Dot(gap, UnitVector(input.pose.heading)) <= 0.0;
   const bool is_near = Norm(gap) < kLeavePrecision || (is_behind && Norm(gap) < kPassDistance);
-  if (state.follower.is_turning() || !is_near || !IsNearAlongTheBoundary(state)) {
-    if (HasMissedIt(state)) StartLapAnew(state, input);
-    return WallFollowing(state, input);
+  if (is_near && !state.follower.is_turning() && IsNearAlongTheBoundary(state)) {
+    state.is_on_last_stretch = true;
   }
-  return DriveToPoint(input, *state.leave_point, kLeavePrecision);
+  if (state.is_on_last_stretch) return DriveToPoint(input, *state.leave_point, kLeavePrecision);
+  if (HasMissedIt(state)) StartLapAnew(state, input);
+  return WallFollowing(state, input);
 }
 
 void Bug1::StartLapAnew(BugState& state, const BugInput& input) const {

@@ -106,6 +106,7 @@ Twist2 BugAlgorithm::IdentifyLeavePoint(BugState& state, const BugInput& input) 
   if (LeavePointFound(state) && ResearchComplete(state)) {
     state.status.mode = PlannerMode::kGoingToLeavePoint;
     state.set_out_length = state.status.path_length;
+    state.is_on_last_stretch = false;
     return MoveToLeavePoint(state, input);
   }
   if (CompleteCycleAroundObstacle(state) && !LeavePointFound(state)) {
@@ -206,6 +207,10 @@ std::optional<Twist2> BugAlgorithm::DriveToPoint(const BugInput& input, Point2 p
                                                  double tolerance) const {
   const double distance = Distance(Position(input.pose), point);
   if (distance < tolerance) return std::nullopt;
+  const double radius = TravelRadius(configuration_.driving, input.surroundings);
+  if (FreeRange(input.surroundings, BearingTo(input, point), radius) < distance) {
+    return std::nullopt;
+  }
   const double speed = SpeedToStopWithin(configuration_.driving, distance);
   return DriveTowards(configuration_.driving, input.surroundings, BearingTo(input, point),
                       std::min(speed, configuration_.driving.following_speed));

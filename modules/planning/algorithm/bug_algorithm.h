@@ -68,7 +68,8 @@ class BugAlgorithm {
   [[nodiscard]] Twist2 WallFollowing(BugState& state, const BugInput& input) const;
   /// Takes up the boundary nearest to the robot, in the direction given.
   void StartFollowing(BugState& state, const BugInput& input, BoundaryDirection direction) const;
-  /// Straight to a point nearby; nothing once within `tolerance` m.
+  /// Straight to a point nearby; nothing once within `tolerance` m, or if the way there is not
+  /// free.
   [[nodiscard]] std::optional<Twist2> DriveToPoint(const BugInput& input, Point2 point,
                                                    double tolerance) const;
   void GiveUp(BugState& state, Unreachability reason) const;

@@ -38,6 +38,7 @@ struct BugState {
   std::optional<Point2> crossing;     ///< of the M-line just behind, where it might leave
   std::optional<Point2> leave_point;  ///< found, not left yet
   double way_to_leave_point = 0.0;    ///< m along the boundary, when the robot set out
+  bool is_on_last_stretch = false;    ///< straight to the leave point, no more along the boundary
   double set_out_length = 0.0;        ///< m, the path's length then
   Point2 progress_point;              ///< where the robot last got on
   double idle_time = 0.0;             ///< s since then

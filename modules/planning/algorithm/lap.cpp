@@ -28,8 +28,12 @@ void Lap::Update(const Pose2& pose) {
   }
   const bool is_at_gate = Distance(way, Position(gate_)) < kGateHalfWidth;
   const bool is_through = Dot(Position(pose) - Position(gate_), UnitVector(gate_.heading)) >= 0.0;
-  const bool has_turned_once = std::abs(std::abs(turned_) - 2 * kPi) < kTurnTolerance;
-  is_complete_ = is_at_gate && is_through && has_turned_once;
+  const bool is_same_way = std::abs(WrapAngle(pose.heading - gate_.heading)) < kTurnTolerance;
+  is_complete_ = is_at_gate && is_through && is_same_way && has_turned_round();
+}
+
+bool Lap::has_turned_round() const {
+  return length_ > kShortestLap && std::abs(turned_) > 2 * kPi - kTurnTolerance;
 }
 
 }  // namespace runnel

@@ -10,8 +10,9 @@ namespace runnel {
 /// and in a narrow corridor it passes its hit point along the opposite wall. A boundary followed at
 /// a distance is a closed curve that does not cross itself, and by Hopf's theorem exactly one lap
 /// round such a curve turns the heading by one whole turn. So a lap is complete when the robot
-/// passes the gate it started through, in the same direction, having turned once round in all. No
-/// count of calls, no length that depends on the obstacle's size.
+/// passes the gate it started through, in the same direction, having turned once round in all (or
+/// more often, should it have missed the gate). No count of calls, no length that depends on the
+/// obstacle's size.
 class Lap {
  public:
   /// At a hit point. The gate is put up `kGateDistance` further on, where the robot has turned
@@ -21,6 +22,8 @@ class Lap {
   void Update(const Pose2& pose);
 
   [[nodiscard]] bool is_complete() const { return is_complete_; }
+  /// Whether the robot has turned once round: from shortly before a lap is complete.
+  [[nodiscard]] bool has_turned_round() const;
   /// m followed since Start.
   [[nodiscard]] double length() const { return length_; }
   /// m from Start to the gate, at which a complete lap ends.
@@ -29,6 +32,9 @@ class Lap {
   static constexpr double kGateDistance = 0.10;   ///< m
   static constexpr double kGateHalfWidth = 0.25;  ///< m, more than two passes differ
   static constexpr double kTurnTolerance = 1.0;   ///< rad, on the whole turn
+  /// m; even round a point a robot that keeps the distance goes further. A shorter way round is a
+  /// turn on the spot.
+  static constexpr double kShortestLap = 1.5;
 
  private:
   Pose2 hit_;

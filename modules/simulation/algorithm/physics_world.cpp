@@ -72,10 +72,9 @@ struct PhysicsWorld::State {
         ground(0, nullptr, nullptr),
         wheels(robot, ground, options.robot) {
     SetUpSolver();
+    SetUpRobot(description.start);
+    Rehearse(description.start);
     obstacles.AddTo(world);
-    PlaceRobot(description.start);
-    world.addRigidBody(&robot);
-    world.addConstraint(&wheels);
   }
 
   ~State() {
@@ -89,22 +88,51 @@ struct PhysicsWorld::State {
 
   void SetUpSolver() {
     world.setGravity(btVector3(0, 0, 0));  // the ground carries the robot; nothing else moves
-    world.getDispatchInfo().m_deterministicOverlappingPairs = true;
     world.getSolverInfo().m_solverMode = SOLVER_USE_WARMSTARTING;  // one code path for all CPUs
     world.getSolverInfo().m_numIterations = 20;
     solver.setRandSeed(0);
   }
 
+  void SetUpRobot(const Pose2& start) {
+    PlaceRobot(start);
+    robot.setLinearFactor(btVector3(1, 1, 0));
+    robot.setAngularFactor(btVector3(0, 0, 1));
+    robot.setActivationState(DISABLE_DEACTIVATION);
+    robot.setDamping(0, 0);
+    world.addRigidBody(&robot);
+    world.addConstraint(&wheels);
+  }
+
+  /// At rest.
   void PlaceRobot(const Pose2& start) {
     const double z = options.robot.ground_clearance + options.robot.height / 2;
     const btTransform place(btQuaternion(btVector3(0, 0, 1), start.heading),
                             ToBullet(Position(start), z));
     robot.setWorldTransform(place);
     robot.setInterpolationWorldTransform(place);
-    robot.setLinearFactor(btVector3(1, 1, 0));
-    robot.setAngularFactor(btVector3(0, 0, 1));
-    robot.setActivationState(DISABLE_DEACTIVATION);
-    robot.setDamping(0, 0);
+    robot.setLinearVelocity(btVector3(0, 0, 0));
+    robot.setAngularVelocity(btVector3(0, 0, 0));
+  }
+
+  /// Bullet's lists grow when they first need to: here, among more contacts than any world makes,
+  /// rather than in the middle of a run.
+  void Rehearse(const Pose2& start) {
+    World crowd{.start = start, .polygons = {{}}};
+    for (int i = 0; i < 12; ++i) {
+      const double angle = i * kPi / 6;
+      const Point2 place = Position(start) + options.robot.radius * UnitVector(angle);
+      crowd.polygons[0].outline.push_back(place);
+      crowd.boxes.push_back({.pose = {place.x, place.y, angle}, .length = 0.01, .width = 0.05});
+    }
+    const internal::BulletObstacles obstacles_of_crowd(crowd, kDefaultObstacleHeight);
+    obstacles_of_crowd.AddTo(world);
+    for (int i = 0; i < 3; ++i) Step();
+    obstacles_of_crowd.RemoveFrom(world);
+    solver.reset();
+    PlaceRobot(start);
+    steps = 0;
+    rolling_direction = start.heading;
+    contact = {};
   }
 
   double Heading() const {
@@ -149,8 +177,8 @@ struct PhysicsWorld::State {
   const std::pair<btVector3, btVector3> extent;
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher;
-  // Not Bullet's usual tree, which orders its nodes by their addresses: pairs, and with them the
-  // last digits of the solution, would differ from run to run.
+  // Not Bullet's usual tree, which swaps its nodes by their addresses as it keeps itself balanced:
+  // the order of pairs, and with it the last digits of a solution, could differ from run to run.
   btAxisSweep3 broadphase;
   btSequentialImpulseConstraintSolver solver;
   btDiscreteDynamicsWorld world;

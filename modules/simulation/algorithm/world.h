@@ -25,7 +25,7 @@ struct PolygonObstacle {
 };
 
 struct BoxObstacle {
-  Pose2 pose;           ///< of the centre; the heading is the direction of the length
+  Pose2 pose = {};      ///< of the centre; the heading is the direction of the length
   double length = 0.0;  ///< m, along the heading
   double width = 0.0;   ///< m, across it
   double height = kDefaultObstacleHeight;
@@ -34,7 +34,7 @@ struct BoxObstacle {
 };
 
 struct CylinderObstacle {
-  Point2 centre;
+  Point2 centre = {};
   double radius = 0.0;  ///< m
   double height = kDefaultObstacleHeight;
 

@@ -145,6 +145,7 @@ class Checker {
     const Ring& ring = polygon.holes[hole];
     if (RingsMeet(ring, polygon.outline) || !Contains(polygon.outline, ring.front())) {
       Add(WorldPart::kHole, index, "the hole is not within its polygon", hole);
+      return;
     }
     for (std::size_t other = 0; other < hole; ++other) {
       const Ring& before = polygon.holes[other];

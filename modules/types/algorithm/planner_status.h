@@ -30,8 +30,8 @@ struct PlannerStatus {
   std::uint32_t leaves = 0;       ///< leave points so far
   double distance_to_goal = 0.0;  ///< m
   double path_length = 0.0;       ///< m driven since the task began
-  Point2 hit_point;               ///< m, world; the last one, if hits > 0
-  Point2 leave_point;             ///< m, world; the last one, if leaves > 0
+  Point2 hit_point = {};          ///< m, world; the last one, if hits > 0
+  Point2 leave_point = {};        ///< m, world; the last one, if leaves > 0
 
   friend constexpr bool operator==(const PlannerStatus&, const PlannerStatus&) = default;
 };

@@ -1,5 +1,7 @@
 #include "core/element/runtime.h"
 
+#include <atomic>
+#include <mutex>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -128,14 +130,142 @@ TEST(RuntimeTest, DeleteWaitsForThreadsThatMayStillSeeTheElement) {
   reader.join();
 }
 
+TEST(RuntimeTest, ExceptionOfUnknownTypeInPrepareIsAnErrorToo) {
+  class Odd final : public FrameworkElement {
+   public:
+    explicit Odd(const Placement& placement) : FrameworkElement(placement) {}
+    Result<void> Prepare() override { throw 7; }
+  };
+  Runtime runtime;
+  const auto result = runtime.MakeReady(runtime.Create<Odd>(runtime.root(), "odd"));
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().path, "/odd");
+  EXPECT_THAT(result.error().message, HasSubstr("exception of unknown type"));
+}
+
+TEST(RuntimeTest, OneThatThrowsInItsConstructorLeavesNothingBehind) {
+  class Broken final : public FrameworkElement {
+   public:
+    explicit Broken(const Placement& placement) : FrameworkElement(placement) {
+      throw std::runtime_error("broken");
+    }
+  };
+  Runtime runtime;
+  EXPECT_THROW(runtime.Create<Broken>(runtime.root(), "broken"), std::runtime_error);
+  EXPECT_TRUE(runtime.root().children().empty());
+  EXPECT_NO_THROW(runtime.Create<Node>(runtime.root(), "broken"));
+}
+
+// Looks at a member, so that a half destroyed element would be seen.
+class Whole final : public FrameworkElement {
+ public:
+  explicit Whole(const Placement& placement) : FrameworkElement(placement) {}
+  ~Whole() override { whole = false; }
+  std::atomic<bool> whole{true};
+};
+
+TEST(RuntimeTest, WhoVisitsTheTreeNeverMeetsAnElementThatIsBeingDestroyed) {
+  Runtime runtime;
+  std::atomic<bool> stop{false};
+  std::atomic<int> halves{0}, visits{0};
+  std::thread viewer([&] {
+    while (!stop) {
+      const std::lock_guard lock(runtime.structure_mutex());
+      runtime.root().Visit([&](FrameworkElement& element) {
+        const auto* whole = dynamic_cast<const Whole*>(&element);
+        if (element.parent() != nullptr && (whole == nullptr || !whole->whole)) ++halves;
+      });
+      ++visits;
+    }
+  });
+  for (int i = 0; i < 300 || visits < 20; ++i) {
+    Whole& outer = runtime.Create<Whole>(runtime.root(), "outer");
+    runtime.Create<Whole>(outer, "inner");
+    ASSERT_TRUE(runtime.Delete(outer));
+  }
+  stop = true;
+  viewer.join();
+  EXPECT_EQ(halves, 0);
+}
+
+TEST(RuntimeTest, ChildMayStillBeLeavingWhenItsParentIsDeleted) {
+  Runtime runtime;
+  Node& a = runtime.Create<Node>(runtime.root(), "a");
+  Node& b = runtime.Create<Node>(a, "b");
+  std::atomic<bool> reading{false}, looked{false}, deleted{false};
+  std::thread reader([&] {
+    const EpochGuard guard;
+    reading = true;
+    while (!looked) std::this_thread::yield();
+    EXPECT_FALSE(deleted);
+    EXPECT_EQ(b.path(), "/a/b");
+  });
+  while (!reading) std::this_thread::yield();
+  std::thread child([&] {
+    EXPECT_TRUE(runtime.Delete(b));  // waits for the reader
+    deleted = true;
+  });
+  for (bool leaving = false; !leaving; std::this_thread::yield()) {
+    const std::lock_guard lock(runtime.structure_mutex());
+    leaving = a.children().empty();
+  }
+  looked = true;
+  EXPECT_TRUE(runtime.Delete(a));
+  reader.join();
+  child.join();
+}
+
+TEST(RuntimeTest, WhatIsBeingDeletedCannotBeDeletedAgain) {
+  class Twice final : public ElementListener {
+   public:
+    std::string answer;
+    void OnDeleted(FrameworkElement& element) override {
+      if (!answer.empty()) return;
+      const auto again = element.runtime().Delete(element);
+      answer = again ? "deleted" : again.error().message;
+    }
+  } twice;
+  Runtime runtime;
+  runtime.AddListener(twice);
+  ASSERT_TRUE(runtime.Delete(runtime.Create<Node>(runtime.root(), "a")));
+  EXPECT_THAT(twice.answer, HasSubstr("being deleted already"));
+}
+
 class Journal final : public ElementListener {
  public:
+  explicit Journal(std::string prefix = "") : prefix_(std::move(prefix)) {}
   std::vector<std::string> events;
-  void OnReady(FrameworkElement& element) override { events.push_back("ready " + element.path()); }
-  void OnDeleted(FrameworkElement& element) override {
-    events.push_back("deleted " + element.path());
+  void OnReady(FrameworkElement& element) override { Note("ready ", element); }
+  void OnDeleted(FrameworkElement& element) override { Note("deleted ", element); }
+  std::vector<std::string>* shared = nullptr;
+
+ private:
+  void Note(const std::string& what, const FrameworkElement& element) {
+    (shared != nullptr ? *shared : events).push_back(prefix_ + what + element.path());
   }
+  std::string prefix_;
 };
+
+TEST(RuntimeTest, ListenersAreToldInTheOrderInWhichTheyCame) {
+  std::vector<std::string> all;
+  Journal first("first "), second("second ");
+  Runtime runtime;
+  first.shared = second.shared = &all;
+  runtime.AddListener(first);
+  runtime.AddListener(second);
+  ASSERT_TRUE(runtime.MakeReady(runtime.Create<Node>(runtime.root(), "a")));
+  EXPECT_THAT(all, ElementsAre("first ready /a", "second ready /a"));
+}
+
+TEST(RuntimeTest, ListenersAreToldNothingOfWhatDidNotBecomeReady) {
+  Journal journal;
+  Runtime runtime;
+  runtime.AddListener(journal);
+  Node& a = runtime.Create<Node>(runtime.root(), "a");
+  a.fails = true;
+  ASSERT_FALSE(runtime.MakeReady(a));
+  EXPECT_TRUE(journal.events.empty());
+}
 
 TEST(RuntimeTest, ListenersAreToldInTheOrderOfTheChangesUntilRemoved) {
   Runtime runtime;

@@ -263,6 +263,8 @@ TEST_F(RealThreads, AskForPrioritiesAndRunWithoutThem) {
   for (const Error& warning : scheduler.Warnings()) {
     EXPECT_FALSE(warning.message.empty());
     EXPECT_FALSE(warning.hint.empty());
+    const bool is_of_the_thread = warning.message.starts_with("SCHED_FIFO");
+    EXPECT_EQ(warning.path, is_of_the_thread ? thread.path() : "");
   }
   EXPECT_EQ(thread.options().priority, 20);
 }

@@ -10,7 +10,7 @@ namespace runnel::internal {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kCellsPerSide = 96.0;
+constexpr double kCellsPerSide = 48.0;
 constexpr double kSmallestCell = 0.1;  // m
 /// A flat reaches this part of its length past its ends, so that no ray slips through a corner.
 constexpr double kOverlap = 1e-12;

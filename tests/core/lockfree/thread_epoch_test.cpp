@@ -1,0 +1,188 @@
+#include "core/lockfree/thread_epoch.h"
+
+#include <atomic>
+#include <memory>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "core/base/check.h"
+#include "tests/support/allocation_guard.h"
+#include "tests/support/lock_probe.h"
+#include "tests/support/threads.h"
+#include "tests/support/yielding_atomic.h"
+
+namespace runnel {
+namespace {
+
+TEST(EpochDomainTest, HasPassedOnceWhoEnteredBeforeHasLeft) {
+  EpochDomain<> domain;
+  EpochDomain<>::Participant early, late;
+  domain.Add(early);
+  domain.Add(late);
+  domain.Enter(early);
+  const std::uint64_t epoch = domain.Advance();
+  EXPECT_FALSE(domain.HasPassed(epoch));
+  domain.Enter(late);  // entered after the change: does not matter to it
+  domain.Leave(early);
+  EXPECT_TRUE(domain.HasPassed(epoch));
+  EXPECT_FALSE(domain.HasPassed(domain.Advance()));
+  domain.Leave(late);
+}
+
+TEST(EpochDomainTest, OnlyTheOutermostLeaveCounts) {
+  EpochDomain<> domain;
+  EpochDomain<>::Participant participant;
+  domain.Add(participant);
+  domain.Enter(participant);
+  const std::uint64_t epoch = domain.Advance();
+  domain.Enter(participant);
+  domain.Leave(participant);
+  EXPECT_FALSE(domain.HasPassed(epoch));
+  domain.Leave(participant);
+  EXPECT_TRUE(domain.HasPassed(epoch));
+}
+
+TEST(EpochGuardTest, IsKnownToItsThreadOnly) {
+  EXPECT_FALSE(EpochGuard::HeldByThisThread());
+  const EpochGuard guard;
+  EXPECT_TRUE(EpochGuard::HeldByThisThread());
+  std::thread([] { EXPECT_FALSE(EpochGuard::HeldByThisThread()); }).join();
+}
+
+TEST(EpochGuardTest, NeitherAllocatesNorLocksOnceTheThreadIsKnown) {
+  { const EpochGuard first; }
+  const test::AllocationGuard allocations;
+  const test::LockProbe locks;
+  { const EpochGuard guard; }
+  EXPECT_EQ(allocations.allocations(), 0u);
+  EXPECT_EQ(locks.locks(), 0u);
+}
+
+TEST(EpochGuardTest, PlaceOfAThreadThatEndedIsUsedAgain) {
+  std::thread([] { const EpochGuard guard; }).join();
+  const auto count = [] {
+    int participants = 0;
+    for (auto* each = ProcessEpochs().first(); each != nullptr; each = each->next) ++participants;
+    return participants;
+  };
+  const int before = count();
+  for (int i = 0; i < 10; ++i) std::thread([] { const EpochGuard guard; }).join();
+  EXPECT_EQ(count(), before);
+}
+
+TEST(RetireTest, DestroysAtOnceWhenNobodyReads) {
+  bool destroyed = false;
+  Retire([&] { destroyed = true; });
+  EXPECT_TRUE(destroyed);
+  EXPECT_EQ(CollectRetired(), 0u);
+}
+
+TEST(RetireTest, WaitsForThoseWhoReadMeanwhile) {
+  bool destroyed = false;
+  {
+    const EpochGuard guard;
+    Retire([&] { destroyed = true; });
+    EXPECT_FALSE(destroyed);
+    EXPECT_EQ(CollectRetired(), 1u);
+    EXPECT_FALSE(destroyed);
+  }
+  EXPECT_EQ(CollectRetired(), 0u);
+  EXPECT_TRUE(destroyed);
+}
+
+TEST(RetireTest, DestructorsMayRetireFurtherParts) {
+  bool destroyed = false;
+  Retire([&] { Retire([&] { destroyed = true; }); });
+  CollectRetired();
+  EXPECT_TRUE(destroyed);
+}
+
+TEST(WaitForReadersTest, FromWithinAGuardIsAProgrammingError) {
+  const EpochGuard guard;
+  EXPECT_THROW(WaitForReaders(), ProgrammingError);
+}
+
+TEST(WaitForReadersTest, ReturnsWhenTheGuardsOfBeforeAreGoneAndDestroysWhatIsDue) {
+  std::atomic<bool> entered{false}, retired{false}, leaving{false}, destroyed{false};
+  std::thread reader([&] {
+    const EpochGuard guard;
+    entered = true;
+    while (!retired) std::this_thread::yield();
+    EXPECT_FALSE(destroyed);
+    leaving = true;
+  });
+  while (!entered) std::this_thread::yield();
+  Retire([&] { destroyed = true; });
+  EXPECT_FALSE(destroyed);
+  retired = true;
+  WaitForReaders();
+  EXPECT_TRUE(leaving);
+  EXPECT_TRUE(destroyed);
+  reader.join();
+}
+
+// Readers look at what a pointer points to while a writer exchanges and retires it.
+TEST(RetireStressTest, PartIsNeverDestroyedUnderAReader) {
+  struct Part {
+    ~Part() { alive = false; }
+    std::atomic<bool> alive{true};
+  };
+  std::atomic<Part*> current{new Part};
+  std::atomic<int> dead{0}, writing{1};
+  test::RunTogether(3, [&](unsigned index) {
+    if (index == 0) {
+      for (int i = 0; i < 3000; ++i) {
+        Part* const old = current.exchange(new Part, std::memory_order_seq_cst);
+        Retire([old] { delete old; });
+      }
+      writing = 0;
+      return;
+    }
+    while (writing > 0) {
+      const EpochGuard guard;
+      const Part* const part = current.load(std::memory_order_seq_cst);
+      if (!part->alive) ++dead;
+      test::MaybeYield();
+      if (!part->alive) ++dead;
+    }
+  });
+  EXPECT_EQ(dead, 0);
+  Part* const last = current.load();
+  Retire([last] { delete last; });
+  EXPECT_EQ(CollectRetired(), 0u);
+}
+
+TEST(EpochDomainStressTest, PartIsNeverReusedUnderAReaderAtAnyInterleaving) {
+  using Domain = EpochDomain<test::YieldingAtomic>;
+  Domain domain;
+  Domain::Participant participants[2];
+  for (auto& each : participants) domain.Add(each);
+  std::atomic<bool> alive[2] = {true, true};
+  test::YieldingAtomic<int> current{0};
+  std::atomic<int> dead{0}, writing{1};
+  test::RunTogether(3, [&](unsigned index) {
+    if (index == 2) {
+      for (int i = 0; i < 1000; ++i) {
+        const int old = i % 2;
+        alive[1 - old] = true;
+        current.exchange(1 - old, std::memory_order_seq_cst);
+        const std::uint64_t epoch = domain.Advance();
+        while (!domain.HasPassed(epoch)) std::this_thread::yield();
+        alive[old] = false;
+      }
+      writing = 0;
+      return;
+    }
+    while (writing > 0) {
+      domain.Enter(participants[index]);
+      const int part = current.load(std::memory_order_seq_cst);
+      if (!alive[part]) ++dead;
+      domain.Leave(participants[index]);
+    }
+  });
+  EXPECT_EQ(dead, 0);
+}
+
+}  // namespace
+}  // namespace runnel

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+
+namespace runnel::test {
+
+/// Counts the locks that the calling thread takes, or tries to take, while the probe lives: mutexes
+/// and reader-writer locks.
+///
+/// The program that links this library has these pthread functions replaced, for all libraries in
+/// it. Locks inside of the C library itself are not seen.
+///
+/// Threads:  one probe belongs to one thread and sees only that thread.
+/// Under a sanitizer nothing is counted, and works() is false.
+class LockProbe {
+ public:
+  LockProbe() noexcept;
+
+  [[nodiscard]] static bool works() noexcept;
+  [[nodiscard]] std::size_t locks() const noexcept;
+
+ private:
+  std::size_t locks_before_;
+};
+
+}  // namespace runnel::test
