@@ -121,7 +121,9 @@ class Session {
   ExitCode Conclude(Duration so_far, std::chrono::steady_clock::duration real, bool was_asked) {
     const bool was_stopped = scheduler_.stop_requested() && !was_asked;
     const std::string verdicts = report_.Verdicts();
-    std::cout << verdicts << report_.Finish();
+    Diagnostics failures;
+    std::cout << verdicts << report_.Finish(failures);
+    std::cerr << failures.ToString();
     if (was_stopped) {
       std::cerr << "the run was stopped because of a fault\n";
     } else if (was_asked) {
@@ -131,7 +133,8 @@ class Session {
     }
     if (!arguments_.quiet) PrintTimes(so_far, real, scheduler_.options().clock);
     if (arguments_.statistics) std::cout << StatisticsTable(root_);
-    return was_stopped || !report_.IsGood() ? ExitCode::kRunFailed : ExitCode::kDone;
+    return was_stopped || !report_.IsGood() || !failures.ok() ? ExitCode::kRunFailed
+                                                              : ExitCode::kDone;
   }
 
   const RunArguments& arguments_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/base/diagnostics.h"
 #include "core/types/duration_text.h"
 #include "plugins/runtime_construction/source_place.h"
 
@@ -45,11 +44,15 @@ bool RunReport::IsGood() const {
   });
 }
 
-std::string RunReport::Finish() {
+std::string RunReport::Finish(Diagnostics& diagnostics) {
   std::string text;
   for (RunMonitor* monitor : monitors_) {
-    const std::string said = monitor->Finish();
-    if (!said.empty()) text += said + (said.back() == '\n' ? "" : "\n");
+    const auto said = monitor->Finish();
+    if (!said) {
+      diagnostics.Add(said.error());
+    } else if (!said->empty()) {
+      text += *said + (said->back() == '\n' ? "" : "\n");
+    }
   }
   return text;
 }

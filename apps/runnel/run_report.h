@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/diagnostics.h"
 #include "core/element/framework_element.h"
 #include "core/module/run_monitor.h"
 #include "plugins/scheduling/fault.h"
@@ -23,8 +24,9 @@ class RunReport {
   [[nodiscard]] std::string Verdicts() const;
   /// No verdict is a bad one.
   [[nodiscard]] bool IsGood() const;
-  /// After the last cycle: what the monitors have written, one line each. Call once.
-  [[nodiscard]] std::string Finish();
+  /// After the last cycle: what the monitors have written, one line each. What could not be written
+  /// goes to `diagnostics`. Call once.
+  [[nodiscard]] std::string Finish(Diagnostics& diagnostics);
 
  private:
   std::vector<RunMonitor*> monitors_;

@@ -19,6 +19,7 @@ Surroundings InfraredAdaptor::Update(const InfraredRanges& ranges, const Pose2& 
   };
   const std::array cones = {cone(0.0, ranges.front), cone(kPi / 2, ranges.left),
                             cone(-kPi / 2, ranges.right)};
+  surroundings.is_vague = true;
   map_.SetCentre(Position(pose));
   for (const Cone& each : cones) Carve(each, pose);
   for (const Cone& each : cones) {

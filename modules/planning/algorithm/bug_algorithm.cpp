@@ -10,6 +10,8 @@ namespace {
 constexpr double kFaced = DegreesToRadians(8.0);  // rad of bearing at which the robot faces a point
 constexpr double kProgress = 0.10;                // m that count as having got on
 constexpr double kClearanceNoise = 0.02;          // m, of the distance to a boundary followed
+constexpr int kSecondLooks = 3;       // in a task, so that it ends whatever the sensors say
+constexpr double kLookingTime = 4.0;  // s, of standing and looking before a vague obstacle
 constexpr double kFalseLeave = 0.05;  // m nearer to the goal, at which a hit is a new one
 
 double BearingTo(const BugInput& input, Point2 point) {
@@ -70,6 +72,11 @@ void BugAlgorithm::Record(BugState& state, const BugInput& input) const {
   const Point2 position = Position(input.pose);
   state.status.path_length += Distance(Position(state.last_pose), position);
   state.status.distance_to_goal = Distance(position, input.goal);
+  state.idle_time += input.time_step;
+  if (Distance(state.progress_point, position) > kProgress) {
+    state.progress_point = position;
+    state.idle_time = 0.0;
+  }
   if (state.status.hits == 0) return;
   state.lap.Update(input.pose);
   if (state.status.distance_to_goal < state.closest_distance) {
@@ -84,6 +91,11 @@ Twist2 BugAlgorithm::MotionToGoal(BugState& state, const BugInput& input) const 
   const WayAhead way = LookAlong(input.surroundings, bearing,
                                  TravelRadius(configuration_.driving, input.surroundings));
   if (way.free_range < std::min(configuration_.hit_range, state.status.distance_to_goal)) {
+    // Face what may not be there: looked at, it proves to be there or is gone.
+    if (input.surroundings.is_vague && std::abs(way.obstacle_bearing) > kFaced &&
+        state.idle_time < kLookingTime) {
+      return TurnTowards(configuration_.driving, way.obstacle_bearing);
+    }
     Hit(state, input, way.obstacle_bearing);
     return {};
   }
@@ -98,7 +110,7 @@ Twist2 BugAlgorithm::GoAhead(const BugState& state, const BugInput& input, doubl
 }
 
 Twist2 BugAlgorithm::IdentifyLeavePoint(BugState& state, const BugInput& input) const {
-  if (IsOutOfRoom(state, input)) {
+  if (state.idle_time > configuration_.idle_limit) {
     GiveUp(state, Unreachability::kNoRoom);
     return {};
   }
@@ -110,10 +122,20 @@ Twist2 BugAlgorithm::IdentifyLeavePoint(BugState& state, const BugInput& input) 
     return MoveToLeavePoint(state, input);
   }
   if (CompleteCycleAroundObstacle(state) && !LeavePointFound(state)) {
+    return FinishFruitlessLap(state, input);
+  }
+  return WallFollowing(state, input);
+}
+
+Twist2 BugAlgorithm::FinishFruitlessLap(BugState& state, const BugInput& input) const {
+  // What was hit may have been none, a vague echo say: then the way is free where it was not.
+  if (state.second_looks == kSecondLooks || !FreeTowardsGoal(input)) {
     GiveUp(state, Unreachability::kEnclosed);
     return {};
   }
-  return WallFollowing(state, input);
+  ++state.second_looks;
+  state.status.mode = PlannerMode::kFacingGoal;
+  return FaceGoal(state, input);
 }
 
 Twist2 BugAlgorithm::MoveToLeavePoint(BugState& state, const BugInput& input) const {
@@ -214,15 +236,6 @@ std::optional<Twist2> BugAlgorithm::DriveToPoint(const BugInput& input, Point2 p
   const double speed = SpeedToStopWithin(configuration_.driving, distance);
   return DriveTowards(configuration_.driving, input.surroundings, BearingTo(input, point),
                       std::min(speed, configuration_.driving.following_speed));
-}
-
-bool BugAlgorithm::IsOutOfRoom(BugState& state, const BugInput& input) const {
-  if (Distance(state.progress_point, Position(input.pose)) > kProgress) {
-    state.progress_point = Position(input.pose);
-    state.idle_time = 0.0;
-  }
-  state.idle_time += input.time_step;
-  return state.idle_time > configuration_.idle_limit;
 }
 
 }  // namespace runnel

@@ -80,12 +80,12 @@ class BugAlgorithm {
   Twist2 Step(BugState& state, const BugInput& input) const;
   Twist2 MotionToGoal(BugState& state, const BugInput& input) const;
   Twist2 IdentifyLeavePoint(BugState& state, const BugInput& input) const;
+  Twist2 FinishFruitlessLap(BugState& state, const BugInput& input) const;
   Twist2 MoveToLeavePoint(BugState& state, const BugInput& input) const;
   Twist2 FaceGoal(BugState& state, const BugInput& input) const;
   Twist2 GoAhead(const BugState& state, const BugInput& input, double bearing) const;
   void Hit(BugState& state, const BugInput& input, double contact_bearing) const;
   void Leave(BugState& state, const BugInput& input) const;
-  bool IsOutOfRoom(BugState& state, const BugInput& input) const;
 
   BugConfiguration configuration_;
 };

@@ -40,6 +40,7 @@ struct BugState {
   double way_to_leave_point = 0.0;    ///< m along the boundary, when the robot set out
   bool is_on_last_stretch = false;    ///< straight to the leave point, no more along the boundary
   double set_out_length = 0.0;        ///< m, the path's length then
+  int second_looks = 0;               ///< at hit points, after a lap, that found the way free
   Point2 progress_point;              ///< where the robot last got on
   double idle_time = 0.0;             ///< s since then
 };

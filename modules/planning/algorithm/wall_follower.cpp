@@ -17,7 +17,8 @@ constexpr double kLookahead = 0.15;                          // m that the way m
 constexpr double kSweepStep = DegreesToRadians(3.0);
 constexpr double kTurnedEnough = DegreesToRadians(10.0);
 constexpr double kOvershoot = DegreesToRadians(30.0);  // of a turn, before it counts as a whole one
-constexpr double kSearchRadius = 0.5;                  // m, of the circle towards a lost boundary
+constexpr double kLargeTurn = DegreesToRadians(60.0);
+constexpr double kSearchRadius = 0.5;  // m, of the circle towards a lost boundary
 
 // Rad, mirrored so that the boundary is on the right; nothing is free: straight back.
 double BearingToGo(const Surroundings& surroundings, double sign, double radius,
@@ -58,8 +59,14 @@ Twist2 WallFollower::Update(const DrivingConfiguration& configuration, const Pos
   const double speed = configuration.following_speed;
   if (!std::isfinite(contact.distance)) return {speed, -sign * speed / kSearchRadius};
   const double radius = TravelRadius(configuration, surroundings);
-  const double bearing = sign * BearingToGo(surroundings, sign, radius, contact);
-  return DriveTowards(configuration, surroundings, bearing, speed);
+  const double bearing = BearingToGo(surroundings, sign, radius, contact);
+  // A large turn is finished: half way, a gap just too narrow may look just wide enough.
+  if (bearing > kLargeTurn) {
+    is_turning_ = true;
+    turn_sign_ = sign;
+    target_heading_ = pose.heading + sign * bearing;
+  }
+  return DriveTowards(configuration, surroundings, sign * bearing, speed);
 }
 
 }  // namespace runnel

@@ -18,7 +18,7 @@ namespace runnel {
 /// at the same bearing the nearer one always stops it first.
 ///
 /// The sensing abstractions of the generic Bug algorithm (obstacle in front, on the left, on the
-/// right, their distances, the safe distance) are the functions below. 248 bytes, copied freely.
+/// right, their distances, the safe distance) are the functions below. 252 bytes, copied freely.
 struct Surroundings {
   static constexpr int kSectors = 120;
   static constexpr std::uint16_t kNothingKnown = 0xffff;
@@ -28,6 +28,9 @@ struct Surroundings {
   /// m, from the body's centre: how near to a boundary the centre may come, so the body's radius
   /// and the clearance asked for.
   float safe_distance = 0.0F;
+  /// Whether the contour also holds points that are merely possible, of which a closer look may
+  /// show that they are free.
+  bool is_vague = false;
   /// mm, from the body's centre to the nearest boundary point known in sector i, of which the
   /// middle has the bearing SectorBearing(i) in the body's frame; kNothingKnown if there is none.
   std::array<std::uint16_t, kSectors> contour = NothingKnown();

@@ -35,16 +35,24 @@ struct Outcome {
 /// With RUNNEL_TRAJECTORIES=<folder> every run leaves its trajectory there, for a look at it.
 class Trace {
  public:
-  Trace() {
+  explicit Trace(const std::string& run) {
     const char* folder = std::getenv("RUNNEL_TRAJECTORIES");
     if (folder == nullptr) return;
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    std::string name = std::string(test->test_suite_name()) + "." + test->name();
+    std::string name = std::string(test->test_suite_name()) + "." + test->name() + run;
     for (char& c : name) c = c == '/' ? '_' : c;
     file_.open(std::string(folder) + "/" + name + ".txt");
   }
-  void Write(const Pose2& pose, const BugOutput& out) {
+  void Write(const Pose2& pose, const BugOutput& out, const Surroundings& surroundings) {
     if (!file_.is_open()) return;
+    if (out.status.hits != hits_) {
+      hits_ = out.status.hits;
+      for (int sector = 0; sector < Surroundings::kSectors; ++sector) {
+        const double distance = ContourDistance(surroundings, sector);
+        const Point2 point = ToWorld(pose, distance * UnitVector(SectorBearing(sector)));
+        file_ << "# " << hits_ << ' ' << point.x << ' ' << point.y << '\n';
+      }
+    }
     file_ << pose.x << ' ' << pose.y << ' ' << pose.heading << ' ' << out.twist.forward << ' '
           << out.twist.turn << ' ' << static_cast<int>(out.status.mode) << ' ' << out.status.hits
           << ' ' << out.status.leaves << ' ' << out.status.path_length << '\n';
@@ -52,6 +60,7 @@ class Trace {
 
  private:
   std::ofstream file_;
+  std::uint32_t hits_ = 0;
 };
 
 inline std::unique_ptr<BugAlgorithm> Make(Variant variant, BoundaryDirection direction) {
@@ -61,15 +70,15 @@ inline std::unique_ptr<BugAlgorithm> Make(Variant variant, BoundaryDirection dir
   return std::make_unique<Bug2>(configuration);
 }
 
-inline Outcome Drive(Variant variant, BoundaryDirection direction, Sensor sensor,
-                     const Task& task) {
+inline Outcome Drive(Variant variant, BoundaryDirection direction, Sensor sensor, const Task& task,
+                     const std::string& run = "") {
   const auto algorithm = Make(variant, direction);
   Robot robot({task.start.x, task.start.y, task.heading});
   LaserAdaptor laser;
   InfraredAdaptor infrared;
   BugState state;
   Outcome outcome;
-  Trace trace;
+  Trace trace(run);
   for (int step = 0; step < kMostSteps; ++step) {
     const Pose2 pose = robot.pose();
     const Surroundings surroundings = sensor == Sensor::kLaser
@@ -77,7 +86,7 @@ inline Outcome Drive(Variant variant, BoundaryDirection direction, Sensor sensor
                                           : infrared.Update(task.world.Infrared(pose), pose);
     const BugOutput out =
         algorithm->Update(state, {kTimeStep, pose, surroundings, task.start, task.goal});
-    trace.Write(pose, out);
+    trace.Write(pose, out, surroundings);
     outcome.status = out.status;
     outcome.least_clearance =
         std::min(outcome.least_clearance, task.world.Clearance(Position(pose)));
