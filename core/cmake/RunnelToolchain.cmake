@@ -21,7 +21,8 @@ target_compile_options(runnel_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Werror)
 
 if(RUNNEL_SANITIZE)
+  # GCC 12 sees uninitialized values in std::optional where the sanitizers' checks are in between.
   add_compile_options(-fsanitize=${RUNNEL_SANITIZE} -fno-omit-frame-pointer
-    -fno-sanitize-recover=all)
+    -fno-sanitize-recover=all -Wno-maybe-uninitialized)
   add_link_options(-fsanitize=${RUNNEL_SANITIZE})
 endif()
