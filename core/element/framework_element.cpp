@@ -46,6 +46,11 @@ FrameworkElement::~FrameworkElement() {
   if (!is_listed_) return;
   const std::lock_guard lock(runtime_->structure_mutex());
   DestroyOwned();
+  // Members of an object above, which outlive this group: a module's parameters.
+  for (FrameworkElement* child : children_) {
+    child->parent_ = nullptr;
+    child->is_listed_ = false;
+  }
   LeaveParent();
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "core/base/result.h"
 #include "core/element/annotation.h"
 
 namespace runnel {
@@ -26,8 +27,9 @@ class RunMonitor : public Annotation {
   /// Empty while the run goes on.
   [[nodiscard]] virtual std::optional<RunOutcome> Outcome() const = 0;
   /// The run is over, by Outcome() or because the program was asked to stop: write files, if any,
-  /// and say in one line each what was written. Called once, after the last cycle.
-  virtual std::string Finish() { return {}; }
+  /// and say in one line each what was written ("" if nothing). Called once, after the last cycle.
+  /// Errors: something could not be written; the run then counts as failed.
+  virtual Result<std::string> Finish() { return std::string(); }
 };
 
 }  // namespace runnel

@@ -31,7 +31,8 @@ class Configuration {
     bool used = false;
   };
 
-  /// Adds what the file says. Errors go to `diagnostics`, all of them; then nothing has been added.
+  /// Adds what the file says; of two files that name a value, the later wins. Errors go to
+  /// `diagnostics`, all of them; then nothing has been added.
   void Load(const std::string& file, Diagnostics& diagnostics);
   /// Adds "name=value". Errors: no '=', no name, given twice.
   Result<void> AddArgument(std::string_view argument);

@@ -35,7 +35,7 @@ class Parameter final : public ParameterBase {
   }
 
   [[nodiscard]] T Get() const noexcept {
-    T value;
+    T value{};
     Publication publication;
     value_.Read(value, publication);
     return value;

@@ -48,8 +48,8 @@ std::string BoundsText(const ParameterOptions<T>& options) {
   if constexpr (Bounded<T>) {
     const Bounds<T>& bounds = options.bounds;
     if (bounds.empty()) return "";
-    return (bounds.lowest ? TextOf(*bounds.lowest) : "") + " .. " +
-           (bounds.highest ? TextOf(*bounds.highest) : "");
+    return (bounds.lowest ? TextOf(*bounds.lowest) + " " : "") + ".." +
+           (bounds.highest ? " " + TextOf(*bounds.highest) : "");
   } else {
     return "";
   }

@@ -1,0 +1,108 @@
+#include "apps/runnel/command_line.h"
+
+#include <algorithm>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "core/base/nearest_name.h"
+#include "core/xml/xml_reading.h"
+
+namespace runnel::program {
+
+namespace {
+
+const std::vector<std::string> kCommands{"run", "check", "modules", "version"};
+
+ExitCode Refuse(const std::string& message, const std::string& hint) {
+  std::cerr << "error: " << message << "; " << hint << '\n';
+  return ExitCode::kBadInput;
+}
+
+bool IsUnknownCommand(const std::string& word) {
+  return !word.starts_with('-') && std::ranges::find(kCommands, word) == kCommands.end();
+}
+
+// CLI11's own checks name bounds with three hundred digits.
+std::string CheckNotNegative(const std::string& text) {
+  const auto number = ParseNumber(text);
+  return number && *number >= 0 ? "" : "'" + text + "' is not a number from 0 up";
+}
+std::string CheckPositive(const std::string& text) {
+  const auto number = ParseNumber(text);
+  return number && *number > 0 ? "" : "'" + text + "' is not a number above 0";
+}
+
+void AddApplicationArguments(CLI::App& command, ApplicationArguments& arguments) {
+  command.add_option("application", arguments.file, "application file (XML)")
+      ->required()
+      ->type_name("FILE");
+  command
+      .add_option("settings", arguments.settings,
+                  "values for parameters, by the names that the application gives them in "
+                  "command_line=\"…\"")
+      ->type_name("NAME=VALUE");
+  // One file each time, since the settings come after it.
+  command
+      .add_option("--config", arguments.configurations,
+                  "configuration file (XML), may be given several times")
+      ->type_name("FILE")
+      ->expected(1)
+      ->take_all();
+}
+
+CLI::App& AddRun(CLI::App& program, RunArguments& arguments) {
+  CLI::App& run = *program.add_subcommand("run", "runs an application until it ends, or Ctrl-C");
+  AddApplicationArguments(run, arguments.application);
+  const auto fast = run.add_flag_callback(
+      "--fast", [&arguments] { arguments.speed = 0; }, "simulated time passes as fast as it can");
+  run.add_option("--speed", arguments.speed, "of simulated time; 1 is real time")
+      ->type_name("FACTOR")
+      ->check(CheckNotNegative)
+      ->excludes(fast);
+  run.add_option("--duration", arguments.duration, "ends the run after so long, simulated or real")
+      ->type_name("SECONDS")
+      ->check(CheckPositive);
+  run.add_flag("--quiet", arguments.quiet, "no progress, only how the run ended");
+  run.add_flag("--statistics", arguments.statistics,
+               "at the end, how punctual the threads were and how long their cycles took");
+  return run;
+}
+
+}  // namespace
+
+CommandLine ParseCommandLine(int count, const char* const* words) {
+  CLI::App program("Runs robot applications that are described in XML files.", "runnel");
+  program.require_subcommand(1);
+  program.footer("Exit codes: 0 done, 1 the run failed, 2 bad input.");
+  RunArguments run_arguments;
+  CheckArguments check_arguments;
+  ModulesArguments modules_arguments;
+
+  const CLI::App& run = AddRun(program, run_arguments);
+  CLI::App& check = *program.add_subcommand("check", "looks for mistakes, without running");
+  AddApplicationArguments(check, check_arguments.application);
+  CLI::App& modules = *program.add_subcommand("modules", "lists module types, ports, parameters");
+  modules.add_option("plugins", modules_arguments.plugins, "only of these; without, of all")
+      ->type_name("PLUGIN");
+  program.add_subcommand("version", "says which version this is");
+
+  if (count > 1 && IsUnknownCommand(words[1])) {
+    return Refuse("there is no command '" + std::string(words[1]) + "'",
+                  NearestNameHint(words[1], kCommands));
+  }
+  try {
+    program.parse(count, words);
+  } catch (const CLI::Success& help) {
+    program.exit(help);
+    return ExitCode::kDone;
+  } catch (const CLI::ParseError& error) {
+    return Refuse(error.what(), "see 'runnel --help' or 'runnel run --help'");
+  }
+  if (run.parsed()) return run_arguments;
+  if (check.parsed()) return check_arguments;
+  if (modules.parsed()) return modules_arguments;
+  return VersionArguments{};
+}
+
+}  // namespace runnel::program

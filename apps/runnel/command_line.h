@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "apps/runnel/exit_code.h"
+
+namespace runnel::program {
+
+/// Which application, and what is said of it from outside.
+struct ApplicationArguments {
+  std::string file;
+  std::vector<std::string> configurations =
+      {};                                  ///< files; of two that name a value, the later wins
+  std::vector<std::string> settings = {};  ///< name=value
+};
+
+struct RunArguments {
+  ApplicationArguments application;
+  std::optional<double> speed = {};     ///< instead of the file's; 0: as fast as it can
+  std::optional<double> duration = {};  ///< s, of the application's clock
+  bool quiet = false;
+  bool statistics = false;
+};
+
+struct CheckArguments {
+  ApplicationArguments application;
+};
+
+struct ModulesArguments {
+  std::vector<std::string> plugins = {};  ///< none: all that can be found
+};
+
+struct VersionArguments {};
+
+/// What to do; or, if there is nothing (left) to do, the exit code: help has been printed, or what
+/// is wrong with the arguments.
+using CommandLine =
+    std::variant<RunArguments, CheckArguments, ModulesArguments, VersionArguments, ExitCode>;
+
+[[nodiscard]] CommandLine ParseCommandLine(int count, const char* const* words);
+
+}  // namespace runnel::program

@@ -1,0 +1,35 @@
+#include <iostream>
+#include <type_traits>
+
+#include "apps/runnel/check_command.h"
+#include "apps/runnel/command_line.h"
+#include "apps/runnel/modules_command.h"
+#include "apps/runnel/run_command.h"
+
+namespace runnel::program {
+
+namespace {
+
+ExitCode Do(const RunArguments& arguments) { return Run(arguments); }
+ExitCode Do(const CheckArguments& arguments) { return Check(arguments); }
+ExitCode Do(const ModulesArguments& arguments) { return ListModules(arguments); }
+ExitCode Do(const VersionArguments&) {
+  std::cout << "runnel " RUNNEL_VERSION "\n";
+  return ExitCode::kDone;
+}
+ExitCode Do(ExitCode code) { return code; }
+
+}  // namespace
+
+}  // namespace runnel::program
+
+int main(int count, char** words) {
+  using namespace runnel::program;
+  try {
+    const CommandLine command = ParseCommandLine(count, words);
+    return static_cast<int>(std::visit([](const auto& what) { return Do(what); }, command));
+  } catch (const std::exception& exception) {
+    std::cerr << "error: " << exception.what() << '\n';
+    return static_cast<int>(ExitCode::kRunFailed);
+  }
+}

@@ -1,0 +1,50 @@
+#include "apps/runnel/progress_display.h"
+
+#include <cstdio>
+#include <iostream>
+
+#include <unistd.h>
+
+namespace runnel::program {
+
+namespace {
+
+constexpr auto kOnTerminal = std::chrono::milliseconds(200);
+constexpr auto kElsewhere = std::chrono::seconds(1);
+
+std::string Formatted(const char* format, double number) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, number);
+  return text;
+}
+
+}  // namespace
+
+ProgressDisplay::ProgressDisplay(bool is_on)
+    : is_on_(is_on),
+      is_terminal_(isatty(STDOUT_FILENO) != 0),
+      shown_at_(std::chrono::steady_clock::now()) {}
+
+bool ProgressDisplay::IsDue() const {
+  const auto since = std::chrono::steady_clock::now() - shown_at_;
+  return is_on_ && since >= (is_terminal_ ? Duration(kOnTerminal) : Duration(kElsewhere));
+}
+
+void ProgressDisplay::Show(Duration time, const std::string& text) {
+  const auto now = std::chrono::steady_clock::now();
+  const double factor = ToSeconds(time - shown_time_) / ToSeconds(Duration(now - shown_at_));
+  shown_at_ = now;
+  shown_time_ = time;
+  if (is_terminal_) std::cout << "\r\x1b[K";
+  std::cout << Formatted("%8.2f s", ToSeconds(time)) << Formatted("  x%-6.3g", factor) << text;
+  if (!is_terminal_) std::cout << '\n';
+  std::cout << std::flush;
+  has_line_ = is_terminal_;
+}
+
+void ProgressDisplay::Clear() {
+  if (has_line_) std::cout << "\r\x1b[K" << std::flush;
+  has_line_ = false;
+}
+
+}  // namespace runnel::program

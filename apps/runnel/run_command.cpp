@@ -1,0 +1,165 @@
+#include "apps/runnel/run_command.h"
+
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <optional>
+
+#include "apps/runnel/progress_display.h"
+#include "apps/runnel/run_report.h"
+#include "apps/runnel/running.h"
+#include "apps/runnel/statistics_table.h"
+#include "apps/runnel/stop_signal.h"
+#include "apps/runnel/workplace.h"
+#include "plugins/runtime_construction/source_place.h"
+#include "plugins/scheduling/xml_scheduling_tags.h"
+
+namespace runnel::program {
+
+namespace {
+
+using ClockKind = SchedulerOptions::ClockKind;
+
+Result<SchedulerOptions> ChooseOptions(const RunArguments& arguments,
+                                       const FrameworkElement& application) {
+  SchedulerOptions options = SchedulerOptionsOf(application);
+  if (!arguments.speed) return options;
+  if (options.clock == ClockKind::kReal) {
+    return Error{.message = "the speed of real time cannot be chosen",
+                 .position = {.file = arguments.application.file},
+                 .hint =
+                     "leave out --fast and --speed, or add <clock type=\"simulated\"/> to the "
+                     "application"};
+  }
+  options.speed = *arguments.speed;
+  return options;
+}
+
+Result<void> AddFaultRules(const FrameworkElement& application, Scheduler& scheduler) {
+  for (const auto& [rule, position] : FaultRulesOf(application)) {
+    if (auto added = scheduler.AddFaultRule(rule); !added) {
+      Error error = added.error();
+      error.position = position;
+      return error;
+    }
+  }
+  return {};
+}
+
+void PrintError(const Error& error) {
+  Diagnostics diagnostics;
+  diagnostics.Add(error);
+  std::cerr << diagnostics.ToString();
+}
+
+void PrintWarnings(std::vector<Error> warnings, const FrameworkElement& root) {
+  Diagnostics diagnostics;
+  for (Error& warning : warnings) {
+    const auto element = root.Find(warning.path);
+    if (element && warning.position.file.empty()) warning.position = FindSourcePlace(**element);
+    diagnostics.AddWarning(std::move(warning));
+  }
+  std::cerr << diagnostics.ToString();
+}
+
+void PrintTimes(Duration so_far, std::chrono::steady_clock::duration real, ClockKind clock) {
+  char line[128];
+  const double seconds = ToSeconds(so_far);
+  const double real_seconds = ToSeconds(Duration(real));
+  if (clock == ClockKind::kReal) {
+    std::snprintf(line, sizeof line, "ran for %.2f s\n", seconds);
+  } else {
+    std::snprintf(line, sizeof line, "simulated %.2f s in %.2f s: %.3g times real time\n", seconds,
+                  real_seconds, seconds / real_seconds);
+  }
+  std::cout << line;
+}
+
+// One run of an application that has been built.
+class Session {
+ public:
+  Session(const RunArguments& arguments, FrameworkElement& application, Scheduler& scheduler)
+      : arguments_(arguments),
+        scheduler_(scheduler),
+        root_(application.runtime().root()),
+        start_(application.runtime().clock().Now()),
+        report_(application),
+        display_(!arguments.quiet) {}
+
+  ExitCode Run(Runtime& runtime) {
+    PrintWarnings(scheduler_.Warnings(), root_);
+    const StopSignal stop_signal(scheduler_);
+    std::optional<Duration> limit;
+    if (arguments_.duration) limit = FromSeconds(*arguments_.duration);
+    const auto real_start = std::chrono::steady_clock::now();
+    const auto ran = program::Run(
+        {scheduler_, runtime, limit, [this](Duration so_far) { return LookAround(so_far); }});
+    const auto real = std::chrono::steady_clock::now() - real_start;
+    PrintFaults();
+    display_.Clear();
+    if (!ran) {
+      PrintError(ran.error());
+      return ExitCode::kBadInput;
+    }
+    return Conclude(*ran, real, stop_signal.has_come());
+  }
+
+ private:
+  bool LookAround(Duration so_far) {
+    PrintFaults();
+    if (display_.IsDue()) display_.Show(so_far, report_.Progress());
+    return report_.IsOver();
+  }
+
+  void PrintFaults() {
+    for (const Fault& fault : scheduler_.TakeFaults()) {
+      display_.Clear();
+      std::cerr << FaultText(fault, start_, root_) << std::flush;
+    }
+  }
+
+  ExitCode Conclude(Duration so_far, std::chrono::steady_clock::duration real, bool was_asked) {
+    const bool was_stopped = scheduler_.stop_requested() && !was_asked;
+    const std::string verdicts = report_.Verdicts();
+    Diagnostics failures;
+    std::cout << verdicts << report_.Finish(failures);
+    std::cerr << failures.ToString();
+    if (was_stopped) {
+      std::cerr << "the run was stopped because of a fault\n";
+    } else if (was_asked) {
+      std::cout << "stopped by the user\n";
+    } else if (verdicts.empty() && !arguments_.quiet) {
+      std::cout << "the time is up\n";
+    }
+    if (!arguments_.quiet) PrintTimes(so_far, real, scheduler_.options().clock);
+    if (arguments_.statistics) std::cout << StatisticsTable(root_);
+    return was_stopped || !report_.IsGood() || !failures.ok() ? ExitCode::kRunFailed
+                                                              : ExitCode::kDone;
+  }
+
+  const RunArguments& arguments_;
+  Scheduler& scheduler_;
+  FrameworkElement& root_;
+  const Time start_;
+  RunReport report_;
+  ProgressDisplay display_;
+};
+
+}  // namespace
+
+ExitCode Run(const RunArguments& arguments) {
+  Workplace workplace;
+  std::optional<Scheduler> scheduler;
+  // Before modules become ready, so that they see the right clock from the start.
+  const auto schedule = [&](FrameworkElement& application) -> Result<void> {
+    const auto options = ChooseOptions(arguments, application);
+    if (!options) return options.error();
+    scheduler.emplace(workplace.runtime(), *options);
+    return AddFaultRules(application, *scheduler);
+  };
+  const BuildOutcome outcome = workplace.Build(arguments.application, BuildMode::kRun, schedule);
+  if (outcome.application == nullptr) return ExitCode::kBadInput;
+  return Session(arguments, *outcome.application, *scheduler).Run(workplace.runtime());
+}
+
+}  // namespace runnel::program

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "core/base/clock.h"
+#include "core/base/result.h"
+#include "plugins/scheduling/scheduler.h"
+
+namespace runnel::program {
+
+/// Lets a scheduler run until something ends it.
+struct Running {
+  Scheduler& scheduler;
+  Runtime& runtime;
+  std::optional<Duration> limit;  ///< on the application's clock
+  /// Asked after each simulated cycle, or some fifty times a real second.
+  std::function<bool(Duration so_far)> is_over;
+};
+
+/// How long it has run on the application's clock. Afterwards no cycle runs any more.
+/// Errors: there is nothing to run.
+[[nodiscard]] Result<Duration> Run(const Running& running);
+
+}  // namespace runnel::program

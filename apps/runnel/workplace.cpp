@@ -1,0 +1,34 @@
+#include "apps/runnel/workplace.h"
+
+#include <iostream>
+
+#include "plugins/scheduling/xml_scheduling_tags.h"
+
+namespace runnel::program {
+
+Workplace::Workplace() {
+  AddSchedulingTags(tags_);
+  plugins_.registry().Offer(tags_);
+}
+
+void Workplace::ReadConfiguration(const ApplicationArguments& arguments, Diagnostics& diagnostics) {
+  for (const std::string& file : arguments.configurations) configuration_.Load(file, diagnostics);
+  for (const std::string& setting : arguments.settings) {
+    if (auto added = configuration_.AddArgument(setting); !added) diagnostics.Add(added.error());
+  }
+}
+
+BuildOutcome Workplace::Build(const ApplicationArguments& arguments, BuildMode mode,
+                              BeforeReady before_ready) {
+  Diagnostics before;
+  ReadConfiguration(arguments, before);
+  // A mistake there does not keep those in the application file from being told, but from running.
+  if (!before.ok()) mode = BuildMode::kCheck;
+  BuildOutcome outcome = BuildApplication(
+      arguments.file, {runtime_, plugins_, tags_, configuration_, std::move(before_ready)}, mode);
+  for (const Error& error : before.errors()) outcome.diagnostics.Add(error);
+  std::cerr << outcome.diagnostics.ToString();
+  return outcome;
+}
+
+}  // namespace runnel::program

@@ -1,0 +1,92 @@
+#include "modules/adaptors/algorithm/infrared_adaptor.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace runnel {
+
+Surroundings InfraredAdaptor::Update(const InfraredRanges& ranges, const Pose2& pose) {
+  Surroundings surroundings;
+  if (!(ranges.range_maximum > 0.0)) return surroundings;
+  surroundings.sensor_range = static_cast<float>(ranges.range_maximum);
+  surroundings.safe_distance = static_cast<float>(configuration_.safe_distance);
+
+  const auto cone = [&](double bearing, double range) {
+    const bool has_echo = range <= ranges.range_maximum;
+    return Cone{bearing, ranges.field_of_view / 2, has_echo ? range : ranges.range_maximum,
+                has_echo};
+  };
+  const std::array cones = {cone(0.0, ranges.front), cone(kPi / 2, ranges.left),
+                            cone(-kPi / 2, ranges.right)};
+  surroundings.is_vague = true;
+  map_.SetCentre(Position(pose));
+  for (const Cone& each : cones) Carve(each, pose);
+  for (const Cone& each : cones) {
+    if (each.has_echo) MarkArc(each, pose);
+  }
+  map_.ForEachBoundary([&](Point2 point) {
+    const Point2 local = ToBody(pose, point);
+    AddBoundaryPoint(surroundings, {Norm(local), Direction(local)});
+  });
+  return surroundings;
+}
+
+void InfraredAdaptor::Carve(const Cone& cone, const Pose2& pose) {
+  const double free = cone.echo - configuration_.refutation_margin;
+  const auto is_inside = [&](Point2 point) {
+    const Point2 local = ToBody(pose, point);
+    return Norm(local) < free &&
+           std::abs(WrapAngle(Direction(local) - cone.bearing)) < cone.half_width;
+  };
+  map_.ForgetBoundaries(is_inside);
+
+  // The cells below the cone, found by walking over the square round it.
+  const double heading = pose.heading + cone.bearing;
+  const Point2 middle = Position(pose) + (free / 2) * UnitVector(heading);
+  const int steps = static_cast<int>(std::ceil(free / 2 / LocalMap::kCellSize)) + 1;
+  const auto snapped = [](double coordinate) {
+    return (std::floor(coordinate / LocalMap::kCellSize) + 0.5) * LocalMap::kCellSize;
+  };
+  for (int row = -steps; row <= steps; ++row) {
+    for (int column = -steps; column <= steps; ++column) {
+      const Point2 cell = {snapped(middle.x + column * LocalMap::kCellSize),
+                           snapped(middle.y + row * LocalMap::kCellSize)};
+      if (is_inside(cell) && !map_.IsBoundary(cell)) map_.MarkFree(cell);
+    }
+  }
+}
+
+void InfraredAdaptor::MarkArc(const Cone& cone, const Pose2& pose) {
+  const double length = 2 * cone.half_width * cone.echo;
+  if (length > configuration_.certain_arc && IsExplained(cone, pose)) return;
+  // All of the arc known to be free contradicts the echo: the newer reading is right.
+  if (!MarkArcPoints(cone, pose, false)) MarkArcPoints(cone, pose, true);
+}
+
+bool InfraredAdaptor::IsExplained(const Cone& cone, const Pose2& pose) const {
+  bool is_explained = false;
+  map_.ForEachBoundary([&](Point2 point) {
+    const Point2 local = ToBody(pose, point);
+    is_explained |= std::abs(Norm(local) - cone.echo) < configuration_.refutation_margin &&
+                    std::abs(WrapAngle(Direction(local) - cone.bearing)) < cone.half_width;
+  });
+  return is_explained;
+}
+
+bool InfraredAdaptor::MarkArcPoints(const Cone& cone, const Pose2& pose, bool even_where_free) {
+  const double width = 2 * cone.half_width;
+  const int steps =
+      std::max(1, static_cast<int>(std::ceil(width * cone.echo / configuration_.arc_step)));
+  bool has_marked = false;
+  for (int step = 0; step <= steps; ++step) {
+    const double bearing = cone.bearing - cone.half_width + width * step / steps;
+    const Point2 point = ToWorld(pose, cone.echo * UnitVector(bearing));
+    if (!even_where_free && map_.IsFree(point)) continue;
+    map_.MarkBoundary(point);
+    has_marked = true;
+  }
+  return has_marked;
+}
+
+}  // namespace runnel

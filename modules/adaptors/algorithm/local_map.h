@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "modules/types/algorithm/point.h"
+
+namespace runnel {
+
+/// What is remembered of the world near the robot: a square window of cells in the world's frame
+/// that follows the robot. A cell is unknown, known to be free, or holds one boundary point at its
+/// exact place. The window wraps round: a cell entered anew overwrites the one that left on the
+/// other side, so memory is bounded and nothing is ever moved. Allocates in the constructor only.
+class LocalMap {
+ public:
+  /// The window is `kCellsAcross` cells wide, 6.4 m in all.
+  static constexpr int kCellsAcross = 128;
+  static constexpr double kCellSize = 0.05;  ///< m
+  /// m; up to here from its centre to each side the window is surely valid.
+  static constexpr double kReach = (kCellsAcross / 2 - 1) * kCellSize;
+
+  LocalMap() : cells_(static_cast<std::size_t>(kCellsAcross) * kCellsAcross) {}
+
+  void Clear() { cells_.assign(cells_.size(), Cell{}); }
+  /// Moves the window, m in the world's frame. Call it before the others.
+  void SetCentre(Point2 centre) { centre_ = centre; }
+  [[nodiscard]] bool Covers(Point2 point) const {
+    return std::abs(point.x - centre_.x) < kReach && std::abs(point.y - centre_.y) < kReach;
+  }
+
+  /// A boundary point was seen here. Points outside the window are left out.
+  void MarkBoundary(Point2 point) {
+    if (Covers(point)) At(point) = {Index(point.x), Index(point.y), State::kBoundary, point};
+  }
+  /// There is nothing within the cell of this point.
+  void MarkFree(Point2 point) {
+    if (Covers(point)) At(point) = {Index(point.x), Index(point.y), State::kFree, point};
+  }
+  [[nodiscard]] bool IsFree(Point2 point) const { return Is(State::kFree, point); }
+  [[nodiscard]] bool IsBoundary(Point2 point) const { return Is(State::kBoundary, point); }
+
+  /// Calls `is_refuted(point)` for every boundary point within the window, in a fixed order, and
+  /// forgets those for which it says true.
+  template <typename Refutation>
+  void ForgetBoundaries(Refutation is_refuted) {
+    for (Cell& cell : cells_) {
+      if (cell.state == State::kBoundary && Covers(cell.point) && is_refuted(cell.point)) {
+        cell.state = State::kFree;
+      }
+    }
+  }
+  /// Calls `visit(point)` for every boundary point within the window, in a fixed order.
+  template <typename Visitor>
+  void ForEachBoundary(Visitor visit) const {
+    for (const Cell& cell : cells_) {
+      if (cell.state == State::kBoundary && Covers(cell.point)) visit(cell.point);
+    }
+  }
+
+ private:
+  enum class State : std::uint8_t { kUnknown, kFree, kBoundary };
+  struct Cell {
+    int column = 0;
+    int row = 0;
+    State state = State::kUnknown;
+    Point2 point;
+  };
+
+  static int Index(double coordinate) {
+    return static_cast<int>(std::floor(coordinate / kCellSize));
+  }
+  static std::size_t Slot(int column, int row) {
+    const auto wrap = [](int index) {
+      return static_cast<std::size_t>(((index % kCellsAcross) + kCellsAcross) % kCellsAcross);
+    };
+    return wrap(row) * kCellsAcross + wrap(column);
+  }
+  bool Is(State state, Point2 point) const {
+    const int column = Index(point.x), row = Index(point.y);
+    const Cell& cell = cells_[Slot(column, row)];
+    return cell.state == state && cell.column == column && cell.row == row;
+  }
+  Cell& At(Point2 point) { return cells_[Slot(Index(point.x), Index(point.y))]; }
+
+  std::vector<Cell> cells_;
+  Point2 centre_;
+};
+
+}  // namespace runnel

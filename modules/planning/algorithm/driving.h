@@ -1,0 +1,37 @@
+#pragma once
+
+#include "modules/types/algorithm/pose.h"
+#include "modules/types/algorithm/surroundings.h"
+
+namespace runnel {
+
+/// How a planner drives. The accelerations of the body are limited further down; `braking` only
+/// says how early to slow down.
+struct DrivingConfiguration {
+  double cruise_speed = 0.4;     ///< m/s towards the goal
+  double following_speed = 0.3;  ///< m/s along a boundary
+  double turn_limit = 1.2;       ///< rad/s
+  double turn_gain = 3.0;        ///< rad/s of turn for each rad of bearing
+  double braking = 0.3;          ///< m/s^2
+  double turning_bearing = 0.8;  ///< rad; towards bearings beyond this the robot turns on the spot
+  /// m; by so much less than the safe distance the way may be wide, so that small errors of
+  /// following do not make the boundary just followed an obstacle.
+  double width_tolerance = 0.05;
+};
+
+/// m, the radius of the disc that has to pass where the robot drives.
+[[nodiscard]] double TravelRadius(const DrivingConfiguration& configuration,
+                                  const Surroundings& surroundings);
+
+/// Turns on the spot towards `bearing` (rad, body's frame; beyond +-pi it chooses the way round).
+[[nodiscard]] Twist2 TurnTowards(const DrivingConfiguration& configuration, double bearing);
+
+/// Drives towards `bearing` at up to `speed` m/s, the slower the more it has to turn and the nearer
+/// the end of the free way ahead is.
+[[nodiscard]] Twist2 DriveTowards(const DrivingConfiguration& configuration,
+                                  const Surroundings& surroundings, double bearing, double speed);
+
+/// m/s, from which the robot stops within `distance` m.
+[[nodiscard]] double SpeedToStopWithin(const DrivingConfiguration& configuration, double distance);
+
+}  // namespace runnel

@@ -1,0 +1,72 @@
+#include "modules/planning/algorithm/wall_follower.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace runnel {
+
+namespace {
+
+// With the boundary on the right, it is looked for from straight behind to a little left of ahead:
+// a wall of a concave corner ahead belongs to it, the other wall of a corridor does not.
+constexpr double kHandCentre = DegreesToRadians(-60.0);
+constexpr double kHandHalfWidth = DegreesToRadians(120.0);
+constexpr double kDistanceGain = 6.0;                        // rad of bearing for each m of error
+constexpr double kCorrectionLimit = DegreesToRadians(60.0);  // so that far off it still advances
+constexpr double kLookahead = 0.15;                          // m that the way must be free
+constexpr double kSweepStep = DegreesToRadians(3.0);
+constexpr double kTurnedEnough = DegreesToRadians(10.0);
+constexpr double kOvershoot = DegreesToRadians(30.0);  // of a turn, before it counts as a whole one
+constexpr double kLargeTurn = DegreesToRadians(60.0);
+constexpr double kSearchRadius = 0.5;  // m, of the circle towards a lost boundary
+
+// Rad, mirrored so that the boundary is on the right; nothing is free: straight back.
+double BearingToGo(const Surroundings& surroundings, double sign, double radius,
+                   const BoundaryPoint& contact) {
+  const double correction =
+      std::clamp(kDistanceGain * (double{surroundings.safe_distance} - contact.distance),
+                 -kCorrectionLimit, kCorrectionLimit);
+  // The contact lies in (-pi, pi/3]; not wrapped, so that the robot turns away from the boundary
+  // even if it has to turn by more than half a circle.
+  const double tangent = sign * contact.bearing + kPi / 2 + correction;
+  for (double bearing = tangent; bearing < tangent + 2 * kPi; bearing += kSweepStep) {
+    if (FreeRange(surroundings, sign * bearing, radius) >= kLookahead) return bearing;
+  }
+  return kPi;
+}
+
+}  // namespace
+
+void WallFollower::Start(BoundaryDirection direction, const Pose2& pose, double contact_bearing) {
+  direction_ = direction;
+  const double sign = MirrorSign(direction);
+  const double offset = sign * WrapAngle(contact_bearing) + kPi / 2;
+  is_turning_ = true;
+  turn_sign_ = offset >= 0.0 ? sign : -sign;
+  target_heading_ = pose.heading + sign * offset;
+}
+
+Twist2 WallFollower::Update(const DrivingConfiguration& configuration, const Pose2& pose,
+                            const Surroundings& surroundings) {
+  if (is_turning_) {
+    double remaining = WrapAngle(target_heading_ - pose.heading);
+    if (turn_sign_ * remaining < -kOvershoot) remaining += turn_sign_ * 2 * kPi;
+    if (std::abs(remaining) > kTurnedEnough) return TurnTowards(configuration, remaining);
+    is_turning_ = false;
+  }
+  const double sign = MirrorSign(direction_);
+  const BoundaryPoint contact = NearestBoundary(surroundings, sign * kHandCentre, kHandHalfWidth);
+  const double speed = configuration.following_speed;
+  if (!std::isfinite(contact.distance)) return {speed, -sign * speed / kSearchRadius};
+  const double radius = TravelRadius(configuration, surroundings);
+  const double bearing = BearingToGo(surroundings, sign, radius, contact);
+  // A large turn is finished: half way, a gap just too narrow may look just wide enough.
+  if (bearing > kLargeTurn) {
+    is_turning_ = true;
+    turn_sign_ = sign;
+    target_heading_ = pose.heading + sign * bearing;
+  }
+  return DriveTowards(configuration, surroundings, sign * bearing, speed);
+}
+
+}  // namespace runnel

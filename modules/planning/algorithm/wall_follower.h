@@ -1,0 +1,37 @@
+#pragma once
+
+#include "modules/planning/algorithm/boundary_direction.h"
+#include "modules/planning/algorithm/driving.h"
+
+namespace runnel {
+
+/// Follows the boundary of an obstacle at the safe distance (WALLFOLLOWING(DIRECTION) of the
+/// generic Bug algorithm).
+///
+/// With the boundary on the right: from the nearest boundary point on the right, swing the gaze to
+/// the left to the tangent, corrected by the error of distance, and on until the body can go that
+/// way. On a straight wall that is the tangent, at a convex corner the tangent of the circle round
+/// the corner, in a concave corner or before a narrow gap the first way out to the left. With the
+/// boundary on the left everything is mirrored.
+class WallFollower {
+ public:
+  /// Begins to follow the boundary that has a point at `contact_bearing` (rad, body's frame): the
+  /// robot first turns on the spot until that point is on its hand, away from the obstacle.
+  void Start(BoundaryDirection direction, const Pose2& pose, double contact_bearing);
+
+  /// The twist to drive now. Does not allocate.
+  [[nodiscard]] Twist2 Update(const DrivingConfiguration& configuration, const Pose2& pose,
+                              const Surroundings& surroundings);
+
+  [[nodiscard]] BoundaryDirection direction() const { return direction_; }
+  /// Whether the robot still turns the boundary to its hand.
+  [[nodiscard]] bool is_turning() const { return is_turning_; }
+
+ private:
+  BoundaryDirection direction_ = BoundaryDirection::kLeft;
+  bool is_turning_ = false;
+  double target_heading_ = 0.0;  // rad, in the world, while turning
+  double turn_sign_ = 0.0;       // +1 counter-clockwise
+};
+
+}  // namespace runnel

@@ -1,0 +1,37 @@
+#include "modules/planning/bug_planner.h"
+
+namespace runnel {
+
+BugConfiguration BugPlanner::Configuration() const {
+  BugConfiguration configuration;
+  configuration.first_direction = first_direction.Get();
+  configuration.goal_tolerance = goal_tolerance.Get();
+  configuration.leave_margin = leave_margin.Get();
+  configuration.driving.cruise_speed = cruise_speed.Get();
+  configuration.driving.following_speed = following_speed.Get();
+  configuration.driving.turn_limit = turn_limit.Get();
+  return configuration;
+}
+
+void BugPlanner::Update() {
+  const auto view = surroundings.Read();
+  const auto here = pose.Read();
+  const auto there = goal.Read();
+  if (!view.is_new() || !here || !there) return;
+  if (!start_ || !(goal_ == *there)) {
+    start_ = Position(*here);
+    goal_ = *there;
+    last_ = now();
+  }
+  const BugInput input{.time_step = ToSeconds(now() - last_),
+                       .pose = *here,
+                       .surroundings = *view,
+                       .start = *start_,
+                       .goal = goal_};
+  last_ = now();
+  const BugOutput output = Plan(Configuration(), state_, input);
+  twist.Publish(output.twist);
+  status.Publish(output.status);
+}
+
+}  // namespace runnel

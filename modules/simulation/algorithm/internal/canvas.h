@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cmath>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "modules/simulation/algorithm/internal/svg_writer.h"
+#include "modules/simulation/algorithm/world.h"
+
+namespace runnel::internal {
+
+/// The layout of a picture in pixels: a caption, the plot, a legend.
+inline constexpr double kMargin = 28.0;
+inline constexpr double kHeader = 74.0;
+inline constexpr double kFooter = 50.0;
+inline constexpr double kPlotWidth = 904.0;
+
+inline constexpr std::string_view kInk = "#1f2733";
+inline constexpr std::string_view kFaintInk = "#667182";
+
+[[nodiscard]] inline bool IsFinite(Point2 point) {
+  return std::isfinite(point.x) && std::isfinite(point.y);
+}
+
+/// Attributes from names and values in turn.
+[[nodiscard]] std::string Style(std::initializer_list<std::string_view> names_and_values);
+
+struct Extent {
+  Point2 low;
+  Point2 high;
+
+  void Include(Point2 point, double reach = 0.0);
+};
+
+/// Everything that stands in the world, and its start and goal.
+[[nodiscard]] Extent ExtentOf(const World& world);
+
+/// A part of the world (m, y up) laid out as a plot in a picture (pixels, y down).
+class Canvas {
+ public:
+  /// Shows the extent and a little more.
+  explicit Canvas(const Extent& extent);
+
+  [[nodiscard]] SvgWriter& svg() { return svg_; }
+  [[nodiscard]] const Extent& extent() const { return extent_; }  ///< m, of the plot
+  [[nodiscard]] double scale() const { return scale_; }           ///< pixels per m
+  [[nodiscard]] double grid() const { return grid_; }             ///< m, from line to line
+  [[nodiscard]] double plot_height() const { return scale_ * (extent_.high.y - extent_.low.y); }
+
+  [[nodiscard]] Point2 Pixel(Point2 place) const;
+  [[nodiscard]] std::vector<Point2> Pixels(const std::vector<Point2>& places) const;
+
+ private:
+  Extent extent_;
+  double scale_ = 1.0;
+  double grid_ = 1.0;
+  SvgWriter svg_;
+};
+
+}  // namespace runnel::internal

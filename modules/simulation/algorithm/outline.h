@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "modules/simulation/algorithm/world.h"
+#include "modules/types/algorithm/segment.h"
+
+namespace runnel {
+
+/// The ground plan of everything in a world that stops a body or a ray of light, as flat and as
+/// round upright surfaces. Pieces may reach into an obstacle (where a wall bends), never out of it.
+struct Outline {
+  struct Flat {
+    Segment2 ground;
+    double height = 0.0;  ///< m
+  };
+  struct Round {
+    Point2 centre;
+    double radius = 0.0;  ///< m
+    double height = 0.0;  ///< m
+  };
+
+  std::vector<Flat> flats;
+  std::vector<Round> rounds;
+};
+
+/// Bounds have no height of their own: they take `bounds_height` (m).
+[[nodiscard]] Outline OutlineOf(const World& world, double bounds_height = kDefaultObstacleHeight);
+
+/// The rectangle that a piece of a wall stands on, without the round ends.
+[[nodiscard]] BoxObstacle StraightPart(const Segment2& piece, double thickness, double height);
+
+}  // namespace runnel

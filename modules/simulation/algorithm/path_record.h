@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "modules/types/algorithm/point.h"
+
+namespace runnel {
+
+/// What a robot that finds its way round obstacles was about at a moment; it colours the path.
+enum class PathMode { kDrivingToGoal, kFollowingWall, kGoingToLeavePoint };
+
+struct PathSample {
+  Point2 position;
+  PathMode mode = PathMode::kDrivingToGoal;
+};
+
+/// Remembers a path of any length in memory of a fixed size: points nearer to the last one than the
+/// spacing are left out, and whenever the memory is full, every other point is, and the spacing
+/// doubled. A change of mode is always kept until then. The length is summed up over all points.
+///
+/// Allocation: in the constructor only. Threads: not thread-safe.
+class PathRecord {
+ public:
+  explicit PathRecord(std::size_t capacity = 16384, double spacing = 0.02)
+      : capacity_(capacity < 4 ? 4 : capacity), spacing_(spacing) {
+    samples_.reserve(capacity_);
+  }
+
+  void Add(const PathSample& sample) {
+    if (samples_.empty()) {
+      last_ = sample;
+      samples_.push_back(sample);
+      return;
+    }
+    length_ += Distance(last_.position, sample.position);
+    last_ = sample;
+    if (sample.mode == samples_.back().mode &&
+        Distance(samples_.back().position, sample.position) < spacing_) {
+      return;
+    }
+    if (samples_.size() == capacity_) Thin();
+    samples_.push_back(sample);
+  }
+
+  /// Whole, with the very last point.
+  [[nodiscard]] std::vector<PathSample> Samples() const {
+    std::vector<PathSample> samples = samples_;
+    if (!samples.empty()) samples.push_back(last_);
+    return samples;
+  }
+  [[nodiscard]] double length() const noexcept { return length_; }  ///< m
+
+ private:
+  void Thin() {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < samples_.size(); i += 2) samples_[kept++] = samples_[i];
+    samples_.resize(kept);
+    spacing_ *= 2;
+  }
+
+  const std::size_t capacity_;
+  double spacing_;  // m
+  double length_ = 0.0;
+  PathSample last_;
+  std::vector<PathSample> samples_;
+};
+
+}  // namespace runnel

@@ -1,0 +1,195 @@
+#include "modules/simulation/referee.h"
+
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <string_view>
+
+#include "modules/simulation/algorithm/trajectory_svg.h"
+
+namespace runnel {
+
+namespace {
+
+// So many hit and leave points are drawn; a run that has more is not told by its points any more.
+constexpr std::size_t kMostPoints = 1000;
+
+std::string_view Words(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kRunning:
+      return "stopped";
+    case Verdict::kReached:
+      return "reached";
+    case Verdict::kUnreachable:
+      return "unreachable";
+    case Verdict::kMistaken:
+      return "mistaken";
+    case Verdict::kTimeout:
+      return "timeout";
+    case Verdict::kCollision:
+      return "collision";
+  }
+  return "stopped";
+}
+
+std::string_view Words(PlannerMode mode) {
+  switch (mode) {
+    case PlannerMode::kMotionToGoal:
+      return "driving to the goal";
+    case PlannerMode::kFollowingBoundary:
+      return "following a boundary";
+    case PlannerMode::kGoingToLeavePoint:
+      return "going to the leave point";
+    case PlannerMode::kFacingGoal:
+      return "facing the goal";
+    case PlannerMode::kReached:
+      return "at the goal";
+    case PlannerMode::kUnreachable:
+      return "gave up";
+  }
+  return "";
+}
+
+PathMode LookOf(PlannerMode mode) {
+  switch (mode) {
+    case PlannerMode::kFollowingBoundary:
+    case PlannerMode::kUnreachable:
+      return PathMode::kFollowingWall;
+    case PlannerMode::kGoingToLeavePoint:
+    case PlannerMode::kFacingGoal:
+      return PathMode::kGoingToLeavePoint;
+    case PlannerMode::kMotionToGoal:
+    case PlannerMode::kReached:
+      break;
+  }
+  return PathMode::kDrivingToGoal;
+}
+
+template <typename... Values>
+std::string Format(const char* format, Values... values) {
+  std::array<char, 200> text{};
+  std::snprintf(text.data(), text.size(), format, values...);
+  return text.data();
+}
+
+}  // namespace
+
+/// What the program that runs the application is told.
+class Referee::Monitor final : public RunMonitor {
+ public:
+  explicit Monitor(Referee& referee) : referee_(referee) {}
+
+  std::string Progress() const override {
+    const Standing now = referee_.LastStanding();
+    return Format("%6.2f m to the goal, %s", now.distance_to_goal, Words(now.mode).data());
+  }
+  std::optional<RunOutcome> Outcome() const override {
+    const Standing end = referee_.LastStanding();
+    if (end.verdict == Verdict::kRunning) return std::nullopt;
+    return RunOutcome{.verdict = std::string(Words(end.verdict)),
+                      .summary = Format("path %.2f m, time %.2f s", end.path_length, end.elapsed),
+                      .success = referee_.IsSuccess(end.verdict)};
+  }
+  Result<std::string> Finish() override { return referee_.DrawPicture(); }
+
+ private:
+  Referee& referee_;
+};
+
+Referee::Referee(const Placement& placement) : Module(placement) {
+  Annotate<RunMonitor>(std::make_unique<Monitor>(*this));
+  hit_points_.reserve(kMostPoints);
+  leave_points_.reserve(kMostPoints);
+}
+
+Result<void> Referee::Prepare() {
+  const FilePath& file = picture.Get();
+  if (file.empty()) return {};
+  const auto folder = std::filesystem::absolute(file.path()).parent_path();
+  if (!std::filesystem::is_directory(folder)) {
+    return Error{.message = "there is no folder '" + folder.string() + "' for the picture",
+                 .path = picture.path()};
+  }
+  return {};
+}
+
+void Referee::Update() {
+  const auto at = pose.Read();
+  const auto there = goal.Read();
+  if (!at.is_new() || !there) return;
+  if (!begin_) begin_ = now();
+  if (standing_.verdict != Verdict::kRunning) return;
+  if (const auto said = status.Read()) planner_ = *said;
+  if (const auto touch = contact.Read()) touched_ = touched_ || touch->is_touching;
+  Record(*at);
+  standing_ = {.mode = planner_.mode,
+               .verdict = Judge(*at, *there),
+               .distance_to_goal = Distance(Position(*at), *there),
+               .path_length = path_.length(),
+               .elapsed = ToSeconds(now() - *begin_)};
+  shown_.Publish(standing_, now().time_since_epoch().count());
+}
+
+void Referee::Record(const Pose2& at) {
+  path_.Add({Position(at), LookOf(planner_.mode)});
+  end_ = at;
+  if (planner_.hits > hit_points_.size() && hit_points_.size() < kMostPoints) {
+    hit_points_.push_back(planner_.hit_point);
+  }
+  if (planner_.leaves > leave_points_.size() && leave_points_.size() < kMostPoints) {
+    leave_points_.push_back(planner_.leave_point);
+  }
+}
+
+Verdict Referee::Judge(const Pose2& at, const Point2& there) const {
+  if (touched_) return Verdict::kCollision;
+  if (planner_.mode == PlannerMode::kUnreachable) return Verdict::kUnreachable;
+  if (planner_.mode == PlannerMode::kReached) {
+    const bool is_there = Distance(Position(at), there) <= goal_tolerance.Get();
+    return is_there ? Verdict::kReached : Verdict::kMistaken;
+  }
+  if (now() - *begin_ >= FromSeconds(time_limit.Get())) return Verdict::kTimeout;
+  return Verdict::kRunning;
+}
+
+Referee::Standing Referee::LastStanding() const {
+  Standing standing;
+  Publication publication;
+  shown_.Read(standing, publication);  // as constructed before the first cycle
+  return standing;
+}
+
+bool Referee::IsSuccess(Verdict verdict) const {
+  const Expectation wanted = expected.Get();
+  return (verdict == Verdict::kReached && wanted != Expectation::kUnreachable) ||
+         (verdict == Verdict::kUnreachable && wanted != Expectation::kReached);
+}
+
+Result<std::string> Referee::DrawPicture() const {
+  const auto seen = scene.Peek();
+  if (picture.Get().empty() || !seen) return std::string();
+  const bool is_good = IsSuccess(standing_.verdict);
+  const Trajectory trajectory{.path = path_.Samples(),
+                              .hits = hit_points_,
+                              .leaves = leave_points_,
+                              .end = end_,
+      .robot_radius = seen->robot_radius,
+                              .verdict = std::string(Words(standing_.verdict)),
+                              .tone = is_good ? VerdictTone::kGood
+                                      : standing_.verdict == Verdict::kRunning
+                                          ? VerdictTone::kNeutral
+                                          : VerdictTone::kBad,
+                              .duration = standing_.elapsed};
+  World world = *seen->world;
+  if (const auto there = goal.Peek()) world.goal = *there;
+  std::ofstream file(picture.Get().path());
+  file << TrajectorySvg(world, trajectory);
+  file.close();
+  if (!file) {
+    return Error{.message = "the picture '" + picture.Get().text + "' could not be written",
+                 .path = picture.path()};
+  }
+  return "the path is drawn in " + picture.Get().text;
+}
+
+}  // namespace runnel

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/lockfree/latest_value.h"
+#include "core/module/module.h"
+#include "core/module/run_monitor.h"
+#include "core/port/input.h"
+#include "modules/simulation/algorithm/path_record.h"
+#include "modules/simulation/scene.h"
+#include "modules/types/contact.h"
+#include "modules/types/planner_status.h"
+#include "modules/types/pose.h"
+#include "plugins/parameters/file_path.h"
+#include "plugins/parameters/static_parameter.h"
+
+namespace runnel {
+
+/// How a run can end. Only the referee, who knows the truth, says so.
+enum class Verdict : std::uint8_t {
+  kRunning,
+  kReached,      ///< the planner says so, and it is true
+  kUnreachable,  ///< the planner says so
+  kMistaken,     ///< the planner says it is there, and is not
+  kTimeout,
+  kCollision,
+};
+
+/// What the application's author takes for a success.
+enum class Expectation : std::uint8_t { kReached, kUnreachable, kEither };
+
+inline void Describe(TypeBuilder<Expectation>& type) {
+  type.Name("Expectation")
+      .Value("reached", Expectation::kReached)
+      .Value("unreachable", Expectation::kUnreachable)
+      .Value("either", Expectation::kEither);
+}
+
+/// Watches the robot as it really moves and the planner as it speaks, and judges: reached,
+/// unreachable, timeout, collision. Measures path and time, and draws the path into a picture of
+/// the world when the run is over.
+class Referee final : public Module {
+ public:
+  explicit Referee(const Placement& placement);
+
+  Input<Scene> scene{this, "scene", {.description = "what the picture shows", .required = true}};
+  Input<Pose2> pose{this, "pose", {.description = "where the robot really is", .required = true}};
+  Input<Point2> goal{this, "goal", {.description = "where it is to go", .required = true}};
+  Input<Contact> contact{this, "contact", {.description = "what it touches", .required = true}};
+  Input<PlannerStatus> status{
+      this, "status", {.description = "what the planner says", .required = true}};
+
+  StaticParameter<double> time_limit{this,
+                                     "time_limit",
+                                     {.default_value = 1800,
+                                      .bounds = {0.0, 1e6},
+                                      .unit = "s",
+                                      .description = "after which the run has failed"}};
+  StaticParameter<double> goal_tolerance{this,
+                                         "goal_tolerance",
+                                         {.default_value = 0.15,
+                                          .bounds = {0.0, 10.0},
+                                          .unit = "m",
+                                          .description = "how near is near enough, really"}};
+  StaticParameter<Expectation> expected{
+      this,
+      "expected",
+      {.default_value = Expectation::kEither, .description = "which verdicts count as a success"}};
+  StaticParameter<FilePath> picture{
+      this, "picture", {.description = "the SVG file to draw the path into; empty for none"}};
+
+ private:
+  class Monitor;
+  friend class Monitor;
+
+  /// What the program that runs the application sees, from whichever thread.
+  struct Standing {
+    PlannerMode mode = PlannerMode::kMotionToGoal;
+    Verdict verdict = Verdict::kRunning;
+    double distance_to_goal = 0.0;  ///< m, of the real pose
+    double path_length = 0.0;       ///< m
+    double elapsed = 0.0;           ///< s
+  };
+
+  Result<void> Prepare() override;
+  void Update() override;
+  void Record(const Pose2& at);
+  [[nodiscard]] Verdict Judge(const Pose2& at, const Point2& there) const;
+  [[nodiscard]] Standing LastStanding() const;
+  [[nodiscard]] bool IsSuccess(Verdict verdict) const;
+  [[nodiscard]] Result<std::string> DrawPicture() const;
+
+  PlannerStatus planner_;
+  bool touched_ = false;
+  PathRecord path_;
+  std::vector<Point2> hit_points_;
+  std::vector<Point2> leave_points_;
+  std::optional<Pose2> end_;
+  std::optional<Time> begin_;
+  Standing standing_;
+  LatestValue<Standing> shown_;
+};
+
+}  // namespace runnel

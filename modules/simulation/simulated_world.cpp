@@ -1,0 +1,69 @@
+#include "modules/simulation/simulated_world.h"
+
+#include <cmath>
+
+#include "core/base/diagnostics.h"
+#include "modules/simulation/world_file/world_reader.h"
+
+namespace runnel {
+
+namespace {
+
+// The robot's sensors sit on its lid.
+double EyeHeight(const RobotOptions& robot) { return robot.ground_clearance + robot.height; }
+
+}  // namespace
+
+const ParameterOptions<double> SimulatedWorld::kGoalOfFile{
+    .default_value = std::numeric_limits<double>::quiet_NaN(),
+    .unit = "m",
+    .description = "of the goal; nan: as the world file has it"};
+
+SimulatedWorld::SimulatedWorld(const Placement& placement) : SenseControlModule(placement) {}
+SimulatedWorld::~SimulatedWorld() = default;
+
+Result<void> SimulatedWorld::Prepare() {
+  if (world.Get().empty()) {
+    return Error{
+        .message = "no world file is named", .path = path(), .hint = "set the parameter 'world'"};
+  }
+  Diagnostics diagnostics;
+  auto description = ReadWorldFile(world.Get().path(), diagnostics);
+  if (!description) {
+    return Error{.message = "the world cannot be used:\n" + diagnostics.ToString(), .path = path()};
+  }
+  PhysicsOptions options;
+  options.step = step.Get();
+  options.robot.radius = robot_radius.Get();
+  options.robot.maximum_speed = maximum_speed.Get();
+  options.robot.maximum_turn_rate = maximum_turn_rate.Get();
+  description_ = std::make_shared<const World>(std::move(*description));
+  physics_ = std::make_unique<PhysicsWorld>(*description_, options);
+  scene_ = {description_,
+            std::make_shared<const RayCaster>(OutlineOf(*description_), EyeHeight(options.robot)),
+            options.robot.radius};
+  return {};
+}
+
+void SimulatedWorld::Sense() {
+  if (last_) physics_->Advance(ToSeconds(now() - *last_));
+  last_ = now();
+  PublishTruth();
+}
+
+void SimulatedWorld::Control() {
+  if (const auto wanted = wheels.Read()) physics_->SetWheelSpeeds(*wanted);
+}
+
+void SimulatedWorld::PublishTruth() {
+  // Once is enough: whoever is connected later gets the last value, too.
+  if (scene.publications() == 0) scene.Publish(scene_);
+  pose.Publish(physics_->pose());
+  twist.Publish(physics_->twist());
+  contact.Publish(physics_->contact());
+  const double x = goal_x.Get(), y = goal_y.Get();
+  goal.Publish(
+      {std::isnan(x) ? description_->goal.x : x, std::isnan(y) ? description_->goal.y : y});
+}
+
+}  // namespace runnel

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "core/types/type_of.h"
+#include "modules/types/algorithm/infrared_ranges.h"
+
+namespace runnel {
+
+inline void Describe(TypeBuilder<InfraredRanges>& type) {
+  type.Name("InfraredRanges")
+      .Field("front", &InfraredRanges::front, {.unit = "m"})
+      .Field("left", &InfraredRanges::left, {.unit = "m"})
+      .Field("right", &InfraredRanges::right, {.unit = "m"})
+      .Field("range_maximum", &InfraredRanges::range_maximum, {.unit = "m"})
+      .Field("field_of_view", &InfraredRanges::field_of_view, {.unit = "rad"});
+}
+
+}  // namespace runnel

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "core/types/type_of.h"
+#include "modules/types/algorithm/pose.h"
+
+namespace runnel {
+
+inline void Describe(TypeBuilder<Point2>& type) {
+  type.Name("Point2").Field("x", &Point2::x, {.unit = "m"}).Field("y", &Point2::y, {.unit = "m"});
+}
+
+inline void Describe(TypeBuilder<Pose2>& type) {
+  type.Name("Pose2")
+      .Field("x", &Pose2::x, {.unit = "m"})
+      .Field("y", &Pose2::y, {.unit = "m"})
+      .Field("heading", &Pose2::heading, {.unit = "rad"});
+}
+
+inline void Describe(TypeBuilder<Twist2>& type) {
+  type.Name("Twist2")
+      .Field("forward", &Twist2::forward, {.unit = "m/s"})
+      .Field("turn", &Twist2::turn, {.unit = "rad/s"});
+}
+
+}  // namespace runnel

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "core/types/type_of.h"
+#include "modules/types/algorithm/surroundings.h"
+
+namespace runnel {
+
+inline void Describe(TypeBuilder<Surroundings>& type) {
+  type.Name("Surroundings")
+      .Field("sensor_range", &Surroundings::sensor_range, {.unit = "m"})
+      .Field("safe_distance", &Surroundings::safe_distance, {.unit = "m"})
+      .Field("contour", &Surroundings::contour,
+             {.unit = "mm", .description = "nearest boundary in each sector, 65535 for none"});
+}
+
+}  // namespace runnel

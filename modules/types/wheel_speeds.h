@@ -1,0 +1,14 @@
+#pragma once
+
+#include "core/types/type_of.h"
+#include "modules/types/algorithm/wheel_speeds.h"
+
+namespace runnel {
+
+inline void Describe(TypeBuilder<WheelSpeeds>& type) {
+  type.Name("WheelSpeeds")
+      .Field("left", &WheelSpeeds::left, {.unit = "rad/s"})
+      .Field("right", &WheelSpeeds::right, {.unit = "rad/s"});
+}
+
+}  // namespace runnel

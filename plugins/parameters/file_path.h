@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/types/type_of.h"
+
+namespace runnel {
+
+/// The name of a file as the value of a parameter. Unlike a plain text, whoever sets it from a file
+/// knows that relative names in it start in the folder of that file.
+struct FilePath {
+  std::string text;
+
+  [[nodiscard]] bool empty() const noexcept { return text.empty(); }
+  [[nodiscard]] std::filesystem::path path() const { return text; }
+
+  friend bool operator==(const FilePath&, const FilePath&) = default;
+};
+
+/// The text form is the name itself.
+void Describe(TypeBuilder<FilePath>& type);
+
+/// `file` as seen from where the program runs, if it was written in `folder`. Absolute names and
+/// the empty one stay as they are.
+[[nodiscard]] FilePath ResolvedAgainst(const std::filesystem::path& folder, const FilePath& file);
+
+}  // namespace runnel

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.h"
+
+namespace runnel {
+
+/// What may stand in an attribute of an application file.
+enum class AttributeKind {
+  kText,      ///< anything
+  kName,      ///< what can name an element: not empty, no '/'
+  kPath,      ///< one path, not empty
+  kPathList,  ///< paths separated by blanks, at least one
+  kCount,     ///< 0, 1, 2 …
+  kNumber,    ///< finite
+  kFlag,      ///< true or false
+  kDuration,  ///< longer than nothing, with unit: "50ms"
+  kChoice,    ///< one of AttributeRule::choices
+};
+
+/// One attribute that a tag understands.
+struct AttributeRule {
+  std::string name;
+  AttributeKind kind = AttributeKind::kText;
+  bool required = false;
+  std::string summary = {};
+  std::vector<std::string> choices = {};
+};
+
+/// Whether `value` may stand in the attribute; the error says what may.
+Result<void> CheckAttributeValue(const AttributeRule& rule, std::string_view value);
+
+/// The values of attributes, for those who handle tags (durations: core/types/duration_text.h).
+/// Errors say what is wrong, without a place.
+Result<std::size_t> ParseCount(std::string_view text);
+Result<bool> ParseFlag(std::string_view text);
+[[nodiscard]] std::vector<std::string> SplitBlanks(std::string_view text);
+
+}  // namespace runnel

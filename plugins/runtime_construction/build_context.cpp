@@ -1,0 +1,73 @@
+#include "plugins/runtime_construction/build_context.h"
+
+#include <algorithm>
+
+#include "core/base/check.h"
+#include "core/base/nearest_name.h"
+
+namespace runnel {
+
+namespace {
+
+Error Placed(Error error, const SourcePosition& position, const FrameworkElement& element) {
+  if (error.position.file.empty()) error.position = position;
+  if (error.path.empty()) error.path = element.path();
+  return error;
+}
+
+}  // namespace
+
+void BuildContext::Report(Error error, const SourcePosition& position,
+                          const FrameworkElement& element) {
+  diagnostics_.Add(Placed(std::move(error), position, element));
+}
+
+void BuildContext::Warn(Error warning, const SourcePosition& position,
+                        const FrameworkElement& element) {
+  diagnostics_.AddWarning(Placed(std::move(warning), position, element));
+}
+
+void BuildContext::Attempt(const Cause& cause, const std::function<void()>& action) {
+  const Cause outer = std::exchange(cause_, cause);
+  const auto report = [&](Error error) {
+    Report(std::move(error), cause.position, *cause.element);
+  };
+  try {
+    action();
+  } catch (const ElementError& error) {
+    report(error.error());
+  } catch (const std::exception& exception) {
+    report({.message = cause.what + " failed: " + exception.what()});
+  } catch (...) {
+    report({.message = cause.what + " failed with an exception of unknown type"});
+  }
+  cause_ = outer;
+}
+
+void BuildContext::Defer(BuildStage stage, std::function<void()> action) {
+  RUNNEL_CHECK(cause_.element != nullptr, "only what handles a tag can be deferred");
+  deferred_[stage].push_back({cause_, std::move(action)});
+}
+
+void BuildContext::RunDeferred() {
+  while (!deferred_.empty()) {
+    auto first = deferred_.extract(deferred_.begin());
+    if (first.key() == BuildStage::kInterfaces) std::ranges::reverse(first.mapped());
+    for (const Deferred& each : first.mapped()) Attempt(each.cause, each.action);
+  }
+}
+
+void BuildContext::MarkMissing(const FrameworkElement& parent, std::string_view name) {
+  missing_.emplace(&parent, name);
+}
+
+bool BuildContext::IsMissing(const FrameworkElement& parent, std::string_view name) const {
+  return missing_.contains({&parent, std::string(name)});
+}
+
+bool BuildContext::IsWorthReporting(std::string_view unknown,
+                                    const std::vector<std::string>& known) const {
+  return !plugin_is_missing_ || !NearestName(unknown, known).empty();
+}
+
+}  // namespace runnel

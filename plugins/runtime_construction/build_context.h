@@ -1,0 +1,113 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/base/diagnostics.h"
+#include "core/element/runtime.h"
+#include "core/plugin/plugin_manager.h"
+#include "plugins/parameters/configuration.h"
+#include "plugins/runtime_construction/xml_tag.h"
+
+namespace runnel {
+
+/// What builds applications: the runtime they go into, and where the parts come from.
+///
+/// Ownership: of nothing; all must outlive the build.
+struct BuildTools {
+  Runtime& runtime;
+  PluginManager& plugins;
+  XmlTagRegistry& tags;
+  Configuration& configuration;
+  /// Called when the application is complete and right, before it is made ready (never in a check),
+  /// under the structure lock: here a program gives the runtime its clock and its scheduler. An
+  /// error makes the build fail.
+  std::function<Result<void>(FrameworkElement& application)> before_ready = {};
+};
+
+/// What is done once all tags have been handled, in this order. Within a stage the order is that of
+/// the file.
+enum class BuildStage {
+  kInterfaces,   ///< interface ports, which may take their type from modules; from the last to the
+                 ///< first, so that the inner groups' come before the outer ones'
+  kParameters,   ///< parameters are set
+  kConnections,  ///< ports are connected, threads assigned
+  kChecks,       ///< what can be said of the whole only
+};
+
+/// One build, as those who handle tags see it: where errors go, what is put off, and what is known
+/// to be missing so that one mistake is told once.
+///
+/// Threads: used by the building thread, under the structure lock.
+class BuildContext {
+ public:
+  BuildContext(const BuildTools& tools, std::filesystem::path folder, Diagnostics& diagnostics)
+      : tools_(tools), folder_(std::move(folder)), diagnostics_(diagnostics) {}
+
+  [[nodiscard]] Runtime& runtime() const noexcept { return tools_.runtime; }
+  [[nodiscard]] PluginManager& plugins() const noexcept { return tools_.plugins; }
+  [[nodiscard]] XmlTagRegistry& tags() const noexcept { return tools_.tags; }
+  [[nodiscard]] Configuration& configuration() const noexcept { return tools_.configuration; }
+  /// Of the application file: relative file names in it start here.
+  [[nodiscard]] const std::filesystem::path& folder() const noexcept { return folder_; }
+
+  /// Any error makes the build fail, after all of the file has been looked at. The place in the
+  /// file and the path are put in where the error has none itself.
+  void Report(Error error, const SourcePosition& position, const FrameworkElement& element);
+  void Warn(Error warning, const SourcePosition& position, const FrameworkElement& element);
+  [[nodiscard]] bool ok() const noexcept { return diagnostics_.ok(); }
+
+  /// On whose behalf something is done: what errors say of where it went wrong.
+  struct Cause {
+    std::string what;
+    SourcePosition position;
+    const FrameworkElement* element = nullptr;
+  };
+  /// Does it; an exception becomes an error of `cause`.
+  void Attempt(const Cause& cause, const std::function<void()>& action);
+
+  /// Puts off what needs the rest of the file, with the cause of the attempt in which it is called.
+  /// An action may defer to later stages.
+  void Defer(BuildStage stage, std::function<void()> action);
+  void RunDeferred();
+
+  /// The file asks for `name` below `parent`, but it could not be made and an error says so:
+  /// whoever refers to it need not complain again.
+  void MarkMissing(const FrameworkElement& parent, std::string_view name);
+  [[nodiscard]] bool IsMissing(const FrameworkElement& parent, std::string_view name) const;
+
+  /// Something meant for `element` failed with an error: unconnected inputs in it are no news.
+  void Excuse(const FrameworkElement& element) { excused_.push_back(&element); }
+  [[nodiscard]] const std::vector<const FrameworkElement*>& excused() const noexcept {
+    return excused_;
+  }
+
+  /// A plugin could not be loaded: what is unknown may come with it.
+  void MarkPluginMissing() noexcept { plugin_is_missing_ = true; }
+  /// Whether to complain about an unknown name of a kind that plugins bring.
+  [[nodiscard]] bool IsWorthReporting(std::string_view unknown,
+                                      const std::vector<std::string>& known) const;
+
+ private:
+  struct Deferred {
+    Cause cause;
+    std::function<void()> action;
+  };
+
+  const BuildTools tools_;
+  const std::filesystem::path folder_;
+  Diagnostics& diagnostics_;
+  std::map<BuildStage, std::vector<Deferred>> deferred_;
+  Cause cause_;
+  std::set<std::pair<const FrameworkElement*, std::string>> missing_;
+  std::vector<const FrameworkElement*> excused_;
+  bool plugin_is_missing_ = false;
+};
+
+}  // namespace runnel

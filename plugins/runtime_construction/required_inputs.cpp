@@ -1,0 +1,59 @@
+#include "plugins/runtime_construction/required_inputs.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "core/port/port.h"
+#include "core/types/type_info.h"
+#include "plugins/runtime_construction/source_place.h"
+
+namespace runnel {
+
+namespace {
+
+constexpr std::size_t kMostOutputsNamed = 3;
+
+bool IsExcused(const Port& input, const std::vector<const FrameworkElement*>& excused) {
+  return std::ranges::any_of(excused, [&](const FrameworkElement* each) {
+    if (input.IsAtOrBelow(*each)) return true;
+    // An interface port that stayed unconnected excuses what it would have fed.
+    const auto* const port = dynamic_cast<const Port*>(each);
+    if (port == nullptr || !port->is_proxy()) return false;
+    const std::vector<Port*> sinks = port->Sinks();
+    return std::ranges::find(sinks, &input) != sinks.end();
+  });
+}
+
+std::string Hint(const Port& input, FrameworkElement& application) {
+  std::vector<std::string> outputs;
+  application.Visit([&](FrameworkElement& element) {
+    const auto* const port = dynamic_cast<const Port*>(&element);
+    if (port == nullptr || port->is_proxy()) return;
+    if (port->direction() != Port::Direction::kOutput || &port->type() != &input.type()) return;
+    if (outputs.size() < kMostOutputsNamed) outputs.push_back(port->path());
+  });
+  const std::string type = input.type().name();
+  if (outputs.empty()) return "the application has no output of type " + type;
+  std::string hint = "connect it to an output of type " + type + ", like ";
+  for (std::size_t i = 0; i < outputs.size(); ++i) hint += (i > 0 ? ", " : "") + outputs[i];
+  return hint;
+}
+
+}  // namespace
+
+void CheckRequiredInputs(FrameworkElement& application, BuildContext& context) {
+  std::vector<Port*> unconnected;
+  application.Visit([&](FrameworkElement& element) {
+    auto* const port = dynamic_cast<Port*>(&element);
+    if (port == nullptr || !port->is_required() || !port->Sources().empty()) return;
+    if (!IsExcused(*port, context.excused())) unconnected.push_back(port);
+  });
+  for (Port* port : unconnected) {
+    context.Report({.message = "nothing is connected to this input, which its module requires",
+                    .hint = Hint(*port, application)},
+                   FindSourcePlace(*port), *port);
+  }
+}
+
+}  // namespace runnel

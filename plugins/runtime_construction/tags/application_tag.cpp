@@ -1,0 +1,22 @@
+#include "core/module/group.h"
+#include "plugins/runtime_construction/build_context.h"
+#include "plugins/runtime_construction/name_check.h"
+#include "plugins/runtime_construction/tags/built_in_tags.h"
+
+namespace runnel {
+
+XmlTag ApplicationTag() {
+  return {.name = "application",
+          .summary = "the root of the file: a group that holds everything",
+          .parents = {},
+          .attributes = {{.name = "name",
+                          .kind = AttributeKind::kName,
+                          .required = true,
+                          .summary = "the first part of all paths"}},
+          .handle = [](const TagUse& use) -> FrameworkElement* {
+            if (!CheckNameIsFree(use, use.parent)) return nullptr;
+            return &use.context.runtime().Create<Group>(use.parent, use.Get("name").value);
+          }};
+}
+
+}  // namespace runnel

@@ -1,0 +1,19 @@
+#include "core/module/group.h"
+#include "plugins/runtime_construction/build_context.h"
+#include "plugins/runtime_construction/name_check.h"
+#include "plugins/runtime_construction/tags/built_in_tags.h"
+
+namespace runnel {
+
+XmlTag GroupTag() {
+  return {.name = "group",
+          .summary = "modules and groups that serve one purpose",
+          .parents = {"application", "group"},
+          .attributes = {{.name = "name", .kind = AttributeKind::kName, .required = true}},
+          .handle = [](const TagUse& use) -> FrameworkElement* {
+            if (!CheckNameIsFree(use, use.parent)) return nullptr;
+            return &use.context.runtime().Create<Group>(use.parent, use.Get("name").value);
+          }};
+}
+
+}  // namespace runnel

@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/nearest_name.h"
+#include "core/port/proxy_port.h"
+#include "core/types/type_info.h"
+#include "plugins/runtime_construction/build_context.h"
+#include "plugins/runtime_construction/name_check.h"
+#include "plugins/runtime_construction/path_use.h"
+#include "plugins/runtime_construction/port_search.h"
+#include "plugins/runtime_construction/source_place.h"
+#include "plugins/runtime_construction/tags/built_in_tags.h"
+
+namespace runnel {
+
+namespace {
+
+const TypeInfo* NamedType(const XmlAttribute& name, const TagUse& use) {
+  if (const TypeInfo* type = FindType(name.value)) return type;
+  std::vector<std::string> names;
+  for (const TypeInfo* type : RegisteredTypes()) names.push_back(type->name());
+  if (use.context.IsWorthReporting(name.value, names)) {
+    use.context.Report({.message = "there is no type '" + name.value + "'",
+                        .path = use.path(),
+                        .hint = NearestNameHint(name.value, names)},
+                       name.value_position, use.parent);
+  }
+  return nullptr;
+}
+
+// The far end of a connection of this port, if `connect` is one.
+std::optional<std::pair<PathUse, ConnectionEnd>> FarEnd(XmlElement connect, const TagUse& use) {
+  const XmlAttribute* const from = connect.Attribute("from");
+  const XmlAttribute* const to = connect.Attribute("to");
+  if (connect.name() != "connect" || from == nullptr || to == nullptr) return std::nullopt;
+  const std::string& own_name = use.Get("name").value;
+  const std::vector<PathUse> targets = PathsIn(*to, use.parent);
+  if (from->value == own_name && !targets.empty()) {
+    return std::pair(targets.front(), ConnectionEnd::kTo);
+  }
+  const auto is_own = [&](const PathUse& target) { return target.path == own_name; };
+  if (std::ranges::none_of(targets, is_own)) return std::nullopt;
+  return std::pair(PathIn(*from, use.parent), ConnectionEnd::kFrom);
+}
+
+// The type of what the port is first connected to inside its group.
+const TypeInfo* ConnectedType(const TagUse& use) {
+  const std::optional<XmlElement> group = use.xml.parent();
+  for (const XmlElement sibling : group->children()) {
+    const auto far_end = FarEnd(sibling, use);
+    if (!far_end) continue;
+    const Port* const port = FindPort(far_end->first, far_end->second);
+    if (port != nullptr) return &port->type();
+  }
+  use.context.Report({.message = "the type of this port cannot be told from its connections",
+                      .path = use.path(),
+                      .hint = "add type=\"…\""},
+                     use.xml.position(), use.parent);
+  return nullptr;
+}
+
+void MakePort(const TagUse& use) {
+  const std::string& name = use.Get("name").value;
+  const XmlAttribute* const named = use.Find("type");
+  const bool is_free = CheckNameIsFree(use, use.parent);
+  const TypeInfo* const type = named != nullptr ? NamedType(*named, use) : ConnectedType(use);
+  if (!is_free || type == nullptr) {
+    use.context.MarkMissing(use.parent, name);
+    return;
+  }
+  const auto direction =
+      use.Get("direction").value == "input" ? Port::Direction::kInput : Port::Direction::kOutput;
+  const XmlAttribute* const description = use.Find("description");
+  auto& port = use.context.runtime().Create<ProxyPort>(
+      use.parent, name, direction, *type, description != nullptr ? description->value : "");
+  port.Annotate(std::make_unique<SourcePlace>(use.xml.position()));
+}
+
+}  // namespace
+
+XmlTag PortTag() {
+  return {.name = "port",
+          .summary = "a port in the interface of its group; costs nothing at run time",
+          .parents = {"group"},
+          .attributes = {{.name = "name", .kind = AttributeKind::kName, .required = true},
+                         {.name = "direction",
+                          .kind = AttributeKind::kChoice,
+                          .required = true,
+                          .summary = "as seen from outside of the group",
+                          .choices = {"input", "output"}},
+                         {.name = "type",
+                          .kind = AttributeKind::kText,
+                          .summary = "of its values; if left out, that of what it is first "
+                                     "connected to inside the group"},
+                         {.name = "description", .kind = AttributeKind::kText}},
+          .handle = [](const TagUse& use) -> FrameworkElement* {
+            use.context.Defer(BuildStage::kInterfaces, [use] { MakePort(use); });
+            return &use.parent;
+          }};
+}
+
+}  // namespace runnel

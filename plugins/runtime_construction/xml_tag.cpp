@@ -1,0 +1,92 @@
+#include "plugins/runtime_construction/xml_tag.h"
+
+#include <algorithm>
+
+#include "core/base/check.h"
+#include "core/element/element_path.h"
+#include "plugins/runtime_construction/tags/built_in_tags.h"
+
+namespace runnel {
+
+const XmlAttribute* TagUse::Find(std::string_view attribute) const {
+  if (std::ranges::find(unusable, attribute) != unusable.end()) return nullptr;
+  return xml.Attribute(attribute);
+}
+
+std::string TagUse::path() const {
+  const XmlAttribute* const name = Find("name");
+  const std::string parent_path = parent.path();
+  if (name == nullptr || !CheckElementName(name->value)) return parent_path;
+  return (parent_path == "/" ? "" : parent_path) + "/" + name->value;
+}
+
+const XmlAttribute& TagUse::Get(std::string_view attribute) const {
+  const XmlAttribute* const found = Find(attribute);
+  RUNNEL_CHECK(found != nullptr, "a tag asks for an attribute that its rules do not require");
+  return *found;
+}
+
+XmlTagRegistry::XmlTagRegistry() {
+  for (XmlTag& tag : BuiltInTags()) AddTag(std::move(tag));
+}
+
+void XmlTagRegistry::AddTag(XmlTag tag) {
+  if (const XmlTag* known = FindTag(tag.name)) {
+    throw ElementError(
+        {.message = "there is already a tag <" + tag.name + ">" +
+                    (known->plugin.empty() ? "" : " of plugin '" + known->plugin + "'")});
+  }
+  tag.plugin = plugin_;
+  std::string name = tag.name;
+  tags_.emplace(std::move(name), std::move(tag));
+}
+
+void XmlTagRegistry::AddAttribute(AddedAttribute attribute) {
+  const auto same = [&](const AttributeRule& rule) { return rule.name == attribute.rule.name; };
+  const XmlTag* const tag = FindTag(attribute.tag);
+  if (tag == nullptr) {
+    throw ElementError({.message = "there is no tag <" + attribute.tag + "> that could have '" +
+                                   attribute.rule.name + "'"});
+  }
+  if (std::ranges::any_of(Rules(*tag), same)) {
+    throw ElementError(
+        {.message = "<" + tag->name + "> already has '" + attribute.rule.name + "'"});
+  }
+  attribute.plugin = plugin_;
+  added_attributes_.push_back(std::move(attribute));
+}
+
+void XmlTagRegistry::RemovePlugin(std::string_view plugin) {
+  std::erase_if(tags_, [&](const auto& entry) { return entry.second.plugin == plugin; });
+  std::erase_if(added_attributes_,
+                [&](const AddedAttribute& each) { return each.plugin == plugin; });
+}
+
+const XmlTag* XmlTagRegistry::FindTag(std::string_view name) const {
+  const auto found = tags_.find(name);
+  return found == tags_.end() ? nullptr : &found->second;
+}
+
+std::vector<const AddedAttribute*> XmlTagRegistry::AddedAttributes(std::string_view tag) const {
+  std::vector<const AddedAttribute*> attributes;
+  for (const AddedAttribute& each : added_attributes_) {
+    if (each.tag == tag) attributes.push_back(&each);
+  }
+  return attributes;
+}
+
+std::vector<AttributeRule> XmlTagRegistry::Rules(const XmlTag& tag) const {
+  std::vector<AttributeRule> rules = tag.attributes;
+  for (const AddedAttribute* added : AddedAttributes(tag.name)) rules.push_back(added->rule);
+  return rules;
+}
+
+std::vector<std::string> XmlTagRegistry::TagsIn(std::string_view parent) const {
+  std::vector<std::string> names;
+  for (const auto& [name, tag] : tags_) {
+    if (std::ranges::find(tag.parents, parent) != tag.parents.end()) names.push_back(name);
+  }
+  return names;
+}
+
+}  // namespace runnel

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/element/framework_element.h"
+#include "core/plugin/plugin_registry.h"
+#include "core/xml/xml_document.h"
+#include "plugins/runtime_construction/attribute_rule.h"
+
+namespace runnel {
+
+class BuildContext;
+
+/// One tag of an application file, as whoever builds the application meets it. Its attributes have
+/// been checked against the rules: those that are required are there, and all values are of their
+/// kind.
+///
+/// Copies are cheap enough to be kept by deferred actions.
+struct TagUse {
+  XmlElement xml;
+  FrameworkElement& parent;  ///< what the enclosing tag has made
+  BuildContext& context;
+  std::vector<std::string> unusable = {};  ///< attributes that have been complained about
+
+  /// nullptr if it is not there or unusable.
+  [[nodiscard]] const XmlAttribute* Find(std::string_view attribute) const;
+  /// Precondition: the rules require the attribute.
+  [[nodiscard]] const XmlAttribute& Get(std::string_view attribute) const;
+  /// Of what the tag makes, whether it has been made or not: the parent's, and the name, if any.
+  [[nodiscard]] std::string path() const;
+};
+
+/// A word of the language of application files. Plugins add their own:
+///
+///     if (auto* tags = registry.Find<XmlTagRegistry>()) {
+///       tags->AddTag({.name = "thread", .parents = {"application"}, .attributes = {…},
+///                     .handle = [](const TagUse& use) -> FrameworkElement* { … }});
+///     }
+struct XmlTag {
+  std::string name;
+  std::string summary = {};
+  std::vector<std::string> parents;  ///< tags that it may stand in; none: it is the root
+  std::vector<AttributeRule> attributes = {};
+  /// Handled before all other tags of the file are even looked at, since it may bring new tags.
+  bool comes_first = false;
+  /// Makes what the tag asks for and returns the element that the tags within it go below: a new
+  /// one, or use.parent. Nothing if it could not, after reporting why to use.context. What needs
+  /// the rest of the file is put off with use.context.Defer(). Exceptions become errors at the tag.
+  std::function<FrameworkElement*(const TagUse& use)> handle;
+  std::string plugin = {};  ///< that added it; filled in by the registry
+};
+
+/// An attribute that a plugin adds to tags of others: thread="control" on <module>.
+struct AddedAttribute {
+  std::string tag;
+  AttributeRule rule;
+  /// Called after the tag has made `element`, for each use of the attribute.
+  std::function<void(const XmlAttribute& attribute, FrameworkElement& element,
+                     BuildContext& context)>
+      handle;
+  std::string plugin = {};
+};
+
+/// The words that application files may use: the built-in ones from the start, and those of
+/// plugins. Offer it to the plugin manager (PluginRegistry::Offer) before loading plugins.
+///
+/// Threads: not thread-safe.
+class XmlTagRegistry final : public OfferedRegistry {
+ public:
+  XmlTagRegistry();
+
+  /// Both throw ElementError if the word is taken, as registrations of plugins do.
+  void AddTag(XmlTag tag);
+  void AddAttribute(AddedAttribute attribute);
+  void RemovePlugin(std::string_view plugin) override;
+  /// What is added from now on counts as of this plugin.
+  void set_plugin(std::string plugin) { plugin_ = std::move(plugin); }
+
+  [[nodiscard]] const XmlTag* FindTag(std::string_view name) const;
+  [[nodiscard]] std::vector<const AddedAttribute*> AddedAttributes(std::string_view tag) const;
+  /// The rules for all attributes of the tag, those of plugins included.
+  [[nodiscard]] std::vector<AttributeRule> Rules(const XmlTag& tag) const;
+  /// The names of the tags that may stand in `parent`, sorted.
+  [[nodiscard]] std::vector<std::string> TagsIn(std::string_view parent) const;
+
+ private:
+  std::map<std::string, XmlTag, std::less<>> tags_;
+  std::vector<AddedAttribute> added_attributes_;
+  std::string plugin_;
+};
+
+}  // namespace runnel

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "core/base/clock.h"
+#include "plugins/scheduling/cycle_statistics.h"
+#include "plugins/scheduling/schedule.h"
+#include "plugins/scheduling/thread_options.h"
+#include "plugins/scheduling/wake_event.h"
+
+namespace runnel {
+
+/// When a cycle runs, by the plan and in fact.
+struct CycleTimes {
+  Time due{};
+  Time now{};
+  Duration period{};  ///< 0 without a plan
+};
+
+/// Runs the cycles of one thread container; both executors are built on it. It outlives the
+/// container until its last cycle has ended.
+///
+/// Threads:     RunCycle() and Record() by one thread at a time; Install() under the structure
+/// lock;
+///              Activate() and statistics() from any thread.
+/// Allocation:  none in RunCycle(), apart from what a module that throws makes itself.
+class CycleRunner {
+ public:
+  CycleRunner(std::string path, const ThreadOptions& options)
+      : path_(std::move(path)), options_(options) {}
+  ~CycleRunner();
+  CycleRunner(const CycleRunner&) = delete;
+  CycleRunner& operator=(const CycleRunner&) = delete;
+
+  /// Of its container.
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
+  [[nodiscard]] const ThreadOptions& options() const noexcept { return options_; }
+  [[nodiscard]] bool waits_for_data() const noexcept {
+    return options_.activation == ThreadOptions::Activation::kTrigger;
+  }
+
+  /// Takes effect from the next cycle on.
+  void Install(std::unique_ptr<const Schedule> schedule);
+  /// Under the structure lock; nullptr before the first Install().
+  [[nodiscard]] const Schedule* schedule() const noexcept {
+    return schedule_.load(std::memory_order_seq_cst);
+  }
+
+  /// One cycle: every task in turn (of those that data has come for, if the thread waits for data).
+  /// Returns what it took, on the machine's clock.
+  Duration RunCycle(const CycleTimes& times, FaultDesk& desk) noexcept;
+  /// Counts a cycle that has ended.
+  void Record(const CycleMeasurement& cycle) noexcept { meter_.Add(cycle); }
+  [[nodiscard]] CycleStatistics statistics() const noexcept { return meter_.statistics(); }
+
+  /// Data has come for an element of this runner. Within a cycle the waiting thread is woken at the
+  /// cycle's end.
+  void Activate() noexcept;
+  /// Whether data has come since the last call.
+  [[nodiscard]] bool TakeActivation() noexcept {
+    return activated_.exchange(false, std::memory_order_acq_rel);
+  }
+  [[nodiscard]] bool is_activated() const noexcept {
+    return activated_.load(std::memory_order_acquire);
+  }
+  /// What the thread of this runner sleeps on, if it waits for data.
+  [[nodiscard]] WakeEvent& event() noexcept { return event_; }
+
+ private:
+  void RunTask(const Schedule::Entry& entry, Time now, FaultDesk& desk) noexcept;
+  void RunActivated(const Schedule& schedule, Time now, FaultDesk& desk) noexcept;
+
+  const std::string path_;
+  const ThreadOptions options_;
+  std::atomic<const Schedule*> schedule_{nullptr};
+  std::atomic<bool> activated_{false};
+  WakeEvent event_;
+  CycleMeter meter_;
+};
+
+}  // namespace runnel

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "core/base/clock.h"
+
+namespace runnel {
+
+/// A module has thrown in its cycle and has been stopped.
+struct Fault {
+  std::string path;     ///< of the module
+  std::string message;  ///< what it threw; cut off after kLongestFaultMessage characters
+  Time time{};          ///< of the cycle in which it happened
+};
+
+inline constexpr std::size_t kLongestFaultMessage = 500;
+
+/// What the application does when a module is stopped by a fault. Rules are applied in the order of
+/// their adding, never in the cycle that failed: after it (simulated clock) or by the supervising
+/// thread (real clock).
+struct FaultRule {
+  enum class Action {
+    kStopApplication,  ///< Scheduler::stop_requested() becomes true
+    kSet,              ///< sets `target` to `value`
+    kCall,             ///< calls `call`; what it throws is reported as a fault of `of`
+  };
+
+  std::string of = "/";  ///< path: faults of this element and of all below it
+  Action action = Action::kStopApplication;
+  std::string target = {};  ///< absolute path of an element that is Configurable
+  std::string value = {};
+  std::function<void(const Fault&)> call = {};  ///< must not call Scheduler::Stop()
+};
+
+}  // namespace runnel

@@ -1,0 +1,128 @@
+#include "plugins/scheduling/fault_desk.h"
+
+#include <algorithm>
+#include <exception>
+#include <mutex>
+#include <utility>
+
+#include "core/element/configurable.h"
+#include "core/element/runtime.h"
+
+namespace runnel {
+
+namespace {
+
+bool Covers(std::string_view of, std::string_view path) {
+  while (of.ends_with('/')) of.remove_suffix(1);
+  return path.starts_with(of) && (path.size() == of.size() || path[of.size()] == '/');
+}
+
+Result<Configurable*> FindTarget(Runtime& runtime, const FaultRule& rule) {
+  const auto found = runtime.root().Find(rule.target);
+  if (!found) return found.error();
+  auto* const target = dynamic_cast<Configurable*>(*found);
+  if (target == nullptr) {
+    return Error{.message = "cannot be set by a fault rule", .path = rule.target};
+  }
+  return target;
+}
+
+}  // namespace
+
+FaultRecord::FaultRecord(std::string path) {
+  fault_.path = std::move(path);
+  fault_.message.reserve(kLongestFaultMessage);
+}
+
+void FaultRecord::Fill(std::string_view message, Time time) noexcept {
+  fault_.message.assign(message.substr(0, kLongestFaultMessage));
+  fault_.time = time;
+}
+
+FaultDesk::~FaultDesk() {
+  FaultRecord* record = raised_.load(std::memory_order_acquire);
+  while (record != nullptr) delete std::exchange(record, record->next_);
+}
+
+void FaultDesk::Raise(std::unique_ptr<FaultRecord> record) noexcept {
+  FaultRecord* const added = record.release();
+  FaultRecord* head = raised_.load(std::memory_order_relaxed);
+  do {
+    added->next_ = head;
+    // release: pairs with the acquire in Attend(): the record is filled.
+  } while (!raised_.compare_exchange_weak(head, added, std::memory_order_release,
+                                          std::memory_order_relaxed));
+  event_.Notify();
+}
+
+void FaultDesk::Attend() {
+  if (raised_.load(std::memory_order_relaxed) == nullptr) return;
+  std::vector<std::unique_ptr<FaultRecord>> records;
+  // acquire: pairs with the release in Raise().
+  FaultRecord* record = raised_.exchange(nullptr, std::memory_order_acquire);
+  for (; record != nullptr; record = record->next_) records.emplace_back(record);
+  std::ranges::reverse(records);
+  for (const auto& each : records) Report(each->fault());
+}
+
+void FaultDesk::Report(const Fault& fault) {
+  std::vector<FaultRule> rules;
+  {
+    const std::lock_guard lock(mutex_);
+    log_.push_back(fault);
+    rules = rules_;
+  }
+  for (const FaultRule& rule : rules) {
+    if (Covers(rule.of, fault.path)) Apply(rule, fault);
+  }
+}
+
+void FaultDesk::Apply(const FaultRule& rule, const Fault& fault) {
+  try {
+    if (rule.action == FaultRule::Action::kStopApplication) RequestStop();
+    if (rule.action == FaultRule::Action::kCall && rule.call) rule.call(fault);
+    if (rule.action == FaultRule::Action::kSet) {
+      const auto set = Set(rule);
+      if (!set) Log({rule.of, "the fault rule failed: " + set.error().ToString(), fault.time});
+    }
+  } catch (const std::exception& exception) {
+    Log({rule.of, std::string("the fault rule failed: ") + exception.what(), fault.time});
+  } catch (...) {
+    Log({rule.of, "the fault rule failed with an unknown exception", fault.time});
+  }
+}
+
+Result<void> FaultDesk::Set(const FaultRule& rule) {
+  const std::lock_guard lock(runtime_.structure_mutex());
+  const auto target = FindTarget(runtime_, rule);
+  if (!target) return target.error();
+  return (*target)->SetFromText(rule.value);
+}
+
+Result<void> FaultDesk::AddRule(FaultRule rule) {
+  if (rule.action == FaultRule::Action::kSet) {
+    const std::lock_guard lock(runtime_.structure_mutex());
+    const auto target = FindTarget(runtime_, rule);
+    if (!target) return target.error();
+    if (const auto accepted = (*target)->CheckText(rule.value); !accepted) {
+      Error error = accepted.error();
+      if (error.path.empty()) error.path = rule.target;
+      return error;
+    }
+  }
+  const std::lock_guard lock(mutex_);
+  rules_.push_back(std::move(rule));
+  return {};
+}
+
+void FaultDesk::Log(Fault fault) {
+  const std::lock_guard lock(mutex_);
+  log_.push_back(std::move(fault));
+}
+
+std::vector<Fault> FaultDesk::Take() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(log_, {});
+}
+
+}  // namespace runnel

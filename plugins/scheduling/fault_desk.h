@@ -1,0 +1,80 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/ordered_mutex.h"
+#include "core/base/result.h"
+#include "plugins/scheduling/fault.h"
+#include "plugins/scheduling/wake_event.h"
+
+namespace runnel {
+
+class Runtime;
+
+/// Room for one fault, made before it happens, so that raising it needs no memory.
+class FaultRecord {
+ public:
+  explicit FaultRecord(std::string path);
+  /// Cuts `message` off where the room ends.
+  void Fill(std::string_view message, Time time) noexcept;
+  [[nodiscard]] const Fault& fault() const noexcept { return fault_; }
+
+ private:
+  friend class FaultDesk;
+  Fault fault_;
+  FaultRecord* next_ = nullptr;
+};
+
+/// Takes faults from the cycles in which they happen to those who act on them and tell of them.
+///
+/// Threads:    Raise() from any cycle: lock-free, allocates nothing; wakes the supervising thread,
+///             if one sleeps. The rest from any thread outside of cycles.
+/// Ownership:  of records that have been raised.
+class FaultDesk {
+ public:
+  explicit FaultDesk(Runtime& runtime) : runtime_(runtime) {}
+  ~FaultDesk();
+  FaultDesk(const FaultDesk&) = delete;
+  FaultDesk& operator=(const FaultDesk&) = delete;
+
+  void Raise(std::unique_ptr<FaultRecord> record) noexcept;
+
+  /// Applies the rules to what has been raised, in the order of raising, and logs it.
+  void Attend();
+  /// Logs the fault and applies the rules to it, at once. Outside of cycles.
+  void Report(const Fault& fault);
+  /// What has been logged since the last call, oldest first.
+  [[nodiscard]] std::vector<Fault> Take();
+
+  /// Errors: a target that is not there or cannot take the value.
+  Result<void> AddRule(FaultRule rule);
+
+  void RequestStop() noexcept { stop_requested_.store(true, std::memory_order_release); }
+  void ClearStop() noexcept { stop_requested_.store(false, std::memory_order_release); }
+  [[nodiscard]] bool stop_requested() const noexcept {
+    return stop_requested_.load(std::memory_order_acquire);
+  }
+
+  /// Notified of each fault.
+  [[nodiscard]] WakeEvent& event() noexcept { return event_; }
+
+ private:
+  void Log(Fault fault);
+  void Apply(const FaultRule& rule, const Fault& fault);
+  Result<void> Set(const FaultRule& rule);
+
+  Runtime& runtime_;
+  // A stack that is only ever pushed to and taken as a whole, so no address can come back to life.
+  std::atomic<FaultRecord*> raised_{nullptr};
+  std::atomic<bool> stop_requested_{false};
+  WakeEvent event_;
+  OrderedMutex mutex_{LockLevel::kLeaf};
+  std::vector<FaultRule> rules_;  // guarded by mutex_
+  std::vector<Fault> log_;        // guarded by mutex_
+};
+
+}  // namespace runnel

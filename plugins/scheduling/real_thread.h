@@ -1,0 +1,50 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "core/base/error.h"
+#include "plugins/scheduling/cycle_runner.h"
+
+namespace runnel {
+
+/// A thread of the system that runs the cycles of one container on the machine's clock.
+///
+/// Threads:  made, asked to stop and joined by one thread. Allocation: none in the loop.
+class RealThread {
+ public:
+  /// Starts at once; the first cycle of a periodic thread is due at `first`. `desk` must outlive
+  /// this.
+  RealThread(std::shared_ptr<CycleRunner> runner, FaultDesk& desk, Time first);
+  /// Stops and joins.
+  ~RealThread();
+  RealThread(const RealThread&) = delete;
+  RealThread& operator=(const RealThread&) = delete;
+
+  [[nodiscard]] const std::shared_ptr<CycleRunner>& runner() const noexcept { return runner_; }
+  /// Puts it under the real-time scheduling that its container asks for.
+  [[nodiscard]] std::optional<Error> Prioritize();
+  /// Lets the current cycle be the last, and does not wait for its end.
+  void RequestStop() noexcept;
+  /// True when joining will not take long.
+  [[nodiscard]] bool has_ended() const noexcept { return ended_.load(std::memory_order_acquire); }
+
+ private:
+  void Run(Time first);
+  void RunCycles(Time first);
+  void RunPeriodically(Time first);
+  void RunFreely();
+  void RunOnData();
+  void RunUnplanned();
+  [[nodiscard]] bool stopping() const noexcept { return stopping_.load(std::memory_order_acquire); }
+
+  const std::shared_ptr<CycleRunner> runner_;
+  FaultDesk& desk_;
+  std::atomic<bool> stopping_{false};
+  std::atomic<bool> ended_{false};
+  std::thread thread_;  // last: everything is there when it starts
+};
+
+}  // namespace runnel

@@ -1,0 +1,156 @@
+#include "plugins/scheduling/schedule_compiler.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/lockfree/thread_epoch.h"
+#include "core/port/input.h"
+#include "plugins/scheduling/cycle_runner.h"
+#include "plugins/scheduling/execution_order.h"
+#include "plugins/scheduling/internal/data_flow.h"
+
+namespace runnel {
+
+namespace {
+
+struct Found {
+  std::vector<ThreadContainer*> containers;
+  std::vector<FrameworkElement*> executables;
+};
+
+void Search(FrameworkElement& element, Found& found) {
+  if (element.life_cycle() == LifeCycle::kDeleted) return;
+  if (auto* const container = dynamic_cast<ThreadContainer*>(&element)) {
+    found.containers.push_back(container);
+  }
+  if (element.life_cycle() == LifeCycle::kReady && element.FindAnnotation<Executable>()) {
+    found.executables.push_back(&element);
+  }
+  for (FrameworkElement* child : element.children()) Search(*child, found);
+}
+
+std::vector<InputBase*> TriggerInputs(const std::vector<Task>& tasks) {
+  std::vector<InputBase*> inputs;
+  for (const Task& task : tasks) {
+    for (const FrameworkElement* group : task.reads) {
+      if (group == nullptr) continue;
+      internal::VisitPorts(*group, [&](Port& port) {
+        auto* const input = dynamic_cast<InputBase*>(&port);
+        if (input != nullptr && input->is_trigger()) inputs.push_back(input);
+      });
+    }
+  }
+  return inputs;
+}
+
+ThreadContainer* ChooseContainer(const FrameworkElement& element, const Found& found,
+                                 const std::string& default_thread) {
+  const auto by = [&](auto&& is_it) -> ThreadContainer* {
+    const auto at = std::ranges::find_if(found.containers, is_it);
+    return at == found.containers.end() ? nullptr : *at;
+  };
+  const std::uint64_t assigned = AssignedThread(element);
+  if (auto* chosen = by([&](auto* each) { return each->serial() == assigned; })) return chosen;
+  if (auto* chosen = by([&](auto* each) { return each->name() == default_thread; })) return chosen;
+  return found.containers.empty() ? nullptr : found.containers.front();
+}
+
+// Data that came before the element was tied count as new.
+void Tie(const std::vector<InputBase*>& inputs, ScheduledElement& state, CycleRunner& runner) {
+  const bool was_tied = state.runner() != nullptr;
+  state.set_runner(&runner);
+  bool has_data = false;
+  for (InputBase* input : inputs) {
+    input->SetWaker(&state);
+    has_data = input->LookAtValue([](const void*, Time) {}) || has_data;
+  }
+  if (has_data && !was_tied) state.Wake();
+}
+
+void Untie(const std::vector<InputBase*>& inputs) {
+  for (InputBase* input : inputs) input->SetWaker(nullptr);
+}
+
+void MarkFirstAndLast(std::vector<Schedule::Entry>& entries) {
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    for (std::size_t later = i + 1; later < entries.size(); ++later) {
+      if (entries[i].element != entries[later].element) continue;
+      entries[i].is_last = false;
+      entries[later].is_first = false;
+    }
+  }
+}
+
+}  // namespace
+
+CompiledSchedules ScheduleCompiler::Compile(FrameworkElement& root) {
+  Found found;
+  Search(root, found);
+  std::ranges::sort(found.containers, {}, &FrameworkElement::serial);
+  std::ranges::sort(found.executables, {}, &FrameworkElement::serial);
+
+  CompiledSchedules result;
+  std::map<const ThreadContainer*, std::vector<Task>> tasks_of;
+  for (FrameworkElement* element : found.executables) {
+    ThreadContainer* const container = ChooseContainer(*element, found, default_thread_);
+    if (container == nullptr) {
+      result.has_unassigned_tasks = true;
+      continue;
+    }
+    std::vector<Task> tasks = element->FindAnnotation<Executable>()->tasks();
+    const std::vector<InputBase*> inputs = TriggerInputs(tasks);
+    const auto state = StateOf(*element);
+    if (container->runner()->waits_for_data()) {
+      Tie(inputs, *state, *container->runner());
+      if (inputs.empty()) {
+        result.warnings.push_back(
+            {.message = "is never run: its thread " + container->path() +
+                        " waits for data, and it has no trigger input",
+             .path = element->path(),
+             .hint = "assign it to a periodic thread, or make an input with .trigger = true"});
+      }
+    } else {
+      Untie(inputs);
+      state->set_runner(nullptr);
+    }
+    std::ranges::move(tasks, std::back_inserter(tasks_of[container]));
+  }
+
+  std::vector<CycleRunner*> waiting;
+  for (const ThreadContainer* container : found.containers) {
+    if (container->runner()->waits_for_data()) waiting.push_back(container->runner().get());
+  }
+  for (const ThreadContainer* container : found.containers) {
+    ExecutionOrder order = OrderTasks(std::move(tasks_of[container]));
+    auto schedule = std::make_unique<Schedule>();
+    for (Task& task : order.tasks) {
+      schedule->entries.push_back({std::move(task.run), StateOf(*task.element), task.phase});
+    }
+    MarkFirstAndLast(schedule->entries);
+    schedule->waiting = waiting;
+    std::ranges::move(order.cuts, std::back_inserter(result.warnings));
+    result.threads.push_back({container->runner(), std::move(schedule)});
+  }
+  return result;
+}
+
+void ScheduleCompiler::Release(FrameworkElement& element) {
+  element.Visit([this](FrameworkElement& each) {
+    const auto* const executable = each.FindAnnotation<Executable>();
+    if (executable == nullptr) return;
+    Untie(TriggerInputs(executable->tasks()));
+    const auto found = states_.find(each.serial());
+    if (found == states_.end()) return;
+    // A publisher may still be about to wake it.
+    Retire([state = std::move(found->second)] {});
+    states_.erase(found);
+  });
+}
+
+std::shared_ptr<ScheduledElement> ScheduleCompiler::StateOf(const FrameworkElement& element) {
+  auto& state = states_[element.serial()];
+  if (!state) state = std::make_shared<ScheduledElement>(element.path(), element.serial());
+  return state;
+}
+
+}  // namespace runnel

@@ -1,0 +1,25 @@
+#include "plugins/scheduling/scheduled_element.h"
+
+#include <utility>
+
+#include "plugins/scheduling/cycle_runner.h"
+
+namespace runnel {
+
+ScheduledElement::ScheduledElement(std::string path, std::uint64_t serial)
+    : path_(std::move(path)), serial_(serial), record_(std::make_unique<FaultRecord>(path_)) {}
+
+void ScheduledElement::Fail(std::string_view message, Time time, FaultDesk& desk) noexcept {
+  stopped_.store(true, std::memory_order_relaxed);
+  if (!record_) return;
+  record_->Fill(message, time);
+  desk.Raise(std::move(record_));
+}
+
+void ScheduledElement::Wake() noexcept {
+  activated_.store(true, std::memory_order_release);
+  // The caller is inside an EpochGuard, and runners are retired: it cannot go away meanwhile.
+  if (CycleRunner* const waiting = runner()) waiting->Activate();
+}
+
+}  // namespace runnel

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "core/port/waker.h"
+#include "plugins/scheduling/fault_desk.h"
+
+namespace runnel {
+
+class CycleRunner;
+
+/// What the scheduler knows of one element that has tasks: whether it still runs, and whether data
+/// has come for it. Outlives changes of the schedule.
+///
+/// Threads:  the functions that say so by one executor thread inside TryEnter/Leave; Wake() by any
+///           publisher; set_runner() under the structure lock.
+/// Progress: wait-free. Allocation: in the constructor only.
+class ScheduledElement final : public Waker {
+ public:
+  ScheduledElement(std::string path, std::uint64_t serial);
+
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
+  [[nodiscard]] std::uint64_t serial() const noexcept { return serial_; }
+
+  /// Claims the element for one task. False if another thread has it, which can only happen in the
+  /// one cycle in which it moves from thread to thread; the task is then left out.
+  [[nodiscard]] bool TryEnter() noexcept {
+    // acquire: pairs with the release in Leave(): the module's data move from thread to thread.
+    return !running_.exchange(true, std::memory_order_acquire);
+  }
+  void Leave() noexcept { running_.store(false, std::memory_order_release); }
+
+  /// Stops the element for good and hands the fault in. Inside TryEnter/Leave.
+  void Fail(std::string_view message, Time time, FaultDesk& desk) noexcept;
+  [[nodiscard]] bool is_stopped() const noexcept {
+    // relaxed: TryEnter/Leave order it; elsewhere it only informs.
+    return stopped_.load(std::memory_order_relaxed);
+  }
+
+  /// Who runs the element on new data; nullptr for nobody.
+  void set_runner(CycleRunner* runner) noexcept {
+    runner_.store(runner, std::memory_order_seq_cst);
+  }
+  [[nodiscard]] CycleRunner* runner() const noexcept {
+    return runner_.load(std::memory_order_seq_cst);
+  }
+  /// New data has come: the element shall run in the next triggered pass.
+  void Wake() noexcept override;
+  /// Whether data has come since the last call.
+  [[nodiscard]] bool TakeActivation() noexcept {
+    // acq_rel: pairs with the release in Wake(): the data are there.
+    return activated_.exchange(false, std::memory_order_acq_rel);
+  }
+  [[nodiscard]] bool is_activated() const noexcept {
+    return activated_.load(std::memory_order_acquire);
+  }
+  /// A note of the executor's for the time of one triggered pass: the element's tasks are to run.
+  void set_in_pass(bool in_pass) noexcept { in_pass_.store(in_pass, std::memory_order_relaxed); }
+  [[nodiscard]] bool in_pass() const noexcept { return in_pass_.load(std::memory_order_relaxed); }
+
+ private:
+  const std::string path_;
+  const std::uint64_t serial_;
+  std::unique_ptr<FaultRecord> record_;  // until the element has failed
+  std::atomic<bool> running_{false};
+  std::atomic<bool> stopped_{false};
+  std::atomic<bool> activated_{false};
+  std::atomic<bool> in_pass_{false};
+  std::atomic<CycleRunner*> runner_{nullptr};
+};
+
+}  // namespace runnel

@@ -1,0 +1,235 @@
+#include "plugins/scheduling/scheduler.h"
+
+#include <algorithm>
+#include <mutex>
+#include <utility>
+
+#include "core/lockfree/thread_epoch.h"
+#include "plugins/scheduling/realtime_setup.h"
+
+namespace runnel {
+
+namespace {
+
+bool IsSimulated(const SchedulerOptions& options) {
+  return options.clock == SchedulerOptions::ClockKind::kSimulated;
+}
+
+}  // namespace
+
+Scheduler::Scheduler(Runtime& runtime, SchedulerOptions options)
+    : runtime_(runtime),
+      options_(std::move(options)),
+      clock_before_(runtime.clock()),
+      desk_(runtime),
+      pacing_(options_.speed, machine_),
+      compiler_(options_.default_thread) {
+  if (IsSimulated(options_)) runtime_.set_clock(simulation_.clock());
+  runtime_.AddListener(*this);
+}
+
+Scheduler::~Scheduler() {
+  Stop();
+  {
+    const std::lock_guard lock(runtime_.structure_mutex());
+    runtime_.RemoveListener(*this);
+    compiler_.Release(runtime_.root());
+    for (const auto& runner : runners_) runner->Install(nullptr);
+  }
+  if (IsSimulated(options_)) runtime_.set_clock(clock_before_);
+  // Publishers may still look at what they have found before; they must not outlive it.
+  WaitForReaders();
+}
+
+void Scheduler::OnReady(FrameworkElement&) { Changed(); }
+
+void Scheduler::OnDeleted(FrameworkElement& element) {
+  compiler_.Release(element);
+  Changed();
+}
+
+void Scheduler::OnConnected(FrameworkElement& from, FrameworkElement& to) {
+  is_outdated_ = true;
+  // Structure that is still being built is compiled once, when it is ready.
+  const bool both_ready =
+      from.life_cycle() == LifeCycle::kReady && to.life_cycle() == LifeCycle::kReady;
+  if (both_ready) Changed();
+}
+
+void Scheduler::OnDisconnected(FrameworkElement& from, FrameworkElement& to) {
+  OnConnected(from, to);
+  // A deletion takes off many connections at once: the supervisor looks at what has come of it.
+  if (is_outdated_ && is_running_) desk_.event().Notify();
+}
+
+void Scheduler::OnAssigned(FrameworkElement&, ThreadContainer&) { Changed(); }
+
+// Running threads get their new schedule at once; simulated ones before the next step.
+void Scheduler::Changed() {
+  is_outdated_ = true;
+  if (is_running_) BringUpToDate();
+}
+
+void Scheduler::BringUpToDate() {
+  if (!std::exchange(is_outdated_, false)) return;
+  CompiledSchedules compiled = compiler_.Compile(runtime_.root());
+  if (compiled.has_unassigned_tasks) {
+    CreateThread(runtime_, "main", options_.default_options);
+    is_outdated_ = false;
+    compiled = compiler_.Compile(runtime_.root());
+  }
+  Install(std::move(compiled));
+}
+
+void Scheduler::Install(CompiledSchedules compiled) {
+  const Runners before = std::exchange(runners_, {});
+  for (auto& [runner, schedule] : compiled.threads) {
+    runner->Install(std::move(schedule));
+    runners_.push_back(runner);
+  }
+  for (const auto& runner : before) {
+    if (std::ranges::find(runners_, runner) != runners_.end()) continue;
+    runner->Install(nullptr);
+    // Others may be about to tell it of data.
+    Retire([runner] {});
+  }
+  schedule_warnings_ = std::move(compiled.warnings);
+  if (IsSimulated(options_)) simulation_.SetRunners(runners_);
+  if (is_running_) StartThreads(machine_.Now());
+}
+
+void Scheduler::StartThreads(Time first) {
+  const auto is_gone = [this](const auto& thread) {
+    return std::ranges::find(runners_, thread->runner()) == runners_.end();
+  };
+  for (auto& thread : threads_) {
+    if (!is_gone(thread)) continue;
+    thread->RequestStop();
+    ending_.push_back(std::move(thread));
+  }
+  std::erase(threads_, nullptr);
+  std::erase_if(ending_, [](const auto& thread) { return thread->has_ended(); });
+  for (const auto& runner : runners_) {
+    const bool has_thread = std::ranges::any_of(
+        threads_, [&](const auto& thread) { return thread->runner() == runner; });
+    if (has_thread) continue;
+    threads_.push_back(std::make_unique<RealThread>(runner, desk_, first));
+    if (auto warning = threads_.back()->Prioritize()) {
+      realtime_warnings_.push_back(std::move(*warning));
+    }
+  }
+}
+
+Result<void> Scheduler::Start() {
+  if (IsSimulated(options_)) {
+    return Error{.message = "an application on a simulated clock has no threads to start",
+                 .hint = "use Step() or RunUntil()"};
+  }
+  const std::lock_guard start_lock(start_mutex_);
+  const std::lock_guard lock(runtime_.structure_mutex());
+  if (is_running_) return {};
+  desk_.ClearStop();
+  realtime_warnings_.clear();
+  is_outdated_ = true;
+  BringUpToDate();
+  const bool has_priorities = std::ranges::any_of(
+      runners_, [](const auto& runner) { return runner->options().priority > 0; });
+  if (has_priorities && options_.lock_memory) {
+    if (auto warning = LockMemory()) realtime_warnings_.push_back(std::move(*warning));
+  }
+  supervises_.store(true, std::memory_order_release);
+  supervisor_ = std::thread([this] { Supervise(); });
+  is_running_ = true;
+  StartThreads(machine_.Now());
+  return {};
+}
+
+void Scheduler::Stop() {
+  RUNNEL_CHECK(std::this_thread::get_id() != supervisor_.get_id(),
+               "a fault rule cannot stop the scheduler itself; call RequestStop()");
+  const std::lock_guard start_lock(start_mutex_);
+  std::vector<std::unique_ptr<RealThread>> ended;
+  {
+    const std::lock_guard lock(runtime_.structure_mutex());
+    is_running_ = false;
+    ended = std::exchange(threads_, {});
+    std::ranges::move(std::exchange(ending_, {}), std::back_inserter(ended));
+  }
+  // The structure lock is free meanwhile, so that a cycle that needs it can come to its end.
+  for (const auto& thread : ended) thread->RequestStop();
+  ended.clear();
+  EndSupervision();
+}
+
+bool Scheduler::is_running() const {
+  const std::lock_guard lock(runtime_.structure_mutex());
+  return is_running_;
+}
+
+void Scheduler::Supervise() {
+  while (supervises_.load(std::memory_order_acquire)) {
+    desk_.event().Wait();
+    desk_.Attend();
+    const std::lock_guard lock(runtime_.structure_mutex());
+    if (is_running_) BringUpToDate();
+  }
+}
+
+void Scheduler::EndSupervision() {
+  if (!supervisor_.joinable()) return;
+  supervises_.store(false, std::memory_order_release);
+  desk_.event().Notify();
+  supervisor_.join();
+  supervisor_ = std::thread();
+}
+
+std::optional<Time> Scheduler::NextDue() {
+  RUNNEL_CHECK(IsSimulated(options_), "stepping is for the simulated clock");
+  const std::lock_guard lock(runtime_.structure_mutex());
+  BringUpToDate();
+  return simulation_.NextDue();
+}
+
+bool Scheduler::RunNext(Time due) {
+  pacing_.WaitFor(due, [this] { return stop_requested(); });
+  return !stop_requested() && simulation_.Step();
+}
+
+bool Scheduler::Step() {
+  const auto due = NextDue();
+  return due.has_value() && RunNext(*due);
+}
+
+bool Scheduler::RunUntil(Time end) {
+  for (auto due = NextDue(); due.has_value() && *due < end; due = NextDue()) {
+    if (!RunNext(*due)) return false;
+  }
+  if (stop_requested()) return false;
+  simulation_.clock().Set(end);
+  return true;
+}
+
+std::vector<Fault> Scheduler::TakeFaults() {
+  desk_.Attend();
+  return desk_.Take();
+}
+
+std::vector<Error> Scheduler::Warnings() {
+  const std::lock_guard lock(runtime_.structure_mutex());
+  BringUpToDate();
+  std::vector<Error> warnings = schedule_warnings_;
+  std::ranges::copy(realtime_warnings_, std::back_inserter(warnings));
+  return warnings;
+}
+
+std::vector<Scheduler::ScheduledTask> Scheduler::Order(const ThreadContainer& thread) {
+  const std::lock_guard lock(runtime_.structure_mutex());
+  BringUpToDate();
+  std::vector<ScheduledTask> order;
+  const Schedule* const schedule = thread.runner()->schedule();
+  if (schedule == nullptr) return order;
+  for (const auto& entry : schedule->entries) order.push_back({entry.element->path(), entry.phase});
+  return order;
+}
+
+}  // namespace runnel

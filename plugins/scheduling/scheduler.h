@@ -1,0 +1,144 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/base/ordered_mutex.h"
+#include "core/element/element_listener.h"
+#include "core/element/runtime.h"
+#include "plugins/scheduling/fault.h"
+#include "plugins/scheduling/fault_desk.h"
+#include "plugins/scheduling/pacing.h"
+#include "plugins/scheduling/real_thread.h"
+#include "plugins/scheduling/schedule_compiler.h"
+#include "plugins/scheduling/simulated_executor.h"
+#include "plugins/scheduling/thread_container.h"
+
+namespace runnel {
+
+struct SchedulerOptions {
+  enum class ClockKind {
+    kReal,       ///< threads of the system, on the machine's clock: Start(), Stop()
+    kSimulated,  ///< one thread, on a clock that jumps from cycle to cycle: Step(), RunUntil()
+  };
+
+  ClockKind clock = ClockKind::kReal;
+  /// kSimulated: how many times faster than real time it may go; 0: as fast as it can.
+  double speed = 0;
+  /// kReal: lock the memory of the process, if any thread has a priority.
+  bool lock_memory = true;
+  /// Name of the container for what is assigned to none; "" or unknown: the one made first.
+  std::string default_thread = {};
+  /// If there is something to run but no container, one called "main" is made with these.
+  ThreadOptions default_options = {};
+};
+
+/// Runs an application: finds everything in the tree that has tasks (Executable) and is ready,
+/// brings it into the order of the data flow, and has it run by its thread containers. Follows
+/// every change of the structure, also while running: a change takes effect from the next cycle on.
+///
+/// Ownership:  must be destroyed before the runtime. One per runtime.
+/// Threads:    Start, Stop, Step and RunUntil from one thread at a time, outside of cycles and
+///             without the structure lock; the rest from any thread outside of cycles.
+/// Errors:     a module that throws is stopped for good; the rest runs on (TakeFaults()).
+class Scheduler final : public ElementListener, public AssignmentListener {
+ public:
+  /// On a simulated clock, becomes the clock of the runtime.
+  explicit Scheduler(Runtime& runtime, SchedulerOptions options = {});
+  ~Scheduler();
+  Scheduler(const Scheduler&) = delete;
+  Scheduler& operator=(const Scheduler&) = delete;
+
+  [[nodiscard]] const SchedulerOptions& options() const noexcept { return options_; }
+
+  /// kReal: starts a thread for each container. What the system does not permit becomes a warning.
+  /// Errors: a simulated clock.
+  Result<void> Start();
+  /// Ends all threads after their current cycle and waits for them. Idempotent.
+  void Stop();
+  [[nodiscard]] bool is_running() const;
+
+  /// kSimulated: runs the cycle that is due next and what its data sets off. False, with nothing
+  /// run, if there is nothing to run or a stop has been requested.
+  bool Step();
+  /// kSimulated: runs all cycles that are due before `end`, then sets the clock to it. False if a
+  /// stop was requested: the clock then stays at the cycle that was the last.
+  bool RunUntil(Time end);
+  /// kSimulated: tests may move it between cycles, and inside of them to let a cycle take time.
+  [[nodiscard]] ManualClock& simulated_clock() noexcept { return simulation_.clock(); }
+
+  /// By a fault rule, or by RequestStop(). The program that runs the application looks at it and
+  /// calls Stop(); until then real threads run on, so that what else is there can bring the robot
+  /// to rest. Start() resets it.
+  [[nodiscard]] bool stop_requested() const noexcept { return desk_.stop_requested(); }
+  /// Any thread, also from a signal handler.
+  void RequestStop() noexcept { desk_.RequestStop(); }
+
+  /// The faults since the last call, oldest first.
+  [[nodiscard]] std::vector<Fault> TakeFaults();
+  /// Errors: a rule whose target is not there, or cannot take the value.
+  Result<void> AddFaultRule(FaultRule rule) { return desk_.AddRule(std::move(rule)); }
+
+  /// What a person should know of the application as it stands: loops that were cut, modules that
+  /// never run, real-time rights that are missing. Brings the schedules up to date.
+  [[nodiscard]] std::vector<Error> Warnings();
+
+  /// One task as it is scheduled.
+  struct ScheduledTask {
+    std::string path;  ///< of the element
+    Phase phase;
+    friend bool operator==(const ScheduledTask&, const ScheduledTask&) = default;
+  };
+  /// In the order of their running. Brings the schedules up to date.
+  [[nodiscard]] std::vector<ScheduledTask> Order(const ThreadContainer& thread);
+
+  void OnReady(FrameworkElement& element) override;
+  void OnDeleted(FrameworkElement& element) override;
+  void OnConnected(FrameworkElement& from, FrameworkElement& to) override;
+  void OnDisconnected(FrameworkElement& from, FrameworkElement& to) override;
+  void OnAssigned(FrameworkElement& element, ThreadContainer& thread) override;
+
+ private:
+  using Runners = std::vector<std::shared_ptr<CycleRunner>>;
+
+  // Simulated clock.
+  [[nodiscard]] std::optional<Time> NextDue();
+  bool RunNext(Time due);
+
+  // All four under the structure lock.
+  void Changed();
+  void BringUpToDate();
+  void Install(CompiledSchedules compiled);
+  void StartThreads(Time first);
+
+  void Supervise();
+  void EndSupervision();
+
+  Runtime& runtime_;
+  const SchedulerOptions options_;
+  const Clock& clock_before_;  // the runtime's, before ours
+  FaultDesk desk_;
+  SimulatedExecutor simulation_{desk_};
+  SteadyClock machine_;
+  Pacing pacing_;
+
+  OrderedMutex start_mutex_{LockLevel::kScheduler};
+  // Guarded by the structure lock, down to the next comment:
+  ScheduleCompiler compiler_;
+  bool is_outdated_ = true;
+  bool is_running_ = false;
+  Runners runners_;
+  std::vector<Error> schedule_warnings_;
+  std::vector<Error> realtime_warnings_;
+  std::vector<std::unique_ptr<RealThread>> threads_;
+  std::vector<std::unique_ptr<RealThread>> ending_;  // their containers are gone
+
+  std::atomic<bool> supervises_{false};
+  std::thread supervisor_;
+};
+
+}  // namespace runnel

@@ -1,0 +1,90 @@
+#include "plugins/scheduling/simulated_executor.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace runnel {
+
+void SimulatedExecutor::SetRunners(const std::vector<std::shared_ptr<CycleRunner>>& runners) {
+  const std::vector<Lane> before = std::exchange(periodic_, {});
+  waiting_.clear();
+  for (const auto& runner : runners) {
+    if (runner->waits_for_data()) {
+      waiting_.push_back(runner);
+      continue;
+    }
+    const auto known = std::ranges::find(before, runner, &Lane::runner);
+    const ThreadOptions& options = runner->options();
+    const DueTime at_once(clock_.Now(), options.period, options.on_overrun);
+    periodic_.push_back({runner, known == before.end() ? at_once : known->due});
+  }
+}
+
+SimulatedExecutor::Lane* SimulatedExecutor::NextPeriodic() {
+  // The first of several smallest: that of the container that was made first.
+  const auto next =
+      std::ranges::min_element(periodic_, {}, [](const Lane& lane) { return lane.due.next(); });
+  return next == periodic_.end() ? nullptr : &*next;
+}
+
+CycleRunner* SimulatedExecutor::NextActivated() const {
+  if (is_time_stuck_) return nullptr;
+  const auto next =
+      std::ranges::find_if(waiting_, [](const auto& runner) { return runner->is_activated(); });
+  return next == waiting_.end() ? nullptr : next->get();
+}
+
+std::optional<Time> SimulatedExecutor::NextDue() {
+  if (NextActivated() != nullptr) return clock_.Now();
+  const Lane* const next = NextPeriodic();
+  if (next == nullptr) return {};
+  return std::max(next->due.next(), clock_.Now());
+}
+
+bool SimulatedExecutor::Step() {
+  if (NextActivated() == nullptr) {
+    Lane* const next = NextPeriodic();
+    if (next == nullptr) return false;
+    RunPeriodic(*next);
+    is_time_stuck_ = false;
+  }
+  RunActivated();
+  return true;
+}
+
+void SimulatedExecutor::RunPeriodic(Lane& lane) {
+  const bool is_planned = lane.runner->options().activation == ThreadOptions::Activation::kPeriod;
+  const Time due = lane.due.next();
+  clock_.Set(due);
+  const Time start = clock_.Now();  // later, if a module has let time pass in its cycle
+  const Duration period = is_planned ? lane.runner->options().period : Duration::zero();
+  const Duration execution = lane.runner->RunCycle({due, start, period}, desk_);
+  const bool overrun = lane.due.Advance(clock_.Now());
+  lane.runner->Record({is_planned ? due : start, start, execution, is_planned && overrun});
+  desk_.Attend();
+}
+
+void SimulatedExecutor::RunActivated() {
+  for (int cycles = 0; !desk_.stop_requested(); ++cycles) {
+    CycleRunner* const next = NextActivated();
+    if (next == nullptr) return;
+    if (cycles == kMostTriggeredCycles) return ReportEndlessLoop(*next);
+    (void)next->TakeActivation();
+    const Time now = clock_.Now();
+    const Duration execution = next->RunCycle({now, now, Duration::zero()}, desk_);
+    next->Record({now, now, execution, false});
+    desk_.Attend();
+  }
+}
+
+void SimulatedExecutor::ReportEndlessLoop(const CycleRunner& runner) {
+  is_time_stuck_ = true;
+  if (std::exchange(endless_loop_is_reported_, true)) return;
+  desk_.Report({runner.path(),
+                "modules set each other off without end while no time passes, " +
+                    std::to_string(kMostTriggeredCycles) + " cycles until now",
+                clock_.Now()});
+}
+
+}  // namespace runnel

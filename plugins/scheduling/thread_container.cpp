@@ -1,0 +1,80 @@
+#include "plugins/scheduling/thread_container.h"
+
+#include <mutex>
+
+#include "core/element/runtime.h"
+#include "core/module/group.h"
+#include "plugins/scheduling/cycle_runner.h"
+
+namespace runnel {
+
+namespace {
+
+constexpr int kHighestPriority = 99;
+
+struct ThreadAssignment final : Annotation {
+  explicit ThreadAssignment(std::uint64_t thread_serial) : serial(thread_serial) {}
+  // The number and not the address: that of a container that is gone never comes back.
+  std::uint64_t serial;
+};
+
+void CheckOptions(const FrameworkElement& container, const ThreadOptions& options) {
+  if (options.activation != ThreadOptions::Activation::kTrigger &&
+      options.period <= Duration::zero()) {
+    throw ElementError({.message = "the period of a thread must be positive",
+                        .path = container.path(),
+                        .hint = "for example 0.01 s"});
+  }
+  if (options.priority < 0 || options.priority > kHighestPriority) {
+    throw ElementError({.message = "priority " + std::to_string(options.priority) +
+                                   " of a thread is out of bounds",
+                        .path = container.path(),
+                        .hint = "0 is ordinary scheduling, 1 .. 99 is SCHED_FIFO"});
+  }
+}
+
+}  // namespace
+
+ThreadContainer::ThreadContainer(const Placement& placement, const ThreadOptions& options)
+    : FrameworkElement(placement, ElementKind::kThread),
+      runner_(std::make_shared<CycleRunner>(path(), options)) {
+  CheckOptions(*this, options);
+}
+
+ThreadContainer::~ThreadContainer() = default;
+
+const ThreadOptions& ThreadContainer::options() const noexcept { return runner_->options(); }
+
+CycleStatistics ThreadContainer::statistics() const noexcept { return runner_->statistics(); }
+
+ThreadContainer& CreateThread(Runtime& runtime, const std::string& name,
+                              const ThreadOptions& options) {
+  const std::lock_guard lock(runtime.structure_mutex());
+  FrameworkElement* threads = runtime.root().FindChild("threads");
+  if (threads == nullptr) threads = &runtime.Create<Group>(runtime.root(), "threads");
+  auto& container = runtime.Create<ThreadContainer>(*threads, name, options);
+  // Neither the group nor the container has a Prepare() that could fail.
+  (void)runtime.MakeReady(*threads);
+  return container;
+}
+
+void AssignThread(FrameworkElement& element, ThreadContainer& thread) {
+  Runtime& runtime = element.runtime();
+  RUNNEL_CHECK(&runtime == &thread.runtime(), "a thread runs modules of its own runtime only");
+  const std::lock_guard lock(runtime.structure_mutex());
+  element.Annotate(std::make_unique<ThreadAssignment>(thread.serial()));
+  runtime.ForEachListener([&](ElementListener& listener) {
+    if (auto* const told = dynamic_cast<AssignmentListener*>(&listener)) {
+      told->OnAssigned(element, thread);
+    }
+  });
+}
+
+std::uint64_t AssignedThread(const FrameworkElement& element) {
+  for (const FrameworkElement* at = &element; at != nullptr; at = at->parent()) {
+    if (const auto* const found = at->FindAnnotation<ThreadAssignment>()) return found->serial;
+  }
+  return 0;
+}
+
+}  // namespace runnel

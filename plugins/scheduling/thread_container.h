@@ -1,0 +1,59 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/element/framework_element.h"
+#include "plugins/scheduling/cycle_statistics.h"
+#include "plugins/scheduling/thread_options.h"
+
+namespace runnel {
+
+class CycleRunner;
+
+/// A thread as an element of the tree: runs the modules assigned to it, one after the other along
+/// the data flow, in cycles (FINROC's ThreadContainer). Without a Scheduler it does nothing.
+///
+/// Threads:  options() and statistics() from any thread. Errors: the constructor throws
+/// ElementError
+///           for a period that is not positive or a priority out of 0 .. 99.
+class ThreadContainer final : public FrameworkElement {
+ public:
+  explicit ThreadContainer(const Placement& placement, const ThreadOptions& options = {});
+  ~ThreadContainer() override;
+
+  [[nodiscard]] const ThreadOptions& options() const noexcept;
+  /// Of all cycles so far. Lock-free.
+  [[nodiscard]] CycleStatistics statistics() const noexcept;
+
+  /// For executors.
+  [[nodiscard]] const std::shared_ptr<CycleRunner>& runner() const noexcept { return runner_; }
+
+ private:
+  const std::shared_ptr<CycleRunner> runner_;
+};
+
+/// Makes the container /threads/<name>, ready to be used. Throws ElementError for a name that is
+/// taken, or for bad options.
+ThreadContainer& CreateThread(Runtime& runtime, const std::string& name,
+                              const ThreadOptions& options = {});
+
+/// Has `element`, and all below it that is not assigned otherwise, run by `thread` from the next
+/// cycle on. If the container is deleted, the assignment is void. Takes the structure lock.
+void AssignThread(FrameworkElement& element, ThreadContainer& thread);
+
+/// The serial number of the container that `element` is assigned to, by itself or by what is above
+/// it; 0 if to none. Under the structure lock.
+[[nodiscard]] std::uint64_t AssignedThread(const FrameworkElement& element);
+
+/// Told of assignments; an ElementListener may be one too.
+class AssignmentListener {
+ public:
+  /// Under the structure lock. Must not throw.
+  virtual void OnAssigned(FrameworkElement& element, ThreadContainer& thread) = 0;
+
+ protected:
+  ~AssignmentListener() = default;
+};
+
+}  // namespace runnel

@@ -1,0 +1,71 @@
+#include <memory>
+
+#include "core/xml/xml_reading.h"
+#include "plugins/runtime_construction/build_context.h"
+#include "plugins/scheduling/xml_scheduling_tags.h"
+
+namespace runnel {
+
+namespace {
+
+struct ClockChoice final : Annotation {
+  SchedulerOptions options;
+  int line = 0;
+};
+
+void ReadSpeed(const TagUse& use, ClockChoice& choice) {
+  const XmlAttribute* const speed = use.Find("speed");
+  if (speed == nullptr) return;
+  choice.options.speed = ParseNumber(speed->value).value();
+  if (choice.options.speed < 0) {
+    use.context.Report(
+        {.message = "time cannot run backwards", .hint = "1 is real time, 0 as fast as it can"},
+        speed->value_position, use.parent);
+  }
+  if (choice.options.clock == SchedulerOptions::ClockKind::kReal) {
+    use.context.Report({.message = "the speed of real time cannot be chosen",
+                        .hint = "leave out speed, or write type=\"simulated\""},
+                       speed->position, use.parent);
+  }
+}
+
+FrameworkElement* ChooseClock(const TagUse& use) {
+  if (const auto* first = use.parent.FindAnnotation<ClockChoice>()) {
+    use.context.Report({.message = "the clock is chosen twice",
+                        .hint = "the first is in line " + std::to_string(first->line)},
+                       use.xml.position(), use.parent);
+    return &use.parent;
+  }
+  auto& choice = use.parent.Annotate(std::make_unique<ClockChoice>());
+  choice.line = use.xml.position().line;
+  const bool is_simulated = use.Get("type").value == "simulated";
+  choice.options.clock =
+      is_simulated ? SchedulerOptions::ClockKind::kSimulated : SchedulerOptions::ClockKind::kReal;
+  if (is_simulated) choice.options.speed = 1;
+  ReadSpeed(use, choice);
+  return &use.parent;
+}
+
+}  // namespace
+
+SchedulerOptions SchedulerOptionsOf(const FrameworkElement& application) {
+  const auto* const choice = application.FindAnnotation<ClockChoice>();
+  return choice != nullptr ? choice->options : SchedulerOptions{};
+}
+
+XmlTag internal::ClockTag() {
+  return {.name = "clock",
+          .summary = "which time the application lives in; without it, real time",
+          .parents = {"application"},
+          .attributes = {{.name = "type",
+                          .kind = AttributeKind::kChoice,
+                          .required = true,
+                          .choices = {"real", "simulated"}},
+                         {.name = "speed",
+                          .kind = AttributeKind::kNumber,
+                          .summary = "of simulated time, at most; 1 (which it is by default) is "
+                                     "real time, 0 as fast as it can"}},
+          .handle = ChooseClock};
+}
+
+}  // namespace runnel

@@ -1,0 +1,99 @@
+#include <memory>
+#include <utility>
+
+#include "plugins/runtime_construction/build_context.h"
+#include "plugins/runtime_construction/configurable_search.h"
+#include "plugins/runtime_construction/path_walk.h"
+#include "plugins/scheduling/xml_scheduling_tags.h"
+
+namespace runnel {
+
+namespace {
+
+struct FaultRules final : Annotation {
+  std::vector<PlacedFaultRule> rules;
+};
+
+// The target is there, may be set while the application runs, and would take the value.
+bool ReadTarget(const TagUse& use, const XmlAttribute& set, FaultRule& rule) {
+  BuildContext& context = use.context;
+  const PathUse path = PathIn(set, use.parent);
+  const ConfigurableElement target = SearchConfigurable(path, context);
+  const XmlAttribute* const value = use.Find("value");
+  if (!target || value == nullptr) return false;
+  if (target.configurable->info().is_static) {
+    context.Report({.message = "the parameter is static: it cannot be set while its module runs",
+                    .path = target.element->path()},
+                   set.value_position, use.parent);
+    return false;
+  }
+  if (auto good = target.configurable->CheckText(value->value); !good) {
+    Error error = good.error();
+    error.path = target.element->path();
+    context.Report(std::move(error), value->value_position, use.parent);
+    return false;
+  }
+  rule.action = FaultRule::Action::kSet;
+  rule.target = target.element->path();
+  rule.value = value->value;
+  return true;
+}
+
+void AddRule(const TagUse& use) {
+  FaultRule rule;
+  const FrameworkElement* const of = SearchElement(PathIn(use.Get("of"), use.parent), use.context);
+  const XmlAttribute* const set = use.Find("set");
+  const bool is_usable = set == nullptr || ReadTarget(use, *set, rule);
+  if (of == nullptr || !is_usable) return;
+  rule.of = of->path();
+  FrameworkElement& application = internal::ApplicationOf(use.parent);
+  auto* rules = application.FindAnnotation<FaultRules>();
+  if (rules == nullptr) rules = &application.Annotate(std::make_unique<FaultRules>());
+  rules->rules.push_back({std::move(rule), use.xml.position()});
+}
+
+FrameworkElement* HandleOnFault(const TagUse& use) {
+  const bool acts = use.xml.Attribute("action") != nullptr;
+  const bool sets = use.xml.Attribute("set") != nullptr;
+  const bool has_value = use.xml.Attribute("value") != nullptr;
+  const auto report = [&](Error error) {
+    use.context.Report(std::move(error), use.xml.position(), use.parent);
+  };
+  if (acts == sets) {
+    report({.message = "<on_fault> must say one thing that is to be done",
+            .hint = "write either action=\"stop_application\" or set=\"…\" value=\"…\""});
+  }
+  if (sets != has_value) {
+    report({.message = sets ? "<on_fault> does not say to which value" : "'value' needs a 'set'",
+            .hint = sets ? "add value=\"…\"" : "add set=\"…\", or leave out value"});
+  }
+  use.context.Defer(BuildStage::kConnections, [use] { AddRule(use); });
+  return &use.parent;
+}
+
+}  // namespace
+
+std::vector<PlacedFaultRule> FaultRulesOf(const FrameworkElement& application) {
+  const auto* const rules = application.FindAnnotation<FaultRules>();
+  return rules != nullptr ? rules->rules : std::vector<PlacedFaultRule>{};
+}
+
+XmlTag internal::OnFaultTag() {
+  return {.name = "on_fault",
+          .summary = "what happens when a module has thrown and has been stopped",
+          .parents = {"application", "group"},
+          .attributes = {{.name = "of",
+                          .kind = AttributeKind::kPath,
+                          .required = true,
+                          .summary = "a module, or a group of which any module may fail"},
+                         {.name = "action",
+                          .kind = AttributeKind::kChoice,
+                          .choices = {"stop_application"}},
+                         {.name = "set",
+                          .kind = AttributeKind::kPath,
+                          .summary = "a parameter that may be set at run time"},
+                         {.name = "value", .summary = "what it is set to"}},
+          .handle = HandleOnFault};
+}
+
+}  // namespace runnel

@@ -1,0 +1,136 @@
+#include <string>
+#include <vector>
+
+#include "core/base/nearest_name.h"
+#include "core/module/group.h"
+#include "core/types/duration_text.h"
+#include "plugins/runtime_construction/build_context.h"
+#include "plugins/runtime_construction/name_check.h"
+#include "plugins/runtime_construction/path_walk.h"
+#include "plugins/scheduling/thread_container.h"
+#include "plugins/scheduling/xml_scheduling_tags.h"
+
+namespace runnel {
+
+namespace {
+
+constexpr const char* kThreads = "threads";
+constexpr std::size_t kHighestPriority = 99;
+
+using Activation = ThreadOptions::Activation;
+
+Activation ReadActivation(const TagUse& use) {
+  const XmlAttribute* const activation = use.Find("activation");
+  if (activation == nullptr || activation->value == "period") return Activation::kPeriod;
+  return activation->value == "trigger" ? Activation::kTrigger : Activation::kFreeRunning;
+}
+
+void ReadPeriod(const TagUse& use, ThreadOptions& options) {
+  const XmlAttribute* const period = use.Find("period");
+  if (period != nullptr) options.period = ParseDuration(period->value).value();
+  const bool is_said = use.xml.Attribute("period") != nullptr;
+  if (options.activation == Activation::kPeriod && !is_said) {
+    use.context.Report({.message = "<thread> has no 'period'",
+                        .path = use.path(),
+                        .hint = "add period=\"50ms\", or activation=\"trigger\" or "
+                                "activation=\"free_running\""},
+                       use.xml.position(), use.parent);
+  }
+  if (options.activation == Activation::kTrigger && period != nullptr) {
+    use.context.Report({.message = "a thread that waits for data has no period",
+                        .path = use.path(),
+                        .hint = "leave out either period or activation"},
+                       period->position, use.parent);
+  }
+}
+
+void ReadPriority(const TagUse& use, ThreadOptions& options) {
+  const XmlAttribute* const priority = use.Find("priority");
+  if (priority == nullptr) return;
+  const std::size_t count = ParseCount(priority->value).value();
+  if (count <= kHighestPriority) {
+    options.priority = static_cast<int>(count);
+    return;
+  }
+  use.context.Report({.message = "priority " + priority->value + " is out of bounds",
+                      .path = use.path(),
+                      .hint = "0 is ordinary scheduling, 1 .. 99 is SCHED_FIFO"},
+                     priority->value_position, use.parent);
+}
+
+FrameworkElement* MakeThread(const TagUse& use) {
+  Runtime& runtime = use.context.runtime();
+  FrameworkElement* threads = use.parent.FindChild(kThreads);
+  if (threads == nullptr) threads = &runtime.Create<Group>(use.parent, kThreads);
+  ThreadOptions options;
+  options.activation = ReadActivation(use);
+  ReadPeriod(use, options);
+  ReadPriority(use, options);
+  const XmlAttribute* const on_overrun = use.Find("on_overrun");
+  if (on_overrun != nullptr && on_overrun->value == "catch_up") {
+    options.on_overrun = ThreadOptions::OnOverrun::kCatchUp;
+  }
+  if (!CheckNameIsFree(use, *threads)) return nullptr;
+  return &runtime.Create<ThreadContainer>(*threads, use.Get("name").value, options);
+}
+
+void Assign(const XmlAttribute& name, FrameworkElement& element, BuildContext& context) {
+  const FrameworkElement& application = internal::ApplicationOf(element);
+  const FrameworkElement* const threads = application.FindChild(kThreads);
+  std::vector<std::string> known;
+  if (threads != nullptr) {
+    auto* const thread = dynamic_cast<ThreadContainer*>(threads->FindChild(name.value));
+    if (thread != nullptr) {
+      AssignThread(element, *thread);
+      return;
+    }
+    known = ChildNames(*threads);
+  }
+  if (context.IsMissing(application, name.value)) return;
+  context.Report({.message = "there is no thread '" + name.value + "'",
+                  .hint = known.empty() ? "add <thread name=\"" + name.value +
+                                              "\" period=\"50ms\"/> to the application"
+                                        : NearestNameHint(name.value, known)},
+                 name.value_position, element);
+}
+
+}  // namespace
+
+XmlTag internal::ThreadTag() {
+  return {.name = "thread",
+          .summary = "a thread that runs modules, in the order of the data flow",
+          .parents = {"application"},
+          .attributes =
+              {{.name = "name", .kind = AttributeKind::kName, .required = true},
+               {.name = "period",
+                .kind = AttributeKind::kDuration,
+                .summary = "from cycle to cycle; of a free-running thread, what a cycle takes in "
+                           "simulated time"},
+               {.name = "activation",
+                .kind = AttributeKind::kChoice,
+                .summary = "when a cycle begins: every period, at the end of the last one, or when "
+                           "data comes",
+                .choices = {"period", "free_running", "trigger"}},
+               {.name = "priority",
+                .kind = AttributeKind::kCount,
+                .summary = "0: ordinary; 1 .. 99: real-time, SCHED_FIFO"},
+               {.name = "on_overrun",
+                .kind = AttributeKind::kChoice,
+                .summary = "what happens to cycles that were missed: left out (by default), or run "
+                           "at once",
+                .choices = {"skip", "catch_up"}}},
+          .handle = MakeThread};
+}
+
+AddedAttribute internal::ThreadAttribute(std::string tag) {
+  return {.tag = std::move(tag),
+          .rule = {.name = "thread",
+                   .kind = AttributeKind::kName,
+                   .summary = "the thread that runs it and all within that names no other"},
+          .handle = [](const XmlAttribute& name, FrameworkElement& element, BuildContext& context) {
+            context.Defer(BuildStage::kConnections,
+                          [&name, &element, &context] { Assign(name, element, context); });
+          }};
+}
+
+}  // namespace runnel

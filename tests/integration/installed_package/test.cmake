@@ -1,0 +1,29 @@
+# Installs the build tree BUILD, builds the project `outside` against it alone, and has the
+# installed program load and run what came out. Everything happens below WORK.
+function(run)
+  cmake_parse_arguments(PARSE_ARGV 0 arg "" "EXPECT" "COMMAND")
+  execute_process(COMMAND ${arg_COMMAND} RESULT_VARIABLE status OUTPUT_VARIABLE output
+    ERROR_VARIABLE output)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "${arg_COMMAND} ended with ${status}:\n${output}")
+  endif()
+  if(arg_EXPECT AND NOT output MATCHES "${arg_EXPECT}")
+    message(FATAL_ERROR "${arg_COMMAND} does not say '${arg_EXPECT}':\n${output}")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE "${WORK}")
+run(COMMAND "${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${WORK}/prefix")
+run(COMMAND "${CMAKE_COMMAND}" -G Ninja -S "${SOURCE}" -B "${WORK}/outside"
+  "-DCMAKE_PREFIX_PATH=${WORK}/prefix" "-DCMAKE_CXX_COMPILER=${COMPILER}"
+  "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}" "-DCMAKE_CXX_FLAGS=${FLAGS}")
+run(COMMAND "${CMAKE_COMMAND}" --build "${WORK}/outside")
+
+# The build tree must not help: what is installed has to stand alone.
+set(ENV{RUNNEL_PLUGIN_PATH} "${WORK}/outside/lib/runnel/plugins")
+set(program "${WORK}/prefix/bin/runnel")
+run(COMMAND "${program}" modules outside EXPECT "outside/wanderer.*drives ahead")
+run(COMMAND "${program}" modules simulation EXPECT "simulation/world")
+set(world "world=${WORK}/prefix/share/runnel/xml/worlds/rooms.xml")
+run(COMMAND "${program}" check "${SOURCE}/wander.xml" "${world}")
+run(COMMAND "${program}" run --fast --duration 5 "${SOURCE}/wander.xml" "${world}")

@@ -1,0 +1,102 @@
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "modules/motion/command_gate.h"
+#include "modules/motion/differential_drive.h"
+#include "tests/support/module_rig.h"
+
+namespace runnel {
+namespace {
+
+using std::chrono::milliseconds;
+
+TEST(DifferentialDrive, TurnsWheelsAsTheyRoll) {
+  const DifferentialDrive drive{.wheel_radius = 0.1, .track = 0.5};
+  const WheelSpeeds ahead = WheelSpeedsFor(drive, {.forward = 0.3});
+  EXPECT_DOUBLE_EQ(ahead.left, 3);
+  EXPECT_DOUBLE_EQ(ahead.right, 3);
+  const WheelSpeeds left_turn = WheelSpeedsFor(drive, {.turn = 1});
+  EXPECT_DOUBLE_EQ(left_turn.left, -2.5);
+  EXPECT_DOUBLE_EQ(left_turn.right, 2.5);
+}
+
+TEST(DifferentialDrive, GoesThereAndBack) {
+  const DifferentialDrive drive;
+  const Twist2 twist{0.31, -0.7};
+  const Twist2 back = TwistOf(drive, WheelSpeedsFor(drive, twist));
+  EXPECT_NEAR(back.forward, twist.forward, 1e-12);
+  EXPECT_NEAR(back.turn, twist.turn, 1e-12);
+}
+
+TEST(DifferentialDrive, SlowsDownAsAWholeSoThatTheCurveStays) {
+  const DifferentialDrive drive{.maximum_speed = 0.5, .maximum_turn_rate = 1.5};
+  const Twist2 limited = WithinLimits(drive, {1.0, -1.2});
+  EXPECT_DOUBLE_EQ(limited.forward, 0.5);
+  EXPECT_DOUBLE_EQ(limited.turn, -0.6);
+  EXPECT_EQ(WithinLimits(drive, {-0.2, 0.3}), (Twist2{-0.2, 0.3}));
+}
+
+TEST(DifferentialDrive, StandsStillRatherThanFollowNonsense) {
+  EXPECT_EQ(WithinLimits({}, {std::numeric_limits<double>::quiet_NaN(), 0}), Twist2{});
+  EXPECT_EQ(WithinLimits({}, {0, std::numeric_limits<double>::infinity()}), Twist2{});
+}
+
+TEST(AccelerationLimit, ComesNearerStepByStep) {
+  const AccelerationLimit limit{.forward = 1, .turn = 2};
+  EXPECT_EQ(Approach(limit, {0, 0}, {1, -1}, 0.25), (Twist2{0.25, -0.5}));
+  EXPECT_EQ(Approach(limit, {0.9, 0}, {1, 0}, 0.25), (Twist2{1, 0}));
+}
+
+TEST(CommandGate, StateTellsWhy) {
+  EXPECT_EQ(JudgeCommand(std::nullopt, 1, {}), GateState::kNoCommand);
+  EXPECT_EQ(JudgeCommand(0.5, 1, {}), GateState::kOpen);
+  EXPECT_EQ(JudgeCommand(1.5, 1, {}), GateState::kOldCommand);
+  EXPECT_EQ(JudgeCommand(0.5, 1, {true, 0}), GateState::kContact);
+}
+
+TEST(CommandGateModule, StopsWhenWhoeverCommandsFallsSilent) {
+  test::ModuleRig<CommandGate> rig(milliseconds(100));
+  ASSERT_TRUE(rig.module.timeout.Set(0.25));
+  ASSERT_TRUE(rig.Prepare());
+  rig.RunCycle();
+  EXPECT_EQ(rig.Last(rig.module.state), GateState::kNoCommand);
+  rig.Feed(rig.module.wanted, {0.3, 0});
+  for (int i = 0; i < 3; ++i) {
+    rig.RunCycle();
+    EXPECT_EQ(rig.Last(rig.module.allowed), (Twist2{0.3, 0})) << i;
+  }
+  rig.RunCycle();
+  EXPECT_EQ(rig.Last(rig.module.allowed), Twist2{});
+  EXPECT_EQ(rig.Last(rig.module.state), GateState::kOldCommand);
+}
+
+TEST(CommandGateModule, StopsAtAContactAndWhenTold) {
+  test::ModuleRig<CommandGate> rig;
+  ASSERT_TRUE(rig.Prepare());
+  rig.Feed(rig.module.wanted, {0.3, 0});
+  rig.Feed(rig.module.contact, {true, 0.1});
+  rig.RunCycle();
+  EXPECT_EQ(rig.Last(rig.module.allowed), Twist2{});
+  rig.Feed(rig.module.contact, {});
+  rig.RunCycle();
+  EXPECT_EQ(rig.Last(rig.module.allowed), (Twist2{0.3, 0}));
+  ASSERT_TRUE(rig.module.stop.Set(true));
+  rig.RunCycle();
+  EXPECT_EQ(rig.Last(rig.module.allowed), Twist2{});
+}
+
+TEST(DifferentialDriveModule, GetsFasterNoFasterThanItMay) {
+  test::ModuleRig<DifferentialDriveModule> rig(milliseconds(100));
+  ASSERT_TRUE(rig.Prepare());
+  rig.Feed(rig.module.twist, {2.0, 0});
+  rig.RunCycle();
+  EXPECT_EQ(rig.Last(rig.module.wheels), WheelSpeeds{}) << "no time has passed yet";
+  rig.RunCycle();
+  EXPECT_NEAR(rig.Last(rig.module.wheels).left, 0.1 / 0.05, 1e-9);
+  for (int i = 0; i < 20; ++i) rig.RunCycle();
+  EXPECT_NEAR(rig.Last(rig.module.wheels).left, 0.5 / 0.05, 1e-9);
+}
+
+}  // namespace
+}  // namespace runnel

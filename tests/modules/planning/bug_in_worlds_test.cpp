@@ -1,0 +1,181 @@
+#include <array>
+#include <ostream>
+#include <string>
+#include <tuple>
+
+#include "gmock/gmock.h"
+#include "modules/planning/algorithm/bug1.h"
+#include "modules/planning/algorithm/bug2.h"
+#include "tests/modules/planning/drive.h"
+
+namespace runnel {
+namespace {
+
+using namespace testing_world;
+using testing::Combine;
+using testing::Values;
+using testing::ValuesIn;
+
+struct Scene {
+  const char* name;
+  Task task;
+  PlannerMode verdict;
+  double perimeter = 0.0;  ///< m, of the grown obstacles met, in all; 0: no bound is tested
+  int crossings = 2;       ///< of the M-line with the obstacle that has the most
+  double clearance = 0.25;
+};
+
+void PrintTo(const Scene& scene, std::ostream* stream) { *stream << scene.name; }
+
+/// At most the perimeter of a polygon grown by the safe distance.
+double Grown(double perimeter) { return perimeter + 2 * kPi * 0.35; }
+double Grown(const Polygon& polygon) {
+  double perimeter = Distance(polygon.back(), polygon.front());
+  for (std::size_t i = 1; i < polygon.size(); ++i)
+    perimeter += Distance(polygon[i - 1], polygon[i]);
+  return Grown(perimeter);
+}
+
+// A cup 4 m wide and 3 m deep that opens to the left, walls of 0.1 m.
+Polygon Cup() {
+  return {{-1.5, -2},  {1.5, -2},  {1.5, 2},    {-1.5, 2},
+          {-1.5, 1.9}, {1.4, 1.9}, {1.4, -1.9}, {-1.5, -1.9}};
+}
+
+// A spiral wall, 1.4 m from turn to turn; its mouth is at the lower left.
+Polygon Spiral() {
+  const std::array<Point2, 8> middle = {
+      {{-3, -3}, {4, -3}, {4, 4}, {-3, 4}, {-3, -1.6}, {2.6, -1.6}, {2.6, 2.6}, {-1.4, 2.6}}};
+  Polygon outer, inner;
+  for (std::size_t i = 0; i < middle.size(); ++i) {
+    const Point2 before = i == 0 ? middle[i] - middle[1] + middle[0] : middle[i - 1];
+    const Point2 after =
+        i + 1 == middle.size() ? middle[i] + middle[i] - middle[i - 1] : middle[i + 1];
+    const auto unit = [](Point2 v) { return (1 / Norm(v)) * v; };
+    const Point2 in = unit(middle[i] - before), out = unit(after - middle[i]);
+    const Point2 left_in = {-in.y, in.x}, left_out = {-out.y, out.x};
+    const Point2 side = in == out ? 0.05 * left_in : 0.05 * (left_in + left_out);
+    outer.push_back(middle[i] - side);
+    inner.push_back(middle[i] + side);
+  }
+  outer.insert(outer.end(), inner.rbegin(), inner.rend());
+  return outer;
+}
+
+// Teeth upwards, gaps of 1 m between them.
+Polygon Comb() {
+  Polygon polygon = {{-3, -1}, {3.1, -1}};
+  for (int tooth = 5; tooth >= 0; --tooth) {
+    const double x = -3 + 1.2 * tooth;
+    polygon.insert(polygon.end(), {{x + 0.1, 2}, {x, 2}});
+    if (tooth > 0) polygon.insert(polygon.end(), {{x, -0.8}, {x - 1.1, -0.8}});
+  }
+  return polygon;
+}
+
+std::vector<Scene> Scenes() {
+  const auto kReached = PlannerMode::kReached;
+  const auto kUnreachable = PlannerMode::kUnreachable;
+  const Polygon room = Box(0, 0, 4, 4);
+  return {
+      {"NoObstacle", {World{}, {-2, 0}, {2, 1}, 2.5}, kReached, 0.001},
+      {"OneBox", {World({Box(0, 0, 1, 2)}), {-3, 0.2}, {3, 0.1}}, kReached, Grown(6)},
+      {"OneCylinder", {World({Cylinder(0, 0, 0.5)}), {-2, 0.1}, {2, 0}}, kReached, Grown(kPi)},
+      {"ThinPole", {World({Cylinder(0, 0, 0.03)}), {-2, 0.05}, {2, 0}}, kReached, Grown(0.2)},
+      {"ThinWall", {World({Box(0, 0.3, 0.1, 3)}), {-2, 0}, {2, 0}}, kReached, Grown(6.2)},
+      {"LongWall", {World({Box(0, 5, 0.1, 20)}), {-2, 0}, {2, 0}}, kReached, Grown(40.2)},
+      {"ManyBoxes",
+       {World({Box(0, 0, 1, 1), Box(2, 1, 1, 1), Box(2, -1.2, 1, 1.5), Box(4, 0.2, 0.6, 1.2)}),
+        {-2, 0},
+        {6, 0}},
+       kReached,
+       Grown(4) + Grown(4) + Grown(5) + Grown(3.6)},
+      {"Cup", {World({Cup()}), {-3, 0.1}, {3, 0.2}}, kReached, Grown(Cup()), 2},
+      {"StartInCup", {World({Cup()}), {0, 0.1}, {3, 0.2}}, kReached, Grown(Cup()), 2},
+      {"GoalInCupFromBehind", {World({Cup()}), {3, 0.1}, {0, 0.2}}, kReached, Grown(Cup()), 2},
+      {"Spiral", {World({Spiral()}), {-5, 0.7}, {0.6, 0.9}}, kReached, Grown(Spiral()), 4},
+      {"OutOfTheSpiral", {World({Spiral()}), {0.6, 0.9}, {6, 1.3}}, kReached, Grown(Spiral()), 4},
+      {"Comb", {World({Comb()}), {-5, 0.4}, {5, 0.5}}, kReached, Grown(Comb()), 12},
+      {"GoalWalledIn",
+       {World({Box(0, 0, 3, 3), Box(0, 0, 2.8, 2.8)}), {-4, 0}, {0.3, 0.2}},
+       kUnreachable,
+       Grown(12)},
+      {"StartWalledIn", {World({room}), {0.3, 0.2}, {5, 0}}, kUnreachable, Grown(16)},
+      {"StartAndGoalInARoom", {World({room}), {-1.2, -1}, {1.2, 1.3}}, kReached, 0.001},
+      {"GoalInsideABox", {World({Box(0, 0, 2, 2)}), {-3, 0}, {0.2, 0.1}}, kUnreachable, Grown(8)},
+      {"GoalNearAWallInFront",
+       {World({Box(0, 0, 1, 3)}), {-3, 0}, {-0.6, 0.1}},
+       kUnreachable,
+       Grown(8)},
+      {"GoalNearAWallBehind",
+       {World({Box(0, 0, 1, 3)}), {-3, 0}, {0.6, 0.1}},
+       kUnreachable,
+       Grown(8)},
+      {"GapTooNarrow",
+       {World({Box(0, 1.25, 0.2, 2), Box(0, -1.25, 0.2, 2)}), {-2, 0}, {2, 0}},
+       kReached,
+       2 * Grown(4.4)},
+      {"GapWideEnough",
+       {World({Box(0, 1.45, 0.2, 2), Box(0, -1.45, 0.2, 2)}), {-2, 0}, {2, 0}},
+       kReached,
+       2 * Grown(4.4)},
+      {"NarrowCorridor",
+       {World({{{-2, 0.5},
+                {3, 0.5},
+                {3, -0.5},
+                {-2, -0.5},
+                {-2, -0.6},
+                {3.1, -0.6},
+                {3.1, 0.6},
+                {-2, 0.6}}}),
+        {-3, 0.05},
+        {5, 0}},
+       kReached,
+       Grown(22)},
+      {"AcuteWedge",
+       {World({{{-2, 1.6}, {-2, 1.4}, {0.9, 0}, {-2, -1.4}, {-2, -1.6}, {1.5, 0}}}),
+        {-3, 0.1},
+        {3, 0}},
+       kReached,
+       Grown(15)},
+      {"StartNearAWall",
+       {World({Box(0, 0, 1, 2)}), {-0.72, 0.2}, {3, 0.1}},
+       kReached,
+       Grown(6),
+       2,
+       0.20},
+      {"NoRoom", {World({Box(0, 0, 0.62, 0.62)}), {0, 0}, {3, 0}}, kUnreachable},
+      {"TinyRoom", {World({Box(0, 0, 0.85, 0.85)}), {0, 0}, {3, 0}}, kUnreachable},
+  };
+}
+
+class BugInWorlds
+    : public testing::TestWithParam<std::tuple<Scene, Variant, Sensor, BoundaryDirection>> {};
+
+TEST_P(BugInWorlds, GivesTheRightVerdictWithoutTouchingAWall) {
+  const auto& [scene, variant, sensor, direction] = GetParam();
+  const Outcome outcome = Drive(variant, direction, sensor, scene.task);
+  EXPECT_EQ(int(outcome.status.mode), int(scene.verdict));
+  EXPECT_GT(outcome.least_clearance, scene.clearance);
+  if (scene.perimeter > 0.0) {
+    const double distance = Distance(scene.task.start, scene.task.goal);
+    const double factor = variant == Variant::kBug1 ? 1.5 : scene.crossings / 2.0;
+    EXPECT_LT(outcome.status.path_length, 1.05 * (distance + factor * scene.perimeter) + 0.5);
+  }
+}
+
+std::string NameOf(const testing::TestParamInfo<BugInWorlds::ParamType>& param) {
+  const auto& [scene, variant, sensor, direction] = param.param;
+  return std::string(scene.name) + (variant == Variant::kBug1 ? "Bug1" : "Bug2") +
+         (sensor == Sensor::kLaser ? "Laser" : "Infrared") +
+         (direction == BoundaryDirection::kLeft ? "Left" : "Right");
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BugInWorlds,
+                         Combine(ValuesIn(Scenes()), Values(Variant::kBug1, Variant::kBug2),
+                                 Values(Sensor::kLaser, Sensor::kInfrared),
+                                 Values(BoundaryDirection::kLeft, BoundaryDirection::kRight)),
+                         NameOf);
+
+}  // namespace
+}  // namespace runnel

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <cstdlib>
+#include <fstream>
+#include <memory>
+#include <string>
+
+#include "gtest/gtest.h"
+#include "modules/adaptors/algorithm/infrared_adaptor.h"
+#include "modules/adaptors/algorithm/laser_adaptor.h"
+#include "modules/planning/algorithm/bug1.h"
+#include "modules/planning/algorithm/bug2.h"
+#include "tests/modules/planning/test_world.h"
+
+namespace runnel::testing_world {
+
+inline constexpr double kTimeStep = 0.05;
+inline constexpr int kMostSteps = 20000;
+
+enum class Sensor { kLaser, kInfrared };
+enum class Variant { kBug1, kBug2 };
+
+struct Task {
+  World world;
+  Point2 start;
+  Point2 goal;
+  double heading = 0.0;
+};
+
+struct Outcome {
+  PlannerStatus status;
+  double least_clearance = std::numeric_limits<double>::infinity();
+};
+
+/// With RUNNEL_TRAJECTORIES=<folder> every run leaves its trajectory there, for a look at it.
+class Trace {
+ public:
+  explicit Trace(const std::string& run) {
+    const char* folder = std::getenv("RUNNEL_TRAJECTORIES");
+    if (folder == nullptr) return;
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    std::string name = std::string(test->test_suite_name()) + "." + test->name() + run;
+    for (char& c : name) c = c == '/' ? '_' : c;
+    file_.open(std::string(folder) + "/" + name + ".txt");
+  }
+  void Write(const Pose2& pose, const BugOutput& out, const Surroundings& surroundings) {
+    if (!file_.is_open()) return;
+    if (out.status.hits != hits_) {
+      hits_ = out.status.hits;
+      for (int sector = 0; sector < Surroundings::kSectors; ++sector) {
+        const double distance = ContourDistance(surroundings, sector);
+        const Point2 point = ToWorld(pose, distance * UnitVector(SectorBearing(sector)));
+        file_ << "# " << hits_ << ' ' << point.x << ' ' << point.y << '\n';
+      }
+    }
+    file_ << pose.x << ' ' << pose.y << ' ' << pose.heading << ' ' << out.twist.forward << ' '
+          << out.twist.turn << ' ' << static_cast<int>(out.status.mode) << ' ' << out.status.hits
+          << ' ' << out.status.leaves << ' ' << out.status.path_length << '\n';
+  }
+
+ private:
+  std::ofstream file_;
+  std::uint32_t hits_ = 0;
+};
+
+inline std::unique_ptr<BugAlgorithm> Make(Variant variant, BoundaryDirection direction) {
+  BugConfiguration configuration;
+  configuration.first_direction = direction;
+  if (variant == Variant::kBug1) return std::make_unique<Bug1>(configuration);
+  return std::make_unique<Bug2>(configuration);
+}
+
+inline Outcome Drive(Variant variant, BoundaryDirection direction, Sensor sensor, const Task& task,
+                     const std::string& run = "") {
+  const auto algorithm = Make(variant, direction);
+  Robot robot({task.start.x, task.start.y, task.heading});
+  LaserAdaptor laser;
+  InfraredAdaptor infrared;
+  BugState state;
+  Outcome outcome;
+  Trace trace(run);
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Pose2 pose = robot.pose();
+    const Surroundings surroundings = sensor == Sensor::kLaser
+                                          ? laser.Update(task.world.Scan(pose), pose)
+                                          : infrared.Update(task.world.Infrared(pose), pose);
+    const BugOutput out =
+        algorithm->Update(state, {kTimeStep, pose, surroundings, task.start, task.goal});
+    trace.Write(pose, out, surroundings);
+    outcome.status = out.status;
+    outcome.least_clearance =
+        std::min(outcome.least_clearance, task.world.Clearance(Position(pose)));
+    if (out.status.mode == PlannerMode::kReached || out.status.mode == PlannerMode::kUnreachable) {
+      break;
+    }
+    robot.Drive(out.twist, kTimeStep);
+  }
+  return outcome;
+}
+
+}  // namespace runnel::testing_world

@@ -1,0 +1,61 @@
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "modules/simulation/algorithm/robot_options.h"
+#include "modules/simulation/algorithm/world_geometry.h"
+#include "modules/simulation/world_file/world_reader.h"
+#include "modules/simulation/world_file/world_writer.h"
+
+namespace runnel {
+namespace {
+
+std::vector<std::string> WorldNames() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(RUNNEL_WORLDS)) {
+    names.push_back(entry.path().stem().string());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+class WorldOfTheTree : public testing::TestWithParam<std::string> {
+ protected:
+  World Load() {
+    Diagnostics diagnostics;
+    const auto path = std::filesystem::path(RUNNEL_WORLDS) / (GetParam() + ".xml");
+    auto world = ReadWorldFile(path, diagnostics);
+    if (!world) throw std::runtime_error(diagnostics.ToString());
+    return *world;
+  }
+};
+
+TEST_P(WorldOfTheTree, LoadsAndIsCalledAsItsFile) { EXPECT_EQ(Load().name, GetParam()); }
+
+TEST_P(WorldOfTheTree, LeavesRoomForTheRobotAtTheStart) {
+  const World world = Load();
+  EXPECT_GT(ClearanceAt(world, Position(world.start)), RobotOptions{}.radius);
+}
+
+TEST_P(WorldOfTheTree, SurvivesWritingAndReading) {
+  const World world = Load();
+  Diagnostics diagnostics;
+  EXPECT_EQ(ReadWorld(WriteWorld(world), "again.xml", diagnostics), world)
+      << diagnostics.ToString();
+}
+
+TEST(WorldsOfTheTree, AreAllThere) {
+  EXPECT_THAT(WorldNames(),
+              testing::IsSupersetOf({"comb", "corridor", "cup", "goal_too_near_wall", "met_again",
+                                     "one_obstacle", "open", "rooms", "spiral", "unreachable"}));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, WorldOfTheTree, testing::ValuesIn(WorldNames()),
+                         [](const auto& test) { return test.param; });
+
+}  // namespace
+}  // namespace runnel

@@ -1,0 +1,113 @@
+#include <atomic>
+#include <cstdlib>
+#include <new>
+#include <thread>
+
+#include <gmock/gmock.h>
+
+#include "plugins/scheduling/scheduler.h"
+#include "tests/plugins/scheduling/test_modules.h"
+
+namespace {
+
+thread_local constinit int allocations_of_this_thread = 0;
+
+void* CountedAllocation(std::size_t size) {
+  ++allocations_of_this_thread;
+  void* const memory = std::malloc(size == 0 ? 1 : size);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return CountedAllocation(size); }
+void* operator new[](std::size_t size) { return CountedAllocation(size); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  ++allocations_of_this_thread;
+  const auto step = static_cast<std::size_t>(alignment);
+  void* const memory = std::aligned_alloc(step, (size + step - 1) / step * step);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace runnel {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::At;
+using testing::Doing;
+using testing::MustSucceed;
+using testing::Relay;
+
+// A periodic thread with a loop and a thread that waits for its data.
+struct Application {
+  explicit Application(SchedulerOptions::ClockKind clock) : scheduler(runtime, {.clock = clock}) {
+    MustSucceed(Port::Connect(relay.out, module.in));
+    MustSucceed(Port::Connect(module.out, relay.in, {.queue = 2}));
+    MustSucceed(Port::Connect(module.out, listener.in));
+    auto& waiting =
+        CreateThread(runtime, "waiting", {.activation = ThreadOptions::Activation::kTrigger});
+    AssignThread(listener, waiting);
+    AssignThread(relay, CreateThread(runtime, "periodic", {.period = 1ms}));
+    AssignThread(module,
+                 *dynamic_cast<ThreadContainer*>(*runtime.root().Find("/threads/periodic")));
+    module.action = [](Doing& each) { each.out.Publish(each.in.Read() ? 1 : 0); };
+    MustSucceed(runtime.MakeReady(runtime.root()));
+  }
+
+  Runtime runtime;
+  Relay& relay = runtime.Create<Relay>(runtime.root(), "relay");
+  Doing& module = runtime.Create<Doing>(runtime.root(), "module");
+  Doing& listener = runtime.Create<Doing>(runtime.root(), "listener");
+  Scheduler scheduler;
+};
+
+TEST(Cycles, AllocateNothingOnTheSimulatedClock) {
+  Application application(SchedulerOptions::ClockKind::kSimulated);
+  int heard = 0;
+  application.listener.action = [&](Doing&) { ++heard; };
+  application.scheduler.RunUntil(At(10));
+  const int before = allocations_of_this_thread;
+  application.scheduler.RunUntil(At(200));
+  EXPECT_EQ(allocations_of_this_thread, before);
+  EXPECT_EQ(heard, 200);
+}
+
+TEST(Cycles, AllocateNothingInRealThreads) {
+  Application application(SchedulerOptions::ClockKind::kReal);
+  std::atomic<int> heard{0};
+  std::atomic<int> allocations{0};
+  const auto count = [&](int& first) {
+    if (first < 0) first = allocations_of_this_thread;
+    allocations += allocations_of_this_thread - first;
+  };
+  application.listener.action = [&, first = -1](Doing&) mutable {
+    count(first);
+    ++heard;
+  };
+  application.module.action = [&, first = -1](Doing& each) mutable {
+    count(first);
+    each.out.Publish(1);
+  };
+  MustSucceed(application.scheduler.Start());
+  while (heard < 20) std::this_thread::sleep_for(1ms);
+  application.scheduler.Stop();
+  EXPECT_EQ(allocations, 0);
+}
+
+TEST(Cycles, AllocationsWouldBeCounted) {
+  const int before = allocations_of_this_thread;
+  delete new int(5);
+  const std::string text(100, 'x');
+  EXPECT_GT(allocations_of_this_thread, before);
+}
+
+}  // namespace
+}  // namespace runnel

@@ -1,0 +1,191 @@
+#include <gmock/gmock.h>
+
+#include "core/element/configurable.h"
+#include "core/module/group.h"
+#include "plugins/scheduling/scheduler.h"
+#include "tests/plugins/scheduling/test_modules.h"
+
+namespace runnel {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::At;
+using testing::Base;
+using testing::Doing;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::MustSucceed;
+using ::testing::SizeIs;
+
+/// Takes any text but "bad".
+class Setting final : public FrameworkElement, public Configurable {
+ public:
+  explicit Setting(const Placement& placement) : FrameworkElement(placement) {}
+  Result<void> SetFromText(std::string_view value) override {
+    if (auto accepted = CheckText(value); !accepted) return accepted;
+    text = value;
+    return {};
+  }
+  Result<void> CheckText(std::string_view value) const override {
+    if (value == "bad") return Error{.message = "not accepted"};
+    return {};
+  }
+  std::string ToText() const override { return text; }
+  const TypeInfo& type() const override { return TypeOf<double>(); }
+  const ConfigurableInfo& info() const override { return info_; }
+  std::string text = "before";
+
+ private:
+  ConfigurableInfo info_;
+};
+
+class FaultOf : public ::testing::Test {
+ protected:
+  FaultOf() {
+    failing.action = [this](Doing& module) {
+      ++failing_runs;
+      if (module.cycle_time() >= At(20)) throw std::runtime_error("the sensor is on fire");
+    };
+    healthy.action = [this](Doing&) { ++healthy_runs; };
+  }
+  void Ready() { MustSucceed(runtime.MakeReady(runtime.root())); }
+
+  Runtime runtime;
+  Scheduler scheduler{runtime, {.clock = SchedulerOptions::ClockKind::kSimulated}};
+  ThreadContainer& thread = CreateThread(runtime, "main", {.period = 10ms});
+  Group& robot = runtime.Create<Group>(runtime.root(), "robot");
+  Doing& failing = runtime.Create<Doing>(robot, "failing");
+  Doing& healthy = runtime.Create<Doing>(robot, "healthy");
+  Setting& setting = runtime.Create<Setting>(robot, "setting");
+  int failing_runs = 0;
+  int healthy_runs = 0;
+};
+
+TEST_F(FaultOf, AModuleStopsItAloneAndIsReported) {
+  Ready();
+  EXPECT_TRUE(scheduler.RunUntil(At(100)));
+  EXPECT_EQ(failing_runs, 3);  // at 0, 10 and 20 ms
+  EXPECT_EQ(healthy_runs, 10);
+  const auto faults = scheduler.TakeFaults();
+  ASSERT_THAT(faults, SizeIs(1));
+  EXPECT_EQ(faults[0].path, "/robot/failing");
+  EXPECT_EQ(faults[0].message, "the sensor is on fire");
+  EXPECT_EQ(faults[0].time, At(20));
+  EXPECT_THAT(scheduler.TakeFaults(), IsEmpty());
+  EXPECT_FALSE(scheduler.stop_requested());
+}
+
+TEST_F(FaultOf, AnElementStopsAllItsTasks) {
+  class Half final : public SenseControlModule {
+   public:
+    using SenseControlModule::SenseControlModule;
+    int controls = 0;
+
+   private:
+    void Sense() override { throw 5; }
+    void Control() override { ++controls; }
+  };
+  auto& half = runtime.Create<Half>(robot, "half");
+  Ready();
+  scheduler.RunUntil(At(20));
+  EXPECT_EQ(half.controls, 0);
+  const auto faults = scheduler.TakeFaults();
+  ASSERT_THAT(faults, SizeIs(1));
+  EXPECT_EQ(faults[0].message, "unknown exception");
+}
+
+TEST_F(FaultOf, AModuleStaysStoppedWhenTheStructureChanges) {
+  Ready();
+  scheduler.RunUntil(At(50));
+  MustSucceed(Port::Connect(failing.out, healthy.in));
+  scheduler.RunUntil(At(100));
+  EXPECT_EQ(failing_runs, 3);
+  EXPECT_THAT(scheduler.TakeFaults(), SizeIs(1));
+}
+
+TEST_F(FaultOf, ADeletedModuleIsStillReported) {
+  Ready();
+  scheduler.RunUntil(At(50));
+  MustSucceed(runtime.Delete(failing));
+  EXPECT_THAT(scheduler.TakeFaults(), SizeIs(1));
+}
+
+TEST_F(FaultOf, AModuleWithALongMessageIsCutOff) {
+  failing.action = [](Doing&) { throw std::runtime_error(std::string(10000, 'x')); };
+  Ready();
+  scheduler.Step();
+  EXPECT_EQ(scheduler.TakeFaults().at(0).message.size(), kLongestFaultMessage);
+}
+
+TEST_F(FaultOf, AModuleStopsTheApplicationByRule) {
+  MustSucceed(scheduler.AddFaultRule({.of = "/robot"}));
+  Ready();
+  EXPECT_FALSE(scheduler.RunUntil(At(100)));
+  EXPECT_TRUE(scheduler.stop_requested());
+  EXPECT_EQ(runtime.clock().Now(), At(20));
+  EXPECT_EQ(healthy_runs, 3);  // the cycle was brought to its end, and no other was begun
+  EXPECT_FALSE(scheduler.Step());
+  EXPECT_EQ(healthy_runs, 3);
+}
+
+TEST_F(FaultOf, AModuleOutsideOfTheRuleDoesNotStopTheApplication) {
+  MustSucceed(scheduler.AddFaultRule({.of = "/robot/fail"}));  // no path part of "failing"
+  MustSucceed(scheduler.AddFaultRule({.of = "/robot/healthy"}));
+  Ready();
+  EXPECT_TRUE(scheduler.RunUntil(At(100)));
+}
+
+TEST_F(FaultOf, AModuleSetsWhatTheRuleSays) {
+  MustSucceed(scheduler.AddFaultRule(
+      {.of = "/", .action = FaultRule::Action::kSet, .target = "/robot/setting", .value = "halt"}));
+  Ready();
+  scheduler.RunUntil(At(20));
+  EXPECT_EQ(setting.text, "before");
+  scheduler.Step();
+  EXPECT_EQ(setting.text, "halt");
+}
+
+TEST_F(FaultOf, AModuleCallsWhatTheRuleSays) {
+  std::vector<std::string> called;
+  MustSucceed(scheduler.AddFaultRule(
+      {.of = "/robot/failing", .action = FaultRule::Action::kCall, .call = [&](const Fault& fault) {
+         EXPECT_EQ(CurrentCycle(), nullptr);  // not in the cycle that failed
+         called.push_back(fault.path);
+       }}));
+  Ready();
+  scheduler.RunUntil(At(100));
+  EXPECT_THAT(called, ElementsAre("/robot/failing"));
+}
+
+TEST_F(FaultOf, ARuleIsReportedToo) {
+  MustSucceed(scheduler.AddFaultRule({.of = "/robot",
+                                      .action = FaultRule::Action::kSet,
+                                      .target = "/robot/setting",
+                                      .value = "halt"}));
+  MustSucceed(scheduler.AddFaultRule(
+      {.of = "/robot", .action = FaultRule::Action::kCall, .call = [](const Fault&) {
+         throw std::runtime_error("no");
+       }}));
+  Ready();
+  MustSucceed(runtime.Delete(setting));
+  scheduler.RunUntil(At(100));
+  const auto faults = scheduler.TakeFaults();
+  ASSERT_THAT(faults, SizeIs(3));
+  EXPECT_THAT(faults[1].message, HasSubstr("no 'setting' in /robot"));
+  EXPECT_THAT(faults[2].message, HasSubstr("the fault rule failed: no"));
+}
+
+TEST_F(FaultOf, ARuleWithABadTargetIsRefused) {
+  const auto rule = [](std::string target, std::string value) {
+    return FaultRule{.action = FaultRule::Action::kSet, .target = target, .value = value};
+  };
+  EXPECT_FALSE(scheduler.AddFaultRule(rule("/robot/seting", "halt")));
+  EXPECT_FALSE(scheduler.AddFaultRule(rule("/robot/healthy", "halt")));
+  const auto refused = scheduler.AddFaultRule(rule("/robot/setting", "bad"));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().path, "/robot/setting");
+}
+
+}  // namespace
+}  // namespace runnel

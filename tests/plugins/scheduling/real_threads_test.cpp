@@ -1,0 +1,273 @@
+#include <atomic>
+#include <thread>
+
+#include <gmock/gmock.h>
+
+#include "core/module/group.h"
+#include "plugins/scheduling/scheduler.h"
+#include "tests/plugins/scheduling/test_modules.h"
+
+namespace runnel {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::Doing;
+using ::testing::IsEmpty;
+using testing::MustSucceed;
+using testing::Relay;
+using ::testing::SizeIs;
+
+// No test says how long something takes; a thread that never comes is the timeout's to find.
+void WaitUntil(const std::function<bool()>& condition) {
+  while (!condition()) std::this_thread::sleep_for(100us);
+}
+
+/// Runs the threads as long as it lives: shorter than what the modules refer to.
+class Running {
+ public:
+  explicit Running(Scheduler& scheduler) : scheduler_(scheduler) { MustSucceed(scheduler.Start()); }
+  ~Running() { scheduler_.Stop(); }
+
+ private:
+  Scheduler& scheduler_;
+};
+
+class RealThreads : public ::testing::Test {
+ protected:
+  void Ready() { MustSucceed(runtime.MakeReady(runtime.root())); }
+  Doing& MakeCounter(const std::string& name, std::atomic<int>& count) {
+    auto& module = runtime.Create<Doing>(runtime.root(), name);
+    module.action = [&count](Doing&) { ++count; };
+    return module;
+  }
+
+  Runtime runtime;
+  Scheduler scheduler{runtime};
+};
+
+TEST_F(RealThreads, RunPeriodically) {
+  std::atomic<int> runs{0};
+  auto& module = MakeCounter("module", runs);
+  std::atomic<bool> is_planned{true};
+  std::atomic<bool> is_late_enough{true};
+  Time last{};
+  module.action = [&](Doing& each) {
+    if (each.cycle_period() != 1ms) is_planned = false;
+    if (each.cycle_time() <= last) is_late_enough = false;
+    last = each.cycle_time();
+    ++runs;
+  };
+  auto& thread = CreateThread(runtime, "main", {.period = 1ms});
+  Ready();
+  const Running running(scheduler);
+  EXPECT_TRUE(scheduler.is_running());
+  WaitUntil([&] { return runs >= 5; });
+  scheduler.Stop();
+  EXPECT_FALSE(scheduler.is_running());
+  EXPECT_TRUE(is_planned);
+  EXPECT_TRUE(is_late_enough);
+  EXPECT_EQ(thread.statistics().cycles, static_cast<std::uint64_t>(runs));
+}
+
+TEST_F(RealThreads, StandStillAfterStopAndGoOnAfterStart) {
+  std::atomic<int> runs{0};
+  MakeCounter("module", runs);
+  CreateThread(runtime, "main", {.period = 1ms});
+  Ready();
+  const Running running(scheduler);
+  WaitUntil([&] { return runs >= 2; });
+  scheduler.Stop();
+  scheduler.Stop();
+  const int stopped_at = runs;
+  std::this_thread::sleep_for(5ms);
+  EXPECT_EQ(runs, stopped_at);
+  const Running again(scheduler);
+  WaitUntil([&] { return runs > stopped_at; });
+}
+
+TEST_F(RealThreads, RunFreely) {
+  std::atomic<int> runs{0};
+  MakeCounter("module", runs);
+  CreateThread(runtime, "free", {.activation = ThreadOptions::Activation::kFreeRunning});
+  Ready();
+  const Running running(scheduler);
+  WaitUntil([&] { return runs >= 100; });
+}
+
+TEST_F(RealThreads, RunOnData) {
+  std::atomic<int> received{0};
+  auto& source = runtime.Create<Doing>(runtime.root(), "source");
+  auto& sink = runtime.Create<Doing>(runtime.root(), "sink");
+  source.action = [](Doing& module) { module.out.Publish(1); };
+  sink.action = [&](Doing& module) { received += module.in.Read().is_new() ? 1 : 0; };
+  MustSucceed(Port::Connect(source.out, sink.in));
+  AssignThread(source, CreateThread(runtime, "periodic", {.period = 1ms}));
+  AssignThread(
+      sink, CreateThread(runtime, "waiting", {.activation = ThreadOptions::Activation::kTrigger}));
+  Ready();
+  const Running running(scheduler);
+  WaitUntil([&] { return received >= 5; });
+}
+
+TEST_F(RealThreads, RunOnDataFromOutsideOfCycles) {
+  std::atomic<double> received{0};
+  auto& source = runtime.Create<Relay>(runtime.root(), "source");
+  auto& sink = runtime.Create<Doing>(runtime.root(), "sink");
+  sink.action = [&](Doing& module) { received = *module.in.Read(); };
+  MustSucceed(Port::Connect(source.out, sink.in));
+  CreateThread(runtime, "waiting", {.activation = ThreadOptions::Activation::kTrigger});
+  Ready();
+  const Running running(scheduler);
+  for (const double value : {1.0, 2.0, 3.0}) {
+    source.out.Publish(value);
+    WaitUntil([&] { return received == value; });
+  }
+}
+
+TEST_F(RealThreads, StopWhileTheyWaitForData) {
+  std::atomic<int> runs{0};
+  MakeCounter("module", runs);
+  CreateThread(runtime, "waiting", {.activation = ThreadOptions::Activation::kTrigger});
+  Ready();
+  const Running running(scheduler);
+  scheduler.Stop();
+  EXPECT_EQ(runs, 0);
+}
+
+TEST_F(RealThreads, RunOnWhenAModuleThrows) {
+  std::atomic<int> runs{0};
+  std::atomic<int> calls{0};
+  MakeCounter("healthy", runs);
+  auto& failing = runtime.Create<Doing>(runtime.root(), "failing");
+  failing.action = [](Doing&) { throw std::runtime_error("broken"); };
+  CreateThread(runtime, "main", {.period = 1ms});
+  MustSucceed(scheduler.AddFaultRule({.of = "/failing",
+                                      .action = FaultRule::Action::kCall,
+                                      .call = [&](const Fault&) { ++calls; }}));
+  MustSucceed(scheduler.AddFaultRule({.of = "/failing"}));
+  Ready();
+  const Running running(scheduler);
+  WaitUntil([&] { return scheduler.stop_requested(); });
+  const int runs_then = runs;
+  WaitUntil([&] { return runs > runs_then + 3; });  // until somebody calls Stop()
+  scheduler.Stop();
+  EXPECT_EQ(calls, 1);
+  const auto faults = scheduler.TakeFaults();
+  ASSERT_THAT(faults, SizeIs(1));
+  EXPECT_EQ(faults[0].path, "/failing");
+}
+
+TEST_F(RealThreads, TakeInModulesAddedWhileTheyRun) {
+  std::atomic<int> runs{0};
+  CreateThread(runtime, "main", {.period = 1ms});
+  const Running running(scheduler);
+  auto& module = MakeCounter("module", runs);
+  MustSucceed(runtime.MakeReady(module));
+  WaitUntil([&] { return runs > 0; });
+}
+
+TEST_F(RealThreads, TakeInContainersAddedWhileTheyRunAndLetThemGo) {
+  std::atomic<int> runs{0};
+  CreateThread(runtime, "main", {.period = 1ms});
+  auto& module = MakeCounter("module", runs);
+  Ready();
+  const Running running(scheduler);
+  for (int round = 0; round < 10; ++round) {
+    auto& added = CreateThread(runtime, "added", {.period = 1ms});
+    AssignThread(module, added);
+    const int before = runs;
+    WaitUntil([&] { return runs > before && added.statistics().cycles > 0; });
+    MustSucceed(runtime.Delete(added));
+    const int after = runs;
+    WaitUntil([&] { return runs > after; });
+  }
+}
+
+// Everything that can change does, while three threads run; ThreadSanitizer and AddressSanitizer
+// find what is wrong with it.
+TEST_F(RealThreads, BearEveryChangeOfTheStructure) {
+  auto& first = runtime.Create<Relay>(runtime.root(), "first");
+  auto& last = runtime.Create<Relay>(runtime.root(), "last");
+  auto& periodic = CreateThread(runtime, "periodic", {.period = 200us});
+  auto& free =
+      CreateThread(runtime, "free", {.activation = ThreadOptions::Activation::kFreeRunning});
+  auto& waiting =
+      CreateThread(runtime, "waiting", {.activation = ThreadOptions::Activation::kTrigger});
+  AssignThread(first, periodic);
+  AssignThread(last, free);
+  Ready();
+  const Running running(scheduler);
+  ThreadContainer* const threads[] = {&periodic, &free, &waiting};
+  for (int round = 0; round < 60; ++round) {
+    auto& group = runtime.Create<Group>(runtime.root(), "group");
+    auto& relay = runtime.Create<Relay>(group, "relay");
+    auto& listener = runtime.Create<Doing>(group, "listener");
+    auto runs = std::make_shared<std::atomic<int>>(0);
+    listener.action = [runs](Doing& module) {
+      (void)module.in.Read();
+      ++*runs;
+    };
+    MustSucceed(Port::Connect(first.out, relay.in));
+    AssignThread(listener, waiting);
+    MustSucceed(runtime.MakeReady(group));
+    MustSucceed(Port::Connect(relay.out, listener.in, {.queue = 4}));
+    MustSucceed(Port::Connect(relay.out, last.in));
+    WaitUntil([&] { return *runs > 0; });
+    AssignThread(group, *threads[round % 3]);
+    AssignThread(listener, *threads[(round + 1) % 3]);
+    if (round % 2 == 0) MustSucceed(Port::Disconnect(relay.out, last.in));
+    MustSucceed(runtime.Delete(group));
+    const int runs_at_deletion = *runs;
+    (void)periodic.statistics();
+    EXPECT_EQ(*runs, runs_at_deletion);
+  }
+  scheduler.Stop();
+  EXPECT_THAT(scheduler.TakeFaults(), IsEmpty());
+}
+
+// An element is never run by two threads at once, not even while it moves between them.
+TEST_F(RealThreads, HandOverAModuleFromThreadToThread) {
+  auto& module = runtime.Create<Doing>(runtime.root(), "module");
+  std::atomic<bool> inside{false};
+  std::atomic<bool> overlap{false};
+  int unguarded = 0;  // for ThreadSanitizer
+  std::atomic<int> runs{0};
+  module.action = [&](Doing&) {
+    if (inside.exchange(true, std::memory_order_relaxed)) overlap = true;
+    ++unguarded;
+    ++runs;
+    inside.store(false, std::memory_order_relaxed);
+  };
+  const ThreadOptions free{.activation = ThreadOptions::Activation::kFreeRunning};
+  auto& a = CreateThread(runtime, "a", free);
+  auto& b = CreateThread(runtime, "b", free);
+  Ready();
+  const Running running(scheduler);
+  for (int round = 0; round < 200; ++round) {
+    const int before = runs;
+    AssignThread(module, round % 2 == 0 ? b : a);
+    WaitUntil([&] { return runs > before; });
+  }
+  scheduler.Stop();
+  EXPECT_FALSE(overlap);
+  EXPECT_EQ(unguarded, runs);
+}
+
+TEST_F(RealThreads, AskForPrioritiesAndRunWithoutThem) {
+  std::atomic<int> runs{0};
+  MakeCounter("module", runs);
+  auto& thread = CreateThread(runtime, "main", {.period = 1ms, .priority = 20});
+  Ready();
+  const Running running(scheduler);
+  WaitUntil([&] { return runs > 0; });
+  for (const Error& warning : scheduler.Warnings()) {
+    EXPECT_FALSE(warning.message.empty());
+    EXPECT_FALSE(warning.hint.empty());
+    const bool is_of_the_thread = warning.message.starts_with("SCHED_FIFO");
+    EXPECT_EQ(warning.path, is_of_the_thread ? thread.path() : "");
+  }
+  EXPECT_EQ(thread.options().priority, 20);
+}
+
+}  // namespace
+}  // namespace runnel
