@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include <gmock/gmock.h>
+
 #include "modules/planning/algorithm/bug1.h"
 #include "modules/planning/algorithm/bug2.h"
 #include "tests/modules/planning/drive.h"

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include <gmock/gmock.h>
+
 #include "tests/modules/planning/drive.h"
 
 namespace runnel {
