@@ -154,9 +154,12 @@ TEST(ApplicationErrors, TellOfNamesThatAreNone) {
   Workshop workshop;
   EXPECT_EQ(workshop.Errors(R"(<application name="demo">
   <group name="a/b"/>
+  <group name="a b"/>
 </application>)"),
             "app.xml:2:16: error: /demo: the name 'a/b' contains a '/', which separates names in "
-            "paths\n");
+            "paths\n"
+            "app.xml:3:16: error: /demo: the name 'a b' contains a blank, which separates paths; "
+            "write '_' instead\n");
 }
 
 TEST(ApplicationErrors, WantRequiredInputsConnected) {
