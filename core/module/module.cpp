@@ -12,8 +12,8 @@ Module::Module(const Placement& placement, NoTasks)
 
 Module::Module(const Placement& placement) : Module(placement, NoTasks{}) {
   Annotate(std::make_unique<Executable>([this]() -> std::vector<Task> {
-    return {
-        {this, Phase::kUpdate, [this] { Update(); }, {input_group_.get()}, {output_group_.get()}}};
+    return {{this, Phase::kUpdate, [this] { Update(); }, AsTaskGroups(input_group_),
+             AsTaskGroups(output_group_)}};
   }));
 }
 

@@ -7,8 +7,10 @@ namespace runnel {
 
 SenseControlModule::SenseControlModule(const Placement& placement) : Module(placement, NoTasks{}) {
   Annotate(std::make_unique<Executable>([this]() -> std::vector<Task> {
-    return {{this, Phase::kSense, [this] { Sense(); }, {groups_[0].get()}, {groups_[1].get()}},
-            {this, Phase::kControl, [this] { Control(); }, {groups_[2].get()}, {groups_[3].get()}}};
+    return {{this, Phase::kSense, [this] { Sense(); }, AsTaskGroups(groups_[0]),
+             AsTaskGroups(groups_[1])},
+            {this, Phase::kControl, [this] { Control(); }, AsTaskGroups(groups_[2]),
+             AsTaskGroups(groups_[3])}};
   }));
 }
 

@@ -57,6 +57,10 @@ Result<FrameworkElement*> ModuleRegistry::Create(std::string_view type, Framewor
     return Error{.message = "a module of type '" + std::string(type) +
                             "' could not be made: " + exception.what(),
                  .path = parent.path()};
+  } catch (...) {
+    return Error{.message = "a module of type '" + std::string(type) +
+                            "' could not be made: an exception of unknown type",
+                 .path = parent.path()};
   }
 }
 

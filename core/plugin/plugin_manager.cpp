@@ -130,7 +130,8 @@ std::vector<std::string> PluginManager::Available() const {
   std::error_code ignored;
   for (const fs::path& folder : search_path_) {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-      if (entry.path().extension() == ".so") names.insert(entry.path().stem().string());
+      const bool is_library = entry.path().extension() == ".so" && entry.is_regular_file(ignored);
+      if (is_library) names.insert(entry.path().stem().string());
     }
   }
   return {names.begin(), names.end()};

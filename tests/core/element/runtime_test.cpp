@@ -120,7 +120,11 @@ TEST(RuntimeTest, DeleteWaitsForThreadsThatMayStillSeeTheElement) {
   std::thread reader([&] {
     const EpochGuard cycle;
     entered = true;
-    while (a.life_cycle() != LifeCycle::kDeleted) std::this_thread::yield();
+    const auto is_deleted = [&] {
+      const std::lock_guard lock(runtime.structure_mutex());
+      return a.life_cycle() == LifeCycle::kDeleted;
+    };
+    while (!is_deleted()) std::this_thread::yield();
     EXPECT_EQ(a.name(), "a");  // still whole
     left = true;
   });

@@ -1,6 +1,6 @@
 // Searches the schedules and memory orders of each lock-free structure; see searched_atomic.h.
 
-#include "searched_atomic.h"
+#include "tests/core/lockfree/searched_atomic.h"
 // The search must come first: it renames what the standard headers below use.
 
 #include "core/lockfree/bounded_queue.h"

@@ -3,7 +3,8 @@
 #include <string>
 #include <tuple>
 
-#include "gmock/gmock.h"
+#include <gmock/gmock.h>
+
 #include "modules/planning/algorithm/bug1.h"
 #include "modules/planning/algorithm/bug2.h"
 #include "tests/modules/planning/drive.h"

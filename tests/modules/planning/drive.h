@@ -5,7 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "gtest/gtest.h"
+#include <gtest/gtest.h>
+
 #include "modules/adaptors/algorithm/infrared_adaptor.h"
 #include "modules/adaptors/algorithm/laser_adaptor.h"
 #include "modules/planning/algorithm/bug1.h"

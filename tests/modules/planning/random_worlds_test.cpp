@@ -3,7 +3,8 @@
 #include <string>
 #include <tuple>
 
-#include "gmock/gmock.h"
+#include <gmock/gmock.h>
+
 #include "tests/modules/planning/drive.h"
 
 namespace runnel {

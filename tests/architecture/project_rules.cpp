@@ -1,0 +1,72 @@
+#include "tests/architecture/include_rules.h"
+
+namespace runnel::test {
+
+namespace {
+
+// Bottom to top: each may know those before it.
+const std::vector<std::string> kCoreOrder = {"base",    "xml",  "types",  "lockfree",
+                                             "element", "port", "module", "plugin"};
+
+void AddCore(std::vector<IncludeRule>& rules) {
+  std::vector<std::string> below;
+  for (const std::string& library : kCoreOrder) {
+    const std::string folder = "core/" + library;
+    rules.push_back({folder, folder, below});
+    below.push_back(folder);
+  }
+}
+
+void AddPlugins(std::vector<IncludeRule>& rules) {
+  rules.push_back({"plugins/parameters", "plugins/parameters", {"core"}});
+  rules.push_back({"plugins/runtime_construction",
+                   "plugins/runtime_construction",
+                   {"core", "plugins/parameters"}});
+  // The tags of application files stand apart, so that scheduling itself needs no XML.
+  rules.push_back(
+      {"the tags of scheduling",
+       "plugins/scheduling/xml_",
+       {"core", "plugins/parameters", "plugins/runtime_construction", "plugins/scheduling"}});
+  rules.push_back({"plugins/scheduling", "plugins/scheduling", {"core"}});
+}
+
+// A family of modules knows the framework, the types that all share, and itself. Neighbours that a
+// family needs besides are declared here, one by one.
+void AddFamily(std::vector<IncludeRule>& rules, const std::string& name,
+               const std::vector<std::string>& neighbours = {}) {
+  const std::string folder = "modules/" + name;
+  rules.push_back(
+      {folder + "/algorithm", folder + "/algorithm", {"modules/types/algorithm"}, true});
+  std::vector<std::string> may_include = {"core", "plugins", "modules/types", folder};
+  may_include.insert(may_include.end(), neighbours.begin(), neighbours.end());
+  rules.push_back({folder, folder, may_include});
+}
+
+void AddModules(std::vector<IncludeRule>& rules) {
+  rules.push_back({"modules/types/algorithm", "modules/types/algorithm", {}, true});
+  rules.push_back({"modules/types", "modules/types", {"core", "modules/types/algorithm"}});
+  for (const char* family : {"adaptors", "motion", "planning", "sensors", "simulation"}) {
+    AddFamily(rules, family);
+  }
+}
+
+std::vector<IncludeRule> MakeProjectRules() {
+  std::vector<IncludeRule> rules;
+  AddCore(rules);
+  AddPlugins(rules);
+  AddModules(rules);
+  rules.push_back({"apps", "apps", {"core", "plugins"}});
+  for (const char* folder : {"tests", "bench"}) {
+    rules.push_back({folder, folder, {"core", "plugins", "modules", "apps", "tests", "bench"}});
+  }
+  return rules;
+}
+
+}  // namespace
+
+const std::vector<IncludeRule>& ProjectRules() {
+  static const std::vector<IncludeRule> rules = MakeProjectRules();
+  return rules;
+}
+
+}  // namespace runnel::test

@@ -1,0 +1,73 @@
+#include "core/module/sense_control_module.h"
+
+#include <string>
+
+#include "tests/core/module/module_fixture.h"
+
+namespace runnel::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+class Base final : public SenseControlModule {
+ public:
+  using SenseControlModule::SenseControlModule;
+  Input<double> raw{sensor_inputs(), "raw"};
+  Output<double> distance{sensor_outputs(), "distance"};
+  Input<double> wanted{controller_inputs(), "wanted"};
+  Output<double> wheels{controller_outputs(), "wheels"};
+  std::string calls;
+
+ private:
+  void Sense() override { calls += "sense "; }
+  void Control() override { calls += "control "; }
+};
+
+TEST(SenseControlModuleTest, HasAGroupForEachDirectionOfDataAndEnd) {
+  Runtime runtime;
+  auto& base = runtime.Create<Base>(runtime.root(), "base");
+  EXPECT_EQ(base.raw.path(), "/base/sensor_input/raw");
+  EXPECT_EQ(base.distance.path(), "/base/sensor_output/distance");
+  EXPECT_EQ(base.wanted.path(), "/base/controller_input/wanted");
+  EXPECT_EQ(base.wheels.path(), "/base/controller_output/wheels");
+  EXPECT_EQ(base.FindChild("input"), nullptr);
+}
+
+TEST(SenseControlModuleTest, HasTwoTasksOfWhichSensingComesFirst) {
+  Runtime runtime;
+  auto& base = runtime.Create<Base>(runtime.root(), "base");
+  const auto tasks = TasksOf(base);
+  ASSERT_EQ(tasks.size(), 2u);
+  EXPECT_EQ(tasks[0].phase, Phase::kSense);
+  EXPECT_THAT(tasks[0].reads, ElementsAre(base.FindChild("sensor_input")));
+  EXPECT_THAT(tasks[0].writes, ElementsAre(base.FindChild("sensor_output")));
+  EXPECT_EQ(tasks[1].phase, Phase::kControl);
+  EXPECT_THAT(tasks[1].reads, ElementsAre(base.FindChild("controller_input")));
+  EXPECT_THAT(tasks[1].writes, ElementsAre(base.FindChild("controller_output")));
+  RunOnce(base);
+  EXPECT_EQ(base.calls, "sense control ");
+}
+
+TEST(SenseControlModuleTest, TasksNameOnlyGroupsThatExist) {
+  class OnlySensing final : public SenseControlModule {
+   public:
+    using SenseControlModule::SenseControlModule;
+    Output<double> distance{sensor_outputs(), "distance"};
+
+   private:
+    void Sense() override {}
+    void Control() override {}
+  };
+  Runtime runtime;
+  const auto& module = runtime.Create<OnlySensing>(runtime.root(), "module");
+  const auto tasks = TasksOf(module);
+  ASSERT_EQ(tasks.size(), 2u);
+  EXPECT_THAT(tasks[0].reads, IsEmpty());
+  EXPECT_THAT(tasks[0].writes, ElementsAre(module.FindChild("sensor_output")));
+  EXPECT_THAT(tasks[1].reads, IsEmpty());
+  EXPECT_THAT(tasks[1].writes, IsEmpty());
+}
+
+}  // namespace
+}  // namespace runnel::test

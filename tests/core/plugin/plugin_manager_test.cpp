@@ -1,0 +1,218 @@
+#include "core/plugin/plugin_manager.h"
+
+#include <cstdlib>
+#include <fstream>
+
+#include <gmock/gmock.h>
+
+#include "core/element/runtime.h"
+#include "core/plugin/abi.h"
+#include "tests/core/plugin/tag_registry.h"
+
+namespace runnel::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+const fs::path kFolder = RUNNEL_TEST_PLUGINS;
+
+class PluginManagerTest : public testing::Test {
+ protected:
+  PluginManagerTest() {
+    manager.registry().Offer(tags);
+    manager.AddSearchFolder(kFolder);
+  }
+
+  // What the manager says of a plugin that it refuses; and that nothing of it stays.
+  Error RefusalOf(const std::string& name) {
+    const auto types = manager.modules().All().size();
+    const auto tag_count = tags.plugin_of.size();
+    const auto loaded = manager.loaded();
+    const auto result = manager.Load(name);
+    EXPECT_FALSE(result);
+    EXPECT_EQ(manager.modules().All().size(), types);
+    EXPECT_EQ(tags.plugin_of.size(), tag_count);
+    EXPECT_EQ(manager.loaded(), loaded);
+    return result ? Error{} : result.error();
+  }
+  static std::string Refused(const std::string& name, const std::string& why) {
+    return "the plugin " + (kFolder / (name + ".so")).string() + " is refused: " + why;
+  }
+
+  TagRegistry tags;
+  PluginManager manager;
+};
+
+TEST_F(PluginManagerTest, GoodPluginRegistersWhatItBringsOnce) {
+  ASSERT_TRUE(manager.Load("good"));
+  ASSERT_TRUE(manager.Load("good"));
+  EXPECT_THAT(manager.loaded(), ElementsAre("good"));
+  const auto* type = manager.modules().Find("good/counter");
+  ASSERT_NE(type, nullptr);
+  EXPECT_EQ(type->plugin, "good");
+  EXPECT_EQ(type->summary, "counts");
+  EXPECT_EQ(tags.plugin_of["good"], "good");
+}
+
+TEST_F(PluginManagerTest, ModulesOfAPluginAreMadeAndOutliveTheManager) {
+  Runtime runtime;
+  {
+    PluginManager other;
+    other.AddSearchFolder(kFolder);
+    ASSERT_TRUE(other.Load("good"));
+    ASSERT_TRUE(other.modules().Create("good/counter", runtime.root(), "counter"));
+    const auto broken = other.modules().Create("good/broken", runtime.root(), "broken");
+    ASSERT_FALSE(broken);
+    EXPECT_THAT(broken.error().message, HasSubstr("the device is missing"));
+  }
+  EXPECT_TRUE(runtime.root().Find("counter/output/count"));
+}
+
+TEST_F(PluginManagerTest, PluginMayLeaveOutRegistriesThatNobodyOffers) {
+  PluginManager plain;
+  plain.AddSearchFolder(kFolder);
+  EXPECT_TRUE(plain.Load("good"));
+  EXPECT_TRUE(tags.plugin_of.empty());
+}
+
+TEST_F(PluginManagerTest, NameWithASlashIsAFile) {
+  PluginManager plain;
+  ASSERT_TRUE(plain.Load((kFolder / "good.so").string()));
+  EXPECT_THAT(plain.loaded(), ElementsAre("good"));
+  const auto missing = plain.Load("/no/such/plugin.so");
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().message, "there is no plugin file '/no/such/plugin.so'");
+}
+
+TEST_F(PluginManagerTest, MissingPluginIsToldWithTheFoldersAndTheNearestName) {
+  const Error error = RefusalOf("goood");
+  EXPECT_THAT(error.message, HasSubstr("no plugin 'goood' in " + kFolder.string()));
+  EXPECT_EQ(error.hint, "did you mean 'good'?");
+}
+
+TEST_F(PluginManagerTest, LibraryWithoutEntryIsRefused) {
+  const Error error = RefusalOf("no_entry");
+  EXPECT_EQ(error.message, Refused("no_entry", "it has no entry RunnelPluginEntry"));
+  EXPECT_THAT(error.hint, HasSubstr("RUNNEL_PLUGIN(name, registry)"));
+}
+
+TEST_F(PluginManagerTest, EmptyEntryIsRefused) {
+  EXPECT_EQ(RefusalOf("empty_entry").message, Refused("empty_entry", "its entry is empty"));
+}
+
+TEST_F(PluginManagerTest, OtherAbiVersionIsRefusedWithBothVersions) {
+  const Error error = RefusalOf("other_abi_version");
+  EXPECT_EQ(error.message,
+            Refused("other_abi_version",
+                    "it was built for plugin ABI " + std::to_string(kPluginAbiVersion + 1) +
+                        ", this core has " + std::to_string(kPluginAbiVersion)));
+  EXPECT_EQ(error.hint, "rebuild the plugin");
+}
+
+TEST_F(PluginManagerTest, OtherSizeOfTheEntryIsRefused) {
+  EXPECT_EQ(RefusalOf("other_entry_size").message,
+            Refused("other_entry_size", "its entry has another size than this core's"));
+}
+
+TEST_F(PluginManagerTest, OtherCompilerIsRefusedWithBothFingerprints) {
+  const Error error = RefusalOf("other_fingerprint");
+  EXPECT_EQ(error.message, Refused("other_fingerprint",
+                                   "it was built with 'some other compiler', this core with '" +
+                                       std::string(CoreAbiFingerprint()) + "'"));
+  EXPECT_EQ(error.hint, "rebuild the plugin with the compiler of the core");
+}
+
+TEST_F(PluginManagerTest, RegistrationThatThrowsLeavesNothingBehind) {
+  EXPECT_EQ(RefusalOf("throws").message, Refused("throws", "its registration failed: no driver"));
+  EXPECT_EQ(RefusalOf("throws_int").message,
+            Refused("throws_int", "its registration failed with an exception of unknown type"));
+  EXPECT_EQ(RefusalOf("throws").message,  // and it may be tried again
+            Refused("throws", "its registration failed: no driver"));
+}
+
+TEST_F(PluginManagerTest, TypeOfAnotherPluginCannotBeTakenOver) {
+  ASSERT_TRUE(manager.Load("good"));
+  EXPECT_EQ(RefusalOf("duplicate").message,
+            Refused("duplicate", "module type 'good/counter' comes with plugin 'good' already"));
+  EXPECT_EQ(manager.modules().Find("good/counter")->plugin, "good");
+  EXPECT_EQ(RefusalOf("same_name_in_itself").message,
+            Refused("same_name_in_itself",
+                    "module type 'twice/idle' comes with plugin 'same_name_in_itself' already"));
+}
+
+TEST_F(PluginManagerTest, FileThatIsNoLibraryIsRefusedInTheLinkersWords) {
+  const Error error = RefusalOf("not_a_library");
+  EXPECT_THAT(error.message,
+              HasSubstr("cannot load the library " + (kFolder / "not_a_library.so").string()));
+}
+
+TEST_F(PluginManagerTest, LibraryThatLacksAFunctionIsRefusedAtOnce) {
+  EXPECT_THAT(RefusalOf("missing_symbol").message, HasSubstr("RunnelTestFunctionThatIsNowhere"));
+}
+
+TEST_F(PluginManagerTest, AvailableListsThePluginsOfAllFoldersSorted) {
+  const auto names = manager.Available();
+  EXPECT_TRUE(std::ranges::is_sorted(names));
+  EXPECT_THAT(names, Contains("good"));
+  EXPECT_THAT(names, Contains("throws"));
+}
+
+TEST_F(PluginManagerTest, FirstFolderOfTheSearchPathWins) {
+  const fs::path folder = fs::path(testing::TempDir()) / "runnel_first_folder";
+  fs::create_directories(folder);
+  std::ofstream(folder / "good.so") << "text";
+  manager.AddSearchFolder(folder);
+  EXPECT_THAT(RefusalOf("good").message, HasSubstr((folder / "good.so").string()));
+  fs::remove_all(folder);
+}
+
+// Sets RUNNEL_PLUGIN_PATH for as long as it lives.
+class PluginPath {
+ public:
+  explicit PluginPath(const std::string& value) { setenv("RUNNEL_PLUGIN_PATH", value.c_str(), 1); }
+  ~PluginPath() { unsetenv("RUNNEL_PLUGIN_PATH"); }
+};
+
+TEST(PluginSearchPathTest, BuildTreeIsSearchedWithoutAnyHelp) {
+  unsetenv("RUNNEL_PLUGIN_PATH");
+  const PluginManager manager;
+  ASSERT_EQ(manager.search_path().size(), 1u);
+  EXPECT_EQ(fs::weakly_canonical(manager.search_path()[0]),
+            fs::weakly_canonical(RUNNEL_BUILD_PLUGINS));
+}
+
+TEST(PluginSearchPathTest, FoldersOfTheEnvironmentComeFirst) {
+  const PluginPath path("/first::" + kFolder.string() + ":");
+  PluginManager manager;
+  ASSERT_EQ(manager.search_path().size(), 3u);
+  EXPECT_EQ(manager.search_path()[0], "/first");
+  EXPECT_EQ(manager.search_path()[1], kFolder);
+  EXPECT_TRUE(manager.Load("good"));
+}
+
+TEST(PluginSearchPathTest, FoldersThatDoNotExistAreLeftOut) {
+  const PluginPath path("/no/such/folder");
+  const PluginManager manager;
+  EXPECT_THAT(manager.Available(), Not(Contains("folder")));
+}
+
+TEST(PluginSearchPathTest, FilesThatAreNoPluginsAreNotListed) {
+  const fs::path folder = fs::path(testing::TempDir()) / "runnel_some_files";
+  fs::create_directories(folder / "directory.so");
+  std::ofstream(folder / "plugin.so");
+  std::ofstream(folder / "README.md");
+  const PluginPath path(folder.string());
+  const PluginManager manager;
+  EXPECT_THAT(manager.Available(), Contains("plugin"));
+  EXPECT_THAT(manager.Available(), Not(Contains("README")));
+  EXPECT_THAT(manager.Available(), Not(Contains("directory")));
+  fs::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace runnel::test

@@ -1,0 +1,3 @@
+// A shared library like any other.
+extern "C" __attribute__((visibility("default"))) int Unrelated();
+int Unrelated() { return 1; }

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "core/plugin/plugin_registry.h"
+
+namespace runnel::test {
+
+/// A registry that the application offers and the core does not know.
+class TagRegistry final : public OfferedRegistry {
+ public:
+  void Add(const std::string& tag, const std::string& plugin) { plugin_of[tag] = plugin; }
+  void RemovePlugin(std::string_view plugin) override {
+    std::erase_if(plugin_of, [&](const auto& entry) { return entry.second == plugin; });
+  }
+  std::map<std::string, std::string> plugin_of;
+};
+
+}  // namespace runnel::test
