@@ -203,6 +203,13 @@ TEST(ApplicationErrors, TellOneMistakeOnce) {
   EXPECT_EQ(workshop.Errors(R"(<application name="demo">
   <module name="a" type="test/source"/>
   <module name="filter" type="test/filter"/>
+  <connect from="a/value" to="fliter/value"/>
+</application>)"),
+            "app.xml:4:31: error: /demo: there is no 'fliter' in /demo; did you mean "
+            "'filter'?\n");
+  EXPECT_EQ(workshop.Errors(R"(<application name="demo">
+  <module name="a" type="test/source"/>
+  <module name="filter" type="test/filter"/>
   <connect from="a/value" to="filter/vlue"/>
 </application>)"),
             "app.xml:4:31: error: /demo: there is no 'vlue' in /demo/filter; did you mean "
