@@ -22,6 +22,32 @@ TEST_F(PooledPortTest, ReaderLooksAtTheVeryObjectThatTheWriterFilled) {
   EXPECT_EQ(&*second.in.Take(), written);
 }
 
+TEST_F(PooledPortTest, SizeAndCopyingDecideHowATypeTravels) {
+  EXPECT_TRUE(kIsCheap<double>);
+  EXPECT_TRUE((kIsCheap<std::array<char, 256>>));
+  EXPECT_FALSE((kIsCheap<std::array<char, 257>>));
+  EXPECT_FALSE(kIsCheap<Scan>);
+  EXPECT_FALSE(kIsCheap<Token>);
+  EXPECT_FALSE(kIsCheap<Sealed>);
+  EXPECT_FALSE(kIsCheap<Stubborn>);
+}
+
+TEST_F(PooledPortTest, LargePlainTypesAndThoseThatAskForItTravelInBuffersToo) {
+  auto& images = MakeSender<Image>("images");
+  auto& image_reader = MakeReceiver<Image>("image_reader");
+  Connect(images.out, image_reader.in);
+  auto image = images.out.Loan();
+  const Image* const written = &*image;
+  images.out.Publish(std::move(image));
+  EXPECT_EQ(&*image_reader.in.Read(), written);
+  auto& small = MakeSender<Stubborn>("small");
+  auto& small_reader = MakeReceiver<Stubborn>("small_reader");
+  Connect(small.out, small_reader.in);
+  small.out.Publish({5});
+  EXPECT_EQ(small_reader.in.Read()->number, 5);
+  EXPECT_EQ(&*small_reader.in.Read(), &*small_reader.in.Peek());
+}
+
 TEST_F(PooledPortTest, PublishingAValueCopiesOrMovesItIntoABuffer) {
   auto& sender = MakeSender<Scan>();
   auto& receiver = MakeReceiver<Scan>();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -34,6 +35,25 @@ struct Sealed {
   int number;
 };
 inline void Describe(TypeBuilder<Sealed>& type) { type.Name("test::Sealed"); }
+
+/// Plain, but too large to be copied in each cycle.
+struct Image {
+  std::array<char, 1000> pixels{};
+};
+inline void Describe(TypeBuilder<Image>& type) { type.Name("test::Image"); }
+
+/// Small and plain, but asks to travel in buffers (below).
+struct Stubborn {
+  int number = 0;
+};
+inline void Describe(TypeBuilder<Stubborn>& type) { type.Name("test::Stubborn"); }
+
+}  // namespace runnel::test
+
+template <>
+inline constexpr bool runnel::kIsCheap<runnel::test::Stubborn> = false;
+
+namespace runnel::test {
 
 /// An element to hang ports below.
 class Box : public FrameworkElement {

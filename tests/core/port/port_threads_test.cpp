@@ -97,6 +97,45 @@ TEST_F(PortThreadsTest, SmallTypesToo) {
   EXPECT_EQ(backward, 0);
 }
 
+TEST_F(PortThreadsTest, InterfacePortsAreConnectedAnewWhileTwoSourcesPublish) {
+  auto& a = MakeSender<Scan>("a");
+  auto& b = MakeSender<Scan>("b");
+  auto& proxy =
+      runtime.Create<ProxyPort>(runtime.root(), "proxy", Port::Direction::kInput, TypeOf<Scan>());
+  auto& receiver = MakeReceiver<Scan>();
+  Connect(proxy, receiver.in, {.queue = 3});
+  std::atomic<int> changing{2};
+  std::atomic<int> torn{0}, read{0};
+  RunTogether(5, [&](unsigned index) {
+    if (index < 2) {
+      auto& sender = index == 0 ? a : b;
+      for (int number = 1; changing > 0; ++number) {
+        (void)sender.out.Publish(Scan{std::vector<float>(5, static_cast<float>(number)), number});
+        MaybeYield();
+      }
+    } else if (index == 2) {
+      while (changing > 0) {
+        const auto check = [&](const Lease<Scan>& scan) {
+          if (scan->ranges.at(4) != static_cast<float>(scan->number)) ++torn;
+          ++read;
+        };
+        if (const auto scan = receiver.in.Read()) check(scan);
+        receiver.in.Drain(check);
+        MaybeYield();
+      }
+    } else {
+      auto& sender = index == 3 ? a : b;
+      for (int i = 0; i < kRounds / 2 || read == 0; ++i) {
+        EXPECT_TRUE(Port::Connect(sender.out, proxy, {.queue = static_cast<std::size_t>(i) % 5}));
+        MaybeYield();
+        EXPECT_TRUE(Port::Disconnect(sender.out, proxy));
+      }
+      --changing;
+    }
+  });
+  EXPECT_EQ(torn, 0);
+}
+
 TEST_F(PortThreadsTest, SendersAreDeletedWhileAReaderHoldsTheirValues) {
   auto& receiver = MakeReceiver<Scan>();
   std::atomic<bool> stop{false};
