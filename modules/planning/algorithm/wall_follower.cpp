@@ -13,7 +13,9 @@ constexpr double kHandCentre = DegreesToRadians(-65.0);
 constexpr double kHandHalfWidth = DegreesToRadians(110.0);
 constexpr double kDistanceGain = 6.0;                        // rad of bearing for each m of error
 constexpr double kCorrectionLimit = DegreesToRadians(60.0);  // so that far off it still advances
-constexpr double kLookahead = 0.15;                          // m that the way must be free
+constexpr double kCautiousLookahead = 0.40;  // m, where the robot turned away just before
+constexpr double kCautiousReach = 0.25;      // m from there
+constexpr double kLookahead = 0.15;          // m that the way must be free
 constexpr double kSqueeze = DegreesToRadians(30.0);
 constexpr double kSweepStep = DegreesToRadians(3.0);
 constexpr double kTurnedEnough = DegreesToRadians(10.0);
@@ -23,7 +25,7 @@ constexpr double kSearchRadius = 0.5;  // m, of the circle towards a lost bounda
 
 // Rad, mirrored so that the boundary is on the right; nothing is free: straight back.
 double BearingToGo(const Surroundings& surroundings, double sign, double radius,
-                   const BoundaryPoint& contact) {
+                   const BoundaryPoint& contact, double lookahead) {
   const double correction =
       std::clamp(kDistanceGain * (double{surroundings.safe_distance} - contact.distance),
                  -kCorrectionLimit, kCorrectionLimit);
@@ -31,7 +33,7 @@ double BearingToGo(const Surroundings& surroundings, double sign, double radius,
   // even if it has to turn by more than half a circle.
   const double tangent = sign * contact.bearing + kPi / 2 + correction;
   const auto is_free = [&](double bearing) {
-    return FreeRange(surroundings, sign * bearing, radius) >= kLookahead;
+    return FreeRange(surroundings, sign * bearing, radius) >= lookahead;
   };
   // In a narrow passage nearer to the boundary than it likes to be, so that whether a passage is
   // wide enough does not depend on the side the robot comes from.
@@ -51,6 +53,7 @@ void WallFollower::Start(BoundaryDirection direction, const Pose2& pose, double 
   const double sign = MirrorSign(direction);
   const double offset = sign * WrapAngle(contact_bearing) + kPi / 2;
   is_turning_ = true;
+  is_cautious_ = false;
   turn_sign_ = offset >= 0.0 ? sign : -sign;
   target_heading_ = pose.heading + sign * offset;
 }
@@ -68,10 +71,16 @@ Twist2 WallFollower::Update(const DrivingConfiguration& configuration, const Pos
   const double speed = configuration.following_speed;
   if (!std::isfinite(contact.distance)) return {speed, -sign * speed / kSearchRadius};
   const double radius = TravelRadius(configuration, surroundings);
-  const double bearing = BearingToGo(surroundings, sign, radius, contact);
+  if (is_cautious_ && Distance(turning_place_, Position(pose)) > kCautiousReach) {
+    is_cautious_ = false;
+  }
+  const double lookahead = is_cautious_ ? kCautiousLookahead : kLookahead;
+  const double bearing = BearingToGo(surroundings, sign, radius, contact, lookahead);
   // A large turn is finished: half way, a gap just too narrow may look just wide enough.
   if (bearing > kLargeTurn) {
     is_turning_ = true;
+    is_cautious_ = true;
+    turning_place_ = Position(pose);
     turn_sign_ = sign;
     target_heading_ = pose.heading + sign * bearing;
   }
