@@ -73,7 +73,7 @@ void BugAlgorithm::Record(BugState& state, const BugInput& input) const {
   const Point2 position = Position(input.pose);
   state.status.path_length += Distance(Position(state.last_pose), position);
   state.status.distance_to_goal = Distance(position, input.goal);
-  state.idle_time += input.time_step;
+  if (input.surroundings.sensor_range > 0.0F) state.idle_time += input.time_step;
   if (Distance(state.progress_point, position) > kProgress) {
     state.progress_point = position;
     state.idle_time = 0.0;
