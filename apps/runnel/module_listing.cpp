@@ -56,6 +56,15 @@ std::vector<Row> Ports(FrameworkElement& module, Port::Direction direction) {
   return rows;
 }
 
+// Of an enumeration: "left, right".
+std::string Choices(const TypeInfo& type) {
+  std::string names;
+  for (const EnumeratorInfo& each : type.enumerators()) {
+    names += (names.empty() ? "" : ", ") + each.name;
+  }
+  return names;
+}
+
 std::vector<Row> Parameters(const FrameworkElement& module) {
   std::vector<Row> rows;
   for (const auto& [element, configurable] : ConfigurablesOf(module)) {
@@ -63,8 +72,10 @@ std::vector<Row> Parameters(const FrameworkElement& module) {
     const std::string unit = info.unit.empty() ? "" : " " + info.unit;
     const std::string value = info.default_value.empty() ? "" : "= " + info.default_value + unit;
     const std::string bounds = info.bounds.empty() ? "" : "in " + info.bounds + unit;
-    rows.push_back({element->name(), configurable->type().name(), value, bounds,
-                    info.is_static ? "static" : "", info.description});
+    const std::string choices = Choices(configurable->type());
+    rows.push_back({element->name(), configurable->type().name(), value,
+                    bounds.empty() ? choices : bounds, info.is_static ? "static" : "",
+                    info.description});
   }
   return rows;
 }

@@ -31,7 +31,7 @@ endfunction()
 
 # runnel_plugin(<name> SOURCES ... [DEPENDS ...])
 # A loadable library lib/runnel/plugins/<name>.so, which the runtime finds by <name>. Works in this
-# tree and, after find_package(runnel), in any other.
+# tree and, after find_package(runnel), in any other. The target runnel_plugins builds all of them.
 function(runnel_plugin name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS")
   add_library(runnel_plugin_${name} MODULE ${arg_SOURCES})
@@ -43,6 +43,10 @@ function(runnel_plugin name)
   set_target_properties(runnel_plugin_${name} PROPERTIES
     PREFIX "" OUTPUT_NAME "${name}" CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
     LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/lib/runnel/plugins")
+  if(NOT TARGET runnel_plugins)
+    add_custom_target(runnel_plugins)
+  endif()
+  add_dependencies(runnel_plugins runnel_plugin_${name})
   install(TARGETS runnel_plugin_${name}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/runnel/plugins)
 endfunction()

@@ -35,10 +35,12 @@ void ReportUnknownArguments(XmlElement root, const Configuration& configuration,
 
 void MakeReady(FrameworkElement& application, const BuildTools& tools, BuildContext& context) {
   if (tools.before_ready) {
-    if (auto prepared = tools.before_ready(application); !prepared) {
-      context.Report(prepared.error(), FindSourcePlace(application), application);
-      return;
-    }
+    const SourcePosition position = FindSourcePlace(application);
+    context.Attempt({"preparing the run", position, &application}, [&] {
+      const auto prepared = tools.before_ready(application);
+      if (!prepared) context.Report(prepared.error(), position, application);
+    });
+    if (!context.ok()) return;
   }
   Runtime& runtime = context.runtime();
   const auto ready = runtime.MakeReady(application);

@@ -22,6 +22,13 @@ Result<void> WithoutValue(const Result<T>& result) {
   return {};
 }
 
+Result<void> CheckName(std::string_view value) {
+  if (auto good = CheckElementName(value); !good) return good;
+  if (value.find(' ') == std::string_view::npos) return {};
+  return Error{.message = "the name " + Quoted(value) + " contains a blank, which separates paths",
+               .hint = "write '_' instead"};
+}
+
 Result<void> CheckNotEmpty(std::string_view value) {
   if (SplitBlanks(value).empty()) return Error{.message = "a path must not be empty"};
   return {};
@@ -61,7 +68,7 @@ Result<void> CheckAttributeValue(const AttributeRule& rule, std::string_view val
     case AttributeKind::kText:
       return {};
     case AttributeKind::kName:
-      return CheckElementName(value);
+      return CheckName(value);
     case AttributeKind::kPath:
       return CheckSinglePath(value);
     case AttributeKind::kPathList:

@@ -12,7 +12,7 @@ namespace runnel {
 /// What may stand in an attribute of an application file.
 enum class AttributeKind {
   kText,      ///< anything
-  kName,      ///< what can name an element: not empty, no '/'
+  kName,      ///< what can name an element in lists of paths: not empty, no '/', no blanks
   kPath,      ///< one path, not empty
   kPathList,  ///< paths separated by blanks, at least one
   kCount,     ///< 0, 1, 2 …

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/nearest_name.h"
 #include "plugins/runtime_construction/path_walk.h"
 
 namespace runnel {
@@ -70,11 +71,18 @@ void ReportMissing(const PathWalk& walk, ConnectionEnd end, BuildContext& contex
                      context);
 }
 
-// A connection that was meant for the module, or for something in it, does not come about.
-void ExcuseModule(const FrameworkElement& at, BuildContext& context) {
-  for (const FrameworkElement* each = &at; each != nullptr; each = each->parent()) {
+// A connection does not come about: what it was meant for is a module that the path goes into, or
+// whatever its name comes nearest to.
+void ExcuseTarget(const PathWalk& walk, BuildContext& context) {
+  for (const FrameworkElement* each = &walk.at(); each != nullptr; each = each->parent()) {
     if (each->kind() == ElementKind::kModule) context.Excuse(*each);
   }
+  if (walk.missing().empty()) return;
+  const auto* const meant = walk.at().FindChild(NearestName(walk.missing(), ChildNames(walk.at())));
+  if (meant == nullptr) return;
+  const bool is_module_or_port =
+      meant->kind() == ElementKind::kModule || meant->kind() == ElementKind::kPort;
+  if (is_module_or_port) context.Excuse(*meant);
 }
 
 }  // namespace
@@ -83,7 +91,7 @@ Port* SearchPort(const PathUse& use, ConnectionEnd end, BuildContext& context) {
   const PathWalk walk(use);
   const Found found = Find(walk, end);
   if (found.port != nullptr && found.rival == nullptr) return found.port;
-  ExcuseModule(walk.at(), context);
+  ExcuseTarget(walk, context);
   if (found.rival != nullptr) {
     walk.Report({.message = use.path + " names more than one port",
                  .hint = "write " + found.port->path() + " or " + found.rival->path()},

@@ -71,6 +71,14 @@ void Untie(const std::vector<InputBase*>& inputs) {
   for (InputBase* input : inputs) input->SetWaker(nullptr);
 }
 
+std::vector<CycleRunner*> WaitingRunners(const std::vector<ThreadContainer*>& containers) {
+  std::vector<CycleRunner*> waiting;
+  for (const ThreadContainer* container : containers) {
+    if (container->runner()->waits_for_data()) waiting.push_back(container->runner().get());
+  }
+  return waiting;
+}
+
 void MarkFirstAndLast(std::vector<Schedule::Entry>& entries) {
   for (std::size_t i = 0; i < entries.size(); ++i) {
     for (std::size_t later = i + 1; later < entries.size(); ++later) {
@@ -98,40 +106,48 @@ CompiledSchedules ScheduleCompiler::Compile(FrameworkElement& root) {
       continue;
     }
     std::vector<Task> tasks = element->FindAnnotation<Executable>()->tasks();
-    const std::vector<InputBase*> inputs = TriggerInputs(tasks);
-    const auto state = StateOf(*element);
-    if (container->runner()->waits_for_data()) {
-      Tie(inputs, *state, *container->runner());
-      if (inputs.empty()) {
-        result.warnings.push_back(
-            {.message = "is never run: its thread " + container->path() +
-                        " waits for data, and it has no trigger input",
-             .path = element->path(),
-             .hint = "assign it to a periodic thread, or make an input with .trigger = true"});
-      }
-    } else {
-      Untie(inputs);
-      state->set_runner(nullptr);
-    }
+    TieToContainer(*element, tasks, *container, result.warnings);
     std::ranges::move(tasks, std::back_inserter(tasks_of[container]));
   }
-
-  std::vector<CycleRunner*> waiting;
+  const std::vector<CycleRunner*> waiting = WaitingRunners(found.containers);
   for (const ThreadContainer* container : found.containers) {
-    if (container->runner()->waits_for_data()) waiting.push_back(container->runner().get());
-  }
-  for (const ThreadContainer* container : found.containers) {
-    ExecutionOrder order = OrderTasks(std::move(tasks_of[container]));
-    auto schedule = std::make_unique<Schedule>();
-    for (Task& task : order.tasks) {
-      schedule->entries.push_back({std::move(task.run), StateOf(*task.element), task.phase});
-    }
-    MarkFirstAndLast(schedule->entries);
+    auto schedule = MakeSchedule(std::move(tasks_of[container]), result.warnings);
     schedule->waiting = waiting;
-    std::ranges::move(order.cuts, std::back_inserter(result.warnings));
     result.threads.push_back({container->runner(), std::move(schedule)});
   }
   return result;
+}
+
+void ScheduleCompiler::TieToContainer(const FrameworkElement& element,
+                                      const std::vector<Task>& tasks,
+                                      const ThreadContainer& container,
+                                      std::vector<Error>& warnings) {
+  const std::vector<InputBase*> inputs = TriggerInputs(tasks);
+  const auto state = StateOf(element);
+  if (!container.runner()->waits_for_data()) {
+    Untie(inputs);
+    state->set_runner(nullptr);
+    return;
+  }
+  Tie(inputs, *state, *container.runner());
+  if (!inputs.empty()) return;
+  warnings.push_back(
+      {.message = "is never run: its thread " + container.path() +
+                  " waits for data, and it has no trigger input",
+       .path = element.path(),
+       .hint = "assign it to a periodic thread, or make an input with .trigger = true"});
+}
+
+std::unique_ptr<Schedule> ScheduleCompiler::MakeSchedule(std::vector<Task> tasks,
+                                                         std::vector<Error>& warnings) {
+  ExecutionOrder order = OrderTasks(std::move(tasks));
+  auto schedule = std::make_unique<Schedule>();
+  for (Task& task : order.tasks) {
+    schedule->entries.push_back({std::move(task.run), StateOf(*task.element), task.phase});
+  }
+  MarkFirstAndLast(schedule->entries);
+  std::ranges::move(order.cuts, std::back_inserter(warnings));
+  return schedule;
 }
 
 void ScheduleCompiler::Release(FrameworkElement& element) {

@@ -43,6 +43,9 @@ class ScheduleCompiler {
   void Release(FrameworkElement& element);
 
  private:
+  void TieToContainer(const FrameworkElement& element, const std::vector<Task>& tasks,
+                      const ThreadContainer& container, std::vector<Error>& warnings);
+  std::unique_ptr<Schedule> MakeSchedule(std::vector<Task> tasks, std::vector<Error>& warnings);
   std::shared_ptr<ScheduledElement> StateOf(const FrameworkElement& element);
 
   const std::string default_thread_;

@@ -39,6 +39,12 @@ void Bug1::SetOut(BugState& state, const BugInput& input) const {
   const double perimeter = state.lap.length() - state.lap.gate_length();
   double ahead = state.closest_length - state.lap.gate_length();
   if (ahead < 0.0) ahead += perimeter;
+  // Each leave point is nearer to the goal than the one before, or the robot goes in circles.
+  if (state.status.leaves > 0 &&
+      state.closest_distance > Distance(state.status.leave_point, input.goal) - kLeavePrecision) {
+    GiveUp(state, Unreachability::kNoProgress);
+    return;
+  }
   state.leave_point = state.closest_point;
   state.way_to_leave_point = std::min(ahead, perimeter - ahead);
   if (perimeter - ahead < ahead) {
@@ -54,17 +60,11 @@ std::optional<Twist2> Bug1::GoToLeavePoint(BugState& state, const BugInput& inpu
     state.is_on_last_stretch = true;
   }
   if (state.is_on_last_stretch) return DriveToPoint(input, *state.leave_point, kLeavePrecision);
-  if (HasMissedIt(state)) StartLapAnew(state, input);
+  if (HasMissedIt(state)) {
+    state.status.mode = PlannerMode::kFollowingBoundary;
+    RestartLap(state, input);
+  }
   return WallFollowing(state, input);
-}
-
-void Bug1::StartLapAnew(BugState& state, const BugInput& input) const {
-  state.status.mode = PlannerMode::kFollowingBoundary;
-  state.leave_point.reset();
-  state.lap.Start(input.pose);
-  state.closest_distance = state.status.distance_to_goal;
-  state.closest_point = Position(input.pose);
-  state.closest_length = 0.0;
 }
 
 void Bug1::RefuseLeavePoint(BugState& state, const BugInput&) const {

@@ -19,7 +19,6 @@ class Bug1 : public BugAlgorithm {
 
  private:
   void SetOut(BugState& state, const BugInput& input) const;
-  void StartLapAnew(BugState& state, const BugInput& input) const;
 };
 
 }  // namespace runnel

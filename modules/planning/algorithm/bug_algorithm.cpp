@@ -115,6 +115,7 @@ Twist2 BugAlgorithm::IdentifyLeavePoint(BugState& state, const BugInput& input) 
     return {};
   }
   FindLeavePoint(state, input);
+  if (IsFinal(state.status.mode)) return {};
   if (LeavePointFound(state) && ResearchComplete(state)) {
     state.status.mode = PlannerMode::kGoingToLeavePoint;
     state.set_out_length = state.status.path_length;
@@ -124,6 +125,7 @@ Twist2 BugAlgorithm::IdentifyLeavePoint(BugState& state, const BugInput& input) 
   if (CompleteCycleAroundObstacle(state) && !LeavePointFound(state)) {
     return FinishFruitlessLap(state, input);
   }
+  if (state.lap.is_circling()) RestartLap(state, input);
   return WallFollowing(state, input);
 }
 
@@ -170,13 +172,17 @@ void BugAlgorithm::Hit(BugState& state, const BugInput& input, double contact_be
   ++state.status.hits;
   state.status.hit_point = Position(input.pose);
   state.hit_distance = distance;
-  state.closest_distance = distance;
+  RestartLap(state, input);
+  state.follower.Start(configuration_.first_direction, input.pose, contact_bearing);
+}
+
+void BugAlgorithm::RestartLap(BugState& state, const BugInput& input) const {
+  state.closest_distance = state.status.distance_to_goal;
   state.closest_point = Position(input.pose);
   state.closest_length = 0.0;
   state.leave_point.reset();
   state.crossing.reset();
   state.lap.Start(input.pose);
-  state.follower.Start(configuration_.first_direction, input.pose, contact_bearing);
 }
 
 void BugAlgorithm::Leave(BugState& state, const BugInput& input) const {

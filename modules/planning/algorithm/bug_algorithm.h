@@ -72,6 +72,8 @@ class BugAlgorithm {
   /// free.
   [[nodiscard]] std::optional<Twist2> DriveToPoint(const BugInput& input, Point2 point,
                                                    double tolerance) const;
+  /// From here all round once more, as if the obstacle had been hit here.
+  void RestartLap(BugState& state, const BugInput& input) const;
   void GiveUp(BugState& state, Unreachability reason) const;
 
  private:

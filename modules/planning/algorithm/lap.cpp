@@ -14,26 +14,30 @@ void Lap::Start(const Pose2& pose) {
 }
 
 void Lap::Update(const Pose2& pose) {
-  const Segment2 way = {Position(last_), Position(pose)};
-  length_ += Distance(way.from, way.to);
+  const Point2 before = Position(last_);
+  length_ += Distance(before, Position(pose));
   turned_ += WrapAngle(pose.heading - last_.heading);
   last_ = pose;
+  const Gate here = {pose, length_, turned_};
   if (!has_gate_) {
-    if (Distance(Position(hit_), Position(pose)) < kGateDistance) return;
-    has_gate_ = true;
-    gate_ = pose;
-    gate_length_ = length_;
-    turned_ = 0.0;
+    has_gate_ = Distance(Position(hit_), Position(pose)) >= kGateDistance;
+    gate_ = here;
+    second_gate_ = here;
     return;
   }
-  const bool is_at_gate = Distance(way, Position(gate_)) < kGateHalfWidth;
-  const bool is_through = Dot(Position(pose) - Position(gate_), UnitVector(gate_.heading)) >= 0.0;
-  const bool is_same_way = std::abs(WrapAngle(pose.heading - gate_.heading)) < kTurnTolerance;
-  is_complete_ = is_at_gate && is_through && is_same_way && has_turned_round();
+  is_complete_ = IsPassing(gate_, before, pose);
+  is_circling_ = IsPassing(second_gate_, before, pose);
+  if (length_ > 2 * second_gate_.length + kShortestLap) second_gate_ = here;
 }
 
-bool Lap::has_turned_round() const {
-  return length_ > kShortestLap && std::abs(turned_) > 2 * kPi - kTurnTolerance;
+bool Lap::IsPassing(const Gate& gate, Point2 before, const Pose2& pose) const {
+  const Point2 place = Position(gate.pose);
+  const bool is_at_gate = Distance(Segment2{before, Position(pose)}, place) < kGateHalfWidth;
+  const bool is_through = Dot(Position(pose) - place, UnitVector(gate.pose.heading)) >= 0.0;
+  const bool is_same_way = std::abs(WrapAngle(pose.heading - gate.pose.heading)) < kTurnTolerance;
+  const bool has_turned_round = std::abs(turned_ - gate.turned) > 2 * kPi - kTurnTolerance;
+  const bool is_far_round = length_ - gate.length > kShortestLap;
+  return is_at_gate && is_through && is_same_way && has_turned_round && is_far_round;
 }
 
 }  // namespace runnel

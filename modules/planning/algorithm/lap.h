@@ -13,6 +13,11 @@ namespace runnel {
 /// passes the gate it started through, in the same direction, having turned once round in all (or
 /// more often, should it have missed the gate). No count of calls, no length that depends on the
 /// obstacle's size.
+///
+/// What a sensor sees of a tight place may depend on where the robot comes from, so a robot may be
+/// led out of a place that it does not enter again, and its hit point with it. Therefore a second
+/// gate is put up anew each time the way followed has doubled (Brent's way to find a cycle with an
+/// unknown beginning): a robot that goes round and round passes it.
 class Lap {
  public:
   /// At a hit point. The gate is put up `kGateDistance` further on, where the robot has turned
@@ -21,13 +26,14 @@ class Lap {
   /// The robot went straight from its last pose to this one.
   void Update(const Pose2& pose);
 
+  /// Whether the robot is back where it hit the obstacle, all the way round.
   [[nodiscard]] bool is_complete() const { return is_complete_; }
-  /// Whether the robot has turned once round: from shortly before a lap is complete.
-  [[nodiscard]] bool has_turned_round() const;
+  /// Whether the robot goes round a loop, which the place where it hit the obstacle need not be on.
+  [[nodiscard]] bool is_circling() const { return is_circling_; }
   /// m followed since Start.
   [[nodiscard]] double length() const { return length_; }
   /// m from Start to the gate, at which a complete lap ends.
-  [[nodiscard]] double gate_length() const { return gate_length_; }
+  [[nodiscard]] double gate_length() const { return gate_.length; }
 
   static constexpr double kGateDistance = 0.10;   ///< m
   static constexpr double kGateHalfWidth = 0.25;  ///< m, more than two passes differ
@@ -37,14 +43,22 @@ class Lap {
   static constexpr double kShortestLap = 1.5;
 
  private:
+  struct Gate {
+    Pose2 pose;
+    double length = 0.0;  // m since Start, there
+    double turned = 0.0;  // rad since Start, not wrapped
+  };
+  [[nodiscard]] bool IsPassing(const Gate& gate, Point2 before, const Pose2& pose) const;
+
   Pose2 hit_;
   Pose2 last_;
-  Pose2 gate_;
+  Gate gate_;
+  Gate second_gate_;
   bool has_gate_ = false;
   bool is_complete_ = false;
+  bool is_circling_ = false;
   double length_ = 0.0;
-  double gate_length_ = 0.0;
-  double turned_ = 0.0;  // rad since the gate, not wrapped
+  double turned_ = 0.0;
 };
 
 }  // namespace runnel

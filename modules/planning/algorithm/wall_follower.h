@@ -31,7 +31,9 @@ class WallFollower {
   BoundaryDirection direction_ = BoundaryDirection::kLeft;
   bool is_turning_ = false;
   double target_heading_ = 0.0;  // rad, in the world, while turning
-  double turn_sign_ = 0.0;       // +1 counter-clockwise
+  bool is_cautious_ = false;     // near a place where the way along the boundary was blocked
+  Point2 turning_place_;
+  double turn_sign_ = 0.0;  // +1 counter-clockwise
 };
 
 }  // namespace runnel

@@ -37,6 +37,13 @@ std::pair<btVector3, btVector3> ExtentOf(const World& world) {
   return {ToBullet(low, -1.0) - margin, ToBullet(high, 1.0) + margin};
 }
 
+unsigned int GreatestCountOfObjects(const World& world) {
+  constexpr std::size_t kRobotAndCrowd = 32;
+  std::size_t count = kRobotAndCrowd + world.boxes.size() + world.cylinders.size();
+  for (const WallObstacle& wall : world.walls) count += 2 * wall.points.size();
+  return static_cast<unsigned int>(count);
+}
+
 WheelSpeeds Limited(WheelSpeeds speeds, const RobotOptions& robot) {
   if (!std::isfinite(speeds.left)) speeds.left = 0.0;
   if (!std::isfinite(speeds.right)) speeds.right = 0.0;
@@ -64,7 +71,7 @@ struct PhysicsWorld::State {
       : options(physics_options),
         extent(ExtentOf(description)),
         dispatcher(&configuration),
-        broadphase(extent.first, extent.second, 16384, nullptr, true),
+        broadphase(extent.first, extent.second, GreatestCountOfObjects(description), nullptr, true),
         world(&dispatcher, &broadphase, &solver, &configuration),
         obstacles(description, kDefaultObstacleHeight),
         shape(btVector3(options.robot.radius, options.robot.radius, options.robot.height / 2)),
@@ -179,7 +186,7 @@ struct PhysicsWorld::State {
   btCollisionDispatcher dispatcher;
   // Not Bullet's usual tree, which swaps its nodes by their addresses as it keeps itself balanced:
   // the order of pairs, and with it the last digits of a solution, could differ from run to run.
-  btAxisSweep3 broadphase;
+  bt32BitAxisSweep3 broadphase;
   btSequentialImpulseConstraintSolver solver;
   btDiscreteDynamicsWorld world;
   internal::BulletObstacles obstacles;

@@ -35,7 +35,7 @@ struct Trajectory {
 /// worlds of more than 60 m, of 10 m, and so on), and a caption with name, verdict, length and
 /// time. Each element has a class ("path", "hit", …).
 ///
-/// The same input gives the same bytes on every machine. What is not finite is left out.
+/// The same input gives the same bytes, whatever the locale. What is not finite is left out.
 [[nodiscard]] std::string TrajectorySvg(const World& world, const Trajectory& trajectory);
 
 }  // namespace runnel

@@ -24,6 +24,9 @@ std::string Escaped(std::string_view text) {
       case '\n':
         escaped += "&#10;";
         break;
+      case '\r':
+        escaped += "&#13;";
+        break;
       case '\t':
         escaped += "&#9;";
         break;
@@ -107,9 +110,11 @@ Result<void> WriteWorldFile(const std::filesystem::path& path, const World& worl
   file << WriteWorld(world);
   file.close();
   if (file) return {};
-  return Error{.message = "the world cannot be written",
-               .position = {.file = path.string()},
-               .hint = "is its folder there, and may you write in it?"};
+  Error error;
+  error.message = "the world cannot be written";
+  error.position.file = path.string();
+  error.hint = "is its folder there, and may you write in it?";
+  return error;
 }
 
 }  // namespace runnel

@@ -19,7 +19,9 @@ enum class Unreachability : std::uint8_t {
   kNone,
   kEnclosed,  ///< no leave point all round an obstacle: the start or the goal is walled in, or the
               ///< goal is nearer to a wall than the robot's centre may come
-  kNoRoom,    ///< the robot cannot get away from where it is
+  kNoProgress,  ///< back where it left an obstacle: there is a passage that the sensors show now
+                ///< open, now closed
+  kNoRoom,      ///< the robot cannot get away from where it is
 };
 
 /// What a planner tells about itself, copied freely.

@@ -22,6 +22,8 @@ namespace runnel {
 struct Surroundings {
   static constexpr int kSectors = 120;
   static constexpr std::uint16_t kNothingKnown = 0xffff;
+  /// m; fine enough that on a straight wall 0.3 m away neighbouring sectors still differ.
+  static constexpr double kContourUnit = 0.25e-3;
 
   /// m; how far the sensors see. 0 as long as nothing was measured: then nothing here is known.
   float sensor_range = 0.0F;
@@ -31,8 +33,9 @@ struct Surroundings {
   /// Whether the contour also holds points that are merely possible, of which a closer look may
   /// show that they are free.
   bool is_vague = false;
-  /// mm, from the body's centre to the nearest boundary point known in sector i, of which the
-  /// middle has the bearing SectorBearing(i) in the body's frame; kNothingKnown if there is none.
+  /// In units of kContourUnit, from the body's centre to the nearest boundary point known in sector
+  /// i, of which the middle has the bearing SectorBearing(i) in the body's frame; kNothingKnown if
+  /// there is none.
   std::array<std::uint16_t, kSectors> contour = NothingKnown();
 
   static constexpr std::array<std::uint16_t, kSectors> NothingKnown() {
@@ -65,16 +68,17 @@ inline constexpr double kSectorWidth = 2 * kPi / Surroundings::kSectors;
 [[nodiscard]] constexpr double ContourDistance(const Surroundings& surroundings, int sector) {
   const std::uint16_t distance = surroundings.contour[static_cast<std::size_t>(sector)];
   return distance == Surroundings::kNothingKnown ? std::numeric_limits<double>::infinity()
-                                                 : 1e-3 * distance;
+                                                 : Surroundings::kContourUnit * distance;
 }
 
 /// Adds a boundary point to the contour, if none in its sector is nearer. Points further away than
-/// 65 m are left out.
+/// 16 m, or nowhere (no numbers), are left out.
 inline void AddBoundaryPoint(Surroundings& surroundings, BoundaryPoint point) {
-  const double millimetres = std::max(0.0, std::floor(1e3 * point.distance));
-  if (!(millimetres < Surroundings::kNothingKnown)) return;
+  const double units = std::floor(point.distance / Surroundings::kContourUnit);
+  if (!(units >= 0.0 && units < Surroundings::kNothingKnown)) return;
+  if (!std::isfinite(point.bearing)) return;
   auto& nearest = surroundings.contour[static_cast<std::size_t>(SectorOf(point.bearing))];
-  nearest = std::min(nearest, static_cast<std::uint16_t>(millimetres));
+  nearest = std::min(nearest, static_cast<std::uint16_t>(units));
 }
 
 /// The nearest boundary point of which the bearing is at most `half_width` away from `bearing`.

@@ -30,30 +30,39 @@ const TypeInfo* NamedType(const XmlAttribute& name, const TagUse& use) {
   return nullptr;
 }
 
-// The far end of a connection of this port, if `connect` is one.
-std::optional<std::pair<PathUse, ConnectionEnd>> FarEnd(XmlElement connect, const TagUse& use) {
+// The far end of `connect`, if it is a connection of the port called `own` seen from `base`.
+std::optional<std::pair<PathUse, ConnectionEnd>> FarEnd(XmlElement connect, FrameworkElement& base,
+                                                        const std::string& own) {
   const XmlAttribute* const from = connect.Attribute("from");
   const XmlAttribute* const to = connect.Attribute("to");
   if (connect.name() != "connect" || from == nullptr || to == nullptr) return std::nullopt;
-  const std::string& own_name = use.Get("name").value;
-  const std::vector<PathUse> targets = PathsIn(*to, use.parent);
-  if (from->value == own_name && !targets.empty()) {
+  const std::vector<PathUse> targets = PathsIn(*to, base);
+  if (from->value == own && !targets.empty()) {
     return std::pair(targets.front(), ConnectionEnd::kTo);
   }
-  const auto is_own = [&](const PathUse& target) { return target.path == own_name; };
+  const auto is_own = [&](const PathUse& target) { return target.path == own; };
   if (std::ranges::none_of(targets, is_own)) return std::nullopt;
-  return std::pair(PathIn(*from, use.parent), ConnectionEnd::kFrom);
+  return std::pair(PathIn(*from, base), ConnectionEnd::kFrom);
 }
 
-// The type of what the port is first connected to inside its group.
-const TypeInfo* ConnectedType(const TagUse& use) {
-  const std::optional<XmlElement> group = use.xml.parent();
-  for (const XmlElement sibling : group->children()) {
-    const auto far_end = FarEnd(sibling, use);
+// Of the first connection between the tags of `element` that leads to a port that is there.
+const TypeInfo* TypeAmong(XmlElement element, FrameworkElement& base, const std::string& own) {
+  for (const XmlElement child : element.children()) {
+    const auto far_end = FarEnd(child, base, own);
     if (!far_end) continue;
     const Port* const port = FindPort(far_end->first, far_end->second);
     if (port != nullptr) return &port->type();
   }
+  return nullptr;
+}
+
+const TypeInfo* ConnectedType(const TagUse& use) {
+  const std::string& name = use.Get("name").value;
+  const XmlElement group = *use.xml.parent();
+  if (const TypeInfo* type = TypeAmong(group, use.parent, name)) return type;
+  FrameworkElement& outside = *use.parent.parent();
+  const std::string seen_from_outside = use.parent.name() + "/" + name;
+  if (const TypeInfo* type = TypeAmong(*group.parent(), outside, seen_from_outside)) return type;
   use.context.Report({.message = "the type of this port cannot be told from its connections",
                       .path = use.path(),
                       .hint = "add type=\"…\""},
@@ -93,7 +102,7 @@ XmlTag PortTag() {
                          {.name = "type",
                           .kind = AttributeKind::kText,
                           .summary = "of its values; if left out, that of what it is first "
-                                     "connected to inside the group"},
+                                     "connected to, inside the group or else outside"},
                          {.name = "description", .kind = AttributeKind::kText}},
           .handle = [](const TagUse& use) -> FrameworkElement* {
             use.context.Defer(BuildStage::kInterfaces, [use] { MakePort(use); });

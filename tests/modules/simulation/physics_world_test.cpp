@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -239,6 +240,22 @@ TEST(PhysicsWorld, RepeatsItselfToTheBit) {
     ASSERT_EQ(again.size(), expected.size());
     EXPECT_EQ(std::memcmp(again.data(), expected.data(), again.size() * sizeof(double)), 0);
   }
+}
+
+TEST(PhysicsWorld, RepeatsItselfBesideOthersInOtherThreads) {
+  PhysicsWorld alone(Clutter());
+  const std::vector<double> expected = BumpAround(alone);
+  std::vector<double> beside[2];
+  std::vector<std::thread> threads;
+  for (std::vector<double>& history : beside) {
+    threads.emplace_back([&history] {
+      PhysicsWorld world(Clutter());
+      history = BumpAround(world);
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(beside[0], expected);
+  EXPECT_EQ(beside[1], expected);
 }
 
 TEST(PhysicsWorld, NeverGetsIntoAnythingWhileBumpingAround) {

@@ -1,7 +1,6 @@
 #include "modules/simulation/algorithm/trajectory_svg.h"
 
 #include <limits>
-#include <regex>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -51,6 +50,20 @@ int Count(const std::string& text, const std::string& part) {
   return count;
 }
 
+/// The first line of the text that has this part.
+std::string LineWith(const std::string& part, const std::string& text) {
+  const auto at = text.find(part);
+  if (at == std::string::npos) return "";
+  const auto begin = text.rfind('\n', at) + 1;
+  return text.substr(begin, text.find('\n', at) - begin);
+}
+
+double NumberIn(const std::string& line, const std::string& attribute) {
+  const std::string opening = " " + attribute + "=\"";
+  const auto at = line.find(opening);
+  return at == std::string::npos ? -1.0 : std::stod(line.substr(at + opening.size()));
+}
+
 TEST(TrajectorySvg, ShowsEveryObstacleTwiceForEdgeAndArea) {
   const std::string svg = TrajectorySvg(ExampleWorld(), {});
   for (const char* const kind : {"polygon", "box", "cylinder", "wall", "bounds"}) {
@@ -59,10 +72,11 @@ TEST(TrajectorySvg, ShowsEveryObstacleTwiceForEdgeAndArea) {
 }
 
 TEST(TrajectorySvg, LeavesHolesFree) {
-  const std::string svg = TrajectorySvg(ExampleWorld(), {});
+  const std::string polygon = LineWith("class=\"polygon\"", TrajectorySvg(ExampleWorld(), {}));
   // Two rings in one shape, filled by the even-odd rule.
-  EXPECT_TRUE(std::regex_search(
-      svg, std::regex("fill-rule=\"evenodd\" d=\"M[^\"M]*ZM[^\"M]*Z\"[^>]*class=\"polygon\"")));
+  EXPECT_THAT(polygon, HasSubstr("fill-rule=\"evenodd\""));
+  EXPECT_EQ(Count(polygon, "M"), 2);
+  EXPECT_EQ(Count(polygon, "Z"), 2);
 }
 
 TEST(TrajectorySvg, TellsNameVerdictLengthAndTime) {
@@ -96,11 +110,9 @@ TEST(TrajectorySvg, MarksStartGoalHitsLeavesAndRobot) {
 TEST(TrajectorySvg, PutsYUp) {
   // The world is 10 m wide and high, and 0.7 m of air round it: 760 pixels for 11.4 m.
   const std::string svg = TrajectorySvg(ExampleWorld(), ExampleTrajectory());
-  std::smatch found;
-  ASSERT_TRUE(std::regex_search(
-      svg, found, std::regex("<circle cx=\"([0-9.]+)\" cy=\"([0-9.]+)\"[^>]*class=\"robot\"")));
-  EXPECT_NEAR(std::stod(found[1]), 28 + 452 + 3 * 760 / 11.4, 0.01);
-  EXPECT_NEAR(std::stod(found[2]), 74 + 380 - 0.5 * 760 / 11.4, 0.01);
+  const std::string robot = LineWith("class=\"robot\"", svg);
+  EXPECT_NEAR(NumberIn(robot, "cx"), 28 + 452 + 3 * 760 / 11.4, 0.01);
+  EXPECT_NEAR(NumberIn(robot, "cy"), 74 + 380 - 0.5 * 760 / 11.4, 0.01);
 }
 
 TEST(TrajectorySvg, LegendNamesOnlyWhatIsThere) {

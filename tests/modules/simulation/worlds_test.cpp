@@ -17,7 +17,7 @@ namespace {
 std::vector<std::string> WorldNames() {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(RUNNEL_WORLDS)) {
-    names.push_back(entry.path().stem().string());
+    if (entry.path().extension() == ".xml") names.push_back(entry.path().stem().string());
   }
   std::ranges::sort(names);
   return names;

@@ -154,9 +154,12 @@ TEST(ApplicationErrors, TellOfNamesThatAreNone) {
   Workshop workshop;
   EXPECT_EQ(workshop.Errors(R"(<application name="demo">
   <group name="a/b"/>
+  <group name="a b"/>
 </application>)"),
             "app.xml:2:16: error: /demo: the name 'a/b' contains a '/', which separates names in "
-            "paths\n");
+            "paths\n"
+            "app.xml:3:16: error: /demo: the name 'a b' contains a blank, which separates paths; "
+            "write '_' instead\n");
 }
 
 TEST(ApplicationErrors, WantRequiredInputsConnected) {
@@ -197,6 +200,13 @@ TEST(ApplicationErrors, TellOneMistakeOnce) {
 </application>)"),
             "app.xml:2:26: error: /demo/a: there is no module type 'test/sorce'; "
             "did you mean 'test/source'?\n");
+  EXPECT_EQ(workshop.Errors(R"(<application name="demo">
+  <module name="a" type="test/source"/>
+  <module name="filter" type="test/filter"/>
+  <connect from="a/value" to="fliter/value"/>
+</application>)"),
+            "app.xml:4:31: error: /demo: there is no 'fliter' in /demo; did you mean "
+            "'filter'?\n");
   EXPECT_EQ(workshop.Errors(R"(<application name="demo">
   <module name="a" type="test/source"/>
   <module name="filter" type="test/filter"/>

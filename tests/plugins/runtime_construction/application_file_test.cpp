@@ -156,6 +156,20 @@ TEST(ApplicationFile, TakesTheTypeOfAnInputInterfaceFromWhatItFeeds) {
   EXPECT_EQ(&workshop.Get<ProxyPort>("/demo/sinks/wanted").type(), &TypeOf<std::string>());
 }
 
+TEST(ApplicationFile, TakesTheTypeOfAnInterfaceFromOutsideIfNothingInsideTellsIt) {
+  Workshop workshop;
+  ASSERT_TRUE(workshop.Build(R"(
+    <application name="demo">
+      <module name="source" type="test/source"/>
+      <group name="empty">
+        <port name="wanted" direction="input"/>
+      </group>
+      <connect from="source/label" to="empty/wanted"/>
+    </application>)"))
+      << workshop.diagnostics.ToString();
+  EXPECT_EQ(&workshop.Get<ProxyPort>("/demo/empty/wanted").type(), &TypeOf<std::string>());
+}
+
 TEST(ApplicationFile, LeavesItsPlaceWithEveryElement) {
   Workshop workshop;
   ASSERT_TRUE(workshop.Build(R"(<application name="demo">
@@ -178,6 +192,7 @@ TEST(ApplicationFile, IsShownToTheProgramBeforeItIsReady) {
   Workshop workshop;
   LifeCycle seen = LifeCycle::kDeleted;
   Result<void> answer;
+  bool throws = false;
   const auto build = [&](BuildMode mode) {
     const auto document =
         XmlDocument::Parse("<application name='demo'><group name='g'/></application>", "app.xml");
@@ -186,6 +201,7 @@ TEST(ApplicationFile, IsShownToTheProgramBeforeItIsReady) {
         {workshop.runtime, workshop.plugins, workshop.tags, workshop.configuration,
          [&](FrameworkElement& application) {
            seen = application.FindChild("g")->life_cycle();
+           if (throws) throw std::runtime_error("no time");
            return answer;
          }},
         mode);
@@ -196,6 +212,11 @@ TEST(ApplicationFile, IsShownToTheProgramBeforeItIsReady) {
   EXPECT_EQ(build(BuildMode::kRun).diagnostics.ToString(), "app.xml:1:1: error: /demo: no room\n");
   EXPECT_TRUE(workshop.runtime.root().children().empty());
   answer = {};
+  throws = true;
+  EXPECT_EQ(build(BuildMode::kRun).diagnostics.ToString(),
+            "app.xml:1:1: error: /demo: preparing the run failed: no time\n");
+  EXPECT_TRUE(workshop.runtime.root().children().empty());
+  throws = false;
   EXPECT_TRUE(build(BuildMode::kRun).application);
   EXPECT_EQ(seen, LifeCycle::kConstructed);
 }

@@ -1,46 +1,17 @@
 #include <atomic>
-#include <cstdlib>
-#include <new>
 #include <thread>
 
 #include <gmock/gmock.h>
 
 #include "plugins/scheduling/scheduler.h"
+#include "tests/plugins/scheduling/counted_allocation.h"
 #include "tests/plugins/scheduling/test_modules.h"
-
-namespace {
-
-thread_local constinit int allocations_of_this_thread = 0;
-
-void* CountedAllocation(std::size_t size) {
-  ++allocations_of_this_thread;
-  void* const memory = std::malloc(size == 0 ? 1 : size);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) { return CountedAllocation(size); }
-void* operator new[](std::size_t size) { return CountedAllocation(size); }
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  ++allocations_of_this_thread;
-  const auto step = static_cast<std::size_t>(alignment);
-  void* const memory = std::aligned_alloc(step, (size + step - 1) / step * step);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace runnel {
 namespace {
 
 using namespace std::chrono_literals;
+using testing::AllocationsOfThisThread;
 using testing::At;
 using testing::Doing;
 using testing::MustSucceed;
@@ -74,9 +45,9 @@ TEST(Cycles, AllocateNothingOnTheSimulatedClock) {
   int heard = 0;
   application.listener.action = [&](Doing&) { ++heard; };
   application.scheduler.RunUntil(At(10));
-  const int before = allocations_of_this_thread;
+  const int before = AllocationsOfThisThread();
   application.scheduler.RunUntil(At(200));
-  EXPECT_EQ(allocations_of_this_thread, before);
+  EXPECT_EQ(AllocationsOfThisThread(), before);
   EXPECT_EQ(heard, 200);
 }
 
@@ -85,8 +56,8 @@ TEST(Cycles, AllocateNothingInRealThreads) {
   std::atomic<int> heard{0};
   std::atomic<int> allocations{0};
   const auto count = [&](int& first) {
-    if (first < 0) first = allocations_of_this_thread;
-    allocations += allocations_of_this_thread - first;
+    if (first < 0) first = AllocationsOfThisThread();
+    allocations += AllocationsOfThisThread() - first;
   };
   application.listener.action = [&, first = -1](Doing&) mutable {
     count(first);
@@ -103,10 +74,10 @@ TEST(Cycles, AllocateNothingInRealThreads) {
 }
 
 TEST(Cycles, AllocationsWouldBeCounted) {
-  const int before = allocations_of_this_thread;
+  const int before = AllocationsOfThisThread();
   delete new int(5);
   const std::string text(100, 'x');
-  EXPECT_GT(allocations_of_this_thread, before);
+  EXPECT_GT(AllocationsOfThisThread(), before);
 }
 
 }  // namespace

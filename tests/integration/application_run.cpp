@@ -1,0 +1,91 @@
+#include "tests/integration/application_run.h"
+
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "core/element/runtime.h"
+#include "core/plugin/plugin_manager.h"
+#include "core/port/port.h"
+#include "plugins/parameters/configuration.h"
+#include "plugins/runtime_construction/application_builder.h"
+#include "plugins/scheduling/xml_scheduling_tags.h"
+
+namespace runnel::test {
+
+namespace {
+
+std::string TextOfFile(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error("cannot read " + path.string());
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::string Replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  if (at == std::string::npos) throw std::runtime_error("'" + from + "' is not in the file");
+  return text.replace(at, from.size(), to);
+}
+
+RunMonitor* FindMonitor(FrameworkElement& application) {
+  RunMonitor* found = nullptr;
+  application.Visit([&](FrameworkElement& element) {
+    if (auto* monitor = element.FindAnnotation<RunMonitor>()) found = monitor;
+  });
+  return found;
+}
+
+}  // namespace
+
+ApplicationRun RunApplication(const ApplicationChoice& choice) {
+  const std::filesystem::path folder = std::filesystem::path(RUNNEL_XML) / "apps";
+  std::string text = TextOfFile(folder / choice.name);
+  for (const auto& [from, to] : choice.replace) text = Replaced(std::move(text), from, to);
+  auto document = XmlDocument::Parse(text, choice.name);
+  if (!document) throw std::runtime_error(document.error().ToString());
+
+  PluginManager plugins;
+  plugins.AddSearchFolder(RUNNEL_TEST_PLUGINS);
+  XmlTagRegistry tags;
+  AddSchedulingTags(tags);
+  plugins.registry().Offer(tags);
+  Configuration configuration;
+  for (const std::string& argument : choice.arguments) {
+    if (auto added = configuration.AddArgument(argument); !added) {
+      throw std::runtime_error(added.error().ToString());
+    }
+  }
+  Runtime runtime;
+  std::optional<Scheduler> scheduler;
+  const auto schedule = [&](FrameworkElement& application) -> Result<void> {
+    SchedulerOptions options = SchedulerOptionsOf(application);
+    options.speed = 0;
+    scheduler.emplace(runtime, options);
+    for (const auto& [rule, position] : FaultRulesOf(application)) {
+      if (auto added = scheduler->AddFaultRule(rule); !added) return added;
+    }
+    return {};
+  };
+  const BuildOutcome built = BuildApplication(
+      *document, folder, {runtime, plugins, tags, configuration, schedule}, BuildMode::kRun);
+  if (built.application == nullptr) throw std::runtime_error(built.diagnostics.ToString());
+
+  RunMonitor* const monitor = FindMonitor(*built.application);
+  const auto pose = built.application->Find("world/sensor_output/pose");
+  if (!pose) throw std::runtime_error(pose.error().ToString());
+  ApplicationRun run;
+  const Time start = runtime.clock().Now();
+  while (run.duration < choice.limit && !run.outcome && scheduler->Step()) {
+    dynamic_cast<Port&>(**pose).LookAtValue(
+        [&](const void* value, Time) { run.truth.push_back(*static_cast<const Pose2*>(value)); });
+    if (monitor != nullptr) run.outcome = monitor->Outcome();
+    run.duration = runtime.clock().Now() - start;
+  }
+  run.faults = scheduler->TakeFaults();
+  run.was_stopped = scheduler->stop_requested();
+  return run;
+}
+
+}  // namespace runnel::test

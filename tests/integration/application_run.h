@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/clock.h"
+#include "core/module/run_monitor.h"
+#include "modules/types/algorithm/pose.h"
+#include "plugins/scheduling/fault.h"
+
+namespace runnel::test {
+
+/// An application file, run from the first cycle to its verdict on simulated time.
+struct ApplicationRun {
+  std::optional<RunOutcome> outcome;  ///< nothing if the time limit came first, or a fault's stop
+  std::vector<Pose2> truth;           ///< where the robot really was, after each cycle
+  std::vector<Fault> faults;
+  bool was_stopped = false;  ///< by a fault rule
+  Duration duration{};
+};
+
+/// Runs xml/apps/<name>. `replace` puts other words into the file first (a planner in place of
+/// another), `arguments` are those of the command line ("world=../worlds/cup.xml"). Throws
+/// std::runtime_error with all errors if the application cannot be built.
+struct ApplicationChoice {
+  std::string name;
+  std::vector<std::pair<std::string, std::string>> replace = {};
+  std::vector<std::string> arguments = {};
+  Duration limit = std::chrono::hours(1);
+};
+[[nodiscard]] ApplicationRun RunApplication(const ApplicationChoice& choice);
+
+}  // namespace runnel::test

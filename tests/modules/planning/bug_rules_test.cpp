@@ -1,0 +1,166 @@
+#include "gmock/gmock.h"
+#include "tests/modules/planning/drive.h"
+
+namespace runnel {
+namespace {
+
+using namespace testing_world;
+
+// Drives with a laser and lets a test look at every step.
+class Session {
+ public:
+  Session(const World& world, Point2 start, Point2 goal)
+      : world_(world), start_(start), goal_(goal), robot_({start.x, start.y, 0.0}) {}
+
+  BugOutput Step(const BugAlgorithm& algorithm) {
+    const Pose2 pose = robot_.pose();
+    const BugOutput out = algorithm.Update(
+        state, {kTimeStep, pose, laser_.Update(world_.Scan(pose), pose), start_, goal_});
+    robot_.Drive(out.twist, kTimeStep);
+    return out;
+  }
+  /// Until the predicate holds for the status.
+  template <typename Predicate>
+  BugOutput StepUntil(const BugAlgorithm& algorithm, Predicate predicate) {
+    BugOutput out;
+    for (int step = 0; step < 5000; ++step) {
+      out = Step(algorithm);
+      if (predicate(out.status)) return out;
+    }
+    ADD_FAILURE() << "never happened";
+    return out;
+  }
+  void SetGoal(Point2 goal) { goal_ = goal; }
+  [[nodiscard]] const Pose2& pose() const { return robot_.pose(); }
+
+  BugState state;
+
+ private:
+  World world_;
+  Point2 start_;
+  Point2 goal_;
+  Robot robot_;
+  LaserAdaptor laser_;
+};
+
+bool IsFinished(const PlannerStatus& status) {
+  return status.mode == PlannerMode::kReached || status.mode == PlannerMode::kUnreachable;
+}
+bool HasHit(const PlannerStatus& status) { return status.hits > 0; }
+bool HasLeft(const PlannerStatus& status) { return status.leaves > 0; }
+
+World BoxWorld() { return World({Box(0, 0, 1, 2)}); }
+
+TEST(BugRules, StandsStillWhileNothingWasMeasured) {
+  BugState state;
+  const BugOutput out =
+      Bug2(BugConfiguration{}).Update(state, {kTimeStep, {}, Surroundings{}, {0, 0}, {3, 0}});
+  EXPECT_EQ(out.twist, Twist2{});
+  EXPECT_EQ(out.status.mode, PlannerMode::kMotionToGoal);
+}
+
+TEST(BugRules, IsThereAtOnceIfItStartsThere) {
+  Session session(World{}, {0, 0}, {0.05, 0});
+  EXPECT_EQ(session.Step(Bug1(BugConfiguration{})).status.mode, PlannerMode::kReached);
+}
+
+TEST(BugRules, StandsStillAfterTheVerdict) {
+  Session session(World{}, {0, 0}, {1, 0});
+  const Bug2 bug{BugConfiguration{}};
+  session.StepUntil(bug, IsFinished);
+  EXPECT_EQ(session.Step(bug).twist, Twist2{});
+}
+
+TEST(BugRules, ANewGoalIsANewTask) {
+  Session session(World{}, {0, 0}, {1, 0});
+  const Bug2 bug{BugConfiguration{}};
+  session.StepUntil(bug, IsFinished);
+  session.SetGoal({1, 2});
+  EXPECT_EQ(session.Step(bug).status.mode, PlannerMode::kMotionToGoal);
+  const PlannerStatus status = session.StepUntil(bug, IsFinished).status;
+  EXPECT_EQ(status.mode, PlannerMode::kReached);
+  EXPECT_LT(status.path_length, 2.6);
+}
+
+TEST(BugRules, HitsAtTheSafeDistance) {
+  Session session(BoxWorld(), {-3, 0.2}, {3, 0.1});
+  const PlannerStatus status = session.StepUntil(Bug2(BugConfiguration{}), HasHit).status;
+  EXPECT_NEAR(status.hit_point.x, -0.85, 0.03);
+}
+
+TEST(BugRules, Bug2LeavesOnTheMLine) {
+  Session session(BoxWorld(), {-3, 0.2}, {3, 0.1});
+  const PlannerStatus status = session.StepUntil(Bug2(BugConfiguration{}), HasLeft).status;
+  EXPECT_LT(Distance(Segment2{{-3, 0.2}, {3, 0.1}}, status.leave_point), 0.05);
+  EXPECT_NEAR(status.leave_point.x, 0.85, 0.08);
+}
+
+TEST(BugRules, DoesNotHitTheWallItJustLeft) {
+  for (const Variant variant : {Variant::kBug1, Variant::kBug2}) {
+    Session session(BoxWorld(), {-3, 0.2}, {3, 0.1});
+    const auto bug = Make(variant, BoundaryDirection::kLeft);
+    EXPECT_EQ(session.StepUntil(*bug, IsFinished).status.hits, 1U);
+  }
+}
+
+TEST(BugRules, Bug1LeavesAtTheNearestPointOfTheBoundary) {
+  Session session(BoxWorld(), {-3, 0.2}, {3, 0.5});
+  const PlannerStatus status = session.StepUntil(Bug1(BugConfiguration{}), HasLeft).status;
+  EXPECT_LT(Distance(status.leave_point, {0.85, 0.5}), 0.12);
+}
+
+// The goal lies to the left or right of a long wall's middle, so the leave point lies early or late
+// in the lap: the way back to it must be the shorter one both times.
+TEST(BugRules, Bug1GoesBackTheShorterWay) {
+  for (const double side : {1.5, -1.5}) {
+    Session session(World({Box(0, 0, 0.4, 4)}), {-2, 0}, {2, side});
+    const Bug1 bug{BugConfiguration{}};
+    const double lap =
+        session
+            .StepUntil(bug, [](const auto& s) { return s.mode == PlannerMode::kGoingToLeavePoint; })
+            .status.path_length;
+    const double back = session.StepUntil(bug, HasLeft).status.path_length - lap;
+    const double perimeter = lap - 1.45;
+    EXPECT_LT(back, 0.5 * perimeter);
+    EXPECT_GT(back, 0.2 * perimeter);
+  }
+}
+
+TEST(BugRules, TurnsTheWayItIsTold) {
+  for (const auto direction : {BoundaryDirection::kLeft, BoundaryDirection::kRight}) {
+    Session session(BoxWorld(), {-3, 0.2}, {3, 0.1});
+    const auto bug = Make(Variant::kBug2, direction);
+    session.StepUntil(*bug, HasHit);
+    for (int step = 0; step < 80; ++step) session.Step(*bug);
+    EXPECT_GT(MirrorSign(direction) * (session.pose().y - 0.2), 0.3);
+  }
+}
+
+TEST(BugRules, OneVariantTakesOverFromAnotherInTheMiddleOfALap) {
+  Session session(BoxWorld(), {-3, 0.2}, {3, 0.1});
+  const Bug1 bug1{BugConfiguration{}};
+  session.StepUntil(bug1, HasHit);
+  for (int step = 0; step < 100; ++step) session.Step(bug1);
+  const PlannerStatus status = session.StepUntil(Bug2(BugConfiguration{}), IsFinished).status;
+  EXPECT_EQ(status.mode, PlannerMode::kReached);
+  EXPECT_EQ(status.leaves, 1U);
+  EXPECT_LT(status.path_length, 9.0);
+}
+
+TEST(BugRules, GivesTheSameCommandsForTheSameMeasurements) {
+  Session first(BoxWorld(), {-3, 0.2}, {3, 0.1}), second(BoxWorld(), {-3, 0.2}, {3, 0.1});
+  const Bug1 bug{BugConfiguration{}};
+  for (int step = 0; step < 600; ++step) ASSERT_EQ(first.Step(bug).twist, second.Step(bug).twist);
+}
+
+TEST(BugRules, TellsWhyAGoalIsUnreachable) {
+  Session session(World({Box(0, 0, 0.62, 0.62)}), {0, 0}, {3, 0});
+  const PlannerStatus status = session.StepUntil(Bug2(BugConfiguration{}), IsFinished).status;
+  EXPECT_EQ(status.unreachability, Unreachability::kNoRoom);
+  Session other(World({Box(0, 0, 3, 3)}), {0, 0}, {3, 0});
+  EXPECT_EQ(other.StepUntil(Bug2(BugConfiguration{}), IsFinished).status.unreachability,
+            Unreachability::kEnclosed);
+}
+
+}  // namespace
+}  // namespace runnel

@@ -1,0 +1,70 @@
+// <load>: plugins, and the words that they bring.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "plugins/runtime_construction/plugin_loading.h"
+#include "tests/plugins/runtime_construction/test_application.h"
+
+namespace runnel::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Loading : ::testing::Test, Workshop {
+  Loading() { plugins.AddSearchFolder(TEST_PLUGIN_FOLDER); }
+};
+
+TEST_F(Loading, BringsModuleTypesTagsAndAttributesWhereverItStands) {
+  ASSERT_TRUE(Build(R"(<application name="demo" height="3">
+    <tower/>
+    <module name="a" type="good/brought"/>
+    <load plugin="good_plugin"/>
+    <load plugin="good_plugin"/>
+  </application>)"))
+      << diagnostics.ToString();
+  EXPECT_TRUE(runtime.root().Find("/demo/tower"));
+  EXPECT_TRUE(runtime.root().Find("/demo/a"));
+  EXPECT_TRUE(runtime.root().Find("/demo/height 3"));
+  EXPECT_EQ(tags.FindTag("tower")->plugin, "good_plugin");
+}
+
+TEST_F(Loading, FindsFilesFromTheFolderOfTheApplication) {
+  const auto document = XmlDocument::Parse(
+      R"(<application name="demo"><load plugin="./good_plugin.so"/><tower/></application>)",
+      "app.xml");
+  const BuildOutcome outcome = BuildApplication(
+      *document, TEST_PLUGIN_FOLDER, {runtime, plugins, tags, configuration}, BuildMode::kRun);
+  EXPECT_TRUE(outcome.application) << outcome.diagnostics.ToString();
+}
+
+TEST_F(Loading, NamesTheNearestPlugin) {
+  EXPECT_THAT(Errors(R"(<application name="demo">
+  <load plugin="god_plugin"/>
+</application>)"),
+              ::testing::AllOf(HasSubstr("app.xml:2:17: error: /demo: no plugin 'god_plugin' in "),
+                               HasSubstr("; did you mean 'good_plugin'?\n")));
+}
+
+TEST_F(Loading, LeavesNothingOfARefusedPlugin) {
+  EXPECT_THAT(Errors(R"(<application name="demo">
+  <load plugin="refused_plugin"/>
+</application>)"),
+              HasSubstr("its registration failed: no licence"));
+  EXPECT_EQ(tags.FindTag("ruin"), nullptr);
+  EXPECT_EQ(Errors(R"(<application name="demo">
+  <ruin/>
+</application>)"),
+            "app.xml:2:3: error: /demo: no <ruin> may stand in <application>; there is 'connect', "
+            "'group', 'load', 'module'\n");
+}
+
+TEST_F(Loading, KeepsThePluginAfterAFailedBuild) {
+  Build(R"(<application name="demo"><load plugin="good_plugin"/><wall/></application>)");
+  EXPECT_FALSE(diagnostics.ok());
+  EXPECT_TRUE(Build(R"(<application name="demo"><load plugin="good_plugin"/><tower/>
+    </application>)"));
+}
+
+}  // namespace
+}  // namespace runnel::testing
