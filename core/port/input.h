@@ -72,22 +72,22 @@ class Input final : public InputBase {
 
   /// The newest value, with whether it is new since the last Read().
   [[nodiscard]] Lease<T> Read() noexcept {
-    const Newest newest = FindNewest();
+    const EpochGuard guard;
+    Newest newest = FindNewest();
     if (!newest.held.has_value()) return {};
     const std::uint64_t sequence = newest.held.publication().sequence;
-    // relaxed: this thread's own notes, atomic only so that a viewer may look at them.
-    const bool same_source = last_source_.exchange_relaxed(newest.source) == newest.source;
-    const std::uint64_t last = last_sequence_.exchange_relaxed(sequence);
-    const bool is_new = !same_source || sequence != last;
-    const std::uint64_t missed = same_source && sequence > last ? sequence - last - 1 : 0;
-    return {std::move(newest).held, is_new ? Freshness::kNew : Freshness::kOld,
-            last == 0 ? 0 : missed};
+    last_source_.exchange_relaxed(newest.link->channel->number());
+    last_sequence_.exchange_relaxed(sequence);
+    const std::uint64_t last = newest.link->read.exchange_relaxed(sequence);
+    return {std::move(newest.held), sequence != last ? Freshness::kNew : Freshness::kOld,
+            last == 0 || sequence <= last ? 0 : sequence - last - 1};
   }
   /// The newest value without marking it as read. Any thread.
   [[nodiscard]] Lease<T> Peek() const noexcept {
+    const EpochGuard guard;
     Newest newest = FindNewest();
-    const bool seen = newest.held.has_value() && last_source_.load_relaxed() == newest.source &&
-                      last_sequence_.load_relaxed() == newest.held.publication().sequence;
+    const bool seen = newest.held.has_value() &&
+                      newest.link->read.load_relaxed() == newest.held.publication().sequence;
     return {std::move(newest.held), seen ? Freshness::kOld : Freshness::kNew, 0};
   }
   /// The oldest value that waits in the queue; empty if none does, or if no connection has a queue.
@@ -136,9 +136,25 @@ class Input final : public InputBase {
   }
 
  private:
+  // The reader's own notes, relaxed atomics only so that viewers and connecting may look at them.
+  struct RelaxedNumber {
+    [[nodiscard]] std::uint64_t load_relaxed() const noexcept {
+      return value.load(std::memory_order_relaxed);
+    }
+    // One thread writes: no read-modify-write is needed.
+    std::uint64_t exchange_relaxed(std::uint64_t next) noexcept {
+      const std::uint64_t before = load_relaxed();
+      value.store(next, std::memory_order_relaxed);
+      return before;
+    }
+    std::atomic<std::uint64_t> value{0};
+  };
   // What the reader keeps about one source; lives as long as the connection.
   struct Link {
-    Channel<T>* channel;
+    explicit Link(Channel<T>* source) : channel(source) {}
+
+    Channel<T>* const channel;
+    RelaxedNumber read;       // sequence of the value read last
     std::uint64_t taken = 0;  // sequence of the value taken last; the reader's own
   };
   // What reading needs; never changed but for the reader's own notes, replaced as a whole.
@@ -163,29 +179,16 @@ class Input final : public InputBase {
   };
   struct Newest {
     internal::HeldValue<T> held;
-    std::uint64_t source = 0;
+    Link* link = nullptr;
   };
-  struct RelaxedNumber {
-    [[nodiscard]] std::uint64_t load_relaxed() const noexcept {
-      return value.load(std::memory_order_relaxed);
-    }
-    // One thread writes: no read-modify-write is needed.
-    std::uint64_t exchange_relaxed(std::uint64_t next) noexcept {
-      const std::uint64_t before = load_relaxed();
-      value.store(next, std::memory_order_relaxed);
-      return before;
-    }
-    std::atomic<std::uint64_t> value{0};
-  };
-
+  // Inside a guard, by which the link lives.
   [[nodiscard]] Newest FindNewest() const noexcept {
-    const EpochGuard guard;
     // seq_cst: one order with Replace() and the epoch's operations; see lockfree/epoch.h.
     const Binding* binding = binding_.load(std::memory_order_seq_cst);
     if (binding == nullptr) return {};
     Newest newest;
     for (const auto& link : binding->links) {
-      Newest candidate{link->channel->Read(), link->channel->number()};
+      Newest candidate{link->channel->Read(), link.get()};
       if (IsLater(candidate, newest)) newest = std::move(candidate);
     }
     return newest;
@@ -198,7 +201,7 @@ class Input final : public InputBase {
     const Publication& q = b.held.publication();
     if (p.order != 0 && q.order != 0) return p.order > q.order;
     if (p.stamp != q.stamp) return p.stamp > q.stamp;
-    return a.source > b.source;
+    return a.link->channel->number() > b.link->channel->number();
   }
 
   QueueSink* Bind(const std::vector<Source>& sources) override {
@@ -229,7 +232,12 @@ class Input final : public InputBase {
       }
     }
     fresh_.push_back(&channel);
-    return std::make_shared<Link>(Link{&channel});
+    auto link = std::make_shared<Link>(&channel);
+    // A source that comes back at once does not bring what has been read already as new.
+    if (last_source_.load_relaxed() == channel.number()) {
+      link->read.exchange_relaxed(last_sequence_.load_relaxed());
+    }
+    return link;
   }
   std::shared_ptr<InputQueue<T>> KeepOrMakeQueue(const Binding* before,
                                                  const ConnectOptions& options) {
@@ -270,7 +278,7 @@ class Input final : public InputBase {
   std::vector<std::unique_ptr<const Binding>>
       replaced_;                    // between Bind() and Bound(); structure lock
   std::vector<Channel<T>*> fresh_;  // sources that have just been connected; structure lock
-  RelaxedNumber last_source_;
+  RelaxedNumber last_source_;       // of the value read last
   RelaxedNumber last_sequence_;
 };
 

@@ -31,7 +31,7 @@ TEST(RunMonitorTest, IsFoundByItsBase) {
   EXPECT_FALSE(found->Outcome());
   judge.over = true;
   EXPECT_EQ(found->Outcome()->verdict, "reached");
-  EXPECT_EQ(found->Finish(), "");
+  EXPECT_EQ(*found->Finish(), "");
 }
 
 }  // namespace

@@ -121,6 +121,9 @@ TEST_F(ConnectingTest, DisconnectedInputReadsNothingAndMayBeConnectedAgain) {
   EXPECT_EQ(receiver.in.Read().freshness(), Freshness::kNoData);
   Connect(sender.out, receiver.in);
   EXPECT_EQ(*receiver.in.Read(), 1);
+  ASSERT_TRUE(Port::Disconnect(sender.out, receiver.in));
+  Connect(sender.out, receiver.in);
+  EXPECT_EQ(receiver.in.Read().freshness(), Freshness::kOld);
 }
 
 TEST_F(ConnectingTest, DeletedElementIsDisconnectedFromAll) {

@@ -51,6 +51,22 @@ TEST_F(SeveralSourcesTest, ChangeOfSourceIsNewAndCountsNothingAsMissed) {
   EXPECT_EQ(lease.missed(), 0u);
 }
 
+TEST_F(SeveralSourcesTest, ValueThatWasReadIsOldWhenTheLaterSourceGoes) {
+  auto& a = MakeSender<int>("a");
+  auto& b = MakeSender<int>("b");
+  auto& receiver = MakeReceiver<int>();
+  Connect(a.out, receiver.in);
+  Connect(b.out, receiver.in);
+  a.out.Publish(1);
+  EXPECT_TRUE(receiver.in.Read().is_new());
+  b.out.Publish(2);
+  EXPECT_TRUE(receiver.in.Read().is_new());
+  ASSERT_TRUE(runtime.Delete(b));
+  EXPECT_EQ(*receiver.in.Peek(), 1);
+  EXPECT_EQ(receiver.in.Peek().freshness(), Freshness::kOld);
+  EXPECT_EQ(receiver.in.Read().freshness(), Freshness::kOld);
+}
+
 TEST_F(SeveralSourcesTest, OfValuesFromBeforeTheSharingTheLaterInTimeCounts) {
   auto& early = MakeSender<int>("early");
   auto& late = MakeSender<int>("late");
