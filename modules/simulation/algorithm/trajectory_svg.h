@@ -24,6 +24,8 @@ struct Trajectory {
   std::string verdict = {};  ///< for example "goal reached"; "" leaves it out
   VerdictTone tone = VerdictTone::kNeutral;
   double duration = 0.0;  ///< s of simulated time
+  /// m driven, if `path` leaves out points; nothing: as long as `path`.
+  std::optional<double> length = {};
 };
 
 /// The length of the way in m.

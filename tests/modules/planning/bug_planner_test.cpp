@@ -15,7 +15,7 @@ class BugPlannerTest : public testing::Test {
   /// One cycle in the open, at `pose`.
   void Step(const Pose2& pose) {
     rig.Feed(rig.module.pose, pose);
-    rig.Feed(rig.module.surroundings, Surroundings{.sensor_range = 4, .safe_distance = 0.35});
+    rig.Feed(rig.module.surroundings, Surroundings{.sensor_range = 4, .safe_distance = 0.35F});
     rig.RunCycle();
   }
   PlannerStatus status() const { return rig.Last(rig.module.status); }
