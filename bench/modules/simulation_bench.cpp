@@ -25,7 +25,8 @@ void RunToVerdict(benchmark::State& state, const char* application) {
   double simulated = 0.0;
   for (auto _ : state) {
     const auto run = test::RunApplication(
-        {.name = application, .arguments = {std::string("world=../worlds/") + kWorld, "picture="}});
+        {.name = application,
+         .arguments = {std::string("world=" RUNNEL_XML "/worlds/") + kWorld, "picture="}});
     if (!run.outcome || run.outcome->verdict != "reached") {
       state.SkipWithError("the goal was not reached");
       return;

@@ -173,13 +173,14 @@ Result<std::string> Referee::DrawPicture() const {
                               .hits = hit_points_,
                               .leaves = leave_points_,
                               .end = end_,
-      .robot_radius = seen->robot_radius,
+                              .robot_radius = seen->robot_radius,
                               .verdict = std::string(Words(standing_.verdict)),
                               .tone = is_good ? VerdictTone::kGood
                                       : standing_.verdict == Verdict::kRunning
                                           ? VerdictTone::kNeutral
                                           : VerdictTone::kBad,
-                              .duration = standing_.elapsed};
+                              .duration = standing_.elapsed,
+                              .length = path_.length()};
   World world = *seen->world;
   if (const auto there = goal.Peek()) world.goal = *there;
   std::ofstream file(picture.Get().path());

@@ -20,6 +20,7 @@ inline void Describe(TypeBuilder<Unreachability>& type) {
   type.Name("Unreachability")
       .Value("none", Unreachability::kNone)
       .Value("enclosed", Unreachability::kEnclosed)
+      .Value("no_progress", Unreachability::kNoProgress)
       .Value("no_room", Unreachability::kNoRoom);
 }
 

@@ -9,8 +9,10 @@ inline void Describe(TypeBuilder<Surroundings>& type) {
   type.Name("Surroundings")
       .Field("sensor_range", &Surroundings::sensor_range, {.unit = "m"})
       .Field("safe_distance", &Surroundings::safe_distance, {.unit = "m"})
+      .Field("is_vague", &Surroundings::is_vague,
+             {.description = "whether the sensor cannot tell where in a cone an echo came from"})
       .Field("contour", &Surroundings::contour,
-             {.unit = "mm", .description = "nearest boundary in each sector, 65535 for none"});
+             {.unit = "mm/4", .description = "nearest boundary in each sector, 65535 for none"});
 }
 
 }  // namespace runnel

@@ -22,7 +22,7 @@ struct ApplicationRun {
 };
 
 /// Runs xml/apps/<name>. `replace` puts other words into the file first (a planner in place of
-/// another), `arguments` are those of the command line ("world=../worlds/cup.xml"). Throws
+/// another), `arguments` are those of the command line ("goal_x=4"). Throws
 /// std::runtime_error with all errors if the application cannot be built.
 struct ApplicationChoice {
   std::string name;

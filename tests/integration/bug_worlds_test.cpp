@@ -25,7 +25,7 @@ void PrintTo(const Journey& journey, std::ostream* stream) {
 ApplicationChoice ChoiceFor(const Journey& journey) {
   return {.name = journey.application,
           .replace = {{"planning/bug2", std::string("planning/") + journey.planner}},
-          .arguments = {std::string("world=../worlds/") + journey.world, "picture="}};
+          .arguments = {std::string("world=" RUNNEL_XML "/worlds/") + journey.world, "picture="}};
 }
 
 class BugWorlds : public testing::TestWithParam<Journey> {};

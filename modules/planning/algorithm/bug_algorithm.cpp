@@ -12,6 +12,7 @@ constexpr double kProgress = 0.10;                // m that count as having got 
 constexpr double kClearanceNoise = 0.02;          // m, of the distance to a boundary followed
 constexpr int kSecondLooks = 3;       // in a task, so that it ends whatever the sensors say
 constexpr double kLookingTime = 4.0;  // s, of standing and looking before a vague obstacle
+constexpr double kHitPlace = Lap::kGateDistance + Lap::kGateHalfWidth;
 constexpr double kFalseLeave = 0.05;  // m nearer to the goal, at which a hit is a new one
 
 double BearingTo(const BugInput& input, Point2 point) {
@@ -72,7 +73,7 @@ void BugAlgorithm::Record(BugState& state, const BugInput& input) const {
   const Point2 position = Position(input.pose);
   state.status.path_length += Distance(Position(state.last_pose), position);
   state.status.distance_to_goal = Distance(position, input.goal);
-  state.idle_time += input.time_step;
+  if (input.surroundings.sensor_range > 0.0F) state.idle_time += input.time_step;
   if (Distance(state.progress_point, position) > kProgress) {
     state.progress_point = position;
     state.idle_time = 0.0;
@@ -131,7 +132,8 @@ Twist2 BugAlgorithm::IdentifyLeavePoint(BugState& state, const BugInput& input) 
 
 Twist2 BugAlgorithm::FinishFruitlessLap(BugState& state, const BugInput& input) const {
   // What was hit may have been none, a vague echo say: then the way is free where it was not.
-  if (state.second_looks == kSecondLooks || !FreeTowardsGoal(input)) {
+  const bool is_at_hit_point = Distance(Position(input.pose), state.status.hit_point) < kHitPlace;
+  if (!is_at_hit_point || state.second_looks == kSecondLooks || !FreeTowardsGoal(input)) {
     GiveUp(state, Unreachability::kEnclosed);
     return {};
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace runnel {
 
@@ -15,6 +16,7 @@ constexpr double kDistanceGain = 6.0;                        // rad of bearing f
 constexpr double kCorrectionLimit = DegreesToRadians(60.0);  // so that far off it still advances
 constexpr double kCautiousLookahead = 0.40;  // m, where the robot turned away just before
 constexpr double kCautiousReach = 0.25;      // m from there
+constexpr double kLeastLookahead = 0.03;     // m, in a tight place
 constexpr double kLookahead = 0.15;          // m that the way must be free
 constexpr double kSqueeze = DegreesToRadians(30.0);
 constexpr double kSweepStep = DegreesToRadians(3.0);
@@ -23,15 +25,10 @@ constexpr double kOvershoot = DegreesToRadians(30.0);  // of a turn, before it c
 constexpr double kLargeTurn = DegreesToRadians(60.0);
 constexpr double kSearchRadius = 0.5;  // m, of the circle towards a lost boundary
 
-// Rad, mirrored so that the boundary is on the right; nothing is free: straight back.
-double BearingToGo(const Surroundings& surroundings, double sign, double radius,
-                   const BoundaryPoint& contact, double lookahead) {
-  const double correction =
-      std::clamp(kDistanceGain * (double{surroundings.safe_distance} - contact.distance),
-                 -kCorrectionLimit, kCorrectionLimit);
-  // Not wrapped, so that the robot turns away from the boundary
-  // even if it has to turn by more than half a circle.
-  const double tangent = sign * contact.bearing + kPi / 2 + correction;
+// Rad, mirrored so that the boundary is on the right, not wrapped: the robot turns away from the
+// boundary even if it has to turn by more than half a circle.
+std::optional<double> FreeBearing(const Surroundings& surroundings, double sign, double radius,
+                                  double tangent, double lookahead) {
   const auto is_free = [&](double bearing) {
     return FreeRange(surroundings, sign * bearing, radius) >= lookahead;
   };
@@ -42,6 +39,20 @@ double BearingToGo(const Surroundings& surroundings, double sign, double radius,
   }
   for (double bearing = tangent; bearing < tangent + 2 * kPi; bearing += kSweepStep) {
     if (is_free(bearing)) return bearing;
+  }
+  return std::nullopt;
+}
+
+double BearingToGo(const Surroundings& surroundings, double sign, double radius,
+                   const BoundaryPoint& contact, double lookahead) {
+  const double correction =
+      std::clamp(kDistanceGain * (double{surroundings.safe_distance} - contact.distance),
+                 -kCorrectionLimit, kCorrectionLimit);
+  const double tangent = sign * contact.bearing + kPi / 2 + correction;
+  for (double free = lookahead; free > kLeastLookahead; free /= 2) {
+    if (const auto bearing = FreeBearing(surroundings, sign, radius, tangent, free)) {
+      return *bearing;
+    }
   }
   return kPi;
 }

@@ -85,8 +85,9 @@ class Drawing {
 
   std::string Figures() const {
     const double direct = Distance(Position(world_.start), world_.goal);
-    return "path " + Decimal(LengthOf(trajectory_.path)) + " m   ·   straight line " +
-           Decimal(direct) + " m   ·   time " + Decimal(trajectory_.duration, 1) + " s";
+    return "path " + Decimal(trajectory_.length.value_or(LengthOf(trajectory_.path))) +
+           " m   ·   straight line " + Decimal(direct) + " m   ·   time " +
+           Decimal(trajectory_.duration, 1) + " s";
   }
 
   void DrawStraightLine() {

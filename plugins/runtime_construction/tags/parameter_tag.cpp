@@ -62,7 +62,8 @@ std::vector<Candidate> Candidates(const TagUse& use) {
   }
   if (const XmlAttribute* name = use.Find("command_line")) {
     const Configuration::Entry* const entry = context.configuration().FindArgument(name->value);
-    if (entry != nullptr) candidates.push_back({entry->text, entry->position, context.folder()});
+    // Where the shell that completes file names is, too.
+    if (entry != nullptr) candidates.push_back({entry->text, entry->position, fs::path()});
   }
   return candidates;
 }

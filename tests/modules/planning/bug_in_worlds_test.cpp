@@ -24,6 +24,9 @@ struct Scene {
   double perimeter = 0.0;  ///< m, of the grown obstacles met, in all; 0: no bound is tested
   int crossings = 2;       ///< of the M-line with the obstacle that has the most
   double clearance = 0.25;
+  /// Not if vague echoes may close a dead end after the robot hit its end: then the lap is complete
+  /// only when the second gate of Lap says so.
+  bool is_bound_with_infrared = true;
 };
 
 void PrintTo(const Scene& scene, std::ostream* stream) { *stream << scene.name; }
@@ -132,7 +135,10 @@ std::vector<Scene> Scenes() {
         {-3, 0.05},
         {5, 0}},
        kReached,
-       Grown(22)},
+       Grown(22),
+       2,
+       0.25,
+       false},
       {"AcuteWedge",
        {World({{{-2, 1.6}, {-2, 1.4}, {0.9, 0}, {-2, -1.4}, {-2, -1.6}, {1.5, 0}}}),
         {-3, 0.1},
@@ -158,7 +164,7 @@ TEST_P(BugInWorlds, GivesTheRightVerdictWithoutTouchingAWall) {
   const Outcome outcome = Drive(variant, direction, sensor, scene.task);
   EXPECT_EQ(int(outcome.status.mode), int(scene.verdict));
   EXPECT_GT(outcome.least_clearance, scene.clearance);
-  if (scene.perimeter > 0.0) {
+  if (scene.perimeter > 0.0 && (sensor == Sensor::kLaser || scene.is_bound_with_infrared)) {
     const double distance = Distance(scene.task.start, scene.task.goal);
     const double factor = variant == Variant::kBug1 ? 1.5 : scene.crossings / 2.0;
     EXPECT_LT(outcome.status.path_length, 1.05 * (distance + factor * scene.perimeter) + 0.5);

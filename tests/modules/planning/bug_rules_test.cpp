@@ -59,6 +59,16 @@ TEST(BugRules, StandsStillWhileNothingWasMeasured) {
   EXPECT_EQ(out.status.mode, PlannerMode::kMotionToGoal);
 }
 
+TEST(BugRules, DoesNotTakeSilentSensorsForLackOfRoom) {
+  Session session(BoxWorld(), {-3, 0.2}, {3, 0.1});
+  const Bug2 bug{BugConfiguration{}};
+  session.StepUntil(bug, HasHit);
+  for (int step = 0; step < 1000; ++step) {
+    (void)bug.Update(session.state, {kTimeStep, session.pose(), {}, {-3, 0.2}, {3, 0.1}});
+  }
+  EXPECT_EQ(session.StepUntil(bug, IsFinished).status.mode, PlannerMode::kReached);
+}
+
 TEST(BugRules, IsThereAtOnceIfItStartsThere) {
   Session session(World{}, {0, 0}, {0.05, 0});
   EXPECT_EQ(session.Step(Bug1(BugConfiguration{})).status.mode, PlannerMode::kReached);

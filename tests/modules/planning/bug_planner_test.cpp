@@ -1,0 +1,72 @@
+#include "modules/planning/bug_planner.h"
+
+#include <gtest/gtest.h>
+
+#include "modules/planning/algorithm/bug2.h"
+#include "tests/support/module_rig.h"
+
+namespace runnel {
+namespace {
+
+class BugPlannerTest : public testing::Test {
+ protected:
+  void SetUp() override { ASSERT_TRUE(rig.Prepare()); }
+
+  /// One cycle in the open, at `pose`.
+  void Step(const Pose2& pose) {
+    rig.Feed(rig.module.pose, pose);
+    rig.Feed(rig.module.surroundings, Surroundings{.sensor_range = 4, .safe_distance = 0.35});
+    rig.RunCycle();
+  }
+  PlannerStatus status() const { return rig.Last(rig.module.status); }
+
+  test::ModuleRig<BugPlannerOf<Bug2>> rig;
+};
+
+TEST_F(BugPlannerTest, IsSilentUntilItKnowsAll) {
+  rig.RunCycle();
+  Step({});
+  EXPECT_EQ(rig.module.twist.publications(), 0u) << "there is no goal yet";
+  rig.Feed(rig.module.goal, {3, 0});
+  Step({});
+  EXPECT_EQ(rig.module.twist.publications(), 1u);
+}
+
+TEST_F(BugPlannerTest, IsSilentWithoutANewView) {
+  rig.Feed(rig.module.goal, {3, 0});
+  Step({});
+  rig.RunCycle();
+  EXPECT_EQ(rig.module.twist.publications(), 1u) << "so that a gate notices dead sensors";
+}
+
+TEST_F(BugPlannerTest, DrivesToTheGoalInTheOpen) {
+  rig.Feed(rig.module.goal, {3, 0});
+  Step({});
+  Step({0.01, 0, 0});
+  EXPECT_GT(rig.Last(rig.module.twist).forward, 0.1);
+  EXPECT_EQ(status().mode, PlannerMode::kMotionToGoal);
+  EXPECT_NEAR(status().distance_to_goal, 2.99, 1e-9);
+}
+
+TEST_F(BugPlannerTest, StandsStillAtTheGoalAndTakesANewOne) {
+  rig.Feed(rig.module.goal, {0.05, 0});
+  Step({});
+  Step({});
+  EXPECT_EQ(status().mode, PlannerMode::kReached);
+  EXPECT_EQ(rig.Last(rig.module.twist), Twist2{});
+  rig.Feed(rig.module.goal, {3, 0});
+  Step({});
+  Step({});
+  EXPECT_EQ(status().mode, PlannerMode::kMotionToGoal);
+}
+
+TEST_F(BugPlannerTest, TakesItsSpeedFromAParameterWhileItRuns) {
+  rig.Feed(rig.module.goal, {30, 0});
+  Step({});
+  ASSERT_TRUE(rig.module.cruise_speed.Set(0.11));
+  Step({0.01, 0, 0});
+  EXPECT_NEAR(rig.Last(rig.module.twist).forward, 0.11, 1e-9);
+}
+
+}  // namespace
+}  // namespace runnel
