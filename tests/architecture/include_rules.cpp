@@ -55,6 +55,11 @@ bool IsAllowedInAlgorithms(const std::string& header) {
          std::regex_match(header, bullet);
 }
 
+// The test library's headers may stand in quotation marks too.
+bool IsGoogleTest(const std::string& target) {
+  return target.starts_with("gtest/") || target.starts_with("gmock/");
+}
+
 // The folder that an internal header belongs to, "" for others.
 std::string OwnerOfInternal(const std::string& target) {
   const auto at = target.find("/internal/");
@@ -71,6 +76,7 @@ std::string Offence(const Include& include, const IncludeRule& rule, const Sourc
     }
     return "";
   }
+  if (IsGoogleTest(include.target) && include.file.starts_with("tests/")) return "";
   if (!tree.contains(include.target)) {
     return "\"" + include.target + "\" is no file, seen from the root of the tree";
   }

@@ -110,6 +110,12 @@ TEST(IncludeRulesTest, IncludesBeginAtTheRootOfTheTree) {
   EXPECT_EQ(Planted("core/port/input.h", "  #  include \"../base/error.h\"").size(), 1u);
 }
 
+TEST(IncludeRulesTest, GoogleTestIsForTestsOnly) {
+  const std::string google_test = "#include \"gtest/gtest.h\"";
+  EXPECT_THAT(Planted("tests/modules/planning/bug_test.cpp", google_test), IsEmpty());
+  EXPECT_EQ(Planted("core/port/input.h", google_test).size(), 1u);
+}
+
 TEST(IncludeRulesTest, FolderThatNobodyHasThoughtOfIsAnOffence) {
   EXPECT_THAT(Planted("plugins/blackboard/board.h", ""),
               ElementsAre(HasSubstr("plugins/blackboard/board.h:1: falls under no rule")));
