@@ -19,8 +19,7 @@ std::vector<std::string> TooLargeLibraries(const SourceTree& tree, std::size_t l
   return large;
 }
 
-std::vector<std::string> LibrariesWithoutReadme(const SourceTree& tree,
-                                                const std::set<std::string>& owed) {
+std::vector<std::string> LibrariesWithoutReadme(const SourceTree& tree) {
   std::set<std::string> libraries;
   for (const auto& [file, text] : tree) {
     const bool is_product = !file.starts_with("tests/") && !file.starts_with("bench/");
@@ -28,9 +27,7 @@ std::vector<std::string> LibrariesWithoutReadme(const SourceTree& tree,
   }
   std::vector<std::string> without;
   for (const std::string& library : libraries) {
-    if (!tree.contains(library + "/README.md") && !owed.contains(library)) {
-      without.push_back(library);
-    }
+    if (!tree.contains(library + "/README.md")) without.push_back(library);
   }
   return without;
 }

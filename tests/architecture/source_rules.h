@@ -1,6 +1,5 @@
 #pragma once
 
-#include <set>
 #include <string>
 #include <vector>
 
@@ -11,10 +10,8 @@ namespace runnel::test {
 /// Libraries whose code and headers together reach `limit` lines: "core/port: 5012 lines".
 [[nodiscard]] std::vector<std::string> TooLargeLibraries(const SourceTree& tree, std::size_t limit);
 
-/// Libraries (folders like core/port; not tests and bench) that have sources and no README.md, but
-/// for those in `owed`.
-[[nodiscard]] std::vector<std::string> LibrariesWithoutReadme(
-    const SourceTree& tree, const std::set<std::string>& owed = {});
+/// Libraries (folders like core/port; not tests and bench) that have sources and no README.md.
+[[nodiscard]] std::vector<std::string> LibrariesWithoutReadme(const SourceTree& tree);
 
 /// Places of text that belongs to somebody's machine or to an unfinished state, as
 /// "file:line: what": absolute paths of home and work folders, and marks of things to be done.

@@ -181,7 +181,7 @@ TEST_F(ParameterValues, ThatNameFilesStartWhereTheyAreWritten) {
   EXPECT_EQ(file("/demo/absolute"), "/a.txt");
   EXPECT_EQ(file("/demo/empty"), "");
   EXPECT_EQ(file("/demo/config"), ::testing::TempDir() + "maps/a.txt");
-  EXPECT_EQ(file("/demo/line"), "/apps/b.txt") << "as if it stood in the application file";
+  EXPECT_EQ(file("/demo/line"), "b.txt") << "where the program was started";
   EXPECT_EQ(workshop_.Get<Source>("/demo/text").text.Get(), "a.txt");
 }
 
