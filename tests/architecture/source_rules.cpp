@@ -2,6 +2,7 @@
 
 #include <map>
 #include <regex>
+#include <set>
 
 namespace runnel::test {
 
