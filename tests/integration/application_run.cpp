@@ -1,5 +1,6 @@
 #include "tests/integration/application_run.h"
 
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -77,7 +78,13 @@ ApplicationRun RunApplication(const ApplicationChoice& choice) {
   if (!pose) throw std::runtime_error(pose.error().ToString());
   ApplicationRun run;
   const Time start = runtime.clock().Now();
-  while (run.duration < choice.limit && !run.outcome && scheduler->Step()) {
+  const auto step = [&] {
+    if (choice.before_step) choice.before_step();
+    const bool went_on = scheduler->Step();
+    if (choice.after_step) choice.after_step();
+    return went_on;
+  };
+  while (run.duration < choice.limit && !run.outcome && step()) {
     dynamic_cast<Port&>(**pose).LookAtValue(
         [&](const void* value, Time) { run.truth.push_back(*static_cast<const Pose2*>(value)); });
     if (monitor != nullptr) run.outcome = monitor->Outcome();

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/clock.h"
@@ -29,6 +30,8 @@ struct ApplicationChoice {
   std::vector<std::pair<std::string, std::string>> replace = {};
   std::vector<std::string> arguments = {};
   Duration limit = std::chrono::hours(1);
+  std::function<void()> before_step = {};  ///< of the scheduler: for probes
+  std::function<void()> after_step = {};
 };
 [[nodiscard]] ApplicationRun RunApplication(const ApplicationChoice& choice);
 
