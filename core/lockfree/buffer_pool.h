@@ -65,15 +65,16 @@ class BufferPool {
   [[nodiscard]] Buffer* Loan() {
     for (;;) {
       if (Buffer* buffer = PopFree()) return buffer;
-      if (!may_grow_ || !Grow()) return nullptr;
+      const Growth growth = may_grow_ ? Grow() : Growth::kImpossible;
+      if (growth == Growth::kImpossible) return nullptr;
       // relaxed: a statistic.
-      growths_.fetch_add(1, std::memory_order_relaxed);
+      if (growth == Growth::kDone) growths_.fetch_add(1, std::memory_order_relaxed);
     }
   }
 
   /// Sees to it that there are at least `buffers` buffers in all. Allocates; not for a cycle.
   void Reserve(std::uint32_t buffers) {
-    while (capacity() < buffers && Grow()) {
+    while (capacity() < buffers && Grow() != Growth::kImpossible) {
     }
   }
 
@@ -127,7 +128,7 @@ class BufferPool {
       : first_chunk_(std::bit_ceil(options.buffers > 0 ? options.buffers : 1u)),
         may_grow_(options.may_grow),
         factory_(std::move(factory)) {
-    Grow();
+    (void)Grow();
   }
   ~BufferPool() {
     for (Atomic<Buffer*>& chunk : chunks_) {
@@ -146,11 +147,15 @@ class BufferPool {
     return chunks_[chunk].load(std::memory_order_acquire)[index - first];
   }
 
-  // Adds one chunk. Two threads may try at once: the slower one's chunk is thrown away.
-  bool Grow() {
+  // Adds one chunk. Two threads may try at once: the slower one's chunk is thrown away, and then
+  // the slower one says how many buffers there are now, should the faster one not have come to it
+  // yet: so its next try is for the next chunk, and nobody waits for a thread that has been
+  // stopped.
+  enum class Growth { kDone, kDoneByAnother, kImpossible };
+  Growth Grow() {
     const std::uint32_t before = capacity();
     const auto chunk = static_cast<std::size_t>(std::bit_width(before / first_chunk_));
-    if (chunk >= kChunks) return false;
+    if (chunk >= kChunks) return Growth::kImpossible;
     const std::uint32_t size = ChunkSize(chunk);
     std::unique_ptr<Buffer[]> buffers(new Buffer[size]);
     for (std::uint32_t i = 0; i < size; ++i) buffers[i].Fill(*this, before + i, factory_);
@@ -158,14 +163,21 @@ class BufferPool {
     // release: the buffers are complete for whoever finds the chunk in At().
     if (!chunks_[chunk].compare_exchange_strong(expected, buffers.get(), std::memory_order_release,
                                                 std::memory_order_relaxed)) {
-      return true;  // somebody else has just grown the pool
+      RaiseCapacity(before, before + size);
+      return Growth::kDoneByAnother;
     }
     Buffer* added = buffers.release();
-    // relaxed would do for the count itself; release lets capacity() be used to bound indices.
+    // relaxed: ComeHome() of these buffers comes after PushFree() of them, which releases.
     homeless_.fetch_add(size, std::memory_order_relaxed);
-    capacity_.store(before + size, std::memory_order_release);
+    RaiseCapacity(before, before + size);
     for (std::uint32_t i = size; i > 0; --i) PushFree(added[i - 1]);
-    return true;
+    return Growth::kDone;
+  }
+  void RaiseCapacity(std::uint32_t before, std::uint32_t after) noexcept {
+    // release, with the acquire in capacity(): who sees the count may bound indices by it. It fails
+    // if somebody else has raised it, and then there is nothing to do.
+    capacity_.compare_exchange_strong(before, after, std::memory_order_release,
+                                      std::memory_order_relaxed);
   }
 
   // The free list is a Treiber stack of buffer indices under a change counter. A popper may read

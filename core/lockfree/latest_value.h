@@ -51,14 +51,17 @@ class LatestValue {
     // relaxed: the release store below carries it.
     cell.sequence.store(sequence, std::memory_order_relaxed);
     // release: pairs with the acquire in Read(): the whole cell is visible with its number.
-    newest_.store(sequence, std::memory_order_release);
+    // seq_cst beyond that: the publisher looks for subscribers next, while who subscribes reads the
+    // newest value next (Channel). One order of these four means that at least one of the two sees
+    // the other, so no value falls between them.
+    newest_.store(sequence, std::memory_order_seq_cst);
   }
 
   /// Copies the newest value to `value`. Returns false before the first publication.
   bool Read(T& value, Publication& publication) const noexcept {
     for (;;) {
-      // acquire: pairs with the last store in Publish().
-      const std::uint64_t sequence = newest_.load(std::memory_order_acquire);
+      // acquire: pairs with the last store in Publish(); seq_cst: see there.
+      const std::uint64_t sequence = newest_.load(std::memory_order_seq_cst);
       if (sequence == 0) return false;
       const Cell& cell = cells_[sequence % kCells];
       std::array<std::uint64_t, kWords> words;

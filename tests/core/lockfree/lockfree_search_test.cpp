@@ -52,6 +52,59 @@ TEST(LatestValueSearch, ReaderSeesWholeValuesInOrder) {
   EXPECT_TRUE(Search<LatestValueSuite<4>>(kIterations));
 }
 
+// A publisher publishes and then looks for subscribers; whoever subscribes says so and then reads
+// the newest value, as Channel and Input do. Whatever the order, the value does not fall between
+// them.
+template <typename Latest>
+struct SubscribingSuite : rl::test_suite<SubscribingSuite<Latest>, 2> {
+  Latest latest;
+  SearchedAtomic<int> subscribers{0};
+  // Plain, since the search runs its threads in turn within one.
+  bool publisher_saw_subscriber = false;
+  bool subscriber_saw_value = false;
+  int finished = 0;
+
+  void thread(unsigned index) {
+    if (index == 0) {
+      latest.PublishSomething();
+      publisher_saw_subscriber = subscribers.load(std::memory_order_seq_cst) != 0;
+    } else {
+      subscribers.exchange(1, std::memory_order_seq_cst);
+      subscriber_saw_value = latest.HasSomething();
+    }
+    if (++finished == 2) RL_ASSERT(publisher_saw_subscriber || subscriber_saw_value);
+  }
+  void after() { latest.CleanUp(); }
+};
+
+struct SomeValue : LatestValue<Pair, SearchedAtomic> {
+  void PublishSomething() { Publish({1, 10}, 0); }
+  bool HasSomething() const {
+    Pair pair;
+    Publication publication;
+    return Read(pair, publication);
+  }
+  void CleanUp() {}
+};
+struct SomeBuffer {
+  using Pool = BufferPool<SearchedPlain, SearchedAtomic>;
+  typename Pool::Owner pool = Pool::Make({.buffers = 1, .may_grow = false}, {});
+  LatestBuffer<SearchedPlain, SearchedAtomic> latest;
+
+  void PublishSomething() { latest.Replace(*pool, pool->Share(*pool->Loan())); }
+  bool HasSomething() {
+    auto* buffer = latest.Read(*pool);
+    if (buffer != nullptr) buffer->DropLease();
+    return buffer != nullptr;
+  }
+  void CleanUp() { latest.Clear(*pool); }
+};
+
+TEST(SubscribingSearch, NoValueFallsBetweenPublisherAndSubscriber) {
+  EXPECT_TRUE(Search<SubscribingSuite<SomeValue>>(kIterations));
+  EXPECT_TRUE(Search<SubscribingSuite<SomeBuffer>>(kIterations));
+}
+
 // Two writers, two readers: each value is taken once, and what one put in before pushing the other
 // may touch after popping. Room for one forces every lap.
 struct BoundedQueueSuite : rl::test_suite<BoundedQueueSuite, 4> {
