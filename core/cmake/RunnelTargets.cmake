@@ -1,6 +1,8 @@
 # The verbs that every CMakeLists.txt of the tree is written in. Each makes ordinary targets, so
 # that target_* commands can still be added by hand.
 
+include(GNUInstallDirs)  # outside of this tree nobody else has
+
 get_filename_component(RUNNEL_ROOT "${CMAKE_CURRENT_LIST_DIR}/../.." ABSOLUTE)
 
 # runnel_library(<name> [SOURCES ...] HEADERS ... [DEPENDS ...] [PRIVATE_DEPENDS ...])
@@ -42,7 +44,9 @@ function(runnel_plugin name)
   endif()
   set_target_properties(runnel_plugin_${name} PROPERTIES
     PREFIX "" OUTPUT_NAME "${name}" CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
-    LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/lib/runnel/plugins")
+    LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/lib/runnel/plugins"
+    # Installed, it finds Runnel's libraries two folders up, or where it was linked with them.
+    INSTALL_RPATH "$ORIGIN/../.." INSTALL_RPATH_USE_LINK_PATH ON)
   if(NOT TARGET runnel_plugins)
     add_custom_target(runnel_plugins)
   endif()

@@ -8,7 +8,8 @@ class FrameworkElement;
 /// and viewers live on it.
 ///
 /// Threads:  called under the structure lock, by the thread that makes the change. A listener may
-///           change the structure itself, but must not wait for another thread that does.
+///           change the structure itself, but not delete, and must not wait for another thread that
+///           does.
 /// Errors:   must not throw.
 class ElementListener {
  public:

@@ -100,9 +100,9 @@ class FrameworkElement {
   }
 
  protected:
-  /// Called once when the element becomes ready: parameters are set, ports are there. Open files
-  /// and reserve memory here. An error or an exception keeps the whole new structure from becoming
-  /// ready.
+  /// Called when the element becomes ready, and again after it could not: parameters are set, ports
+  /// are there. Open files and reserve memory here. An error or an exception keeps the whole new
+  /// structure from becoming ready.
   virtual Result<void> Prepare() { return {}; }
   /// Called under the structure lock before the element is deleted; undo here what ties it to
   /// others.

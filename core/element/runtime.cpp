@@ -59,6 +59,10 @@ Result<void> Runtime::Delete(FrameworkElement& element) {
     return Refuse(element, "an element cannot be deleted from within a cycle",
                   "ask another thread to do it");
   }
+  if (structure_mutex_.HeldByThisThread()) {
+    return Refuse(element, "an element cannot be deleted under the structure lock",
+                  "a cycle that has to end first may be waiting for the lock");
+  }
   std::unique_ptr<FrameworkElement> taken;
   {
     const std::lock_guard lock(structure_mutex_);

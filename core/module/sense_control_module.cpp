@@ -1,5 +1,6 @@
 #include "core/module/sense_control_module.h"
 
+#include "core/base/check.h"
 #include "core/module/executable.h"
 #include "core/module/port_group.h"
 
@@ -15,5 +16,15 @@ SenseControlModule::SenseControlModule(const Placement& placement) : Module(plac
 }
 
 SenseControlModule::~SenseControlModule() = default;
+
+FrameworkElement& SenseControlModule::InputGroup() {
+  ThrowProgrammingError("an input of a sense/control module is one of two kinds",
+                        "write sensor_inputs() or controller_inputs() in place of this");
+}
+
+FrameworkElement& SenseControlModule::OutputGroup() {
+  ThrowProgrammingError("an output of a sense/control module is one of two kinds",
+                        "write sensor_outputs() or controller_outputs() in place of this");
+}
 
 }  // namespace runnel

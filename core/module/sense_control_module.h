@@ -18,6 +18,10 @@ class SenseControlModule : public Module {
   explicit SenseControlModule(const Placement& placement);
   ~SenseControlModule() override;
 
+  /// Ports of such a module say on which side they are: both throw ProgrammingError.
+  [[nodiscard]] FrameworkElement& InputGroup() final;
+  [[nodiscard]] FrameworkElement& OutputGroup() final;
+
   [[nodiscard]] FrameworkElement& sensor_inputs() { return LazyGroup(groups_[0], "sensor_input"); }
   [[nodiscard]] FrameworkElement& sensor_outputs() {
     return LazyGroup(groups_[1], "sensor_output");

@@ -136,6 +136,10 @@ class Channel final : public ChannelBase {
       storage_.pool->Reserve(storage_.first_capacity + static_cast<std::uint32_t>(leases));
     }
   }
+  /// How many buffers there are.
+  [[nodiscard]] std::size_t buffers() const noexcept requires(!kIsCheap<T>) {
+    return storage_.pool->capacity();
+  }
   /// How often the pool had to allocate while running.
   [[nodiscard]] std::uint64_t growths() const noexcept {
     if constexpr (kIsCheap<T>) {

@@ -51,6 +51,15 @@ class Output final : public Port {
   /// A buffer to fill; empty if a pool of fixed size is exhausted.
   [[nodiscard]] runnel::Loan<T> Loan() { return channel_->MakeLoan(); }
 
+  /// Calls `fill` for each buffer that the pool has now, so that values keep their memory from the
+  /// start (a list's capacity). For Prepare(); allocates. None of the buffers may be out.
+  template <typename Fill>
+  void PrepareBuffers(Fill&& fill) requires(!kIsCheap<T>) {
+    std::vector<runnel::Loan<T>> loans;
+    for (std::size_t i = channel_->buffers(); i > 0; --i) loans.push_back(Loan());
+    for (auto& loan : loans) fill(*loan);
+  }
+
   PublishStatus Publish(runnel::Loan<T>&& loan) {
     return channel_->Publish(std::move(loan), PublicationTime());
   }

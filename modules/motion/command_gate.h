@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "core/module/module.h"
 #include "core/port/input.h"
 #include "core/port/output.h"
@@ -15,7 +17,8 @@ inline void Describe(TypeBuilder<GateState>& type) {
       .Value("open", GateState::kOpen)
       .Value("no_command", GateState::kNoCommand)
       .Value("old_command", GateState::kOldCommand)
-      .Value("contact", GateState::kContact);
+      .Value("contact", GateState::kContact)
+      .Value("stopped", GateState::kStopped);
 }
 
 /// Stands between whoever commands and the drive: lets commands pass while they are fresh and
@@ -46,9 +49,8 @@ class CommandGate final : public Module {
     const Contact touch = contact.Read().value_or(Contact{});
     std::optional<double> age;
     if (command) age = ToSeconds(now() - command.stamp());
-    const GateState verdict = JudgeCommand(age, timeout.Get(), touch);
-    const bool passes = verdict == GateState::kOpen && !stop.Get();
-    allowed.Publish(passes ? *command : Twist2{});
+    const GateState verdict = JudgeCommand(age, timeout.Get(), touch, stop.Get());
+    allowed.Publish(verdict == GateState::kOpen ? *command : Twist2{});
     state.Publish(verdict);
   }
 };

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "core/module/module.h"
 #include "core/port/input.h"
 #include "core/port/output.h"
@@ -12,7 +14,7 @@
 namespace runnel {
 
 /// Turns the wish how the body shall move into wheel speeds, within the limits of the drive and
-/// without sudden changes. Without any command the wheels stand still.
+/// without sudden changes. Without any command, or with an old one only, the wheels come to a stop.
 class DifferentialDriveModule final : public Module {
  public:
   using Module::Module;
@@ -50,15 +52,27 @@ class DifferentialDriveModule final : public Module {
                                        .bounds = {0.01, 500.0},
                                        .unit = "rad/s^2",
                                        .description = "of the body"}};
+  Parameter<double> timeout{this,
+                            "timeout",
+                            {.default_value = 0.5,
+                             .bounds = {0.01, 60.0},
+                             .unit = "s",
+                             .description = "older commands count as standstill"}};
 
  private:
+  [[nodiscard]] Twist2 Wanted() {
+    const auto command = twist.Read();
+    const bool is_fresh = command && now() - command.stamp() <= FromSeconds(timeout.Get());
+    return is_fresh ? *command : Twist2{};
+  }
+
   void Update() override {
     const DifferentialDrive drive{.wheel_radius = wheel_radius.Get(),
                                   .track = track.Get(),
                                   .maximum_speed = maximum_speed.Get(),
                                   .maximum_turn_rate = maximum_turn_rate.Get()};
     const AccelerationLimit limit{.forward = acceleration.Get(), .turn = turn_acceleration.Get()};
-    const Twist2 wanted = WithinLimits(drive, twist.Read().value_or(Twist2{}));
+    const Twist2 wanted = WithinLimits(drive, Wanted());
     current_ = Approach(limit, current_, wanted, ToSeconds(now() - last_.value_or(now())));
     last_ = now();
     wheels.Publish(WheelSpeedsFor(drive, current_));

@@ -18,6 +18,8 @@ void BugPlanner::Update() {
   const auto here = pose.Read();
   const auto there = goal.Read();
   if (!view.is_new() || !here || !there) return;
+  // Whoever localises has fallen silent: going on would be driving blind.
+  if (view.stamp() - here.stamp() > FromSeconds(pose_timeout.Get())) return;
   if (!start_ || !(goal_ == *there)) {
     start_ = Position(*here);
     goal_ = *there;

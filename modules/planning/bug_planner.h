@@ -23,9 +23,9 @@ inline void Describe(TypeBuilder<BoundaryDirection>& type) {
 /// variant is a class of its own (BugPlannerOf<Algorithm>), so that it is chosen by its name in an
 /// application file.
 ///
-/// One step for each new view of the surroundings; without one the planner is silent, so that
-/// whoever guards the drive notices. The task begins where the robot is when the goal comes, and
-/// anew with every other goal.
+/// One step for each new view of the surroundings; without one, or without a pose of about the same
+/// time, the planner is silent, so that whoever guards the drive notices. The task begins where the
+/// robot is when the goal comes, and anew with every other goal.
 class BugPlanner : public Module {
  public:
   explicit BugPlanner(const Placement& placement) : Module(placement) {}
@@ -75,6 +75,13 @@ class BugPlanner : public Module {
                                 .bounds = {0.05, 20.0},
                                 .unit = "rad/s",
                                 .description = "how fast it turns at most"}};
+  Parameter<double> pose_timeout{this,
+                                 "pose_timeout",
+                                 {.default_value = 0.2,
+                                  .bounds = {0.0, 60.0},
+                                  .unit = "s",
+                                  .description = "with a pose that is older by this than the view "
+                                                 "of the surroundings, it is silent"}};
 
  protected:
   /// One update of the variant. Does not allocate.

@@ -24,14 +24,24 @@ class ScanFilter final : public Module {
                                   .description = "how many rays on either side are looked at"}};
 
  private:
+  /// Allocates when the first scan comes, and whenever one is larger than all before.
+  void MakeRoomFor(std::size_t rays) {
+    if (rays <= room_) return;
+    room_ = rays;
+    filtered.PrepareBuffers([rays](RangeScan& buffer) { buffer.ranges.reserve(rays); });
+  }
+
   void Update() override {
     const auto scan = raw.Read();
     if (!scan.is_new()) return;
+    MakeRoomFor(scan->ranges.size());
     auto loan = filtered.Loan();
-    *loan = *scan;  // into memory that the buffer has kept from its last use
+    *loan = *scan;  // into memory that the buffer has kept
     MedianFilter(scan->ranges, reach.Get(), loan->ranges);
     filtered.Publish(std::move(loan));
   }
+
+  std::size_t room_ = 0;  // rays
 };
 
 }  // namespace runnel

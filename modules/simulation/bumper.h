@@ -11,7 +11,7 @@
 namespace runnel {
 
 /// A bumper all round the body: says that it is touched, and goes on saying so for a while, as a
-/// switch with a spring does.
+/// switch with a spring does. Runs in the thread of the world, or it may miss a short touch.
 class Bumper final : public Module {
  public:
   using Module::Module;

@@ -49,6 +49,13 @@ class Laser final : public Module {
 
  private:
   Result<void> Prepare() override {
+    if (range_minimum.Get() >= range_maximum.Get()) {
+      return Error{.message = "the laser sees nothing: " + range_minimum.ToText() +
+                              " m, its least range, is not below " + range_maximum.ToText() +
+                              " m, its greatest",
+                   .path = path()};
+    }
+    scan.PrepareBuffers([this](RangeScan& buffer) { buffer.ranges.reserve(rays.Get()); });
     scanner_.emplace(LaserScannerOptions{.rays = rays.Get(),
                                          .field_of_view = field_of_view.Get(),
                                          .range_minimum = range_minimum.Get(),

@@ -116,9 +116,9 @@ Result<void> Referee::Prepare() {
 void Referee::Update() {
   const auto at = pose.Read();
   const auto there = goal.Read();
-  if (!at.is_new() || !there) return;
   if (!begin_) begin_ = now();
   if (standing_.verdict != Verdict::kRunning) return;
+  if (!at.is_new() || !there) return JudgeTime();
   if (const auto said = status.Read()) planner_ = *said;
   if (const auto touch = contact.Read()) touched_ = touched_ || touch->is_touching;
   Record(*at);
@@ -129,6 +129,16 @@ void Referee::Update() {
                .elapsed = ToSeconds(now() - *begin_)};
   shown_.Publish(standing_, now().time_since_epoch().count());
 }
+
+// The world may have fallen silent; the time limit holds all the same.
+void Referee::JudgeTime() {
+  if (!IsTimeUp()) return;
+  standing_.verdict = Verdict::kTimeout;
+  standing_.elapsed = ToSeconds(now() - *begin_);
+  shown_.Publish(standing_, now().time_since_epoch().count());
+}
+
+bool Referee::IsTimeUp() const { return now() - *begin_ >= FromSeconds(time_limit.Get()); }
 
 void Referee::Record(const Pose2& at) {
   path_.Add({Position(at), LookOf(planner_.mode)});
@@ -148,8 +158,7 @@ Verdict Referee::Judge(const Pose2& at, const Point2& there) const {
     const bool is_there = Distance(Position(at), there) <= goal_tolerance.Get();
     return is_there ? Verdict::kReached : Verdict::kMistaken;
   }
-  if (now() - *begin_ >= FromSeconds(time_limit.Get())) return Verdict::kTimeout;
-  return Verdict::kRunning;
+  return IsTimeUp() ? Verdict::kTimeout : Verdict::kRunning;
 }
 
 Referee::Standing Referee::LastStanding() const {

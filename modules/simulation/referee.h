@@ -40,7 +40,7 @@ inline void Describe(TypeBuilder<Expectation>& type) {
 
 /// Watches the robot as it really moves and the planner as it speaks, and judges: reached,
 /// unreachable, timeout, collision. Measures path and time, and draws the path into a picture of
-/// the world when the run is over.
+/// the world when the run is over. Runs in the thread of the world, or it may miss a short touch.
 class Referee final : public Module {
  public:
   explicit Referee(const Placement& placement);
@@ -86,6 +86,8 @@ class Referee final : public Module {
 
   Result<void> Prepare() override;
   void Update() override;
+  void JudgeTime();
+  [[nodiscard]] bool IsTimeUp() const;
   void Record(const Pose2& at);
   [[nodiscard]] Verdict Judge(const Pose2& at, const Point2& there) const;
   [[nodiscard]] Standing LastStanding() const;

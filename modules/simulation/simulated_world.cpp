@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/diagnostics.h"
+#include "modules/simulation/algorithm/world_geometry.h"
 #include "modules/simulation/world_file/world_reader.h"
 
 namespace runnel {
@@ -31,6 +32,15 @@ Result<void> SimulatedWorld::Prepare() {
   auto description = ReadWorldFile(world.Get().path(), diagnostics);
   if (!description) {
     return Error{.message = "the world cannot be used:\n" + diagnostics.ToString(), .path = path()};
+  }
+  const double room = ClearanceAt(*description, Position(description->start));
+  if (room < robot_radius.Get()) {
+    return Error{.message = "the robot does not fit where it starts: it is " + TextOf(room) +
+                            " m from an obstacle, and its radius is " + robot_radius.ToText() +
+                            " m",
+                 .path = path(),
+                 .position = {.file = world.Get().text},
+                 .hint = "move <start> or the obstacle"};
   }
   PhysicsOptions options;
   options.step = step.Get();

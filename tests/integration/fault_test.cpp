@@ -17,7 +17,7 @@ ApplicationChoice WithFaultyRelay(const std::string& rule) {
                       {"from=\"eyes/surroundings\" to=\"planner/surroundings\"",
                        "from=\"eyes/surroundings\" to=\"relay/in\"/> <connect from=\"relay/out\" "
                        "to=\"planner/surroundings\""},
-                      {"<on_fault of=\"robot\" action=\"stop_application\"/>", rule}},
+                      {"<on_fault of=\".\" action=\"stop_application\"/>", rule}},
           .arguments = {"world=" RUNNEL_XML "/worlds/open.xml", "picture="},
           .limit = std::chrono::seconds(15)};
 }

@@ -15,13 +15,15 @@ Surroundings InfraredAdaptor::Update(const InfraredRanges& ranges, const Pose2& 
   const auto cone = [&](double bearing, double range) {
     const bool has_echo = range <= ranges.range_maximum;
     return Cone{bearing, ranges.field_of_view / 2, has_echo ? range : ranges.range_maximum,
-                has_echo};
+                has_echo, range >= 0.0};
   };
   const std::array cones = {cone(0.0, ranges.front), cone(kPi / 2, ranges.left),
                             cone(-kPi / 2, ranges.right)};
   surroundings.is_vague = true;
   map_.SetCentre(Position(pose));
-  for (const Cone& each : cones) Carve(each, pose);
+  for (const Cone& each : cones) {
+    if (each.is_valid) Carve(each, pose);
+  }
   for (const Cone& each : cones) {
     if (each.has_echo) MarkArc(each, pose);
   }

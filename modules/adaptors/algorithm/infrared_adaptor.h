@@ -38,6 +38,7 @@ class InfraredAdaptor {
     double half_width;  ///< rad
     double echo;        ///< m, at most range_maximum
     bool has_echo;
+    bool is_valid;  ///< not so if the range is no number: the cone then says nothing
   };
   void Carve(const Cone& cone, const Pose2& pose);
   void MarkArc(const Cone& cone, const Pose2& pose);

@@ -39,7 +39,8 @@ void LaserAdaptor::ForgetWhatTheScanRefutes(const RangeScan& scan, const Pose2& 
   if (!(scan.angle_step > 0.0)) return;
   map_.ForgetBoundaries([&](Point2 point) {
     const Point2 local = ToBody(pose, point);
-    const double ray = (Direction(local) - scan.start_angle) / scan.angle_step;
+    const double turned = Direction(local) - scan.start_angle;
+    const double ray = (turned < 0.0 ? turned + 2 * kPi : turned) / scan.angle_step;
     if (ray < 0.0 || ray > static_cast<double>(scan.ranges.size() - 1)) return false;
     const double looked_through = Norm(local) + configuration_.refutation_margin;
     if (looked_through > scan.range_maximum) return false;

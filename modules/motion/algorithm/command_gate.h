@@ -13,12 +13,14 @@ enum class GateState {
   kNoCommand,   ///< none has come yet
   kOldCommand,  ///< the last one is older than the gate allows: whoever commands has fallen silent
   kContact,     ///< the body touches something
+  kStopped,     ///< somebody has closed the gate
 };
 
 /// Lets motion commands pass only while they are fresh and nothing is touched. `age` is that of the
-/// last command in s, nothing if none has come.
+/// last command in s, nothing if none has come; `is_closed` stops all of them.
 [[nodiscard]] inline GateState JudgeCommand(std::optional<double> age, double oldest,
-                                            const Contact& contact) {
+                                            const Contact& contact, bool is_closed = false) {
+  if (is_closed) return GateState::kStopped;
   if (!age) return GateState::kNoCommand;
   if (contact.is_touching) return GateState::kContact;
   return *age > oldest ? GateState::kOldCommand : GateState::kOpen;

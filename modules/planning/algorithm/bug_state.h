@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "modules/planning/algorithm/lap.h"
-#include "modules/types/algorithm/planner_status.h"
 #include "modules/planning/algorithm/wall_follower.h"
+#include "modules/types/algorithm/planner_status.h"
 #include "modules/types/algorithm/pose.h"
 #include "modules/types/algorithm/surroundings.h"
 

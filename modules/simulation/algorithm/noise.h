@@ -5,7 +5,7 @@
 
 namespace runnel {
 
-/// Normally distributed numbers, the same for the same seed on every machine and with every
+/// Normally distributed numbers, the same for the same seed with every
 /// standard library, which std::normal_distribution does not promise.
 ///
 /// Blackman and Vigna's xoshiro256++ (2019), seeded by SplitMix64, and the polar method of

@@ -219,12 +219,11 @@ TEST(RuntimeTest, ChildMayStillBeLeavingWhenItsParentIsDeleted) {
   child.join();
 }
 
-TEST(RuntimeTest, WhatIsBeingDeletedCannotBeDeletedAgain) {
+TEST(RuntimeTest, ListenersCannotDelete) {
   class Twice final : public ElementListener {
    public:
     std::string answer;
     void OnDeleted(FrameworkElement& element) override {
-      if (!answer.empty()) return;
       const auto again = element.runtime().Delete(element);
       answer = again ? "deleted" : again.error().message;
     }
@@ -232,7 +231,29 @@ TEST(RuntimeTest, WhatIsBeingDeletedCannotBeDeletedAgain) {
   Runtime runtime;
   runtime.AddListener(twice);
   ASSERT_TRUE(runtime.Delete(runtime.Create<Node>(runtime.root(), "a")));
-  EXPECT_THAT(twice.answer, HasSubstr("being deleted already"));
+  EXPECT_THAT(twice.answer, HasSubstr("cannot be deleted under the structure lock"));
+}
+
+TEST(RuntimeTest, WhatIsBeingDeletedCannotBeDeletedAgain) {
+  Runtime runtime;
+  auto& a = runtime.Create<Node>(runtime.root(), "a");
+  std::atomic<bool> is_in_cycle{false}, may_end{false};
+  std::thread cycle([&] {
+    const EpochGuard guard;
+    is_in_cycle = true;
+    while (!may_end) std::this_thread::yield();
+  });
+  while (!is_in_cycle) std::this_thread::yield();
+  std::thread deleting([&] { EXPECT_TRUE(runtime.Delete(a)); });  // waits for the cycle
+  const auto is_listed = [&] {
+    const std::lock_guard lock(runtime.structure_mutex());
+    return runtime.root().FindChild("a") != nullptr;
+  };
+  while (is_listed()) std::this_thread::yield();
+  EXPECT_THAT(runtime.Delete(a).error().message, HasSubstr("being deleted already"));
+  may_end = true;
+  deleting.join();
+  cycle.join();
 }
 
 class Journal final : public ElementListener {

@@ -49,6 +49,21 @@ TEST(SenseControlModuleTest, HasTwoTasksOfWhichSensingComesFirst) {
   EXPECT_EQ(base.calls, "sense control ");
 }
 
+TEST(SenseControlModuleTest, RefusesPortsThatDoNotSayOnWhichSideTheyAre) {
+  class Sideless final : public SenseControlModule {
+   public:
+    using SenseControlModule::SenseControlModule;
+    Input<double> raw{this, "raw"};
+
+   private:
+    void Sense() override {}
+    void Control() override {}
+  };
+  Runtime runtime;
+  EXPECT_THROW(runtime.Create<Sideless>(runtime.root(), "sideless"), ProgrammingError);
+  EXPECT_EQ(runtime.root().FindChild("sideless"), nullptr);
+}
+
 TEST(SenseControlModuleTest, TasksNameOnlyGroupsThatExist) {
   class OnlySensing final : public SenseControlModule {
    public:

@@ -19,9 +19,12 @@ run(COMMAND "${CMAKE_COMMAND}" -G Ninja -S "${SOURCE}" -B "${WORK}/outside"
   "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}" "-DCMAKE_CXX_FLAGS=${FLAGS}")
 run(COMMAND "${CMAKE_COMMAND}" --build "${WORK}/outside")
 
-# The build tree must not help: what is installed has to stand alone.
-set(ENV{RUNNEL_PLUGIN_PATH} "${WORK}/outside/lib/runnel/plugins")
+# Loaded from where it was built, and from where it was installed.
 set(program "${WORK}/prefix/bin/runnel")
+set(ENV{RUNNEL_PLUGIN_PATH} "${WORK}/outside/lib/runnel/plugins")
+run(COMMAND "${program}" modules outside EXPECT "outside/wanderer.*drives ahead")
+unset(ENV{RUNNEL_PLUGIN_PATH})
+run(COMMAND "${CMAKE_COMMAND}" --install "${WORK}/outside" --prefix "${WORK}/prefix")
 run(COMMAND "${program}" modules outside EXPECT "outside/wanderer.*drives ahead")
 run(COMMAND "${program}" modules simulation EXPECT "simulation/world")
 set(world "world=${WORK}/prefix/share/runnel/xml/worlds/rooms.xml")

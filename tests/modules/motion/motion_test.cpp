@@ -84,10 +84,22 @@ TEST(CommandGateModule, StopsAtAContactAndWhenTold) {
   ASSERT_TRUE(rig.module.stop.Set(true));
   rig.RunCycle();
   EXPECT_EQ(rig.Last(rig.module.allowed), Twist2{});
+  EXPECT_EQ(rig.Last(rig.module.state), GateState::kStopped);
+}
+
+TEST(DifferentialDriveModule, ComesToAStopWhenNobodyCommands) {
+  test::ModuleRig<DifferentialDriveModule> rig(milliseconds(100));
+  ASSERT_TRUE(rig.Prepare());
+  rig.Feed(rig.module.twist, {0.3, 0});
+  for (int i = 0; i < 5; ++i) rig.RunCycle();
+  EXPECT_GT(rig.Last(rig.module.wheels).left, 0.0);
+  for (int i = 0; i < 10; ++i) rig.RunCycle();
+  EXPECT_EQ(rig.Last(rig.module.wheels), WheelSpeeds{});
 }
 
 TEST(DifferentialDriveModule, GetsFasterNoFasterThanItMay) {
   test::ModuleRig<DifferentialDriveModule> rig(milliseconds(100));
+  ASSERT_TRUE(rig.module.timeout.Set(10));
   ASSERT_TRUE(rig.Prepare());
   rig.Feed(rig.module.twist, {2.0, 0});
   rig.RunCycle();

@@ -39,6 +39,16 @@ TEST_F(BugPlannerTest, IsSilentWithoutANewView) {
   EXPECT_EQ(rig.module.twist.publications(), 1u) << "so that a gate notices dead sensors";
 }
 
+TEST_F(BugPlannerTest, IsSilentWhenNobodyTellsItWhereItIs) {
+  rig.Feed(rig.module.goal, {3, 0});
+  Step({});
+  for (int i = 0; i < 10; ++i) {  // the sensor goes on, the localisation does not
+    rig.Feed(rig.module.surroundings, Surroundings{.sensor_range = 4, .safe_distance = 0.35F});
+    rig.RunCycle();
+  }
+  EXPECT_EQ(rig.module.twist.publications(), 5u) << "for 0.2 s, not longer";
+}
+
 TEST_F(BugPlannerTest, DrivesToTheGoalInTheOpen) {
   rig.Feed(rig.module.goal, {3, 0});
   Step({});

@@ -10,6 +10,7 @@
 #include "modules/simulation/localisation.h"
 #include "modules/simulation/referee.h"
 #include "modules/simulation/simulated_world.h"
+#include "tests/support/allocation_guard.h"
 #include "tests/support/module_rig.h"
 
 namespace runnel {
@@ -89,6 +90,45 @@ TEST(SimulatedWorld, SaysWhatIsWrongWithItsFile) {
   ASSERT_FALSE(prepared);
   EXPECT_THAT(prepared.error().ToString(), HasSubstr(file.path() + ":3:"));
   EXPECT_THAT(prepared.error().ToString(), HasSubstr("goal"));
+}
+
+TEST(SimulatedWorld, RefusesAStartWhereTheRobotDoesNotFit) {
+  const TemporaryFile file(".xml", R"(<world name="tight">
+    <start x="1.4" y="0"/> <goal x="5" y="1"/> <box x="2" y="0" length="1" width="4"/></world>)");
+  test::ModuleRig<SimulatedWorld> rig;
+  ASSERT_TRUE(rig.module.world.SetFromText(file.path()));
+  const auto prepared = rig.Prepare();
+  ASSERT_FALSE(prepared);
+  EXPECT_THAT(prepared.error().ToString(),
+              testing::AllOf(HasSubstr(file.path()), HasSubstr("does not fit where it starts")));
+}
+
+TEST(Laser, RefusesRangesInWhichItSeesNothing) {
+  test::ModuleRig<Laser> rig;
+  ASSERT_TRUE(rig.module.range_minimum.SetFromText("10"));
+  EXPECT_THAT(rig.Prepare().error().ToString(), HasSubstr("sees nothing"));
+}
+
+TEST(Laser, AllocatesNothingAfterwardsHoweverLongScansAreHeld) {
+  if (!test::AllocationGuard::works()) GTEST_SKIP() << "sanitizers have a malloc of their own";
+  test::ModuleRig<Laser> rig;
+  ASSERT_TRUE(rig.Prepare());
+  Input<RangeScan> reader(rig.runtime.root(), "reader");
+  ASSERT_TRUE(Port::Connect(rig.module.scan, reader));
+  rig.Feed(rig.module.scene, SceneWithAWall());
+  rig.Feed(rig.module.pose, {});
+  rig.RunCycle();
+  std::vector<Lease<RangeScan>> held;
+  held.reserve(4);
+  for (int i = 0; i < 4; ++i) {
+    rig.Feed(rig.module.pose, {0.1 * i, 0, 0});
+    held.push_back(reader.Read());
+    const auto tasks = rig.module.FindAnnotation<Executable>()->tasks();
+    const CycleScope cycle({});
+    const test::AllocationGuard guard;
+    for (const Task& task : tasks) task.run();
+    EXPECT_EQ(guard.allocations(), 0u) << i;
+  }
 }
 
 TEST(Laser, ScansOnceForEachPose) {
@@ -216,6 +256,14 @@ TEST_F(RefereeTest, EndsARunThatTakesTooLong) {
   At({1, 0, 0}, PlannerMode::kMotionToGoal);
   EXPECT_EQ(monitor().Outcome()->verdict, "timeout");
   EXPECT_FALSE(monitor().Outcome()->success);
+}
+
+TEST_F(RefereeTest, EndsARunInWhichTheWorldHasFallenSilent) {
+  Begin();
+  rig.Wait(std::chrono::seconds(10));
+  rig.RunCycle();
+  ASSERT_TRUE(monitor().Outcome());
+  EXPECT_EQ(monitor().Outcome()->verdict, "timeout");
 }
 
 TEST_F(RefereeTest, DrawsThePath) {
