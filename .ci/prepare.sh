@@ -31,7 +31,7 @@ build_preset() {
   local preset=$1
   shift
   build=$PWD-build/$preset
-  if [ ! -f "$build/build.ninja" ]; then
+  if [ ! -f "$build/build.ninja" ] || [ CMakePresets.json -nt "$build/build.ninja" ]; then
     say "configuring $preset in $build"
     cmake --preset "$preset" >"$log" 2>&1 || { tail -n 30 "$log"; fail "cmake; the log is $log"; }
   fi

@@ -49,8 +49,7 @@ enum class LifeCycle {
 /// section 4.2).
 ///
 /// Ownership:  a parent owns the children that it was given by Runtime::Create(); an element that
-/// is
-///             a member of a C++ object (a port of a module) belongs to that object and is only
+///             is a member of a C++ object (a port of a module) belongs to that object and is only
 ///             listed.
 /// Threads:    the tree is read and changed under Runtime::structure_mutex(). Functions marked
 ///             "locks" take it themselves. name(), path() and runtime() never change and need none.

@@ -18,8 +18,8 @@ namespace runnel {
 ///
 /// Ownership:  owns every element made by Create(), and deletes them in reverse order.
 /// Threads:    Create, MakeReady, Delete and the listener functions lock by themselves. Whoever
-/// makes
-///             several changes that belong together, or looks at the tree, holds structure_mutex().
+///             makes several changes that belong together, or looks at the tree, holds
+///             structure_mutex().
 class Runtime {
  public:
   Runtime();

@@ -26,8 +26,8 @@ struct Task {
 /// without the core knowing executors.
 ///
 /// Threads:  tasks() is called under the structure lock; the tasks run in the executor's thread,
-/// never
-///           two of one element at a time. What they throw is the executor's to catch and report.
+///           never two of one element at a time. What they throw is the executor's to catch and
+///           report.
 class Executable final : public Annotation {
  public:
   /// The groups are asked for late, since ports make them when they are constructed.

@@ -25,13 +25,11 @@ class PortGroup;
 ///       }
 ///     };
 ///
-/// Life:        constructed (no side effects, please: tools make instances just to list the ports)
-/// →
-///              Prepare(): parameters are set; open files, reserve memory, say what is wrong →
-///              Update() again and again → destructor.
+/// Life:        constructed (no side effects, please: tools make instances just to list the ports), then
+///              Prepare(): parameters are set; open files, reserve memory, say what is wrong; then
+///              Update() again and again; then the destructor.
 /// Threads:     Update() is called by one thread at a time. Prepare() and the destructor never run
-/// at
-///              the same time as Update().
+///              at the same time as Update().
 /// Errors:      an exception out of Update() stops this module alone and is reported with its path.
 /// Allocation:  Update() should neither allocate, lock, nor call the system.
 /// Source:      FINROC's modules.

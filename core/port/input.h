@@ -52,8 +52,7 @@ class InputBase : public Port {
 ///   queue          Take(), Drain(): each value once, in order, if the connection has a queue
 ///
 /// Threads:     one thread at a time may Read, Take and Drain (a module's Update() does); Peek()
-/// and
-///              LookAtValue() from any thread. Connecting and publishing go on meanwhile.
+///              and LookAtValue() from any thread. Connecting and publishing go on meanwhile.
 /// Progress:    lock-free: reading repeats only if a newer value came meanwhile.
 /// Allocation:  none.
 /// Several sources: the value published last counts, the same one for every reader.

@@ -24,8 +24,7 @@ namespace runnel {
 ///
 /// Ownership:   owns the channel with the buffers; leases that are still out keep their buffers.
 /// Threads:     one thread at a time may Loan and Publish (a module's Update() does); connecting
-/// and
-///              reading go on meanwhile.
+///              and reading go on meanwhile.
 /// Progress:    Publish() is lock-free, and does not visit inputs that read only the latest value.
 /// Allocation:  none, unless a growing pool has run out of buffers (growths() counts it).
 /// Time:        values bear the time of the cycle; outside of a cycle, that of the runtime's clock.

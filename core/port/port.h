@@ -27,8 +27,7 @@ struct Connection {
 /// bound to the outputs at the far end.
 ///
 /// Threads:  connecting and looking at connections under the structure lock (the functions take
-/// it);
-///           meanwhile others may publish and read.
+///           it); meanwhile others may publish and read.
 class Port : public FrameworkElement {
  public:
   enum class Direction { kInput, kOutput };

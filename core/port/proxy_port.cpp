@@ -16,4 +16,11 @@ bool ProxyPort::LookAtValue(const Look& look) const {
   return std::ranges::any_of(Sources(), [&](Port* source) { return source->LookAtValue(look); });
 }
 
+std::uint64_t ProxyPort::publications() const noexcept {
+  const std::lock_guard lock(runtime().structure_mutex());
+  std::uint64_t all = 0;
+  for (const Port* source : Sources()) all += source->publications();
+  return all;
+}
+
 }  // namespace runnel

@@ -62,7 +62,7 @@ class BinaryReader {
 
 /// Values as bytes, for recording and sending: numbers at their size, little-endian; bool one byte;
 /// strings, sequences of any length and matrices of any size with their counts (32 bits) before;
-/// enumerations as 64 bit numbers; structures field by field. No names, no padding: who reads must
+/// enumerations as 64 bit numbers, of which only named ones are read; structures field by field. No names, no padding: who reads must
 /// know the type.
 ///
 /// `value` points to an object of the type. Threads: as for that object.

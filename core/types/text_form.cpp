@@ -1,7 +1,7 @@
 #include "core/types/text_form.h"
 
 #include "core/base/nearest_name.h"
-#include "core/types/text_cursor.h"
+#include "core/types/internal/text_cursor.h"
 #include "core/types/type_info.h"
 
 namespace runnel {
@@ -13,7 +13,7 @@ std::string EnumerationText(const TypeInfo& type, const void* value) {
   for (const EnumeratorInfo& each : type.enumerators()) {
     if (each.value == number) return each.name;
   }
-  return std::to_string(number);  // a value that nobody named; reads back, too
+  return std::to_string(number);  // a value that nobody named
 }
 
 // FieldInfo::address and ElementOperations::element give a way to change the value; here nobody

@@ -1,4 +1,6 @@
-#include "core/types/type_registry.h"
+#include "core/types/internal/type_registry.h"
+
+#include <mutex>
 
 #include "core/base/check.h"
 #include "core/types/type_of.h"

@@ -1,4 +1,4 @@
-#include "core/types/text_cursor.h"
+#include "core/types/internal/text_cursor.h"
 
 #include <cctype>
 

@@ -3,11 +3,11 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <typeindex>
 #include <vector>
 
+#include "core/base/ordered_mutex.h"
 #include "core/types/type_info.h"
 
 namespace runnel {
@@ -31,7 +31,7 @@ class TypeRegistry {
  private:
   void CheckName(const TypeInfo& type) const;
 
-  mutable std::recursive_mutex mutex_;
+  mutable OrderedMutex mutex_{LockLevel::kRegistry};
   std::map<std::type_index, std::unique_ptr<TypeInfo>> by_cpp_type_;
   std::map<std::string, const TypeInfo*, std::less<>> by_name_;
   std::vector<std::unique_ptr<TypeInfo>> refused_;
