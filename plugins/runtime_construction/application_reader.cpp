@@ -19,6 +19,16 @@ std::vector<std::string> NamesOf(const std::vector<AttributeRule>& rules) {
   return names;
 }
 
+// Where a known tag would be right.
+std::string PlaceHint(const XmlTag& tag) {
+  std::string places;
+  for (const std::string& parent : tag.parents) {
+    places += (places.empty() ? "it stands in <" : " or <") + parent + ">";
+  }
+  if (places.empty()) places = "it is the root of a file";
+  return tag.summary.empty() ? places : places + ": " + tag.summary;
+}
+
 }  // namespace
 
 FrameworkElement* ApplicationReader::Read(XmlElement root) {
@@ -101,14 +111,15 @@ void ApplicationReader::CheckContents(const XmlTag& tag, XmlElement element,
   const std::vector<std::string> known = context_.tags().TagsIn(tag.name);
   Diagnostics problems;
   CheckChildren(element, known, problems);
-  for (const Error& error : problems.errors()) {
+  for (Error error : problems.errors()) {
     const auto is_here = [&](XmlElement child) { return child.position() == error.position; };
-    const auto unknown = std::ranges::find_if(element.children(), is_here);
-    const bool is_certain =
-        unknown == element.children().end() || context_.tags().FindTag(unknown->name()) != nullptr;
-    if (is_certain || context_.IsWorthReporting(unknown->name(), known)) {
-      context_.Report(error, element.position(), parent);
+    const auto wrong = std::ranges::find_if(element.children(), is_here);
+    if (wrong != element.children().end()) {
+      const XmlTag* const misplaced = context_.tags().FindTag(wrong->name());
+      if (misplaced != nullptr) error.hint = PlaceHint(*misplaced);
+      if (misplaced == nullptr && !context_.IsWorthReporting(wrong->name(), known)) continue;
     }
+    context_.Report(std::move(error), element.position(), parent);
   }
 }
 

@@ -48,7 +48,7 @@ struct TagUse {
 ///     }
 struct XmlTag {
   std::string name;
-  std::string summary = {};
+  std::string summary = {};          ///< one line, told to those who write it in a wrong place
   std::vector<std::string> parents;  ///< tags that it may stand in; none: it is the root
   std::vector<AttributeRule> attributes = {};
   /// Handled before all other tags of the file are even looked at, since it may bring new tags.

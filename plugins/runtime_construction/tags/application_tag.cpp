@@ -7,7 +7,7 @@ namespace runnel {
 
 XmlTag ApplicationTag() {
   return {.name = "application",
-          .summary = "the root of the file: a group that holds everything",
+          .summary = "a group that holds everything",
           .parents = {},
           .attributes = {{.name = "name",
                           .kind = AttributeKind::kNewName,

@@ -36,11 +36,15 @@ TEST(ApplicationErrors, NameTheNearestTagAndAttribute) {
 
 TEST(ApplicationErrors, TellOfTagsInTheWrongPlace) {
   Workshop workshop;
-  EXPECT_EQ(workshop.Errors(R"(<application name="demo">
+  EXPECT_EQ(
+      workshop.Errors(R"(<application name="demo">
   <port name="x" direction="input" type="double"/>
+  <application name="x"/>
 </application>)"),
-            "app.xml:2:3: error: /demo: no <port> may stand in <application>; there is 'connect', "
-            "'group', 'load', 'module'\n");
+      "app.xml:2:3: error: /demo: no <port> may stand in <application>; it stands in <group>: "
+      "a port in the interface of its group; costs nothing at run time\n"
+      "app.xml:3:3: error: /demo: no <application> may stand in <application>; it is the root "
+      "of a file: a group that holds everything\n");
 }
 
 TEST(ApplicationErrors, TellOfNamesThatAreTaken) {
