@@ -85,7 +85,10 @@ void ApplicationReader::ReadUnknownTag(XmlElement element, const std::vector<std
   if (meant != nullptr && !meant->comes_first) {
     ReadTag(*meant, element, parent, mode);
   } else if (const XmlAttribute* name = element.Attribute("name")) {
-    context_.MarkMissing(parent, name->value);
+    // Also further up: a known tag in a wrong place is missing where it would be right.
+    for (const FrameworkElement* each = &parent; each != nullptr; each = each->parent()) {
+      context_.MarkMissing(*each, name->value);
+    }
   } else {
     context_.MarkIncomplete(parent);
   }

@@ -17,13 +17,16 @@ std::string LastPart(std::string_view type) {
   return std::string(type.substr(type.rfind('/') + 1));  // npos + 1 is 0
 }
 
-// Of "sensors/laser" and "laser" that is simulation/laser; "" if none ends alike.
-std::string TypeWithNearestEnd(std::string_view type, const std::vector<std::string>& known) {
+// Of "sensors/laser" and "laser": 'adaptors/laser' or 'simulation/laser'. "" if none ends alike.
+std::string TypesWithNearestEnd(std::string_view type, const std::vector<std::string>& known) {
   std::vector<std::string> ends;
   for (const std::string& each : known) ends.push_back(LastPart(each));
   const std::string nearest = NearestName(LastPart(type), ends);
-  const auto found = std::ranges::find(ends, nearest);
-  return found == ends.end() ? "" : known[static_cast<std::size_t>(found - ends.begin())];
+  std::string types;
+  for (std::size_t i = 0; i < known.size() && !nearest.empty(); ++i) {
+    if (ends[i] == nearest) types += (types.empty() ? "'" : " or '") + known[i] + "'";
+  }
+  return types;
 }
 
 }  // namespace
@@ -35,9 +38,10 @@ std::string ModuleTypeHint(std::string_view type, const PluginManager& plugins) 
   }
   std::vector<std::string> known;
   for (const ModuleType* each : plugins.modules().All()) known.push_back(each->name);
-  std::string meant = NearestName(type, known);
-  if (meant.empty()) meant = TypeWithNearestEnd(type, known);
-  if (!meant.empty()) return "did you mean '" + meant + "'?";
+  const std::string nearest = NearestName(type, known);
+  const std::string meant =
+      nearest.empty() ? TypesWithNearestEnd(type, known) : "'" + nearest + "'";
+  if (!meant.empty()) return "did you mean " + meant + "?";
   return "load the plugin that brings it; `runnel modules` lists all types";
 }
 

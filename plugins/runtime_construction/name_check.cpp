@@ -16,8 +16,10 @@ bool CheckNameIsFree(const TagUse& use, const FrameworkElement& where) {
        .hint = place == nullptr ? "choose another name"
                                 : "the first is in line " + std::to_string(place->position.line)},
       name.value_position, use.parent);
-  // Whoever names it may have meant the other one.
+  // Whoever names it may have meant the other one, or calls that by another name.
   use.context.MarkIncomplete(*known);
+  use.context.MarkIncomplete(where);
+  use.context.MarkIncomplete(use.parent);
   use.context.Excuse(*known);
   return false;
 }

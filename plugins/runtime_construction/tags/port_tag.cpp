@@ -24,10 +24,13 @@ const TypeInfo* NamedType(const XmlAttribute& name, const TagUse& use) {
   if (const TypeInfo* type = FindType(name.value)) return type;
   std::vector<std::string> names;
   for (const TypeInfo* type : RegisteredTypes()) names.push_back(type->name());
+  const std::string nearest = NearestName(name.value, names);
   if (use.context.IsWorthReporting(name.value, names)) {
     use.context.Report({.message = "there is no type '" + name.value + "'",
                         .path = use.path(),
-                        .hint = NearestNameHint(name.value, names)},
+                        .hint = nearest.empty() ? "types come with the plugins whose modules have "
+                                                  "ports of them; is a <load> missing?"
+                                                : "did you mean '" + nearest + "'?"},
                        name.value_position, use.parent);
   }
   return nullptr;

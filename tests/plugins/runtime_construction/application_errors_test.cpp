@@ -166,19 +166,23 @@ TEST(ApplicationErrors, OfPluginsNameWhereTheyWereLookedFor) {
   EXPECT_EQ(workshop.diagnostics.errors().size(), 1u) << workshop.diagnostics.ToString();
 }
 
-TEST(ApplicationErrors, NameTheModuleTypeThatEndsAlike) {
+TEST(ApplicationErrors, NameTheModuleTypesThatEndAlike) {
   Workshop workshop;
+  workshop.Add<Source>("other/source");
   EXPECT_EQ(workshop.Errors(R"(<application name="demo">
   <module name="a" type="laboratory/source"/>
   <module name="b" type="sink"/>
   <module name="c" type="somewhere/wheel"/>
+  <module name="d" type="source"/>
 </application>)"),
             "app.xml:2:26: error: /demo/a: there is no module type 'laboratory/source'; did you "
-            "mean 'test/source'?\n"
+            "mean 'other/source' or 'test/source'?\n"
             "app.xml:3:26: error: /demo/b: there is no module type 'sink'; did you mean "
             "'test/sink'?\n"
             "app.xml:4:26: error: /demo/c: there is no module type 'somewhere/wheel'; load the "
-            "plugin that brings it; `runnel modules` lists all types\n");
+            "plugin that brings it; `runnel modules` lists all types\n"
+            "app.xml:5:26: error: /demo/d: there is no module type 'source'; did you mean "
+            "'other/source' or 'test/source'?\n");
 }
 
 }  // namespace

@@ -79,6 +79,17 @@ TEST_F(Loading, BringsTheTypesOfPortsBeforeAnyModuleIsMade) {
             "");
 }
 
+TEST_F(Loading, IsAskedForWhereATypeIsUnknown) {
+  EXPECT_EQ(Errors(R"(<application name="demo">
+  <group name="inner">
+    <port name="in" direction="input" type="uint16"/>
+    <port name="out" direction="input" type="somewhere/other_value"/>
+  </group>
+</application>)"),
+            "app.xml:4:46: error: /demo/inner/out: there is no type 'somewhere/other_value'; types "
+            "come with the plugins whose modules have ports of them; is a <load> missing?\n");
+}
+
 TEST_F(Loading, NamesTheNearestPlugin) {
   EXPECT_THAT(Errors(R"(<application name="demo">
   <load plugin="god_plugin"/>

@@ -114,6 +114,13 @@ TEST(OneMistake, OfANameThatIsTakenIsNoneOfWhatIsMissingInTheFirst) {
             "first is in line 2\n");
 }
 
+TEST(OneMistake, OfANameThatIsTakenIsNotThatTheRightNameIsMissing) {
+  EXPECT_EQ(WithConnection(R"(<connect from="origin/value" to="filter/value"/>)",
+                           "  <module name=\"a\" type=\"test/source\"/>\n"),
+            "app.xml:3:17: error: /demo/a: there is already an element called 'a' in /demo; the "
+            "first is in line 2\n");
+}
+
 TEST(OneMistake, InANamelessPlaceStillGetsTheNearestNameTold) {
   EXPECT_EQ(WithConnection(R"(<connect from="a/value" to="fliter/value"/>)", "<module/>\n"),
             "app.xml:2:1: error: /demo: <module> has no 'name'; add name=\"…\"\n"

@@ -211,6 +211,16 @@ TEST_F(SchedulingTags, TellOneMistakeOfAThreadOnce) {
             "app.xml:2:3: error: /demo: <thread> has no 'name'; add name=\"…\"\n");
 }
 
+TEST_F(SchedulingTags, InAWrongPlaceAreNotMissingInTheRightOne) {
+  EXPECT_EQ(Errors(R"(<application name="demo">
+  <group name="g" thread="control">
+    <thread name="control" period="5ms"/>
+  </group>
+</application>)"),
+            "app.xml:3:5: error: /demo/g: no <thread> may stand in <group>; it stands in "
+            "<application>: a thread that runs modules, in the order of the data flow\n");
+}
+
 TEST_F(SchedulingTags, KnowAMisspeltThreadOfAModule) {
   EXPECT_EQ(Errors(R"(<application name="demo">
   <thread name="control" period="5ms"/>
