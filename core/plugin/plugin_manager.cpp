@@ -82,9 +82,19 @@ void PluginManager::AddSearchFolder(fs::path folder) {
 Result<void> PluginManager::Load(std::string_view name) {
   const auto file = FindFile(name);
   if (!file) return file.error();
-  std::string plugin = file->stem().string();
-  if (std::ranges::find(loaded_, plugin) != loaded_.end()) return {};
-  return Register(plugin, *file);
+  const std::string plugin = file->stem().string();
+  std::error_code ignored;
+  const fs::path canonical = fs::weakly_canonical(*file, ignored);
+  const auto known = files_.find(plugin);
+  if (known == files_.end()) {
+    auto registered = Register(plugin, *file);
+    if (registered) files_.emplace(plugin, canonical);
+    return registered;
+  }
+  if (known->second == canonical) return {};
+  return Refusal(*file,
+                 "a plugin '" + plugin + "' is loaded already from " + known->second.string(),
+                 "rename one of the two");
 }
 
 Result<void> PluginManager::Register(const std::string& name, const fs::path& file) {

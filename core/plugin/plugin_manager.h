@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,7 +39,7 @@ class PluginManager {
 
   /// Loads the plugin unless it is loaded already. Errors: not found (with where it was looked for
   /// and the nearest name), not loadable, no entry, another ABI, throwing registration, duplicate
-  /// type.
+  /// type, another file of that name loaded already.
   Result<void> Load(std::string_view name);
   /// The names of the plugins that could be loaded from the search path, sorted.
   [[nodiscard]] std::vector<std::string> Available() const;
@@ -52,6 +53,8 @@ class PluginManager {
   PluginRegistry registry_{modules_};
   std::vector<std::filesystem::path> search_path_;
   std::vector<std::string> loaded_;
+  std::map<std::string, std::filesystem::path, std::less<>>
+      files_;  // of those in loaded_, canonical
 };
 
 }  // namespace runnel

@@ -22,6 +22,7 @@ struct XmlNode {
   std::string name;
   TextPlace place;
   std::string text;
+  TextPlace text_place;
   std::vector<XmlAttribute> attributes;
   const XmlNode* parent = nullptr;
   std::vector<std::unique_ptr<XmlNode>> owned_children;
@@ -74,6 +75,7 @@ class TreeBuilder {
     node.name = tag.name;
     node.place = tag.place;
     node.text = TextOf(source);
+    node.text_place = tag.text_place.value_or(tag.place);
     if (!FillAttributes(node, source, tag)) return false;
     for (const auto* child = source.FirstChildElement(); child != nullptr;
          child = child->NextSiblingElement()) {
@@ -167,6 +169,10 @@ std::optional<XmlElement> XmlElement::parent() const {
 }
 
 const std::string& XmlElement::text() const noexcept { return node_->text; }
+
+SourcePosition XmlElement::text_position() const {
+  return {*node_->file_name, node_->text_place.line, node_->text_place.column};
+}
 
 const XmlAttribute* XmlElement::Attribute(std::string_view name) const noexcept {
   const auto found = std::ranges::find(node_->attributes, name, &XmlAttribute::name);

@@ -43,6 +43,8 @@ class XmlElement {
   /// What stands directly between the tags, CDATA included, children and comments left out, without
   /// white space at either end.
   [[nodiscard]] const std::string& text() const noexcept;
+  /// Of the first letter of text(); position() if there is none.
+  [[nodiscard]] SourcePosition text_position() const;
 
   /// nullptr if there is none of that name.
   [[nodiscard]] const XmlAttribute* Attribute(std::string_view name) const noexcept;

@@ -99,7 +99,7 @@ void CheckChildren(XmlElement element, std::span<const std::string> known,
   }
   if (!element.text().empty()) {
     diagnostics.Add({.message = "no text may stand in <" + element.name() + ">",
-                     .position = element.position(),
+                     .position = element.text_position(),
                      .hint = "leave out '" + element.text().substr(0, 40) + "'"});
   }
 }

@@ -66,7 +66,13 @@ template <typename T>
 Result<T> Accept(std::string_view text, const ParameterOptions<T>& options,
                  const ConfigurableInfo& info) {
   auto value = FromText<T>(text);
-  if (!value) return value;
+  if (!value) {
+    Error error = value.error();
+    if (Bounded<T> && error.hint.empty() && !info.unit.empty()) {
+      error.hint = "write the number only; it is in " + info.unit;
+    }
+    return error;
+  }
   if constexpr (Bounded<T>) {
     if (!options.bounds.Contain(*value)) {
       const std::string unit = info.unit.empty() ? "" : " " + info.unit;

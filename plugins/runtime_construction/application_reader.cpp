@@ -4,7 +4,9 @@
 #include <memory>
 #include <utility>
 
+#include "core/base/nearest_name.h"
 #include "core/xml/xml_reading.h"
+#include "plugins/runtime_construction/name_check.h"
 #include "plugins/runtime_construction/source_place.h"
 
 namespace runnel {
@@ -15,6 +17,16 @@ std::vector<std::string> NamesOf(const std::vector<AttributeRule>& rules) {
   std::vector<std::string> names;
   for (const AttributeRule& rule : rules) names.push_back(rule.name);
   return names;
+}
+
+// Where a known tag would be right.
+std::string PlaceHint(const XmlTag& tag) {
+  std::string places;
+  for (const std::string& parent : tag.parents) {
+    places += (places.empty() ? "it stands in <" : " or <") + parent + ">";
+  }
+  if (places.empty()) places = "it is the root of a file";
+  return tag.summary.empty() ? places : places + ": " + tag.summary;
 }
 
 }  // namespace
@@ -31,21 +43,54 @@ FrameworkElement* ApplicationReader::Read(XmlElement root) {
   TagUse use{root, top, context_};
   FrameworkElement* made = nullptr;
   // Not before plugins have been loaded: they may bring attributes of the root tag.
-  ReadChildren(root, top, Mode::kHandle, true);
+  ReadChildren(*tag, root, top, Mode::kHandle, true);
+  NoteMisplacedLoads(root);
   if (CheckAttributesOf(*tag, use)) made = Handle(*tag, use);
-  CheckContents(root, made != nullptr ? *made : top);
-  ReadChildren(root, made != nullptr ? *made : top,
-               made != nullptr ? Mode::kHandle : Mode::kCheckOnly, false);
+  FrameworkElement& inside = made != nullptr ? *made : top;
+  const Mode mode = made != nullptr ? Mode::kHandle : Mode::kCheckOnly;
+  CheckContents(*tag, root, inside);
+  ReadChildren(*tag, root, inside, mode, false);
   return made;
 }
 
-void ApplicationReader::ReadChildren(XmlElement element, FrameworkElement& parent, Mode mode,
-                                     bool first) {
+// What stands in a wrong place, or nearly is, may have brought what is unknown elsewhere.
+void ApplicationReader::NoteMisplacedLoads(XmlElement element) {
+  const std::vector<std::string> known = context_.tags().TagsIn(element.name());
   for (const XmlElement child : element.children()) {
-    const XmlTag* const tag = context_.tags().FindTag(child.name());
-    if (tag == nullptr || tag->comes_first != first) continue;
-    if (std::ranges::find(tag->parents, element.name()) == tag->parents.end()) continue;
-    ReadTag(*tag, child, parent, mode);
+    const XmlTag* tag = context_.tags().FindTag(child.name());
+    const bool is_known = std::ranges::find(known, child.name()) != known.end();
+    if (tag == nullptr) tag = context_.tags().FindTag(NearestName(child.name(), known));
+    if (tag != nullptr && tag->comes_first && !is_known) context_.MarkPluginMissing();
+    NoteMisplacedLoads(child);
+  }
+}
+
+void ApplicationReader::ReadChildren(const XmlTag& tag, XmlElement element,
+                                     FrameworkElement& parent, Mode mode, bool first) {
+  const std::vector<std::string> known = context_.tags().TagsIn(tag.name);
+  for (const XmlElement child : element.children()) {
+    const bool is_known = std::ranges::find(known, child.name()) != known.end();
+    if (!is_known) {
+      if (!first) ReadUnknownTag(child, known, parent, mode);
+      continue;
+    }
+    const XmlTag& inner = *context_.tags().FindTag(child.name());
+    if (inner.comes_first == first) ReadTag(inner, child, parent, mode);
+  }
+}
+
+void ApplicationReader::ReadUnknownTag(XmlElement element, const std::vector<std::string>& known,
+                                       FrameworkElement& parent, Mode mode) {
+  const XmlTag* const meant = context_.tags().FindTag(NearestName(element.name(), known));
+  if (meant != nullptr && !meant->comes_first) {
+    ReadTag(*meant, element, parent, mode);
+  } else if (const XmlAttribute* name = element.Attribute("name")) {
+    // Also further up: a known tag in a wrong place is missing where it would be right.
+    for (const FrameworkElement* each = &parent; each != nullptr; each = each->parent()) {
+      context_.MarkMissing(*each, name->value);
+    }
+  } else {
+    context_.MarkIncomplete(parent);
   }
 }
 
@@ -54,54 +99,94 @@ void ApplicationReader::ReadTag(const XmlTag& tag, XmlElement element, Framework
   TagUse use{element, parent, context_};
   FrameworkElement* made = nullptr;
   const bool is_usable = CheckAttributesOf(tag, use);
-  if (is_usable && mode == Mode::kHandle) made = Handle(tag, use);
+  if (!is_usable && tag.comes_first) context_.MarkPluginMissing();
+  if (mode == Mode::kHandle) made = is_usable ? Handle(tag, use) : Salvage(tag, use);
   if (const XmlAttribute* name = use.Find("name"); name != nullptr && made == nullptr) {
     context_.MarkMissing(parent, name->value);
   }
   FrameworkElement& inside = made != nullptr ? *made : parent;
-  CheckContents(element, inside);
-  ReadChildren(element, inside, made != nullptr ? Mode::kHandle : Mode::kCheckOnly, false);
+  CheckContents(tag, element, inside);
+  ReadChildren(tag, element, inside, made != nullptr ? Mode::kHandle : Mode::kCheckOnly, false);
 }
 
-void ApplicationReader::CheckContents(XmlElement element, FrameworkElement& parent) {
-  const std::vector<std::string> known = context_.tags().TagsIn(element.name());
+void ApplicationReader::CheckContents(const XmlTag& tag, XmlElement element,
+                                      FrameworkElement& parent) {
+  const std::vector<std::string> known = context_.tags().TagsIn(tag.name);
   Diagnostics problems;
   CheckChildren(element, known, problems);
-  for (const Error& error : problems.errors()) {
+  for (Error error : problems.errors()) {
     const auto is_here = [&](XmlElement child) { return child.position() == error.position; };
-    const auto unknown = std::ranges::find_if(element.children(), is_here);
-    if (unknown == element.children().end() || context_.IsWorthReporting(unknown->name(), known)) {
-      context_.Report(error, element.position(), parent);
+    const auto wrong = std::ranges::find_if(element.children(), is_here);
+    if (wrong != element.children().end()) {
+      const XmlTag* const misplaced = context_.tags().FindTag(wrong->name());
+      if (misplaced != nullptr) error.hint = PlaceHint(*misplaced);
+      if (misplaced == nullptr && !context_.IsWorthReporting(wrong->name(), known)) continue;
     }
+    context_.Report(std::move(error), element.position(), parent);
   }
 }
 
 bool ApplicationReader::CheckAttributesOf(const XmlTag& tag, TagUse& use) {
   const std::vector<AttributeRule> rules = context_.tags().Rules(tag);
-  const std::vector<std::string> names = NamesOf(rules);
+  ReadMisspeltAttributes(rules, use);
   bool is_usable = true;
   for (const AttributeRule& rule : rules) {
-    const XmlAttribute* const attribute = use.xml.Attribute(rule.name);
-    if (attribute == nullptr) {
-      if (!rule.required) continue;
-      is_usable = false;
-      Report({.message = "<" + tag.name + "> has no '" + rule.name + "'",
-              .hint = "add " + rule.name + "=\"…\""},
-             use.xml.position(), use);
-    } else if (auto good = CheckAttributeValue(rule, attribute->value); !good) {
-      if (rule.required) is_usable = false;
-      use.unusable.push_back(rule.name);
-      Report(good.error(), attribute->value_position, use);
-    }
+    if (!CheckAttribute(rule, use)) is_usable = false;
   }
+  return is_usable;
+}
+
+void ApplicationReader::ReadMisspeltAttributes(const std::vector<AttributeRule>& rules,
+                                               TagUse& use) {
+  const std::vector<std::string> names = NamesOf(rules);
   Diagnostics problems;
   CheckAttributes(use.xml, names, problems);
   for (const Error& error : problems.errors()) {
     const auto is_here = [&](const XmlAttribute& each) { return each.position == error.position; };
     const auto unknown = std::ranges::find_if(use.xml.attributes(), is_here);
+    std::vector<std::string> free = names;
+    std::erase_if(free, [&](const std::string& name) { return use.Says(name); });
+    if (const std::string meant = NearestName(unknown->name, free); !meant.empty()) {
+      XmlAttribute stand_in = *unknown;
+      stand_in.name = meant;
+      use.stand_ins.push_back(&context_.Keep(std::move(stand_in)));
+    }
     if (context_.IsWorthReporting(unknown->name, names)) Report(error, unknown->position, use);
   }
-  return is_usable;
+}
+
+// False if the tag cannot be handled because of this attribute.
+bool ApplicationReader::CheckAttribute(const AttributeRule& rule, TagUse& use) {
+  const bool is_name = rule.kind == AttributeKind::kNewName;
+  if (const XmlAttribute* const attribute = use.Find(rule.name)) {
+    const auto good = CheckAttributeValue(rule, attribute->value);
+    if (good) return true;
+    std::erase(use.stand_ins, attribute);
+    use.unusable.push_back(rule.name);
+    Report(good.error(), attribute->value_position, use);
+  } else {
+    if (!rule.required) return true;
+    Report(
+        {.message = "<" + use.xml.name() + "> has no '" + rule.name + "'",
+         .hint = "add " + rule.name + "=\"…\"" + (rule.summary.empty() ? "" : ": " + rule.summary)},
+        use.xml.position(), use);
+  }
+  if (is_name) GiveStandInName(use);
+  return is_name || !rule.required;
+}
+
+void ApplicationReader::GiveStandInName(TagUse& use) {
+  context_.MarkIncomplete(use.parent);
+  const SourcePosition position = use.xml.position();
+  use.stand_ins.push_back(&context_.Keep({"name", kStandInName, position, position}));
+}
+
+FrameworkElement* ApplicationReader::Salvage(const XmlTag& tag, const TagUse& use) {
+  if (tag.salvage) {
+    context_.Attempt({"<" + tag.name + ">", use.xml.position(), &use.parent},
+                     [&] { tag.salvage(use); });
+  }
+  return nullptr;
 }
 
 FrameworkElement* ApplicationReader::Handle(const XmlTag& tag, const TagUse& use) {
@@ -109,6 +194,8 @@ FrameworkElement* ApplicationReader::Handle(const XmlTag& tag, const TagUse& use
   context_.Attempt({"<" + tag.name + ">", use.xml.position(), &use.parent},
                    [&] { made = tag.handle(use); });
   if (made == nullptr) return nullptr;
+  // Connections that were meant for it will not find it.
+  if (made != &use.parent && IsStandIn(made->name())) context_.Excuse(*made);
   if (made != &use.parent && made->FindAnnotation<SourcePlace>() == nullptr) {
     made->Annotate(std::make_unique<SourcePlace>(use.xml.position()));
   }

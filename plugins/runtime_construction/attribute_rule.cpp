@@ -13,6 +13,7 @@ namespace runnel {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n";
+constexpr std::string_view kSeparators = " \t\r\n,";
 
 std::string Quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
 
@@ -24,13 +25,15 @@ Result<void> WithoutValue(const Result<T>& result) {
 
 Result<void> CheckName(std::string_view value) {
   if (auto good = CheckElementName(value); !good) return good;
-  if (value.find(' ') == std::string_view::npos) return {};
-  return Error{.message = "the name " + Quoted(value) + " contains a blank, which separates paths",
+  const std::size_t separator = value.find_first_of(kSeparators);
+  if (separator == std::string_view::npos) return {};
+  return Error{.message = "the name " + Quoted(value) + " contains a " +
+                          (value[separator] == ',' ? "comma" : "blank") + ", which separates paths",
                .hint = "write '_' instead"};
 }
 
 Result<void> CheckNotEmpty(std::string_view value) {
-  if (SplitBlanks(value).empty()) return Error{.message = "a path must not be empty"};
+  if (SplitPaths(value).empty()) return Error{.message = "a path must not be empty"};
   return {};
 }
 
@@ -41,6 +44,12 @@ Result<void> CheckSinglePath(std::string_view value) {
     return Error{.message = "the path " + Quoted(value) + " begins or ends with a blank"};
   }
   return {};
+}
+
+Result<void> CheckPathList(std::string_view value) {
+  if (auto filled = CheckNotEmpty(value); !filled) return filled;
+  if (value.find(',') == std::string_view::npos) return {};
+  return Error{.message = "a comma between paths", .hint = "paths are separated by blanks"};
 }
 
 Result<void> CheckNumber(std::string_view value) {
@@ -68,17 +77,16 @@ Result<void> CheckAttributeValue(const AttributeRule& rule, std::string_view val
     case AttributeKind::kText:
       return {};
     case AttributeKind::kName:
+    case AttributeKind::kNewName:
       return CheckName(value);
     case AttributeKind::kPath:
       return CheckSinglePath(value);
     case AttributeKind::kPathList:
-      return CheckNotEmpty(value);
+      return CheckPathList(value);
     case AttributeKind::kCount:
       return WithoutValue(ParseCount(value));
     case AttributeKind::kNumber:
       return CheckNumber(value);
-    case AttributeKind::kFlag:
-      return WithoutValue(ParseFlag(value));
     case AttributeKind::kDuration:
       return CheckDuration(value);
     case AttributeKind::kChoice:
@@ -96,18 +104,12 @@ Result<std::size_t> ParseCount(std::string_view text) {
   return count;
 }
 
-Result<bool> ParseFlag(std::string_view text) {
-  if (text == "true") return true;
-  if (text == "false") return false;
-  return Error{.message = Quoted(text) + " is neither true nor false"};
-}
-
-std::vector<std::string> SplitBlanks(std::string_view text) {
+std::vector<std::string> SplitPaths(std::string_view text) {
   std::vector<std::string> words;
   for (;;) {
-    const std::size_t begin = text.find_first_not_of(kBlanks);
+    const std::size_t begin = text.find_first_not_of(kSeparators);
     if (begin == std::string_view::npos) return words;
-    const std::size_t end = std::min(text.find_first_of(kBlanks, begin), text.size());
+    const std::size_t end = std::min(text.find_first_of(kSeparators, begin), text.size());
     words.emplace_back(text.substr(begin, end - begin));
     text.remove_prefix(end);
   }

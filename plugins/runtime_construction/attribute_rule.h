@@ -12,12 +12,12 @@ namespace runnel {
 /// What may stand in an attribute of an application file.
 enum class AttributeKind {
   kText,      ///< anything
-  kName,      ///< what can name an element in lists of paths: not empty, no '/', no blanks
+  kName,      ///< what can name an element in lists of paths: not empty, no '/', ',' nor blanks
+  kNewName,   ///< the same, of the element that the tag makes
   kPath,      ///< one path, not empty
   kPathList,  ///< paths separated by blanks, at least one
   kCount,     ///< 0, 1, 2 …
   kNumber,    ///< finite
-  kFlag,      ///< true or false
   kDuration,  ///< longer than nothing, with unit: "50ms"
   kChoice,    ///< one of AttributeRule::choices
 };
@@ -27,7 +27,7 @@ struct AttributeRule {
   std::string name;
   AttributeKind kind = AttributeKind::kText;
   bool required = false;
-  std::string summary = {};
+  std::string summary = {};  ///< one line, told to those who have left out what is required
   std::vector<std::string> choices = {};
 };
 
@@ -37,7 +37,8 @@ Result<void> CheckAttributeValue(const AttributeRule& rule, std::string_view val
 /// The values of attributes, for those who handle tags (durations: core/types/duration_text.h).
 /// Errors say what is wrong, without a place.
 Result<std::size_t> ParseCount(std::string_view text);
-Result<bool> ParseFlag(std::string_view text);
-[[nodiscard]] std::vector<std::string> SplitBlanks(std::string_view text);
+/// The words of a list of paths. Commas separate as well, so that more can be said of a list that
+/// has them by mistake; as a value it is refused.
+[[nodiscard]] std::vector<std::string> SplitPaths(std::string_view text);
 
 }  // namespace runnel

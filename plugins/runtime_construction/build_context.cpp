@@ -61,8 +61,10 @@ void BuildContext::MarkMissing(const FrameworkElement& parent, std::string_view 
   missing_.emplace(&parent, name);
 }
 
-bool BuildContext::IsMissing(const FrameworkElement& parent, std::string_view name) const {
-  return missing_.contains({&parent, std::string(name)});
+bool BuildContext::IsNews(const FrameworkElement& parent, std::string_view name,
+                          const std::vector<std::string>& candidates) const {
+  if (missing_.contains({&parent, std::string(name)})) return false;
+  return !incomplete_.contains(&parent) || !NearestName(name, candidates).empty();
 }
 
 bool BuildContext::IsWorthReporting(std::string_view unknown,

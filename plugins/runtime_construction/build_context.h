@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <list>
 #include <map>
 #include <set>
 #include <string>
@@ -80,7 +81,21 @@ class BuildContext {
   /// The file asks for `name` below `parent`, but it could not be made and an error says so:
   /// whoever refers to it need not complain again.
   void MarkMissing(const FrameworkElement& parent, std::string_view name);
-  [[nodiscard]] bool IsMissing(const FrameworkElement& parent, std::string_view name) const;
+  /// More was meant to stand below `parent`, but nobody knows under which name; an error says so.
+  void MarkIncomplete(const FrameworkElement& parent) { incomplete_.insert(&parent); }
+  /// Whether to complain that there is no `name` in `parent`, which has `candidates`.
+  [[nodiscard]] bool IsNews(const FrameworkElement& parent, std::string_view name,
+                            const std::vector<std::string>& candidates) const;
+
+  /// True the first time: a fault of an element that shows in many places is told once.
+  [[nodiscard]] bool IsFirstFaultOf(const FrameworkElement& element) {
+    return faulty_.insert(&element).second;
+  }
+
+  /// Keeps an attribute that stands for one of the file until the build is over.
+  const XmlAttribute& Keep(XmlAttribute stand_in) {
+    return stand_ins_.emplace_back(std::move(stand_in));
+  }
 
   /// Something meant for `element` failed with an error: unconnected inputs in it are no news.
   void Excuse(const FrameworkElement& element) { excused_.push_back(&element); }
@@ -106,7 +121,10 @@ class BuildContext {
   std::map<BuildStage, std::vector<Deferred>> deferred_;
   Cause cause_;
   std::set<std::pair<const FrameworkElement*, std::string>> missing_;
+  std::set<const FrameworkElement*> incomplete_;
+  std::set<const FrameworkElement*> faulty_;
   std::vector<const FrameworkElement*> excused_;
+  std::list<XmlAttribute> stand_ins_;
   bool plugin_is_missing_ = false;
 };
 

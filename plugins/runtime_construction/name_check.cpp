@@ -7,7 +7,7 @@ namespace runnel {
 
 bool CheckNameIsFree(const TagUse& use, const FrameworkElement& where) {
   const XmlAttribute& name = use.Get("name");
-  const FrameworkElement* const known = where.FindChild(name.value);
+  FrameworkElement* const known = where.FindChild(name.value);
   if (known == nullptr) return true;
   const auto* const place = known->FindAnnotation<SourcePlace>();
   use.context.Report(
@@ -16,7 +16,24 @@ bool CheckNameIsFree(const TagUse& use, const FrameworkElement& where) {
        .hint = place == nullptr ? "choose another name"
                                 : "the first is in line " + std::to_string(place->position.line)},
       name.value_position, use.parent);
+  // Whoever names it may have meant the other one, or calls that by another name.
+  use.context.MarkIncomplete(*known);
+  use.context.MarkIncomplete(where);
+  use.context.MarkIncomplete(use.parent);
+  use.context.Excuse(*known);
   return false;
 }
+
+std::string FreeName(const TagUse& use, const FrameworkElement& where) {
+  const std::string& name = use.Get("name").value;
+  if (!IsStandIn(name) && CheckNameIsFree(use, where)) return name;
+  std::string stand_in = kStandInName;
+  for (int i = 2; where.FindChild(stand_in) != nullptr; ++i) {
+    stand_in = kStandInName + std::to_string(i);
+  }
+  return stand_in;
+}
+
+bool IsStandIn(std::string_view name) { return name.starts_with(kStandInName); }
 
 }  // namespace runnel

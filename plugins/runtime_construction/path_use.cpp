@@ -25,7 +25,7 @@ std::vector<PathUse> PathsIn(const XmlAttribute& attribute, FrameworkElement& ba
   const std::string_view value = attribute.value;
   std::vector<PathUse> paths;
   std::size_t from = 0;
-  for (std::string& word : SplitBlanks(value)) {
+  for (std::string& word : SplitPaths(value)) {
     const std::size_t begin = value.find(word, from);
     from = begin + word.size();
     const std::string_view before = value.substr(0, begin);

@@ -4,6 +4,7 @@
 
 #include "core/base/nearest_name.h"
 #include "core/element/element_path.h"
+#include "plugins/runtime_construction/name_check.h"
 
 namespace runnel {
 
@@ -25,7 +26,7 @@ PathWalk::PathWalk(const PathUse& use)
 
 void PathWalk::ReportMissing(const std::vector<std::string>& candidates,
                              BuildContext& context) const {
-  if (context.IsMissing(*at_, missing_)) return;
+  if (!context.IsNews(*at_, missing_, candidates)) return;
   Report({.message = "there is no '" + std::string(missing_) + "' in " + at_->path(),
           .hint = NearestNameHint(missing_, candidates)},
          context);
@@ -44,7 +45,9 @@ FrameworkElement* SearchElement(const PathUse& use, BuildContext& context) {
 
 std::vector<std::string> ChildNames(const FrameworkElement& element) {
   std::vector<std::string> names;
-  for (const FrameworkElement* child : element.children()) names.push_back(child->name());
+  for (const FrameworkElement* child : element.children()) {
+    if (!IsStandIn(child->name())) names.push_back(child->name());
+  }
   return names;
 }
 

@@ -38,6 +38,7 @@ class PathWalk {
 /// The element that a path names, or nullptr after reporting what is not there.
 [[nodiscard]] FrameworkElement* SearchElement(const PathUse& use, BuildContext& context);
 
+/// Of those that the file names.
 [[nodiscard]] std::vector<std::string> ChildNames(const FrameworkElement& element);
 
 }  // namespace runnel

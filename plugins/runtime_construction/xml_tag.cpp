@@ -4,19 +4,28 @@
 
 #include "core/base/check.h"
 #include "core/element/element_path.h"
+#include "plugins/runtime_construction/name_check.h"
 #include "plugins/runtime_construction/tags/built_in_tags.h"
 
 namespace runnel {
 
 const XmlAttribute* TagUse::Find(std::string_view attribute) const {
+  const auto stand_in = std::ranges::find(stand_ins, attribute, &XmlAttribute::name);
+  if (stand_in != stand_ins.end()) return *stand_in;
   if (std::ranges::find(unusable, attribute) != unusable.end()) return nullptr;
   return xml.Attribute(attribute);
+}
+
+bool TagUse::Says(std::string_view attribute) const {
+  return xml.Attribute(attribute) != nullptr || Find(attribute) != nullptr ||
+         std::ranges::find(unusable, attribute) != unusable.end();
 }
 
 std::string TagUse::path() const {
   const XmlAttribute* const name = Find("name");
   const std::string parent_path = parent.path();
-  if (name == nullptr || !CheckElementName(name->value)) return parent_path;
+  const bool is_name = name != nullptr && CheckElementName(name->value) && !IsStandIn(name->value);
+  if (!is_name) return parent_path;
   return (parent_path == "/" ? "" : parent_path) + "/" + name->value;
 }
 

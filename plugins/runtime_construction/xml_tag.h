@@ -26,9 +26,14 @@ struct TagUse {
   FrameworkElement& parent;  ///< what the enclosing tag has made
   BuildContext& context;
   std::vector<std::string> unusable = {};  ///< attributes that have been complained about
+  /// Stand for attributes that are misspelt or missing, after an error has said so: nothing of the
+  /// tree stays then, but the rest of the file can be looked at.
+  std::vector<const XmlAttribute*> stand_ins = {};  // the context keeps them
 
   /// nullptr if it is not there or unusable.
   [[nodiscard]] const XmlAttribute* Find(std::string_view attribute) const;
+  /// Whether it is there, right or wrong.
+  [[nodiscard]] bool Says(std::string_view attribute) const;
   /// Precondition: the rules require the attribute.
   [[nodiscard]] const XmlAttribute& Get(std::string_view attribute) const;
   /// Of what the tag makes, whether it has been made or not: the parent's, and the name, if any.
@@ -43,7 +48,7 @@ struct TagUse {
 ///     }
 struct XmlTag {
   std::string name;
-  std::string summary = {};
+  std::string summary = {};          ///< one line, told to those who write it in a wrong place
   std::vector<std::string> parents;  ///< tags that it may stand in; none: it is the root
   std::vector<AttributeRule> attributes = {};
   /// Handled before all other tags of the file are even looked at, since it may bring new tags.
@@ -52,6 +57,9 @@ struct XmlTag {
   /// one, or use.parent. Nothing if it could not, after reporting why to use.context. What needs
   /// the rest of the file is put off with use.context.Defer(). Exceptions become errors at the tag.
   std::function<FrameworkElement*(const TagUse& use)> handle;
+  /// Called instead if the attributes are wrong, which has been reported: so that no other errors
+  /// come of it. What is there is in use.xml, unchecked.
+  std::function<void(const TagUse& use)> salvage = {};
   std::string plugin = {};  ///< that added it; filled in by the registry
 };
 

@@ -28,8 +28,8 @@ Activation ReadActivation(const TagUse& use) {
 void ReadPeriod(const TagUse& use, ThreadOptions& options) {
   const XmlAttribute* const period = use.Find("period");
   if (period != nullptr) options.period = ParseDuration(period->value).value();
-  const bool is_said = use.xml.Attribute("period") != nullptr;
-  if (options.activation == Activation::kPeriod && !is_said) {
+  const bool may_do_without = use.Says("activation") && use.Find("activation") == nullptr;
+  if (options.activation == Activation::kPeriod && !use.Says("period") && !may_do_without) {
     use.context.Report({.message = "<thread> has no 'period'",
                         .path = use.path(),
                         .hint = "add period=\"50ms\", or activation=\"trigger\" or "
@@ -70,8 +70,7 @@ FrameworkElement* MakeThread(const TagUse& use) {
   if (on_overrun != nullptr && on_overrun->value == "catch_up") {
     options.on_overrun = ThreadOptions::OnOverrun::kCatchUp;
   }
-  if (!CheckNameIsFree(use, *threads)) return nullptr;
-  return &runtime.Create<ThreadContainer>(*threads, use.Get("name").value, options);
+  return &runtime.Create<ThreadContainer>(*threads, FreeName(use, *threads), options);
 }
 
 void Assign(const XmlAttribute& name, FrameworkElement& element, BuildContext& context) {
@@ -86,7 +85,7 @@ void Assign(const XmlAttribute& name, FrameworkElement& element, BuildContext& c
     }
     known = ChildNames(*threads);
   }
-  if (context.IsMissing(application, name.value)) return;
+  if (!context.IsNews(application, name.value, known)) return;
   context.Report({.message = "there is no thread '" + name.value + "'",
                   .hint = known.empty() ? "add <thread name=\"" + name.value +
                                               "\" period=\"50ms\"/> to the application"
@@ -101,7 +100,7 @@ XmlTag internal::ThreadTag() {
           .summary = "a thread that runs modules, in the order of the data flow",
           .parents = {"application"},
           .attributes =
-              {{.name = "name", .kind = AttributeKind::kName, .required = true},
+              {{.name = "name", .kind = AttributeKind::kNewName, .required = true},
                {.name = "period",
                 .kind = AttributeKind::kDuration,
                 .summary = "from cycle to cycle; of a free-running thread, what a cycle takes in "

@@ -48,11 +48,27 @@ const IncludeRule* RuleOf(std::string_view file, const std::vector<IncludeRule>&
   return found == rules.end() ? nullptr : &*found;
 }
 
+bool IsBullet(const std::string& header) {
+  static const std::regex bullet("bt[A-Za-z]+\\.h|bullet/.*");
+  return std::regex_match(header, bullet);
+}
+
+bool MayUseBullet(std::string_view file) {
+  return IsAtOrBelow(file, "modules/simulation") || IsAtOrBelow(file, "tests/modules/simulation");
+}
+
 bool IsAllowedInAlgorithms(const std::string& header) {
   static const std::regex standard("[a-z0-9_]+");
-  static const std::regex bullet("bt[A-Za-z]+\\.h|bullet/.*");
-  return std::regex_match(header, standard) || header.starts_with("Eigen/") ||
-         std::regex_match(header, bullet);
+  return std::regex_match(header, standard) || header.starts_with("Eigen/") || IsBullet(header);
+}
+
+// What is wrong with an include in angle brackets; "" if nothing is.
+std::string OffenceOfForeign(const Include& include, const IncludeRule& rule) {
+  if (IsBullet(include.target) && !MayUseBullet(include.file)) {
+    return "Bullet is for modules/simulation only: <" + include.target + ">";
+  }
+  if (!rule.is_algorithm || IsAllowedInAlgorithms(include.target)) return "";
+  return "an algorithm may use the standard library and Eigen, not <" + include.target + ">";
 }
 
 // The test library's headers may stand in quotation marks too.
@@ -69,13 +85,7 @@ std::string OwnerOfInternal(const std::string& target) {
 // What is wrong with an include by a file under `rule`; "" if nothing is.
 std::string Offence(const Include& include, const IncludeRule& rule, const SourceTree& tree,
                     const std::vector<IncludeRule>& rules) {
-  if (!include.is_quoted) {
-    if (rule.is_algorithm && !IsAllowedInAlgorithms(include.target)) {
-      return "an algorithm may use the standard library, Eigen and Bullet, not <" + include.target +
-             ">";
-    }
-    return "";
-  }
+  if (!include.is_quoted) return OffenceOfForeign(include, rule);
   if (IsGoogleTest(include.target) && include.file.starts_with("tests/")) return "";
   if (!tree.contains(include.target)) {
     return "\"" + include.target + "\" is no file, seen from the root of the tree";

@@ -82,6 +82,23 @@ TEST(IncludeRulesTest, AlgorithmsKnowNoFramework) {
   EXPECT_EQ(Planted("modules/types/algorithm/pose.h", "#include \"core/base/error.h\"").size(), 1u);
 }
 
+TEST(IncludeRulesTest, OnlyTheSimulationKnowsThePhysicsEngine) {
+  const std::string bullet = "#include <btBulletDynamicsCommon.h>";
+  EXPECT_THAT(Planted("modules/planning/algorithm/bug.h", bullet),
+              ElementsAre(HasSubstr("bug.h:3: Bullet is for modules/simulation only")));
+  EXPECT_EQ(Planted("modules/planning/planner.h", "#include <bullet/btVector3.h>").size(), 1u);
+  EXPECT_EQ(Planted("core/port/input.h", bullet).size(), 1u);
+  EXPECT_THAT(Planted("modules/simulation/algorithm/world.cpp", bullet), IsEmpty());
+}
+
+TEST(IncludeRulesTest, OfThePluginsModulesKnowTheParametersOnly) {
+  const std::string file = "modules/planning/planner.h";
+  EXPECT_THAT(
+      Planted(file, "#include \"plugins/scheduling/thread.h\""),
+      ElementsAre(HasSubstr("modules/planning may not know \"plugins/scheduling/thread.h\"")));
+  EXPECT_EQ(Planted(file, "#include \"plugins/runtime_construction/tag.h\"").size(), 1u);
+}
+
 TEST(IncludeRulesTest, FamiliesOfModulesDoNotKnowEachOther) {
   EXPECT_EQ(
       Planted("modules/planning/planner.h", "#include \"modules/simulation/algorithm/world.cpp\"")

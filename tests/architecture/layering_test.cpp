@@ -11,6 +11,7 @@ namespace {
 using testing::IsEmpty;
 
 constexpr std::size_t kLargestLibrary = 5000;
+constexpr std::size_t kLongestFile = 350;
 
 const SourceTree& Tree() {
   static const SourceTree tree = ReadSourceTree(RUNNEL_SOURCE_FOLDER);
@@ -34,6 +35,10 @@ TEST(LayeringTest, NoPartsKnowEachOtherInACircle) {
 TEST(LayeringTest, NoLibraryIsTooLarge) {
   EXPECT_THAT(TooLargeLibraries(Tree(), kLargestLibrary), IsEmpty());
 }
+
+TEST(LayeringTest, NoFileIsTooLong) { EXPECT_THAT(TooLongFiles(Tree(), kLongestFile), IsEmpty()); }
+
+TEST(LayeringTest, TheRootHoldsNothingElse) { EXPECT_THAT(StrayFiles(Tree()), IsEmpty()); }
 
 TEST(LayeringTest, EachLibrarySaysWhatItIs) {
   EXPECT_THAT(LibrariesWithoutReadme(Tree()), IsEmpty());

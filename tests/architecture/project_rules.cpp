@@ -37,7 +37,7 @@ void AddFamily(std::vector<IncludeRule>& rules, const std::string& name,
   const std::string folder = "modules/" + name;
   rules.push_back(
       {folder + "/algorithm", folder + "/algorithm", {"modules/types/algorithm"}, true});
-  std::vector<std::string> may_include = {"core", "plugins", "modules/types", folder};
+  std::vector<std::string> may_include = {"core", "plugins/parameters", "modules/types", folder};
   may_include.insert(may_include.end(), neighbours.begin(), neighbours.end());
   rules.push_back({folder, folder, may_include});
 }

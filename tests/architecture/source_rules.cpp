@@ -20,6 +20,29 @@ std::vector<std::string> TooLargeLibraries(const SourceTree& tree, std::size_t l
   return large;
 }
 
+std::vector<std::string> TooLongFiles(const SourceTree& tree, std::size_t limit) {
+  std::vector<std::string> files;
+  for (const auto& [file, text] : tree) {
+    const std::size_t count = Lines(text).size();
+    if (IsCode(file) && count > limit)
+      files.push_back(file + ": " + std::to_string(count) + " lines");
+  }
+  return files;
+}
+
+std::vector<std::string> StrayFiles(const SourceTree& tree) {
+  static const std::set<std::string> known = {".clang-format", ".gitignore", "CHANGELOG.md",
+                                              "CMakeLists.txt", "CMakePresets.json", "LICENSE",
+                                              "README.md", "check", "demo",
+                                              // Of one's own, never of the project.
+                                              "CMakeUserPresets.json", "compile_commands.json"};
+  std::vector<std::string> stray;
+  for (const auto& [file, text] : tree) {
+    if (file.find('/') == std::string::npos && !known.contains(file)) stray.push_back(file);
+  }
+  return stray;
+}
+
 std::vector<std::string> LibrariesWithoutReadme(const SourceTree& tree) {
   std::set<std::string> libraries;
   for (const auto& [file, text] : tree) {
@@ -34,22 +57,29 @@ std::vector<std::string> LibrariesWithoutReadme(const SourceTree& tree) {
 }
 
 std::vector<std::string> ForbiddenText(const SourceTree& tree) {
+  struct Pattern {
+    std::regex text;
+    std::string what;
+    std::string ending = {};  // of the files that it is for; "": all
+  };
   // Written so that they do not match themselves.
-  static const std::vector<std::pair<std::regex, std::string>> patterns = {
+  static const std::vector<Pattern> patterns = {
       {std::regex("(^|[^A-Za-z0-9_.}])/(work|root|home)/"), "a path of one machine"},
       {std::regex("\\b(TO"
                   "DO|FIX"
                   "ME|XX"
                   "X)\\b"),
-       "a mark of something unfinished"}};
+       "a mark of something unfinished"},
+      {std::regex("@[A-Z]+@"), "a mark of something to be filled in", ".md"}};
   std::vector<std::string> places;
   for (const auto& [file, text] : tree) {
     std::size_t number = 0;
     for (const std::string_view line : Lines(text)) {
       ++number;
-      for (const auto& [pattern, what] : patterns) {
-        if (!std::regex_search(line.begin(), line.end(), pattern)) continue;
-        places.push_back(file + ":" + std::to_string(number) + ": " + what);
+      for (const Pattern& pattern : patterns) {
+        if (!file.ends_with(pattern.ending)) continue;
+        if (!std::regex_search(line.begin(), line.end(), pattern.text)) continue;
+        places.push_back(file + ":" + std::to_string(number) + ": " + pattern.what);
       }
     }
   }

@@ -48,6 +48,25 @@ TEST(SourceRulesTest, MarksOfUnfinishedThingsAreFound) {
   EXPECT_THAT(ForbiddenText(tree), ElementsAre("core/a.h:1: a mark of something unfinished"));
 }
 
+TEST(SourceRulesTest, MarksOfWhatWasToBeFilledInAreFoundInDocuments) {
+  const SourceTree tree = {{"README.md", std::string("## Measured\n\n@FIG") + "URES@\n"},
+                           {"core/base/README.md", "write to me@example.org or you@EXAMPLE.org\n"},
+                           {"core/cmake/file.in", "@VERSION@\n"}};
+  EXPECT_THAT(ForbiddenText(tree), ElementsAre("README.md:3: a mark of something to be filled in"));
+}
+
+TEST(SourceRulesTest, NotesLeftBehindAreFound) {
+  const SourceTree tree = {{"README.md", ""}, {"check", ""}, {"NOTES.md", ""}, {"core/notes", ""}};
+  EXPECT_THAT(StrayFiles(tree), ElementsAre("NOTES.md"));
+}
+
+TEST(SourceRulesTest, LongFilesAreFound) {
+  const SourceTree tree = {{"core/port/a.h", ManyLines(10)},
+                           {"tests/core/b.cpp", ManyLines(11)},
+                           {"core/port/README.md", ManyLines(100)}};
+  EXPECT_THAT(TooLongFiles(tree, 10), ElementsAre("tests/core/b.cpp: 11 lines"));
+}
+
 TEST(SourceRulesTest, HeadersNeedTheirGuard) {
   EXPECT_THAT(HeadersWithoutGuard({{"core/a.h", "#pragma once\n"}, {"core/b.h", "int x;\n"}}),
               ElementsAre("core/b.h"));

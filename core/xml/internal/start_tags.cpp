@@ -57,11 +57,21 @@ class Scanner {
     if (anything_but_declarations_) {
       return Fail(cursor_.place(), "'<?' must stand at the very beginning of the file", "");
     }
-    return TakePast("<?", "?>", "declaration") && (cursor_.SkipSpace(), true);
+    const TextPlace start = cursor_.place();
+    const std::string_view rest = cursor_.rest();
+    if (!TakePast("<?", "?>", "declaration")) return false;
+    const std::string encoding = DeclaredEncoding(rest.substr(0, rest.find("?>")));
+    if (!IsReadableEncoding(encoding)) {
+      return Fail(start, "the file says that it is " + encoding,
+                  "save it as UTF-8 and write encoding=\"UTF-8\"");
+    }
+    cursor_.SkipSpace();
+    return true;
   }
 
   bool TakeCharacterData() {
     if (open_.empty()) return Fail(cursor_.place(), "text outside of the root element", "");
+    NoteText();
     return TakePast("<![CDATA[", "]]>", "CDATA section");
   }
 
@@ -75,11 +85,17 @@ class Scanner {
 
   bool TakeText() {
     const bool outside = open_.empty();
-    if (outside) cursor_.SkipSpace();
+    cursor_.SkipSpace();
+    if (!outside && !cursor_.at_end() && cursor_.next() != '<') NoteText();
     if (outside && !cursor_.at_end() && cursor_.next() != '<') {
       return Fail(cursor_.place(), "text outside of the root element", "");
     }
     return TakeLetters([&] { return cursor_.Sees("<"); }, /*check_entities=*/true);
+  }
+
+  void NoteText() {
+    StartTag& tag = tags_[open_.back()];
+    if (!tag.text_place) tag.text_place = cursor_.place();
   }
 
   bool TakeEndTag() {
@@ -104,7 +120,7 @@ class Scanner {
   bool TakeStartTag() {
     const TextPlace start = cursor_.place();
     cursor_.Take(1);
-    StartTag tag{cursor_.TakeName(), start, {}};
+    StartTag tag{cursor_.TakeName(), start, {}, {}};
     if (tag.name.empty()) return Fail(start, "'<' without a name", "write &lt; for the letter");
     if (open_.empty() && !tags_.empty()) {
       return Fail(start, "a second root element " + Quoted(tag.name), "a file has one");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,7 @@ struct StartTag {
   std::string_view name;
   TextPlace place;
   std::vector<AttributePlace> attributes;
+  std::optional<TextPlace> text_place = {};  ///< of the first text directly between the tags
 };
 
 /// The start tags of an XML text in the order of the text; the names refer to `text`.

@@ -52,4 +52,23 @@ std::string EntityFault(std::string_view text) {
   return "no entity '" + std::string(text.substr(0, end + 1)) + "'";
 }
 
+std::string DeclaredEncoding(std::string_view declaration) {
+  constexpr std::string_view kWord = "encoding";
+  const std::size_t word = declaration.find(kWord);
+  if (!declaration.starts_with("<?xml") || word == std::string_view::npos) return "";
+  const std::size_t opening = declaration.find_first_of("\"'", word + kWord.size());
+  if (opening == std::string_view::npos) return "";
+  const std::string_view value = declaration.substr(opening + 1);
+  return std::string(value.substr(0, value.find(declaration[opening])));
+}
+
+bool IsReadableEncoding(std::string_view encoding) {
+  std::string lower(encoding);
+  for (char& letter : lower) {
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  }
+  constexpr std::array<std::string_view, 5> kReadable{"", "utf-8", "utf8", "us-ascii", "ascii"};
+  return std::ranges::find(kReadable, lower) != kReadable.end();
+}
+
 }  // namespace runnel::internal

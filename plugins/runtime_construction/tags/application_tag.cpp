@@ -7,15 +7,14 @@ namespace runnel {
 
 XmlTag ApplicationTag() {
   return {.name = "application",
-          .summary = "the root of the file: a group that holds everything",
+          .summary = "a group that holds everything",
           .parents = {},
           .attributes = {{.name = "name",
-                          .kind = AttributeKind::kName,
+                          .kind = AttributeKind::kNewName,
                           .required = true,
                           .summary = "the first part of all paths"}},
           .handle = [](const TagUse& use) -> FrameworkElement* {
-            if (!CheckNameIsFree(use, use.parent)) return nullptr;
-            return &use.context.runtime().Create<Group>(use.parent, use.Get("name").value);
+            return &use.context.runtime().Create<Group>(use.parent, FreeName(use, use.parent));
           }};
 }
 

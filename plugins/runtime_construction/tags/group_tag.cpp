@@ -9,10 +9,9 @@ XmlTag GroupTag() {
   return {.name = "group",
           .summary = "modules and groups that serve one purpose",
           .parents = {"application", "group"},
-          .attributes = {{.name = "name", .kind = AttributeKind::kName, .required = true}},
+          .attributes = {{.name = "name", .kind = AttributeKind::kNewName, .required = true}},
           .handle = [](const TagUse& use) -> FrameworkElement* {
-            if (!CheckNameIsFree(use, use.parent)) return nullptr;
-            return &use.context.runtime().Create<Group>(use.parent, use.Get("name").value);
+            return &use.context.runtime().Create<Group>(use.parent, FreeName(use, use.parent));
           }};
 }
 

@@ -12,7 +12,9 @@ namespace {
 // A plugin is named; with a '/' it is a file, and starts in the folder of the application file.
 std::string Located(const std::string& plugin, const BuildContext& context) {
   if (plugin.find('/') == std::string::npos) return plugin;
-  return (std::filesystem::absolute(context.folder()) / plugin).string();
+  std::string file = (context.folder() / plugin).string();
+  // "./motion.so" of the current folder must not become a name again.
+  return file.find('/') == std::string::npos ? "./" + file : file;
 }
 
 FrameworkElement* Load(const TagUse& use) {

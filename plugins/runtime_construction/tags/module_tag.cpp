@@ -1,5 +1,5 @@
-#include "core/base/nearest_name.h"
 #include "plugins/runtime_construction/build_context.h"
+#include "plugins/runtime_construction/module_type_hint.h"
 #include "plugins/runtime_construction/name_check.h"
 #include "plugins/runtime_construction/tags/built_in_tags.h"
 
@@ -23,12 +23,13 @@ FrameworkElement* MakeModule(const TagUse& use) {
   };
   if (const auto known = modules.Get(type.value); !known) {
     if (context.IsWorthReporting(type.value, TypeNames(modules))) {
-      report(known.error(), type.value_position);
+      report(
+          {.message = known.error().message, .hint = ModuleTypeHint(type.value, context.plugins())},
+          type.value_position);
     }
     return nullptr;
   }
-  if (!CheckNameIsFree(use, use.parent)) return nullptr;
-  const auto made = modules.Create(type.value, use.parent, use.Get("name").value);
+  const auto made = modules.Create(type.value, use.parent, FreeName(use, use.parent));
   if (made) return *made;
   report(made.error(), use.xml.position());
   return nullptr;
@@ -40,7 +41,7 @@ XmlTag ModuleTag() {
   return {.name = "module",
           .summary = "a module of a type that a plugin brings",
           .parents = {"application", "group"},
-          .attributes = {{.name = "name", .kind = AttributeKind::kName, .required = true},
+          .attributes = {{.name = "name", .kind = AttributeKind::kNewName, .required = true},
                          {.name = "type",
                           .kind = AttributeKind::kPath,
                           .required = true,

@@ -109,9 +109,7 @@ bool IsFirstOfItsName(const TagUse& use) {
 }
 
 FrameworkElement* HandleParameter(const TagUse& use) {
-  const bool sets_something = use.xml.Attribute("value") != nullptr ||
-                              use.xml.Attribute("config") != nullptr ||
-                              use.xml.Attribute("command_line") != nullptr;
+  const bool sets_something = use.Says("value") || use.Says("config") || use.Says("command_line");
   if (!sets_something) {
     use.context.Report({.message = "<parameter> does not say where the value comes from",
                         .hint = "add value=\"…\", config=\"…\" or command_line=\"…\""},

@@ -10,6 +10,7 @@
 #include "plugins/runtime_construction/name_check.h"
 #include "plugins/runtime_construction/path_use.h"
 #include "plugins/runtime_construction/port_search.h"
+#include "plugins/runtime_construction/port_types.h"
 #include "plugins/runtime_construction/source_place.h"
 #include "plugins/runtime_construction/tags/built_in_tags.h"
 
@@ -19,12 +20,17 @@ namespace {
 
 const TypeInfo* NamedType(const XmlAttribute& name, const TagUse& use) {
   if (const TypeInfo* type = FindType(name.value)) return type;
+  MakePortTypesKnown(use.context.plugins().modules());
+  if (const TypeInfo* type = FindType(name.value)) return type;
   std::vector<std::string> names;
   for (const TypeInfo* type : RegisteredTypes()) names.push_back(type->name());
+  const std::string nearest = NearestName(name.value, names);
   if (use.context.IsWorthReporting(name.value, names)) {
     use.context.Report({.message = "there is no type '" + name.value + "'",
                         .path = use.path(),
-                        .hint = NearestNameHint(name.value, names)},
+                        .hint = nearest.empty() ? "types come with the plugins whose modules have "
+                                                  "ports of them; is a <load> missing?"
+                                                : "did you mean '" + nearest + "'?"},
                        name.value_position, use.parent);
   }
   return nullptr;
@@ -35,7 +41,9 @@ std::optional<std::pair<PathUse, ConnectionEnd>> FarEnd(XmlElement connect, Fram
                                                         const std::string& own) {
   const XmlAttribute* const from = connect.Attribute("from");
   const XmlAttribute* const to = connect.Attribute("to");
-  if (connect.name() != "connect" || from == nullptr || to == nullptr) return std::nullopt;
+  // A misspelt one has been reported, and is taken for what it was meant to be.
+  const bool is_connect = EditDistance(connect.name(), "connect") <= 2;
+  if (!is_connect || from == nullptr || to == nullptr) return std::nullopt;
   const std::vector<PathUse> targets = PathsIn(*to, base);
   if (from->value == own && !targets.empty()) {
     return std::pair(targets.front(), ConnectionEnd::kTo);
@@ -71,11 +79,15 @@ const TypeInfo* ConnectedType(const TagUse& use) {
 }
 
 void MakePort(const TagUse& use) {
-  const std::string& name = use.Get("name").value;
+  const std::string name = FreeName(use, use.parent);
   const XmlAttribute* const named = use.Find("type");
-  const bool is_free = CheckNameIsFree(use, use.parent);
-  const TypeInfo* const type = named != nullptr ? NamedType(*named, use) : ConnectedType(use);
-  if (!is_free || type == nullptr) {
+  const TypeInfo* type = nullptr;
+  if (named != nullptr) {
+    type = NamedType(*named, use);
+  } else if (!IsStandIn(name)) {
+    type = ConnectedType(use);
+  }
+  if (type == nullptr) {
     use.context.MarkMissing(use.parent, name);
     return;
   }
@@ -93,7 +105,7 @@ XmlTag PortTag() {
   return {.name = "port",
           .summary = "a port in the interface of its group; costs nothing at run time",
           .parents = {"group"},
-          .attributes = {{.name = "name", .kind = AttributeKind::kName, .required = true},
+          .attributes = {{.name = "name", .kind = AttributeKind::kNewName, .required = true},
                          {.name = "direction",
                           .kind = AttributeKind::kChoice,
                           .required = true,

@@ -127,6 +127,34 @@ TEST_F(PluginManagerTest, OtherCompilerIsRefusedWithBothFingerprints) {
   EXPECT_EQ(error.hint, "rebuild the plugin with the compiler of the core");
 }
 
+TEST_F(PluginManagerTest, OtherLayoutOfTheSameClassesIsRefused) {
+  EXPECT_THAT(RefusalOf("other_library_mode").message, HasSubstr("it was built with 'runnel-abi-"));
+  EXPECT_THAT(RefusalOf("other_alignment").message, HasSubstr("it was built with 'runnel-abi-"));
+  EXPECT_THAT(CoreAbiFingerprint(),
+              testing::StartsWith("runnel-abi-" + std::to_string(kPluginAbiVersion) + " "));
+}
+
+TEST_F(PluginManagerTest, OneFileMayBeNamedInManyWays) {
+  ASSERT_TRUE(manager.Load("good"));
+  EXPECT_TRUE(manager.Load((kFolder / "good.so").string()));
+  EXPECT_TRUE(manager.Load((kFolder / ".." / kFolder.filename() / "good.so").string()));
+  EXPECT_THAT(manager.loaded(), ElementsAre("good"));
+}
+
+TEST_F(PluginManagerTest, OtherFileOfALoadedNameIsRefused) {
+  ASSERT_TRUE(manager.Load("good"));
+  const fs::path folder = fs::path(testing::TempDir()) / "runnel_other_good";
+  fs::create_directories(folder);
+  fs::copy_file(kFolder / "throws.so", folder / "good.so", fs::copy_options::overwrite_existing);
+  const auto result = manager.Load((folder / "good.so").string());
+  ASSERT_FALSE(result);
+  EXPECT_THAT(result.error().message,
+              HasSubstr("is refused: a plugin 'good' is loaded already from " +
+                        fs::canonical(kFolder / "good.so").string()));
+  EXPECT_THAT(manager.loaded(), ElementsAre("good"));
+  fs::remove_all(folder);
+}
+
 TEST_F(PluginManagerTest, RegistrationThatThrowsLeavesNothingBehind) {
   EXPECT_EQ(RefusalOf("throws").message, Refused("throws", "its registration failed: no driver"));
   EXPECT_EQ(RefusalOf("throws_int").message,

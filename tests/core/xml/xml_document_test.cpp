@@ -71,6 +71,14 @@ TEST(XmlDocumentTest, TextIsJoinedFromTextAndCharacterDataWithoutCommentsAndChil
   EXPECT_EQ(document.root().text(), "one < <two> & three");
 }
 
+TEST(XmlDocumentTest, TextKnowsWhereItBegins) {
+  const XmlDocument document = Parsed("<a>\n  <b>\n x</b> late <![CDATA[y]]></a>");
+  EXPECT_EQ(document.root().text_position(), At(3, 8));
+  EXPECT_EQ(document.root().children()[0].text_position(), At(3, 2));
+  EXPECT_EQ(Parsed("<a><![CDATA[y]]></a>").root().text_position(), At(1, 4));
+  EXPECT_EQ(Parsed("<a> </a>").root().text_position(), At(1, 1));
+}
+
 TEST(XmlDocumentTest, EntitiesInAttributesAreResolved) {
   const XmlDocument document = Parsed("<a b='&lt;&amp;&gt;&quot;&apos;&#65;&#x42;' c=\"it's\"/>");
   EXPECT_EQ(document.root().Attribute("b")->value, "<&>\"'AB");
@@ -131,6 +139,16 @@ TEST(XmlDocumentErrorTest, OtherEncodingsAreRefused) {
   EXPECT_THAT(ErrorOf("<a b='\xE4'/>"), StartsWith("a.xml:1:7: byte 0xe4 is no UTF-8"));
   EXPECT_THAT(ErrorOf(std::string_view("\xFF\xFE<\0", 4)),
               StartsWith("a.xml:1:1: the file is UTF-16"));
+}
+
+TEST(XmlDocumentErrorTest, DeclaredEncodingMustBeOneThatIsRead) {
+  EXPECT_THAT(ErrorOf("<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?><a/>"),
+              StartsWith("a.xml:1:1: the file says that it is ISO-8859-1"));
+  for (const char* readable : {"UTF-8", "utf-8", "US-ASCII"}) {
+    const std::string declaration =
+        std::string("<?xml version='1.0' encoding='") + readable + "'?>";
+    EXPECT_TRUE(XmlDocument::Parse(declaration + "<a/>", "a.xml")) << readable;
+  }
 }
 
 TEST(XmlDocumentErrorTest, AttributeTwiceIsRefusedAtTheSecond) {

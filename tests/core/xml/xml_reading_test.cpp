@@ -80,8 +80,8 @@ TEST(CheckChildrenTest, TellsAllUnknownOnesAtOnceAndText) {
   const std::vector<std::string> known{"box", "wall"};
   CheckChildren(document.root(), known, diagnostics);
   EXPECT_EQ(diagnostics.ToString(),
-            "a.xml:1:1: error: no text may stand in <world>; leave out 'hello'\n"
             "a.xml:2:1: error: no <bxo> may stand in <world>; did you mean 'box'?\n"
+            "a.xml:3:1: error: no text may stand in <world>; leave out 'hello'\n"
             "a.xml:4:1: error: no <xyzzy> may stand in <world>; there is 'box', 'wall'\n");
 }
 

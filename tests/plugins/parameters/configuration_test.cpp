@@ -69,7 +69,7 @@ TEST_F(ConfigurationFile, TellsAllThatIsWrongAndAddsNothing) {
 </configuration>)"),
             "1:16: <configuration> knows no 'version'; leave it out\n"
             "5:3: no <vlaue> may stand in <configuration>; did you mean 'value'?\n"
-            "1:1: no text may stand in <configuration>; leave out 'text'\n"
+            "9:3: no text may stand in <configuration>; leave out 'text'\n"
             "2:3: <section> has no 'name'; add name=\"…\"\n"
             "3:18: the name 'a/b' contains a '/', which separates names in paths; \n"
             "6:20: no <z> may stand in <value>; a value is a text\n"

@@ -78,7 +78,8 @@ TEST(AddedWords, AreCheckedLikeBuiltInOnes) {
             "app.xml:5:3: error: /demo: there is already an element called 'tower'; choose another "
             "name\n"
             "app.xml:6:3: error: /demo: no <beacn> may stand in <application>; did you mean "
-            "'beacon'?\n");
+            "'beacon'?\n"
+            "app.xml:6:3: error: /demo: <beacn> has no 'name'; add name=\"…\"\n");
 }
 
 TEST(AddedWords, ThatThrowAreErrorsAtTheTag) {

@@ -3,14 +3,22 @@
 #include "core/module/group.h"
 #include "core/module/module.h"
 #include "core/plugin/plugin_entry.h"
+#include "core/port/output.h"
 #include "plugins/runtime_construction/build_context.h"
 #include "plugins/runtime_construction/xml_tag.h"
+
+// Known to nobody before a module with a port of it is made.
+struct BroughtValue {
+  int number = 0;
+};
+static void Describe(runnel::TypeBuilder<BroughtValue>& type) { type.Name("test/brought_value"); }
 
 namespace {
 
 class Brought final : public runnel::Module {
  public:
   using Module::Module;
+  runnel::Output<BroughtValue> value{this, "value"};
 
  private:
   void Update() override {}

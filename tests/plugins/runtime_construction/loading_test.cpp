@@ -38,6 +38,58 @@ TEST_F(Loading, FindsFilesFromTheFolderOfTheApplication) {
   EXPECT_TRUE(outcome.application) << outcome.diagnostics.ToString();
 }
 
+TEST_F(Loading, FindsFilesFromWhereTheProgramRunsIfTheApplicationHasNoFolder) {
+  const auto document = XmlDocument::Parse(
+      R"(<application name="demo"><load plugin="./good_plugin.so"/><tower/></application>)",
+      "app.xml");
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(TEST_PLUGIN_FOLDER);
+  const BuildOutcome outcome =
+      BuildApplication(*document, "", {runtime, plugins, tags, configuration}, BuildMode::kRun);
+  std::filesystem::current_path(before);
+  EXPECT_TRUE(outcome.application) << outcome.diagnostics.ToString();
+}
+
+TEST_F(Loading, IsTheCureForAModuleTypeOfAPluginThatIsThere) {
+  EXPECT_EQ(Errors(R"(<application name="demo">
+  <module name="a" type="good_plugin/brought"/>
+</application>)"),
+            "app.xml:2:26: error: /demo/a: there is no module type 'good_plugin/brought'; add "
+            "<load plugin=\"good_plugin\"/>\n");
+}
+
+TEST_F(Loading, ThatFailsIsTheOnlyMistakeOfWhatThePluginBrings) {
+  const std::string rest = "<module name=\"a\" type=\"good/brought\"/><tower/></application>";
+  for (const char* load : {"<load plugin=\"\"/>", "<load/>", "<laod plugin=\"good_plugin\"/>",
+                           "<group name=\"g\"><load plugin=\"good_plugin\"/></group>"}) {
+    Workshop workshop;
+    workshop.Build("<application name=\"demo\">" + std::string(load) + rest);
+    EXPECT_EQ(workshop.diagnostics.errors().size(), 1u) << load << ":\n"
+                                                        << workshop.diagnostics.ToString();
+  }
+}
+
+TEST_F(Loading, BringsTheTypesOfPortsBeforeAnyModuleIsMade) {
+  EXPECT_EQ(Errors(R"(<application name="demo">
+  <load plugin="good_plugin"/>
+  <group name="inner">
+    <port name="in" direction="input" type="test/brought_value"/>
+  </group>
+</application>)"),
+            "");
+}
+
+TEST_F(Loading, IsAskedForWhereATypeIsUnknown) {
+  EXPECT_EQ(Errors(R"(<application name="demo">
+  <group name="inner">
+    <port name="in" direction="input" type="uint16"/>
+    <port name="out" direction="input" type="somewhere/other_value"/>
+  </group>
+</application>)"),
+            "app.xml:4:46: error: /demo/inner/out: there is no type 'somewhere/other_value'; types "
+            "come with the plugins whose modules have ports of them; is a <load> missing?\n");
+}
+
 TEST_F(Loading, NamesTheNearestPlugin) {
   EXPECT_THAT(Errors(R"(<application name="demo">
   <load plugin="god_plugin"/>

@@ -185,5 +185,17 @@ TEST_F(ParameterValues, ThatNameFilesStartWhereTheyAreWritten) {
   EXPECT_EQ(workshop_.Get<Source>("/demo/text").text.Get(), "a.txt");
 }
 
+TEST_F(ParameterValues, WithTheUnitAreToldToLeaveItOut) {
+  EXPECT_EQ(Said(R"(<application name="demo">
+  <module name="a" type="test/source">
+    <parameter name="gain" value="4m"/>
+    <parameter name="count" value="4m"/>
+  </module>
+</application>)"),
+            "app.xml:3:35: error: /demo/a/parameter/gain: '4m' is no number; write the number "
+            "only; it is in m\n"
+            "app.xml:4:36: error: /demo/a/parameter/count: '4m' is no whole number\n");
+}
+
 }  // namespace
 }  // namespace runnel::testing

@@ -190,5 +190,45 @@ TEST_F(SchedulingTags, TellWhatIsWrongWithFaultRules) {
             "app.xml:9:30: error: /demo: /demo/source/output/value cannot be set\n");
 }
 
+TEST_F(SchedulingTags, TellOneMistakeOfAThreadOnce) {
+  EXPECT_EQ(Errors(R"(<application name="demo">
+  <thread name="control" activation="triggered"/>
+  <group name="g" thread="control"/>
+</application>)"),
+            "app.xml:2:38: error: /demo/control: 'triggered' is not possible for activation; did "
+            "you mean 'trigger'?\n");
+  EXPECT_EQ(Errors(R"(<application name="demo">
+  <thread nmae="control" perod="5ms"/>
+  <group name="g" thread="control"/>
+</application>)"),
+            "app.xml:2:11: error: /demo/control: <thread> knows no 'nmae'; did you mean 'name'?\n"
+            "app.xml:2:26: error: /demo/control: <thread> knows no 'perod'; did you mean "
+            "'period'?\n");
+  EXPECT_EQ(Errors(R"(<application name="demo">
+  <thread period="5ms"/>
+  <group name="g" thread="control"/>
+</application>)"),
+            "app.xml:2:3: error: /demo: <thread> has no 'name'; add name=\"…\"\n");
+}
+
+TEST_F(SchedulingTags, InAWrongPlaceAreNotMissingInTheRightOne) {
+  EXPECT_EQ(Errors(R"(<application name="demo">
+  <group name="g" thread="control">
+    <thread name="control" period="5ms"/>
+  </group>
+</application>)"),
+            "app.xml:3:5: error: /demo/g: no <thread> may stand in <group>; it stands in "
+            "<application>: a thread that runs modules, in the order of the data flow\n");
+}
+
+TEST_F(SchedulingTags, KnowAMisspeltThreadOfAModule) {
+  EXPECT_EQ(Errors(R"(<application name="demo">
+  <thread name="control" period="5ms"/>
+  <module name="a" type="test/counter" thraed="contrl"/>
+</application>)"),
+            "app.xml:3:40: error: /demo/a: <module> knows no 'thraed'; did you mean 'thread'?\n"
+            "app.xml:3:48: error: /demo/a: there is no thread 'contrl'; did you mean 'control'?\n");
+}
+
 }  // namespace
 }  // namespace runnel::testing

@@ -1,0 +1,38 @@
+#include "plugins/runtime_construction/interface_direction.h"
+
+namespace runnel {
+
+namespace {
+
+bool IsRightWay(const Port& port, ConnectionEnd end, const Port& other) {
+  const FrameworkElement& group = *port.parent();
+  const bool is_input = port.direction() == Port::Direction::kInput;
+  // Of one group's input to its output inside, or back outside: either makes sense. Of two outputs
+  // one is wrong, whichever; that is told at the first end.
+  if (other.parent() == &group) {
+    return end == ConnectionEnd::kTo || other.direction() != port.direction();
+  }
+  const bool is_inside = other.IsAtOrBelow(group);
+  const bool receives = end == ConnectionEnd::kTo;
+  return is_input == (is_inside != receives);
+}
+
+}  // namespace
+
+void CheckInterfaceDirection(const Port& port, const PathUse& use, ConnectionEnd end,
+                             const Port& other, BuildContext& context) {
+  if (!port.is_proxy() || &port == &other || IsRightWay(port, end, other)) return;
+  if (!context.IsFirstFaultOf(port)) return;
+  const bool is_input = port.direction() == Port::Direction::kInput;
+  const std::string ways = is_input ? "an input of its group: it sends inside of the group and "
+                                      "receives outside"
+                                    : "an output of its group: it receives inside of the group and "
+                                      "sends outside";
+  context.Report({.message = "is " + ways,
+                  .path = port.path(),
+                  .hint = std::string("write direction=\"") + (is_input ? "output" : "input") +
+                          "\" at its <port>, or swap 'from' and 'to'"},
+                 use.position, use.base);
+}
+
+}  // namespace runnel

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "plugins/runtime_construction/port_search.h"
+
+namespace runnel {
+
+/// Whether an interface port is used as its direction says: an input receives outside of its group
+/// and sends inside, an output the other way round. `other` is the far end of the connection.
+/// Reports what is wrong, once for each port; nothing if `port` is no interface port.
+void CheckInterfaceDirection(const Port& port, const PathUse& use, ConnectionEnd end,
+                             const Port& other, BuildContext& context);
+
+}  // namespace runnel
