@@ -131,19 +131,21 @@ TEST_F(RealThreads, WakeAThreadThatWasAddedDuringTheCycleThatPublishes) {
   std::atomic<bool> is_inside{false};
   std::atomic<bool> is_there{false};
   std::atomic<int> received{0};
+  auto& feeder = runtime.Create<Relay>(runtime.root(), "feeder");
   auto& source = runtime.Create<Doing>(runtime.root(), "source");
-  source.action = [&, is_done = false](Doing& module) mutable {
-    if (std::exchange(is_done, true)) return;
+  source.action = [&](Doing& module) {
     is_inside = true;
     WaitUntil([&] { return is_there.load(); });
     module.out.Publish(1);
   };
-  CreateThread(runtime, "periodic", {.period = 1ms});
+  MustSucceed(Port::Connect(feeder.out, source.in));
+  const ThreadOptions trigger{.activation = ThreadOptions::Activation::kTrigger};
+  CreateThread(runtime, "first", trigger);
   Ready();
   const Running running(scheduler);
+  feeder.out.Publish(1);  // one cycle, and no other that would make up for it
   WaitUntil([&] { return is_inside.load(); });
-  auto& waiting =
-      CreateThread(runtime, "waiting", {.activation = ThreadOptions::Activation::kTrigger});
+  auto& waiting = CreateThread(runtime, "waiting", trigger);
   auto& sink = MakeCounter("sink", received);
   AssignThread(sink, waiting);
   MustSucceed(runtime.MakeReady(sink));
