@@ -53,13 +53,12 @@ void AddApplicationArguments(CLI::App& command, ApplicationArguments& arguments)
                   "values for parameters, by the names that the application gives them in "
                   "command_line=\"…\"")
       ->type_name("NAME=VALUE");
-  // One file each time, since the settings come after it.
+  // One file each time, since the application and settings come after it.
   command
       .add_option("--config", arguments.configurations,
                   "configuration file (XML), may be given several times")
       ->type_name("FILE")
-      ->expected(1)
-      ->take_all();
+      ->allow_extra_args(false);
 }
 
 CLI::App& AddRun(CLI::App& program, RunArguments& arguments) {
