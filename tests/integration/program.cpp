@@ -8,6 +8,9 @@
 #include <stdexcept>
 #include <thread>
 
+#include <linux/capability.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -15,9 +18,17 @@ namespace runnel::test {
 
 namespace {
 
+// As for an ordinary user, even where root runs the tests.
+void GiveUpRealTimeRights() {
+  prctl(PR_CAPBSET_DROP, CAP_SYS_NICE);
+  const rlimit none{};
+  setrlimit(RLIMIT_RTPRIO, &none);
+}
+
 [[noreturn]] void BecomeTheProgram(const std::string& command, int output) {
   // Who starts the tests in the background has them ignore what is to be tested.
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(signal, SIG_DFL);
+  GiveUpRealTimeRights();
   setenv("RUNNEL_PLUGIN_PATH", RUNNEL_TEST_PLUGINS, 1);
   dup2(output, STDOUT_FILENO);
   dup2(output, STDERR_FILENO);

@@ -13,7 +13,8 @@ struct Ended {
   std::string text;
 };
 
-/// The program, started as a shell starts it; finds the plugins of the tests, too.
+/// The program, started as a shell starts it, without the right to real-time scheduling; finds the
+/// plugins of the tests, too.
 class Program {
  public:
   /// `arguments` may redirect its output.

@@ -5,11 +5,9 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <gmock/gmock.h>
-#include <pthread.h>
 
 #include "tests/integration/program.h"
 
@@ -18,7 +16,6 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
-using testing::Not;
 
 constexpr int kDone = 0, kRunFailed = 1, kBadInput = 2;
 
@@ -51,29 +48,15 @@ class RunEnd : public testing::Test {
   const std::filesystem::path picture_ = TestFile(".svg");
 };
 
-bool MayUseFifo() {
-  bool may = false;
-  std::thread([&may] {
-    const sched_param parameters{.sched_priority = 5};
-    may = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) == 0;
-  }).join();
-  return may;
-}
-
 TEST_F(RunEnd, ComesAfterWarningsOfWhatRealTimeThreadsWereRefused) {
   const Ended ended =
       Runnel("run --duration 0.1 " +
              Write(real_, "period='20ms' priority='5'", "<module name='a' type='faulty/worker'/>"));
   EXPECT_EQ(ended.code, kDone) << ended.text;
   EXPECT_THAT(ended.text, HasSubstr("the time is up"));
-  const auto warns = HasSubstr(file_.string() +
-                               ":4:1: warning: /app/threads/main: SCHED_FIFO with priority 5 was "
-                               "refused");
-  if (MayUseFifo()) {
-    EXPECT_THAT(ended.text, Not(warns));
-  } else {
-    EXPECT_THAT(ended.text, warns);
-  }
+  EXPECT_THAT(ended.text, HasSubstr(file_.string() +
+                                    ":4:1: warning: /app/threads/main: SCHED_FIFO with priority 5 "
+                                    "was refused"));
 }
 
 TEST_F(RunEnd, ComesAtOnceWhereThereIsNothingToRun) {
