@@ -55,8 +55,9 @@ Result<Duration> RunReal(const Running& running) {
     so_far = clock.Now() - start;
   }
   if (running.scheduler.stop_requested()) BringToRest(running, start, clock.Now() + kGraceTime);
+  so_far = clock.Now() - start;
   running.scheduler.Stop();
-  return clock.Now() - start;
+  return so_far;
 }
 
 }  // namespace
