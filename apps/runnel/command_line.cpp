@@ -7,6 +7,7 @@
 
 #include "core/base/nearest_name.h"
 #include "core/xml/xml_reading.h"
+#include "plugins/scheduling/pacing.h"
 
 namespace runnel::program {
 
@@ -24,31 +25,40 @@ bool IsUnknownCommand(const std::string& word) {
 }
 
 // CLI11's own checks name bounds with three hundred digits.
-std::string CheckNotNegative(const std::string& text) {
+std::string CheckSpeed(const std::string& text) {
   const auto number = ParseNumber(text);
-  return number && *number >= 0 ? "" : "'" + text + "' is not a number from 0 up";
+  return number && Pacing::Takes(*number)
+             ? ""
+             : "'" + text + "' is neither 0 (as fast as it can) nor a factor from 1e-6 to 1e6";
 }
-std::string CheckPositive(const std::string& text) {
+// A Duration holds no more.
+std::string CheckDuration(const std::string& text) {
+  constexpr double kLongest = 9e9;
   const auto number = ParseNumber(text);
-  return number && *number > 0 ? "" : "'" + text + "' is not a number above 0";
+  return number && *number > 0 && *number <= kLongest
+             ? ""
+             : "'" + text + "' is not a number of seconds above 0 and up to 9e9";
+}
+std::string CheckFile(const std::string& text) {
+  return text.empty() ? "'' is not the name of a file" : "";
 }
 
 void AddApplicationArguments(CLI::App& command, ApplicationArguments& arguments) {
   command.add_option("application", arguments.file, "application file (XML)")
       ->required()
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(CheckFile);
   command
       .add_option("settings", arguments.settings,
                   "values for parameters, by the names that the application gives them in "
                   "command_line=\"…\"")
       ->type_name("NAME=VALUE");
-  // One file each time, since the settings come after it.
+  // One file each time, since the application and settings come after it.
   command
       .add_option("--config", arguments.configurations,
                   "configuration file (XML), may be given several times")
       ->type_name("FILE")
-      ->expected(1)
-      ->take_all();
+      ->allow_extra_args(false);
 }
 
 CLI::App& AddRun(CLI::App& program, RunArguments& arguments) {
@@ -58,11 +68,11 @@ CLI::App& AddRun(CLI::App& program, RunArguments& arguments) {
       "--fast", [&arguments] { arguments.speed = 0; }, "simulated time passes as fast as it can");
   run.add_option("--speed", arguments.speed, "of simulated time; 1 is real time")
       ->type_name("FACTOR")
-      ->check(CheckNotNegative)
+      ->check(CheckSpeed)
       ->excludes(fast);
   run.add_option("--duration", arguments.duration, "ends the run after so long, simulated or real")
       ->type_name("SECONDS")
-      ->check(CheckPositive);
+      ->check(CheckDuration);
   run.add_flag("--quiet", arguments.quiet, "no progress, only how the run ended");
   run.add_flag("--statistics", arguments.statistics,
                "at the end, how punctual the threads were and how long their cycles took");
@@ -74,6 +84,7 @@ CLI::App& AddRun(CLI::App& program, RunArguments& arguments) {
 CommandLine ParseCommandLine(int count, const char* const* words) {
   CLI::App program("Runs robot applications that are described in XML files.", "runnel");
   program.require_subcommand(1);
+  program.set_version_flag("--version", "runnel " RUNNEL_VERSION, "says which version this is");
   program.footer("Exit codes: 0 done, 1 the run failed, 2 bad input.");
   RunArguments run_arguments;
   CheckArguments check_arguments;

@@ -5,6 +5,7 @@
 #include "apps/runnel/command_line.h"
 #include "apps/runnel/modules_command.h"
 #include "apps/runnel/run_command.h"
+#include "apps/runnel/standard_output.h"
 
 namespace runnel::program {
 
@@ -19,17 +20,29 @@ ExitCode Do(const VersionArguments&) {
 }
 ExitCode Do(ExitCode code) { return code; }
 
+ExitCode DoWhatIsAsked(int count, const char* const* words) {
+  try {
+    const CommandLine command = ParseCommandLine(count, words);
+    return std::visit([](const auto& what) { return Do(what); }, command);
+  } catch (const std::exception& exception) {
+    std::cerr << "error: " << exception.what() << '\n';
+  } catch (...) {  // plugins may throw anything
+    std::cerr << "error: unknown exception\n";
+  }
+  return ExitCode::kRunFailed;
+}
+
 }  // namespace
 
 }  // namespace runnel::program
 
 int main(int count, char** words) {
   using namespace runnel::program;
-  try {
-    const CommandLine command = ParseCommandLine(count, words);
-    return static_cast<int>(std::visit([](const auto& what) { return Do(what); }, command));
-  } catch (const std::exception& exception) {
-    std::cerr << "error: " << exception.what() << '\n';
-    return static_cast<int>(ExitCode::kRunFailed);
+  OutliveReaders();
+  ExitCode code = DoWhatIsAsked(count, words);
+  if (!FinishOutput()) {
+    std::cerr << "error: standard output could not be written\n";
+    if (code == ExitCode::kDone) code = ExitCode::kRunFailed;
   }
+  return static_cast<int>(code);
 }

@@ -3,16 +3,11 @@
 #include <iostream>
 
 #include "apps/runnel/module_listing.h"
+#include "apps/runnel/print_error.h"
 #include "apps/runnel/workplace.h"
 #include "plugins/runtime_construction/plugin_loading.h"
 
 namespace runnel::program {
-
-namespace {
-
-void PrintError(const Error& error) { std::cerr << "error: " << error.ToString() << '\n'; }
-
-}  // namespace
 
 ExitCode ListModules(const ModulesArguments& arguments) {
   Workplace workplace;

@@ -1,9 +1,12 @@
 #include "apps/runnel/progress_display.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 
 #include <unistd.h>
+
+#include "apps/runnel/number_text.h"
 
 namespace runnel::program {
 
@@ -12,9 +15,14 @@ namespace {
 constexpr auto kOnTerminal = std::chrono::milliseconds(200);
 constexpr auto kElsewhere = std::chrono::seconds(1);
 
-std::string Formatted(const char* format, double number) {
+std::string SecondsText(double seconds) {
   char text[64];
-  std::snprintf(text, sizeof text, format, number);
+  std::snprintf(text, sizeof text, "%8.2f s", seconds);
+  return text;
+}
+
+std::string Padded(std::string text, std::size_t width) {
+  text.resize(std::max(width, text.size()), ' ');
   return text;
 }
 
@@ -36,7 +44,7 @@ void ProgressDisplay::Show(Duration time, const std::string& text) {
   shown_at_ = now;
   shown_time_ = time;
   if (is_terminal_) std::cout << "\r\x1b[K";
-  std::cout << Formatted("%8.2f s", ToSeconds(time)) << Formatted("  x%-6.3g", factor) << text;
+  std::cout << SecondsText(ToSeconds(time)) << "  x" << Padded(NumberText(factor), 6) << text;
   if (!is_terminal_) std::cout << '\n';
   std::cout << std::flush;
   has_line_ = is_terminal_;

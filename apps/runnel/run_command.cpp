@@ -3,8 +3,12 @@
 #include <chrono>
 #include <cstdio>
 #include <iostream>
+#include <mutex>
 #include <optional>
+#include <utility>
 
+#include "apps/runnel/number_text.h"
+#include "apps/runnel/print_error.h"
 #include "apps/runnel/progress_display.h"
 #include "apps/runnel/run_report.h"
 #include "apps/runnel/running.h"
@@ -46,13 +50,8 @@ Result<void> AddFaultRules(const FrameworkElement& application, Scheduler& sched
   return {};
 }
 
-void PrintError(const Error& error) {
-  Diagnostics diagnostics;
-  diagnostics.Add(error);
-  std::cerr << diagnostics.ToString();
-}
-
-void PrintWarnings(std::vector<Error> warnings, const FrameworkElement& root) {
+void PrintWarnings(std::vector<Error> warnings, FrameworkElement& root) {
+  const std::lock_guard lock(root.runtime().structure_mutex());
   Diagnostics diagnostics;
   for (Error& warning : warnings) {
     const auto element = root.Find(warning.path);
@@ -63,16 +62,16 @@ void PrintWarnings(std::vector<Error> warnings, const FrameworkElement& root) {
 }
 
 void PrintTimes(Duration so_far, std::chrono::steady_clock::duration real, ClockKind clock) {
-  char line[128];
+  char line[64];
   const double seconds = ToSeconds(so_far);
   const double real_seconds = ToSeconds(Duration(real));
   if (clock == ClockKind::kReal) {
     std::snprintf(line, sizeof line, "ran for %.2f s\n", seconds);
+    std::cout << line;
   } else {
-    std::snprintf(line, sizeof line, "simulated %.2f s in %.2f s: %.3g times real time\n", seconds,
-                  real_seconds, seconds / real_seconds);
+    std::snprintf(line, sizeof line, "simulated %.2f s in %.2f s: ", seconds, real_seconds);
+    std::cout << line << NumberText(seconds / real_seconds) << " times real time\n";
   }
-  std::cout << line;
 }
 
 // One run of an application that has been built.
@@ -87,7 +86,6 @@ class Session {
         display_(!arguments.quiet) {}
 
   ExitCode Run(Runtime& runtime) {
-    PrintWarnings(scheduler_.Warnings(), root_);
     const StopSignal stop_signal(scheduler_);
     std::optional<Duration> limit;
     if (arguments_.duration) limit = FromSeconds(*arguments_.duration);
@@ -98,7 +96,10 @@ class Session {
     PrintFaults();
     display_.Clear();
     if (!ran) {
-      PrintError(ran.error());
+      WarnOnce();
+      Error error = ran.error();
+      if (error.position.file.empty()) error.position.file = arguments_.application.file;
+      PrintError(error);
       return ExitCode::kBadInput;
     }
     return Conclude(*ran, real, stop_signal.has_come());
@@ -106,29 +107,37 @@ class Session {
 
  private:
   bool LookAround(Duration so_far) {
+    WarnOnce();
     PrintFaults();
     if (display_.IsDue()) display_.Show(so_far, report_.Progress());
     return report_.IsOver();
   }
 
+  // Not before the start, which only shows what the system refuses to real-time threads.
+  void WarnOnce() {
+    if (!std::exchange(has_warned_, true)) PrintWarnings(scheduler_.Warnings(), root_);
+  }
+
   void PrintFaults() {
     for (const Fault& fault : scheduler_.TakeFaults()) {
+      report_.Hear(fault);
       display_.Clear();
       std::cerr << FaultText(fault, start_, root_) << std::flush;
     }
   }
 
   ExitCode Conclude(Duration so_far, std::chrono::steady_clock::duration real, bool was_asked) {
-    const bool was_stopped = scheduler_.stop_requested() && !was_asked;
+    const bool was_stopped = scheduler_.stopped_by_fault();
     const std::string verdicts = report_.Verdicts();
     Diagnostics failures;
     std::cout << verdicts << report_.Finish(failures);
+    std::cout << std::flush;
     std::cerr << failures.ToString();
     if (was_stopped) {
       std::cerr << "the run was stopped because of a fault\n";
     } else if (was_asked) {
       std::cout << "stopped by the user\n";
-    } else if (verdicts.empty() && !arguments_.quiet) {
+    } else if (!report_.IsOver()) {
       std::cout << "the time is up\n";
     }
     if (!arguments_.quiet) PrintTimes(so_far, real, scheduler_.options().clock);
@@ -143,6 +152,7 @@ class Session {
   const Time start_;
   RunReport report_;
   ProgressDisplay display_;
+  bool has_warned_ = false;
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,29 +11,49 @@
 
 namespace runnel::program {
 
-/// What the modules that judge a run have to say, all of them together.
+/// What the modules that judge a run have to say, all of them together. A monitor that throws, or
+/// whose module has been stopped by a fault, has failed: it comes to no verdict any more, and the
+/// run is not a good one.
 class RunReport {
  public:
-  /// Looks for run monitors at and below `application`, which must outlive this.
+  /// Looks for run monitors at and below `application`, which must outlive this. Takes the
+  /// structure lock.
   explicit RunReport(FrameworkElement& application);
 
   /// "2.31 m to the goal, following"; several separated by "; ".
-  [[nodiscard]] std::string Progress() const;
-  /// All have come to a verdict, and there is at least one.
-  [[nodiscard]] bool IsOver() const;
+  [[nodiscard]] std::string Progress();
+  /// A fault has happened.
+  void Hear(const Fault& fault);
+  /// All have come to a verdict or failed, and there is at least one.
+  [[nodiscard]] bool IsOver();
   /// The verdicts, one line each: "reached: 12.3 m in 45.6 s". "" if there is none yet.
-  [[nodiscard]] std::string Verdicts() const;
-  /// No verdict is a bad one.
-  [[nodiscard]] bool IsGood() const;
+  [[nodiscard]] std::string Verdicts();
+  /// No verdict is a bad one, and no monitor has failed.
+  [[nodiscard]] bool IsGood();
   /// After the last cycle: what the monitors have written, one line each. What could not be written
-  /// goes to `diagnostics`. Call once.
+  /// goes to `diagnostics`, as does what they have thrown. Call once.
   [[nodiscard]] std::string Finish(Diagnostics& diagnostics);
 
  private:
-  std::vector<RunMonitor*> monitors_;
+  struct Judge {
+    RunMonitor* monitor;
+    std::string path;
+    SourcePosition position;
+    bool has_failed = false;
+  };
+
+  /// What `use` makes of the monitor; nothing if that throws.
+  template <typename Use>
+  auto Attempt(Judge& judge, const Use& use) -> std::optional<decltype(use(*judge.monitor))>;
+  void Fail(Judge& judge, const std::string& why);
+  [[nodiscard]] std::optional<RunOutcome> OutcomeOf(Judge& judge);
+
+  std::vector<Judge> judges_;
+  std::vector<Error> failures_;
 };
 
-/// "app.xml:3:5: error: /demo/x: has been stopped: boom; 1.25 s after the start".
+/// "app.xml:3:5: error: /demo/x: has been stopped: boom; 1.25 s after the start". Takes the
+/// structure lock.
 [[nodiscard]] std::string FaultText(const Fault& fault, Time start, FrameworkElement& root);
 
 }  // namespace runnel::program

@@ -1,12 +1,18 @@
 #include "apps/runnel/running.h"
 
+#include <algorithm>
 #include <thread>
 
 namespace runnel::program {
 
 namespace {
 
-constexpr auto kLookAround = std::chrono::milliseconds(20);
+constexpr Duration kLookAround = std::chrono::milliseconds(20);
+
+Error NothingToRun() {
+  return {.message = "there is nothing to run",
+          .hint = "the application has no modules, or none that any thread would ever run"};
+}
 
 bool IsOver(const Running& running, Duration so_far) {
   return running.is_over(so_far) || running.scheduler.stop_requested() ||
@@ -14,26 +20,42 @@ bool IsOver(const Running& running, Duration so_far) {
 }
 
 Result<Duration> RunSimulated(const Running& running) {
-  const Time start = running.runtime.clock().Now();
+  const Clock& clock = running.runtime.clock();
+  const Time start = clock.Now();
   for (;;) {
-    const bool has_run = running.scheduler.Step();
-    const Duration so_far = running.runtime.clock().Now() - start;
-    if (IsOver(running, so_far)) return so_far;
-    if (!has_run) {
-      return Error{.message = "there is nothing to run",
-                   .hint = "the application has no modules, or none in a thread with a period"};
+    const auto due = running.scheduler.NextDue();
+    if (!due) return NothingToRun();
+    if (running.limit && *due - start >= *running.limit) {
+      running.scheduler.RunUntil(start + *running.limit);
+      return clock.Now() - start;
     }
+    running.scheduler.Step();
+    const Duration so_far = clock.Now() - start;
+    if (IsOver(running, so_far)) return so_far;
+  }
+}
+
+// Looks around until `end`, whatever it sees.
+void BringToRest(const Running& running, Time start, Time end) {
+  const Clock& clock = running.runtime.clock();
+  for (Time now = clock.Now(); now < end; now = clock.Now()) {
+    (void)running.is_over(now - start);
+    std::this_thread::sleep_for(kLookAround);
   }
 }
 
 Result<Duration> RunReal(const Running& running) {
-  const Time start = running.runtime.clock().Now();
+  const Clock& clock = running.runtime.clock();
+  const Time start = clock.Now();
   if (auto started = running.scheduler.Start(); !started) return started.error();
   Duration so_far{};
   while (!IsOver(running, so_far)) {
-    std::this_thread::sleep_for(kLookAround);
-    so_far = running.runtime.clock().Now() - start;
+    const Duration left = running.limit ? *running.limit - so_far : kLookAround;
+    std::this_thread::sleep_for(std::min(left, kLookAround));
+    so_far = clock.Now() - start;
   }
+  if (running.scheduler.stop_requested()) BringToRest(running, start, clock.Now() + kGraceTime);
+  so_far = clock.Now() - start;
   running.scheduler.Stop();
   return so_far;
 }
@@ -41,6 +63,7 @@ Result<Duration> RunReal(const Running& running) {
 }  // namespace
 
 Result<Duration> Run(const Running& running) {
+  if (!running.scheduler.HasTasks()) return NothingToRun();
   const bool is_simulated =
       running.scheduler.options().clock == SchedulerOptions::ClockKind::kSimulated;
   return is_simulated ? RunSimulated(running) : RunReal(running);

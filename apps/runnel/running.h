@@ -9,6 +9,10 @@
 
 namespace runnel::program {
 
+/// How long real threads go on after a stop has been requested, by a fault or by the user, so that
+/// what else is there can bring the robot to rest.
+inline constexpr Duration kGraceTime = std::chrono::milliseconds(500);
+
 /// Lets a scheduler run until something ends it.
 struct Running {
   Scheduler& scheduler;
@@ -18,7 +22,8 @@ struct Running {
   std::function<bool(Duration so_far)> is_over;
 };
 
-/// How long it has run on the application's clock. Afterwards no cycle runs any more.
+/// How long it has run on the application's clock. Afterwards no cycle runs any more. Simulated
+/// cycles that are due at the limit do not run.
 /// Errors: there is nothing to run.
 [[nodiscard]] Result<Duration> Run(const Running& running);
 

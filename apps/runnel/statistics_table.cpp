@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <mutex>
 
+#include "core/element/runtime.h"
 #include "plugins/scheduling/thread_container.h"
 
 namespace runnel::program {
@@ -38,6 +40,7 @@ std::string Heading(int width) {
 }  // namespace
 
 std::string StatisticsTable(FrameworkElement& root) {
+  const std::lock_guard lock(root.runtime().structure_mutex());
   std::string lines;
   int width = 0;
   const auto for_each = [&](auto&& use) {

@@ -10,8 +10,14 @@ std::atomic<Scheduler*> to_be_stopped{nullptr};
 std::atomic<bool> signal_has_come{false};
 static_assert(std::atomic<Scheduler*>::is_always_lock_free, "a signal handler must not lock");
 
+// The first one stops the run; those that come after it end the program.
 void Handle(int) {
   signal_has_come.store(true);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction current {};
+    sigaction(signal, nullptr, &current);
+    if (current.sa_handler == Handle) std::signal(signal, SIG_DFL);
+  }
   if (Scheduler* scheduler = to_be_stopped.load()) scheduler->RequestStop();
 }
 
@@ -22,14 +28,14 @@ StopSignal::StopSignal(Scheduler& scheduler) {
   to_be_stopped.store(&scheduler);
   struct sigaction action {};
   action.sa_handler = Handle;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigaction(SIGINT, &action, &interrupt_before_);
-  sigaction(SIGTERM, &action, &terminate_before_);
+  for (std::size_t i = 0; i < kSignals.size(); ++i) {
+    sigaction(kSignals[i], nullptr, &before_[i]);
+    if (before_[i].sa_handler != SIG_IGN) sigaction(kSignals[i], &action, nullptr);
+  }
 }
 
 StopSignal::~StopSignal() {
-  sigaction(SIGINT, &interrupt_before_, nullptr);
-  sigaction(SIGTERM, &terminate_before_, nullptr);
+  for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
   to_be_stopped.store(nullptr);
 }
 

@@ -1,13 +1,15 @@
 #pragma once
 
+#include <array>
 #include <csignal>
 
 #include "plugins/scheduling/scheduler.h"
 
 namespace runnel::program {
 
-/// While it lives, Ctrl-C and SIGTERM ask the scheduler to stop, so that the run ends in order. A
-/// second one ends the program at once.
+/// While it lives, Ctrl-C, SIGTERM and SIGHUP ask the scheduler to stop, so that the run ends in
+/// order. A second one, of whichever kind, ends the program at once. What the caller of the program
+/// has it ignore (nohup) stays ignored.
 ///
 /// One at a time.
 class StopSignal {
@@ -20,8 +22,9 @@ class StopSignal {
   [[nodiscard]] bool has_come() const noexcept;
 
  private:
-  struct sigaction interrupt_before_ {};
-  struct sigaction terminate_before_ {};
+  static constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
+
+  std::array<struct sigaction, kSignals.size()> before_{};
 };
 
 }  // namespace runnel::program

@@ -10,8 +10,14 @@ namespace runnel {
 
 namespace {
 
-// Whether this thread is in a cycle, at whose end those who wait for data will be told.
-thread_local constinit bool tells_at_the_end = false;
+// Of the cycle that this thread is in, at whose end those who wait for data will be told; else
+// nullptr.
+thread_local constinit const Schedule* in_cycle_of = nullptr;
+
+bool IsToldAtTheEnd(const CycleRunner& runner) noexcept {
+  return in_cycle_of != nullptr &&
+         std::ranges::find(in_cycle_of->waiting, &runner) != in_cycle_of->waiting.end();
+}
 
 }  // namespace
 
@@ -31,13 +37,13 @@ Duration CycleRunner::RunCycle(const CycleTimes& times, FaultDesk& desk) noexcep
   const CycleScope scope({times.now, times.period});
   const Schedule* const schedule = this->schedule();
   if (schedule == nullptr) return {};
-  tells_at_the_end = true;
+  in_cycle_of = schedule;
   if (waits_for_data()) {
     RunActivated(*schedule, times.now, desk);
   } else {
     for (const Schedule::Entry& entry : schedule->entries) RunTask(entry, times.now, desk);
   }
-  tells_at_the_end = false;
+  in_cycle_of = nullptr;
   const Duration execution = machine.Now() - began;
   for (CycleRunner* const waiting : schedule->waiting) {
     if (waiting->is_activated()) waiting->event_.Notify();
@@ -81,7 +87,8 @@ void CycleRunner::RunTask(const Schedule::Entry& entry, Time now, FaultDesk& des
 
 void CycleRunner::Activate() noexcept {
   activated_.store(true, std::memory_order_release);
-  if (!tells_at_the_end) event_.Notify();
+  // A thread that was added during this cycle is not among those told at its end.
+  if (!IsToldAtTheEnd(*this)) event_.Notify();
 }
 
 }  // namespace runnel

@@ -57,7 +57,7 @@ class CycleRunner {
   [[nodiscard]] CycleStatistics statistics() const noexcept { return meter_.statistics(); }
 
   /// Data has come for an element of this runner. Within a cycle the waiting thread is woken at the
-  /// cycle's end.
+  /// cycle's end, if the cycle's schedule knows of it.
   void Activate() noexcept;
   /// Whether data has come since the last call.
   [[nodiscard]] bool TakeActivation() noexcept {

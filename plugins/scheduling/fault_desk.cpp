@@ -79,7 +79,10 @@ void FaultDesk::Report(const Fault& fault) {
 
 void FaultDesk::Apply(const FaultRule& rule, const Fault& fault) {
   try {
-    if (rule.action == FaultRule::Action::kStopApplication) RequestStop();
+    if (rule.action == FaultRule::Action::kStopApplication) {
+      stopped_by_fault_.store(true, std::memory_order_release);
+      RequestStop();
+    }
     if (rule.action == FaultRule::Action::kCall && rule.call) rule.call(fault);
     if (rule.action == FaultRule::Action::kSet) {
       const auto set = Set(rule);

@@ -54,9 +54,17 @@ class FaultDesk {
   Result<void> AddRule(FaultRule rule);
 
   void RequestStop() noexcept { stop_requested_.store(true, std::memory_order_release); }
-  void ClearStop() noexcept { stop_requested_.store(false, std::memory_order_release); }
+  void ClearStop() noexcept {
+    stopped_by_fault_.store(false, std::memory_order_release);
+    stop_requested_.store(false, std::memory_order_release);
+  }
   [[nodiscard]] bool stop_requested() const noexcept {
     return stop_requested_.load(std::memory_order_acquire);
+  }
+
+  /// A rule has requested it, whoever else has, too.
+  [[nodiscard]] bool stopped_by_fault() const noexcept {
+    return stopped_by_fault_.load(std::memory_order_acquire);
   }
 
   /// Notified of each fault.
@@ -71,6 +79,7 @@ class FaultDesk {
   // A stack that is only ever pushed to and taken as a whole, so no address can come back to life.
   std::atomic<FaultRecord*> raised_{nullptr};
   std::atomic<bool> stop_requested_{false};
+  std::atomic<bool> stopped_by_fault_{false};
   WakeEvent event_;
   OrderedMutex mutex_{LockLevel::kLeaf};
   std::vector<FaultRule> rules_;  // guarded by mutex_

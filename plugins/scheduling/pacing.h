@@ -12,7 +12,14 @@ namespace runnel {
 /// Threads: one, but for what the clock allows.
 class Pacing {
  public:
-  /// speed 0: as fast as it can. `real` must outlive this. Precondition: speed >= 0.
+  static constexpr double kSlowest = 1e-6;
+  static constexpr double kFastest = 1e6;
+  /// Beyond these bounds deadlines would leave what a Time can hold.
+  [[nodiscard]] static constexpr bool Takes(double speed) noexcept {
+    return speed == 0 || (speed >= kSlowest && speed <= kFastest);
+  }
+
+  /// speed 0: as fast as it can. `real` must outlive this. Precondition: Takes(speed).
   Pacing(double speed, const Clock& real);
 
   /// When, on the real clock, the simulated time `simulated` is due. The first call ties the two

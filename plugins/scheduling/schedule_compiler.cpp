@@ -55,7 +55,25 @@ ThreadContainer* ChooseContainer(const FrameworkElement& element, const Found& f
   return found.containers.empty() ? nullptr : found.containers.front();
 }
 
-// Data that came before the element was tied count as new.
+// Whether nobody has said which of several threads is to run it.
+bool IsAChoiceMissing(const FrameworkElement& element, const Found& found,
+                      const std::string& default_thread) {
+  if (found.containers.size() < 2) return false;
+  const std::uint64_t assigned = AssignedThread(element);
+  return std::ranges::none_of(found.containers, [&](const auto* each) {
+    return each->serial() == assigned || each->name() == default_thread;
+  });
+}
+
+Error ChosenForIt(const FrameworkElement& element, const ThreadContainer& container) {
+  return {.message = "is assigned to no thread, and there are several; " + container.path() +
+                     " runs it, as it was made first",
+          .path = element.path(),
+          .hint = "assign it, or a group that it is in, to one of the threads"};
+}
+
+// Data that came before the element was tied count as new. What another runner has been told of and
+// not run yet, this one is told of again.
 void Tie(const std::vector<InputBase*>& inputs, ScheduledElement& state, CycleRunner& runner) {
   const bool was_tied = state.runner() != nullptr;
   state.set_runner(&runner);
@@ -64,7 +82,7 @@ void Tie(const std::vector<InputBase*>& inputs, ScheduledElement& state, CycleRu
     input->SetWaker(&state);
     has_data = input->LookAtValue([](const void*, Time) {}) || has_data;
   }
-  if (has_data && !was_tied) state.Wake();
+  if ((has_data && !was_tied) || state.is_activated()) state.Wake();
 }
 
 void Untie(const std::vector<InputBase*>& inputs) {
@@ -107,6 +125,9 @@ CompiledSchedules ScheduleCompiler::Compile(FrameworkElement& root) {
     }
     std::vector<Task> tasks = element->FindAnnotation<Executable>()->tasks();
     TieToContainer(*element, tasks, *container, result.warnings);
+    if (IsAChoiceMissing(*element, found, default_thread_)) {
+      result.warnings.push_back(ChosenForIt(*element, *container));
+    }
     std::ranges::move(tasks, std::back_inserter(tasks_of[container]));
   }
   const std::vector<CycleRunner*> waiting = WaitingRunners(found.containers);

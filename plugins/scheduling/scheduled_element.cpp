@@ -17,7 +17,8 @@ void ScheduledElement::Fail(std::string_view message, Time time, FaultDesk& desk
 }
 
 void ScheduledElement::Wake() noexcept {
-  activated_.store(true, std::memory_order_release);
+  // seq_cst, as in Tie(): either the runner is the new one, or who sets it sees the activation.
+  activated_.store(true, std::memory_order_seq_cst);
   // The caller is inside an EpochGuard, and runners are retired: it cannot go away meanwhile.
   if (CycleRunner* const waiting = runner()) waiting->Activate();
 }

@@ -56,7 +56,7 @@ class ScheduledElement final : public Waker {
     return activated_.exchange(false, std::memory_order_acq_rel);
   }
   [[nodiscard]] bool is_activated() const noexcept {
-    return activated_.load(std::memory_order_acquire);
+    return activated_.load(std::memory_order_seq_cst);
   }
   /// A note of the executor's for the time of one triggered pass: the element's tasks are to run.
   void set_in_pass(bool in_pass) noexcept { in_pass_.store(in_pass, std::memory_order_relaxed); }

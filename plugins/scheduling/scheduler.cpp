@@ -71,14 +71,14 @@ void Scheduler::Changed() {
 }
 
 void Scheduler::BringUpToDate() {
-  if (!std::exchange(is_outdated_, false)) return;
+  if (!is_outdated_) return;
   CompiledSchedules compiled = compiler_.Compile(runtime_.root());
   if (compiled.has_unassigned_tasks) {
     CreateThread(runtime_, "main", options_.default_options);
-    is_outdated_ = false;
     compiled = compiler_.Compile(runtime_.root());
   }
   Install(std::move(compiled));
+  is_outdated_ = false;  // not before: what throws on the way is tried again
 }
 
 void Scheduler::Install(CompiledSchedules compiled) {
@@ -128,7 +128,7 @@ Result<void> Scheduler::Start() {
   const std::lock_guard start_lock(start_mutex_);
   const std::lock_guard lock(runtime_.structure_mutex());
   if (is_running_) return {};
-  desk_.ClearStop();
+  if (std::exchange(has_run_, false)) desk_.ClearStop();
   realtime_warnings_.clear();
   is_outdated_ = true;
   BringUpToDate();
@@ -151,7 +151,7 @@ void Scheduler::Stop() {
   std::vector<std::unique_ptr<RealThread>> ended;
   {
     const std::lock_guard lock(runtime_.structure_mutex());
-    is_running_ = false;
+    if (std::exchange(is_running_, false)) has_run_ = true;
     ended = std::exchange(threads_, {});
     std::ranges::move(std::exchange(ending_, {}), std::back_inserter(ended));
   }
@@ -169,9 +169,24 @@ bool Scheduler::is_running() const {
 void Scheduler::Supervise() {
   while (supervises_.load(std::memory_order_acquire)) {
     desk_.event().Wait();
+    LookAfter();
+  }
+}
+
+// Nobody is above the supervising thread to catch what it throws.
+void Scheduler::LookAfter() noexcept {
+  const auto report = [this](const std::string& why) {
+    desk_.Report({runtime_.root().path(), "the schedules could not be brought up to date: " + why,
+                  runtime_.clock().Now()});
+  };
+  try {
     desk_.Attend();
     const std::lock_guard lock(runtime_.structure_mutex());
     if (is_running_) BringUpToDate();
+  } catch (const std::exception& exception) {
+    report(exception.what());
+  } catch (...) {
+    report("unknown exception");
   }
 }
 
@@ -204,14 +219,24 @@ bool Scheduler::RunUntil(Time end) {
   for (auto due = NextDue(); due.has_value() && *due < end; due = NextDue()) {
     if (!RunNext(*due)) return false;
   }
+  pacing_.WaitFor(end, [this] { return stop_requested(); });
   if (stop_requested()) return false;
   simulation_.clock().Set(end);
   return true;
 }
 
 std::vector<Fault> Scheduler::TakeFaults() {
-  desk_.Attend();
+  // Two at once would apply the rules in parallel, and out of order.
+  if (!supervises_.load(std::memory_order_acquire)) desk_.Attend();
   return desk_.Take();
+}
+
+bool Scheduler::HasTasks() {
+  const std::lock_guard lock(runtime_.structure_mutex());
+  BringUpToDate();
+  return std::ranges::any_of(runners_, [](const auto& runner) {
+    return runner->schedule() != nullptr && !runner->schedule()->entries.empty();
+  });
 }
 
 std::vector<Error> Scheduler::Warnings() {

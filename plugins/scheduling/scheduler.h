@@ -65,26 +65,37 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   /// kSimulated: runs the cycle that is due next and what its data sets off. False, with nothing
   /// run, if there is nothing to run or a stop has been requested.
   bool Step();
-  /// kSimulated: runs all cycles that are due before `end`, then sets the clock to it. False if a
-  /// stop was requested: the clock then stays at the cycle that was the last.
+  /// kSimulated: when Step() would run something; nullopt if there is nothing to run.
+  [[nodiscard]] std::optional<Time> NextDue();
+  /// kSimulated: runs all cycles that are due before `end`, then sets the clock to it, no faster
+  /// than the speed allows. False if a stop was requested: the clock then stays at the cycle that
+  /// was the last.
   bool RunUntil(Time end);
   /// kSimulated: tests may move it between cycles, and inside of them to let a cycle take time.
   [[nodiscard]] ManualClock& simulated_clock() noexcept { return simulation_.clock(); }
 
   /// By a fault rule, or by RequestStop(). The program that runs the application looks at it and
   /// calls Stop(); until then real threads run on, so that what else is there can bring the robot
-  /// to rest. Start() resets it.
+  /// to rest. A request that comes before Start() holds; only when started again after a Stop()
+  /// does the scheduler forget that of the run before.
   [[nodiscard]] bool stop_requested() const noexcept { return desk_.stop_requested(); }
+  /// A fault rule has requested it, whoever else has, too.
+  [[nodiscard]] bool stopped_by_fault() const noexcept { return desk_.stopped_by_fault(); }
   /// Any thread, also from a signal handler.
   void RequestStop() noexcept { desk_.RequestStop(); }
 
-  /// The faults since the last call, oldest first.
+  /// The faults since the last call, oldest first. While real threads run, those that the
+  /// supervising thread has not attended to yet come with a later call.
   [[nodiscard]] std::vector<Fault> TakeFaults();
   /// Errors: a rule whose target is not there, or cannot take the value.
   Result<void> AddFaultRule(FaultRule rule) { return desk_.AddRule(std::move(rule)); }
 
+  /// Whether any thread has anything to run. Brings the schedules up to date.
+  [[nodiscard]] bool HasTasks();
+
   /// What a person should know of the application as it stands: loops that were cut, modules that
-  /// never run, real-time rights that are missing. Brings the schedules up to date.
+  /// never run or that name no thread where there are several, and, once started, real-time rights
+  /// that are missing. Brings the schedules up to date.
   [[nodiscard]] std::vector<Error> Warnings();
 
   /// One task as it is scheduled.
@@ -106,7 +117,6 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   using Runners = std::vector<std::shared_ptr<CycleRunner>>;
 
   // Simulated clock.
-  [[nodiscard]] std::optional<Time> NextDue();
   bool RunNext(Time due);
 
   // All four under the structure lock.
@@ -116,6 +126,7 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   void StartThreads(Time first);
 
   void Supervise();
+  void LookAfter() noexcept;
   void EndSupervision();
 
   Runtime& runtime_;
@@ -131,6 +142,7 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   ScheduleCompiler compiler_;
   bool is_outdated_ = true;
   bool is_running_ = false;
+  bool has_run_ = false;  // until started again
   Runners runners_;
   std::vector<Error> schedule_warnings_;
   std::vector<Error> realtime_warnings_;

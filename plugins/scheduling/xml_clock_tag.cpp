@@ -21,6 +21,10 @@ void ReadSpeed(const TagUse& use, ClockChoice& choice) {
     use.context.Report(
         {.message = "time cannot run backwards", .hint = "1 is real time, 0 as fast as it can"},
         speed->value_position, use.parent);
+  } else if (!Pacing::Takes(choice.options.speed)) {
+    use.context.Report({.message = "speed " + speed->value + " is out of bounds",
+                        .hint = "allowed is 0 (as fast as it can), or 1e-6 .. 1e6"},
+                       speed->value_position, use.parent);
   }
   if (choice.options.clock == SchedulerOptions::ClockKind::kReal) {
     use.context.Report({.message = "the speed of real time cannot be chosen",

@@ -62,15 +62,17 @@ FrameworkElement* MakeThread(const TagUse& use) {
   Runtime& runtime = use.context.runtime();
   FrameworkElement* threads = use.parent.FindChild(kThreads);
   if (threads == nullptr) threads = &runtime.Create<Group>(use.parent, kThreads);
+  // Errors name the path that the thread really has.
+  const TagUse inside{use.xml, *threads, use.context, use.unusable};
   ThreadOptions options;
   options.activation = ReadActivation(use);
-  ReadPeriod(use, options);
-  ReadPriority(use, options);
+  ReadPeriod(inside, options);
+  ReadPriority(inside, options);
   const XmlAttribute* const on_overrun = use.Find("on_overrun");
   if (on_overrun != nullptr && on_overrun->value == "catch_up") {
     options.on_overrun = ThreadOptions::OnOverrun::kCatchUp;
   }
-  return &runtime.Create<ThreadContainer>(*threads, FreeName(use, *threads), options);
+  return &runtime.Create<ThreadContainer>(*threads, FreeName(inside, *threads), options);
 }
 
 void Assign(const XmlAttribute& name, FrameworkElement& element, BuildContext& context) {

@@ -1,42 +1,25 @@
 // The program as its user meets it: what it prints, how it ends.
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
-#include <sys/wait.h>
+
+#include "tests/integration/program.h"
 
 namespace runnel::test {
 namespace {
 
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::MatchesRegex;
 using testing::Not;
 
 constexpr int kDone = 0, kRunFailed = 1, kBadInput = 2;
-
-struct Ended {
-  int code = -1;
-  std::string text;  ///< standard output and errors
-};
-
-Ended Runnel(const std::string& arguments) {
-  const std::string command = std::string(RUNNEL_PROGRAM) + " " + arguments + " 2>&1";
-  Ended ended;
-  std::FILE* const pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return ended;
-  std::array<char, 4096> part{};
-  while (const std::size_t size = std::fread(part.data(), 1, part.size(), pipe)) {
-    ended.text.append(part.data(), size);
-  }
-  const int status = pclose(pipe);
-  if (WIFEXITED(status)) ended.code = WEXITSTATUS(status);
-  return ended;
-}
 
 const std::string kDemo = std::string(RUNNEL_XML) + "/apps/bug_demo.xml ";
 
@@ -147,9 +130,101 @@ TEST_F(CommandLine, ModulesListsTypesWithPortsAndParameters) {
 
 TEST_F(CommandLine, HelpAndVersionAreDone) {
   EXPECT_EQ(Runnel("--help").code, kDone);
-  const Ended ended = Runnel("version");
+  for (const char* words : {"version", "--version"}) {
+    const Ended ended = Runnel(words);
+    EXPECT_EQ(ended.code, kDone);
+    EXPECT_EQ(ended.text, "runnel " RUNNEL_VERSION "\n");
+  }
+}
+
+TEST_F(CommandLine, NumbersThatNoClockCouldHoldAreRefused) {
+  for (const char* option : {"--duration 1e10", "--duration 0", "--duration -1", "--duration nan",
+                             "--speed 1e-300", "--speed 1e7", "--speed -1"}) {
+    const Ended ended = Runnel(std::string("run ") + option + " " + kDemo);
+    EXPECT_EQ(ended.code, kBadInput) << option;
+    const std::string number = std::string(option).substr(std::string(option).find(' ') + 1);
+    EXPECT_THAT(ended.text, HasSubstr("'" + number + "' is n"));
+  }
+}
+
+TEST_F(CommandLine, AnEmptyFileNameIsRefusedAsSuch) {
+  const Ended ended = Runnel("check ''");
+  EXPECT_EQ(ended.code, kBadInput);
+  EXPECT_THAT(ended.text, HasSubstr("'' is not the name of a file"));
+}
+
+TEST_F(CommandLine, TimeThatIsUpIsNoFailure) {
+  const Ended ended = Runnel("run --fast --duration 1.23 " + kDemo + "picture=");
   EXPECT_EQ(ended.code, kDone);
-  EXPECT_THAT(ended.text, HasSubstr(RUNNEL_VERSION));
+  EXPECT_THAT(ended.text, AllOf(HasSubstr("the time is up"), HasSubstr("simulated 1.23 s")));
+}
+
+TEST_F(CommandLine, ProgressIsToldOnceASecond) {
+  const Ended ended = Runnel("run --speed 1 --duration 1.5 " + kDemo + "picture=");
+  EXPECT_EQ(ended.code, kDone);
+  EXPECT_THAT(ended.text, ContainsRegex(" s  x[0-9.]+ +[0-9.]+ m to the goal, [a-z ]+\n"));
+  EXPECT_THAT(ended.text, Not(HasSubstr("\r")));
+}
+
+TEST_F(CommandLine, QuietRunsTellOnlyHowTheyEnded) {
+  const Ended ended = Runnel("run --quiet --speed 200 " + kDemo + "picture=");
+  EXPECT_THAT(ended.text, MatchesRegex("reached: path [0-9.]+ m, time [0-9.]+ s\n"));
+  EXPECT_EQ(Runnel("run --quiet --fast --duration 1 " + kDemo + "picture=").text,
+            "the time is up\n");
+}
+
+TEST_F(CommandLine, StatisticsTellOfEachThread) {
+  const Ended ended = Runnel("run --fast --duration 1 --statistics " + kDemo + "picture=");
+  EXPECT_THAT(ended.text, HasSubstr("jitter / ms"));
+  EXPECT_THAT(ended.text, ContainsRegex("/bug_demo/threads/control +20 +0 +50\\.000 +50\\.000"));
+}
+
+TEST_F(CommandLine, ConfigurationFilesGiveValuesToParameters) {
+  const std::string configuration = Write(R"(<configuration>
+  <section name="limits"><value name="time">0.5</value></section>
+</configuration>
+)");
+  const std::filesystem::path application = file_.string() + ".app.xml";
+  std::ifstream demo(RUNNEL_XML "/apps/bug_demo.xml");
+  std::string text{std::istreambuf_iterator<char>(demo), {}};
+  const std::string referee = "<module name=\"referee\" type=\"simulation/referee\">";
+  text.insert(text.find(referee) + referee.size(),
+              "<parameter name=\"time_limit\" config=\"/limits/time\"/>");
+  std::ofstream(application) << text;
+  const Ended ended = Runnel("run --fast --config " + configuration + application.string() +
+                             " picture= world=" RUNNEL_XML "/worlds/open.xml");
+  std::filesystem::remove(application);
+  EXPECT_EQ(ended.code, kRunFailed) << ended.text;
+  EXPECT_THAT(ended.text, HasSubstr("timeout: "));
+}
+
+std::string ContentOf(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// Two processes have their memory in different places; nothing of that may show.
+TEST_F(CommandLine, TheSameRunInAnotherProcessIsTheSameBitForBit) {
+  const std::filesystem::path bug1 = file_.string() + ".bug1.xml";
+  std::string text = ContentOf(RUNNEL_XML "/apps/bug_demo.xml");
+  text.replace(text.find("planning/bug2\""), 14, "planning/bug1\"");
+  std::ofstream(bug1) << text;
+  for (const std::string& application :
+       {kDemo, bug1.string() + " ", std::string(RUNNEL_XML "/apps/bug_infrared.xml ")}) {
+    std::vector<std::string> pictures;
+    for (const char* name : {"first.svg", "second.svg"}) {
+      const std::filesystem::path picture = file_.string() + name;
+      const Ended ended = Runnel("run --fast --quiet " + application +
+                                 "world=" RUNNEL_XML "/worlds/one_obstacle.xml " +
+                                 "noise=0.01 picture=" + picture.string());
+      EXPECT_THAT(ended.text, HasSubstr(": path ")) << ended.text;
+      pictures.push_back(ContentOf(picture));
+      std::filesystem::remove(picture);
+    }
+    EXPECT_GT(pictures[0].size(), 1000u);
+    EXPECT_TRUE(pictures[0] == pictures[1]) << application;
+  }
+  std::filesystem::remove(bug1);
 }
 
 }  // namespace

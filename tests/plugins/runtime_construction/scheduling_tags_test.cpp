@@ -96,15 +96,15 @@ TEST_F(SchedulingTags, TellWhatIsWrongWithThreads) {
   <thread name="d" period="50ms" activation="trigger"/>
   <thread name="c" period="0ms"/>
 </application>)"),
-            "app.xml:2:3: error: /demo/a: <thread> has no 'period'; add period=\"50ms\", or "
+            "app.xml:2:3: error: /demo/threads/a: <thread> has no 'period'; add period=\"50ms\", or "
             "activation=\"trigger\" or activation=\"free_running\"\n"
             "app.xml:3:28: error: /demo/b: '50' is no duration; write a number and a unit: ns, us, "
             "ms, s or min, as in 20ms\n"
-            "app.xml:4:44: error: /demo/c: priority 100 is out of bounds; 0 is ordinary "
+            "app.xml:4:44: error: /demo/threads/c: priority 100 is out of bounds; 0 is ordinary "
             "scheduling, 1 .. 99 is SCHED_FIFO\n"
-            "app.xml:5:20: error: /demo/d: a thread that waits for data has no period; leave out "
+            "app.xml:5:20: error: /demo/threads/d: a thread that waits for data has no period; leave out "
             "either period or activation\n"
-            "app.xml:6:17: error: /demo/c: there is already an element called 'c' in "
+            "app.xml:6:17: error: /demo/threads/c: there is already an element called 'c' in "
             "/demo/threads; the first is in line 4\n"
             "app.xml:6:28: error: /demo/c: '0ms' is not longer than nothing\n");
   EXPECT_TRUE(runtime.root().children().empty());
@@ -134,6 +134,11 @@ TEST_F(SchedulingTags, TellWhatIsWrongWithClocks) {
             "app.xml:2:34: error: /demo: time cannot run backwards; 1 is real time, 0 as fast as "
             "it can\n"
             "app.xml:3:3: error: /demo: the clock is chosen twice; the first is in line 2\n");
+  EXPECT_EQ(Errors(R"(<application name="demo">
+  <clock type="simulated" speed="1e-300"/>
+</application>)"),
+            "app.xml:2:34: error: /demo: speed 1e-300 is out of bounds; allowed is 0 (as fast as it "
+            "can), or 1e-6 .. 1e6\n");
   EXPECT_EQ(Errors(R"(<application name="demo">
   <clock type="real" speed="2"/>
 </application>)"),

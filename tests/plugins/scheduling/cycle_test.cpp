@@ -143,6 +143,19 @@ TEST(Pacing, WaitsForNothingAtSpeedZero) {
   });
 }
 
+TEST(Pacing, TakesOnlySpeedsWhoseDeadlinesATimeCanHold) {
+  EXPECT_TRUE(Pacing::Takes(0));
+  EXPECT_TRUE(Pacing::Takes(1e-6));
+  EXPECT_TRUE(Pacing::Takes(1e6));
+  EXPECT_FALSE(Pacing::Takes(1e-300));
+  EXPECT_FALSE(Pacing::Takes(-1));
+  EXPECT_FALSE(Pacing::Takes(1e7));
+  ManualClock real;
+  Pacing pacing(1e-6, real);
+  EXPECT_EQ(pacing.Deadline(At(0)), At(0));
+  EXPECT_GT(pacing.Deadline(At(std::int64_t{1} << 40)), At(0));  // some 1e15 s from now
+}
+
 TEST(Pacing, GivesUpWhenAskedTo) {
   const SteadyClock real;
   Pacing pacing(1, real);

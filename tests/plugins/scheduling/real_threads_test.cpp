@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <atomic>
 #include <thread>
 
 #include <gmock/gmock.h>
+#include <pthread.h>
+#include <sched.h>
 
 #include "core/module/group.h"
 #include "plugins/scheduling/scheduler.h"
@@ -124,6 +127,33 @@ TEST_F(RealThreads, RunOnDataFromOutsideOfCycles) {
   }
 }
 
+TEST_F(RealThreads, WakeAThreadThatWasAddedDuringTheCycleThatPublishes) {
+  std::atomic<bool> is_inside{false};
+  std::atomic<bool> is_there{false};
+  std::atomic<int> received{0};
+  auto& feeder = runtime.Create<Relay>(runtime.root(), "feeder");
+  auto& source = runtime.Create<Doing>(runtime.root(), "source");
+  source.action = [&](Doing& module) {
+    is_inside = true;
+    WaitUntil([&] { return is_there.load(); });
+    module.out.Publish(1);
+  };
+  MustSucceed(Port::Connect(feeder.out, source.in));
+  const ThreadOptions trigger{.activation = ThreadOptions::Activation::kTrigger};
+  CreateThread(runtime, "first", trigger);
+  Ready();
+  const Running running(scheduler);
+  feeder.out.Publish(1);  // one cycle, and no other that would make up for it
+  WaitUntil([&] { return is_inside.load(); });
+  auto& waiting = CreateThread(runtime, "waiting", trigger);
+  auto& sink = MakeCounter("sink", received);
+  AssignThread(sink, waiting);
+  MustSucceed(runtime.MakeReady(sink));
+  MustSucceed(Port::Connect(source.out, sink.in));
+  is_there = true;
+  WaitUntil([&] { return received > 0; });
+}
+
 TEST_F(RealThreads, StopWhileTheyWaitForData) {
   std::atomic<int> runs{0};
   MakeCounter("module", runs);
@@ -155,6 +185,52 @@ TEST_F(RealThreads, RunOnWhenAModuleThrows) {
   const auto faults = scheduler.TakeFaults();
   ASSERT_THAT(faults, SizeIs(1));
   EXPECT_EQ(faults[0].path, "/failing");
+}
+
+TEST_F(RealThreads, HeedAStopThatWasRequestedBeforeTheyStarted) {
+  CreateThread(runtime, "main", {.period = 1ms});
+  Ready();
+  scheduler.RequestStop();
+  const Running running(scheduler);
+  EXPECT_TRUE(scheduler.stop_requested());
+  EXPECT_FALSE(scheduler.stopped_by_fault());
+  scheduler.Stop();
+  EXPECT_TRUE(scheduler.stop_requested());
+  const Running again(scheduler);
+  EXPECT_FALSE(scheduler.stop_requested());
+}
+
+TEST_F(RealThreads, ApplyFaultRulesInOneThreadOnly) {
+  std::atomic<bool> is_inside{false};
+  std::atomic<bool> may_go_on{false};
+  std::atomic<int> calls{0};
+  std::atomic<int> calls_by_others{0};
+  const auto test_thread = std::this_thread::get_id();
+  runtime.Create<Doing>(runtime.root(), "first").action = [](Doing&) { throw 1; };
+  runtime.Create<Doing>(runtime.root(), "second").action = [&](Doing&) {
+    WaitUntil([&] { return is_inside.load(); });
+    throw 2;
+  };
+  std::atomic<int> runs{0};
+  MakeCounter("healthy", runs);  // made after them, so run after them
+  CreateThread(runtime, "main", {.period = 1ms});
+  MustSucceed(
+      scheduler.AddFaultRule({.action = FaultRule::Action::kCall, .call = [&](const Fault&) {
+                                ++calls;
+                                if (std::this_thread::get_id() == test_thread) {
+                                  ++calls_by_others;
+                                  return;
+                                }
+                                is_inside = true;
+                                WaitUntil([&] { return may_go_on.load(); });
+                              }}));
+  Ready();
+  const Running running(scheduler);
+  WaitUntil([&] { return runs > 0; });  // the second fault is there, the first is being attended
+  EXPECT_THAT(scheduler.TakeFaults(), SizeIs(1));
+  may_go_on = true;
+  WaitUntil([&] { return calls == 2; });
+  EXPECT_EQ(calls_by_others, 0);
 }
 
 TEST_F(RealThreads, TakeInModulesAddedWhileTheyRun) {
@@ -255,12 +331,26 @@ TEST_F(RealThreads, HandOverAModuleFromThreadToThread) {
 
 TEST_F(RealThreads, AskForPrioritiesAndRunWithoutThem) {
   std::atomic<int> runs{0};
-  MakeCounter("module", runs);
+  std::atomic<int> policy{-1};
+  MakeCounter("module", runs).action = [&](Doing&) {
+    sched_param parameters{};
+    int now = -1;
+    pthread_getschedparam(pthread_self(), &now, &parameters);
+    policy = now;
+    ++runs;
+  };
   auto& thread = CreateThread(runtime, "main", {.period = 1ms, .priority = 20});
   Ready();
   const Running running(scheduler);
-  WaitUntil([&] { return runs > 0; });
-  for (const Error& warning : scheduler.Warnings()) {
+  // The first cycle may come before the thread has its priority.
+  const int runs_then = runs;
+  WaitUntil([&] { return runs > runs_then + 1; });
+  const auto warnings = scheduler.Warnings();
+  const bool is_told = std::ranges::any_of(warnings, [&](const Error& warning) {
+    return warning.path == thread.path() && warning.message.starts_with("SCHED_FIFO");
+  });
+  EXPECT_EQ(policy == SCHED_FIFO, !is_told);
+  for (const Error& warning : warnings) {
     EXPECT_FALSE(warning.message.empty());
     EXPECT_FALSE(warning.hint.empty());
     const bool is_of_the_thread = warning.message.starts_with("SCHED_FIFO");

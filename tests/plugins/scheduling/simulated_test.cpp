@@ -49,6 +49,17 @@ TEST_F(Simulated, RunsConnectedModulesInTheOrderOfTheData) {
   EXPECT_EQ(result, 2);  // the value went through both in one cycle
 }
 
+TEST_F(Simulated, KnowsWhetherAnythingHasTasksAndWhenItIsDue) {
+  Thread("main", 10ms);
+  EXPECT_FALSE(scheduler.HasTasks());
+  Make<Doing>("module");
+  Ready();
+  EXPECT_TRUE(scheduler.HasTasks());
+  EXPECT_EQ(scheduler.NextDue(), At(0));
+  scheduler.Step();
+  EXPECT_EQ(scheduler.NextDue(), At(10));
+}
+
 TEST_F(Simulated, RunsPeriodsAtTheirTimes) {
   auto& fast = Make<Doing>("fast");
   auto& slow = Make<Doing>("slow");

@@ -30,6 +30,7 @@ class Triggered : public ::testing::Test {
       if (module.in.Read()) module.out.Publish(2);
     };
     MustSucceed(Port::Connect(source.out, listener.in));
+    AssignThread(source, periodic);
     AssignThread(listener, waiting);
   }
   void Ready() { MustSucceed(runtime.MakeReady(runtime.root())); }
@@ -124,6 +125,17 @@ TEST_F(Triggered, WarnsOfAModuleThatNothingCanSetOff) {
   EXPECT_THAT(warnings[0].message, HasSubstr("never run"));
 }
 
+TEST_F(Triggered, WarnsOfAModuleForWhichNobodyHasChosenAThread) {
+  auto& unassigned = runtime.Create<Relay>(runtime.root(), "unassigned");
+  Ready();
+  const auto warnings = scheduler.Warnings();
+  ASSERT_THAT(warnings, SizeIs(1));
+  EXPECT_EQ(warnings[0].path, "/unassigned");
+  EXPECT_THAT(warnings[0].message, HasSubstr("/threads/periodic runs it"));
+  AssignThread(unassigned, periodic);
+  EXPECT_THAT(scheduler.Warnings(), IsEmpty());
+}
+
 TEST_F(Triggered, BecomesPeriodicWhenAssignedToAPeriodicThread) {
   publishes = false;
   Ready();
@@ -134,6 +146,19 @@ TEST_F(Triggered, BecomesPeriodicWhenAssignedToAPeriodicThread) {
   scheduler.Step();
   EXPECT_THAT(diary, ElementsAre("source", "listener 10"));
   EXPECT_THAT(scheduler.Order(waiting), IsEmpty());
+}
+
+TEST_F(Triggered, RunsForDataThatCameBeforeItMovedToAnotherThread) {
+  publishes = false;
+  auto& other = CreateThread(runtime, "other", {.activation = ThreadOptions::Activation::kTrigger});
+  Ready();
+  scheduler.Step();
+  source.out.Publish(5);
+  AssignThread(listener, other);
+  diary.clear();
+  EXPECT_TRUE(scheduler.Step());
+  EXPECT_TRUE(scheduler.Step());
+  EXPECT_THAT(diary, ::testing::Contains("listener 0"));
 }
 
 TEST_F(Triggered, CanBeDeletedAndPublishedToAfterwards) {

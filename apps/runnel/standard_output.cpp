@@ -1,0 +1,27 @@
+#include "apps/runnel/standard_output.h"
+
+#include <csignal>
+#include <iostream>
+
+#include <poll.h>
+#include <unistd.h>
+
+namespace runnel::program {
+
+namespace {
+
+bool IsReaderGone() {
+  pollfd output{.fd = STDOUT_FILENO, .events = POLLOUT, .revents = 0};
+  return poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
+}
+
+}  // namespace
+
+void OutliveReaders() { std::signal(SIGPIPE, SIG_IGN); }
+
+bool FinishOutput() {
+  std::cout.flush();
+  return std::cout.good() || IsReaderGone();
+}
+
+}  // namespace runnel::program

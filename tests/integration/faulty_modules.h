@@ -1,0 +1,91 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "core/module/module.h"
+#include "core/module/run_monitor.h"
+#include "core/port/input.h"
+#include "core/port/output.h"
+#include "modules/types/surroundings.h"
+#include "plugins/parameters/parameter.h"
+#include "plugins/parameters/static_parameter.h"
+
+namespace runnel::test {
+
+/// Hands on what a planner needs, and fails after a while.
+class FaultyRelay final : public Module {
+ public:
+  using Module::Module;
+
+  Input<Surroundings> in{this, "in", {.required = true}};
+  Output<Surroundings> out{this, "out"};
+  Parameter<std::uint32_t> good_cycles{this, "good_cycles", {.default_value = 100}};
+
+ private:
+  void Update() override {
+    if (++cycles_ > good_cycles.Get()) throw std::runtime_error("the relay is worn out");
+    if (const auto view = in.Read(); view.is_new()) out.Publish(*view);
+  }
+
+  std::uint32_t cycles_ = 0;
+};
+
+/// Does nothing, and fails after a while: by throwing, or by never coming back.
+class FaultyWorker final : public Module {
+ public:
+  using Module::Module;
+
+  Parameter<std::uint32_t> good_cycles{this, "good_cycles", {.default_value = 1'000'000}};
+  StaticParameter<bool> hangs{this, "hangs", {.default_value = false}};
+
+ private:
+  void Update() override {
+    while (hangs.Get()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    if (++cycles_ > good_cycles.Get()) throw std::runtime_error("the worker is worn out");
+  }
+
+  std::uint32_t cycles_ = 0;
+};
+
+/// Judges a run, and throws in the function that the parameter names.
+class FaultyMonitor final : public Module {
+ public:
+  explicit FaultyMonitor(const Placement& placement) : Module(placement) {
+    Annotate<RunMonitor>(std::make_unique<Monitor>(*this));
+  }
+
+  StaticParameter<std::string> throws_in{this, "throws_in", {.default_value = ""}};
+
+ private:
+  void ThrowIn(const std::string& function) const {
+    if (throws_in.Get() == function) throw std::runtime_error("thrown in " + function);
+  }
+  void Update() override { ThrowIn("update"); }
+
+  class Monitor final : public RunMonitor {
+   public:
+    explicit Monitor(const FaultyMonitor& module) : module_(module) {}
+    std::string Progress() const override {
+      module_.ThrowIn("progress");
+      return "going well";
+    }
+    std::optional<RunOutcome> Outcome() const override {
+      module_.ThrowIn("outcome");
+      return {};
+    }
+    Result<std::string> Finish() override {
+      module_.ThrowIn("finish");
+      if (module_.throws_in.Get() == "nothing") return Error{.message = "cannot be finished"};
+      return std::string("finished");
+    }
+
+   private:
+    const FaultyMonitor& module_;
+  };
+};
+
+}  // namespace runnel::test

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+
+#include <sys/types.h>
+
+namespace runnel::test {
+
+/// How the program ended, and all that it wrote to standard output and errors.
+struct Ended {
+  int code = -1;   ///< -1: it did not end by itself
+  int signal = 0;  ///< that ended it; 0: none
+  std::string text;
+};
+
+/// The program, started as a shell starts it, without the right to real-time scheduling; finds the
+/// plugins of the tests, too.
+class Program {
+ public:
+  /// `arguments` may redirect its output.
+  explicit Program(const std::string& arguments);
+  ~Program();
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  /// Until it has written `text`. False if it ends without.
+  bool WaitFor(const std::string& text);
+  /// Until it does (or does not) handle the signal itself. Precondition: it does so before it ends.
+  void WaitUntilHandles(int signal, bool handles) const;
+  void Send(int signal) const;
+  /// Until it has ended. Once.
+  Ended Wait();
+
+ private:
+  bool ReadMore();
+  [[nodiscard]] bool Handles(int signal) const;
+
+  pid_t process_ = -1;
+  int output_ = -1;
+  std::string text_;
+};
+
+/// From its start to its end.
+[[nodiscard]] Ended Runnel(const std::string& arguments);
+
+}  // namespace runnel::test

@@ -1,0 +1,201 @@
+// How a run ends: by signals, by faults, by monitors, by output that nobody takes.
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "tests/integration/program.h"
+
+namespace runnel::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr int kDone = 0, kRunFailed = 1, kBadInput = 2;
+
+const std::string kDemo = std::string(RUNNEL_XML) + "/apps/bug_demo.xml ";
+
+/// What each test's own files are called.
+std::filesystem::path TestFile(const std::string& extension) {
+  return std::filesystem::path(testing::TempDir()) /
+         (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + extension);
+}
+
+/// An application of faulty modules in a file that lives as long as the object.
+class RunEnd : public testing::Test {
+ protected:
+  void TearDown() override {
+    std::filesystem::remove(file_);
+    std::filesystem::remove(picture_);
+  }
+  std::string Write(const std::string& clock, const std::string& thread,
+                    const std::string& modules) {
+    std::ofstream(file_) << "<application name=\"app\">\n<load plugin=\"faulty\"/>\n"
+                         << clock << "\n<thread name=\"main\" " << thread << "/>\n"
+                         << modules << "\n</application>\n";
+    return file_.string() + " ";
+  }
+
+  const std::string real_ = "<clock type=\"real\"/>";
+  const std::string simulated_ = "<clock type=\"simulated\" speed=\"0\"/>";
+  const std::filesystem::path file_ = TestFile(".xml");
+  const std::filesystem::path picture_ = TestFile(".svg");
+};
+
+TEST_F(RunEnd, ComesAfterWarningsOfWhatRealTimeThreadsWereRefused) {
+  const Ended ended =
+      Runnel("run --duration 0.1 " +
+             Write(real_, "period='20ms' priority='5'", "<module name='a' type='faulty/worker'/>"));
+  EXPECT_EQ(ended.code, kDone) << ended.text;
+  EXPECT_THAT(ended.text, HasSubstr("the time is up"));
+  EXPECT_THAT(ended.text, HasSubstr(file_.string() +
+                                    ":4:1: warning: /app/threads/main: SCHED_FIFO with priority 5 "
+                                    "was refused"));
+}
+
+TEST_F(RunEnd, ComesAtOnceWhereThereIsNothingToRun) {
+  for (const std::string& clock : {real_, simulated_}) {
+    const Ended ended = Runnel("run " + Write(clock, "period='20ms'", ""));
+    EXPECT_EQ(ended.code, kBadInput);
+    EXPECT_THAT(ended.text, HasSubstr(file_.string() + ": error: there is nothing to run"));
+  }
+}
+
+TEST_F(RunEnd, ComesWhenTheTimeIsUpAndNotAPeriodLater) {
+  const Ended ended =
+      Runnel("run --duration 1 " +
+             Write(simulated_, "period='30s'", "<module name='a' type='faulty/worker'/>"));
+  EXPECT_EQ(ended.code, kDone);
+  EXPECT_THAT(ended.text, AllOf(HasSubstr("the time is up"), HasSubstr("simulated 1.00 s")));
+}
+
+TEST_F(RunEnd, ByAFaultIsAFailure) {
+  for (const std::string& clock : {real_, simulated_}) {
+    const Ended ended = Runnel("run " + Write(clock, "period='10ms'", R"(
+<module name="a" type="faulty/worker"><parameter name="good_cycles" value="2"/></module>
+<on_fault of="a" action="stop_application"/>)"));
+    EXPECT_EQ(ended.code, kRunFailed);
+    EXPECT_THAT(ended.text,
+                AllOf(HasSubstr(file_.string() +
+                                ":6:1: error: /app/a: has been stopped: the worker is worn out"),
+                      HasSubstr("the run was stopped because of a fault")));
+  }
+}
+
+// The value that the first fault sets makes the second module fail: that shows that it still ran.
+TEST_F(RunEnd, LeavesTimeToBringTheRobotToRestOnTheRealClock) {
+  const Ended ended = Runnel("run " + Write(real_, "period='100ms'", R"(
+<module name="second" type="faulty/worker"/>
+<module name="first" type="faulty/worker"><parameter name="good_cycles" value="2"/></module>
+<on_fault of="first" action="stop_application"/>
+<on_fault of="first" set="second/good_cycles" value="0"/>)"));
+  EXPECT_EQ(ended.code, kRunFailed);
+  EXPECT_THAT(ended.text, AllOf(HasSubstr("/app/first: has been stopped"),
+                                HasSubstr("/app/second: has been stopped")));
+}
+
+TEST_F(RunEnd, ByAnySignalIsInOrder) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    std::filesystem::remove(picture_);
+    Program program("run --speed 1 " + kDemo + "picture=" + picture_.string());
+    EXPECT_TRUE(program.WaitFor("m to the goal"));
+    program.Send(signal);
+    const Ended ended = program.Wait();
+    EXPECT_EQ(ended.code, kDone) << ended.text;
+    EXPECT_THAT(ended.text, HasSubstr("stopped by the user"));
+    EXPECT_TRUE(std::filesystem::exists(picture_));
+  }
+}
+
+TEST_F(RunEnd, BySignalAsSoonAsItIsHandledIsInOrder) {
+  Program program("run " +
+                  Write(real_, "period='10ms'", "<module name='a' type='faulty/worker'/>"));
+  program.WaitUntilHandles(SIGINT, true);
+  program.Send(SIGINT);
+  const Ended ended = program.Wait();
+  EXPECT_EQ(ended.code, kDone);
+  EXPECT_THAT(ended.text, HasSubstr("stopped by the user"));
+}
+
+TEST_F(RunEnd, ByASecondSignalIsAtOnce) {
+  Program program("run " + Write(simulated_, "period='10ms'", R"(
+<module name="a" type="faulty/worker"><parameter name="hangs" value="true"/></module>)"));
+  program.WaitUntilHandles(SIGTERM, true);
+  program.Send(SIGTERM);
+  program.WaitUntilHandles(SIGINT, false);
+  program.Send(SIGINT);
+  EXPECT_EQ(program.Wait().signal, SIGINT);
+}
+
+TEST_F(RunEnd, ByASignalAfterAFaultIsStillAFailure) {
+  Program program("run " + Write(real_, "period='10ms'", R"(
+<module name="a" type="faulty/worker"><parameter name="good_cycles" value="2"/></module>
+<on_fault of="a" action="stop_application"/>)"));
+  EXPECT_TRUE(program.WaitFor("worn out"));
+  program.Send(SIGINT);
+  EXPECT_EQ(program.Wait().code, kRunFailed);
+}
+
+TEST_F(RunEnd, IsInOrderWhenNobodyReadsTheProgress) {
+  const std::filesystem::path code = TestFile(".code");
+  const std::string command = "(" RUNNEL_PROGRAM " run --speed 1 --duration 1.5 " + kDemo +
+                              "picture=" + picture_.string() + "; echo ended with $? >" +
+                              code.string() + ") | true";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  std::string text;
+  std::getline(std::ifstream(code), text);
+  EXPECT_EQ(text, "ended with 0");
+  EXPECT_TRUE(std::filesystem::exists(picture_));
+  std::filesystem::remove(code);
+}
+
+TEST_F(RunEnd, IsAFailureWhenTheOutputCannotBeWritten) {
+  for (const std::string& arguments :
+       {std::string("version"), "run --fast " + kDemo + "picture="}) {
+    const Ended ended = Runnel(arguments + " >/dev/full");
+    EXPECT_EQ(ended.code, kRunFailed);
+    EXPECT_THAT(ended.text, HasSubstr("standard output could not be written"));
+  }
+}
+
+TEST_F(RunEnd, IsAFailureWhenAMonitorThrows) {
+  for (const std::string& function : std::vector<std::string>{"progress", "outcome", "finish"}) {
+    const Ended ended = Runnel("run --duration 1.5 " +
+                               Write(real_, "period='10ms'",
+                                     "<module name='judge' type='faulty/monitor'><parameter "
+                                     "name='throws_in' value='" +
+                                         function + "'/></module>"));
+    EXPECT_EQ(ended.code, kRunFailed) << ended.text;
+    EXPECT_THAT(ended.text, HasSubstr(file_.string() +
+                                      ":5:1: error: /app/judge: its run monitor has failed: "
+                                      "thrown in " +
+                                      function));
+  }
+}
+
+TEST_F(RunEnd, NamesThePlaceOfAMonitorThatCannotFinish) {
+  const Ended ended = Runnel("run --duration 0.1 " + Write(simulated_, "period='10ms'", R"(
+<module name="judge" type="faulty/monitor"><parameter name="throws_in" value="nothing"/></module>)"));
+  EXPECT_EQ(ended.code, kRunFailed);
+  EXPECT_THAT(ended.text,
+              HasSubstr(file_.string() + ":6:1: error: /app/judge: cannot be finished"));
+}
+
+TEST_F(RunEnd, ComesWhenTheModuleThatWouldJudgeItHasBeenStopped) {
+  for (const std::string& clock : {real_, simulated_}) {
+    const Ended ended = Runnel("run " + Write(clock, "period='10ms'", R"(
+<module name="judge" type="faulty/monitor"><parameter name="throws_in" value="update"/></module>)"));
+    EXPECT_EQ(ended.code, kRunFailed);
+    EXPECT_THAT(ended.text, AllOf(HasSubstr("/app/judge: has been stopped: thrown in update"),
+                                  HasSubstr("finished")));
+  }
+}
+
+}  // namespace
+}  // namespace runnel::test
