@@ -21,6 +21,7 @@ FrameworkElement* MakeModule(const TagUse& use) {
     error.path = use.path();
     context.Report(std::move(error), position, use.parent);
   };
+  const std::string name = FreeName(use, use.parent);
   if (const auto known = modules.Get(type.value); !known) {
     if (context.IsWorthReporting(type.value, TypeNames(modules))) {
       report(
@@ -29,7 +30,7 @@ FrameworkElement* MakeModule(const TagUse& use) {
     }
     return nullptr;
   }
-  const auto made = modules.Create(type.value, use.parent, FreeName(use, use.parent));
+  const auto made = modules.Create(type.value, use.parent, name);
   if (made) return *made;
   report(made.error(), use.xml.position());
   return nullptr;

@@ -180,6 +180,18 @@ TEST(Mistakes, InsideAnApplicationWithoutANameAreAllTold) {
             "app.xml:5:18: error: /?: there is no 'vlaue' in /?/a; did you mean 'value'?\n");
 }
 
+TEST(Mistakes, OfOneTagAreAllTold) {
+  Workshop workshop;
+  EXPECT_EQ(workshop.Errors(R"(<application name="demo">
+  <module name="a" type="test/source"/>
+  <module name="a" type="test/sinc"/>
+</application>)"),
+            "app.xml:3:17: error: /demo/a: there is already an element called 'a' in /demo; the "
+            "first is in line 2\n"
+            "app.xml:3:26: error: /demo/a: there is no module type 'test/sinc'; did you mean "
+            "'test/sink'?\n");
+}
+
 TEST(Mistakes, InsideATagThatIsWrongItselfAreAllTold) {
   Workshop workshop;
   EXPECT_EQ(workshop.Errors(R"(<application name="demo">
