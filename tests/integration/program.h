@@ -25,7 +25,8 @@ class Program {
 
   /// Until it has written `text`. False if it ends without.
   bool WaitFor(const std::string& text);
-  /// Until it does (or does not) handle the signal itself. Precondition: it does so before it ends.
+  /// Until it does (or does not) handle the signal itself. Preconditions: it does so before it
+  /// ends; its start is not waited for by SIGINT, which the shell before it handles, too.
   void WaitUntilHandles(int signal, bool handles) const;
   void Send(int signal) const;
   /// Until it has ended. Once.
