@@ -63,7 +63,7 @@ FrameworkElement* MakeThread(const TagUse& use) {
   FrameworkElement* threads = use.parent.FindChild(kThreads);
   if (threads == nullptr) threads = &runtime.Create<Group>(use.parent, kThreads);
   // Errors name the path that the thread really has.
-  const TagUse inside{use.xml, *threads, use.context, use.unusable};
+  const TagUse inside{use.xml, *threads, use.context, use.unusable, use.stand_ins};
   ThreadOptions options;
   options.activation = ReadActivation(use);
   ReadPeriod(inside, options);
@@ -72,7 +72,7 @@ FrameworkElement* MakeThread(const TagUse& use) {
   if (on_overrun != nullptr && on_overrun->value == "catch_up") {
     options.on_overrun = ThreadOptions::OnOverrun::kCatchUp;
   }
-  return &runtime.Create<ThreadContainer>(*threads, FreeName(inside, *threads), options);
+  return &runtime.Create<ThreadContainer>(*threads, FreeName(use, *threads), options);
 }
 
 void Assign(const XmlAttribute& name, FrameworkElement& element, BuildContext& context) {
