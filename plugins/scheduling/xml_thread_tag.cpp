@@ -72,7 +72,7 @@ FrameworkElement* MakeThread(const TagUse& use) {
   if (on_overrun != nullptr && on_overrun->value == "catch_up") {
     options.on_overrun = ThreadOptions::OnOverrun::kCatchUp;
   }
-  return &runtime.Create<ThreadContainer>(*threads, FreeName(use, *threads), options);
+  return &runtime.Create<ThreadContainer>(*threads, FreeName(inside, *threads), options);
 }
 
 void Assign(const XmlAttribute& name, FrameworkElement& element, BuildContext& context) {

@@ -1,0 +1,112 @@
+// The structure changes while real threads run.
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+
+#include "core/module/group.h"
+#include "tests/plugins/scheduling/real_threads_fixture.h"
+
+namespace runnel {
+namespace {
+
+using RealThreadsAndChanges = RealThreads;
+
+TEST_F(RealThreadsAndChanges, TakeInModulesAddedWhileTheyRun) {
+  std::atomic<int> runs{0};
+  CreateThread(runtime, "main", {.period = 1ms});
+  const Running running(scheduler);
+  auto& module = MakeCounter("module", runs);
+  MustSucceed(runtime.MakeReady(module));
+  WaitUntil([&] { return runs > 0; });
+}
+
+TEST_F(RealThreadsAndChanges, TakeInContainersAddedWhileTheyRunAndLetThemGo) {
+  std::atomic<int> runs{0};
+  CreateThread(runtime, "main", {.period = 1ms});
+  auto& module = MakeCounter("module", runs);
+  Ready();
+  const Running running(scheduler);
+  for (int round = 0; round < 10; ++round) {
+    auto& added = CreateThread(runtime, "added", {.period = 1ms});
+    AssignThread(module, added);
+    const int before = runs;
+    WaitUntil([&] { return runs > before && added.statistics().cycles > 0; });
+    MustSucceed(runtime.Delete(added));
+    const int after = runs;
+    WaitUntil([&] { return runs > after; });
+  }
+}
+
+// Everything that can change does, while three threads run; ThreadSanitizer and AddressSanitizer
+// find what is wrong with it.
+TEST_F(RealThreadsAndChanges, BearEveryChangeOfTheStructure) {
+  auto& first = runtime.Create<Relay>(runtime.root(), "first");
+  auto& last = runtime.Create<Relay>(runtime.root(), "last");
+  auto& periodic = CreateThread(runtime, "periodic", {.period = 200us});
+  auto& free =
+      CreateThread(runtime, "free", {.activation = ThreadOptions::Activation::kFreeRunning});
+  auto& waiting =
+      CreateThread(runtime, "waiting", {.activation = ThreadOptions::Activation::kTrigger});
+  AssignThread(first, periodic);
+  AssignThread(last, free);
+  Ready();
+  const Running running(scheduler);
+  ThreadContainer* const threads[] = {&periodic, &free, &waiting};
+  for (int round = 0; round < 60; ++round) {
+    auto& group = runtime.Create<Group>(runtime.root(), "group");
+    auto& relay = runtime.Create<Relay>(group, "relay");
+    auto& listener = runtime.Create<Doing>(group, "listener");
+    auto runs = std::make_shared<std::atomic<int>>(0);
+    listener.action = [runs](Doing& module) {
+      (void)module.in.Read();
+      ++*runs;
+    };
+    MustSucceed(Port::Connect(first.out, relay.in));
+    AssignThread(listener, waiting);
+    MustSucceed(runtime.MakeReady(group));
+    MustSucceed(Port::Connect(relay.out, listener.in, {.queue = 4}));
+    MustSucceed(Port::Connect(relay.out, last.in));
+    WaitUntil([&] { return *runs > 0; });
+    AssignThread(group, *threads[round % 3]);
+    AssignThread(listener, *threads[(round + 1) % 3]);
+    if (round % 2 == 0) MustSucceed(Port::Disconnect(relay.out, last.in));
+    MustSucceed(runtime.Delete(group));
+    const int runs_at_deletion = *runs;
+    (void)periodic.statistics();
+    EXPECT_EQ(*runs, runs_at_deletion);
+  }
+  scheduler.Stop();
+  EXPECT_THAT(scheduler.TakeFaults(), IsEmpty());
+}
+
+// An element is never run by two threads at once, not even while it moves between them.
+TEST_F(RealThreadsAndChanges, HandOverAModuleFromThreadToThread) {
+  auto& module = runtime.Create<Doing>(runtime.root(), "module");
+  std::atomic<bool> inside{false};
+  std::atomic<bool> overlap{false};
+  int unguarded = 0;  // for ThreadSanitizer
+  std::atomic<int> runs{0};
+  module.action = [&](Doing&) {
+    if (inside.exchange(true, std::memory_order_relaxed)) overlap = true;
+    ++unguarded;
+    ++runs;
+    inside.store(false, std::memory_order_relaxed);
+  };
+  const ThreadOptions free{.activation = ThreadOptions::Activation::kFreeRunning};
+  auto& a = CreateThread(runtime, "a", free);
+  auto& b = CreateThread(runtime, "b", free);
+  Ready();
+  const Running running(scheduler);
+  for (int round = 0; round < 200; ++round) {
+    const int before = runs;
+    AssignThread(module, round % 2 == 0 ? b : a);
+    WaitUntil([&] { return runs > before; });
+  }
+  scheduler.Stop();
+  EXPECT_FALSE(overlap);
+  EXPECT_EQ(unguarded, runs);
+}
+
+}  // namespace
+}  // namespace runnel

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <functional>
+#include <thread>
+
+#include <gmock/gmock.h>
+
+#include "plugins/scheduling/scheduler.h"
+#include "tests/plugins/scheduling/test_modules.h"
+
+namespace runnel {
+
+using namespace std::chrono_literals;
+using testing::Doing;
+using ::testing::IsEmpty;
+using testing::MustSucceed;
+using testing::Relay;
+using ::testing::SizeIs;
+
+// No test says how long something takes; a thread that never comes is the timeout's to find.
+inline void WaitUntil(const std::function<bool()>& condition) {
+  while (!condition()) std::this_thread::sleep_for(100us);
+}
+
+/// Runs the threads as long as it lives: shorter than what the modules refer to.
+class Running {
+ public:
+  explicit Running(Scheduler& scheduler) : scheduler_(scheduler) { MustSucceed(scheduler.Start()); }
+  ~Running() { scheduler_.Stop(); }
+
+ private:
+  Scheduler& scheduler_;
+};
+
+class RealThreads : public ::testing::Test {
+ protected:
+  void Ready() { MustSucceed(runtime.MakeReady(runtime.root())); }
+  Doing& MakeCounter(const std::string& name, std::atomic<int>& count) {
+    auto& module = runtime.Create<Doing>(runtime.root(), name);
+    module.action = [&count](Doing&) { ++count; };
+    return module;
+  }
+
+  Runtime runtime;
+  Scheduler scheduler{runtime};
+};
+
+}  // namespace runnel
