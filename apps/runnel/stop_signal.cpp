@@ -13,7 +13,7 @@ static_assert(std::atomic<Scheduler*>::is_always_lock_free, "a signal handler mu
 // The first one stops the run; those that come after it end the program.
 void Handle(int) {
   signal_has_come.store(true);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : StopSignal::kSignals) {
     struct sigaction current {};
     sigaction(signal, nullptr, &current);
     if (current.sa_handler == Handle) std::signal(signal, SIG_DFL);

@@ -14,6 +14,9 @@ namespace runnel::program {
 /// One at a time.
 class StopSignal {
  public:
+  /// Those that end a run.
+  static constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
+
   explicit StopSignal(Scheduler& scheduler);
   ~StopSignal();
   StopSignal(const StopSignal&) = delete;
@@ -22,8 +25,6 @@ class StopSignal {
   [[nodiscard]] bool has_come() const noexcept;
 
  private:
-  static constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
-
   std::array<struct sigaction, kSignals.size()> before_{};
 };
 

@@ -1,12 +1,11 @@
 #include "core/types/binary_form.h"
 
+#include "core/types/internal/parts.h"
 #include "core/types/type_info.h"
 
 namespace runnel {
 
 namespace {
-
-void* Mutable(const void* value) { return const_cast<void*>(value); }
 
 std::size_t CountOf(const ElementOperations& elements, const void* value) {
   return elements.rows(value) * elements.columns(value);
@@ -24,7 +23,7 @@ void WriteElements(const TypeInfo& type, const void* value, BinaryWriter& writer
     writer.WriteUnsigned(static_cast<std::uint32_t>(elements.columns(value)));
   }
   for (std::size_t i = 0; i < CountOf(elements, value); ++i) {
-    Write(*elements.type, elements.element(Mutable(value), i), writer);
+    Write(*elements.type, elements.element(ForLooking(value), i), writer);
   }
 }
 
@@ -38,7 +37,7 @@ void Write(const TypeInfo& type, const void* value, BinaryWriter& writer) {
       return writer.WriteUnsigned(static_cast<std::uint64_t>(type.enumeration().get(value)));
     case TypeKind::kStructure:
       for (const FieldInfo& field : type.fields()) {
-        Write(*field.type, field.address(Mutable(value)), writer);
+        Write(*field.type, field.address(ForLooking(value)), writer);
       }
       return;
     case TypeKind::kSequence:

@@ -1,6 +1,7 @@
 #include "core/types/text_form.h"
 
 #include "core/base/nearest_name.h"
+#include "core/types/internal/parts.h"
 #include "core/types/internal/text_cursor.h"
 #include "core/types/type_info.h"
 
@@ -16,10 +17,6 @@ std::string EnumerationText(const TypeInfo& type, const void* value) {
   return std::to_string(number);  // a value that nobody named
 }
 
-// FieldInfo::address and ElementOperations::element give a way to change the value; here nobody
-// does.
-void* Mutable(const void* value) { return const_cast<void*>(value); }
-
 // `inner`: within a structure or a sequence, where strings need marks at their ends.
 std::string Text(const TypeInfo& type, const void* value, bool inner);
 
@@ -27,7 +24,7 @@ std::string StructureText(const TypeInfo& type, const void* value) {
   std::string text = "{";
   for (const FieldInfo& field : type.fields()) {
     if (text.size() > 1) text += ", ";
-    text += field.name + ": " + Text(*field.type, field.address(Mutable(value)), true);
+    text += field.name + ": " + Text(*field.type, field.address(ForLooking(value)), true);
   }
   return text + "}";
 }
@@ -38,7 +35,7 @@ std::string RowText(const TypeInfo& type, const void* value, std::size_t row) {
   std::string text = "[";
   for (std::size_t i = 0; i < columns; ++i) {
     if (i > 0) text += ", ";
-    text += Text(*elements.type, elements.element(Mutable(value), row * columns + i), true);
+    text += Text(*elements.type, elements.element(ForLooking(value), row * columns + i), true);
   }
   return text + "]";
 }

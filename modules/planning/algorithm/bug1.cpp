@@ -7,7 +7,6 @@ namespace runnel {
 
 namespace {
 
-constexpr double kLeavePrecision = 0.05;  // m
 // A second pass comes this near to a point of the first one.
 constexpr double kPassDistance = 0.20;  // m
 // Near in space is not enough where the boundary comes close to itself: the way gone must fit too.

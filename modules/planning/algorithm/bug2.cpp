@@ -6,9 +6,8 @@ namespace runnel {
 
 namespace {
 
-constexpr double kCrossingReach = 0.15;   // m past a crossing within which it may still leave there
-constexpr double kLeavePrecision = 0.05;  // m
-constexpr double kLineLookahead = 0.40;   // m
+constexpr double kCrossingReach = 0.15;  // m past a crossing within which it may still leave there
+constexpr double kLineLookahead = 0.40;  // m
 
 }  // namespace
 

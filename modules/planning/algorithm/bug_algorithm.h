@@ -62,6 +62,8 @@ class BugAlgorithm {
   virtual bool GoalReached(const BugState& state) const;
 
   // What hooks are made of.
+  /// m; a robot nearer than this to its leave point is there.
+  static constexpr double kLeavePrecision = 0.05;
   /// Whether the straight way to the goal is free for at least the leave range, or to the goal.
   [[nodiscard]] bool FreeTowardsGoal(const BugInput& input) const;
   /// wallFollowing(direction)
