@@ -22,58 +22,54 @@ template <typename T, template <typename> class Atomic = std::atomic, std::size_
 class BufferLease {
  public:
   using Buffer = runnel::Buffer<T, Atomic, kSlots>;
-  using Record = HazardRecord<Atomic, kSlots>;
+  using Slot = HazardSlot<Atomic>;
 
   BufferLease() = default;
   /// Takes over one counted hold that the caller has; nullptr is no lease.
   explicit BufferLease(Buffer* counted) noexcept : buffer_(counted) {}
   /// Takes over a slot that holds `buffer`.
-  BufferLease(Buffer* buffer, Record& record, std::size_t slot) noexcept
-      : buffer_(buffer), record_(&record), slot_(slot) {}
+  BufferLease(Buffer* buffer, Slot& slot) noexcept : buffer_(buffer), slot_(&slot) {}
   BufferLease(const BufferLease& other) noexcept : buffer_(other.buffer_) {
     if (buffer_ != nullptr) buffer_->AddHolders(1);
   }
   BufferLease(BufferLease&& other) noexcept
       : buffer_(std::exchange(other.buffer_, nullptr)),
-        record_(std::exchange(other.record_, nullptr)),
-        slot_(other.slot_) {}
+        slot_(std::exchange(other.slot_, nullptr)) {}
   BufferLease& operator=(BufferLease other) noexcept {
     std::swap(buffer_, other.buffer_);
-    std::swap(record_, other.record_);
     std::swap(slot_, other.slot_);
     return *this;
   }
-  ~BufferLease() {
+  [[gnu::always_inline]] ~BufferLease() {
     if (buffer_ != nullptr) Drop();
   }
 
   [[nodiscard]] Buffer* get() const noexcept { return buffer_; }
 
  private:
-  void Drop() noexcept {
-    if (record_ == nullptr) return buffer_->DropHolder();
+  [[gnu::always_inline]] void Drop() noexcept {
+    if (slot_ == nullptr) return buffer_->DropHolder();
     // release: pairs with the acquire in BufferPool::FindFree(); this reader's reads are over.
-    record_->slots[slot_].store(nullptr, std::memory_order_release);
+    slot_->held.store(nullptr, std::memory_order_release);
     // Pairs with the heavy fence in BufferPool::Close(): either the request is seen here, or the
     // empty slot there.
     Fences<Atomic>::Light();
     // relaxed: the exchange in Answer() orders.
-    if (record_->orphans[slot_].load(std::memory_order_relaxed) == buffer_) [[unlikely]]
+    if (slot_->request.load(std::memory_order_relaxed) == buffer_) [[unlikely]]
       Answer();
   }
-  void Answer() noexcept {
+  [[gnu::noinline]] void Answer() noexcept {
     const void* request = buffer_;
-    // acq_rel: acquire, pairs with the release in BufferPool::Adopt(): the pool expects this
-    // return, so it still is there; one of the two takes the request back.
-    if (record_->orphans[slot_].compare_exchange_strong(request, nullptr, std::memory_order_acq_rel,
-                                                        std::memory_order_relaxed)) {
+    // acq_rel: acquire, pairs with the release in BufferPool::Ask(): the pool expects this return,
+    // so it still is there; one of the two takes the request back.
+    if (slot_->request.compare_exchange_strong(request, nullptr, std::memory_order_acq_rel,
+                                               std::memory_order_relaxed)) {
       buffer_->pool().ComeHome();
     }
   }
 
   Buffer* buffer_ = nullptr;
-  Record* record_ = nullptr;
-  std::size_t slot_ = 0;
+  Slot* slot_ = nullptr;
 };
 
 }  // namespace runnel

@@ -182,7 +182,7 @@ class BufferPool {
       for (const auto& slot : record.slots) {
         // acquire: pairs with the release of who empties a slot: its reads are over; and what it
         // counted before (a copy of its lease) is seen in IsHeld(). So slots come first.
-        const void* const held = slot.load(std::memory_order_acquire);
+        const void* const held = slot.held.load(std::memory_order_acquire);
         if (held == nullptr) continue;
         if (Buffer* const own = Own(held)) own->seen_in_ = search_;
       }
@@ -202,7 +202,7 @@ class BufferPool {
   // so that none is the last before all have been counted.
   void Close() noexcept {
     (void)TakeArriving();
-    domain_.ForEach(Domain::kAll, [this](Record& record) { Adopt(record); });
+    domain_.ForEach(Domain::kAll, [this](Record& record) { Ask(record); });
     Fences<Atomic>::Heavy();
     domain_.ForEach(Domain::kAll, [this](Record& record) { TakeBack(record); });
     for (Chunk* chunk = chunks_; chunk != nullptr; chunk = chunk->next) {
@@ -226,28 +226,30 @@ class BufferPool {
   // The slots that hold our buffers are asked to say when they are emptied. One that is emptied
   // just now has seen the request, or is seen empty after the heavy fence; if both, one of the two
   // takes the request back.
-  void Adopt(Record& record) noexcept {
-    for (std::size_t i = 0; i < kSlots; ++i) {
-      const void* const held = record.slots[i].load(std::memory_order_acquire);
+  void Ask(Record& record) noexcept {
+    for (auto& slot : record.slots) {
+      // acquire: an empty slot says that its reads are over.
+      const void* const held = slot.held.load(std::memory_order_acquire);
       if (held == nullptr || Own(held) == nullptr) continue;
       ExpectOne();
       const void* nothing = nullptr;
       // Another pool's request is answered by who has emptied the slot just now, at any moment.
-      // release: pairs with the acquire in BufferLease::Drop(); the pool expects it.
-      while (!record.orphans[i].compare_exchange_weak(nothing, held, std::memory_order_release,
-                                                      std::memory_order_relaxed)) {
+      // release: pairs with the acquire in BufferLease::Answer(); the pool expects it.
+      while (!slot.request.compare_exchange_weak(nothing, held, std::memory_order_release,
+                                                 std::memory_order_relaxed)) {
         nothing = nullptr;
       }
     }
   }
   void TakeBack(Record& record) noexcept {
-    for (std::size_t i = 0; i < kSlots; ++i) {
-      const void* request = record.orphans[i].load(std::memory_order_acquire);
+    for (auto& slot : record.slots) {
+      const void* request = slot.request.load(std::memory_order_relaxed);
       if (request == nullptr || Own(request) == nullptr) continue;
-      if (record.slots[i].load(std::memory_order_acquire) == request) continue;
-      // acq_rel: one of the two has it.
-      if (record.orphans[i].compare_exchange_strong(request, nullptr, std::memory_order_acq_rel,
-                                                    std::memory_order_relaxed)) {
+      // acquire: as above.
+      if (slot.held.load(std::memory_order_acquire) == request) continue;
+      // relaxed: only which of the two has it matters; who comes home releases and acquires.
+      if (slot.request.compare_exchange_strong(request, nullptr, std::memory_order_relaxed,
+                                               std::memory_order_relaxed)) {
         ComeHome();
       }
     }

@@ -10,6 +10,14 @@
 
 namespace runnel {
 
+/// Where a reader says which buffer it holds.
+template <template <typename> class Atomic = std::atomic>
+struct HazardSlot {
+  Atomic<const void*> held{nullptr};     ///< nullptr: the slot is free
+  Atomic<const void*> request{nullptr};  ///< the buffer of a closed pool that wants to be told when
+                                         ///< this slot ceases to hold it (BufferPool::Close())
+};
+
 /// Which buffers one thread protects from reuse: it writes a buffer's address into a free slot of
 /// its own record, where whoever wants to reuse buffers looks. Reading so writes to no memory that
 /// another reader writes to.
@@ -18,23 +26,20 @@ namespace runnel {
 /// Allocation:  none. Source: M. Michael, "Hazard Pointers" (2004).
 template <template <typename> class Atomic = std::atomic, std::size_t kSlots = 7>
 struct alignas(kCacheLineSize) HazardRecord {
-  static constexpr std::size_t kSlotCount = kSlots;
-  static constexpr std::size_t kNoSlot = kSlots;
+  using Slot = HazardSlot<Atomic>;
 
-  /// A slot of the calling thread that is free, or kNoSlot.
-  [[nodiscard]] std::size_t FindFreeSlot() const noexcept {
-    for (std::size_t i = 0; i < kSlots; ++i) {
+  /// A slot of the calling thread that is free, or nullptr.
+  [[nodiscard]] Slot* FindFreeSlot() noexcept {
+    for (Slot& slot : slots) {
       // acquire: another thread may have emptied it, by dropping a lease that was handed to it.
       // What that thread read is over then also for who sees only our next use of the slot.
-      if (slots[i].load(std::memory_order_acquire) == nullptr) return i;
+      if (slot.held.load(std::memory_order_acquire) == nullptr) return &slot;
     }
-    return kNoSlot;
+    return nullptr;
   }
 
-  std::array<Atomic<const void*>, kSlots> slots{};
-  std::uint64_t bit = 0;  ///< names the record in HazardDomain; constant once it is added
-  /// What a closed pool asks to be told of: orphans[i] is the buffer whose slot i is to be emptied.
-  alignas(kCacheLineSize) std::array<Atomic<const void*>, kSlots> orphans{};
+  std::array<Slot, kSlots> slots{};
+  std::uint64_t bit = 0;         ///< names the record in HazardDomain; constant once it is added
   HazardRecord* next = nullptr;  ///< constant once added
 };
 

@@ -43,7 +43,7 @@ class LatestBuffer {
   }
 
   /// Keeps the newest buffer for the thread that `record` belongs to; empty before the first one.
-  [[nodiscard]] BufferLease Lease(Record& record) noexcept {
+  [[nodiscard, gnu::always_inline]] BufferLease Lease(Record& record) noexcept {
     // acquire, here and below: pairs with the release in Publish(); what was written into the
     // buffer is visible.
     Buffer* buffer = newest_.load(std::memory_order_acquire);
@@ -52,14 +52,16 @@ class LatestBuffer {
     if ((readers_.load(std::memory_order_seq_cst) & record.bit) == 0) [[unlikely]] {
       readers_.fetch_or(record.bit, std::memory_order_seq_cst);
     }
-    const std::size_t slot = record.FindFreeSlot();
-    if (slot == Record::kNoSlot) return LeaseCounted(buffer);
+    auto* const slot = record.FindFreeSlot();
+    if (slot == nullptr) [[unlikely]]
+      return LeaseCounted(buffer);
     for (;;) {
       // seq_cst, both: pairs with the fence in BufferPool::FindFree(). If that does not find the
       // slot filled, then what it looked for had been replaced before, and is not found again here.
-      record.slots[slot].exchange(buffer, std::memory_order_seq_cst);
+      slot->held.exchange(buffer, std::memory_order_seq_cst);
       Buffer* const again = newest_.load(std::memory_order_seq_cst);
-      if (again == buffer) return {buffer, record, slot};
+      if (again == buffer) [[likely]]
+        return BufferLease(buffer, *slot);
       buffer = again;
     }
   }
@@ -67,7 +69,7 @@ class LatestBuffer {
  private:
   // For a thread that holds as many leases as it has slots. The buffer that is counted may have
   // been reused meanwhile; then it is not the newest, and the count is taken back unused.
-  BufferLease LeaseCounted(Buffer* buffer) noexcept {
+  [[gnu::noinline]] BufferLease LeaseCounted(Buffer* buffer) noexcept {
     for (;;) {
       buffer->CountForASecondLook();
       Buffer* const again = newest_.load(std::memory_order_seq_cst);

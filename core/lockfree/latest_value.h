@@ -80,7 +80,7 @@ class LatestValue {
 
   // `also(cell, sequence)` copies what else is wanted of the cell, with acquire.
   template <typename Also>
-  bool Copy(T& value, Also&& also) const noexcept {
+  [[gnu::always_inline]] bool Copy(T& value, Also&& also) const noexcept {
     for (;;) {
       // acquire: pairs with the last store in Publish().
       const std::uint64_t sequence = newest_.load(std::memory_order_acquire);

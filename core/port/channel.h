@@ -104,24 +104,20 @@ class Channel final : public ChannelBase {
     storage_.Publish(value, stamp, order);
     if (subscribers() == nullptr) [[likely]]
       return PublishStatus::kPublished;
-    internal::HeldValue<T> held;
-    new (&held.writable()) T(value);
-    held.writable_publication() = {stamp, storage_.sequence(), order};
-    return Distribute([&] { return held; });
+    const Publication publication{stamp, storage_.sequence(), order};
+    return Distribute([&] { return internal::HeldValue<T>(value, publication); });
   }
 
   /// The newest value, or none. Call inside an EpochGuard if the channel may be going away.
-  [[nodiscard]] internal::HeldValue<T> Read() noexcept {
+  [[nodiscard, gnu::always_inline]] internal::HeldValue<T> Read() noexcept {
     if constexpr (kIsCheap<T>) {
-      internal::HeldValue<T> held;
-      storage_.Read(held.writable(), held.writable_publication());
-      return held;
+      return internal::HeldValue<T>(storage_);
     } else {
-      return internal::HeldValue<T>(storage_.newest.Lease(ThisThread().hazards));
+      return internal::HeldValue<T>(storage_.newest, ThisThread().hazards);
     }
   }
   /// Copies the newest value to `value`; false if there is none. Guard: as for Read().
-  bool Copy(T& value) noexcept requires(std::is_trivially_copyable_v<T>) {
+  [[gnu::always_inline]] bool Copy(T& value) noexcept requires(std::is_trivially_copyable_v<T>) {
     if constexpr (kIsCheap<T>) {
       return storage_.Read(value);
     } else {

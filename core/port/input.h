@@ -72,9 +72,9 @@ class Input final : public InputBase {
   /// The newest value, with whether it is new since the last Read().
   [[nodiscard]] Lease<T> Read() noexcept {
     return Guarded([this] {
-      Lease<T> lease;
-      Link* const link = FindNewest(lease.held_);
-      if (!lease.held_.has_value()) return lease;
+      Link* link = nullptr;
+      Lease<T> lease = Newest(link);
+      if (!lease.has_value()) return lease;
       const std::uint64_t sequence = lease.held_.publication().sequence;
       const std::uint64_t last = link->read.exchange_relaxed(sequence);
       lease.freshness_ = sequence != last ? Freshness::kNew : Freshness::kOld;
@@ -85,9 +85,9 @@ class Input final : public InputBase {
   /// The newest value without marking it as read. Any thread.
   [[nodiscard]] Lease<T> Peek() const noexcept {
     return Guarded([this] {
-      Lease<T> lease;
-      const Link* const link = FindNewest(lease.held_);
-      if (!lease.held_.has_value()) return lease;
+      Link* link = nullptr;
+      Lease<T> lease = Newest(link);
+      if (!lease.has_value()) return lease;
       const bool seen = link->read.load_relaxed() == lease.held_.publication().sequence;
       lease.freshness_ = seen ? Freshness::kOld : Freshness::kNew;
       return lease;
@@ -95,19 +95,19 @@ class Input final : public InputBase {
   }
   /// A copy of the newest value, or `otherwise` if there is none, without marking it as read: the
   /// quickest way to look. Any thread.
-  [[nodiscard]] T Get(const T& otherwise = T{}) const noexcept
-      requires(std::is_trivially_copyable_v<T>) {
-    return Guarded([this, &otherwise]() -> T {
-      T value;
-      const Binding* const binding = binding_.load(std::memory_order_acquire);
-      if (binding == nullptr) return otherwise;
-      if (binding->only != nullptr) [[likely]] {
-        return binding->only->channel->Copy(value) ? value : otherwise;
-      }
-      internal::HeldValue<T> held;
-      (void)FindNewest(held);
-      return held.has_value() ? held.value() : otherwise;
-    });
+  [[nodiscard]] T Get(const T& otherwise) const noexcept requires(std::is_trivially_copyable_v<T>) {
+    T value;
+    if (!CopyNewest(value)) [[unlikely]]
+      value = otherwise;
+    return value;
+  }
+  /// The same with T{} if there is none.
+  [[nodiscard]] T Get() const noexcept
+      requires(std::is_trivially_copyable_v<T>&& std::is_default_constructible_v<T>) {
+    T value;
+    if (!CopyNewest(value)) [[unlikely]]
+      value = T{};
+    return value;
   }
   /// The oldest value that waits in the queue; empty if none does, or if no connection has a queue.
   [[nodiscard]] Lease<T> Take() noexcept {
@@ -166,7 +166,9 @@ class Input final : public InputBase {
   };
   // What reading needs; never changed but for the reader's own notes, replaced as a whole.
   struct Binding {
-    Link* only = nullptr;                      // if there is one source: the short way to it
+    // If there is one source, the short way to it; else nullptr.
+    Channel<T>* channel = nullptr;
+    Link* only = nullptr;
     std::vector<std::shared_ptr<Link>> links;  // shared by the binding before and after a change
     std::shared_ptr<InputQueue<T>> queue;      // likewise
     // Queues that a longer one has replaced: what waits in them comes first.
@@ -185,24 +187,39 @@ class Input final : public InputBase {
       return nullptr;
     }
   };
-  // Inside a guard, by which the link lives. Leaves `held` empty if there is no value.
-  Link* FindNewest(internal::HeldValue<T>& held) const noexcept {
+  bool CopyNewest(T& value) const noexcept {
+    return Guarded([this, &value] {
+      const Binding* const binding = binding_.load(std::memory_order_acquire);
+      if (binding != nullptr && binding->channel != nullptr) [[likely]] {
+        return binding->channel->Copy(value);
+      }
+      Link* link = nullptr;
+      const Lease<T> newest = Newest(link);
+      if (newest) value = *newest;
+      return newest.has_value();
+    });
+  }
+  // Inside a guard, by which the link lives. `link` is set if there is a value.
+  [[nodiscard, gnu::always_inline]] Lease<T> Newest(Link*& link) const noexcept {
     // acquire: pairs with the release in Replace().
     const Binding* const binding = binding_.load(std::memory_order_acquire);
-    if (binding == nullptr) return nullptr;
-    if (binding->only != nullptr) [[likely]] {
-      held = binding->only->channel->Read();
-      return binding->only;
-    }
-    Link* newest = nullptr;
-    for (const auto& link : binding->links) {
+    if (binding == nullptr) return {};
+    if (binding->channel == nullptr) [[unlikely]]
+      return NewestOfSeveral(*binding, link);
+    link = binding->only;
+    return Lease<T>([binding] { return binding->channel->Read(); });
+  }
+  [[gnu::noinline]] static Lease<T> NewestOfSeveral(const Binding& binding,
+                                                    Link*& newest) noexcept {
+    Lease<T> lease;
+    for (const auto& link : binding.links) {
       auto candidate = link->channel->Read();
       if (!candidate.has_value()) continue;
-      if (newest != nullptr && !IsLater(candidate, *link, held, *newest)) continue;
-      held = std::move(candidate);
+      if (newest != nullptr && !IsLater(candidate, *link, lease.held_, *newest)) continue;
+      lease.held_ = std::move(candidate);
       newest = link.get();
     }
-    return newest;
+    return lease;
   }
   // By the common order of sources that share an input, which every reader sees alike. Values from
   // before the sharing have none; their time and then the age of their source decide.
@@ -245,7 +262,10 @@ class Input final : public InputBase {
       // The types are equal: connecting has checked it.
       auto* channel = static_cast<Channel<T>*>(ChannelOf(*source.output));
       next->links.push_back(KeepOrMakeLink(before, *channel));
-      next->only = sources.size() == 1 ? next->links.back().get() : nullptr;
+      if (sources.size() == 1) {
+        next->channel = channel;
+        next->only = next->links.back().get();
+      }
       if (source.options.queue > options.queue) options = source.options;
     }
     if (options.queue > 0) next->queue = KeepOrMakeQueue(before, options);

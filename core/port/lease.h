@@ -9,7 +9,8 @@
 
 #include "core/base/check.h"
 #include "core/base/clock.h"
-#include "core/lockfree/buffer_lease.h"
+#include "core/lockfree/latest_buffer.h"
+#include "core/lockfree/latest_value.h"
 #include "core/port/port_options.h"
 
 namespace runnel {
@@ -30,18 +31,26 @@ namespace internal {
 template <typename T>
 class CopiedValue {
  public:
+  CopiedValue() = default;
+  /// The newest one, or none.
+  [[gnu::always_inline]] explicit CopiedValue(const LatestValue<T>& latest) noexcept {
+    latest.Read(writable(), publication_);
+  }
+  CopiedValue(const T& value, const Publication& publication) noexcept : publication_(publication) {
+    new (bytes_.data()) T(value);
+  }
+
   [[nodiscard]] bool has_value() const noexcept { return publication_.sequence != 0; }
   [[nodiscard]] const T& value() const noexcept {
     return *std::launder(reinterpret_cast<const T*>(bytes_.data()));
   }
   [[nodiscard]] const Publication& publication() const noexcept { return publication_; }
 
+ private:
   [[nodiscard]] T& writable() noexcept {
     return *std::launder(reinterpret_cast<T*>(bytes_.data()));
   }
-  [[nodiscard]] Publication& writable_publication() noexcept { return publication_; }
 
- private:
   alignas(T) std::array<std::byte, sizeof(T)> bytes_;  // read only if has_value()
   Publication publication_;
 };
@@ -52,6 +61,9 @@ class LeasedValue {
  public:
   LeasedValue() = default;
   explicit LeasedValue(BufferLease<T> lease) noexcept : lease_(std::move(lease)) {}
+  /// The newest one, or none.
+  [[gnu::always_inline]] LeasedValue(LatestBuffer<T>& latest, HazardRecord<>& record) noexcept
+      : lease_(latest.Lease(record)) {}
 
   [[nodiscard]] bool has_value() const noexcept { return lease_.get() != nullptr; }
   [[nodiscard]] const T& value() const noexcept { return std::as_const(*lease_.get()).value(); }
@@ -103,6 +115,9 @@ class Lease {
 
  private:
   friend class Input<T>;
+  // Made in place: what is newest is copied once, or not at all.
+  template <typename Make>
+  explicit Lease(Make&& make) noexcept : held_(std::forward<Make>(make)()) {}
 
   const internal::HeldValue<T>& Checked() const {
     RUNNEL_CHECK(has_value(), "the lease is empty: no data has come yet");
