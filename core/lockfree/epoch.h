@@ -57,13 +57,18 @@ class EpochDomain {
     return epoch_.fetch_add(1, std::memory_order_seq_cst) + 1;
   }
 
+  /// True once this reader, if it might have seen the state before `epoch`, has left.
+  [[nodiscard]] static bool HasPassed(const Participant& participant,
+                                      std::uint64_t epoch) noexcept {
+    // seq_cst: in one order with Enter() and with the swap; it acquires what Leave() released.
+    const std::uint64_t entered = participant.entered.load(std::memory_order_seq_cst);
+    return entered == kOutside || entered >= epoch;
+  }
   /// True once every reader that might have seen the state before `epoch` has left.
   [[nodiscard]] bool HasPassed(std::uint64_t epoch) const noexcept {
     for (const Participant* participant = first(); participant != nullptr;
          participant = participant->next) {
-      // seq_cst: in one order with Enter() and with the swap; it acquires what Leave() released.
-      const std::uint64_t entered = participant->entered.load(std::memory_order_seq_cst);
-      if (entered != kOutside && entered < epoch) return false;
+      if (!HasPassed(*participant, epoch)) return false;
     }
     return true;
   }

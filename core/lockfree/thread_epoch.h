@@ -36,12 +36,14 @@ class EpochGuard {
     return internal::thread_participant != nullptr && internal::thread_participant->depth > 0;
   }
 
- private:
-  static ProcessEpochDomain::Participant& Participant() {
+  /// By which others can tell what the calling thread has left; registers the thread, if this is
+  /// its first. Never freed; the thread's only as long as it lives.
+  [[nodiscard]] static ProcessEpochDomain::Participant& Participant() {
     return internal::thread_participant != nullptr ? *internal::thread_participant
                                                    : internal::RegisterThread();
   }
 
+ private:
   ProcessEpochDomain::Participant& participant_;
 };
 
