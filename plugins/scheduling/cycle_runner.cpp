@@ -19,6 +19,18 @@ bool IsToldAtTheEnd(const CycleRunner& runner) noexcept {
          std::ranges::find(in_cycle_of->waiting, &runner) != in_cycle_of->waiting.end();
 }
 
+void RunTask(const Schedule::Entry& entry, Time now, FaultDesk& desk) noexcept {
+  ScheduledElement& element = *entry.element;
+  if (element.is_stopped()) return;
+  try {
+    entry.run();
+  } catch (const std::exception& exception) {
+    element.Fail(exception.what(), now, desk);
+  } catch (...) {
+    element.Fail("unknown exception", now, desk);
+  }
+}
+
 }  // namespace
 
 CycleRunner::~CycleRunner() { delete schedule_.load(std::memory_order_seq_cst); }
@@ -30,31 +42,51 @@ void CycleRunner::Install(std::unique_ptr<const Schedule> schedule) {
   if (previous != nullptr) Retire([previous] { delete previous; });
 }
 
-Duration CycleRunner::RunCycle(const CycleTimes& times, FaultDesk& desk) noexcept {
-  const SteadyClock machine;
-  const Time began = machine.Now();
+void CycleRunner::RunCycle(const CycleTimes& times, FaultDesk& desk) noexcept {
   const EpochGuard guard;
   const CycleScope scope({times.now, times.period});
   const Schedule* const schedule = this->schedule();
-  if (schedule == nullptr) return {};
+  if (schedule == nullptr) return;
   in_cycle_of = schedule;
   if (waits_for_data()) {
     RunActivated(*schedule, times.now, desk);
   } else {
-    for (const Schedule::Entry& entry : schedule->entries) RunTask(entry, times.now, desk);
+    RunAll(*schedule, times.now, desk);
   }
   in_cycle_of = nullptr;
-  const Duration execution = machine.Now() - began;
   for (CycleRunner* const waiting : schedule->waiting) {
     if (waiting->is_activated()) waiting->event_.Notify();
   }
-  return execution;
+}
+
+// Whether nothing need be asked of its elements any more.
+bool CycleRunner::IsSettled(const Schedule& schedule) noexcept {
+  if (settled_ == schedule.number) return true;
+  const bool have_arrived = std::ranges::all_of(
+      schedule.entries, [&](const auto& entry) { return schedule.HasArrived(entry); });
+  if (have_arrived) settled_ = schedule.number;
+  return have_arrived;
+}
+
+// An element that another thread may still be running is left out of this cycle.
+void CycleRunner::RunAll(const Schedule& schedule, Time now, FaultDesk& desk) noexcept {
+  const bool is_settled = IsSettled(schedule);
+  for (const Schedule::Entry& entry : schedule.entries) {
+    if (is_settled || schedule.HasArrived(entry)) RunTask(entry, now, desk);
+  }
 }
 
 // The entries of one element follow one another only by chance, so what has come for it is taken
 // once, by its first task, and holds for the others.
 void CycleRunner::RunActivated(const Schedule& schedule, Time now, FaultDesk& desk) noexcept {
+  const bool is_settled = IsSettled(schedule);
+  is_held_up_ = false;
   for (const Schedule::Entry& entry : schedule.entries) {
+    // What has come for an element that another thread may still be running is not forgotten.
+    if (!is_settled && !schedule.HasArrived(entry)) {
+      if (entry.element->is_activated()) is_held_up_ = true;
+      continue;
+    }
     if (entry.is_first && entry.element->TakeActivation()) entry.element->set_in_pass(true);
     if (entry.element->in_pass()) RunTask(entry, now, desk);
     if (entry.is_last) entry.element->set_in_pass(false);
@@ -65,24 +97,6 @@ void CycleRunner::RunActivated(const Schedule& schedule, Time now, FaultDesk& de
   const bool more = std::ranges::any_of(
       schedule.entries, [](const auto& entry) { return entry.element->is_activated(); });
   if (more) activated_.store(true, std::memory_order_release);
-}
-
-void CycleRunner::RunTask(const Schedule::Entry& entry, Time now, FaultDesk& desk) noexcept {
-  ScheduledElement& element = *entry.element;
-  if (!element.TryEnter()) {
-    if (waits_for_data()) element.Wake();  // what has come is not forgotten
-    return;
-  }
-  if (!element.is_stopped()) {
-    try {
-      entry.run();
-    } catch (const std::exception& exception) {
-      element.Fail(exception.what(), now, desk);
-    } catch (...) {
-      element.Fail("unknown exception", now, desk);
-    }
-  }
-  element.Leave();
 }
 
 void CycleRunner::Activate() noexcept {

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 
 #include "core/base/clock.h"
-#include "core/lockfree/latest_value.h"
+#include "core/lockfree/cache_line.h"
 
 namespace runnel {
 
@@ -31,7 +34,11 @@ struct CycleMeasurement {
 
 /// Sums up measurements, and lets others look at the sum meanwhile.
 ///
-/// Threads:   Add() by one thread at a time; statistics() by any. Progress: wait-free / lock-free.
+/// What a cycle pays for is adding up; who looks does the dividing. Two cells are written in turn,
+/// as in LatestValue, so that a reader never waits for a writer that has been interrupted.
+///
+/// Threads:   Add() by one thread at a time; statistics() by any. Progress: wait-free / lock-free
+///            (repeated only if a whole cycle has gone by meanwhile).
 /// Allocation: none.
 class CycleMeter {
  public:
@@ -39,12 +46,33 @@ class CycleMeter {
   [[nodiscard]] CycleStatistics statistics() const noexcept;
 
  private:
-  CycleStatistics sum_;  // the writer's own, as is what follows
-  Time first_start_{};
-  Time last_start_{};
-  Duration jitter_sum_{};
-  Duration execution_sum_{};
-  LatestValue<CycleStatistics> published_;
+  struct Sums {
+    std::uint64_t cycles = 0;
+    std::uint64_t overruns = 0;
+    Time first_start{};
+    Time last_start{};
+    Duration period_min = Duration::max();
+    Duration period_max = Duration::min();
+    Duration jitter{};
+    Duration jitter_max{};
+    Duration execution{};
+    Duration execution_max{};
+  };
+  static_assert(sizeof(Sums) % sizeof(std::uint64_t) == 0);
+  static constexpr std::size_t kWords = sizeof(Sums) / sizeof(std::uint64_t);
+  static constexpr std::uint64_t kBeingWritten = 0;
+
+  struct alignas(kCacheLineSize) Cell {
+    std::atomic<std::uint64_t> cycles{0};
+    std::array<std::atomic<std::uint64_t>, kWords> words{};
+  };
+
+  void Publish() noexcept;
+  [[nodiscard]] Sums Read() const noexcept;
+
+  Sums sums_;  // the writer's own
+  std::array<Cell, 2> cells_;
+  alignas(kCacheLineSize) std::atomic<std::uint64_t> published_{0};  // the number of cycles
 };
 
 }  // namespace runnel
