@@ -12,7 +12,8 @@ namespace {
 
 // Of the cycle that this thread is in, at whose end those who wait for data will be told; else
 // nullptr.
-thread_local constinit const Schedule* in_cycle_of = nullptr;
+thread_local constinit const Schedule* in_cycle_of __attribute__((tls_model("initial-exec"))) =
+    nullptr;
 
 bool IsToldAtTheEnd(const CycleRunner& runner) noexcept {
   return in_cycle_of != nullptr &&

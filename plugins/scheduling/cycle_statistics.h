@@ -2,7 +2,6 @@
 
 #include <array>
 #include <atomic>
-#include <cstddef>
 #include <cstdint>
 
 #include "core/base/clock.h"
@@ -46,33 +45,34 @@ class CycleMeter {
   [[nodiscard]] CycleStatistics statistics() const noexcept;
 
  private:
-  struct Sums {
-    std::uint64_t cycles = 0;
-    std::uint64_t overruns = 0;
-    Time first_start{};
-    Time last_start{};
-    Duration period_min = Duration::max();
-    Duration period_max = Duration::min();
-    Duration jitter{};
-    Duration jitter_max{};
-    Duration execution{};
-    Duration execution_max{};
+  // All are sums and extremes of counts, or of nanoseconds, in words that are copied one by one.
+  enum Word {
+    kCycles,
+    kOverruns,
+    kFirstStart,
+    kLastStart,
+    kPeriodMin,
+    kPeriodMax,
+    kJitter,
+    kJitterMax,
+    kExecution,
+    kExecutionMax,
+    kWords
   };
-  static_assert(sizeof(Sums) % sizeof(std::uint64_t) == 0);
-  static constexpr std::size_t kWords = sizeof(Sums) / sizeof(std::uint64_t);
-  static constexpr std::uint64_t kBeingWritten = 0;
+  using Sums = std::array<std::int64_t, kWords>;
+  static constexpr std::int64_t kBeingWritten = 0;
 
   struct alignas(kCacheLineSize) Cell {
-    std::atomic<std::uint64_t> cycles{0};
-    std::array<std::atomic<std::uint64_t>, kWords> words{};
+    std::atomic<std::int64_t> number{kBeingWritten};
+    std::array<std::atomic<std::int64_t>, kWords> words{};
   };
 
   void Publish() noexcept;
   [[nodiscard]] Sums Read() const noexcept;
 
-  Sums sums_;  // the writer's own
+  Sums sums_{};  // the writer's own
   std::array<Cell, 2> cells_;
-  alignas(kCacheLineSize) std::atomic<std::uint64_t> published_{0};  // the number of cycles
+  alignas(kCacheLineSize) std::atomic<std::int64_t> published_{0};  // the number of cycles
 };
 
 }  // namespace runnel
