@@ -4,7 +4,6 @@
 #include <exception>
 
 #include "core/lockfree/thread_epoch.h"
-#include "core/port/cycle.h"
 
 namespace runnel {
 
@@ -43,16 +42,16 @@ void CycleRunner::Install(std::unique_ptr<const Schedule> schedule) {
   if (previous != nullptr) Retire([previous] { delete previous; });
 }
 
-void CycleRunner::RunCycle(const CycleTimes& times, FaultDesk& desk) noexcept {
+void CycleRunner::RunCycle(Cycle cycle, FaultDesk& desk) noexcept {
   const EpochGuard guard;
-  const CycleScope scope({times.now, times.period});
+  const CycleScope scope(cycle);
   const Schedule* const schedule = this->schedule();
   if (schedule == nullptr) return;
   in_cycle_of = schedule;
   if (waits_for_data()) {
-    RunActivated(*schedule, times.now, desk);
+    RunActivated(*schedule, cycle.now, desk);
   } else {
-    RunAll(*schedule, times.now, desk);
+    RunAll(*schedule, cycle.now, desk);
   }
   in_cycle_of = nullptr;
   for (CycleRunner* const waiting : schedule->waiting) {

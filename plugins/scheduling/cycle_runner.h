@@ -7,19 +7,13 @@
 #include <utility>
 
 #include "core/base/clock.h"
+#include "core/port/cycle.h"
 #include "plugins/scheduling/cycle_statistics.h"
 #include "plugins/scheduling/schedule.h"
 #include "plugins/scheduling/thread_options.h"
 #include "plugins/scheduling/wake_event.h"
 
 namespace runnel {
-
-/// When a cycle runs, by the plan and in fact.
-struct CycleTimes {
-  Time due{};
-  Time now{};
-  Duration period{};  ///< 0 without a plan
-};
 
 /// Runs the cycles of one thread container; both executors are built on it. It outlives the
 /// container until its last cycle has ended.
@@ -56,7 +50,7 @@ class CycleRunner {
   }
 
   /// One cycle: every task in turn (of those that data has come for, if the thread waits for data).
-  void RunCycle(const CycleTimes& times, FaultDesk& desk) noexcept;
+  void RunCycle(Cycle cycle, FaultDesk& desk) noexcept;
   /// Counts a cycle that has ended.
   void Record(const CycleMeasurement& cycle) noexcept { meter_.Add(cycle); }
   [[nodiscard]] CycleStatistics statistics() const noexcept { return meter_.statistics(); }

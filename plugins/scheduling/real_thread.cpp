@@ -62,11 +62,12 @@ void RealThread::RunPeriodically(Time first) {
   const ThreadOptions& options = runner_->options();
   DueTime due(first, options.period, options.on_overrun);
   while (SleepUntil(due.next(), [this] { return stopping(); })) {
-    const CycleTimes times{due.next(), clock.Now(), options.period};
-    runner_->RunCycle(times, desk_);
+    const Time planned = due.next();
+    const Time now = clock.Now();
+    runner_->RunCycle({now, options.period}, desk_);
     const Time ended = clock.Now();
     const bool overrun = due.Advance(ended);
-    runner_->Record({times.due, times.now, ended - times.now, overrun});
+    runner_->Record({planned, now, ended - now, overrun});
   }
 }
 
@@ -75,7 +76,7 @@ void RealThread::RunFreely() {
   TickClock clock;
   Time now = clock.Now();
   while (!stopping()) {
-    runner_->RunCycle({now, now, Duration::zero()}, desk_);
+    runner_->RunCycle({now, Duration::zero()}, desk_);
     const Time ended = clock.Now();
     runner_->Record({now, now, ended - now, false});
     now = ended;
@@ -90,7 +91,7 @@ void RealThread::RunOnData() {
     if (stopping()) return;
     if (!runner_->TakeActivation()) continue;
     const Time now = clock.Now();
-    runner_->RunCycle({now, now, Duration::zero()}, desk_);
+    runner_->RunCycle({now, Duration::zero()}, desk_);
     runner_->Record({now, now, clock.Now() - now, false});
     if (runner_->is_held_up()) std::this_thread::sleep_for(kLookAgain);
   }

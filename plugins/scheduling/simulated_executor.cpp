@@ -60,7 +60,7 @@ void SimulatedExecutor::RunPeriodic(Lane& lane) {
   const Time start = clock_.Now();  // later, if a module has let time pass in its cycle
   const Duration period = is_planned ? lane.runner->options().period : Duration::zero();
   const Time began = machine_.Now();
-  lane.runner->RunCycle({due, start, period}, desk_);
+  lane.runner->RunCycle({start, period}, desk_);
   const Duration execution = machine_.Now() - began;
   const bool overrun = lane.due.Advance(clock_.Now());
   lane.runner->Record({is_planned ? due : start, start, execution, is_planned && overrun});
@@ -75,7 +75,7 @@ void SimulatedExecutor::RunActivated() {
     (void)next->TakeActivation();
     const Time now = clock_.Now();
     const Time began = machine_.Now();
-    next->RunCycle({now, now, Duration::zero()}, desk_);
+    next->RunCycle({now, Duration::zero()}, desk_);
     next->Record({now, now, machine_.Now() - began, false});
     desk_.Attend();
   }

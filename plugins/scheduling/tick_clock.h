@@ -44,8 +44,8 @@ class BasicTickClock {
     // A counter that has gone back makes this huge.
     const std::uint64_t since = Machine::Count() - asked_at_;
     if (since >= trusted_) return last_ = std::max(last_, Ask());
-    const auto passed = static_cast<std::int64_t>(static_cast<double>(since) * rate_);
-    return last_ = std::max(last_, answer_ + Duration(passed));
+    const Duration passed(static_cast<std::int64_t>((since * scale_) >> kScaleBits));
+    return last_ = std::max(last_, answer_ + passed);
   }
 
   static constexpr Duration kInterval = std::chrono::milliseconds(1);
@@ -64,13 +64,16 @@ class BasicTickClock {
     const auto passed = static_cast<double>((now - answer_).count());
     const double rate = passed / static_cast<double>(count - asked_at_);
     const bool agrees = std::abs(rate - rate_) < 1e-3 * rate_;
+    // The product in Now() is at most the interval in nanoseconds, scaled: it fits.
     trusted_ = agrees ? static_cast<std::uint64_t>(kIntervalInNanoseconds / rate) : 0;
+    scale_ = agrees ? static_cast<std::uint64_t>(rate * (std::uint64_t{1} << kScaleBits)) : 0;
     rate_ = has_asked_ ? rate : 0;
     has_asked_ = true;
     asked_at_ = count;
     answer_ = now;
   }
 
+  static constexpr int kScaleBits = 32;
   static constexpr std::uint64_t kAtOnce = 1000;
   static constexpr double kIntervalInNanoseconds = static_cast<double>(kInterval.count());
 
@@ -78,7 +81,8 @@ class BasicTickClock {
   bool has_asked_ = false;
   std::uint64_t trusted_ = 0;  // ticks after the last question; 0: ask every time
   std::uint64_t asked_at_ = 0;
-  double rate_ = 0;  // nanoseconds per tick, between the last two questions
+  std::uint64_t scale_ = 0;  // the rate, as a fraction of 2 to the kScaleBits
+  double rate_ = 0;          // nanoseconds per tick, between the last two questions
   Time answer_{};
   Time last_{};
 };
