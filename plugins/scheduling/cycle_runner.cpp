@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <span>
 
 #include "core/lockfree/thread_epoch.h"
 
@@ -19,15 +20,21 @@ bool IsToldAtTheEnd(const CycleRunner& runner) noexcept {
          std::ranges::find(in_cycle_of->waiting, &runner) != in_cycle_of->waiting.end();
 }
 
-void RunTask(const Schedule::Entry& entry, Time now, FaultDesk& desk) noexcept {
-  ScheduledElement& element = *entry.element;
-  if (element.is_stopped()) return;
-  try {
-    entry.run();
-  } catch (const std::exception& exception) {
-    element.Fail(exception.what(), now, desk);
-  } catch (...) {
-    element.Fail("unknown exception", now, desk);
+// One that throws is stopped, and the others go on. The try block is around the loop and not within
+// it: a task costs no more than its call.
+void RunInTurn(std::span<const Schedule::Entry> entries, Time now, FaultDesk& desk) noexcept {
+  auto entry = entries.begin();
+  const auto fail = [&](const char* what) { (entry++)->element->Fail(what, now, desk); };
+  while (entry != entries.end()) {
+    try {
+      for (; entry != entries.end(); ++entry) {
+        if (!entry->element->is_stopped()) entry->run();
+      }
+    } catch (const std::exception& exception) {
+      fail(exception.what());
+    } catch (...) {
+      fail("unknown exception");
+    }
   }
 }
 
@@ -70,9 +77,9 @@ bool CycleRunner::IsSettled(const Schedule& schedule) noexcept {
 
 // An element that another thread may still be running is left out of this cycle.
 void CycleRunner::RunAll(const Schedule& schedule, Time now, FaultDesk& desk) noexcept {
-  const bool is_settled = IsSettled(schedule);
+  if (IsSettled(schedule)) return RunInTurn(schedule.entries, now, desk);
   for (const Schedule::Entry& entry : schedule.entries) {
-    if (is_settled || schedule.HasArrived(entry)) RunTask(entry, now, desk);
+    if (schedule.HasArrived(entry)) RunInTurn({&entry, 1}, now, desk);
   }
 }
 
@@ -82,14 +89,15 @@ void CycleRunner::RunActivated(const Schedule& schedule, Time now, FaultDesk& de
   const bool is_settled = IsSettled(schedule);
   is_held_up_ = false;
   for (const Schedule::Entry& entry : schedule.entries) {
+    ScheduledElement& element = *entry.element;
     // What has come for an element that another thread may still be running is not forgotten.
     if (!is_settled && !schedule.HasArrived(entry)) {
-      if (entry.element->is_activated()) is_held_up_ = true;
+      if (element.is_activated()) is_held_up_ = true;
       continue;
     }
-    if (entry.is_first && entry.element->TakeActivation()) entry.element->set_in_pass(true);
-    if (entry.element->in_pass()) RunTask(entry, now, desk);
-    if (entry.is_last) entry.element->set_in_pass(false);
+    if (entry.is_first && element.TakeActivation()) element.set_in_pass(true);
+    if (element.in_pass()) RunInTurn({&entry, 1}, now, desk);
+    if (entry.is_last) element.set_in_pass(false);
   }
   // What came during the pass for those further down has been used in it; what came for those
   // further up, or from other threads, is for the next one.

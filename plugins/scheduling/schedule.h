@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -15,7 +14,7 @@ namespace runnel {
 /// the structure makes a new one, and the old one goes when no cycle can be using it.
 struct Schedule {
   struct Entry {
-    std::function<void()> run;
+    BoundCall run;
     std::shared_ptr<ScheduledElement> element;
     Phase phase = Phase::kUpdate;
     bool is_first = true;  ///< of the element's tasks, in this schedule
