@@ -19,7 +19,8 @@ struct CycleStatistics {
   Duration period_max{};
   Duration jitter_mean{};  ///< |start - due time|; 0 for threads without a plan
   Duration jitter_max{};
-  Duration execution_mean{};  ///< what the modules take, on the machine's clock
+  /// What the modules take, on the machine's clock; of free-running threads from start to start.
+  Duration execution_mean{};
   Duration execution_max{};
 };
 
