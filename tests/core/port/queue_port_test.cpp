@@ -260,6 +260,33 @@ TEST_F(QueuePortTest, LeaseOfAQueuedCopyLivesOnAndCopies) {
   EXPECT_EQ(copy.sequence(), 1u);
 }
 
+TEST_F(QueuePortTest, PublisherCanAskBeforeItIsRefused) {
+  for (const bool two_sources : {false, true}) {
+    auto& sender = MakeSender<int>();
+    auto& receiver = MakeReceiver<int>();
+    Connect(sender.out, receiver.in, {.queue = 2, .on_full = OnFull::kRefuse});
+    auto& other = MakeSender<int>("other");
+    if (two_sources) Connect(other.out, receiver.in);
+    EXPECT_FALSE(other.out.WouldRefuse());
+    for (int i = 1; i <= 2; ++i) {
+      EXPECT_FALSE(sender.out.WouldRefuse());
+      sender.out.Publish(i);
+    }
+    EXPECT_TRUE(sender.out.WouldRefuse());
+    EXPECT_EQ(receiver.in.dropped(), 0u);
+    EXPECT_EQ(*receiver.in.Take(), 1);
+    EXPECT_FALSE(sender.out.WouldRefuse());
+  }
+}
+
+TEST_F(QueuePortTest, OnlyQueuesThatRefuseWouldRefuse) {
+  auto& sender = MakeSender<int>();
+  auto& receiver = MakeReceiver<int>();
+  Connect(sender.out, receiver.in, {.queue = 1, .on_full = OnFull::kDropNewest});
+  sender.out.Publish(1);
+  EXPECT_FALSE(sender.out.WouldRefuse());
+}
+
 // The publisher tries again whenever it is refused: nothing is lost, and all comes in order.
 TEST_F(QueuePortTest, NothingIsLostBetweenTwoThreadsIfThePublisherTriesAgain) {
   constexpr std::uint64_t kCount = 20000;
