@@ -262,10 +262,11 @@ TEST_F(QueuePortTest, LeaseOfAQueuedCopyLivesOnAndCopies) {
 
 TEST_F(QueuePortTest, PublisherCanAskBeforeItIsRefused) {
   for (const bool two_sources : {false, true}) {
-    auto& sender = MakeSender<int>();
-    auto& receiver = MakeReceiver<int>();
+    const std::string number = two_sources ? "2" : "1";
+    auto& sender = MakeSender<int>("sender" + number);
+    auto& receiver = MakeReceiver<int>("receiver" + number);
     Connect(sender.out, receiver.in, {.queue = 2, .on_full = OnFull::kRefuse});
-    auto& other = MakeSender<int>("other");
+    auto& other = MakeSender<int>("other" + number);
     if (two_sources) Connect(other.out, receiver.in);
     EXPECT_FALSE(other.out.WouldRefuse());
     for (int i = 1; i <= 2; ++i) {
