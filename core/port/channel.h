@@ -115,20 +115,20 @@ class Channel final : public ChannelBase {
     });
   }
 
-  /// The newest value, or none. Call inside an EpochGuard if the channel may be going away.
+  /// The newest value, or none. Call inside an EpochGuard.
   [[nodiscard, gnu::always_inline]] internal::HeldValue<T> Read() noexcept {
     if constexpr (kIsCheap<T>) {
       return internal::HeldValue<T>(storage_);
     } else {
-      return internal::HeldValue<T>(storage_.newest, ThisThread().hazards);
+      return internal::HeldValue<T>(storage_.newest, internal::thread_record->hazards);
     }
   }
-  /// Copies the newest value to `value`; false if there is none. Guard: as for Read().
+  /// Copies the newest value to `value`; false if there is none. Call inside an EpochGuard.
   [[gnu::always_inline]] bool Copy(T& value) noexcept requires(std::is_trivially_copyable_v<T>) {
     if constexpr (kIsCheap<T>) {
       return storage_.Read(value);
     } else {
-      const auto lease = storage_.newest.Lease(ThisThread().hazards);
+      const auto lease = storage_.newest.Lease(internal::thread_record->hazards);
       if (lease.get() == nullptr) return false;
       value = std::as_const(*lease.get()).value();
       return true;
