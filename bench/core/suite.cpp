@@ -1,0 +1,98 @@
+#include "bench/core/suite.h"
+
+#include <iostream>
+#include <regex>
+#include <utility>
+
+#include "bench/core/workloads/workloads.h"
+
+namespace runnel::bench {
+
+namespace {
+
+// The library takes its options from a command line only.
+void InitializeLibrary(const Settings& settings) {
+  std::vector<std::string> options = {
+      "runnel_bench", "--benchmark_enable_random_interleaving=true",
+      "--benchmark_repetitions=" + std::to_string(settings.repetitions),
+      "--benchmark_min_time=" + std::to_string(settings.seconds_per_case)};
+  std::vector<char*> arguments;
+  for (std::string& option : options) arguments.push_back(option.data());
+  int count = static_cast<int>(arguments.size());
+  benchmark::Initialize(&count, arguments.data());
+}
+
+double ValueOf(const benchmark::BenchmarkReporter::Run& run, const Quantity& quantity) {
+  if (quantity.name == TimeQuantity().name) {
+    return run.GetAdjustedRealTime() * static_cast<double>(run.threads);
+  }
+  const auto counter = run.counters.find(quantity.name);
+  return counter == run.counters.end() ? 0 : counter->second.value;
+}
+
+}  // namespace
+
+class Suite::Collector final : public benchmark::BenchmarkReporter {
+ public:
+  explicit Collector(Suite& suite) : suite_(suite) {}
+  bool ReportContext(const Context&) override { return true; }
+  void ReportRuns(const std::vector<Run>& runs) override {
+    if (!runs.empty()) suite_.Collect(runs.front().run_name.function_name, runs);
+  }
+
+ private:
+  Suite& suite_;
+};
+
+Suite::Suite(Settings settings, Results& results)
+    : settings_(std::move(settings)), results_(results) {
+  InitializeLibrary(settings_);
+}
+
+void Suite::RunGroup(const std::string& group, AddCases add) {
+  group_ = group;
+  cases_.clear();
+  Start({kBaselineWorkload});
+  AddFetchAdd(*this);
+  add(*this);
+  if (IsAnythingWanted()) {
+    std::cerr << "measuring: " << group << std::endl;
+    Collector collector(*this);
+    benchmark::RunSpecifiedBenchmarks(&collector, "(" + kFetchAdd + ")|" + settings_.filter);
+  }
+  benchmark::ClearRegisteredBenchmarks();
+}
+
+void Suite::Start(Workload workload) { workload_ = std::move(workload); }
+
+benchmark::internal::Benchmark* Suite::Add(Role role, const std::string& subject, Run run) {
+  const std::string name = workload_.name + "/" + subject;
+  cases_[name] = {workload_, {role, subject}};
+  return benchmark::RegisterBenchmark(name.c_str(), std::move(run))->UseRealTime();
+}
+
+bool Suite::IsAnythingWanted() const {
+  const std::regex filter(settings_.filter, std::regex::extended);
+  for (const auto& [name, each] : cases_) {
+    if (each.subject.name != kFetchAdd && std::regex_search(name, filter)) return true;
+  }
+  return false;
+}
+
+void Suite::Collect(const std::string& name,
+                    const std::vector<benchmark::BenchmarkReporter::Run>& runs) {
+  const auto found = cases_.find(name);
+  if (found == cases_.end()) return;
+  const Case& which = found->second;
+  for (const Quantity& quantity : which.workload.quantities) {
+    Measurement measurement{group_, which.workload, which.subject, quantity, {}};
+    for (const auto& run : runs) {
+      if (run.error_occurred) measurement.error = run.error_message;
+      if (run.error_occurred || run.run_type != run.RT_Iteration) continue;
+      measurement.samples.push_back(ValueOf(run, quantity));
+    }
+    results_.Add(std::move(measurement));
+  }
+}
+
+}  // namespace runnel::bench

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "bench/report/measurement.h"
+
+namespace runnel::bench {
+
+struct Settings {
+  std::string filter = ".";  ///< regular expression for "workload/subject"
+  bool quick = false;
+  int repetitions = 5;
+  double seconds_per_case = 0.05;       ///< and repetition
+  double seconds_per_image_case = 2.0;  ///< image transport, likewise
+};
+
+/// The cases of one group after the other, run by Google Benchmark: the repetitions of all cases of
+/// a group in turns, in random order, so that what else the machine does hits all of them alike.
+///
+///     suite.Start({"ring of 5"});
+///     suite.Add(Role::kRival, "seqlock", [](benchmark::State& state) { … });
+class Suite {
+ public:
+  using Run = std::function<void(benchmark::State&)>;
+  using AddCases = void (*)(Suite&);
+
+  Suite(Settings settings, Results& results);
+
+  [[nodiscard]] const Settings& settings() const noexcept { return settings_; }
+
+  /// Has `add` make the cases of a group and runs those that the filter lets through.
+  void RunGroup(const std::string& group, AddCases add);
+
+  /// What follows belongs to `workload`.
+  void Start(Workload workload);
+  /// Time is what an iteration takes on the clock; other quantities are the state's counters. With
+  /// several threads, time is that of one thread's iteration.
+  benchmark::internal::Benchmark* Add(Role role, const std::string& subject, Run run);
+
+ private:
+  class Collector;
+  struct Case {
+    Workload workload;
+    Subject subject;
+  };
+
+  [[nodiscard]] bool IsAnythingWanted() const;
+  void Collect(const std::string& name, const std::vector<benchmark::BenchmarkReporter::Run>& runs);
+
+  const Settings settings_;
+  Results& results_;
+  std::string group_;
+  Workload workload_;
+  std::map<std::string, Case> cases_;
+};
+
+}  // namespace runnel::bench

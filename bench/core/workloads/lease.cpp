@@ -1,0 +1,85 @@
+// Lease the newest image and let it go, 1 to all threads at once from one port: whether readers
+// disturb each other. The figure is what it costs one thread: flat is good.
+
+#include <memory>
+#include <set>
+#include <string>
+#include <thread>
+
+#include "bench/core/rivals/atomic_shared_pointer.h"
+#include "bench/core/rivals/mutex_shared_pointer.h"
+#include "bench/core/support/images.h"
+#include "bench/core/support/star.h"
+#include "bench/core/workloads/workloads.h"
+
+namespace runnel::bench {
+
+namespace {
+
+// Each thread has an input of its own, all connected to the same output.
+class RunnelReaders {
+ public:
+  explicit RunnelReaders(std::size_t threads) : star_(threads) { star_.output().Publish(Image{}); }
+
+  void Run(benchmark::State& state) {
+    Input<Image>& input = star_.input(static_cast<std::size_t>(state.thread_index()));
+    const InACycle cycle;
+    for (auto _ : state) {
+      const auto lease = input.Read();
+      benchmark::DoNotOptimize(lease->number);
+    }
+  }
+
+ private:
+  Star<Image> star_;
+};
+
+template <typename Cell>
+class PointerReaders {
+ public:
+  explicit PointerReaders(std::size_t) { cell_.Write(std::make_shared<const Image>()); }
+
+  void Run(benchmark::State& state) {
+    for (auto _ : state) {
+      const auto lease = cell_.Lease();
+      benchmark::DoNotOptimize(lease->number);
+    }
+  }
+
+ private:
+  Cell cell_;
+};
+
+template <typename Readers>
+void AddReaders(Suite& suite, Role role, const std::string& name, int threads) {
+  const auto readers = std::make_shared<Readers>(static_cast<std::size_t>(threads));
+  suite.Add(role, name, [readers](benchmark::State& state) { readers->Run(state); })
+      ->Threads(threads);
+}
+
+// Powers of two, and all there are.
+std::set<int> ThreadCounts() {
+  const int all = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  std::set<int> counts = {1, all};
+  for (int count = 2; count < all; count *= 2) counts.insert(count);
+  return counts;
+}
+
+}  // namespace
+
+void AddLease(Suite& suite) {
+  for (const int threads : ThreadCounts()) {
+    suite.Start({.name = "lease a large value, " + std::to_string(threads) +
+                         (threads == 1 ? " thread" : " threads"),
+                 .family = "lease a large value",
+                 .axis = "threads",
+                 .position = static_cast<double>(threads)});
+    AddReaders<RunnelReaders>(suite, Role::kRunnel, "Read", threads);
+    AddReaders<PointerReaders<MutexSharedPointer<Image>>>(
+        suite, Role::kRival, MutexSharedPointer<Image>::kName, threads);
+    AddReaders<PointerReaders<AtomicSharedPointer<Image>>>(
+        suite, Role::kRival, AtomicSharedPointer<Image>::kName, threads);
+  }
+}
+
+}  // namespace runnel::bench
