@@ -32,6 +32,9 @@ void Declare(CLI::App& app, Options& options) {
   app.add_option("--filter", options.settings.filter,
                  "only cases whose \"workload/by\" this regular expression finds");
   app.add_flag("--quick", options.settings.quick, "in less than a minute, and less exact");
+  app.add_flag(
+      "--best", options.settings.best,
+      "take the best repetition of each case, not the median: where others use the machine");
   app.add_option("--repetitions", options.settings.repetitions, "of each case; the median counts")
       ->check(CLI::PositiveNumber);
   app.add_option("--image-seconds", options.settings.seconds_per_image_case,

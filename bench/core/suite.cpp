@@ -1,5 +1,6 @@
 #include "bench/core/suite.h"
 
+#include <algorithm>
 #include <iostream>
 #include <regex>
 #include <utility>
@@ -52,46 +53,63 @@ Suite::Suite(Settings settings, Results& results)
 void Suite::RunGroup(const std::string& group, AddCases add) {
   group_ = group;
   cases_.clear();
+  numbers_.clear();
   Start({kBaselineWorkload});
   AddFetchAdd(*this);
   add(*this);
   if (IsAnythingWanted()) {
     std::cerr << "measuring: " << group << std::endl;
-    Collector collector(*this);
-    benchmark::RunSpecifiedBenchmarks(&collector, "(" + kFetchAdd + ")|" + settings_.filter);
+    RunCases();
   }
   benchmark::ClearRegisteredBenchmarks();
+}
+
+void Suite::RunCases() {
+  Collector collector(*this);
+  benchmark::RunSpecifiedBenchmarks(&collector, "(" + kFetchAdd + ")|" + settings_.filter);
+  for (Case& each : cases_) {
+    for (Measurement& measurement : each.measurements) results_.Add(std::move(measurement));
+  }
 }
 
 void Suite::Start(Workload workload) { workload_ = std::move(workload); }
 
 benchmark::internal::Benchmark* Suite::Add(Role role, const std::string& subject, Run run) {
+  return Register(role, subject, std::move(run))->UseRealTime();
+}
+
+benchmark::internal::Benchmark* Suite::AddTimed(Role role, const std::string& subject, Run run) {
+  return Register(role, subject, std::move(run))->UseManualTime()->Iterations(1);
+}
+
+benchmark::internal::Benchmark* Suite::Register(Role role, const std::string& subject, Run run) {
   const std::string name = workload_.name + "/" + subject;
-  cases_[name] = {workload_, {role, subject}};
-  return benchmark::RegisterBenchmark(name.c_str(), std::move(run))->UseRealTime();
+  numbers_[name] = cases_.size();
+  cases_.push_back({workload_, {role, subject}});
+  return benchmark::RegisterBenchmark(name.c_str(), std::move(run));
 }
 
 bool Suite::IsAnythingWanted() const {
   const std::regex filter(settings_.filter, std::regex::extended);
-  for (const auto& [name, each] : cases_) {
-    if (each.subject.name != kFetchAdd && std::regex_search(name, filter)) return true;
-  }
-  return false;
+  return std::ranges::any_of(numbers_, [&](const auto& each) {
+    return cases_[each.second].subject.name != kFetchAdd && std::regex_search(each.first, filter);
+  });
 }
 
 void Suite::Collect(const std::string& name,
                     const std::vector<benchmark::BenchmarkReporter::Run>& runs) {
-  const auto found = cases_.find(name);
-  if (found == cases_.end()) return;
-  const Case& which = found->second;
+  const auto found = numbers_.find(name);
+  // The library hands in its own sums as well, after the repetitions.
+  if (found == numbers_.end() || runs.front().run_type != runs.front().RT_Iteration) return;
+  Case& which = cases_[found->second];
   for (const Quantity& quantity : which.workload.quantities) {
     Measurement measurement{group_, which.workload, which.subject, quantity, {}};
+    measurement.best_counts = settings_.best;
     for (const auto& run : runs) {
       if (run.error_occurred) measurement.error = run.error_message;
-      if (run.error_occurred || run.run_type != run.RT_Iteration) continue;
-      measurement.samples.push_back(ValueOf(run, quantity));
+      if (!run.error_occurred) measurement.samples.push_back(ValueOf(run, quantity));
     }
-    results_.Add(std::move(measurement));
+    which.measurements.push_back(std::move(measurement));
   }
 }
 

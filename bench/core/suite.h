@@ -14,6 +14,7 @@ namespace runnel::bench {
 struct Settings {
   std::string filter = ".";  ///< regular expression for "workload/subject"
   bool quick = false;
+  bool best = false;  ///< of the repetitions instead of the median
   int repetitions = 5;
   double seconds_per_case = 0.05;       ///< and repetition
   double seconds_per_image_case = 2.0;  ///< image transport, likewise
@@ -41,22 +42,28 @@ class Suite {
   /// Time is what an iteration takes on the clock; other quantities are the state's counters. With
   /// several threads, time is that of one thread's iteration.
   benchmark::internal::Benchmark* Add(Role role, const std::string& subject, Run run);
+  /// `run` says itself how long each iteration took.
+  benchmark::internal::Benchmark* AddTimed(Role role, const std::string& subject, Run run);
 
  private:
   class Collector;
   struct Case {
     Workload workload;
     Subject subject;
+    std::vector<Measurement> measurements = {};
   };
 
+  benchmark::internal::Benchmark* Register(Role role, const std::string& subject, Run run);
   [[nodiscard]] bool IsAnythingWanted() const;
+  void RunCases();
   void Collect(const std::string& name, const std::vector<benchmark::BenchmarkReporter::Run>& runs);
 
   const Settings settings_;
   Results& results_;
   std::string group_;
   Workload workload_;
-  std::map<std::string, Case> cases_;
+  std::vector<Case> cases_;                     // of the group, in the order of their making
+  std::map<std::string, std::size_t> numbers_;  // of the cases, by name
 };
 
 }  // namespace runnel::bench

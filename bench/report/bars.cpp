@@ -79,9 +79,9 @@ Verdict Judge(const Bar& bar, const Measurement& measurement, const Results& res
   double reference = results.FetchAdd(measurement.group);
   if (!bar.reference.workload.empty()) {
     const auto* found = results.Find(bar.reference.workload, bar.reference.subject, bar.quantity);
-    reference = found != nullptr ? found->Median() : 0;
+    reference = found != nullptr ? found->Typical() : 0;
   }
-  const double value = measurement.Median();
+  const double value = measurement.Typical();
   if (reference <= 0 || value <= 0) return {words.str()};
   const double limit = bar.limit * reference;
   return {words.str(), true, is_upper ? value <= limit : value >= limit};

@@ -32,13 +32,13 @@ std::string Judgement(const Measurement& now, double ratio, const Tree& before) 
 
 std::vector<std::string> Cells(const Measurement& now, const Tree& before, double f) {
   const std::string& unit = now.quantity.unit;
-  const double old = before.get<double>("median");
+  const double old = before.get<double>("typical");
   const double old_f = before.get<double>("f");
-  const double ratio = old > 0 ? now.Median() / old : 0;
+  const double ratio = old > 0 ? now.Typical() / old : 0;
   const bool is_time = unit == "ns" && f > 0 && old_f > 0;
   return {now.workload.name + ": " + now.subject.name + ", " + now.quantity.name,
           WithUnit(old, unit),
-          WithUnit(now.Median(), unit),
+          WithUnit(now.Typical(), unit),
           Rounded(ratio),
           is_time ? Rounded(ratio * old_f / f) : "",
           Judgement(now, ratio, before)};
@@ -58,7 +58,7 @@ std::string CompareWithEarlier(const std::string& file, const Results& results) 
   for (const Measurement& each : results.all()) {
     if (each.subject.role != Role::kRunnel || each.samples.empty()) continue;
     const Tree* before = FindCase(cases, each);
-    if (before == nullptr || before->get<double>("median") <= 0) continue;
+    if (before == nullptr || before->get<double>("typical") <= 0) continue;
     table.Add(Cells(each, *before, results.FetchAdd(each.group)));
   }
   return table.ToString();

@@ -63,6 +63,7 @@ std::string CaseToJson(const Measurement& measurement, const Results& results) {
          Member("role", Quoted(NameOf(measurement.subject.role))) + ", " +
          Member("unit", Quoted(measurement.quantity.unit)) + ", " +
          Member("more_is_better", measurement.quantity.more_is_better ? "true" : "false") + ", " +
+         Member("typical", Number(measurement.Typical())) + ", " +
          Member("median", Number(measurement.Median())) + ", " +
          Member("minimum", Number(measurement.Minimum())) + ", " +
          Member("maximum", Number(measurement.Maximum())) + ", " +

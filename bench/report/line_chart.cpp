@@ -85,7 +85,7 @@ std::string LineChart(const std::vector<const Measurement*>& measurements) {
   std::vector<Subject> subjects;
   for (const Measurement* each : measurements) {
     plot.x.Include(each->workload.position);
-    plot.y.Include(each->Median());
+    plot.y.Include(each->Typical());
     const bool is_known = std::ranges::any_of(
         subjects, [&](const Subject& subject) { return subject.name == each->subject.name; });
     if (!is_known) subjects.push_back(each->subject);
@@ -103,7 +103,7 @@ std::string LineChart(const std::vector<const Measurement*>& measurements) {
     std::vector<Svg::Point> points;
     for (const Measurement* each : measurements) {
       if (each->subject.name != subject.name) continue;
-      points.push_back(plot.At(each->workload.position, each->Median()));
+      points.push_back(plot.At(each->workload.position, each->Typical()));
     }
     svg.Polyline(points, colour, is_own ? 3 : 1.5);
     for (const Svg::Point& point : points) svg.Dot(point, is_own ? 4 : 2.5, colour);

@@ -12,6 +12,11 @@ double Measurement::Median() const {
   return sorted.size() % 2 == 1 ? sorted[middle] : (sorted[middle - 1] + sorted[middle]) / 2;
 }
 
+double Measurement::Typical() const {
+  if (!best_counts) return Median();
+  return quantity.more_is_better ? Maximum() : Minimum();
+}
+
 double Measurement::Minimum() const {
   return samples.empty() ? 0 : *std::ranges::min_element(samples);
 }
@@ -33,7 +38,7 @@ double Results::FetchAdd(const std::string& group) const {
   const auto found = std::ranges::find_if(all_, [&](const Measurement& each) {
     return each.group == group && each.subject.name == kFetchAdd;
   });
-  return found == all_.end() ? 0 : found->Median();
+  return found == all_.end() ? 0 : found->Typical();
 }
 
 }  // namespace runnel::bench

@@ -45,7 +45,11 @@ struct Measurement {
   std::vector<double> samples;
   std::string error = {};  ///< why there are no samples
 
-  /// All three: 0 without samples.
+  bool best_counts = false;  ///< see Typical()
+
+  /// The median; the best of all, if that is what counts: on a machine that others use. All four: 0
+  /// without samples.
+  [[nodiscard]] double Typical() const;
   [[nodiscard]] double Median() const;
   [[nodiscard]] double Minimum() const;
   [[nodiscard]] double Maximum() const;

@@ -8,8 +8,8 @@ namespace {
 constexpr double kEven = 0.03;
 
 bool IsBetter(const Measurement& one, const Measurement& other) {
-  return one.quantity.more_is_better ? one.Median() > other.Median()
-                                     : one.Median() < other.Median();
+  return one.quantity.more_is_better ? one.Typical() > other.Typical()
+                                     : one.Typical() < other.Typical();
 }
 
 const Measurement* BestRival(const Results& results, const Measurement& of) {
@@ -25,8 +25,8 @@ const Measurement* BestRival(const Results& results, const Measurement& of) {
 }
 
 void Compare(Row& row) {
-  const double mine = row.runnel->Median();
-  const double theirs = row.best_rival->Median();
+  const double mine = row.runnel->Typical();
+  const double theirs = row.best_rival->Typical();
   if (mine <= 0 || theirs <= 0) return;
   row.ratio = row.runnel->quantity.more_is_better ? mine / theirs : theirs / mine;
   const bool is_even = row.ratio > 1 - kEven && row.ratio < 1 + kEven;
@@ -42,7 +42,7 @@ std::vector<Row> MakeRows(const Results& results) {
     Row row;
     row.runnel = &each;
     const double f = results.FetchAdd(each.group);
-    if (each.quantity.unit == "ns" && f > 0) row.in_f = each.Median() / f;
+    if (each.quantity.unit == "ns" && f > 0) row.in_f = each.Typical() / f;
     for (const Bar& bar : Bars()) {
       if (bar.workload == each.workload.name && bar.subject == each.subject.name &&
           bar.quantity == each.quantity.name) {

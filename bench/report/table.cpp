@@ -28,13 +28,13 @@ std::vector<std::string> Cells(const Row& row) {
   const Measurement& mine = *row.runnel;
   const std::string& unit = mine.quantity.unit;
   return {NameOf(mine),
-          mine.samples.empty() ? "failed" : WithUnit(mine.Median(), unit),
+          mine.samples.empty() ? "failed" : WithUnit(mine.Typical(), unit),
           Multiple(row.in_f),
           bars,
           met,
           row.best_rival == nullptr
               ? ""
-              : row.best_rival->subject.name + " " + WithUnit(row.best_rival->Median(), unit),
+              : row.best_rival->subject.name + " " + WithUnit(row.best_rival->Typical(), unit),
           Multiple(row.ratio),
           row.winner};
 }
@@ -67,8 +67,8 @@ std::string BaselineTable(const Results& results) {
   for (const Measurement& each : results.all()) {
     if (each.subject.role != Role::kBaseline || !seen.insert(each.subject.name).second) continue;
     const double f = results.FetchAdd(each.group);
-    table.Add({each.subject.name, WithUnit(each.Median(), each.quantity.unit),
-               Multiple(f > 0 ? each.Median() / f : 0)});
+    table.Add({each.subject.name, WithUnit(each.Typical(), each.quantity.unit),
+               Multiple(f > 0 ? each.Typical() / f : 0)});
   }
   return table.ToString();
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bench/core/rivals/mutex_shared_pointer.h"
+#include "bench/core/support/pinned_thread.h"
 #include "bench/core/support/star.h"
 #include "bench/core/workloads/workloads.h"
 
@@ -68,7 +69,9 @@ template <typename Wiring>
 void RunWiring(benchmark::State& state, bool changes_go_on) {
   Wiring wiring;
   std::atomic<std::uint64_t> changes{0};
+  const PinnedThread first_core(0);
   std::jthread changer([&](const std::stop_token& stop) {
+    const PinnedThread second_core(1);
     while (changes_go_on && !stop.stop_requested()) {
       wiring.Connect();
       wiring.Disconnect();

@@ -46,8 +46,7 @@ void AddCell(Suite& suite, Role role = Role::kRival) {
 }
 
 template <typename T>
-void AddType(Suite& suite, const std::string& what) {
-  suite.Start({"get a copy of " + what});
+void AddSubjects(Suite& suite) {
   suite.Add(Role::kRunnel, "Read", ReadRunnel<T>);
   AddCell<T, Seqlock>(suite);
   AddCell<T, TripleBuffer>(suite);
@@ -60,8 +59,10 @@ void AddType(Suite& suite, const std::string& what) {
 }  // namespace
 
 void AddGet(Suite& suite) {
-  AddType<double>(suite, "a double");
-  AddType<Matrix4>(suite, "128 B");
+  suite.Start({"get a copy of a double"});
+  AddSubjects<double>(suite);
+  suite.Start({"get a copy of 128 B"});
+  AddSubjects<Matrix4>(suite);
 }
 
 }  // namespace runnel::bench

@@ -14,6 +14,7 @@
 #include "bench/core/rivals/seqlock.h"
 #include "bench/core/rivals/triple_buffer.h"
 #include "bench/core/support/payloads.h"
+#include "bench/core/support/pinned_thread.h"
 #include "bench/core/support/star.h"
 #include "bench/core/support/waiting.h"
 #include "bench/core/workloads/workloads.h"
@@ -62,7 +63,9 @@ std::vector<double> MeasureLatencies(std::uint64_t messages) {
   std::vector<double> latencies;
   latencies.reserve(messages);
   alignas(64) std::atomic<std::uint64_t> received{0};
+  const PinnedThread first_core(0);
   const std::jthread reader([&] {
+    const PinnedThread second_core(1);
     const InACycle cycle;
     Message message;
     for (std::uint64_t i = 0; i < messages; ++i) {
@@ -75,7 +78,7 @@ std::vector<double> MeasureLatencies(std::uint64_t messages) {
   const InACycle cycle;
   Message message{};
   for (message.number = 1; message.number <= messages; ++message.number) {
-    for (std::uint64_t pause = 10 + message.number * 7 % 16; pause > 0; --pause) Waiting::Relax();
+    Idle(500 + static_cast<unsigned>(message.number * 7 % 16) * 20);
     message.sent = Now();
     transport->Write(message);
     for (Waiting waiting; received.load(std::memory_order_acquire) < message.number;) {

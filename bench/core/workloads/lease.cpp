@@ -9,6 +9,7 @@
 #include "bench/core/rivals/atomic_shared_pointer.h"
 #include "bench/core/rivals/mutex_shared_pointer.h"
 #include "bench/core/support/images.h"
+#include "bench/core/support/pinned_thread.h"
 #include "bench/core/support/star.h"
 #include "bench/core/workloads/workloads.h"
 
@@ -53,7 +54,12 @@ class PointerReaders {
 template <typename Readers>
 void AddReaders(Suite& suite, Role role, const std::string& name, int threads) {
   const auto readers = std::make_shared<Readers>(static_cast<std::size_t>(threads));
-  suite.Add(role, name, [readers](benchmark::State& state) { readers->Run(state); })
+  suite
+      .Add(role, name,
+           [readers](benchmark::State& state) {
+             const PinnedThread core(static_cast<std::size_t>(state.thread_index()));
+             readers->Run(state);
+           })
       ->Threads(threads);
 }
 

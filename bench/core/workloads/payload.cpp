@@ -95,13 +95,17 @@ void RunFloor(benchmark::State& state) {
   }
 }
 
+Workload OfSize(std::size_t size) {
+  return {.name = "fill + publish + look, " + std::to_string(size) + " B",
+          .family = "fill + publish + look",
+          .axis = "bytes",
+          .position = static_cast<double>(size)};
+}
+
 template <std::size_t kSize>
 void AddSize(Suite& suite) {
   using T = Payload<kSize>;
-  suite.Start({.name = "fill + publish + look, " + std::to_string(kSize) + " B",
-               .family = "fill + publish + look",
-               .axis = "bytes",
-               .position = static_cast<double>(kSize)});
+  suite.Start(OfSize(kSize));
   suite.Add(Role::kRunnel, "Loan, Publish, Read", RunRunnel<kSize>);
   if constexpr (kSize <= kLargestSeqlock) {
     suite.Add(Role::kRival, "seqlock", RunCopied<kSize, Seqlock<T>>);

@@ -9,6 +9,7 @@
 #include "bench/core/rivals/moodycamel_queue.h"
 #include "bench/core/rivals/mutex_ring.h"
 #include "bench/core/support/payloads.h"
+#include "bench/core/support/pinned_thread.h"
 #include "bench/core/support/star.h"
 #include "bench/core/support/waiting.h"
 #include "bench/core/workloads/workloads.h"
@@ -51,6 +52,7 @@ class Consumer {
 
  private:
   void Run(const std::stop_token& stop) {
+    const PinnedThread second_core(1);
     const InACycle cycle;
     Message message;
     Waiting waiting;
@@ -73,6 +75,7 @@ class Consumer {
 template <typename Queue>
 void RunQueue(benchmark::State& state) {
   const auto queue = std::make_unique<Queue>();
+  const PinnedThread first_core(0);
   Consumer<Queue> consumer(*queue);
   const InACycle cycle;
   Message message{};
