@@ -13,26 +13,31 @@ namespace runnel::bench {
 class PinnedThread {
  public:
   explicit PinnedThread(std::size_t index) {
-    if (sched_getaffinity(0, sizeof(before_), &before_) != 0) return;
-    const auto cores = static_cast<std::size_t>(CPU_COUNT(&before_));
+    const cpu_set_t& all = OfTheProcess();
+    const auto cores = static_cast<std::size_t>(CPU_COUNT(&all));
     std::size_t left = index % (cores > 0 ? cores : 1);
     for (std::size_t core = 0; core < CPU_SETSIZE; ++core) {
-      if (!CPU_ISSET(core, &before_) || left-- > 0) continue;
+      if (!CPU_ISSET(core, &all) || left-- > 0) continue;
       cpu_set_t only{};
       CPU_SET(core, &only);
-      is_pinned_ = sched_setaffinity(0, sizeof(only), &only) == 0;
+      (void)sched_setaffinity(0, sizeof(only), &only);
       return;
     }
   }
-  ~PinnedThread() {
-    if (is_pinned_) (void)sched_setaffinity(0, sizeof(before_), &before_);
-  }
+  ~PinnedThread() { (void)sched_setaffinity(0, sizeof(cpu_set_t), &OfTheProcess()); }
   PinnedThread(const PinnedThread&) = delete;
   PinnedThread& operator=(const PinnedThread&) = delete;
 
  private:
-  cpu_set_t before_{};
-  bool is_pinned_ = false;
+  // Not the thread's own: that it has from the thread that started it, which may be pinned.
+  static const cpu_set_t& OfTheProcess() {
+    static const cpu_set_t all = [] {
+      cpu_set_t set{};
+      (void)sched_getaffinity(0, sizeof(set), &set);
+      return set;
+    }();
+    return all;
+  }
 };
 
 }  // namespace runnel::bench
