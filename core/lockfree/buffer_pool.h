@@ -1,55 +1,53 @@
 #pragma once
 
-#include <array>
 #include <atomic>
-#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <new>
+#include <type_traits>
 #include <utility>
 
-#include "core/base/check.h"
-#include "core/lockfree/cache_line.h"
-#include "core/lockfree/latest_value.h"
+#include "core/lockfree/buffer.h"
+#include "core/lockfree/hazard.h"
 
 namespace runnel {
 
 /// How many buffers a pool has and whether it may get more.
 struct PoolOptions {
-  std::uint32_t buffers = 8;  ///< at the start; rounded up to a power of two
+  std::uint32_t buffers = 8;  ///< at the start
   bool may_grow = true;       ///< by allocating when all are in use; false: Loan() comes back empty
 };
 
-/// Reusable buffers of type T that threads lend to each other without copying.
+/// Reusable buffers of type T that one publisher fills and any number of readers hold.
 ///
-/// A buffer is always in one of three hands:
+///     free ──Loan()──▶ loaned ──publish──▶ newest ──the next one──▶ held by readers ─┐
+///       ▲                 │ dropped                                                  │
+///       └─────────────────┴──────────── Loan() finds that nobody holds it ───────────┘
 ///
-///     free ──Loan()──▶ loaned (one writer) ──Share()──▶ shared (any number of readers)
-///       ▲                    │ dropped                        │ last lease dropped
-///       └────────────────────┴────────────────────────────────┘
+/// The publisher keeps its buffers in two lists of its own, the free ones and the others. Readers
+/// give nothing back: they cease to hold, and the publisher looks when it needs a buffer. So neither
+/// side writes to a list that the other uses, and no buffer can be given back twice or under
+/// another's name (no ABA).
 ///
-/// Ownership:   the pool belongs to its maker until Close(); from then on it belongs to the leases
-///              that are still out, and the last one to come home deletes it with all its buffers.
-///              So a lease may outlive the port, the module and the connection it came from.
-/// Threads:     every member may be called from any thread at any time, except Close(): its caller
-///              promises that nobody loans or reads through the maker any more.
-/// Progress:    lock-free: a call retries only when another thread's call has succeeded.
+/// Ownership:   the pool belongs to its maker until Close(); from then on to those who still hold
+///              buffers, and the last one deletes it. So a lease may outlive the port, the module
+///              and the connection it came from.
+/// Threads:     Loan() by one thread at a time, the publisher; Reserve(), capacity() and growths()
+///              by any; Close() when nobody loans, publishes, or reads the newest value any more.
+/// Progress:    Loan() is wait-free: it looks at each buffer and each slot of readers once.
 /// Allocation:  in Make() and Reserve(); in Loan() only if the pool may grow and all buffers are in
 ///              use, which growths() counts.
-/// Limits:      a buffer's generation wraps after 2^32 uses, its leases must stay below 2^32.
+/// Limits:      2^32 counted holders of one buffer at a time.
 ///
-/// @tparam Atomic  replaced in tests by an atomic that provokes interleavings.
-template <typename T, template <typename> class Atomic = std::atomic>
+/// @tparam Atomic  replaced in tests. @tparam kSlots  fewer in tests.
+template <typename T, template <typename> class Atomic = std::atomic, std::size_t kSlots = 7>
 class BufferPool {
  public:
-  class Buffer;
+  using Buffer = runnel::Buffer<T, Atomic, kSlots>;
+  using Domain = HazardDomain<Atomic, kSlots>;
+  using Record = HazardRecord<Atomic, kSlots>;
   using Factory = std::function<T()>;
-
-  /// Names one *use* of a buffer: the generation changes with each reuse, so that a tag read long
-  /// ago is recognised as stale instead of naming somebody else's data (ABA).
-  using Tag = std::uint64_t;
-  static constexpr Tag kNoTag = ~Tag{0};
 
   struct Closer {
     void operator()(BufferPool* pool) const noexcept { pool->Close(); }
@@ -57,248 +55,217 @@ class BufferPool {
   using Owner = std::unique_ptr<BufferPool, Closer>;
 
   /// Makes a pool whose buffers `factory` fills first; without one, T is default-constructed.
-  static Owner Make(const PoolOptions& options, Factory factory) {
-    return Owner(new BufferPool(options, std::move(factory)));
+  /// `domain` has the records of all who may read, and outlives the pool.
+  static Owner Make(const Domain& domain, const PoolOptions& options, Factory factory) {
+    std::unique_ptr<BufferPool> pool(new BufferPool(domain, options, std::move(factory)));
+    pool->Add(pool->MakeChunk(options.buffers > 0 ? options.buffers : 1));
+    return Owner(pool.release());
+  }
+  // Public for std::unique_ptr; a pool is deleted by Close() or by its last holder.
+  ~BufferPool() {
+    DeleteAll(chunks_);
+    DeleteAll(arriving_.load(std::memory_order_acquire));
   }
 
-  /// Takes a free buffer for one writer, or returns nullptr if there is none and none may be made.
-  [[nodiscard]] Buffer* Loan() {
-    for (;;) {
-      if (Buffer* buffer = PopFree()) return buffer;
-      const Growth growth = may_grow_ ? Grow() : Growth::kImpossible;
-      if (growth == Growth::kImpossible) return nullptr;
-      // relaxed: a statistic.
-      if (growth == Growth::kDone) growths_.fetch_add(1, std::memory_order_relaxed);
-    }
+  /// A free buffer, or nullptr if there is none and none may be made. `newest` is the one that has
+  /// been published last, or nullptr; `readers` loads the bits of the records that may hold others.
+  template <typename Readers>
+  [[nodiscard]] Buffer* Loan(const Buffer* newest, Readers&& readers) {
+    if (free_ == nullptr || kPrefersWarmBuffers) FindFree(newest, readers);
+    if (free_ == nullptr && !TakeArriving() && !Grow()) return nullptr;
+    Buffer* const buffer = std::exchange(free_, free_->next_);
+    buffer->next_ = std::exchange(others_, buffer);
+    // relaxed: nobody else can reach the buffer.
+    buffer->loan_.store(Buffer::kLoaned, std::memory_order_relaxed);
+    return buffer;
   }
 
   /// Sees to it that there are at least `buffers` buffers in all. Allocates; not for a cycle.
   void Reserve(std::uint32_t buffers) {
-    while (capacity() < buffers && Grow() != Growth::kImpossible) {
+    const std::uint32_t now = capacity();
+    if (now >= buffers) return;
+    Chunk* const chunk = MakeChunk(buffers - now).release();
+    chunk->next = arriving_.load(std::memory_order_relaxed);
+    // release: pairs with the acquire in TakeArriving(); the buffers are complete.
+    while (!arriving_.compare_exchange_weak(chunk->next, chunk, std::memory_order_release,
+                                            std::memory_order_relaxed)) {
     }
   }
 
-  /// Hands a loaned buffer to readers, with one lease that the caller now holds.
-  Tag Share(Buffer& buffer) noexcept {
-    const std::uint64_t generation = High(buffer.state_.load(std::memory_order_relaxed));
-    // relaxed: readers reach the buffer only through something released later (a slot, a queue).
-    buffer.state_.store(Pack(generation, 1), std::memory_order_relaxed);
-    return Pack(generation, buffer.index_);
-  }
-
-  /// One more lease of the buffer that `tag` names; nullptr if the tag has become stale.
-  [[nodiscard]] Buffer* TryLease(Tag tag) noexcept {
-    Buffer& buffer = At(static_cast<std::uint32_t>(Low(tag)));
-    std::uint64_t seen = buffer.state_.load(std::memory_order_relaxed);
-    do {
-      if (High(seen) != High(tag) || Low(seen) == 0) return nullptr;  // reused, or on its way home
-      // relaxed: the value was made visible by whatever handed over the tag (acquire there). This
-      // exchange only keeps the count from reaching zero, which needs atomicity, not ordering.
-    } while (!buffer.state_.compare_exchange_weak(seen, seen + 1, std::memory_order_relaxed,
-                                                  std::memory_order_relaxed));
-    return &buffer;
-  }
-
-  /// The buffer that `tag` names. Precondition: the caller owns a lease of it.
-  [[nodiscard]] Buffer& Named(Tag tag) const noexcept {
-    return At(static_cast<std::uint32_t>(Low(tag)));
-  }
-
   [[nodiscard]] std::uint32_t capacity() const noexcept {
-    // acquire: pairs with the release in Grow().
-    return capacity_.load(std::memory_order_acquire);
+    return capacity_.load(std::memory_order_relaxed);
   }
   /// How often Loan() had to allocate: 0 in an application that is sized right.
   [[nodiscard]] std::uint64_t growths() const noexcept {
     return growths_.load(std::memory_order_relaxed);
   }
 
+  /// One more holder will come home to the closed pool. By a holder.
+  void ExpectOne() noexcept {
+    // relaxed: the caller's own return, which releases, comes later.
+    expected_.fetch_add(1, std::memory_order_relaxed);
+  }
+  /// A holder of the closed pool has gone; the last one deletes it.
+  void ComeHome() noexcept {
+    // acq_rel: all accesses of those who came before are over for who deletes.
+    if (expected_.fetch_sub(1, std::memory_order_acq_rel) == 1) delete this;
+  }
+
  private:
-  static constexpr std::uint64_t kNone = 0xFFFFFFFF;
-  static constexpr std::uint64_t kClosed = 0xFFFFFFFE;
-  static constexpr std::size_t kChunks = 24;
+  // Big values, and those with memory elsewhere, are better written where the last ones have been:
+  // in the cache. For small ones it is cheaper to look for free buffers only when there are none.
+  static constexpr bool kPrefersWarmBuffers = !std::is_trivially_copyable_v<T> || sizeof(T) > 4096;
 
-  static constexpr std::uint64_t Pack(std::uint64_t high, std::uint64_t low) noexcept {
-    return (high << 32) | low;
-  }
-  static constexpr std::uint64_t High(std::uint64_t word) noexcept { return word >> 32; }
-  static constexpr std::uint64_t Low(std::uint64_t word) noexcept { return word & 0xFFFFFFFF; }
+  struct Chunk {
+    std::unique_ptr<Buffer[]> buffers;
+    std::uint32_t size;
+    Chunk* next = nullptr;
+  };
 
-  BufferPool(const PoolOptions& options, Factory factory)
-      : first_chunk_(std::bit_ceil(options.buffers > 0 ? options.buffers : 1u)),
-        may_grow_(options.may_grow),
-        factory_(std::move(factory)) {
-    (void)Grow();
+  BufferPool(const Domain& domain, const PoolOptions& options, Factory factory)
+      : domain_(domain), may_grow_(options.may_grow), factory_(std::move(factory)) {}
+
+  std::unique_ptr<Chunk> MakeChunk(std::uint32_t size) {
+    auto chunk = std::make_unique<Chunk>();
+    chunk->buffers.reset(new Buffer[size]);
+    chunk->size = size;
+    for (std::uint32_t i = 0; i < size; ++i) chunk->buffers[i].Fill(*this, factory_);
+    capacity_.fetch_add(size, std::memory_order_relaxed);
+    return chunk;
   }
-  ~BufferPool() {
-    for (Atomic<Buffer*>& chunk : chunks_) {
-      delete[] chunk.load(std::memory_order_relaxed);
+  void Add(std::unique_ptr<Chunk> chunk) noexcept {
+    for (std::uint32_t i = chunk->size; i > 0; --i) {
+      Buffer& buffer = chunk->buffers[i - 1];
+      buffer.next_ = std::exchange(free_, &buffer);
     }
+    chunk->next = chunks_;
+    chunks_ = chunk.release();
+  }
+  bool TakeArriving() noexcept {
+    if (arriving_.load(std::memory_order_relaxed) == nullptr) return false;
+    // acquire: pairs with the release in Reserve().
+    Chunk* chunk = arriving_.exchange(nullptr, std::memory_order_acquire);
+    while (chunk != nullptr) Add(std::unique_ptr<Chunk>(std::exchange(chunk, chunk->next)));
+    return true;
+  }
+  bool Grow() {
+    if (!may_grow_) return false;
+    Add(MakeChunk(capacity()));  // as many as there are
+    // relaxed: a statistic.
+    growths_.fetch_add(1, std::memory_order_relaxed);
+    return true;
+  }
+  static void DeleteAll(Chunk* chunk) noexcept {
+    while (chunk != nullptr) delete std::exchange(chunk, chunk->next);
   }
 
-  // Chunk 0 has first_chunk_ buffers, and each further one as many as all before it together.
-  [[nodiscard]] std::uint32_t ChunkSize(std::size_t chunk) const noexcept {
-    return chunk == 0 ? first_chunk_ : first_chunk_ << (chunk - 1);
-  }
-  [[nodiscard]] Buffer& At(std::uint32_t index) const noexcept {
-    const auto chunk = static_cast<std::size_t>(std::bit_width(index / first_chunk_));
-    const std::uint32_t first = chunk == 0 ? 0 : ChunkSize(chunk);
-    // acquire: pairs with the release in Grow(); the buffers of the chunk are constructed.
-    return chunks_[chunk].load(std::memory_order_acquire)[index - first];
-  }
-
-  // Adds one chunk. Two threads may try at once: the slower one's chunk is thrown away, and then
-  // the slower one says how many buffers there are now, should the faster one not have come to it
-  // yet: so its next try is for the next chunk, and nobody waits for a thread that has been
-  // stopped.
-  enum class Growth { kDone, kDoneByAnother, kImpossible };
-  Growth Grow() {
-    const std::uint32_t before = capacity();
-    const auto chunk = static_cast<std::size_t>(std::bit_width(before / first_chunk_));
-    if (chunk >= kChunks) return Growth::kImpossible;
-    const std::uint32_t size = ChunkSize(chunk);
-    std::unique_ptr<Buffer[]> buffers(new Buffer[size]);
-    for (std::uint32_t i = 0; i < size; ++i) buffers[i].Fill(*this, before + i, factory_);
-    Buffer* expected = nullptr;
-    // release: the buffers are complete for whoever finds the chunk in At().
-    if (!chunks_[chunk].compare_exchange_strong(expected, buffers.get(), std::memory_order_release,
-                                                std::memory_order_relaxed)) {
-      RaiseCapacity(before, before + size);
-      return Growth::kDoneByAnother;
-    }
-    Buffer* added = buffers.release();
-    // relaxed: ComeHome() of these buffers comes after PushFree() of them, which releases.
-    homeless_.fetch_add(size, std::memory_order_relaxed);
-    RaiseCapacity(before, before + size);
-    for (std::uint32_t i = size; i > 0; --i) PushFree(added[i - 1]);
-    return Growth::kDone;
-  }
-  void RaiseCapacity(std::uint32_t before, std::uint32_t after) noexcept {
-    // release, with the acquire in capacity(): who sees the count may bound indices by it. It fails
-    // if somebody else has raised it, and then there is nothing to do.
-    capacity_.compare_exchange_strong(before, after, std::memory_order_release,
-                                      std::memory_order_relaxed);
-  }
-
-  // The free list is a Treiber stack of buffer indices under a change counter. A popper may read
-  // `next_` of a buffer that another thread has just popped; the value is then meaningless, the
-  // counter has moved, and the exchange below fails. That read is why `next_` is atomic.
-  [[nodiscard]] Buffer* PopFree() noexcept {
-    // acquire (here and on failure): `next_` of the head is read in the following lines, and what
-    // earlier holders did to the value is finished.
-    std::uint64_t head = free_.load(std::memory_order_acquire);
-    while (Low(head) < kClosed) {
-      Buffer& buffer = At(static_cast<std::uint32_t>(Low(head)));
-      const std::uint64_t next = buffer.next_.load(std::memory_order_relaxed);
-      if (free_.compare_exchange_weak(head, Pack(High(head) + 1, next), std::memory_order_acquire,
-                                      std::memory_order_acquire)) {
-        return &buffer;
-      }
+  [[nodiscard]] Buffer* Own(const void* address) const noexcept {
+    for (Chunk* chunk = chunks_; chunk != nullptr; chunk = chunk->next) {
+      Buffer* const first = chunk->buffers.get();
+      const std::less<const void*> less;
+      if (less(address, first) || !less(address, first + chunk->size)) continue;
+      return first + (static_cast<const Buffer*>(address) - first);
     }
     return nullptr;
   }
 
-  void PushFree(Buffer& buffer) noexcept {
-    std::uint64_t head = free_.load(std::memory_order_relaxed);
-    do {
-      if (Low(head) == kClosed) return ComeHome(1);
-      buffer.next_.store(static_cast<std::uint32_t>(Low(head)), std::memory_order_relaxed);
-      // release: pairs with the acquire in PopFree(), so that whoever reuses the buffer sees
-      // `next_`, the new generation, and every access of earlier holders as finished.
-    } while (!free_.compare_exchange_weak(head, Pack(High(head) + 1, buffer.index_),
-                                          std::memory_order_release, std::memory_order_relaxed));
-  }
-
-  // The last lease is gone: a new generation makes old tags stale, then the buffer is free.
-  void Recycle(Buffer& buffer, std::uint64_t generation) noexcept {
-    // relaxed: only this thread may change the state now; PushFree() releases it.
-    buffer.state_.store(Pack(generation + 1, 0), std::memory_order_relaxed);
-    PushFree(buffer);
-  }
-
-  // After Close() each buffer is counted once, either in the list that Close() took or on its
-  // return; whoever counts the last one deletes the pool.
-  void Close() noexcept {
-    // acq_rel: acquire to walk the list; release has no partner needed but keeps one order for all
-    // writers of free_.
-    const std::uint64_t head = free_.exchange(Pack(0, kClosed), std::memory_order_acq_rel);
-    std::uint32_t count = 0;
-    for (std::uint64_t index = Low(head); index != kNone;
-         index = At(static_cast<std::uint32_t>(index)).next_.load(std::memory_order_relaxed)) {
-      ++count;
+  // Moves from the other buffers to the free ones those that nobody holds.
+  template <typename Readers>
+  void FindFree(const Buffer* newest, Readers&& readers) noexcept {
+    if (others_ == nullptr) return;
+    // Between publishing and looking who reads; pairs with the exchange of readers, which stands
+    // between their slot and their second look at the newest buffer (LatestBuffer::Lease()): a
+    // reader whose slot is not seen here sees that its buffer is no longer the newest.
+    Fences<Atomic>::Full();
+    ++search_;
+    domain_.ForEach(readers(), [this](const Record& record) {
+      for (const auto& slot : record.slots) {
+        // acquire: pairs with the release of who empties a slot: its reads are over; and what it
+        // counted before (a copy of its lease) is seen in IsHeld(). So slots come first.
+        const void* const held = slot.held.load(std::memory_order_acquire);
+        if (held == nullptr) continue;
+        if (Buffer* const own = Own(held)) own->seen_in_ = search_;
+      }
+    });
+    for (Buffer** link = &others_; *link != nullptr;) {
+      Buffer* const buffer = *link;
+      if (buffer == newest || buffer->seen_in_ == search_ || buffer->IsHeld()) {
+        link = &buffer->next_;
+        continue;
+      }
+      *link = buffer->next_;
+      buffer->next_ = std::exchange(free_, buffer);
     }
-    ComeHome(count);
-  }
-  void ComeHome(std::uint32_t count) noexcept {
-    // acq_rel: release, so that this thread's use of its buffer is done; acquire, so that the last
-    // one sees all other uses as done before it deletes them.
-    if (homeless_.fetch_sub(count, std::memory_order_acq_rel) == count) delete this;
   }
 
-  const std::uint32_t first_chunk_;
+  // Whoever still holds a buffer is counted, and told to come home; the closer counts as one, too,
+  // so that none is the last before all have been counted.
+  void Close() noexcept {
+    (void)TakeArriving();
+    domain_.ForEach(Domain::kAll, [this](Record& record) { Ask(record); });
+    Fences<Atomic>::Heavy();
+    domain_.ForEach(Domain::kAll, [this](Record& record) { TakeBack(record); });
+    for (Chunk* chunk = chunks_; chunk != nullptr; chunk = chunk->next) {
+      for (std::uint32_t i = 0; i < chunk->size; ++i) CloseBuffer(chunk->buffers[i]);
+    }
+    ComeHome();
+  }
+  void CloseBuffer(Buffer& buffer) noexcept {
+    std::uint32_t expected = Buffer::kLoaned;
+    ExpectOne();
+    // acq_rel: as in Buffer::DropLoan(), whose partner it is.
+    if (!buffer.loan_.compare_exchange_strong(expected, Buffer::kOrphanedLoan,
+                                              std::memory_order_acq_rel,
+                                              std::memory_order_acquire)) {
+      ComeHome();
+    }
+    ExpectOne();
+    // acq_rel: as in Buffer::DropHolder(); who comes from zero later says so (AddHolders()).
+    if (buffer.count_.fetch_add(Buffer::kClosed, std::memory_order_acq_rel) == 0) ComeHome();
+  }
+  // The slots that hold our buffers are asked to say when they are emptied. One that is emptied
+  // just now has seen the request, or is seen empty after the heavy fence; if both, one of the two
+  // takes the request back.
+  void Ask(Record& record) noexcept {
+    for (auto& slot : record.slots) {
+      // acquire: an empty slot says that its reads are over.
+      const void* const held = slot.held.load(std::memory_order_acquire);
+      if (held == nullptr || Own(held) == nullptr) continue;
+      ExpectOne();
+      const void* nothing = nullptr;
+      // Another pool's request is answered by who has emptied the slot just now, at any moment.
+      // release: pairs with the acquire in BufferLease::Answer(); the pool expects it.
+      while (!slot.request.compare_exchange_weak(nothing, held, std::memory_order_release,
+                                                 std::memory_order_relaxed)) {
+        nothing = nullptr;
+      }
+    }
+  }
+  void TakeBack(Record& record) noexcept {
+    for (auto& slot : record.slots) {
+      const void* request = slot.request.load(std::memory_order_relaxed);
+      if (request == nullptr || Own(request) == nullptr) continue;
+      // acquire: as above.
+      if (slot.held.load(std::memory_order_acquire) == request) continue;
+      // relaxed: only which of the two has it matters; who comes home releases and acquires.
+      if (slot.request.compare_exchange_strong(request, nullptr, std::memory_order_relaxed,
+                                               std::memory_order_relaxed)) {
+        ComeHome();
+      }
+    }
+  }
+
+  const Domain& domain_;
   const bool may_grow_;
   const Factory factory_;
-  std::array<Atomic<Buffer*>, kChunks> chunks_{};
+  Buffer* free_ = nullptr;  // this and the next three are the publisher's own
+  Buffer* others_ = nullptr;
+  Chunk* chunks_ = nullptr;
+  std::uint32_t search_ = 0;
+  alignas(kCacheLineSize) Atomic<Chunk*> arriving_{nullptr};  // reserved, not yet taken over
   Atomic<std::uint32_t> capacity_{0};
-  Atomic<std::uint32_t> homeless_{0};
   Atomic<std::uint64_t> growths_{0};
-  alignas(kCacheLineSize) Atomic<std::uint64_t> free_{Pack(0, kNone)};
-};
-
-/// One buffer of a pool: a value and what the pool keeps with it.
-template <typename T, template <typename> class Atomic>
-class alignas(kCacheLineSize) BufferPool<T, Atomic>::Buffer {
- public:
-  Buffer() = default;
-  ~Buffer() {
-    if (pool_ != nullptr) value().~T();
-  }
-  Buffer(const Buffer&) = delete;
-  Buffer& operator=(const Buffer&) = delete;
-
-  [[nodiscard]] T& value() noexcept { return *std::launder(reinterpret_cast<T*>(storage_)); }
-  [[nodiscard]] const T& value() const noexcept {
-    return *std::launder(reinterpret_cast<const T*>(storage_));
-  }
-
-  /// Written by the writer before Share(), read by whoever holds a lease.
-  Publication publication;
-
-  /// One more lease, by a holder of one.
-  void AddLease() noexcept {
-    // relaxed: the caller's own lease keeps the count above zero.
-    state_.fetch_add(1, std::memory_order_relaxed);
-  }
-  /// Gives back one lease; the last one sends the buffer home.
-  void DropLease() noexcept {
-    // acq_rel: release, so that this holder's reads of the value are done before the count drops;
-    // acquire, so that the one who drops it to zero sees all those reads as done.
-    const std::uint64_t before = state_.fetch_sub(1, std::memory_order_acq_rel);
-    if (Low(before) == 1) pool_->Recycle(*this, High(before));
-  }
-  /// Gives back a loan that was never shared.
-  void DropLoan() noexcept { pool_->PushFree(*this); }
-
- private:
-  friend class BufferPool;
-
-  void Fill(BufferPool& pool, std::uint32_t index, const Factory& factory) {
-    if (factory) {
-      new (storage_) T(factory());
-    } else if constexpr (std::is_default_constructible_v<T>) {
-      new (storage_) T();
-    } else {
-      ThrowProgrammingError("a type without default constructor needs a factory", "BufferPool");
-    }
-    pool_ = &pool;
-    index_ = index;
-  }
-
-  Atomic<std::uint64_t> state_{0};  // generation in the high half, leases in the low half
-  Atomic<std::uint32_t> next_{0};
-  std::uint32_t index_ = 0;
-  BufferPool* pool_ = nullptr;
-  alignas(T) std::byte storage_[sizeof(T)];
+  Atomic<std::uint32_t> expected_{1};
 };
 
 }  // namespace runnel

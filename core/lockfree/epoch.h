@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 
+#include "core/lockfree/asymmetric_fence.h"
 #include "core/lockfree/cache_line.h"
 
 namespace runnel {
@@ -13,13 +14,14 @@ namespace runnel {
 ///     reader:  Enter ─ load pointer ─ use what it points to ─ Leave
 ///     writer:  swap pointer ─ epoch = Advance() ─ … until HasPassed(epoch) … ─ delete the old part
 ///
-/// Every operation that takes part is sequentially consistent, which gives the one argument needed:
-/// if HasPassed() sees a reader outside, then the reader's next Enter comes after the swap in the
-/// single total order, and its loads find the new pointer. Pointers that readers load must be
-/// loaded and swapped with std::memory_order_seq_cst too.
+/// A reader says that it is inside, passes a light fence, and loads the pointer; a writer swaps the
+/// pointer, passes a heavy fence, and looks who is inside. So if HasPassed() sees a reader outside,
+/// that reader's next Enter comes after the swap, and its loads find the new pointer. Pointers that
+/// readers load are loaded with acquire and swapped with release.
 ///
 /// Threads:     a Participant belongs to one thread; the rest may be called from any thread.
-/// Progress:    Enter and Leave are wait-free. They write to the thread's own line only.
+/// Progress:    Enter and Leave are wait-free: plain stores to the thread's own line. Advance()
+///              passes a heavy fence, so it is nothing for a cycle.
 /// Allocation:  none. The domain never frees participants; it is told of them by Add().
 /// @tparam Atomic  replaced in tests.
 template <template <typename> class Atomic = std::atomic>
@@ -29,22 +31,26 @@ class EpochDomain {
   struct alignas(kCacheLineSize) Participant {
     Atomic<std::uint64_t> entered{kOutside};
     Participant* next = nullptr;  // written before the participant is added, then constant
-    Atomic<bool> taken{true};     // by a living thread
     std::uint32_t depth = 0;      // the thread's own
   };
 
   /// Makes the domain look at `participant` for ever after.
   void Add(Participant& participant) noexcept {
-    Participant* head = participants_.load(std::memory_order_seq_cst);
+    Participant* head = participants_.load(std::memory_order_relaxed);
     do {
       participant.next = head;
-    } while (!participants_.compare_exchange_weak(head, &participant, std::memory_order_seq_cst,
-                                                  std::memory_order_seq_cst));
+      // release: pairs with the acquire in first(); the participant is complete. That a writer does
+      // not miss it is seen to by the fence in Enter(), as for `entered`.
+    } while (!participants_.compare_exchange_weak(head, &participant, std::memory_order_release,
+                                                  std::memory_order_relaxed));
   }
 
   void Enter(Participant& participant) noexcept {
     if (participant.depth++ > 0) return;
-    participant.entered.store(epoch_.load(std::memory_order_seq_cst), std::memory_order_seq_cst);
+    // acquire: pairs with the release in Advance(): who enters in a new epoch finds the new
+    // pointer. relaxed: what matters is the fence, between this store and the load of the pointer.
+    participant.entered.store(epoch_.load(std::memory_order_acquire), std::memory_order_relaxed);
+    Fences<Atomic>::Light();
   }
   void Leave(Participant& participant) noexcept {
     if (--participant.depth > 0) return;
@@ -54,22 +60,27 @@ class EpochDomain {
 
   /// Starts a new epoch, after a part has been taken out, and returns it.
   [[nodiscard]] std::uint64_t Advance() noexcept {
-    return epoch_.fetch_add(1, std::memory_order_seq_cst) + 1;
+    // release: pairs with the acquire in Enter().
+    const std::uint64_t epoch = epoch_.fetch_add(1, std::memory_order_release) + 1;
+    // Between the swap, which the caller has done, and looking who is inside; pairs with Enter().
+    Fences<Atomic>::Heavy();
+    return epoch;
   }
 
   /// True once every reader that might have seen the state before `epoch` has left.
   [[nodiscard]] bool HasPassed(std::uint64_t epoch) const noexcept {
     for (const Participant* participant = first(); participant != nullptr;
          participant = participant->next) {
-      // seq_cst: in one order with Enter() and with the swap; it acquires what Leave() released.
-      const std::uint64_t entered = participant->entered.load(std::memory_order_seq_cst);
+      // acquire: pairs with the release in Leave().
+      const std::uint64_t entered = participant->entered.load(std::memory_order_acquire);
       if (entered != kOutside && entered < epoch) return false;
     }
     return true;
   }
 
   [[nodiscard]] Participant* first() const noexcept {
-    return participants_.load(std::memory_order_seq_cst);
+    // acquire: pairs with the release in Add().
+    return participants_.load(std::memory_order_acquire);
   }
 
   static constexpr std::uint64_t kOutside = 0;

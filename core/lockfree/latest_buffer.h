@@ -1,49 +1,87 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 
+#include "core/lockfree/buffer_lease.h"
 #include "core/lockfree/buffer_pool.h"
 
 namespace runnel {
 
 /// The newest published buffer of a pool: the zero-copy path of the ports.
 ///
-/// Threads:   Replace() and Read() may be called concurrently from any threads.
-/// Progress:  Replace() is wait-free apart from sending the previous buffer home (lock-free);
-/// Read()
-///            is lock-free: it repeats only if a Replace() happened in between.
-/// Lifetime:  the pool must outlive the slot, and Clear() must be called before the pool is closed.
-template <typename T, template <typename> class Atomic = std::atomic>
+/// Threads:     Publish() and Loan() by one thread at a time; Lease() by any, at any time.
+/// Progress:    Publish() and Loan() are wait-free; Lease() is lock-free: it repeats only if a
+///              Publish() happened in between.
+/// Cost:        a lease is one exchange in the reader's own record; publishing is a store, whatever
+///              the number of readers.
+/// Allocation:  none but in Loan(), see BufferPool.
+/// Lifetime:    the pool must outlive the slot.
+template <typename T, template <typename> class Atomic = std::atomic, std::size_t kSlots = 7>
 class LatestBuffer {
  public:
-  using Pool = BufferPool<T, Atomic>;
+  using Pool = BufferPool<T, Atomic, kSlots>;
   using Buffer = typename Pool::Buffer;
-  using Tag = typename Pool::Tag;
+  using Record = typename Pool::Record;
+  using BufferLease = runnel::BufferLease<T, Atomic, kSlots>;
 
-  /// Takes over the lease that comes with `tag` and drops the one of the buffer before.
-  void Replace(Pool& pool, Tag tag) noexcept {
-    // release: publishes the payload. acquire: the previous publisher's first lease is in the
-    // count before it is dropped here. seq_cst beyond that: as in LatestValue::Publish(), between
-    // publisher and subscriber at least one sees the other.
-    const Tag previous = newest_.exchange(tag, std::memory_order_seq_cst);
-    if (previous != Pool::kNoTag) pool.Named(previous).DropLease();
+  explicit LatestBuffer(Pool& pool) : pool_(pool) {}
+
+  /// A buffer to fill, see BufferPool::Loan().
+  [[nodiscard]] Buffer* Loan() {
+    // Both relaxed: the newest is the caller's own note; for the readers, the fence that comes
+    // before stands between this and publishing, as for their slots.
+    return pool_.Loan(newest_.load(std::memory_order_relaxed),
+                      [this] { return readers_.load(std::memory_order_relaxed); });
   }
-  void Clear(Pool& pool) noexcept { Replace(pool, Pool::kNoTag); }
+  /// Makes a loaned buffer the newest one.
+  void Publish(Buffer& buffer) noexcept {
+    buffer.EndLoan();
+    // release: pairs with the acquire in Lease(); the value is complete. Whoever reads has set a
+    // bit and a slot before, which Loan() looks at.
+    newest_.store(&buffer, std::memory_order_release);
+  }
 
-  /// A lease of the newest buffer, or nullptr before the first one.
-  [[nodiscard]] Buffer* Read(Pool& pool) const noexcept {
+  /// Keeps the newest buffer for the thread that `record` belongs to; empty before the first one.
+  [[nodiscard, gnu::always_inline]] BufferLease Lease(Record& record) noexcept {
+    // acquire, here and below: pairs with the release in Publish(); what was written into the
+    // buffer is visible.
+    Buffer* buffer = newest_.load(std::memory_order_acquire);
+    if (buffer == nullptr) return {};
+    // seq_cst, both: as the exchange below, so that FindFree() looks at the record.
+    if ((readers_.load(std::memory_order_seq_cst) & record.bit) == 0) [[unlikely]] {
+      readers_.fetch_or(record.bit, std::memory_order_seq_cst);
+    }
+    auto* const slot = record.FindFreeSlot();
+    if (slot == nullptr) [[unlikely]]
+      return LeaseCounted(buffer);
     for (;;) {
-      // acquire: pairs with the release in Replace(); everything the writer put into the buffer
-      // is visible from here on. seq_cst: see there.
-      const Tag tag = newest_.load(std::memory_order_seq_cst);
-      if (tag == Pool::kNoTag) return nullptr;
-      if (Buffer* buffer = pool.TryLease(tag)) return buffer;
-      // The buffer went home between the two steps, hence a newer one has been published.
+      // seq_cst, both: pairs with the fence in BufferPool::FindFree(). If that does not find the
+      // slot filled, then what it looked for had been replaced before, and is not found again here.
+      slot->held.exchange(buffer, std::memory_order_seq_cst);
+      Buffer* const again = newest_.load(std::memory_order_seq_cst);
+      if (again == buffer) [[likely]]
+        return BufferLease(buffer, *slot);
+      buffer = again;
     }
   }
 
  private:
-  Atomic<Tag> newest_{Pool::kNoTag};
+  // For a thread that holds as many leases as it has slots. The buffer that is counted may have
+  // been reused meanwhile; then it is not the newest, and the count is taken back unused.
+  [[gnu::noinline]] BufferLease LeaseCounted(Buffer* buffer) noexcept {
+    for (;;) {
+      buffer->CountForASecondLook();
+      Buffer* const again = newest_.load(std::memory_order_seq_cst);
+      if (again == buffer) return BufferLease(buffer);
+      buffer->DropHolder();
+      buffer = again;
+    }
+  }
+
+  Pool& pool_;
+  alignas(kCacheLineSize) Atomic<Buffer*> newest_{nullptr};
+  Atomic<std::uint64_t> readers_{0};  // bits of the records that have ever leased here
 };
 
 }  // namespace runnel

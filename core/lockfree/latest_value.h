@@ -7,15 +7,9 @@
 #include <type_traits>
 
 #include "core/lockfree/cache_line.h"
+#include "core/lockfree/publication.h"
 
 namespace runnel {
-
-/// Where a value stands among the publications of its source.
-struct Publication {
-  std::int64_t stamp = 0;      ///< ns, the time of the cycle that published it
-  std::uint64_t sequence = 0;  ///< 1 for the first publication of the source
-  std::uint64_t order = 0;     ///< among sources that share an input; 0 if this source shares none
-};
 
 /// The newest value of a small, trivially copyable type: the cheap path of the ports.
 ///
@@ -51,38 +45,26 @@ class LatestValue {
     // relaxed: the release store below carries it.
     cell.sequence.store(sequence, std::memory_order_relaxed);
     // release: pairs with the acquire in Read(): the whole cell is visible with its number.
-    // seq_cst beyond that: the publisher looks for subscribers next, while who subscribes reads the
-    // newest value next (Channel). One order of these four means that at least one of the two sees
-    // the other, so no value falls between them.
-    newest_.store(sequence, std::memory_order_seq_cst);
+    newest_.store(sequence, std::memory_order_release);
   }
 
   /// Copies the newest value to `value`. Returns false before the first publication.
   bool Read(T& value, Publication& publication) const noexcept {
-    for (;;) {
-      // acquire: pairs with the last store in Publish(); seq_cst: see there.
-      const std::uint64_t sequence = newest_.load(std::memory_order_seq_cst);
-      if (sequence == 0) return false;
-      const Cell& cell = cells_[sequence % kCells];
-      std::array<std::uint64_t, kWords> words;
-      // acquire: keeps the check below from moving up, and makes it see at least the state that a
-      // writer of one of these words had set before.
-      for (std::size_t i = 0; i < kWords; ++i) {
-        words[i] = cell.words[i].load(std::memory_order_acquire);
-      }
+    return Copy(value, [&](const Cell& cell, std::uint64_t sequence) {
       publication.stamp = cell.stamp.load(std::memory_order_acquire);
       publication.order = cell.order.load(std::memory_order_acquire);
-      // relaxed: the acquire loads above order it.
-      if (cell.sequence.load(std::memory_order_relaxed) != sequence) continue;
       publication.sequence = sequence;
-      std::memcpy(static_cast<void*>(&value), words.data(), sizeof(T));
-      return true;
-    }
+    });
+  }
+  /// The same without what is known about the value.
+  bool Read(T& value) const noexcept {
+    return Copy(value, [](const Cell&, std::uint64_t) {});
   }
 
   /// The number of publications so far; what Read() would return, at least. Any thread.
   [[nodiscard]] std::uint64_t sequence() const noexcept {
-    return newest_.load(std::memory_order_acquire);
+    // relaxed: a count; who reads the value looks again.
+    return newest_.load(std::memory_order_relaxed);
   }
 
  private:
@@ -95,6 +77,28 @@ class LatestValue {
     Atomic<std::uint64_t> order{0};
     std::array<Atomic<std::uint64_t>, kWords> words{};
   };
+
+  // `also(cell, sequence)` copies what else is wanted of the cell, with acquire.
+  template <typename Also>
+  [[gnu::always_inline]] bool Copy(T& value, Also&& also) const noexcept {
+    for (;;) {
+      // acquire: pairs with the last store in Publish().
+      const std::uint64_t sequence = newest_.load(std::memory_order_acquire);
+      if (sequence == 0) return false;
+      const Cell& cell = cells_[sequence % kCells];
+      std::array<std::uint64_t, kWords> words;
+      // acquire: keeps the check below from moving up, and makes it see at least the state that a
+      // writer of one of these words had set before.
+      for (std::size_t i = 0; i < kWords; ++i) {
+        words[i] = cell.words[i].load(std::memory_order_acquire);
+      }
+      also(cell, sequence);
+      // relaxed: the acquire loads above order it.
+      if (cell.sequence.load(std::memory_order_relaxed) != sequence) continue;
+      std::memcpy(static_cast<void*>(&value), words.data(), sizeof(T));
+      return true;
+    }
+  }
 
   std::array<Cell, kCells> cells_;
   alignas(kCacheLineSize) Atomic<std::uint64_t> newest_{0};

@@ -11,23 +11,7 @@
 
 namespace runnel {
 
-namespace internal {
-thread_local constinit ProcessEpochDomain::Participant* thread_participant = nullptr;
-}  // namespace internal
-
 namespace {
-
-using Participant = ProcessEpochDomain::Participant;
-
-// Gives the participant of a thread that ends to the next thread that starts.
-struct ThreadRegistration {
-  ~ThreadRegistration() {
-    if (internal::thread_participant == nullptr) return;
-    // release: pairs with the acquire in RegisterThread(); the depth is handed over too.
-    internal::thread_participant->taken.store(false, std::memory_order_release);
-    internal::thread_participant = nullptr;
-  }
-};
 
 struct Retired {
   std::uint64_t epoch;
@@ -46,27 +30,6 @@ RetiredList& TheRetired() {
 }
 
 }  // namespace
-
-ProcessEpochDomain& ProcessEpochs() noexcept {
-  static constinit ProcessEpochDomain domain;
-  return domain;
-}
-
-Participant& internal::RegisterThread() {
-  static thread_local ThreadRegistration registration;
-  for (Participant* participant = ProcessEpochs().first(); participant != nullptr;
-       participant = participant->next) {
-    bool expected = false;
-    if (participant->taken.compare_exchange_strong(expected, true, std::memory_order_acquire,
-                                                   std::memory_order_relaxed)) {
-      return *(thread_participant = participant);
-    }
-  }
-  // Never freed: the domain looks at it for ever, and there are as many as threads at one time.
-  thread_participant = new Participant;
-  ProcessEpochs().Add(*thread_participant);
-  return *thread_participant;
-}
 
 void Retire(std::function<void()> destroy) {
   {

@@ -1,23 +1,11 @@
 #pragma once
 
 #include <functional>
+#include <utility>
 
-#include "core/lockfree/epoch.h"
+#include "core/lockfree/thread_record.h"
 
 namespace runnel {
-
-/// The one epoch domain of the process. Ports read under it; a scheduler's thread holds it for a
-/// whole cycle, so that the reads inside cost nothing more.
-using ProcessEpochDomain = EpochDomain<>;
-[[nodiscard]] ProcessEpochDomain& ProcessEpochs() noexcept;
-
-namespace internal {
-// initial-exec: one load instead of a call, also from plugins; the variable lives in the core,
-// which is there from the start of the program.
-extern thread_local constinit ProcessEpochDomain::Participant* thread_participant
-    __attribute__((tls_model("initial-exec")));
-ProcessEpochDomain::Participant& RegisterThread();
-}  // namespace internal
 
 /// While one lives in a thread, nothing that the thread can reach through a port is destroyed.
 ///
@@ -26,24 +14,30 @@ ProcessEpochDomain::Participant& RegisterThread();
 ///              start of a real-time thread.
 class EpochGuard {
  public:
-  EpochGuard() : participant_(Participant()) { ProcessEpochs().Enter(participant_); }
+  EpochGuard() : participant_(ThisThread().epoch) { ProcessEpochs().Enter(participant_); }
   ~EpochGuard() { ProcessEpochs().Leave(participant_); }
   EpochGuard(const EpochGuard&) = delete;
   EpochGuard& operator=(const EpochGuard&) = delete;
 
   /// True if the calling thread holds a guard.
   [[nodiscard]] static bool HeldByThisThread() noexcept {
-    return internal::thread_participant != nullptr && internal::thread_participant->depth > 0;
+    const ThreadRecord* const record = internal::thread_record;
+    return record != nullptr && record->epoch.depth > 0;
   }
 
  private:
-  static ProcessEpochDomain::Participant& Participant() {
-    return internal::thread_participant != nullptr ? *internal::thread_participant
-                                                   : internal::RegisterThread();
-  }
-
-  ProcessEpochDomain::Participant& participant_;
+  EpochDomain<>::Participant& participant_;
 };
+
+/// Calls `use()` inside a guard: the one that the thread holds already, as in a cycle, or one made
+/// for the call.
+template <typename Use>
+decltype(auto) Guarded(Use&& use) {
+  if (EpochGuard::HeldByThisThread()) [[likely]]
+    return std::forward<Use>(use)();
+  const EpochGuard guard;
+  return std::forward<Use>(use)();
+}
 
 /// Runs `destroy` when no thread can still see what has been taken out before this call: at once if
 /// no thread is reading, else during a later Retire() or CollectRetired().

@@ -18,8 +18,11 @@ ChannelBase::~ChannelBase() { delete subscribers_.load(std::memory_order_relaxed
 
 void ChannelBase::SetSubscribers(Subscribers subscribers) {
   const Subscribers* next = subscribers.empty() ? nullptr : new Subscribers(std::move(subscribers));
-  const Subscribers* previous = subscribers_.exchange(next, std::memory_order_seq_cst);
+  // acq_rel: release, pairs with the acquire in subscribers(); acquire for the next line.
+  const Subscribers* previous = subscribers_.exchange(next, std::memory_order_acq_rel);
   if (previous != nullptr) Retire([previous] { delete previous; });
+  // Between saying who subscribes and reading the newest value; pairs with subscribers().
+  if (next != nullptr) HeavyFence();
 }
 
 std::uint64_t ChannelBase::DrawOrder() noexcept {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/lockfree/asymmetric_fence.h"
 #include "core/lockfree/latest_buffer.h"
 #include "core/lockfree/latest_value.h"
 #include "core/lockfree/thread_epoch.h"
@@ -30,7 +31,8 @@ class ChannelBase {
   [[nodiscard]] std::uint64_t number() const noexcept { return number_; }
   [[nodiscard]] virtual std::uint64_t publications() const noexcept = 0;
 
-  /// Swaps the list that publishers visit; the old one goes when nobody can still look at it.
+  /// Swaps the list that publishers visit; the old one goes when nobody can still look at it. A value
+  /// whose publisher does not find the new list is seen by who reads the newest value from now on.
   void SetSubscribers(Subscribers subscribers);
   /// A channel that shares an input with others numbers its values in one order with theirs.
   void SetOrdered(bool ordered) noexcept { ordered_.store(ordered, std::memory_order_relaxed); }
@@ -39,10 +41,14 @@ class ChannelBase {
   virtual void ReserveFor(std::size_t leases) = 0;
 
  protected:
-  /// Inside an EpochGuard; nullptr if there are none.
+  /// Whom to visit after publishing; nullptr if nobody, and to be called again inside an
+  /// EpochGuard if somebody.
   [[nodiscard]] const Subscribers* subscribers() const noexcept {
-    // seq_cst: one order with the swap and the epoch's operations; see lockfree/epoch.h.
-    return subscribers_.load(std::memory_order_seq_cst);
+    // Between publishing and looking for subscribers; pairs with the heavy fence in
+    // SetSubscribers(): the publisher sees the subscriber, or that one sees the value.
+    LightFence();
+    // acquire: pairs with the release in SetSubscribers().
+    return subscribers_.load(std::memory_order_acquire);
   }
   [[nodiscard]] std::uint64_t NextOrder() const noexcept {
     return ordered_.load(std::memory_order_relaxed) ? DrawOrder() : 0;
@@ -77,7 +83,7 @@ class Channel final : public ChannelBase {
                     "Loan() of a small type starts with T{}; publish a ready T instead");
       return Loan<T>(T{});
     } else {
-      return Loan<T>(storage_.pool->Loan());
+      return Loan<T>(storage_.newest.Loan());
     }
   }
 
@@ -88,16 +94,7 @@ class Channel final : public ChannelBase {
       loan.Drop();
       return PublishValue(value, now);
     } else {
-      auto* buffer = std::exchange(loan.slot_, nullptr);
-      Publication& publication = buffer->publication;
-      publication = {now.time_since_epoch().count(), storage_.published + 1, NextOrder()};
-      const auto tag = storage_.pool->Share(*buffer);
-      buffer->AddLease();  // ours, until the queues have been served
-      storage_.newest.Replace(*storage_.pool, tag);
-      // release: who counts the publication may read it.
-      storage_.published_count.store(++storage_.published, std::memory_order_release);
-      const internal::HeldValue<T> held(buffer);
-      return Distribute(held);
+      return PublishBuffer(*std::exchange(loan.slot_, nullptr), now);
     }
   }
 
@@ -105,22 +102,29 @@ class Channel final : public ChannelBase {
     const std::int64_t stamp = now.time_since_epoch().count();
     const std::uint64_t order = NextOrder();
     storage_.Publish(value, stamp, order);
-    const EpochGuard guard;
-    if (subscribers() == nullptr) return PublishStatus::kPublished;
-    internal::HeldValue<T> held;
-    new (&held.writable()) T(value);
-    held.writable_publication() = {stamp, storage_.sequence(), order};
-    return Distribute(held);
+    if (subscribers() == nullptr) [[likely]]
+      return PublishStatus::kPublished;
+    const Publication publication{stamp, storage_.sequence(), order};
+    return Distribute([&] { return internal::HeldValue<T>(value, publication); });
   }
 
   /// The newest value, or none. Call inside an EpochGuard if the channel may be going away.
-  [[nodiscard]] internal::HeldValue<T> Read() const noexcept {
+  [[nodiscard, gnu::always_inline]] internal::HeldValue<T> Read() noexcept {
     if constexpr (kIsCheap<T>) {
-      internal::HeldValue<T> held;
-      storage_.Read(held.writable(), held.writable_publication());
-      return held;
+      return internal::HeldValue<T>(storage_);
     } else {
-      return internal::HeldValue<T>(storage_.newest.Read(*storage_.pool));
+      return internal::HeldValue<T>(storage_.newest, ThisThread().hazards);
+    }
+  }
+  /// Copies the newest value to `value`; false if there is none. Guard: as for Read().
+  [[gnu::always_inline]] bool Copy(T& value) noexcept requires(std::is_trivially_copyable_v<T>) {
+    if constexpr (kIsCheap<T>) {
+      return storage_.Read(value);
+    } else {
+      const auto lease = storage_.newest.Lease(ThisThread().hazards);
+      if (lease.get() == nullptr) return false;
+      value = std::as_const(*lease.get()).value();
+      return true;
     }
   }
 
@@ -128,7 +132,7 @@ class Channel final : public ChannelBase {
     if constexpr (kIsCheap<T>) {
       return storage_.sequence();
     } else {
-      return storage_.published_count.load(std::memory_order_acquire);
+      return storage_.published_count.load(std::memory_order_relaxed);
     }
   }
   void ReserveFor([[maybe_unused]] std::size_t leases) override {
@@ -155,29 +159,48 @@ class Channel final : public ChannelBase {
   };
   struct BufferStorage {
     BufferStorage(const PoolOptions& options, typename BufferPool<T>::Factory&& factory)
-        : pool(BufferPool<T>::Make(options, std::move(factory))),
-          first_capacity(pool->capacity()) {}
-    ~BufferStorage() { newest.Clear(*pool); }
+        : pool(BufferPool<T>::Make(ProcessHazards(), options, std::move(factory))),
+          first_capacity(pool->capacity()),
+          newest(*pool) {}
 
     typename BufferPool<T>::Owner pool;
     const std::uint32_t first_capacity;
     LatestBuffer<T> newest;
     std::uint64_t published = 0;  // the publisher's own
+    // relaxed: a count; who reads the value looks again.
     std::atomic<std::uint64_t> published_count{0};
   };
 
-  PublishStatus Distribute(const internal::HeldValue<T>& held) noexcept {
-    const EpochGuard guard;
-    const Subscribers* list = subscribers();
-    if (list == nullptr) return PublishStatus::kPublished;
-    PublishStatus status = PublishStatus::kPublished;
-    for (QueueSink* sink : list->queues) {
-      // The types are equal: connecting has checked it.
-      auto* queue = static_cast<InputQueue<T>*>(sink);
-      if (!queue->Push(Entry{held, number()})) status = PublishStatus::kRefused;
-    }
-    for (Waker* waker : list->wakers) waker->Wake();
-    return status;
+  PublishStatus PublishBuffer(Buffer<T>& buffer, Time now) noexcept {
+    const std::uint64_t sequence = ++storage_.published;
+    buffer.publication = {now.time_since_epoch().count(), sequence, NextOrder()};
+    storage_.newest.Publish(buffer);
+    storage_.published_count.store(sequence, std::memory_order_relaxed);
+    if (subscribers() == nullptr) [[likely]]
+      return PublishStatus::kPublished;
+    // The buffer stays the newest while this goes on, which keeps it.
+    return Distribute([&] {
+      buffer.AddHolders(1);
+      return internal::HeldValue<T>(BufferLease<T>(&buffer));
+    });
+  }
+
+  // Gives `hold()` to each queue. Apart, so that publishing to readers of the newest value alone
+  // stays short.
+  template <typename Hold>
+  [[gnu::noinline]] PublishStatus Distribute(Hold&& hold) noexcept {
+    return Guarded([&] {
+      const Subscribers* list = subscribers();
+      PublishStatus status = PublishStatus::kPublished;
+      if (list == nullptr) return status;
+      for (QueueSink* sink : list->queues) {
+        // The types are equal: connecting has checked it.
+        auto* queue = static_cast<InputQueue<T>*>(sink);
+        if (!queue->Push(Entry{hold(), number()})) status = PublishStatus::kRefused;
+      }
+      for (Waker* waker : list->wakers) waker->Wake();
+      return status;
+    });
   }
 
   std::conditional_t<kIsCheap<T>, CheapStorage, BufferStorage> storage_;

@@ -71,40 +71,47 @@ class Input final : public InputBase {
 
   /// The newest value, with whether it is new since the last Read().
   [[nodiscard]] Lease<T> Read() noexcept {
-    const EpochGuard guard;
-    Newest newest = FindNewest();
-    if (!newest.held.has_value()) return {};
-    const std::uint64_t sequence = newest.held.publication().sequence;
-    last_source_.exchange_relaxed(newest.link->channel->number());
-    last_sequence_.exchange_relaxed(sequence);
-    const std::uint64_t last = newest.link->read.exchange_relaxed(sequence);
-    return {std::move(newest.held), sequence != last ? Freshness::kNew : Freshness::kOld,
-            last == 0 || sequence <= last ? 0 : sequence - last - 1};
+    return Guarded([this] {
+      Link* link = nullptr;
+      Lease<T> lease = Newest(link);
+      if (!lease.has_value()) return lease;
+      const std::uint64_t sequence = lease.held_.publication().sequence;
+      const std::uint64_t last = link->read.exchange_relaxed(sequence);
+      lease.freshness_ = sequence != last ? Freshness::kNew : Freshness::kOld;
+      lease.missed_ = last == 0 || sequence <= last ? 0 : sequence - last - 1;
+      return lease;
+    });
   }
   /// The newest value without marking it as read. Any thread.
   [[nodiscard]] Lease<T> Peek() const noexcept {
-    const EpochGuard guard;
-    Newest newest = FindNewest();
-    const bool seen = newest.held.has_value() &&
-                      newest.link->read.load_relaxed() == newest.held.publication().sequence;
-    return {std::move(newest.held), seen ? Freshness::kOld : Freshness::kNew, 0};
+    return Guarded([this] {
+      Link* link = nullptr;
+      Lease<T> lease = Newest(link);
+      if (!lease.has_value()) return lease;
+      const bool seen = link->read.load_relaxed() == lease.held_.publication().sequence;
+      lease.freshness_ = seen ? Freshness::kOld : Freshness::kNew;
+      return lease;
+    });
+  }
+  /// A copy of the newest value, or `otherwise` if there is none, without marking it as read: the
+  /// quickest way to look. Any thread.
+  [[nodiscard]] T Get(const T& otherwise) const noexcept requires(std::is_trivially_copyable_v<T>) {
+    T value;
+    if (!CopyNewest(value)) [[unlikely]]
+      value = otherwise;
+    return value;
+  }
+  /// The same with T{} if there is none.
+  [[nodiscard]] T Get() const noexcept
+      requires(std::is_trivially_copyable_v<T>&& std::is_default_constructible_v<T>) {
+    T value;
+    if (!CopyNewest(value)) [[unlikely]]
+      value = T{};
+    return value;
   }
   /// The oldest value that waits in the queue; empty if none does, or if no connection has a queue.
   [[nodiscard]] Lease<T> Take() noexcept {
-    const EpochGuard guard;
-    const Binding* binding = binding_.load(std::memory_order_seq_cst);
-    if (binding == nullptr) return {};
-    typename InputQueue<T>::Entry entry;
-    while (binding->Pop(entry)) {
-      Link* link = binding->FindLink(entry.source);
-      const std::uint64_t sequence = entry.held.publication().sequence;
-      // A value may lie in the queue twice just after connecting (see Bound()).
-      if (link != nullptr && sequence <= link->taken) continue;
-      const std::uint64_t last = link != nullptr ? std::exchange(link->taken, sequence) : 0;
-      const std::uint64_t missed = last == 0 ? 0 : sequence - last - 1;
-      return {std::move(entry.held), Freshness::kNew, missed};
-    }
-    return {};
+    return Guarded([this] { return TakeInside(); });
   }
   /// Takes all that wait, oldest first, and calls `use(lease)` for each; returns how many.
   template <typename Use>
@@ -116,12 +123,12 @@ class Input final : public InputBase {
 
   [[nodiscard]] std::uint64_t dropped() const noexcept override {
     const EpochGuard guard;
-    const Binding* binding = binding_.load(std::memory_order_seq_cst);
+    const Binding* binding = binding_.load(std::memory_order_acquire);
     return binding != nullptr && binding->queue ? binding->queue->dropped() : 0;
   }
   [[nodiscard]] std::uint64_t publications() const noexcept override {
     const EpochGuard guard;
-    const Binding* binding = binding_.load(std::memory_order_seq_cst);
+    const Binding* binding = binding_.load(std::memory_order_acquire);
     std::uint64_t sum = 0;
     if (binding != nullptr) {
       for (const auto& link : binding->links) sum += link->channel->publications();
@@ -150,14 +157,18 @@ class Input final : public InputBase {
   };
   // What the reader keeps about one source; lives as long as the connection.
   struct Link {
-    explicit Link(Channel<T>* source) : channel(source) {}
+    explicit Link(Channel<T>* source) : channel(source), number(source->number()) {}
 
     Channel<T>* const channel;
-    RelaxedNumber read;       // sequence of the value read last
-    std::uint64_t taken = 0;  // sequence of the value taken last; the reader's own
+    const std::uint64_t number;  // of the channel, also when that is gone
+    RelaxedNumber read;          // sequence of the value read last
+    std::uint64_t taken = 0;     // sequence of the value taken last; the reader's own
   };
   // What reading needs; never changed but for the reader's own notes, replaced as a whole.
   struct Binding {
+    // If there is one source, the short way to it; else nullptr.
+    Channel<T>* channel = nullptr;
+    Link* only = nullptr;
     std::vector<std::shared_ptr<Link>> links;  // shared by the binding before and after a change
     std::shared_ptr<InputQueue<T>> queue;      // likewise
     // Queues that a longer one has replaced: what waits in them comes first.
@@ -171,44 +182,79 @@ class Input final : public InputBase {
     }
     [[nodiscard]] Link* FindLink(std::uint64_t number) const noexcept {
       for (const auto& link : links) {
-        if (link->channel->number() == number) return link.get();
+        if (link->number == number) return link.get();
       }
       return nullptr;
     }
   };
-  struct Newest {
-    internal::HeldValue<T> held;
-    Link* link = nullptr;
-  };
-  // Inside a guard, by which the link lives.
-  [[nodiscard]] Newest FindNewest() const noexcept {
-    // seq_cst: one order with Replace() and the epoch's operations; see lockfree/epoch.h.
-    const Binding* binding = binding_.load(std::memory_order_seq_cst);
+  bool CopyNewest(T& value) const noexcept {
+    return Guarded([this, &value] {
+      const Binding* const binding = binding_.load(std::memory_order_acquire);
+      if (binding != nullptr && binding->channel != nullptr) [[likely]] {
+        return binding->channel->Copy(value);
+      }
+      Link* link = nullptr;
+      const Lease<T> newest = Newest(link);
+      if (newest) value = *newest;
+      return newest.has_value();
+    });
+  }
+  // Inside a guard, by which the link lives. `link` is set if there is a value.
+  [[nodiscard, gnu::always_inline]] Lease<T> Newest(Link*& link) const noexcept {
+    // acquire: pairs with the release in Replace().
+    const Binding* const binding = binding_.load(std::memory_order_acquire);
     if (binding == nullptr) return {};
-    Newest newest;
-    for (const auto& link : binding->links) {
-      Newest candidate{link->channel->Read(), link.get()};
-      if (IsLater(candidate, newest)) newest = std::move(candidate);
+    if (binding->channel == nullptr) [[unlikely]]
+      return NewestOfSeveral(*binding, link);
+    link = binding->only;
+    return Lease<T>([binding] { return binding->channel->Read(); });
+  }
+  [[gnu::noinline]] static Lease<T> NewestOfSeveral(const Binding& binding,
+                                                    Link*& newest) noexcept {
+    Lease<T> lease;
+    for (const auto& link : binding.links) {
+      auto candidate = link->channel->Read();
+      if (!candidate.has_value()) continue;
+      if (newest != nullptr && !IsLater(candidate, *link, lease.held_, *newest)) continue;
+      lease.held_ = std::move(candidate);
+      newest = link.get();
     }
-    return newest;
+    return lease;
   }
   // By the common order of sources that share an input, which every reader sees alike. Values from
   // before the sharing have none; their time and then the age of their source decide.
-  static bool IsLater(const Newest& a, const Newest& b) noexcept {
-    if (!a.held.has_value() || !b.held.has_value()) return a.held.has_value();
-    const Publication& p = a.held.publication();
-    const Publication& q = b.held.publication();
+  static bool IsLater(const internal::HeldValue<T>& a, const Link& from_a,
+                      const internal::HeldValue<T>& b, const Link& from_b) noexcept {
+    const Publication& p = a.publication();
+    const Publication& q = b.publication();
     if (p.order != 0 && q.order != 0) return p.order > q.order;
     if (p.stamp != q.stamp) return p.stamp > q.stamp;
-    return a.link->channel->number() > b.link->channel->number();
+    return from_a.number > from_b.number;
+  }
+
+  [[nodiscard]] Lease<T> TakeInside() noexcept {
+    const Binding* binding = binding_.load(std::memory_order_acquire);
+    if (binding == nullptr) return {};
+    typename InputQueue<T>::Entry entry;
+    while (binding->Pop(entry)) {
+      Link* link = binding->FindLink(entry.source);
+      const std::uint64_t sequence = entry.held.publication().sequence;
+      // A value may lie in the queue twice just after connecting (see Bound()).
+      if (link != nullptr && sequence <= link->taken) continue;
+      const std::uint64_t last = link != nullptr ? std::exchange(link->taken, sequence) : 0;
+      const std::uint64_t missed = last == 0 ? 0 : sequence - last - 1;
+      return {std::move(entry.held), Freshness::kNew, missed};
+    }
+    return {};
   }
 
   QueueSink* Bind(const std::vector<Source>& sources) override {
+    const Binding* before = binding_.load(std::memory_order_relaxed);
+    if (before != nullptr) last_links_ = before->links;
     if (sources.empty()) {
       Replace(nullptr);
       return nullptr;
     }
-    const Binding* before = binding_.load(std::memory_order_relaxed);
     auto next = std::make_unique<Binding>();
     ConnectOptions options;
     fresh_.clear();
@@ -216,6 +262,10 @@ class Input final : public InputBase {
       // The types are equal: connecting has checked it.
       auto* channel = static_cast<Channel<T>*>(ChannelOf(*source.output));
       next->links.push_back(KeepOrMakeLink(before, *channel));
+      if (sources.size() == 1) {
+        next->channel = channel;
+        next->only = next->links.back().get();
+      }
       if (source.options.queue > options.queue) options = source.options;
     }
     if (options.queue > 0) next->queue = KeepOrMakeQueue(before, options);
@@ -233,8 +283,8 @@ class Input final : public InputBase {
     fresh_.push_back(&channel);
     auto link = std::make_shared<Link>(&channel);
     // A source that comes back at once does not bring what has been read already as new.
-    if (last_source_.load_relaxed() == channel.number()) {
-      link->read.exchange_relaxed(last_sequence_.load_relaxed());
+    for (const auto& last : last_links_) {
+      if (last->number == channel.number()) link->read.exchange_relaxed(last->read.load_relaxed());
     }
     return link;
   }
@@ -270,15 +320,16 @@ class Input final : public InputBase {
   // The previous binding owns the queue that publishers may still find; it goes in Bound().
   void Replace(const Binding* next) {
     replaced_.emplace_back();
-    replaced_.back().reset(binding_.exchange(next, std::memory_order_seq_cst));
+    // acq_rel: release, pairs with the acquire of readers; acquire for who destroys the old one.
+    replaced_.back().reset(binding_.exchange(next, std::memory_order_acq_rel));
   }
 
   std::atomic<const Binding*> binding_{nullptr};
   std::vector<std::unique_ptr<const Binding>>
       replaced_;                    // between Bind() and Bound(); structure lock
   std::vector<Channel<T>*> fresh_;  // sources that have just been connected; structure lock
-  RelaxedNumber last_source_;       // of the value read last
-  RelaxedNumber last_sequence_;
+  // Of the binding before, and kept while nothing is connected; structure lock.
+  std::vector<std::shared_ptr<Link>> last_links_;
 };
 
 }  // namespace runnel

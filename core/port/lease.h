@@ -9,16 +9,21 @@
 
 #include "core/base/check.h"
 #include "core/base/clock.h"
-#include "core/lockfree/buffer_pool.h"
+#include "core/lockfree/latest_buffer.h"
+#include "core/lockfree/latest_value.h"
 #include "core/port/port_options.h"
 
 namespace runnel {
 
-/// Whether values of T travel as copies of their bytes (cheap) or in buffers of a pool. Specialise
+/// Whether values of T travel as copies of their words (cheap) or in buffers of a pool, which
+/// readers hold instead of copying. A few words are copied sooner than a buffer is held. Specialise
 /// it to false for a type that shall always travel in buffers.
 template <typename T>
 inline constexpr bool kIsCheap =
-    std::is_trivially_copyable_v<T>&& std::is_copy_constructible_v<T> && sizeof(T) <= 256;
+    std::is_trivially_copyable_v<T>&& std::is_copy_constructible_v<T> && sizeof(T) <= 64;
+
+template <typename T>
+class Input;
 
 namespace internal {
 
@@ -26,18 +31,26 @@ namespace internal {
 template <typename T>
 class CopiedValue {
  public:
+  CopiedValue() = default;
+  /// The newest one, or none.
+  [[gnu::always_inline]] explicit CopiedValue(const LatestValue<T>& latest) noexcept {
+    latest.Read(writable(), publication_);
+  }
+  CopiedValue(const T& value, const Publication& publication) noexcept : publication_(publication) {
+    new (bytes_.data()) T(value);
+  }
+
   [[nodiscard]] bool has_value() const noexcept { return publication_.sequence != 0; }
   [[nodiscard]] const T& value() const noexcept {
     return *std::launder(reinterpret_cast<const T*>(bytes_.data()));
   }
   [[nodiscard]] const Publication& publication() const noexcept { return publication_; }
 
+ private:
   [[nodiscard]] T& writable() noexcept {
     return *std::launder(reinterpret_cast<T*>(bytes_.data()));
   }
-  [[nodiscard]] Publication& writable_publication() noexcept { return publication_; }
 
- private:
   alignas(T) std::array<std::byte, sizeof(T)> bytes_;  // read only if has_value()
   Publication publication_;
 };
@@ -46,29 +59,20 @@ class CopiedValue {
 template <typename T>
 class LeasedValue {
  public:
-  using Buffer = typename BufferPool<T>::Buffer;
-
   LeasedValue() = default;
-  /// Takes over one lease that the caller holds; nullptr is no value.
-  explicit LeasedValue(Buffer* buffer) noexcept : buffer_(buffer) {}
-  LeasedValue(const LeasedValue& other) noexcept : buffer_(other.buffer_) {
-    if (buffer_ != nullptr) buffer_->AddLease();
-  }
-  LeasedValue(LeasedValue&& other) noexcept : buffer_(std::exchange(other.buffer_, nullptr)) {}
-  LeasedValue& operator=(LeasedValue other) noexcept {
-    std::swap(buffer_, other.buffer_);
-    return *this;
-  }
-  ~LeasedValue() {
-    if (buffer_ != nullptr) buffer_->DropLease();
-  }
+  explicit LeasedValue(BufferLease<T> lease) noexcept : lease_(std::move(lease)) {}
+  /// The newest one, or none.
+  [[gnu::always_inline]] LeasedValue(LatestBuffer<T>& latest, HazardRecord<>& record) noexcept
+      : lease_(latest.Lease(record)) {}
 
-  [[nodiscard]] bool has_value() const noexcept { return buffer_ != nullptr; }
-  [[nodiscard]] const T& value() const noexcept { return std::as_const(*buffer_).value(); }
-  [[nodiscard]] const Publication& publication() const noexcept { return buffer_->publication; }
+  [[nodiscard]] bool has_value() const noexcept { return lease_.get() != nullptr; }
+  [[nodiscard]] const T& value() const noexcept { return std::as_const(*lease_.get()).value(); }
+  [[nodiscard]] const Publication& publication() const noexcept {
+    return lease_.get()->publication;
+  }
 
  private:
-  Buffer* buffer_ = nullptr;
+  BufferLease<T> lease_;
 };
 
 template <typename T>
@@ -110,6 +114,11 @@ class Lease {
   [[nodiscard]] std::uint64_t missed() const noexcept { return missed_; }
 
  private:
+  friend class Input<T>;
+  // Made in place: what is newest is copied once, or not at all.
+  template <typename Make>
+  explicit Lease(Make&& make) noexcept : held_(std::forward<Make>(make)()) {}
+
   const internal::HeldValue<T>& Checked() const {
     RUNNEL_CHECK(has_value(), "the lease is empty: no data has come yet");
     return held_;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/check.h"
+#include "core/lockfree/buffer_pool.h"
 #include "core/port/lease.h"
 
 namespace runnel {
@@ -51,7 +52,7 @@ class Loan {
 
  private:
   friend class Channel<T>;
-  using Buffer = typename BufferPool<T>::Buffer;
+  using Buffer = runnel::Buffer<T>;
   // A cheap type needs no buffer: its loan is the value itself.
   using Slot = std::conditional_t<kIsCheap<T>, std::optional<T>, Buffer*>;
 

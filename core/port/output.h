@@ -87,7 +87,7 @@ class Output final : public Port {
   [[nodiscard]] std::uint64_t growths() const noexcept { return channel_->growths(); }
 
   bool LookAtValue(const Look& look) const override {
-    const auto held = channel_->Read();
+    const auto held = Guarded([this] { return channel_->Read(); });
     if (!held.has_value()) return false;
     look(&held.value(), Time(Duration(held.publication().stamp)));
     return true;

@@ -23,7 +23,7 @@ namespace runnel {
 /// For texts, vectors and other large values there is StaticParameter.
 template <typename T>
 class Parameter final : public ParameterBase {
-  static_assert(kIsCheap<T>,
+  static_assert(std::is_trivially_copyable_v<T> && sizeof(T) <= 256,
                 "a Parameter is copied as bytes while the module runs; "
                 "for this type use StaticParameter");
 

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <atomic>
+
+namespace runnel {
+
+namespace internal {
+// Set before main() if the kernel offers what HeavyFence() needs, constant from then on.
+extern bool heavy_fence_is_heavy;
+}  // namespace internal
+
+/// The two halves of a store-load fence whose cost is borne by the side that seldom runs.
+///
+///     often:   store A ─ LightFence() ─ load B        (publishing, reading)
+///     seldom:  store B ─ HeavyFence() ─ load A        (connecting, destroying)
+///
+/// As with a sequentially consistent fence on each side, at least one of the two sees the other's
+/// store. Two light fences give no such promise to each other.
+///
+/// LightFence() keeps the compiler from reordering and costs nothing; HeavyFence() has the kernel
+/// pass a fence through every running thread of the process (membarrier). On a kernel without it
+/// both are full fences: slower, and as right.
+///
+/// Threads:   any. HeavyFence() is a system call of about a microsecond: never in a cycle.
+/// Source:    the pair was proposed for C++ as P1202 (D. Goldblatt, "Asymmetric fences").
+inline void FullFence() noexcept {
+#if defined(__SANITIZE_THREAD__)
+  // ThreadSanitizer has no fences; an operation that is one on every machine it runs on.
+  std::atomic<int> nobodys{0};
+  nobodys.exchange(1, std::memory_order_seq_cst);
+#else
+  std::atomic_thread_fence(std::memory_order_seq_cst);
+#endif
+}
+inline void LightFence() noexcept {
+  if (internal::heavy_fence_is_heavy) [[likely]] {
+    std::atomic_signal_fence(std::memory_order_seq_cst);
+  } else {
+    FullFence();
+  }
+}
+void HeavyFence() noexcept;
+
+/// The fences that go with an atomic type: tests that put another atomic into a structure
+/// specialise it, so that their search sees the fences too.
+template <template <typename> class Atomic>
+struct Fences {
+  static void Full() noexcept { FullFence(); }
+  static void Light() noexcept { LightFence(); }
+  static void Heavy() noexcept { HeavyFence(); }
+};
+
+}  // namespace runnel

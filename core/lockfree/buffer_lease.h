@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstddef>
+#include <utility>
+
+#include "core/lockfree/asymmetric_fence.h"
+#include "core/lockfree/buffer.h"
+#include "core/lockfree/hazard.h"
+
+namespace runnel {
+
+/// Keeps one buffer from being reused, by a slot of a reader's record or, without one, counted.
+///
+/// Ownership:   of the hold alone; the buffer belongs to its pool, or to its holders once the pool
+///              is closed.
+/// Threads:     one lease belongs to one thread at a time, and may be handed on; copies are
+///              independent.
+/// Progress:    wait-free. Copying and dropping a copy write to the buffer's count, which readers
+///              share; moving, and dropping a lease with a slot, do not.
+/// Allocation:  none; the last lease of a closed pool frees its memory.
+template <typename T, template <typename> class Atomic = std::atomic, std::size_t kSlots = 7>
+class BufferLease {
+ public:
+  using Buffer = runnel::Buffer<T, Atomic, kSlots>;
+  using Slot = HazardSlot<Atomic>;
+
+  BufferLease() = default;
+  /// Takes over one counted hold that the caller has; nullptr is no lease.
+  explicit BufferLease(Buffer* counted) noexcept : buffer_(counted) {}
+  /// Takes over a slot that holds `buffer`.
+  BufferLease(Buffer* buffer, Slot& slot) noexcept : buffer_(buffer), slot_(&slot) {}
+  BufferLease(const BufferLease& other) noexcept : buffer_(other.buffer_) {
+    if (buffer_ != nullptr) buffer_->AddHolders(1);
+  }
+  BufferLease(BufferLease&& other) noexcept
+      : buffer_(std::exchange(other.buffer_, nullptr)),
+        slot_(std::exchange(other.slot_, nullptr)) {}
+  BufferLease& operator=(BufferLease other) noexcept {
+    std::swap(buffer_, other.buffer_);
+    std::swap(slot_, other.slot_);
+    return *this;
+  }
+  [[gnu::always_inline]] ~BufferLease() {
+    if (buffer_ != nullptr) Drop();
+  }
+
+  [[nodiscard]] Buffer* get() const noexcept { return buffer_; }
+
+ private:
+  [[gnu::always_inline]] void Drop() noexcept {
+    if (slot_ == nullptr) return buffer_->DropHolder();
+    // release: pairs with the acquire in BufferPool::FindFree(); this reader's reads are over.
+    slot_->held.store(nullptr, std::memory_order_release);
+    // Pairs with the heavy fence in BufferPool::Close(): either the request is seen here, or the
+    // empty slot there.
+    Fences<Atomic>::Light();
+    // relaxed: the exchange in Answer() orders.
+    if (slot_->request.load(std::memory_order_relaxed) == buffer_) [[unlikely]]
+      Answer();
+  }
+  [[gnu::noinline]] void Answer() noexcept {
+    const void* request = buffer_;
+    // acq_rel: acquire, pairs with the release in BufferPool::Ask(): the pool expects this return,
+    // so it still is there; one of the two takes the request back.
+    if (slot_->request.compare_exchange_strong(request, nullptr, std::memory_order_acq_rel,
+                                               std::memory_order_relaxed)) {
+      buffer_->pool().ComeHome();
+    }
+  }
+
+  Buffer* buffer_ = nullptr;
+  Slot* slot_ = nullptr;
+};
+
+}  // namespace runnel

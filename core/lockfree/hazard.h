@@ -1,0 +1,99 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/lockfree/asymmetric_fence.h"
+#include "core/lockfree/cache_line.h"
+
+namespace runnel {
+
+/// Where a reader says which buffer it holds.
+template <template <typename> class Atomic = std::atomic>
+struct HazardSlot {
+  Atomic<const void*> held{nullptr};     ///< nullptr: the slot is free
+  Atomic<const void*> request{nullptr};  ///< the buffer of a closed pool that wants to be told when
+                                         ///< this slot ceases to hold it (BufferPool::Close())
+};
+
+/// Which buffers one thread protects from reuse: it writes a buffer's address into a free slot of
+/// its own record, where whoever wants to reuse buffers looks. Reading so writes to no memory that
+/// another reader writes to.
+///
+/// Threads:     slots are filled by the thread that the record belongs to, and emptied by any.
+/// Allocation:  none. Source: M. Michael, "Hazard Pointers" (2004).
+template <template <typename> class Atomic = std::atomic, std::size_t kSlots = 7>
+struct alignas(kCacheLineSize) HazardRecord {
+  using Slot = HazardSlot<Atomic>;
+
+  /// A slot of the calling thread that is free, or nullptr.
+  [[nodiscard]] Slot* FindFreeSlot() noexcept {
+    for (Slot& slot : slots) {
+      // acquire: another thread may have emptied it, by dropping a lease that was handed to it.
+      // What that thread read is over then also for who sees only our next use of the slot.
+      if (slot.held.load(std::memory_order_acquire) == nullptr) return &slot;
+    }
+    return nullptr;
+  }
+
+  std::array<Slot, kSlots> slots{};
+  std::uint64_t bit = 0;         ///< names the record in HazardDomain; constant once it is added
+  HazardRecord* next = nullptr;  ///< constant once added
+};
+
+/// The records of a process, each with a bit, so that a set of records is one word.
+///
+/// Threads:     any. Progress: Add() is lock-free, the rest wait-free. Allocation: none.
+/// Limits:      none; but records beyond the 63rd share one bit, and are then looked at together.
+template <template <typename> class Atomic = std::atomic, std::size_t kSlots = 7>
+class HazardDomain {
+ public:
+  using Record = HazardRecord<Atomic, kSlots>;
+
+  /// Makes the domain look at `record` for ever after.
+  void Add(Record& record) noexcept {
+    // relaxed: the number only has to be another one for each.
+    const std::uint64_t number = added_.fetch_add(1, std::memory_order_relaxed);
+    if (number < kOwnBits) {
+      record.bit = std::uint64_t{1} << number;
+      // release: pairs with the acquire in ForEach(); the record is complete.
+      records_[number].store(&record, std::memory_order_release);
+      return;
+    }
+    record.bit = std::uint64_t{1} << kOwnBits;
+    Record* head = others_.load(std::memory_order_relaxed);
+    do {
+      record.next = head;
+      // release: as above.
+    } while (!others_.compare_exchange_weak(head, &record, std::memory_order_release,
+                                            std::memory_order_relaxed));
+  }
+
+  /// Calls `visit(record)` for all records of which `bits` has the bit.
+  template <typename Visit>
+  void ForEach(std::uint64_t bits, Visit&& visit) const {
+    for (std::size_t i = 0; i < kOwnBits && (bits >> i) != 0; ++i) {
+      if ((bits >> i & 1) == 0) continue;
+      // acquire: pairs with the release in Add(). Null for a thread that is just being added, and
+      // has protected nothing yet.
+      if (Record* record = records_[i].load(std::memory_order_acquire)) visit(*record);
+    }
+    if ((bits >> kOwnBits) == 0) return;
+    for (Record* each = others_.load(std::memory_order_acquire); each != nullptr;
+         each = each->next) {
+      visit(*each);
+    }
+  }
+  static constexpr std::uint64_t kAll = ~std::uint64_t{0};
+
+ private:
+  static constexpr std::size_t kOwnBits = 63;
+
+  std::array<Atomic<Record*>, kOwnBits> records_{};
+  Atomic<Record*> others_{nullptr};
+  Atomic<std::uint64_t> added_{0};
+};
+
+}  // namespace runnel

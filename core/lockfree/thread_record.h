@@ -1,0 +1,41 @@
+#pragma once
+
+#include <atomic>
+
+#include "core/lockfree/epoch.h"
+#include "core/lockfree/hazard.h"
+
+namespace runnel {
+
+/// What a thread says to those who take parts away or reuse buffers: that it is inside (epochs),
+/// and which buffers it holds (hazards).
+///
+/// Lives for ever, and is handed to the next thread that starts when its own has ended; so there
+/// are as many as there have been threads at one time. A lease that was handed to another thread
+/// may still hold a slot of it then, which is no harm.
+struct ThreadRecord {
+  EpochDomain<>::Participant epoch;
+  HazardRecord<> hazards;
+  std::atomic<bool> taken{true};  ///< by a living thread
+  ThreadRecord* next = nullptr;   ///< constant once added
+};
+
+/// The domains of the process. Threads: any.
+[[nodiscard]] EpochDomain<>& ProcessEpochs() noexcept;
+[[nodiscard]] HazardDomain<>& ProcessHazards() noexcept;
+
+namespace internal {
+// initial-exec: one load instead of a call, also from plugins; the variable lives in the core,
+// which is there from the start of the program.
+extern thread_local constinit ThreadRecord* thread_record
+    __attribute__((tls_model("initial-exec")));
+ThreadRecord& RegisterThread();
+}  // namespace internal
+
+/// The calling thread's record. Allocation: the first call of a thread may allocate.
+[[nodiscard]] inline ThreadRecord& ThisThread() {
+  ThreadRecord* const record = internal::thread_record;
+  return record != nullptr ? *record : internal::RegisterThread();
+}
+
+}  // namespace runnel
