@@ -14,14 +14,21 @@ class TripleBuffer {
   static constexpr const char* kName = "triple buffer";
 
   void Write(const T& value) {
-    buffers_[back_].value = value;
+    back() = value;
+    Publish();
+  }
+  /// In place: fill it, then Publish().
+  [[nodiscard]] T& back() { return buffers_[back_].value; }
+  void Publish() {
     // acq_rel: the reader sees the value; we see that it has finished with what we get.
     back_ = middle_.exchange(back_ | kNew, std::memory_order_acq_rel) & kIndex;
   }
-  void Read(T& value) {
+  /// In place: as it is until the next call.
+  [[nodiscard]] const T& Front() {
     Refresh();
-    value = buffers_[front_].value;
+    return buffers_[front_].value;
   }
+  void Read(T& value) { value = Front(); }
   /// Only a value that has not been taken yet.
   bool Take(T& value) {
     if (!Refresh()) return false;

@@ -28,6 +28,19 @@ void ReadRunnel(benchmark::State& state) {
   }
 }
 
+template <typename T>
+void GetRunnel(benchmark::State& state) {
+  Star<T> star(1);
+  const Input<T>& input = star.input(0);
+  const InACycle cycle;
+  star.output().Publish(T{});
+  for (auto _ : state) {
+    T value = input.Get();
+    benchmark::DoNotOptimize(&value);
+    benchmark::ClobberMemory();
+  }
+}
+
 template <typename T, typename Cell>
 void ReadCell(benchmark::State& state) {
   Cell cell;
@@ -47,6 +60,7 @@ void AddCell(Suite& suite, Role role = Role::kRival) {
 
 template <typename T>
 void AddSubjects(Suite& suite) {
+  suite.Add(Role::kRunnel, "Get", GetRunnel<T>);
   suite.Add(Role::kRunnel, "Read", ReadRunnel<T>);
   AddCell<T, Seqlock>(suite);
   AddCell<T, TripleBuffer>(suite);

@@ -55,12 +55,13 @@ class Consumer {
     const PinnedThread second_core(1);
     const InACycle cycle;
     Message message;
-    Waiting waiting;
+    PatientWaiting waiting;
     for (std::uint64_t taken = 0; !stop.stop_requested();) {
       if (!queue_.Take(message)) {
         waiting.Pause();
         continue;
       }
+      waiting.Succeeded();
       if (message.number != taken) is_in_order_ = false;
       if (++taken % kMessagesPerRound == 0) taken_.store(taken, std::memory_order_release);
     }
@@ -80,11 +81,12 @@ void RunQueue(benchmark::State& state) {
   const InACycle cycle;
   Message message{};
   std::uint64_t sent = 0;
-  Waiting waiting;
+  PatientWaiting waiting;
   for (auto _ : state) {
     for (std::uint64_t i = 0; i < kMessagesPerRound; ++i) {
       message.number = sent++;
       while (!queue->Push(message)) waiting.Pause();
+      waiting.Succeeded();
     }
     consumer.WaitFor(sent);
   }
