@@ -15,11 +15,11 @@ const std::string kImage = "loan + publish an image, ";
 const std::string kLease = "lease a large value, ";
 const std::string kQueue = "queue of 128 B, two threads";
 const std::string kLatency = "one-way latency of 128 B, polled";
-const std::string kTransport = "image transport at 50 Hz, ";
-const std::string kModules = "modules on trigger threads";
+const std::string kTransport = "image transport, ";
+const std::string kModules = "triggered modules";
 
-const Bar::Reference kPublishToOne{kPublish + "1 inputs", "Publish", "1 input"};
-const Bar::Reference kImageToOne{kImage + "1 inputs", "Loan, Publish", "1 input"};
+const Bar::Reference kPublishToOne{kPublish + "1 input", "Publish", "1 input"};
+const Bar::Reference kImageToOne{kImage + "1 input", "Loan, Publish", "1 input"};
 const Bar::Reference kLeaseAlone{kLease + "1 thread", "Read", "1 thread"};
 const Bar::Reference kFilling{kTransport + "0 consumers", "filling alone", "filling alone"};
 const Bar::Reference kNobody{kTransport + "0 consumers", kModules, "0 consumers"};
@@ -32,7 +32,7 @@ const std::vector<Bar>& Bars() {
       {kRing, "modules, simulated time", kAtMost, 20},
       {kRing, "raw ports", kAtMost, 12},
 
-      {kPublish + "1 inputs", "Publish", kAtMost, 2},
+      {kPublish + "1 input", "Publish", kAtMost, 2},
       {kPublish + "7 inputs", "Publish", kAtMost, 2},
       {kPublish + "15 inputs", "Publish", kAtMost, 2},
       {kPublish + "1000 inputs", "Publish", kAtMost, 2},
@@ -41,7 +41,7 @@ const std::vector<Bar>& Bars() {
       {"get a copy of a double", "Get", kAtMost, 0.5},
       {"get a copy of 128 B", "Get", kAtMost, 2},
 
-      {kImage + "1 inputs", "Loan, Publish", kAtMost, 6},
+      {kImage + "1 input", "Loan, Publish", kAtMost, 6},
       {kImage + "15 inputs", "Loan, Publish", kAtMost, 6},
       {kImage + "1000 inputs", "Loan, Publish", kAtMost, 6},
       {kImage + "1000 inputs", "Loan, Publish", kAtMost, 1.2, kImageToOne},
@@ -61,10 +61,10 @@ const std::vector<Bar>& Bars() {
       {kLatency, "Read", kAtMost, 1.5, {kLatency, "seqlock", "seqlock"}, "p50"},
 
       {kTransport + "0 consumers", kModules, kAtMost, 1.15, kFilling, "CPU"},
-      {kTransport + "1 consumers", kModules, kAtMost, 1.15, kFilling, "CPU"},
+      {kTransport + "1 consumer", kModules, kAtMost, 1.15, kFilling, "CPU"},
       {kTransport + "7 consumers", kModules, kAtMost, 1.15, kFilling, "CPU"},
       {kTransport + "15 consumers", kModules, kAtMost, 1.15, kFilling, "CPU"},
-      {kTransport + "1 consumers", kModules, kAtMost, 1.1, kNobody, "peak RSS"},
+      {kTransport + "1 consumer", kModules, kAtMost, 1.1, kNobody, "peak RSS"},
       {kTransport + "7 consumers", kModules, kAtMost, 1.1, kNobody, "peak RSS"},
       {kTransport + "15 consumers", kModules, kAtMost, 1.1, kNobody, "peak RSS"},
   };

@@ -7,8 +7,8 @@
 namespace runnel::bench {
 
 inline constexpr const char* kFillingSubject = "filling alone";
-inline constexpr const char* kPortsSubject = "modules on trigger threads";
-inline constexpr const char* kPoolSubject = "mutex + cv + shared_ptr pool";
+inline constexpr const char* kPortsSubject = "triggered modules";
+inline constexpr const char* kPoolSubject = "mutex + cv + pool";
 
 struct ImageCost {
   double cpu_percent = 0;  ///< of one core, all threads of the process

@@ -7,6 +7,7 @@
 #include "bench/core/rivals/atomic_shared_pointer.h"
 #include "bench/core/rivals/mutex_shared_pointer.h"
 #include "bench/core/rivals/shared_pool.h"
+#include "bench/core/support/counted.h"
 #include "bench/core/support/images.h"
 #include "bench/core/support/star.h"
 #include "bench/core/workloads/workloads.h"
@@ -46,7 +47,7 @@ void AddPooled(Suite& suite, const std::string& name, std::size_t cells) {
 }
 
 void AddReaders(Suite& suite, std::size_t readers) {
-  suite.Start({.name = "loan + publish an image, " + std::to_string(readers) + " inputs",
+  suite.Start({.name = "loan + publish an image, " + Counted(readers, "input"),
                .family = "loan + publish an image",
                .axis = "inputs",
                .position = static_cast<double>(readers)});

@@ -12,6 +12,7 @@
 
 #include <unistd.h>
 
+#include "bench/core/support/counted.h"
 #include "bench/core/support/image_subjects.h"
 #include "bench/core/workloads/workloads.h"
 
@@ -70,11 +71,12 @@ int RunImageTransport(const ImageTransport& transport) {
 
 void AddImageTransport(Suite& suite) {
   for (const int readers : {0, 1, 7, 15}) {
-    suite.Start({.name = "image transport at 50 Hz, " + std::to_string(readers) + " consumers",
-                 .quantities = {{"CPU", "%"}, {"peak RSS", "MB"}},
-                 .family = "image transport at 50 Hz",
-                 .axis = "consumers",
-                 .position = static_cast<double>(readers)});
+    suite.Start(
+        {.name = "image transport, " + Counted(static_cast<std::size_t>(readers), "consumer"),
+         .quantities = {{"CPU", "%"}, {"peak RSS", "MB"}},
+         .family = "image transport",
+         .axis = "consumers",
+         .position = static_cast<double>(readers)});
     AddProcess(suite, Role::kRunnel, kPortsSubject, readers);
     AddProcess(suite, Role::kRival, kPoolSubject, readers);
     if (readers == 0) AddProcess(suite, Role::kFloor, kFillingSubject, readers);

@@ -1,6 +1,7 @@
 // Lease the newest image and let it go, 1 to all threads at once from one port: whether readers
 // disturb each other. The figure is what it costs one thread: flat is good.
 
+#include <algorithm>
 #include <memory>
 #include <set>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include "bench/core/rivals/atomic_shared_pointer.h"
 #include "bench/core/rivals/mutex_shared_pointer.h"
+#include "bench/core/support/counted.h"
 #include "bench/core/support/images.h"
 #include "bench/core/support/pinned_thread.h"
 #include "bench/core/support/star.h"
@@ -75,11 +77,11 @@ std::set<int> ThreadCounts() {
 
 void AddLease(Suite& suite) {
   for (const int threads : ThreadCounts()) {
-    suite.Start({.name = "lease a large value, " + std::to_string(threads) +
-                         (threads == 1 ? " thread" : " threads"),
-                 .family = "lease a large value",
-                 .axis = "threads",
-                 .position = static_cast<double>(threads)});
+    suite.Start(
+        {.name = "lease a large value, " + Counted(static_cast<std::size_t>(threads), "thread"),
+         .family = "lease a large value",
+         .axis = "threads",
+         .position = static_cast<double>(threads)});
     AddReaders<RunnelReaders>(suite, Role::kRunnel, "Read", threads);
     AddReaders<PointerReaders<MutexSharedPointer<Image>>>(
         suite, Role::kRival, MutexSharedPointer<Image>::kName, threads);

@@ -9,6 +9,7 @@
 #include "bench/core/rivals/mutex_shared_pointer.h"
 #include "bench/core/rivals/mutex_value.h"
 #include "bench/core/rivals/seqlock.h"
+#include "bench/core/support/counted.h"
 #include "bench/core/support/star.h"
 #include "bench/core/workloads/workloads.h"
 
@@ -64,7 +65,7 @@ void PushToEach(benchmark::State& state, std::size_t readers) {
 }
 
 void AddReaders(Suite& suite, std::size_t readers) {
-  suite.Start({.name = "publish a double, " + std::to_string(readers) + " inputs",
+  suite.Start({.name = "publish a double, " + Counted(readers, "input"),
                .family = "publish a double",
                .axis = "inputs",
                .position = static_cast<double>(readers)});
