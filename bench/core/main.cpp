@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <iostream>
+#include <optional>
 #include <stdexcept>
 
 #include <CLI/CLI.hpp>
@@ -31,6 +32,8 @@ struct Options {
 void Declare(CLI::App& app, Options& options) {
   app.add_option("--filter", options.settings.filter,
                  "only cases whose \"workload/by\" this regular expression finds");
+  app.add_flag("--list", options.settings.list,
+               "print the names of the cases, and measure nothing");
   app.add_flag("--quick", options.settings.quick, "in less than a minute, and less exact");
   app.add_flag(
       "--best", options.settings.best,
@@ -82,9 +85,6 @@ void Report(const Options& options, const Machine& machine, const Results& resul
   if (options.all) std::cout << CaseTable(results) << '\n';
   std::cout << BaselineTable(results) << '\n' << MainTable(results) << Failures(results);
   std::cout << "load now: " << Rounded(LoadAverage()) << '\n';
-  if (!options.compare.empty()) {
-    std::cout << '\n' << CompareWithEarlier(options.compare, results);
-  }
   if (!options.json.empty()) WriteFile(options.json, ToJson(machine, results));
   if (!options.charts.empty()) WriteCharts(options.charts, results);
 }
@@ -100,12 +100,17 @@ int Run(int argc, char** argv) {
     return RunImageTransport(options.image_transport);
   }
   HurryUp(app, options.settings);
+  std::optional<EarlierRun> earlier;
+  if (!options.compare.empty()) earlier.emplace(options.compare);
   const Machine machine = ThisMachine();
-  std::cout << machine.ToString() << std::endl;
+  if (!options.settings.list) std::cout << machine.ToString() << std::endl;
   Results results;
   Suite suite(options.settings, results);
   RunAllGroups(suite);
+  if (!suite.has_run()) throw std::runtime_error("--filter finds no case: see --list");
+  if (options.settings.list) return 0;
   Report(options, machine, results);
+  if (earlier) std::cout << '\n' << earlier->CompareWith(results);
   return Failures(results).empty() ? 0 : 1;
 }
 

@@ -1,6 +1,5 @@
 #include "bench/core/suite.h"
 
-#include <algorithm>
 #include <iostream>
 #include <regex>
 #include <utility>
@@ -21,6 +20,10 @@ void InitializeLibrary(const Settings& settings) {
   for (std::string& option : options) arguments.push_back(option.data());
   int count = static_cast<int>(arguments.size());
   benchmark::Initialize(&count, arguments.data());
+}
+
+std::string NameOf(const Workload& workload, const std::string& subject) {
+  return workload.name + "/" + subject;
 }
 
 double ValueOf(const benchmark::BenchmarkReporter::Run& run, const Quantity& quantity) {
@@ -57,7 +60,11 @@ void Suite::RunGroup(const std::string& group, AddCases add) {
   Start({kBaselineWorkload});
   AddFetchAdd(*this);
   add(*this);
-  if (IsAnythingWanted()) {
+  const std::vector<std::string> names = WantedNames();
+  has_run_ = has_run_ || !names.empty();
+  if (settings_.list) {
+    for (const std::string& name : names) std::cout << name << '\n';
+  } else if (!names.empty()) {
     std::cerr << "measuring: " << group << std::endl;
     RunCases();
   }
@@ -83,17 +90,20 @@ benchmark::internal::Benchmark* Suite::AddTimed(Role role, const std::string& su
 }
 
 benchmark::internal::Benchmark* Suite::Register(Role role, const std::string& subject, Run run) {
-  const std::string name = workload_.name + "/" + subject;
+  const std::string name = NameOf(workload_, subject);
   numbers_[name] = cases_.size();
   cases_.push_back({workload_, {role, subject}});
   return benchmark::RegisterBenchmark(name.c_str(), std::move(run));
 }
 
-bool Suite::IsAnythingWanted() const {
+std::vector<std::string> Suite::WantedNames() const {
   const std::regex filter(settings_.filter, std::regex::extended);
-  return std::ranges::any_of(numbers_, [&](const auto& each) {
-    return cases_[each.second].subject.name != kFetchAdd && std::regex_search(each.first, filter);
-  });
+  std::vector<std::string> names;
+  for (const Case& each : cases_) {
+    const std::string name = NameOf(each.workload, each.subject.name);
+    if (each.subject.name != kFetchAdd && std::regex_search(name, filter)) names.push_back(name);
+  }
+  return names;
 }
 
 void Suite::Collect(const std::string& name,

@@ -14,6 +14,7 @@ namespace runnel::bench {
 struct Settings {
   std::string filter = ".";  ///< regular expression for "workload/subject"
   bool quick = false;
+  bool list = false;  ///< print the names of the cases instead of running them
   bool best = false;  ///< of the repetitions instead of the median
   int repetitions = 5;
   double seconds_per_case = 0.05;       ///< and repetition
@@ -36,6 +37,8 @@ class Suite {
 
   /// Has `add` make the cases of a group and runs those that the filter lets through.
   void RunGroup(const std::string& group, AddCases add);
+  /// Whether the filter let anything through so far.
+  [[nodiscard]] bool has_run() const noexcept { return has_run_; }
 
   /// What follows belongs to `workload`.
   void Start(Workload workload);
@@ -54,12 +57,13 @@ class Suite {
   };
 
   benchmark::internal::Benchmark* Register(Role role, const std::string& subject, Run run);
-  [[nodiscard]] bool IsAnythingWanted() const;
+  [[nodiscard]] std::vector<std::string> WantedNames() const;
   void RunCases();
   void Collect(const std::string& name, const std::vector<benchmark::BenchmarkReporter::Run>& runs);
 
   const Settings settings_;
   Results& results_;
+  bool has_run_ = false;
   std::string group_;
   Workload workload_;
   std::vector<Case> cases_;                     // of the group, in the order of their making

@@ -11,7 +11,7 @@ namespace runnel::bench {
 [[nodiscard]] std::string BarChart(const std::vector<const Measurement*>& measurements);
 
 /// The same quantity of a family of workloads against what differs among them: a line for each
-/// subject, both axes logarithmic.
+/// subject.
 [[nodiscard]] std::string LineChart(const std::vector<const Measurement*>& measurements);
 
 /// A chart for each quantity of each workload or family, as SVG files in `folder` (which is made),

@@ -15,16 +15,46 @@ std::string Rounded(double value) {
   return text;
 }
 
-std::string WithUnit(double value, const std::string& unit) {
+namespace {
+
+struct Scaled {
+  double value;
+  std::string unit;
+};
+
+Scaled Scale(double value, const std::string& unit, double largest) {
   static const std::map<std::string, std::string> thousandfold = {
       {"ns", "us"}, {"us", "ms"}, {"ms", "s"}, {"B", "kB"}, {"kB", "MB"}};
   std::string in = unit;
-  for (auto next = thousandfold.find(in); value >= 10000 && next != thousandfold.end();
+  for (auto next = thousandfold.find(in); value >= largest && next != thousandfold.end();
        next = thousandfold.find(in)) {
     value /= 1000;
     in = next->second;
   }
-  return Rounded(value) + " " + in;
+  return {value, in};
+}
+
+}  // namespace
+
+std::string WithUnit(double value, const std::string& unit) {
+  const Scaled scaled = Scale(value, unit, 10'000);
+  return Rounded(scaled.value) + " " + scaled.unit;
+}
+
+std::string Short(double value) {
+  char text[40];
+  if (value >= 1e6) {
+    std::snprintf(text, sizeof(text), "%gM", value * 1e-6);
+  } else {
+    std::snprintf(text, sizeof(text), value >= 1e4 ? "%gk" : "%g",
+                  value >= 1e4 ? value * 1e-3 : value);
+  }
+  return text;
+}
+
+std::string ShortWithUnit(double value, const std::string& unit) {
+  const Scaled scaled = Scale(value, unit, 1'000);
+  return Short(scaled.value) + " " + scaled.unit;
 }
 
 std::string TextTable::ToString() const {

@@ -10,6 +10,10 @@ namespace runnel::bench {
 /// With its unit, in one that makes it easy to read: 1.2 ms instead of 1200000 ns.
 [[nodiscard]] std::string WithUnit(double value, const std::string& unit);
 
+/// As short as they can be, for the ticks of an axis: 1, 2.5, 10k, 1M.
+[[nodiscard]] std::string Short(double value);
+[[nodiscard]] std::string ShortWithUnit(double value, const std::string& unit);
+
 /// Columns as wide as what is in them; the first line is the head.
 class TextTable {
  public:
