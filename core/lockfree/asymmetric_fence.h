@@ -23,7 +23,7 @@ extern bool heavy_fence_is_heavy;
 ///
 /// Threads:   any. HeavyFence() is a system call of about a microsecond: never in a cycle.
 /// Source:    the pair was proposed for C++ as P1202 (D. Goldblatt, "Asymmetric fences").
-inline void FullFence() noexcept {
+[[gnu::always_inline]] inline void FullFence() noexcept {
 #if defined(__SANITIZE_THREAD__)
   // ThreadSanitizer has no fences; an operation that is one on every machine it runs on.
   std::atomic<int> nobodys{0};
@@ -32,7 +32,7 @@ inline void FullFence() noexcept {
   std::atomic_thread_fence(std::memory_order_seq_cst);
 #endif
 }
-inline void LightFence() noexcept {
+[[gnu::always_inline]] inline void LightFence() noexcept {
   if (internal::heavy_fence_is_heavy) [[likely]] {
     std::atomic_signal_fence(std::memory_order_seq_cst);
   } else {
@@ -45,8 +45,8 @@ void HeavyFence() noexcept;
 /// specialise it, so that their search sees the fences too.
 template <template <typename> class Atomic>
 struct Fences {
-  static void Full() noexcept { FullFence(); }
-  static void Light() noexcept { LightFence(); }
+  [[gnu::always_inline]] static void Full() noexcept { FullFence(); }
+  [[gnu::always_inline]] static void Light() noexcept { LightFence(); }
   static void Heavy() noexcept { HeavyFence(); }
 };
 

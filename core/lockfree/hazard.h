@@ -29,10 +29,12 @@ struct alignas(kCacheLineSize) HazardRecord {
   using Slot = HazardSlot<Atomic>;
 
   /// A slot of the calling thread that is free, or nullptr.
-  [[nodiscard]] Slot* FindFreeSlot() noexcept {
+  [[nodiscard, gnu::always_inline]] Slot* FindFreeSlot() noexcept {
+    // acquire: another thread may have emptied it, by dropping a lease that was handed to it. What
+    // that thread read is over then also for who sees only our next use of the slot.
+    if (slots[0].held.load(std::memory_order_acquire) == nullptr) [[likely]]
+      return &slots[0];
     for (Slot& slot : slots) {
-      // acquire: another thread may have emptied it, by dropping a lease that was handed to it.
-      // What that thread read is over then also for who sees only our next use of the slot.
       if (slot.held.load(std::memory_order_acquire) == nullptr) return &slot;
     }
     return nullptr;

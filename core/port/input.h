@@ -71,27 +71,15 @@ class Input final : public InputBase {
 
   /// The newest value, with whether it is new since the last Read().
   [[nodiscard]] Lease<T> Read() noexcept {
-    return Guarded([this] {
-      Link* link = nullptr;
-      Lease<T> lease = Newest(link);
-      if (!lease.has_value()) return lease;
-      const std::uint64_t sequence = lease.held_.publication().sequence;
-      const std::uint64_t last = link->read.exchange_relaxed(sequence);
-      lease.freshness_ = sequence != last ? Freshness::kNew : Freshness::kOld;
-      lease.missed_ = last == 0 || sequence <= last ? 0 : sequence - last - 1;
-      return lease;
-    });
+    return EpochGuard::HeldByThisThread() ? ReadInside() : ReadGuarded();
   }
   /// The newest value without marking it as read. Any thread.
   [[nodiscard]] Lease<T> Peek() const noexcept {
-    return Guarded([this] {
-      Link* link = nullptr;
-      Lease<T> lease = Newest(link);
-      if (!lease.has_value()) return lease;
-      const bool seen = link->read.load_relaxed() == lease.held_.publication().sequence;
-      lease.freshness_ = seen ? Freshness::kOld : Freshness::kNew;
-      return lease;
-    });
+    const EpochGuard guard;
+    const Link* link = nullptr;
+    Lease<T> lease = Newest(link);
+    if (lease && link->read.load_relaxed() == lease.sequence()) lease.freshness_ = Freshness::kOld;
+    return lease;
   }
   /// A copy of the newest value, or `otherwise` if there is none, without marking it as read: the
   /// quickest way to look. Any thread.
@@ -159,10 +147,21 @@ class Input final : public InputBase {
   struct Link {
     explicit Link(Channel<T>* source) : channel(source), number(source->number()) {}
 
+    // Marks the value as read, and tells the lease how it stands to the one before.
+    [[gnu::always_inline]] void Note(Lease<T>& lease) noexcept {
+      const std::uint64_t sequence = lease.held_.publication().sequence;
+      const std::uint64_t last = read.exchange_relaxed(sequence);
+      lease.freshness_ = sequence != last ? Freshness::kNew : Freshness::kOld;
+      lease.missed_ = last == 0 || sequence <= last ? 0 : sequence - last - 1;
+    }
+
     Channel<T>* const channel;
     const std::uint64_t number;  // of the channel, also when that is gone
     RelaxedNumber read;          // sequence of the value read last
     std::uint64_t taken = 0;     // sequence of the value taken last; the reader's own
+  };
+  struct NotNoted {
+    void Note(const Lease<T>&) noexcept {}
   };
   // What reading needs; never changed but for the reader's own notes, replaced as a whole.
   struct Binding {
@@ -188,29 +187,55 @@ class Input final : public InputBase {
     }
   };
   bool CopyNewest(T& value) const noexcept {
-    return Guarded([this, &value] {
-      const Binding* const binding = binding_.load(std::memory_order_acquire);
-      if (binding != nullptr && binding->channel != nullptr) [[likely]] {
-        return binding->channel->Copy(value);
-      }
-      Link* link = nullptr;
-      const Lease<T> newest = Newest(link);
-      if (newest) value = *newest;
-      return newest.has_value();
-    });
+    return EpochGuard::HeldByThisThread() ? CopyInside(value) : CopyGuarded(value);
   }
-  // Inside a guard, by which the link lives. `link` is set if there is a value.
-  [[nodiscard, gnu::always_inline]] Lease<T> Newest(Link*& link) const noexcept {
+  [[gnu::noinline]] bool CopyGuarded(T& value) const noexcept {
+    const EpochGuard guard;
+    return CopyInside(value);
+  }
+  [[gnu::always_inline]] bool CopyInside(T& value) const noexcept {
+    const Binding* const binding = binding_.load(std::memory_order_acquire);
+    if (binding == nullptr) return false;
+    if (binding->channel != nullptr) [[likely]]
+      return binding->channel->Copy(value);
+    return CopySeveral(*binding, value);
+  }
+  [[gnu::noinline]] static bool CopySeveral(const Binding& binding, T& value) noexcept {
+    const Link* link = nullptr;
+    const Lease<T> newest = NewestOfSeveral(binding, link);
+    if (newest) value = *newest;
+    return newest.has_value();
+  }
+  // The ways that are seldom taken are kept out of line, so that the usual one stays short.
+  [[gnu::noinline]] Lease<T> ReadGuarded() noexcept {
+    const EpochGuard guard;
+    return ReadInside();
+  }
+  [[gnu::always_inline]] Lease<T> ReadInside() noexcept {
     // acquire: pairs with the release in Replace().
     const Binding* const binding = binding_.load(std::memory_order_acquire);
     if (binding == nullptr) return {};
     if (binding->channel == nullptr) [[unlikely]]
-      return NewestOfSeveral(*binding, link);
-    link = binding->only;
-    return Lease<T>([binding] { return binding->channel->Read(); });
+      return ReadSeveral(*binding);
+    return Lease<T>(*binding->channel, *binding->only);
   }
-  [[gnu::noinline]] static Lease<T> NewestOfSeveral(const Binding& binding,
-                                                    Link*& newest) noexcept {
+  [[gnu::noinline]] static Lease<T> ReadSeveral(const Binding& binding) noexcept {
+    Link* link = nullptr;
+    Lease<T> lease = NewestOfSeveral(binding, link);
+    if (lease) link->Note(lease);
+    return lease;
+  }
+  // Inside a guard, by which the link lives. `link` is set if there is a value.
+  [[nodiscard]] Lease<T> Newest(const Link*& link) const noexcept {
+    const Binding* const binding = binding_.load(std::memory_order_acquire);
+    if (binding == nullptr) return {};
+    if (binding->channel == nullptr) return NewestOfSeveral(*binding, link);
+    link = binding->only;
+    NotNoted unseen;
+    return Lease<T>(*binding->channel, unseen);
+  }
+  template <typename LinkPointer>
+  static Lease<T> NewestOfSeveral(const Binding& binding, LinkPointer& newest) noexcept {
     Lease<T> lease;
     for (const auto& link : binding.links) {
       auto candidate = link->channel->Read();

@@ -23,6 +23,8 @@ inline constexpr bool kIsCheap =
     std::is_trivially_copyable_v<T>&& std::is_copy_constructible_v<T> && sizeof(T) <= 64;
 
 template <typename T>
+class Channel;
+template <typename T>
 class Input;
 
 namespace internal {
@@ -62,6 +64,11 @@ class LeasedValue {
   LeasedValue() = default;
   explicit LeasedValue(BufferLease<T> lease) noexcept : lease_(std::move(lease)) {}
   /// The newest one, or none.
+  LeasedValue(const LeasedValue&) = default;
+  LeasedValue(LeasedValue&&) noexcept = default;
+  LeasedValue& operator=(const LeasedValue&) = default;
+  LeasedValue& operator=(LeasedValue&&) noexcept = default;
+  [[gnu::always_inline]] ~LeasedValue() {}
   [[gnu::always_inline]] LeasedValue(LatestBuffer<T>& latest, HazardRecord<>& record) noexcept
       : lease_(latest.Lease(record)) {}
 
@@ -115,9 +122,14 @@ class Lease {
 
  private:
   friend class Input<T>;
-  // Made in place: what is newest is copied once, or not at all.
-  template <typename Make>
-  explicit Lease(Make&& make) noexcept : held_(std::forward<Make>(make)()) {}
+  // The channel's newest value, made in place, so that it is copied once or not at all; `reader`
+  // notes that it was read.
+  template <typename Reader>
+  [[gnu::always_inline]] Lease(Channel<T>& channel, Reader& reader) noexcept
+      : held_(channel.Read()), freshness_(Freshness::kNew) {
+    if (has_value()) [[likely]]
+      reader.Note(*this);
+  }
 
   const internal::HeldValue<T>& Checked() const {
     RUNNEL_CHECK(has_value(), "the lease is empty: no data has come yet");
