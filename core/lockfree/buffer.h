@@ -100,7 +100,6 @@ class alignas(kCacheLineSize) Buffer {
   Atomic<std::uint64_t> count_{0};  // counted holders; kClosed is added when the pool is closed
   Atomic<std::uint32_t> loan_{kNotLoaned};
   std::uint32_t seen_in_ = 0;  // the publisher's own: the search that last saw it in a slot
-  Buffer* next_ = nullptr;     // the publisher's own: in the list of free or of other buffers
   Pool* pool_ = nullptr;
   alignas(T) std::byte storage_[sizeof(T)];
 };

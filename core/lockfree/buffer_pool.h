@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -71,10 +72,11 @@ class BufferPool {
   /// been published last, or nullptr; `readers` loads the bits of the records that may hold others.
   template <typename Readers>
   [[nodiscard]] Buffer* Loan(const Buffer* newest, Readers&& readers) {
-    if (free_ == nullptr || kPrefersWarmBuffers) FindFree(newest, readers);
-    if (free_ == nullptr && !TakeArriving() && !Grow()) return nullptr;
-    Buffer* const buffer = std::exchange(free_, free_->next_);
-    buffer->next_ = std::exchange(others_, buffer);
+    if (free_count_ == 0 || (kPrefersWarmBuffers && other_count_ <= kFewBuffers)) [[unlikely]] {
+      if (!SeeToFreeBuffer(newest, readers)) return nullptr;
+    }
+    Buffer* const buffer = free_[--free_count_];
+    others_[other_count_++] = buffer;
     // relaxed: nobody else can reach the buffer.
     buffer->loan_.store(Buffer::kLoaned, std::memory_order_relaxed);
     return buffer;
@@ -115,10 +117,15 @@ class BufferPool {
   // Big values, and those with memory elsewhere, are better written where the last ones have been:
   // in the cache. For small ones it is cheaper to look for free buffers only when there are none.
   static constexpr bool kPrefersWarmBuffers = !std::is_trivially_copyable_v<T> || sizeof(T) > 4096;
+  static constexpr std::uint32_t kFewBuffers = 16;
 
+  // Buffers that are made at once, and room to list them with all that were made before. A list
+  // that a longer one has replaced goes with the pool.
   struct Chunk {
     std::unique_ptr<Buffer[]> buffers;
     std::uint32_t size;
+    std::uint32_t room;
+    std::unique_ptr<Buffer*[]> lists;  // 2 * room
     Chunk* next = nullptr;
   };
 
@@ -130,16 +137,30 @@ class BufferPool {
     chunk->buffers.reset(new Buffer[size]);
     chunk->size = size;
     for (std::uint32_t i = 0; i < size; ++i) chunk->buffers[i].Fill(*this, factory_);
-    capacity_.fetch_add(size, std::memory_order_relaxed);
+    // relaxed: a count. Each list has room for all buffers counted before, in whatever order the
+    // chunks arrive.
+    chunk->room = capacity_.fetch_add(size, std::memory_order_relaxed) + size;
+    chunk->lists.reset(new Buffer*[2 * std::size_t{chunk->room}]);
     return chunk;
   }
   void Add(std::unique_ptr<Chunk> chunk) noexcept {
-    for (std::uint32_t i = chunk->size; i > 0; --i) {
-      Buffer& buffer = chunk->buffers[i - 1];
-      buffer.next_ = std::exchange(free_, &buffer);
+    if (chunk->room > room_) {
+      Buffer** const free = chunk->lists.get();
+      Buffer** const others = free + chunk->room;
+      std::copy_n(free_, free_count_, free);
+      std::copy_n(others_, other_count_, others);
+      free_ = free;
+      others_ = others;
+      room_ = chunk->room;
     }
+    for (std::uint32_t i = chunk->size; i > 0; --i) free_[free_count_++] = &chunk->buffers[i - 1];
     chunk->next = chunks_;
     chunks_ = chunk.release();
+  }
+  template <typename Readers>
+  [[gnu::noinline]] bool SeeToFreeBuffer(const Buffer* newest, Readers&& readers) {
+    FindFree(newest, readers);
+    return free_count_ > 0 || TakeArriving() || Grow();
   }
   bool TakeArriving() noexcept {
     if (arriving_.load(std::memory_order_relaxed) == nullptr) return false;
@@ -172,7 +193,6 @@ class BufferPool {
   // Moves from the other buffers to the free ones those that nobody holds.
   template <typename Readers>
   void FindFree(const Buffer* newest, Readers&& readers) noexcept {
-    if (others_ == nullptr) return;
     // Between publishing and looking who reads; pairs with the exchange of readers, which stands
     // between their slot and their second look at the newest buffer (LatestBuffer::Lease()): a
     // reader whose slot is not seen here sees that its buffer is no longer the newest.
@@ -187,14 +207,15 @@ class BufferPool {
         if (Buffer* const own = Own(held)) own->seen_in_ = search_;
       }
     });
-    for (Buffer** link = &others_; *link != nullptr;) {
-      Buffer* const buffer = *link;
-      if (buffer == newest || buffer->seen_in_ == search_ || buffer->IsHeld()) {
-        link = &buffer->next_;
-        continue;
+    const std::uint32_t count = std::exchange(other_count_, 0);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      Buffer* const buffer = others_[i];
+      const bool held = buffer == newest || buffer->seen_in_ == search_ || buffer->IsHeld();
+      if (held) {
+        others_[other_count_++] = buffer;
+      } else {
+        free_[free_count_++] = buffer;
       }
-      *link = buffer->next_;
-      buffer->next_ = std::exchange(free_, buffer);
     }
   }
 
@@ -258,10 +279,14 @@ class BufferPool {
   const Domain& domain_;
   const bool may_grow_;
   const Factory factory_;
-  Buffer* free_ = nullptr;  // this and the next three are the publisher's own
-  Buffer* others_ = nullptr;
-  Chunk* chunks_ = nullptr;
+  // These are the publisher's own.
+  Buffer** free_ = nullptr;    // the one used last is taken first
+  Buffer** others_ = nullptr;  // loaned, newest, or held by readers when they were last looked at
+  std::uint32_t free_count_ = 0;
+  std::uint32_t other_count_ = 0;
+  std::uint32_t room_ = 0;  // of either list
   std::uint32_t search_ = 0;
+  Chunk* chunks_ = nullptr;
   alignas(kCacheLineSize) Atomic<Chunk*> arriving_{nullptr};  // reserved, not yet taken over
   Atomic<std::uint32_t> capacity_{0};
   Atomic<std::uint64_t> growths_{0};

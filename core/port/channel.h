@@ -137,7 +137,9 @@ class Channel final : public ChannelBase {
   }
   void ReserveFor([[maybe_unused]] std::size_t leases) override {
     if constexpr (!kIsCheap<T>) {
-      storage_.pool->Reserve(storage_.first_capacity + static_cast<std::uint32_t>(leases));
+      // Some more than can wait at once, so that the publisher seldom looks through all of them.
+      const std::size_t spare = leases / 4;
+      storage_.pool->Reserve(storage_.first_capacity + static_cast<std::uint32_t>(leases + spare));
     }
   }
   /// How many buffers there are.

@@ -50,6 +50,9 @@ class YieldingAtomic {
   T fetch_sub(T value, std::memory_order order) noexcept {
     return Between([&] { return atomic_.fetch_sub(value, order); });
   }
+  T fetch_or(T value, std::memory_order order) noexcept {
+    return Between([&] { return atomic_.fetch_or(value, order); });
+  }
   bool compare_exchange_weak(T& expected, T desired, std::memory_order success,
                              std::memory_order failure) noexcept {
     return Between(

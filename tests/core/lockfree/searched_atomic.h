@@ -37,6 +37,24 @@
 #undef free
 #undef assert
 
+#include "core/lockfree/asymmetric_fence.h"
+
+namespace runnel::test {
+
+template <typename T>
+class SearchedAtomic;
+
+}  // namespace runnel::test
+
+/// The search knows no asymmetric fences; it takes both halves for full ones, which is what a pair
+/// of them amounts to.
+template <>
+struct runnel::Fences<runnel::test::SearchedAtomic> {
+  static void Full() { rl::atomic_thread_fence(rl::mo_seq_cst, $); }
+  static void Light() { Full(); }
+  static void Heavy() { Full(); }
+};
+
 namespace runnel::test {
 
 inline rl::memory_order Searched(std::memory_order order) {
@@ -73,6 +91,9 @@ class SearchedAtomic {
   }
   T fetch_sub(T value, std::memory_order order) {
     return atomic_.rmw(rl::rmw_type_t<rl::rmw_type_sub>(), value, Searched(order), $);
+  }
+  T fetch_or(T value, std::memory_order order) {
+    return atomic_.rmw(rl::rmw_type_t<rl::rmw_type_or>(), value, Searched(order), $);
   }
   bool compare_exchange_weak(T& expected, T desired, std::memory_order ok, std::memory_order fail) {
     return atomic_.compare_exchange(rl::bool_t<true>(), expected, desired, Searched(ok),
