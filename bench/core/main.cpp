@@ -69,6 +69,7 @@ void RunAllGroups(Suite& suite) {
   suite.RunGroup("lease", AddLease);
   suite.RunGroup("queue", AddQueue);
   suite.RunGroup("latency", AddLatency);
+  suite.RunGroup("wake-up", AddWakeUp);
   suite.RunGroup("payload", AddPayload);
   suite.RunGroup("ports", AddManyPorts);
   suite.RunGroup("connecting", AddConnecting);

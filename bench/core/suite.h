@@ -16,7 +16,7 @@ struct Settings {
   bool quick = false;
   bool list = false;  ///< print the names of the cases instead of running them
   bool best = false;  ///< of the repetitions instead of the median
-  int repetitions = 5;
+  int repetitions = 7;
   double seconds_per_case = 0.05;       ///< and repetition
   double seconds_per_image_case = 2.0;  ///< image transport, likewise
 };

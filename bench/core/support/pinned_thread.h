@@ -12,7 +12,10 @@ namespace runnel::bench {
 /// core: see the README.
 class PinnedThread {
  public:
-  explicit PinnedThread(std::size_t index) {
+  explicit PinnedThread(std::size_t index) { Pin(index); }
+  ~PinnedThread() { (void)sched_setaffinity(0, sizeof(cpu_set_t), &OfTheProcess()); }
+  /// For good.
+  static void Pin(std::size_t index) {
     const cpu_set_t& all = OfTheProcess();
     const auto cores = static_cast<std::size_t>(CPU_COUNT(&all));
     std::size_t left = index % (cores > 0 ? cores : 1);
@@ -24,7 +27,7 @@ class PinnedThread {
       return;
     }
   }
-  ~PinnedThread() { (void)sched_setaffinity(0, sizeof(cpu_set_t), &OfTheProcess()); }
+
   PinnedThread(const PinnedThread&) = delete;
   PinnedThread& operator=(const PinnedThread&) = delete;
 

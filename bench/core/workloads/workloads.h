@@ -14,6 +14,7 @@ void AddImage(Suite& suite);
 void AddLease(Suite& suite);
 void AddQueue(Suite& suite);
 void AddLatency(Suite& suite);
+void AddWakeUp(Suite& suite);
 void AddPayload(Suite& suite);
 void AddManyPorts(Suite& suite);
 void AddConnecting(Suite& suite);
