@@ -13,6 +13,7 @@
 #include "bench/report/charts.h"
 #include "bench/report/comparison.h"
 #include "bench/report/json_report.h"
+#include "bench/report/peers.h"
 #include "bench/report/table.h"
 #include "bench/report/text.h"
 
@@ -85,6 +86,8 @@ void WriteFile(const std::string& file, const std::string& text) {
 void Report(const Options& options, const Machine& machine, const Results& results) {
   if (options.all) std::cout << CaseTable(results) << '\n';
   std::cout << BaselineTable(results) << '\n' << MainTable(results) << Failures(results);
+  const std::string peers = PeerTable(results);
+  if (!peers.empty()) std::cout << '\n' << peers << '\n';
   std::cout << "load now: " << Rounded(LoadAverage()) << '\n';
   if (!options.json.empty()) WriteFile(options.json, ToJson(machine, results));
   if (!options.charts.empty()) WriteCharts(options.charts, results);

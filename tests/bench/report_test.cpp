@@ -7,6 +7,7 @@
 #include "bench/report/charts.h"
 #include "bench/report/comparison.h"
 #include "bench/report/json_report.h"
+#include "bench/report/peers.h"
 #include "bench/report/row.h"
 #include "bench/report/table.h"
 #include "bench/report/text.h"
@@ -126,6 +127,14 @@ TEST(Table, ShowsRowsAndFailures) {
   results.Add(failed);
   EXPECT_THAT(Failures(results), HasSubstr("messages were lost"));
   EXPECT_THAT(MainTable(results), HasSubstr("failed"));
+}
+
+TEST(Peers, AreDividedByTheBaselineOfTheirOwnMachine) {
+  Results results = Example();
+  EXPECT_THAT(PeerTable(results), IsEmpty());
+  results.Add(Time("publish a double, 1 input", Role::kRunnel, "Publish", {2}));
+  EXPECT_THAT(PeerTable(results), HasSubstr("| 1.00 f"));  // in f
+  EXPECT_THAT(PeerTable(results), HasSubstr("| 7.46 f"));  // 47 ns / 6.3 ns
 }
 
 TEST(EarlierRun, IsComparedWithWhatJsonWrote) {
