@@ -35,8 +35,7 @@ class RunnelQueue {
   }
 
  private:
-  Star<Message> star_{
-      1, {.queue = kCapacity, .on_full = OnFull::kRefuse}, {.pool = {.buffers = 2 * kCapacity}}};
+  Star<Message> star_{1, {.queue = kCapacity, .on_full = OnFull::kRefuse}};
 };
 
 // The thread that takes; tells when a round is complete, and whether nothing was lost.
