@@ -55,8 +55,8 @@ class alignas(kCacheLineSize) Buffer {
   }
   /// A counted holder that does not know yet whether it holds; see LatestBuffer::Lease().
   void CountForASecondLook() noexcept {
-    // seq_cst: as the exchange of a slot, between this and the second look.
-    count_.fetch_add(1, std::memory_order_seq_cst);
+    // relaxed: a fence comes between this and the second look.
+    count_.fetch_add(1, std::memory_order_relaxed);
   }
   /// One counted holder less.
   void DropHolder() noexcept {

@@ -59,7 +59,7 @@ class BufferLease {
       Answer();
   }
   [[gnu::noinline]] void Answer() noexcept {
-    const void* request = buffer_;
+    void* request = buffer_;
     // acq_rel: acquire, pairs with the release in BufferPool::Ask(): the pool expects this return,
     // so it still is there; one of the two takes the request back.
     if (slot_->request.compare_exchange_strong(request, nullptr, std::memory_order_acq_rel,

@@ -180,12 +180,12 @@ class BufferPool {
     while (chunk != nullptr) delete std::exchange(chunk, chunk->next);
   }
 
-  [[nodiscard]] Buffer* Own(const void* address) const noexcept {
+  [[nodiscard]] Buffer* Own(void* address) const noexcept {
     for (Chunk* chunk = chunks_; chunk != nullptr; chunk = chunk->next) {
       Buffer* const first = chunk->buffers.get();
       const std::less<const void*> less;
       if (less(address, first) || !less(address, first + chunk->size)) continue;
-      return first + (static_cast<const Buffer*>(address) - first);
+      return static_cast<Buffer*>(address);
     }
     return nullptr;
   }
@@ -193,16 +193,16 @@ class BufferPool {
   // Moves from the other buffers to the free ones those that nobody holds.
   template <typename Readers>
   void FindFree(const Buffer* newest, Readers&& readers) noexcept {
-    // Between publishing and looking who reads; pairs with the exchange of readers, which stands
-    // between their slot and their second look at the newest buffer (LatestBuffer::Lease()): a
-    // reader whose slot is not seen here sees that its buffer is no longer the newest.
+    // Between publishing and looking who reads; pairs with the fence of readers between their slot
+    // and their second look at the newest buffer (LatestBuffer::Lease()): a reader whose slot is not
+    // seen here sees that its buffer is no longer the newest.
     Fences<Atomic>::Full();
     ++search_;
     domain_.ForEach(readers(), [this](const Record& record) {
       for (const auto& slot : record.slots) {
         // acquire: pairs with the release of who empties a slot: its reads are over; and what it
         // counted before (a copy of its lease) is seen in IsHeld(). So slots come first.
-        const void* const held = slot.held.load(std::memory_order_acquire);
+        void* const held = slot.held.load(std::memory_order_acquire);
         if (held == nullptr) continue;
         if (Buffer* const own = Own(held)) own->seen_in_ = search_;
       }
@@ -250,10 +250,10 @@ class BufferPool {
   void Ask(Record& record) noexcept {
     for (auto& slot : record.slots) {
       // acquire: an empty slot says that its reads are over.
-      const void* const held = slot.held.load(std::memory_order_acquire);
+      void* const held = slot.held.load(std::memory_order_acquire);
       if (held == nullptr || Own(held) == nullptr) continue;
       ExpectOne();
-      const void* nothing = nullptr;
+      void* nothing = nullptr;
       // Another pool's request is answered by who has emptied the slot just now, at any moment.
       // release: pairs with the acquire in BufferLease::Answer(); the pool expects it.
       while (!slot.request.compare_exchange_weak(nothing, held, std::memory_order_release,
@@ -264,7 +264,7 @@ class BufferPool {
   }
   void TakeBack(Record& record) noexcept {
     for (auto& slot : record.slots) {
-      const void* request = slot.request.load(std::memory_order_relaxed);
+      void* request = slot.request.load(std::memory_order_relaxed);
       if (request == nullptr || Own(request) == nullptr) continue;
       // acquire: as above.
       if (slot.held.load(std::memory_order_acquire) == request) continue;

@@ -48,8 +48,9 @@ class EpochDomain {
   void Enter(Participant& participant) noexcept {
     if (participant.depth++ > 0) return;
     // acquire: pairs with the release in Advance(): who enters in a new epoch finds the new
-    // pointer. relaxed: what matters is the fence, between this store and the load of the pointer.
-    participant.entered.store(epoch_.load(std::memory_order_acquire), std::memory_order_relaxed);
+    // pointer. release: who sees that this thread has entered anew sees as done what it did before
+    // it left the last time. The fence stands between this store and the load of the pointer.
+    participant.entered.store(epoch_.load(std::memory_order_acquire), std::memory_order_release);
     Fences<Atomic>::Light();
   }
   void Leave(Participant& participant) noexcept {
@@ -67,13 +68,18 @@ class EpochDomain {
     return epoch;
   }
 
+  /// True once this reader, if it might have seen the state before `epoch`, has left.
+  [[nodiscard]] static bool HasPassed(const Participant& participant,
+                                      std::uint64_t epoch) noexcept {
+    // acquire: pairs with the releases in Leave() and Enter().
+    const std::uint64_t entered = participant.entered.load(std::memory_order_acquire);
+    return entered == kOutside || entered >= epoch;
+  }
   /// True once every reader that might have seen the state before `epoch` has left.
   [[nodiscard]] bool HasPassed(std::uint64_t epoch) const noexcept {
     for (const Participant* participant = first(); participant != nullptr;
          participant = participant->next) {
-      // acquire: pairs with the release in Leave().
-      const std::uint64_t entered = participant->entered.load(std::memory_order_acquire);
-      if (entered != kOutside && entered < epoch) return false;
+      if (!HasPassed(*participant, epoch)) return false;
     }
     return true;
   }

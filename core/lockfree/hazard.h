@@ -13,9 +13,9 @@ namespace runnel {
 /// Where a reader says which buffer it holds.
 template <template <typename> class Atomic = std::atomic>
 struct HazardSlot {
-  Atomic<const void*> held{nullptr};     ///< nullptr: the slot is free
-  Atomic<const void*> request{nullptr};  ///< the buffer of a closed pool that wants to be told when
-                                         ///< this slot ceases to hold it (BufferPool::Close())
+  Atomic<void*> held{nullptr};     ///< nullptr: the slot is free
+  Atomic<void*> request{nullptr};  ///< the buffer of a closed pool that wants to be told when
+                                   ///< this slot ceases to hold it (BufferPool::Close())
 };
 
 /// Which buffers one thread protects from reuse: it writes a buffer's address into a free slot of

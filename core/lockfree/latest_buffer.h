@@ -13,7 +13,7 @@ namespace runnel {
 /// Threads:     Publish() and Loan() by one thread at a time; Lease() by any, at any time.
 /// Progress:    Publish() and Loan() are wait-free; Lease() is lock-free: it repeats only if a
 ///              Publish() happened in between.
-/// Cost:        a lease is one exchange in the reader's own record; publishing is a store, whatever
+/// Cost:        a lease is a store to the reader's own record and a fence; publishing is a store, whatever
 ///              the number of readers.
 /// Allocation:  none but in Loan(), see BufferPool.
 /// Lifetime:    the pool must outlive the slot.
@@ -48,18 +48,21 @@ class LatestBuffer {
     // buffer is visible.
     Buffer* buffer = newest_.load(std::memory_order_acquire);
     if (buffer == nullptr) return {};
-    // seq_cst, both: as the exchange below, so that FindFree() looks at the record.
-    if ((readers_.load(std::memory_order_seq_cst) & record.bit) == 0) [[unlikely]] {
-      readers_.fetch_or(record.bit, std::memory_order_seq_cst);
+    // relaxed, both: as for the slot, the fence below is what counts.
+    if ((readers_.load(std::memory_order_relaxed) & record.bit) == 0) [[unlikely]] {
+      readers_.fetch_or(record.bit, std::memory_order_relaxed);
     }
     auto* const slot = record.FindFreeSlot();
     if (slot == nullptr) [[unlikely]]
       return LeaseCounted(buffer);
     for (;;) {
-      // seq_cst, both: pairs with the fence in BufferPool::FindFree(). If that does not find the
-      // slot filled, then what it looked for had been replaced before, and is not found again here.
-      slot->held.exchange(buffer, std::memory_order_seq_cst);
-      Buffer* const again = newest_.load(std::memory_order_seq_cst);
+      // release: carries along what another thread did that used the slot before.
+      slot->held.store(buffer, std::memory_order_release);
+      // Between the slot and the second look; pairs with the fence in BufferPool::FindFree(). If
+      // that does not find the slot filled, then what it looked for had been replaced before, and
+      // is not found again here.
+      Fences<Atomic>::Full();
+      Buffer* const again = newest_.load(std::memory_order_acquire);
       if (again == buffer) [[likely]]
         return BufferLease(buffer, *slot);
       buffer = again;
@@ -72,7 +75,8 @@ class LatestBuffer {
   [[gnu::noinline]] BufferLease LeaseCounted(Buffer* buffer) noexcept {
     for (;;) {
       buffer->CountForASecondLook();
-      Buffer* const again = newest_.load(std::memory_order_seq_cst);
+      Fences<Atomic>::Full();  // as above
+      Buffer* const again = newest_.load(std::memory_order_acquire);
       if (again == buffer) return BufferLease(buffer);
       buffer->DropHolder();
       buffer = again;

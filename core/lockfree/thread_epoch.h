@@ -25,6 +25,10 @@ class EpochGuard {
     return record != nullptr && record->epoch.depth > 0;
   }
 
+  /// By which others can tell what the calling thread has left; registers the thread, if this is
+  /// its first. Never freed; the thread's only as long as it lives.
+  [[nodiscard]] static EpochDomain<>::Participant& Participant() { return ThisThread().epoch; }
+
  private:
   EpochDomain<>::Participant& participant_;
 };

@@ -4,6 +4,8 @@ namespace runnel {
 
 namespace internal {
 thread_local constinit ThreadRecord* thread_record = nullptr;
+constinit EpochDomain<> process_epochs;
+constinit HazardDomain<> process_hazards;
 }  // namespace internal
 
 namespace {
@@ -47,16 +49,6 @@ ThreadRecord* MakeRecord() {
 }
 
 }  // namespace
-
-EpochDomain<>& ProcessEpochs() noexcept {
-  static constinit EpochDomain<> domain;
-  return domain;
-}
-
-HazardDomain<>& ProcessHazards() noexcept {
-  static constinit HazardDomain<> domain;
-  return domain;
-}
 
 ThreadRecord& internal::RegisterThread() {
   static thread_local Registration registration;

@@ -20,17 +20,19 @@ struct ThreadRecord {
   ThreadRecord* next = nullptr;   ///< constant once added
 };
 
-/// The domains of the process. Threads: any.
-[[nodiscard]] EpochDomain<>& ProcessEpochs() noexcept;
-[[nodiscard]] HazardDomain<>& ProcessHazards() noexcept;
-
 namespace internal {
+extern constinit EpochDomain<> process_epochs;
+extern constinit HazardDomain<> process_hazards;
 // initial-exec: one load instead of a call, also from plugins; the variable lives in the core,
 // which is there from the start of the program.
 extern thread_local constinit ThreadRecord* thread_record
     __attribute__((tls_model("initial-exec")));
 ThreadRecord& RegisterThread();
 }  // namespace internal
+
+/// The domains of the process. Threads: any.
+[[nodiscard]] inline EpochDomain<>& ProcessEpochs() noexcept { return internal::process_epochs; }
+[[nodiscard]] inline HazardDomain<>& ProcessHazards() noexcept { return internal::process_hazards; }
 
 /// The calling thread's record. Allocation: the first call of a thread may allocate.
 [[nodiscard]] inline ThreadRecord& ThisThread() {

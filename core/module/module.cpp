@@ -12,7 +12,7 @@ Module::Module(const Placement& placement, NoTasks)
 
 Module::Module(const Placement& placement) : Module(placement, NoTasks{}) {
   Annotate(std::make_unique<Executable>([this]() -> std::vector<Task> {
-    return {{this, Phase::kUpdate, [this] { Update(); }, AsTaskGroups(input_group_),
+    return {{this, Phase::kUpdate, BoundCall::To<&Module::Update>(*this), AsTaskGroups(input_group_),
              AsTaskGroups(output_group_)}};
   }));
 }

@@ -8,9 +8,9 @@ namespace runnel {
 
 SenseControlModule::SenseControlModule(const Placement& placement) : Module(placement, NoTasks{}) {
   Annotate(std::make_unique<Executable>([this]() -> std::vector<Task> {
-    return {{this, Phase::kSense, [this] { Sense(); }, AsTaskGroups(groups_[0]),
+    return {{this, Phase::kSense, BoundCall::To<&SenseControlModule::Sense>(*this), AsTaskGroups(groups_[0]),
              AsTaskGroups(groups_[1])},
-            {this, Phase::kControl, [this] { Control(); }, AsTaskGroups(groups_[2]),
+            {this, Phase::kControl, BoundCall::To<&SenseControlModule::Control>(*this), AsTaskGroups(groups_[2]),
              AsTaskGroups(groups_[3])}};
   }));
 }

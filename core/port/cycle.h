@@ -17,8 +17,8 @@ struct Cycle {
 /// Makes `cycle` the calling thread's current one for the scope's life. May be nested.
 class CycleScope {
  public:
-  explicit CycleScope(const Cycle& cycle) noexcept;
-  ~CycleScope();
+  explicit inline CycleScope(const Cycle& cycle) noexcept;
+  inline ~CycleScope();
   CycleScope(const CycleScope&) = delete;
   CycleScope& operator=(const CycleScope&) = delete;
 
@@ -30,6 +30,12 @@ class CycleScope {
 namespace internal {
 extern thread_local constinit const Cycle* current_cycle __attribute__((tls_model("initial-exec")));
 }  // namespace internal
+
+inline CycleScope::CycleScope(const Cycle& cycle) noexcept
+    : cycle_(cycle), outer_(internal::current_cycle) {
+  internal::current_cycle = &cycle_;
+}
+inline CycleScope::~CycleScope() { internal::current_cycle = outer_; }
 
 inline const Cycle* CurrentCycle() noexcept { return internal::current_cycle; }
 

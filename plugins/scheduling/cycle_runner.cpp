@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <exception>
+#include <span>
 
 #include "core/lockfree/thread_epoch.h"
-#include "core/port/cycle.h"
 
 namespace runnel {
 
@@ -12,11 +12,30 @@ namespace {
 
 // Of the cycle that this thread is in, at whose end those who wait for data will be told; else
 // nullptr.
-thread_local constinit const Schedule* in_cycle_of = nullptr;
+thread_local constinit const Schedule* in_cycle_of __attribute__((tls_model("initial-exec"))) =
+    nullptr;
 
 bool IsToldAtTheEnd(const CycleRunner& runner) noexcept {
   return in_cycle_of != nullptr &&
          std::ranges::find(in_cycle_of->waiting, &runner) != in_cycle_of->waiting.end();
+}
+
+// One that throws is stopped, and the others go on. The try block is around the loop and not within
+// it: a task costs no more than its call.
+void RunInTurn(std::span<const Schedule::Entry> entries, Time now, FaultDesk& desk) noexcept {
+  auto entry = entries.begin();
+  const auto fail = [&](const char* what) { (entry++)->element->Fail(what, now, desk); };
+  while (entry != entries.end()) {
+    try {
+      for (; entry != entries.end(); ++entry) {
+        if (!entry->element->is_stopped()) entry->run();
+      }
+    } catch (const std::exception& exception) {
+      fail(exception.what());
+    } catch (...) {
+      fail("unknown exception");
+    }
+  }
 }
 
 }  // namespace
@@ -30,34 +49,55 @@ void CycleRunner::Install(std::unique_ptr<const Schedule> schedule) {
   if (previous != nullptr) Retire([previous] { delete previous; });
 }
 
-Duration CycleRunner::RunCycle(const CycleTimes& times, FaultDesk& desk) noexcept {
-  const SteadyClock machine;
-  const Time began = machine.Now();
+void CycleRunner::RunCycle(Cycle cycle, FaultDesk& desk) noexcept {
   const EpochGuard guard;
-  const CycleScope scope({times.now, times.period});
+  const CycleScope scope(cycle);
   const Schedule* const schedule = this->schedule();
-  if (schedule == nullptr) return {};
+  if (schedule == nullptr) return;
   in_cycle_of = schedule;
   if (waits_for_data()) {
-    RunActivated(*schedule, times.now, desk);
+    RunActivated(*schedule, cycle.now, desk);
   } else {
-    for (const Schedule::Entry& entry : schedule->entries) RunTask(entry, times.now, desk);
+    RunAll(*schedule, cycle.now, desk);
   }
   in_cycle_of = nullptr;
-  const Duration execution = machine.Now() - began;
   for (CycleRunner* const waiting : schedule->waiting) {
     if (waiting->is_activated()) waiting->event_.Notify();
   }
-  return execution;
+}
+
+// Whether nothing need be asked of its elements any more.
+bool CycleRunner::IsSettled(const Schedule& schedule) noexcept {
+  if (settled_ == schedule.number) return true;
+  const bool have_arrived = std::ranges::all_of(
+      schedule.entries, [&](const auto& entry) { return schedule.HasArrived(entry); });
+  if (have_arrived) settled_ = schedule.number;
+  return have_arrived;
+}
+
+// An element that another thread may still be running is left out of this cycle.
+void CycleRunner::RunAll(const Schedule& schedule, Time now, FaultDesk& desk) noexcept {
+  if (IsSettled(schedule)) return RunInTurn(schedule.entries, now, desk);
+  for (const Schedule::Entry& entry : schedule.entries) {
+    if (schedule.HasArrived(entry)) RunInTurn({&entry, 1}, now, desk);
+  }
 }
 
 // The entries of one element follow one another only by chance, so what has come for it is taken
 // once, by its first task, and holds for the others.
 void CycleRunner::RunActivated(const Schedule& schedule, Time now, FaultDesk& desk) noexcept {
+  const bool is_settled = IsSettled(schedule);
+  is_held_up_ = false;
   for (const Schedule::Entry& entry : schedule.entries) {
-    if (entry.is_first && entry.element->TakeActivation()) entry.element->set_in_pass(true);
-    if (entry.element->in_pass()) RunTask(entry, now, desk);
-    if (entry.is_last) entry.element->set_in_pass(false);
+    ScheduledElement& element = *entry.element;
+    // What has come for an element that another thread may still be running is not forgotten.
+    if (!is_settled && !schedule.HasArrived(entry)) {
+      if (element.is_activated()) is_held_up_ = true;
+      continue;
+    }
+    if (entry.is_first && element.TakeActivation()) element.set_in_pass(true);
+    if (element.in_pass()) RunInTurn({&entry, 1}, now, desk);
+    if (entry.is_last) element.set_in_pass(false);
   }
   // What came during the pass for those further down has been used in it; what came for those
   // further up, or from other threads, is for the next one.
@@ -65,24 +105,6 @@ void CycleRunner::RunActivated(const Schedule& schedule, Time now, FaultDesk& de
   const bool more = std::ranges::any_of(
       schedule.entries, [](const auto& entry) { return entry.element->is_activated(); });
   if (more) activated_.store(true, std::memory_order_release);
-}
-
-void CycleRunner::RunTask(const Schedule::Entry& entry, Time now, FaultDesk& desk) noexcept {
-  ScheduledElement& element = *entry.element;
-  if (!element.TryEnter()) {
-    if (waits_for_data()) element.Wake();  // what has come is not forgotten
-    return;
-  }
-  if (!element.is_stopped()) {
-    try {
-      entry.run();
-    } catch (const std::exception& exception) {
-      element.Fail(exception.what(), now, desk);
-    } catch (...) {
-      element.Fail("unknown exception", now, desk);
-    }
-  }
-  element.Leave();
 }
 
 void CycleRunner::Activate() noexcept {

@@ -1,24 +1,19 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "core/base/clock.h"
+#include "core/port/cycle.h"
 #include "plugins/scheduling/cycle_statistics.h"
 #include "plugins/scheduling/schedule.h"
 #include "plugins/scheduling/thread_options.h"
 #include "plugins/scheduling/wake_event.h"
 
 namespace runnel {
-
-/// When a cycle runs, by the plan and in fact.
-struct CycleTimes {
-  Time due{};
-  Time now{};
-  Duration period{};  ///< 0 without a plan
-};
 
 /// Runs the cycles of one thread container; both executors are built on it. It outlives the
 /// container until its last cycle has ended.
@@ -49,9 +44,13 @@ class CycleRunner {
     return schedule_.load(std::memory_order_seq_cst);
   }
 
+  /// For the threads that others' schedules may have to wait for.
+  [[nodiscard]] const std::shared_ptr<CyclePresence>& presence() const noexcept {
+    return presence_;
+  }
+
   /// One cycle: every task in turn (of those that data has come for, if the thread waits for data).
-  /// Returns what it took, on the machine's clock.
-  Duration RunCycle(const CycleTimes& times, FaultDesk& desk) noexcept;
+  void RunCycle(Cycle cycle, FaultDesk& desk) noexcept;
   /// Counts a cycle that has ended.
   void Record(const CycleMeasurement& cycle) noexcept { meter_.Add(cycle); }
   [[nodiscard]] CycleStatistics statistics() const noexcept { return meter_.statistics(); }
@@ -66,17 +65,24 @@ class CycleRunner {
   [[nodiscard]] bool is_activated() const noexcept {
     return activated_.load(std::memory_order_acquire);
   }
+  /// Whether the last cycle has left out an element that data has come for, as another thread may
+  /// still be running it. By the thread of the cycles.
+  [[nodiscard]] bool is_held_up() const noexcept { return is_held_up_; }
   /// What the thread of this runner sleeps on, if it waits for data.
   [[nodiscard]] WakeEvent& event() noexcept { return event_; }
 
  private:
-  void RunTask(const Schedule::Entry& entry, Time now, FaultDesk& desk) noexcept;
+  [[nodiscard]] bool IsSettled(const Schedule& schedule) noexcept;
+  void RunAll(const Schedule& schedule, Time now, FaultDesk& desk) noexcept;
   void RunActivated(const Schedule& schedule, Time now, FaultDesk& desk) noexcept;
 
   const std::string path_;
   const ThreadOptions options_;
+  const std::shared_ptr<CyclePresence> presence_ = std::make_shared<CyclePresence>();
   std::atomic<const Schedule*> schedule_{nullptr};
+  std::uint64_t settled_ = 0;  // the number of the schedule whose elements have all arrived
   std::atomic<bool> activated_{false};
+  bool is_held_up_ = false;
   WakeEvent event_;
   CycleMeter meter_;
 };

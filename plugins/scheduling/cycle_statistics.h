@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
+#include <atomic>
 #include <cstdint>
 
 #include "core/base/clock.h"
-#include "core/lockfree/latest_value.h"
+#include "core/lockfree/cache_line.h"
 
 namespace runnel {
 
@@ -17,7 +19,8 @@ struct CycleStatistics {
   Duration period_max{};
   Duration jitter_mean{};  ///< |start - due time|; 0 for threads without a plan
   Duration jitter_max{};
-  Duration execution_mean{};  ///< what the modules take, on the machine's clock
+  /// What the modules take, on the machine's clock; of free-running threads from start to start.
+  Duration execution_mean{};
   Duration execution_max{};
 };
 
@@ -31,7 +34,11 @@ struct CycleMeasurement {
 
 /// Sums up measurements, and lets others look at the sum meanwhile.
 ///
-/// Threads:   Add() by one thread at a time; statistics() by any. Progress: wait-free / lock-free.
+/// What a cycle pays for is adding up; who looks does the dividing. Two cells are written in turn,
+/// as in LatestValue, so that a reader never waits for a writer that has been interrupted.
+///
+/// Threads:   Add() by one thread at a time; statistics() by any. Progress: wait-free / lock-free
+///            (repeated only if a whole cycle has gone by meanwhile).
 /// Allocation: none.
 class CycleMeter {
  public:
@@ -39,12 +46,34 @@ class CycleMeter {
   [[nodiscard]] CycleStatistics statistics() const noexcept;
 
  private:
-  CycleStatistics sum_;  // the writer's own, as is what follows
-  Time first_start_{};
-  Time last_start_{};
-  Duration jitter_sum_{};
-  Duration execution_sum_{};
-  LatestValue<CycleStatistics> published_;
+  // All are sums and extremes of counts, or of nanoseconds, in words that are copied one by one.
+  enum Word {
+    kCycles,
+    kOverruns,
+    kFirstStart,
+    kLastStart,
+    kPeriodMin,
+    kPeriodMax,
+    kJitter,
+    kJitterMax,
+    kExecution,
+    kExecutionMax,
+    kWords
+  };
+  using Sums = std::array<std::int64_t, kWords>;
+  static constexpr std::int64_t kBeingWritten = 0;
+
+  struct alignas(kCacheLineSize) Cell {
+    std::atomic<std::int64_t> number{kBeingWritten};
+    std::array<std::atomic<std::int64_t>, kWords> words{};
+  };
+
+  void Publish() noexcept;
+  [[nodiscard]] Sums Read() const noexcept;
+
+  Sums sums_{};  // the writer's own
+  std::array<Cell, 2> cells_;
+  alignas(kCacheLineSize) std::atomic<std::int64_t> published_{0};  // the number of cycles
 };
 
 }  // namespace runnel

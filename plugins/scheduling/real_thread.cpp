@@ -1,13 +1,22 @@
 #include "plugins/scheduling/real_thread.h"
 
+#include <chrono>
 #include <utility>
 
-#include "core/lockfree/thread_epoch.h"
 #include "plugins/scheduling/due_time.h"
 #include "plugins/scheduling/realtime_setup.h"
 #include "plugins/scheduling/sleep_until.h"
+#include "plugins/scheduling/tick_clock.h"
 
 namespace runnel {
+
+namespace {
+
+// How soon a thread asks again whether another has let go of what data has come for. It sleeps
+// meanwhile, so that the other gets to its end even if it has the lower priority.
+constexpr Duration kLookAgain = std::chrono::microseconds(100);
+
+}  // namespace
 
 RealThread::RealThread(std::shared_ptr<CycleRunner> runner, FaultDesk& desk, Time first)
     : runner_(std::move(runner)), desk_(desk), thread_([this, first] { Run(first); }) {}
@@ -31,7 +40,7 @@ void RealThread::RequestStop() noexcept {
 }
 
 void RealThread::Run(Time first) {
-  { const EpochGuard registers_this_thread; }
+  runner_->presence()->Take();
   PrefaultStack();
   RunCycles(first);
   ended_.store(true, std::memory_order_release);
@@ -53,30 +62,39 @@ void RealThread::RunPeriodically(Time first) {
   const ThreadOptions& options = runner_->options();
   DueTime due(first, options.period, options.on_overrun);
   while (SleepUntil(due.next(), [this] { return stopping(); })) {
-    const CycleTimes times{due.next(), clock.Now(), options.period};
-    const Duration execution = runner_->RunCycle(times, desk_);
-    const bool overrun = due.Advance(clock.Now());
-    runner_->Record({times.due, times.now, execution, overrun});
+    const Time planned = due.next();
+    const Time now = clock.Now();
+    runner_->RunCycle({now, options.period}, desk_);
+    const Time ended = clock.Now();
+    const bool overrun = due.Advance(ended);
+    runner_->Record({planned, now, ended - now, overrun});
   }
 }
 
+// The end of a cycle is the start of the next, so that the clock is read once for both.
 void RealThread::RunFreely() {
-  while (!stopping()) RunUnplanned();
+  TickClock clock;
+  Time now = clock.Now();
+  while (!stopping()) {
+    runner_->RunCycle({now, Duration::zero()}, desk_);
+    const Time ended = clock.Now();
+    runner_->Record({now, now, ended - now, false});
+    now = ended;
+  }
 }
 
 void RealThread::RunOnData() {
+  const SteadyClock clock;
   for (;;) {
     // Data may have come while no thread was waiting for it.
     if (!runner_->is_activated()) runner_->event().Wait();
     if (stopping()) return;
-    if (runner_->TakeActivation()) RunUnplanned();
+    if (!runner_->TakeActivation()) continue;
+    const Time now = clock.Now();
+    runner_->RunCycle({now, Duration::zero()}, desk_);
+    runner_->Record({now, now, clock.Now() - now, false});
+    if (runner_->is_held_up()) std::this_thread::sleep_for(kLookAgain);
   }
-}
-
-void RealThread::RunUnplanned() {
-  const Time now = SteadyClock().Now();
-  const Duration execution = runner_->RunCycle({now, now, Duration::zero()}, desk_);
-  runner_->Record({now, now, execution, false});
 }
 
 }  // namespace runnel

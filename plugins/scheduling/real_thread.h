@@ -37,7 +37,6 @@ class RealThread {
   void RunPeriodically(Time first);
   void RunFreely();
   void RunOnData();
-  void RunUnplanned();
   [[nodiscard]] bool stopping() const noexcept { return stopping_.load(std::memory_order_acquire); }
 
   const std::shared_ptr<CycleRunner> runner_;

@@ -116,6 +116,7 @@ CompiledSchedules ScheduleCompiler::Compile(FrameworkElement& root) {
   std::ranges::sort(found.executables, {}, &FrameworkElement::serial);
 
   CompiledSchedules result;
+  ++compilations_;
   std::map<const ThreadContainer*, std::vector<Task>> tasks_of;
   for (FrameworkElement* element : found.executables) {
     ThreadContainer* const container = ChooseContainer(*element, found, default_thread_);
@@ -123,6 +124,7 @@ CompiledSchedules ScheduleCompiler::Compile(FrameworkElement& root) {
       result.has_unassigned_tasks = true;
       continue;
     }
+    HandOver(*element, *container);
     std::vector<Task> tasks = element->FindAnnotation<Executable>()->tasks();
     TieToContainer(*element, tasks, *container, result.warnings);
     if (IsAChoiceMissing(*element, found, default_thread_)) {
@@ -133,10 +135,31 @@ CompiledSchedules ScheduleCompiler::Compile(FrameworkElement& root) {
   const std::vector<CycleRunner*> waiting = WaitingRunners(found.containers);
   for (const ThreadContainer* container : found.containers) {
     auto schedule = MakeSchedule(std::move(tasks_of[container]), result.warnings);
+    schedule->number = compilations_;
+    schedule->installation = result.installation;
     schedule->waiting = waiting;
     result.threads.push_back({container->runner(), std::move(schedule)});
   }
   return result;
+}
+
+// The runner that has had the element until now may be in a cycle with it, and so may those before.
+void ScheduleCompiler::HandOver(const FrameworkElement& element, const ThreadContainer& container) {
+  State& state = StateOf(element);
+  const std::shared_ptr<const CyclePresence> next = container.runner()->presence();
+  if (state.current == next) return;
+  std::erase_if(state.before, [&](const Before& each) { return each.presence == next; });
+  if (state.current) state.before.push_back({state.current});
+  state.current = next;
+}
+
+void ScheduleCompiler::OnInstalled(std::uint64_t epoch) {
+  for (auto& [serial, state] : states_) {
+    std::erase_if(state.before, [epoch](Before& each) {
+      if (each.until == 0) each.until = epoch;
+      return each.presence->HasLeft(each.until);
+    });
+  }
 }
 
 void ScheduleCompiler::TieToContainer(const FrameworkElement& element,
@@ -144,13 +167,13 @@ void ScheduleCompiler::TieToContainer(const FrameworkElement& element,
                                       const ThreadContainer& container,
                                       std::vector<Error>& warnings) {
   const std::vector<InputBase*> inputs = TriggerInputs(tasks);
-  const auto state = StateOf(element);
+  ScheduledElement& state = *StateOf(element).element;
   if (!container.runner()->waits_for_data()) {
     Untie(inputs);
-    state->set_runner(nullptr);
+    state.set_runner(nullptr);
     return;
   }
-  Tie(inputs, *state, *container.runner());
+  Tie(inputs, state, *container.runner());
   if (!inputs.empty()) return;
   warnings.push_back(
       {.message = "is never run: its thread " + container.path() +
@@ -164,7 +187,11 @@ std::unique_ptr<Schedule> ScheduleCompiler::MakeSchedule(std::vector<Task> tasks
   ExecutionOrder order = OrderTasks(std::move(tasks));
   auto schedule = std::make_unique<Schedule>();
   for (Task& task : order.tasks) {
-    schedule->entries.push_back({std::move(task.run), StateOf(*task.element), task.phase});
+    const State& state = StateOf(*task.element);
+    schedule->entries.push_back({std::move(task.run), state.element, task.phase});
+    for (const Before& each : state.before) {
+      schedule->entries.back().before.push_back(each.presence);
+    }
   }
   MarkFirstAndLast(schedule->entries);
   std::ranges::move(order.cuts, std::back_inserter(warnings));
@@ -179,14 +206,16 @@ void ScheduleCompiler::Release(FrameworkElement& element) {
     const auto found = states_.find(each.serial());
     if (found == states_.end()) return;
     // A publisher may still be about to wake it.
-    Retire([state = std::move(found->second)] {});
+    Retire([state = std::move(found->second.element)] {});
     states_.erase(found);
   });
 }
 
-std::shared_ptr<ScheduledElement> ScheduleCompiler::StateOf(const FrameworkElement& element) {
-  auto& state = states_[element.serial()];
-  if (!state) state = std::make_shared<ScheduledElement>(element.path(), element.serial());
+ScheduleCompiler::State& ScheduleCompiler::StateOf(const FrameworkElement& element) {
+  State& state = states_[element.serial()];
+  if (!state.element) {
+    state.element = std::make_shared<ScheduledElement>(element.path(), element.serial());
+  }
   return state;
 }
 

@@ -19,7 +19,9 @@ struct CompiledSchedules {
     std::shared_ptr<CycleRunner> runner;
     std::unique_ptr<Schedule> schedule;
   };
-  std::vector<Thread> threads;        ///< in the order in which the containers were made
+  std::vector<Thread> threads;  ///< in the order in which the containers were made
+  /// Begins once all of them are in place; elements on their way from thread to thread wait for it.
+  std::shared_ptr<Installation> installation = std::make_shared<Installation>();
   std::vector<Error> warnings;        ///< loops that were cut, modules that never run
   bool has_unassigned_tasks = false;  ///< there are tasks, but no container
 };
@@ -38,18 +40,34 @@ class ScheduleCompiler {
   /// Only elements that are ready are run. Ties the trigger inputs of elements to their states.
   CompiledSchedules Compile(FrameworkElement& root);
 
+  /// The schedules of the last Compile() are in place; their installation has begun with `epoch`.
+  void OnInstalled(std::uint64_t epoch);
+
   /// Unties the trigger inputs of all elements at or below `element`, and forgets their states; the
   /// next schedule must not contain them.
   void Release(FrameworkElement& element);
 
  private:
+  // A runner that had the element and may still be running it.
+  struct Before {
+    std::shared_ptr<const CyclePresence> presence;
+    std::uint64_t until = 0;  // the epoch that it has to reach; 0 while it still has the element
+  };
+  struct State {
+    std::shared_ptr<ScheduledElement> element;
+    std::shared_ptr<const CyclePresence> current;  // of the runner that has it
+    std::vector<Before> before;
+  };
+
+  void HandOver(const FrameworkElement& element, const ThreadContainer& container);
   void TieToContainer(const FrameworkElement& element, const std::vector<Task>& tasks,
                       const ThreadContainer& container, std::vector<Error>& warnings);
   std::unique_ptr<Schedule> MakeSchedule(std::vector<Task> tasks, std::vector<Error>& warnings);
-  std::shared_ptr<ScheduledElement> StateOf(const FrameworkElement& element);
+  State& StateOf(const FrameworkElement& element);
 
   const std::string default_thread_;
-  std::map<std::uint64_t, std::shared_ptr<ScheduledElement>> states_;  // by serial
+  std::map<std::uint64_t, State> states_;  // by serial
+  std::uint64_t compilations_ = 0;
 };
 
 }  // namespace runnel

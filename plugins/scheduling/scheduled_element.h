@@ -16,8 +16,9 @@ class CycleRunner;
 /// What the scheduler knows of one element that has tasks: whether it still runs, and whether data
 /// has come for it. Outlives changes of the schedule.
 ///
-/// Threads:  the functions that say so by one executor thread inside TryEnter/Leave; Wake() by any
-///           publisher; set_runner() under the structure lock.
+/// Threads:  Fail(), is_stopped() and the note of the pass by the thread whose cycle has it (see
+///           handover.h for how it changes); Wake() by any publisher; set_runner() under the
+///           structure lock.
 /// Progress: wait-free. Allocation: in the constructor only.
 class ScheduledElement final : public Waker {
  public:
@@ -26,18 +27,10 @@ class ScheduledElement final : public Waker {
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
   [[nodiscard]] std::uint64_t serial() const noexcept { return serial_; }
 
-  /// Claims the element for one task. False if another thread has it, which can only happen in the
-  /// one cycle in which it moves from thread to thread; the task is then left out.
-  [[nodiscard]] bool TryEnter() noexcept {
-    // acquire: pairs with the release in Leave(): the module's data move from thread to thread.
-    return !running_.exchange(true, std::memory_order_acquire);
-  }
-  void Leave() noexcept { running_.store(false, std::memory_order_release); }
-
-  /// Stops the element for good and hands the fault in. Inside TryEnter/Leave.
+  /// Stops the element for good and hands the fault in.
   void Fail(std::string_view message, Time time, FaultDesk& desk) noexcept;
   [[nodiscard]] bool is_stopped() const noexcept {
-    // relaxed: TryEnter/Leave order it; elsewhere it only informs.
+    // relaxed: the hand-over from thread to thread orders it; elsewhere it only informs.
     return stopped_.load(std::memory_order_relaxed);
   }
 
@@ -66,7 +59,6 @@ class ScheduledElement final : public Waker {
   const std::string path_;
   const std::uint64_t serial_;
   std::unique_ptr<FaultRecord> record_;  // until the element has failed
-  std::atomic<bool> running_{false};
   std::atomic<bool> stopped_{false};
   std::atomic<bool> activated_{false};
   std::atomic<bool> in_pass_{false};

@@ -49,7 +49,7 @@ void Scheduler::OnDeleted(FrameworkElement& element) {
 }
 
 void Scheduler::OnConnected(FrameworkElement& from, FrameworkElement& to) {
-  is_outdated_ = true;
+  MarkOutdated();
   // Structure that is still being built is compiled once, when it is ready.
   const bool both_ready =
       from.life_cycle() == LifeCycle::kReady && to.life_cycle() == LifeCycle::kReady;
@@ -64,9 +64,15 @@ void Scheduler::OnDisconnected(FrameworkElement& from, FrameworkElement& to) {
 
 void Scheduler::OnAssigned(FrameworkElement&, ThreadContainer&) { Changed(); }
 
+void Scheduler::MarkOutdated() noexcept {
+  is_outdated_ = true;
+  // relaxed: who finds it set takes the lock before looking at what has changed.
+  has_changes_.store(true, std::memory_order_relaxed);
+}
+
 // Running threads get their new schedule at once; simulated ones before the next step.
 void Scheduler::Changed() {
-  is_outdated_ = true;
+  MarkOutdated();
   if (is_running_) BringUpToDate();
 }
 
@@ -93,8 +99,9 @@ void Scheduler::Install(CompiledSchedules compiled) {
     // Others may be about to tell it of data.
     Retire([runner] {});
   }
+  compiler_.OnInstalled(compiled.installation->Begin());
   schedule_warnings_ = std::move(compiled.warnings);
-  if (IsSimulated(options_)) simulation_.SetRunners(runners_);
+  has_changes_.store(true, std::memory_order_relaxed);  // as in MarkOutdated()
   if (is_running_) StartThreads(machine_.Now());
 }
 
@@ -198,15 +205,23 @@ void Scheduler::EndSupervision() {
   supervisor_ = std::thread();
 }
 
-std::optional<Time> Scheduler::NextDue() {
-  RUNNEL_CHECK(IsSimulated(options_), "stepping is for the simulated clock");
+// What is changed after the look is for the next step.
+void Scheduler::FollowChanges() {
+  if (!has_changes_.load(std::memory_order_relaxed)) return;
   const std::lock_guard lock(runtime_.structure_mutex());
   BringUpToDate();
+  simulation_.SetRunners(runners_);
+  has_changes_.store(false, std::memory_order_relaxed);
+}
+
+std::optional<Time> Scheduler::NextDue() {
+  RUNNEL_CHECK(IsSimulated(options_), "stepping is for the simulated clock");
+  FollowChanges();
   return simulation_.NextDue();
 }
 
 bool Scheduler::RunNext(Time due) {
-  pacing_.WaitFor(due, [this] { return stop_requested(); });
+  if (options_.speed != 0) pacing_.WaitFor(due, [this] { return stop_requested(); });
   return !stop_requested() && simulation_.Step();
 }
 

@@ -42,8 +42,8 @@ struct SchedulerOptions {
 /// every change of the structure, also while running: a change takes effect from the next cycle on.
 ///
 /// Ownership:  must be destroyed before the runtime. One per runtime.
-/// Threads:    Start, Stop, Step and RunUntil from one thread at a time, outside of cycles and
-///             without the structure lock; the rest from any thread outside of cycles.
+/// Threads:    Start, Stop, Step, RunUntil and NextDue from one thread at a time, outside of cycles
+///             and without the structure lock; the rest from any thread outside of cycles.
 /// Errors:     a module that throws is stopped for good; the rest runs on (TakeFaults()).
 class Scheduler final : public ElementListener, public AssignmentListener {
  public:
@@ -117,9 +117,11 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   using Runners = std::vector<std::shared_ptr<CycleRunner>>;
 
   // Simulated clock.
+  void FollowChanges();
   bool RunNext(Time due);
 
-  // All four under the structure lock.
+  // All five under the structure lock.
+  void MarkOutdated() noexcept;
   void Changed();
   void BringUpToDate();
   void Install(CompiledSchedules compiled);
@@ -148,6 +150,10 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   std::vector<Error> realtime_warnings_;
   std::vector<std::unique_ptr<RealThread>> threads_;
   std::vector<std::unique_ptr<RealThread>> ending_;  // their containers are gone
+
+  // Simulated clock: set under the structure lock when something has changed, and taken back under
+  // it by the thread that steps, which need not lock where nothing has.
+  std::atomic<bool> has_changes_{true};
 
   std::atomic<bool> supervises_{false};
   std::thread supervisor_;

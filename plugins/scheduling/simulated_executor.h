@@ -7,6 +7,7 @@
 #include "core/base/clock.h"
 #include "plugins/scheduling/cycle_runner.h"
 #include "plugins/scheduling/due_time.h"
+#include "plugins/scheduling/tick_clock.h"
 
 namespace runnel {
 
@@ -50,6 +51,7 @@ class SimulatedExecutor {
 
   FaultDesk& desk_;
   ManualClock clock_;
+  TickClock machine_;  // for the execution times alone
   std::vector<Lane> periodic_;
   std::vector<std::shared_ptr<CycleRunner>> waiting_;
   bool is_time_stuck_ = false;  // what data set off did not come to an end
