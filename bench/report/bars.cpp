@@ -20,9 +20,14 @@ const std::string kModules = "triggered modules";
 
 const Bar::Reference kPublishToOne{kPublish + "1 input", "Publish", "1 input"};
 const Bar::Reference kImageToOne{kImage + "1 input", "Loan, Publish", "1 input"};
-const Bar::Reference kLeaseAlone{kLease + "1 thread", "Read", "1 thread"};
 const Bar::Reference kFilling{kTransport + "0 consumers", "filling alone", "filling alone"};
 const Bar::Reference kNobody{kTransport + "0 consumers", kModules, "0 consumers"};
+
+// Readers of one port must cost no more than readers of a port each.
+Bar LeaseBeside(const std::string& threads) {
+  return {
+      kLease + threads, "Read", kAtMost, 1.2, {kLease + threads, "a port for each", "a port each"}};
+}
 
 }  // namespace
 
@@ -47,10 +52,10 @@ const std::vector<Bar>& Bars() {
       {kImage + "1000 inputs", "Loan, Publish", kAtMost, 1.2, kImageToOne},
 
       {kLease + "1 thread", "Read", kAtMost, 1.5},
-      {kLease + "2 threads", "Read", kAtMost, 1.2, kLeaseAlone},
-      {kLease + "4 threads", "Read", kAtMost, 1.2, kLeaseAlone},
-      {kLease + "8 threads", "Read", kAtMost, 1.2, kLeaseAlone},
-      {kLease + "16 threads", "Read", kAtMost, 1.2, kLeaseAlone},
+      LeaseBeside("2 threads"),
+      LeaseBeside("4 threads"),
+      LeaseBeside("8 threads"),
+      LeaseBeside("16 threads"),
 
       {kQueue,
        "queued input",
