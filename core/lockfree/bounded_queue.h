@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <new>
+#include <type_traits>
 #include <utility>
 
 #include "core/base/check.h"
@@ -24,30 +26,40 @@ namespace runnel {
 /// Allocation:  in the constructor only.
 template <typename T, template <typename> class Atomic = std::atomic>
 class BoundedQueue {
+  static_assert(std::is_nothrow_move_constructible_v<T> && std::is_nothrow_destructible_v<T>,
+                "a value that throws while it is moved would leave its cell claimed for ever");
+
  public:
   /// Precondition: capacity > 0.
-  explicit BoundedQueue(std::size_t capacity)
-      : capacity_(capacity), cells_(std::make_unique<Cell[]>(capacity)) {
+  explicit BoundedQueue(std::size_t capacity) : capacity_(capacity), cells_(MakeCells(capacity)) {
     RUNNEL_CHECK(capacity > 0, "a queue needs room for one value at least");
+  }
+  ~BoundedQueue() {
+    while (TryConsume([](T&) {})) {
+    }
   }
   BoundedQueue(const BoundedQueue&) = delete;
   BoundedQueue& operator=(const BoundedQueue&) = delete;
 
   /// Moves `value` into the queue; leaves it untouched and returns false if the queue is full.
-  [[nodiscard]] bool TryPush(T&& value) noexcept {
+  [[nodiscard]] bool TryPush(T&& value) noexcept { return TryEmplace(std::move(value)); }
+  /// Makes a T of `parts` in the queue; leaves them untouched and returns false if it is full.
+  template <typename... Parts>
+  [[nodiscard]] bool TryEmplace(Parts&&... parts) noexcept {
+    static_assert(std::is_nothrow_constructible_v<T, Parts&&...>);
     // relaxed: the position alone orders nothing; the cell's turn does.
     std::uint64_t position = tail_.load(std::memory_order_relaxed);
     for (;;) {
       Cell& cell = cells_[position % capacity_];
       const std::uint64_t free_turn = 2 * (position / capacity_);
-      // acquire: pairs with the release in TryPop(): the reader has moved the old value out.
+      // acquire: pairs with the release in TryConsume(): the old value is gone.
       const std::uint64_t turn = cell.turn.load(std::memory_order_acquire);
       if (turn == free_turn) {
         // relaxed: claims the position, publishes nothing.
         if (tail_.compare_exchange_weak(position, position + 1, std::memory_order_relaxed,
                                         std::memory_order_relaxed)) {
-          cell.value = std::move(value);
-          // release: pairs with the acquire in TryPop(): the value is in place.
+          std::construct_at(&cell.value, std::forward<Parts>(parts)...);
+          // release: pairs with the acquire in TryConsume(): the value is in place.
           cell.turn.store(free_turn + 1, std::memory_order_release);
           return true;
         }
@@ -61,18 +73,25 @@ class BoundedQueue {
 
   /// Moves the oldest value out to `value`; returns false if there is none.
   [[nodiscard]] bool TryPop(T& value) noexcept {
+    static_assert(std::is_nothrow_move_assignable_v<T>);
+    return TryConsume([&value](T& oldest) { value = std::move(oldest); });
+  }
+  /// Calls `use(oldest)` with the oldest value where it lies, then destroys it; returns false if
+  /// there is none. `use` must not throw; until it ends, the cell is not free.
+  template <typename Use>
+  [[nodiscard]] bool TryConsume(Use&& use) noexcept {
     std::uint64_t position = head_.load(std::memory_order_relaxed);
     for (;;) {
       Cell& cell = cells_[position % capacity_];
       const std::uint64_t full_turn = 2 * (position / capacity_) + 1;
-      // acquire: pairs with the release in TryPush().
+      // acquire: pairs with the release in TryEmplace().
       const std::uint64_t turn = cell.turn.load(std::memory_order_acquire);
       if (turn == full_turn) {
         if (head_.compare_exchange_weak(position, position + 1, std::memory_order_relaxed,
                                         std::memory_order_relaxed)) {
-          value = std::move(cell.value);
-          cell.value = T{};  // gives back at once what the value held
-          // release: pairs with the acquire in TryPush() a lap later.
+          use(cell.value);
+          std::destroy_at(&cell.value);  // gives back at once what the value held
+          // release: pairs with the acquire in TryEmplace() a lap later.
           cell.turn.store(full_turn + 1, std::memory_order_release);
           return true;
         }
@@ -94,9 +113,20 @@ class BoundedQueue {
 
  private:
   struct alignas(kCacheLineSize) Cell {
+    Cell() noexcept {}
+    ~Cell() {}
+
     Atomic<std::uint64_t> turn{0};
-    T value{};
+    union {
+      T value;  // there while the turn is odd
+    };
   };
+
+  static std::unique_ptr<Cell[]> MakeCells(std::size_t capacity) {
+    // GCC's operator new for aligned arrays gives nothing at all for sizes past the largest.
+    if (capacity > PTRDIFF_MAX / sizeof(Cell)) throw std::bad_array_new_length();
+    return std::make_unique<Cell[]>(capacity);
+  }
 
   const std::size_t capacity_;
   const std::unique_ptr<Cell[]> cells_;

@@ -72,8 +72,6 @@ class ChannelBase {
 template <typename T>
 class Channel final : public ChannelBase {
  public:
-  using Entry = typename InputQueue<T>::Entry;
-
   Channel(const PoolOptions& pool, typename BufferPool<T>::Factory factory)
       : storage_(pool, std::move(factory)) {}
 
@@ -104,8 +102,7 @@ class Channel final : public ChannelBase {
     storage_.Publish(value, stamp, order);
     if (subscribers() == nullptr) [[likely]]
       return PublishStatus::kPublished;
-    const Publication publication{stamp, storage_.sequence(), order};
-    return Distribute([&] { return internal::HeldValue<T>(value, publication); });
+    return Distribute(value, {stamp, storage_.sequence(), order}, nullptr);
   }
 
   /// The newest value, or none. Call inside an EpochGuard if the channel may be going away.
@@ -136,7 +133,7 @@ class Channel final : public ChannelBase {
     }
   }
   void ReserveFor([[maybe_unused]] std::size_t leases) override {
-    if constexpr (!kIsCheap<T>) {
+    if constexpr (!kLiesInQueuesAsCopy<T>) {
       // Some more than can wait at once, so that the publisher seldom looks through all of them.
       const std::size_t spare = leases / 4;
       storage_.pool->Reserve(storage_.first_capacity + static_cast<std::uint32_t>(leases + spare));
@@ -181,16 +178,13 @@ class Channel final : public ChannelBase {
     if (subscribers() == nullptr) [[likely]]
       return PublishStatus::kPublished;
     // The buffer stays the newest while this goes on, which keeps it.
-    return Distribute([&] {
-      buffer.AddHolders(1);
-      return internal::HeldValue<T>(BufferLease<T>(&buffer));
-    });
+    return Distribute(std::as_const(buffer).value(), buffer.publication, &buffer);
   }
 
-  // Gives `hold()` to each queue. Apart, so that publishing to readers of the newest value alone
+  // Gives the value to each queue. Apart, so that publishing to readers of the newest value alone
   // stays short.
-  template <typename Hold>
-  [[gnu::noinline]] PublishStatus Distribute(Hold&& hold) noexcept {
+  [[gnu::noinline]] PublishStatus Distribute(const T& value, const Publication& publication,
+                                             [[maybe_unused]] Buffer<T>* buffer) noexcept {
     return Guarded([&] {
       const Subscribers* list = subscribers();
       PublishStatus status = PublishStatus::kPublished;
@@ -198,7 +192,14 @@ class Channel final : public ChannelBase {
       for (QueueSink* sink : list->queues) {
         // The types are equal: connecting has checked it.
         auto* queue = static_cast<InputQueue<T>*>(sink);
-        if (!queue->Push(Entry{hold(), number()})) status = PublishStatus::kRefused;
+        bool taken;
+        if constexpr (kLiesInQueuesAsCopy<T>) {
+          taken = queue->Push(value, publication, number());
+        } else {
+          buffer->AddHolders(1);
+          taken = queue->Push(internal::HeldValue<T>(BufferLease<T>(buffer)), number());
+        }
+        if (!taken) status = PublishStatus::kRefused;
       }
       for (Waker* waker : list->wakers) waker->Wake();
       return status;

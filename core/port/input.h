@@ -99,7 +99,11 @@ class Input final : public InputBase {
   }
   /// The oldest value that waits in the queue; empty if none does, or if no connection has a queue.
   [[nodiscard]] Lease<T> Take() noexcept {
-    return Guarded([this] { return TakeInside(); });
+    return Guarded([this] {
+      Lease<T> lease;
+      TakeInside(lease);
+      return lease;
+    });
   }
   /// Takes all that wait, oldest first, and calls `use(lease)` for each; returns how many.
   template <typename Use>
@@ -173,11 +177,11 @@ class Input final : public InputBase {
     // Queues that a longer one has replaced: what waits in them comes first.
     std::vector<std::shared_ptr<InputQueue<T>>> older_queues;
 
-    [[nodiscard]] bool Pop(typename InputQueue<T>::Entry& entry) const noexcept {
+    [[nodiscard]] bool Pop(internal::HeldValue<T>& held, std::uint64_t& source) const noexcept {
       for (const auto& older : older_queues) {
-        if (older->Pop(entry)) return true;
+        if (older->Pop(held, source)) return true;
       }
-      return queue && queue->Pop(entry);
+      return queue && queue->Pop(held, source);
     }
     [[nodiscard]] Link* FindLink(std::uint64_t number) const noexcept {
       for (const auto& link : links) {
@@ -257,20 +261,21 @@ class Input final : public InputBase {
     return from_a.number > from_b.number;
   }
 
-  [[nodiscard]] Lease<T> TakeInside() noexcept {
+  void TakeInside(Lease<T>& lease) noexcept {
     const Binding* binding = binding_.load(std::memory_order_acquire);
-    if (binding == nullptr) return {};
-    typename InputQueue<T>::Entry entry;
-    while (binding->Pop(entry)) {
-      Link* link = binding->FindLink(entry.source);
-      const std::uint64_t sequence = entry.held.publication().sequence;
+    if (binding == nullptr) return;
+    std::uint64_t source = 0;
+    while (binding->Pop(lease.held_, source)) {
+      Link* link = binding->FindLink(source);
+      const std::uint64_t sequence = lease.held_.publication().sequence;
       // A value may lie in the queue twice just after connecting (see Bound()).
       if (link != nullptr && sequence <= link->taken) continue;
       const std::uint64_t last = link != nullptr ? std::exchange(link->taken, sequence) : 0;
-      const std::uint64_t missed = last == 0 ? 0 : sequence - last - 1;
-      return {std::move(entry.held), Freshness::kNew, missed};
+      lease.missed_ = last == 0 ? 0 : sequence - last - 1;
+      lease.freshness_ = Freshness::kNew;
+      return;
     }
-    return {};
+    lease.held_ = {};  // what had been taken already
   }
 
   QueueSink* Bind(const std::vector<Source>& sources) override {
@@ -293,7 +298,7 @@ class Input final : public InputBase {
       }
       if (source.options.queue > options.queue) options = source.options;
     }
-    if (options.queue > 0) next->queue = KeepOrMakeQueue(before, options);
+    if (options.queue > 0) next->queue = KeepOrMakeQueue(before, *next, options);
     KeepWaitingValues(before, *next);
     InputQueue<T>* const queue = next->queue.get();
     Replace(next.release());
@@ -313,13 +318,17 @@ class Input final : public InputBase {
     }
     return link;
   }
-  std::shared_ptr<InputQueue<T>> KeepOrMakeQueue(const Binding* before,
+  std::shared_ptr<InputQueue<T>> KeepOrMakeQueue(const Binding* before, const Binding& next,
                                                  const ConnectOptions& options) {
+    const Writers writers = next.only != nullptr ? Writers::kOne : Writers::kSeveral;
+    // A queue for one writer serves the source it was made for: another might begin before that
+    // one has ended.
     if (before != nullptr && before->queue && before->queue->room() == options.queue &&
-        before->queue->on_full() == options.on_full) {
+        before->queue->on_full() == options.on_full && before->queue->writers() == writers &&
+        (writers == Writers::kSeveral || before->only == next.only)) {
       return before->queue;
     }
-    return std::make_shared<InputQueue<T>>(options.queue, options.on_full);
+    return std::make_shared<InputQueue<T>>(options.queue, options.on_full, writers);
   }
   static void KeepWaitingValues(const Binding* before, Binding& next) {
     if (before == nullptr) return;
@@ -338,7 +347,7 @@ class Input final : public InputBase {
     if (binding == nullptr || !binding->queue) return;
     for (Channel<T>* channel : fresh_) {
       auto held = channel->Read();
-      if (held.has_value()) binding->queue->Push({std::move(held), channel->number()});
+      if (held.has_value()) binding->queue->PutFirst(std::move(held), channel->number());
     }
     fresh_.clear();
   }

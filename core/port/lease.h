@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <new>
 #include <type_traits>
 #include <utility>
@@ -21,6 +22,12 @@ namespace runnel {
 template <typename T>
 inline constexpr bool kIsCheap =
     std::is_trivially_copyable_v<T>&& std::is_copy_constructible_v<T> && sizeof(T) <= 64;
+
+/// Whether values of T that travel in buffers lie in queues as copies nevertheless: a short copy
+/// costs the taker less than the publisher's buffer, which it would share with the publisher.
+template <typename T>
+inline constexpr bool kIsCopiedInQueues =
+    std::is_trivially_copyable_v<T>&& std::is_copy_constructible_v<T> && sizeof(T) <= 256;
 
 template <typename T>
 class Channel;
@@ -82,8 +89,64 @@ class LeasedValue {
   BufferLease<T> lease_;
 };
 
+/// A value in a buffer, leased, or a copy of one: what a queue gives away is a copy.
 template <typename T>
-using HeldValue = std::conditional_t<kIsCheap<T>, CopiedValue<T>, LeasedValue<T>>;
+class LeasedOrCopiedValue {
+ public:
+  LeasedOrCopiedValue() noexcept {}
+  /// A copy.
+  LeasedOrCopiedValue(const T& value, const Publication& publication) noexcept
+      : publication_(publication) {
+    std::construct_at(reinterpret_cast<T*>(bytes_), value);
+  }
+  /// The newest one, or none.
+  [[gnu::always_inline]] LeasedOrCopiedValue(LatestBuffer<T>& latest,
+                                             HazardRecord<>& record) noexcept
+      : leased_(latest, record) {}
+  LeasedOrCopiedValue(const LeasedOrCopiedValue& other) noexcept : leased_(other.leased_) {
+    CopyFrom(other);
+  }
+  LeasedOrCopiedValue(LeasedOrCopiedValue&& other) noexcept : leased_(std::move(other.leased_)) {
+    CopyFrom(other);
+  }
+  LeasedOrCopiedValue& operator=(const LeasedOrCopiedValue& other) noexcept {
+    leased_ = other.leased_;
+    CopyFrom(other);
+    return *this;
+  }
+  LeasedOrCopiedValue& operator=(LeasedOrCopiedValue&& other) noexcept {
+    leased_ = std::move(other.leased_);
+    CopyFrom(other);
+    return *this;
+  }
+  [[gnu::always_inline]] ~LeasedOrCopiedValue() {}
+
+  [[nodiscard]] bool has_value() const noexcept { return is_copy() || leased_.has_value(); }
+  [[nodiscard]] const T& value() const noexcept {
+    return is_copy() ? *std::launder(reinterpret_cast<const T*>(bytes_)) : leased_.value();
+  }
+  [[nodiscard]] const Publication& publication() const noexcept {
+    return is_copy() ? publication_ : leased_.publication();
+  }
+
+ private:
+  [[nodiscard]] bool is_copy() const noexcept { return publication_.sequence != 0; }
+  void CopyFrom(const LeasedOrCopiedValue& other) noexcept {
+    publication_ = other.publication_;
+    if (this != &other && is_copy()) {
+      std::construct_at(reinterpret_cast<T*>(bytes_), other.value());
+    }
+  }
+
+  LeasedValue<T> leased_;
+  Publication publication_;                // of the copy, if it is one
+  alignas(T) std::byte bytes_[sizeof(T)];  // read only then
+};
+
+template <typename T>
+using HeldValue = std::conditional_t<
+    kIsCheap<T>, CopiedValue<T>,
+    std::conditional_t<kIsCopiedInQueues<T>, LeasedOrCopiedValue<T>, LeasedValue<T>>>;
 
 }  // namespace internal
 

@@ -1,4 +1,12 @@
+#include <array>
+#include <atomic>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/port/input_queue.h"
 #include "tests/core/port/port_fixture.h"
+#include "tests/support/threads.h"
 
 namespace runnel::test {
 namespace {
@@ -130,6 +138,193 @@ TEST_F(QueuePortTest, DisconnectedInputHasNothingToTake) {
   EXPECT_FALSE(receiver.in.Take());
   EXPECT_FALSE(receiver.in.Read());
   EXPECT_THAT(receiver.in.incoming(), IsEmpty());
+}
+
+// The queue itself, of both kinds.
+template <typename T>
+internal::HeldValue<T> Held(const T& value, std::uint64_t sequence) {
+  return internal::HeldValue<T>(value, Publication{0, sequence, 0});
+}
+std::vector<int> PopAll(InputQueue<int>& queue) {
+  std::vector<int> values;
+  for (InputQueue<int>::Entry entry; queue.Pop(entry);) values.push_back(entry.held.value());
+  return values;
+}
+
+TEST(InputQueueTest, FirstValueComesBeforeLaterOnes) {
+  for (const Writers writers : {Writers::kOne, Writers::kSeveral}) {
+    InputQueue<int> queue(4, OnFull::kRefuse, writers);
+    queue.PutFirst(Held(10, 1), 7);
+    EXPECT_EQ(queue.size(), 1u);
+    ASSERT_TRUE(queue.Push(20, {0, 2, 0}, 7));
+    ASSERT_TRUE(queue.Push(30, {0, 3, 0}, 7));
+    EXPECT_EQ(queue.size(), 3u);
+    EXPECT_THAT(PopAll(queue), ElementsAre(10, 20, 30));
+    EXPECT_EQ(queue.size(), 0u);
+  }
+}
+
+TEST(InputQueueTest, FirstValueOvertakesALaterOneThatWasFaster) {
+  InputQueue<int> queue(4, OnFull::kRefuse, Writers::kOne);
+  ASSERT_TRUE(queue.Push(20, {0, 2, 0}, 7));
+  queue.PutFirst(Held(10, 1), 7);
+  EXPECT_THAT(PopAll(queue), ElementsAre(10, 20));
+}
+
+TEST(InputQueueTest, FirstValueDoesNotOvertakeThoseBeforeItself) {
+  InputQueue<int> queue(4, OnFull::kRefuse, Writers::kOne);
+  ASSERT_TRUE(queue.Push(10, {0, 1, 0}, 7));
+  ASSERT_TRUE(queue.Push(20, {0, 2, 0}, 7));
+  queue.PutFirst(Held(20, 2), 7);
+  EXPECT_THAT(PopAll(queue), ElementsAre(10, 20));
+}
+
+TEST(InputQueueTest, EachPolicyCountsWhatIsLostWhateverTheWriters) {
+  struct Case {
+    OnFull on_full;
+    bool taken;
+    std::vector<int> left;
+  };
+  for (const Writers writers : {Writers::kOne, Writers::kSeveral}) {
+    for (const Case& each :
+         {Case{OnFull::kDropOldest, true, {4, 5}}, Case{OnFull::kDropNewest, true, {1, 2}},
+          Case{OnFull::kRefuse, false, {1, 2}}}) {
+      InputQueue<int> queue(2, each.on_full, writers);
+      for (int i = 1; i <= 5; ++i) {
+        EXPECT_EQ(queue.Push(i, {0, static_cast<std::uint64_t>(i), 0}, 7), i <= 2 || each.taken);
+      }
+      EXPECT_EQ(queue.dropped(), 3u);
+      EXPECT_EQ(PopAll(queue), each.left);
+    }
+  }
+}
+
+// What waits in a queue keeps what it was published with.
+TEST(InputQueueTest, EntryTellsSourceAndPublication) {
+  for (const Writers writers : {Writers::kOne, Writers::kSeveral}) {
+    InputQueue<int> queue(2, OnFull::kRefuse, writers);
+    ASSERT_TRUE(queue.Push(5, {11, 12, 13}, 14));
+    InputQueue<int>::Entry entry;
+    ASSERT_TRUE(queue.Pop(entry));
+    EXPECT_EQ(entry.held.value(), 5);
+    EXPECT_EQ(entry.source, 14u);
+    EXPECT_EQ(entry.held.publication().stamp, 11);
+    EXPECT_EQ(entry.held.publication().sequence, 12u);
+    EXPECT_EQ(entry.held.publication().order, 13u);
+  }
+}
+
+TEST_F(QueuePortTest, TypesThatOwnMemoryPassThroughEachKindOfQueue) {
+  auto& sender = MakeSender<Scan>();
+  for (const OnFull on_full : {OnFull::kDropOldest, OnFull::kDropNewest, OnFull::kRefuse}) {
+    auto& receiver = MakeReceiver<Scan>("receiver" + std::to_string(static_cast<int>(on_full)));
+    Connect(sender.out, receiver.in, {.queue = 4, .on_full = on_full});
+    (void)TakeAll(receiver.in);
+    sender.out.Publish(Scan{{1.0f, 2.0f}, 1});
+    sender.out.Publish(Scan{{3.0f}, 2});
+    const auto first = receiver.in.Take();
+    const auto second = receiver.in.Take();
+    ASSERT_TRUE(first && second);
+    EXPECT_THAT(first->ranges, ElementsAre(1.0f, 2.0f));
+    EXPECT_THAT(second->ranges, ElementsAre(3.0f));
+    EXPECT_FALSE(receiver.in.Take());
+  }
+}
+
+struct Block {
+  std::array<std::uint64_t, 16> words{};
+};
+void Describe(TypeBuilder<Block>& type) { type.Name("test::Block"); }
+
+TEST_F(QueuePortTest, LeaseOfAQueuedCopyLivesOnAndCopies) {
+  auto& sender = MakeSender<Block>();
+  auto& receiver = MakeReceiver<Block>();
+  Connect(sender.out, receiver.in, {.queue = 2, .on_full = OnFull::kRefuse});
+  Block block;
+  block.words.fill(7);
+  sender.out.Publish(block);
+  Lease<Block> taken = receiver.in.Take();
+  ASSERT_TRUE(taken);
+  block.words.fill(8);
+  for (int i = 0; i < 100; ++i) {
+    sender.out.Publish(block);
+    (void)receiver.in.Take();
+  }
+  Lease<Block> copy = taken;
+  const Lease<Block> moved = std::move(taken);
+  EXPECT_THAT(moved->words, testing::Each(7u));
+  copy = receiver.in.Read();
+  EXPECT_THAT(copy->words, testing::Each(8u));
+  copy = moved;
+  EXPECT_THAT(copy->words, testing::Each(7u));
+  EXPECT_EQ(copy.sequence(), 1u);
+}
+
+// The publisher tries again whenever it is refused: nothing is lost, and all comes in order.
+TEST_F(QueuePortTest, NothingIsLostBetweenTwoThreadsIfThePublisherTriesAgain) {
+  constexpr std::uint64_t kCount = 20000;
+  auto& sender = MakeSender<Block>();
+  auto& receiver = MakeReceiver<Block>();
+  Connect(sender.out, receiver.in, {.queue = 8, .on_full = OnFull::kRefuse});
+  std::uint64_t wrong = 0;
+  RunTogether(2, [&](unsigned index) {
+    for (std::uint64_t i = 1; i <= kCount; ++i) {
+      if (index == 0) {
+        Block block;
+        block.words.fill(i);
+        while (sender.out.Publish(block) == PublishStatus::kRefused) std::this_thread::yield();
+        continue;
+      }
+      Lease<Block> lease;
+      while (!(lease = receiver.in.Take())) std::this_thread::yield();
+      for (const std::uint64_t word : lease->words) wrong += word != i;
+    }
+  });
+  EXPECT_EQ(wrong, 0u);
+  EXPECT_FALSE(receiver.in.Take());
+}
+
+// Connected while the source publishes at full speed: each value once, none out of order, and none
+// missing from the first one on.
+TEST_F(QueuePortTest, ConnectingUnderLoadNeitherLosesNorRepeats) {
+  auto& sender = MakeSender<Block>();
+  auto& receiver = MakeReceiver<Block>();
+  std::atomic<bool> done{false};
+  std::uint64_t disorder = 0, missed = 0, taken = 0;
+  RunTogether(3, [&](unsigned index) {
+    if (index == 0) {
+      Block block;
+      for (std::uint64_t i = 1; !done; ++i) {
+        block.words.fill(i);
+        sender.out.Publish(block);
+        if (i % 64 == 0) std::this_thread::yield();
+      }
+    } else if (index == 1) {
+      for (int round = 0; round < 200; ++round) {
+        Connect(sender.out, receiver.in, {.queue = 4096, .on_full = OnFull::kDropNewest});
+        std::this_thread::yield();
+        ASSERT_TRUE(Port::Disconnect(sender.out, receiver.in));
+      }
+      done = true;
+    } else {
+      std::uint64_t last = 0;
+      while (!done) {
+        const Lease<Block> lease = receiver.in.Take();
+        if (!lease) {
+          std::this_thread::yield();
+          continue;
+        }
+        ++taken;
+        // A new connection begins with the last value, which the one before may have delivered.
+        disorder += lease->words[0] < last || lease->words[0] != lease->words[15];
+        last = lease->words[0];
+        if (receiver.in.dropped() == 0) missed += lease.missed();
+      }
+    }
+  });
+  EXPECT_EQ(disorder, 0u);
+  EXPECT_EQ(missed, 0u);
+  EXPECT_GT(taken, 0u);
 }
 
 }  // namespace
