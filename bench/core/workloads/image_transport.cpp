@@ -5,7 +5,6 @@
 #include "bench/core/workloads/image_transport.h"
 
 #include <array>
-#include <climits>
 #include <cstdio>
 #include <memory>
 #include <sstream>
@@ -20,11 +19,8 @@ namespace runnel::bench {
 
 namespace {
 
-std::string OwnProgram() {
-  std::array<char, PATH_MAX> path{};
-  const auto length = readlink("/proc/self/exe", path.data(), path.size() - 1);
-  return {path.data(), length > 0 ? static_cast<std::size_t>(length) : 0};
-}
+// Leads to this very program, even if its file has been replaced meanwhile.
+std::string OwnProgram() { return "/proc/" + std::to_string(getpid()) + "/exe"; }
 
 std::string OutputOf(const std::string& command) {
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
@@ -36,7 +32,7 @@ std::string OutputOf(const std::string& command) {
 
 void RunInAProcess(benchmark::State& state, const ImageTransport& transport) {
   std::ostringstream command;
-  command << "'" << OwnProgram() << "' --image-transport '" << transport.subject << "' --readers "
+  command << OwnProgram() << " --image-transport '" << transport.subject << "' --readers "
           << transport.readers << " --image-seconds " << transport.seconds;
   for (auto _ : state) {
     std::istringstream output(OutputOf(command.str()));
