@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -103,6 +104,15 @@ class Channel final : public ChannelBase {
     if (subscribers() == nullptr) [[likely]]
       return PublishStatus::kPublished;
     return Distribute(value, {stamp, storage_.sequence(), order}, nullptr);
+  }
+
+  /// Whether a queue that refuses is full.
+  [[nodiscard]] bool WouldRefuse() const noexcept {
+    if (subscribers() == nullptr) return false;
+    return Guarded([this] {
+      const Subscribers* list = subscribers();
+      return list != nullptr && std::ranges::any_of(list->queues, &QueueSink::WouldRefuse);
+    });
   }
 
   /// The newest value, or none. Call inside an EpochGuard if the channel may be going away.

@@ -32,6 +32,23 @@ TEST_F(PooledPortTest, SizeAndCopyingDecideHowATypeTravels) {
   EXPECT_FALSE(kIsCheap<Stubborn>);
 }
 
+TEST_F(PooledPortTest, GetCopiesTheNewestValueAndMarksNothingAsRead) {
+  auto& sender = MakeSender<Image>();
+  auto& receiver = MakeReceiver<Image>();
+  Image otherwise;
+  otherwise.pixels.fill('o');
+  EXPECT_EQ(receiver.in.Get(otherwise).pixels[999], 'o');
+  Connect(sender.out, receiver.in);
+  EXPECT_EQ(receiver.in.Get(otherwise).pixels[0], 'o');
+  EXPECT_EQ(receiver.in.Get().pixels[0], '\0');
+  Image image;
+  image.pixels.fill('i');
+  sender.out.Publish(image);
+  EXPECT_EQ(receiver.in.Get(otherwise).pixels, image.pixels);
+  EXPECT_EQ(receiver.in.Get().pixels, image.pixels);
+  EXPECT_TRUE(receiver.in.Read().is_new());
+}
+
 TEST_F(PooledPortTest, LargePlainTypesAndThoseThatAskForItTravelInBuffersToo) {
   auto& images = MakeSender<Image>("images");
   auto& image_reader = MakeReceiver<Image>("image_reader");
