@@ -26,7 +26,8 @@ class RunnelQueue {
   static constexpr const char* kName = "queued input";
 
   bool Push(const Message& message) {
-    return star_.output().Publish(message) == PublishStatus::kPublished;
+    return !star_.output().WouldRefuse() &&
+           star_.output().Publish(message) == PublishStatus::kPublished;
   }
   bool Take(Message& message) {
     const auto lease = star_.input(0).Take();
