@@ -21,7 +21,7 @@ namespace runnel {
 /// it to false for a type that shall always travel in buffers.
 template <typename T>
 inline constexpr bool kIsCheap =
-    std::is_trivially_copyable_v<T>&& std::is_copy_constructible_v<T> && sizeof(T) <= 64;
+    std::is_trivially_copyable_v<T>&& std::is_copy_constructible_v<T> && sizeof(T) <= 32;
 
 /// Whether values of T that travel in buffers lie in queues as copies nevertheless: a short copy
 /// costs the taker less than the publisher's buffer, which it would share with the publisher.

@@ -24,8 +24,8 @@ TEST_F(PooledPortTest, ReaderLooksAtTheVeryObjectThatTheWriterFilled) {
 
 TEST_F(PooledPortTest, SizeAndCopyingDecideHowATypeTravels) {
   EXPECT_TRUE(kIsCheap<double>);
-  EXPECT_TRUE((kIsCheap<std::array<char, 64>>));
-  EXPECT_FALSE((kIsCheap<std::array<char, 65>>));
+  EXPECT_TRUE((kIsCheap<std::array<char, 32>>));
+  EXPECT_FALSE((kIsCheap<std::array<char, 33>>));
   EXPECT_FALSE(kIsCheap<Scan>);
   EXPECT_FALSE(kIsCheap<Token>);
   EXPECT_FALSE(kIsCheap<Sealed>);
