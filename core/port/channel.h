@@ -82,7 +82,7 @@ class Channel final : public ChannelBase {
                     "Loan() of a small type starts with T{}; publish a ready T instead");
       return Loan<T>(T{});
     } else {
-      return Loan<T>(storage_.newest.Loan());
+      return Loan<T>(storage_.newest.Loan(ThisThread().hazards));
     }
   }
 
