@@ -28,13 +28,18 @@ class LatestBuffer {
   explicit LatestBuffer(Pool& pool) : pool_(pool) {}
 
   /// A buffer to fill, see BufferPool::Loan().
-  [[nodiscard]] Buffer* Loan() {
-    // Both relaxed: the newest is the caller's own note; for the readers, the fence that comes
-    // before stands between this and publishing, as for their slots.
-    return pool_.Loan(newest_.load(std::memory_order_relaxed),
-                      [this] { return readers_.load(std::memory_order_relaxed); });
+  [[nodiscard]] Buffer* Loan() { return LoanFrom(pool_); }
+  /// The same from another pool, for another publisher that takes turns with the first one: each
+  /// may loan from its own pool while the other publishes.
+  [[nodiscard]] Buffer* LoanFrom(Pool& pool) {
+    // Both relaxed: the newest is the caller's own note, unless it is of the other publisher, and
+    // then of the other pool. An outdated one is not reused for one more time; one that is seen to
+    // have replaced the caller's is, after the fence, seen by the readers too. For the readers'
+    // bits, the fence that comes before stands between this and publishing, as for their slots.
+    return pool.Loan(newest_.load(std::memory_order_relaxed),
+                     [this] { return readers_.load(std::memory_order_relaxed); });
   }
-  /// Makes a loaned buffer the newest one.
+  /// Makes a loaned buffer, of whichever pool, the newest one.
   void Publish(Buffer& buffer) noexcept {
     buffer.EndLoan();
     // release: pairs with the acquire in Lease(); the value is complete. Whoever reads has set a
