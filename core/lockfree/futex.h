@@ -15,13 +15,13 @@ struct KernelFutex {
   /// Sleeps if `word` is still `expected`, until Wake(), or until the deadline; may also return
   /// for no reason. False if the deadline has passed.
   template <typename Word>
-  static bool Sleep(const Word& word, std::uint32_t expected, Deadline deadline) noexcept {
+  static bool Sleep(Word& word, std::uint32_t expected, Deadline deadline) noexcept {
     static_assert(sizeof(Word) == sizeof(std::uint32_t));
     return SleepOn(&word, expected, deadline);
   }
   /// Wakes who sleeps on `word`; a system call.
   template <typename Word>
-  static void Wake(const Word& word) noexcept {
+  static void Wake(Word& word) noexcept {
     static_assert(sizeof(Word) == sizeof(std::uint32_t));
     WakeOn(&word);
   }
