@@ -112,7 +112,10 @@ class Input final : public InputBase {
     const EpochGuard guard;
     const Link* link = nullptr;
     Lease<T> lease = Newest(link);
-    if (lease && link->read.load_relaxed() == lease.sequence()) lease.freshness_ = Freshness::kOld;
+    if (lease) {
+      const bool is_old = link->read.load_relaxed() == lease.sequence();
+      lease.freshness_ = is_old ? Freshness::kOld : Freshness::kNew;
+    }
     return lease;
   }
   /// A copy of the newest value, or `otherwise` if there is none, without marking it as read: the
