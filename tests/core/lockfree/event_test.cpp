@@ -1,10 +1,11 @@
+#include "core/lockfree/event.h"
+
 #include <atomic>
 #include <chrono>
 #include <memory>
 
 #include <gmock/gmock.h>
 
-#include "core/lockfree/event.h"
 #include "tests/support/system_call_probe.h"
 #include "tests/support/threads.h"
 #include "tests/support/yielding_atomic.h"
@@ -63,8 +64,8 @@ void PlayPingPong(int rounds) {
   RunTogether(2, [&](unsigned index) {
     for (int round = 0; round < rounds; ++round) {
       const int mine = 2 * round + static_cast<int>(index);
-      ASSERT_TRUE(events[index].Wait(
-          Late(), [&] { return ball.load(std::memory_order_relaxed) == mine; }));
+      ASSERT_TRUE(
+          events[index].Wait(Late(), [&] { return ball.load(std::memory_order_relaxed) == mine; }));
       ball.store(mine + 1, std::memory_order_relaxed);
       events[1 - index].Notify();
     }

@@ -75,8 +75,11 @@ TEST_F(WaitingPortTest, WakesForAValueInABuffer) {
   auto& sender = MakeSender<Scan>();
   auto& receiver = MakeReceiver<Scan>("receiver", {.waits = true});
   Connect(sender.out, receiver.in);
-  ActWhileAsleep([&] { sender.out.Publish(Scan{{}, 7}); },
-                 [&] { EXPECT_TRUE(receiver.in.Wait(kLong)); });
+  ActWhileAsleep(
+      [&] {
+        sender.out.Publish(Scan{{}, 7});
+      },
+      [&] { EXPECT_TRUE(receiver.in.Wait(kLong)); });
   EXPECT_EQ(receiver.in.Read()->number, 7);
 }
 
@@ -94,8 +97,9 @@ TEST_F(WaitingPortTest, WakesForAQueueToo) {
   auto& other = MakeSender<int>("other");
   auto& receiver = MakeReceiver<int>();
   sender.out.Publish(1);
-  ActWhileAsleep([&] { Connect(sender.out, receiver.in, {.queue = 4, .on_full = OnFull::kRefuse}); },
-                 [&] { EXPECT_TRUE(receiver.in.Wait(kLong)); });
+  ActWhileAsleep(
+      [&] { Connect(sender.out, receiver.in, {.queue = 4, .on_full = OnFull::kRefuse}); },
+      [&] { EXPECT_TRUE(receiver.in.Wait(kLong)); });
   EXPECT_THAT(TakeAll(receiver.in), testing::ElementsAre(1));
   EXPECT_FALSE(receiver.in.Wait(milliseconds(1))) << "what has never been Read() does not count";
   ActWhileAsleep([&] { sender.out.Publish(2); }, [&] { EXPECT_TRUE(receiver.in.Wait(kLong)); });
