@@ -23,7 +23,8 @@ class InputBase : public Port {
 
   /// Has `waker` told of new data; nullptr for nobody. Locks.
   void SetWaker(Waker* waker);
-  /// Values lost because the queue was full, since the queue was made.
+  /// Values lost because the queue was full, since something was connected to the input first, or
+  /// first again. Where another connection has changed the queue meanwhile, its drops count on.
   [[nodiscard]] virtual std::uint64_t dropped() const noexcept = 0;
 
  protected:
@@ -116,7 +117,13 @@ class Input final : public InputBase {
   [[nodiscard]] std::uint64_t dropped() const noexcept override {
     const EpochGuard guard;
     const Binding* binding = binding_.load(std::memory_order_acquire);
-    return binding != nullptr && binding->queue ? binding->queue->dropped() : 0;
+    return binding != nullptr ? binding->dropped() : 0;
+  }
+  /// How many queues that others have replaced still hold values, or may still get some. Any thread.
+  [[nodiscard]] std::size_t replaced_queues() const noexcept {
+    const EpochGuard guard;
+    const Binding* binding = binding_.load(std::memory_order_acquire);
+    return binding != nullptr ? binding->older_queues.size() : 0;
   }
   [[nodiscard]] std::uint64_t publications() const noexcept override {
     const EpochGuard guard;
@@ -174,14 +181,35 @@ class Input final : public InputBase {
     Link* only = nullptr;
     std::vector<std::shared_ptr<Link>> links;  // shared by the binding before and after a change
     std::shared_ptr<InputQueue<T>> queue;      // likewise
-    // Queues that a longer one has replaced: what waits in them comes first.
+    // Queues that another one has replaced: what waits in them comes first.
     std::vector<std::shared_ptr<InputQueue<T>>> older_queues;
+    std::uint64_t dropped_before = 0;  // by queues that are no longer among the older ones
 
     [[nodiscard]] bool Pop(internal::HeldValue<T>& held, std::uint64_t& source) const noexcept {
-      for (const auto& older : older_queues) {
-        if (older->Pop(held, source)) return true;
+      if (older_queues.empty()) [[likely]]
+        return queue && queue->Pop(held, source);
+      return PopInOrder(held, source);
+    }
+    // While a queue is being replaced, a publisher may fill the old one, after we have found that
+    // empty, and then the new one. So a value of the new one is taken only if those before are
+    // still empty when it has been seen; else the later value would overtake the earlier one.
+    [[gnu::noinline]] bool PopInOrder(internal::HeldValue<T>& held,
+                                      std::uint64_t& source) const noexcept {
+      for (std::size_t i = 0; i < older_queues.size(); ++i) {
+        if (older_queues[i]->PopIf([&] { return AreEmpty(i); }, held, source)) return true;
       }
-      return queue && queue->Pop(held, source);
+      return queue && queue->PopIf([&] { return AreEmpty(older_queues.size()); }, held, source);
+    }
+    [[nodiscard]] bool AreEmpty(std::size_t first_older_queues) const noexcept {
+      for (std::size_t i = 0; i < first_older_queues; ++i) {
+        if (older_queues[i]->size() > 0) return false;
+      }
+      return true;
+    }
+    [[nodiscard]] std::uint64_t dropped() const noexcept {
+      std::uint64_t sum = dropped_before + (queue ? queue->dropped() : 0);
+      for (const auto& older : older_queues) sum += older->dropped();
+      return sum;
     }
     [[nodiscard]] Link* FindLink(std::uint64_t number) const noexcept {
       for (const auto& link : links) {
@@ -332,8 +360,17 @@ class Input final : public InputBase {
   }
   static void KeepWaitingValues(const Binding* before, Binding& next) {
     if (before == nullptr) return;
+    next.dropped_before = before->dropped_before;
     for (const auto& older : before->older_queues) {
-      if (older->size() > 0) next.older_queues.push_back(older);
+      // A publisher that found the queue before it was replaced may still put a value in. Its
+      // leaving comes before the look at the size.
+      const bool settled =
+          older->left_in_epoch != 0 && ProcessEpochs().HasPassed(older->left_in_epoch);
+      if (!settled || older->size() > 0) {
+        next.older_queues.push_back(older);
+      } else {
+        next.dropped_before += older->dropped();
+      }
     }
     if (before->queue && before->queue != next.queue) next.older_queues.push_back(before->queue);
   }
@@ -344,7 +381,11 @@ class Input final : public InputBase {
     for (auto& each : replaced_) Retire([replaced = each.release()] { delete replaced; });
     replaced_.clear();
     const Binding* binding = binding_.load(std::memory_order_relaxed);
-    if (binding == nullptr || !binding->queue) return;
+    if (binding == nullptr) return;
+    for (const auto& older : binding->older_queues) {
+      if (older->left_in_epoch == 0) older->left_in_epoch = ProcessEpochs().Advance();
+    }
+    if (!binding->queue) return;
     for (Channel<T>* channel : fresh_) {
       auto held = channel->Read();
       if (held.has_value()) binding->queue->PutFirst(std::move(held), channel->number());

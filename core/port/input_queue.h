@@ -119,8 +119,15 @@ class InputQueue final : public QueueSink {
   /// Takes the oldest value out; false if there is none.
   [[nodiscard]] bool Pop(Entry& entry) noexcept { return Pop(entry.held, entry.source); }
   [[nodiscard]] bool Pop(internal::HeldValue<T>& held, std::uint64_t& source) noexcept {
-    if (stream_ != nullptr) return PopStream(held, source);
-    return shared_->TryConsume([&](Queued& oldest) {
+    return PopIf([] { return true; }, held, source);
+  }
+  /// The same, but asks `may()` when a value has been seen, and leaves it there if not. What the
+  /// value's publisher had pushed before it, into whatever queue, is visible to `may`.
+  template <typename May>
+  [[nodiscard]] bool PopIf(May&& may, internal::HeldValue<T>& held,
+                           std::uint64_t& source) noexcept {
+    if (stream_ != nullptr) return PopStream(may, held, source);
+    return shared_->TryConsumeIf(may, [&](Queued& oldest) {
       source = oldest.source;
       oldest.MoveTo(held);
     });
@@ -136,6 +143,10 @@ class InputQueue final : public QueueSink {
   [[nodiscard]] std::uint64_t dropped() const noexcept {
     return dropped_.load(std::memory_order_relaxed);
   }
+
+  /// The epoch since which no publisher that enters finds the queue; 0 while they can. Under the
+  /// structure lock.
+  std::uint64_t left_in_epoch = 0;
 
  private:
   static constexpr int kAttempts = 16;
@@ -168,9 +179,11 @@ class InputQueue final : public QueueSink {
   // relaxed: a statistic.
   void CountDropped() noexcept { dropped_.fetch_add(1, std::memory_order_relaxed); }
 
-  bool PopStream(internal::HeldValue<T>& held, std::uint64_t& source) noexcept {
+  template <typename May>
+  bool PopStream(May&& may, internal::HeldValue<T>& held, std::uint64_t& source) noexcept {
     // acquire: pairs with the release in PutFirst().
     if (first_waits_.load(std::memory_order_acquire)) [[unlikely]] {
+      if (!may()) return false;
       // relaxed: for size(), and for this reader.
       first_waits_.store(false, std::memory_order_relaxed);
       Entry first = std::exchange(first_, Entry{});
@@ -184,7 +197,7 @@ class InputQueue final : public QueueSink {
       }
     }
     Queued* const front = stream_->Front();
-    if (front == nullptr) return false;
+    if (front == nullptr || !may()) return false;
     source = front->source;
     front->MoveTo(held);
     stream_->PopFront();
