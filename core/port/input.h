@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/lockfree/queue_succession.h"
 #include "core/port/channel.h"
 #include "core/port/input_queue.h"
 #include "core/port/lease.h"
@@ -183,28 +184,19 @@ class Input final : public InputBase {
     std::shared_ptr<InputQueue<T>> queue;      // likewise
     // Queues that another one has replaced: what waits in them comes first.
     std::vector<std::shared_ptr<InputQueue<T>>> older_queues;
-    std::uint64_t dropped_before = 0;  // by queues that are no longer among the older ones
+    std::vector<InputQueue<T>*> all_queues;  // these and then the present one; if there are any
+    std::uint64_t dropped_before = 0;        // by queues that are no longer among the older ones
 
     [[nodiscard]] bool Pop(internal::HeldValue<T>& held, std::uint64_t& source) const noexcept {
       if (older_queues.empty()) [[likely]]
         return queue && queue->Pop(held, source);
-      return PopInOrder(held, source);
+      return PopFromAll(held, source);
     }
-    // While a queue is being replaced, a publisher may fill the old one, after we have found that
-    // empty, and then the new one. So a value of the new one is taken only if those before are
-    // still empty when it has been seen; else the later value would overtake the earlier one.
-    [[gnu::noinline]] bool PopInOrder(internal::HeldValue<T>& held,
+    [[gnu::noinline]] bool PopFromAll(internal::HeldValue<T>& held,
                                       std::uint64_t& source) const noexcept {
-      for (std::size_t i = 0; i < older_queues.size(); ++i) {
-        if (older_queues[i]->PopIf([&] { return AreEmpty(i); }, held, source)) return true;
-      }
-      return queue && queue->PopIf([&] { return AreEmpty(older_queues.size()); }, held, source);
-    }
-    [[nodiscard]] bool AreEmpty(std::size_t first_older_queues) const noexcept {
-      for (std::size_t i = 0; i < first_older_queues; ++i) {
-        if (older_queues[i]->size() > 0) return false;
-      }
-      return true;
+      return PopInOrder(all_queues, [&](InputQueue<T>& each, const auto& may) {
+        return each.PopIf(may, held, source);
+      });
     }
     [[nodiscard]] std::uint64_t dropped() const noexcept {
       std::uint64_t sum = dropped_before + (queue ? queue->dropped() : 0);
@@ -373,6 +365,9 @@ class Input final : public InputBase {
       }
     }
     if (before->queue && before->queue != next.queue) next.older_queues.push_back(before->queue);
+    if (next.older_queues.empty()) return;
+    for (const auto& older : next.older_queues) next.all_queues.push_back(older.get());
+    if (next.queue) next.all_queues.push_back(next.queue.get());
   }
   // A new connection delivers the last value at once. It is read after publishers have begun to
   // fill the queue, so that none is lost; one that is there twice for that reason, Take() leaves

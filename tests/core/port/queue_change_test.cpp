@@ -107,7 +107,7 @@ TEST_F(QueueChangeTest, DropsOfAReplacedQueueStayCounted) {
 // One source stays; a second comes and goes, which replaces the queue each time.
 template <typename T, typename Make, typename NumberOf>
 void NothingIsLostOrOvertaken(Runtime& runtime, const Make& make, const NumberOf& number_of) {
-  constexpr int kChanges = RUNNEL_UNDER_SANITIZER ? 1000 : 4000;
+  constexpr int kChanges = RUNNEL_UNDER_SANITIZER ? 500 : 1000;
   auto& stays = runtime.Create<Sender<T>>(runtime.root(), "stays");
   auto& comes = runtime.Create<Sender<T>>(runtime.root(), "comes");
   auto& receiver = runtime.Create<Receiver<T>>(runtime.root(), "receiver");
