@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/base/check.h"
 #include "core/lockfree/asymmetric_fence.h"
 #include "core/lockfree/latest_buffer.h"
 #include "core/lockfree/latest_value.h"
@@ -92,6 +93,8 @@ class Channel final : public ChannelBase {
       loan.Drop();
       return PublishValue(value, now);
     } else {
+      RUNNEL_CHECK(&loan.slot_->pool() == storage_.pool.get(),
+                   "a loan can be published only by the output that gave it");
       return PublishBuffer(*std::exchange(loan.slot_, nullptr), now);
     }
   }
