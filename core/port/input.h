@@ -86,10 +86,16 @@ class Input final : public InputBase {
   /// A copy of the newest value, or `otherwise` if there is none, without marking it as read: the
   /// quickest way to look. Any thread.
   [[nodiscard]] T Get(const T& otherwise) const noexcept requires(std::is_trivially_copyable_v<T>) {
-    T value;
-    if (!CopyNewest(value)) [[unlikely]]
-      value = otherwise;
-    return value;
+    if constexpr (std::is_default_constructible_v<T>) {
+      T value;
+      if (!CopyNewest(value)) [[unlikely]]
+        value = otherwise;
+      return value;
+    } else {
+      T value = otherwise;
+      (void)CopyNewest(value);
+      return value;
+    }
   }
   /// The same with T{} if there is none.
   [[nodiscard]] T Get() const noexcept
@@ -260,14 +266,27 @@ class Input final : public InputBase {
   }
   template <typename LinkPointer>
   static Lease<T> NewestOfSeveral(const Binding& binding, LinkPointer& newest) noexcept {
-    Lease<T> lease;
+    // Each group has an order of its own, and only their last ones are compared with each other:
+    // the two comparisons mixed are no order, and the outcome would depend on whom we ask first.
+    struct Last {
+      internal::HeldValue<T> held;
+      LinkPointer link = nullptr;
+    } numbered, others;
     for (const auto& link : binding.links) {
       auto candidate = link->channel->Read();
       if (!candidate.has_value()) continue;
-      if (newest != nullptr && !IsLater(candidate, *link, lease.held_, *newest)) continue;
-      lease.held_ = std::move(candidate);
-      newest = link.get();
+      Last& last = candidate.publication().order != 0 ? numbered : others;
+      if (last.link != nullptr && !IsLater(candidate, *link, last.held, *last.link)) continue;
+      last.held = std::move(candidate);
+      last.link = link.get();
     }
+    const bool other_is_later = others.link != nullptr &&
+                                (numbered.link == nullptr ||
+                                 IsLater(others.held, *others.link, numbered.held, *numbered.link));
+    Last& last = other_is_later ? others : numbered;
+    Lease<T> lease;
+    lease.held_ = std::move(last.held);
+    newest = last.link;
     return lease;
   }
   // By the common order of sources that share an input, which every reader sees alike. Values from
