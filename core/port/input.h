@@ -200,9 +200,16 @@ class Input final : public InputBase {
     }
     [[gnu::noinline]] bool PopFromAll(internal::HeldValue<T>& held,
                                       std::uint64_t& source) const noexcept {
-      return PopInOrder(all_queues, [&](InputQueue<T>& each, const auto& may) {
+      const bool popped = PopInOrder(all_queues, [&](InputQueue<T>& each, const auto& may) {
         return each.PopIf(may, held, source);
       });
+      if (queue) queue->SetWaitingBefore(WaitingInOlder());
+      return popped;
+    }
+    [[nodiscard]] std::size_t WaitingInOlder() const noexcept {
+      std::size_t sum = 0;
+      for (const auto& older : older_queues) sum += older->size();
+      return sum;
     }
     [[nodiscard]] std::uint64_t dropped() const noexcept {
       std::uint64_t sum = dropped_before + (queue ? queue->dropped() : 0);
@@ -386,7 +393,14 @@ class Input final : public InputBase {
     if (before->queue && before->queue != next.queue) next.older_queues.push_back(before->queue);
     if (next.older_queues.empty()) return;
     for (const auto& older : next.older_queues) next.all_queues.push_back(older.get());
-    if (next.queue) next.all_queues.push_back(next.queue.get());
+    if (!next.queue) return;
+    next.all_queues.push_back(next.queue.get());
+    // However often queues change, no more than twice the room can wait.
+    for (const auto& older : next.older_queues) {
+      while (next.WaitingInOlder() > next.queue->room() && older->DropOldest()) {
+      }
+    }
+    next.queue->SetWaitingBefore(next.WaitingInOlder());
   }
   // A new connection delivers the last value at once. It is read after publishers have begun to
   // fill the queue, so that none is lost; one that is there twice for that reason, Take() leaves

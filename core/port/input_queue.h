@@ -144,6 +144,21 @@ class InputQueue final : public QueueSink {
     return dropped_.load(std::memory_order_relaxed);
   }
 
+  /// Takes the oldest value out and counts it as dropped, if the queue drops the oldest. Any thread.
+  bool DropOldest() noexcept {
+    if (on_full_ != OnFull::kDropOldest || !shared_->TryConsume([](Queued&) {})) return false;
+    CountDropped();
+    return true;
+  }
+  /// How many values wait in queues that this one has replaced: they take their share of its room,
+  /// else much might wait after some changes. Told before publishers find the queue, then by the
+  /// reader.
+  void SetWaitingBefore(std::size_t count) noexcept {
+    // relaxed, both: a little more or less room for a moment does not matter.
+    if (waiting_before_.load(std::memory_order_relaxed) == count) return;
+    waiting_before_.store(count, std::memory_order_relaxed);
+  }
+
   /// The epoch since which no publisher that enters finds the queue; 0 while they can. Under the
   /// structure lock.
   std::uint64_t left_in_epoch = 0;
@@ -152,6 +167,12 @@ class InputQueue final : public QueueSink {
   static constexpr int kAttempts = 16;
   template <typename... Parts>
   bool Emplace(Parts&&... parts) noexcept {
+    const std::size_t before = waiting_before_.load(std::memory_order_relaxed);
+    if (before > 0 && on_full_ != OnFull::kDropOldest && before + size() >= capacity_)
+        [[unlikely]] {
+      CountDropped();
+      return on_full_ != OnFull::kRefuse;
+    }
     if (stream_ != nullptr) {
       if (stream_->TryEmplace(std::forward<Parts>(parts)...)) [[likely]]
         return true;
@@ -209,6 +230,7 @@ class InputQueue final : public QueueSink {
   const Writers writers_;
   std::unique_ptr<Stream> stream_;  // one of the two, constant from the constructor on
   std::unique_ptr<Shared> shared_;
+  std::atomic<std::size_t> waiting_before_{0};
   std::atomic<bool> first_waits_{false};
   Entry first_;  // the connecting thread's, then the reader's
   alignas(kCacheLineSize) std::atomic<std::uint64_t> dropped_{0};

@@ -104,6 +104,32 @@ TEST_F(QueueChangeTest, DropsOfAReplacedQueueStayCounted) {
   }
 }
 
+// Nobody reads while the queue is replaced many times: the values that wait do not pile up.
+TEST_F(QueueChangeTest, ChangesDoNotMakeMoreValuesWaitThanThereIsRoomFor) {
+  for (const OnFull on_full : {OnFull::kDropOldest, OnFull::kDropNewest, OnFull::kRefuse}) {
+    const std::string name = std::to_string(static_cast<int>(on_full));
+    auto& sender = MakeSender<Scan>("sender" + name);
+    auto& other = MakeSender<Scan>("other" + name);
+    auto& receiver = MakeReceiver<Scan>("receiver" + name);
+    Connect(sender.out, receiver.in, {.queue = 3, .on_full = on_full});
+    std::uint64_t published = 0;
+    for (std::size_t i = 0; i < 50; ++i) {
+      Connect(other.out, receiver.in, {.queue = 4 + i % 2, .on_full = on_full});
+      for (int k = 0; k < 3; ++k, ++published) sender.out.Publish(Scan{{}, k});
+      ASSERT_TRUE(Port::Disconnect(other.out, receiver.in));
+      for (int k = 0; k < 3; ++k, ++published) sender.out.Publish(Scan{{}, k});
+    }
+    EXPECT_LE(receiver.in.replaced_queues(), 5u);
+    const std::uint64_t taken = TakeAll(receiver.in).size();
+    EXPECT_GE(taken, 3u);
+    EXPECT_LE(taken, 8u);
+    EXPECT_EQ(taken + receiver.in.dropped(), published);
+    // The room is there again once they have been taken.
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(sender.out.Publish(Scan{}), PublishStatus::kPublished);
+    EXPECT_EQ(TakeAll(receiver.in).size(), 3u);
+  }
+}
+
 // One source stays; a second comes and goes, which replaces the queue each time.
 template <typename T, typename Make, typename NumberOf>
 void NothingIsLostOrOvertaken(Runtime& runtime, const Make& make, const NumberOf& number_of) {
