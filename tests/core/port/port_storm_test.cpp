@@ -106,6 +106,7 @@ class Storm {
           return LetPortsComeAndGo();
       }
     });
+    TakeAllThatCannotBeRefused();
     EXPECT_EQ(broken_, 0) << "values that are not whole";
     EXPECT_EQ(backward_, 0) << "a reader saw an older value after a newer one";
     EXPECT_EQ(missing_, 0) << "values missing from a queue that refuses, or there twice";
