@@ -80,6 +80,12 @@ class BoundedQueue {
   /// there is none. `use` must not throw; until it ends, the cell is not free.
   template <typename Use>
   [[nodiscard]] bool TryConsume(Use&& use) noexcept {
+    return TryConsumeIf([] { return true; }, std::forward<Use>(use));
+  }
+  /// The same, but asks `may()` first, when the oldest value has been seen: what its writer had done
+  /// before is visible then. If not, the value stays and false is returned.
+  template <typename May, typename Use>
+  [[nodiscard]] bool TryConsumeIf(May&& may, Use&& use) noexcept {
     std::uint64_t position = head_.load(std::memory_order_relaxed);
     for (;;) {
       Cell& cell = cells_[position % capacity_];
@@ -87,6 +93,8 @@ class BoundedQueue {
       // acquire: pairs with the release in TryEmplace().
       const std::uint64_t turn = cell.turn.load(std::memory_order_acquire);
       if (turn == full_turn) {
+        if (!may()) return false;
+        // Fails if another reader took the value meanwhile; the next one needs an answer of its own.
         if (head_.compare_exchange_weak(position, position + 1, std::memory_order_relaxed,
                                         std::memory_order_relaxed)) {
           use(cell.value);

@@ -55,7 +55,8 @@ class BufferPool {
   };
   using Owner = std::unique_ptr<BufferPool, Closer>;
 
-  /// Makes a pool whose buffers `factory` fills first; without one, T is default-constructed.
+  /// Makes a pool whose buffers `factory` fills first; without one, T is default-constructed. It is
+  /// called by whoever makes buffers, Loan() and Reserve(), and so perhaps by two threads at once.
   /// `domain` has the records of all who may read, and outlives the pool.
   static Owner Make(const Domain& domain, const PoolOptions& options, Factory factory) {
     std::unique_ptr<BufferPool> pool(new BufferPool(domain, options, std::move(factory)));
@@ -141,7 +142,12 @@ class BufferPool {
     // relaxed: a count. Each list has room for all buffers counted before, in whatever order the
     // chunks arrive.
     chunk->room = capacity_.fetch_add(size, std::memory_order_relaxed) + size;
-    chunk->lists.reset(new Buffer*[2 * std::size_t{chunk->room}]);
+    try {
+      chunk->lists.reset(new Buffer*[2 * std::size_t{chunk->room}]);
+    } catch (...) {  // those made meanwhile have room for too many, which is no harm
+      capacity_.fetch_sub(size, std::memory_order_relaxed);
+      throw;
+    }
     return chunk;
   }
   void Add(std::unique_ptr<Chunk> chunk) noexcept {

@@ -1,5 +1,9 @@
 #include "core/lockfree/thread_record.h"
 
+#include <optional>
+
+#include <pthread.h>
+
 namespace runnel {
 
 namespace internal {
@@ -15,14 +19,23 @@ namespace {
 constinit std::atomic<ThreadRecord*> all_records{nullptr};
 
 // Gives the record of a thread that ends to the next thread that starts.
-struct Registration {
-  ~Registration() {
-    if (internal::thread_record == &internal::no_record) return;
-    // release: pairs with the acquire in TakeRecord(); the thread's own notes are handed over.
-    internal::thread_record->taken.store(false, std::memory_order_release);
-    internal::thread_record = &internal::no_record;
-  }
-};
+void GiveBack(void* record) noexcept {
+  internal::thread_record = &internal::no_record;
+  // release: pairs with the acquire in TakeRecord(); the thread's own notes are handed over.
+  static_cast<ThreadRecord*>(record)->taken.store(false, std::memory_order_release);
+}
+
+// Has GiveBack() called when the calling thread ends. Not by a thread_local object: those of the
+// thread that are destroyed later may publish and read, and would take a record that nobody gives
+// back. A key's destructor comes after all of them, and again if a further one needs it.
+void GiveBackAtTheEnd(ThreadRecord* record) noexcept {
+  static const auto key = [] {
+    pthread_key_t made{};
+    return pthread_key_create(&made, GiveBack) == 0 ? std::optional(made) : std::nullopt;
+  }();
+  // Without a key, or memory for it, the record is not used again.
+  if (key) (void)pthread_setspecific(*key, record);
+}
 
 // Of a thread that has ended, or nullptr.
 ThreadRecord* TakeRecord() noexcept {
@@ -52,9 +65,10 @@ ThreadRecord* MakeRecord() {
 }  // namespace
 
 ThreadRecord& internal::RegisterThread() {
-  static thread_local Registration registration;
   ThreadRecord* const before = TakeRecord();
-  return *(thread_record = before != nullptr ? before : MakeRecord());
+  thread_record = before != nullptr ? before : MakeRecord();
+  GiveBackAtTheEnd(thread_record);
+  return *thread_record;
 }
 
 }  // namespace runnel

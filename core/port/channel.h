@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/base/check.h"
 #include "core/lockfree/asymmetric_fence.h"
 #include "core/lockfree/latest_buffer.h"
 #include "core/lockfree/latest_value.h"
@@ -93,6 +94,10 @@ class Channel final : public ChannelBase {
 
   PublishStatus Publish(Loan<T>&& loan, Time now) {
     if (!loan) return PublishStatus::kNoBuffer;
+    if constexpr (!kIsCheap<T>) {
+      RUNNEL_CHECK(&loan.slot_->pool() == storage_.pool.get(),
+                   "a loan can be published only by the output that gave it");
+    }
     if (pull_point_ != nullptr) [[unlikely]]
       return InTurn([&] { return PublishInTurn(std::move(loan), now); });
     return PublishInTurn(std::move(loan), now);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/lockfree/queue_succession.h"
 #include "core/port/arrival_event.h"
 #include "core/port/channel.h"
 #include "core/port/input_queue.h"
@@ -48,7 +49,8 @@ class InputBase : public Port {
     // relaxed: for viewers; readers are told by a new binding.
     return strategy_.load(std::memory_order_relaxed);
   }
-  /// Values lost because the queue was full, since the queue was made.
+  /// Values lost because the queue was full, since something was connected to the input first, or
+  /// first again. Where another connection has changed the queue meanwhile, its drops count on.
   [[nodiscard]] virtual std::uint64_t dropped() const noexcept = 0;
 
  protected:
@@ -118,10 +120,16 @@ class Input final : public InputBase {
   /// A copy of the newest value, or `otherwise` if there is none, without marking it as read: the
   /// quickest way to look. Any thread.
   [[nodiscard]] T Get(const T& otherwise) const noexcept requires(std::is_trivially_copyable_v<T>) {
-    T value;
-    if (!CopyNewest(value)) [[unlikely]]
-      value = otherwise;
-    return value;
+    if constexpr (std::is_default_constructible_v<T>) {
+      T value;
+      if (!CopyNewest(value)) [[unlikely]]
+        value = otherwise;
+      return value;
+    } else {
+      T value = otherwise;
+      (void)CopyNewest(value);
+      return value;
+    }
   }
   /// The same with T{} if there is none.
   [[nodiscard]] T Get() const noexcept
@@ -150,7 +158,13 @@ class Input final : public InputBase {
   [[nodiscard]] std::uint64_t dropped() const noexcept override {
     const EpochGuard guard;
     const Binding* binding = binding_.load(std::memory_order_acquire);
-    return binding != nullptr && binding->queue ? binding->queue->dropped() : 0;
+    return binding != nullptr ? binding->dropped() : 0;
+  }
+  /// How many queues that others have replaced still hold values, or may still get some. Any thread.
+  [[nodiscard]] std::size_t replaced_queues() const noexcept {
+    const EpochGuard guard;
+    const Binding* binding = binding_.load(std::memory_order_acquire);
+    return binding != nullptr ? binding->older_queues.size() : 0;
   }
   [[nodiscard]] std::uint64_t publications() const noexcept override {
     const EpochGuard guard;
@@ -206,14 +220,33 @@ class Input final : public InputBase {
     bool pulls = false;
     std::vector<std::shared_ptr<Link>> links;  // shared by the binding before and after a change
     std::shared_ptr<InputQueue<T>> queue;      // likewise
-    // Queues that a longer one has replaced: what waits in them comes first.
+    // Queues that another one has replaced: what waits in them comes first.
     std::vector<std::shared_ptr<InputQueue<T>>> older_queues;
+    std::vector<InputQueue<T>*> all_queues;  // these and then the present one; if there are any
+    std::uint64_t dropped_before = 0;        // by queues that are no longer among the older ones
 
     [[nodiscard]] bool Pop(internal::HeldValue<T>& held, std::uint64_t& source) const noexcept {
-      for (const auto& older : older_queues) {
-        if (older->Pop(held, source)) return true;
-      }
-      return queue && queue->Pop(held, source);
+      if (older_queues.empty()) [[likely]]
+        return queue && queue->Pop(held, source);
+      return PopFromAll(held, source);
+    }
+    [[gnu::noinline]] bool PopFromAll(internal::HeldValue<T>& held,
+                                      std::uint64_t& source) const noexcept {
+      const bool popped = PopInOrder(all_queues, [&](InputQueue<T>& each, const auto& may) {
+        return each.PopIf(may, held, source);
+      });
+      if (queue) queue->SetWaitingBefore(WaitingInOlder());
+      return popped;
+    }
+    [[nodiscard]] std::size_t WaitingInOlder() const noexcept {
+      std::size_t sum = 0;
+      for (const auto& older : older_queues) sum += older->size();
+      return sum;
+    }
+    [[nodiscard]] std::uint64_t dropped() const noexcept {
+      std::uint64_t sum = dropped_before + (queue ? queue->dropped() : 0);
+      for (const auto& older : older_queues) sum += older->dropped();
+      return sum;
     }
     [[nodiscard]] bool HasNext() const noexcept {
       for (const auto& older : older_queues) {
@@ -286,14 +319,27 @@ class Input final : public InputBase {
   }
   template <typename LinkPointer>
   static Lease<T> NewestOfSeveral(const Binding& binding, LinkPointer& newest) noexcept {
-    Lease<T> lease;
+    // Each group has an order of its own, and only their last ones are compared with each other:
+    // the two comparisons mixed are no order, and the outcome would depend on whom we ask first.
+    struct Last {
+      internal::HeldValue<T> held;
+      LinkPointer link = nullptr;
+    } numbered, others;
     for (const auto& link : binding.links) {
       auto candidate = link->channel->Read();
       if (!candidate.has_value()) continue;
-      if (newest != nullptr && !IsLater(candidate, *link, lease.held_, *newest)) continue;
-      lease.held_ = std::move(candidate);
-      newest = link.get();
+      Last& last = candidate.publication().order != 0 ? numbered : others;
+      if (last.link != nullptr && !IsLater(candidate, *link, last.held, *last.link)) continue;
+      last.held = std::move(candidate);
+      last.link = link.get();
     }
+    const bool other_is_later = others.link != nullptr &&
+                                (numbered.link == nullptr ||
+                                 IsLater(others.held, *others.link, numbered.held, *numbered.link));
+    Last& last = other_is_later ? others : numbered;
+    Lease<T> lease;
+    lease.held_ = std::move(last.held);
+    newest = last.link;
     return lease;
   }
   // By the common order of sources that share an input, which every reader sees alike. Values from
@@ -385,10 +431,29 @@ class Input final : public InputBase {
   }
   static void KeepWaitingValues(const Binding* before, Binding& next) {
     if (before == nullptr) return;
+    next.dropped_before = before->dropped_before;
     for (const auto& older : before->older_queues) {
-      if (older->size() > 0) next.older_queues.push_back(older);
+      // A publisher that found the queue before it was replaced may still put a value in. Its
+      // leaving comes before the look at the size.
+      const bool settled =
+          older->left_in_epoch != 0 && ProcessEpochs().HasPassed(older->left_in_epoch);
+      if (!settled || older->size() > 0) {
+        next.older_queues.push_back(older);
+      } else {
+        next.dropped_before += older->dropped();
+      }
     }
     if (before->queue && before->queue != next.queue) next.older_queues.push_back(before->queue);
+    if (next.older_queues.empty()) return;
+    for (const auto& older : next.older_queues) next.all_queues.push_back(older.get());
+    if (!next.queue) return;
+    next.all_queues.push_back(next.queue.get());
+    // However often queues change, no more than twice the room can wait.
+    for (const auto& older : next.older_queues) {
+      while (next.WaitingInOlder() > next.queue->room() && older->DropOldest()) {
+      }
+    }
+    next.queue->SetWaitingBefore(next.WaitingInOlder());
   }
   // A new connection delivers the last value at once. It is read after publishers have begun to
   // fill the queue, so that none is lost; one that is there twice for that reason, Take() leaves
@@ -397,7 +462,11 @@ class Input final : public InputBase {
     for (auto& each : replaced_) Retire([replaced = each.release()] { delete replaced; });
     replaced_.clear();
     const Binding* binding = binding_.load(std::memory_order_relaxed);
-    if (binding == nullptr || !binding->queue) return;
+    if (binding == nullptr) return;
+    for (const auto& older : binding->older_queues) {
+      if (older->left_in_epoch == 0) older->left_in_epoch = ProcessEpochs().Advance();
+    }
+    if (!binding->queue) return;
     const EpochGuard guard;
     for (Channel<T>* channel : fresh_) {
       auto held = channel->Read();

@@ -119,8 +119,15 @@ class InputQueue final : public QueueSink {
   /// Takes the oldest value out; false if there is none.
   [[nodiscard]] bool Pop(Entry& entry) noexcept { return Pop(entry.held, entry.source); }
   [[nodiscard]] bool Pop(internal::HeldValue<T>& held, std::uint64_t& source) noexcept {
-    if (stream_ != nullptr) return PopStream(held, source);
-    return shared_->TryConsume([&](Queued& oldest) {
+    return PopIf([] { return true; }, held, source);
+  }
+  /// The same, but asks `may()` when a value has been seen, and leaves it there if not. What the
+  /// value's publisher had pushed before it, into whatever queue, is visible to `may`.
+  template <typename May>
+  [[nodiscard]] bool PopIf(May&& may, internal::HeldValue<T>& held,
+                           std::uint64_t& source) noexcept {
+    if (stream_ != nullptr) return PopStream(may, held, source);
+    return shared_->TryConsumeIf(may, [&](Queued& oldest) {
       source = oldest.source;
       oldest.MoveTo(held);
     });
@@ -147,10 +154,35 @@ class InputQueue final : public QueueSink {
     return dropped_.load(std::memory_order_relaxed);
   }
 
+  /// Takes the oldest value out and counts it as dropped, if the queue drops the oldest. Any thread.
+  bool DropOldest() noexcept {
+    if (on_full_ != OnFull::kDropOldest || !shared_->TryConsume([](Queued&) {})) return false;
+    CountDropped();
+    return true;
+  }
+  /// How many values wait in queues that this one has replaced: they take their share of its room,
+  /// else much might wait after some changes. Told before publishers find the queue, then by the
+  /// reader.
+  void SetWaitingBefore(std::size_t count) noexcept {
+    // relaxed, both: a little more or less room for a moment does not matter.
+    if (waiting_before_.load(std::memory_order_relaxed) == count) return;
+    waiting_before_.store(count, std::memory_order_relaxed);
+  }
+
+  /// The epoch since which no publisher that enters finds the queue; 0 while they can. Under the
+  /// structure lock.
+  std::uint64_t left_in_epoch = 0;
+
  private:
   static constexpr int kAttempts = 16;
   template <typename... Parts>
   bool Emplace(Parts&&... parts) noexcept {
+    const std::size_t before = waiting_before_.load(std::memory_order_relaxed);
+    if (before > 0 && on_full_ != OnFull::kDropOldest && before + size() >= capacity_)
+        [[unlikely]] {
+      CountDropped();
+      return on_full_ != OnFull::kRefuse;
+    }
     if (stream_ != nullptr) {
       if (stream_->TryEmplace(std::forward<Parts>(parts)...)) [[likely]]
         return true;
@@ -178,9 +210,11 @@ class InputQueue final : public QueueSink {
   // relaxed: a statistic.
   void CountDropped() noexcept { dropped_.fetch_add(1, std::memory_order_relaxed); }
 
-  bool PopStream(internal::HeldValue<T>& held, std::uint64_t& source) noexcept {
+  template <typename May>
+  bool PopStream(May&& may, internal::HeldValue<T>& held, std::uint64_t& source) noexcept {
     // acquire: pairs with the release in PutFirst().
     if (first_waits_.load(std::memory_order_acquire)) [[unlikely]] {
+      if (!may()) return false;
       // relaxed: for size(), and for this reader.
       first_waits_.store(false, std::memory_order_relaxed);
       Entry first = std::exchange(first_, Entry{});
@@ -194,7 +228,7 @@ class InputQueue final : public QueueSink {
       }
     }
     Queued* const front = stream_->Front();
-    if (front == nullptr) return false;
+    if (front == nullptr || !may()) return false;
     source = front->source;
     front->MoveTo(held);
     stream_->PopFront();
@@ -206,6 +240,7 @@ class InputQueue final : public QueueSink {
   const Writers writers_;
   std::unique_ptr<Stream> stream_;  // one of the two, constant from the constructor on
   std::unique_ptr<Shared> shared_;
+  std::atomic<std::size_t> waiting_before_{0};
   std::atomic<bool> first_waits_{false};
   Entry first_;  // the connecting thread's, then the reader's
   alignas(kCacheLineSize) std::atomic<std::uint64_t> dropped_{0};

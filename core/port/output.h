@@ -60,6 +60,7 @@ class Output final : public Port {
     for (auto& loan : loans) fill(*loan);
   }
 
+  /// Errors: the loan of another output (but for cheap types) throws ProgrammingError.
   PublishStatus Publish(runnel::Loan<T>&& loan) {
     return channel_->Publish(std::move(loan), PublicationTime());
   }

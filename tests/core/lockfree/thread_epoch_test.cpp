@@ -59,16 +59,33 @@ TEST(EpochGuardTest, NeitherAllocatesNorLocksOnceTheThreadIsKnown) {
   EXPECT_EQ(locks.locks(), 0u);
 }
 
+int Participants() {
+  int participants = 0;
+  for (auto* each = ProcessEpochs().first(); each != nullptr; each = each->next) ++participants;
+  return participants;
+}
+
 TEST(EpochGuardTest, PlaceOfAThreadThatEndedIsUsedAgain) {
   std::thread([] { const EpochGuard guard; }).join();
-  const auto count = [] {
-    int participants = 0;
-    for (auto* each = ProcessEpochs().first(); each != nullptr; each = each->next) ++participants;
-    return participants;
-  };
-  const int before = count();
+  const int before = Participants();
   for (int i = 0; i < 10; ++i) std::thread([] { const EpochGuard guard; }).join();
-  EXPECT_EQ(count(), before);
+  EXPECT_EQ(Participants(), before);
+}
+
+// Objects of the thread that are older than its first guard are destroyed after all others.
+TEST(EpochGuardTest, PlaceIsUsedAgainAlsoIfAnObjectOfTheThreadReadsWhileTheThreadEnds) {
+  struct ReadsAtTheEnd {
+    ~ReadsAtTheEnd() { const EpochGuard guard; }
+  };
+  const auto body = [] {
+    thread_local ReadsAtTheEnd object;
+    (void)&object;
+    const EpochGuard guard;
+  };
+  std::thread(body).join();
+  const int before = Participants();
+  for (int i = 0; i < 10; ++i) std::thread(body).join();
+  EXPECT_EQ(Participants(), before);
 }
 
 TEST(RetireTest, DestroysAtOnceWhenNobodyReads) {

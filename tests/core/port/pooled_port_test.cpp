@@ -138,6 +138,20 @@ TEST_F(PooledPortTest, LoanOutlivesTheOutput) {
   EXPECT_EQ(loan->number, 3);
 }
 
+// Its own output would give the buffer away again while the other's readers look at it.
+TEST_F(PooledPortTest, LoanOfAnotherOutputIsAProgrammingErrorAndChangesNothing) {
+  auto& a = MakeSender<Scan>("a");
+  auto& b = MakeSender<Scan>("b");
+  auto& receiver = MakeReceiver<Scan>();
+  Connect(b.out, receiver.in);
+  auto loan = a.out.Loan();
+  EXPECT_THROW((void)b.out.Publish(std::move(loan)), ProgrammingError);
+  EXPECT_FALSE(receiver.in.Read());
+  EXPECT_EQ(a.out.Publish(std::move(loan)), PublishStatus::kPublished);
+  EXPECT_EQ(a.out.publications(), 1u);
+  EXPECT_EQ(b.out.publications(), 0u);
+}
+
 TEST_F(PooledPortTest, LoanThatIsDroppedGoesBackUnpublished) {
   auto& sender = MakeSender<Scan>("sender", {.pool = {.buffers = 2, .may_grow = false}});
   for (int i = 0; i < 10; ++i) ASSERT_TRUE(sender.out.Loan());

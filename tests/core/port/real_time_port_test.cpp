@@ -1,3 +1,6 @@
+#include <array>
+#include <utility>
+
 #include "tests/core/port/port_fixture.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/lock_probe.h"
@@ -90,6 +93,81 @@ TEST_F(RealTimePortTest, TypesInBuffersNeitherAllocateNorLockNorCallTheSystem) {
   EXPECT_EQ(sender.out.growths(), 0u);
   EXPECT_EQ(kept->ranges.size(), 4u);
   latest.in.SetWaker(nullptr);
+}
+
+// In buffers, but copied in queues; one source each, so also the queue for one writer.
+struct Wrench {
+  std::array<double, 16> values{};
+};
+void Describe(TypeBuilder<Wrench>& type) { type.Name("test::Wrench"); }
+
+TEST_F(RealTimePortTest, TypesInBuffersThatQueuesCopyNeitherAllocateNorLockNorCallTheSystem) {
+  auto& sender = MakeSender<Wrench>();
+  auto& latest = MakeReceiver<Wrench>("latest");
+  auto& refusing = MakeReceiver<Wrench>("refusing");
+  auto& dropping = MakeReceiver<Wrench>("dropping");
+  Connect(sender.out, latest.in);
+  Connect(sender.out, refusing.in, {.queue = 3, .on_full = OnFull::kRefuse});
+  Connect(sender.out, dropping.in, {.queue = 2, .on_full = OnFull::kDropOldest});
+  const Wrench model{{1, 2, 3}};
+  double sum = 0;
+  ExpectNothingOfTheSystem([&] {
+    for (int i = 0; i < 5; ++i) (void)sender.out.Publish(model);
+    auto loan = sender.out.Loan();
+    *loan = model;
+    (void)sender.out.Publish(std::move(loan));
+    sum += latest.in.Get(Wrench{}).values[0] + latest.in.Read()->values[0];
+    const Lease<Wrench> taken = refusing.in.Take();
+    const Lease<Wrench> copy = taken;
+    sum += copy->values[0];
+    refusing.in.Drain([](const Lease<Wrench>&) {});
+    dropping.in.Drain([](const Lease<Wrench>&) {});
+  });
+  EXPECT_EQ(sum, 250 * 3.0);
+  EXPECT_EQ(sender.out.growths(), 0u);
+}
+
+// More than the thread has slots, so that some are counted; copied, moved, and outside of a guard.
+TEST_F(RealTimePortTest, CopiesOfLeasesAndGetNeitherAllocateNorLockNorCallTheSystem) {
+  auto& large = MakeSender<Scan>("large");
+  auto& small = MakeSender<double>("small");
+  auto& scans = MakeReceiver<Scan>("scans");
+  auto& numbers = MakeReceiver<double>("numbers");
+  Connect(large.out, scans.in);
+  Connect(small.out, numbers.in);
+  large.out.Publish(Scan{{1, 2, 3}, 1});
+  small.out.Publish(4.0);
+  double sum = 0;
+  ExpectNothingOfTheSystem([&] {
+    std::array<Lease<Scan>, 12> leases;
+    for (auto& lease : leases) lease = scans.in.Peek();
+    const Lease<Scan> copy = leases[0];
+    const Lease<Scan> moved = std::move(leases[11]);
+    sum += numbers.in.Get() + numbers.in.Get(0.0) + copy->ranges[0] + moved->ranges[0];
+    const EpochGuard guard;  // as the executor holds one for the whole cycle
+    sum += *numbers.in.Read() + numbers.in.Get();
+    leases[1] = scans.in.Read();
+    { const auto unpublished = large.out.Loan(); }
+  });
+  EXPECT_EQ(sum, 250 * (4.0 + 4.0 + 1.0 + 1.0 + 4.0 + 4.0));
+}
+
+// Whoever takes goes through the replaced queue and the new one.
+TEST_F(RealTimePortTest, TakingFromReplacedQueuesNeitherAllocatesNorLocksNorCallsTheSystem) {
+  auto& sender = MakeSender<Scan>();
+  auto& other = MakeSender<Scan>("other");
+  auto& receiver = MakeReceiver<Scan>();
+  Connect(sender.out, receiver.in, {.queue = 3, .on_full = OnFull::kRefuse});
+  Connect(other.out, receiver.in, {.queue = 4, .on_full = OnFull::kRefuse});
+  ASSERT_EQ(receiver.in.replaced_queues(), 1u);
+  const Scan model{{1, 2, 3, 4}, 1};
+  std::size_t taken = 0;
+  ExpectNothingOfTheSystem([&] {
+    (void)sender.out.Publish(model);
+    (void)other.out.Publish(model);
+    taken += receiver.in.Drain([](const Lease<Scan>&) {});
+  });
+  EXPECT_EQ(taken, 500u);
 }
 
 TEST_F(RealTimePortTest, ExhaustedFixedPoolDoesNotAllocateEither) {

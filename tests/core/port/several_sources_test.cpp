@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <set>
+
+#include "core/port/cycle.h"
 #include "tests/core/port/port_fixture.h"
 
 namespace runnel::test {
@@ -96,6 +100,36 @@ TEST_F(SeveralSourcesTest, NumberedValueThatIsOlderDoesNotHideAYoungerOneWithout
   Connect(shared.out, receiver.in);
   Connect(alone.out, receiver.in);
   EXPECT_EQ(*receiver.in.Read(), 2);
+}
+
+// c is numbered after a, though of an earlier time; b, not numbered, lies between them in time. In
+// whatever order the inputs were connected, they must agree.
+TEST_F(SeveralSourcesTest, AllInputsAgreeWhateverTheOrderOfConnecting) {
+  auto& a = MakeSender<int>("a");
+  auto& b = MakeSender<int>("b");
+  auto& c = MakeSender<int>("c");
+  auto& shared = MakeReceiver<int>("shared");
+  Connect(a.out, shared.in);
+  Connect(c.out, shared.in);
+  const auto publish = [](Sender<int>& sender, int value, int time) {
+    const CycleScope cycle({.now = Time(Duration(time))});
+    sender.out.Publish(value);
+  };
+  publish(a, 1, 30);
+  publish(c, 3, 10);
+  publish(b, 2, 20);
+  std::vector<Sender<int>*> sources{&a, &b, &c};
+  std::ranges::sort(sources);
+  std::set<int> seen;
+  int number = 0;
+  do {
+    auto& receiver = MakeReceiver<int>("receiver" + std::to_string(++number));
+    for (auto* source : sources) Connect(source->out, receiver.in);
+    seen.insert(*receiver.in.Read());
+    EXPECT_EQ(receiver.in.Get(), *receiver.in.Peek());
+  } while (std::ranges::next_permutation(sources).found);
+  EXPECT_EQ(number, 6);
+  EXPECT_EQ(seen.size(), 1u);
 }
 
 TEST_F(SeveralSourcesTest, SourceThatComesBackDoesNotBringAnOldValueBack) {
