@@ -7,11 +7,11 @@
 namespace runnel::test {
 
 // Few slots and records, so that each way of holding comes up in short schedules.
-template <typename T, std::size_t kReaders>
+template <typename T, std::size_t kReaders, std::size_t kSlots = 1>
 struct Rig {
-  using Domain = HazardDomain<SearchedAtomic, 1>;
-  using Pool = BufferPool<T, SearchedAtomic, 1>;
-  using Lease = BufferLease<T, SearchedAtomic, 1>;
+  using Domain = HazardDomain<SearchedAtomic, kSlots>;
+  using Pool = BufferPool<T, SearchedAtomic, kSlots>;
+  using Lease = BufferLease<T, SearchedAtomic, kSlots>;
 
   explicit Rig(const PoolOptions& options) : pool(Pool::Make(domain, options, {})), latest(*pool) {
     for (auto& each : readers) domain.Add(each);
@@ -28,7 +28,7 @@ struct Rig {
   Domain domain;
   typename Domain::Record readers[kReaders];
   typename Pool::Owner pool;
-  LatestBuffer<T, SearchedAtomic, 1> latest;
+  LatestBuffer<T, SearchedAtomic, kSlots> latest;
 };
 
 // The value may be looked at, and does not change. A buffer that is written while it is held is a

@@ -97,23 +97,76 @@ TEST(BufferSearch, LeaseMayBeDroppedByAnotherThread) {
   EXPECT_TRUE(Search<HandingOnSuite>(kIterations));
 }
 
+// Another thread empties a slot, which is then filled anew: a publisher that sees only the latter
+// has the other's look behind it.
+struct RefillingSuite : rl::test_suite<RefillingSuite, 3>, Rig<SearchedPlain, 1> {
+  RefillingSuite() : Rig({.buffers = 2, .may_grow = false}) {}
+  Lease handed;
+
+  void before() {
+    Publish(1);
+    handed = latest.Lease(readers[0]);
+    Publish(2);
+  }
+  void thread(unsigned index) {
+    if (index == 0) {
+      LookAt(handed);
+      handed = {};
+    } else if (index == 1) {
+      LookAt(latest.Lease(readers[0]));
+    } else {
+      Publish(3);
+    }
+  }
+};
+
+TEST(BufferSearch, SlotThatIsFilledAnewSaysThatTheOldBufferIsFree) {
+  EXPECT_TRUE(Search<RefillingSuite>(5 * kIterations));
+}
+
+// The buffers that a counted lease meets are made while it looks.
+struct GrowingSuite : rl::test_suite<GrowingSuite, 2>, Rig<SearchedPlain, 1> {
+  GrowingSuite() : Rig({.buffers = 1, .may_grow = true}) {}
+  Lease in_slot;
+
+  void before() {
+    Publish(1);
+    in_slot = latest.Lease(readers[0]);
+  }
+  void thread(unsigned index) {
+    if (index == 1) return Publish(2);
+    LookAt(latest.Lease(readers[0]));
+  }
+  void after() { in_slot = {}; }
+};
+
+TEST(BufferSearch, BuffersThatAreNewAreCompleteForWhoCounts) {
+  EXPECT_TRUE(Search<GrowingSuite>(kIterations));
+}
+
 // A record is added while the publisher looks for free buffers.
-struct AddingSuite : rl::test_suite<AddingSuite, 2>, Rig<SearchedPlain, 1> {
-  AddingSuite() : Rig({.buffers = 2, .may_grow = false}) {}
-  std::optional<Domain::Record> late;  // made here, so that it may be met incomplete
+// With nine before it, it has no bit of its own.
+template <std::size_t kBefore>
+struct AddingSuite : rl::test_suite<AddingSuite<kBefore>, 2>, Rig<SearchedPlain, kBefore> {
+  using Base = Rig<SearchedPlain, kBefore>;
+  AddingSuite() : Base({.buffers = 2, .may_grow = false}) {}
+  std::optional<typename Base::Domain::Record> late;  // made here, so that it may be met incomplete
 
   void thread(unsigned index) {
     if (index == 1) {
-      for (int i = 1; i <= 4; ++i) Publish(i);
+      for (int i = 1; i <= 4; ++i) this->Publish(i);
       return;
     }
-    domain.Add(late.emplace());
-    const Lease lease = latest.Lease(*late);
+    this->domain.Add(late.emplace());
+    const auto lease = this->latest.Lease(*late);
     if (lease.get() != nullptr) LookAt(lease);
   }
 };
 
-TEST(BufferSearch, ThreadThatIsNewIsSeen) { EXPECT_TRUE(Search<AddingSuite>(kIterations)); }
+TEST(BufferSearch, ThreadThatIsNewIsSeen) {
+  EXPECT_TRUE(Search<AddingSuite<1>>(kIterations));
+  EXPECT_TRUE(Search<AddingSuite<9>>(kIterations));
+}
 
 }  // namespace
 }  // namespace runnel::test

@@ -84,38 +84,53 @@ inline rl::memory_order SearchedFailure(std::memory_order ok, std::memory_order 
   return acquires ? Searched(fail) : rl::mo_relaxed;
 }
 
-/// Stands in for std::atomic in the structures under test.
+/// Stands in for std::atomic in the structures under test. Its making and its end are no atomic
+/// operations: the search reports one that is not ordered with every use.
 template <typename T>
 class SearchedAtomic {
  public:
   SearchedAtomic() : SearchedAtomic(T{}) {}
-  SearchedAtomic(T value) { atomic_.store(value, rl::mo_relaxed, $); }
+  SearchedAtomic(T value) {
+    life_($) = 1;
+    atomic_.store(value, rl::mo_relaxed, $);
+  }
+  ~SearchedAtomic() { life_($) = 0; }
 
-  T load(std::memory_order order) const { return atomic_.load(Searched(order), $); }
-  void store(T value, std::memory_order order) { atomic_.store(value, Searched(order), $); }
+  T load(std::memory_order order) const { return Living().load(Searched(order), $); }
+  void store(T value, std::memory_order order) { Living().store(value, Searched(order), $); }
   T exchange(T value, std::memory_order order) {
-    return atomic_.rmw(rl::rmw_type_t<rl::rmw_type_swap>(), value, Searched(order), $);
+    return Living().rmw(rl::rmw_type_t<rl::rmw_type_swap>(), value, Searched(order), $);
   }
   T fetch_add(T value, std::memory_order order) {
-    return atomic_.rmw(rl::rmw_type_t<rl::rmw_type_add>(), value, Searched(order), $);
+    return Living().rmw(rl::rmw_type_t<rl::rmw_type_add>(), value, Searched(order), $);
   }
   T fetch_sub(T value, std::memory_order order) {
-    return atomic_.rmw(rl::rmw_type_t<rl::rmw_type_sub>(), value, Searched(order), $);
+    return Living().rmw(rl::rmw_type_t<rl::rmw_type_sub>(), value, Searched(order), $);
   }
   T fetch_or(T value, std::memory_order order) {
-    return atomic_.rmw(rl::rmw_type_t<rl::rmw_type_or>(), value, Searched(order), $);
+    return Living().rmw(rl::rmw_type_t<rl::rmw_type_or>(), value, Searched(order), $);
   }
   bool compare_exchange_weak(T& expected, T desired, std::memory_order ok, std::memory_order fail) {
-    return atomic_.compare_exchange(rl::bool_t<true>(), expected, desired, Searched(ok),
-                                    SearchedFailure(ok, fail), $);
+    return Living().compare_exchange(rl::bool_t<true>(), expected, desired, Searched(ok),
+                                     SearchedFailure(ok, fail), $);
   }
   bool compare_exchange_strong(T& expected, T desired, std::memory_order ok,
                                std::memory_order fail) {
-    return atomic_.compare_exchange(rl::bool_t<false>(), expected, desired, Searched(ok),
-                                    SearchedFailure(ok, fail), $);
+    return Living().compare_exchange(rl::bool_t<false>(), expected, desired, Searched(ok),
+                                     SearchedFailure(ok, fail), $);
   }
 
  private:
+  const rl::atomic<T>& Living() const {
+    (void)static_cast<int>(life_($));
+    return atomic_;
+  }
+  rl::atomic<T>& Living() {
+    (void)static_cast<int>(life_($));
+    return atomic_;
+  }
+
+  mutable rl::var<int> life_;
   rl::atomic<T> atomic_;
 };
 
