@@ -69,7 +69,8 @@ class BufferPool {
   }
 
   /// A free buffer, or nullptr if there is none and none may be made. `newest` is the one that has
-  /// been published last, or nullptr; `readers` loads the bits of the records that may hold others.
+  /// been published last, or nullptr; `readers` returns the bits of the records that may hold others,
+  /// after a fence that orders looking at them after publishing (LatestBuffer).
   template <typename Readers>
   [[nodiscard]] Buffer* Loan(const Buffer* newest, Readers&& readers) {
     if (free_count_ == 0 || (kPrefersWarmBuffers && other_count_ <= kFewBuffers)) [[unlikely]] {
@@ -193,10 +194,6 @@ class BufferPool {
   // Moves from the other buffers to the free ones those that nobody holds.
   template <typename Readers>
   void FindFree(const Buffer* newest, Readers&& readers) noexcept {
-    // Between publishing and looking who reads; pairs with the fence of readers between their slot
-    // and their second look at the newest buffer (LatestBuffer::Lease()): a reader whose slot is not
-    // seen here sees that its buffer is no longer the newest.
-    Fences<Atomic>::Full();
     ++search_;
     domain_.ForEach(readers(), [this](const Record& record) {
       for (const auto& slot : record.slots) {

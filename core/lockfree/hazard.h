@@ -42,6 +42,7 @@ struct alignas(kCacheLineSize) HazardRecord {
 
   std::array<Slot, kSlots> slots{};
   std::uint64_t bit = 0;         ///< names the record in HazardDomain; constant once it is added
+  std::uint64_t own_bit = 0;     ///< the same, or 0 if others share the bit
   HazardRecord* next = nullptr;  ///< constant once added
 };
 
@@ -59,7 +60,7 @@ class HazardDomain {
     // relaxed: the number only has to be another one for each.
     const std::uint64_t number = added_.fetch_add(1, std::memory_order_relaxed);
     if (number < kOwnBits) {
-      record.bit = std::uint64_t{1} << number;
+      record.bit = record.own_bit = std::uint64_t{1} << number;
       // release: pairs with the acquire in ForEach(); the record is complete.
       records_[number].store(&record, std::memory_order_release);
       return;

@@ -27,13 +27,10 @@ class LatestBuffer {
 
   explicit LatestBuffer(Pool& pool) : pool_(pool) {}
 
-  /// A buffer to fill, see BufferPool::Loan().
-  [[nodiscard]] Buffer* Loan() {
-    // Both relaxed: the newest is the caller's own note; for the readers, the fence that comes
-    // before stands between this and publishing, as for their slots.
-    return pool_.Loan(newest_.load(std::memory_order_relaxed),
-                      [this] { return readers_.load(std::memory_order_relaxed); });
-  }
+  /// A buffer to fill, see BufferPool::Loan(). Who passes the calling thread's record is spared the
+  /// fence that its own slots do not need.
+  [[nodiscard]] Buffer* Loan() { return LoanBut(0); }
+  [[nodiscard]] Buffer* Loan(const Record& publisher) { return LoanBut(publisher.own_bit); }
   /// Makes a loaned buffer the newest one.
   void Publish(Buffer& buffer) noexcept {
     buffer.EndLoan();
@@ -48,10 +45,9 @@ class LatestBuffer {
     // buffer is visible.
     Buffer* buffer = newest_.load(std::memory_order_acquire);
     if (buffer == nullptr) return {};
-    // relaxed, both: as for the slot, the fence below is what counts.
-    if ((readers_.load(std::memory_order_relaxed) & record.bit) == 0) [[unlikely]] {
-      readers_.fetch_or(record.bit, std::memory_order_relaxed);
-    }
+    // relaxed: the thread has set it itself, or the fence below is what counts.
+    if ((readers_.load(std::memory_order_relaxed) & record.bit) == 0) [[unlikely]]
+      Register(record);
     auto* const slot = record.FindFreeSlot();
     if (slot == nullptr) [[unlikely]]
       return LeaseCounted(buffer);
@@ -70,6 +66,29 @@ class LatestBuffer {
   }
 
  private:
+  [[nodiscard]] Buffer* LoanBut(std::uint64_t own_bit) {
+    // relaxed: the newest is the caller's own note.
+    return pool_.Loan(newest_.load(std::memory_order_relaxed),
+                      [this, own_bit] { return ReadersBut(own_bit); });
+  }
+  // Whose slots have to be looked at, after a fence if there are others than the caller's own.
+  [[nodiscard]] std::uint64_t ReadersBut(std::uint64_t own_bit) const noexcept {
+    // Between publishing and looking who reads; pairs with the heavy fence in Register().
+    Fences<Atomic>::Light();
+    // relaxed: the fences order.
+    const std::uint64_t readers = readers_.load(std::memory_order_relaxed);
+    if ((readers & ~own_bit) == 0) return readers;
+    // Between publishing and looking at slots and counts; pairs with the fence in Lease(): a reader
+    // whose slot is not seen now sees that its buffer is no longer the newest.
+    Fences<Atomic>::Full();
+    return readers_.load(std::memory_order_relaxed);
+  }
+  // Once for each thread that reads here. Whoever publishes and does not see the bit has published
+  // before the fence, and the second look of the reader sees it.
+  [[gnu::noinline]] void Register(const Record& record) noexcept {
+    readers_.fetch_or(record.bit, std::memory_order_relaxed);
+    Fences<Atomic>::Heavy();
+  }
   // For a thread that holds as many leases as it has slots. The buffer that is counted may have
   // been reused meanwhile; then it is not the newest, and the count is taken back unused.
   [[gnu::noinline]] BufferLease LeaseCounted(Buffer* buffer) noexcept {

@@ -58,13 +58,8 @@ class StreamQueue {
   template <typename... Parts>
   [[nodiscard]] bool TryEmplace(Parts&&... parts) noexcept {
     static_assert(std::is_nothrow_constructible_v<T, Parts&&...>);
-    // relaxed: the writer's own.
+    if (!HasRoom()) return false;
     const std::uint64_t position = tail_.load(std::memory_order_relaxed);
-    if (position - seen_head_ == capacity_) {
-      // acquire: pairs with the release in PopFront(): the reader is done with the cells before.
-      seen_head_ = head_.load(std::memory_order_acquire);
-      if (position - seen_head_ == capacity_) return false;
-    }
     const std::size_t index = write_index_;
     Cell& cell = cells_[index];
     std::construct_at(&cell.value, std::forward<Parts>(parts)...);
@@ -74,6 +69,16 @@ class StreamQueue {
     tail_.store(position + 1, std::memory_order_relaxed);
     write_index_ = Next(index);
     return true;
+  }
+
+  /// Whether the next value will find room. For the writer, whom nobody else can take it from.
+  [[nodiscard]] bool HasRoom() noexcept {
+    // relaxed: the writer's own.
+    const std::uint64_t position = tail_.load(std::memory_order_relaxed);
+    if (position - seen_head_ < capacity_) return true;
+    // acquire: pairs with the release in PopFront(): the reader is done with the cells before.
+    seen_head_ = head_.load(std::memory_order_acquire);
+    return position - seen_head_ < capacity_;
   }
 
   /// The oldest value, which stays where it is until PopFront(); nullptr if there is none. The

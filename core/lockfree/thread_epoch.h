@@ -21,8 +21,7 @@ class EpochGuard {
 
   /// True if the calling thread holds a guard.
   [[nodiscard]] static bool HeldByThisThread() noexcept {
-    const ThreadRecord* const record = internal::thread_record;
-    return record != nullptr && record->epoch.depth > 0;
+    return internal::thread_record->epoch.depth > 0;
   }
 
   /// By which others can tell what the calling thread has left; registers the thread, if this is

@@ -3,7 +3,8 @@
 namespace runnel {
 
 namespace internal {
-thread_local constinit ThreadRecord* thread_record = nullptr;
+constinit ThreadRecord no_record;
+thread_local constinit ThreadRecord* thread_record = &no_record;
 constinit EpochDomain<> process_epochs;
 constinit HazardDomain<> process_hazards;
 }  // namespace internal
@@ -16,10 +17,10 @@ constinit std::atomic<ThreadRecord*> all_records{nullptr};
 // Gives the record of a thread that ends to the next thread that starts.
 struct Registration {
   ~Registration() {
-    if (internal::thread_record == nullptr) return;
+    if (internal::thread_record == &internal::no_record) return;
     // release: pairs with the acquire in TakeRecord(); the thread's own notes are handed over.
     internal::thread_record->taken.store(false, std::memory_order_release);
-    internal::thread_record = nullptr;
+    internal::thread_record = &internal::no_record;
   }
 };
 

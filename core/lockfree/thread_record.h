@@ -23,6 +23,9 @@ struct ThreadRecord {
 namespace internal {
 extern constinit EpochDomain<> process_epochs;
 extern constinit HazardDomain<> process_hazards;
+// What a thread has before its first look at a port: nobody's record, in which nothing is ever
+// changed, so that "is this thread inside a guard?" needs no look at whether it has a record.
+extern constinit ThreadRecord no_record;
 // initial-exec: one load instead of a call, also from plugins; the variable lives in the core,
 // which is there from the start of the program.
 extern thread_local constinit ThreadRecord* thread_record
@@ -37,7 +40,7 @@ ThreadRecord& RegisterThread();
 /// The calling thread's record. Allocation: the first call of a thread may allocate.
 [[nodiscard]] inline ThreadRecord& ThisThread() {
   ThreadRecord* const record = internal::thread_record;
-  return record != nullptr ? *record : internal::RegisterThread();
+  return record != &internal::no_record ? *record : internal::RegisterThread();
 }
 
 }  // namespace runnel

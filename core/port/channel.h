@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -81,7 +82,7 @@ class Channel final : public ChannelBase {
                     "Loan() of a small type starts with T{}; publish a ready T instead");
       return Loan<T>(T{});
     } else {
-      return Loan<T>(storage_.newest.Loan());
+      return Loan<T>(storage_.newest.Loan(ThisThread().hazards));
     }
   }
 
@@ -105,20 +106,29 @@ class Channel final : public ChannelBase {
     return Distribute(value, {stamp, storage_.sequence(), order}, nullptr);
   }
 
-  /// The newest value, or none. Call inside an EpochGuard if the channel may be going away.
+  /// Whether a queue that refuses is full.
+  [[nodiscard]] bool WouldRefuse() const noexcept {
+    if (subscribers() == nullptr) return false;
+    return Guarded([this] {
+      const Subscribers* list = subscribers();
+      return list != nullptr && std::ranges::any_of(list->queues, &QueueSink::WouldRefuse);
+    });
+  }
+
+  /// The newest value, or none. Call inside an EpochGuard.
   [[nodiscard, gnu::always_inline]] internal::HeldValue<T> Read() noexcept {
     if constexpr (kIsCheap<T>) {
       return internal::HeldValue<T>(storage_);
     } else {
-      return internal::HeldValue<T>(storage_.newest, ThisThread().hazards);
+      return internal::HeldValue<T>(storage_.newest, internal::thread_record->hazards);
     }
   }
-  /// Copies the newest value to `value`; false if there is none. Guard: as for Read().
+  /// Copies the newest value to `value`; false if there is none. Call inside an EpochGuard.
   [[gnu::always_inline]] bool Copy(T& value) noexcept requires(std::is_trivially_copyable_v<T>) {
     if constexpr (kIsCheap<T>) {
       return storage_.Read(value);
     } else {
-      const auto lease = storage_.newest.Lease(ThisThread().hazards);
+      const auto lease = storage_.newest.Lease(internal::thread_record->hazards);
       if (lease.get() == nullptr) return false;
       value = std::as_const(*lease.get()).value();
       return true;

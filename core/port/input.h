@@ -78,7 +78,7 @@ class Input final : public InputBase {
     const EpochGuard guard;
     const Link* link = nullptr;
     Lease<T> lease = Newest(link);
-    if (lease && link->read.load_relaxed() == lease.sequence()) lease.freshness_ = Freshness::kOld;
+    if (lease) lease.last_ = link->read.load_relaxed();
     return lease;
   }
   /// A copy of the newest value, or `otherwise` if there is none, without marking it as read: the
@@ -151,12 +151,9 @@ class Input final : public InputBase {
   struct Link {
     explicit Link(Channel<T>* source) : channel(source), number(source->number()) {}
 
-    // Marks the value as read, and tells the lease how it stands to the one before.
-    [[gnu::always_inline]] void Note(Lease<T>& lease) noexcept {
-      const std::uint64_t sequence = lease.held_.publication().sequence;
-      const std::uint64_t last = read.exchange_relaxed(sequence);
-      lease.freshness_ = sequence != last ? Freshness::kNew : Freshness::kOld;
-      lease.missed_ = last == 0 || sequence <= last ? 0 : sequence - last - 1;
+    // Marks a value as read; returns which was before.
+    [[gnu::always_inline]] std::uint64_t Note(std::uint64_t sequence) noexcept {
+      return read.exchange_relaxed(sequence);
     }
 
     Channel<T>* const channel;
@@ -165,7 +162,7 @@ class Input final : public InputBase {
     std::uint64_t taken = 0;     // sequence of the value taken last; the reader's own
   };
   struct NotNoted {
-    void Note(const Lease<T>&) noexcept {}
+    static std::uint64_t Note(std::uint64_t) noexcept { return 0; }
   };
   // What reading needs; never changed but for the reader's own notes, replaced as a whole.
   struct Binding {
@@ -226,7 +223,7 @@ class Input final : public InputBase {
   [[gnu::noinline]] static Lease<T> ReadSeveral(const Binding& binding) noexcept {
     Link* link = nullptr;
     Lease<T> lease = NewestOfSeveral(binding, link);
-    if (lease) link->Note(lease);
+    if (lease) lease.last_ = link->Note(lease.sequence());
     return lease;
   }
   // Inside a guard, by which the link lives. `link` is set if there is a value.
@@ -270,9 +267,7 @@ class Input final : public InputBase {
       const std::uint64_t sequence = lease.held_.publication().sequence;
       // A value may lie in the queue twice just after connecting (see Bound()).
       if (link != nullptr && sequence <= link->taken) continue;
-      const std::uint64_t last = link != nullptr ? std::exchange(link->taken, sequence) : 0;
-      lease.missed_ = last == 0 ? 0 : sequence - last - 1;
-      lease.freshness_ = Freshness::kNew;
+      lease.last_ = link != nullptr ? std::exchange(link->taken, sequence) : 0;
       return;
     }
     lease.held_ = {};  // what had been taken already
@@ -345,6 +340,7 @@ class Input final : public InputBase {
     replaced_.clear();
     const Binding* binding = binding_.load(std::memory_order_relaxed);
     if (binding == nullptr || !binding->queue) return;
+    const EpochGuard guard;
     for (Channel<T>* channel : fresh_) {
       auto held = channel->Read();
       if (held.has_value()) binding->queue->PutFirst(std::move(held), channel->number());

@@ -127,6 +127,10 @@ class InputQueue final : public QueueSink {
   }
 
   [[nodiscard]] std::size_t room() const noexcept override { return capacity_; }
+  [[nodiscard]] bool WouldRefuse() noexcept override {
+    if (on_full_ != OnFull::kRefuse) return false;
+    return stream_ != nullptr ? !stream_->HasRoom() : shared_->size() >= capacity_;
+  }
   [[nodiscard]] std::size_t size() const noexcept {
     const std::size_t first = first_waits_.load(std::memory_order_relaxed) ? 1 : 0;
     return first + (stream_ != nullptr ? stream_->size() : shared_->size());

@@ -21,7 +21,7 @@ namespace runnel {
 /// it to false for a type that shall always travel in buffers.
 template <typename T>
 inline constexpr bool kIsCheap =
-    std::is_trivially_copyable_v<T>&& std::is_copy_constructible_v<T> && sizeof(T) <= 64;
+    std::is_trivially_copyable_v<T>&& std::is_copy_constructible_v<T> && sizeof(T) <= 32;
 
 /// Whether values of T that travel in buffers lie in queues as copies nevertheless: a short copy
 /// costs the taker less than the publisher's buffer, which it would share with the publisher.
@@ -163,9 +163,6 @@ template <typename T>
 class Lease {
  public:
   Lease() = default;
-  Lease(internal::HeldValue<T> held, Freshness freshness, std::uint64_t missed) noexcept
-      : held_(std::move(held)), freshness_(freshness), missed_(missed) {}
-
   [[nodiscard]] bool has_value() const noexcept { return held_.has_value(); }
   explicit operator bool() const noexcept { return has_value(); }
   const T& operator*() const { return Checked().value(); }
@@ -173,7 +170,8 @@ class Lease {
   [[nodiscard]] T value_or(T otherwise) const { return has_value() ? held_.value() : otherwise; }
 
   [[nodiscard]] Freshness freshness() const noexcept {
-    return has_value() ? freshness_ : Freshness::kNoData;
+    if (!has_value()) return Freshness::kNoData;
+    return held_.publication().sequence != last_ ? Freshness::kNew : Freshness::kOld;
   }
   [[nodiscard]] bool is_new() const noexcept { return freshness() == Freshness::kNew; }
   /// The time of the cycle that published the value.
@@ -181,17 +179,20 @@ class Lease {
   /// 1 for the first value that the source has published, and so on.
   [[nodiscard]] std::uint64_t sequence() const { return Checked().publication().sequence; }
   /// How many values of the same source came and went unseen since the last read of this input.
-  [[nodiscard]] std::uint64_t missed() const noexcept { return missed_; }
+  [[nodiscard]] std::uint64_t missed() const noexcept {
+    const std::uint64_t sequence = has_value() ? held_.publication().sequence : 0;
+    return last_ == 0 || sequence <= last_ ? 0 : sequence - last_ - 1;
+  }
 
  private:
   friend class Input<T>;
   // The channel's newest value, made in place, so that it is copied once or not at all; `reader`
-  // notes that it was read.
+  // notes its number and says which it had before.
   template <typename Reader>
   [[gnu::always_inline]] Lease(Channel<T>& channel, Reader& reader) noexcept
-      : held_(channel.Read()), freshness_(Freshness::kNew) {
+      : held_(channel.Read()) {
     if (has_value()) [[likely]]
-      reader.Note(*this);
+      last_ = reader.Note(held_.publication().sequence);
   }
 
   const internal::HeldValue<T>& Checked() const {
@@ -200,8 +201,7 @@ class Lease {
   }
 
   internal::HeldValue<T> held_;
-  Freshness freshness_ = Freshness::kNoData;
-  std::uint64_t missed_ = 0;
+  std::uint64_t last_ = 0;  // of the same source, what the reader had before; 0: nothing
 };
 
 }  // namespace runnel

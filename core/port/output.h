@@ -80,6 +80,12 @@ class Output final : public Port {
     return Publish(std::move(loan));
   }
 
+  /// Whether a queue that refuses when it is full would refuse the next value, as things are. A
+  /// publisher that must not lose anything waits until it would not: publishing again what a queue
+  /// has refused makes a new value for all others. For the publisher's thread; if the queue has no
+  /// other sources, what is not refused now will not be.
+  [[nodiscard]] bool WouldRefuse() const noexcept { return channel_->WouldRefuse(); }
+
   [[nodiscard]] std::uint64_t publications() const noexcept override {
     return channel_->publications();
   }

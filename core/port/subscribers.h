@@ -13,6 +13,8 @@ class QueueSink {
   virtual ~QueueSink() = default;
   /// How many values can wait.
   [[nodiscard]] virtual std::size_t room() const noexcept = 0;
+  /// Whether the queue would refuse a value now. For publishers.
+  [[nodiscard]] virtual bool WouldRefuse() noexcept = 0;
 };
 
 /// Those a publisher has to visit: queues and wakers. Readers of the latest value are not among

@@ -56,6 +56,8 @@ std::vector<IncludeRule> MakeProjectRules() {
   AddPlugins(rules);
   AddModules(rules);
   rules.push_back({"apps", "apps", {"core", "plugins"}});
+  // Apart, since a benchmark of whole applications runs them as the tests do.
+  rules.push_back({"tests/bench", "tests/bench", {"core", "bench"}});
   for (const char* folder : {"tests", "bench"}) {
     rules.push_back({folder, folder, {"core", "plugins", "modules", "apps", "tests", "bench"}});
   }

@@ -144,6 +144,32 @@ TEST(BufferSearch, BuffersThatAreNewAreCompleteForWhoCounts) {
   EXPECT_TRUE(Search<GrowingSuite>(kIterations));
 }
 
+// The publisher reads what it has published, and spares itself the fence, while another reads too.
+struct OwnReaderSuite : rl::test_suite<OwnReaderSuite, 2>, Rig<SearchedPlain, 2> {
+  OwnReaderSuite() : Rig({.buffers = 3, .may_grow = false}) {}
+
+  void thread(unsigned index) {
+    if (index == 1) {
+      for (int i = 1; i <= 4; ++i) {
+        const Lease own = latest.Lease(readers[1]);
+        if (auto* const buffer = latest.Loan(readers[1])) {
+          buffer->value().Set(i);
+          buffer->publication.sequence = static_cast<std::uint64_t>(i);
+          latest.Publish(*buffer);
+        }
+        if (own.get() != nullptr) LookAt(own);
+      }
+      return;
+    }
+    for (int i = 0; i < 2; ++i) {
+      const Lease lease = latest.Lease(readers[0]);
+      if (lease.get() != nullptr) LookAt(lease);
+    }
+  }
+};
+
+TEST(BufferSearch, PublisherMayReadItself) { EXPECT_TRUE(Search<OwnReaderSuite>(kIterations)); }
+
 // A record is added while the publisher looks for free buffers.
 // With nine before it, it has no bit of its own.
 template <std::size_t kBefore>

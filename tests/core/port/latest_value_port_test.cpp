@@ -21,6 +21,19 @@ TEST_F(LatestValuePortTest, ReadTellsNoDataThenNewThenOld) {
   EXPECT_EQ(receiver.in.Read().freshness(), Freshness::kNew);
 }
 
+TEST_F(LatestValuePortTest, GetCopiesTheNewestValueAndMarksNothingAsRead) {
+  auto& sender = MakeSender<double>();
+  auto& receiver = MakeReceiver<double>();
+  EXPECT_EQ(receiver.in.Get(), 0.0);
+  EXPECT_EQ(receiver.in.Get(3.0), 3.0);
+  Connect(sender.out, receiver.in);
+  EXPECT_EQ(receiver.in.Get(3.0), 3.0);
+  sender.out.Publish(1.5);
+  EXPECT_EQ(receiver.in.Get(3.0), 1.5);
+  EXPECT_EQ(receiver.in.Get(), 1.5);
+  EXPECT_TRUE(receiver.in.Read().is_new());
+}
+
 TEST_F(LatestValuePortTest, EmptyLeaseCannotBeLookedAt) {
   auto& receiver = MakeReceiver<double>();
   const auto nothing = receiver.in.Read();

@@ -24,12 +24,29 @@ TEST_F(PooledPortTest, ReaderLooksAtTheVeryObjectThatTheWriterFilled) {
 
 TEST_F(PooledPortTest, SizeAndCopyingDecideHowATypeTravels) {
   EXPECT_TRUE(kIsCheap<double>);
-  EXPECT_TRUE((kIsCheap<std::array<char, 64>>));
-  EXPECT_FALSE((kIsCheap<std::array<char, 65>>));
+  EXPECT_TRUE((kIsCheap<std::array<char, 32>>));
+  EXPECT_FALSE((kIsCheap<std::array<char, 33>>));
   EXPECT_FALSE(kIsCheap<Scan>);
   EXPECT_FALSE(kIsCheap<Token>);
   EXPECT_FALSE(kIsCheap<Sealed>);
   EXPECT_FALSE(kIsCheap<Stubborn>);
+}
+
+TEST_F(PooledPortTest, GetCopiesTheNewestValueAndMarksNothingAsRead) {
+  auto& sender = MakeSender<Image>();
+  auto& receiver = MakeReceiver<Image>();
+  Image otherwise;
+  otherwise.pixels.fill('o');
+  EXPECT_EQ(receiver.in.Get(otherwise).pixels[999], 'o');
+  Connect(sender.out, receiver.in);
+  EXPECT_EQ(receiver.in.Get(otherwise).pixels[0], 'o');
+  EXPECT_EQ(receiver.in.Get().pixels[0], '\0');
+  Image image;
+  image.pixels.fill('i');
+  sender.out.Publish(image);
+  EXPECT_EQ(receiver.in.Get(otherwise).pixels, image.pixels);
+  EXPECT_EQ(receiver.in.Get().pixels, image.pixels);
+  EXPECT_TRUE(receiver.in.Read().is_new());
 }
 
 TEST_F(PooledPortTest, LargePlainTypesAndThoseThatAskForItTravelInBuffersToo) {

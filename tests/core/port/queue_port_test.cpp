@@ -260,6 +260,34 @@ TEST_F(QueuePortTest, LeaseOfAQueuedCopyLivesOnAndCopies) {
   EXPECT_EQ(copy.sequence(), 1u);
 }
 
+TEST_F(QueuePortTest, PublisherCanAskBeforeItIsRefused) {
+  for (const bool two_sources : {false, true}) {
+    const std::string number = two_sources ? "2" : "1";
+    auto& sender = MakeSender<int>("sender" + number);
+    auto& receiver = MakeReceiver<int>("receiver" + number);
+    Connect(sender.out, receiver.in, {.queue = 2, .on_full = OnFull::kRefuse});
+    auto& other = MakeSender<int>("other" + number);
+    if (two_sources) Connect(other.out, receiver.in);
+    EXPECT_FALSE(other.out.WouldRefuse());
+    for (int i = 1; i <= 2; ++i) {
+      EXPECT_FALSE(sender.out.WouldRefuse());
+      sender.out.Publish(i);
+    }
+    EXPECT_TRUE(sender.out.WouldRefuse());
+    EXPECT_EQ(receiver.in.dropped(), 0u);
+    EXPECT_EQ(*receiver.in.Take(), 1);
+    EXPECT_FALSE(sender.out.WouldRefuse());
+  }
+}
+
+TEST_F(QueuePortTest, OnlyQueuesThatRefuseWouldRefuse) {
+  auto& sender = MakeSender<int>();
+  auto& receiver = MakeReceiver<int>();
+  Connect(sender.out, receiver.in, {.queue = 1, .on_full = OnFull::kDropNewest});
+  sender.out.Publish(1);
+  EXPECT_FALSE(sender.out.WouldRefuse());
+}
+
 // The publisher tries again whenever it is refused: nothing is lost, and all comes in order.
 TEST_F(QueuePortTest, NothingIsLostBetweenTwoThreadsIfThePublisherTriesAgain) {
   constexpr std::uint64_t kCount = 20000;

@@ -21,6 +21,7 @@ TEST_F(SeveralSourcesTest, ValuePublishedLastCountsForAllInputsAlike) {
     sender.out.Publish(i);
     EXPECT_EQ(*first.in.Read(), i);
     EXPECT_EQ(*second.in.Read(), i);
+    EXPECT_EQ(second.in.Get(), i);
   }
 }
 

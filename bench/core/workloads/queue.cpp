@@ -1,0 +1,115 @@
+// Messages of 128 bytes from one thread to another, each of them once and in order, through a queue
+// that holds 1024: a full queue refuses, and the producer tries again.
+
+#include <atomic>
+#include <memory>
+#include <thread>
+
+#include "bench/core/rivals/boost_queues.h"
+#include "bench/core/rivals/moodycamel_queue.h"
+#include "bench/core/rivals/mutex_ring.h"
+#include "bench/core/support/payloads.h"
+#include "bench/core/support/pinned_thread.h"
+#include "bench/core/support/star.h"
+#include "bench/core/support/waiting.h"
+#include "bench/core/workloads/workloads.h"
+
+namespace runnel::bench {
+
+namespace {
+
+constexpr std::uint64_t kMessagesPerRound = 100'000;
+constexpr std::size_t kCapacity = 1024;
+
+class RunnelQueue {
+ public:
+  static constexpr const char* kName = "queued input";
+
+  bool Push(const Message& message) {
+    return !star_.output().WouldRefuse() &&
+           star_.output().Publish(message) == PublishStatus::kPublished;
+  }
+  bool Take(Message& message) {
+    const auto lease = star_.input(0).Take();
+    if (lease) message = *lease;
+    return lease.has_value();
+  }
+
+ private:
+  Star<Message> star_{1, {.queue = kCapacity, .on_full = OnFull::kRefuse}};
+};
+
+// The thread that takes; tells when a round is complete, and whether nothing was lost.
+template <typename Queue>
+class Consumer {
+ public:
+  explicit Consumer(Queue& queue) : queue_(queue) {}
+
+  void WaitFor(std::uint64_t taken) const {
+    for (Waiting waiting; taken_.load(std::memory_order_acquire) < taken;) waiting.Pause();
+  }
+  [[nodiscard]] bool is_in_order() const { return is_in_order_; }
+
+ private:
+  void Run(const std::stop_token& stop) {
+    const PinnedThread second_core(1);
+    const InACycle cycle;
+    Message message;
+    PatientWaiting waiting;
+    for (std::uint64_t taken = 0; !stop.stop_requested();) {
+      if (!queue_.Take(message)) {
+        waiting.Pause();
+        continue;
+      }
+      waiting.Succeeded();
+      if (message.number != taken) is_in_order_ = false;
+      if (++taken % kMessagesPerRound == 0) taken_.store(taken, std::memory_order_release);
+    }
+  }
+
+  Queue& queue_;
+  std::atomic<std::uint64_t> taken_{0};
+  std::atomic<bool> is_in_order_{true};
+  std::jthread thread_{[this](const std::stop_token& stop) { Run(stop); }};
+};
+
+template <typename Queue>
+void RunQueue(benchmark::State& state) {
+  const auto queue = std::make_unique<Queue>();
+  const PinnedThread first_core(0);
+  Consumer<Queue> consumer(*queue);
+  const InACycle cycle;
+  Message message{};
+  std::uint64_t sent = 0;
+  PatientWaiting waiting;
+  for (auto _ : state) {
+    for (std::uint64_t i = 0; i < kMessagesPerRound; ++i) {
+      message.number = sent++;
+      while (!queue->Push(message)) waiting.Pause();
+      waiting.Succeeded();
+    }
+    consumer.WaitFor(sent);
+  }
+  if (!consumer.is_in_order()) state.SkipWithError("messages were lost or came out of order");
+  state.counters["throughput"] =
+      benchmark::Counter(static_cast<double>(sent) * 1e-6, benchmark::Counter::kIsRate);
+}
+
+}  // namespace
+
+void AddQueue(Suite& suite) {
+  suite.Start({.name = "queue of 128 B, two threads", .quantities = {{"throughput", "M/s", true}}});
+  suite.Add(Role::kRunnel, RunnelQueue::kName, RunQueue<RunnelQueue>);
+  using SpscQueue = BoostSpscQueue<Message, kCapacity>;
+  suite.Add(Role::kRival, SpscQueue::kName, RunQueue<SpscQueue>);
+#ifdef RUNNEL_BENCH_HAS_MOODYCAMEL
+  using Moodycamel = MoodycamelQueue<Message, kCapacity>;
+  suite.Add(Role::kRival, Moodycamel::kName, RunQueue<Moodycamel>);
+#endif
+  using Boost = BoostQueue<Message, kCapacity>;
+  suite.Add(Role::kRival, Boost::kName, RunQueue<Boost>);
+  using Ring = MutexRing<Message, kCapacity>;
+  suite.Add(Role::kRival, Ring::kName, RunQueue<Ring>);
+}
+
+}  // namespace runnel::bench
