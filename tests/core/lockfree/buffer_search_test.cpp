@@ -194,5 +194,23 @@ TEST(BufferSearch, ThreadThatIsNewIsSeen) {
   EXPECT_TRUE(Search<AddingSuite<9>>(kIterations));
 }
 
+// Two readers share a bit, and one of them finds it set by the other just now.
+struct SharedBitSuite : rl::test_suite<SharedBitSuite, 3>, Rig<SearchedPlain, 11> {
+  SharedBitSuite() : Rig({.buffers = 2, .may_grow = false}) {}
+
+  void before() { Publish(1); }
+  void thread(unsigned index) {
+    if (index == 2) {
+      for (int i = 2; i <= 3; ++i) Publish(i);
+    } else {
+      LookAt(latest.Lease(readers[9 + index]));
+    }
+  }
+};
+
+TEST(BufferSearch, ReadersThatShareABitAreSeenEach) {
+  EXPECT_TRUE(Search<SharedBitSuite>(5 * kIterations));
+}
+
 }  // namespace
 }  // namespace runnel::test
