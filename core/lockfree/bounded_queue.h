@@ -103,6 +103,17 @@ class BoundedQueue {
     }
   }
 
+  /// Whether there is an oldest value to take out; outdated when other threads use the queue.
+  [[nodiscard]] bool HasOldest() const noexcept {
+    for (;;) {
+      const std::uint64_t position = head_.load(std::memory_order_relaxed);
+      const std::uint64_t full_turn = 2 * (position / capacity_) + 1;
+      // acquire: as in TryConsume(), so that a later turn shows a later head.
+      const std::uint64_t turn = cells_[position % capacity_].turn.load(std::memory_order_acquire);
+      if (turn <= full_turn) return turn == full_turn;
+    }
+  }
+
   [[nodiscard]] std::size_t capacity() const noexcept { return capacity_; }
   /// How many values lie in the queue; already outdated when other threads use it.
   [[nodiscard]] std::size_t size() const noexcept {

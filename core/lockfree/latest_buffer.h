@@ -29,9 +29,12 @@ class LatestBuffer {
 
   /// A buffer to fill, see BufferPool::Loan(). Who passes the calling thread's record is spared the
   /// fence that its own slots do not need.
-  [[nodiscard]] Buffer* Loan() { return LoanBut(0); }
-  [[nodiscard]] Buffer* Loan(const Record& publisher) { return LoanBut(publisher.own_bit); }
-  /// Makes a loaned buffer the newest one.
+  [[nodiscard]] Buffer* Loan() { return LoanBut(0, pool_); }
+  [[nodiscard]] Buffer* Loan(const Record& publisher) { return LoanBut(publisher.own_bit, pool_); }
+  /// The same from another pool, for another publisher that takes turns with the first one: each
+  /// may loan from its own pool while the other publishes.
+  [[nodiscard]] Buffer* LoanFrom(Pool& pool) { return LoanBut(0, pool); }
+  /// Makes a loaned buffer, of whichever pool, the newest one.
   void Publish(Buffer& buffer) noexcept {
     buffer.EndLoan();
     // release: pairs with the acquire in Lease(); the value is complete. Whoever reads has set a
@@ -66,10 +69,12 @@ class LatestBuffer {
   }
 
  private:
-  [[nodiscard]] Buffer* LoanBut(std::uint64_t own_bit) {
-    // relaxed: the newest is the caller's own note.
-    return pool_.Loan(newest_.load(std::memory_order_relaxed),
-                      [this, own_bit] { return ReadersBut(own_bit); });
+  [[nodiscard]] Buffer* LoanBut(std::uint64_t own_bit, Pool& pool) {
+    // relaxed: the newest is the caller's own note, unless it is of the other publisher, and then of
+    // the other pool. An outdated one is not reused for one more time; one that is seen to have
+    // replaced the caller's is, after the fences, seen by the readers too.
+    return pool.Loan(newest_.load(std::memory_order_relaxed),
+                     [this, own_bit] { return ReadersBut(own_bit); });
   }
   // Whose slots have to be looked at, after a fence if there are others than the caller's own.
   [[nodiscard]] std::uint64_t ReadersBut(std::uint64_t own_bit) const noexcept {

@@ -13,6 +13,7 @@
 #include "core/port/input_queue.h"
 #include "core/port/lease.h"
 #include "core/port/loan.h"
+#include "core/port/pull_point.h"
 #include "core/port/subscribers.h"
 
 namespace runnel {
@@ -67,14 +68,18 @@ class ChannelBase {
 
 /// A channel for values of type T.
 ///
-/// Threads:     one thread at a time may Loan and Publish; any number may Read, inside a guard.
+/// Threads:     one thread at a time may Loan and Publish; any number may Read and Pull, inside a
+///              guard.
 /// Progress:    Publish and Read are lock-free; see core/lockfree/README.md.
 /// Allocation:  only in the constructor, ReserveFor(), and a growing pool (BufferPool).
 template <typename T>
 class Channel final : public ChannelBase {
  public:
-  Channel(const PoolOptions& pool, typename BufferPool<T>::Factory factory)
-      : storage_(pool, std::move(factory)) {}
+  using Provider = typename PullPoint<T>::Provider;
+
+  Channel(const PoolOptions& pool, typename BufferPool<T>::Factory factory, bool pullable = false)
+      : pull_point_(pullable ? std::make_unique<PullPoint<T>>() : nullptr),
+        storage_(pool, std::move(factory), pullable) {}
 
   [[nodiscard]] Loan<T> MakeLoan() {
     if constexpr (kIsCheap<T>) {
@@ -88,22 +93,39 @@ class Channel final : public ChannelBase {
 
   PublishStatus Publish(Loan<T>&& loan, Time now) {
     if (!loan) return PublishStatus::kNoBuffer;
-    if constexpr (kIsCheap<T>) {
-      const T value = *loan;
-      loan.Drop();
-      return PublishValue(value, now);
-    } else {
-      return PublishBuffer(*std::exchange(loan.slot_, nullptr), now);
-    }
+    if (pull_point_ != nullptr) [[unlikely]]
+      return InTurn([&] { return PublishInTurn(std::move(loan), now); });
+    return PublishInTurn(std::move(loan), now);
+  }
+  PublishStatus PublishValue(const T& value, Time now) requires(kIsCheap<T>) {
+    if (pull_point_ != nullptr) [[unlikely]]
+      return InTurn([&] { return PublishCopy(value, now); });
+    return PublishCopy(value, now);
   }
 
-  PublishStatus PublishValue(const T& value, Time now) requires(kIsCheap<T>) {
-    const std::int64_t stamp = now.time_since_epoch().count();
-    const std::uint64_t order = NextOrder();
-    storage_.Publish(value, stamp, order);
-    if (subscribers() == nullptr) [[likely]]
-      return PublishStatus::kPublished;
-    return Distribute(value, {stamp, storage_.sequence(), order}, nullptr);
+  /// May have a provider.
+  [[nodiscard]] bool is_pullable() const noexcept { return pull_point_ != nullptr; }
+  /// See Output::SetProvider(). Precondition: is_pullable().
+  void SetProvider(Provider provider) { pull_point_->SetProvider(std::move(provider)); }
+  [[nodiscard]] std::uint64_t pull_failures() const noexcept {
+    return pull_point_ != nullptr ? pull_point_->failures() : 0;
+  }
+  /// Has the provider, if there is one and nobody is publishing just now, make a value in this
+  /// thread and publishes it with the time that `now()` returns then. Any thread, inside a guard.
+  template <typename Now>
+  void Pull(const Now& now) noexcept {
+    if constexpr (kCanPull) {
+      if (pull_point_ == nullptr || !pull_point_->has_provider()) return;
+      const typename PullPoint<T>::Turn turn(*pull_point_);
+      if (!turn.held()) return;
+      try {
+        Loan<T> loan = LoanForPull();
+        if (!loan) return pull_point_->CountFailure();
+        if (pull_point_->Run(*loan)) (void)PublishInTurn(std::move(loan), now());
+      } catch (...) {
+        pull_point_->CountFailure();
+      }
+    }
   }
 
   /// Whether a queue that refuses is full.
@@ -146,10 +168,12 @@ class Channel final : public ChannelBase {
     if constexpr (!kLiesInQueuesAsCopy<T>) {
       // Some more than can wait at once, so that the publisher seldom looks through all of them.
       const std::size_t spare = leases / 4;
-      storage_.pool->Reserve(storage_.first_capacity + static_cast<std::uint32_t>(leases + spare));
+      const auto buffers = storage_.first_capacity + static_cast<std::uint32_t>(leases + spare);
+      storage_.pool->Reserve(buffers);
+      if (storage_.pool_for_pulls) storage_.pool_for_pulls->Reserve(buffers);
     }
   }
-  /// How many buffers there are.
+  /// How many buffers there are for Loan().
   [[nodiscard]] std::size_t buffers() const noexcept requires(!kIsCheap<T>) {
     return storage_.pool->capacity();
   }
@@ -158,20 +182,28 @@ class Channel final : public ChannelBase {
     if constexpr (kIsCheap<T>) {
       return 0;
     } else {
-      return storage_.pool->growths();
+      return storage_.pool->growths() +
+             (storage_.pool_for_pulls ? storage_.pool_for_pulls->growths() : 0);
     }
   }
 
+  /// A provider begins with T{}, as a loan does, or with what lies in a buffer.
+  static constexpr bool kCanPull = !kIsCheap<T> || std::is_default_constructible_v<T>;
+
  private:
   struct CheapStorage : LatestValue<T> {
-    CheapStorage(const PoolOptions&, typename BufferPool<T>::Factory&&) {}
+    CheapStorage(const PoolOptions&, typename BufferPool<T>::Factory&&, bool) {}
   };
   struct BufferStorage {
-    BufferStorage(const PoolOptions& options, typename BufferPool<T>::Factory&& factory)
-        : pool(BufferPool<T>::Make(ProcessHazards(), options, std::move(factory))),
+    using Pool = BufferPool<T>;
+    BufferStorage(const PoolOptions& options, typename Pool::Factory&& factory, bool pullable)
+        : pool_for_pulls(pullable ? Pool::Make(ProcessHazards(), options, factory) : nullptr),
+          pool(Pool::Make(ProcessHazards(), options, std::move(factory))),
           first_capacity(pool->capacity()),
           newest(*pool) {}
 
+    // So that a loan is the publisher's own business also while a reader pulls.
+    typename BufferPool<T>::Owner pool_for_pulls;
     typename BufferPool<T>::Owner pool;
     const std::uint32_t first_capacity;
     LatestBuffer<T> newest;
@@ -180,6 +212,36 @@ class Channel final : public ChannelBase {
     std::atomic<std::uint64_t> published_count{0};
   };
 
+  // The rest of publishing, by who has the turn, if there are turns.
+  [[gnu::always_inline]] PublishStatus PublishInTurn(Loan<T>&& loan, Time now) {
+    if constexpr (kIsCheap<T>) {
+      const T value = *loan;
+      loan.Drop();
+      return PublishCopy(value, now);
+    } else {
+      return PublishBuffer(*std::exchange(loan.slot_, nullptr), now);
+    }
+  }
+  template <typename Publishing>
+  [[gnu::noinline]] PublishStatus InTurn(const Publishing& publishing) {
+    const typename PullPoint<T>::Turn turn(*pull_point_);
+    return turn.held() ? publishing() : PublishStatus::kBusy;
+  }
+  [[nodiscard]] Loan<T> LoanForPull() requires(kCanPull) {
+    if constexpr (kIsCheap<T>) {
+      return Loan<T>(T{});
+    } else {
+      return Loan<T>(storage_.newest.LoanFrom(*storage_.pool_for_pulls));
+    }
+  }
+  [[gnu::always_inline]] PublishStatus PublishCopy(const T& value, Time now) requires(kIsCheap<T>) {
+    const std::int64_t stamp = now.time_since_epoch().count();
+    const std::uint64_t order = NextOrder();
+    storage_.Publish(value, stamp, order);
+    if (subscribers() == nullptr) [[likely]]
+      return PublishStatus::kPublished;
+    return Distribute(value, {stamp, storage_.sequence(), order}, nullptr);
+  }
   PublishStatus PublishBuffer(Buffer<T>& buffer, Time now) noexcept {
     const std::uint64_t sequence = ++storage_.published;
     buffer.publication = {now.time_since_epoch().count(), sequence, NextOrder()};
@@ -216,6 +278,8 @@ class Channel final : public ChannelBase {
     });
   }
 
+  // On the line that publishing needs anyway.
+  const std::unique_ptr<PullPoint<T>> pull_point_;  // nullptr if the output is not pullable
   std::conditional_t<kIsCheap<T>, CheapStorage, BufferStorage> storage_;
 };
 

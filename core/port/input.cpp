@@ -1,6 +1,7 @@
 #include "core/port/input.h"
 
 #include <algorithm>
+#include <chrono>
 #include <mutex>
 
 #include "core/element/runtime.h"
@@ -8,13 +9,49 @@
 namespace runnel {
 
 InputBase::InputBase(const Placement& placement, const TypeInfo& type, InputOptions options)
-    : Port(placement, Direction::kInput, type, options.description), options_(std::move(options)) {}
+    : Port(placement, Direction::kInput, type, options.description),
+      options_(std::move(options)),
+      arrival_(options_.waits ? std::make_unique<ArrivalEvent>() : nullptr),
+      strategy_(options_.strategy) {}
+
+InputBase::~InputBase() {
+  // A publisher may still be telling it, by a list of subscribers from before.
+  if (arrival_) Retire([arrival = arrival_.release()] { delete arrival; });
+}
 
 void InputBase::SetWaker(Waker* waker) {
   const std::lock_guard lock(runtime().structure_mutex());
   if (waker_ == waker) return;
   waker_ = waker;
   for (const Source& source : sources_) UpdateChannel(*source.output);
+}
+
+void InputBase::SetStrategy(Strategy strategy) {
+  const std::lock_guard lock(runtime().structure_mutex());
+  if (this->strategy() == strategy) return;
+  strategy_.store(strategy, std::memory_order_relaxed);
+  Rebind(std::vector<Source>(sources_));
+}
+
+bool InputBase::Wait(Duration timeout) {
+  RUNNEL_CHECK(CurrentCycle() == nullptr && !EpochGuard::HeldByThisThread(),
+               "an input cannot wait in a cycle, as in Update()");
+  if (HasNew()) return true;
+  if (timeout <= Duration::zero()) return false;
+  using Deadline = KernelFutex::Deadline;
+  const Deadline now = std::chrono::steady_clock::now();
+  const Deadline deadline = timeout < Deadline::max() - now ? now + timeout : Deadline::max();
+  return PrepareToWait().Wait(deadline, [this] { return HasNew(); });
+}
+
+// The list of subscribers is swapped before the reader looks again, so that a publisher whose value
+// it does not find then knows of the event.
+ArrivalEvent& InputBase::PrepareToWait() {
+  if (arrival_) return *arrival_;
+  const std::lock_guard lock(runtime().structure_mutex());
+  arrival_ = std::make_unique<ArrivalEvent>();
+  for (const Source& source : sources_) UpdateChannel(*source.output);
+  return *arrival_;
 }
 
 void InputBase::Rebind(const std::vector<Source>& sources) {
@@ -29,6 +66,8 @@ void InputBase::Rebind(const std::vector<Source>& sources) {
   sink_ = Bind(sources);
   for (Port* output : outputs) UpdateChannel(*output);
   Bound();
+  // What a new connection brings is there already, and no publisher tells of it.
+  if (arrival_) arrival_->Wake();
 }
 
 // Works out anew whom publishers into the output's channel have to visit, and what they have to
@@ -46,6 +85,7 @@ void InputBase::UpdateChannel(Port& output) {
       waiting += input.sink_->room();
     }
     if (input.waker_ != nullptr) subscribers.wakers.push_back(input.waker_);
+    if (input.arrival_) subscribers.wakers.push_back(input.arrival_.get());
     shares_an_input = shares_an_input || input.sources_.size() > 1;
   }
   channel.ReserveFor(waiting);

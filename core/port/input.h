@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/port/arrival_event.h"
 #include "core/port/channel.h"
 #include "core/port/input_queue.h"
 #include "core/port/lease.h"
@@ -21,8 +22,32 @@ class InputBase : public Port {
   [[nodiscard]] bool is_required() const noexcept override { return options_.required; }
   [[nodiscard]] bool is_trigger() const noexcept { return options_.trigger; }
 
+  ~InputBase() override;
+
   /// Has `waker` told of new data; nullptr for nobody. Locks.
   void SetWaker(Waker* waker);
+
+  /// Sleeps until there is a value that the last Read() has not returned or, if a connection has a
+  /// queue, until there is something to Take(); false if there is none when `timeout` has passed (at
+  /// once if it is not positive), by the machine's clock. A new connection wakes as a publication
+  /// does. In rare cases there may be nothing to Take() after all: a full queue has just dropped it.
+  ///
+  /// Publishers call the system only if the reader sleeps; for inputs that never wait, they do
+  /// nothing at all. Does not pull: it waits for what others publish.
+  /// Threads:     the one that reads. It sleeps, so never in a cycle. Nobody may be waiting when the
+  ///              input is deleted.
+  /// Allocation:  by the first call, which locks too; see InputOptions::waits.
+  /// Errors:      throws ProgrammingError in a cycle or inside an EpochGuard, where a thread that
+  ///              sleeps would keep all others from deleting anything.
+  [[nodiscard]] bool Wait(Duration timeout);
+
+  /// Chooses whether reading pulls (Output::SetProvider()) or takes what has been published. Any
+  /// thread, at any time, but not from a cycle: locks and allocates.
+  void SetStrategy(Strategy strategy);
+  [[nodiscard]] Strategy strategy() const noexcept {
+    // relaxed: for viewers; readers are told by a new binding.
+    return strategy_.load(std::memory_order_relaxed);
+  }
   /// Values lost because the queue was full, since the queue was made.
   [[nodiscard]] virtual std::uint64_t dropped() const noexcept = 0;
 
@@ -35,13 +60,18 @@ class InputBase : public Port {
   virtual QueueSink* Bind(const std::vector<Source>& sources) = 0;
   /// Typed inputs: Bind() has taken effect everywhere; put first values into a new queue.
   virtual void Bound() = 0;
+  /// Typed inputs: what Wait() waits for. By the reader.
+  [[nodiscard]] virtual bool HasNew() const = 0;
 
  private:
+  ArrivalEvent& PrepareToWait();
   static void UpdateChannel(Port& output);
 
   const InputOptions options_;
   Waker* waker_ = nullptr;
   QueueSink* sink_ = nullptr;
+  std::unique_ptr<ArrivalEvent> arrival_;  // once the reader waits; made by it, under the lock
+  std::atomic<Strategy> strategy_;
   std::vector<Source> sources_;
 };
 
@@ -51,9 +81,13 @@ class InputBase : public Port {
 ///   latest value   Read(), Peek(): the newest value of whatever is connected
 ///   queue          Take(), Drain(): each value once, in order, if the connection has a queue
 ///
+/// Wait() sleeps until there is something to read. With Strategy::kPull, Read() and Get() first have
+/// the providers of all sources make values; Peek() and the queue's functions never do.
+///
 /// Threads:     one thread at a time may Read, Take and Drain (a module's Update() does); Peek()
 ///              and LookAtValue() from any thread. Connecting and publishing go on meanwhile.
-/// Progress:    lock-free: reading repeats only if a newer value came meanwhile.
+/// Progress:    lock-free: reading repeats only if a newer value came meanwhile. Pulling takes as
+///              long as the provider.
 /// Allocation:  none.
 /// Several sources: the value published last counts, the same one for every reader.
 template <typename T>
@@ -166,9 +200,10 @@ class Input final : public InputBase {
   };
   // What reading needs; never changed but for the reader's own notes, replaced as a whole.
   struct Binding {
-    // If there is one source, the short way to it; else nullptr.
+    // If there is one source and no pulling, the short way to it; else nullptr.
     Channel<T>* channel = nullptr;
-    Link* only = nullptr;
+    Link* only = nullptr;  // if there is one source
+    bool pulls = false;
     std::vector<std::shared_ptr<Link>> links;  // shared by the binding before and after a change
     std::shared_ptr<InputQueue<T>> queue;      // likewise
     // Queues that a longer one has replaced: what waits in them comes first.
@@ -179,6 +214,12 @@ class Input final : public InputBase {
         if (older->Pop(held, source)) return true;
       }
       return queue && queue->Pop(held, source);
+    }
+    [[nodiscard]] bool HasNext() const noexcept {
+      for (const auto& older : older_queues) {
+        if (older->HasNext()) return true;
+      }
+      return queue && queue->HasNext();
     }
     [[nodiscard]] Link* FindLink(std::uint64_t number) const noexcept {
       for (const auto& link : links) {
@@ -201,7 +242,8 @@ class Input final : public InputBase {
       return binding->channel->Copy(value);
     return CopySeveral(*binding, value);
   }
-  [[gnu::noinline]] static bool CopySeveral(const Binding& binding, T& value) noexcept {
+  [[gnu::noinline]] bool CopySeveral(const Binding& binding, T& value) const noexcept {
+    PullInto(binding);
     const Link* link = nullptr;
     const Lease<T> newest = NewestOfSeveral(binding, link);
     if (newest) value = *newest;
@@ -220,11 +262,18 @@ class Input final : public InputBase {
       return ReadSeveral(*binding);
     return Lease<T>(*binding->channel, *binding->only);
   }
-  [[gnu::noinline]] static Lease<T> ReadSeveral(const Binding& binding) noexcept {
+  [[gnu::noinline]] Lease<T> ReadSeveral(const Binding& binding) noexcept {
+    PullInto(binding);
     Link* link = nullptr;
     Lease<T> lease = NewestOfSeveral(binding, link);
     if (lease) lease.last_ = link->Note(lease.sequence());
     return lease;
+  }
+  void PullInto(const Binding& binding) const noexcept {
+    if (!binding.pulls) return;
+    for (const auto& link : binding.links) {
+      link->channel->Pull([this] { return PublicationTime(); });
+    }
   }
   // Inside a guard, by which the link lives. `link` is set if there is a value.
   [[nodiscard]] Lease<T> Newest(const Link*& link) const noexcept {
@@ -258,6 +307,14 @@ class Input final : public InputBase {
     return from_a.number > from_b.number;
   }
 
+  bool HasNew() const override {
+    const EpochGuard guard;
+    const Binding* binding = binding_.load(std::memory_order_acquire);
+    if (binding == nullptr) return false;
+    // Where there is a queue, nobody may ever call Read().
+    return binding->HasNext() || (!binding->queue && Peek().is_new());
+  }
+
   void TakeInside(Lease<T>& lease) noexcept {
     const Binding* binding = binding_.load(std::memory_order_acquire);
     if (binding == nullptr) return;
@@ -281,6 +338,7 @@ class Input final : public InputBase {
       return nullptr;
     }
     auto next = std::make_unique<Binding>();
+    next->pulls = strategy() == Strategy::kPull;
     ConnectOptions options;
     fresh_.clear();
     for (const Source& source : sources) {
@@ -288,7 +346,7 @@ class Input final : public InputBase {
       auto* channel = static_cast<Channel<T>*>(ChannelOf(*source.output));
       next->links.push_back(KeepOrMakeLink(before, *channel));
       if (sources.size() == 1) {
-        next->channel = channel;
+        if (!next->pulls) next->channel = channel;
         next->only = next->links.back().get();
       }
       if (source.options.queue > options.queue) options = source.options;

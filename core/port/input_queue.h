@@ -126,6 +126,12 @@ class InputQueue final : public QueueSink {
     });
   }
 
+  /// Whether Pop() would find something. By the reader.
+  [[nodiscard]] bool HasNext() const noexcept {
+    if (stream_ == nullptr) return shared_->HasOldest();
+    return first_waits_.load(std::memory_order_acquire) || stream_->Front() != nullptr;
+  }
+
   [[nodiscard]] std::size_t room() const noexcept override { return capacity_; }
   [[nodiscard]] bool WouldRefuse() noexcept override {
     if (on_full_ != OnFull::kRefuse) return false;

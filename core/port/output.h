@@ -4,9 +4,8 @@
 #include <string>
 #include <utility>
 
-#include "core/element/runtime.h"
+#include "core/base/check.h"
 #include "core/port/channel.h"
-#include "core/port/cycle.h"
 #include "core/port/loan.h"
 #include "core/port/port.h"
 #include "core/port/port_owner.h"
@@ -40,9 +39,11 @@ class Output final : public Port {
   Output(FrameworkElement& group, std::string name, OutputOptions options = {},
          Factory factory = {})
       : Port({group, std::move(name)}, Direction::kOutput, TypeOf<T>(), options.description),
-        channel_(std::make_unique<Channel<T>>(options.pool, std::move(factory))) {}
+        channel_(std::make_unique<Channel<T>>(options.pool, std::move(factory), options.pullable)) {
+  }
   ~Output() override {
     DisconnectAll();
+    EndPulls();
     // Readers that found the channel before it was disconnected may still be looking at it.
     Retire([channel = channel_.release()] { delete channel; });
   }
@@ -86,6 +87,30 @@ class Output final : public Port {
   /// other sources, what is not refused now will not be.
   [[nodiscard]] bool WouldRefuse() const noexcept { return channel_->WouldRefuse(); }
 
+  /// Fills `value` (T{}, or what an earlier use left in a buffer) and returns true, or returns
+  /// false if there is nothing new.
+  using Provider = typename Channel<T>::Provider;
+  /// Lets inputs pull: when one with Strategy::kPull is read, its thread calls `provider` and
+  /// publishes what it has made, for all inputs alike; then it reads. An empty provider ends that.
+  ///
+  /// One at a time pulls or publishes: a reader that comes meanwhile reads what is there, and
+  /// Publish() returns kBusy and leaves a loan with its owner.
+  /// Threads:   any, at any time, but not from a cycle: it allocates, and waits until the provider
+  ///            before is not running any more, so that what that refers to may go. A provider is
+  ///            run by one thread at a time, inside the reader's cycle: it shall keep a cycle's
+  ///            rules, must not connect or delete ports, and must not replace itself. One that
+  ///            throws, or for which a fixed pool has no buffer, has made nothing: the reader finds
+  ///            the value of before, and pull_failures() counts it.
+  /// Errors:    throws ProgrammingError if the output was not made with OutputOptions::pullable.
+  void SetProvider(Provider provider) requires(Channel<T>::kCanPull) {
+    RUNNEL_CHECK(channel_->is_pullable(),
+                 "an output without OutputOptions::pullable is given a "
+                 "provider");
+    channel_->SetProvider(std::move(provider));
+  }
+  /// How many pulls have come to nothing because the provider threw or had no buffer.
+  [[nodiscard]] std::uint64_t pull_failures() const noexcept { return channel_->pull_failures(); }
+
   [[nodiscard]] std::uint64_t publications() const noexcept override {
     return channel_->publications();
   }
@@ -101,9 +126,12 @@ class Output final : public Port {
 
  private:
   [[nodiscard]] ChannelBase* channel() noexcept override { return channel_.get(); }
-  [[nodiscard]] Time PublicationTime() const noexcept {
-    const Cycle* cycle = CurrentCycle();
-    return cycle != nullptr ? cycle->now : runtime().clock().Now();
+  void Detach() noexcept override {
+    Port::Detach();
+    EndPulls();
+  }
+  void EndPulls() {
+    if (channel_->is_pullable()) channel_->SetProvider({});
   }
 
   std::unique_ptr<Channel<T>> channel_;

@@ -6,6 +6,8 @@
 
 #include "core/base/clock.h"
 #include "core/element/framework_element.h"
+#include "core/element/runtime.h"
+#include "core/port/cycle.h"
 #include "core/port/port_options.h"
 #include "core/port/waker.h"
 
@@ -79,6 +81,9 @@ class Port : public FrameworkElement {
   /// Gives derived ports access to one another's channel.
   static ChannelBase* ChannelOf(Port& port) noexcept { return port.channel(); }
 
+  /// The time that a value published now by the calling thread bears.
+  [[nodiscard]] inline Time PublicationTime() const noexcept;
+
   void Detach() noexcept override;
 
  private:
@@ -93,5 +98,10 @@ class Port : public FrameworkElement {
   std::vector<Connection> outgoing_;
   std::vector<Port*> incoming_;
 };
+
+inline Time Port::PublicationTime() const noexcept {
+  const Cycle* cycle = CurrentCycle();
+  return cycle != nullptr ? cycle->now : runtime().clock().Now();
+}
 
 }  // namespace runnel

@@ -27,21 +27,31 @@ struct ConnectOptions {
   OnFull on_full = OnFull::kDropOldest;
 };
 
+/// Who sees to it that a value comes.
+enum class Strategy {
+  kPush,  ///< the publisher, when it has one: reading takes what has been published
+  kPull,  ///< the reader, when it wants one: reading first has the sources' providers make one
+};
+
 struct InputOptions {
   std::string description = {};
   bool required = false;  ///< an application in which nothing is connected to it is wrong
   bool trigger = false;   ///< new data here is what an event-driven thread waits for
+  bool waits = false;     ///< its reader will call Wait(): prepares for that at once
+  Strategy strategy = Strategy::kPush;
 };
 
 struct OutputOptions {
   std::string description = {};
   PoolOptions pool = {};  ///< for types that travel in buffers; others have none
+  bool pullable = false;  ///< may have a provider; the provider's buffers are a second such pool
 };
 
 enum class PublishStatus {
   kPublished,
   kRefused,   ///< published, but a full queue that refuses did not take it
   kNoBuffer,  ///< not published: a pool of fixed size had no free buffer (an empty loan)
+  kBusy,      ///< not published: a reader's pull is just publishing a newer value (pullable only)
 };
 
 }  // namespace runnel

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "core/lockfree/event.h"
+#include "core/port/waker.h"
+
+namespace runnel {
+
+/// What the reader of one input sleeps on until a publisher, or a new connection, brings something.
+class ArrivalEvent final : public Waker {
+ public:
+  void Wake() noexcept override { event_.Notify(); }
+
+  template <typename HasCome>
+  [[nodiscard]] bool Wait(KernelFutex::Deadline deadline, HasCome&& has_come) {
+    return event_.Wait(deadline, has_come);
+  }
+
+ private:
+  Event<> event_;
+};
+
+}  // namespace runnel

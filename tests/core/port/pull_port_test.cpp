@@ -1,0 +1,376 @@
+// Values that readers have made when they read, beside those that are published.
+
+#include <atomic>
+#include <stdexcept>
+#include <thread>
+
+#include "core/base/check.h"
+#include "tests/core/port/port_fixture.h"
+#include "tests/support/allocation_guard.h"
+#include "tests/support/lock_probe.h"
+#include "tests/support/sanitizer.h"
+#include "tests/support/system_call_probe.h"
+#include "tests/support/threads.h"
+
+namespace runnel::test {
+namespace {
+
+constexpr int kRounds = RUNNEL_UNDER_SANITIZER ? 1000 : 5000;
+const OutputOptions kPullable{.pullable = true};
+const InputOptions kPulls{.strategy = Strategy::kPull};
+
+class PullPortTest : public PortTest {
+ protected:
+  // Counts up by one with each pull.
+  static bool Count(int& value, int& counter) {
+    value = ++counter;
+    return true;
+  }
+  static bool Count(Scan& value, int& counter) {
+    value.ranges.assign(20, static_cast<float>(++counter));
+    value.number = counter;
+    return true;
+  }
+  int counter = 0;
+};
+
+TEST_F(PullPortTest, ReadingMakesAValueOnlyIfTheInputPulls) {
+  auto& sender = MakeSender<int>("sender", kPullable);
+  auto& pulling = MakeReceiver<int>("pulling", kPulls);
+  auto& pushed = MakeReceiver<int>("pushed");
+  Connect(sender.out, pulling.in);
+  Connect(sender.out, pushed.in);
+  EXPECT_FALSE(pulling.in.Read()) << "nobody provides";
+  sender.out.SetProvider([this](int& value) { return Count(value, counter); });
+  EXPECT_FALSE(pushed.in.Read());
+  EXPECT_FALSE(pulling.in.Peek());
+  EXPECT_EQ(*pulling.in.Read(), 1);
+  EXPECT_EQ(*pushed.in.Read(), 1) << "what was pulled is published to all";
+  EXPECT_TRUE(pulling.in.Read().is_new());
+  EXPECT_EQ(pulling.in.Get(), 3);
+  EXPECT_EQ(pulling.in.Get(0), 4);
+  EXPECT_EQ(*pulling.in.Peek(), 4);
+  EXPECT_EQ(pushed.in.Get(), 4);
+  EXPECT_EQ(sender.out.publications(), 4u);
+}
+
+TEST_F(PullPortTest, SoItIsWithValuesInBuffers) {
+  auto& sender =
+      MakeSender<Scan>("sender", {.pool = {.buffers = 3, .may_grow = false}, .pullable = true});
+  auto& pulling = MakeReceiver<Scan>("pulling", kPulls);
+  auto& queued = MakeReceiver<Scan>("queued");
+  Connect(sender.out, pulling.in);
+  Connect(sender.out, queued.in, {.queue = 4});
+  sender.out.SetProvider([this](Scan& value) { return Count(value, counter); });
+  for (int i = 1; i <= 10; ++i) {
+    const auto lease = pulling.in.Read();
+    EXPECT_EQ(lease->number, i);
+    EXPECT_EQ(queued.in.Take()->number, i);
+    EXPECT_EQ(sender.out.Publish(Scan{{}, -i}), PublishStatus::kPublished);
+    EXPECT_EQ(queued.in.Take()->number, -i);
+  }
+}
+
+TEST_F(PullPortTest, StrategyAndProviderChangeWhileInUse) {
+  auto& sender = MakeSender<int>("sender", kPullable);
+  auto& receiver = MakeReceiver<int>();
+  Connect(sender.out, receiver.in, {.queue = 8});
+  sender.out.SetProvider([this](int& value) { return Count(value, counter); });
+  sender.out.Publish(100);
+  EXPECT_EQ(receiver.in.strategy(), Strategy::kPush);
+  EXPECT_EQ(*receiver.in.Read(), 100);
+  receiver.in.SetStrategy(Strategy::kPull);
+  EXPECT_EQ(receiver.in.strategy(), Strategy::kPull);
+  EXPECT_EQ(*receiver.in.Read(), 1);
+  sender.out.SetProvider([](int& value) { return value = 50, true; });
+  EXPECT_EQ(*receiver.in.Read(), 50);
+  sender.out.SetProvider({});
+  EXPECT_EQ(receiver.in.Read().freshness(), Freshness::kOld);
+  receiver.in.SetStrategy(Strategy::kPush);
+  sender.out.SetProvider([this](int& value) { return Count(value, counter); });
+  EXPECT_EQ(*receiver.in.Read(), 50);
+  EXPECT_THAT(TakeAll(receiver.in), testing::ElementsAre(100, 1, 50)) << "the queue stayed";
+}
+
+TEST_F(PullPortTest, AProviderThatHasNothingLeavesTheValueOfBefore) {
+  auto& sender = MakeSender<Scan>("sender", kPullable);
+  auto& receiver = MakeReceiver<Scan>("receiver", kPulls);
+  Connect(sender.out, receiver.in);
+  sender.out.Publish(Scan{{}, 1});
+  sender.out.SetProvider([](Scan& value) { return value.number = 2, false; });
+  EXPECT_EQ(receiver.in.Read()->number, 1);
+  EXPECT_EQ(receiver.in.Read().freshness(), Freshness::kOld);
+  EXPECT_EQ(sender.out.pull_failures(), 0u);
+}
+
+TEST_F(PullPortTest, AProviderThatThrowsIsCountedAndTheNextPullWorks) {
+  auto& sender = MakeSender<int>("sender", kPullable);
+  auto& receiver = MakeReceiver<int>("receiver", kPulls);
+  Connect(sender.out, receiver.in);
+  sender.out.Publish(1);
+  sender.out.SetProvider([this](int& value) {
+    if (++counter == 1) throw std::runtime_error("no reading");
+    return value = 2, true;
+  });
+  EXPECT_EQ(*receiver.in.Read(), 1);
+  EXPECT_EQ(sender.out.pull_failures(), 1u);
+  EXPECT_EQ(*receiver.in.Read(), 2);
+  EXPECT_EQ(sender.out.Publish(3), PublishStatus::kPublished);
+  EXPECT_EQ(sender.out.pull_failures(), 1u);
+}
+
+TEST_F(PullPortTest, AnExhaustedFixedPoolIsAFailureToo) {
+  auto& sender =
+      MakeSender<Scan>("sender", {.pool = {.buffers = 1, .may_grow = false}, .pullable = true});
+  auto& receiver = MakeReceiver<Scan>("receiver", kPulls);
+  Connect(sender.out, receiver.in);
+  sender.out.SetProvider([this](Scan& value) { return Count(value, counter); });
+  const auto kept = receiver.in.Read();
+  EXPECT_EQ(receiver.in.Read()->number, 1);
+  EXPECT_EQ(sender.out.pull_failures(), 1u);
+  EXPECT_TRUE(sender.out.Loan()) << "the publisher has buffers of its own";
+}
+
+TEST_F(PullPortTest, WhoeverComesDuringAPullGoesWithout) {
+  auto& sender = MakeSender<Scan>("sender", kPullable);
+  auto& receiver = MakeReceiver<Scan>("receiver", kPulls);
+  auto& other = MakeReceiver<Scan>("other", kPulls);
+  Connect(sender.out, receiver.in);
+  Connect(sender.out, other.in);
+  sender.out.Publish(Scan{{}, 1});
+  sender.out.SetProvider([&](Scan& value) {
+    value.number = 2;
+    EXPECT_EQ(other.in.Read()->number, 1);
+    EXPECT_EQ(sender.out.Publish(Scan{{}, 3}), PublishStatus::kBusy);
+    auto loan = sender.out.Loan();
+    EXPECT_EQ(sender.out.Publish(std::move(loan)), PublishStatus::kBusy);
+    EXPECT_TRUE(loan) << "stays with its owner";
+    EXPECT_THROW(sender.out.SetProvider({}), ProgrammingError) << "would wait for itself";
+    return true;
+  });
+  EXPECT_EQ(receiver.in.Read()->number, 2);
+  EXPECT_EQ(sender.out.pull_failures(), 0u);
+}
+
+TEST_F(PullPortTest, OfSeveralSourcesAllThatProvideAreAsked) {
+  auto& first = MakeSender<int>("first", kPullable);
+  auto& second = MakeSender<int>("second", kPullable);
+  auto& third = MakeSender<int>("third");
+  auto& receiver = MakeReceiver<int>("receiver", kPulls);
+  for (auto* sender : {&first, &second, &third}) Connect(sender->out, receiver.in);
+  third.out.Publish(0);
+  first.out.SetProvider([](int& value) { return value = 1, true; });
+  EXPECT_EQ(*receiver.in.Read(), 1);
+  second.out.SetProvider([](int& value) { return value = 2, true; });
+  EXPECT_EQ(*receiver.in.Read(), 2) << "is published last";
+  EXPECT_EQ(first.out.publications(), 2u);
+  EXPECT_EQ(second.out.publications(), 1u);
+}
+
+TEST_F(PullPortTest, APullGoesOnThroughAChain) {
+  auto& source = MakeSender<int>("source", kPullable);
+  auto& middle_in = MakeReceiver<int>("middle_in", kPulls);
+  auto& middle_out = MakeSender<int>("middle_out", kPullable);
+  auto& receiver = MakeReceiver<int>("receiver", kPulls);
+  Connect(source.out, middle_in.in);
+  Connect(middle_out.out, receiver.in);
+  source.out.SetProvider([this](int& value) { return Count(value, counter); });
+  middle_out.out.SetProvider([&](int& value) { return value = 10 * *middle_in.in.Read(), true; });
+  EXPECT_EQ(*receiver.in.Read(), 10);
+  EXPECT_EQ(*receiver.in.Read(), 20);
+}
+
+TEST_F(PullPortTest, PulledValuesBearTheTimeOfTheReadersCycle) {
+  auto& sender = MakeSender<int>("sender", kPullable);
+  auto& receiver = MakeReceiver<int>("receiver", kPulls);
+  Connect(sender.out, receiver.in);
+  sender.out.SetProvider([this](int& value) { return Count(value, counter); });
+  clock.Set(Time(Duration(5)));
+  EXPECT_EQ(receiver.in.Read().stamp(), Time(Duration(5)));
+  const CycleScope cycle({.now = Time(Duration(7))});
+  EXPECT_EQ(receiver.in.Read().stamp(), Time(Duration(7)));
+}
+
+TEST_F(PullPortTest, OnlyAPullableOutputHasAProvider) {
+  auto& sender = MakeSender<int>();
+  EXPECT_THROW(sender.out.SetProvider([](int&) { return true; }), ProgrammingError);
+}
+
+TEST_F(PullPortTest, APullWakesWhoWaits) {
+  auto& sender = MakeSender<int>("sender", kPullable);
+  auto& pulling = MakeReceiver<int>("pulling", kPulls);
+  auto& waiting = MakeReceiver<int>("waiting");
+  Connect(sender.out, pulling.in);
+  Connect(sender.out, waiting.in);
+  sender.out.SetProvider([this](int& value) { return Count(value, counter); });
+  EXPECT_FALSE(pulling.in.Wait(Duration(1))) << "waiting does not pull";
+  EXPECT_EQ(sender.out.publications(), 0u);
+  std::thread reader([&] { (void)pulling.in.Read(); });
+  EXPECT_TRUE(waiting.in.Wait(std::chrono::seconds(30)));
+  reader.join();
+}
+
+TEST_F(PullPortTest, PullingNeitherAllocatesNorLocksNorCallsTheSystem) {
+  auto& small = MakeSender<int>("small", kPullable);
+  auto& large = MakeSender<Scan>("large", kPullable);
+  auto& small_receiver = MakeReceiver<int>("small_receiver", kPulls);
+  auto& large_receiver = MakeReceiver<Scan>("large_receiver", kPulls);
+  Connect(small.out, small_receiver.in);
+  Connect(large.out, large_receiver.in);
+  small.out.SetProvider([this](int& value) { return Count(value, counter); });
+  large.out.SetProvider([this](Scan& value) { return Count(value, counter); });
+  const CycleScope cycle({.now = Time(Duration(1))});
+  const auto body = [&] {
+    (void)small_receiver.in.Read();
+    (void)small_receiver.in.Get();
+    (void)large_receiver.in.Read();
+    (void)small.out.Publish(1);
+    (void)large.out.Publish(large.out.Loan());
+  };
+  for (int i = 0; i < 50; ++i) body();
+  {
+    const AllocationGuard allocations;
+    const LockProbe locks;
+    for (int i = 0; i < 100; ++i) body();
+    EXPECT_EQ(allocations.allocations(), 0u);
+    EXPECT_EQ(locks.locks(), 0u);
+  }
+  SystemCallProbe calls;
+  for (int i = 0; i < 100; ++i) body();
+  EXPECT_EQ(calls.Stop(), -1);
+}
+
+// Two readers pull, a third one reads what is pushed, the publisher publishes, and somebody changes
+// strategies and providers. What a provider refers to goes when SetProvider() has returned.
+template <typename T, typename Number, typename Make>
+void ChangeUnderFire(Sender<T>& sender, const std::vector<Receiver<T>*>& receivers,
+                     const Number& number_of, const Make& make) {
+  constexpr int kGone = -1;
+  std::atomic<bool> stop{false};
+  std::atomic<int> torn{0}, backward{0}, after_its_end{0}, together{0}, running{0};
+  std::atomic<int> refused_silently{0}, pulled{0};
+  std::atomic<int> last{0};
+  const auto count = static_cast<unsigned>(receivers.size());
+  RunTogether(count + 2, [&](unsigned index) {
+    if (index < count) {
+      std::uint64_t last_sequence = 0;
+      while (!stop) {
+        MaybeYield();
+        const auto lease = receivers[index]->in.Read();
+        if (!lease) continue;
+        if (number_of(*lease) == kGone) ++torn;
+        if (lease.sequence() < last_sequence) ++backward;
+        last_sequence = lease.sequence();
+      }
+    } else if (index == count) {
+      while (!stop) {
+        MaybeYield();
+        const auto status = sender.out.Publish(make(++last));
+        if (status != PublishStatus::kPublished && status != PublishStatus::kBusy) {
+          ++refused_silently;
+        }
+      }
+    } else {
+      for (int round = 0; round < kRounds / 5 || pulled == 0; ++round) {
+        const auto alive = std::make_unique<std::atomic<bool>>(true);
+        sender.out.SetProvider([&, alive = alive.get()](T& value) {
+          if (++running != 1) ++together;
+          MaybeYield();
+          if (!*alive) ++after_its_end;
+          value = make(++last);
+          ++pulled;
+          --running;
+          return true;
+        });
+        receivers[0]->in.SetStrategy(round % 2 == 0 ? Strategy::kPull : Strategy::kPush);
+        std::this_thread::yield();
+        if (round % 3 == 0) {
+          EXPECT_TRUE(Port::Disconnect(sender.out, receivers[0]->in));
+          EXPECT_TRUE(Port::Connect(sender.out, receivers[0]->in, {.queue = 2}));
+        }
+        sender.out.SetProvider({});
+        *alive = false;
+      }
+      stop = true;
+    }
+  });
+  EXPECT_EQ(torn, 0);
+  EXPECT_EQ(backward, 0);
+  EXPECT_EQ(after_its_end, 0);
+  EXPECT_EQ(together, 0);
+  EXPECT_EQ(refused_silently, 0);
+  EXPECT_GT(pulled, 0);
+  EXPECT_EQ(sender.out.pull_failures(), 0u);
+}
+
+TEST_F(PullPortTest, SmallTypesArePulledAndPushedWhileAllChanges) {
+  auto& sender = MakeSender<std::array<int, 8>>("sender", kPullable);
+  std::vector<Receiver<std::array<int, 8>>*> receivers;
+  for (const char* name : {"a", "b", "c"}) {
+    receivers.push_back(
+        &MakeReceiver<std::array<int, 8>>(name, name[0] == 'c' ? InputOptions{} : kPulls));
+    Connect(sender.out, receivers.back()->in);
+  }
+  ChangeUnderFire(
+      sender, receivers,
+      [](const auto& value) {
+        for (const int each : value) {
+          if (each != value[0]) return -1;
+        }
+        return value[0];
+      },
+      [](int number) {
+        std::array<int, 8> value;
+        value.fill(number);
+        return value;
+      });
+}
+
+TEST_F(PullPortTest, ValuesInBuffersArePulledAndPushedWhileAllChanges) {
+  auto& sender = MakeSender<Scan>("sender", kPullable);
+  std::vector<Receiver<Scan>*> receivers;
+  for (const char* name : {"a", "b", "c"}) {
+    receivers.push_back(&MakeReceiver<Scan>(name, name[0] == 'c' ? InputOptions{} : kPulls));
+    Connect(sender.out, receivers.back()->in);
+  }
+  ChangeUnderFire(
+      sender, receivers,
+      [](const Scan& value) {
+        for (const float each : value.ranges) {
+          if (each != static_cast<float>(value.number)) return -1;
+        }
+        return value.number;
+      },
+      [](int number) {
+        return Scan{std::vector<float>(20, static_cast<float>(number)), number};
+      });
+}
+
+TEST_F(PullPortTest, AnOutputGoesWhileOthersPullFromIt) {
+  auto& receiver = MakeReceiver<int>("receiver", kPulls);
+  std::atomic<bool> stop{false};
+  std::atomic<int> after_its_end{0};
+  RunTogether(2, [&](unsigned index) {
+    if (index == 0) {
+      while (!stop) (void)receiver.in.Read();
+      return;
+    }
+    for (int round = 0; round < kRounds / 10; ++round) {
+      auto& sender = MakeSender<int>("passing", kPullable);
+      std::atomic<bool> alive{true};
+      sender.out.SetProvider([&](int& value) {
+        if (!alive) ++after_its_end;
+        return value = 1, true;
+      });
+      Connect(sender.out, receiver.in);
+      std::this_thread::yield();
+      EXPECT_TRUE(runtime.Delete(sender));
+      alive = false;
+    }
+    stop = true;
+  });
+  EXPECT_EQ(after_its_end, 0);
+}
+
+}  // namespace
+}  // namespace runnel::test
