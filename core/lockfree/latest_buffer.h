@@ -48,8 +48,8 @@ class LatestBuffer {
     // buffer is visible.
     Buffer* buffer = newest_.load(std::memory_order_acquire);
     if (buffer == nullptr) return {};
-    // relaxed: the thread has set it itself, or the fence below is what counts.
-    if ((readers_.load(std::memory_order_relaxed) & record.bit) == 0) [[unlikely]]
+    // relaxed: an own bit is set by this thread alone; Register() sees to a shared one.
+    if ((readers_.load(std::memory_order_relaxed) & record.own_bit) == 0) [[unlikely]]
       Register(record);
     auto* const slot = record.FindFreeSlot();
     if (slot == nullptr) [[unlikely]]
@@ -90,9 +90,13 @@ class LatestBuffer {
   }
   // Once for each thread that reads here. Whoever publishes and does not see the bit has published
   // before the fence, and the second look of the reader sees it.
+  // A shared bit that is set says nothing yet: who set it may not have passed the fence.
   [[gnu::noinline]] void Register(const Record& record) noexcept {
+    // acquire, release: the fence of who set the bit is passed.
+    if (record.own_bit == 0 && shared_bit_is_seen_.load(std::memory_order_acquire)) return;
     readers_.fetch_or(record.bit, std::memory_order_relaxed);
     Fences<Atomic>::Heavy();
+    if (record.own_bit == 0) shared_bit_is_seen_.store(true, std::memory_order_release);
   }
   // For a thread that holds as many leases as it has slots. The buffer that is counted may have
   // been reused meanwhile; then it is not the newest, and the count is taken back unused.
@@ -110,6 +114,7 @@ class LatestBuffer {
   Pool& pool_;
   alignas(kCacheLineSize) Atomic<Buffer*> newest_{nullptr};
   Atomic<std::uint64_t> readers_{0};  // bits of the records that have ever leased here
+  Atomic<bool> shared_bit_is_seen_{false};
 };
 
 }  // namespace runnel

@@ -1,48 +1,14 @@
 #include "tests/core/lockfree/searched_atomic.h"
 // The search must come first: it renames what the standard headers below use.
 
-#include "core/lockfree/latest_buffer.h"
+#include <optional>
+
+#include "tests/core/lockfree/buffer_rig.h"
 
 namespace runnel::test {
 namespace {
 
 constexpr unsigned kIterations = 100000;
-
-// Few slots and records, so that each way of holding comes up in short schedules.
-template <typename T, std::size_t kReaders>
-struct Rig {
-  using Domain = HazardDomain<SearchedAtomic, 1>;
-  using Pool = BufferPool<T, SearchedAtomic, 1>;
-  using Lease = BufferLease<T, SearchedAtomic, 1>;
-
-  explicit Rig(const PoolOptions& options) : pool(Pool::Make(domain, options, {})), latest(*pool) {
-    for (auto& each : readers) domain.Add(each);
-  }
-  // Publishes `value` if there is a buffer.
-  void Publish(int value) {
-    auto* const buffer = latest.Loan();
-    if (buffer == nullptr) return;
-    buffer->value().Set(value);
-    buffer->publication.sequence = static_cast<std::uint64_t>(value);
-    latest.Publish(*buffer);
-  }
-
-  Domain domain;
-  typename Domain::Record readers[kReaders];
-  typename Pool::Owner pool;
-  LatestBuffer<T, SearchedAtomic, 1> latest;
-};
-
-// The value may be looked at, and does not change. A buffer that is written while it is held is a
-// race on its plain value.
-template <typename Lease>
-int LookAt(const Lease& lease) {
-  const int value = lease.get()->value().Get();
-  RL_ASSERT(value > 0);
-  RL_ASSERT(static_cast<std::uint64_t>(value) == lease.get()->publication.sequence);
-  RL_ASSERT(lease.get()->value().Get() == value);
-  return value;
-}
 
 // A publisher goes through its two buffers while readers lease and look.
 struct LeasingSuite : rl::test_suite<LeasingSuite, 3>, Rig<SearchedPlain, 2> {
@@ -131,137 +97,51 @@ TEST(BufferSearch, LeaseMayBeDroppedByAnotherThread) {
   EXPECT_TRUE(Search<HandingOnSuite>(kIterations));
 }
 
-// A loan may be given back by any thread, and is written again by the publisher.
-struct LoanSuite : rl::test_suite<LoanSuite, 2>, Rig<SearchedPlain, 1> {
-  LoanSuite() : Rig({.buffers = 1, .may_grow = false}) {}
-  SearchedAtomic<Pool::Buffer*> loaned{nullptr};
-  Pool::Buffer* again = nullptr;
-  bool is_dropped = false;
-
-  void thread(unsigned index) {
-    if (index == 0) {
-      auto* buffer = latest.Loan();
-      buffer->value().Set(1);
-      loaned.store(buffer, std::memory_order_release);
-      for (int i = 0; i < 3; ++i) {
-        if ((buffer = latest.Loan()) == nullptr) continue;
-        buffer->value().Set(2);
-        again = buffer;
-        return;
-      }
-    } else if (auto* const buffer = loaned.load(std::memory_order_acquire)) {
-      RL_ASSERT(buffer->value().Get() == 1);
-      buffer->DropLoan();
-      is_dropped = true;
-    }
-  }
-  void after() {
-    auto* const out =
-        again != nullptr || is_dropped ? again : loaned.load(std::memory_order_relaxed);
-    if (out != nullptr) out->DropLoan();
-  }
-};
-
-TEST(BufferSearch, LoanGivenBackIsWrittenAgainOnlyThen) {
-  EXPECT_TRUE(Search<LoanSuite>(kIterations));
-}
-
-// Buffers are reserved while the publisher loans: they are complete when it comes upon them.
-struct ReservingSuite : rl::test_suite<ReservingSuite, 2>, Rig<SearchedPlain, 1> {
-  ReservingSuite() : Rig({.buffers = 1, .may_grow = false}) {}
-  Pool::Buffer* loans[3] = {};
-
-  void thread(unsigned index) {
-    if (index == 1) {
-      pool->Reserve(2);
-      pool->Reserve(3);
-      return;
-    }
-    for (auto*& each : loans) {
-      if ((each = latest.Loan()) != nullptr) each->value().Set(1);
-    }
-    RL_ASSERT(loans[0] != nullptr && loans[0] != loans[1] && loans[0] != loans[2]);
-    RL_ASSERT(loans[1] == nullptr || loans[1] != loans[2]);
-  }
-  void after() {
-    for (auto* each : loans) {
-      if (each != nullptr) each->DropLoan();
-    }
-  }
-};
-
-TEST(BufferSearch, ReservedBuffersAreCompleteWhenTheyArrive) {
-  EXPECT_TRUE(Search<ReservingSuite>(kIterations));
-}
-
-// Counts how many of it there are; its death is a race if anybody still looks.
-struct Mortal : SearchedPlain {
-  Mortal() { ++alive(); }
-  ~Mortal() {
-    Set(-1);
-    --alive();
-  }
-  static int& alive() {
-    static int count = 0;
-    return count;
-  }
-};
-
-// The owner closes the pool while there are a lease in a slot, its copy, and a loan, each given up
-// by another thread: the buffers go with whoever comes last, once.
-struct ClosingSuite : rl::test_suite<ClosingSuite, 3>, Rig<Mortal, 1> {
-  ClosingSuite() : Rig({.buffers = 3, .may_grow = false}) {}
-  Lease in_slot;
-  Pool::Buffer* loan = nullptr;
+// Another thread empties a slot, which is then filled anew: a publisher that sees only the latter
+// has the other's look behind it.
+struct RefillingSuite : rl::test_suite<RefillingSuite, 3>, Rig<SearchedPlain, 1> {
+  RefillingSuite() : Rig({.buffers = 2, .may_grow = false}) {}
+  Lease handed;
 
   void before() {
-    Publish(7);
-    in_slot = latest.Lease(readers[0]);
-    loan = latest.Loan();
-    loan->value().Set(8);
+    Publish(1);
+    handed = latest.Lease(readers[0]);
+    Publish(2);
   }
   void thread(unsigned index) {
     if (index == 0) {
-      pool.reset();
+      LookAt(handed);
+      handed = {};
     } else if (index == 1) {
-      Lease lease = std::move(in_slot);
-      const Lease copy = lease;
-      lease = {};
-      RL_ASSERT(copy.get()->value().Get() == 7);
+      LookAt(latest.Lease(readers[0]));
     } else {
-      RL_ASSERT(loan->value().Get() == 8);
-      loan->DropLoan();
+      Publish(3);
     }
   }
-  void after() { RL_ASSERT(Mortal::alive() == 0); }
 };
 
-TEST(BufferSearch, ClosedPoolGoesWithItsLastHolder) {
-  EXPECT_TRUE(Search<ClosingSuite>(kIterations));
+TEST(BufferSearch, SlotThatIsFilledAnewSaysThatTheOldBufferIsFree) {
+  EXPECT_TRUE(Search<RefillingSuite>(5 * kIterations));
 }
 
-// The same with nothing but a lease in a slot, so that the closer and the reader meet there alone.
-struct ClosingSlotSuite : rl::test_suite<ClosingSlotSuite, 2>, Rig<Mortal, 1> {
-  ClosingSlotSuite() : Rig({.buffers = 1, .may_grow = false}) {}
+// The buffers that a counted lease meets are made while it looks.
+struct GrowingSuite : rl::test_suite<GrowingSuite, 2>, Rig<SearchedPlain, 1> {
+  GrowingSuite() : Rig({.buffers = 1, .may_grow = true}) {}
   Lease in_slot;
 
   void before() {
-    Publish(7);
+    Publish(1);
     in_slot = latest.Lease(readers[0]);
   }
   void thread(unsigned index) {
-    if (index == 0) {
-      pool.reset();
-    } else {
-      RL_ASSERT(in_slot.get()->value().Get() == 7);
-      in_slot = {};
-    }
+    if (index == 1) return Publish(2);
+    LookAt(latest.Lease(readers[0]));
   }
-  void after() { RL_ASSERT(Mortal::alive() == 0); }
+  void after() { in_slot = {}; }
 };
 
-TEST(BufferSearch, ClosedPoolGoesWithTheLastSlot) {
-  EXPECT_TRUE(Search<ClosingSlotSuite>(kIterations));
+TEST(BufferSearch, BuffersThatAreNewAreCompleteForWhoCounts) {
+  EXPECT_TRUE(Search<GrowingSuite>(kIterations));
 }
 
 // The publisher reads what it has published, and spares itself the fence, while another reads too.
@@ -291,22 +171,46 @@ struct OwnReaderSuite : rl::test_suite<OwnReaderSuite, 2>, Rig<SearchedPlain, 2>
 TEST(BufferSearch, PublisherMayReadItself) { EXPECT_TRUE(Search<OwnReaderSuite>(kIterations)); }
 
 // A record is added while the publisher looks for free buffers.
-struct AddingSuite : rl::test_suite<AddingSuite, 2>, Rig<SearchedPlain, 1> {
-  AddingSuite() : Rig({.buffers = 2, .may_grow = false}) {}
-  Domain::Record late;
+// With nine before it, it has no bit of its own.
+template <std::size_t kBefore>
+struct AddingSuite : rl::test_suite<AddingSuite<kBefore>, 2>, Rig<SearchedPlain, kBefore> {
+  using Base = Rig<SearchedPlain, kBefore>;
+  AddingSuite() : Base({.buffers = 2, .may_grow = false}) {}
+  std::optional<typename Base::Domain::Record> late;  // made here, so that it may be met incomplete
 
   void thread(unsigned index) {
     if (index == 1) {
-      for (int i = 1; i <= 4; ++i) Publish(i);
+      for (int i = 1; i <= 4; ++i) this->Publish(i);
       return;
     }
-    domain.Add(late);
-    const Lease lease = latest.Lease(late);
+    this->domain.Add(late.emplace());
+    const auto lease = this->latest.Lease(*late);
     if (lease.get() != nullptr) LookAt(lease);
   }
 };
 
-TEST(BufferSearch, ThreadThatIsNewIsSeen) { EXPECT_TRUE(Search<AddingSuite>(kIterations)); }
+TEST(BufferSearch, ThreadThatIsNewIsSeen) {
+  EXPECT_TRUE(Search<AddingSuite<1>>(kIterations));
+  EXPECT_TRUE(Search<AddingSuite<9>>(kIterations));
+}
+
+// Two readers share a bit, and one of them finds it set by the other just now.
+struct SharedBitSuite : rl::test_suite<SharedBitSuite, 3>, Rig<SearchedPlain, 11> {
+  SharedBitSuite() : Rig({.buffers = 2, .may_grow = false}) {}
+
+  void before() { Publish(1); }
+  void thread(unsigned index) {
+    if (index == 2) {
+      for (int i = 2; i <= 3; ++i) Publish(i);
+    } else {
+      LookAt(latest.Lease(readers[9 + index]));
+    }
+  }
+};
+
+TEST(BufferSearch, ReadersThatShareABitAreSeenEach) {
+  EXPECT_TRUE(Search<SharedBitSuite>(5 * kIterations));
+}
 
 }  // namespace
 }  // namespace runnel::test

@@ -41,6 +41,7 @@
 #undef assert
 
 #include "core/lockfree/asymmetric_fence.h"
+#include "tests/core/lockfree/searched_fences.h"
 
 namespace runnel::test {
 
@@ -49,13 +50,11 @@ class SearchedAtomic;
 
 }  // namespace runnel::test
 
-/// The search knows no asymmetric fences; it takes both halves for full ones, which is what a pair
-/// of them amounts to.
 template <>
 struct runnel::Fences<runnel::test::SearchedAtomic> {
-  static void Full() { rl::atomic_thread_fence(rl::mo_seq_cst, $); }
-  static void Light() { Full(); }
-  static void Heavy() { Full(); }
+  static void Full() { test::SearchedFences::Pass(test::FenceKind::kFull); }
+  static void Light() { test::SearchedFences::Pass(test::FenceKind::kLight); }
+  static void Heavy() { test::SearchedFences::Pass(test::FenceKind::kHeavy); }
 };
 
 namespace runnel::test {
@@ -77,38 +76,61 @@ inline rl::memory_order Searched(std::memory_order order) {
   return rl::mo_seq_cst;
 }
 
-/// Stands in for std::atomic in the structures under test.
+/// Relacy takes no failure order above the order of success, as C++ did once. The structures have none
+/// either; but they are weakened to see what the search says (weaken).
+inline rl::memory_order SearchedFailure(std::memory_order ok, std::memory_order fail) {
+  const bool acquires = ok == std::memory_order_acquire || ok == std::memory_order_acq_rel ||
+                        ok == std::memory_order_seq_cst;
+  return acquires ? Searched(fail) : rl::mo_relaxed;
+}
+
+/// Stands in for std::atomic in the structures under test. Its making and its end are no atomic
+/// operations: the search reports one that is not ordered with every use.
 template <typename T>
 class SearchedAtomic {
  public:
   SearchedAtomic() : SearchedAtomic(T{}) {}
-  SearchedAtomic(T value) { atomic_.store(value, rl::mo_relaxed, $); }
+  SearchedAtomic(T value) {
+    life_($) = 1;
+    atomic_.store(value, rl::mo_relaxed, $);
+  }
+  ~SearchedAtomic() { life_($) = 0; }
 
-  T load(std::memory_order order) const { return atomic_.load(Searched(order), $); }
-  void store(T value, std::memory_order order) { atomic_.store(value, Searched(order), $); }
+  T load(std::memory_order order) const { return Living().load(Searched(order), $); }
+  void store(T value, std::memory_order order) { Living().store(value, Searched(order), $); }
   T exchange(T value, std::memory_order order) {
-    return atomic_.rmw(rl::rmw_type_t<rl::rmw_type_swap>(), value, Searched(order), $);
+    return Living().rmw(rl::rmw_type_t<rl::rmw_type_swap>(), value, Searched(order), $);
   }
   T fetch_add(T value, std::memory_order order) {
-    return atomic_.rmw(rl::rmw_type_t<rl::rmw_type_add>(), value, Searched(order), $);
+    return Living().rmw(rl::rmw_type_t<rl::rmw_type_add>(), value, Searched(order), $);
   }
   T fetch_sub(T value, std::memory_order order) {
-    return atomic_.rmw(rl::rmw_type_t<rl::rmw_type_sub>(), value, Searched(order), $);
+    return Living().rmw(rl::rmw_type_t<rl::rmw_type_sub>(), value, Searched(order), $);
   }
   T fetch_or(T value, std::memory_order order) {
-    return atomic_.rmw(rl::rmw_type_t<rl::rmw_type_or>(), value, Searched(order), $);
+    return Living().rmw(rl::rmw_type_t<rl::rmw_type_or>(), value, Searched(order), $);
   }
   bool compare_exchange_weak(T& expected, T desired, std::memory_order ok, std::memory_order fail) {
-    return atomic_.compare_exchange(rl::bool_t<true>(), expected, desired, Searched(ok),
-                                    Searched(fail), $);
+    return Living().compare_exchange(rl::bool_t<true>(), expected, desired, Searched(ok),
+                                     SearchedFailure(ok, fail), $);
   }
   bool compare_exchange_strong(T& expected, T desired, std::memory_order ok,
                                std::memory_order fail) {
-    return atomic_.compare_exchange(rl::bool_t<false>(), expected, desired, Searched(ok),
-                                    Searched(fail), $);
+    return Living().compare_exchange(rl::bool_t<false>(), expected, desired, Searched(ok),
+                                     SearchedFailure(ok, fail), $);
   }
 
  private:
+  const rl::atomic<T>& Living() const {
+    (void)static_cast<int>(life_($));
+    return atomic_;
+  }
+  rl::atomic<T>& Living() {
+    (void)static_cast<int>(life_($));
+    return atomic_;
+  }
+
+  mutable rl::var<int> life_;
   rl::atomic<T> atomic_;
 };
 
@@ -143,6 +165,10 @@ class SearchOutput : public std::streambuf {
   std::array<char, 1 << 16> room_;
 };
 
+/// The suite with fences of its own, which are there before it.
+template <typename Suite>
+struct WithFences : SearchedFencesOf<Suite::params::thread_count>, Suite {};
+
 /// Runs `Suite` through `iterations` random schedules; true if none failed.
 template <typename Suite>
 bool Search(unsigned iterations) {
@@ -155,7 +181,7 @@ bool Search(unsigned iterations) {
   std::ostream output(room.get());
   parameters.output_stream = &output;
   parameters.progress_stream = &output;
-  const bool passed = rl::simulate<Suite>(parameters);
+  const bool passed = rl::simulate<WithFences<Suite>>(parameters);
   if (!passed) std::cout << room->text() << std::endl;
   return passed;
 }
