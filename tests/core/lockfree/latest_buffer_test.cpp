@@ -102,9 +102,14 @@ TEST(LatestBufferTest, MoreLeasesThanSlotsHoldAsWell) {
   EXPECT_EQ(rig.latest->Loan(), nullptr);
   leases.clear();
   std::set<const void*> free;
-  while (auto* buffer = rig.latest->Loan()) free.insert(buffer);
+  std::vector<decltype(rig)::Pool::Buffer*> loans;
+  while (auto* buffer = rig.latest->Loan()) {
+    free.insert(buffer);
+    loans.push_back(buffer);
+  }
   EXPECT_EQ(free, held);
   EXPECT_FALSE(free.contains(&sixth));
+  for (auto* loan : loans) loan->DropLoan();
 }
 
 TEST(LatestBufferTest, MoreThreadsThanBitsAreLookedAtAsWell) {
@@ -121,6 +126,8 @@ TEST(LatestBufferTest, MoreThreadsThanBitsAreLookedAtAsWell) {
   auto* const last = leases.back().get();
   leases.pop_back();
   EXPECT_EQ(rig.latest->Loan(), last);
+  rest->DropLoan();
+  last->DropLoan();
 }
 
 TEST(LatestBufferTest, LeasingAllocatesNothing) {
