@@ -6,76 +6,15 @@
 #include <utility>
 #include <vector>
 
-#include "core/lockfree/queue_succession.h"
-#include "core/port/arrival_event.h"
 #include "core/port/channel.h"
-#include "core/port/input_queue.h"
+#include "core/port/input_base.h"
+#include "core/port/input_binding.h"
 #include "core/port/lease.h"
 #include "core/port/port.h"
 #include "core/port/port_owner.h"
 #include "core/types/type_of.h"
 
 namespace runnel {
-
-/// The part of an input that does not depend on the type of its values.
-class InputBase : public Port {
- public:
-  [[nodiscard]] bool is_required() const noexcept override { return options_.required; }
-  [[nodiscard]] bool is_trigger() const noexcept { return options_.trigger; }
-
-  ~InputBase() override;
-
-  /// Has `waker` told of new data; nullptr for nobody. Locks.
-  void SetWaker(Waker* waker);
-
-  /// Sleeps until there is a value that the last Read() has not returned or, if a connection has a
-  /// queue, until there is something to Take(); false if there is none when `timeout` has passed (at
-  /// once if it is not positive), by the machine's clock. A new connection wakes as a publication
-  /// does. In rare cases there may be nothing to Take() after all: a full queue has just dropped it.
-  ///
-  /// Publishers call the system only if the reader sleeps; for inputs that never wait, they do
-  /// nothing at all. Does not pull: it waits for what others publish.
-  /// Threads:     the one that reads. It sleeps, so never in a cycle. Nobody may be waiting when the
-  ///              input is deleted.
-  /// Allocation:  by the first call, which locks too; see InputOptions::waits.
-  /// Errors:      throws ProgrammingError in a cycle or inside an EpochGuard, where a thread that
-  ///              sleeps would keep all others from deleting anything.
-  [[nodiscard]] bool Wait(Duration timeout);
-
-  /// Chooses whether reading pulls (Output::SetProvider()) or takes what has been published. Any
-  /// thread, at any time, but not from a cycle: locks and allocates.
-  void SetStrategy(Strategy strategy);
-  [[nodiscard]] Strategy strategy() const noexcept {
-    // relaxed: for viewers; readers are told by a new binding.
-    return strategy_.load(std::memory_order_relaxed);
-  }
-  /// Values lost because the queue was full, since something was connected to the input first, or
-  /// first again. Where another connection has changed the queue meanwhile, its drops count on.
-  [[nodiscard]] virtual std::uint64_t dropped() const noexcept = 0;
-
- protected:
-  InputBase(const Placement& placement, const TypeInfo& type, InputOptions options);
-
-  void Rebind(const std::vector<Source>& sources) final;
-  /// Typed inputs: bind to the channels of `sources`; the queue that publishers shall fill, or
-  /// nullptr.
-  virtual QueueSink* Bind(const std::vector<Source>& sources) = 0;
-  /// Typed inputs: Bind() has taken effect everywhere; put first values into a new queue.
-  virtual void Bound() = 0;
-  /// Typed inputs: what Wait() waits for. By the reader.
-  [[nodiscard]] virtual bool HasNew() const = 0;
-
- private:
-  ArrivalEvent& PrepareToWait();
-  static void UpdateChannel(Port& output);
-
-  const InputOptions options_;
-  Waker* waker_ = nullptr;
-  QueueSink* sink_ = nullptr;
-  std::unique_ptr<ArrivalEvent> arrival_;  // once the reader waits; made by it, under the lock
-  std::atomic<Strategy> strategy_;
-  std::vector<Source> sources_;
-};
 
 /// Where a module reads values of type T.
 ///
@@ -182,85 +121,12 @@ class Input final : public InputBase {
   }
 
  private:
-  // The reader's own notes, relaxed atomics only so that viewers and connecting may look at them.
-  struct RelaxedNumber {
-    [[nodiscard]] std::uint64_t load_relaxed() const noexcept {
-      return value.load(std::memory_order_relaxed);
-    }
-    // One thread writes: no read-modify-write is needed.
-    std::uint64_t exchange_relaxed(std::uint64_t next) noexcept {
-      const std::uint64_t before = load_relaxed();
-      value.store(next, std::memory_order_relaxed);
-      return before;
-    }
-    std::atomic<std::uint64_t> value{0};
-  };
-  // What the reader keeps about one source; lives as long as the connection.
-  struct Link {
-    explicit Link(Channel<T>* source) : channel(source), number(source->number()) {}
-
-    // Marks a value as read; returns which was before.
-    [[gnu::always_inline]] std::uint64_t Note(std::uint64_t sequence) noexcept {
-      return read.exchange_relaxed(sequence);
-    }
-
-    Channel<T>* const channel;
-    const std::uint64_t number;  // of the channel, also when that is gone
-    RelaxedNumber read;          // sequence of the value read last
-    std::uint64_t taken = 0;     // sequence of the value taken last; the reader's own
-  };
+  using Link = internal::InputLink<T>;
+  using Binding = internal::InputBinding<T>;
   struct NotNoted {
     static std::uint64_t Note(std::uint64_t) noexcept { return 0; }
   };
-  // What reading needs; never changed but for the reader's own notes, replaced as a whole.
-  struct Binding {
-    // If there is one source and no pulling, the short way to it; else nullptr.
-    Channel<T>* channel = nullptr;
-    Link* only = nullptr;  // if there is one source
-    bool pulls = false;
-    std::vector<std::shared_ptr<Link>> links;  // shared by the binding before and after a change
-    std::shared_ptr<InputQueue<T>> queue;      // likewise
-    // Queues that another one has replaced: what waits in them comes first.
-    std::vector<std::shared_ptr<InputQueue<T>>> older_queues;
-    std::vector<InputQueue<T>*> all_queues;  // these and then the present one; if there are any
-    std::uint64_t dropped_before = 0;        // by queues that are no longer among the older ones
 
-    [[nodiscard]] bool Pop(internal::HeldValue<T>& held, std::uint64_t& source) const noexcept {
-      if (older_queues.empty()) [[likely]]
-        return queue && queue->Pop(held, source);
-      return PopFromAll(held, source);
-    }
-    [[gnu::noinline]] bool PopFromAll(internal::HeldValue<T>& held,
-                                      std::uint64_t& source) const noexcept {
-      const bool popped = PopInOrder(all_queues, [&](InputQueue<T>& each, const auto& may) {
-        return each.PopIf(may, held, source);
-      });
-      if (queue) queue->SetWaitingBefore(WaitingInOlder());
-      return popped;
-    }
-    [[nodiscard]] std::size_t WaitingInOlder() const noexcept {
-      std::size_t sum = 0;
-      for (const auto& older : older_queues) sum += older->size();
-      return sum;
-    }
-    [[nodiscard]] std::uint64_t dropped() const noexcept {
-      std::uint64_t sum = dropped_before + (queue ? queue->dropped() : 0);
-      for (const auto& older : older_queues) sum += older->dropped();
-      return sum;
-    }
-    [[nodiscard]] bool HasNext() const noexcept {
-      for (const auto& older : older_queues) {
-        if (older->HasNext()) return true;
-      }
-      return queue && queue->HasNext();
-    }
-    [[nodiscard]] Link* FindLink(std::uint64_t number) const noexcept {
-      for (const auto& link : links) {
-        if (link->number == number) return link.get();
-      }
-      return nullptr;
-    }
-  };
   bool CopyNewest(T& value) const noexcept {
     return EpochGuard::HeldByThisThread() ? CopyInside(value) : CopyGuarded(value);
   }
@@ -329,30 +195,21 @@ class Input final : public InputBase {
       auto candidate = link->channel->Read();
       if (!candidate.has_value()) continue;
       Last& last = candidate.publication().order != 0 ? numbered : others;
-      if (last.link != nullptr && !IsLater(candidate, *link, last.held, *last.link)) continue;
+      if (last.link != nullptr && !internal::IsLater(candidate, *link, last.held, *last.link))
+        continue;
       last.held = std::move(candidate);
       last.link = link.get();
     }
-    const bool other_is_later = others.link != nullptr &&
-                                (numbered.link == nullptr ||
-                                 IsLater(others.held, *others.link, numbered.held, *numbered.link));
+    const bool other_is_later =
+        others.link != nullptr &&
+        (numbered.link == nullptr ||
+         internal::IsLater(others.held, *others.link, numbered.held, *numbered.link));
     Last& last = other_is_later ? others : numbered;
     Lease<T> lease;
     lease.held_ = std::move(last.held);
     newest = last.link;
     return lease;
   }
-  // By the common order of sources that share an input, which every reader sees alike. Values from
-  // before the sharing have none; their time and then the age of their source decide.
-  static bool IsLater(const internal::HeldValue<T>& a, const Link& from_a,
-                      const internal::HeldValue<T>& b, const Link& from_b) noexcept {
-    const Publication& p = a.publication();
-    const Publication& q = b.publication();
-    if (p.order != 0 && q.order != 0) return p.order > q.order;
-    if (p.stamp != q.stamp) return p.stamp > q.stamp;
-    return from_a.number > from_b.number;
-  }
-
   bool HasNew() const override {
     const EpochGuard guard;
     const Binding* binding = binding_.load(std::memory_order_acquire);

@@ -1,10 +1,11 @@
-#include "core/port/input.h"
+#include "core/port/input_base.h"
 
 #include <algorithm>
 #include <chrono>
 #include <mutex>
 
 #include "core/element/runtime.h"
+#include "core/port/channel.h"
 
 namespace runnel {
 
