@@ -57,9 +57,9 @@ class LatestBuffer {
     for (;;) {
       // release: carries along what another thread did that used the slot before.
       slot->held.store(buffer, std::memory_order_release);
-      // Between the slot and the second look; pairs with the fence in BufferPool::FindFree(). If
-      // that does not find the slot filled, then what it looked for had been replaced before, and
-      // is not found again here.
+      // Between the slot and the second look; pairs with the full fence in ReadersBut(). If the
+      // publisher does not find the slot filled then, what it looked for had been replaced before,
+      // and is not found again here.
       Fences<Atomic>::Full();
       Buffer* const again = newest_.load(std::memory_order_acquire);
       if (again == buffer) [[likely]]
@@ -89,8 +89,8 @@ class LatestBuffer {
     return readers_.load(std::memory_order_relaxed);
   }
   // Once for each thread that reads here. Whoever publishes and does not see the bit has published
-  // before the fence, and the second look of the reader sees it.
-  // A shared bit that is set says nothing yet: who set it may not have passed the fence.
+  // before the fence, and the second look of the reader sees it. A shared bit that is set says
+  // nothing yet: who set it may not have passed the fence.
   [[gnu::noinline]] void Register(const Record& record) noexcept {
     // acquire, release: the fence of who set the bit is passed.
     if (record.own_bit == 0 && shared_bit_is_seen_.load(std::memory_order_acquire)) return;
