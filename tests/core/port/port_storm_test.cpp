@@ -117,7 +117,8 @@ class Storm {
       EXPECT_LE(stays_[i]->growths(), 12u);
     }
     EXPECT_GT(wandering_reads_, 0);
-    EXPECT_LT(replaced_, 100u) << "queues that have been replaced and are still there";
+    // A reader that the machine stops inside a guard holds up some; all of them would be many more.
+    EXPECT_LT(replaced_, kRounds / 2u) << "queues that have been replaced and are still there";
   }
 
   /// What leases kept beyond the storm and its ports hold.
