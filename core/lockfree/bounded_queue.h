@@ -4,12 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <new>
 #include <type_traits>
 #include <utility>
 
 #include "core/base/check.h"
 #include "core/lockfree/cache_line.h"
+#include "core/lockfree/queue_cells.h"
 
 namespace runnel {
 
@@ -31,7 +31,8 @@ class BoundedQueue {
 
  public:
   /// Precondition: capacity > 0.
-  explicit BoundedQueue(std::size_t capacity) : capacity_(capacity), cells_(MakeCells(capacity)) {
+  explicit BoundedQueue(std::size_t capacity)
+      : capacity_(capacity), cells_(MakeQueueCells<Cell>(capacity)) {
     RUNNEL_CHECK(capacity > 0, "a queue needs room for one value at least");
   }
   ~BoundedQueue() {
@@ -140,12 +141,6 @@ class BoundedQueue {
       T value;  // there while the turn is odd
     };
   };
-
-  static std::unique_ptr<Cell[]> MakeCells(std::size_t capacity) {
-    // GCC's operator new for aligned arrays gives nothing at all for sizes past the largest.
-    if (capacity > PTRDIFF_MAX / sizeof(Cell)) throw std::bad_array_new_length();
-    return std::make_unique<Cell[]>(capacity);
-  }
 
   const std::size_t capacity_;
   const std::unique_ptr<Cell[]> cells_;

@@ -4,12 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <new>
 #include <type_traits>
 #include <utility>
 
 #include "core/base/check.h"
 #include "core/lockfree/cache_line.h"
+#include "core/lockfree/queue_cells.h"
 
 namespace runnel {
 
@@ -43,7 +43,8 @@ class StreamQueue {
 
  public:
   /// Precondition: capacity > 0.
-  explicit StreamQueue(std::size_t capacity) : capacity_(capacity), cells_(MakeCells(capacity)) {
+  explicit StreamQueue(std::size_t capacity)
+      : capacity_(capacity), cells_(MakeQueueCells<Cell>(capacity)) {
     RUNNEL_CHECK(capacity > 0, "a queue needs room for one value at least");
   }
   ~StreamQueue() {
@@ -132,12 +133,6 @@ class StreamQueue {
   // A division would cost as much as all the rest.
   [[nodiscard]] std::size_t Next(std::size_t index) const noexcept {
     return index + 1 == capacity_ ? 0 : index + 1;
-  }
-
-  static std::unique_ptr<Cell[]> MakeCells(std::size_t capacity) {
-    // GCC's operator new for aligned arrays gives nothing at all for sizes past the largest.
-    if (capacity > PTRDIFF_MAX / sizeof(Cell)) throw std::bad_array_new_length();
-    return std::make_unique<Cell[]>(capacity);
   }
 
   const std::size_t capacity_;

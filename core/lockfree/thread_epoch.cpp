@@ -1,13 +1,12 @@
 #include "core/lockfree/thread_epoch.h"
 
 #include <algorithm>
-#include <chrono>
 #include <mutex>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "core/base/check.h"
+#include "core/lockfree/patience.h"
 
 namespace runnel {
 
@@ -62,11 +61,7 @@ void WaitForReaders() {
                "a thread cannot wait for readers while it reads itself, as in Update()");
   const std::uint64_t epoch = ProcessEpochs().Advance();
   for (int round = 0; !ProcessEpochs().HasPassed(epoch); ++round) {
-    if (round < 64) {
-      std::this_thread::yield();
-    } else {
-      std::this_thread::sleep_for(std::chrono::microseconds(50));
-    }
+    WaitOneRound(round);
   }
   CollectRetired();
 }

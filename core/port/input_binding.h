@@ -42,8 +42,9 @@ struct InputLink {
   std::uint64_t taken = 0;     // sequence of the value taken last; the reader's own
 };
 
-/// Which of two values counts: by the common order of sources that share an input, which every reader sees alike. Values from
-/// before the sharing have none; their time and then the age of their source decide.
+/// Which of two values counts: by the common order of sources that share an input, which every
+/// reader sees alike. Values from before the sharing have none; their time and then the age of their
+/// source decide.
 template <typename T>
 bool IsLater(const HeldValue<T>& a, const InputLink<T>& from_a, const HeldValue<T>& b,
              const InputLink<T>& from_b) noexcept {

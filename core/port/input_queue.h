@@ -186,8 +186,7 @@ class InputQueue final : public QueueSink {
     if (stream_ != nullptr) {
       if (stream_->TryEmplace(std::forward<Parts>(parts)...)) [[likely]]
         return true;
-      // relaxed: a statistic, and of one writer.
-      dropped_.store(dropped() + 1, std::memory_order_relaxed);
+      CountDropped();
       return on_full_ != OnFull::kRefuse;
     }
     return EmplaceShared(std::forward<Parts>(parts)...);
@@ -202,7 +201,7 @@ class InputQueue final : public QueueSink {
       if (on_full_ != OnFull::kDropOldest) break;
       // Not full and yet no room: a reader is at work there, and dropping others would not help.
       if (queue.size() < queue.capacity()) continue;
-      if (queue.TryConsume([](Queued&) {})) CountDropped();
+      (void)DropOldest();
     }
     CountDropped();
     return on_full_ != OnFull::kRefuse;

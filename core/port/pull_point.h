@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <thread>
 #include <utility>
 
 #include "core/base/check.h"
 #include "core/lockfree/asymmetric_fence.h"
 #include "core/lockfree/cache_line.h"
+#include "core/lockfree/patience.h"
 #include "core/lockfree/thread_epoch.h"
 
 namespace runnel {
@@ -121,11 +121,7 @@ class PullPoint {
     const std::uint64_t run = run_.load(std::memory_order_acquire);
     if (run % 2 == 0) return;
     for (int round = 0; run_.load(std::memory_order_acquire) == run; ++round) {
-      if (round < 64) {
-        std::this_thread::yield();
-      } else {
-        std::this_thread::sleep_for(std::chrono::microseconds(50));
-      }
+      WaitOneRound(round);
     }
   }
 

@@ -5,34 +5,15 @@
 #include <thread>
 
 #include "core/base/check.h"
-#include "tests/core/port/port_fixture.h"
+#include "tests/core/port/pull_fixture.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/lock_probe.h"
-#include "tests/support/sanitizer.h"
 #include "tests/support/system_call_probe.h"
-#include "tests/support/threads.h"
 
 namespace runnel::test {
 namespace {
 
-constexpr int kRounds = RUNNEL_UNDER_SANITIZER ? 1000 : 5000;
-const OutputOptions kPullable{.pullable = true};
-const InputOptions kPulls{.strategy = Strategy::kPull};
-
-class PullPortTest : public PortTest {
- protected:
-  // Counts up by one with each pull.
-  static bool Count(int& value, int& counter) {
-    value = ++counter;
-    return true;
-  }
-  static bool Count(Scan& value, int& counter) {
-    value.ranges.assign(20, static_cast<float>(++counter));
-    value.number = counter;
-    return true;
-  }
-  int counter = 0;
-};
+using PullPortTest = PullTest;
 
 TEST_F(PullPortTest, ReadingMakesAValueOnlyIfTheInputPulls) {
   auto& sender = MakeSender<int>("sender", kPullable);

@@ -1,0 +1,16 @@
+#include "core/lockfree/patience.h"
+
+#include <chrono>
+#include <thread>
+
+namespace runnel {
+
+void WaitOneRound(int round) {
+  if (round < 64) {
+    std::this_thread::yield();
+  } else {
+    std::this_thread::sleep_for(std::chrono::microseconds(50));
+  }
+}
+
+}  // namespace runnel

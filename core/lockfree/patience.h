@@ -1,0 +1,9 @@
+#pragma once
+
+namespace runnel {
+
+/// One round of waiting for another thread, outside of cycles: yields in the first rounds, in which
+/// most waits end, then sleeps for 50 us each.
+void WaitOneRound(int round);
+
+}  // namespace runnel
