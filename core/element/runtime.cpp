@@ -65,7 +65,7 @@ Result<void> Runtime::Delete(FrameworkElement& element) {
   }
   std::unique_ptr<FrameworkElement> taken;
   {
-    const std::lock_guard lock(structure_mutex_);
+    const ChangeScope all_that_goes_with_it(*this);
     FrameworkElement* const parent = element.parent_;
     if (parent == nullptr) return Refuse(element, "the root cannot be deleted");
     if (element.life_cycle_ == LifeCycle::kDeleted) {
@@ -93,6 +93,18 @@ Result<void> Runtime::Delete(FrameworkElement& element) {
   WaitForReaders();
   taken->DestroyOwned();
   return {};
+}
+
+ChangeScope::ChangeScope(Runtime& runtime) : runtime_(runtime), lock_(runtime.structure_mutex()) {
+  ++runtime_.change_scopes_;
+}
+
+// Still a scope while the listeners act: what they change themselves belongs to it.
+ChangeScope::~ChangeScope() {
+  if (runtime_.change_scopes_ == 1) {
+    runtime_.ForEachListener([](ElementListener& listener) { listener.OnChangesEnd(); });
+  }
+  --runtime_.change_scopes_;
 }
 
 void Runtime::AddListener(ElementListener& listener) {
