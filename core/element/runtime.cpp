@@ -126,10 +126,28 @@ Result<void> Runtime::Delete(FrameworkElement& element) {
     return Refuse(element, "an element cannot be deleted under the structure lock",
                   "a cycle that has to end first may be waiting for the lock");
   }
-  auto unlisted = Unlist(element);
-  if (!unlisted) return unlisted.error();
-  Destroy(std::move(*unlisted));
+  UnlistedElement taken;
+  {
+    const ChangeScope all_that_goes_with_it(*this);
+    auto unlisted = Unlist(element);
+    if (!unlisted) return unlisted.error();
+    taken = std::move(*unlisted);
+    taken->Visit([](FrameworkElement& each) { each.Detach(); });
+  }
+  Destroy(std::move(taken));
   return {};
+}
+
+ChangeScope::ChangeScope(Runtime& runtime) : runtime_(runtime), lock_(runtime.structure_mutex()) {
+  ++runtime_.change_scopes_;
+}
+
+// Still a scope while the listeners act: what they change themselves belongs to it.
+ChangeScope::~ChangeScope() {
+  if (runtime_.change_scopes_ == 1) {
+    runtime_.ForEachListener([](ElementListener& listener) { listener.OnChangesEnd(); });
+  }
+  --runtime_.change_scopes_;
 }
 
 void Runtime::AddListener(ElementListener& listener) {

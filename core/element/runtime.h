@@ -80,6 +80,10 @@ class Runtime {
     for (std::size_t i = 0; i < listeners_.size(); ++i) notify(*listeners_[i]);
   }
 
+  /// Whether a ChangeScope is open: listeners that do much for each change wait for its end. Under
+  /// the structure lock.
+  [[nodiscard]] bool is_in_change_scope() const noexcept { return change_scopes_ > 0; }
+
   /// The time outside of cycles. The steady clock unless another is set before anything runs; the
   /// clock must outlive the runtime.
   [[nodiscard]] const Clock& clock() const noexcept { return *clock_; }
@@ -88,6 +92,7 @@ class Runtime {
  private:
   friend class FrameworkElement;
   static Result<void> PrepareAll(FrameworkElement& element);
+  friend class ChangeScope;
   std::uint64_t NextSerial() noexcept { return next_serial_++; }
 
   OrderedMutex structure_mutex_{LockLevel::kStructure};
@@ -95,7 +100,30 @@ class Runtime {
   const Clock* clock_ = &steady_clock_;
   std::uint64_t next_serial_ = 1;
   std::vector<ElementListener*> listeners_;
+  int change_scopes_ = 0;
   FrameworkElement root_;
+};
+
+/// While one lives, the changes that its thread makes belong together: listeners act on all of them
+/// at once when the outermost ends. So ten thousand connections cost one new schedule and not ten
+/// thousand, and no cycle sees some of them only.
+///
+///     const ChangeScope changes(runtime);
+///     … Create, MakeReady, Connect, Disconnect, AssignThread …
+///
+/// Threads:  holds the structure lock from its beginning to its end, so nothing can be deleted
+///           meanwhile. May be nested. Do not hold it for long: others who change the structure
+///           wait.
+class ChangeScope {
+ public:
+  explicit ChangeScope(Runtime& runtime);
+  ~ChangeScope();
+  ChangeScope(const ChangeScope&) = delete;
+  ChangeScope& operator=(const ChangeScope&) = delete;
+
+ private:
+  Runtime& runtime_;
+  const std::lock_guard<OrderedMutex> lock_;
 };
 
 }  // namespace runnel

@@ -70,10 +70,21 @@ void Scheduler::MarkOutdated() noexcept {
   has_changes_.store(true, std::memory_order_relaxed);
 }
 
-// Running threads get their new schedule at once; simulated ones before the next step.
+// Running threads get their new schedule at once, or when all is done that belongs together;
+// simulated ones before the next step.
 void Scheduler::Changed() {
   MarkOutdated();
-  if (is_running_) BringUpToDate();
+  if (is_running_ && !runtime_.is_in_change_scope()) BringUpToDate();
+}
+
+// What fails here, the supervising thread tries again, and reports.
+void Scheduler::OnChangesEnd() {
+  if (!is_running_) return;
+  try {
+    BringUpToDate();
+  } catch (...) {
+    desk_.event().Notify();
+  }
 }
 
 void Scheduler::BringUpToDate() {

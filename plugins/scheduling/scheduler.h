@@ -112,6 +112,7 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   void OnConnected(FrameworkElement& from, FrameworkElement& to) override;
   void OnDisconnected(FrameworkElement& from, FrameworkElement& to) override;
   void OnAssigned(FrameworkElement& element, ThreadContainer& thread) override;
+  void OnChangesEnd() override;
 
  private:
   using Runners = std::vector<std::shared_ptr<CycleRunner>>;
