@@ -293,7 +293,8 @@ Result<void> Plan::Check(const ReplaceModule& change) {
   }
   (*made)->InheritAnnotations(before);
   if (auto prepared = Runtime::Prepare(*made); !prepared) return prepared;
-  PortMatch match = MatchPorts(before, **made);
+  PortMatch match = MatchPorts(before, **made,
+                               [this](const Port& port) { return projection_.IsConnected(port); });
   if (!match.errors.empty()) {
     for (std::size_t i = 1; i < match.errors.size(); ++i)
       further_errors_.push_back(match.errors[i]);
