@@ -6,7 +6,8 @@ namespace {
 using ChangeSetTest = EditorTest;
 
 TEST_F(ChangeSetTest, BuildsWhatRunsFromTheNextCycleOn) {
-  Must({CreateGroup{"/app/robot"}, CreatePort{"/app/robot/number", Port::Direction::kOutput, "int"},
+  Must({CreateGroup{"/app/robot"},
+        CreatePort{"/app/robot/number", Port::Direction::kOutput, "int32"},
         CreateModule{"/app/robot/counter", "test/counter", {{"step", "3"}, {"label", "left"}}},
         CreateModule{"/app/sink", "test/sink"},
         ConnectPorts{"/app/robot/counter/out", "/app/robot/number"},
@@ -43,8 +44,8 @@ TEST_F(ChangeSetTest, AllMistakesAreToldAtOnce) {
        SetParameter{"/app/counter/parameter/stepp", "1"}, SetParameter{"/app/counter", "1"},
        SetParameter{"/app/counter/parameter/label", "late"}, ReplaceModule{"/app", "test/counter"},
        AssignToThread{"/app/counter", "fest"},
-       DisconnectPorts{"/app/counter/out", "/app/counter/out"}, DeleteElement{"/app/counter/out"},
-       DeleteElement{"/"}});
+       DisconnectPorts{"/app/counter/out", "/app/counter/out"},
+       DeleteElement{"/app/counter/output/out"}, DeleteElement{"/"}});
   for (const char* part :
        {"did you mean 'test/counter'?", "cannot be made", "has no device", "already an element",
         "no parameter 'stap'", "much", "no 'nowhere' in /", "is not a group", "' h'",
@@ -66,11 +67,11 @@ TEST_F(ChangeSetTest, ConnectionsAreCheckedAgainstWhatWillBe) {
   EXPECT_THAT(Refusal({CreateModule{"/app/text", "test/text_counter"},
                        ConnectPorts{"/app/text/out", "/app/sink/side"}}),
               HasSubstr("carries"));
-  EXPECT_THAT(Refusal({CreatePort{"/app/a", Port::Direction::kInput, "int"},
-                       CreatePort{"/app/b", Port::Direction::kInput, "int"},
+  EXPECT_THAT(Refusal({CreatePort{"/app/a", Port::Direction::kInput, "int32"},
+                       CreatePort{"/app/b", Port::Direction::kInput, "int32"},
                        ConnectPorts{"/app/a", "/app/b"}, ConnectPorts{"/app/b", "/app/a"}}),
               HasSubstr("circle"));
-  EXPECT_THAT(Refusal({CreatePort{"/app/a", Port::Direction::kInput, "int"},
+  EXPECT_THAT(Refusal({CreatePort{"/app/a", Port::Direction::kInput, "int32"},
                        ConnectPorts{"/app/a", "/app/a"}}),
               HasSubstr("itself"));
   EXPECT_THAT(Refusal({DisconnectPorts{"/app/counter/out", "/app/sink/in"},

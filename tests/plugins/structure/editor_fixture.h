@@ -138,6 +138,7 @@ class EditorTest : public ::testing::Test {
  protected:
   explicit EditorTest(SchedulerOptions::ClockKind clock = SchedulerOptions::ClockKind::kSimulated)
       : scheduler(runtime, {.clock = clock}) {
+    (void)TypeOf<int>();
     Register<Counter>("test/counter");
     Register<OtherCounter>("test/other_counter");
     Register<Sink>("test/sink");
