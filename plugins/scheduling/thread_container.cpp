@@ -70,9 +70,14 @@ void AssignThread(FrameworkElement& element, ThreadContainer& thread) {
   });
 }
 
+std::uint64_t OwnThread(const FrameworkElement& element) {
+  const auto* const found = element.FindAnnotation<ThreadAssignment>();
+  return found != nullptr ? found->serial : 0;
+}
+
 std::uint64_t AssignedThread(const FrameworkElement& element) {
   for (const FrameworkElement* at = &element; at != nullptr; at = at->parent()) {
-    if (const auto* const found = at->FindAnnotation<ThreadAssignment>()) return found->serial;
+    if (const std::uint64_t own = OwnThread(*at); own != 0) return own;
   }
   return 0;
 }

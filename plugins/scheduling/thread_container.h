@@ -46,6 +46,9 @@ void AssignThread(FrameworkElement& element, ThreadContainer& thread);
 /// it; 0 if to none. Under the structure lock.
 [[nodiscard]] std::uint64_t AssignedThread(const FrameworkElement& element);
 
+/// The same, of the element's own assignment only.
+[[nodiscard]] std::uint64_t OwnThread(const FrameworkElement& element);
+
 /// Told of assignments; an ElementListener may be one too.
 class AssignmentListener {
  public:
