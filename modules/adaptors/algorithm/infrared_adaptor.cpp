@@ -9,6 +9,7 @@ namespace runnel {
 Surroundings InfraredAdaptor::Update(const InfraredRanges& ranges, const Pose2& pose) {
   Surroundings surroundings;
   if (!(ranges.range_maximum > 0.0)) return surroundings;
+  surroundings.is_measured = true;
   surroundings.sensor_range = static_cast<float>(ranges.range_maximum);
   surroundings.safe_distance = static_cast<float>(configuration_.safe_distance);
 

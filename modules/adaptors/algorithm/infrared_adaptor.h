@@ -26,8 +26,8 @@ class InfraredAdaptor {
   explicit InfraredAdaptor(const InfraredAdaptorConfiguration& configuration = {})
       : configuration_(configuration) {}
 
-  /// `ranges` taken from the body's centre at `pose` (world). Nothing is known (sensor_range 0)
-  /// from ranges with range_maximum 0. Does not allocate.
+  /// `ranges` taken from the body's centre at `pose` (world). Nothing is known (is_measured
+  /// false) from ranges with range_maximum 0. Does not allocate.
   [[nodiscard]] Surroundings Update(const InfraredRanges& ranges, const Pose2& pose);
   /// Forgets everything, as after the robot was carried to another place.
   void Reset() { map_.Clear(); }

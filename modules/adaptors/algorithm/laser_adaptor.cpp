@@ -15,6 +15,7 @@ bool MetSomething(const RangeScan& scan, float range) {
 Surroundings LaserAdaptor::Update(const RangeScan& scan, const Pose2& pose) {
   Surroundings surroundings;
   if (scan.ranges.empty()) return surroundings;
+  surroundings.is_measured = true;
   surroundings.sensor_range = static_cast<float>(scan.range_maximum);
   surroundings.safe_distance = static_cast<float>(configuration_.safe_distance);
 
