@@ -35,7 +35,7 @@ class InfraredAdaptor {
  private:
   struct Cone {
     double bearing;     ///< rad, of its axis in the body's frame
-    double half_width;  ///< rad
+    double half_width;  ///< rad, below pi / 2
     double echo;        ///< m, at most range_maximum
     bool has_echo;
     bool is_valid;  ///< not so if the range is no number: the cone then says nothing

@@ -72,21 +72,19 @@ Twist2 BugAlgorithm::GoRoundObstacle(BugState& state, const BugInput& input) con
   if (CompleteCycleAroundObstacle(state) && !LeavePointFound(state)) {
     return FinishFruitlessLap(state, input);
   }
-  if (state.lap.is_circling() && !state.is_returning) RestartLap(state, input);
+  if (state.lap.is_circling()) RestartLap(state, input);
   return along;
 }
 
 Twist2 BugAlgorithm::IdentifyLeavePoint(BugState& state, const BugInput& input) const {
   const bool may_reverse = !state.has_reversed && !state.follower.is_turning();
   if (may_reverse && components_.revisit->ShallReverse(View(state, input))) Reverse(state, input);
-  if (state.is_returning) EndReturn(state, input);
   FindLeavePoint(state, input);
   return WallFollowing(state, input);
 }
 
 void BugAlgorithm::FindLeavePoint(BugState& state, const BugInput& input) const {
   state.leave_point.reset();
-  if (state.is_returning) return;
   state.followed_distance = components_.leave->FollowedDistance(View(state, input));
   if (state.status.path_length < state.refused_at + kRefusalReach) return;
   const auto found = components_.leave->Find(View(state, input));
@@ -104,7 +102,7 @@ bool BugAlgorithm::ResearchComplete(const BugState& state, const BugInput& input
 }
 
 bool BugAlgorithm::CompleteCycleAroundObstacle(const BugState& state) const {
-  return state.lap.is_complete() && !state.is_returning && components_.leave->decides_after_lap();
+  return state.lap.is_complete() && components_.leave->decides_after_lap();
 }
 
 bool BugAlgorithm::GoalReached(const BugState& state) const {
@@ -159,7 +157,6 @@ void BugAlgorithm::Hit(BugState& state, const BugInput& input, double contact_be
   state.least_distance = distance;
   state.followed_distance = BugState::kNever;
   state.has_reversed = false;
-  state.is_returning = false;
   state.is_last_chance = false;
   RestartLap(state, input);
   const BoundaryDirection direction =

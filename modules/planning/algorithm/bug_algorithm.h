@@ -59,7 +59,6 @@ class BugAlgorithm {
   void Hit(BugState& state, const BugInput& input, double contact_bearing) const;
   void RestartLap(BugState& state, const BugInput& input) const;
   void Reverse(BugState& state, const BugInput& input) const;
-  void EndReturn(BugState& state, const BugInput& input) const;
   Twist2 FinishFruitlessLap(BugState& state, const BugInput& input) const;
   void SetOut(BugState& state, const BugInput& input) const;
   void ChooseShorterWay(BugState& state, const BugInput& input) const;

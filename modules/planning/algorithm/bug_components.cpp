@@ -32,8 +32,7 @@ std::string NamesWithoutRange() {
 
 std::uint64_t BugComponents::Fingerprint() const {
   std::uint64_t hash = 0xcbf29ce484222325U;  // FNV-1a
-  for (const std::string_view name :
-       {motion->name(), leave->name(), revisit->name()}) {
+  for (const std::string_view name : {motion->name(), leave->name(), revisit->name()}) {
     for (const char character : name) {
       hash = (hash ^ static_cast<unsigned char>(character)) * 0x100000001b3U;
     }

@@ -14,7 +14,7 @@ struct BugConfiguration {
   /// m by which a leave point must be nearer to the goal than what it is compared with: above the
   /// noise of localisation.
   double leave_margin = 0.10;
-  double step = 0.30;         ///< m; STEP of DistBug: by which it must see that it gets nearer
+  double step = 0.50;         ///< m; STEP of DistBug: by which it must see that it gets nearer
   double hit_range = 0.05;    ///< m; the way to the goal free for less than this is a hit
   double leave_range = 0.10;  ///< m; a leave point must be free towards the goal for this
   double idle_limit = 15.0;   ///< s; without getting on for so long there is no room to move

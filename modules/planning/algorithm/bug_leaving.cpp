@@ -1,4 +1,4 @@
-// How the generic algorithm gets back to a hit point, to leave points, and away from there.
+// How the generic algorithm turns round, gets to leave points, and away from there.
 
 #include <algorithm>
 #include <cmath>
@@ -33,23 +33,12 @@ bool HasMissedIt(const BugState& state) {
 
 }  // namespace
 
+// Back along what is known, past the hit point, and on: when the robot is here again, it has seen all
+// of the boundary.
 void BugAlgorithm::Reverse(BugState& state, const BugInput& input) const {
   state.has_reversed = true;
-  state.is_returning = true;
-  state.way_to_hit_point = state.lap.length();
-  state.reversed_at = state.status.path_length;
-  StartFollowing(state, input, Opposite(state.follower.direction()));
-}
-
-// Back at the hit point, where the lap in the other direction begins; or past it, somewhere near.
-void BugAlgorithm::EndReturn(BugState& state, const BugInput& input) const {
-  const double gone = state.status.path_length - state.reversed_at;
-  const double way = state.way_to_hit_point;
-  const bool is_there = Distance(state.lap_start, Position(input.pose)) < kPassDistance;
-  const bool fits = std::abs(gone - way) < ToleranceOf(way);
-  if (!(is_there && fits) && gone < way + ToleranceOf(way)) return;
-  state.is_returning = false;
   RestartLap(state, input);
+  StartFollowing(state, input, Opposite(state.follower.direction()));
 }
 
 void BugAlgorithm::SetOut(BugState& state, const BugInput& input) const {

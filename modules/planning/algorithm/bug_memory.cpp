@@ -11,18 +11,17 @@ namespace runnel {
 namespace {
 
 constexpr double kProgress = 0.10;       // m that count as having got on
-constexpr double kHeld = 0.25;           // of what was commanded; who moves less is held
+constexpr double kStill = 0.0005;        // m or rad in a step
 constexpr double kCrossingReach = 0.15;  // m past a crossing within which it may still leave there
 constexpr double kLineTolerance = 0.08;  // m; a robot that comes so near to the line is on it
 constexpr double kParallel =
     0.001;  // m in a step by which it comes nearer at least, else it passes
 
+// Commanded to move, and not moving at all. With noise in its poses this cannot be seen.
 bool IsHeld(const BugState& state, const BugInput& input) {
   const double moved = Distance(Position(state.last_pose), Position(input.pose));
   const double turned = std::abs(WrapAngle(input.pose.heading - state.last_pose.heading));
-  const double forward = state.last_twist.forward * input.time_step;
-  const double turn = std::abs(state.last_twist.turn) * input.time_step;
-  return forward + turn > 0.0 && moved <= kHeld * forward && turned <= kHeld * turn;
+  return state.last_twist != Twist2{} && moved < kStill && turned < kStill;
 }
 
 }  // namespace
@@ -56,7 +55,6 @@ void BugAlgorithm::TakeOver(BugState& state, const BugInput& input) const {
   state.least_distance = state.status.distance_to_goal;
   state.followed_distance = BugState::kNever;
   state.has_reversed = false;
-  state.is_returning = false;
   state.refused_at = -BugState::kNever;
   RestartLap(state, input);
 }
@@ -112,7 +110,6 @@ void BugAlgorithm::RestartLap(BugState& state, const BugInput& input) const {
   state.closest_point = Position(input.pose);
   state.closest_length = 0.0;
   state.leave_point.reset();
-  state.lap_start = Position(input.pose);
   state.lap.Start(input.pose);
 }
 

@@ -64,13 +64,9 @@ struct BugState {
   double least_distance = kNever;     ///< m to the goal, of all points visited
   double followed_distance = kNever;  ///< m to the goal, of the boundary sensed
   bool has_reversed = false;
-  bool is_returning = false;      ///< to the hit point, after having reversed
-  double way_to_hit_point = 0.0;  ///< m along the boundary, where it reversed
-  double reversed_at = 0.0;       ///< m, the path's length there
 
-  // Since the lap began: at the hit point, or where a loop was found that it is not on.
+  // Since the lap began: at the hit point, where it reversed, or in a loop that both are not on.
   Lap lap;
-  Point2 lap_start;
   Point2 closest_point;              ///< nearest to the goal
   double closest_distance = kNever;  ///< m, its distance to the goal
   double closest_length = 0.0;       ///< m, the lap's length there
