@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "modules/simulation/algorithm/configuration_space.h"
-#include "modules/simulation/algorithm/internal/plane_geometry.h"
+#include "modules/worlds/algorithm/configuration_space.h"
+#include "modules/worlds/algorithm/internal/plane_geometry.h"
 
 namespace runnel {
 

@@ -1,4 +1,4 @@
-#include "modules/simulation/algorithm/internal/plane_geometry.h"
+#include "modules/worlds/algorithm/internal/plane_geometry.h"
 
 #include <algorithm>
 

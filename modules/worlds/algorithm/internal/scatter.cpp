@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "modules/simulation/algorithm/internal/generated_worlds.h"
+#include "modules/worlds/algorithm/internal/generated_worlds.h"
 
 namespace runnel::internal {
 

@@ -1,12 +1,12 @@
-#include "modules/simulation/algorithm/configuration_space.h"
+#include "modules/worlds/algorithm/configuration_space.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "modules/simulation/algorithm/internal/plane_geometry.h"
 #include "modules/simulation/algorithm/world_geometry.h"
+#include "modules/worlds/algorithm/internal/plane_geometry.h"
 
 namespace runnel {
 

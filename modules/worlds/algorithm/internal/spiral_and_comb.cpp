@@ -1,4 +1,4 @@
-#include "modules/simulation/algorithm/internal/generated_worlds.h"
+#include "modules/worlds/algorithm/internal/generated_worlds.h"
 
 namespace runnel::internal {
 

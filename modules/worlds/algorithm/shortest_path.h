@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "modules/simulation/algorithm/configuration_space.h"
+#include "modules/worlds/algorithm/configuration_space.h"
 
 namespace runnel {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "modules/simulation/algorithm/random.h"
-#include "modules/simulation/algorithm/world_generator.h"
 #include "modules/types/algorithm/angle.h"
+#include "modules/worlds/algorithm/world_generator.h"
 
 namespace runnel::internal {
 

@@ -1,10 +1,10 @@
-#include "modules/simulation/algorithm/world_generator.h"
+#include "modules/worlds/algorithm/world_generator.h"
 
 #include <array>
 #include <cmath>
 #include <cstdio>
 
-#include "modules/simulation/algorithm/internal/generated_worlds.h"
+#include "modules/worlds/algorithm/internal/generated_worlds.h"
 
 namespace runnel {
 

@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "modules/simulation/algorithm/internal/generated_worlds.h"
+#include "modules/worlds/algorithm/internal/generated_worlds.h"
 
 namespace runnel::internal {
 

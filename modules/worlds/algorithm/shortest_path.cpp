@@ -1,11 +1,11 @@
-#include "modules/simulation/algorithm/shortest_path.h"
+#include "modules/worlds/algorithm/shortest_path.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <queue>
 
-#include "modules/simulation/algorithm/internal/plane_geometry.h"
+#include "modules/worlds/algorithm/internal/plane_geometry.h"
 
 namespace runnel {
 
