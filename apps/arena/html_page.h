@@ -23,10 +23,10 @@ figure { margin: 0; background: var(--card); border: 1px solid var(--line); bord
   padding: .5rem; } figure.wrong { border-color: var(--bad); }
 figcaption { font-size: .85rem; color: var(--faint); } figcaption b { color: var(--ink); }
 svg { width: 100%; height: 15rem; display: block; }
-svg * { vector-effect: non-scaling-stroke; } svg polyline { fill: none; }
+.wall, .shortest, .goal-bound, .following, .returning { fill: none; }
+.shortest, .goal-bound, .following, .returning { vector-effect: non-scaling-stroke; }
 .solid { fill: var(--solid); fill-rule: evenodd; }
-.wall { stroke: var(--solid); stroke-linejoin: round; stroke-linecap: round;
-  vector-effect: none; }
+.wall { stroke: var(--solid); stroke-linejoin: round; stroke-linecap: round; }
 .shortest { stroke: var(--faint); stroke-width: 1.2; stroke-dasharray: 4 4; }
 .goal-bound { stroke: var(--goal-bound); stroke-width: 2; }
 .following { stroke: var(--following); stroke-width: 2; }

@@ -30,7 +30,8 @@ bool IsOtherCommand(const std::string& word) {
 ExitCode DoWhatIsAsked(int count, char** words) {
   try {
     if (count > 1 && IsOtherCommand(words[1])) {
-      std::cerr << "error: " << BecomeProgram(words[1], words + 1) << '\n';
+      const std::string why_not = BecomeProgram(words[1], words + 1);
+      std::cerr << "error: " << why_not << '\n';
       return ExitCode::kRunFailed;
     }
     const CommandLine command = ParseCommandLine(count, words);

@@ -14,11 +14,11 @@ int main(int count, char** words) {
   const auto arguments = ParseArguments(count, words);
   if (!arguments) {
     if (arguments.error().message.empty()) return kDone;
-    std::cerr << arguments.error().ToString() << '\n';
+    std::cerr << "error: " << arguments.error().ToString() << '\n';
     return kBadInput;
   }
   if (const auto written = WriteGeneratedWorld(*arguments); !written) {
-    std::cerr << written.error().ToString() << '\n';
+    std::cerr << "error: " << written.error().ToString() << '\n';
     return kFailed;
   }
   return kDone;
