@@ -10,6 +10,7 @@
 #include "core/base/ordered_mutex.h"
 #include "core/element/element_listener.h"
 #include "core/element/framework_element.h"
+#include "core/element/unlisted_element.h"
 
 namespace runnel {
 
@@ -53,6 +54,21 @@ class Runtime {
   /// of another object; the root.
   Result<void> Delete(FrameworkElement& element);
 
+  /// Calls Prepare() as MakeReady() does, for an element beside the tree.
+  static Result<void> Prepare(UnlistedElement& element);
+  /// Puts the element where it belongs, before the child `place` of its parent (nullptr: after all).
+  /// If it has been prepared, or has been in the tree before, it is ready then, and the listeners are
+  /// told. Errors: its name is taken, its parent is being deleted; the caller keeps the element.
+  Result<FrameworkElement*> List(UnlistedElement&& element,
+                                 const FrameworkElement* place = nullptr);
+  /// Takes the element and all below it out of the tree as they are, for Destroy() or for List()
+  /// again; the listeners are told that it is deleted. Its connections stay: cut them, or have another
+  /// element take them over, before. Errors: as Delete(), but for those of waiting.
+  Result<UnlistedElement> Unlist(FrameworkElement& element);
+  /// Cuts what still ties the element to others, waits until no thread can see it, and destroys it.
+  /// Precondition: not within a cycle, and not under the structure lock.
+  void Destroy(UnlistedElement element);
+
   /// The listener must outlive the runtime or be removed. Locks.
   void AddListener(ElementListener& listener);
   void RemoveListener(ElementListener& listener);
@@ -75,6 +91,7 @@ class Runtime {
 
  private:
   friend class FrameworkElement;
+  static Result<void> PrepareAll(FrameworkElement& element);
   friend class ChangeScope;
   std::uint64_t NextSerial() noexcept { return next_serial_++; }
 

@@ -2,6 +2,7 @@
 
 #include "core/base/nearest_name.h"
 #include "core/element/runtime.h"
+#include "core/plugin/module_type_name.h"
 
 namespace runnel {
 
@@ -49,6 +50,7 @@ Result<FrameworkElement*> ModuleRegistry::Create(std::string_view type, Framewor
   try {
     auto element = (*known)->make({parent, std::move(name)});
     FrameworkElement* const made = element.get();
+    made->Annotate(std::make_unique<ModuleTypeName>((*known)->name));
     parent.runtime().Adopt(std::move(element));
     return made;
   } catch (const ElementError& error) {

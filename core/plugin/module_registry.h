@@ -41,7 +41,7 @@ class ModuleRegistry {
   /// All types, sorted by name.
   [[nodiscard]] std::vector<const ModuleType*> All() const;
 
-  /// Makes a module and gives it to `parent`. Whatever its constructor throws comes back as an
+  /// Makes a module, which remembers its type (module_type_name.h), and gives it to `parent`. Whatever its constructor throws comes back as an
   /// error, and then nothing has changed.
   Result<FrameworkElement*> Create(std::string_view type, FrameworkElement& parent,
                                    std::string name) const;
