@@ -24,8 +24,9 @@ struct Block {
   std::vector<Item*> items;
   std::array<std::size_t, 3> of_rank{};  ///< how many items have it
   std::uint64_t label = 0;
-  std::size_t index = 0;   ///< among the blocks
-  bool is_changed = true;  ///< since somebody set it to false
+  std::size_t index = 0;                   ///< among the blocks
+  bool is_changed = true;                  ///< since somebody set it to false
+  std::shared_ptr<const void> made_of_it;  ///< by that somebody
 };
 
 template <typename Item>
@@ -45,6 +46,9 @@ class BlockList {
   using Blocks = std::vector<std::unique_ptr<Block<Item>>>;
 
   [[nodiscard]] const Blocks& blocks() const noexcept { return blocks_; }
+
+  /// Grows whenever the order or the items change.
+  [[nodiscard]] std::uint64_t changes() const noexcept { return changes_; }
 
   void Append(Item& item) {
     if (blocks_.empty() || blocks_.back()->items.size() >= kRoom / 2) InsertBlock(blocks_.size());
@@ -86,9 +90,10 @@ class BlockList {
   static constexpr std::uint64_t kLast = std::numeric_limits<std::uint64_t>::max();
 
   // Also says that the block has changed.
-  static void Number(Block<Item>& block, std::size_t first) noexcept {
+  void Number(Block<Item>& block, std::size_t first) noexcept {
     for (std::size_t i = first; i < block.items.size(); ++i) block.items[i]->place = {&block, i};
     block.is_changed = true;
+    ++changes_;
   }
 
   static void Count(Block<Item>& block) noexcept {
@@ -157,6 +162,7 @@ class BlockList {
   static constexpr std::uint64_t kStep = std::uint64_t{1} << 40;
 
   Blocks blocks_;
+  std::uint64_t changes_ = 0;
 };
 
 }  // namespace runnel::internal
