@@ -71,6 +71,29 @@ void InputBase::Rebind(const std::vector<Source>& sources) {
   if (arrival_) arrival_->Wake();
 }
 
+void InputBase::ReplaceSource(const Port& from, Port& to) noexcept {
+  for (Source& source : sources_) {
+    if (source.output == &from) source.output = &to;
+  }
+}
+
+void InputBase::TakeOverFlow(Port& from) {
+  // Taking over has been checked to be among inputs.
+  auto& other = static_cast<InputBase&>(from);
+  sources_.swap(other.sources_);
+  std::swap(sink_, other.sink_);
+  TakeOverBinding(other);
+  const auto is_told = [](const InputBase& input) { return input.waker_ || input.arrival_; };
+  // A binding that pulls is another one. Else publishers find the same queue, and need to be told only
+  // if somebody else is to be woken.
+  if (strategy() != other.strategy()) {
+    Rebind(std::vector<Source>(sources_));
+  } else if (is_told(*this) || is_told(other)) {
+    for (const Source& source : sources_) UpdateChannel(*source.output);
+  }
+  if (arrival_) arrival_->Wake();
+}
+
 // Works out anew whom publishers into the output's channel have to visit, and what they have to
 // reserve and number for them.
 void InputBase::UpdateChannel(Port& output) {

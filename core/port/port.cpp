@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 
+#include "core/base/check.h"
 #include "core/element/runtime.h"
 #include "core/types/type_info.h"
 
@@ -55,7 +56,7 @@ Port::Port(const Placement& placement, Direction direction, const TypeInfo& type
 
 Port::~Port() = default;
 
-Result<void> Port::CheckConnection(const Port& from, const Port& to) {
+Result<void> Port::CheckEnds(const Port& from, const Port& to) {
   if (&from.runtime() != &to.runtime()) {
     return Refusal(from, "cannot connect to a port of another runtime");
   }
@@ -74,6 +75,11 @@ Result<void> Port::CheckConnection(const Port& from, const Port& to) {
     return Refusal(from, "carries " + from.type().name() + ", but " + to.path() + " takes " +
                              to.type().name());
   }
+  return {};
+}
+
+Result<void> Port::CheckConnection(const Port& from, const Port& to) {
+  if (auto ends = CheckEnds(from, to); !ends) return ends;
   if (IsConnected(from, to)) return Refusal(from, "is connected to " + to.path() + " already");
   if (from.is_proxy() && to.is_proxy() && Reaches(to, from)) {
     return Refusal(from, "connecting to " + to.path() + " would close a circle of interface ports");
@@ -112,6 +118,47 @@ Result<void> Port::Disconnect(Port& from, Port& to) {
   from.runtime().ForEachListener(
       [&](ElementListener& listener) { listener.OnDisconnected(from, to); });
   return {};
+}
+
+Result<void> Port::CheckTakeOver(const Port& port, const Port& from) {
+  const auto kind = [](const Port& each) {
+    return std::string(each.is_proxy() ? "an interface port" : "") +
+           (each.direction() == Direction::kInput ? "an input" : "an output");
+  };
+  if (kind(port) != kind(from)) {
+    return Refusal(port, "cannot take over from " + from.path() + ": one is " + kind(port) +
+                             ", the other is " + kind(from));
+  }
+  if (&port.type() != &from.type()) {
+    return Refusal(port, "carries " + port.type().name() + " and cannot take over from " +
+                             from.path() + ", which carries " + from.type().name());
+  }
+  if (!port.incoming_.empty() || !port.outgoing_.empty()) {
+    return Refusal(port, "is connected and cannot take over from " + from.path());
+  }
+  return {};
+}
+
+void Port::TakeOver(Port& from) {
+  const std::lock_guard lock(runtime().structure_mutex());
+  const auto possible = CheckTakeOver(*this, from);
+  RUNNEL_CHECK(possible, "a port cannot take over from another one");
+  const std::vector<Port*> sinks = from.Sinks();
+  for (Connection& each : from.outgoing_) {
+    each.from = this;
+    std::ranges::replace(each.to->incoming_, &from, this);
+  }
+  for (Port* port : from.incoming_) {
+    for (Connection& each : port->outgoing_) {
+      if (each.to == &from) each.to = this;
+    }
+  }
+  outgoing_.swap(from.outgoing_);
+  incoming_.swap(from.incoming_);
+  for (Port* sink : sinks) {
+    if (sink != &from) sink->ReplaceSource(from, *this);
+  }
+  TakeOverFlow(from);
 }
 
 void Port::DisconnectAll() {

@@ -2,6 +2,16 @@
 
 namespace runnel {
 
+namespace {
+
+// Within what the list has reserved.
+void CopyPoints(const PointHistory& history, std::vector<Point2>& list) {
+  list.clear();
+  for (std::size_t i = 0; i < history.size(); ++i) list.push_back(history[i]);
+}
+
+}  // namespace
+
 BugConfiguration BugPlanner::Configuration() const {
   BugConfiguration configuration;
   configuration.first_direction = first_direction.Get();
@@ -11,6 +21,14 @@ BugConfiguration BugPlanner::Configuration() const {
   configuration.driving.following_speed = following_speed.Get();
   configuration.driving.turn_limit = turn_limit.Get();
   return configuration;
+}
+
+Result<void> BugPlanner::Prepare() {
+  points.PrepareBuffers([](HitAndLeavePoints& buffer) {
+    buffer.hits.reserve(PointHistory::kCapacity);
+    buffer.leaves.reserve(PointHistory::kCapacity);
+  });
+  return {};
 }
 
 void BugPlanner::Update() {
@@ -34,6 +52,18 @@ void BugPlanner::Update() {
   const BugOutput output = Plan(Configuration(), state_, input);
   twist.Publish(output.twist);
   status.Publish(output.status);
+  PublishPoints();
+}
+
+void BugPlanner::PublishPoints() {
+  const std::size_t count = state_.hits.total() + state_.leaves.total();
+  if (count == published_points_) return;
+  auto loan = points.Loan();
+  if (!loan) return;
+  CopyPoints(state_.hits, loan->hits);
+  CopyPoints(state_.leaves, loan->leaves);
+  points.Publish(std::move(loan));
+  published_points_ = count;
 }
 
 }  // namespace runnel

@@ -6,6 +6,7 @@
 #include "core/port/input.h"
 #include "core/port/output.h"
 #include "modules/planning/algorithm/bug_algorithm.h"
+#include "modules/types/hit_and_leave_points.h"
 #include "modules/types/planner_status.h"
 #include "modules/types/pose.h"
 #include "modules/types/surroundings.h"
@@ -38,6 +39,10 @@ class BugPlanner : public Module {
   Input<Point2> goal{this, "goal", {.description = "world's frame", .required = true}};
   Output<Twist2> twist{this, "twist", {.description = "how the robot shall move"}};
   Output<PlannerStatus> status{this, "status", {.description = "mode, distance, hit points …"}};
+  Output<HitAndLeavePoints> points{
+      this,
+      "points",
+      {.description = "all hit and leave points so far, whenever there is another one"}};
 
   Parameter<BoundaryDirection> first_direction{
       this,
@@ -91,13 +96,16 @@ class BugPlanner : public Module {
  private:
   static constexpr BugConfiguration kDefaults{};
 
+  Result<void> Prepare() override;
   void Update() override;
+  void PublishPoints();
   [[nodiscard]] BugConfiguration Configuration() const;
 
   BugState state_;
   std::optional<Point2> start_;
   Point2 goal_;
   Time last_{};
+  std::size_t published_points_ = 0;
 };
 
 /// The planner module of one variant.

@@ -15,6 +15,20 @@ bool IsSimulated(const SchedulerOptions& options) {
   return options.clock == SchedulerOptions::ClockKind::kSimulated;
 }
 
+bool IsAtOrBelow(const std::string& path, const std::string& above) {
+  return above == "/" ||
+         (path.starts_with(above) && (path.size() == above.size() || path[above.size()] == '/'));
+}
+
+bool RunsAny(const CycleRunner& runner, const std::vector<std::string>& paths) {
+  const Schedule* const schedule = runner.schedule();
+  if (schedule == nullptr) return false;
+  return std::ranges::any_of(schedule->entries, [&](const Schedule::Entry& entry) {
+    return std::ranges::any_of(
+        paths, [&](const auto& each) { return IsAtOrBelow(entry.element->path(), each); });
+  });
+}
+
 }  // namespace
 
 Scheduler::Scheduler(Runtime& runtime, SchedulerOptions options)
@@ -63,6 +77,7 @@ void Scheduler::OnDisconnected(FrameworkElement& from, FrameworkElement& to) {
 }
 
 void Scheduler::OnAssigned(FrameworkElement&, ThreadContainer&) { Changed(); }
+void Scheduler::OnUnassigned(FrameworkElement&) { Changed(); }
 
 void Scheduler::MarkOutdated() noexcept {
   is_outdated_ = true;
@@ -70,10 +85,21 @@ void Scheduler::MarkOutdated() noexcept {
   has_changes_.store(true, std::memory_order_relaxed);
 }
 
-// Running threads get their new schedule at once; simulated ones before the next step.
+// Where cycles are running, the new schedule comes at once, or when all is done that belongs together:
+// what is deleted must not be in a schedule that another thread is about to run.
 void Scheduler::Changed() {
   MarkOutdated();
-  if (is_running_) BringUpToDate();
+  if (is_live() && !runtime_.is_in_change_scope()) BringUpToDate();
+}
+
+// What fails here, the supervising thread tries again, and reports.
+void Scheduler::OnChangesEnd() {
+  if (!is_live()) return;
+  try {
+    BringUpToDate();
+  } catch (...) {
+    desk_.event().Notify();
+  }
 }
 
 void Scheduler::BringUpToDate() {
@@ -209,6 +235,7 @@ void Scheduler::EndSupervision() {
 void Scheduler::FollowChanges() {
   if (!has_changes_.load(std::memory_order_relaxed)) return;
   const std::lock_guard lock(runtime_.structure_mutex());
+  has_stepped_ = true;
   BringUpToDate();
   simulation_.SetRunners(runners_);
   has_changes_.store(false, std::memory_order_relaxed);
@@ -244,6 +271,30 @@ std::vector<Fault> Scheduler::TakeFaults() {
   // Two at once would apply the rules in parallel, and out of order.
   if (!supervises_.load(std::memory_order_acquire)) desk_.Attend();
   return desk_.Take();
+}
+
+Result<CycleHold> Scheduler::HoldCycles(const std::vector<std::string>& paths, Duration patience) {
+  RUNNEL_CHECK(
+      !runtime_.structure_mutex().HeldByThisThread(),
+      "threads cannot be kept between cycles under the structure lock, which a cycle might "
+      "be waiting for");
+  return CycleHold::Take(RunnersOf(paths), patience);
+}
+
+Scheduler::Runners Scheduler::RunnersOf(const std::vector<std::string>& paths) {
+  const std::lock_guard lock(runtime_.structure_mutex());
+  BringUpToDate();
+  Runners running;
+  for (const auto& runner : runners_) {
+    if (RunsAny(*runner, paths)) running.push_back(runner);
+  }
+  return running;
+}
+
+std::optional<std::uint64_t> Scheduler::CyclesOf(const std::string& path) {
+  const Runners runners = RunnersOf({path});
+  if (runners.empty()) return {};
+  return runners.front()->statistics().cycles;
 }
 
 bool Scheduler::HasTasks() {

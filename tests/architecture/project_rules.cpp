@@ -31,6 +31,7 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
        "plugins/scheduling/xml_",
        {"core", "plugins/parameters", "plugins/runtime_construction", "plugins/scheduling"}});
   rules.push_back({"plugins/scheduling", "plugins/scheduling", {"core"}});
+  rules.push_back({"plugins/structure", "plugins/structure", {"core", "plugins/scheduling"}});
 }
 
 // A family of modules knows the framework, the types that all share, and itself. Neighbours that a

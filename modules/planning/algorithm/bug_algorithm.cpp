@@ -173,6 +173,7 @@ void BugAlgorithm::Hit(BugState& state, const BugInput& input, double contact_be
   }
   ++state.status.hits;
   state.status.hit_point = Position(input.pose);
+  state.hits.Add(state.status.hit_point);
   state.hit_distance = distance;
   RestartLap(state, input);
   state.follower.Start(configuration_.first_direction, input.pose, contact_bearing);
@@ -190,6 +191,7 @@ void BugAlgorithm::RestartLap(BugState& state, const BugInput& input) const {
 void BugAlgorithm::Leave(BugState& state, const BugInput& input) const {
   ++state.status.leaves;
   state.status.leave_point = Position(input.pose);
+  state.leaves.Add(state.status.leave_point);
   state.status.mode = PlannerMode::kMotionToGoal;
   state.leave_point.reset();
   state.crossing.reset();

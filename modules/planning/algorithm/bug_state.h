@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "modules/planning/algorithm/lap.h"
+#include "modules/planning/algorithm/point_history.h"
 #include "modules/planning/algorithm/wall_follower.h"
 #include "modules/types/algorithm/planner_status.h"
 #include "modules/types/algorithm/pose.h"
@@ -28,6 +29,9 @@ struct BugState {
   Point2 start;
   Point2 goal;
   Pose2 last_pose;  ///< in the update before
+
+  PointHistory hits;    ///< in the order they were met
+  PointHistory leaves;  ///< without those that turned out to be none
 
   WallFollower follower;
   Lap lap;                            ///< since the last hit point

@@ -70,6 +70,21 @@ TEST_F(BugPlannerTest, StandsStillAtTheGoalAndTakesANewOne) {
   EXPECT_EQ(status().mode, PlannerMode::kMotionToGoal);
 }
 
+TEST_F(BugPlannerTest, PublishesItsHitPointsWhenThereIsAnotherOne) {
+  rig.Feed(rig.module.goal, {3, 0});
+  Step({});
+  EXPECT_EQ(rig.module.points.publications(), 0u);
+  Surroundings wall{.sensor_range = 4, .safe_distance = 0.35F};
+  AddBoundaryPoint(wall, {0.3, 0.0});
+  for (int i = 0; i < 3; ++i) {
+    rig.Feed(rig.module.pose, {0.5, 0, 0});
+    rig.Feed(rig.module.surroundings, wall);
+    rig.RunCycle();
+  }
+  EXPECT_EQ(rig.module.points.publications(), 1u);
+  EXPECT_EQ(rig.Last(rig.module.points), (HitAndLeavePoints{{{0.5, 0}}, {}}));
+}
+
 TEST_F(BugPlannerTest, TakesItsSpeedFromAParameterWhileItRuns) {
   rig.Feed(rig.module.goal, {30, 0});
   Step({});

@@ -4,6 +4,7 @@
 
 #include "core/types/binary_form.h"
 #include "modules/types/contact.h"
+#include "modules/types/hit_and_leave_points.h"
 #include "modules/types/infrared_ranges.h"
 #include "modules/types/pose.h"
 #include "modules/types/range_scan.h"
@@ -35,6 +36,7 @@ TEST(ModuleTypes, ReadBackFromTextAndBytes) {
       RangeScan{-1.5, 0.1, 0.02, 4, {0.5f, std::numeric_limits<float>::infinity(), 3.25f}});
   ExpectBothFormsReadBack(InfraredRanges{1, std::numeric_limits<double>::infinity(), 2, 2, 0.45});
   ExpectBothFormsReadBack(Contact{true, -0.7});
+  ExpectBothFormsReadBack(HitAndLeavePoints{{{1, 2}, {3, 4}}, {{5, 6}}});
   ExpectBothFormsReadBack(std::vector<Pose2>{{1, 2, 3}, {4, 5, 6}});
 }
 
