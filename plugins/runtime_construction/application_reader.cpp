@@ -19,6 +19,11 @@ std::vector<std::string> NamesOf(const std::vector<AttributeRule>& rules) {
   return names;
 }
 
+// What tells editors where the schema is.
+bool IsForEditors(const std::string& attribute) {
+  return attribute == "xmlns:xsi" || attribute == "xsi:noNamespaceSchemaLocation";
+}
+
 // Where a known tag would be right.
 std::string PlaceHint(const XmlTag& tag) {
   std::string places;
@@ -193,6 +198,7 @@ void ApplicationReader::ReadMisspeltAttributes(const std::vector<AttributeRule>&
   for (const Error& error : problems.errors()) {
     const auto is_here = [&](const XmlAttribute& each) { return each.position == error.position; };
     const auto unknown = std::ranges::find_if(use.xml.attributes(), is_here);
+    if (IsForEditors(unknown->name)) continue;
     std::vector<std::string> free = names;
     std::erase_if(free, [&](const std::string& name) { return use.Says(name); });
     if (const std::string meant = NearestName(unknown->name, free); !meant.empty()) {
