@@ -104,7 +104,11 @@ std::vector<AttributeRule> XmlTagRegistry::Rules(const XmlTag& tag) const {
 std::vector<std::string> XmlTagRegistry::TagsIn(std::string_view parent) const {
   std::vector<std::string> names;
   for (const auto& [name, tag] : tags_) {
-    if (std::ranges::find(tag.parents, parent) != tag.parents.end()) names.push_back(name);
+    const auto may_stand_in = [&tag = tag](std::string_view place) {
+      return std::ranges::find(tag.parents, place) != tag.parents.end();
+    };
+    const bool is_of_group = parent == "group_type" && may_stand_in("group");
+    if (may_stand_in(parent) || is_of_group) names.push_back(name);
   }
   return names;
 }

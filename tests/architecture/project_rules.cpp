@@ -25,6 +25,8 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/application_files",
                    "plugins/application_files",
                    {"core", "plugins/parameters", "plugins/runtime_construction"}});
+  rules.push_back(
+      {"plugins/application_graph", "plugins/application_graph", {"core", "plugins/scheduling"}});
   // The tags of application files stand apart, so that scheduling itself needs no XML.
   rules.push_back(
       {"the tags of scheduling",
