@@ -102,6 +102,17 @@ bool FrameworkElement::IsAtOrBelow(const FrameworkElement& ancestor) const noexc
   return element != nullptr;
 }
 
+void FrameworkElement::InheritAnnotations(const FrameworkElement& from) {
+  for (const auto& [type, annotation] : from.annotations_) {
+    if (auto left = annotation->ForReplacement()) annotations_[type] = std::move(left);
+  }
+  for (FrameworkElement* child : children_) {
+    if (const FrameworkElement* counterpart = from.FindChild(child->name_)) {
+      child->InheritAnnotations(*counterpart);
+    }
+  }
+}
+
 void FrameworkElement::Visit(const std::function<void(FrameworkElement&)>& visit) {
   visit(*this);
   // By index: a visitor may add children.

@@ -93,6 +93,9 @@ class FrameworkElement {
     annotations_[typeid(T)] = std::move(annotation);
     return reference;
   }
+  /// Takes on what the annotations of `from`, and of what is below it under the same names, leave to an
+  /// element that replaces it. Under the structure lock.
+  void InheritAnnotations(const FrameworkElement& from);
   /// nullptr if there is none.
   template <typename T>
   [[nodiscard]] T* FindAnnotation() const {

@@ -29,6 +29,12 @@ void Runtime::Adopt(std::unique_ptr<FrameworkElement> element) {
   parent.owned_.push_back(std::move(element));
 }
 
+FrameworkElement* Runtime::Adopt(UnlistedElement&& element) {
+  FrameworkElement* const adopted = element.get();
+  Adopt(std::move(element.element_));
+  return adopted;
+}
+
 Result<void> Runtime::MakeReady(FrameworkElement& element) {
   const std::lock_guard lock(structure_mutex_);
   if (auto prepared = PrepareAll(element); !prepared) return prepared;
@@ -108,13 +114,23 @@ Result<UnlistedElement> Runtime::Unlist(FrameworkElement& element) {
 
 void Runtime::Destroy(UnlistedElement element) {
   if (!element) return;
+  std::vector<UnlistedElement> elements;
+  elements.push_back(std::move(element));
+  Destroy(std::move(elements));
+}
+
+void Runtime::Destroy(std::vector<UnlistedElement> elements) {
+  if (elements.empty()) return;
   {
     const std::lock_guard lock(structure_mutex_);
-    element->Visit([](FrameworkElement& each) { each.Detach(); });
+    for (const UnlistedElement& each : elements) {
+      each->Visit([](FrameworkElement& below) { below.Detach(); });
+    }
   }
   // No thread finds the element anew; wait for those that have found it before. The lock is free
   // meanwhile, so that a cycle that needs it can come to its end.
   WaitForReaders();
+  while (!elements.empty()) elements.pop_back();
 }
 
 Result<void> Runtime::Delete(FrameworkElement& element) {

@@ -44,6 +44,7 @@ class Runtime {
   }
   /// Gives an element that was made otherwise (by a plugin's factory) to its parent.
   void Adopt(std::unique_ptr<FrameworkElement> element);
+  FrameworkElement* Adopt(UnlistedElement&& element);
 
   /// Calls Prepare() of the element and all below that are not ready yet, parents first; if all
   /// succeed they are ready and the listeners told, else none is. Exceptions become errors.
@@ -68,6 +69,8 @@ class Runtime {
   /// Cuts what still ties the element to others, waits until no thread can see it, and destroys it.
   /// Precondition: not within a cycle, and not under the structure lock.
   void Destroy(UnlistedElement element);
+  /// The same for several, with one wait for all of them; in reverse order.
+  void Destroy(std::vector<UnlistedElement> elements);
 
   /// The listener must outlive the runtime or be removed. Locks.
   void AddListener(ElementListener& listener);
@@ -77,12 +80,16 @@ class Runtime {
   template <typename Notify>
   void ForEachListener(Notify&& notify) {
     const std::lock_guard lock(structure_mutex_);
+    ++revision_;
     for (std::size_t i = 0; i < listeners_.size(); ++i) notify(*listeners_[i]);
   }
 
   /// Whether a ChangeScope is open: listeners that do much for each change wait for its end. Under
   /// the structure lock.
   [[nodiscard]] bool is_in_change_scope() const noexcept { return change_scopes_ > 0; }
+
+  /// Grows with each change that listeners are told of. Under the structure lock.
+  [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
 
   /// The time outside of cycles. The steady clock unless another is set before anything runs; the
   /// clock must outlive the runtime.
@@ -99,6 +106,7 @@ class Runtime {
   SteadyClock steady_clock_;
   const Clock* clock_ = &steady_clock_;
   std::uint64_t next_serial_ = 1;
+  std::uint64_t revision_ = 0;
   std::vector<ElementListener*> listeners_;
   int change_scopes_ = 0;
   FrameworkElement root_;

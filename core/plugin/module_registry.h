@@ -10,6 +10,7 @@
 
 #include "core/base/result.h"
 #include "core/element/framework_element.h"
+#include "core/element/unlisted_element.h"
 
 namespace runnel {
 
@@ -41,8 +42,11 @@ class ModuleRegistry {
   /// All types, sorted by name.
   [[nodiscard]] std::vector<const ModuleType*> All() const;
 
-  /// Makes a module, which remembers its type (module_type_name.h), and gives it to `parent`. Whatever its constructor throws comes back as an
-  /// error, and then nothing has changed.
+  /// Makes a module, which remembers its type (module_type_name.h). Whatever its constructor throws
+  /// comes back as an error, and then nothing has changed. If the placement says that it is not listed,
+  /// it is beside the tree.
+  Result<UnlistedElement> Make(std::string_view type, const Placement& placement) const;
+  /// Makes a module and gives it to `parent`. Errors: as Make().
   Result<FrameworkElement*> Create(std::string_view type, FrameworkElement& parent,
                                    std::string name) const;
 

@@ -51,11 +51,13 @@ void CycleRunner::Install(std::unique_ptr<const Schedule> schedule,
   Retire([previous, with_it = std::move(old_chunks)] { delete previous; });
 }
 
-void CycleRunner::RunCycle(Cycle cycle, FaultDesk& desk) noexcept {
+bool CycleRunner::RunCycle(Cycle cycle, FaultDesk& desk) noexcept {
   const EpochGuard guard;
+  if (gate_.is_closed()) [[unlikely]]
+    return false;
   const CycleScope scope(cycle);
   const Schedule* const schedule = this->schedule();
-  if (schedule == nullptr) return;
+  if (schedule == nullptr) return true;
   in_cycle_of = schedule;
   if (waits_for_data()) {
     RunActivated(*schedule, cycle.now, desk);
@@ -66,6 +68,7 @@ void CycleRunner::RunCycle(Cycle cycle, FaultDesk& desk) noexcept {
   for (CycleRunner* const waiting : *schedule->waiting) {
     if (waiting->is_activated()) waiting->event_.Notify();
   }
+  return true;
 }
 
 // Whether nothing need be asked of its elements any more.

@@ -150,9 +150,9 @@ void ScheduleCompiler::Refresh(FrameworkElement& element) {
   ConnectTasks(known->second);
 }
 
-void ScheduleCompiler::Assign(FrameworkElement& element, const ThreadContainer& thread) noexcept {
+void ScheduleCompiler::Assign(FrameworkElement& element, const ThreadContainer* thread) noexcept {
   Follow([&] {
-    if (!lanes_.contains(thread.serial())) return NeedAll();
+    if (thread != nullptr && !lanes_.contains(thread->serial())) return NeedAll();
     std::vector<PlannedElement*> moved;
     for (FrameworkElement* each : Search(element).executables) {
       const auto known = elements_.find(each->serial());

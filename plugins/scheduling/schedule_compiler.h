@@ -44,7 +44,8 @@ class ScheduleCompiler {
   void Add(FrameworkElement& element) noexcept;
   void Connect(const Port& from, const Port& to) noexcept;
   void Disconnect(const Port& from, const Port& to) noexcept;
-  void Assign(FrameworkElement& element, const ThreadContainer& thread) noexcept;
+  /// nullptr: to none.
+  void Assign(FrameworkElement& element, const ThreadContainer* thread) noexcept;
   /// All at or below `element` is about to go: unties their trigger inputs and forgets them; the next
   /// schedules do not contain them.
   void Release(FrameworkElement& element);
@@ -58,6 +59,8 @@ class ScheduleCompiler {
 
   /// Of all containers, in the order in which they were made.
   [[nodiscard]] Runners runners() const;
+  /// Of these and all below them, each once and in the same order.
+  [[nodiscard]] Runners RunnersOf(const std::vector<FrameworkElement*>& elements) const;
   [[nodiscard]] bool HasTasks() const;
   /// Loops that were cut, modules that never run or that name no thread where there are several.
   [[nodiscard]] std::vector<Error> Warnings() const;

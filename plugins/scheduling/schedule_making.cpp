@@ -1,6 +1,7 @@
 // What comes of the plans of a ScheduleCompiler: schedules, and warnings.
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "core/lockfree/thread_epoch.h"
@@ -106,6 +107,22 @@ void ScheduleCompiler::Install() {
 ScheduleCompiler::Runners ScheduleCompiler::runners() const {
   Runners runners;
   for (const auto& [serial, lane] : lanes_) runners.push_back(lane->runner);
+  return runners;
+}
+
+ScheduleCompiler::Runners ScheduleCompiler::RunnersOf(
+    const std::vector<FrameworkElement*>& elements) const {
+  std::set<const Lane*> wanted;
+  for (FrameworkElement* element : elements) {
+    element->Visit([&](FrameworkElement& each) {
+      const auto known = elements_.find(each.serial());
+      if (known != elements_.end()) wanted.insert(known->second.lane);
+    });
+  }
+  Runners runners;
+  for (const auto& [serial, lane] : lanes_) {
+    if (wanted.contains(lane.get())) runners.push_back(lane->runner);
+  }
   return runners;
 }
 

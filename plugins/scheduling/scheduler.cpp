@@ -64,22 +64,27 @@ void Scheduler::OnDisconnected(FrameworkElement& from, FrameworkElement& to) {
 }
 
 void Scheduler::OnAssigned(FrameworkElement& element, ThreadContainer& thread) {
-  compiler_.Assign(element, thread);
+  compiler_.Assign(element, &thread);
   Changed();
 }
 
-// Running threads get their new schedule at once, or when all is done that belongs together;
-// simulated ones before the next step.
+void Scheduler::OnUnassigned(FrameworkElement& element) {
+  compiler_.Assign(element, nullptr);
+  Changed();
+}
+
+// Where cycles are running, the new schedule comes at once, or when all is done that belongs together:
+// what is deleted must not be in a schedule that another thread is about to run.
 void Scheduler::Changed() {
   if (is_up_to_date()) return;
   // relaxed: who finds it set takes the lock before looking at what has changed.
   has_changes_.store(true, std::memory_order_relaxed);
-  if (is_running_ && !runtime_.is_in_change_scope()) BringUpToDate();
+  if (is_live() && !runtime_.is_in_change_scope()) BringUpToDate();
 }
 
 // What fails here, the supervising thread tries again, and reports.
 void Scheduler::OnChangesEnd() {
-  if (!is_running_) return;
+  if (!is_live()) return;
   try {
     BringUpToDate();
   } catch (...) {
@@ -172,42 +177,11 @@ bool Scheduler::is_running() const {
   return is_running_;
 }
 
-void Scheduler::Supervise() {
-  while (supervises_.load(std::memory_order_acquire)) {
-    desk_.event().Wait();
-    LookAfter();
-  }
-}
-
-// Nobody is above the supervising thread to catch what it throws.
-void Scheduler::LookAfter() noexcept {
-  const auto report = [this](const std::string& why) {
-    desk_.Report({runtime_.root().path(), "the schedules could not be brought up to date: " + why,
-                  runtime_.clock().Now()});
-  };
-  try {
-    desk_.Attend();
-    const std::lock_guard lock(runtime_.structure_mutex());
-    if (is_running_) BringUpToDate();
-  } catch (const std::exception& exception) {
-    report(exception.what());
-  } catch (...) {
-    report("unknown exception");
-  }
-}
-
-void Scheduler::EndSupervision() {
-  if (!supervisor_.joinable()) return;
-  supervises_.store(false, std::memory_order_release);
-  desk_.event().Notify();
-  supervisor_.join();
-  supervisor_ = std::thread();
-}
-
 // What is changed after the look is for the next step.
 void Scheduler::FollowChanges() {
   if (!has_changes_.load(std::memory_order_relaxed)) return;
   const std::lock_guard lock(runtime_.structure_mutex());
+  has_stepped_ = true;
   BringUpToDate();
   if (std::exchange(has_other_runners_, false)) simulation_.SetRunners(runners_);
   has_changes_.store(false, std::memory_order_relaxed);
@@ -221,7 +195,9 @@ std::optional<Time> Scheduler::NextDue() {
 
 bool Scheduler::RunNext(Time due) {
   if (options_.speed != 0) pacing_.WaitFor(due, [this] { return stop_requested(); });
-  return !stop_requested() && simulation_.Step();
+  if (stop_requested() || !simulation_.Step()) return false;
+  LookOut();
+  return true;
 }
 
 bool Scheduler::Step() {
@@ -243,6 +219,30 @@ std::vector<Fault> Scheduler::TakeFaults() {
   // Two at once would apply the rules in parallel, and out of order.
   if (!supervises_.load(std::memory_order_acquire)) desk_.Attend();
   return desk_.Take();
+}
+
+Result<CycleHold> Scheduler::HoldCycles(const std::vector<std::string>& paths, Duration patience) {
+  RUNNEL_CHECK(
+      !runtime_.structure_mutex().HeldByThisThread(),
+      "threads cannot be kept between cycles under the structure lock, which a cycle might "
+      "be waiting for");
+  return CycleHold::Take(RunnersOf(paths), patience);
+}
+
+Scheduler::Runners Scheduler::RunnersOf(const std::vector<std::string>& paths) {
+  const std::lock_guard lock(runtime_.structure_mutex());
+  BringUpToDate();
+  std::vector<FrameworkElement*> elements;
+  for (const std::string& path : paths) {
+    if (const auto found = runtime_.root().Find(path)) elements.push_back(*found);
+  }
+  return compiler_.RunnersOf(elements);
+}
+
+std::optional<std::uint64_t> Scheduler::CyclesOf(const std::string& path) {
+  const Runners runners = RunnersOf({path});
+  if (runners.empty()) return {};
+  return runners.front()->statistics().cycles;
 }
 
 bool Scheduler::HasTasks() {
