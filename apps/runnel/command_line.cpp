@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/runnel/other_programs.h"
 #include "core/base/nearest_name.h"
 #include "core/xml/xml_reading.h"
 #include "plugins/scheduling/pacing.h"
@@ -18,6 +19,22 @@ const std::vector<std::string> kCommands{"run", "check", "modules", "version"};
 ExitCode Refuse(const std::string& message, const std::string& hint) {
   std::cerr << "error: " << message << "; " << hint << '\n';
   return ExitCode::kBadInput;
+}
+
+std::vector<std::string> AllCommands() {
+  std::vector<std::string> commands = kCommands;
+  for (const std::string& command : OtherCommands()) commands.push_back(command);
+  return commands;
+}
+
+// Of those that are programs of their own; each has its own --help.
+std::string FooterText() {
+  std::string others;
+  for (const std::string& command : OtherCommands()) {
+    others += (others.empty() ? "" : ", ") + command;
+  }
+  return (others.empty() ? "" : "Further commands, each with its own --help: " + others + "\n") +
+         "Exit codes: 0 done, 1 the run failed, 2 bad input.";
 }
 
 bool IsUnknownCommand(const std::string& word) {
@@ -85,7 +102,7 @@ CommandLine ParseCommandLine(int count, const char* const* words) {
   CLI::App program("Runs robot applications that are described in XML files.", "runnel");
   program.require_subcommand(1);
   program.set_version_flag("--version", "runnel " RUNNEL_VERSION, "says which version this is");
-  program.footer("Exit codes: 0 done, 1 the run failed, 2 bad input.");
+  program.footer(FooterText());
   RunArguments run_arguments;
   CheckArguments check_arguments;
   ModulesArguments modules_arguments;
@@ -100,7 +117,7 @@ CommandLine ParseCommandLine(int count, const char* const* words) {
 
   if (count > 1 && IsUnknownCommand(words[1])) {
     return Refuse("there is no command '" + std::string(words[1]) + "'",
-                  NearestNameHint(words[1], kCommands));
+                  NearestNameHint(words[1], AllCommands()));
   }
   try {
     program.parse(count, words);

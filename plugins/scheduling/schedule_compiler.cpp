@@ -150,9 +150,10 @@ void ScheduleCompiler::Refresh(FrameworkElement& element) {
   ConnectTasks(known->second);
 }
 
-void ScheduleCompiler::Assign(FrameworkElement& element, const ThreadContainer* thread) noexcept {
+void ScheduleCompiler::Reassign(FrameworkElement& element) noexcept {
   Follow([&] {
-    if (thread != nullptr && !lanes_.contains(thread->serial())) return NeedAll();
+    const std::uint64_t assigned = AssignedThread(element);
+    if (assigned != 0 && !lanes_.contains(assigned)) return NeedAll();
     std::vector<PlannedElement*> moved;
     for (FrameworkElement* each : Search(element).executables) {
       const auto known = elements_.find(each->serial());

@@ -44,8 +44,7 @@ class ScheduleCompiler {
   void Add(FrameworkElement& element) noexcept;
   void Connect(const Port& from, const Port& to) noexcept;
   void Disconnect(const Port& from, const Port& to) noexcept;
-  /// nullptr: to none.
-  void Assign(FrameworkElement& element, const ThreadContainer* thread) noexcept;
+  void Reassign(FrameworkElement& element) noexcept;
   /// All at or below `element` is about to go: unties their trigger inputs and forgets them; the next
   /// schedules do not contain them.
   void Release(FrameworkElement& element);
@@ -59,9 +58,9 @@ class ScheduleCompiler {
 
   /// Of all containers, in the order in which they were made.
   [[nodiscard]] Runners runners() const;
-  /// Of these and all below them, each once and in the same order.
-  [[nodiscard]] Runners RunnersOf(const std::vector<FrameworkElement*>& elements) const;
   [[nodiscard]] bool HasTasks() const;
+  /// Adds those that run anything at or below `element`, as planned, and are not in `runners` yet.
+  void AddRunnersOf(FrameworkElement& element, Runners& runners) const;
   /// Loops that were cut, modules that never run or that name no thread where there are several.
   [[nodiscard]] std::vector<Error> Warnings() const;
 

@@ -1,7 +1,6 @@
 // What comes of the plans of a ScheduleCompiler: schedules, and warnings.
 
 #include <algorithm>
-#include <set>
 #include <utility>
 
 #include "core/lockfree/thread_epoch.h"
@@ -110,20 +109,13 @@ ScheduleCompiler::Runners ScheduleCompiler::runners() const {
   return runners;
 }
 
-ScheduleCompiler::Runners ScheduleCompiler::RunnersOf(
-    const std::vector<FrameworkElement*>& elements) const {
-  std::set<const Lane*> wanted;
-  for (FrameworkElement* element : elements) {
-    element->Visit([&](FrameworkElement& each) {
-      const auto known = elements_.find(each.serial());
-      if (known != elements_.end()) wanted.insert(known->second.lane);
-    });
-  }
-  Runners runners;
-  for (const auto& [serial, lane] : lanes_) {
-    if (wanted.contains(lane.get())) runners.push_back(lane->runner);
-  }
-  return runners;
+void ScheduleCompiler::AddRunnersOf(FrameworkElement& element, Runners& runners) const {
+  element.Visit([&](const FrameworkElement& each) {
+    const auto known = elements_.find(each.serial());
+    if (known == elements_.end() || known->second.lane == nullptr) return;
+    const auto& runner = known->second.lane->runner;
+    if (std::ranges::find(runners, runner) == runners.end()) runners.push_back(runner);
+  });
 }
 
 bool ScheduleCompiler::HasTasks() const {

@@ -63,13 +63,10 @@ void Scheduler::OnDisconnected(FrameworkElement& from, FrameworkElement& to) {
   Changed();
 }
 
-void Scheduler::OnAssigned(FrameworkElement& element, ThreadContainer& thread) {
-  compiler_.Assign(element, &thread);
-  Changed();
-}
+void Scheduler::OnAssigned(FrameworkElement& element, ThreadContainer&) { OnUnassigned(element); }
 
 void Scheduler::OnUnassigned(FrameworkElement& element) {
-  compiler_.Assign(element, nullptr);
+  compiler_.Reassign(element);
   Changed();
 }
 
@@ -232,9 +229,9 @@ Result<CycleHold> Scheduler::HoldCycles(const std::vector<std::string>& paths, D
 Scheduler::Runners Scheduler::RunnersOf(const std::vector<std::string>& paths) {
   const std::lock_guard lock(runtime_.structure_mutex());
   BringUpToDate();
-  std::vector<FrameworkElement*> elements;
+  Runners running;
   for (const std::string& path : paths) {
-    if (const auto found = runtime_.root().Find(path)) elements.push_back(*found);
+    if (const auto found = runtime_.root().Find(path)) compiler_.AddRunnersOf(**found, running);
   }
   return compiler_.RunnersOf(elements);
 }
