@@ -109,14 +109,16 @@ RandomTask MakeTask(std::uint32_t seed) {
 
 int Worlds() {
   const char* wanted = std::getenv("RUNNEL_WORLDS");
-  return wanted == nullptr ? 15 : std::stoi(wanted);
+  return wanted == nullptr ? 6 : std::stoi(wanted);
 }
 
 class RandomWorlds : public testing::TestWithParam<std::tuple<BugVariant, Sensor>> {};
 
 TEST_P(RandomWorlds, GiveTheVerdictOfAnIndependentJudge) {
-  const auto [variant, sensor] = GetParam();
-  for (int seed = 1; seed <= Worlds(); ++seed) {
+  const auto& [variant, sensor] = GetParam();
+  // Other worlds for every variant.
+  const int first = 1 + 1000 * static_cast<int>(VariantIndex(variant.name));
+  for (int seed = first; seed < first + Worlds(); ++seed) {
     const RandomTask random = MakeTask(static_cast<std::uint32_t>(seed));
     const auto direction = seed % 2 == 0 ? BoundaryDirection::kLeft : BoundaryDirection::kRight;
     SCOPED_TRACE("world " + std::to_string(seed) + ", surely to " + std::to_string(random.surely) +
@@ -141,7 +143,7 @@ std::string NameOf(const testing::TestParamInfo<RandomWorlds::ParamType>& param)
 }
 
 INSTANTIATE_TEST_SUITE_P(All, RandomWorlds,
-                         testing::Combine(testing::ValuesIn(kBugVariants),
+                         testing::Combine(testing::ValuesIn(VariantsThatEnd()),
                                           testing::Values(Sensor::kLaser, Sensor::kInfrared)),
                          NameOf);
 
