@@ -232,6 +232,19 @@ TEST(Com, NeverSaysUnreachable) {
   EXPECT_FALSE(IsVerdict(outcome.status.mode));
 }
 
+// A robot that only feels what it touches: TangentBug has the range 0 then, DistBug is not for it.
+TEST(Bumper, IsEnoughForAllButDistBug) {
+  const Task around = {World({Box(0, 0, 1, 2)}), {-2, 0.2}, {2, 0.1}};
+  const Task enclosed = {World({Box(0, 0, 2, 2)}), {-2, 0.1}, {0.2, 0.1}};
+  for (const BugVariant& variant : VariantsThatEnd()) {
+    if (variant.name == "dist_bug") continue;
+    const Outcome reached = Drive(variant.name, BoundaryDirection::kLeft, Sensor::kBumper, around);
+    EXPECT_EQ(int(reached.status.mode), int(PlannerMode::kReached)) << variant.name;
+    const Outcome none = Drive(variant.name, BoundaryDirection::kRight, Sensor::kBumper, enclosed);
+    EXPECT_EQ(int(none.status.mode), int(PlannerMode::kUnreachable)) << variant.name;
+  }
+}
+
 class MetAgain : public testing::Test {
  protected:
   /// The passage of xml/worlds/met_again.xml: the line from start to goal crosses its walls again

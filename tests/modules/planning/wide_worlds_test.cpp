@@ -28,7 +28,7 @@ constexpr double kMarginPerMetre = 0.05;
 constexpr double kMargin = 0.5;  // m
 // m by which hit and leave points are off the grown boundary.
 constexpr double kLaserTolerance = 0.07;
-constexpr double kInfraredTolerance = 0.15;
+constexpr double kInfraredTolerance = 0.18;
 
 double DistanceBetween(const Polygon& a, const Polygon& b) {
   double least = BugState::kNever;
