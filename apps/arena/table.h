@@ -13,8 +13,9 @@ namespace runnel::arena {
 struct Row {
   const Course* course = nullptr;
   const RunRecord* record = nullptr;
-  bool is_right = false;        ///< its verdict is the true one
-  std::optional<double> ratio = {};  ///< of the path to the shortest one; only if the goal was reached
+  bool is_right = false;  ///< its verdict is the true one
+  std::optional<double> ratio =
+      {};  ///< of the path to the shortest one; only if the goal was reached
   std::optional<double> bound = {};  ///< m, see BoundOf
   bool is_over_bound = false;
 };
