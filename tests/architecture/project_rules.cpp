@@ -22,6 +22,9 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/runtime_construction",
                    "plugins/runtime_construction",
                    {"core", "plugins/parameters"}});
+  rules.push_back({"plugins/application_files",
+                   "plugins/application_files",
+                   {"core", "plugins/parameters", "plugins/runtime_construction"}});
   // The tags of application files stand apart, so that scheduling itself needs no XML.
   rules.push_back(
       {"the tags of scheduling",
