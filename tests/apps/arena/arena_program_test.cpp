@@ -166,6 +166,15 @@ TEST_F(ArenaTest, RefusesToMixRunsOfOtherSettings) {
   EXPECT_THAT(ended.text, HasSubstr("the finished runs had --noise 0, not 0.1"));
 }
 
+TEST_F(ArenaTest, DoesNotOverwriteRunsThatItCannotGoOnWith) {
+  Write("runs.json", "[]");
+  const Ended ended =
+      Arena("--world open --variant bug2 --resume --quiet --json " + File("runs.json"));
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.text, HasSubstr("have no journal"));
+  EXPECT_EQ(Text("runs.json"), "[]");
+}
+
 struct Refusal {
   const char* words;
   const char* told;
