@@ -83,6 +83,9 @@ RunRecord RecordOf(const Underway& underway, const ChildProcess::Ending& ending,
     record.result.outcome = "error";
     const std::string complaint = Complaint(underway.output);
     if (!complaint.empty()) record.result.remark = complaint;
+    if (record.result.remark.empty()) {
+      record.result.remark = "ended with exit code " + std::to_string(ending.exit_code);
+    }
     record.has_ended_by_itself = result.has_value();
   }
   return record;
