@@ -35,8 +35,14 @@ struct Summary {
 /// In the order in which variants first appear.
 [[nodiscard]] std::vector<Summary> SummariesOf(const std::vector<Row>& rows);
 
-/// Simulated seconds per real second of a process, which uses one core; 0 if nothing has run.
-[[nodiscard]] double SpeedOf(const std::vector<RunRecord>& records);
+/// How fast the runs were: simulated seconds per second. 0 if nothing has run.
+struct Speed {
+  double of_wall_time = 0.0;       ///< of a process, which keeps one core busy if it gets one
+  double of_processor_time = 0.0;  ///< whatever else the machine was doing
+};
+[[nodiscard]] Speed SpeedOf(const std::vector<RunRecord>& records);
+/// "250 simulated seconds per real second and core, 600 per second of processor time".
+[[nodiscard]] std::string TextOf(const Speed& speed);
 
 /// A block for each world, one for the variants, and notes.
 [[nodiscard]] std::string TablesText(const std::vector<Row>& rows,

@@ -25,7 +25,8 @@ RunRecord SomeRecord(const std::string& variant = "bug1") {
                      .leaves = {{5, 6}},
                      .path = {{{0, 0}, PathMode::kDrivingToGoal, 0.5, 0},
                               {{1, 0}, PathMode::kGoingToLeavePoint, -0.5, 2}}},
-          .wall_time = 0.25};
+          .wall_time = 0.25,
+          .processor_time = 0.125};
 }
 
 PlannedRun PlannedFor(const RunRecord& record, const std::string& made_of = "abc") {

@@ -54,8 +54,11 @@ TEST(Tables, CountRightVerdictsAndTheMeanRatioOfThose) {
 TEST(Tables, TellTheSpeedOfThoseThatRanToTheirEnd) {
   RunRecord hung = Record("bug1", "timeout", 0, 0, 100);
   hung.has_ended_by_itself = false;
-  EXPECT_DOUBLE_EQ(SpeedOf({Record("bug1", "reached", 12), hung}), 100.0);
-  EXPECT_DOUBLE_EQ(SpeedOf({hung}), 0.0);
+  RunRecord record = Record("bug1", "reached", 12);
+  record.processor_time = 0.25;
+  EXPECT_DOUBLE_EQ(SpeedOf({record, hung}).of_wall_time, 100.0);
+  EXPECT_DOUBLE_EQ(SpeedOf({record, hung}).of_processor_time, 200.0);
+  EXPECT_DOUBLE_EQ(SpeedOf({hung}).of_wall_time, 0.0);
 }
 
 TEST(Pages, DoNotTakeNamesForTags) {
