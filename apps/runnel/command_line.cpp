@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/runnel/control_command_line.h"
 #include "core/base/nearest_name.h"
 #include "core/xml/xml_reading.h"
 #include "plugins/scheduling/pacing.h"
@@ -20,8 +21,15 @@ ExitCode Refuse(const std::string& message, const std::string& hint) {
   return ExitCode::kBadInput;
 }
 
+std::vector<std::string> AllCommands() {
+  std::vector<std::string> names = kCommands;
+  names.insert(names.end(), ControlCommandLine::Names().begin(), ControlCommandLine::Names().end());
+  return names;
+}
+
 bool IsUnknownCommand(const std::string& word) {
-  return !word.starts_with('-') && std::ranges::find(kCommands, word) == kCommands.end();
+  const auto names = AllCommands();
+  return !word.starts_with('-') && std::ranges::find(names, word) == names.end();
 }
 
 // CLI11's own checks name bounds with three hundred digits.
@@ -76,6 +84,9 @@ CLI::App& AddRun(CLI::App& program, RunArguments& arguments) {
   run.add_flag("--quiet", arguments.quiet, "no progress, only how the run ended");
   run.add_flag("--statistics", arguments.statistics,
                "at the end, how punctual the threads were and how long their cycles took");
+  run.add_flag_callback(
+      "--no-control", [&arguments] { arguments.has_control = false; },
+      "no other process can look at it or change it");
   return run;
 }
 
@@ -97,13 +108,15 @@ CommandLine ParseCommandLine(int count, const char* const* words) {
   modules.add_option("plugins", modules_arguments.plugins, "only of these; without, of all")
       ->type_name("PLUGIN");
   program.add_subcommand("version", "says which version this is");
+  const ControlCommandLine control(program);
 
   if (count > 1 && IsUnknownCommand(words[1])) {
     return Refuse("there is no command '" + std::string(words[1]) + "'",
-                  NearestNameHint(words[1], kCommands));
+                  NearestNameHint(words[1], AllCommands()));
   }
   try {
-    program.parse(count, words);
+    const auto all = WithNegativeValues(count, words);
+    program.parse(static_cast<int>(all.size()), all.data());
   } catch (const CLI::Success& help) {
     program.exit(help);
     return ExitCode::kDone;
@@ -113,6 +126,7 @@ CommandLine ParseCommandLine(int count, const char* const* words) {
   if (run.parsed()) return run_arguments;
   if (check.parsed()) return check_arguments;
   if (modules.parsed()) return modules_arguments;
+  if (auto arguments = control.Parsed()) return *arguments;
   return VersionArguments{};
 }
 

@@ -3,6 +3,7 @@
 
 #include "apps/runnel/check_command.h"
 #include "apps/runnel/command_line.h"
+#include "apps/runnel/control_command.h"
 #include "apps/runnel/modules_command.h"
 #include "apps/runnel/run_command.h"
 #include "apps/runnel/standard_output.h"
@@ -14,6 +15,7 @@ namespace {
 ExitCode Do(const RunArguments& arguments) { return Run(arguments); }
 ExitCode Do(const CheckArguments& arguments) { return Check(arguments); }
 ExitCode Do(const ModulesArguments& arguments) { return ListModules(arguments); }
+ExitCode Do(const ControlArguments& arguments) { return Control(arguments); }
 ExitCode Do(const VersionArguments&) {
   std::cout << "runnel " RUNNEL_VERSION "\n";
   return ExitCode::kDone;

@@ -29,6 +29,9 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
        {"core", "plugins/parameters", "plugins/runtime_construction", "plugins/scheduling"}});
   rules.push_back({"plugins/scheduling", "plugins/scheduling", {"core"}});
   rules.push_back({"plugins/structure", "plugins/structure", {"core", "plugins/scheduling"}});
+  rules.push_back({"plugins/control",
+                   "plugins/control",
+                   {"core", "plugins/scheduling", "plugins/structure"}});
 }
 
 // A family of modules knows the framework, the types that all share, and itself. Neighbours that a
