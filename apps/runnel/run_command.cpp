@@ -130,7 +130,7 @@ class Session {
         log_(log),
         root_(application.runtime().root()),
         start_(application.runtime().clock().Now()),
-        report_(application),
+        report_(application.runtime()),
         display_(!arguments.quiet) {}
 
   ExitCode Run(Runtime& runtime) {
