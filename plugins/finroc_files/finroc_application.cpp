@@ -30,6 +30,15 @@ void MakeReady(FrameworkElement& application, const BuildTools& tools, BuildCont
   if (context.ok()) report(tools.runtime.MakeReady(application));
 }
 
+// What would have fed them may have had no counterpart, which has been told; the rest is built.
+void WarnOfRequiredInputs(FrameworkElement& application, const BuildTools& tools,
+                          const std::filesystem::path& file, BuildContext& context) {
+  Diagnostics missing;
+  BuildContext check(tools, file.parent_path(), missing);
+  CheckRequiredInputs(application, check);
+  for (const Error& error : missing.errors()) context.Warn(error, error.position, application);
+}
+
 FrameworkElement* Build(XmlElement root, const std::filesystem::path& file, const BuildTools& tools,
                         BuildMode mode, BuildContext& context) {
   FrameworkElement* application = nullptr;
@@ -40,7 +49,7 @@ FrameworkElement* Build(XmlElement root, const std::filesystem::path& file, cons
     internal::FinrocReader(*application, context).Read(root, file);
   });
   if (application == nullptr) return nullptr;
-  CheckRequiredInputs(*application, context);
+  WarnOfRequiredInputs(*application, tools, file, context);
   for (const std::string& name : tools.configuration.UnusedArguments()) {
     context.Report({.message = "the application knows no '" + name + "'",
                     .position = {.file = "command line"}},

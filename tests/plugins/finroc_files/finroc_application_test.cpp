@@ -122,13 +122,21 @@ TEST_F(FinrocApplication, TellsOfEachThatHasNoCounterpart) {
             std::chrono::milliseconds(40));
 }
 
-TEST_F(FinrocApplication, IsLeftOutWholeIfSomethingIsWrong) {
-  EXPECT_EQ(Build(R"(<Finstructable>
+TEST_F(FinrocApplication, WarnsOfInputsThatNothingFeedsAnyMore) {
+  ASSERT_NE(Build(R"(<Finstructable>
   <element name="A" group="finroc_projects_test" type="Filter"/>
 </Finstructable>)"),
             nullptr);
-  EXPECT_THAT(said_, HasSubstr("robot.finroc:2:3: error: /robot/a/input/value: nothing is "
+  EXPECT_THAT(said_, HasSubstr("robot.finroc:2:3: warning: /robot/a/input/value: nothing is "
                                "connected"));
+}
+
+TEST_F(FinrocApplication, IsLeftOutWholeIfSomethingIsWrong) {
+  EXPECT_EQ(Build(R"(<Finstructable>
+  <element name="A" group="finroc_projects_test" type="Unready"/>
+</Finstructable>)"),
+            nullptr);
+  EXPECT_THAT(said_, HasSubstr("robot.finroc:2:3: error: /robot/a: the file is not there"));
   EXPECT_TRUE(shop_.runtime.root().children().empty());
 }
 
