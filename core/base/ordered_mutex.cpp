@@ -15,16 +15,29 @@ bool OrderedMutex::HeldByThisThread() const noexcept {
   return false;
 }
 
+void OrderedMutex::CheckOrder() const {
+  if (HeldByThisThread()) return;
+  RUNNEL_CHECK(innermost == nullptr || innermost->level_ < level_,
+               "locks must be taken in the order of their levels");
+}
+
 void OrderedMutex::lock() {
-  if (!HeldByThisThread()) {
-    RUNNEL_CHECK(innermost == nullptr || innermost->level_ < level_,
-                 "locks must be taken in the order of their levels");
-  }
+  CheckOrder();
   mutex_.lock();
-  if (depth_++ == 0) {
-    outer_ = innermost;
-    innermost = this;
-  }
+  Locked();
+}
+
+bool OrderedMutex::try_lock() {
+  CheckOrder();
+  if (!mutex_.try_lock()) return false;
+  Locked();
+  return true;
+}
+
+void OrderedMutex::Locked() noexcept {
+  if (depth_++ > 0) return;
+  outer_ = innermost;
+  innermost = this;
 }
 
 void OrderedMutex::unlock() {

@@ -10,6 +10,7 @@ namespace runnel {
 /// levels).
 enum class LockLevel : int {
   kScheduler = 10,  ///< starting and stopping threads
+  kEditor = 15,     ///< change sets, one after the other
   kStructure = 20,  ///< the tree of elements and its connections
   kRegistry = 30,   ///< types, modules, plugins
   kLeaf = 100,      ///< nothing else is locked while one of these is held
@@ -23,11 +24,16 @@ class OrderedMutex {
   explicit OrderedMutex(LockLevel level) noexcept : level_(level) {}
 
   void lock();
+  /// False if another thread has it.
+  [[nodiscard]] bool try_lock();
   void unlock();
   /// True if the calling thread holds it.
   [[nodiscard]] bool HeldByThisThread() const noexcept;
 
  private:
+  void CheckOrder() const;
+  void Locked() noexcept;
+
   const LockLevel level_;
   std::recursive_mutex mutex_;
   OrderedMutex* outer_ = nullptr;  // the lock that this thread took before, guarded by mutex_

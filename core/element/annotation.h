@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 namespace runnel {
 
 /// Something that a plugin keeps with a framework element without the core knowing its type: derive
@@ -7,6 +9,9 @@ namespace runnel {
 class Annotation {
  public:
   virtual ~Annotation() = default;
+  /// What an element that replaces this one, under the same path, is to be annotated with; nullptr: with
+  /// nothing, or with what it brings itself.
+  [[nodiscard]] virtual std::unique_ptr<Annotation> ForReplacement() const { return nullptr; }
 };
 
 }  // namespace runnel

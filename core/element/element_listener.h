@@ -23,6 +23,11 @@ class ElementListener {
   /// Ports: data now flows, or no longer flows, from one to the other.
   virtual void OnConnected(FrameworkElement& /*from*/, FrameworkElement& /*to*/) {}
   virtual void OnDisconnected(FrameworkElement& /*from*/, FrameworkElement& /*to*/) {}
+
+  /// Whoever has made the changes told of since the last call has made all that belong together
+  /// (ChangeScope), and is about to let go of the structure lock. Not called for a change that is
+  /// made in no scope: that one stands by itself.
+  virtual void OnChangesEnd() {}
 };
 
 }  // namespace runnel

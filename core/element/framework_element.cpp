@@ -27,6 +27,11 @@ FrameworkElement::FrameworkElement(const Placement& placement, ElementKind kind)
     error.path = parent_->path();
     throw ElementError(std::move(error));
   }
+  if (placement.is_listed) JoinParent(nullptr);
+  serial_ = runtime_->NextSerial();
+}
+
+void FrameworkElement::JoinParent(const FrameworkElement* place) {
   if (parent_->life_cycle_ == LifeCycle::kDeleted) {
     throw ElementError(
         {.message = "cannot create '" + name_ + "' in an element that is being deleted",
@@ -37,9 +42,9 @@ FrameworkElement::FrameworkElement(const Placement& placement, ElementKind kind)
                         .path = parent_->path(),
                         .hint = "choose another name"});
   }
-  parent_->children_.push_back(this);
+  auto& siblings = parent_->children_;
+  siblings.insert(place == nullptr ? siblings.end() : std::ranges::find(siblings, place), this);
   is_listed_ = true;
-  serial_ = runtime_->NextSerial();
 }
 
 FrameworkElement::~FrameworkElement() {
@@ -95,6 +100,17 @@ bool FrameworkElement::IsAtOrBelow(const FrameworkElement& ancestor) const noexc
   const FrameworkElement* element = this;
   while (element != nullptr && element != &ancestor) element = element->parent_;
   return element != nullptr;
+}
+
+void FrameworkElement::InheritAnnotations(const FrameworkElement& from) {
+  for (const auto& [type, annotation] : from.annotations_) {
+    if (auto left = annotation->ForReplacement()) annotations_[type] = std::move(left);
+  }
+  for (FrameworkElement* child : children_) {
+    if (const FrameworkElement* counterpart = from.FindChild(child->name_)) {
+      child->InheritAnnotations(*counterpart);
+    }
+  }
 }
 
 void FrameworkElement::Visit(const std::function<void(FrameworkElement&)>& visit) {

@@ -23,6 +23,8 @@ class Runtime;
 struct Placement {
   FrameworkElement& parent;
   std::string name;
+  /// False: made beside the tree, where nobody finds it, until Runtime::List() puts it in.
+  bool is_listed = true;
 };
 
 /// What an element is to a person who looks at the tree.
@@ -91,6 +93,9 @@ class FrameworkElement {
     annotations_[typeid(T)] = std::move(annotation);
     return reference;
   }
+  /// Takes on what the annotations of `from`, and of what is below it under the same names, leave to an
+  /// element that replaces it. Under the structure lock.
+  void InheritAnnotations(const FrameworkElement& from);
   /// nullptr if there is none.
   template <typename T>
   [[nodiscard]] T* FindAnnotation() const {
@@ -109,9 +114,12 @@ class FrameworkElement {
 
  private:
   friend class Runtime;
+  friend class UnlistedElement;
   struct RootTag {};
   FrameworkElement(RootTag, Runtime& runtime);
 
+  // Into the parent's list, before `place` (nullptr: at the end); throws ElementError.
+  void JoinParent(const FrameworkElement* place);
   // Out of the parent's list: from then on nobody finds the element from the root.
   void LeaveParent() noexcept;
   // The children before this element, so that none sees its parent half destroyed.

@@ -8,7 +8,7 @@ namespace runnel {
 
 namespace {
 
-Result<void> Refuse(const FrameworkElement& element, std::string message, std::string hint = {}) {
+Error Refuse(const FrameworkElement& element, std::string message, std::string hint = {}) {
   return Error{.message = std::move(message), .path = element.path(), .hint = std::move(hint)};
 }
 
@@ -29,8 +29,25 @@ void Runtime::Adopt(std::unique_ptr<FrameworkElement> element) {
   parent.owned_.push_back(std::move(element));
 }
 
+FrameworkElement* Runtime::Adopt(UnlistedElement&& element) {
+  FrameworkElement* const adopted = element.get();
+  Adopt(std::move(element.element_));
+  return adopted;
+}
+
 Result<void> Runtime::MakeReady(FrameworkElement& element) {
   const std::lock_guard lock(structure_mutex_);
+  if (auto prepared = PrepareAll(element); !prepared) return prepared;
+  ForEachListener([&](ElementListener& listener) { listener.OnReady(element); });
+  return {};
+}
+
+Result<void> Runtime::Prepare(UnlistedElement& element) {
+  const std::lock_guard lock(element->runtime().structure_mutex());
+  return PrepareAll(*element);
+}
+
+Result<void> Runtime::PrepareAll(FrameworkElement& element) {
   std::vector<FrameworkElement*> prepared;
   Result<void> result;
   element.Visit([&](FrameworkElement& each) {
@@ -50,8 +67,70 @@ Result<void> Runtime::MakeReady(FrameworkElement& element) {
     return error;
   }
   for (FrameworkElement* each : prepared) each->life_cycle_ = LifeCycle::kReady;
-  ForEachListener([&](ElementListener& listener) { listener.OnReady(element); });
   return {};
+}
+
+Result<FrameworkElement*> Runtime::List(UnlistedElement&& element, const FrameworkElement* place) {
+  const std::lock_guard lock(structure_mutex_);
+  FrameworkElement* const listed = element.get();
+  try {
+    listed->JoinParent(place);
+  } catch (const ElementError& error) {
+    return error.error();
+  }
+  Adopt(std::move(element.element_));
+  listed->Visit([](FrameworkElement& each) {
+    if (each.life_cycle_ == LifeCycle::kDeleted) each.life_cycle_ = LifeCycle::kReady;
+  });
+  if (listed->life_cycle_ == LifeCycle::kReady) {
+    ForEachListener([&](ElementListener& listener) { listener.OnReady(*listed); });
+  }
+  return listed;
+}
+
+Result<UnlistedElement> Runtime::Unlist(FrameworkElement& element) {
+  const std::lock_guard lock(structure_mutex_);
+  FrameworkElement* const parent = element.parent_;
+  if (parent == nullptr) return Refuse(element, "the root cannot be deleted");
+  if (element.life_cycle_ == LifeCycle::kDeleted) {
+    return Refuse(element, "is being deleted already");
+  }
+  const auto place_of = [&](auto& owned) {
+    return std::ranges::find_if(owned, [&](auto& each) { return each.get() == &element; });
+  };
+  if (place_of(parent->owned_) == parent->owned_.end()) {
+    return Refuse(element, "a part of another element cannot be deleted by itself",
+                  "delete " + parent->path());
+  }
+  element.Visit([](FrameworkElement& each) { each.life_cycle_ = LifeCycle::kDeleted; });
+  ForEachListener([&](ElementListener& listener) { listener.OnDeleted(element); });
+  element.LeaveParent();
+  // Anew, since what listeners did may have moved it.
+  const auto place = place_of(parent->owned_);
+  UnlistedElement taken(std::move(*place));
+  parent->owned_.erase(place);
+  return taken;
+}
+
+void Runtime::Destroy(UnlistedElement element) {
+  if (!element) return;
+  std::vector<UnlistedElement> elements;
+  elements.push_back(std::move(element));
+  Destroy(std::move(elements));
+}
+
+void Runtime::Destroy(std::vector<UnlistedElement> elements) {
+  if (elements.empty()) return;
+  {
+    const std::lock_guard lock(structure_mutex_);
+    for (const UnlistedElement& each : elements) {
+      each->Visit([](FrameworkElement& below) { below.Detach(); });
+    }
+  }
+  // No thread finds the element anew; wait for those that have found it before. The lock is free
+  // meanwhile, so that a cycle that needs it can come to its end.
+  WaitForReaders();
+  while (!elements.empty()) elements.pop_back();
 }
 
 Result<void> Runtime::Delete(FrameworkElement& element) {
@@ -63,36 +142,28 @@ Result<void> Runtime::Delete(FrameworkElement& element) {
     return Refuse(element, "an element cannot be deleted under the structure lock",
                   "a cycle that has to end first may be waiting for the lock");
   }
-  std::unique_ptr<FrameworkElement> taken;
+  UnlistedElement taken;
   {
-    const std::lock_guard lock(structure_mutex_);
-    FrameworkElement* const parent = element.parent_;
-    if (parent == nullptr) return Refuse(element, "the root cannot be deleted");
-    if (element.life_cycle_ == LifeCycle::kDeleted) {
-      return Refuse(element, "is being deleted already");
-    }
-    auto& owned = parent->owned_;
-    const auto found =
-        std::ranges::find_if(owned, [&](auto& each) { return each.get() == &element; });
-    if (found == owned.end()) {
-      return Refuse(element, "a part of another element cannot be deleted by itself",
-                    "delete " + parent->path());
-    }
-    element.Visit([](FrameworkElement& each) { each.life_cycle_ = LifeCycle::kDeleted; });
-    ForEachListener([&](ElementListener& listener) { listener.OnDeleted(element); });
-    element.Visit([](FrameworkElement& each) { each.Detach(); });
-    element.LeaveParent();
-    // Anew, since what listeners and Detach() did may have moved it.
-    const auto place =
-        std::ranges::find_if(owned, [&](auto& each) { return each.get() == &element; });
-    taken = std::move(*place);
-    owned.erase(place);
+    const ChangeScope all_that_goes_with_it(*this);
+    auto unlisted = Unlist(element);
+    if (!unlisted) return unlisted.error();
+    taken = std::move(*unlisted);
+    taken->Visit([](FrameworkElement& each) { each.Detach(); });
   }
-  // From here on no thread finds the element anew; wait for those that have found it before. The
-  // lock is free meanwhile, so that a cycle that needs it can come to its end.
-  WaitForReaders();
-  taken->DestroyOwned();
+  Destroy(std::move(taken));
   return {};
+}
+
+ChangeScope::ChangeScope(Runtime& runtime) : runtime_(runtime), lock_(runtime.structure_mutex()) {
+  ++runtime_.change_scopes_;
+}
+
+// Still a scope while the listeners act: what they change themselves belongs to it.
+ChangeScope::~ChangeScope() {
+  if (runtime_.change_scopes_ == 1) {
+    runtime_.ForEachListener([](ElementListener& listener) { listener.OnChangesEnd(); });
+  }
+  --runtime_.change_scopes_;
 }
 
 void Runtime::AddListener(ElementListener& listener) {

@@ -10,6 +10,7 @@
 #include "core/base/ordered_mutex.h"
 #include "core/element/element_listener.h"
 #include "core/element/framework_element.h"
+#include "core/element/unlisted_element.h"
 
 namespace runnel {
 
@@ -43,6 +44,7 @@ class Runtime {
   }
   /// Gives an element that was made otherwise (by a plugin's factory) to its parent.
   void Adopt(std::unique_ptr<FrameworkElement> element);
+  FrameworkElement* Adopt(UnlistedElement&& element);
 
   /// Calls Prepare() of the element and all below that are not ready yet, parents first; if all
   /// succeed they are ready and the listeners told, else none is. Exceptions become errors.
@@ -53,6 +55,23 @@ class Runtime {
   /// of another object; the root.
   Result<void> Delete(FrameworkElement& element);
 
+  /// Calls Prepare() as MakeReady() does, for an element beside the tree.
+  static Result<void> Prepare(UnlistedElement& element);
+  /// Puts the element where it belongs, before the child `place` of its parent (nullptr: after all).
+  /// If it has been prepared, or has been in the tree before, it is ready then, and the listeners are
+  /// told. Errors: its name is taken, its parent is being deleted; the caller keeps the element.
+  Result<FrameworkElement*> List(UnlistedElement&& element,
+                                 const FrameworkElement* place = nullptr);
+  /// Takes the element and all below it out of the tree as they are, for Destroy() or for List()
+  /// again; the listeners are told that it is deleted. Its connections stay: cut them, or have another
+  /// element take them over, before. Errors: as Delete(), but for those of waiting.
+  Result<UnlistedElement> Unlist(FrameworkElement& element);
+  /// Cuts what still ties the element to others, waits until no thread can see it, and destroys it.
+  /// Precondition: not within a cycle, and not under the structure lock.
+  void Destroy(UnlistedElement element);
+  /// The same for several, with one wait for all of them; in reverse order.
+  void Destroy(std::vector<UnlistedElement> elements);
+
   /// The listener must outlive the runtime or be removed. Locks.
   void AddListener(ElementListener& listener);
   void RemoveListener(ElementListener& listener);
@@ -61,8 +80,16 @@ class Runtime {
   template <typename Notify>
   void ForEachListener(Notify&& notify) {
     const std::lock_guard lock(structure_mutex_);
+    ++revision_;
     for (std::size_t i = 0; i < listeners_.size(); ++i) notify(*listeners_[i]);
   }
+
+  /// Whether a ChangeScope is open: listeners that do much for each change wait for its end. Under
+  /// the structure lock.
+  [[nodiscard]] bool is_in_change_scope() const noexcept { return change_scopes_ > 0; }
+
+  /// Grows with each change that listeners are told of. Under the structure lock.
+  [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
 
   /// The time outside of cycles. The steady clock unless another is set before anything runs; the
   /// clock must outlive the runtime.
@@ -71,14 +98,40 @@ class Runtime {
 
  private:
   friend class FrameworkElement;
+  static Result<void> PrepareAll(FrameworkElement& element);
+  friend class ChangeScope;
   std::uint64_t NextSerial() noexcept { return next_serial_++; }
 
   OrderedMutex structure_mutex_{LockLevel::kStructure};
   SteadyClock steady_clock_;
   const Clock* clock_ = &steady_clock_;
   std::uint64_t next_serial_ = 1;
+  std::uint64_t revision_ = 0;
   std::vector<ElementListener*> listeners_;
+  int change_scopes_ = 0;
   FrameworkElement root_;
+};
+
+/// While one lives, the changes that its thread makes belong together: listeners act on all of them
+/// at once when the outermost ends. So ten thousand connections cost one new schedule and not ten
+/// thousand, and no cycle sees some of them only.
+///
+///     const ChangeScope changes(runtime);
+///     … Create, MakeReady, Connect, Disconnect, AssignThread …
+///
+/// Threads:  holds the structure lock from its beginning to its end, so nothing can be deleted
+///           meanwhile. May be nested. Do not hold it for long: others who change the structure
+///           wait.
+class ChangeScope {
+ public:
+  explicit ChangeScope(Runtime& runtime);
+  ~ChangeScope();
+  ChangeScope(const ChangeScope&) = delete;
+  ChangeScope& operator=(const ChangeScope&) = delete;
+
+ private:
+  Runtime& runtime_;
+  const std::lock_guard<OrderedMutex> lock_;
 };
 
 }  // namespace runnel

@@ -4,6 +4,7 @@
 
 #include "core/base/clock.h"
 #include "core/element/framework_element.h"
+#include "core/module/kept_state.h"
 #include "core/port/port_owner.h"
 
 namespace runnel {
@@ -52,6 +53,16 @@ class Module : public FrameworkElement, public PortOwner {
   /// For module kinds with other groups than "input" and "output": makes the group when first
   /// asked.
   [[nodiscard]] FrameworkElement& LazyGroup(std::unique_ptr<PortGroup>& group, const char* name);
+
+  /// In the constructor: what a module that replaces this one, or that this one replaces, takes over if
+  /// it keeps a state of the same type: a goal, a mode, what has been seen. Copied between two cycles,
+  /// after Prepare(). `state` is a member of the module.
+  template <typename State>
+  void KeepState(State& state) {
+    auto* kept = FindAnnotation<KeptState>();
+    if (kept == nullptr) kept = &Annotate(std::make_unique<KeptState>());
+    kept->Add(state);
+  }
 
   struct NoTasks {};
   /// For module kinds that annotate their own tasks.

@@ -2,6 +2,7 @@
 
 #include "core/base/nearest_name.h"
 #include "core/element/runtime.h"
+#include "core/plugin/module_type_name.h"
 
 namespace runnel {
 
@@ -18,8 +19,16 @@ Result<void> ModuleRegistry::Add(ModuleType type) {
   return {};
 }
 
-void ModuleRegistry::RemovePlugin(std::string_view plugin) {
-  std::erase_if(types_, [&](const auto& entry) { return entry.second.plugin == plugin; });
+std::function<void()> ModuleRegistry::SetAside(std::string_view plugin) {
+  std::vector<ModuleType> types;
+  std::erase_if(types_, [&](const auto& entry) {
+    if (entry.second.plugin != plugin) return false;
+    types.push_back(entry.second);
+    return true;
+  });
+  return [this, types] {
+    for (const ModuleType& type : types) types_.insert_or_assign(type.name, type);
+  };
 }
 
 const ModuleType* ModuleRegistry::Find(std::string_view name) const {
@@ -41,27 +50,36 @@ std::vector<const ModuleType*> ModuleRegistry::All() const {
   return types;
 }
 
-Result<FrameworkElement*> ModuleRegistry::Create(std::string_view type, FrameworkElement& parent,
-                                                 std::string name) const {
+Result<UnlistedElement> ModuleRegistry::Make(std::string_view type,
+                                             const Placement& placement) const {
   const auto known = Get(type);
   if (!known) return known.error();
-  const std::lock_guard lock(parent.runtime().structure_mutex());
+  const auto failed = [&](const std::string& why) {
+    return Error{
+        .message = "a module of type '" + std::string(type) + "' could not be made: " + why,
+        .path = placement.parent.path()};
+  };
+  const std::lock_guard lock(placement.parent.runtime().structure_mutex());
   try {
-    auto element = (*known)->make({parent, std::move(name)});
-    FrameworkElement* const made = element.get();
-    parent.runtime().Adopt(std::move(element));
-    return made;
+    UnlistedElement element((*known)->make(placement));
+    element->Annotate(std::make_unique<ModuleTypeName>((*known)->name));
+    return element;
   } catch (const ElementError& error) {
     return error.error();
   } catch (const std::exception& exception) {
-    return Error{.message = "a module of type '" + std::string(type) +
-                            "' could not be made: " + exception.what(),
-                 .path = parent.path()};
+    return failed(exception.what());
   } catch (...) {
-    return Error{.message = "a module of type '" + std::string(type) +
-                            "' could not be made: an exception of unknown type",
-                 .path = parent.path()};
+    return failed("an exception of unknown type");
   }
+}
+
+Result<FrameworkElement*> ModuleRegistry::Create(std::string_view type, FrameworkElement& parent,
+                                                 std::string name) const {
+  Runtime& runtime = parent.runtime();
+  const std::lock_guard lock(runtime.structure_mutex());
+  auto made = Make(type, {parent, std::move(name)});
+  if (!made) return made.error();
+  return runtime.Adopt(std::move(*made));
 }
 
 }  // namespace runnel

@@ -10,6 +10,7 @@
 
 #include "core/base/result.h"
 #include "core/element/framework_element.h"
+#include "core/element/unlisted_element.h"
 
 namespace runnel {
 
@@ -33,7 +34,8 @@ class ModuleRegistry {
  public:
   /// Errors: the name is taken (the message names the plugin that has it) or malformed.
   Result<void> Add(ModuleType type);
-  void RemovePlugin(std::string_view plugin);
+  /// Takes out the types of `plugin`. Calling what is returned puts them back.
+  std::function<void()> SetAside(std::string_view plugin);
 
   [[nodiscard]] const ModuleType* Find(std::string_view name) const;
   /// The type called `name`, or an error with the nearest name that there is.
@@ -41,8 +43,11 @@ class ModuleRegistry {
   /// All types, sorted by name.
   [[nodiscard]] std::vector<const ModuleType*> All() const;
 
-  /// Makes a module and gives it to `parent`. Whatever its constructor throws comes back as an
-  /// error, and then nothing has changed.
+  /// Makes a module, which remembers its type (module_type_name.h). Whatever its constructor throws
+  /// comes back as an error, and then nothing has changed. If the placement says that it is not listed,
+  /// it is beside the tree.
+  Result<UnlistedElement> Make(std::string_view type, const Placement& placement) const;
+  /// Makes a module and gives it to `parent`. Errors: as Make().
   Result<FrameworkElement*> Create(std::string_view type, FrameworkElement& parent,
                                    std::string name) const;
 

@@ -112,6 +112,8 @@ class Channel final : public ChannelBase {
   [[nodiscard]] bool is_pullable() const noexcept { return pull_point_ != nullptr; }
   /// See Output::SetProvider(). Precondition: is_pullable().
   void SetProvider(Provider provider) { pull_point_->SetProvider(std::move(provider)); }
+  /// Each of the two has the other's from then on. Precondition: both are pullable.
+  void ExchangeProviders(Channel& other) { pull_point_->ExchangeProviders(*other.pull_point_); }
   [[nodiscard]] std::uint64_t pull_failures() const noexcept {
     return pull_point_ != nullptr ? pull_point_->failures() : 0;
   }

@@ -27,8 +27,7 @@ namespace runnel {
 ///
 /// Threads:     one thread at a time may Read, Take and Drain (a module's Update() does); Peek()
 ///              and LookAtValue() from any thread. Connecting and publishing go on meanwhile.
-/// Progress:    lock-free: reading repeats only if a newer value came meanwhile. Pulling takes as
-///              long as the provider.
+/// Progress:    lock-free: repeats only if a newer value came. Pulling takes as long as the provider.
 /// Allocation:  none.
 /// Several sources: the value published last counts, the same one for every reader.
 template <typename T>
@@ -174,7 +173,7 @@ class Input final : public InputBase {
       link->channel->Pull([this] { return PublicationTime(); });
     }
   }
-  // Inside a guard, by which the link lives. `link` is set if there is a value.
+  // Inside a guard, by which the link lives.
   [[nodiscard]] Lease<T> Newest(const Link*& link) const noexcept {
     const Binding* const binding = binding_.load(std::memory_order_acquire);
     if (binding == nullptr) return {};
@@ -262,9 +261,7 @@ class Input final : public InputBase {
   }
   std::shared_ptr<Link> KeepOrMakeLink(const Binding* before, Channel<T>& channel) {
     if (before != nullptr) {
-      for (const auto& link : before->links) {
-        if (link->channel == &channel) return link;
-      }
+      if (const auto kept = before->LinkOf(channel)) return kept;
     }
     fresh_.push_back(&channel);
     auto link = std::make_shared<Link>(&channel);
@@ -274,8 +271,7 @@ class Input final : public InputBase {
     }
     return link;
   }
-  std::shared_ptr<InputQueue<T>> KeepOrMakeQueue(const Binding* before, const Binding& next,
-                                                 const ConnectOptions& options) {
+  auto KeepOrMakeQueue(const Binding* before, const Binding& next, const ConnectOptions& options) {
     const Writers writers = next.only != nullptr ? Writers::kOne : Writers::kSeveral;
     // A queue for one writer serves the source it was made for: another might begin before that
     // one has ended.
@@ -312,9 +308,8 @@ class Input final : public InputBase {
     }
     next.queue->SetWaitingBefore(next.WaitingInOlder());
   }
-  // A new connection delivers the last value at once. It is read after publishers have begun to
-  // fill the queue, so that none is lost; one that is there twice for that reason, Take() leaves
-  // out.
+  // A new connection delivers the last value at once. It is read after publishers have begun to fill
+  // the queue, so that none is lost; Take() leaves out one that is there twice for that reason.
   void Bound() override {
     for (auto& each : replaced_) Retire([replaced = each.release()] { delete replaced; });
     replaced_.clear();
@@ -331,6 +326,12 @@ class Input final : public InputBase {
     }
     fresh_.clear();
   }
+  void TakeOverBinding(InputBase& from) override {
+    auto& other = static_cast<Input&>(from);
+    Replace(other.binding_.exchange(nullptr, std::memory_order_acq_rel));
+    replaced_.clear();  // nothing: this input was not connected
+    last_links_ = std::exchange(other.last_links_, {});
+  }
   // The previous binding owns the queue that publishers may still find; it goes in Bound().
   void Replace(const Binding* next) {
     replaced_.emplace_back();
@@ -339,10 +340,10 @@ class Input final : public InputBase {
   }
 
   std::atomic<const Binding*> binding_{nullptr};
-  std::vector<std::unique_ptr<const Binding>>
-      replaced_;                    // between Bind() and Bound(); structure lock
-  std::vector<Channel<T>*> fresh_;  // sources that have just been connected; structure lock
-  // Of the binding before, and kept while nothing is connected; structure lock.
+  // All three under the structure lock: bindings between Bind() and Bound(), sources that have just
+  // been connected, and the links of the binding before, also while nothing is connected.
+  std::vector<std::unique_ptr<const Binding>> replaced_;
+  std::vector<Channel<T>*> fresh_;
   std::vector<std::shared_ptr<Link>> last_links_;
 };
 

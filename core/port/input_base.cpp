@@ -63,12 +63,44 @@ void InputBase::Rebind(const std::vector<Source>& sources) {
       outputs.push_back(source.output);
     }
   }
+  const bool was_visited = IsVisited();
   sources_ = sources;
   sink_ = Bind(sources);
-  for (Port* output : outputs) UpdateChannel(*output);
+  // Whom publishers need not know, they are not told of: an output may have thousands of these.
+  if (was_visited || IsVisited()) {
+    for (Port* output : outputs) UpdateChannel(*output);
+  }
   Bound();
   // What a new connection brings is there already, and no publisher tells of it.
   if (arrival_) arrival_->Wake();
+}
+
+void InputBase::ReplaceSource(const Port& from, Port& to) noexcept {
+  for (Source& source : sources_) {
+    if (source.output == &from) source.output = &to;
+  }
+}
+
+void InputBase::TakeOverFlow(Port& from) {
+  // Taking over has been checked to be among inputs.
+  auto& other = static_cast<InputBase&>(from);
+  sources_.swap(other.sources_);
+  std::swap(sink_, other.sink_);
+  TakeOverBinding(other);
+  const auto is_told = [](const InputBase& input) { return input.waker_ || input.arrival_; };
+  // A binding that pulls is another one. Else publishers find the same queue, and need to be told only
+  // if somebody else is to be woken.
+  if (strategy() != other.strategy()) {
+    Rebind(std::vector<Source>(sources_));
+  } else if (is_told(*this) || is_told(other)) {
+    for (const Source& source : sources_) UpdateChannel(*source.output);
+  }
+  if (arrival_) arrival_->Wake();
+}
+
+// Whether publishers have to do anything for this input.
+bool InputBase::IsVisited() const noexcept {
+  return sink_ != nullptr || waker_ != nullptr || arrival_ != nullptr || sources_.size() > 1;
 }
 
 // Works out anew whom publishers into the output's channel have to visit, and what they have to

@@ -52,9 +52,13 @@ class InputBase : public Port {
   InputBase(const Placement& placement, const TypeInfo& type, InputOptions options);
 
   void Rebind(const std::vector<Source>& sources) final;
+  void TakeOverFlow(Port& from) final;
+  void ReplaceSource(const Port& from, Port& to) noexcept final;
   /// Typed inputs: bind to the channels of `sources`; the queue that publishers shall fill, or
   /// nullptr.
   virtual QueueSink* Bind(const std::vector<Source>& sources) = 0;
+  /// Typed inputs: what Bind() has made goes over from `from`, which has nothing then.
+  virtual void TakeOverBinding(InputBase& from) = 0;
   /// Typed inputs: Bind() has taken effect everywhere; put first values into a new queue.
   virtual void Bound() = 0;
   /// Typed inputs: what Wait() waits for. By the reader.
@@ -62,6 +66,7 @@ class InputBase : public Port {
 
  private:
   ArrivalEvent& PrepareToWait();
+  [[nodiscard]] bool IsVisited() const noexcept;
   static void UpdateChannel(Port& output);
 
   const InputOptions options_;

@@ -100,6 +100,12 @@ struct InputBinding {
     }
     return queue && queue->HasNext();
   }
+  [[nodiscard]] std::shared_ptr<Link> LinkOf(const Channel<T>& source) const noexcept {
+    for (const auto& link : links) {
+      if (link->channel == &source) return link;
+    }
+    return nullptr;
+  }
   [[nodiscard]] Link* FindLink(std::uint64_t number) const noexcept {
     for (const auto& link : links) {
       if (link->number == number) return link.get();

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <memory>
+#include <atomic>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "core/base/check.h"
@@ -39,35 +40,34 @@ class Output final : public Port {
   Output(FrameworkElement& group, std::string name, OutputOptions options = {},
          Factory factory = {})
       : Port({group, std::move(name)}, Direction::kOutput, TypeOf<T>(), options.description),
-        channel_(std::make_unique<Channel<T>>(options.pool, std::move(factory), options.pullable)) {
-  }
+        channel_(new Channel<T>(options.pool, std::move(factory), options.pullable)) {}
   ~Output() override {
     DisconnectAll();
     EndPulls();
     // Readers that found the channel before it was disconnected may still be looking at it.
-    Retire([channel = channel_.release()] { delete channel; });
+    Retire([channel = &own()] { delete channel; });
   }
 
   /// A buffer to fill; empty if a pool of fixed size is exhausted.
-  [[nodiscard]] runnel::Loan<T> Loan() { return channel_->MakeLoan(); }
+  [[nodiscard]] runnel::Loan<T> Loan() { return own().MakeLoan(); }
 
   /// Calls `fill` for each buffer that the pool has now, so that values keep their memory from the
   /// start (a list's capacity). For Prepare(); allocates. None of the buffers may be out.
   template <typename Fill>
   void PrepareBuffers(Fill&& fill) requires(!kIsCheap<T>) {
     std::vector<runnel::Loan<T>> loans;
-    for (std::size_t i = channel_->buffers(); i > 0; --i) loans.push_back(Loan());
+    for (std::size_t i = own().buffers(); i > 0; --i) loans.push_back(Loan());
     for (auto& loan : loans) fill(*loan);
   }
 
   /// Errors: the loan of another output (but for cheap types) throws ProgrammingError.
   PublishStatus Publish(runnel::Loan<T>&& loan) {
-    return channel_->Publish(std::move(loan), PublicationTime());
+    return own().Publish(std::move(loan), PublicationTime());
   }
   /// Copies or moves the value into a buffer (cheap types: straight into the slot).
   PublishStatus Publish(const T& value) requires(kIsCheap<T> || std::is_copy_assignable_v<T>) {
     if constexpr (kIsCheap<T>) {
-      return channel_->PublishValue(value, PublicationTime());
+      return own().PublishValue(value, PublicationTime());
     } else {
       auto loan = Loan();
       if (!loan) return PublishStatus::kNoBuffer;
@@ -86,7 +86,7 @@ class Output final : public Port {
   /// publisher that must not lose anything waits until it would not: publishing again what a queue
   /// has refused makes a new value for all others. For the publisher's thread; if the queue has no
   /// other sources, what is not refused now will not be.
-  [[nodiscard]] bool WouldRefuse() const noexcept { return channel_->WouldRefuse(); }
+  [[nodiscard]] bool WouldRefuse() const noexcept { return own().WouldRefuse(); }
 
   /// Fills `value` (T{}, or what an earlier use left in a buffer) and returns true, or returns
   /// false if there is nothing new.
@@ -104,38 +104,55 @@ class Output final : public Port {
   ///            the value of before, and pull_failures() counts it.
   /// Errors:    throws ProgrammingError if the output was not made with OutputOptions::pullable.
   void SetProvider(Provider provider) requires(Channel<T>::kCanPull) {
-    RUNNEL_CHECK(channel_->is_pullable(),
+    RUNNEL_CHECK(own().is_pullable(),
                  "an output without OutputOptions::pullable is given a "
                  "provider");
-    channel_->SetProvider(std::move(provider));
+    own().SetProvider(std::move(provider));
   }
   /// How many pulls have come to nothing because the provider threw or had no buffer.
-  [[nodiscard]] std::uint64_t pull_failures() const noexcept { return channel_->pull_failures(); }
+  [[nodiscard]] std::uint64_t pull_failures() const noexcept { return own().pull_failures(); }
 
   [[nodiscard]] std::uint64_t publications() const noexcept override {
-    return channel_->publications();
+    return own().publications();
   }
   /// How often the pool had to allocate since the start.
-  [[nodiscard]] std::uint64_t growths() const noexcept { return channel_->growths(); }
+  [[nodiscard]] std::uint64_t growths() const noexcept { return own().growths(); }
 
   bool LookAtValue(const Look& look) const override {
-    const auto held = Guarded([this] { return channel_->Read(); });
+    const auto held = Guarded([this] { return own().Read(); });
     if (!held.has_value()) return false;
     look(&held.value(), Time(Duration(held.publication().stamp)));
     return true;
   }
 
  private:
-  [[nodiscard]] ChannelBase* channel() noexcept override { return channel_.get(); }
+  // acquire: pairs with the release in TakeOverFlow(), for viewers; publishers are at rest then.
+  [[nodiscard]] Channel<T>& own() const noexcept {
+    return *channel_.load(std::memory_order_acquire);
+  }
+  [[nodiscard]] ChannelBase* channel() noexcept override { return &own(); }
   void Detach() noexcept override {
     Port::Detach();
     EndPulls();
   }
   void EndPulls() {
-    if (channel_->is_pullable()) channel_->SetProvider({});
+    if (own().is_pullable()) own().SetProvider({});
   }
 
-  std::unique_ptr<Channel<T>> channel_;
+  // The channels are exchanged, so that readers stay where they are, and each output keeps its
+  // provider. Where one can be pulled and the other cannot, the readers come over, and find nothing
+  // until something is published.
+  void TakeOverFlow(Port& from) override {
+    auto& other = static_cast<Output&>(from);
+    Channel<T>& taken = other.own();
+    Channel<T>& left = own();
+    if (taken.is_pullable() != left.is_pullable()) return RebindSinks();
+    if (taken.is_pullable()) taken.ExchangeProviders(left);
+    channel_.store(&taken, std::memory_order_release);
+    other.channel_.store(&left, std::memory_order_release);
+  }
+
+  std::atomic<Channel<T>*> channel_;  // owned
 };
 
 }  // namespace runnel

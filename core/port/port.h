@@ -57,6 +57,17 @@ class Port : public FrameworkElement {
   static Result<void> Connect(Port& from, Port& to, const ConnectOptions& options = {});
   static Result<void> Disconnect(Port& from, Port& to);
   void DisconnectAll();
+  /// What Connect() would say, but for `from` and `to` being connected already or for a circle.
+  [[nodiscard]] static Result<void> CheckEnds(const Port& from, const Port& to);
+
+  /// Takes the place of `from` in all its connections, without a value being lost, repeated, or seen
+  /// anew: an input goes on reading where the other has stopped, an output publishes into the channel
+  /// that the readers of the other are bound to. `from` has no connection then; it can take over again.
+  /// Preconditions, by CheckTakeOver(): one type and one direction, both or neither interface ports,
+  /// and this port is not connected. Nobody reads or publishes through either of them meanwhile;
+  /// those at the other ends may.
+  static Result<void> CheckTakeOver(const Port& port, const Port& from);
+  void TakeOver(Port& from);
 
   /// Shows the newest value to `look`, without marking it as read; false if there is none. For
   /// viewers that know the type by its TypeInfo only. Any thread.
@@ -76,6 +87,13 @@ class Port : public FrameworkElement {
   };
   /// Inputs: take `sources` for the outputs to read from, from now on.
   virtual void Rebind(const std::vector<Source>& sources);
+  /// What the port has for its connections goes from `from`, of the same class, to this one, and the
+  /// other way round. Edges have been exchanged already.
+  virtual void TakeOverFlow(Port& /*from*/) {}
+  /// Inputs: `to` stands now where `from` stood.
+  virtual void ReplaceSource(const Port& /*from*/, Port& /*to*/) noexcept {}
+  /// Binds all inputs at the far end anew.
+  void RebindSinks();
   /// Outputs: the channel that inputs are bound to; nullptr for other ports.
   [[nodiscard]] virtual ChannelBase* channel() noexcept { return nullptr; }
   /// Gives derived ports access to one another's channel.
@@ -89,7 +107,6 @@ class Port : public FrameworkElement {
  private:
   static Result<void> CheckConnection(const Port& from, const Port& to);
   void CollectSources(const ConnectOptions& options, std::vector<Source>& sources) const;
-  void RebindSinks();
   static bool RemoveEdge(Port& from, Port& to);
 
   const Direction direction_;

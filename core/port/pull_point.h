@@ -61,6 +61,15 @@ class PullPoint {
         provider_.exchange(next.release(), std::memory_order_acq_rel));
     if (before) WaitForRun();
   }
+  /// Each of the two has the other's provider from then on, and no other is running in them.
+  void ExchangeProviders(PullPoint& other) {
+    // acq_rel, both: as in SetProvider(). Under the structure lock, so nobody else swaps meanwhile.
+    Provider* const own = provider_.exchange(nullptr, std::memory_order_acq_rel);
+    Provider* const others = other.provider_.exchange(own, std::memory_order_acq_rel);
+    provider_.store(others, std::memory_order_release);
+    WaitForRun();
+    other.WaitForRun();
+  }
   [[nodiscard]] bool has_provider() const noexcept {
     // relaxed: Run() looks again.
     return provider_.load(std::memory_order_relaxed) != nullptr;

@@ -21,6 +21,7 @@ struct XmlNode {
   std::string own_file_name;               // at the root only
   std::string name;
   TextPlace place;
+  ElementSpans spans;
   std::string text;
   TextPlace text_place;
   std::vector<XmlAttribute> attributes;
@@ -57,8 +58,8 @@ std::string TextOf(const tinyxml2::XMLElement& source) {
 /// Joins what tinyxml2 read with the places of the start tags, both in the order of the file.
 class TreeBuilder {
  public:
-  TreeBuilder(const std::vector<StartTag>& tags, const std::string& file_name)
-      : tags_(tags), file_name_(file_name) {}
+  TreeBuilder(const std::vector<StartTag>& tags, const std::string& file_name, std::size_t shift)
+      : tags_(tags), file_name_(file_name), shift_(shift) {}
 
   /// nullptr if the two do not agree.
   std::unique_ptr<XmlNode> Build(const tinyxml2::XMLElement& root) {
@@ -74,6 +75,8 @@ class TreeBuilder {
     const StartTag& tag = tags_[next_++];
     node.name = tag.name;
     node.place = tag.place;
+    node.spans = {Shifted({tag.span.begin, tag.end_tag.end}), Shifted(tag.span),
+                  Shifted(tag.end_tag)};
     node.text = TextOf(source);
     node.text_place = tag.text_place.value_or(tag.place);
     if (!FillAttributes(node, source, tag)) return false;
@@ -92,17 +95,20 @@ class TreeBuilder {
     const tinyxml2::XMLAttribute* attribute = source.FirstAttribute();
     for (const internal::AttributePlace& place : tag.attributes) {
       if (attribute == nullptr || place.name != attribute->Name()) return false;
-      node.attributes.push_back(
-          {attribute->Name(), attribute->Value(), At(place.place), At(place.value_place)});
+      node.attributes.push_back({attribute->Name(), attribute->Value(), At(place.place),
+                                 At(place.value_place), Shifted(place.span),
+                                 Shifted(place.value_span)});
       attribute = attribute->Next();
     }
     return attribute == nullptr;
   }
 
+  TextSpan Shifted(TextSpan span) const { return {span.begin + shift_, span.end + shift_}; }
   SourcePosition At(TextPlace place) const { return {file_name_, place.line, place.column}; }
 
   const std::vector<StartTag>& tags_;
   const std::string& file_name_;
+  const std::size_t shift_;  // what stands before the text in its file
   std::size_t next_ = 0;
 };
 
@@ -159,6 +165,8 @@ SourcePosition XmlElement::position() const {
   return {*node_->file_name, node_->place.line, node_->place.column};
 }
 
+const ElementSpans& XmlElement::spans() const noexcept { return node_->spans; }
+
 std::span<const XmlAttribute> XmlElement::attributes() const noexcept { return node_->attributes; }
 
 std::span<const XmlElement> XmlElement::children() const noexcept { return node_->children; }
@@ -184,6 +192,10 @@ XmlDocument::XmlDocument(XmlDocument&&) noexcept = default;
 XmlDocument& XmlDocument::operator=(XmlDocument&&) noexcept = default;
 XmlDocument::~XmlDocument() = default;
 
+Result<std::string> XmlDocument::ReadText(const std::filesystem::path& path) {
+  return ReadFile(path);
+}
+
 Result<XmlDocument> XmlDocument::Load(const std::filesystem::path& path) {
   const Result<std::string> text = ReadFile(path);
   if (!text) return text.error();
@@ -194,7 +206,8 @@ Result<XmlDocument> XmlDocument::Parse(std::string_view text, std::string file_n
   if (const auto encoding = RefuseOtherEncodings(text, file_name); !encoding) {
     return encoding.error();
   }
-  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  const std::size_t shift = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
+  text.remove_prefix(shift);
   const auto tags = internal::FindStartTags(text, file_name);
   if (!tags) return tags.error();
 
@@ -203,7 +216,7 @@ Result<XmlDocument> XmlDocument::Parse(std::string_view text, std::string file_n
     return Error{.message = std::string("not well-formed XML: ") + source.ErrorName(),
                  .position = {std::move(file_name), source.ErrorLineNum(), 0}};
   }
-  auto root = TreeBuilder(*tags, file_name).Build(*source.RootElement());
+  auto root = TreeBuilder(*tags, file_name, shift).Build(*source.RootElement());
   if (!root) {
     return Error{.message = "not well-formed XML", .position = {std::move(file_name), 1, 1}};
   }

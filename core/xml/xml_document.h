@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -12,12 +13,30 @@
 
 namespace runnel {
 
+/// A part of a text: the bytes from `begin` to before `end`.
+struct TextSpan {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+
+  [[nodiscard]] std::size_t size() const noexcept { return end - begin; }
+  friend bool operator==(const TextSpan&, const TextSpan&) = default;
+};
+
 /// One attribute of an element. Entities in the value are resolved.
 struct XmlAttribute {
   std::string name;
   std::string value;
   SourcePosition position;        ///< of the first letter of the name
   SourcePosition value_position;  ///< of what follows the opening quote
+  TextSpan span = {};             ///< from the name to the closing quote
+  TextSpan value_span = {};       ///< between the quotes
+};
+
+/// Where an element stands in the bytes of its file.
+struct ElementSpans {
+  TextSpan whole;      ///< from the first "<" to the last ">"
+  TextSpan start_tag;  ///< the same, if there is nothing but `<a/>`
+  TextSpan end_tag;    ///< empty, at the end, for `<a/>`
 };
 
 namespace internal {
@@ -35,6 +54,8 @@ class XmlElement {
   [[nodiscard]] const std::string& name() const noexcept;
   /// Of the "<" that opens it. Columns count characters, not bytes; a tabulator is one.
   [[nodiscard]] SourcePosition position() const;
+  /// For those who change a text and leave what they do not mean as it is (xml_editing.h).
+  [[nodiscard]] const ElementSpans& spans() const noexcept;
   /// In the order of the file.
   [[nodiscard]] std::span<const XmlAttribute> attributes() const noexcept;
   [[nodiscard]] std::span<const XmlElement> children() const noexcept;
@@ -68,6 +89,8 @@ class XmlDocument {
   static Result<XmlDocument> Load(const std::filesystem::path& path);
   /// `file_name` is what errors call the text.
   static Result<XmlDocument> Parse(std::string_view text, std::string file_name);
+  /// The bytes of a file that Load() would take.
+  static Result<std::string> ReadText(const std::filesystem::path& path);
 
   XmlDocument(XmlDocument&&) noexcept;
   XmlDocument& operator=(XmlDocument&&) noexcept;

@@ -8,6 +8,7 @@
 
 #include "core/base/clock.h"
 #include "core/port/cycle.h"
+#include "plugins/scheduling/cycle_gate.h"
 #include "plugins/scheduling/cycle_statistics.h"
 #include "plugins/scheduling/schedule.h"
 #include "plugins/scheduling/thread_options.h"
@@ -37,8 +38,10 @@ class CycleRunner {
     return options_.activation == ThreadOptions::Activation::kTrigger;
   }
 
-  /// Takes effect from the next cycle on.
-  void Install(std::unique_ptr<const Schedule> schedule);
+  /// Takes effect from the next cycle on. The chunks of a schedule belong to whoever has made them;
+  /// `old_chunks` are those that only the schedule before has: they go when it goes.
+  void Install(std::unique_ptr<const Schedule> schedule,
+               std::shared_ptr<const void> old_chunks = nullptr);
   /// Under the structure lock; nullptr before the first Install().
   [[nodiscard]] const Schedule* schedule() const noexcept {
     return schedule_.load(std::memory_order_seq_cst);
@@ -49,8 +52,12 @@ class CycleRunner {
     return presence_;
   }
 
+  /// By which others keep this runner between two cycles (CycleHold).
+  [[nodiscard]] CycleGate& gate() noexcept { return gate_; }
+
   /// One cycle: every task in turn (of those that data has come for, if the thread waits for data).
-  void RunCycle(Cycle cycle, FaultDesk& desk) noexcept;
+  /// Returns false, with nothing run, if the gate is closed: wait until it is open, and try again.
+  [[nodiscard]] bool RunCycle(Cycle cycle, FaultDesk& desk) noexcept;
   /// Counts a cycle that has ended.
   void Record(const CycleMeasurement& cycle) noexcept { meter_.Add(cycle); }
   [[nodiscard]] CycleStatistics statistics() const noexcept { return meter_.statistics(); }
@@ -75,10 +82,13 @@ class CycleRunner {
   [[nodiscard]] bool IsSettled(const Schedule& schedule) noexcept;
   void RunAll(const Schedule& schedule, Time now, FaultDesk& desk) noexcept;
   void RunActivated(const Schedule& schedule, Time now, FaultDesk& desk) noexcept;
+  void RunIfActivated(const Schedule::Entry& entry, bool is_settled, Time now,
+                      FaultDesk& desk) noexcept;
 
   const std::string path_;
   const ThreadOptions options_;
   const std::shared_ptr<CyclePresence> presence_ = std::make_shared<CyclePresence>();
+  CycleGate gate_;
   std::atomic<const Schedule*> schedule_{nullptr};
   std::uint64_t settled_ = 0;  // the number of the schedule whose elements have all arrived
   std::atomic<bool> activated_{false};

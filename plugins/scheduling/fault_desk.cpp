@@ -66,6 +66,9 @@ void FaultDesk::Attend() {
 }
 
 void FaultDesk::Report(const Fault& fault) {
+  if (const auto done = Handle(fault)) {
+    return Log({fault.path, fault.message + "; " + *done, fault.time});
+  }
   std::vector<FaultRule> rules;
   {
     const std::lock_guard lock(mutex_);
@@ -75,6 +78,26 @@ void FaultDesk::Report(const Fault& fault) {
   for (const FaultRule& rule : rules) {
     if (Covers(rule.of, fault.path)) Apply(rule, fault);
   }
+}
+
+void FaultDesk::SetHandler(Handler handler) {
+  const std::lock_guard lock(mutex_);
+  handler_ = std::move(handler);
+}
+
+std::optional<std::string> FaultDesk::Handle(const Fault& fault) {
+  Handler handler;
+  {
+    const std::lock_guard lock(mutex_);
+    handler = handler_;
+  }
+  if (!handler) return {};
+  try {
+    return handler(fault);
+  } catch (const std::exception& exception) {
+    Log({fault.path, std::string("the fault handler failed: ") + exception.what(), fault.time});
+  }
+  return {};
 }
 
 void FaultDesk::Apply(const FaultRule& rule, const Fault& fault) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -50,10 +52,18 @@ class FaultDesk {
   /// What has been logged since the last call, oldest first.
   [[nodiscard]] std::vector<Fault> Take();
 
+  /// See Scheduler::SetFaultHandler().
+  using Handler = std::function<std::optional<std::string>(const Fault&)>;
+  void SetHandler(Handler handler);
+
   /// Errors: a target that is not there or cannot take the value.
   Result<void> AddRule(FaultRule rule);
 
   void RequestStop() noexcept { stop_requested_.store(true, std::memory_order_release); }
+  void StopForFault() noexcept {
+    stopped_by_fault_.store(true, std::memory_order_release);
+    RequestStop();
+  }
   void ClearStop() noexcept {
     stopped_by_fault_.store(false, std::memory_order_release);
     stop_requested_.store(false, std::memory_order_release);
@@ -72,6 +82,7 @@ class FaultDesk {
 
  private:
   void Log(Fault fault);
+  [[nodiscard]] std::optional<std::string> Handle(const Fault& fault);
   void Apply(const FaultRule& rule, const Fault& fault);
   Result<void> Set(const FaultRule& rule);
 
@@ -82,6 +93,7 @@ class FaultDesk {
   std::atomic<bool> stopped_by_fault_{false};
   WakeEvent event_;
   OrderedMutex mutex_{LockLevel::kLeaf};
+  Handler handler_;               // guarded by mutex_
   std::vector<FaultRule> rules_;  // guarded by mutex_
   std::vector<Fault> log_;        // guarded by mutex_
 };

@@ -17,10 +17,13 @@ class CyclePresence {
   /// The calling thread runs all cycles from now on. Precondition: what another has run is over,
   /// and this thread knows (it was started after the other was joined).
   void Take() noexcept {
+    const auto* const participant = &EpochGuard::Participant();
+    // relaxed: only the thread of the cycles writes.
+    if (participant_.load(std::memory_order_relaxed) == participant) return;
     // release: the participant is complete. The light fence of the first cycle's EpochGuard stands
     // between this and the loading of the schedule, and pairs with the heavy one in Begin(): who
     // finds nullptr after an installation knows that the first cycle loads what was installed.
-    participant_.store(&EpochGuard::Participant(), std::memory_order_release);
+    participant_.store(participant, std::memory_order_release);
   }
 
   /// True once no cycle is under way that may have loaded its schedule before `epoch` began. What

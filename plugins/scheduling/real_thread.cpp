@@ -63,8 +63,10 @@ void RealThread::RunPeriodically(Time first) {
   DueTime due(first, options.period, options.on_overrun);
   while (SleepUntil(due.next(), [this] { return stopping(); })) {
     const Time planned = due.next();
-    const Time now = clock.Now();
-    runner_->RunCycle({now, options.period}, desk_);
+    Time now = clock.Now();
+    for (; !runner_->RunCycle({now, options.period}, desk_); now = clock.Now()) {
+      runner_->gate().WaitUntilOpen();
+    }
     const Time ended = clock.Now();
     const bool overrun = due.Advance(ended);
     runner_->Record({planned, now, ended - now, overrun});
@@ -76,7 +78,11 @@ void RealThread::RunFreely() {
   TickClock clock;
   Time now = clock.Now();
   while (!stopping()) {
-    runner_->RunCycle({now, Duration::zero()}, desk_);
+    if (!runner_->RunCycle({now, Duration::zero()}, desk_)) {
+      runner_->gate().WaitUntilOpen();
+      now = clock.Now();
+      continue;
+    }
     const Time ended = clock.Now();
     runner_->Record({now, now, ended - now, false});
     now = ended;
@@ -90,8 +96,10 @@ void RealThread::RunOnData() {
     if (!runner_->is_activated()) runner_->event().Wait();
     if (stopping()) return;
     if (!runner_->TakeActivation()) continue;
-    const Time now = clock.Now();
-    runner_->RunCycle({now, Duration::zero()}, desk_);
+    Time now = clock.Now();
+    for (; !runner_->RunCycle({now, Duration::zero()}, desk_); now = clock.Now()) {
+      runner_->gate().WaitUntilOpen();
+    }
     runner_->Record({now, now, clock.Now() - now, false});
     if (runner_->is_held_up()) std::this_thread::sleep_for(kLookAgain);
   }

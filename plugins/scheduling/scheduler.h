@@ -1,6 +1,8 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +12,7 @@
 #include "core/base/ordered_mutex.h"
 #include "core/element/element_listener.h"
 #include "core/element/runtime.h"
+#include "plugins/scheduling/cycle_hold.h"
 #include "plugins/scheduling/fault.h"
 #include "plugins/scheduling/fault_desk.h"
 #include "plugins/scheduling/pacing.h"
@@ -107,28 +110,56 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   /// In the order of their running. Brings the schedules up to date.
   [[nodiscard]] std::vector<ScheduledTask> Order(const ThreadContainer& thread);
 
+  /// Keeps the threads that run anything at or below one of `paths` between two of their cycles, so
+  /// that what is changed until the hold goes takes effect as a whole. Errors, threads: see CycleHold;
+  /// not under the structure lock.
+  Result<CycleHold> HoldCycles(const std::vector<std::string>& paths, Duration patience);
+  /// How many cycles the thread that runs the element has run so far; nullopt if none runs it.
+  [[nodiscard]] std::optional<std::uint64_t> CyclesOf(const std::string& path);
+
+  /// Is asked first about each fault, outside of cycles and without locks. What it says it has done
+  /// about it is added to the fault's message, and no rule is applied then; nullopt: not its business.
+  using FaultHandler = std::function<std::optional<std::string>(const Fault&)>;
+  void SetFaultHandler(FaultHandler handler) { desk_.SetHandler(std::move(handler)); }
+
+  /// Is called between cycles, without locks, and returns the time, by the runtime's clock, before
+  /// which it need not be called again: kReal by the supervising thread, kSimulated after the first
+  /// cycle that ends then or later. Set it while nothing runs.
+  using Lookout = std::function<Time(Time now)>;
+  void SetLookout(Lookout lookout);
+  /// As a fault rule does: stop_requested() and stopped_by_fault() become true.
+  void StopForFault() noexcept { desk_.StopForFault(); }
+
   void OnReady(FrameworkElement& element) override;
   void OnDeleted(FrameworkElement& element) override;
   void OnConnected(FrameworkElement& from, FrameworkElement& to) override;
   void OnDisconnected(FrameworkElement& from, FrameworkElement& to) override;
   void OnAssigned(FrameworkElement& element, ThreadContainer& thread) override;
+  void OnUnassigned(FrameworkElement& element) override;
+  void OnChangesEnd() override;
 
  private:
   using Runners = std::vector<std::shared_ptr<CycleRunner>>;
+
+  [[nodiscard]] Runners RunnersOf(const std::vector<std::string>& paths);
 
   // Simulated clock.
   void FollowChanges();
   bool RunNext(Time due);
 
   // All five under the structure lock.
-  void MarkOutdated() noexcept;
+  // Whether a cycle may begin at any time.
+  [[nodiscard]] bool is_live() const noexcept { return is_running_ || has_stepped_; }
+  [[nodiscard]] bool is_up_to_date() const noexcept {
+    return !compiler_.needs_all() && !compiler_.has_changes();
+  }
   void Changed();
   void BringUpToDate();
-  void Install(CompiledSchedules compiled);
   void StartThreads(Time first);
 
   void Supervise();
   void LookAfter() noexcept;
+  void LookOut() noexcept;
   void EndSupervision();
 
   Runtime& runtime_;
@@ -142,11 +173,11 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   OrderedMutex start_mutex_{LockLevel::kScheduler};
   // Guarded by the structure lock, down to the next comment:
   ScheduleCompiler compiler_;
-  bool is_outdated_ = true;
+  bool has_other_runners_ = true;  // than threads or lanes have been made for
   bool is_running_ = false;
+  bool has_stepped_ = false;
   bool has_run_ = false;  // until started again
   Runners runners_;
-  std::vector<Error> schedule_warnings_;
   std::vector<Error> realtime_warnings_;
   std::vector<std::unique_ptr<RealThread>> threads_;
   std::vector<std::unique_ptr<RealThread>> ending_;  // their containers are gone
@@ -155,6 +186,8 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   // it by the thread that steps, which need not lock where nothing has.
   std::atomic<bool> has_changes_{true};
 
+  Lookout lookout_;
+  Time next_look_{};  // by it
   std::atomic<bool> supervises_{false};
   std::thread supervisor_;
 };

@@ -53,6 +53,12 @@ bool SimulatedExecutor::Step() {
   return true;
 }
 
+// Others may keep the runner between cycles; simulated time stands still meanwhile.
+void SimulatedExecutor::RunCycle(CycleRunner& runner, const Cycle& cycle) {
+  runner.presence()->Take();
+  while (!runner.RunCycle(cycle, desk_)) runner.gate().WaitUntilOpen();
+}
+
 void SimulatedExecutor::RunPeriodic(Lane& lane) {
   const bool is_planned = lane.runner->options().activation == ThreadOptions::Activation::kPeriod;
   const Time due = lane.due.next();
@@ -60,7 +66,7 @@ void SimulatedExecutor::RunPeriodic(Lane& lane) {
   const Time start = clock_.Now();  // later, if a module has let time pass in its cycle
   const Duration period = is_planned ? lane.runner->options().period : Duration::zero();
   const Time began = machine_.Now();
-  lane.runner->RunCycle({start, period}, desk_);
+  RunCycle(*lane.runner, {start, period});
   const Duration execution = machine_.Now() - began;
   const bool overrun = lane.due.Advance(clock_.Now());
   lane.runner->Record({is_planned ? due : start, start, execution, is_planned && overrun});
@@ -75,7 +81,7 @@ void SimulatedExecutor::RunActivated() {
     (void)next->TakeActivation();
     const Time now = clock_.Now();
     const Time began = machine_.Now();
-    next->RunCycle({now, Duration::zero()}, desk_);
+    RunCycle(*next, {now, Duration::zero()});
     next->Record({now, now, machine_.Now() - began, false});
     desk_.Attend();
   }

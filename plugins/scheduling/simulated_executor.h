@@ -45,6 +45,7 @@ class SimulatedExecutor {
 
   [[nodiscard]] Lane* NextPeriodic();
   [[nodiscard]] CycleRunner* NextActivated() const;
+  void RunCycle(CycleRunner& runner, const Cycle& cycle);
   void RunPeriodic(Lane& lane);
   void RunActivated();
   void ReportEndlessLoop(const CycleRunner& runner);

@@ -11,9 +11,13 @@ namespace runnel {
 namespace {
 
 constexpr int kHighestPriority = 99;
+constexpr std::uint64_t kNoThread = 0;
 
 struct ThreadAssignment final : Annotation {
   explicit ThreadAssignment(std::uint64_t thread_serial) : serial(thread_serial) {}
+  std::unique_ptr<Annotation> ForReplacement() const override {
+    return std::make_unique<ThreadAssignment>(serial);
+  }
   // The number and not the address: that of a container that is gone never comes back.
   std::uint64_t serial;
 };
@@ -70,9 +74,35 @@ void AssignThread(FrameworkElement& element, ThreadContainer& thread) {
   });
 }
 
+std::uint64_t OwnThreadSerial(const FrameworkElement& element) {
+  const auto* const found = element.FindAnnotation<ThreadAssignment>();
+  return found != nullptr && found->serial != kNoThread ? found->serial : 0;
+}
+
+void UnassignThread(FrameworkElement& element) {
+  Runtime& runtime = element.runtime();
+  const std::lock_guard lock(runtime.structure_mutex());
+  // One that never was: what is above decides.
+  element.Annotate(std::make_unique<ThreadAssignment>(kNoThread));
+  runtime.ForEachListener([&](ElementListener& listener) {
+    if (auto* const told = dynamic_cast<AssignmentListener*>(&listener))
+      told->OnUnassigned(element);
+  });
+}
+
+ThreadContainer* OwnThread(const FrameworkElement& element) {
+  const auto* const found = element.FindAnnotation<ThreadAssignment>();
+  FrameworkElement* const threads = element.runtime().root().FindChild("threads");
+  if (found == nullptr || threads == nullptr) return nullptr;
+  for (FrameworkElement* each : threads->children()) {
+    if (each->serial() == found->serial) return dynamic_cast<ThreadContainer*>(each);
+  }
+  return nullptr;
+}
+
 std::uint64_t AssignedThread(const FrameworkElement& element) {
   for (const FrameworkElement* at = &element; at != nullptr; at = at->parent()) {
-    if (const auto* const found = at->FindAnnotation<ThreadAssignment>()) return found->serial;
+    if (const std::uint64_t own = OwnThreadSerial(*at); own != 0) return own;
   }
   return 0;
 }

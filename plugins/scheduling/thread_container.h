@@ -42,15 +42,27 @@ ThreadContainer& CreateThread(Runtime& runtime, const std::string& name,
 /// cycle on. If the container is deleted, the assignment is void. Takes the structure lock.
 void AssignThread(FrameworkElement& element, ThreadContainer& thread);
 
+/// Takes the assignment of `element` itself back: what is above it decides again. Takes the structure
+/// lock.
+void UnassignThread(FrameworkElement& element);
+
+/// The container that `element` itself is assigned to; nullptr if to none, or to one that is gone.
+/// Under the structure lock.
+[[nodiscard]] ThreadContainer* OwnThread(const FrameworkElement& element);
+
 /// The serial number of the container that `element` is assigned to, by itself or by what is above
 /// it; 0 if to none. Under the structure lock.
 [[nodiscard]] std::uint64_t AssignedThread(const FrameworkElement& element);
+
+/// The same, of the element's own assignment only.
+[[nodiscard]] std::uint64_t OwnThreadSerial(const FrameworkElement& element);
 
 /// Told of assignments; an ElementListener may be one too.
 class AssignmentListener {
  public:
   /// Under the structure lock. Must not throw.
   virtual void OnAssigned(FrameworkElement& element, ThreadContainer& thread) = 0;
+  virtual void OnUnassigned(FrameworkElement& element) = 0;
 
  protected:
   ~AssignmentListener() = default;

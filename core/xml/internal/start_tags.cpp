@@ -100,6 +100,7 @@ class Scanner {
 
   bool TakeEndTag() {
     const TextPlace start = cursor_.place();
+    const std::size_t begin = cursor_.offset();
     cursor_.Take(2);
     const std::string_view name = cursor_.TakeName();
     cursor_.SkipSpace();
@@ -113,12 +114,14 @@ class Scanner {
     }
     if (cursor_.next() != '>') return Fail(start, "an end tag without '>'", "");
     cursor_.Take(1);
+    tags_[open_.back()].end_tag = {begin, cursor_.offset()};
     open_.pop_back();
     return true;
   }
 
   bool TakeStartTag() {
     const TextPlace start = cursor_.place();
+    const std::size_t begin = cursor_.offset();
     cursor_.Take(1);
     StartTag tag{cursor_.TakeName(), start, {}, {}};
     if (tag.name.empty()) return Fail(start, "'<' without a name", "write &lt; for the letter");
@@ -133,6 +136,8 @@ class Scanner {
     }
     const bool closes = cursor_.Sees("/>");
     cursor_.Take(closes ? 2 : 1);
+    tag.span = {begin, cursor_.offset()};
+    tag.end_tag = {cursor_.offset(), cursor_.offset()};
     tags_.push_back(std::move(tag));
     if (!closes) open_.push_back(tags_.size() - 1);
     return true;
@@ -140,6 +145,7 @@ class Scanner {
 
   bool TakeAttribute(StartTag& tag, bool spaced) {
     const TextPlace place = cursor_.place();
+    const std::size_t begin = cursor_.offset();
     const std::string_view name = cursor_.TakeName();
     if (name.empty()) {
       return cursor_.at_end() || cursor_.next() == '<'
@@ -157,7 +163,7 @@ class Scanner {
     if (cursor_.next() != '=') return Fail(place, "attribute " + quoted + " has no value", "");
     cursor_.Take(1);
     cursor_.SkipSpace();
-    return TakeValue(tag, {name, place, {}}, quoted);
+    return TakeValue(tag, {name, place, {}, {begin, begin}, {}}, quoted);
   }
 
   bool TakeValue(StartTag& tag, AttributePlace attribute, const std::string& quoted) {
@@ -168,13 +174,16 @@ class Scanner {
     }
     cursor_.Take(1);
     attribute.value_place = cursor_.place();
+    attribute.value_span.begin = cursor_.offset();
     const auto at_stop = [&] { return cursor_.next() == quote || cursor_.next() == '<'; };
     if (!TakeLetters(at_stop, /*check_entities=*/true)) return false;
     if (cursor_.next() != quote) {
       return Fail(attribute.place, "the value of " + quoted + " has no closing quote",
                   cursor_.at_end() ? "" : "or write &lt; for '<' in it");
     }
+    attribute.value_span.end = cursor_.offset();
     cursor_.Take(1);
+    attribute.span.end = cursor_.offset();
     tag.attributes.push_back(attribute);
     return true;
   }

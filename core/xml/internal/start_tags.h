@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/xml/xml_document.h"
 
 namespace runnel::internal {
 
@@ -19,6 +20,8 @@ struct AttributePlace {
   std::string_view name;
   TextPlace place;
   TextPlace value_place;
+  TextSpan span = {};
+  TextSpan value_span = {};
 };
 
 struct StartTag {
@@ -26,6 +29,8 @@ struct StartTag {
   TextPlace place;
   std::vector<AttributePlace> attributes;
   std::optional<TextPlace> text_place = {};  ///< of the first text directly between the tags
+  TextSpan span = {};
+  TextSpan end_tag = {};  ///< empty, behind `span`, if the element is
 };
 
 /// The start tags of an XML text in the order of the text; the names refer to `text`.

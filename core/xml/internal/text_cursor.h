@@ -22,11 +22,13 @@ inline bool IsXmlNameLetter(char letter) {
 /// Walks through a text and knows at which line and column it is.
 class TextCursor {
  public:
-  explicit TextCursor(std::string_view text) : rest_(text) {}
+  explicit TextCursor(std::string_view text) : size_(text.size()), rest_(text) {}
 
   [[nodiscard]] bool at_end() const { return rest_.empty(); }
   [[nodiscard]] TextPlace place() const { return place_; }
   [[nodiscard]] std::string_view rest() const { return rest_; }
+  /// In bytes from the beginning.
+  [[nodiscard]] std::size_t offset() const { return size_ - rest_.size(); }
   /// '\0' at the end.
   [[nodiscard]] char next() const { return rest_.empty() ? '\0' : rest_.front(); }
   [[nodiscard]] bool Sees(std::string_view expected) const { return rest_.starts_with(expected); }
@@ -60,6 +62,7 @@ class TextCursor {
   bool SkipSpace() { return !TakeWhile(IsXmlSpace).empty(); }
 
  private:
+  std::size_t size_;
   std::string_view rest_;
   TextPlace place_;
 };

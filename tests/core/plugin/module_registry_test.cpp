@@ -6,6 +6,7 @@
 
 #include "core/element/runtime.h"
 #include "core/module/group.h"
+#include "core/plugin/module_type_name.h"
 
 namespace runnel {
 namespace {
@@ -55,7 +56,7 @@ TEST(ModuleRegistryTest, ForgetsAllOfOnePlugin) {
   ModuleRegistry registry;
   ASSERT_TRUE(registry.Add(TypeNamed("a", "first")));
   ASSERT_TRUE(registry.Add(TypeNamed("b", "second")));
-  registry.RemovePlugin("first");
+  (void)registry.SetAside("first");
   EXPECT_EQ(registry.Find("a"), nullptr);
   EXPECT_NE(registry.Find("b"), nullptr);
 }
@@ -68,6 +69,16 @@ TEST(ModuleRegistryTest, CreatesModulesBelowTheirParent) {
   ASSERT_TRUE(made);
   EXPECT_EQ((*made)->path(), "/robot");
   EXPECT_TRUE(runtime.Delete(**made));
+}
+
+TEST(ModuleRegistryTest, ModulesRememberTheirType) {
+  Runtime runtime;
+  ModuleRegistry registry;
+  ASSERT_TRUE(registry.Add(TypeNamed("motion/guard")));
+  const auto made = registry.Create("motion/guard", runtime.root(), "guard");
+  ASSERT_TRUE(made);
+  EXPECT_EQ(FindModuleType(**made), "motion/guard");
+  EXPECT_EQ(FindModuleType(runtime.Create<Group>(runtime.root(), "by_code")), "");
 }
 
 TEST(ModuleRegistryTest, WhatAConstructorThrowsIsAnErrorAndLeavesNothingBehind) {

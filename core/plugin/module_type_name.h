@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "core/element/annotation.h"
+#include "core/element/framework_element.h"
+
+namespace runnel {
+
+/// Kept with every module that was made by its type: what a file has to say to get the same again.
+struct ModuleTypeName final : Annotation {
+  explicit ModuleTypeName(std::string type_name) : name(std::move(type_name)) {}
+  std::string name;
+};
+
+/// "" if the module was made by C++ code that named its class.
+[[nodiscard]] inline std::string FindModuleType(const FrameworkElement& module) {
+  const auto* const type = module.FindAnnotation<ModuleTypeName>();
+  return type != nullptr ? type->name : "";
+}
+
+}  // namespace runnel

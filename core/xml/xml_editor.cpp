@@ -1,0 +1,180 @@
+#include "core/xml/xml_editor.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/xml/internal/text_cursor.h"
+
+namespace runnel {
+
+namespace {
+
+bool IsBlank(char letter) { return letter == ' ' || letter == '\t'; }
+
+std::string LineEndOf(std::string_view text) {
+  const std::size_t end = text.find('\n');
+  return end != std::string_view::npos && end > 0 && text[end - 1] == '\r' ? "\r\n" : "\n";
+}
+
+}  // namespace
+
+XmlEditor::XmlEditor(const XmlDocument& document, std::string_view text) : text_(text) {
+  layout_.line_end = LineEndOf(text);
+  // What the first child is set in by, from its parent.
+  for (const XmlElement child : document.root().children()) {
+    const std::size_t begin = child.spans().whole.begin;
+    const std::string outer = MarginAt(document.root().spans().whole.begin);
+    const std::string inner = MarginAt(begin);
+    if (!BeginsLine(begin) || inner.size() <= outer.size() || !inner.starts_with(outer)) continue;
+    layout_.indent = inner.substr(outer.size());
+    break;
+  }
+}
+
+void XmlEditor::SetAttribute(XmlElement element, std::string_view name, std::string_view value) {
+  if (const XmlAttribute* known = element.Attribute(name)) {
+    if (known->value == value) return;
+    const char quote = text_[known->value_span.begin - 1];
+    edits_.Replace(known->value_span, EscapedAttribute(value, quote));
+    return;
+  }
+  const std::size_t place = element.attributes().empty()
+                                ? element.spans().start_tag.begin + 1 + element.name().size()
+                                : element.attributes().back().span.end;
+  edits_.Insert(place, " " + std::string(name) + "=\"" + EscapedAttribute(value) + "\"");
+}
+
+void XmlEditor::RemoveAttribute(XmlElement element, std::string_view name) {
+  const XmlAttribute* const known = element.Attribute(name);
+  if (known == nullptr) return;
+  std::size_t begin = known->span.begin;
+  while (internal::IsXmlSpace(text_[begin - 1])) --begin;
+  edits_.Cut({begin, known->span.end});
+}
+
+void XmlEditor::RemoveWords(const XmlAttribute& list, const std::set<std::size_t>& words) {
+  std::size_t place = list.value_span.begin;
+  const std::size_t end = list.value_span.end;
+  const auto skip_space = [&] {
+    while (place < end && internal::IsXmlSpace(text_[place])) ++place;
+  };
+  bool keeps_any = false;
+  skip_space();
+  for (std::size_t word = 0; place < end; ++word) {
+    std::size_t begin = place;
+    while (place < end && !internal::IsXmlSpace(text_[place])) ++place;
+    const std::size_t word_end = place;
+    skip_space();
+    if (!words.contains(word)) {
+      keeps_any = true;
+      continue;
+    }
+    // With the blanks before it; the first with those behind it.
+    if (!keeps_any) {
+      edits_.Cut({begin, place});
+    } else {
+      while (internal::IsXmlSpace(text_[begin - 1])) --begin;
+      edits_.Cut({begin, word_end});
+    }
+  }
+}
+
+void XmlEditor::Remove(XmlElement element) {
+  const TextSpan whole = element.spans().whole;
+  const std::size_t before = SkipBlanksBack(whole.begin);
+  const std::size_t behind = SkipBlanks(whole.end);
+  const std::size_t next_line = NextLine(whole.end);
+  const bool is_last_of_line = next_line != whole.end;
+  if (!is_last_of_line) {
+    edits_.Cut({whole.begin, behind});
+  } else {
+    edits_.Cut({before, BeginsLine(whole.begin) ? next_line : whole.end});
+  }
+}
+
+void XmlEditor::Append(XmlElement parent, NewElement element) {
+  appended_.try_emplace(parent.spans().whole.begin, Appended{parent, {}})
+      .first->second.elements.push_back(std::move(element));
+}
+
+void XmlEditor::InsertAfter(XmlElement sibling, const NewElement& element) {
+  const TextSpan whole = sibling.spans().whole;
+  std::string text = ElementText(element, MarginAt(whole.begin), layout_);
+  const std::size_t next_line = NextLine(whole.end);
+  if (next_line != whole.end) return edits_.Insert(next_line, std::move(text));
+  text.resize(text.size() - layout_.line_end.size());
+  edits_.Insert(whole.end, layout_.line_end + text);
+}
+
+void XmlEditor::InsertFirst(XmlElement parent, const NewElement& element) {
+  const TextSpan start = parent.spans().start_tag;
+  if (parent.spans().end_tag.size() == 0) return Append(parent, element);
+  std::string text = ElementText(element, MarginInside(parent), layout_);
+  const std::size_t next_line = NextLine(start.end);
+  if (next_line != start.end) return edits_.Insert(next_line, std::move(text));
+  text.resize(text.size() - layout_.line_end.size());
+  edits_.Insert(start.end, layout_.line_end + text);
+}
+
+std::string XmlEditor::Finish() {
+  for (const auto& [place, appended] : appended_) WriteAppended(appended.parent, appended.elements);
+  appended_.clear();
+  return edits_.Apply(text_);
+}
+
+void XmlEditor::WriteAppended(XmlElement parent, const std::vector<NewElement>& elements) {
+  const ElementSpans& spans = parent.spans();
+  const std::string margin = MarginInside(parent);
+  std::string text;
+  for (const NewElement& each : elements) text += ElementText(each, margin, layout_);
+  const std::string outer = MarginAt(spans.whole.begin);
+  if (spans.end_tag.size() == 0) {
+    std::size_t begin = spans.start_tag.end - 2;
+    while (internal::IsXmlSpace(text_[begin - 1])) --begin;
+    edits_.Replace({begin, spans.start_tag.end},
+                   ">" + layout_.line_end + text + outer + "</" + parent.name() + ">");
+  } else if (BeginsLine(spans.end_tag.begin)) {
+    edits_.Insert(SkipBlanksBack(spans.end_tag.begin), std::move(text));
+  } else {
+    edits_.Insert(spans.end_tag.begin, layout_.line_end + text + outer);
+  }
+}
+
+std::string XmlEditor::MarginAt(std::size_t place) const {
+  std::size_t begin = place;
+  while (begin > 0 && text_[begin - 1] != '\n') --begin;
+  if (begin == 0 && text_.starts_with("\xEF\xBB\xBF")) begin = 3;
+  return std::string(text_.substr(begin, SkipBlanks(begin) - begin));
+}
+
+std::string XmlEditor::MarginInside(XmlElement parent) const {
+  const auto children = parent.children();
+  for (std::size_t i = children.size(); i > 0; --i) {
+    const std::size_t begin = children[i - 1].spans().whole.begin;
+    if (BeginsLine(begin)) return MarginAt(begin);
+  }
+  return MarginAt(parent.spans().whole.begin) + layout_.indent;
+}
+
+std::size_t XmlEditor::SkipBlanksBack(std::size_t place) const {
+  while (place > 0 && IsBlank(text_[place - 1])) --place;
+  return place;
+}
+
+std::size_t XmlEditor::SkipBlanks(std::size_t place) const {
+  while (place < text_.size() && IsBlank(text_[place])) ++place;
+  return place;
+}
+
+bool XmlEditor::BeginsLine(std::size_t place) const {
+  const std::size_t before = SkipBlanksBack(place);
+  return before == 0 || text_[before - 1] == '\n';
+}
+
+std::size_t XmlEditor::NextLine(std::size_t place) const {
+  std::size_t end = SkipBlanks(place);
+  if (end < text_.size() && text_[end] == '\r') ++end;
+  return end < text_.size() && text_[end] == '\n' ? end + 1 : place;
+}
+
+}  // namespace runnel

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/xml/text_edits.h"
+#include "core/xml/xml_document.h"
+#include "core/xml/xml_writing.h"
+
+namespace runnel {
+
+/// Changes an XML text by its elements. What is not named stays as it is, byte for byte: comments,
+/// order, indentation, quotes, line ends. What is new follows the manner of the file.
+///
+/// Lifetime: within that of the document and of the text.
+class XmlEditor {
+ public:
+  /// `document` has been read from `text`.
+  XmlEditor(const XmlDocument& document, std::string_view text);
+
+  void SetAttribute(XmlElement element, std::string_view name, std::string_view value);
+  /// Nothing if there is none.
+  void RemoveAttribute(XmlElement element, std::string_view name);
+  /// Takes words out of an attribute that is a list of them. `words` counts from 0.
+  void RemoveWords(const XmlAttribute& list, const std::set<std::size_t>& words);
+  /// With its line, if nothing else stands there.
+  void Remove(XmlElement element);
+  /// Before the closing tag of `parent`, each on lines of its own.
+  void Append(XmlElement parent, NewElement element);
+  /// On the line after that of `sibling`.
+  void InsertAfter(XmlElement sibling, const NewElement& element);
+  /// On the line after the start tag of `parent`.
+  void InsertFirst(XmlElement parent, const NewElement& element);
+
+  [[nodiscard]] bool has_changes() const noexcept { return !edits_.empty() || !appended_.empty(); }
+  /// The changed text.
+  [[nodiscard]] std::string Finish();
+
+ private:
+  // What the line of `place` begins with, up to the first that is no blank.
+  [[nodiscard]] std::string MarginAt(std::size_t place) const;
+  [[nodiscard]] std::string MarginInside(XmlElement parent) const;
+  [[nodiscard]] std::size_t SkipBlanksBack(std::size_t place) const;
+  [[nodiscard]] std::size_t SkipBlanks(std::size_t place) const;
+  [[nodiscard]] bool BeginsLine(std::size_t place) const;
+  // Where the next line begins, if but blanks stand before it; else `place`.
+  [[nodiscard]] std::size_t NextLine(std::size_t place) const;
+  void WriteAppended(XmlElement parent, const std::vector<NewElement>& elements);
+
+  std::string_view text_;
+  XmlLayout layout_;
+  TextEdits edits_;
+  struct Appended {
+    XmlElement parent;
+    std::vector<NewElement> elements;
+  };
+  std::map<std::size_t, Appended> appended_;  // by the place of the parent
+};
+
+}  // namespace runnel

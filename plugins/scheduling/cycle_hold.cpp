@@ -1,0 +1,46 @@
+#include "plugins/scheduling/cycle_hold.h"
+
+#include <algorithm>
+
+#include "core/base/check.h"
+#include "core/lockfree/patience.h"
+#include "core/lockfree/thread_epoch.h"
+#include "plugins/scheduling/cycle_runner.h"
+
+namespace runnel {
+
+Result<CycleHold> CycleHold::Take(std::vector<std::shared_ptr<CycleRunner>> runners,
+                                  Duration patience) {
+  RUNNEL_CHECK(!EpochGuard::HeldByThisThread(),
+               "threads cannot be kept between cycles from within a cycle");
+  const SteadyClock clock;
+  const Time deadline = clock.Now() + patience;
+  std::ranges::stable_sort(runners, std::ranges::greater{},
+                           [](const auto& runner) { return runner->statistics().execution_mean; });
+  CycleHold hold;
+  hold.began_ = clock.Now();
+  for (auto& runner : runners) {
+    runner->gate().Close();
+    hold.runners_.push_back(std::move(runner));
+    const CycleRunner& closed = *hold.runners_.back();
+    // Passes a heavy fence; see CycleGate.
+    const std::uint64_t epoch = ProcessEpochs().Advance();
+    for (int round = 0; !closed.presence()->HasLeft(epoch); ++round) {
+      if (clock.Now() > deadline) {
+        return Error{.message = "has not come to the end of its cycle in " +
+                                std::to_string(ToSeconds(patience)) + " s",
+                     .path = closed.path(),
+                     .hint = "one of its modules does not return from its Update()"};
+      }
+      WaitOneRound(round);
+    }
+  }
+  return hold;
+}
+
+void CycleHold::Release() noexcept {
+  for (const auto& runner : runners_) runner->gate().Open();
+  runners_.clear();
+}
+
+}  // namespace runnel

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "core/base/clock.h"
+#include "core/base/result.h"
+
+namespace runnel {
+
+class CycleRunner;
+
+/// Keeps some threads between two of their cycles while it lives, so that what is changed meanwhile
+/// takes effect as a whole. They sleep; cycles that fall due begin when it ends.
+///
+/// Threads:  one at a time; not within a cycle, and not under the structure lock, which a cycle might
+///           be waiting for. What is done while it lives should be short.
+class CycleHold {
+ public:
+  CycleHold() = default;
+  ~CycleHold() { Release(); }
+  CycleHold(CycleHold&&) = default;
+  CycleHold& operator=(CycleHold&& other) noexcept {
+    if (this != &other) {
+      Release();
+      runners_ = std::exchange(other.runners_, {});
+      began_ = other.began_;
+    }
+    return *this;
+  }
+
+  /// Waits until all `runners` have come to the end of a cycle, those whose cycles take long first:
+  /// so the others are kept for a moment only.
+  /// Errors: one that has not after `patience`, of the machine's clock; all go on then.
+  static Result<CycleHold> Take(std::vector<std::shared_ptr<CycleRunner>> runners,
+                                Duration patience);
+  /// Lets them go on.
+  void Release() noexcept;
+
+  /// When the first thread may have come to stand, by the machine's steady clock.
+  [[nodiscard]] Time began() const noexcept { return began_; }
+
+ private:
+  std::vector<std::shared_ptr<CycleRunner>> runners_;
+  Time began_{};
+};
+
+}  // namespace runnel

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/port/port.h"
+#include "core/port/port_options.h"
+
+namespace runnel {
+
+/// The value of a parameter in its text form, by the parameter's name: {"stop_distance", "0.3"}.
+struct Setting {
+  std::string parameter;
+  std::string value;
+};
+
+// Paths are absolute: "/application/robot/planner". The name of the only application may be left out:
+// "/robot/planner". Those of ports may leave out the group: "/robot/planner/pose".
+
+/// A module of a registered type, made, configured and prepared beside the tree, then put in.
+struct CreateModule {
+  std::string path;
+  std::string type;
+  std::vector<Setting> settings = {};
+};
+
+struct CreateGroup {
+  std::string path;
+};
+
+/// A port in the interface of a group.
+struct CreatePort {
+  std::string path;
+  Port::Direction direction = Port::Direction::kInput;
+  std::string type;  ///< name of the data type, as a loaded plugin has described it
+};
+
+/// With all that is below it and all its connections.
+struct DeleteElement {
+  std::string path;
+};
+
+struct ConnectPorts {
+  std::string from;
+  std::string to;
+  ConnectOptions options = {};
+};
+
+struct DisconnectPorts {
+  std::string from;
+  std::string to;
+};
+
+struct SetParameter {
+  std::string path;
+  std::string value;
+};
+
+/// Puts a module of `type` in the place of another one. It takes over the connections (what waits in
+/// queues, what has been read), values of parameters of the same name that are not the default ones,
+/// and kept states of the same type (KeepState). `settings` come last. The same type makes the module
+/// anew, as after a fault.
+struct ReplaceModule {
+  std::string path;
+  std::string type;
+  std::vector<Setting> settings = {};
+  /// If the new module throws in one of so many first cycles, the old one comes back as it was.
+  std::uint64_t probation_cycles = 10;
+};
+
+/// Has the element, and what is below it and not assigned otherwise, run by another thread container.
+struct AssignToThread {
+  std::string path;
+  std::string thread;  ///< name of the container; "" takes the assignment back
+};
+
+using Change = std::variant<CreateModule, CreateGroup, CreatePort, DeleteElement, ConnectPorts,
+                            DisconnectPorts, SetParameter, ReplaceModule, AssignToThread>;
+
+/// Changes that belong together, in the order in which they build on one another.
+using ChangeSet = std::vector<Change>;
+
+}  // namespace runnel

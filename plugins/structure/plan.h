@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/base/diagnostics.h"
+#include "core/element/unlisted_element.h"
+#include "core/plugin/module_registry.h"
+#include "plugins/structure/change.h"
+#include "plugins/structure/projection.h"
+
+namespace runnel::internal {
+
+/// A module that has made room for another one.
+struct Replaced {
+  UnlistedElement before;
+  std::string path;
+  std::uint64_t serial = 0;  // of the new module
+  std::uint64_t probation_cycles = 0;
+};
+
+/// The connections between what is at or below `element` and the rest. Under the structure lock.
+[[nodiscard]] std::vector<Connection> TiesOf(FrameworkElement& element);
+
+/// A change set that has been checked against the structure, with everything made that it needs: all that
+/// is left is to carry it out, between two cycles, and quickly.
+///
+/// Threads:  under the structure lock, from Make() to Carry().
+class Plan {
+ public:
+  Plan(Runtime& runtime, const ModuleRegistry& modules)
+      : runtime_(runtime), modules_(modules), projection_(runtime) {}
+
+  /// Checks the changes one after the other, each as if those before had been made, and makes what is
+  /// new, beside the tree. All that is wrong goes to `diagnostics`.
+  void Make(const ChangeSet& changes, Diagnostics& diagnostics);
+
+  /// Carries it out. Errors: what could not be foreseen; nothing has changed then.
+  Result<void> Carry();
+
+  /// The elements whose threads shall stand between two cycles meanwhile.
+  [[nodiscard]] const std::vector<std::string>& concerned() const noexcept { return concerned_; }
+  /// After Carry(): what is out of the tree now, and is to be destroyed.
+  [[nodiscard]] std::vector<UnlistedElement>& removed() noexcept { return removed_; }
+  [[nodiscard]] std::vector<Replaced>& replaced() noexcept { return replaced_; }
+
+ private:
+  // Undo is called only if Do succeeded and a later step did not. Neither waits for anything.
+  struct Step {
+    std::function<Result<void>()> apply;
+    std::function<void()> undo;
+  };
+
+  Result<void> Check(const CreateModule& change);
+  Result<void> Check(const CreateGroup& change);
+  Result<void> Check(const CreatePort& change);
+  Result<void> Check(const DeleteElement& change);
+  Result<void> Check(const ConnectPorts& change);
+  Result<void> Check(const DisconnectPorts& change);
+  Result<void> Check(const SetParameter& change);
+  Result<void> Check(const ReplaceModule& change);
+  Result<void> Check(const AssignToThread& change);
+
+  Result<UnlistedElement> MakeModule(const std::string& type, const Placement& placement);
+  void WarnOfMissingSources(Diagnostics& diagnostics) const;
+
+  void AddCreation(UnlistedElement element);
+  void AddConnection(Port& from, Port& to, const ConnectOptions& options);
+  void AddDisconnection(Port& from, Port& to);
+  void AddRemoval(FrameworkElement& element);
+  void AddReplacement(FrameworkElement& before, UnlistedElement after,
+                      std::vector<std::pair<Port*, Port*>> ports, std::uint64_t probation_cycles);
+  // The module that a port or parameter belongs to, or the group.
+  void Concern(const FrameworkElement& element);
+
+  Runtime& runtime_;
+  const ModuleRegistry& modules_;
+  Projection projection_;
+  std::vector<Step> steps_;
+  std::vector<std::string> concerned_;
+  std::vector<FrameworkElement*> made_;
+  std::vector<Error> further_errors_;  // of a change that has more than one
+  std::vector<UnlistedElement> removed_;
+  std::vector<Replaced> replaced_;
+};
+
+}  // namespace runnel::internal

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/ordered_mutex.h"
+#include "core/element/runtime.h"
+#include "plugins/scheduling/scheduler.h"
+#include "plugins/structure/plan.h"
+
+namespace runnel::internal {
+
+/// Keeps replaced modules until their successors have run some cycles without throwing, and puts them back
+/// if they do throw.
+///
+/// Threads:  all under the editor's mutex, and not under the structure lock.
+class Probation {
+ public:
+  Probation(Runtime& runtime, Scheduler& scheduler, Duration patience)
+      : runtime_(runtime), scheduler_(scheduler), patience_(patience) {}
+
+  /// Returns what need not be kept.
+  [[nodiscard]] std::vector<UnlistedElement> Add(std::vector<Replaced> replaced);
+  /// Takes out those whose successors have proved themselves, or are gone.
+  [[nodiscard]] std::vector<UnlistedElement> TakeProved();
+  [[nodiscard]] std::vector<UnlistedElement> TakeAll();
+  /// The module of the fault has thrown: if it is on probation, its predecessor is back when this returns.
+  /// What has been done, in words; nullopt if it is not on probation.
+  [[nodiscard]] std::optional<std::string> Answer(const Fault& fault);
+  [[nodiscard]] std::size_t size() const noexcept { return waiting_.size(); }
+
+ private:
+  struct Waiting {
+    Replaced replaced;
+    std::uint64_t until_cycle = 0;
+  };
+
+  [[nodiscard]] FrameworkElement* Successor(const Waiting& waiting);
+  [[nodiscard]] bool HasProved(const Waiting& waiting);
+  Result<UnlistedElement> PutBack(Waiting waiting);
+
+  Runtime& runtime_;
+  Scheduler& scheduler_;
+  const Duration patience_;
+  std::vector<Waiting> waiting_;
+};
+
+}  // namespace runnel::internal

@@ -1,0 +1,257 @@
+#include "plugins/structure/projection.h"
+
+#include <algorithm>
+
+#include "core/base/nearest_name.h"
+#include "core/element/element_path.h"
+
+namespace runnel::internal {
+
+namespace {
+
+bool Fits(const Port& port, Projection::End end) {
+  return port.is_proxy() ||
+         (port.direction() == Port::Direction::kOutput) == (end == Projection::End::kSends);
+}
+
+// The ports of a module, whatever groups they are in.
+std::vector<Port*> PortsOf(const FrameworkElement& module) {
+  std::vector<Port*> ports;
+  for (const FrameworkElement* group : module.children()) {
+    if (group->kind() != ElementKind::kPortGroup) continue;
+    for (FrameworkElement* each : group->children()) {
+      if (auto* const port = dynamic_cast<Port*>(each)) ports.push_back(port);
+    }
+  }
+  return ports;
+}
+
+Error NoPort(const FrameworkElement& module, std::string_view name, Projection::End end) {
+  std::vector<std::string> names;
+  for (const Port* port : PortsOf(module)) {
+    if (Fits(*port, end)) names.push_back(port->name());
+  }
+  const char* const kind = end == Projection::End::kSends ? "output" : "input";
+  return {.message = "no " + std::string(kind) + " '" + std::string(name) + "' in " + module.path(),
+          .path = module.path(),
+          .hint = NearestNameHint(name, names)};
+}
+
+}  // namespace
+
+bool Projection::IsGone(const FrameworkElement& element) const {
+  return std::ranges::any_of(removed_,
+                             [&](const auto* gone) { return element.IsAtOrBelow(*gone); });
+}
+
+FrameworkElement* Projection::Child(const FrameworkElement& parent, std::string_view name) const {
+  for (FrameworkElement* each : added_) {
+    if (each->parent() == &parent && each->name() == name && !IsGone(*each)) return each;
+  }
+  FrameworkElement* const child = parent.FindChild(name);
+  return child != nullptr && !IsGone(*child) ? child : nullptr;
+}
+
+std::vector<std::string> Projection::NamesIn(const FrameworkElement& parent) const {
+  std::vector<std::string> names;
+  for (const FrameworkElement* each : parent.children()) {
+    if (!IsGone(*each)) names.push_back(each->name());
+  }
+  for (const FrameworkElement* each : added_) {
+    if (each->parent() == &parent && !IsGone(*each)) names.push_back(each->name());
+  }
+  return names;
+}
+
+Result<FrameworkElement*> Projection::Follow(FrameworkElement& start, std::string_view path) const {
+  FrameworkElement* at = &start;
+  for (const std::string_view part : SplitPath(path)) {
+    FrameworkElement* const next = Child(*at, part);
+    if (next == nullptr) {
+      return Error{.message = "no '" + std::string(part) + "' in " + at->path(),
+                   .path = std::string(path),
+                   .hint = NearestNameHint(part, NamesIn(*at))};
+    }
+    at = next;
+  }
+  return at;
+}
+
+// Groups at the top are applications, but for the one that holds the threads.
+FrameworkElement* Projection::OnlyApplication() const {
+  FrameworkElement* only = nullptr;
+  for (FrameworkElement* each : runtime_.root().children()) {
+    if (each->kind() != ElementKind::kGroup || each->name() == "threads" || IsGone(*each)) continue;
+    if (only != nullptr) return nullptr;
+    only = each;
+  }
+  return only;
+}
+
+Result<FrameworkElement*> Projection::Find(std::string_view path) const {
+  auto found = Follow(runtime_.root(), path);
+  if (found) return found;
+  FrameworkElement* const application = OnlyApplication();
+  if (application == nullptr || path.empty()) return found;
+  auto below = Follow(*application, path);
+  // A path that begins with the application's name is meant from the root.
+  const auto parts = SplitPath(path);
+  const bool is_from_root = !parts.empty() && Child(runtime_.root(), parts.front()) != nullptr;
+  return below || !is_from_root ? below : found;
+}
+
+Result<Placement> Projection::PlaceFor(std::string_view path) const {
+  const std::size_t slash = path.find_last_of('/');
+  const std::string name(slash == std::string_view::npos ? path : path.substr(slash + 1));
+  if (auto good = CheckElementName(name); !good) {
+    Error error = good.error();
+    error.path = std::string(path);
+    return error;
+  }
+  FrameworkElement* parent = nullptr;
+  if (slash == std::string_view::npos || slash == 0) {
+    parent = OnlyApplication() != nullptr ? OnlyApplication() : &runtime_.root();
+  } else {
+    const auto found = Find(path.substr(0, slash));
+    if (!found) return found.error();
+    parent = *found;
+  }
+  if (parent->kind() != ElementKind::kGroup && parent->kind() != ElementKind::kRuntime) {
+    return Error{.message = parent->path() + " is not a group, and nothing can be made in it",
+                 .path = std::string(path)};
+  }
+  if (Child(*parent, name) != nullptr) {
+    return Error{.message = "there is already an element called '" + name + "'",
+                 .path = parent->path(),
+                 .hint = "choose another name"};
+  }
+  return Placement{*parent, name, false};
+}
+
+Result<Port*> Projection::FindPort(std::string_view path, End end) const {
+  const auto found = Find(path);
+  if (found) {
+    if (auto* const port = dynamic_cast<Port*>(*found)) return port;
+    return Error{.message = (*found)->path() + " is not a port", .path = (*found)->path()};
+  }
+  const std::size_t slash = path.find_last_of('/');
+  if (slash == std::string_view::npos || slash == 0) return found.error();
+  const auto module = Find(path.substr(0, slash));
+  if (!module || (*module)->kind() != ElementKind::kModule) return found.error();
+  const std::string_view name = path.substr(slash + 1);
+  std::vector<Port*> ports = PortsOf(**module);
+  std::erase_if(ports, [&](const Port* port) { return port->name() != name; });
+  // If none suits, connecting says why not.
+  std::ranges::stable_partition(ports, [&](const Port* port) { return Fits(*port, end); });
+  if (ports.empty()) return NoPort(**module, name, end);
+  if (ports.size() > 1 && Fits(*ports[1], end)) {
+    return Error{.message = std::string(path) + " names more than one port",
+                 .path = (*module)->path(),
+                 .hint = "write " + ports[0]->path() + " or " + ports[1]->path()};
+  }
+  return ports[0];
+}
+
+void Projection::Add(FrameworkElement& element) { added_.push_back(&element); }
+
+void Projection::Remove(FrameworkElement& element) {
+  removed_.push_back(&element);
+  std::erase_if(connected_, [&](const Edge& edge) {
+    return edge.first->IsAtOrBelow(element) || edge.second->IsAtOrBelow(element);
+  });
+}
+
+void Projection::Replace(FrameworkElement& gone, FrameworkElement& element,
+                         const std::vector<std::pair<Port*, Port*>>& ports) {
+  for (const auto& [before, after] : ports) {
+    replaced_[before] = after;
+    for (auto* edges : {&connected_, &disconnected_}) {
+      for (Edge& edge : *edges) {
+        if (edge.first == before) edge.first = after;
+        if (edge.second == before) edge.second = after;
+      }
+    }
+  }
+  removed_.push_back(&gone);
+  Add(element);
+}
+
+Port& Projection::NowFor(Port& port) const {
+  Port* now = &port;
+  for (auto found = replaced_.find(now); found != replaced_.end(); found = replaced_.find(now)) {
+    now = found->second;
+  }
+  return *now;
+}
+
+std::vector<Port*> Projection::Targets(const Port& from) const {
+  std::vector<Port*> targets;
+  const auto add_outgoing = [&](const Port& port) {
+    for (const Connection& each : port.outgoing()) {
+      Port& now = NowFor(*each.to);
+      if (!IsGone(now)) targets.push_back(&now);
+    }
+  };
+  add_outgoing(from);
+  for (const auto& [before, after] : replaced_) {
+    if (&NowFor(*after) == &from) add_outgoing(*before);
+  }
+  std::erase_if(targets, [&](Port* to) {
+    return std::ranges::any_of(
+        disconnected_, [&](const Edge& edge) { return edge.first == &from && edge.second == to; });
+  });
+  for (const Edge& edge : connected_) {
+    if (edge.first == &from) targets.push_back(edge.second);
+  }
+  return targets;
+}
+
+bool Projection::Reaches(const Port& from, const Port& to) const {
+  if (&from == &to) return true;
+  return std::ranges::any_of(Targets(from), [&](const Port* next) {
+    return next == &to || (next->is_proxy() && Reaches(*next, to));
+  });
+}
+
+Result<void> Projection::Connect(Port& from, Port& to) {
+  if (auto ends = Port::CheckEnds(from, to); !ends) return ends;
+  if (std::ranges::count(Targets(from), &to) > 0) {
+    return Error{.message = "is connected to " + to.path() + " already", .path = from.path()};
+  }
+  if (from.is_proxy() && to.is_proxy() && Reaches(to, from)) {
+    return Error{
+        .message = "connecting to " + to.path() + " would close a circle of interface ports",
+        .path = from.path()};
+  }
+  connected_.push_back({&from, &to});
+  return {};
+}
+
+Result<void> Projection::Disconnect(Port& from, Port& to) {
+  if (std::ranges::count(Targets(from), &to) == 0) {
+    std::vector<std::string> names;
+    for (const Port* each : Targets(from)) names.push_back(each->path());
+    return Error{.message = "is not connected to " + to.path(),
+                 .path = from.path(),
+                 .hint = names.empty() ? "it is not connected to anything"
+                                       : NearestNameHint(to.path(), names)};
+  }
+  if (std::erase(connected_, Edge{&from, &to}) == 0) disconnected_.push_back({&from, &to});
+  return {};
+}
+
+bool Projection::HasSource(const Port& port) const {
+  const auto feeds = [&](const std::vector<Port*>& sources) {
+    return std::ranges::any_of(sources, [&](Port* source) {
+      const Port& now = NowFor(*source);
+      return !IsGone(now) && std::ranges::count(Targets(now), &port) > 0;
+    });
+  };
+  if (feeds(port.incoming())) return true;
+  for (const auto& [before, after] : replaced_) {
+    if (&NowFor(*after) == &port && feeds(before->incoming())) return true;
+  }
+  return std::ranges::any_of(connected_, [&](const Edge& edge) { return edge.second == &port; });
+}
+
+}  // namespace runnel::internal

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/element/runtime.h"
+#include "core/port/port.h"
+
+namespace runnel::internal {
+
+/// The structure as it will be when the changes so far have been made: what is still beside the tree is
+/// found in its place, what will go is not found. Nothing is changed.
+///
+/// Threads:  under the structure lock.
+class Projection {
+ public:
+  explicit Projection(Runtime& runtime) : runtime_(runtime) {}
+
+  /// The element at `path`. Errors: which part is not there, and the nearest name.
+  Result<FrameworkElement*> Find(std::string_view path) const;
+  /// Where an element called by the last part of `path` would go. Errors: a bad or taken name, no
+  /// parent.
+  Result<Placement> PlaceFor(std::string_view path) const;
+  /// The port at `path`, in which the port's group may be left out.
+  enum class End { kSends, kReceives };
+  Result<Port*> FindPort(std::string_view path, End end) const;
+
+  void Add(FrameworkElement& element);
+  void Remove(FrameworkElement& element);
+  /// `element` stands in the place of `gone` from now on, and its ports in that of the others.
+  void Replace(FrameworkElement& gone, FrameworkElement& element,
+               const std::vector<std::pair<Port*, Port*>>& ports);
+
+  /// Errors: what Port::Connect() and Disconnect() would say.
+  Result<void> Connect(Port& from, Port& to);
+  Result<void> Disconnect(Port& from, Port& to);
+
+  [[nodiscard]] bool HasSource(const Port& port) const;
+  [[nodiscard]] bool IsConnected(const Port& port) const {
+    return HasSource(port) || !Targets(port).empty();
+  }
+
+ private:
+  using Edge = std::pair<Port*, Port*>;
+
+  [[nodiscard]] FrameworkElement* Child(const FrameworkElement& parent,
+                                        std::string_view name) const;
+  [[nodiscard]] std::vector<std::string> NamesIn(const FrameworkElement& parent) const;
+  [[nodiscard]] bool IsGone(const FrameworkElement& element) const;
+  Result<FrameworkElement*> Follow(FrameworkElement& start, std::string_view path) const;
+  [[nodiscard]] FrameworkElement* OnlyApplication() const;
+  [[nodiscard]] std::vector<Port*> Targets(const Port& from) const;
+  [[nodiscard]] Port& NowFor(Port& port) const;
+  [[nodiscard]] bool Reaches(const Port& from, const Port& to) const;
+
+  Runtime& runtime_;
+  std::vector<FrameworkElement*> added_;
+  std::vector<FrameworkElement*> removed_;
+  std::map<const Port*, Port*> replaced_;  // a port, and that which stands in its place
+  std::vector<Edge> connected_;
+  std::vector<Edge> disconnected_;
+};
+
+}  // namespace runnel::internal

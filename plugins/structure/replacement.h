@@ -1,0 +1,33 @@
+#pragma once
+
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/element/framework_element.h"
+#include "core/port/port.h"
+#include "plugins/structure/change.h"
+
+namespace runnel::internal {
+
+/// The parameter `name` of a module is set to the value. Errors: no such parameter, with the nearest
+/// name; a value it refuses.
+Result<void> Configure(FrameworkElement& module, const Setting& setting);
+
+/// Gives `after` the values that parameters of the same name have in `before`, if they are not the default
+/// ones. Errors: a value that is refused.
+Result<void> CopySettings(const FrameworkElement& before, FrameworkElement& after);
+
+/// The ports of a module, each with that which takes over from it.
+struct PortMatch {
+  std::vector<std::pair<Port*, Port*>> ports;
+  std::vector<Error> errors;  ///< what is connected and has no counterpart, with the nearest name
+};
+[[nodiscard]] PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after,
+                                   const std::function<bool(const Port&)>& is_connected);
+
+/// Copies the kept states. Neither module runs. Errors: what copying throws.
+Result<void> CopyState(const FrameworkElement& before, FrameworkElement& after);
+
+}  // namespace runnel::internal

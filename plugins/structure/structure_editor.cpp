@@ -1,0 +1,127 @@
+#include "plugins/structure/structure_editor.h"
+
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "core/base/check.h"
+#include "core/lockfree/thread_epoch.h"
+#include "plugins/structure/plan.h"
+#include "plugins/structure/probation.h"
+
+namespace runnel {
+
+namespace {
+
+// How often others may change the structure between checking and carrying out before it is given up.
+constexpr int kAttempts = 100;
+
+void Append(std::vector<UnlistedElement>& to, std::vector<UnlistedElement> from) {
+  for (UnlistedElement& each : from) to.push_back(std::move(each));
+}
+
+}  // namespace
+
+// Shared with the scheduler's fault handler, so that a fault that is just being answered when the editor
+// goes still finds it.
+struct StructureEditor::Shared {
+  OrderedMutex mutex{LockLevel::kEditor};
+  std::optional<internal::Probation> probation;  // guarded by mutex; none without a scheduler
+};
+
+StructureEditor::StructureEditor(Runtime& runtime, const ModuleRegistry& modules,
+                                 Scheduler* scheduler, EditorOptions options)
+    : runtime_(runtime),
+      modules_(modules),
+      scheduler_(scheduler),
+      options_(options),
+      shared_(std::make_shared<Shared>()) {
+  if (scheduler_ == nullptr) return;
+  shared_->probation.emplace(runtime_, *scheduler_, options_.patience);
+  scheduler_->SetFaultHandler([shared = shared_](const Fault& fault) {
+    const std::lock_guard lock(shared->mutex);
+    return shared->probation->Answer(fault);
+  });
+}
+
+StructureEditor::~StructureEditor() {
+  if (scheduler_ == nullptr) return;
+  scheduler_->SetFaultHandler({});
+  const std::lock_guard lock(shared_->mutex);
+  runtime_.Destroy(shared_->probation->TakeAll());
+}
+
+std::size_t StructureEditor::on_probation() const {
+  const std::lock_guard lock(shared_->mutex);
+  return shared_->probation ? shared_->probation->size() : 0;
+}
+
+void StructureEditor::Tend() {
+  const std::lock_guard lock(shared_->mutex);
+  if (shared_->probation) runtime_.Destroy(shared_->probation->TakeProved());
+}
+
+ChangeOutcome StructureEditor::Apply(const ChangeSet& changes) {
+  RUNNEL_CHECK(!EpochGuard::HeldByThisThread() && !runtime_.structure_mutex().HeldByThisThread(),
+               "the structure cannot be changed by an editor from within a cycle, nor under the "
+               "structure lock");
+  const std::lock_guard lock(shared_->mutex);
+  ChangeOutcome outcome;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    outcome = {};
+    if (Try(changes, outcome) != Attempt::kOvertaken) return outcome;
+  }
+  outcome.diagnostics.Add({.message = "others change the structure all the time; gave up after " +
+                                      std::to_string(kAttempts) + " attempts"});
+  return outcome;
+}
+
+StructureEditor::Attempt StructureEditor::Try(const ChangeSet& changes, ChangeOutcome& outcome) {
+  internal::Plan plan(runtime_, modules_);
+  std::uint64_t revision = 0;
+  {
+    const std::lock_guard lock(runtime_.structure_mutex());
+    plan.Make(changes, outcome.diagnostics);
+    revision = runtime_.revision();
+  }
+  if (!outcome.diagnostics.ok()) return Attempt::kFailed;
+  std::optional<CycleHold> hold;
+  if (scheduler_ != nullptr) {
+    auto held = scheduler_->HoldCycles(plan.concerned(), options_.patience);
+    if (!held) {
+      outcome.diagnostics.Add(held.error());
+      return Attempt::kFailed;
+    }
+    hold = std::move(*held);
+  }
+  {
+    // Threads are not kept waiting for somebody who holds the lock.
+    std::unique_lock lock(runtime_.structure_mutex(), std::try_to_lock);
+    if (!lock.owns_lock()) {
+      hold.reset();
+      lock.lock();
+      return Attempt::kOvertaken;
+    }
+    if (runtime_.revision() != revision) return Attempt::kOvertaken;
+    if (auto carried = plan.Carry(); !carried) {
+      outcome.diagnostics.Add(carried.error());
+      return Attempt::kFailed;
+    }
+  }
+  outcome.is_done = true;
+  if (hold) {
+    outcome.stood_still = SteadyClock().Now() - hold->began();
+    hold->Release();
+  }
+  std::vector<UnlistedElement> gone = std::move(plan.removed());
+  if (shared_->probation) {
+    Append(gone, shared_->probation->TakeProved());
+    Append(gone, shared_->probation->Add(std::move(plan.replaced())));
+  } else {
+    for (auto& each : plan.replaced()) gone.push_back(std::move(each.before));
+  }
+  runtime_.Destroy(std::move(gone));
+  return Attempt::kDone;
+}
+
+}  // namespace runnel

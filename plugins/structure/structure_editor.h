@@ -1,0 +1,68 @@
+#pragma once
+
+#include <memory>
+
+#include "core/base/clock.h"
+#include "core/base/diagnostics.h"
+#include "core/element/runtime.h"
+#include "core/plugin/module_registry.h"
+#include "plugins/scheduling/scheduler.h"
+#include "plugins/structure/change.h"
+
+namespace runnel {
+
+/// What has become of a change set.
+struct ChangeOutcome {
+  bool is_done = false;     ///< else nothing has changed
+  Diagnostics diagnostics;  ///< why not; warnings also of what has been done
+  Duration stood_still{};   ///< how long the threads concerned have been kept between two cycles
+
+  explicit operator bool() const noexcept { return is_done; }
+};
+
+struct EditorOptions {
+  /// How long to wait for threads to come to the end of their cycles before giving up.
+  Duration patience = std::chrono::seconds(5);
+};
+
+/// Changes the structure of a running application. A change set is checked as a whole and what is new is
+/// made, configured and prepared beside the tree, while everything runs; then the threads concerned are
+/// kept between two of their cycles for as long as it takes to put the new in its place. If anything is
+/// wrong, nothing has happened.
+///
+/// Ownership:  runtime, registry and scheduler must outlive it.
+/// Threads:    any, but not from within a cycle, nor under the structure lock. Change sets of several
+///             threads take effect one after the other.
+/// Allocation: yes. Cycles allocate nothing for it.
+/// Errors:     in the outcome, all of them at once.
+class StructureEditor {
+ public:
+  /// Without a scheduler nobody may run the modules concerned while a change set is applied.
+  StructureEditor(Runtime& runtime, const ModuleRegistry& modules, Scheduler* scheduler,
+                  EditorOptions options = {});
+  ~StructureEditor();
+  StructureEditor(const StructureEditor&) = delete;
+  StructureEditor& operator=(const StructureEditor&) = delete;
+
+  ChangeOutcome Apply(const ChangeSet& changes);
+
+  /// Lets go of replaced modules whose successors have proved themselves. Apply() does it too; call it
+  /// now and then to have their memory back earlier.
+  void Tend();
+  /// How many replaced modules still wait for their successors to prove themselves.
+  [[nodiscard]] std::size_t on_probation() const;
+
+ private:
+  struct Shared;
+  enum class Attempt { kDone, kFailed, kOvertaken };
+
+  Attempt Try(const ChangeSet& changes, ChangeOutcome& outcome);
+
+  Runtime& runtime_;
+  const ModuleRegistry& modules_;
+  Scheduler* const scheduler_;
+  const EditorOptions options_;
+  const std::shared_ptr<Shared> shared_;
+};
+
+}  // namespace runnel
