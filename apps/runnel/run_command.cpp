@@ -17,6 +17,8 @@
 #include "apps/runnel/workplace.h"
 #include "plugins/runtime_construction/source_place.h"
 #include "plugins/scheduling/xml_scheduling_tags.h"
+#include "plugins/structure/structure_editor.h"
+#include "plugins/supervision/xml_supervision_tags.h"
 
 namespace runnel::program {
 
@@ -50,6 +52,20 @@ Result<void> AddFaultRules(const FrameworkElement& application, Scheduler& sched
   return {};
 }
 
+// What is done about faults and silence while the application runs.
+struct Supervision {
+  Supervision(Runtime& runtime, const ModuleRegistry& modules, Scheduler& scheduler)
+      : editor(runtime, modules, &scheduler),
+        supervisor(runtime, scheduler, [this](const ChangeSet& changes) -> Result<void> {
+          const ChangeOutcome outcome = editor.Apply(changes);
+          if (!outcome) return outcome.diagnostics.errors().front();
+          return {};
+        }) {}
+
+  StructureEditor editor;
+  Supervisor supervisor;
+};
+
 void PrintWarnings(std::vector<Error> warnings, FrameworkElement& root) {
   const std::lock_guard lock(root.runtime().structure_mutex());
   Diagnostics diagnostics;
@@ -77,9 +93,11 @@ void PrintTimes(Duration so_far, std::chrono::steady_clock::duration real, Clock
 // One run of an application that has been built.
 class Session {
  public:
-  Session(const RunArguments& arguments, FrameworkElement& application, Scheduler& scheduler)
+  Session(const RunArguments& arguments, FrameworkElement& application, Scheduler& scheduler,
+          Supervisor& supervisor)
       : arguments_(arguments),
         scheduler_(scheduler),
+        supervisor_(supervisor),
         root_(application.runtime().root()),
         start_(application.runtime().clock().Now()),
         report_(application),
@@ -124,6 +142,10 @@ class Session {
       display_.Clear();
       std::cerr << FaultText(fault, start_, root_) << std::flush;
     }
+    for (const Notice& notice : supervisor_.TakeNotices()) {
+      display_.Clear();
+      std::cerr << NoticeText(notice, start_, root_) << std::flush;
+    }
   }
 
   ExitCode Conclude(Duration so_far, std::chrono::steady_clock::duration real, bool was_asked) {
@@ -148,6 +170,7 @@ class Session {
 
   const RunArguments& arguments_;
   Scheduler& scheduler_;
+  Supervisor& supervisor_;
   FrameworkElement& root_;
   const Time start_;
   RunReport report_;
@@ -160,16 +183,20 @@ class Session {
 ExitCode Run(const RunArguments& arguments) {
   Workplace workplace;
   std::optional<Scheduler> scheduler;
+  std::optional<Supervision> supervision;
   // Before modules become ready, so that they see the right clock from the start.
   const auto schedule = [&](FrameworkElement& application) -> Result<void> {
     const auto options = ChooseOptions(arguments, application);
     if (!options) return options.error();
     scheduler.emplace(workplace.runtime(), *options);
-    return AddFaultRules(application, *scheduler);
+    supervision.emplace(workplace.runtime(), workplace.plugins().modules(), *scheduler);
+    if (auto added = AddFaultRules(application, *scheduler); !added) return added;
+    return AddSupervisionRules(application, supervision->supervisor);
   };
   const BuildOutcome outcome = workplace.Build(arguments.application, BuildMode::kRun, schedule);
   if (outcome.application == nullptr) return ExitCode::kBadInput;
-  return Session(arguments, *outcome.application, *scheduler).Run(workplace.runtime());
+  return Session(arguments, *outcome.application, *scheduler, supervision->supervisor)
+      .Run(workplace.runtime());
 }
 
 }  // namespace runnel::program

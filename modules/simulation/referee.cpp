@@ -187,7 +187,7 @@ void Referee::RecordPoints() {
 }
 
 Verdict Referee::Judge(const Pose2& at, const Point2& there) const {
-  if (touched_) return Verdict::kCollision;
+  if (touched_ && touch_is_collision.Get()) return Verdict::kCollision;
   if (planner_.mode == PlannerMode::kUnreachable) return Verdict::kUnreachable;
   if (planner_.mode == PlannerMode::kReached) {
     const bool is_there = Distance(Position(at), there) <= goal_tolerance.Get();

@@ -75,6 +75,12 @@ class Referee final : public Module {
       this,
       "expected",
       {.default_value = Expectation::kEither, .description = "which verdicts count as a success"}};
+  StaticParameter<bool> touch_is_collision{
+      this,
+      "touch_is_collision",
+      {.default_value = true,
+       .description =
+           "whether touching something ends the run; not so for a robot that feels its way"}};
   StaticParameter<FilePath> picture{
       this, "picture", {.description = "the SVG file to draw the path into; empty for none"}};
   StaticParameter<FilePath> result{
