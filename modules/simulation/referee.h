@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/lockfree/latest_value.h"
@@ -40,7 +42,7 @@ inline void Describe(TypeBuilder<Expectation>& type) {
 
 /// Watches the robot as it really moves and the planner as it speaks, and judges: reached,
 /// unreachable, timeout, collision. Measures path and time, and draws the path into a picture of
-/// the world when the run is over. Runs in the thread of the world, or it may miss a short touch.
+/// the world and writes the result into a file when the run is over. Runs in the thread of the world, or it may miss a short touch.
 class Referee final : public Module {
  public:
   explicit Referee(const Placement& placement);
@@ -70,6 +72,15 @@ class Referee final : public Module {
       {.default_value = Expectation::kEither, .description = "which verdicts count as a success"}};
   StaticParameter<FilePath> picture{
       this, "picture", {.description = "the SVG file to draw the path into; empty for none"}};
+  StaticParameter<FilePath> result{
+      this, "result", {.description = "the JSON file to write the result into; empty for none"}};
+  StaticParameter<double> path_step{
+      this,
+      "path_step",
+      {.default_value = 0.1,
+       .bounds = {0.0, 1000.0},
+       .unit = "m",
+       .description = "from one point to the next of the path in the result"}};
 
  private:
   class Monitor;
@@ -92,7 +103,11 @@ class Referee final : public Module {
   [[nodiscard]] Verdict Judge(const Pose2& at, const Point2& there) const;
   [[nodiscard]] Standing LastStanding() const;
   [[nodiscard]] bool IsSuccess(Verdict verdict) const;
+  [[nodiscard]] Result<void> CheckFolder(const StaticParameter<FilePath>& file,
+                                         std::string_view what) const;
+  [[nodiscard]] Result<std::string> Finish() const;
   [[nodiscard]] Result<std::string> DrawPicture() const;
+  [[nodiscard]] Result<std::string> WriteResult() const;
 
   PlannerStatus planner_;
   bool touched_ = false;
@@ -101,6 +116,7 @@ class Referee final : public Module {
   std::vector<Point2> leave_points_;
   std::optional<Pose2> end_;
   std::optional<Time> begin_;
+  std::uint64_t cycles_ = 0;
   Standing standing_;
   LatestValue<Standing> shown_;
 };

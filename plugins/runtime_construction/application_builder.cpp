@@ -1,11 +1,15 @@
 #include "plugins/runtime_construction/application_builder.h"
 
 #include <algorithm>
+#include <memory>
 #include <mutex>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "core/base/nearest_name.h"
 #include "plugins/runtime_construction/application_reader.h"
+#include "plugins/runtime_construction/application_source.h"
 #include "plugins/runtime_construction/required_inputs.h"
 #include "plugins/runtime_construction/source_place.h"
 
@@ -50,6 +54,12 @@ void MakeReady(FrameworkElement& application, const BuildTools& tools, BuildCont
   context.Report(ready.error(), FindSourcePlace(at), at);
 }
 
+// The text that the application came from, if it came from a file.
+struct SourceText {
+  std::filesystem::path file;
+  std::string text;
+};
+
 FrameworkElement* Build(XmlElement root, const BuildTools& tools, BuildContext& context,
                         BuildMode mode, Diagnostics& diagnostics) {
   FrameworkElement* const application = ApplicationReader(context).Read(root);
@@ -60,15 +70,24 @@ FrameworkElement* Build(XmlElement root, const BuildTools& tools, BuildContext& 
   return application;
 }
 
-}  // namespace
+void KeepSource(FrameworkElement& application, SourceText text, BuildContext& context) {
+  auto source = std::make_unique<ApplicationSource>();
+  source->file = std::move(text.file);
+  source->text = std::move(text.text);
+  source->values = context.TakeValues();
+  application.Annotate(std::move(source));
+}
 
-BuildOutcome BuildApplication(const XmlDocument& document, const std::filesystem::path& folder,
-                              const BuildTools& tools, BuildMode mode) {
+BuildOutcome BuildFrom(const XmlDocument& document, const std::filesystem::path& folder,
+                       std::optional<SourceText> text, const BuildTools& tools, BuildMode mode) {
   BuildOutcome outcome;
   BuildContext context(tools, folder, outcome.diagnostics);
   {
     const std::lock_guard lock(tools.runtime.structure_mutex());
     outcome.application = Build(document.root(), tools, context, mode, outcome.diagnostics);
+    if (outcome.application != nullptr && text) {
+      KeepSource(*outcome.application, std::move(*text), context);
+    }
   }
   if (outcome.application == nullptr) return outcome;
   if (!outcome.diagnostics.ok() || mode == BuildMode::kCheck) {
@@ -79,15 +98,27 @@ BuildOutcome BuildApplication(const XmlDocument& document, const std::filesystem
   return outcome;
 }
 
+}  // namespace
+
+BuildOutcome BuildApplication(const XmlDocument& document, const std::filesystem::path& folder,
+                              const BuildTools& tools, BuildMode mode) {
+  return BuildFrom(document, folder, std::nullopt, tools, mode);
+}
+
 BuildOutcome BuildApplication(const std::filesystem::path& file, const BuildTools& tools,
                               BuildMode mode) {
-  const auto document = XmlDocument::Load(file);
-  if (!document) {
-    BuildOutcome outcome;
-    outcome.diagnostics.Add(document.error());
-    return outcome;
+  BuildOutcome failed;
+  auto text = XmlDocument::ReadText(file);
+  if (!text) {
+    failed.diagnostics.Add(text.error());
+    return failed;
   }
-  return BuildApplication(*document, file.parent_path(), tools, mode);
+  const auto document = XmlDocument::Parse(*text, file.string());
+  if (!document) {
+    failed.diagnostics.Add(document.error());
+    return failed;
+  }
+  return BuildFrom(*document, file.parent_path(), SourceText{file, std::move(*text)}, tools, mode);
 }
 
 }  // namespace runnel

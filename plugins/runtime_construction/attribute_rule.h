@@ -29,6 +29,9 @@ struct AttributeRule {
   bool required = false;
   std::string summary = {};  ///< one line, told to those who have left out what is required
   std::vector<std::string> choices = {};
+  /// Paths in it lead to elements of the tree: a tag whose path leads nowhere any more means
+  /// nothing, and is left out when the application is saved.
+  bool names_element = false;
 };
 
 /// Whether `value` may stand in the attribute; the error says what may.

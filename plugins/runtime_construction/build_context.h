@@ -97,6 +97,12 @@ class BuildContext {
     return stand_ins_.emplace_back(std::move(stand_in));
   }
 
+  /// What the parameters of the file came to, by path.
+  void NoteValue(const std::string& path, std::string text) { values_[path] = std::move(text); }
+  [[nodiscard]] std::map<std::string, std::string, std::less<>> TakeValues() {
+    return std::move(values_);
+  }
+
   /// Something meant for `element` failed with an error: unconnected inputs in it are no news.
   void Excuse(const FrameworkElement& element) { excused_.push_back(&element); }
   [[nodiscard]] const std::vector<const FrameworkElement*>& excused() const noexcept {
@@ -125,6 +131,7 @@ class BuildContext {
   std::set<const FrameworkElement*> faulty_;
   std::vector<const FrameworkElement*> excused_;
   std::list<XmlAttribute> stand_ins_;
+  std::map<std::string, std::string, std::less<>> values_;
   bool plugin_is_missing_ = false;
 };
 

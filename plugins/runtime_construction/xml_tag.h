@@ -40,6 +40,14 @@ struct TagUse {
   [[nodiscard]] std::string path() const;
 };
 
+/// An attribute as a saved file should have it.
+struct SavedAttribute {
+  std::string name;
+  std::string value;
+  bool is_default = false;  ///< a file that leaves it out says the same
+};
+using SavedTag = std::vector<SavedAttribute>;
+
 /// A word of the language of application files. Plugins add their own:
 ///
 ///     if (auto* tags = registry.Find<XmlTagRegistry>()) {
@@ -60,6 +68,10 @@ struct XmlTag {
   /// Called instead if the attributes are wrong, which has been reported: so that no other errors
   /// come of it. What is there is in use.xml, unchecked.
   std::function<void(const TagUse& use)> salvage = {};
+  /// For those that make what comes and goes while the application lives: all tags of this name that
+  /// a file needs directly in `parent` to get what is there now. Without, a file that is saved keeps
+  /// the tags that it has.
+  std::function<std::vector<SavedTag>(FrameworkElement& parent)> saved = {};
   std::string plugin = {};  ///< that added it; filled in by the registry
 };
 
@@ -71,6 +83,8 @@ struct AddedAttribute {
   std::function<void(const XmlAttribute& attribute, FrameworkElement& element,
                      BuildContext& context)>
       handle;
+  /// The value that a saved file needs to get what `element` has now; "" if none.
+  std::function<std::string(FrameworkElement& element)> saved = {};
   std::string plugin = {};
 };
 

@@ -139,13 +139,14 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   void FollowChanges();
   bool RunNext(Time due);
 
-  // All six under the structure lock.
+  // All five under the structure lock.
   // Whether a cycle may begin at any time.
   [[nodiscard]] bool is_live() const noexcept { return is_running_ || has_stepped_; }
-  void MarkOutdated() noexcept;
+  [[nodiscard]] bool is_up_to_date() const noexcept {
+    return !compiler_.needs_all() && !compiler_.has_changes();
+  }
   void Changed();
   void BringUpToDate();
-  void Install(CompiledSchedules compiled);
   void StartThreads(Time first);
 
   void Supervise();
@@ -163,12 +164,11 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   OrderedMutex start_mutex_{LockLevel::kScheduler};
   // Guarded by the structure lock, down to the next comment:
   ScheduleCompiler compiler_;
-  bool is_outdated_ = true;
+  bool has_other_runners_ = true;  // than threads or lanes have been made for
   bool is_running_ = false;
   bool has_stepped_ = false;
   bool has_run_ = false;  // until started again
   Runners runners_;
-  std::vector<Error> schedule_warnings_;
   std::vector<Error> realtime_warnings_;
   std::vector<std::unique_ptr<RealThread>> threads_;
   std::vector<std::unique_ptr<RealThread>> ending_;  // their containers are gone

@@ -85,20 +85,24 @@ void UnassignThread(FrameworkElement& element) {
   });
 }
 
-ThreadContainer* OwnThread(const FrameworkElement& element) {
-  const auto* const found = element.FindAnnotation<ThreadAssignment>();
+ThreadContainer* OwnThreadContainer(const FrameworkElement& element) {
+  const std::uint64_t own = OwnThread(element);
   FrameworkElement* const threads = element.runtime().root().FindChild("threads");
-  if (found == nullptr || threads == nullptr) return nullptr;
+  if (own == 0 || threads == nullptr) return nullptr;
   for (FrameworkElement* each : threads->children()) {
-    if (each->serial() == found->serial) return dynamic_cast<ThreadContainer*>(each);
+    if (each->serial() == own) return dynamic_cast<ThreadContainer*>(each);
   }
   return nullptr;
 }
 
+std::uint64_t OwnThread(const FrameworkElement& element) {
+  const auto* const found = element.FindAnnotation<ThreadAssignment>();
+  return found != nullptr ? found->serial : 0;
+}
+
 std::uint64_t AssignedThread(const FrameworkElement& element) {
   for (const FrameworkElement* at = &element; at != nullptr; at = at->parent()) {
-    const auto* const found = at->FindAnnotation<ThreadAssignment>();
-    if (found != nullptr && found->serial != kNoThread) return found->serial;
+    if (const std::uint64_t own = OwnThread(*at); own != 0) return own;
   }
   return 0;
 }

@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "core/types/type_of.h"
 #include "core/xml/xml_reading.h"
 #include "plugins/runtime_construction/build_context.h"
 #include "plugins/scheduling/xml_scheduling_tags.h"
@@ -50,6 +51,17 @@ FrameworkElement* ChooseClock(const TagUse& use) {
   return &use.parent;
 }
 
+std::vector<SavedTag> SavedClock(const FrameworkElement& application) {
+  const auto* const choice = application.FindAnnotation<ClockChoice>();
+  if (choice == nullptr) return {};
+  const bool is_simulated = choice->options.clock == SchedulerOptions::ClockKind::kSimulated;
+  SavedTag tag{{"type", is_simulated ? "simulated" : "real"}};
+  if (is_simulated) {
+    tag.push_back({"speed", TextOf(choice->options.speed), choice->options.speed == 1});
+  }
+  return {tag};
+}
+
 }  // namespace
 
 SchedulerOptions SchedulerOptionsOf(const FrameworkElement& application) {
@@ -69,7 +81,8 @@ XmlTag internal::ClockTag() {
                           .kind = AttributeKind::kNumber,
                           .summary = "of simulated time, at most; 1 (which it is by default) is "
                                      "real time, 0 as fast as it can"}},
-          .handle = ChooseClock};
+          .handle = ChooseClock,
+          .saved = SavedClock};
 }
 
 }  // namespace runnel

@@ -85,13 +85,15 @@ XmlTag internal::OnFaultTag() {
           .attributes = {{.name = "of",
                           .kind = AttributeKind::kPath,
                           .required = true,
-                          .summary = "a module, or a group of which any module may fail"},
+                          .summary = "a module, or a group of which any module may fail",
+                          .names_element = true},
                          {.name = "action",
                           .kind = AttributeKind::kChoice,
                           .choices = {"stop_application"}},
                          {.name = "set",
                           .kind = AttributeKind::kPath,
-                          .summary = "a parameter that may be set at run time"},
+                          .summary = "a parameter that may be set at run time",
+                          .names_element = true},
                          {.name = "value", .summary = "what it is set to"}},
           .handle = HandleOnFault};
 }

@@ -1,3 +1,6 @@
+#include <cstdint>
+#include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -6,6 +9,7 @@
 #include "core/types/duration_text.h"
 #include "plugins/runtime_construction/build_context.h"
 #include "plugins/runtime_construction/name_check.h"
+#include "plugins/runtime_construction/not_saved.h"
 #include "plugins/runtime_construction/path_walk.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/scheduling/xml_scheduling_tags.h"
@@ -61,7 +65,10 @@ void ReadPriority(const TagUse& use, ThreadOptions& options) {
 FrameworkElement* MakeThread(const TagUse& use) {
   Runtime& runtime = use.context.runtime();
   FrameworkElement* threads = use.parent.FindChild(kThreads);
-  if (threads == nullptr) threads = &runtime.Create<Group>(use.parent, kThreads);
+  if (threads == nullptr) {
+    threads = &runtime.Create<Group>(use.parent, kThreads);
+    threads->Annotate(std::make_unique<NotSaved>());
+  }
   // Errors name the path that the thread really has.
   const TagUse inside{use.xml, *threads, use.context, use.unusable, use.stand_ins};
   ThreadOptions options;
@@ -95,6 +102,71 @@ void Assign(const XmlAttribute& name, FrameworkElement& element, BuildContext& c
                  name.value_position, element);
 }
 
+const char* ActivationName(Activation activation) {
+  switch (activation) {
+    case Activation::kFreeRunning:
+      return "free_running";
+    case Activation::kTrigger:
+      return "trigger";
+    case Activation::kPeriod:
+      break;
+  }
+  return "period";
+}
+
+SavedTag SavedThread(const ThreadContainer& thread) {
+  const ThreadOptions& options = thread.options();
+  const bool catches_up = options.on_overrun == ThreadOptions::OnOverrun::kCatchUp;
+  const bool has_period = options.activation != Activation::kTrigger;
+  SavedTag tag{{"name", thread.name()}};
+  if (has_period) {
+    tag.push_back({"period", DurationText(options.period),
+                   options.activation == Activation::kFreeRunning &&
+                       options.period == ThreadOptions{}.period});
+  }
+  tag.push_back({"activation", ActivationName(options.activation),
+                 options.activation == Activation::kPeriod});
+  tag.push_back({"priority", std::to_string(options.priority), options.priority == 0});
+  tag.push_back({"on_overrun", catches_up ? "catch_up" : "skip", !catches_up});
+  return tag;
+}
+
+// Those of the application, and those of the runtime that C++ code may have made.
+std::vector<ThreadContainer*> ReachableThreads(const FrameworkElement& application) {
+  std::vector<ThreadContainer*> threads;
+  const FrameworkElement* const owners[] = {&application, application.parent()};
+  for (const FrameworkElement* owner : owners) {
+    const FrameworkElement* const group = owner->FindChild(kThreads);
+    if (group == nullptr) continue;
+    for (FrameworkElement* child : group->children()) {
+      if (auto* thread = dynamic_cast<ThreadContainer*>(child)) threads.push_back(thread);
+    }
+  }
+  return threads;
+}
+
+std::vector<SavedTag> SavedThreads(FrameworkElement& application) {
+  std::set<std::uint64_t> used;
+  application.Visit([&](FrameworkElement& each) { used.insert(OwnThread(each)); });
+  std::vector<SavedTag> tags;
+  for (const ThreadContainer* thread : ReachableThreads(application)) {
+    if (thread->IsAtOrBelow(application) || used.contains(thread->serial())) {
+      tags.push_back(SavedThread(*thread));
+    }
+  }
+  return tags;
+}
+
+// "" also if the thread is gone, for then the assignment means nothing.
+std::string SavedAssignment(FrameworkElement& element) {
+  const std::uint64_t serial = OwnThread(element);
+  if (serial == 0) return "";
+  for (const ThreadContainer* thread : ReachableThreads(internal::ApplicationOf(element))) {
+    if (thread->serial() == serial) return thread->name();
+  }
+  return "";
+}
+
 }  // namespace
 
 XmlTag internal::ThreadTag() {
@@ -120,7 +192,8 @@ XmlTag internal::ThreadTag() {
                 .summary = "what happens to cycles that were missed: left out (by default), or run "
                            "at once",
                 .choices = {"skip", "catch_up"}}},
-          .handle = MakeThread};
+          .handle = MakeThread,
+          .saved = SavedThreads};
 }
 
 AddedAttribute internal::ThreadAttribute(std::string tag) {
@@ -128,10 +201,12 @@ AddedAttribute internal::ThreadAttribute(std::string tag) {
           .rule = {.name = "thread",
                    .kind = AttributeKind::kName,
                    .summary = "the thread that runs it and all within that names no other"},
-          .handle = [](const XmlAttribute& name, FrameworkElement& element, BuildContext& context) {
-            context.Defer(BuildStage::kConnections,
-                          [&name, &element, &context] { Assign(name, element, context); });
-          }};
+          .handle =
+              [](const XmlAttribute& name, FrameworkElement& element, BuildContext& context) {
+                context.Defer(BuildStage::kConnections,
+                              [&name, &element, &context] { Assign(name, element, context); });
+              },
+          .saved = SavedAssignment};
 }
 
 }  // namespace runnel

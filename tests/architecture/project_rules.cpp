@@ -22,6 +22,9 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/runtime_construction",
                    "plugins/runtime_construction",
                    {"core", "plugins/parameters"}});
+  rules.push_back({"plugins/application_files",
+                   "plugins/application_files",
+                   {"core", "plugins/parameters", "plugins/runtime_construction"}});
   // The tags of application files stand apart, so that scheduling itself needs no XML.
   rules.push_back(
       {"the tags of scheduling",
@@ -52,6 +55,11 @@ void AddModules(std::vector<IncludeRule>& rules) {
   for (const char* family : {"adaptors", "motion", "planning", "sensors", "simulation"}) {
     AddFamily(rules, family);
   }
+  // Worlds made and measured: no modules, and what a world is, the simulation says.
+  rules.push_back({"modules/worlds",
+                   "modules/worlds",
+                   {"modules/types/algorithm", "modules/simulation/algorithm"},
+                   true});
 }
 
 std::vector<IncludeRule> MakeProjectRules() {
@@ -59,6 +67,14 @@ std::vector<IncludeRule> MakeProjectRules() {
   AddCore(rules);
   AddPlugins(rules);
   AddModules(rules);
+  // The programs beside the main one that make worlds and compare planners in them. They run
+  // applications by starting the main program, and link no module.
+  for (const char* program : {"apps/arena", "apps/world"}) {
+    rules.push_back({program,
+                     program,
+                     {"core", "modules/types/algorithm", "modules/simulation/algorithm",
+                      "modules/simulation/world_file", "modules/worlds/algorithm"}});
+  }
   rules.push_back({"apps", "apps", {"core", "plugins"}});
   // Apart, since a benchmark of whole applications runs them as the tests do.
   rules.push_back({"tests/bench", "tests/bench", {"core", "bench"}});

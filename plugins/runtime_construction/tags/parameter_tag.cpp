@@ -88,10 +88,12 @@ void SetParameter(const TagUse& use) {
     error.path = path;
     use.context.Report(std::move(error), candidate.position, use.parent);
   }
-  if (!all_are_good || candidates.empty()) return;
+  if (!all_are_good) return;
+  if (candidates.empty()) return use.context.NoteValue(path, configurable->ToText());
   const Candidate& strongest = candidates.back();
   const auto set = configurable->SetFromText(Text(strongest, *configurable));
   if (!set) use.context.Report(set.error(), strongest.position, use.parent);
+  use.context.NoteValue(path, configurable->ToText());
 }
 
 bool IsFirstOfItsName(const TagUse& use) {

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "modules/planning/algorithm/bug2.h"
 #include "tests/support/module_rig.h"
 
 namespace runnel {
@@ -15,12 +14,13 @@ class BugPlannerTest : public testing::Test {
   /// One cycle in the open, at `pose`.
   void Step(const Pose2& pose) {
     rig.Feed(rig.module.pose, pose);
-    rig.Feed(rig.module.surroundings, Surroundings{.sensor_range = 4, .safe_distance = 0.35F});
+    rig.Feed(rig.module.surroundings,
+             Surroundings{.sensor_range = 4, .safe_distance = 0.35F, .is_measured = true});
     rig.RunCycle();
   }
   PlannerStatus status() const { return rig.Last(rig.module.status); }
 
-  test::ModuleRig<BugPlannerOf<Bug2>> rig;
+  test::ModuleRig<BugPlannerOf<VariantIndex("bug2")>> rig;
 };
 
 TEST_F(BugPlannerTest, IsSilentUntilItKnowsAll) {
@@ -43,7 +43,8 @@ TEST_F(BugPlannerTest, IsSilentWhenNobodyTellsItWhereItIs) {
   rig.Feed(rig.module.goal, {3, 0});
   Step({});
   for (int i = 0; i < 10; ++i) {  // the sensor goes on, the localisation does not
-    rig.Feed(rig.module.surroundings, Surroundings{.sensor_range = 4, .safe_distance = 0.35F});
+    rig.Feed(rig.module.surroundings,
+             Surroundings{.sensor_range = 4, .safe_distance = 0.35F, .is_measured = true});
     rig.RunCycle();
   }
   EXPECT_EQ(rig.module.twist.publications(), 5u) << "for 0.2 s, not longer";
@@ -74,7 +75,7 @@ TEST_F(BugPlannerTest, PublishesItsHitPointsWhenThereIsAnotherOne) {
   rig.Feed(rig.module.goal, {3, 0});
   Step({});
   EXPECT_EQ(rig.module.points.publications(), 0u);
-  Surroundings wall{.sensor_range = 4, .safe_distance = 0.35F};
+  Surroundings wall{.sensor_range = 4, .safe_distance = 0.35F, .is_measured = true};
   AddBoundaryPoint(wall, {0.3, 0.0});
   for (int i = 0; i < 3; ++i) {
     rig.Feed(rig.module.pose, {0.5, 0, 0});

@@ -9,9 +9,15 @@
 
 #include "modules/adaptors/algorithm/infrared_adaptor.h"
 #include "modules/adaptors/algorithm/laser_adaptor.h"
-#include "modules/planning/algorithm/bug1.h"
-#include "modules/planning/algorithm/bug2.h"
+#include "modules/planning/algorithm/bug_algorithm.h"
+#include "modules/planning/algorithm/bug_variants.h"
 #include "tests/modules/planning/test_world.h"
+
+namespace runnel {
+
+inline void PrintTo(const BugVariant& variant, std::ostream* stream) { *stream << variant.name; }
+
+}  // namespace runnel
 
 namespace runnel::testing_world {
 
@@ -19,7 +25,6 @@ inline constexpr double kTimeStep = 0.05;
 inline constexpr int kMostSteps = 20000;
 
 enum class Sensor { kLaser, kInfrared };
-enum class Variant { kBug1, kBug2 };
 
 struct Task {
   World world;
@@ -64,16 +69,21 @@ class Trace {
   std::uint32_t hits_ = 0;
 };
 
-inline std::unique_ptr<BugAlgorithm> Make(Variant variant, BoundaryDirection direction) {
+/// A published variant.
+inline BugAlgorithm Make(std::string_view variant,
+                         BoundaryDirection direction = BoundaryDirection::kLeft) {
   BugConfiguration configuration;
   configuration.first_direction = direction;
-  if (variant == Variant::kBug1) return std::make_unique<Bug1>(configuration);
-  return std::make_unique<Bug2>(configuration);
+  BugComposition composition = kBugVariants.at(VariantIndex(variant)).composition;
+  if (composition.direction == DirectionKind::kLeft && direction == BoundaryDirection::kRight) {
+    composition.direction = DirectionKind::kRight;
+  }
+  return BugAlgorithm(configuration, Assemble(composition));
 }
 
-inline Outcome Drive(Variant variant, BoundaryDirection direction, Sensor sensor, const Task& task,
-                     const std::string& run = "") {
-  const auto algorithm = Make(variant, direction);
+inline Outcome Drive(std::string_view variant, BoundaryDirection direction, Sensor sensor,
+                     const Task& task, const std::string& run = "") {
+  const BugAlgorithm algorithm = Make(variant, direction);
   Robot robot({task.start.x, task.start.y, task.heading});
   LaserAdaptor laser;
   InfraredAdaptor infrared;
@@ -86,7 +96,7 @@ inline Outcome Drive(Variant variant, BoundaryDirection direction, Sensor sensor
                                           ? laser.Update(task.world.Scan(pose), pose)
                                           : infrared.Update(task.world.Infrared(pose), pose);
     const BugOutput out =
-        algorithm->Update(state, {kTimeStep, pose, surroundings, task.start, task.goal});
+        algorithm.Update(state, {kTimeStep, pose, surroundings, task.start, task.goal});
     trace.Write(pose, out, surroundings);
     outcome.status = out.status;
     outcome.least_clearance =

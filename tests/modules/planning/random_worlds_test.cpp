@@ -112,7 +112,7 @@ int Worlds() {
   return wanted == nullptr ? 15 : std::stoi(wanted);
 }
 
-class RandomWorlds : public testing::TestWithParam<std::tuple<Variant, Sensor>> {};
+class RandomWorlds : public testing::TestWithParam<std::tuple<BugVariant, Sensor>> {};
 
 TEST_P(RandomWorlds, GiveTheVerdictOfAnIndependentJudge) {
   const auto [variant, sensor] = GetParam();
@@ -122,7 +122,7 @@ TEST_P(RandomWorlds, GiveTheVerdictOfAnIndependentJudge) {
     SCOPED_TRACE("world " + std::to_string(seed) + ", surely to " + std::to_string(random.surely) +
                  " m, possibly to " + std::to_string(random.possibly) + " m");
     const Outcome outcome =
-        Drive(variant, direction, sensor, random.task, "world" + std::to_string(seed));
+        Drive(variant.name, direction, sensor, random.task, "world" + std::to_string(seed));
     EXPECT_GT(outcome.least_clearance, sensor == Sensor::kLaser ? 0.25 : Robot::kRadius + 0.02);
     const PlannerMode verdict = outcome.status.mode;
     EXPECT_THAT(verdict, testing::AnyOf(PlannerMode::kReached, PlannerMode::kUnreachable));
@@ -137,12 +137,11 @@ TEST_P(RandomWorlds, GiveTheVerdictOfAnIndependentJudge) {
 
 std::string NameOf(const testing::TestParamInfo<RandomWorlds::ParamType>& param) {
   const auto [variant, sensor] = param.param;
-  return std::string(variant == Variant::kBug1 ? "Bug1" : "Bug2") +
-         (sensor == Sensor::kLaser ? "Laser" : "Infrared");
+  return std::string(variant.name) + (sensor == Sensor::kLaser ? "Laser" : "Infrared");
 }
 
 INSTANTIATE_TEST_SUITE_P(All, RandomWorlds,
-                         testing::Combine(testing::Values(Variant::kBug1, Variant::kBug2),
+                         testing::Combine(testing::ValuesIn(kBugVariants),
                                           testing::Values(Sensor::kLaser, Sensor::kInfrared)),
                          NameOf);
 

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/arena/matrix.h"
+#include "apps/arena/run_record.h"
+
+namespace runnel::arena {
+
+/// What a table says of a run.
+struct Row {
+  const Course* course = nullptr;
+  const RunRecord* record = nullptr;
+  bool is_right = false;        ///< its verdict is the true one
+  std::optional<double> ratio = {};  ///< of the path to the shortest one; only if the goal was reached
+  std::optional<double> bound = {};  ///< m, see BoundOf
+  bool is_over_bound = false;
+};
+
+/// In the order of the records.
+[[nodiscard]] std::vector<Row> RowsOf(const Matrix& matrix, const std::vector<RunRecord>& records);
+
+/// Over all runs of a variant.
+struct Summary {
+  std::string variant;
+  std::size_t runs = 0;
+  std::size_t right = 0;    ///< with the true verdict
+  std::size_t reached = 0;  ///< rightly: those that the mean is of
+  std::optional<double> mean_ratio = {};
+  double path_length = 0.0;  ///< m, of all
+};
+/// In the order in which variants first appear.
+[[nodiscard]] std::vector<Summary> SummariesOf(const std::vector<Row>& rows);
+
+/// Simulated seconds per real second of a process, which uses one core; 0 if nothing has run.
+[[nodiscard]] double SpeedOf(const std::vector<RunRecord>& records);
+
+/// A block for each world, one for the variants, and notes.
+[[nodiscard]] std::string TablesText(const std::vector<Row>& rows,
+                                     const std::vector<RunRecord>& records);
+
+/// With so many digits after the point.
+[[nodiscard]] std::string Fixed(double number, int digits);
+
+}  // namespace runnel::arena

@@ -1,0 +1,124 @@
+#include "plugins/application_files/application_saver.h"
+
+#include <mutex>
+#include <utility>
+
+#include "core/element/runtime.h"
+#include "core/xml/xml_editor.h"
+#include "plugins/application_files/file_update.h"
+#include "plugins/application_files/new_elements.h"
+#include "plugins/application_files/replace_file.h"
+#include "plugins/runtime_construction/application_source.h"
+
+namespace runnel {
+
+namespace {
+
+namespace fs = std::filesystem;
+using internal::Saving;
+
+// What a text comes to besides.
+struct SavedText {
+  std::string text;
+  std::map<std::string, std::string, std::less<>> values;
+};
+
+std::string WholeText(Saving& saving) {
+  NewElement root = internal::GroupElement("application", saving.application, saving);
+  std::vector<NewElement> loads;
+  for (const std::string& plugin : saving.plugins) {
+    loads.push_back({.name = "load", .attributes = {{"plugin", plugin}}});
+  }
+  if (!loads.empty() && !root.children.empty()) root.children.front().after_blank_line = true;
+  root.children.insert(root.children.begin(), loads.begin(), loads.end());
+  return ElementText(root);
+}
+
+Result<std::string> UpdatedText(Saving& saving, const ApplicationSource& source) {
+  const auto document = XmlDocument::Parse(source.text, source.file.string());
+  if (!document) return document.error();
+  XmlEditor editor(*document, source.text);
+  internal::FileUpdate(saving, source, editor).Run(document->root());
+  return editor.Finish();
+}
+
+// Under the structure lock.
+Result<SavedText> TextOfApplication(FrameworkElement& application, const SaveTools& tools,
+                                    const fs::path& folder) {
+  Saving saving{application, tools, folder, internal::SavedEdges(application)};
+  const auto* const source = application.FindAnnotation<ApplicationSource>();
+  Result<std::string> text =
+      source != nullptr ? UpdatedText(saving, *source) : Result<std::string>(WholeText(saving));
+  if (!text) return text.error();
+  if (saving.error) return *saving.error;
+  return SavedText{std::move(*text), std::move(saving.values)};
+}
+
+bool IsSameFile(const fs::path& one, const fs::path& other) {
+  std::error_code ignored;
+  return fs::weakly_canonical(fs::absolute(one, ignored), ignored) ==
+         fs::weakly_canonical(fs::absolute(other, ignored), ignored);
+}
+
+// Whoever has changed the file meanwhile would lose what they did. A file that is gone may come
+// back.
+Result<void> CheckUnchanged(const ApplicationSource& source) {
+  std::error_code ignored;
+  if (!fs::exists(source.file, ignored)) return {};
+  const auto now = XmlDocument::ReadText(source.file);
+  if (!now) return now.error();
+  if (*now == source.text) return {};
+  return Error{.message = "the file has been changed since the application was loaded from it",
+               .position = {source.file.string()},
+               .hint = "save to another file, and compare the two"};
+}
+
+}  // namespace
+
+Result<std::string> ApplicationText(FrameworkElement& application, const SaveTools& tools,
+                                    const fs::path& folder) {
+  const std::lock_guard lock(application.runtime().structure_mutex());
+  auto saved = TextOfApplication(application, tools, folder);
+  if (!saved) return saved.error();
+  return std::move(saved->text);
+}
+
+Result<void> SaveApplication(FrameworkElement& application, const SaveTools& tools,
+                             const fs::path& file) {
+  const std::lock_guard lock(application.runtime().structure_mutex());
+  auto* source = application.FindAnnotation<ApplicationSource>();
+  const bool is_its_own = source == nullptr || IsSameFile(source->file, file);
+  if (source != nullptr && is_its_own) {
+    if (auto unchanged = CheckUnchanged(*source); !unchanged) return unchanged;
+  }
+  auto saved = TextOfApplication(application, tools, file.parent_path());
+  if (!saved) return saved.error();
+  const bool is_on_disk =
+      source != nullptr && is_its_own && saved->text == source->text && fs::exists(source->file);
+  if (!is_on_disk) {
+    if (auto written = ReplaceFile(file, saved->text); !written) return written;
+  }
+  if (!is_its_own) return {};
+  if (source == nullptr) source = &application.Annotate(std::make_unique<ApplicationSource>());
+  source->file = file;
+  source->text = std::move(saved->text);
+  source->values = std::move(saved->values);
+  return {};
+}
+
+Result<void> SaveApplication(FrameworkElement& application, const SaveTools& tools) {
+  fs::path file;
+  {
+    const std::lock_guard lock(application.runtime().structure_mutex());
+    const auto* const source = application.FindAnnotation<ApplicationSource>();
+    if (source == nullptr) {
+      return Error{.message = "the application was built by code, and has no file yet",
+                   .path = application.path(),
+                   .hint = "name one"};
+    }
+    file = source->file;
+  }
+  return SaveApplication(application, tools, file);
+}
+
+}  // namespace runnel

@@ -1,0 +1,84 @@
+#include "plugins/application_files/saved_edges.h"
+
+#include <algorithm>
+
+#include "core/plugin/module_type_name.h"
+#include "plugins/runtime_construction/not_saved.h"
+
+namespace runnel::internal {
+
+namespace {
+
+// What stands for a port in its group: the outermost module that it is part of, or, in the
+// interface of a group, itself. nullptr if no file says anything of it.
+const FrameworkElement* StandsFor(const Port& port, const FrameworkElement& application) {
+  const FrameworkElement* anchor = &port;
+  for (const FrameworkElement* at = &port; at != &application; at = at->parent()) {
+    if (at == nullptr || at->FindAnnotation<NotSaved>() != nullptr) return nullptr;
+    if (IsSavedModule(*at)) anchor = at;
+  }
+  return anchor;
+}
+
+bool IsPortOf(const Port& port, const FrameworkElement& module) {
+  const FrameworkElement* const parent = port.parent();
+  return parent == &module ||
+         (parent->kind() == ElementKind::kPortGroup && parent->parent() == &module);
+}
+
+// The innermost group that has both, or nullptr.
+FrameworkElement* Home(const Port& from, const Port& to, const FrameworkElement& application) {
+  const FrameworkElement* const source = StandsFor(from, application);
+  const FrameworkElement* const target = StandsFor(to, application);
+  if (source == nullptr || target == nullptr) return nullptr;
+  const bool is_inside = source == target && !(IsPortOf(from, *source) && IsPortOf(to, *source));
+  if (is_inside) return nullptr;
+  FrameworkElement* home = source->parent();
+  while (!target->parent()->IsAtOrBelow(*home)) home = home->parent();
+  return home;
+}
+
+}  // namespace
+
+bool IsSavedModule(const FrameworkElement& element) {
+  return element.kind() == ElementKind::kModule || !FindModuleType(element).empty();
+}
+
+SavedEdges::SavedEdges(FrameworkElement& application) {
+  application.Visit([&](FrameworkElement& element) {
+    const auto* const port = dynamic_cast<const Port*>(&element);
+    if (port == nullptr) return;
+    for (const Connection& connection : port->outgoing()) {
+      FrameworkElement* const home = Home(*connection.from, *connection.to, application);
+      if (home == nullptr) continue;
+      places_[{connection.from, connection.to}] = edges_.size();
+      of_home_[home].push_back(edges_.size());
+      edges_.push_back({connection.from, connection.to, connection.options, home});
+    }
+  });
+}
+
+SavedEdges::Edge* SavedEdges::Find(const Port& from, const Port& to) {
+  const auto found = places_.find({&from, &to});
+  return found == places_.end() ? nullptr : &edges_[found->second];
+}
+
+std::vector<SavedEdges::Edge*> SavedEdges::Unsaved(const FrameworkElement& home) {
+  std::vector<Edge*> unsaved;
+  const auto found = of_home_.find(&home);
+  if (found == of_home_.end()) return unsaved;
+  for (const std::size_t place : found->second) {
+    if (!edges_[place].is_saved) unsaved.push_back(&edges_[place]);
+  }
+  return unsaved;
+}
+
+std::vector<SavedEdges::Edge*> SavedEdges::Unsaved() {
+  std::vector<Edge*> unsaved;
+  for (Edge& edge : edges_) {
+    if (!edge.is_saved) unsaved.push_back(&edge);
+  }
+  return unsaved;
+}
+
+}  // namespace runnel::internal

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "core/port/port.h"
+
+namespace runnel::internal {
+
+/// Whether a tag of its own stands for the element: it is a module, not a group.
+[[nodiscard]] bool IsSavedModule(const FrameworkElement& element);
+
+/// The connections of an application, as far as a file has to say them: not those within a module,
+/// nor those that lead out of the application.
+///
+/// Threads: under the structure lock.
+class SavedEdges {
+ public:
+  explicit SavedEdges(FrameworkElement& application);
+
+  struct Edge {
+    Port* from;
+    Port* to;
+    ConnectOptions options;
+    FrameworkElement* home;  ///< the innermost group that has both ends
+    bool is_saved = false;   ///< a tag says it
+  };
+
+  /// nullptr if there is none.
+  [[nodiscard]] Edge* Find(const Port& from, const Port& to);
+  /// Those that no tag says yet, in the order in which they were made.
+  [[nodiscard]] std::vector<Edge*> Unsaved(const FrameworkElement& home);
+  [[nodiscard]] std::vector<Edge*> Unsaved();
+
+ private:
+  std::vector<Edge> edges_;
+  std::map<std::pair<const Port*, const Port*>, std::size_t> places_;
+  std::map<const FrameworkElement*, std::vector<std::size_t>> of_home_;
+};
+
+}  // namespace runnel::internal

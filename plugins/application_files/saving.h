@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "core/element/configurable.h"
+#include "plugins/application_files/application_saver.h"
+#include "plugins/application_files/saved_edges.h"
+
+namespace runnel::internal {
+
+/// One saving of an application: what all who take part in it share.
+///
+/// Threads: under the structure lock.
+struct Saving {
+  FrameworkElement& application;
+  const SaveTools& tools;
+  std::filesystem::path folder;  ///< where the text will stand
+  SavedEdges edges;
+  /// What the parameters that the text names come to when it is loaded again.
+  std::map<std::string, std::string, std::less<>> values = {};
+  /// Of the modules that the text names anew.
+  std::set<std::string> plugins = {};
+  std::optional<Error> error = {};  ///< the first
+
+  void Fail(Error reason) {
+    if (!error) error = std::move(reason);
+  }
+};
+
+/// The value as text that gives it again when it stands in the file: names of files start there.
+[[nodiscard]] std::string SavedValue(const Configurable& configurable, const Saving& saving);
+
+/// `name` of a file, written in one folder, as it must be written in another.
+[[nodiscard]] std::string MovedFileName(const std::string& name, const std::filesystem::path& from,
+                                        const std::filesystem::path& to);
+
+/// Notes that the text has a module of the type, so that its plugin has to be loaded.
+void UseModuleType(const std::string& type, Saving& saving);
+
+}  // namespace runnel::internal
