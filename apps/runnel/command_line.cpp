@@ -15,7 +15,7 @@ namespace runnel::program {
 
 namespace {
 
-const std::vector<std::string> kCommands{"run", "check", "modules", "version"};
+const std::vector<std::string> kCommands{"run", "check", "modules", "schema", "graph", "version"};
 
 ExitCode Refuse(const std::string& message, const std::string& hint) {
   std::cerr << "error: " << message << "; " << hint << '\n';
@@ -112,6 +112,8 @@ CommandLine ParseCommandLine(int count, const char* const* words) {
   RunArguments run_arguments;
   CheckArguments check_arguments;
   ModulesArguments modules_arguments;
+  SchemaArguments schema_arguments;
+  GraphArguments graph_arguments;
 
   const CLI::App& run = AddRun(program, run_arguments);
   CLI::App& check = *program.add_subcommand("check", "looks for mistakes, without running");
@@ -119,6 +121,20 @@ CommandLine ParseCommandLine(int count, const char* const* words) {
   CLI::App& modules = *program.add_subcommand("modules", "lists module types, ports, parameters");
   modules.add_option("plugins", modules_arguments.plugins, "only of these; without, of all")
       ->type_name("PLUGIN");
+  modules.add_flag("--names", modules_arguments.names_only, "only the names of the types");
+  CLI::App& schema = *program.add_subcommand(
+      "schema", "writes the XML schema of application files, for editors and checkers");
+  schema.add_option("plugins", schema_arguments.plugins, "only of these; without, of all")
+      ->type_name("PLUGIN");
+  schema.add_option("-o,--output", schema_arguments.output, "file; without, standard output")
+      ->type_name("FILE")
+      ->check(CheckFile);
+  CLI::App& graph = *program.add_subcommand("graph", "draws the data flow of an application");
+  AddApplicationArguments(graph, graph_arguments.application);
+  graph.add_option("-o,--output", graph_arguments.output, "file: .svg, .png, .pdf or .dot")
+      ->required()
+      ->type_name("FILE")
+      ->check(CheckFile);
   program.add_subcommand("version", "says which version this is");
   const ControlCommandLine control(program);
 
@@ -138,6 +154,8 @@ CommandLine ParseCommandLine(int count, const char* const* words) {
   if (run.parsed()) return run_arguments;
   if (check.parsed()) return check_arguments;
   if (modules.parsed()) return modules_arguments;
+  if (schema.parsed()) return schema_arguments;
+  if (graph.parsed()) return graph_arguments;
   if (auto arguments = control.Parsed()) return *arguments;
   return VersionArguments{};
 }

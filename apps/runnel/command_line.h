@@ -33,14 +33,25 @@ struct CheckArguments {
 
 struct ModulesArguments {
   std::vector<std::string> plugins = {};  ///< none: all that can be found
+  bool names_only = false;
+};
+
+struct SchemaArguments {
+  std::vector<std::string> plugins = {};  ///< none: all that can be found
+  std::string output = {};                ///< a file; "": standard output
+};
+
+struct GraphArguments {
+  ApplicationArguments application;
+  std::string output = {};  ///< a file; what it is called decides what it becomes
 };
 
 struct VersionArguments {};
 
 /// What to do; or, if there is nothing (left) to do, the exit code: help has been printed, or what
 /// is wrong with the arguments.
-using CommandLine = std::variant<RunArguments, CheckArguments, ModulesArguments, ControlArguments,
-                                 VersionArguments, ExitCode>;
+using CommandLine = std::variant<RunArguments, CheckArguments, ModulesArguments, SchemaArguments,
+                                 GraphArguments, ControlArguments, VersionArguments, ExitCode>;
 
 [[nodiscard]] CommandLine ParseCommandLine(int count, const char* const* words);
 

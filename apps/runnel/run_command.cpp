@@ -22,6 +22,8 @@
 #include "plugins/runtime_construction/plugin_loading.h"
 #include "plugins/runtime_construction/source_place.h"
 #include "plugins/scheduling/xml_scheduling_tags.h"
+#include "plugins/structure/structure_editor.h"
+#include "plugins/supervision/xml_supervision_tags.h"
 
 namespace runnel::program {
 
@@ -54,6 +56,20 @@ Result<void> AddFaultRules(const FrameworkElement& application, Scheduler& sched
   }
   return {};
 }
+
+// What is done about faults and silence while the application runs.
+struct Supervision {
+  Supervision(Runtime& runtime, const ModuleRegistry& modules, Scheduler& scheduler)
+      : editor(runtime, modules, &scheduler),
+        supervisor(runtime, scheduler, [this](const ChangeSet& changes) -> Result<void> {
+          const ChangeOutcome outcome = editor.Apply(changes);
+          if (!outcome) return outcome.diagnostics.errors().front();
+          return {};
+        }) {}
+
+  StructureEditor editor;
+  Supervisor supervisor;
+};
 
 void PrintWarnings(std::vector<Error> warnings, FrameworkElement& root, ControlLog& log) {
   const std::lock_guard lock(root.runtime().structure_mutex());
@@ -115,13 +131,14 @@ void PrintTimes(Duration so_far, std::chrono::steady_clock::duration real, Clock
 class Session {
  public:
   Session(const RunArguments& arguments, FrameworkElement& application, Scheduler& scheduler,
-          ControlLog& log)
+          Supervisor& supervisor, ControlLog& log)
       : arguments_(arguments),
         scheduler_(scheduler),
+        supervisor_(supervisor),
         log_(log),
         root_(application.runtime().root()),
         start_(application.runtime().clock().Now()),
-        report_(application),
+        report_(application.runtime()),
         display_(!arguments.quiet) {}
 
   ExitCode Run(Runtime& runtime) {
@@ -165,6 +182,12 @@ class Session {
       std::cerr << text << std::flush;
       log_.Add(ControlLog::Kind::kFault, text);
     }
+    for (const Notice& notice : supervisor_.TakeNotices()) {
+      display_.Clear();
+      const std::string text = NoticeText(notice, start_, root_);
+      std::cerr << text << std::flush;
+      log_.Add(ControlLog::Kind::kFault, text);
+    }
   }
 
   ExitCode Conclude(Duration so_far, std::chrono::steady_clock::duration real, bool was_asked) {
@@ -189,6 +212,7 @@ class Session {
 
   const RunArguments& arguments_;
   Scheduler& scheduler_;
+  Supervisor& supervisor_;
   ControlLog& log_;
   FrameworkElement& root_;
   const Time start_;
@@ -202,19 +226,23 @@ class Session {
 ExitCode Run(const RunArguments& arguments) {
   Workplace workplace;
   std::optional<Scheduler> scheduler;
+  std::optional<Supervision> supervision;
   // Before modules become ready, so that they see the right clock from the start.
   const auto schedule = [&](FrameworkElement& application) -> Result<void> {
     const auto options = ChooseOptions(arguments, application);
     if (!options) return options.error();
     scheduler.emplace(workplace.runtime(), *options);
-    return AddFaultRules(application, *scheduler);
+    supervision.emplace(workplace.runtime(), workplace.plugins().modules(), *scheduler);
+    if (auto added = AddFaultRules(application, *scheduler); !added) return added;
+    return AddSupervisionRules(application, supervision->supervisor);
   };
   const BuildOutcome outcome = workplace.Build(arguments.application, BuildMode::kRun, schedule);
   if (outcome.application == nullptr) return ExitCode::kBadInput;
-  StructureEditor editor(workplace.runtime(), workplace.plugins().modules(), &*scheduler);
   ControlLog log(workplace.runtime().clock());
-  const auto control = StartControl(arguments, workplace, *outcome.application, editor, log);
-  return Session(arguments, *outcome.application, *scheduler, log).Run(workplace.runtime());
+  const auto control =
+      StartControl(arguments, workplace, *outcome.application, supervision->editor, log);
+  return Session(arguments, *outcome.application, *scheduler, supervision->supervisor, log)
+      .Run(workplace.runtime());
 }
 
 }  // namespace runnel::program

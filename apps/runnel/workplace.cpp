@@ -3,11 +3,13 @@
 #include <iostream>
 
 #include "plugins/scheduling/xml_scheduling_tags.h"
+#include "plugins/supervision/xml_supervision_tags.h"
 
 namespace runnel::program {
 
 Workplace::Workplace() {
   AddSchedulingTags(tags_);
+  AddSupervisionTags(tags_);
   plugins_.registry().Offer(tags_);
 }
 

@@ -174,38 +174,6 @@ bool Scheduler::is_running() const {
   return is_running_;
 }
 
-void Scheduler::Supervise() {
-  while (supervises_.load(std::memory_order_acquire)) {
-    desk_.event().Wait();
-    LookAfter();
-  }
-}
-
-// Nobody is above the supervising thread to catch what it throws.
-void Scheduler::LookAfter() noexcept {
-  const auto report = [this](const std::string& why) {
-    desk_.Report({runtime_.root().path(), "the schedules could not be brought up to date: " + why,
-                  runtime_.clock().Now()});
-  };
-  try {
-    desk_.Attend();
-    const std::lock_guard lock(runtime_.structure_mutex());
-    if (is_running_) BringUpToDate();
-  } catch (const std::exception& exception) {
-    report(exception.what());
-  } catch (...) {
-    report("unknown exception");
-  }
-}
-
-void Scheduler::EndSupervision() {
-  if (!supervisor_.joinable()) return;
-  supervises_.store(false, std::memory_order_release);
-  desk_.event().Notify();
-  supervisor_.join();
-  supervisor_ = std::thread();
-}
-
 // What is changed after the look is for the next step.
 void Scheduler::FollowChanges() {
   if (!has_changes_.load(std::memory_order_relaxed)) return;
@@ -224,7 +192,9 @@ std::optional<Time> Scheduler::NextDue() {
 
 bool Scheduler::RunNext(Time due) {
   if (options_.speed != 0) pacing_.WaitFor(due, [this] { return stop_requested(); });
-  return !stop_requested() && simulation_.Step();
+  if (stop_requested() || !simulation_.Step()) return false;
+  LookOut();
+  return true;
 }
 
 bool Scheduler::Step() {
@@ -263,7 +233,7 @@ Scheduler::Runners Scheduler::RunnersOf(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
     if (const auto found = runtime_.root().Find(path)) compiler_.AddRunnersOf(**found, running);
   }
-  return running;
+  return compiler_.RunnersOf(elements);
 }
 
 std::optional<std::uint64_t> Scheduler::CyclesOf(const std::string& path) {

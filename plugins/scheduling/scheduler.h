@@ -122,6 +122,14 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   using FaultHandler = std::function<std::optional<std::string>(const Fault&)>;
   void SetFaultHandler(FaultHandler handler) { desk_.SetHandler(std::move(handler)); }
 
+  /// Is called between cycles, without locks, and returns the time, by the runtime's clock, before
+  /// which it need not be called again: kReal by the supervising thread, kSimulated after the first
+  /// cycle that ends then or later. Set it while nothing runs.
+  using Lookout = std::function<Time(Time now)>;
+  void SetLookout(Lookout lookout);
+  /// As a fault rule does: stop_requested() and stopped_by_fault() become true.
+  void StopForFault() noexcept { desk_.StopForFault(); }
+
   void OnReady(FrameworkElement& element) override;
   void OnDeleted(FrameworkElement& element) override;
   void OnConnected(FrameworkElement& from, FrameworkElement& to) override;
@@ -151,6 +159,7 @@ class Scheduler final : public ElementListener, public AssignmentListener {
 
   void Supervise();
   void LookAfter() noexcept;
+  void LookOut() noexcept;
   void EndSupervision();
 
   Runtime& runtime_;
@@ -177,6 +186,8 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   // it by the thread that steps, which need not lock where nothing has.
   std::atomic<bool> has_changes_{true};
 
+  Lookout lookout_;
+  Time next_look_{};  // by it
   std::atomic<bool> supervises_{false};
   std::thread supervisor_;
 };
