@@ -17,6 +17,7 @@
 #include "apps/runnel/statistics_table.h"
 #include "apps/runnel/stop_signal.h"
 #include "apps/runnel/workplace.h"
+#include "plugins/application_files/application_saver.h"
 #include "plugins/control/control_server.h"
 #include "plugins/runtime_construction/plugin_loading.h"
 #include "plugins/runtime_construction/source_place.h"
@@ -86,12 +87,19 @@ void PrintWarnings(std::vector<Error> warnings, FrameworkElement& root, ControlL
 
 // So that other processes can reach the application. That they cannot is no reason not to run it.
 std::unique_ptr<ControlServer> StartControl(const RunArguments& arguments, Workplace& workplace,
-                                            const FrameworkElement& application,
-                                            StructureEditor& editor, ControlLog& log) {
+                                            FrameworkElement& application, StructureEditor& editor,
+                                            ControlLog& log) {
   if (!arguments.has_control) return nullptr;
   ControlHooks hooks;
   hooks.load_plugin = [&workplace](const std::string& plugin) {
     return LoadPlugin(plugin, workplace.plugins(), workplace.tags());
+  };
+  hooks.save = [&workplace, &application](const std::string& file) -> Result<std::string> {
+    const SaveTools tools{workplace.plugins(), workplace.tags()};
+    const auto saved = file.empty() ? SaveApplication(application, tools)
+                                    : SaveApplication(application, tools, file);
+    if (!saved) return saved.error();
+    return "saved " + application.path() + (file.empty() ? "" : " to " + file);
   };
   auto server = ControlServer::Start(
       {workplace.runtime(), workplace.plugins().modules(), editor, log, std::move(hooks)},
