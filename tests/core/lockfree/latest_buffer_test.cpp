@@ -99,7 +99,8 @@ TEST(LatestBufferTest, LeaseOfThePublishersOwnThreadHoldsAsAnyOther) {
 TEST(LatestBufferTest, LeasesHoldHoweverOftenThePublisherChanges) {
   Rig<int, 2> rig({.buffers = 2, .may_grow = false});
   for (std::size_t i = 0; i < 40; ++i) {
-    auto& publisher = rig.readers[i / 2 % 2];  // each of them twice, and so it reads as the only one
+    auto& publisher =
+        rig.readers[i / 2 % 2];  // each of them twice, and so it reads as the only one
     ASSERT_NE(PublishAs(rig, publisher), nullptr);
     auto lease = rig.latest->Lease(publisher);
     ASSERT_NE(PublishAs(rig, publisher), nullptr);
