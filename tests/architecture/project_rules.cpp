@@ -27,6 +27,10 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
                    {"core", "plugins/parameters", "plugins/runtime_construction"}});
   rules.push_back(
       {"plugins/application_graph", "plugins/application_graph", {"core", "plugins/scheduling"}});
+  rules.push_back(
+      {"plugins/finroc_files",
+       "plugins/finroc_files",
+       {"core", "plugins/parameters", "plugins/runtime_construction", "plugins/scheduling"}});
   // The tags of application files stand apart, so that scheduling itself needs no XML.
   rules.push_back(
       {"the tags of scheduling",
