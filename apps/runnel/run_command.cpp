@@ -94,12 +94,16 @@ std::unique_ptr<ControlServer> StartControl(const RunArguments& arguments, Workp
   hooks.load_plugin = [&workplace](const std::string& plugin) {
     return LoadPlugin(plugin, workplace.plugins(), workplace.tags());
   };
-  hooks.save = [&workplace, &application](const std::string& file) -> Result<std::string> {
+  hooks.save = [&workplace,
+                path = application.path()](const std::string& file) -> Result<std::string> {
+    const std::lock_guard lock(workplace.runtime().structure_mutex());
+    const auto found = workplace.runtime().root().Find(path);  // it may have been deleted
+    if (!found) return found.error();
     const SaveTools tools{workplace.plugins(), workplace.tags()};
-    const auto saved = file.empty() ? SaveApplication(application, tools)
-                                    : SaveApplication(application, tools, file);
+    const auto saved =
+        file.empty() ? SaveApplication(**found, tools) : SaveApplication(**found, tools, file);
     if (!saved) return saved.error();
-    return "saved " + application.path() + (file.empty() ? "" : " to " + file);
+    return "saved " + path + (file.empty() ? "" : " to " + file);
   };
   auto server = ControlServer::Start(
       {workplace.runtime(), workplace.plugins().modules(), editor, log, std::move(hooks)},

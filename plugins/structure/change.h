@@ -18,7 +18,7 @@ struct Setting {
 };
 
 // Paths are absolute: "/application/robot/planner". The name of the only application may be left out:
-// "/robot/planner". Those of ports may leave out the group: "/robot/planner/pose".
+// "/robot/planner". Those of ports and parameters may leave out the group: "/robot/planner/pose".
 
 /// A module of a registered type, made, configured and prepared beside the tree, then put in.
 struct CreateModule {

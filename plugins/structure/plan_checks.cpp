@@ -105,7 +105,7 @@ Result<void> Plan::Check(const DeleteElement& change) {
 }
 
 Result<void> Plan::Check(const SetParameter& change) {
-  const auto found = projection_.Find(change.path);
+  const auto found = projection_.FindParameter(change.path);
   if (!found) return found.error();
   auto* const parameter = dynamic_cast<Configurable*>(*found);
   if (parameter == nullptr) {

@@ -152,6 +152,21 @@ Result<Port*> Projection::FindPort(std::string_view path, End end) const {
   return ports[0];
 }
 
+Result<FrameworkElement*> Projection::FindParameter(std::string_view path) const {
+  const auto found = Find(path);
+  const std::size_t slash = path.find_last_of('/');
+  if (found || slash == std::string_view::npos || slash == 0) return found;
+  const auto module = Find(path.substr(0, slash));
+  if (!module || (*module)->kind() != ElementKind::kModule) return found;
+  const FrameworkElement* const group = Child(**module, "parameter");
+  const std::string_view name = path.substr(slash + 1);
+  FrameworkElement* const parameter = group != nullptr ? Child(*group, name) : nullptr;
+  if (parameter != nullptr) return parameter;
+  return Error{.message = "no parameter '" + std::string(name) + "' in " + (*module)->path(),
+               .path = (*module)->path(),
+               .hint = NearestNameHint(name, group ? NamesIn(*group) : std::vector<std::string>())};
+}
+
 void Projection::Add(FrameworkElement& element) { added_.push_back(&element); }
 
 void Projection::Remove(FrameworkElement& element) {

@@ -25,6 +25,8 @@ class Projection {
   /// Where an element called by the last part of `path` would go. Errors: a bad or taken name, no
   /// parent.
   Result<Placement> PlaceFor(std::string_view path) const;
+  /// The element at `path`, in which the group of a module's parameters may be left out.
+  Result<FrameworkElement*> FindParameter(std::string_view path) const;
   /// The port at `path`, in which the port's group may be left out.
   enum class End { kSends, kReceives };
   Result<Port*> FindPort(std::string_view path, End end) const;
