@@ -35,7 +35,8 @@ std::optional<double> BoundOf(const std::string& variant, const Course& course,
     return sum([](const BoundaryLoop&) { return 1.5; });
   }
   if (variant == "bug2") {
-    return sum([&](const BoundaryLoop& loop) { return Crossings(loop, line) / 2.0; });
+    // A line that ends inside of an obstacle goes in once more than out; then the robot goes round.
+    return sum([&](const BoundaryLoop& loop) { return (Crossings(loop, line) + 1) / 2; });
   }
   if (variant == "alg1" || variant == "alg2") {
     return sum([](const BoundaryLoop&) { return 2.0; });

@@ -18,7 +18,8 @@ namespace runnel::arena {
 /// boundaries exactly, with the lengths P of the grown obstacles met and the straight distance D:
 ///
 ///     bug1        D + 1.5 ΣP          Lumelsky, Stepanov 1984
-///     bug2        D + Σ n P / 2       the same 1986; n crossings of the line and the boundary
+///     bug2        D + Σ n P / 2       the same 1986; n crossings of the line and the boundary,
+///                                        rounded up to an even number
 ///     alg1, alg2  D + 2 ΣP            Sankaranarayanan, Vidyasagar 1990
 ///
 /// Nothing for other variants, for which no such bound is known to us.

@@ -7,6 +7,7 @@
 
 #include <fcntl.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -17,6 +18,10 @@ namespace {
 
 Error SystemError(const std::string& what) {
   return {.message = what + ": " + std::strerror(errno)};
+}
+
+double Seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
 [[noreturn]] void BecomeTheProgram(const std::vector<char*>& words, int output, pid_t parent) {
@@ -81,9 +86,11 @@ ChildProcess::~ChildProcess() {
 
 std::optional<ChildProcess::Ending> ChildProcess::Look() {
   int status = 0;
-  if (!ending_ && waitpid(process_, &status, WNOHANG) == process_) {
+  rusage usage{};
+  if (!ending_ && wait4(process_, &status, WNOHANG, &usage) == process_) {
     ending_ = Ending{.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 0,
-                     .signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0};
+                     .signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0,
+                     .processor_time = Seconds(usage.ru_utime) + Seconds(usage.ru_stime)};
   }
   return ending_;
 }

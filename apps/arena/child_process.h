@@ -32,7 +32,8 @@ class ChildProcess {
 
   struct Ending {
     int exit_code = 0;
-    int signal = 0;  ///< that ended it; 0: it ended by itself
+    int signal = 0;               ///< that ended it; 0: it ended by itself
+    double processor_time = 0.0;  ///< s
   };
   /// Nothing as long as it runs. Does not wait.
   std::optional<Ending> Look();

@@ -133,8 +133,7 @@ std::string HtmlReport(const Matrix& matrix, const std::vector<RunRecord>& recor
       std::string(kStyle) + "</style>\n</head>\n<body>\n<h1>Arena</h1>\n";
   text += "<p>" + std::to_string(records.size()) + " runs; noise of the ranges " +
           Fixed(settings.noise, 3) + " m, safe distance " + Fixed(settings.safe_distance, 2) +
-          " m; " + Fixed(SpeedOf(records), 0) +
-          " simulated seconds per real second and core.</p>\n";
+          " m; " + TextOf(SpeedOf(records)) + ".</p>\n";
   text +=
       "<p>A ratio is the length of a path to that of the shortest one for the robot's centre; "
       "a bound is what has been proved for a point that follows boundaries exactly.</p>\n";

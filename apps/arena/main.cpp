@@ -89,6 +89,13 @@ class Session {
   Result<void> OpenJournal() {
     if (arguments_.json.empty()) return {};
     const std::string file = arguments_.json + ".journal";
+    const bool is_orphan =
+        std::filesystem::exists(arguments_.json) && !std::filesystem::exists(file);
+    if (arguments_.resume && is_orphan) {
+      return Error{.message = "the runs in this file have no journal, " + file,
+                   .position = {.file = arguments_.json},
+                   .hint = "give another file, or leave out --resume to make them all again"};
+    }
     auto journal = arguments_.resume ? Journal::Resume(file, arguments_.settings)
                                      : Journal::Begin(file, arguments_.settings);
     if (!journal) return journal.error();

@@ -124,6 +124,7 @@ std::string JournalLineOf(const RunRecord& record, std::string_view made_of) {
   Json object = ObjectOf(record);
   object["remark"] = record.result.remark;
   object["robot_radius_m"] = record.result.robot_radius;
+  object["processor_time_s"] = record.processor_time;
   object["modes"] = ModesOf(record.result.path);
   object["has_ended_by_itself"] = record.has_ended_by_itself;
   object["made_of"] = made_of;
@@ -140,6 +141,7 @@ Result<JournalEntry> ParseJournalLine(std::string_view line) {
                            .seed = object.at("seed").get<std::uint64_t>()},
                    .result = ResultOf(object),
                    .wall_time = object.at("wall_time_s").get<double>(),
+                   .processor_time = object.at("processor_time_s").get<double>(),
                    .has_ended_by_itself = object.at("has_ended_by_itself").get<bool>()},
         .made_of = object.at("made_of").get<std::string>()};
   });

@@ -32,6 +32,7 @@ struct RunRecord {
   RunKey key;
   RunResult result = {};
   double wall_time = 0.0;           ///< s
+  double processor_time = 0.0;      ///< s, less than that where processes wait for their turn
   bool has_ended_by_itself = true;  ///< false: crashed, or ended because it hung
 };
 

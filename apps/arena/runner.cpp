@@ -63,7 +63,8 @@ std::string Complaint(const std::filesystem::path& file) {
 RunRecord RecordOf(const Underway& underway, const ChildProcess::Ending& ending,
                    double wall_limit) {
   const std::chrono::duration<double> wall = Clock::now() - underway.process.started_at();
-  RunRecord record{.key = underway.run->key, .wall_time = wall.count()};
+  RunRecord record{
+      .key = underway.run->key, .wall_time = wall.count(), .processor_time = ending.processor_time};
   if (underway.hangs) {
     record.has_ended_by_itself = false;
     record.result.outcome = "timeout";
@@ -83,6 +84,9 @@ RunRecord RecordOf(const Underway& underway, const ChildProcess::Ending& ending,
     record.result.outcome = "error";
     const std::string complaint = Complaint(underway.output);
     if (!complaint.empty()) record.result.remark = complaint;
+    if (record.result.remark.empty()) {
+      record.result.remark = "ended with exit code " + std::to_string(ending.exit_code);
+    }
     record.has_ended_by_itself = result.has_value();
   }
   return record;

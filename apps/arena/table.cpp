@@ -124,14 +124,21 @@ std::vector<Summary> SummariesOf(const std::vector<Row>& rows) {
   return summaries;
 }
 
-double SpeedOf(const std::vector<RunRecord>& records) {
-  double simulated = 0.0, real = 0.0;
+Speed SpeedOf(const std::vector<RunRecord>& records) {
+  double simulated = 0.0, wall = 0.0, processor = 0.0;
   for (const RunRecord& record : records) {
     if (!record.has_ended_by_itself) continue;
     simulated += record.result.simulated_time;
-    real += record.wall_time;
+    wall += record.wall_time;
+    processor += record.processor_time;
   }
-  return real > 0.0 ? simulated / real : 0.0;
+  return {.of_wall_time = wall > 0.0 ? simulated / wall : 0.0,
+          .of_processor_time = processor > 0.0 ? simulated / processor : 0.0};
+}
+
+std::string TextOf(const Speed& speed) {
+  return Fixed(speed.of_wall_time, 0) + " simulated seconds per real second and core, " +
+         Fixed(speed.of_processor_time, 0) + " per second of processor time";
 }
 
 std::string TablesText(const std::vector<Row>& rows, const std::vector<RunRecord>& records) {
@@ -146,7 +153,7 @@ std::string TablesText(const std::vector<Row>& rows, const std::vector<RunRecord
   if (std::ranges::any_of(rows, &Row::is_over_bound)) {
     text += "  !  longer than the bound, which holds for a point that follows boundaries exactly\n";
   }
-  text += Fixed(SpeedOf(records), 0) + " simulated seconds per real second and core\n";
+  text += TextOf(SpeedOf(records)) + "\n";
   return text;
 }
 

@@ -13,8 +13,9 @@ namespace runnel::arena {
 struct Row {
   const Course* course = nullptr;
   const RunRecord* record = nullptr;
-  bool is_right = false;        ///< its verdict is the true one
-  std::optional<double> ratio = {};  ///< of the path to the shortest one; only if the goal was reached
+  bool is_right = false;  ///< its verdict is the true one
+  std::optional<double> ratio =
+      {};  ///< of the path to the shortest one; only if the goal was reached
   std::optional<double> bound = {};  ///< m, see BoundOf
   bool is_over_bound = false;
 };
@@ -34,8 +35,14 @@ struct Summary {
 /// In the order in which variants first appear.
 [[nodiscard]] std::vector<Summary> SummariesOf(const std::vector<Row>& rows);
 
-/// Simulated seconds per real second of a process, which uses one core; 0 if nothing has run.
-[[nodiscard]] double SpeedOf(const std::vector<RunRecord>& records);
+/// How fast the runs were: simulated seconds per second. 0 if nothing has run.
+struct Speed {
+  double of_wall_time = 0.0;       ///< of a process, which keeps one core busy if it gets one
+  double of_processor_time = 0.0;  ///< whatever else the machine was doing
+};
+[[nodiscard]] Speed SpeedOf(const std::vector<RunRecord>& records);
+/// "250 simulated seconds per real second and core, 600 per second of processor time".
+[[nodiscard]] std::string TextOf(const Speed& speed);
 
 /// A block for each world, one for the variants, and notes.
 [[nodiscard]] std::string TablesText(const std::vector<Row>& rows,

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/runnel/control_command_line.h"
 #include "apps/runnel/other_programs.h"
 #include "core/base/nearest_name.h"
 #include "core/xml/xml_reading.h"
@@ -14,7 +15,7 @@ namespace runnel::program {
 
 namespace {
 
-const std::vector<std::string> kCommands{"run", "check", "modules", "version"};
+const std::vector<std::string> kCommands{"run", "check", "modules", "schema", "graph", "version"};
 
 ExitCode Refuse(const std::string& message, const std::string& hint) {
   std::cerr << "error: " << message << "; " << hint << '\n';
@@ -23,6 +24,7 @@ ExitCode Refuse(const std::string& message, const std::string& hint) {
 
 std::vector<std::string> AllCommands() {
   std::vector<std::string> commands = kCommands;
+  for (const std::string& command : ControlCommandLine::Names()) commands.push_back(command);
   for (const std::string& command : OtherCommands()) commands.push_back(command);
   return commands;
 }
@@ -38,7 +40,8 @@ std::string FooterText() {
 }
 
 bool IsUnknownCommand(const std::string& word) {
-  return !word.starts_with('-') && std::ranges::find(kCommands, word) == kCommands.end();
+  const auto names = AllCommands();
+  return !word.starts_with('-') && std::ranges::find(names, word) == names.end();
 }
 
 // CLI11's own checks name bounds with three hundred digits.
@@ -93,6 +96,9 @@ CLI::App& AddRun(CLI::App& program, RunArguments& arguments) {
   run.add_flag("--quiet", arguments.quiet, "no progress, only how the run ended");
   run.add_flag("--statistics", arguments.statistics,
                "at the end, how punctual the threads were and how long their cycles took");
+  run.add_flag_callback(
+      "--no-control", [&arguments] { arguments.has_control = false; },
+      "no other process can look at it or change it");
   return run;
 }
 
@@ -106,6 +112,8 @@ CommandLine ParseCommandLine(int count, const char* const* words) {
   RunArguments run_arguments;
   CheckArguments check_arguments;
   ModulesArguments modules_arguments;
+  SchemaArguments schema_arguments;
+  GraphArguments graph_arguments;
 
   const CLI::App& run = AddRun(program, run_arguments);
   CLI::App& check = *program.add_subcommand("check", "looks for mistakes, without running");
@@ -113,14 +121,30 @@ CommandLine ParseCommandLine(int count, const char* const* words) {
   CLI::App& modules = *program.add_subcommand("modules", "lists module types, ports, parameters");
   modules.add_option("plugins", modules_arguments.plugins, "only of these; without, of all")
       ->type_name("PLUGIN");
+  modules.add_flag("--names", modules_arguments.names_only, "only the names of the types");
+  CLI::App& schema = *program.add_subcommand(
+      "schema", "writes the XML schema of application files, for editors and checkers");
+  schema.add_option("plugins", schema_arguments.plugins, "only of these; without, of all")
+      ->type_name("PLUGIN");
+  schema.add_option("-o,--output", schema_arguments.output, "file; without, standard output")
+      ->type_name("FILE")
+      ->check(CheckFile);
+  CLI::App& graph = *program.add_subcommand("graph", "draws the data flow of an application");
+  AddApplicationArguments(graph, graph_arguments.application);
+  graph.add_option("-o,--output", graph_arguments.output, "file: .svg, .png, .pdf or .dot")
+      ->required()
+      ->type_name("FILE")
+      ->check(CheckFile);
   program.add_subcommand("version", "says which version this is");
+  const ControlCommandLine control(program);
 
   if (count > 1 && IsUnknownCommand(words[1])) {
     return Refuse("there is no command '" + std::string(words[1]) + "'",
                   NearestNameHint(words[1], AllCommands()));
   }
   try {
-    program.parse(count, words);
+    const auto all = WithNegativeValues(count, words);
+    program.parse(static_cast<int>(all.size()), all.data());
   } catch (const CLI::Success& help) {
     program.exit(help);
     return ExitCode::kDone;
@@ -130,6 +154,9 @@ CommandLine ParseCommandLine(int count, const char* const* words) {
   if (run.parsed()) return run_arguments;
   if (check.parsed()) return check_arguments;
   if (modules.parsed()) return modules_arguments;
+  if (schema.parsed()) return schema_arguments;
+  if (graph.parsed()) return graph_arguments;
+  if (auto arguments = control.Parsed()) return *arguments;
   return VersionArguments{};
 }
 

@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "apps/runnel/control_command.h"
 #include "apps/runnel/exit_code.h"
 
 namespace runnel::program {
@@ -23,6 +24,7 @@ struct RunArguments {
   std::optional<double> duration = {};  ///< s, of the application's clock
   bool quiet = false;
   bool statistics = false;
+  bool has_control = true;  ///< other processes of the user can reach it
 };
 
 struct CheckArguments {
@@ -31,14 +33,25 @@ struct CheckArguments {
 
 struct ModulesArguments {
   std::vector<std::string> plugins = {};  ///< none: all that can be found
+  bool names_only = false;
+};
+
+struct SchemaArguments {
+  std::vector<std::string> plugins = {};  ///< none: all that can be found
+  std::string output = {};                ///< a file; "": standard output
+};
+
+struct GraphArguments {
+  ApplicationArguments application;
+  std::string output = {};  ///< a file; what it is called decides what it becomes
 };
 
 struct VersionArguments {};
 
 /// What to do; or, if there is nothing (left) to do, the exit code: help has been printed, or what
 /// is wrong with the arguments.
-using CommandLine =
-    std::variant<RunArguments, CheckArguments, ModulesArguments, VersionArguments, ExitCode>;
+using CommandLine = std::variant<RunArguments, CheckArguments, ModulesArguments, SchemaArguments,
+                                 GraphArguments, ControlArguments, VersionArguments, ExitCode>;
 
 [[nodiscard]] CommandLine ParseCommandLine(int count, const char* const* words);
 

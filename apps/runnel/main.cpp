@@ -4,9 +4,12 @@
 
 #include "apps/runnel/check_command.h"
 #include "apps/runnel/command_line.h"
+#include "apps/runnel/control_command.h"
+#include "apps/runnel/graph_command.h"
 #include "apps/runnel/modules_command.h"
 #include "apps/runnel/other_programs.h"
 #include "apps/runnel/run_command.h"
+#include "apps/runnel/schema_command.h"
 #include "apps/runnel/standard_output.h"
 
 namespace runnel::program {
@@ -16,6 +19,9 @@ namespace {
 ExitCode Do(const RunArguments& arguments) { return Run(arguments); }
 ExitCode Do(const CheckArguments& arguments) { return Check(arguments); }
 ExitCode Do(const ModulesArguments& arguments) { return ListModules(arguments); }
+ExitCode Do(const SchemaArguments& arguments) { return WriteSchema(arguments); }
+ExitCode Do(const GraphArguments& arguments) { return DrawGraph(arguments); }
+ExitCode Do(const ControlArguments& arguments) { return Control(arguments); }
 ExitCode Do(const VersionArguments&) {
   std::cout << "runnel " RUNNEL_VERSION "\n";
   return ExitCode::kDone;

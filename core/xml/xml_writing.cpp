@@ -11,6 +11,10 @@ void Write(const NewElement& element, const std::string& margin, const XmlLayout
   for (const auto& [name, value] : element.attributes) {
     text += " " + name + "=\"" + EscapedAttribute(value) + "\"";
   }
+  if (!element.text.empty()) {
+    text += ">" + EscapedAttribute(element.text) + "</" + element.name + ">" + layout.line_end;
+    return;
+  }
   if (element.children.empty()) {
     text += "/>" + layout.line_end;
     return;

@@ -13,6 +13,7 @@ struct NewElement {
   std::vector<std::pair<std::string, std::string>> attributes = {};
   std::vector<NewElement> children = {};
   bool after_blank_line = false;
+  std::string text = {};  ///< instead of children
 };
 
 /// How elements are laid out: each on lines of its own.

@@ -33,7 +33,7 @@ namespace runnel {
 /// with what the sensors tell (free_range_step with a bumper), which stops the planner with a fault.
 class BugPlanner : public Module {
  public:
-  explicit BugPlanner(const Placement& placement) : Module(placement) {}
+  explicit BugPlanner(const Placement& placement) : Module(placement) { KeepState(state_); }
 
   Input<Surroundings> surroundings{
       this,

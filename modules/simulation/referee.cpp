@@ -1,5 +1,6 @@
 #include "modules/simulation/referee.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <fstream>
@@ -163,6 +164,20 @@ bool Referee::IsTimeUp() const { return now() - *begin_ >= FromSeconds(time_limi
 void Referee::Record(const Pose2& at) {
   path_.Add({Position(at), LookOf(planner_.mode), at.heading, ToSeconds(now() - *begin_)});
   end_ = at;
+  RecordPoints();
+}
+
+void Referee::RecordPoints() {
+  const auto copy = [](const std::vector<Point2>& from, std::vector<Point2>& to) {
+    const auto count = static_cast<std::ptrdiff_t>(std::min(from.size(), kMostPoints));
+    to.assign(from.begin(), from.begin() + count);  // within what has been reserved
+  };
+  if (const auto all = points.Read(); all.is_new()) {
+    has_points_ = true;
+    copy(all->hits, hit_points_);
+    copy(all->leaves, leave_points_);
+  }
+  if (has_points_) return;
   if (planner_.hits > hit_points_.size() && hit_points_.size() < kMostPoints) {
     hit_points_.push_back(planner_.hit_point);
   }
@@ -172,7 +187,7 @@ void Referee::Record(const Pose2& at) {
 }
 
 Verdict Referee::Judge(const Pose2& at, const Point2& there) const {
-  if (touched_) return Verdict::kCollision;
+  if (touched_ && touch_is_collision.Get()) return Verdict::kCollision;
   if (planner_.mode == PlannerMode::kUnreachable) return Verdict::kUnreachable;
   if (planner_.mode == PlannerMode::kReached) {
     const bool is_there = Distance(Position(at), there) <= goal_tolerance.Get();

@@ -13,6 +13,7 @@
 #include "modules/simulation/algorithm/path_record.h"
 #include "modules/simulation/scene.h"
 #include "modules/types/contact.h"
+#include "modules/types/hit_and_leave_points.h"
 #include "modules/types/planner_status.h"
 #include "modules/types/pose.h"
 #include "plugins/parameters/file_path.h"
@@ -53,6 +54,10 @@ class Referee final : public Module {
   Input<Contact> contact{this, "contact", {.description = "what it touches", .required = true}};
   Input<PlannerStatus> status{
       this, "status", {.description = "what the planner says", .required = true}};
+  Input<HitAndLeavePoints> points{
+      this,
+      "points",
+      {.description = "all hit and leave points; unconnected, those that the status has had"}};
 
   StaticParameter<double> time_limit{this,
                                      "time_limit",
@@ -70,6 +75,12 @@ class Referee final : public Module {
       this,
       "expected",
       {.default_value = Expectation::kEither, .description = "which verdicts count as a success"}};
+  StaticParameter<bool> touch_is_collision{
+      this,
+      "touch_is_collision",
+      {.default_value = true,
+       .description =
+           "whether touching something ends the run; not so for a robot that feels its way"}};
   StaticParameter<FilePath> picture{
       this, "picture", {.description = "the SVG file to draw the path into; empty for none"}};
   StaticParameter<FilePath> result{
@@ -100,6 +111,7 @@ class Referee final : public Module {
   void JudgeTime();
   [[nodiscard]] bool IsTimeUp() const;
   void Record(const Pose2& at);
+  void RecordPoints();
   [[nodiscard]] Verdict Judge(const Pose2& at, const Point2& there) const;
   [[nodiscard]] Standing LastStanding() const;
   [[nodiscard]] bool IsSuccess(Verdict verdict) const;
@@ -110,6 +122,7 @@ class Referee final : public Module {
   [[nodiscard]] Result<std::string> WriteResult() const;
 
   PlannerStatus planner_;
+  bool has_points_ = false;
   bool touched_ = false;
   PathRecord path_;
   std::vector<Point2> hit_points_;

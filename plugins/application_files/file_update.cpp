@@ -1,59 +1,21 @@
-#include "plugins/application_files/file_update.h"
-
 #include <algorithm>
 
 #include "core/plugin/module_type_name.h"
-#include "core/types/duration_text.h"
 #include "core/types/type_info.h"
-#include "core/xml/xml_reading.h"
+#include "plugins/application_files/file_part.h"
 #include "plugins/application_files/new_elements.h"
 #include "plugins/parameters/file_path.h"
 #include "plugins/runtime_construction/configurable_search.h"
-#include "plugins/runtime_construction/path_walk.h"
+#include "plugins/runtime_construction/part_files.h"
 #include "plugins/runtime_construction/source_place.h"
 
 namespace runnel::internal {
-
-namespace {
-
-std::string NameOf(XmlElement tag) {
-  const XmlAttribute* const name = tag.Attribute("name");
-  return name != nullptr ? name->value : "";
-}
-
-// Also where a short path leads.
-bool LeadsSomewhere(const PathUse& use) {
-  const PathWalk walk(use);
-  if (walk.missing().empty()) return true;
-  if (!walk.misses_only_the_last() || !IsSavedModule(walk.at())) return false;
-  const auto is_named = [&](const ConfigurableElement& each) {
-    return each.element->name() == walk.missing();
-  };
-  return std::ranges::any_of(ConfigurablesOf(walk.at()), is_named) ||
-         FindPort(use, ConnectionEnd::kTo) != nullptr;
-}
-
-}  // namespace
-
-bool MeanTheSame(const AttributeRule& rule, const std::string& one, const std::string& other) {
-  if (one == other) return true;
-  if (rule.kind == AttributeKind::kDuration) {
-    const auto first = ParseDuration(one);
-    const auto second = ParseDuration(other);
-    return first && second && *first == *second;
-  }
-  if (rule.kind == AttributeKind::kNumber || rule.kind == AttributeKind::kCount) {
-    const auto first = ParseNumber(one);
-    const auto second = ParseNumber(other);
-    return first && second && *first == *second;
-  }
-  return false;
-}
 
 FileUpdate::FileUpdate(Saving& saving, const ApplicationSource& source, XmlEditor& editor)
     : saving_(saving), source_(source), old_folder_(source.file.parent_path()), editor_(editor) {}
 
 bool FileUpdate::IsMoved() const {
+  if (part_ != nullptr) return false;
   std::error_code ignored;
   const auto whole = [&](const std::filesystem::path& folder) {
     return std::filesystem::weakly_canonical(std::filesystem::absolute(folder, ignored), ignored);
@@ -71,6 +33,7 @@ void FileUpdate::Run(XmlElement root) {
   }
   GiveTypes();
   for (const auto& [tag, group] : groups_) AppendNew(tag, *group);
+  FinishParts();
   AppendLoads(root);
 }
 
@@ -88,7 +51,11 @@ void FileUpdate::UpdateChild(XmlElement tag, FrameworkElement& group) {
   if (tag.name() == "module") {
     is_saved&& IsSavedModule(*element) ? UpdateModule(tag, *element) : editor_.Remove(tag);
   } else if (tag.name() == "group") {
-    is_saved && !IsSavedModule(*element) ? UpdateGroup(tag, *element) : editor_.Remove(tag);
+    const bool is_instance = tag.Attribute("type") != nullptr;
+    const bool fits = is_saved && !IsSavedModule(*element) &&
+                      is_instance == (element->FindAnnotation<PartInstance>() != nullptr);
+    if (!fits) return editor_.Remove(tag);
+    is_instance ? UpdateInstance(tag, *element) : UpdateGroup(tag, *element);
   } else if (tag.name() == "port") {
     UpdatePort(tag, group);
   } else if (tag.name() == "connect") {
@@ -139,7 +106,7 @@ void FileUpdate::UpdateParameter(XmlElement tag, FrameworkElement& module,
   saving_.values[path] = text;
   const auto loaded = source_.values.find(path);
   const bool is_as_loaded = loaded != source_.values.end() && loaded->second == text;
-  if (!is_as_loaded) return editor_.SetAttribute(tag, "value", SavedValue(configurable, saving_));
+  if (!is_as_loaded) return WriteValue(*tag.parent(), &tag, *found);
   const XmlAttribute* const value = tag.Attribute("value");
   const bool is_file = &configurable.type() == &TypeOf<FilePath>();
   if (value != nullptr && is_file && IsMoved()) {
@@ -149,13 +116,33 @@ void FileUpdate::UpdateParameter(XmlElement tag, FrameworkElement& module,
 
 void FileUpdate::AddParameters(XmlElement tag, FrameworkElement& module,
                                const std::set<std::string>& named) {
-  for (const auto& [element, configurable] : ConfigurablesOf(module)) {
-    const std::string text = configurable->ToText();
-    if (named.contains(element->name()) || text == configurable->info().default_value) continue;
-    saving_.values[element->path()] = text;
-    editor_.Append(tag, {.name = "parameter",
-                         .attributes = {{"name", element->name()},
-                                        {"value", SavedValue(*configurable, saving_)}}});
+  for (const ConfigurableElement& each : ConfigurablesOf(module)) {
+    const std::string text = each.configurable->ToText();
+    const std::string path = each.element->path();
+    if (named.contains(each.element->name())) continue;
+    const auto loaded = source_.values.find(path);
+    const bool is_as_loaded = loaded != source_.values.end()
+                                  ? loaded->second == text  // set from outside of the part
+                                  : text == each.configurable->info().default_value;
+    if (loaded != source_.values.end() || !is_as_loaded) saving_.values[path] = text;
+    if (!is_as_loaded) WriteValue(tag, nullptr, each);
+  }
+}
+
+// `tag`: of the parameter, nullptr if it has none.
+void FileUpdate::WriteValue(XmlElement module_tag, const XmlElement* tag,
+                            const ConfigurableElement& parameter) {
+  const std::string value = SavedValue(*parameter.configurable, saving_);
+  const std::string& name = parameter.element->name();
+  if (part_ != nullptr) {
+    const FrameworkElement* module = parameter.element->parent();
+    if (!IsSavedModule(*module)) module = module->parent();
+    set_override_(module->path().substr(part_->path().size() + 1), name, value);
+  } else if (tag != nullptr) {
+    editor_.SetAttribute(*tag, "value", value);
+  } else {
+    editor_.Append(module_tag,
+                   {.name = "parameter", .attributes = {{"name", name}, {"value", value}}});
   }
 }
 
@@ -216,79 +203,6 @@ bool FileUpdate::SaysConnection(XmlElement tag, Port* from, Port* to, bool is_on
   return true;
 }
 
-void FileUpdate::UpdateAddedAttributes(XmlElement tag, FrameworkElement& element) {
-  for (const AddedAttribute* added : saving_.tools.tags.AddedAttributes(tag.name())) {
-    if (!added->saved) continue;
-    const std::string value = added->saved(element);
-    const XmlAttribute* const known = tag.Attribute(added->rule.name);
-    if (value.empty()) {
-      editor_.RemoveAttribute(tag, added->rule.name);
-    } else if (known == nullptr || !MeanTheSame(added->rule, known->value, value)) {
-      editor_.SetAttribute(tag, added->rule.name, value);
-    }
-  }
-}
-
-// What says itself what has to be there comes later; the rest stays, unless what it names is gone.
-void FileUpdate::UpdateOther(XmlElement tag, FrameworkElement& parent) {
-  const XmlTag* const known = saving_.tools.tags.FindTag(tag.name());
-  if (known == nullptr || known->saved) return;
-  for (const AttributeRule& rule : saving_.tools.tags.Rules(*known)) {
-    const XmlAttribute* const attribute = tag.Attribute(rule.name);
-    if (!rule.names_element || attribute == nullptr) continue;
-    if (!std::ranges::all_of(PathsIn(*attribute, parent), LeadsSomewhere)) {
-      return editor_.Remove(tag);
-    }
-  }
-}
-
-void FileUpdate::UpdateSavedTags(XmlElement tag, FrameworkElement& parent) {
-  for (const std::string& name : saving_.tools.tags.TagsIn(tag.name())) {
-    const XmlTag& known = *saving_.tools.tags.FindTag(name);
-    if (!known.saved) continue;
-    std::vector<SavedTag> wanted = known.saved(parent);
-    for (const XmlElement child : tag.children()) {
-      if (child.name() != name) continue;
-      // By their names, if they have any; else in order.
-      const auto is_same = [&](const SavedTag& each) {
-        return each.front().name != "name" || each.front().value == NameOf(child);
-      };
-      const auto found = std::ranges::find_if(wanted, is_same);
-      if (found == wanted.end()) {
-        editor_.Remove(child);
-      } else {
-        UpdateSavedTag(child, *found);
-        wanted.erase(found);
-      }
-    }
-    for (const SavedTag& each : wanted) editor_.Append(tag, SavedTagElement(name, each));
-  }
-}
-
-void FileUpdate::UpdateSavedTag(XmlElement tag, const SavedTag& saved) {
-  const XmlTag& known = *saving_.tools.tags.FindTag(tag.name());
-  for (const AttributeRule& rule : saving_.tools.tags.Rules(known)) {
-    const auto wanted = std::ranges::find(saved, rule.name, &SavedAttribute::name);
-    const XmlAttribute* const attribute = tag.Attribute(rule.name);
-    if (wanted == saved.end()) {
-      editor_.RemoveAttribute(tag, rule.name);
-    } else if (attribute != nullptr ? !MeanTheSame(rule, attribute->value, wanted->value)
-                                    : !wanted->is_default) {
-      editor_.SetAttribute(tag, rule.name, wanted->value);
-    }
-  }
-}
-
-void FileUpdate::UpdateLoad(XmlElement tag) {
-  const std::string& plugin = tag.Attribute("plugin")->value;
-  const bool is_file = plugin.find('/') != std::string::npos;
-  loads_.insert(is_file ? std::filesystem::path(plugin).stem().string() : plugin);
-  if (!is_file || !IsMoved()) return;
-  std::string moved = MovedFileName(plugin, old_folder_, saving_.folder);
-  if (moved.find('/') == std::string::npos) moved.insert(0, "./");
-  editor_.SetAttribute(tag, "plugin", moved);
-}
-
 void FileUpdate::AppendNew(XmlElement tag, FrameworkElement& group) {
   for (FrameworkElement* child : group.children()) {
     if (has_tag_.contains(child)) continue;
@@ -308,22 +222,6 @@ void FileUpdate::AppendNew(XmlElement tag, FrameworkElement& group) {
 void FileUpdate::GiveTypes() {
   for (const auto& [tag, port] : untyped_) {
     if (touched_.contains(port)) editor_.SetAttribute(tag, "type", port->type().name());
-  }
-}
-
-void FileUpdate::AppendLoads(XmlElement root) {
-  std::optional<XmlElement> last;
-  for (const XmlElement child : root.children()) {
-    if (child.name() == "load") last = child;
-  }
-  for (const std::string& plugin : saving_.plugins) {
-    if (loads_.contains(plugin)) continue;
-    const NewElement load{.name = "load", .attributes = {{"plugin", plugin}}};
-    if (last) {
-      editor_.InsertAfter(*last, load);
-    } else {
-      editor_.InsertFirst(root, load);
-    }
   }
 }
 

@@ -25,10 +25,11 @@ void CollectValues(XmlElement element, std::string_view attribute,
 
 // Names on the command line that nothing in the file knows. What stands in the file counts even if
 // its parameter could not be made, for that has been reported.
-void ReportUnknownArguments(XmlElement root, const Configuration& configuration,
-                            Diagnostics& diagnostics) {
+void ReportUnknownArguments(XmlElement root, const PartFiles& parts,
+                            const Configuration& configuration, Diagnostics& diagnostics) {
   std::vector<std::string> known;
   CollectValues(root, "command_line", known);
+  for (const XmlElement part : parts.Roots()) CollectValues(part, "command_line", known);
   for (const std::string& name : configuration.UnusedArguments()) {
     if (std::ranges::find(known, name) != known.end()) continue;
     diagnostics.Add({.message = "the application knows no '" + name + "'",
@@ -65,7 +66,7 @@ FrameworkElement* Build(XmlElement root, const BuildTools& tools, BuildContext& 
   FrameworkElement* const application = ApplicationReader(context).Read(root);
   context.RunDeferred();
   if (application != nullptr) CheckRequiredInputs(*application, context);
-  ReportUnknownArguments(root, tools.configuration, diagnostics);
+  ReportUnknownArguments(root, context.parts(), tools.configuration, diagnostics);
   if (diagnostics.ok() && mode == BuildMode::kRun) MakeReady(*application, tools, context);
   return application;
 }
@@ -75,6 +76,7 @@ void KeepSource(FrameworkElement& application, SourceText text, BuildContext& co
   source->file = std::move(text.file);
   source->text = std::move(text.text);
   source->values = context.TakeValues();
+  source->parts = context.parts().TakeTexts();
   application.Annotate(std::move(source));
 }
 

@@ -9,8 +9,9 @@
 namespace runnel {
 
 enum class BuildMode {
-  kRun,    ///< the application is there and ready afterwards
-  kCheck,  ///< all is checked that can be without making anything ready; nothing is left
+  kRun,        ///< the application is there and ready afterwards
+  kConstruct,  ///< the application is there, but nothing is made ready: to look at it
+  kCheck,      ///< all is checked that can be without making anything ready; nothing is left
 };
 
 /// What came of building an application.

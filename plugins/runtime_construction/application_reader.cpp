@@ -19,6 +19,11 @@ std::vector<std::string> NamesOf(const std::vector<AttributeRule>& rules) {
   return names;
 }
 
+// What tells editors where the schema is.
+bool IsForEditors(const std::string& attribute) {
+  return attribute == "xmlns:xsi" || attribute == "xsi:noNamespaceSchemaLocation";
+}
+
 // Where a known tag would be right.
 std::string PlaceHint(const XmlTag& tag) {
   std::string places;
@@ -31,12 +36,21 @@ std::string PlaceHint(const XmlTag& tag) {
 
 }  // namespace
 
+ApplicationReader::ApplicationReader(BuildContext& context) : context_(context) {
+  context.set_part_reader(
+      [this](const XmlAttribute& type, XmlElement part_tag, FrameworkElement& group) {
+        return ReadPart(type, part_tag, group);
+      });
+}
+
 FrameworkElement* ApplicationReader::Read(XmlElement root) {
   const XmlTag* const tag = context_.tags().FindTag(root.name());
   FrameworkElement& top = context_.runtime().root();
-  if (tag == nullptr || !tag->parents.empty()) {
+  if (tag == nullptr || !tag->parents.empty() || tag->is_part) {
+    const bool is_part = tag != nullptr && tag->is_part;
     context_.Report({.message = "<" + root.name() + "> is not an application",
-                     .hint = "an application file begins with <application>"},
+                     .hint = is_part ? "an application uses it by <group name=\"…\" type=\"…\">"
+                                     : "an application file begins with <application>"},
                     root.position(), top);
     return nullptr;
   }
@@ -51,6 +65,46 @@ FrameworkElement* ApplicationReader::Read(XmlElement root) {
   CheckContents(*tag, root, inside);
   ReadChildren(*tag, root, inside, mode, false);
   return made;
+}
+
+Result<void> ApplicationReader::ReadPart(const XmlAttribute& type, XmlElement part_tag,
+                                         FrameworkElement& group) {
+  const auto part = context_.parts().Open(type, part_tag, group);
+  if (!part) return part.error();
+  const XmlElement root = (*part)->root;
+  const XmlTag& tag = *context_.tags().FindTag(root.name());
+  group.Annotate(std::make_unique<PartInstance>(root.position().file));
+  TagUse use{root, group, context_};
+  ReadChildren(tag, root, group, Mode::kHandle, true);
+  NoteMisplacedLoads(root);
+  CheckAttributesOf(tag, use);
+  CheckContents(tag, root, group);
+  ReadChildren(tag, root, group, Mode::kHandle, false);
+  context_.parts().Close();
+  // When all that the tag gives it has been read.
+  context_.Defer(BuildStage::kParameters, [this, part = *part] { CheckParameters(*part); });
+  return {};
+}
+
+void ApplicationReader::CheckParameters(PartUse& part) {
+  for (const auto& [name, declared] : part.declared) {
+    const bool has_value =
+        declared.Says("value") || declared.Says("config") || declared.Says("command_line");
+    if (has_value || part.given.contains(name)) continue;
+    const SourcePosition at = declared.xml.position();
+    context_.Report({.message = "the parameter '" + name + "' of " + at.file + " has no value",
+                     .hint = "add <parameter name=\"" + name + "\" value=\"…\"/>; " + at.file +
+                             " declares it in line " + std::to_string(at.line)},
+                    part.tag.position(), part.group);
+  }
+  context_.Defer(BuildStage::kChecks, [this, &part] {
+    for (const auto& [name, declared] : part.declared) {
+      if (part.used.contains(name)) continue;
+      context_.Warn({.message = "nothing takes its value from the parameter '" + name + "'",
+                     .hint = "add from=\"" + name + "\" to a <parameter> of a module"},
+                    declared.Get("name").value_position, part.group);
+    }
+  });
 }
 
 // What stands in a wrong place, or nearly is, may have brought what is unknown elsewhere.
@@ -144,6 +198,7 @@ void ApplicationReader::ReadMisspeltAttributes(const std::vector<AttributeRule>&
   for (const Error& error : problems.errors()) {
     const auto is_here = [&](const XmlAttribute& each) { return each.position == error.position; };
     const auto unknown = std::ranges::find_if(use.xml.attributes(), is_here);
+    if (IsForEditors(unknown->name)) continue;
     std::vector<std::string> free = names;
     std::erase_if(free, [&](const std::string& name) { return use.Says(name); });
     if (const std::string meant = NearestName(unknown->name, free); !meant.empty()) {

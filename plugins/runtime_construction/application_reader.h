@@ -15,7 +15,7 @@ namespace runnel {
 /// Errors: all go to the context.
 class ApplicationReader {
  public:
-  explicit ApplicationReader(BuildContext& context) : context_(context) {}
+  explicit ApplicationReader(BuildContext& context);
 
   /// What the root tag has made; nullptr if it could not.
   FrameworkElement* Read(XmlElement root);
@@ -23,6 +23,8 @@ class ApplicationReader {
  private:
   enum class Mode { kHandle, kCheckOnly };
 
+  Result<void> ReadPart(const XmlAttribute& type, XmlElement tag, FrameworkElement& group);
+  void CheckParameters(PartUse& part);
   // Those that come first, or those that do not.
   void ReadChildren(const XmlTag& tag, XmlElement element, FrameworkElement& parent, Mode mode,
                     bool first);

@@ -9,22 +9,37 @@ namespace runnel {
 
 namespace {
 
-Error Placed(Error error, const SourcePosition& position, const FrameworkElement& element) {
-  if (error.position.file.empty()) error.position = position;
-  if (error.path.empty()) error.path = element.path();
-  return error;
+std::string WithoutPath(std::string text, const std::string& path) {
+  for (std::size_t at = text.find(path); at != std::string::npos; at = text.find(path, at)) {
+    text.erase(at, path.size());
+  }
+  return text;
 }
 
 }  // namespace
 
+bool BuildContext::Place(Error& error, const SourcePosition& position,
+                         const FrameworkElement& element) {
+  if (error.position.file.empty()) error.position = position;
+  if (error.path.empty()) error.path = element.path();
+  const std::string chain = parts_.Chain(error.position.file, element);
+  if (chain.empty()) return true;
+  const SourcePosition& at = error.position;
+  const std::string own_path = parts_.FindAround(&element)->group.path();
+  const std::string what = at.file + ":" + std::to_string(at.line) + ":" +
+                           std::to_string(at.column) + ":" + WithoutPath(error.message, own_path);
+  error.hint += (error.hint.empty() ? "" : "; ") + chain;
+  return told_.insert(what).second;
+}
+
 void BuildContext::Report(Error error, const SourcePosition& position,
                           const FrameworkElement& element) {
-  diagnostics_.Add(Placed(std::move(error), position, element));
+  if (Place(error, position, element)) diagnostics_.Add(std::move(error));
 }
 
 void BuildContext::Warn(Error warning, const SourcePosition& position,
                         const FrameworkElement& element) {
-  diagnostics_.AddWarning(Placed(std::move(warning), position, element));
+  if (Place(warning, position, element)) diagnostics_.AddWarning(std::move(warning));
 }
 
 void BuildContext::Attempt(const Cause& cause, const std::function<void()>& action) {

@@ -14,6 +14,7 @@
 #include "core/element/runtime.h"
 #include "core/plugin/plugin_manager.h"
 #include "plugins/parameters/configuration.h"
+#include "plugins/runtime_construction/part_files.h"
 #include "plugins/runtime_construction/xml_tag.h"
 
 namespace runnel {
@@ -49,14 +50,26 @@ enum class BuildStage {
 class BuildContext {
  public:
   BuildContext(const BuildTools& tools, std::filesystem::path folder, Diagnostics& diagnostics)
-      : tools_(tools), folder_(std::move(folder)), diagnostics_(diagnostics) {}
+      : tools_(tools), parts_(std::move(folder)), diagnostics_(diagnostics) {}
 
   [[nodiscard]] Runtime& runtime() const noexcept { return tools_.runtime; }
   [[nodiscard]] PluginManager& plugins() const noexcept { return tools_.plugins; }
   [[nodiscard]] XmlTagRegistry& tags() const noexcept { return tools_.tags; }
   [[nodiscard]] Configuration& configuration() const noexcept { return tools_.configuration; }
-  /// Of the application file: relative file names in it start here.
-  [[nodiscard]] const std::filesystem::path& folder() const noexcept { return folder_; }
+  /// Where relative file names start that stand at `place`.
+  [[nodiscard]] std::filesystem::path FolderOf(const SourcePosition& place) const {
+    return parts_.FolderOf(place.file);
+  }
+
+  /// The files that describe the inside of groups.
+  [[nodiscard]] PartFiles& parts() noexcept { return parts_; }
+  /// Makes in `group` what the file says that `tag` names as its type. Errors: it cannot be read.
+  Result<void> ReadPart(const XmlAttribute& type, XmlElement tag, FrameworkElement& group) {
+    return read_part_(type, tag, group);
+  }
+  using PartReader =
+      std::function<Result<void>(const XmlAttribute& type, XmlElement tag, FrameworkElement&)>;
+  void set_part_reader(PartReader reader) { read_part_ = std::move(reader); }
 
   /// Any error makes the build fail, after all of the file has been looked at. The place in the
   /// file and the path are put in where the error has none itself.
@@ -122,7 +135,13 @@ class BuildContext {
   };
 
   const BuildTools tools_;
-  const std::filesystem::path folder_;
+  // The error with its place, path and where a part is used; false if it has been told of another
+  // use of the same part.
+  bool Place(Error& error, const SourcePosition& position, const FrameworkElement& element);
+
+  PartFiles parts_;
+  PartReader read_part_;
+  std::set<std::string> told_;  // of what stands in parts
   Diagnostics& diagnostics_;
   std::map<BuildStage, std::vector<Deferred>> deferred_;
   Cause cause_;

@@ -65,10 +65,21 @@ void XmlTagRegistry::AddAttribute(AddedAttribute attribute) {
   added_attributes_.push_back(std::move(attribute));
 }
 
-void XmlTagRegistry::RemovePlugin(std::string_view plugin) {
-  std::erase_if(tags_, [&](const auto& entry) { return entry.second.plugin == plugin; });
-  std::erase_if(added_attributes_,
-                [&](const AddedAttribute& each) { return each.plugin == plugin; });
+std::function<void()> XmlTagRegistry::SetAside(std::string_view plugin) {
+  std::map<std::string, XmlTag, std::less<>> tags;
+  std::vector<AddedAttribute> attributes;
+  std::erase_if(tags_, [&](const auto& entry) {
+    return entry.second.plugin == plugin && tags.insert(entry).second;
+  });
+  std::erase_if(added_attributes_, [&](const AddedAttribute& each) {
+    if (each.plugin != plugin) return false;
+    attributes.push_back(each);
+    return true;
+  });
+  return [this, tags, attributes] {
+    for (const auto& [name, tag] : tags) tags_.insert_or_assign(name, tag);
+    added_attributes_.insert(added_attributes_.end(), attributes.begin(), attributes.end());
+  };
 }
 
 const XmlTag* XmlTagRegistry::FindTag(std::string_view name) const {
@@ -93,7 +104,11 @@ std::vector<AttributeRule> XmlTagRegistry::Rules(const XmlTag& tag) const {
 std::vector<std::string> XmlTagRegistry::TagsIn(std::string_view parent) const {
   std::vector<std::string> names;
   for (const auto& [name, tag] : tags_) {
-    if (std::ranges::find(tag.parents, parent) != tag.parents.end()) names.push_back(name);
+    const auto may_stand_in = [&tag = tag](std::string_view place) {
+      return std::ranges::find(tag.parents, place) != tag.parents.end();
+    };
+    const bool is_of_group = parent == "group_type" && may_stand_in("group");
+    if (may_stand_in(parent) || is_of_group) names.push_back(name);
   }
   return names;
 }

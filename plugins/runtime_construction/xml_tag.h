@@ -61,6 +61,7 @@ struct XmlTag {
   std::vector<AttributeRule> attributes = {};
   /// Handled before all other tags of the file are even looked at, since it may bring new tags.
   bool comes_first = false;
+  bool is_part = false;  ///< the root of a file that others use, not of an application
   /// Makes what the tag asks for and returns the element that the tags within it go below: a new
   /// one, or use.parent. Nothing if it could not, after reporting why to use.context. What needs
   /// the rest of the file is put off with use.context.Defer(). Exceptions become errors at the tag.
@@ -99,7 +100,7 @@ class XmlTagRegistry final : public OfferedRegistry {
   /// Both throw ElementError if the word is taken, as registrations of plugins do.
   void AddTag(XmlTag tag);
   void AddAttribute(AddedAttribute attribute);
-  void RemovePlugin(std::string_view plugin) override;
+  std::function<void()> SetAside(std::string_view plugin) override;
   /// What is added from now on counts as of this plugin.
   void set_plugin(std::string plugin) { plugin_ = std::move(plugin); }
 
@@ -107,7 +108,8 @@ class XmlTagRegistry final : public OfferedRegistry {
   [[nodiscard]] std::vector<const AddedAttribute*> AddedAttributes(std::string_view tag) const;
   /// The rules for all attributes of the tag, those of plugins included.
   [[nodiscard]] std::vector<AttributeRule> Rules(const XmlTag& tag) const;
-  /// The names of the tags that may stand in `parent`, sorted.
+  /// The names of the tags that may stand in `parent`, sorted. Whatever may stand in a <group> may
+  /// stand in a <group_type>.
   [[nodiscard]] std::vector<std::string> TagsIn(std::string_view parent) const;
 
  private:

@@ -74,6 +74,11 @@ void AssignThread(FrameworkElement& element, ThreadContainer& thread) {
   });
 }
 
+std::uint64_t OwnThreadSerial(const FrameworkElement& element) {
+  const auto* const found = element.FindAnnotation<ThreadAssignment>();
+  return found != nullptr && found->serial != kNoThread ? found->serial : 0;
+}
+
 void UnassignThread(FrameworkElement& element) {
   Runtime& runtime = element.runtime();
   const std::lock_guard lock(runtime.structure_mutex());
@@ -85,24 +90,19 @@ void UnassignThread(FrameworkElement& element) {
   });
 }
 
-ThreadContainer* OwnThreadContainer(const FrameworkElement& element) {
-  const std::uint64_t own = OwnThread(element);
+ThreadContainer* OwnThread(const FrameworkElement& element) {
+  const auto* const found = element.FindAnnotation<ThreadAssignment>();
   FrameworkElement* const threads = element.runtime().root().FindChild("threads");
-  if (own == 0 || threads == nullptr) return nullptr;
+  if (found == nullptr || threads == nullptr) return nullptr;
   for (FrameworkElement* each : threads->children()) {
-    if (each->serial() == own) return dynamic_cast<ThreadContainer*>(each);
+    if (each->serial() == found->serial) return dynamic_cast<ThreadContainer*>(each);
   }
   return nullptr;
 }
 
-std::uint64_t OwnThread(const FrameworkElement& element) {
-  const auto* const found = element.FindAnnotation<ThreadAssignment>();
-  return found != nullptr ? found->serial : 0;
-}
-
 std::uint64_t AssignedThread(const FrameworkElement& element) {
   for (const FrameworkElement* at = &element; at != nullptr; at = at->parent()) {
-    if (const std::uint64_t own = OwnThread(*at); own != 0) return own;
+    if (const std::uint64_t own = OwnThreadSerial(*at); own != 0) return own;
   }
   return 0;
 }

@@ -48,14 +48,14 @@ void UnassignThread(FrameworkElement& element);
 
 /// The container that `element` itself is assigned to; nullptr if to none, or to one that is gone.
 /// Under the structure lock.
-[[nodiscard]] ThreadContainer* OwnThreadContainer(const FrameworkElement& element);
+[[nodiscard]] ThreadContainer* OwnThread(const FrameworkElement& element);
 
 /// The serial number of the container that `element` is assigned to, by itself or by what is above
 /// it; 0 if to none. Under the structure lock.
 [[nodiscard]] std::uint64_t AssignedThread(const FrameworkElement& element);
 
 /// The same, of the element's own assignment only.
-[[nodiscard]] std::uint64_t OwnThread(const FrameworkElement& element);
+[[nodiscard]] std::uint64_t OwnThreadSerial(const FrameworkElement& element);
 
 /// Told of assignments; an ElementListener may be one too.
 class AssignmentListener {

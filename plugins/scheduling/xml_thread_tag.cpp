@@ -147,7 +147,7 @@ std::vector<ThreadContainer*> ReachableThreads(const FrameworkElement& applicati
 
 std::vector<SavedTag> SavedThreads(FrameworkElement& application) {
   std::set<std::uint64_t> used;
-  application.Visit([&](FrameworkElement& each) { used.insert(OwnThread(each)); });
+  application.Visit([&](FrameworkElement& each) { used.insert(OwnThreadSerial(each)); });
   std::vector<SavedTag> tags;
   for (const ThreadContainer* thread : ReachableThreads(application)) {
     if (thread->IsAtOrBelow(application) || used.contains(thread->serial())) {
@@ -159,7 +159,7 @@ std::vector<SavedTag> SavedThreads(FrameworkElement& application) {
 
 // "" also if the thread is gone, for then the assignment means nothing.
 std::string SavedAssignment(FrameworkElement& element) {
-  const std::uint64_t serial = OwnThread(element);
+  const std::uint64_t serial = OwnThreadSerial(element);
   if (serial == 0) return "";
   for (const ThreadContainer* thread : ReachableThreads(internal::ApplicationOf(element))) {
     if (thread->serial() == serial) return thread->name();

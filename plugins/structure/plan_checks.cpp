@@ -180,7 +180,7 @@ Result<void> Plan::Check(const AssignToThread& change) {
   };
   auto before = std::make_shared<ThreadContainer*>(nullptr);
   steps_.push_back({[=, &element]() -> Result<void> {
-                      *before = OwnThreadContainer(element);
+                      *before = OwnThread(element);
                       assign(thread);
                       return {};
                     },

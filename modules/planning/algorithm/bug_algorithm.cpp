@@ -13,6 +13,7 @@ namespace {
 constexpr double kFaced = DegreesToRadians(8.0);  // rad of bearing at which the robot faces a point
 constexpr int kSecondLooks = 3;       // in a task, so that it ends whatever the sensors say
 constexpr double kLookingTime = 4.0;  // s, of standing and looking before a vague obstacle
+constexpr double kTurnsForLookingRound = 2.5;  // that a robot needs where there is no way on
 constexpr double kHitPlace = Lap::kGateDistance + Lap::kGateHalfWidth;
 constexpr double kFalseLeave = 0.05;    // m nearer to the goal, at which a hit is a new one
 constexpr double kRefusalReach = 0.15;  // m, of the way on from a leave point that was blocked
@@ -59,7 +60,7 @@ Twist2 BugAlgorithm::Step(BugState& state, const BugInput& input) const {
 }
 
 Twist2 BugAlgorithm::GoRoundObstacle(BugState& state, const BugInput& input) const {
-  if (state.idle_time > configuration_.idle_limit) {
+  if (IsStuck(state)) {
     GiveUp(state, Unreachability::kNoRoom);
     return {};
   }
@@ -93,6 +94,11 @@ void BugAlgorithm::FindLeavePoint(BugState& state, const BugInput& input) const 
   state.approach = found->approach;
 }
 
+bool BugAlgorithm::IsStuck(const BugState& state) const {
+  const double turning = kTurnsForLookingRound * 2 * kPi / configuration_.driving.turn_limit;
+  return state.idle_time > std::max(configuration_.idle_limit, turning);
+}
+
 bool BugAlgorithm::LeavePointFound(const BugState& state) const {
   return state.leave_point.has_value();
 }
@@ -122,6 +128,11 @@ Twist2 BugAlgorithm::MotionToGoal(BugState& state, const BugInput& input) const 
       return TurnTowards(configuration_.driving, way.obstacle_bearing);
     }
     Hit(state, input, way.obstacle_bearing);
+    return {};
+  }
+  // A way that the sensors show now free, now not, is none.
+  if (IsStuck(state)) {
+    Hit(state, input, NearestBoundary(input.surroundings).bearing);
     return {};
   }
   return GoAhead(state, input, bearing);

@@ -11,6 +11,7 @@ namespace runnel {
 namespace {
 
 constexpr double kProgress = 0.10;       // m that count as having got on
+constexpr double kMoving = 0.005;        // m or rad in a step, commanded
 constexpr double kStill = 0.0005;        // m or rad in a step
 constexpr double kCrossingReach = 0.15;  // m past a crossing within which it may still leave there
 constexpr double kLineTolerance = 0.08;  // m; a robot that comes so near to the line is on it
@@ -21,7 +22,9 @@ constexpr double kParallel =
 bool IsHeld(const BugState& state, const BugInput& input) {
   const double moved = Distance(Position(state.last_pose), Position(input.pose));
   const double turned = std::abs(WrapAngle(input.pose.heading - state.last_pose.heading));
-  return state.last_twist != Twist2{} && moved < kStill && turned < kStill;
+  const double forward = state.last_twist.forward * input.time_step;
+  const double turn = std::abs(state.last_twist.turn) * input.time_step;
+  return forward + turn > kMoving && moved < kStill && turned < kStill;
 }
 
 }  // namespace

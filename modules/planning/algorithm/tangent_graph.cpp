@@ -10,8 +10,6 @@ namespace runnel {
 
 namespace {
 
-// m between the ends of two neighbouring ways, at which one section ends and another is behind it.
-constexpr double kJump = 0.30;
 // m; a robot that touches the grown boundary goes on along it: the node is not where it stands.
 constexpr double kLeastAhead = 0.30;
 
@@ -53,8 +51,9 @@ std::optional<TangentGraph::Node> TangentGraph::BestNode(Point2 goal, double low
   std::optional<Node> best;
   for (int sector = 0; sector < kSectors; ++sector) {
     const int next = Wrapped(sector + 1);
-    const bool is_last_open = Free(sector) >= range_, is_next_open = Free(next) >= range_;
-    if (is_last_open == is_next_open && std::abs(Free(sector) - Free(next)) < kJump) continue;
+    const int blocker = Blocker(sector), next_blocker = Blocker(next);
+    const bool is_blocked = blocker >= 0 && next_blocker >= 0;
+    if (is_blocked ? IsSameSection(blocker, next_blocker) : blocker == next_blocker) continue;
     const int past = Free(sector) > Free(next) ? sector : next;
     const double end = std::min(Free(sector), Free(next));
     const double ahead = std::min(Free(past), std::max(end, kLeastAhead));
@@ -81,33 +80,27 @@ Point2 TangentGraph::NearestReachable(Point2 goal) const {
   return nearest;
 }
 
-std::array<bool, Surroundings::kSectors> TangentGraph::Section(double contact_bearing) const {
-  std::array<bool, kSectors> section{};
+bool TangentGraph::IsSameSection(int point, int other) const {
+  if (point == other) return true;
   const auto local = [&](int sector) {
     return ContourDistance(surroundings_, sector) * UnitVector(SectorBearing(sector));
   };
-  const int contact = SectorOf(contact_bearing);
-  if (!std::isfinite(ContourDistance(surroundings_, contact))) return section;
-  for (const int step : {1, -1}) {
-    int last = contact;
-    section[static_cast<std::size_t>(contact)] = true;
-    for (int sector = Wrapped(contact + step); sector != contact; sector = Wrapped(sector + step)) {
-      if (!std::isfinite(ContourDistance(surroundings_, sector))) break;
-      if (Distance(local(last), local(sector)) >= 2 * radius_) break;
-      section[static_cast<std::size_t>(sector)] = true;
-      last = sector;
-    }
-  }
-  return section;
+  return Distance(local(point), local(other)) < 2 * radius_;
 }
 
 double TangentGraph::SectionDistance(Point2 goal, double contact_bearing) const {
-  const auto section = Section(contact_bearing);
   double least = std::numeric_limits<double>::infinity();
-  for (int sector = 0; sector < kSectors; ++sector) {
-    const int blocker = blocker_[static_cast<std::size_t>(sector)];
-    if (blocker < 0 || !section[static_cast<std::size_t>(blocker)]) continue;
-    least = std::min(least, Distance(Ahead(sector, Free(sector)), goal));
+  const int contact = SectorOf(contact_bearing);
+  for (const int step : {1, -1}) {
+    int last = contact;
+    for (int sector = contact; std::isfinite(ContourDistance(surroundings_, sector));) {
+      if (!IsSameSection(last, sector)) break;
+      least =
+          std::min(least, Distance(Ahead(sector, ContourDistance(surroundings_, sector)), goal));
+      last = sector;
+      sector = Wrapped(sector + step);
+      if (sector == contact) break;
+    }
   }
   return least;
 }

@@ -32,16 +32,18 @@ class TangentGraph {
   /// distance).
   [[nodiscard]] Point2 NearestReachable(Point2 goal) const;
 
-  /// m from the goal to the nearest point of the grown boundary sensed now that belongs to the
-  /// section with a point at `contact_bearing` (rad, body's frame): sections are apart where the
-  /// body fits through. Infinite if nothing of it is within range.
+  /// m from the goal to the nearest boundary point sensed that belongs to the section with a point
+  /// at `contact_bearing` (rad, body's frame): sections are apart where the body fits through.
+  /// Infinite if there is nothing.
   [[nodiscard]] double SectionDistance(Point2 goal, double contact_bearing) const;
 
  private:
   static constexpr int kSectors = Surroundings::kSectors;
   [[nodiscard]] double Free(int sector) const { return free_[static_cast<std::size_t>(sector)]; }
   [[nodiscard]] Point2 Ahead(int sector, double distance) const;
-  [[nodiscard]] std::array<bool, kSectors> Section(double contact_bearing) const;
+  [[nodiscard]] int Blocker(int sector) const { return blocker_[static_cast<std::size_t>(sector)]; }
+  /// Whether the body does not fit through between the boundary points of two sectors.
+  [[nodiscard]] bool IsSameSection(int point, int other) const;
 
   const Surroundings& surroundings_;
   Pose2 pose_;

@@ -3,8 +3,8 @@
 namespace runnel {
 
 std::vector<XmlTag> BuiltInTags() {
-  return {ApplicationTag(), LoadTag(),    GroupTag(),    ModuleTag(),
-          PortTag(),        ConnectTag(), ParameterTag()};
+  return {ApplicationTag(), GroupTypeTag(), LoadTag(),    GroupTag(),
+          ModuleTag(),      PortTag(),      ConnectTag(), ParameterTag()};
 }
 
 }  // namespace runnel

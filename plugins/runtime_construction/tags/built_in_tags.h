@@ -12,6 +12,7 @@ namespace runnel {
 [[nodiscard]] XmlTag ApplicationTag();
 [[nodiscard]] XmlTag LoadTag();
 [[nodiscard]] XmlTag GroupTag();
+[[nodiscard]] XmlTag GroupTypeTag();
 [[nodiscard]] XmlTag ModuleTag();
 [[nodiscard]] XmlTag PortTag();
 [[nodiscard]] XmlTag ConnectTag();

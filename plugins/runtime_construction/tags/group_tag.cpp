@@ -1,3 +1,6 @@
+#include <memory>
+#include <utility>
+
 #include "core/module/group.h"
 #include "plugins/runtime_construction/build_context.h"
 #include "plugins/runtime_construction/name_check.h"
@@ -5,14 +8,43 @@
 
 namespace runnel {
 
+namespace {
+
+void RefuseContents(const TagUse& use, const FrameworkElement& group) {
+  for (const XmlElement child : use.xml.children()) {
+    const XmlTag* const known = use.context.tags().FindTag(child.name());
+    if (known == nullptr || child.name() == "parameter") continue;
+    use.context.Report({.message = "<" + child.name() + "> in a group whose type is a file",
+                        .hint = "write it into " + use.Get("type").value + ", or leave out type"},
+                       child.position(), group);
+  }
+}
+
+FrameworkElement* MakeGroup(const TagUse& use) {
+  BuildContext& context = use.context;
+  auto& group = context.runtime().Create<Group>(use.parent, FreeName(use, use.parent));
+  const XmlAttribute* const type = use.Find("type");
+  if (type == nullptr) return &group;
+  RefuseContents(use, group);
+  if (auto read = context.ReadPart(*type, use.xml, group); !read) {
+    context.MarkIncomplete(group);
+    context.Excuse(group);
+    context.Report(read.error(), type->value_position, group);
+  }
+  return &group;
+}
+
+}  // namespace
+
 XmlTag GroupTag() {
   return {.name = "group",
           .summary = "modules and groups that serve one purpose",
           .parents = {"application", "group"},
-          .attributes = {{.name = "name", .kind = AttributeKind::kNewName, .required = true}},
-          .handle = [](const TagUse& use) -> FrameworkElement* {
-            return &use.context.runtime().Create<Group>(use.parent, FreeName(use, use.parent));
-          }};
+          .attributes = {{.name = "name", .kind = AttributeKind::kNewName, .required = true},
+                         {.name = "type",
+                          .kind = AttributeKind::kPath,
+                          .summary = "the file that says what is in it, a <group_type>"}},
+          .handle = MakeGroup};
 }
 
 }  // namespace runnel

@@ -10,9 +10,10 @@ namespace runnel {
 namespace {
 
 // A plugin is named; with a '/' it is a file, and starts in the folder of the application file.
-std::string Located(const std::string& plugin, const BuildContext& context) {
+std::string Located(const XmlAttribute& attribute, BuildContext& context) {
+  const std::string& plugin = attribute.value;
   if (plugin.find('/') == std::string::npos) return plugin;
-  std::string file = (context.folder() / plugin).string();
+  std::string file = (context.FolderOf(attribute.position) / plugin).string();
   // "./motion.so" of the current folder must not become a name again.
   return file.find('/') == std::string::npos ? "./" + file : file;
 }
@@ -20,7 +21,7 @@ std::string Located(const std::string& plugin, const BuildContext& context) {
 FrameworkElement* Load(const TagUse& use) {
   BuildContext& context = use.context;
   const XmlAttribute& plugin = use.Get("plugin");
-  const auto loaded = LoadPlugin(Located(plugin.value, context), context.plugins(), context.tags());
+  const auto loaded = LoadPlugin(Located(plugin, context), context.plugins(), context.tags());
   if (!loaded) {
     context.MarkPluginMissing();
     Error error = loaded.error();
@@ -35,7 +36,7 @@ FrameworkElement* Load(const TagUse& use) {
 XmlTag LoadTag() {
   return {.name = "load",
           .summary = "makes the module types and tags of a plugin known",
-          .parents = {"application"},
+          .parents = {"application", "group_type"},
           .attributes = {{.name = "plugin",
                           .kind = AttributeKind::kPath,
                           .required = true,

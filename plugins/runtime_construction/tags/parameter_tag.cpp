@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,7 @@
 #include "plugins/parameters/file_path.h"
 #include "plugins/runtime_construction/build_context.h"
 #include "plugins/runtime_construction/configurable_search.h"
+#include "plugins/runtime_construction/path_walk.h"
 #include "plugins/runtime_construction/tags/built_in_tags.h"
 
 namespace runnel {
@@ -15,17 +17,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Configurable* FindConfigurable(const TagUse& use) {
+Configurable* FindConfigurable(const TagUse& use, const FrameworkElement& module) {
   const XmlAttribute& name = use.Get("name");
   std::vector<std::string> names;
-  for (const ConfigurableElement& each : ConfigurablesOf(use.parent)) {
+  for (const ConfigurableElement& each : ConfigurablesOf(module)) {
     if (each.element->name() == name.value) return each.configurable;
     names.push_back(each.element->name());
   }
   use.context.Report({.message = "there is no parameter '" + name.value + "'",
                       .hint = NearestNameHint(name.value, names)},
-                     name.value_position, use.parent);
+                     name.value_position, module);
   return nullptr;
+}
+
+std::vector<std::string> NamesOf(const std::map<std::string, TagUse, std::less<>>& parameters) {
+  std::vector<std::string> names;
+  for (const auto& [name, use] : parameters) names.push_back(name);
+  return names;
 }
 
 // A text that wants to become the value, and where relative file names in it start.
@@ -44,12 +52,43 @@ void WarnOfUnknownEntry(const XmlAttribute& path, const TagUse& use) {
                    path.value_position, use.parent);
 }
 
-// From the weakest to the strongest.
-std::vector<Candidate> Candidates(const TagUse& use) {
+std::vector<Candidate> Candidates(const TagUse& use, const FrameworkElement& scope);
+
+// What the <group_type> round `scope` says of its parameter, and what the group says that uses it.
+std::vector<Candidate> CandidatesOfPart(const XmlAttribute& from, const TagUse& use,
+                                        const FrameworkElement& scope) {
+  PartUse* const part = use.context.parts().FindAround(&scope);
+  if (part == nullptr) {
+    use.context.Report({.message = "there is no <group_type> here whose parameters could be used",
+                        .hint = "write value=\"…\""},
+                       from.position, use.parent);
+    return {};
+  }
+  const auto declared = part->declared.find(from.value);
+  if (declared == part->declared.end()) {
+    use.context.Report({.message = "<group_type> has no parameter '" + from.value + "'",
+                        .hint = NearestNameHint(from.value, NamesOf(part->declared))},
+                       from.value_position, use.parent);
+    return {};
+  }
+  part->used.insert(from.value);
+  std::vector<Candidate> candidates = Candidates(declared->second, part->group);
+  if (const auto given = part->given.find(from.value); given != part->given.end()) {
+    const std::vector<Candidate> stronger = Candidates(given->second, *part->group.parent());
+    candidates.insert(candidates.end(), stronger.begin(), stronger.end());
+  }
+  return candidates;
+}
+
+// From the weakest to the strongest. `scope`: what `from` is looked up from, upwards.
+std::vector<Candidate> Candidates(const TagUse& use, const FrameworkElement& scope) {
   BuildContext& context = use.context;
   std::vector<Candidate> candidates;
   if (const XmlAttribute* value = use.Find("value")) {
-    candidates.push_back({value->value, value->value_position, context.folder()});
+    candidates.push_back({value->value, value->value_position, context.FolderOf(value->position)});
+  }
+  if (const XmlAttribute* from = use.Find("from")) {
+    candidates = CandidatesOfPart(*from, use, scope);
   }
   if (const XmlAttribute* path = use.Find("config")) {
     const Configuration::Entry* const entry = context.configuration().FindEntry(path->value);
@@ -74,9 +113,10 @@ std::string Text(const Candidate& candidate, const Configurable& configurable) {
 }
 
 // All candidates are looked at, so that a mistake in the file shows even when it is overridden.
-void SetParameter(const TagUse& use) {
-  Configurable* const configurable = FindConfigurable(use);
-  const std::vector<Candidate> candidates = Candidates(use);
+void SetParameter(const TagUse& use, const FrameworkElement& module,
+                  const FrameworkElement& scope) {
+  Configurable* const configurable = FindConfigurable(use, module);
+  const std::vector<Candidate> candidates = Candidates(use, scope);
   if (configurable == nullptr) return;
   const std::string path = dynamic_cast<FrameworkElement&>(*configurable).path();
   bool all_are_good = true;
@@ -96,12 +136,19 @@ void SetParameter(const TagUse& use) {
   use.context.NoteValue(path, configurable->ToText());
 }
 
+bool HaveSame(std::string_view attribute, XmlElement one, XmlElement other) {
+  const XmlAttribute* const first = one.Attribute(attribute);
+  const XmlAttribute* const second = other.Attribute(attribute);
+  if (first == nullptr || second == nullptr) return first == second;
+  return first->value == second->value;
+}
+
 bool IsFirstOfItsName(const TagUse& use) {
   for (const XmlElement sibling : use.xml.parent()->children()) {
     if (sibling == use.xml) return true;
     const XmlAttribute* const name = sibling.Attribute("name");
     if (sibling.name() != use.xml.name() || name == nullptr) continue;
-    if (name->value != use.Get("name").value) continue;
+    if (name->value != use.Get("name").value || !HaveSame("of", sibling, use.xml)) continue;
     use.context.Report({.message = "the parameter '" + name->value + "' is set twice",
                         .hint = "the first is in line " + std::to_string(sibling.position().line)},
                        use.Get("name").value_position, use.parent);
@@ -110,15 +157,77 @@ bool IsFirstOfItsName(const TagUse& use) {
   return true;
 }
 
-FrameworkElement* HandleParameter(const TagUse& use) {
-  const bool sets_something = use.Says("value") || use.Says("config") || use.Says("command_line");
+void CheckSources(const TagUse& use) {
+  const bool sets_something =
+      use.Says("value") || use.Says("config") || use.Says("command_line") || use.Says("from");
   if (!sets_something) {
     use.context.Report({.message = "<parameter> does not say where the value comes from",
                         .hint = "add value=\"…\", config=\"…\" or command_line=\"…\""},
                        use.xml.position(), use.parent);
   }
+  const XmlAttribute* const from = use.Find("from");
+  if (from != nullptr && use.Says("value")) {
+    use.context.Report({.message = "a value and a parameter that it comes from",
+                        .hint = "leave out one of value and from"},
+                       from->position, use.parent);
+  }
+}
+
+void RefuseAttribute(std::string_view name, std::string hint, const TagUse& use) {
+  const XmlAttribute* const attribute = use.xml.Attribute(name);
+  if (attribute == nullptr) return;
+  use.context.Report(
+      {.message = "'" + std::string(name) + "' has no meaning here", .hint = std::move(hint)},
+      attribute->position, use.parent);
+}
+
+// In a <group_type>: without a value it has to be given where the file is used.
+void Declare(const TagUse& use, PartUse& part) {
+  RefuseAttribute("from", "leave it out: where the file is used, it may be said", use);
+  RefuseAttribute("of", "leave it out", use);
+  if (IsFirstOfItsName(use)) part.declared.emplace(use.Get("name").value, use);
+}
+
+// In a group whose type is a file: of one of its parameters, or, with `of`, of a module in it.
+void Give(const TagUse& use, PartUse& part) {
+  CheckSources(use);
+  if (!IsFirstOfItsName(use)) return;
+  const XmlAttribute& name = use.Get("name");
+  if (const XmlAttribute* of = use.Find("of")) {
+    use.context.Defer(BuildStage::kParameters, [use, of] {
+      const FrameworkElement* const module = SearchElement(PathIn(*of, use.parent), use.context);
+      if (module != nullptr) SetParameter(use, *module, *use.parent.parent());
+    });
+    return;
+  }
+  if (part.declared.contains(name.value)) {
+    part.given.emplace(name.value, use);
+    return;
+  }
+  use.context.Report(
+      {.message = part.root.position().file + " has no parameter '" + name.value + "'",
+       .hint = NearestNameHint(name.value, NamesOf(part.declared))},
+      name.value_position, use.parent);
+}
+
+FrameworkElement* HandleParameter(const TagUse& use) {
+  if (PartUse* part = use.context.parts().Find(use.parent)) {
+    use.xml.parent() == part->root ? Declare(use, *part) : Give(use, *part);
+    return &use.parent;
+  }
+  if (use.parent.kind() == ElementKind::kGroup) {
+    const bool has_type = use.xml.parent()->Attribute("type") != nullptr;
+    if (has_type) return &use.parent;  // the file could not be read
+    use.context.Report(
+        {.message = "a group without a type has no parameters", .hint = "write it into a module"},
+        use.xml.position(), use.parent);
+    return &use.parent;
+  }
+  CheckSources(use);
+  RefuseAttribute("of", "leave it out: the module round it is meant", use);
   if (IsFirstOfItsName(use)) {
-    use.context.Defer(BuildStage::kParameters, [use] { SetParameter(use); });
+    use.context.Defer(BuildStage::kParameters,
+                      [use] { SetParameter(use, use.parent, use.parent); });
   }
   return &use.parent;
 }
@@ -127,9 +236,15 @@ FrameworkElement* HandleParameter(const TagUse& use) {
 
 XmlTag ParameterTag() {
   return {.name = "parameter",
-          .summary = "sets a parameter of its module",
-          .parents = {"module"},
+          .summary = "sets a parameter of its module or group",
+          .parents = {"module", "group", "group_type"},
           .attributes = {{.name = "name", .kind = AttributeKind::kName, .required = true},
+                         {.name = "of",
+                          .kind = AttributeKind::kPath,
+                          .summary = "in a group whose type is a file: the module in it"},
+                         {.name = "from",
+                          .kind = AttributeKind::kName,
+                          .summary = "the parameter of the <group_type> whose value it takes"},
                          {.name = "value", .summary = "in text form, without unit"},
                          {.name = "config",
                           .kind = AttributeKind::kPath,

@@ -66,8 +66,10 @@ const TypeInfo* TypeAmong(XmlElement element, FrameworkElement& base, const std:
 
 const TypeInfo* ConnectedType(const TagUse& use) {
   const std::string& name = use.Get("name").value;
-  const XmlElement group = *use.xml.parent();
+  XmlElement group = *use.xml.parent();
   if (const TypeInfo* type = TypeAmong(group, use.parent, name)) return type;
+  // What is outside of a part stands where the part is used.
+  if (const PartUse* part = use.context.parts().Find(use.parent)) group = part->tag;
   FrameworkElement& outside = *use.parent.parent();
   const std::string seen_from_outside = use.parent.name() + "/" + name;
   if (const TypeInfo* type = TypeAmong(*group.parent(), outside, seen_from_outside)) return type;

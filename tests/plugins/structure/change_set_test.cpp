@@ -160,7 +160,7 @@ TEST_F(ChangeSetTest, WhatCouldNotBeForeseenIsUndone) {
   EXPECT_FALSE(Exists("/app/first"));
   ASSERT_THAT(counter.out.outgoing(), SizeIs(1));
   EXPECT_EQ(counter.out.outgoing().front().options.queue, 6u);
-  EXPECT_EQ(OwnThreadContainer(counter), &At<ThreadContainer>("/threads/slow"));
+  EXPECT_EQ(OwnThread(counter), &At<ThreadContainer>("/threads/slow"));
   Steps(1);
   EXPECT_THAT(scheduler.Order(At<ThreadContainer>("/threads/slow")), SizeIs(1));
 }

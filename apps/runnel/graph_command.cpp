@@ -1,0 +1,99 @@
+#include "apps/runnel/graph_command.h"
+
+#include <array>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "apps/runnel/print_error.h"
+#include "apps/runnel/workplace.h"
+#include "core/base/nearest_name.h"
+#include "plugins/application_files/replace_file.h"
+#include "plugins/application_graph/dot_text.h"
+
+namespace runnel::program {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> kKinds{"dot", "pdf", "png", "svg"};
+constexpr int kNoSuchProgram = 127;
+
+// What is written beside the picture until it is whole.
+class TextBeside {
+ public:
+  TextBeside(const fs::path& picture, const std::string& text)
+      : path_(picture.string() + "." + std::to_string(getpid()) + ".dot") {
+    std::ofstream(path_) << text;
+  }
+  ~TextBeside() {
+    std::error_code ignored;
+    fs::remove(path_, ignored);
+  }
+  TextBeside(const TextBeside&) = delete;
+  TextBeside& operator=(const TextBeside&) = delete;
+  [[nodiscard]] const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+// The exit status of `dot`, or kNoSuchProgram.
+int RunDot(const std::string& kind, const std::string& text, const std::string& picture) {
+  const std::string format = "-T" + kind;
+  const std::array<const char*, 6> words{"dot",           format.c_str(), "-o",
+                                         picture.c_str(), text.c_str(),   nullptr};
+  pid_t process = 0;
+  const int problem = posix_spawnp(&process, "dot", nullptr, nullptr,
+                                   const_cast<char* const*>(words.data()), environ);
+  if (problem != 0) return kNoSuchProgram;
+  int status = 0;
+  waitpid(process, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+}
+
+Result<void> Draw(const std::string& text, const std::string& output, const std::string& kind) {
+  if (kind == "dot") return ReplaceFile(output, text);
+  const TextBeside beside(output, text);
+  if (!fs::exists(beside.path())) {
+    return Error{.message = "cannot be written", .position = {output}};
+  }
+  const int status = RunDot(kind, beside.path(), output);
+  if (status == kNoSuchProgram) {
+    return Error{.message = "the program 'dot' that lays out the picture is not here",
+                 .hint = "install the package graphviz, or write the text for it with -o " +
+                         fs::path(output).replace_extension(".dot").string()};
+  }
+  if (status != 0) {
+    return Error{.message = "'dot' ended with status " + std::to_string(status),
+                 .position = {output}};
+  }
+  return {};
+}
+
+}  // namespace
+
+ExitCode DrawGraph(const GraphArguments& arguments) {
+  std::string kind = fs::path(arguments.output).extension().string();
+  if (!kind.empty()) kind.erase(0, 1);
+  if (std::find(kKinds.begin(), kKinds.end(), kind) == kKinds.end()) {
+    PrintError({.message = "no picture can be written as '" + arguments.output + "'",
+                .hint = "its name ends in .svg, .png, .pdf or .dot"});
+    return ExitCode::kBadInput;
+  }
+  Workplace workplace;
+  const BuildOutcome outcome = workplace.Build(arguments.application, BuildMode::kConstruct);
+  if (outcome.application == nullptr) return ExitCode::kBadInput;
+  const auto drawn = Draw(DotText(*outcome.application), arguments.output, kind);
+  if (drawn) return ExitCode::kDone;
+  PrintError(drawn.error());
+  return ExitCode::kRunFailed;
+}
+
+}  // namespace runnel::program

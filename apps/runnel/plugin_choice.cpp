@@ -1,0 +1,19 @@
+#include "apps/runnel/plugin_choice.h"
+
+#include "apps/runnel/print_error.h"
+#include "plugins/runtime_construction/plugin_loading.h"
+
+namespace runnel::program {
+
+bool LoadChosenPlugins(const std::vector<std::string>& chosen, Workplace& workplace) {
+  bool all_are_there = true;
+  for (const std::string& plugin : chosen.empty() ? workplace.plugins().Available() : chosen) {
+    const auto loaded = LoadPlugin(plugin, workplace.plugins(), workplace.tags());
+    if (loaded) continue;
+    PrintError(loaded.error());
+    all_are_there = false;
+  }
+  return all_are_there;
+}
+
+}  // namespace runnel::program

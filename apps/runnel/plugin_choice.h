@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/runnel/workplace.h"
+
+namespace runnel::program {
+
+/// Loads the plugins, or all that can be found if none is named. False after saying which could not
+/// be loaded, and why; the others have been.
+[[nodiscard]] bool LoadChosenPlugins(const std::vector<std::string>& chosen, Workplace& workplace);
+
+}  // namespace runnel::program
