@@ -43,7 +43,7 @@ StaleWatch::Turn StaleWatch::Judge(Time now) {
     return Turn::kNone;
   }
   if (!well_since_) well_since_ = *heard_;
-  if (now - *well_since_ < rule_.fresh_after) return Turn::kNone;
+  if (*heard_ - *well_since_ < rule_.fresh_after) return Turn::kNone;
   well_since_.reset();
   is_stale_ = false;
   return Turn::kFresh;

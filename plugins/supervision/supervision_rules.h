@@ -10,9 +10,9 @@ namespace runnel {
 /// What an application does about something: changes of its structure, as one change set, and perhaps
 /// the end of the run.
 struct Reaction {
-  ChangeSet changes;
+  ChangeSet changes = {};
   bool stops_application = false;
-  std::string description;  ///< in the past: "switched /a/in from /b/out to /c/out"
+  std::string description = {};  ///< in the past: "switched /a/in from /b/out to /c/out"
 
   [[nodiscard]] bool is_empty() const noexcept { return changes.empty() && !stops_application; }
 };

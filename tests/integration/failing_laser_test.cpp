@@ -41,17 +41,6 @@ TEST(FailingLaser, TheLaserIsTakenBackWhenItWorksAgain) {
   EXPECT_LE(run.notices[1].time, Time(16200ms));
 }
 
-// Without the rule nobody sees the walls any more.
-TEST(FailingLaser, WithoutTheRuleTheRobotDoesNotReachItsGoal) {
-  const ApplicationRun run =
-      RunApplication({.name = "bug_failing_laser.xml",
-                      .replace = {{"after=\"300ms\"", "after=\"1000min\""}},
-                      .arguments = {"picture=", "fails_at=8", "works_again_at=0"},
-                      .limit = 10min});
-  EXPECT_THAT(run.notices, IsEmpty());
-  EXPECT_FALSE(run.outcome && run.outcome->success);
-}
-
 TEST(FailingLaser, AnExceptionOfItsModuleIsAnsweredByANewModule) {
   const ApplicationRun run = Run({"fails_at=8", "works_again_at=0", "fails_loudly=true"});
   ASSERT_TRUE(run.outcome);
