@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/runnel/control_command_line.h"
+#include "apps/runnel/other_programs.h"
 #include "core/base/nearest_name.h"
 #include "core/xml/xml_reading.h"
 #include "plugins/scheduling/pacing.h"
@@ -20,8 +22,26 @@ ExitCode Refuse(const std::string& message, const std::string& hint) {
   return ExitCode::kBadInput;
 }
 
+std::vector<std::string> AllCommands() {
+  std::vector<std::string> commands = kCommands;
+  for (const std::string& command : ControlCommandLine::Names()) commands.push_back(command);
+  for (const std::string& command : OtherCommands()) commands.push_back(command);
+  return commands;
+}
+
+// Of those that are programs of their own; each has its own --help.
+std::string FooterText() {
+  std::string others;
+  for (const std::string& command : OtherCommands()) {
+    others += (others.empty() ? "" : ", ") + command;
+  }
+  return (others.empty() ? "" : "Further commands, each with its own --help: " + others + "\n") +
+         "Exit codes: 0 done, 1 the run failed, 2 bad input.";
+}
+
 bool IsUnknownCommand(const std::string& word) {
-  return !word.starts_with('-') && std::ranges::find(kCommands, word) == kCommands.end();
+  const auto names = AllCommands();
+  return !word.starts_with('-') && std::ranges::find(names, word) == names.end();
 }
 
 // CLI11's own checks name bounds with three hundred digits.
@@ -76,6 +96,9 @@ CLI::App& AddRun(CLI::App& program, RunArguments& arguments) {
   run.add_flag("--quiet", arguments.quiet, "no progress, only how the run ended");
   run.add_flag("--statistics", arguments.statistics,
                "at the end, how punctual the threads were and how long their cycles took");
+  run.add_flag_callback(
+      "--no-control", [&arguments] { arguments.has_control = false; },
+      "no other process can look at it or change it");
   return run;
 }
 
@@ -85,7 +108,7 @@ CommandLine ParseCommandLine(int count, const char* const* words) {
   CLI::App program("Runs robot applications that are described in XML files.", "runnel");
   program.require_subcommand(1);
   program.set_version_flag("--version", "runnel " RUNNEL_VERSION, "says which version this is");
-  program.footer("Exit codes: 0 done, 1 the run failed, 2 bad input.");
+  program.footer(FooterText());
   RunArguments run_arguments;
   CheckArguments check_arguments;
   ModulesArguments modules_arguments;
@@ -113,13 +136,15 @@ CommandLine ParseCommandLine(int count, const char* const* words) {
       ->type_name("FILE")
       ->check(CheckFile);
   program.add_subcommand("version", "says which version this is");
+  const ControlCommandLine control(program);
 
   if (count > 1 && IsUnknownCommand(words[1])) {
     return Refuse("there is no command '" + std::string(words[1]) + "'",
-                  NearestNameHint(words[1], kCommands));
+                  NearestNameHint(words[1], AllCommands()));
   }
   try {
-    program.parse(count, words);
+    const auto all = WithNegativeValues(count, words);
+    program.parse(static_cast<int>(all.size()), all.data());
   } catch (const CLI::Success& help) {
     program.exit(help);
     return ExitCode::kDone;
@@ -131,6 +156,7 @@ CommandLine ParseCommandLine(int count, const char* const* words) {
   if (modules.parsed()) return modules_arguments;
   if (schema.parsed()) return schema_arguments;
   if (graph.parsed()) return graph_arguments;
+  if (auto arguments = control.Parsed()) return *arguments;
   return VersionArguments{};
 }
 

@@ -2,7 +2,9 @@
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -12,11 +14,16 @@
 #include "apps/runnel/progress_display.h"
 #include "apps/runnel/run_report.h"
 #include "apps/runnel/running.h"
+#include "apps/runnel/save_hook.h"
 #include "apps/runnel/statistics_table.h"
 #include "apps/runnel/stop_signal.h"
 #include "apps/runnel/workplace.h"
+#include "plugins/control/control_server.h"
+#include "plugins/runtime_construction/plugin_loading.h"
 #include "plugins/runtime_construction/source_place.h"
 #include "plugins/scheduling/xml_scheduling_tags.h"
+#include "plugins/structure/structure_editor.h"
+#include "plugins/supervision/xml_supervision_tags.h"
 
 namespace runnel::program {
 
@@ -50,7 +57,21 @@ Result<void> AddFaultRules(const FrameworkElement& application, Scheduler& sched
   return {};
 }
 
-void PrintWarnings(std::vector<Error> warnings, FrameworkElement& root) {
+// What is done about faults and silence while the application runs.
+struct Supervision {
+  Supervision(Runtime& runtime, const ModuleRegistry& modules, Scheduler& scheduler)
+      : editor(runtime, modules, &scheduler),
+        supervisor(runtime, scheduler, [this](const ChangeSet& changes) -> Result<void> {
+          const ChangeOutcome outcome = editor.Apply(changes);
+          if (!outcome) return outcome.diagnostics.errors().front();
+          return {};
+        }) {}
+
+  StructureEditor editor;
+  Supervisor supervisor;
+};
+
+void PrintWarnings(std::vector<Error> warnings, FrameworkElement& root, ControlLog& log) {
   const std::lock_guard lock(root.runtime().structure_mutex());
   Diagnostics diagnostics;
   for (Error& warning : warnings) {
@@ -59,6 +80,32 @@ void PrintWarnings(std::vector<Error> warnings, FrameworkElement& root) {
     diagnostics.AddWarning(std::move(warning));
   }
   std::cerr << diagnostics.ToString();
+  for (const Error& warning : diagnostics.warnings()) {
+    log.Add(ControlLog::Kind::kWarning, warning.ToString());
+  }
+}
+
+// So that other processes can reach the application. That they cannot is no reason not to run it.
+std::unique_ptr<ControlServer> StartControl(const RunArguments& arguments, Workplace& workplace,
+                                            const FrameworkElement& application,
+                                            StructureEditor& editor, ControlLog& log) {
+  if (!arguments.has_control) return nullptr;
+  ControlHooks hooks;
+  hooks.load_plugin = [&workplace](const std::string& plugin) {
+    return LoadPlugin(plugin, workplace.plugins(), workplace.tags());
+  };
+  hooks.save = SaveHook(workplace, application.name());
+  auto server = ControlServer::Start(
+      {workplace.runtime(), workplace.plugins().modules(), editor, log, std::move(hooks)},
+      {.application = application.name(),
+       .file = std::filesystem::absolute(arguments.application.file).string()});
+  if (server) return std::move(*server);
+  Error warning = server.error();
+  warning.message = "other processes cannot reach this application: " + warning.message;
+  Diagnostics diagnostics;
+  diagnostics.AddWarning(warning);
+  std::cerr << diagnostics.ToString();
+  return nullptr;
 }
 
 void PrintTimes(Duration so_far, std::chrono::steady_clock::duration real, ClockKind clock) {
@@ -77,9 +124,12 @@ void PrintTimes(Duration so_far, std::chrono::steady_clock::duration real, Clock
 // One run of an application that has been built.
 class Session {
  public:
-  Session(const RunArguments& arguments, FrameworkElement& application, Scheduler& scheduler)
+  Session(const RunArguments& arguments, FrameworkElement& application, Scheduler& scheduler,
+          Supervisor& supervisor, ControlLog& log)
       : arguments_(arguments),
         scheduler_(scheduler),
+        supervisor_(supervisor),
+        log_(log),
         root_(application.runtime().root()),
         start_(application.runtime().clock().Now()),
         report_(application),
@@ -115,14 +165,22 @@ class Session {
 
   // Not before the start, which only shows what the system refuses to real-time threads.
   void WarnOnce() {
-    if (!std::exchange(has_warned_, true)) PrintWarnings(scheduler_.Warnings(), root_);
+    if (!std::exchange(has_warned_, true)) PrintWarnings(scheduler_.Warnings(), root_, log_);
   }
 
   void PrintFaults() {
     for (const Fault& fault : scheduler_.TakeFaults()) {
       report_.Hear(fault);
       display_.Clear();
-      std::cerr << FaultText(fault, start_, root_) << std::flush;
+      const std::string text = FaultText(fault, start_, root_);
+      std::cerr << text << std::flush;
+      log_.Add(ControlLog::Kind::kFault, text);
+    }
+    for (const Notice& notice : supervisor_.TakeNotices()) {
+      display_.Clear();
+      const std::string text = NoticeText(notice, start_, root_);
+      std::cerr << text << std::flush;
+      log_.Add(ControlLog::Kind::kFault, text);
     }
   }
 
@@ -148,6 +206,8 @@ class Session {
 
   const RunArguments& arguments_;
   Scheduler& scheduler_;
+  Supervisor& supervisor_;
+  ControlLog& log_;
   FrameworkElement& root_;
   const Time start_;
   RunReport report_;
@@ -160,16 +220,23 @@ class Session {
 ExitCode Run(const RunArguments& arguments) {
   Workplace workplace;
   std::optional<Scheduler> scheduler;
+  std::optional<Supervision> supervision;
   // Before modules become ready, so that they see the right clock from the start.
   const auto schedule = [&](FrameworkElement& application) -> Result<void> {
     const auto options = ChooseOptions(arguments, application);
     if (!options) return options.error();
     scheduler.emplace(workplace.runtime(), *options);
-    return AddFaultRules(application, *scheduler);
+    supervision.emplace(workplace.runtime(), workplace.plugins().modules(), *scheduler);
+    if (auto added = AddFaultRules(application, *scheduler); !added) return added;
+    return AddSupervisionRules(application, supervision->supervisor);
   };
   const BuildOutcome outcome = workplace.Build(arguments.application, BuildMode::kRun, schedule);
   if (outcome.application == nullptr) return ExitCode::kBadInput;
-  return Session(arguments, *outcome.application, *scheduler).Run(workplace.runtime());
+  ControlLog log(workplace.runtime().clock());
+  const auto control =
+      StartControl(arguments, workplace, *outcome.application, supervision->editor, log);
+  return Session(arguments, *outcome.application, *scheduler, supervision->supervisor, log)
+      .Run(workplace.runtime());
 }
 
 }  // namespace runnel::program

@@ -115,4 +115,20 @@ std::string FaultText(const Fault& fault, Time start, FrameworkElement& root) {
   return diagnostics.ToString();
 }
 
+std::string NoticeText(const Notice& notice, Time start, FrameworkElement& root) {
+  const std::lock_guard lock(root.runtime().structure_mutex());
+  const auto element = root.Find(notice.path);
+  Error text{.message = notice.message,
+             .path = notice.path,
+             .position = element ? FindSourcePlace(**element) : SourcePosition{},
+             .hint = DurationText(notice.time - start) + " after the start"};
+  Diagnostics diagnostics;
+  if (notice.is_failure) {
+    diagnostics.Add(std::move(text));
+  } else {
+    diagnostics.AddWarning(std::move(text));
+  }
+  return diagnostics.ToString();
+}
+
 }  // namespace runnel::program

@@ -8,6 +8,7 @@
 #include "core/element/framework_element.h"
 #include "core/module/run_monitor.h"
 #include "plugins/scheduling/fault.h"
+#include "plugins/supervision/supervision_rules.h"
 
 namespace runnel::program {
 
@@ -55,5 +56,8 @@ class RunReport {
 /// "app.xml:3:5: error: /demo/x: has been stopped: boom; 1.25 s after the start". Takes the
 /// structure lock.
 [[nodiscard]] std::string FaultText(const Fault& fault, Time start, FrameworkElement& root);
+
+/// "app.xml:58:3: warning: /demo/x/in: nothing new for 0.3 s; switched …". Takes the structure lock.
+[[nodiscard]] std::string NoticeText(const Notice& notice, Time start, FrameworkElement& root);
 
 }  // namespace runnel::program

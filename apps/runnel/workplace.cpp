@@ -4,6 +4,7 @@
 
 #include "plugins/finroc_files/finroc_application.h"
 #include "plugins/scheduling/xml_scheduling_tags.h"
+#include "plugins/supervision/xml_supervision_tags.h"
 
 namespace runnel::program {
 
@@ -25,6 +26,7 @@ BuildOutcome BuildFile(const std::string& file, const BuildTools& tools, BuildMo
 
 Workplace::Workplace() {
   AddSchedulingTags(tags_);
+  AddSupervisionTags(tags_);
   plugins_.registry().Offer(tags_);
 }
 

@@ -1,6 +1,6 @@
 #include "core/lockfree/thread_epoch.h"
 
-#include <algorithm>
+#include <deque>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -19,7 +19,7 @@ struct Retired {
 
 struct RetiredList {
   std::mutex mutex;
-  std::vector<Retired> entries;
+  std::deque<Retired> entries;  // by their epochs, the oldest first
 };
 
 // Never destroyed: ports of static lifetime may retire parts while the process ends.
@@ -43,12 +43,12 @@ std::size_t CollectRetired() {
   std::size_t left = 0;
   {
     const std::lock_guard lock(TheRetired().mutex);
-    std::vector<Retired>& entries = TheRetired().entries;
-    const auto first_due = std::stable_partition(
-        entries.begin(), entries.end(),
-        [](const Retired& entry) { return !ProcessEpochs().HasPassed(entry.epoch); });
-    due.assign(std::make_move_iterator(first_due), std::make_move_iterator(entries.end()));
-    entries.erase(first_due, entries.end());
+    std::deque<Retired>& entries = TheRetired().entries;
+    // Who is in the way of one is in the way of all later ones, which need not be looked at.
+    while (!entries.empty() && ProcessEpochs().HasPassed(entries.front().epoch)) {
+      due.push_back(std::move(entries.front()));
+      entries.pop_front();
+    }
     left = entries.size();
   }
   // Outside the lock: a destructor may retire further parts.

@@ -19,8 +19,16 @@ Result<void> ModuleRegistry::Add(ModuleType type) {
   return {};
 }
 
-void ModuleRegistry::RemovePlugin(std::string_view plugin) {
-  std::erase_if(types_, [&](const auto& entry) { return entry.second.plugin == plugin; });
+std::function<void()> ModuleRegistry::SetAside(std::string_view plugin) {
+  std::vector<ModuleType> types;
+  std::erase_if(types_, [&](const auto& entry) {
+    if (entry.second.plugin != plugin) return false;
+    types.push_back(entry.second);
+    return true;
+  });
+  return [this, types] {
+    for (const ModuleType& type : types) types_.insert_or_assign(type.name, type);
+  };
 }
 
 const ModuleType* ModuleRegistry::Find(std::string_view name) const {

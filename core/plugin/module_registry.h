@@ -34,7 +34,8 @@ class ModuleRegistry {
  public:
   /// Errors: the name is taken (the message names the plugin that has it) or malformed.
   Result<void> Add(ModuleType type);
-  void RemovePlugin(std::string_view plugin);
+  /// Takes out the types of `plugin`. Calling what is returned puts them back.
+  std::function<void()> SetAside(std::string_view plugin);
 
   [[nodiscard]] const ModuleType* Find(std::string_view name) const;
   /// The type called `name`, or an error with the nearest name that there is.

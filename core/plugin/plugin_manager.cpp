@@ -10,6 +10,7 @@
 #include "core/base/nearest_name.h"
 #include "core/plugin/plugin_entry.h"
 #include "core/plugin/shared_library.h"
+#include "core/plugin/temporary_copy.h"
 
 namespace runnel {
 
@@ -88,8 +89,10 @@ Result<void> PluginManager::Load(std::string_view name) {
   const auto known = files_.find(plugin);
   if (known == files_.end()) {
     auto registered = Register(plugin, *file);
-    if (registered) files_.emplace(plugin, canonical);
-    return registered;
+    if (!registered) return registered;
+    files_.emplace(plugin, canonical);
+    loaded_.push_back(plugin);
+    return {};
   }
   if (known->second == canonical) return {};
   return Refusal(*file,
@@ -106,17 +109,39 @@ Result<void> PluginManager::Register(const std::string& name, const fs::path& fi
   try {
     (*entry)->register_plugin(registry_);
   } catch (const ElementError& error) {
-    registry_.RemovePlugin(name);
+    (void)registry_.SetAside(name);
     return Refusal(file, error.error().message);
   } catch (const std::exception& exception) {
-    registry_.RemovePlugin(name);
+    (void)registry_.SetAside(name);
     return Refusal(file, std::string("its registration failed: ") + exception.what());
   } catch (...) {
-    registry_.RemovePlugin(name);
+    (void)registry_.SetAside(name);
     return Refusal(file, "its registration failed with an exception of unknown type");
   }
-  loaded_.push_back(name);
   return {};
+}
+
+Result<PluginReload> PluginManager::Reload(std::string_view name) {
+  const auto known = files_.find(name);
+  if (known == files_.end()) {
+    return Error{.message = "no plugin '" + std::string(name) + "' is loaded",
+                 .hint = NearestNameHint(name, loaded_)};
+  }
+  const std::string plugin = known->first;
+  PluginReload reload(registry_, plugin, registry_.SetAside(plugin));
+  const auto copy = TemporaryCopy::Make(known->second);
+  if (!copy) return copy.error();
+  auto registered = Register(plugin, copy->file());
+  if (!registered) {
+    Error error = registered.error();
+    // The copy is nobody's business.
+    const std::string own = copy->file().string();
+    if (const auto at = error.message.find(own); at != std::string::npos) {
+      error.message.replace(at, own.size(), known->second.string());
+    }
+    return error;
+  }
+  return reload;
 }
 
 Result<fs::path> PluginManager::FindFile(std::string_view name) const {

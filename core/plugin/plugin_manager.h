@@ -9,6 +9,7 @@
 #include "core/base/result.h"
 #include "core/plugin/module_registry.h"
 #include "core/plugin/plugin_registry.h"
+#include "core/plugin/plugin_reload.h"
 
 namespace runnel {
 
@@ -41,6 +42,10 @@ class PluginManager {
   /// and the nearest name), not loadable, no entry, another ABI, throwing registration, duplicate
   /// type, another file of that name loaded already.
   Result<void> Load(std::string_view name);
+  /// Loads the file of a plugin that is loaded as it is now, beside the library of before, whose code
+  /// stays for what was made with it. New modules are made by the new one; if the returned object goes
+  /// without Keep(), by the old one again. Errors: as Load(), and everything is as before then.
+  Result<PluginReload> Reload(std::string_view name);
   /// The names of the plugins that could be loaded from the search path, sorted.
   [[nodiscard]] std::vector<std::string> Available() const;
   [[nodiscard]] const std::vector<std::string>& loaded() const noexcept { return loaded_; }

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <concepts>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <typeindex>
 #include <utility>
+#include <vector>
 
 #include "core/plugin/module_registry.h"
 
@@ -16,8 +18,9 @@ namespace runnel {
 class OfferedRegistry {
  public:
   virtual ~OfferedRegistry() = default;
-  /// Takes back all that `plugin` has added; its registration has failed halfway.
-  virtual void RemovePlugin(std::string_view plugin) = 0;
+  /// Takes out all that `plugin` has added: its registration has failed halfway, or it is to be loaded
+  /// anew. Calling what is returned puts it back.
+  virtual std::function<void()> SetAside(std::string_view plugin) = 0;
 };
 
 /// What a plugin is handed to register itself with: the module types, and whatever other registries
@@ -57,12 +60,16 @@ class PluginRegistry {
 
  private:
   friend class PluginManager;
+  friend class PluginReload;
   void AddType(ModuleType type) {
     if (auto added = modules_->Add(std::move(type)); !added) throw ElementError(added.error());
   }
-  void RemovePlugin(std::string_view plugin) {
-    modules_->RemovePlugin(plugin);
-    for (const auto& [type, registry] : offered_) registry->RemovePlugin(plugin);
+  std::function<void()> SetAside(std::string_view plugin) {
+    std::vector<std::function<void()>> back{modules_->SetAside(plugin)};
+    for (const auto& [type, registry] : offered_) back.push_back(registry->SetAside(plugin));
+    return [back] {
+      for (const auto& each : back) each();
+    };
   }
 
   ModuleRegistry* modules_;

@@ -63,9 +63,13 @@ void InputBase::Rebind(const std::vector<Source>& sources) {
       outputs.push_back(source.output);
     }
   }
+  const bool was_visited = IsVisited();
   sources_ = sources;
   sink_ = Bind(sources);
-  for (Port* output : outputs) UpdateChannel(*output);
+  // Whom publishers need not know, they are not told of: an output may have thousands of these.
+  if (was_visited || IsVisited()) {
+    for (Port* output : outputs) UpdateChannel(*output);
+  }
   Bound();
   // What a new connection brings is there already, and no publisher tells of it.
   if (arrival_) arrival_->Wake();
@@ -92,6 +96,11 @@ void InputBase::TakeOverFlow(Port& from) {
     for (const Source& source : sources_) UpdateChannel(*source.output);
   }
   if (arrival_) arrival_->Wake();
+}
+
+// Whether publishers have to do anything for this input.
+bool InputBase::IsVisited() const noexcept {
+  return sink_ != nullptr || waker_ != nullptr || arrival_ != nullptr || sources_.size() > 1;
 }
 
 // Works out anew whom publishers into the output's channel have to visit, and what they have to

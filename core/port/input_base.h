@@ -66,6 +66,7 @@ class InputBase : public Port {
 
  private:
   ArrivalEvent& PrepareToWait();
+  [[nodiscard]] bool IsVisited() const noexcept;
   static void UpdateChannel(Port& output);
 
   const InputOptions options_;

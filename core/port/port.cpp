@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <exception>
+#include <iterator>
+#include <unordered_set>
 
 #include "core/base/check.h"
 #include "core/element/runtime.h"
@@ -22,9 +24,21 @@ bool CanReceive(const Port& port) {
   return port.is_proxy() || port.direction() == Port::Direction::kInput;
 }
 
+// Looks at the end that has fewer: one output may feed thousands.
 bool IsConnected(const Port& from, const Port& to) {
+  if (to.incoming().size() < from.outgoing().size()) {
+    return std::ranges::find(to.incoming(), &from) != to.incoming().end();
+  }
   return std::ranges::any_of(from.outgoing(),
                              [&](const Connection& each) { return each.to == &to; });
+}
+
+// From the end, since what has been connected last is asked for most.
+template <typename Connections>
+auto FindConnection(Connections& outgoing, const Port& to) {
+  const auto found = std::find_if(outgoing.rbegin(), outgoing.rend(),
+                                  [&](const Connection& each) { return each.to == &to; });
+  return found == outgoing.rend() ? outgoing.end() : std::prev(found.base());
 }
 
 // Only interface ports pass data on, so only through them a circle can close.
@@ -35,8 +49,20 @@ bool Reaches(const Port& from, const Port& to) {
   });
 }
 
-void AddOnce(std::vector<Port*>& ports, Port* port) {
-  if (std::ranges::find(ports, port) == ports.end()) ports.push_back(port);
+void CollectSinks(const Port& port, std::vector<Port*>& sinks) {
+  for (const Connection& each : port.outgoing()) {
+    if (each.to->is_proxy()) {
+      CollectSinks(*each.to, sinks);
+    } else {
+      sinks.push_back(each.to);
+    }
+  }
+}
+
+// Keeps the first of each.
+void DropRepetitions(std::vector<Port*>& ports) {
+  std::unordered_set<const Port*> seen;
+  std::erase_if(ports, [&](const Port* port) { return !seen.insert(port).second; });
 }
 
 // Of two stretches of one way, or two ways from one source, the one that asks for a queue decides;
@@ -105,10 +131,11 @@ Result<void> Port::Connect(Port& from, Port& to, const ConnectOptions& options) 
 }
 
 bool Port::RemoveEdge(Port& from, Port& to) {
-  const auto removed =
-      std::erase_if(from.outgoing_, [&](const Connection& each) { return each.to == &to; });
+  const auto connection = FindConnection(from.outgoing_, to);
+  if (connection == from.outgoing_.end()) return false;
+  from.outgoing_.erase(connection);
   std::erase(to.incoming_, &from);
-  return removed > 0;
+  return true;
 }
 
 Result<void> Port::Disconnect(Port& from, Port& to) {
@@ -171,8 +198,7 @@ void Port::Detach() noexcept { DisconnectAll(); }
 
 void Port::CollectSources(const ConnectOptions& options, std::vector<Source>& sources) const {
   for (Port* from : incoming_) {
-    const auto edge = std::ranges::find_if(from->outgoing_,
-                                           [&](const Connection& each) { return each.to == this; });
+    const auto edge = FindConnection(from->outgoing_, *this);
     const ConnectOptions& stronger = Stronger(options, edge->options);
     if (from->is_proxy()) {
       from->CollectSources(stronger, sources);
@@ -207,9 +233,10 @@ std::vector<Port*> Port::Sources() const {
 std::vector<Port*> Port::Sinks() const {
   if (!is_proxy() && direction_ == Direction::kInput) return {const_cast<Port*>(this)};
   std::vector<Port*> sinks;
-  for (const Connection& each : outgoing_) {
-    for (Port* sink : each.to->Sinks()) AddOnce(sinks, sink);
-  }
+  CollectSinks(*this, sinks);
+  const bool has_detours =
+      std::ranges::any_of(outgoing_, [](const Connection& each) { return each.to->is_proxy(); });
+  if (has_detours) DropRepetitions(sinks);
   return sinks;
 }
 

@@ -109,6 +109,8 @@ class TypeInfo {
   friend class TypeRegistry;
 
   const std::type_index cpp_type_;
+  std::size_t size_ = 0;  // of a value, and how it is aligned, where it was described first
+  std::size_t alignment_ = 0;
   std::string name_;
   TypeKind kind_ = TypeKind::kOpaque;
   bool is_complete_ = false;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 
 #include "core/types/builtin_types.h"
 #include "core/types/text_form.h"
@@ -16,15 +17,23 @@ concept Described = requires(TypeBuilder<T>& builder) {
   Describe(builder);
 };
 
+/// How the code that asks was compiled.
+struct TypeLayout {
+  std::size_t size;
+  std::size_t alignment;
+};
+
 /// TypeRegistry::Get(), without its header.
-const TypeInfo& GetType(std::type_index cpp_type, void (*describe)(TypeInfo&));
+const TypeInfo& GetType(std::type_index cpp_type, const TypeLayout& layout,
+                        void (*describe)(TypeInfo&));
 
 }  // namespace internal
 
 /// The description of T, one and the same in all libraries of the process.
 ///
 /// Threads:     any; the first call for a type locks and allocates, later ones do not.
-/// Errors:      throws ProgrammingError if two types claim one name.
+/// Errors:      throws ProgrammingError if two types claim one name, or if a library knows another
+///              layout or description of T than the one that asked first.
 template <typename T>
 const TypeInfo& TypeOf() {
   static_assert(internal::Described<T>,
@@ -35,7 +44,7 @@ const TypeInfo& TypeOf() {
   // of itself. release/acquire: who sees the pointer sees the description.
   static constinit std::atomic<const TypeInfo*> known{nullptr};
   if (const TypeInfo* type = known.load(std::memory_order_acquire)) return *type;
-  const TypeInfo& type = internal::GetType(typeid(T), [](TypeInfo& info) {
+  const TypeInfo& type = internal::GetType(typeid(T), {sizeof(T), alignof(T)}, [](TypeInfo& info) {
     TypeBuilder<T> builder(info);
     Describe(builder);
   });

@@ -1,9 +1,12 @@
 #include "core/plugin/plugin_entry.h"
+#include "modules/adaptors/bumper_to_surroundings.h"
 #include "modules/adaptors/infrared_to_surroundings.h"
 #include "modules/adaptors/laser_to_surroundings.h"
 
 RUNNEL_PLUGIN(adaptors, registry) {
   using namespace runnel;
+  registry.Add<BumperToSurroundings>(
+      "adaptors/bumper", "what a bumper touches becomes what planners are told of the obstacles");
   registry.Add<LaserToSurroundings>("adaptors/laser",
                                     "laser scans become what planners are told of the obstacles");
   registry.Add<InfraredToSurroundings>(

@@ -1,8 +1,12 @@
 #include "modules/planning/bug_planner.h"
 
+#include <algorithm>
+
 namespace runnel {
 
 namespace {
+
+constexpr double kTurnInAPeriod = 0.7;  // of the bearing
 
 // Within what the list has reserved.
 void CopyPoints(const PointHistory& history, std::vector<Point2>& list) {
@@ -12,18 +16,36 @@ void CopyPoints(const PointHistory& history, std::vector<Point2>& list) {
 
 }  // namespace
 
-BugConfiguration BugPlanner::Configuration() const {
+void BugPlanner::AddStep() {
+  step_.emplace(this, "step",
+                ParameterOptions<double>{
+                    .default_value = kDefaults.step,
+                    .bounds = {0.01, 10.0},
+                    .unit = "m",
+                    .description = "by which free_range_step must see that it gets nearer"});
+}
+
+BugConfiguration BugPlanner::Configuration(double time_step) const {
   BugConfiguration configuration;
   configuration.first_direction = first_direction.Get();
   configuration.goal_tolerance = goal_tolerance.Get();
   configuration.leave_margin = leave_margin.Get();
+  if (step_) configuration.step = step_->Get();
   configuration.driving.cruise_speed = cruise_speed.Get();
   configuration.driving.following_speed = following_speed.Get();
   configuration.driving.turn_limit = turn_limit.Get();
+  // A bearing is turned away in one period at most, or the robot would swing to and fro.
+  if (time_step > 0.0) {
+    configuration.driving.turn_gain =
+        std::min(configuration.driving.turn_gain, kTurnInAPeriod / time_step);
+  }
   return configuration;
 }
 
 Result<void> BugPlanner::Prepare() {
+  if (const auto misfit = FindMisfit(Components())) {
+    return Error{.message = misfit->message, .path = path(), .hint = misfit->hint};
+  }
   points.PrepareBuffers([](HitAndLeavePoints& buffer) {
     buffer.hits.reserve(PointHistory::kCapacity);
     buffer.leaves.reserve(PointHistory::kCapacity);
@@ -38,21 +60,26 @@ void BugPlanner::Update() {
   if (!view.is_new() || !here || !there) return;
   // Whoever localises has fallen silent: going on would be driving blind.
   if (view.stamp() - here.stamp() > FromSeconds(pose_timeout.Get())) return;
-  if (!start_ || !(goal_ == *there)) {
-    start_ = Position(*here);
-    goal_ = *there;
-    last_ = now();
-  }
-  const BugInput input{.time_step = ToSeconds(now() - last_),
+  CheckSensors(*view);
+  const bool is_same_task = state_.has_task && state_.goal == *there;
+  const BugInput input{.time_step = last_ ? ToSeconds(now() - *last_) : 0.0,
                        .pose = *here,
                        .surroundings = *view,
-                       .start = *start_,
-                       .goal = goal_};
+                       .start = is_same_task ? state_.start : Position(*here),
+                       .goal = *there};
   last_ = now();
-  const BugOutput output = Plan(Configuration(), state_, input);
+  const BugOutput output =
+      BugAlgorithm(Configuration(input.time_step), Components()).Update(state_, input);
   twist.Publish(output.twist);
   status.Publish(output.status);
   PublishPoints();
+}
+
+void BugPlanner::CheckSensors(const Surroundings& view) {
+  if (!view.is_measured) return;
+  if (const auto misfit = FindMisfit(Components(), view)) {
+    throw ElementError({.message = misfit->message, .path = path(), .hint = misfit->hint});
+  }
 }
 
 void BugPlanner::PublishPoints() {

@@ -1,35 +1,39 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "core/module/module.h"
 #include "core/port/input.h"
 #include "core/port/output.h"
 #include "modules/planning/algorithm/bug_algorithm.h"
+#include "modules/planning/algorithm/bug_variants.h"
+#include "modules/planning/bug_components.h"
 #include "modules/types/hit_and_leave_points.h"
 #include "modules/types/planner_status.h"
 #include "modules/types/pose.h"
 #include "modules/types/surroundings.h"
 #include "plugins/parameters/parameter.h"
+#include "plugins/parameters/static_parameter.h"
 
 namespace runnel {
 
-inline void Describe(TypeBuilder<BoundaryDirection>& type) {
-  type.Name("BoundaryDirection")
-      .Value("left", BoundaryDirection::kLeft)
-      .Value("right", BoundaryDirection::kRight);
-}
-
-/// What all planners of the Bug family have in common: the ports, the parameters, the state. A
-/// variant is a class of its own (BugPlannerOf<Algorithm>), so that it is chosen by its name in an
-/// application file.
+/// What all planners of the Bug family have in common: the ports, the parameters, the state. Which
+/// components it is made of, a class derived from it says: BugPlannerOf for the published variants,
+/// ComposedBugPlanner for what an application file puts together, or one of your own.
 ///
 /// One step for each new view of the surroundings; without one, or without a pose of about the same
 /// time, the planner is silent, so that whoever guards the drive notices. The task begins where the
 /// robot is when the goal comes, and anew with every other goal.
+///
+/// All that is remembered is in one BugState, which is the same type for all variants: a planner that
+/// is given the state of another one goes on where that one was.
+///
+/// Errors: Prepare() refuses components that do not fit together; Update() throws if they cannot do
+/// with what the sensors tell (free_range_step with a bumper), which stops the planner with a fault.
 class BugPlanner : public Module {
  public:
-  explicit BugPlanner(const Placement& placement) : Module(placement) {}
+  explicit BugPlanner(const Placement& placement) : Module(placement) { KeepState(state_); }
 
   Input<Surroundings> surroundings{
       this,
@@ -48,7 +52,7 @@ class BugPlanner : public Module {
       this,
       "first_direction",
       {.default_value = kDefaults.first_direction,
-       .description = "which way it turns where it meets an obstacle"}};
+       .description = "which way it turns where it meets an obstacle, or the first one"}};
   Parameter<double> goal_tolerance{this,
                                    "goal_tolerance",
                                    {.default_value = kDefaults.goal_tolerance,
@@ -88,36 +92,78 @@ class BugPlanner : public Module {
                                   .description = "with a pose that is older by this than the view "
                                                  "of the surroundings, it is silent"}};
 
- protected:
-  /// One update of the variant. Does not allocate.
-  virtual BugOutput Plan(const BugConfiguration& configuration, BugState& state,
-                         const BugInput& input) const = 0;
+  /// What it remembers; for the thread that runs it, or while it does not run.
+  [[nodiscard]] const BugState& state() const { return state_; }
+  /// Makes it go on where another planner was.
+  void TakeOver(const BugState& state) { state_ = state; }
 
- private:
+ protected:
   static constexpr BugConfiguration kDefaults{};
 
+  /// Asked in Prepare() and before each step: does not allocate.
+  [[nodiscard]] virtual BugComponents Components() const = 0;
+  /// DistBug's STEP, for planners whose leave condition has one.
+  void AddStep();
   Result<void> Prepare() override;
-  void Update() override;
-  void PublishPoints();
-  [[nodiscard]] BugConfiguration Configuration() const;
 
+ private:
+  void Update() override;
+  void CheckSensors(const Surroundings& view);
+  void PublishPoints();
+  [[nodiscard]] BugConfiguration Configuration(double time_step) const;
+
+  std::optional<Parameter<double>> step_;
   BugState state_;
-  std::optional<Point2> start_;
-  Point2 goal_;
-  Time last_{};
+  std::optional<Time> last_;
   std::size_t published_points_ = 0;
 };
 
-/// The planner module of one variant.
-template <typename Algorithm>
+/// The planner module of a published variant, by its place in the table.
+template <std::size_t variant>
 class BugPlannerOf final : public BugPlanner {
  public:
-  using BugPlanner::BugPlanner;
+  explicit BugPlannerOf(const Placement& placement) : BugPlanner(placement) {
+    if constexpr (kRow.composition.leave == LeaveKind::kFreeRangeStep) AddStep();
+  }
 
  private:
-  BugOutput Plan(const BugConfiguration& configuration, BugState& state,
-                 const BugInput& input) const override {
-    return Algorithm(configuration).Update(state, input);
+  static constexpr BugVariant kRow = kBugVariants[variant];
+
+  [[nodiscard]] BugComponents Components() const override {
+    BugComposition composition = kRow.composition;
+    if (composition.direction == DirectionKind::kLeft &&
+        first_direction.Get() == BoundaryDirection::kRight) {
+      composition.direction = DirectionKind::kRight;
+    }
+    return Assemble(composition);
+  }
+};
+
+/// A planner composed in an application file, of one component of each kind.
+class ComposedBugPlanner final : public BugPlanner {
+ public:
+  explicit ComposedBugPlanner(const Placement& placement) : BugPlanner(placement) { AddStep(); }
+
+  StaticParameter<MotionKind> motion{this,
+                                     "motion",
+                                     {.default_value = MotionKind::kStraight,
+                                      .description = "how it drives while nothing is near"}};
+  StaticParameter<DirectionKind> direction{
+      this,
+      "direction",
+      {.default_value = DirectionKind::kLeft, .description = "which way it turns at an obstacle"}};
+  StaticParameter<LeaveKind> leave{
+      this,
+      "leave",
+      {.default_value = LeaveKind::kBestAfterLap, .description = "where it leaves an obstacle"}};
+  StaticParameter<RevisitKind> revisit{
+      this,
+      "revisit",
+      {.default_value = RevisitKind::kNone, .description = "what it does where it was before"}};
+
+ private:
+  [[nodiscard]] BugComponents Components() const override {
+    return Assemble({motion.Get(), direction.Get(), leave.Get(), revisit.Get()});
   }
 };
 

@@ -1,12 +1,26 @@
+#include <utility>
+
 #include "core/plugin/plugin_entry.h"
-#include "modules/planning/algorithm/bug1.h"
-#include "modules/planning/algorithm/bug2.h"
 #include "modules/planning/bug_planner.h"
+
+namespace runnel {
+
+namespace {
+
+template <std::size_t... variants>
+void AddVariants(PluginRegistry& registry, std::index_sequence<variants...>) {
+  (registry.Add<BugPlannerOf<variants>>("planning/" + std::string(kBugVariants[variants].name),
+                                        std::string(kBugVariants[variants].description)),
+   ...);
+}
+
+}  // namespace
+
+}  // namespace runnel
 
 RUNNEL_PLUGIN(planning, registry) {
   using namespace runnel;
-  registry.Add<BugPlannerOf<Bug1>>(
-      "planning/bug1", "goes once round each obstacle, leaves where it was nearest to the goal");
-  registry.Add<BugPlannerOf<Bug2>>(
-      "planning/bug2", "leaves obstacles where it meets the line from start to goal again");
+  AddVariants(registry, std::make_index_sequence<kBugVariants.size()>());
+  registry.Add<ComposedBugPlanner>("planning/bug",
+                                   "a variant of its own, composed of the components named");
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <stdexcept>
 
 #include "core/module/module.h"
 #include "core/port/input.h"
@@ -13,7 +14,8 @@
 
 namespace runnel {
 
-/// A simulated laser on the robot's centre, looking ahead: a scan for each new pose.
+/// A simulated laser on the robot's centre, looking ahead: a scan for each new pose. Can be made to
+/// fail, for applications that are to cope with it.
 class Laser final : public Module {
  public:
   using Module::Module;
@@ -46,6 +48,22 @@ class Laser final : public Module {
                                  .description = "standard deviation of every range"}};
   StaticParameter<std::uint64_t> seed{
       this, "seed", {.default_value = 1, .description = "of the noise"}};
+  StaticParameter<double> fails_at{this,
+                                   "fails_at",
+                                   {.default_value = 0.0,
+                                    .bounds = {0.0, 1e9},
+                                    .unit = "s",
+                                    .description = "from the start; 0: it does not fail"}};
+  StaticParameter<double> works_again_at{this,
+                                         "works_again_at",
+                                         {.default_value = 0.0,
+                                          .bounds = {0.0, 1e9},
+                                          .unit = "s",
+                                          .description = "from the start; 0: never"}};
+  StaticParameter<bool> fails_loudly{
+      this,
+      "fails_loudly",
+      {.default_value = false, .description = "by an exception; else it only falls silent"}};
 
  private:
   Result<void> Prepare() override {
@@ -66,6 +84,11 @@ class Laser final : public Module {
   }
 
   void Update() override {
+    if (!started_) started_ = now();
+    if (HasFailed()) {
+      if (fails_loudly.Get()) throw std::runtime_error("the laser does not answer any more");
+      return;
+    }
     const auto at = pose.Read();
     const auto seen = scene.Read();
     if (!at.is_new() || !seen) return;
@@ -74,7 +97,15 @@ class Laser final : public Module {
     scan.Publish(std::move(loan));
   }
 
+  [[nodiscard]] bool HasFailed() const {
+    if (fails_at.Get() <= 0) return false;
+    const double running = ToSeconds(now() - *started_);
+    const bool works_again = works_again_at.Get() > 0 && running >= works_again_at.Get();
+    return running >= fails_at.Get() && !works_again;
+  }
+
   std::optional<LaserScanner> scanner_;
+  std::optional<Time> started_;
 };
 
 }  // namespace runnel

@@ -1,10 +1,12 @@
 #include "modules/simulation/referee.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <fstream>
 #include <string_view>
 
+#include "modules/simulation/algorithm/run_result.h"
 #include "modules/simulation/algorithm/trajectory_svg.h"
 
 namespace runnel {
@@ -65,6 +67,19 @@ PathMode LookOf(PlannerMode mode) {
   return PathMode::kDrivingToGoal;
 }
 
+/// How it is told to programs that compare runs.
+struct Ending {
+  std::string_view outcome;
+  std::string_view remark = {};
+};
+Ending EndingOf(Verdict verdict) {
+  if (verdict == Verdict::kMistaken) {
+    return {"error", "the planner says that it is at the goal, and is not"};
+  }
+  if (verdict == Verdict::kRunning) return {"error", "the run was stopped before it was over"};
+  return {Words(verdict)};
+}
+
 template <typename... Values>
 std::string Format(const char* format, Values... values) {
   std::array<char, 200> text{};
@@ -90,7 +105,7 @@ class Referee::Monitor final : public RunMonitor {
                       .summary = Format("path %.2f m, time %.2f s", end.path_length, end.elapsed),
                       .success = referee_.IsSuccess(end.verdict)};
   }
-  Result<std::string> Finish() override { return referee_.DrawPicture(); }
+  Result<std::string> Finish() override { return referee_.Finish(); }
 
  private:
   Referee& referee_;
@@ -103,12 +118,17 @@ Referee::Referee(const Placement& placement) : Module(placement) {
 }
 
 Result<void> Referee::Prepare() {
-  const FilePath& file = picture.Get();
-  if (file.empty()) return {};
-  const auto folder = std::filesystem::absolute(file.path()).parent_path();
+  if (auto checked = CheckFolder(picture, "the picture"); !checked) return checked;
+  return CheckFolder(result, "the result");
+}
+
+Result<void> Referee::CheckFolder(const StaticParameter<FilePath>& file,
+                                  std::string_view what) const {
+  if (file.Get().empty()) return {};
+  const auto folder = std::filesystem::absolute(file.Get().path()).parent_path();
   if (!std::filesystem::is_directory(folder)) {
-    return Error{.message = "there is no folder '" + folder.string() + "' for the picture",
-                 .path = picture.path()};
+    return Error{.message = "there is no folder '" + folder.string() + "' for " + std::string(what),
+                 .path = file.path()};
   }
   return {};
 }
@@ -118,6 +138,7 @@ void Referee::Update() {
   const auto there = goal.Read();
   if (!begin_) begin_ = now();
   if (standing_.verdict != Verdict::kRunning) return;
+  ++cycles_;
   if (!at.is_new() || !there) return JudgeTime();
   if (const auto said = status.Read()) planner_ = *said;
   if (const auto touch = contact.Read()) touched_ = touched_ || touch->is_touching;
@@ -141,8 +162,22 @@ void Referee::JudgeTime() {
 bool Referee::IsTimeUp() const { return now() - *begin_ >= FromSeconds(time_limit.Get()); }
 
 void Referee::Record(const Pose2& at) {
-  path_.Add({Position(at), LookOf(planner_.mode)});
+  path_.Add({Position(at), LookOf(planner_.mode), at.heading, ToSeconds(now() - *begin_)});
   end_ = at;
+  RecordPoints();
+}
+
+void Referee::RecordPoints() {
+  const auto copy = [](const std::vector<Point2>& from, std::vector<Point2>& to) {
+    const auto count = static_cast<std::ptrdiff_t>(std::min(from.size(), kMostPoints));
+    to.assign(from.begin(), from.begin() + count);  // within what has been reserved
+  };
+  if (const auto all = points.Read(); all.is_new()) {
+    has_points_ = true;
+    copy(all->hits, hit_points_);
+    copy(all->leaves, leave_points_);
+  }
+  if (has_points_) return;
   if (planner_.hits > hit_points_.size() && hit_points_.size() < kMostPoints) {
     hit_points_.push_back(planner_.hit_point);
   }
@@ -152,7 +187,7 @@ void Referee::Record(const Pose2& at) {
 }
 
 Verdict Referee::Judge(const Pose2& at, const Point2& there) const {
-  if (touched_) return Verdict::kCollision;
+  if (touched_ && touch_is_collision.Get()) return Verdict::kCollision;
   if (planner_.mode == PlannerMode::kUnreachable) return Verdict::kUnreachable;
   if (planner_.mode == PlannerMode::kReached) {
     const bool is_there = Distance(Position(at), there) <= goal_tolerance.Get();
@@ -172,6 +207,13 @@ bool Referee::IsSuccess(Verdict verdict) const {
   const Expectation wanted = expected.Get();
   return (verdict == Verdict::kReached && wanted != Expectation::kUnreachable) ||
          (verdict == Verdict::kUnreachable && wanted != Expectation::kReached);
+}
+
+Result<std::string> Referee::Finish() const {
+  const auto drawn = DrawPicture();
+  const auto written = WriteResult();
+  if (!drawn || !written) return drawn ? written : drawn;
+  return *drawn + (drawn->empty() || written->empty() ? "" : "\n") + *written;
 }
 
 Result<std::string> Referee::DrawPicture() const {
@@ -200,6 +242,28 @@ Result<std::string> Referee::DrawPicture() const {
                  .path = picture.path()};
   }
   return "the path is drawn in " + picture.Get().text;
+}
+
+Result<std::string> Referee::WriteResult() const {
+  if (result.Get().empty()) return std::string();
+  const auto seen = scene.Peek();
+  const Ending ending = EndingOf(standing_.verdict);
+  std::ofstream file(result.Get().path());
+  file << JsonOf({.outcome = std::string(ending.outcome),
+                  .remark = std::string(ending.remark),
+                  .path_length = path_.length(),
+                  .simulated_time = standing_.elapsed,
+                  .cycles = cycles_,
+                  .robot_radius = seen ? seen->robot_radius : 0.0,
+                  .hits = hit_points_,
+                  .leaves = leave_points_,
+                  .path = ThinnedPath(path_.Samples(), path_step.Get())});
+  file.close();
+  if (!file) {
+    return Error{.message = "the result '" + result.Get().text + "' could not be written",
+                 .path = result.path()};
+  }
+  return "the result is in " + result.Get().text;
 }
 
 }  // namespace runnel

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/lockfree/latest_value.h"
@@ -11,6 +13,7 @@
 #include "modules/simulation/algorithm/path_record.h"
 #include "modules/simulation/scene.h"
 #include "modules/types/contact.h"
+#include "modules/types/hit_and_leave_points.h"
 #include "modules/types/planner_status.h"
 #include "modules/types/pose.h"
 #include "plugins/parameters/file_path.h"
@@ -40,7 +43,7 @@ inline void Describe(TypeBuilder<Expectation>& type) {
 
 /// Watches the robot as it really moves and the planner as it speaks, and judges: reached,
 /// unreachable, timeout, collision. Measures path and time, and draws the path into a picture of
-/// the world when the run is over. Runs in the thread of the world, or it may miss a short touch.
+/// the world and writes the result into a file when the run is over. Runs in the thread of the world, or it may miss a short touch.
 class Referee final : public Module {
  public:
   explicit Referee(const Placement& placement);
@@ -51,6 +54,10 @@ class Referee final : public Module {
   Input<Contact> contact{this, "contact", {.description = "what it touches", .required = true}};
   Input<PlannerStatus> status{
       this, "status", {.description = "what the planner says", .required = true}};
+  Input<HitAndLeavePoints> points{
+      this,
+      "points",
+      {.description = "all hit and leave points; unconnected, those that the status has had"}};
 
   StaticParameter<double> time_limit{this,
                                      "time_limit",
@@ -68,8 +75,23 @@ class Referee final : public Module {
       this,
       "expected",
       {.default_value = Expectation::kEither, .description = "which verdicts count as a success"}};
+  StaticParameter<bool> touch_is_collision{
+      this,
+      "touch_is_collision",
+      {.default_value = true,
+       .description =
+           "whether touching something ends the run; not so for a robot that feels its way"}};
   StaticParameter<FilePath> picture{
       this, "picture", {.description = "the SVG file to draw the path into; empty for none"}};
+  StaticParameter<FilePath> result{
+      this, "result", {.description = "the JSON file to write the result into; empty for none"}};
+  StaticParameter<double> path_step{
+      this,
+      "path_step",
+      {.default_value = 0.1,
+       .bounds = {0.0, 1000.0},
+       .unit = "m",
+       .description = "from one point to the next of the path in the result"}};
 
  private:
   class Monitor;
@@ -89,18 +111,25 @@ class Referee final : public Module {
   void JudgeTime();
   [[nodiscard]] bool IsTimeUp() const;
   void Record(const Pose2& at);
+  void RecordPoints();
   [[nodiscard]] Verdict Judge(const Pose2& at, const Point2& there) const;
   [[nodiscard]] Standing LastStanding() const;
   [[nodiscard]] bool IsSuccess(Verdict verdict) const;
+  [[nodiscard]] Result<void> CheckFolder(const StaticParameter<FilePath>& file,
+                                         std::string_view what) const;
+  [[nodiscard]] Result<std::string> Finish() const;
   [[nodiscard]] Result<std::string> DrawPicture() const;
+  [[nodiscard]] Result<std::string> WriteResult() const;
 
   PlannerStatus planner_;
+  bool has_points_ = false;
   bool touched_ = false;
   PathRecord path_;
   std::vector<Point2> hit_points_;
   std::vector<Point2> leave_points_;
   std::optional<Pose2> end_;
   std::optional<Time> begin_;
+  std::uint64_t cycles_ = 0;
   Standing standing_;
   LatestValue<Standing> shown_;
 };

@@ -65,10 +65,21 @@ void XmlTagRegistry::AddAttribute(AddedAttribute attribute) {
   added_attributes_.push_back(std::move(attribute));
 }
 
-void XmlTagRegistry::RemovePlugin(std::string_view plugin) {
-  std::erase_if(tags_, [&](const auto& entry) { return entry.second.plugin == plugin; });
-  std::erase_if(added_attributes_,
-                [&](const AddedAttribute& each) { return each.plugin == plugin; });
+std::function<void()> XmlTagRegistry::SetAside(std::string_view plugin) {
+  std::map<std::string, XmlTag, std::less<>> tags;
+  std::vector<AddedAttribute> attributes;
+  std::erase_if(tags_, [&](const auto& entry) {
+    return entry.second.plugin == plugin && tags.insert(entry).second;
+  });
+  std::erase_if(added_attributes_, [&](const AddedAttribute& each) {
+    if (each.plugin != plugin) return false;
+    attributes.push_back(each);
+    return true;
+  });
+  return [this, tags, attributes] {
+    for (const auto& [name, tag] : tags) tags_.insert_or_assign(name, tag);
+    added_attributes_.insert(added_attributes_.end(), attributes.begin(), attributes.end());
+  };
 }
 
 const XmlTag* XmlTagRegistry::FindTag(std::string_view name) const {

@@ -100,7 +100,7 @@ class XmlTagRegistry final : public OfferedRegistry {
   /// Both throw ElementError if the word is taken, as registrations of plugins do.
   void AddTag(XmlTag tag);
   void AddAttribute(AddedAttribute attribute);
-  void RemovePlugin(std::string_view plugin) override;
+  std::function<void()> SetAside(std::string_view plugin) override;
   /// What is added from now on counts as of this plugin.
   void set_plugin(std::string plugin) { plugin_ = std::move(plugin); }
 

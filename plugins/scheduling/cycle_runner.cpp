@@ -17,7 +17,7 @@ thread_local constinit const Schedule* in_cycle_of __attribute__((tls_model("ini
 
 bool IsToldAtTheEnd(const CycleRunner& runner) noexcept {
   return in_cycle_of != nullptr &&
-         std::ranges::find(in_cycle_of->waiting, &runner) != in_cycle_of->waiting.end();
+         std::ranges::find(*in_cycle_of->waiting, &runner) != in_cycle_of->waiting->end();
 }
 
 // One that throws is stopped, and the others go on. The try block is around the loop and not within
@@ -42,11 +42,13 @@ void RunInTurn(std::span<const Schedule::Entry> entries, Time now, FaultDesk& de
 
 CycleRunner::~CycleRunner() { delete schedule_.load(std::memory_order_seq_cst); }
 
-void CycleRunner::Install(std::unique_ptr<const Schedule> schedule) {
+void CycleRunner::Install(std::unique_ptr<const Schedule> schedule,
+                          std::shared_ptr<const void> old_chunks) {
   // seq_cst: one order with the epoch's operations; see core/lockfree/epoch.h.
   const Schedule* const previous =
       schedule_.exchange(schedule.release(), std::memory_order_seq_cst);
-  if (previous != nullptr) Retire([previous] { delete previous; });
+  if (previous == nullptr) return;
+  Retire([previous, with_it = std::move(old_chunks)] { delete previous; });
 }
 
 bool CycleRunner::RunCycle(Cycle cycle, FaultDesk& desk) noexcept {
@@ -63,7 +65,7 @@ bool CycleRunner::RunCycle(Cycle cycle, FaultDesk& desk) noexcept {
     RunAll(*schedule, cycle.now, desk);
   }
   in_cycle_of = nullptr;
-  for (CycleRunner* const waiting : schedule->waiting) {
+  for (CycleRunner* const waiting : *schedule->waiting) {
     if (waiting->is_activated()) waiting->event_.Notify();
   }
   return true;
@@ -71,18 +73,26 @@ bool CycleRunner::RunCycle(Cycle cycle, FaultDesk& desk) noexcept {
 
 // Whether nothing need be asked of its elements any more.
 bool CycleRunner::IsSettled(const Schedule& schedule) noexcept {
-  if (settled_ == schedule.number) return true;
-  const bool have_arrived = std::ranges::all_of(
-      schedule.entries, [&](const auto& entry) { return schedule.HasArrived(entry); });
+  if (!schedule.has_arrivals || settled_ == schedule.number) return true;
+  const bool have_arrived = std::ranges::all_of(schedule.chunks, [](const Schedule::Chunk* chunk) {
+    return !chunk->has_arrivals ||
+           std::ranges::all_of(chunk->entries, &Schedule::Entry::HasArrived);
+  });
   if (have_arrived) settled_ = schedule.number;
   return have_arrived;
 }
 
 // An element that another thread may still be running is left out of this cycle.
 void CycleRunner::RunAll(const Schedule& schedule, Time now, FaultDesk& desk) noexcept {
-  if (IsSettled(schedule)) return RunInTurn(schedule.entries, now, desk);
-  for (const Schedule::Entry& entry : schedule.entries) {
-    if (schedule.HasArrived(entry)) RunInTurn({&entry, 1}, now, desk);
+  const bool is_settled = IsSettled(schedule);
+  for (const Schedule::Chunk* chunk : schedule.chunks) {
+    if (is_settled || !chunk->has_arrivals) {
+      RunInTurn(chunk->entries, now, desk);
+      continue;
+    }
+    for (const Schedule::Entry& entry : chunk->entries) {
+      if (entry.HasArrived()) RunInTurn({&entry, 1}, now, desk);
+    }
   }
 }
 
@@ -91,23 +101,32 @@ void CycleRunner::RunAll(const Schedule& schedule, Time now, FaultDesk& desk) no
 void CycleRunner::RunActivated(const Schedule& schedule, Time now, FaultDesk& desk) noexcept {
   const bool is_settled = IsSettled(schedule);
   is_held_up_ = false;
-  for (const Schedule::Entry& entry : schedule.entries) {
-    ScheduledElement& element = *entry.element;
-    // What has come for an element that another thread may still be running is not forgotten.
-    if (!is_settled && !schedule.HasArrived(entry)) {
-      if (element.is_activated()) is_held_up_ = true;
-      continue;
+  for (const Schedule::Chunk* chunk : schedule.chunks) {
+    for (const Schedule::Entry& entry : chunk->entries) {
+      RunIfActivated(entry, is_settled, now, desk);
     }
-    if (entry.is_first && element.TakeActivation()) element.set_in_pass(true);
-    if (element.in_pass()) RunInTurn({&entry, 1}, now, desk);
-    if (entry.is_last) element.set_in_pass(false);
   }
   // What came during the pass for those further down has been used in it; what came for those
   // further up, or from other threads, is for the next one.
   (void)TakeActivation();
-  const bool more = std::ranges::any_of(
-      schedule.entries, [](const auto& entry) { return entry.element->is_activated(); });
+  const bool more = std::ranges::any_of(schedule.chunks, [](const Schedule::Chunk* chunk) {
+    return std::ranges::any_of(chunk->entries,
+                               [](const auto& entry) { return entry.element->is_activated(); });
+  });
   if (more) activated_.store(true, std::memory_order_release);
+}
+
+void CycleRunner::RunIfActivated(const Schedule::Entry& entry, bool is_settled, Time now,
+                                 FaultDesk& desk) noexcept {
+  ScheduledElement& element = *entry.element;
+  // What has come for an element that another thread may still be running is not forgotten.
+  if (!is_settled && !entry.HasArrived()) {
+    if (element.is_activated()) is_held_up_ = true;
+    return;
+  }
+  if (entry.is_first && element.TakeActivation()) element.set_in_pass(true);
+  if (element.in_pass()) RunInTurn({&entry, 1}, now, desk);
+  if (entry.is_last) element.set_in_pass(false);
 }
 
 void CycleRunner::Activate() noexcept {

@@ -38,8 +38,10 @@ class CycleRunner {
     return options_.activation == ThreadOptions::Activation::kTrigger;
   }
 
-  /// Takes effect from the next cycle on.
-  void Install(std::unique_ptr<const Schedule> schedule);
+  /// Takes effect from the next cycle on. The chunks of a schedule belong to whoever has made them;
+  /// `old_chunks` are those that only the schedule before has: they go when it goes.
+  void Install(std::unique_ptr<const Schedule> schedule,
+               std::shared_ptr<const void> old_chunks = nullptr);
   /// Under the structure lock; nullptr before the first Install().
   [[nodiscard]] const Schedule* schedule() const noexcept {
     return schedule_.load(std::memory_order_seq_cst);
@@ -80,6 +82,8 @@ class CycleRunner {
   [[nodiscard]] bool IsSettled(const Schedule& schedule) noexcept;
   void RunAll(const Schedule& schedule, Time now, FaultDesk& desk) noexcept;
   void RunActivated(const Schedule& schedule, Time now, FaultDesk& desk) noexcept;
+  void RunIfActivated(const Schedule::Entry& entry, bool is_settled, Time now,
+                      FaultDesk& desk) noexcept;
 
   const std::string path_;
   const ThreadOptions options_;

@@ -60,6 +60,10 @@ class FaultDesk {
   Result<void> AddRule(FaultRule rule);
 
   void RequestStop() noexcept { stop_requested_.store(true, std::memory_order_release); }
+  void StopForFault() noexcept {
+    stopped_by_fault_.store(true, std::memory_order_release);
+    RequestStop();
+  }
   void ClearStop() noexcept {
     stopped_by_fault_.store(false, std::memory_order_release);
     stop_requested_.store(false, std::memory_order_release);

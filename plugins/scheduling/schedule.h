@@ -11,32 +11,48 @@
 namespace runnel {
 
 /// What one thread does in a cycle, ready to be run through. Never changed once made: a change of
-/// the structure makes a new one, and the old one goes when no cycle can be using it.
+/// the structure makes a new one, and the old one goes when no cycle can be using it. Its entries
+/// lie in chunks, which a new schedule shares with the one before as far as nothing has changed in
+/// them; so making one costs a pointer for each chunk.
 struct Schedule {
+  /// A runner that may still be running an element, since an installation that took it away.
+  struct Before {
+    std::shared_ptr<const CyclePresence> presence;
+    std::shared_ptr<const Installation> installation;
+    [[nodiscard]] bool HasLeft() const noexcept {
+      return installation->HasBeenReachedBy(*presence);
+    }
+  };
+
   struct Entry {
     BoundCall run;
     std::shared_ptr<ScheduledElement> element;
     Phase phase = Phase::kUpdate;
-    bool is_first = true;  ///< of the element's tasks, in this schedule
+    bool is_first = true;  ///< of the element's tasks
     bool is_last = true;
-    /// Of the runners that may still be running the element when this schedule is installed.
-    std::vector<std::shared_ptr<const CyclePresence>> before = {};
+    /// Those who may still have been running the element when this entry was made.
+    std::vector<Before> before = {};
+
+    /// Whether no other thread can be running the element any more; once true it remains so, as
+    /// long as a cycle is in a schedule with this entry.
+    [[nodiscard]] bool HasArrived() const noexcept {
+      for (const Before& each : before) {
+        if (!each.HasLeft()) return false;
+      }
+      return true;
+    }
   };
 
-  /// Whether no other thread can be running the element of `entry` any more; once true it remains
-  /// so, as long as a cycle is in this schedule.
-  [[nodiscard]] bool HasArrived(const Entry& entry) const noexcept {
-    for (const auto& presence : entry.before) {
-      if (!installation->HasBeenReachedBy(*presence)) return false;
-    }
-    return true;
-  }
+  struct Chunk {
+    std::vector<Entry> entries;
+    bool has_arrivals = false;  ///< elements that others have had before
+  };
 
-  std::uint64_t number = 0;  ///< 1 for the first of its runner
-  std::shared_ptr<const Installation> installation;
-  std::vector<Entry> entries;
+  std::uint64_t number = 0;          ///< later ones of the same runner have higher numbers
+  std::vector<const Chunk*> chunks;  ///< in the order of running; see CycleRunner::Install()
+  bool has_arrivals = false;         ///< in any of them
   /// The runners that wait for data; they are told at the end of the cycle, not in the midst of it.
-  std::vector<CycleRunner*> waiting;
+  std::shared_ptr<const std::vector<CycleRunner*>> waiting;
 };
 
 }  // namespace runnel

@@ -4,219 +4,318 @@
 #include <utility>
 
 #include "core/lockfree/thread_epoch.h"
-#include "core/port/input.h"
+#include "core/port/port.h"
 #include "plugins/scheduling/cycle_runner.h"
-#include "plugins/scheduling/execution_order.h"
 #include "plugins/scheduling/internal/data_flow.h"
+#include "plugins/scheduling/internal/trigger_ties.h"
 
 namespace runnel {
 
 namespace {
+
+using internal::Lane;
+using internal::PlannedElement;
+using internal::PlannedTask;
 
 struct Found {
   std::vector<ThreadContainer*> containers;
   std::vector<FrameworkElement*> executables;
 };
 
-void Search(FrameworkElement& element, Found& found) {
-  if (element.life_cycle() == LifeCycle::kDeleted) return;
-  if (auto* const container = dynamic_cast<ThreadContainer*>(&element)) {
-    found.containers.push_back(container);
-  }
-  if (element.life_cycle() == LifeCycle::kReady && element.FindAnnotation<Executable>()) {
-    found.executables.push_back(&element);
-  }
-  for (FrameworkElement* child : element.children()) Search(*child, found);
-}
-
-std::vector<InputBase*> TriggerInputs(const std::vector<Task>& tasks) {
-  std::vector<InputBase*> inputs;
-  for (const Task& task : tasks) {
-    for (const FrameworkElement* group : task.reads) {
-      if (group == nullptr) continue;
-      internal::VisitPorts(*group, [&](Port& port) {
-        auto* const input = dynamic_cast<InputBase*>(&port);
-        if (input != nullptr && input->is_trigger()) inputs.push_back(input);
-      });
+// In the order of their making.
+Found Search(FrameworkElement& top) {
+  Found found;
+  top.Visit([&](FrameworkElement& element) {
+    if (element.life_cycle() == LifeCycle::kDeleted) return;
+    if (element.kind() == ElementKind::kThread) {
+      if (auto* const thread = dynamic_cast<ThreadContainer*>(&element)) {
+        found.containers.push_back(thread);
+      }
     }
-  }
-  return inputs;
-}
-
-ThreadContainer* ChooseContainer(const FrameworkElement& element, const Found& found,
-                                 const std::string& default_thread) {
-  const auto by = [&](auto&& is_it) -> ThreadContainer* {
-    const auto at = std::ranges::find_if(found.containers, is_it);
-    return at == found.containers.end() ? nullptr : *at;
-  };
-  const std::uint64_t assigned = AssignedThread(element);
-  if (auto* chosen = by([&](auto* each) { return each->serial() == assigned; })) return chosen;
-  if (auto* chosen = by([&](auto* each) { return each->name() == default_thread; })) return chosen;
-  return found.containers.empty() ? nullptr : found.containers.front();
-}
-
-// Whether nobody has said which of several threads is to run it.
-bool IsAChoiceMissing(const FrameworkElement& element, const Found& found,
-                      const std::string& default_thread) {
-  if (found.containers.size() < 2) return false;
-  const std::uint64_t assigned = AssignedThread(element);
-  return std::ranges::none_of(found.containers, [&](const auto* each) {
-    return each->serial() == assigned || each->name() == default_thread;
+    if (element.life_cycle() == LifeCycle::kReady && element.FindAnnotation<Executable>()) {
+      found.executables.push_back(&element);
+    }
   });
+  std::ranges::sort(found.containers, {}, &FrameworkElement::serial);
+  std::ranges::sort(found.executables, {}, &FrameworkElement::serial);
+  return found;
 }
 
-Error ChosenForIt(const FrameworkElement& element, const ThreadContainer& container) {
-  return {.message = "is assigned to no thread, and there are several; " + container.path() +
-                     " runs it, as it was made first",
-          .path = element.path(),
-          .hint = "assign it, or a group that it is in, to one of the threads"};
+std::vector<Task> TasksOf(const PlannedElement& planned) {
+  std::vector<Task> tasks;
+  for (const auto& each : planned.tasks) tasks.push_back(each->task);
+  return tasks;
 }
 
-// Data that came before the element was tied count as new. What another runner has been told of and
-// not run yet, this one is told of again.
-void Tie(const std::vector<InputBase*>& inputs, ScheduledElement& state, CycleRunner& runner) {
-  const bool was_tied = state.runner() != nullptr;
-  state.set_runner(&runner);
-  bool has_data = false;
-  for (InputBase* input : inputs) {
-    input->SetWaker(&state);
-    has_data = input->LookAtValue([](const void*, Time) {}) || has_data;
-  }
-  if ((has_data && !was_tied) || state.is_activated()) state.Wake();
+// Whether data still go from the one to the other, by another way.
+bool StillFeeds(const Port& output, const Port& input) {
+  const auto& incoming = input.incoming();
+  const bool may_be_indirect =
+      std::ranges::any_of(incoming, [](const Port* each) { return each->is_proxy(); });
+  const auto sources = may_be_indirect ? input.Sources() : incoming;
+  return std::ranges::find(sources, &output) != sources.end();
 }
 
-void Untie(const std::vector<InputBase*>& inputs) {
-  for (InputBase* input : inputs) input->SetWaker(nullptr);
-}
-
-std::vector<CycleRunner*> WaitingRunners(const std::vector<ThreadContainer*>& containers) {
-  std::vector<CycleRunner*> waiting;
-  for (const ThreadContainer* container : containers) {
-    if (container->runner()->waits_for_data()) waiting.push_back(container->runner().get());
-  }
-  return waiting;
-}
-
-void MarkFirstAndLast(std::vector<Schedule::Entry>& entries) {
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    for (std::size_t later = i + 1; later < entries.size(); ++later) {
-      if (entries[i].element != entries[later].element) continue;
-      entries[i].is_last = false;
-      entries[later].is_first = false;
-    }
+// Each output at one end with each input at the other.
+template <typename Visit>
+void ForEachPair(const Port& from, const Port& to, const Visit& visit) {
+  if (!from.is_proxy() && !to.is_proxy()) return visit(from, to);
+  const std::vector<Port*> sinks = to.Sinks();
+  for (const Port* output : from.Sources()) {
+    for (const Port* input : sinks) visit(*output, *input);
   }
 }
 
 }  // namespace
 
-CompiledSchedules ScheduleCompiler::Compile(FrameworkElement& root) {
-  Found found;
-  Search(root, found);
-  std::ranges::sort(found.containers, {}, &FrameworkElement::serial);
-  std::ranges::sort(found.executables, {}, &FrameworkElement::serial);
+ScheduleCompiler::~ScheduleCompiler() = default;
 
-  CompiledSchedules result;
-  ++compilations_;
-  std::map<const ThreadContainer*, std::vector<Task>> tasks_of;
-  for (FrameworkElement* element : found.executables) {
-    ThreadContainer* const container = ChooseContainer(*element, found, default_thread_);
-    if (container == nullptr) {
-      result.has_unassigned_tasks = true;
-      continue;
-    }
-    HandOver(*element, *container);
-    std::vector<Task> tasks = element->FindAnnotation<Executable>()->tasks();
-    TieToContainer(*element, tasks, *container, result.warnings);
-    if (IsAChoiceMissing(*element, found, default_thread_)) {
-      result.warnings.push_back(ChosenForIt(*element, *container));
-    }
-    std::ranges::move(tasks, std::back_inserter(tasks_of[container]));
+void ScheduleCompiler::CompileAll(FrameworkElement& root) {
+  const Found found = Search(root);
+  for (auto& [serial, planned] : elements_) {
+    planned.tasks.clear();
+    planned.lane = nullptr;
   }
-  const std::vector<CycleRunner*> waiting = WaitingRunners(found.containers);
-  for (const ThreadContainer* container : found.containers) {
-    auto schedule = MakeSchedule(std::move(tasks_of[container]), result.warnings);
-    schedule->number = compilations_;
-    schedule->installation = result.installation;
-    schedule->waiting = waiting;
-    result.threads.push_back({container->runner(), std::move(schedule)});
+  tasks_of_groups_.Clear();
+  MakeLanes(found.containers);
+  has_unassigned_tasks_ = lanes_.empty() && !found.executables.empty();
+  if (!has_unassigned_tasks_) {
+    for (FrameworkElement* element : found.executables) Plan(*element);
+    for (FrameworkElement* element : found.executables) ConnectTasks(elements_[element->serial()]);
   }
-  return result;
+  for (auto& [serial, lane] : lanes_) lane->order.Sort();
+  needs_all_ = false;
+}
+
+void ScheduleCompiler::MakeLanes(const std::vector<ThreadContainer*>& containers) {
+  Lanes before = std::exchange(lanes_, {});
+  changed_lanes_.clear();
+  auto waiting = std::make_shared<std::vector<CycleRunner*>>();
+  for (const ThreadContainer* container : containers) {
+    auto& lane = lanes_[container->serial()] = std::make_unique<Lane>(container->runner());
+    lane->name = container->name();
+    if (lane->runner->waits_for_data()) waiting->push_back(lane->runner.get());
+    Touch(*lane);
+  }
+  waiting_ = std::move(waiting);
+  // Chunks of before are kept until no schedule has them.
+  for (auto& [serial, lane] : before) {
+    const std::shared_ptr<CycleRunner> runner = lane->runner;
+    const std::shared_ptr<Lane::Chunks> chunks = lane->old_chunks;
+    lane.reset();
+    if (const auto now = lanes_.find(serial); now != lanes_.end()) {
+      std::ranges::move(*chunks, std::back_inserter(*now->second->old_chunks));
+    } else {
+      gone_runners_.push_back({runner, chunks});
+    }
+  }
+}
+
+// What fails on the way, for lack of memory, is made good by compiling everything.
+template <typename Change>
+void ScheduleCompiler::Follow(const Change& change) noexcept {
+  if (needs_all_) return;
+  try {
+    change();
+  } catch (...) {
+    needs_all_ = true;
+  }
+}
+
+void ScheduleCompiler::Add(FrameworkElement& element) noexcept {
+  Follow([&] {
+    const Found found = Search(element);
+    const auto is_new = [&](const auto* each) { return !lanes_.contains(each->serial()); };
+    const bool lacks_a_lane = lanes_.empty() && !found.executables.empty();
+    if (lacks_a_lane || std::ranges::any_of(found.containers, is_new)) return NeedAll();
+    std::vector<PlannedElement*> added;
+    for (FrameworkElement* each : found.executables) {
+      if (const auto known = elements_.find(each->serial()); known != elements_.end()) {
+        if (known->second.lane != nullptr) continue;
+      }
+      Plan(*each);
+      added.push_back(&elements_[each->serial()]);
+    }
+    for (PlannedElement* each : added) ConnectTasks(*each);
+    // Ports that come when their module is there already.
+    for (auto* above = element.parent(); above != nullptr; above = above->parent()) Refresh(*above);
+  });
+}
+
+void ScheduleCompiler::Refresh(FrameworkElement& element) {
+  const auto known = elements_.find(element.serial());
+  if (known == elements_.end() || known->second.lane == nullptr) return;
+  Unplan(known->second);
+  Plan(element);
+  ConnectTasks(known->second);
+}
+
+void ScheduleCompiler::Reassign(FrameworkElement& element) noexcept {
+  Follow([&] {
+    const std::uint64_t assigned = AssignedThread(element);
+    if (assigned != 0 && !lanes_.contains(assigned)) return NeedAll();
+    std::vector<PlannedElement*> moved;
+    for (FrameworkElement* each : Search(element).executables) {
+      const auto known = elements_.find(each->serial());
+      Lane* const lane = ChooseLane(*each);
+      if (known == elements_.end() || known->second.lane == lane) continue;
+      Unplan(known->second);
+      Plan(*each);
+      moved.push_back(&known->second);
+    }
+    for (PlannedElement* each : moved) ConnectTasks(*each);
+  });
+}
+
+void ScheduleCompiler::Connect(const Port& from, const Port& to) noexcept {
+  Follow([&] {
+    ForEachPair(from, to,
+                [&](const Port& output, const Port& input) { ConnectPair(output, input); });
+  });
+}
+
+void ScheduleCompiler::Disconnect(const Port& from, const Port& to) noexcept {
+  Follow([&] {
+    ForEachPair(from, to, [&](const Port& output, const Port& input) {
+      if (StillFeeds(output, input)) return;
+      tasks_of_groups_.ForEachWriter(output, [&](PlannedTask& writer) {
+        tasks_of_groups_.ForEachReader(input, [&](PlannedTask& reader) {
+          if (writer.element->lane != reader.element->lane) return;
+          writer.element->lane->order.Disconnect(writer, reader, {&output, &input});
+          Touch(*writer.element->lane);
+        });
+      });
+    });
+  });
+}
+
+void ScheduleCompiler::Plan(FrameworkElement& element) {
+  PlannedElement& planned = elements_[element.serial()];
+  planned.element = &element;
+  if (!planned.state) {
+    planned.state = std::make_shared<ScheduledElement>(element.path(), element.serial());
+  }
+  HandOver(planned, *ChooseLane(element));
+  AddTasks(planned);
+  TieToLane(planned);
+}
+
+void ScheduleCompiler::Unplan(PlannedElement& planned) {
+  internal::Untie(internal::TriggerInputs(TasksOf(planned)));
+  RemoveTasks(planned);
+}
+
+void ScheduleCompiler::AddTasks(PlannedElement& planned) {
+  for (Task& task : planned.element->FindAnnotation<Executable>()->tasks()) {
+    planned.tasks.push_back(std::make_unique<PlannedTask>(std::move(task)));
+  }
+  std::ranges::stable_sort(planned.tasks, {}, [](const auto& each) { return each->phase; });
+  internal::RunningOrder& order = planned.lane->order;
+  for (std::size_t i = 0; i < planned.tasks.size(); ++i) {
+    PlannedTask& task = *planned.tasks[i];
+    task.element = &planned;
+    task.serial = planned.element->serial();
+    task.number = i;
+    task.is_first = i == 0;
+    task.is_last = i + 1 == planned.tasks.size();
+    order.Add(task);
+    if (i > 0) order.KeepPhases(*planned.tasks[i - 1], task);
+    tasks_of_groups_.Add(task);
+  }
+  Touch(*planned.lane);
+}
+
+void ScheduleCompiler::RemoveTasks(PlannedElement& planned) {
+  Lane* const lane = std::exchange(planned.lane, nullptr);
+  if (lane != nullptr && !needs_all_) {  // else plans are made anew in any case
+    for (const auto& task : planned.tasks) {
+      tasks_of_groups_.Remove(*task);
+      lane->order.Remove(*task);
+    }
+    Touch(*lane);
+  }
+  planned.tasks.clear();
+}
+
+void ScheduleCompiler::ConnectTasks(PlannedElement& planned) {
+  const auto visit = [](const FrameworkElement* group, const auto& visitor) {
+    if (group != nullptr) internal::VisitPorts(*group, visitor);
+  };
+  for (const auto& task : planned.tasks) {
+    for (const FrameworkElement* group : task->task.writes) {
+      visit(group, [&](const Port& port) {
+        if (port.is_proxy() || port.direction() != Port::Direction::kOutput) return;
+        for (const Port* input : port.Sinks()) ConnectPair(port, *input);
+      });
+    }
+    for (const FrameworkElement* group : task->task.reads) {
+      visit(group, [&](const Port& port) {
+        if (port.is_proxy() || port.direction() != Port::Direction::kInput) return;
+        for (const Port* output : port.Sources()) ConnectPair(*output, port);
+      });
+    }
+  }
+}
+
+void ScheduleCompiler::ConnectPair(const Port& output, const Port& input) {
+  tasks_of_groups_.ForEachWriter(output, [&](PlannedTask& writer) {
+    tasks_of_groups_.ForEachReader(input, [&](PlannedTask& reader) {
+      if (writer.element->lane != reader.element->lane) return;
+      writer.element->lane->order.Connect(writer, reader, {&output, &input});
+      Touch(*writer.element->lane);
+    });
+  });
 }
 
 // The runner that has had the element until now may be in a cycle with it, and so may those before.
-void ScheduleCompiler::HandOver(const FrameworkElement& element, const ThreadContainer& container) {
-  State& state = StateOf(element);
-  const std::shared_ptr<const CyclePresence> next = container.runner()->presence();
-  if (state.current == next) return;
-  std::erase_if(state.before, [&](const Before& each) { return each.presence == next; });
-  if (state.current) state.before.push_back({state.current});
-  state.current = next;
+void ScheduleCompiler::HandOver(PlannedElement& planned, Lane& lane) {
+  planned.lane = &lane;
+  const std::shared_ptr<const CyclePresence> next = lane.runner->presence();
+  if (planned.current == next) return;
+  std::erase_if(planned.before,
+                [&](const auto& each) { return each.presence == next || each.HasLeft(); });
+  if (planned.current) {
+    planned.before.push_back({planned.current, installation_});
+    has_handovers_ = true;
+  }
+  planned.current = next;
 }
 
-void ScheduleCompiler::OnInstalled(std::uint64_t epoch) {
-  for (auto& [serial, state] : states_) {
-    std::erase_if(state.before, [epoch](Before& each) {
-      if (each.until == 0) each.until = epoch;
-      return each.presence->HasLeft(each.until);
-    });
+void ScheduleCompiler::TieToLane(PlannedElement& planned) {
+  const std::vector<InputBase*> inputs = internal::TriggerInputs(TasksOf(planned));
+  if (planned.lane->runner->waits_for_data()) {
+    internal::Tie(inputs, *planned.state, *planned.lane->runner);
+  } else {
+    internal::Untie(inputs);
+    planned.state->set_runner(nullptr);
   }
-}
-
-void ScheduleCompiler::TieToContainer(const FrameworkElement& element,
-                                      const std::vector<Task>& tasks,
-                                      const ThreadContainer& container,
-                                      std::vector<Error>& warnings) {
-  const std::vector<InputBase*> inputs = TriggerInputs(tasks);
-  ScheduledElement& state = *StateOf(element).element;
-  if (!container.runner()->waits_for_data()) {
-    Untie(inputs);
-    state.set_runner(nullptr);
-    return;
-  }
-  Tie(inputs, state, *container.runner());
-  if (!inputs.empty()) return;
-  warnings.push_back(
-      {.message = "is never run: its thread " + container.path() +
-                  " waits for data, and it has no trigger input",
-       .path = element.path(),
-       .hint = "assign it to a periodic thread, or make an input with .trigger = true"});
-}
-
-std::unique_ptr<Schedule> ScheduleCompiler::MakeSchedule(std::vector<Task> tasks,
-                                                         std::vector<Error>& warnings) {
-  ExecutionOrder order = OrderTasks(std::move(tasks));
-  auto schedule = std::make_unique<Schedule>();
-  for (Task& task : order.tasks) {
-    const State& state = StateOf(*task.element);
-    schedule->entries.push_back({std::move(task.run), state.element, task.phase});
-    for (const Before& each : state.before) {
-      schedule->entries.back().before.push_back(each.presence);
-    }
-  }
-  MarkFirstAndLast(schedule->entries);
-  std::ranges::move(order.cuts, std::back_inserter(warnings));
-  return schedule;
 }
 
 void ScheduleCompiler::Release(FrameworkElement& element) {
   element.Visit([this](FrameworkElement& each) {
-    const auto* const executable = each.FindAnnotation<Executable>();
-    if (executable == nullptr) return;
-    Untie(TriggerInputs(executable->tasks()));
-    const auto found = states_.find(each.serial());
-    if (found == states_.end()) return;
+    if (lanes_.contains(each.serial())) NeedAll();
+    const auto known = elements_.find(each.serial());
+    if (known == elements_.end()) return;
+    Unplan(known->second);
     // A publisher may still be about to wake it.
-    Retire([state = std::move(found->second.element)] {});
-    states_.erase(found);
+    Retire([state = std::move(known->second.state)] {});
+    elements_.erase(known);
   });
 }
 
-ScheduleCompiler::State& ScheduleCompiler::StateOf(const FrameworkElement& element) {
-  State& state = states_[element.serial()];
-  if (!state.element) {
-    state.element = std::make_shared<ScheduledElement>(element.path(), element.serial());
+// A new connection that agrees with the order has changed nothing that a schedule says.
+void ScheduleCompiler::Touch(Lane& lane) {
+  if (lane.changes == lane.order.tasks().changes()) return;
+  if (!std::exchange(lane.is_changed, true)) changed_lanes_.push_back(&lane);
+}
+
+Lane* ScheduleCompiler::ChooseLane(const FrameworkElement& element) const {
+  const auto assigned = lanes_.find(AssignedThread(element));
+  if (assigned != lanes_.end()) return assigned->second.get();
+  for (const auto& [serial, lane] : lanes_) {
+    if (lane->name == default_thread_) return lane.get();
   }
-  return state;
+  return lanes_.empty() ? nullptr : lanes_.begin()->second.get();
 }
 
 }  // namespace runnel

@@ -8,66 +8,99 @@
 
 #include "core/base/error.h"
 #include "core/element/runtime.h"
+#include "plugins/scheduling/internal/schedule_plan.h"
 #include "plugins/scheduling/schedule.h"
 #include "plugins/scheduling/thread_container.h"
 
 namespace runnel {
 
-/// All schedules of an application as it stands.
-struct CompiledSchedules {
-  struct Thread {
-    std::shared_ptr<CycleRunner> runner;
-    std::unique_ptr<Schedule> schedule;
-  };
-  std::vector<Thread> threads;  ///< in the order in which the containers were made
-  /// Begins once all of them are in place; elements on their way from thread to thread wait for it.
-  std::shared_ptr<Installation> installation = std::make_shared<Installation>();
-  std::vector<Error> warnings;        ///< loops that were cut, modules that never run
-  bool has_unassigned_tasks = false;  ///< there are tasks, but no container
-};
-
-/// Looks through the tree for tasks and thread containers, and makes a schedule for each container.
-/// Keeps what outlives a schedule: the state of each element.
+/// Keeps a schedule for each thread container of the tree: all of them made anew at first and when
+/// containers come or go, then only what a change touches. Nothing takes effect before Install().
 ///
 /// Threads:  all under the structure lock.
+/// Effort:   of CompileAll(), the size of the application; of a change, that of what has changed (see
+///           RunningOrder), and of Install() besides a pointer for each 64 tasks of the thread.
 class ScheduleCompiler {
  public:
+  using Runners = std::vector<std::shared_ptr<CycleRunner>>;
+
   /// Tasks that are assigned to no container go to the one called `default_thread`, or to the first
   /// if there is none of that name.
   explicit ScheduleCompiler(std::string default_thread)
       : default_thread_(std::move(default_thread)) {}
+  ~ScheduleCompiler();
+  ScheduleCompiler(const ScheduleCompiler&) = delete;
+  ScheduleCompiler& operator=(const ScheduleCompiler&) = delete;
 
-  /// Only elements that are ready are run. Ties the trigger inputs of elements to their states.
-  CompiledSchedules Compile(FrameworkElement& root);
+  /// Whether CompileAll() is due; until then changes are not followed.
+  [[nodiscard]] bool needs_all() const noexcept { return needs_all_; }
+  void NeedAll() noexcept { needs_all_ = true; }
+  /// Plans everything that is there. Only elements that are ready are run.
+  void CompileAll(FrameworkElement& root);
+  /// There are tasks, but no container.
+  [[nodiscard]] bool has_unassigned_tasks() const noexcept { return has_unassigned_tasks_; }
 
-  /// The schedules of the last Compile() are in place; their installation has begun with `epoch`.
-  void OnInstalled(std::uint64_t epoch);
-
-  /// Unties the trigger inputs of all elements at or below `element`, and forgets their states; the
-  /// next schedule must not contain them.
+  // What has happened, each after it has.
+  void Add(FrameworkElement& element) noexcept;
+  void Connect(const Port& from, const Port& to) noexcept;
+  void Disconnect(const Port& from, const Port& to) noexcept;
+  void Reassign(FrameworkElement& element) noexcept;
+  /// All at or below `element` is about to go: unties their trigger inputs and forgets them; the next
+  /// schedules do not contain them.
   void Release(FrameworkElement& element);
 
+  /// Whether Install() has something to do.
+  [[nodiscard]] bool has_changes() const noexcept {
+    return !changed_lanes_.empty() || !gone_runners_.empty();
+  }
+  /// Puts what has changed into place, for all threads together.
+  void Install();
+
+  /// Of all containers, in the order in which they were made.
+  [[nodiscard]] Runners runners() const;
+  [[nodiscard]] bool HasTasks() const;
+  /// Adds those that run anything at or below `element`, as planned, and are not in `runners` yet.
+  void AddRunnersOf(FrameworkElement& element, Runners& runners) const;
+  /// Loops that were cut, modules that never run or that name no thread where there are several.
+  [[nodiscard]] std::vector<Error> Warnings() const;
+
  private:
-  // A runner that had the element and may still be running it.
-  struct Before {
-    std::shared_ptr<const CyclePresence> presence;
-    std::uint64_t until = 0;  // the epoch that it has to reach; 0 while it still has the element
-  };
-  struct State {
-    std::shared_ptr<ScheduledElement> element;
-    std::shared_ptr<const CyclePresence> current;  // of the runner that has it
-    std::vector<Before> before;
+  using Lanes = std::map<std::uint64_t, std::unique_ptr<internal::Lane>>;  // by their containers
+
+  struct GoneRunner {
+    std::shared_ptr<CycleRunner> runner;
+    std::shared_ptr<internal::Lane::Chunks> old_chunks;
   };
 
-  void HandOver(const FrameworkElement& element, const ThreadContainer& container);
-  void TieToContainer(const FrameworkElement& element, const std::vector<Task>& tasks,
-                      const ThreadContainer& container, std::vector<Error>& warnings);
-  std::unique_ptr<Schedule> MakeSchedule(std::vector<Task> tasks, std::vector<Error>& warnings);
-  State& StateOf(const FrameworkElement& element);
+  template <typename Change>
+  void Follow(const Change& change) noexcept;
+  void MakeLanes(const std::vector<ThreadContainer*>& containers);
+  void Plan(FrameworkElement& element);
+  void Unplan(internal::PlannedElement& planned);
+  void AddTasks(internal::PlannedElement& planned);
+  void RemoveTasks(internal::PlannedElement& planned);
+  void Refresh(FrameworkElement& element);
+  void ConnectTasks(internal::PlannedElement& planned);
+  void ConnectPair(const Port& output, const Port& input);
+  void HandOver(internal::PlannedElement& planned, internal::Lane& lane);
+  void TieToLane(internal::PlannedElement& planned);
+  void Touch(internal::Lane& lane);
+  [[nodiscard]] internal::Lane* ChooseLane(const FrameworkElement& element) const;
+  [[nodiscard]] bool IsAChoiceMissing(const FrameworkElement& element) const;
+  std::unique_ptr<Schedule> MakeSchedule(internal::Lane& lane);
 
   const std::string default_thread_;
-  std::map<std::uint64_t, State> states_;  // by serial
-  std::uint64_t compilations_ = 0;
+  bool needs_all_ = true;
+  bool has_handovers_ = false;
+  bool has_unassigned_tasks_ = false;
+  std::map<std::uint64_t, internal::PlannedElement> elements_;  // by serial
+  Lanes lanes_;
+  std::vector<internal::Lane*> changed_lanes_;
+  std::vector<GoneRunner> gone_runners_;  // until the next Install()
+  internal::TasksOfGroups tasks_of_groups_;
+  std::shared_ptr<const std::vector<CycleRunner*>> waiting_;
+  std::shared_ptr<Installation> installation_ = std::make_shared<Installation>();  // the next one
+  std::uint64_t schedules_made_ = 0;
 };
 
 }  // namespace runnel

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/lockfree/thread_epoch.h"
+#include "core/port/port.h"
 #include "plugins/scheduling/realtime_setup.h"
 
 namespace runnel {
@@ -13,20 +14,6 @@ namespace {
 
 bool IsSimulated(const SchedulerOptions& options) {
   return options.clock == SchedulerOptions::ClockKind::kSimulated;
-}
-
-bool IsAtOrBelow(const std::string& path, const std::string& above) {
-  return above == "/" ||
-         (path.starts_with(above) && (path.size() == above.size() || path[above.size()] == '/'));
-}
-
-bool RunsAny(const CycleRunner& runner, const std::vector<std::string>& paths) {
-  const Schedule* const schedule = runner.schedule();
-  if (schedule == nullptr) return false;
-  return std::ranges::any_of(schedule->entries, [&](const Schedule::Entry& entry) {
-    return std::ranges::any_of(
-        paths, [&](const auto& each) { return IsAtOrBelow(entry.element->path(), each); });
-  });
 }
 
 }  // namespace
@@ -47,6 +34,7 @@ Scheduler::~Scheduler() {
   {
     const std::lock_guard lock(runtime_.structure_mutex());
     runtime_.RemoveListener(*this);
+    compiler_.NeedAll();  // not one change for each element
     compiler_.Release(runtime_.root());
     for (const auto& runner : runners_) runner->Install(nullptr);
   }
@@ -55,7 +43,10 @@ Scheduler::~Scheduler() {
   WaitForReaders();
 }
 
-void Scheduler::OnReady(FrameworkElement&) { Changed(); }
+void Scheduler::OnReady(FrameworkElement& element) {
+  compiler_.Add(element);
+  Changed();
+}
 
 void Scheduler::OnDeleted(FrameworkElement& element) {
   compiler_.Release(element);
@@ -63,32 +54,28 @@ void Scheduler::OnDeleted(FrameworkElement& element) {
 }
 
 void Scheduler::OnConnected(FrameworkElement& from, FrameworkElement& to) {
-  MarkOutdated();
-  // Structure that is still being built is compiled once, when it is ready.
-  const bool both_ready =
-      from.life_cycle() == LifeCycle::kReady && to.life_cycle() == LifeCycle::kReady;
-  if (both_ready) Changed();
+  compiler_.Connect(static_cast<Port&>(from), static_cast<Port&>(to));
+  Changed();
 }
 
 void Scheduler::OnDisconnected(FrameworkElement& from, FrameworkElement& to) {
-  OnConnected(from, to);
-  // A deletion takes off many connections at once: the supervisor looks at what has come of it.
-  if (is_outdated_ && is_running_) desk_.event().Notify();
+  compiler_.Disconnect(static_cast<Port&>(from), static_cast<Port&>(to));
+  Changed();
 }
 
-void Scheduler::OnAssigned(FrameworkElement&, ThreadContainer&) { Changed(); }
-void Scheduler::OnUnassigned(FrameworkElement&) { Changed(); }
+void Scheduler::OnAssigned(FrameworkElement& element, ThreadContainer&) { OnUnassigned(element); }
 
-void Scheduler::MarkOutdated() noexcept {
-  is_outdated_ = true;
-  // relaxed: who finds it set takes the lock before looking at what has changed.
-  has_changes_.store(true, std::memory_order_relaxed);
+void Scheduler::OnUnassigned(FrameworkElement& element) {
+  compiler_.Reassign(element);
+  Changed();
 }
 
 // Where cycles are running, the new schedule comes at once, or when all is done that belongs together:
 // what is deleted must not be in a schedule that another thread is about to run.
 void Scheduler::Changed() {
-  MarkOutdated();
+  if (is_up_to_date()) return;
+  // relaxed: who finds it set takes the lock before looking at what has changed.
+  has_changes_.store(true, std::memory_order_relaxed);
   if (is_live() && !runtime_.is_in_change_scope()) BringUpToDate();
 }
 
@@ -103,35 +90,23 @@ void Scheduler::OnChangesEnd() {
 }
 
 void Scheduler::BringUpToDate() {
-  if (!is_outdated_) return;
-  CompiledSchedules compiled = compiler_.Compile(runtime_.root());
-  if (compiled.has_unassigned_tasks) {
-    CreateThread(runtime_, "main", options_.default_options);
-    compiled = compiler_.Compile(runtime_.root());
+  if (compiler_.needs_all()) {
+    compiler_.CompileAll(runtime_.root());
+    if (compiler_.has_unassigned_tasks()) {
+      CreateThread(runtime_, "main", options_.default_options);
+      compiler_.CompileAll(runtime_.root());
+    }
+    runners_ = compiler_.runners();
+    has_other_runners_ = true;
   }
-  Install(std::move(compiled));
-  is_outdated_ = false;  // not before: what throws on the way is tried again
-}
-
-void Scheduler::Install(CompiledSchedules compiled) {
-  const Runners before = std::exchange(runners_, {});
-  for (auto& [runner, schedule] : compiled.threads) {
-    runner->Install(std::move(schedule));
-    runners_.push_back(runner);
-  }
-  for (const auto& runner : before) {
-    if (std::ranges::find(runners_, runner) != runners_.end()) continue;
-    runner->Install(nullptr);
-    // Others may be about to tell it of data.
-    Retire([runner] {});
-  }
-  compiler_.OnInstalled(compiled.installation->Begin());
-  schedule_warnings_ = std::move(compiled.warnings);
-  has_changes_.store(true, std::memory_order_relaxed);  // as in MarkOutdated()
-  if (is_running_) StartThreads(machine_.Now());
+  if (!compiler_.has_changes()) return;
+  compiler_.Install();
+  has_changes_.store(true, std::memory_order_relaxed);  // as in Changed()
+  if (is_running_ && has_other_runners_) StartThreads(machine_.Now());
 }
 
 void Scheduler::StartThreads(Time first) {
+  has_other_runners_ = false;
   const auto is_gone = [this](const auto& thread) {
     return std::ranges::find(runners_, thread->runner()) == runners_.end();
   };
@@ -163,7 +138,7 @@ Result<void> Scheduler::Start() {
   if (is_running_) return {};
   if (std::exchange(has_run_, false)) desk_.ClearStop();
   realtime_warnings_.clear();
-  is_outdated_ = true;
+  compiler_.NeedAll();
   BringUpToDate();
   const bool has_priorities = std::ranges::any_of(
       runners_, [](const auto& runner) { return runner->options().priority > 0; });
@@ -199,45 +174,13 @@ bool Scheduler::is_running() const {
   return is_running_;
 }
 
-void Scheduler::Supervise() {
-  while (supervises_.load(std::memory_order_acquire)) {
-    desk_.event().Wait();
-    LookAfter();
-  }
-}
-
-// Nobody is above the supervising thread to catch what it throws.
-void Scheduler::LookAfter() noexcept {
-  const auto report = [this](const std::string& why) {
-    desk_.Report({runtime_.root().path(), "the schedules could not be brought up to date: " + why,
-                  runtime_.clock().Now()});
-  };
-  try {
-    desk_.Attend();
-    const std::lock_guard lock(runtime_.structure_mutex());
-    if (is_running_) BringUpToDate();
-  } catch (const std::exception& exception) {
-    report(exception.what());
-  } catch (...) {
-    report("unknown exception");
-  }
-}
-
-void Scheduler::EndSupervision() {
-  if (!supervisor_.joinable()) return;
-  supervises_.store(false, std::memory_order_release);
-  desk_.event().Notify();
-  supervisor_.join();
-  supervisor_ = std::thread();
-}
-
 // What is changed after the look is for the next step.
 void Scheduler::FollowChanges() {
   if (!has_changes_.load(std::memory_order_relaxed)) return;
   const std::lock_guard lock(runtime_.structure_mutex());
   has_stepped_ = true;
   BringUpToDate();
-  simulation_.SetRunners(runners_);
+  if (std::exchange(has_other_runners_, false)) simulation_.SetRunners(runners_);
   has_changes_.store(false, std::memory_order_relaxed);
 }
 
@@ -249,7 +192,9 @@ std::optional<Time> Scheduler::NextDue() {
 
 bool Scheduler::RunNext(Time due) {
   if (options_.speed != 0) pacing_.WaitFor(due, [this] { return stop_requested(); });
-  return !stop_requested() && simulation_.Step();
+  if (stop_requested() || !simulation_.Step()) return false;
+  LookOut();
+  return true;
 }
 
 bool Scheduler::Step() {
@@ -285,8 +230,8 @@ Scheduler::Runners Scheduler::RunnersOf(const std::vector<std::string>& paths) {
   const std::lock_guard lock(runtime_.structure_mutex());
   BringUpToDate();
   Runners running;
-  for (const auto& runner : runners_) {
-    if (RunsAny(*runner, paths)) running.push_back(runner);
+  for (const std::string& path : paths) {
+    if (const auto found = runtime_.root().Find(path)) compiler_.AddRunnersOf(**found, running);
   }
   return running;
 }
@@ -300,15 +245,13 @@ std::optional<std::uint64_t> Scheduler::CyclesOf(const std::string& path) {
 bool Scheduler::HasTasks() {
   const std::lock_guard lock(runtime_.structure_mutex());
   BringUpToDate();
-  return std::ranges::any_of(runners_, [](const auto& runner) {
-    return runner->schedule() != nullptr && !runner->schedule()->entries.empty();
-  });
+  return compiler_.HasTasks();
 }
 
 std::vector<Error> Scheduler::Warnings() {
   const std::lock_guard lock(runtime_.structure_mutex());
   BringUpToDate();
-  std::vector<Error> warnings = schedule_warnings_;
+  std::vector<Error> warnings = compiler_.Warnings();
   std::ranges::copy(realtime_warnings_, std::back_inserter(warnings));
   return warnings;
 }
@@ -319,7 +262,9 @@ std::vector<Scheduler::ScheduledTask> Scheduler::Order(const ThreadContainer& th
   std::vector<ScheduledTask> order;
   const Schedule* const schedule = thread.runner()->schedule();
   if (schedule == nullptr) return order;
-  for (const auto& entry : schedule->entries) order.push_back({entry.element->path(), entry.phase});
+  for (const Schedule::Chunk* chunk : schedule->chunks) {
+    for (const auto& entry : chunk->entries) order.push_back({entry.element->path(), entry.phase});
+  }
   return order;
 }
 

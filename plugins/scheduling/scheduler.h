@@ -122,6 +122,14 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   using FaultHandler = std::function<std::optional<std::string>(const Fault&)>;
   void SetFaultHandler(FaultHandler handler) { desk_.SetHandler(std::move(handler)); }
 
+  /// Is called between cycles, without locks, and returns the time, by the runtime's clock, before
+  /// which it need not be called again: kReal by the supervising thread, kSimulated after the first
+  /// cycle that ends then or later. Set it while nothing runs.
+  using Lookout = std::function<Time(Time now)>;
+  void SetLookout(Lookout lookout);
+  /// As a fault rule does: stop_requested() and stopped_by_fault() become true.
+  void StopForFault() noexcept { desk_.StopForFault(); }
+
   void OnReady(FrameworkElement& element) override;
   void OnDeleted(FrameworkElement& element) override;
   void OnConnected(FrameworkElement& from, FrameworkElement& to) override;
@@ -139,17 +147,19 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   void FollowChanges();
   bool RunNext(Time due);
 
-  // All six under the structure lock.
+  // All five under the structure lock.
   // Whether a cycle may begin at any time.
   [[nodiscard]] bool is_live() const noexcept { return is_running_ || has_stepped_; }
-  void MarkOutdated() noexcept;
+  [[nodiscard]] bool is_up_to_date() const noexcept {
+    return !compiler_.needs_all() && !compiler_.has_changes();
+  }
   void Changed();
   void BringUpToDate();
-  void Install(CompiledSchedules compiled);
   void StartThreads(Time first);
 
   void Supervise();
   void LookAfter() noexcept;
+  void LookOut() noexcept;
   void EndSupervision();
 
   Runtime& runtime_;
@@ -163,12 +173,11 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   OrderedMutex start_mutex_{LockLevel::kScheduler};
   // Guarded by the structure lock, down to the next comment:
   ScheduleCompiler compiler_;
-  bool is_outdated_ = true;
+  bool has_other_runners_ = true;  // than threads or lanes have been made for
   bool is_running_ = false;
   bool has_stepped_ = false;
   bool has_run_ = false;  // until started again
   Runners runners_;
-  std::vector<Error> schedule_warnings_;
   std::vector<Error> realtime_warnings_;
   std::vector<std::unique_ptr<RealThread>> threads_;
   std::vector<std::unique_ptr<RealThread>> ending_;  // their containers are gone
@@ -177,6 +186,8 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   // it by the thread that steps, which need not lock where nothing has.
   std::atomic<bool> has_changes_{true};
 
+  Lookout lookout_;
+  Time next_look_{};  // by it
   std::atomic<bool> supervises_{false};
   std::thread supervisor_;
 };

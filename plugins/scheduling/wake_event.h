@@ -1,8 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <ctime>
 
 #include <semaphore.h>
+
+#include "core/base/clock.h"
 
 namespace runnel {
 
@@ -26,6 +32,19 @@ class WakeEvent {
 
   void Wait() noexcept {
     while (sem_wait(&semaphore_) != 0) {  // a signal has interrupted it
+    }
+    notified_.exchange(false, std::memory_order_acq_rel);
+  }
+
+  /// Until `deadline` by the steady clock, if nothing comes before.
+  void WaitUntil(Time deadline) noexcept {
+    const auto since = std::max(deadline.time_since_epoch(), Duration::zero());
+    const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(since);
+    timespec until{};
+    until.tv_sec = static_cast<time_t>(seconds.count());
+    until.tv_nsec = static_cast<long>((since - seconds).count());
+    while (sem_clockwait(&semaphore_, CLOCK_MONOTONIC, &until) != 0) {
+      if (errno == ETIMEDOUT) return;
     }
     notified_.exchange(false, std::memory_order_acq_rel);
   }

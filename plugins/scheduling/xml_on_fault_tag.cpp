@@ -59,7 +59,8 @@ FrameworkElement* HandleOnFault(const TagUse& use) {
   const auto report = [&](Error error) {
     use.context.Report(std::move(error), use.xml.position(), use.parent);
   };
-  if (acts == sets) {
+  const bool has_tags = !use.xml.children().empty();  // other plugins' words, which they read
+  if (acts + sets + has_tags != 1) {
     report({.message = "<on_fault> must say one thing that is to be done",
             .hint = "write either action=\"stop_application\" or set=\"…\" value=\"…\""});
   }
@@ -67,7 +68,13 @@ FrameworkElement* HandleOnFault(const TagUse& use) {
     report({.message = sets ? "<on_fault> does not say to which value" : "'value' needs a 'set'",
             .hint = sets ? "add value=\"…\"" : "add set=\"…\", or leave out value"});
   }
-  use.context.Defer(BuildStage::kConnections, [use] { AddRule(use); });
+  if (has_tags) {
+    use.context.Defer(BuildStage::kConnections, [use] {
+      (void)SearchElement(PathIn(use.Get("of"), use.parent), use.context);
+    });
+  } else {
+    use.context.Defer(BuildStage::kConnections, [use] { AddRule(use); });
+  }
   return &use.parent;
 }
 

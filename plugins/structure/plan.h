@@ -22,6 +22,9 @@ struct Replaced {
   std::uint64_t probation_cycles = 0;
 };
 
+/// The connections between what is at or below `element` and the rest. Under the structure lock.
+[[nodiscard]] std::vector<Connection> TiesOf(FrameworkElement& element);
+
 /// A change set that has been checked against the structure, with everything made that it needs: all that
 /// is left is to carry it out, between two cycles, and quickly.
 ///

@@ -80,7 +80,7 @@ Result<UnlistedElement> Probation::PutBack(Waiting waiting) {
   const FrameworkElement* const place = next == siblings.end() ? nullptr : *next;
   FrameworkElement& before = *waiting.replaced.before;
   // Connections may have changed meanwhile: what the old module has no port for goes with the new one.
-  const PortMatch match = MatchPorts(*after, before);
+  const PortMatch match = MatchPorts(*after, before, [](const Port&) { return false; });
   auto gone = runtime_.Unlist(*after);
   if (!gone) {
     waiting_.push_back(std::move(waiting));

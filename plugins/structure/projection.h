@@ -40,6 +40,9 @@ class Projection {
   Result<void> Disconnect(Port& from, Port& to);
 
   [[nodiscard]] bool HasSource(const Port& port) const;
+  [[nodiscard]] bool IsConnected(const Port& port) const {
+    return HasSource(port) || !Targets(port).empty();
+  }
 
  private:
   using Edge = std::pair<Port*, Port*>;

@@ -69,18 +69,19 @@ Result<void> CopySettings(const FrameworkElement& before, FrameworkElement& afte
   return {};
 }
 
-PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after) {
+PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after,
+                     const std::function<bool(const Port&)>& is_connected) {
   PortMatch result;
   before.Visit([&](FrameworkElement& each) {
     auto* const port = dynamic_cast<Port*>(&each);
-    if (port == nullptr || (port->incoming().empty() && port->outgoing().empty())) return;
+    if (port == nullptr) return;
     Port* const match = Counterpart(*port, before, after);
-    if (match == nullptr) {
-      result.errors.push_back(NoCounterpart(*port, before, after));
-    } else if (const auto possible = Port::CheckTakeOver(*match, *port); !possible) {
-      result.errors.push_back(possible.error());
-    } else {
+    const auto possible =
+        match != nullptr ? Port::CheckTakeOver(*match, *port) : NoCounterpart(*port, before, after);
+    if (possible) {
       result.ports.push_back({port, match});
+    } else if (is_connected(*port)) {
+      result.errors.push_back(possible.error());
     }
   });
   return result;

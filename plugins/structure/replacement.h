@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -18,12 +19,13 @@ Result<void> Configure(FrameworkElement& module, const Setting& setting);
 /// ones. Errors: a value that is refused.
 Result<void> CopySettings(const FrameworkElement& before, FrameworkElement& after);
 
-/// The connected ports of a module, each with that which takes over from it.
+/// The ports of a module, each with that which takes over from it.
 struct PortMatch {
   std::vector<std::pair<Port*, Port*>> ports;
-  std::vector<Error> errors;  ///< what has no counterpart, with the nearest name
+  std::vector<Error> errors;  ///< what is connected and has no counterpart, with the nearest name
 };
-[[nodiscard]] PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after);
+[[nodiscard]] PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after,
+                                   const std::function<bool(const Port&)>& is_connected);
 
 /// Copies the kept states. Neither module runs. Errors: what copying throws.
 Result<void> CopyState(const FrameworkElement& before, FrameworkElement& after);

@@ -38,6 +38,15 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
        {"core", "plugins/parameters", "plugins/runtime_construction", "plugins/scheduling"}});
   rules.push_back({"plugins/scheduling", "plugins/scheduling", {"core"}});
   rules.push_back({"plugins/structure", "plugins/structure", {"core", "plugins/scheduling"}});
+  rules.push_back(
+      {"plugins/control", "plugins/control", {"core", "plugins/scheduling", "plugins/structure"}});
+  rules.push_back({"the tags of supervision",
+                   "plugins/supervision/xml_",
+                   {"core", "plugins/parameters", "plugins/runtime_construction",
+                    "plugins/structure", "plugins/supervision"}});
+  rules.push_back({"plugins/supervision",
+                   "plugins/supervision",
+                   {"core", "plugins/scheduling", "plugins/structure"}});
 }
 
 // A family of modules knows the framework, the types that all share, and itself. Neighbours that a
@@ -58,6 +67,11 @@ void AddModules(std::vector<IncludeRule>& rules) {
   for (const char* family : {"adaptors", "motion", "planning", "sensors", "simulation"}) {
     AddFamily(rules, family);
   }
+  // Worlds made and measured: no modules, and what a world is, the simulation says.
+  rules.push_back({"modules/worlds",
+                   "modules/worlds",
+                   {"modules/types/algorithm", "modules/simulation/algorithm"},
+                   true});
 }
 
 std::vector<IncludeRule> MakeProjectRules() {
@@ -65,6 +79,14 @@ std::vector<IncludeRule> MakeProjectRules() {
   AddCore(rules);
   AddPlugins(rules);
   AddModules(rules);
+  // The programs beside the main one that make worlds and compare planners in them. They run
+  // applications by starting the main program, and link no module.
+  for (const char* program : {"apps/arena", "apps/world"}) {
+    rules.push_back({program,
+                     program,
+                     {"core", "modules/types/algorithm", "modules/simulation/algorithm",
+                      "modules/simulation/world_file", "modules/worlds/algorithm"}});
+  }
   rules.push_back({"apps", "apps", {"core", "plugins"}});
   // Apart, since a benchmark of whole applications runs them as the tests do.
   rules.push_back({"tests/bench", "tests/bench", {"core", "bench"}});

@@ -11,6 +11,7 @@
 #include "plugins/parameters/configuration.h"
 #include "plugins/runtime_construction/application_builder.h"
 #include "plugins/scheduling/xml_scheduling_tags.h"
+#include "plugins/structure/structure_editor.h"
 
 namespace runnel::test {
 
@@ -78,6 +79,8 @@ ApplicationRun RunApplication(const ApplicationChoice& choice) {
   if (!pose) throw std::runtime_error(pose.error().ToString());
   ApplicationRun run;
   const Time start = runtime.clock().Now();
+  StructureEditor editor(runtime, plugins.modules(), &*scheduler);
+  auto change = choice.changes.begin();
   const auto step = [&] {
     if (choice.before_step) choice.before_step();
     const bool went_on = scheduler->Step();
@@ -85,6 +88,10 @@ ApplicationRun RunApplication(const ApplicationChoice& choice) {
     return went_on;
   };
   while (run.duration < choice.limit && !run.outcome && step()) {
+    for (; change != choice.changes.end() && change->first <= run.duration; ++change) {
+      const ChangeOutcome outcome = editor.Apply(change->second);
+      if (!outcome) throw std::runtime_error(outcome.diagnostics.ToString());
+    }
     dynamic_cast<Port&>(**pose).LookAtValue(
         [&](const void* value, Time) { run.truth.push_back(*static_cast<const Pose2*>(value)); });
     if (monitor != nullptr) run.outcome = monitor->Outcome();

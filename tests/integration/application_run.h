@@ -10,6 +10,7 @@
 #include "core/module/run_monitor.h"
 #include "modules/types/algorithm/pose.h"
 #include "plugins/scheduling/fault.h"
+#include "plugins/structure/change.h"
 
 namespace runnel::test {
 
@@ -32,6 +33,8 @@ struct ApplicationChoice {
   Duration limit = std::chrono::hours(1);
   std::function<void()> before_step = {};  ///< of the scheduler: for probes
   std::function<void()> after_step = {};
+  /// Applied one after the other, each when so much time has passed. Throws if one is refused.
+  std::vector<std::pair<Duration, ChangeSet>> changes = {};
 };
 [[nodiscard]] ApplicationRun RunApplication(const ApplicationChoice& choice);
 

@@ -75,6 +75,15 @@ std::vector<Journey> AllJourneys() {
       }
     }
   }
+  // The paper's worlds, for the other variants (Com need not end).
+  for (const char* planner :
+       {"alg1", "alg2", "dist_bug", "tangent_bug", "rev1", "rev2", "class1"}) {
+    for (const char* application : {"bug_demo.xml", "bug_infrared.xml"}) {
+      for (int world = 0; world < 3; ++world) {
+        journeys.push_back({planner, application, kWorlds[world].first, kWorlds[world].second});
+      }
+    }
+  }
   return journeys;
 }
 

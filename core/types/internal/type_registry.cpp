@@ -1,6 +1,8 @@
 #include "core/types/internal/type_registry.h"
 
+#include <algorithm>
 #include <mutex>
+#include <string>
 
 #include "core/base/check.h"
 #include "core/types/type_of.h"
@@ -22,13 +24,51 @@ void TypeRegistry::CheckName(const TypeInfo& type) const {
                                                               " and " + type.cpp_type().name());
 }
 
-const TypeInfo& TypeRegistry::Get(std::type_index cpp_type,
+// Descriptions of types that contain each other come round to the first.
+void TypeRegistry::CheckSame(const TypeInfo& known, const internal::TypeLayout& layout,
+                             const std::function<void(TypeInfo&)>& describe) {
+  if (!known.is_complete() || std::ranges::count(being_compared_, &known) > 0) return;
+  const auto refuse = [&](const std::string& what) {
+    ThrowProgrammingError("a library knows the type '" + known.name() + "' otherwise",
+                          what + "; build it and what it is used with from the same source");
+  };
+  if (layout.size != known.size_ || layout.alignment != known.alignment_) {
+    refuse("its values have " + std::to_string(layout.size) + " bytes there, and " +
+           std::to_string(known.size_) + " elsewhere");
+  }
+  TypeInfo here(known.cpp_type());
+  being_compared_.push_back(&known);
+  try {
+    describe(here);
+  } catch (...) {
+    being_compared_.pop_back();
+    throw;
+  }
+  being_compared_.pop_back();
+  const auto is_same_field = [](const FieldInfo& a, const FieldInfo& b) {
+    return a.name == b.name && a.type == b.type;
+  };
+  const auto is_same_value = [](const EnumeratorInfo& a, const EnumeratorInfo& b) {
+    return a.name == b.name && a.value == b.value;
+  };
+  const bool is_same = here.name() == known.name() && here.kind() == known.kind() &&
+                       std::ranges::equal(here.fields(), known.fields(), is_same_field) &&
+                       std::ranges::equal(here.enumerators(), known.enumerators(), is_same_value);
+  if (!is_same) refuse("its description is another one there");
+}
+
+const TypeInfo& TypeRegistry::Get(std::type_index cpp_type, const internal::TypeLayout& layout,
                                   const std::function<void(TypeInfo&)>& describe) {
   const std::lock_guard lock(mutex_);
   const auto [place, is_new] = by_cpp_type_.try_emplace(cpp_type);
-  if (!is_new) return *place->second;
+  if (!is_new) {
+    CheckSame(*place->second, layout, describe);
+    return *place->second;
+  }
   place->second = std::make_unique<TypeInfo>(cpp_type);
   TypeInfo& type = *place->second;
+  type.size_ = layout.size;
+  type.alignment_ = layout.alignment;
   try {
     describe(type);
     CheckName(type);
@@ -58,8 +98,9 @@ std::vector<const TypeInfo*> TypeRegistry::All() const {
 
 namespace internal {
 
-const TypeInfo& GetType(std::type_index cpp_type, void (*describe)(TypeInfo&)) {
-  return TypeRegistry::Instance().Get(cpp_type, describe);
+const TypeInfo& GetType(std::type_index cpp_type, const TypeLayout& layout,
+                        void (*describe)(TypeInfo&)) {
+  return TypeRegistry::Instance().Get(cpp_type, layout, describe);
 }
 
 }  // namespace internal

@@ -6,16 +6,23 @@
 
 namespace runnel {
 
+namespace {
+
+constexpr double kWidest = DegreesToRadians(89.0);  // of half a cone
+
+}  // namespace
+
 Surroundings InfraredAdaptor::Update(const InfraredRanges& ranges, const Pose2& pose) {
   Surroundings surroundings;
   if (!(ranges.range_maximum > 0.0)) return surroundings;
+  surroundings.is_measured = true;
   surroundings.sensor_range = static_cast<float>(ranges.range_maximum);
   surroundings.safe_distance = static_cast<float>(configuration_.safe_distance);
 
   const auto cone = [&](double bearing, double range) {
     const bool has_echo = range <= ranges.range_maximum;
-    return Cone{bearing, ranges.field_of_view / 2, has_echo ? range : ranges.range_maximum,
-                has_echo, range >= 0.0};
+    return Cone{bearing, std::min(ranges.field_of_view / 2, kWidest),
+                has_echo ? range : ranges.range_maximum, has_echo, range >= 0.0};
   };
   const std::array cones = {cone(0.0, ranges.front), cone(kPi / 2, ranges.left),
                             cone(-kPi / 2, ranges.right)};
@@ -27,8 +34,9 @@ Surroundings InfraredAdaptor::Update(const InfraredRanges& ranges, const Pose2& 
   for (const Cone& each : cones) {
     if (each.has_echo) MarkArc(each, pose);
   }
+  const BodyFrame frame(pose);
   map_.ForEachBoundary([&](Point2 point) {
-    const Point2 local = ToBody(pose, point);
+    const Point2 local = frame.ToBody(point);
     AddBoundaryPoint(surroundings, {Norm(local), Direction(local)});
   });
   return surroundings;
@@ -36,10 +44,12 @@ Surroundings InfraredAdaptor::Update(const InfraredRanges& ranges, const Pose2& 
 
 void InfraredAdaptor::Carve(const Cone& cone, const Pose2& pose) {
   const double free = cone.echo - configuration_.refutation_margin;
+  const BodyFrame frame({pose.x, pose.y, pose.heading + cone.bearing});
+  const double widening = std::tan(cone.half_width);
   const auto is_inside = [&](Point2 point) {
-    const Point2 local = ToBody(pose, point);
-    return Norm(local) < free &&
-           std::abs(WrapAngle(Direction(local) - cone.bearing)) < cone.half_width;
+    const Point2 local = frame.ToBody(point);
+    return local.x > 0.0 && Dot(local, local) < free * free &&
+           std::abs(local.y) < widening * local.x;
   };
   map_.ForgetBoundaries(is_inside);
 
@@ -68,10 +78,12 @@ void InfraredAdaptor::MarkArc(const Cone& cone, const Pose2& pose) {
 
 bool InfraredAdaptor::IsExplained(const Cone& cone, const Pose2& pose) const {
   bool is_explained = false;
+  const BodyFrame frame({pose.x, pose.y, pose.heading + cone.bearing});
+  const double widening = std::tan(cone.half_width);
   map_.ForEachBoundary([&](Point2 point) {
-    const Point2 local = ToBody(pose, point);
+    const Point2 local = frame.ToBody(point);
     is_explained |= std::abs(Norm(local) - cone.echo) < configuration_.refutation_margin &&
-                    std::abs(WrapAngle(Direction(local) - cone.bearing)) < cone.half_width;
+                    local.x > 0.0 && std::abs(local.y) < widening * local.x;
   });
   return is_explained;
 }

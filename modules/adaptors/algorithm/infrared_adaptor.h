@@ -26,8 +26,8 @@ class InfraredAdaptor {
   explicit InfraredAdaptor(const InfraredAdaptorConfiguration& configuration = {})
       : configuration_(configuration) {}
 
-  /// `ranges` taken from the body's centre at `pose` (world). Nothing is known (sensor_range 0)
-  /// from ranges with range_maximum 0. Does not allocate.
+  /// `ranges` taken from the body's centre at `pose` (world). Nothing is known (is_measured
+  /// false) from ranges with range_maximum 0. Does not allocate.
   [[nodiscard]] Surroundings Update(const InfraredRanges& ranges, const Pose2& pose);
   /// Forgets everything, as after the robot was carried to another place.
   void Reset() { map_.Clear(); }
@@ -35,7 +35,7 @@ class InfraredAdaptor {
  private:
   struct Cone {
     double bearing;     ///< rad, of its axis in the body's frame
-    double half_width;  ///< rad
+    double half_width;  ///< rad, below pi / 2
     double echo;        ///< m, at most range_maximum
     bool has_echo;
     bool is_valid;  ///< not so if the range is no number: the cone then says nothing

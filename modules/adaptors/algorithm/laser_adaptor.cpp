@@ -15,6 +15,7 @@ bool MetSomething(const RangeScan& scan, float range) {
 Surroundings LaserAdaptor::Update(const RangeScan& scan, const Pose2& pose) {
   Surroundings surroundings;
   if (scan.ranges.empty()) return surroundings;
+  surroundings.is_measured = true;
   surroundings.sensor_range = static_cast<float>(scan.range_maximum);
   surroundings.safe_distance = static_cast<float>(configuration_.safe_distance);
 
@@ -28,8 +29,9 @@ Surroundings LaserAdaptor::Update(const RangeScan& scan, const Pose2& pose) {
     }
     bearing += scan.angle_step;
   }
+  const BodyFrame frame(pose);
   map_.ForEachBoundary([&](Point2 point) {
-    const Point2 local = ToBody(pose, point);
+    const Point2 local = frame.ToBody(point);
     AddBoundaryPoint(surroundings, {Norm(local), Direction(local)});
   });
   return surroundings;
@@ -37,8 +39,9 @@ Surroundings LaserAdaptor::Update(const RangeScan& scan, const Pose2& pose) {
 
 void LaserAdaptor::ForgetWhatTheScanRefutes(const RangeScan& scan, const Pose2& pose) {
   if (!(scan.angle_step > 0.0)) return;
+  const BodyFrame frame(pose);
   map_.ForgetBoundaries([&](Point2 point) {
-    const Point2 local = ToBody(pose, point);
+    const Point2 local = frame.ToBody(point);
     const double turned = Direction(local) - scan.start_angle;
     const double ray = (turned < 0.0 ? turned + 2 * kPi : turned) / scan.angle_step;
     if (ray < 0.0 || ray > static_cast<double>(scan.ranges.size() - 1)) return false;

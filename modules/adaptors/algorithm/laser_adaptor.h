@@ -20,7 +20,7 @@ class LaserAdaptor {
   explicit LaserAdaptor(const LaserAdaptorConfiguration& configuration = {})
       : configuration_(configuration) {}
 
-  /// `scan` taken from the body's centre at `pose` (world). Nothing is known (sensor_range 0) from
+  /// `scan` taken from the body's centre at `pose` (world). Nothing is known (is_measured false) from
   /// a scan without rays. Does not allocate.
   [[nodiscard]] Surroundings Update(const RangeScan& scan, const Pose2& pose);
   /// Forgets everything, as after the robot was carried to another place.

@@ -15,15 +15,21 @@ namespace runnel {
 /// other side, so memory is bounded and nothing is ever moved. Allocates in the constructor only.
 class LocalMap {
  public:
-  /// The window is `kCellsAcross` cells wide, 6.4 m in all.
-  static constexpr int kCellsAcross = 128;
+  /// The window is `kCellsAcross` cells wide, 9.6 m in all: a planner relies on everything seen
+  /// within the laser's 4 m being remembered, also where the robot has turned away from it.
+  static constexpr int kCellsAcross = 192;
   static constexpr double kCellSize = 0.05;  ///< m
   /// m; up to here from its centre to each side the window is surely valid.
   static constexpr double kReach = (kCellsAcross / 2 - 1) * kCellSize;
 
-  LocalMap() : cells_(static_cast<std::size_t>(kCellsAcross) * kCellsAcross) {}
+  LocalMap() : cells_(static_cast<std::size_t>(kCellsAcross) * kCellsAcross) {
+    listed_.reserve(cells_.size());
+  }
 
-  void Clear() { cells_.assign(cells_.size(), Cell{}); }
+  void Clear() {
+    cells_.assign(cells_.size(), Cell{});
+    listed_.clear();
+  }
   /// Moves the window, m in the world's frame. Call it before the others.
   void SetCentre(Point2 centre) { centre_ = centre; }
   [[nodiscard]] bool Covers(Point2 point) const {
@@ -32,11 +38,17 @@ class LocalMap {
 
   /// A boundary point was seen here. Points outside the window are left out.
   void MarkBoundary(Point2 point) {
-    if (Covers(point)) At(point) = {Index(point.x), Index(point.y), State::kBoundary, point};
+    if (!Covers(point)) return;
+    const std::size_t slot = Slot(Index(point.x), Index(point.y));
+    Cell& cell = cells_[slot];
+    if (!cell.is_listed) listed_.push_back(slot);
+    cell = {Index(point.x), Index(point.y), State::kBoundary, true, point};
   }
   /// There is nothing within the cell of this point.
   void MarkFree(Point2 point) {
-    if (Covers(point)) At(point) = {Index(point.x), Index(point.y), State::kFree, point};
+    if (!Covers(point)) return;
+    Cell& cell = cells_[Slot(Index(point.x), Index(point.y))];
+    cell = {Index(point.x), Index(point.y), State::kFree, cell.is_listed, point};
   }
   [[nodiscard]] bool IsFree(Point2 point) const { return Is(State::kFree, point); }
   [[nodiscard]] bool IsBoundary(Point2 point) const { return Is(State::kBoundary, point); }
@@ -45,16 +57,22 @@ class LocalMap {
   /// forgets those for which it says true.
   template <typename Refutation>
   void ForgetBoundaries(Refutation is_refuted) {
-    for (Cell& cell : cells_) {
+    std::size_t kept = 0;
+    for (const std::size_t slot : listed_) {
+      Cell& cell = cells_[slot];
       if (cell.state == State::kBoundary && Covers(cell.point) && is_refuted(cell.point)) {
         cell.state = State::kFree;
       }
+      cell.is_listed = cell.state == State::kBoundary;
+      if (cell.is_listed) listed_[kept++] = slot;
     }
+    listed_.resize(kept);
   }
   /// Calls `visit(point)` for every boundary point within the window, in a fixed order.
   template <typename Visitor>
   void ForEachBoundary(Visitor visit) const {
-    for (const Cell& cell : cells_) {
+    for (const std::size_t slot : listed_) {
+      const Cell& cell = cells_[slot];
       if (cell.state == State::kBoundary && Covers(cell.point)) visit(cell.point);
     }
   }
@@ -65,6 +83,7 @@ class LocalMap {
     int column = 0;
     int row = 0;
     State state = State::kUnknown;
+    bool is_listed = false;
     Point2 point;
   };
 
@@ -82,9 +101,10 @@ class LocalMap {
     const Cell& cell = cells_[Slot(column, row)];
     return cell.state == state && cell.column == column && cell.row == row;
   }
-  Cell& At(Point2 point) { return cells_[Slot(Index(point.x), Index(point.y))]; }
 
   std::vector<Cell> cells_;
+  /// Slots of all cells that hold a boundary, each once, and of some that do no more.
+  std::vector<std::size_t> listed_;
   Point2 centre_;
 };
 

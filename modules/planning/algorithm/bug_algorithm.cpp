@@ -1,3 +1,6 @@
+// The generic algorithm: what every variant does. What it keeps account of is in bug_memory.cpp, how
+// it gets to leave points in bug_leaving.cpp.
+
 #include "modules/planning/algorithm/bug_algorithm.h"
 
 #include <algorithm>
@@ -8,16 +11,12 @@ namespace runnel {
 namespace {
 
 constexpr double kFaced = DegreesToRadians(8.0);  // rad of bearing at which the robot faces a point
-constexpr double kProgress = 0.10;                // m that count as having got on
-constexpr double kClearanceNoise = 0.02;          // m, of the distance to a boundary followed
 constexpr int kSecondLooks = 3;       // in a task, so that it ends whatever the sensors say
 constexpr double kLookingTime = 4.0;  // s, of standing and looking before a vague obstacle
+constexpr double kTurnsForLookingRound = 2.5;  // that a robot needs where there is no way on
 constexpr double kHitPlace = Lap::kGateDistance + Lap::kGateHalfWidth;
-constexpr double kFalseLeave = 0.05;  // m nearer to the goal, at which a hit is a new one
-
-double BearingTo(const BugInput& input, Point2 point) {
-  return Direction(ToBody(input.pose, point));
-}
+constexpr double kFalseLeave = 0.05;    // m nearer to the goal, at which a hit is a new one
+constexpr double kRefusalReach = 0.15;  // m, of the way on from a leave point that was blocked
 
 bool IsFinal(PlannerMode mode) {
   return mode == PlannerMode::kReached || mode == PlannerMode::kUnreachable;
@@ -29,13 +28,13 @@ BugOutput BugAlgorithm::Update(BugState& state, const BugInput& input) const {
   if (!state.has_task || state.start != input.start || state.goal != input.goal) {
     Begin(state, input);
   }
+  if (state.composition != components_.Fingerprint()) TakeOver(state, input);
   Record(state, input);
   Twist2 twist;
-  if (input.surroundings.sensor_range > 0.0F && !IsFinal(state.status.mode)) {
-    twist = Step(state, input);
-  }
+  if (input.surroundings.is_measured && !IsFinal(state.status.mode)) twist = Step(state, input);
   if (IsFinal(state.status.mode)) twist = {};
   state.last_pose = input.pose;
+  state.last_twist = twist;
   return {twist, state.status};
 }
 
@@ -45,14 +44,14 @@ Twist2 BugAlgorithm::Step(BugState& state, const BugInput& input) const {
     return {};
   }
   switch (state.status.mode) {
-    case PlannerMode::kMotionToGoal:
-      return MotionToGoal(state, input);
     case PlannerMode::kFollowingBoundary:
-      return IdentifyLeavePoint(state, input);
+      return GoRoundObstacle(state, input);
     case PlannerMode::kGoingToLeavePoint:
-      return MoveToLeavePoint(state, input);
+      return GoToLeavePoint(state, input);
     case PlannerMode::kFacingGoal:
       return FaceGoal(state, input);
+    case PlannerMode::kMotionToGoal:
+      return MotionToGoal(state, input);
     case PlannerMode::kReached:
     case PlannerMode::kUnreachable:
       break;
@@ -60,35 +59,66 @@ Twist2 BugAlgorithm::Step(BugState& state, const BugInput& input) const {
   return {};
 }
 
-void BugAlgorithm::Begin(BugState& state, const BugInput& input) const {
-  state = BugState{};
-  state.has_task = true;
-  state.start = input.start;
-  state.goal = input.goal;
-  state.last_pose = input.pose;
-  state.progress_point = Position(input.pose);
+Twist2 BugAlgorithm::GoRoundObstacle(BugState& state, const BugInput& input) const {
+  if (IsStuck(state)) {
+    GiveUp(state, Unreachability::kNoRoom);
+    return {};
+  }
+  const Twist2 along = IdentifyLeavePoint(state, input);
+  if (LeavePointFound(state) && ResearchComplete(state, input)) {
+    SetOut(state, input);
+    return state.status.mode == PlannerMode::kGoingToLeavePoint ? GoToLeavePoint(state, input)
+                                                                : Twist2{};
+  }
+  if (CompleteCycleAroundObstacle(state) && !LeavePointFound(state)) {
+    return FinishFruitlessLap(state, input);
+  }
+  if (state.lap.is_circling()) RestartLap(state, input);
+  return along;
 }
 
-void BugAlgorithm::Record(BugState& state, const BugInput& input) const {
-  const Point2 position = Position(input.pose);
-  state.status.path_length += Distance(Position(state.last_pose), position);
-  state.status.distance_to_goal = Distance(position, input.goal);
-  if (input.surroundings.sensor_range > 0.0F) state.idle_time += input.time_step;
-  if (Distance(state.progress_point, position) > kProgress) {
-    state.progress_point = position;
-    state.idle_time = 0.0;
-  }
-  if (state.status.hits == 0) return;
-  state.lap.Update(input.pose);
-  if (state.status.distance_to_goal < state.closest_distance) {
-    state.closest_distance = state.status.distance_to_goal;
-    state.closest_point = position;
-    state.closest_length = state.lap.length();
-  }
+Twist2 BugAlgorithm::IdentifyLeavePoint(BugState& state, const BugInput& input) const {
+  const bool may_reverse = !state.has_reversed && !state.follower.is_turning();
+  if (may_reverse && components_.revisit->ShallReverse(View(state, input))) Reverse(state, input);
+  FindLeavePoint(state, input);
+  return WallFollowing(state, input);
+}
+
+void BugAlgorithm::FindLeavePoint(BugState& state, const BugInput& input) const {
+  state.leave_point.reset();
+  state.followed_distance = components_.leave->FollowedDistance(View(state, input));
+  if (state.status.path_length < state.refused_at + kRefusalReach) return;
+  const auto found = components_.leave->Find(View(state, input));
+  if (!found) return;
+  state.leave_point = found->point;
+  state.approach = found->approach;
+}
+
+bool BugAlgorithm::IsStuck(const BugState& state) const {
+  const double turning = kTurnsForLookingRound * 2 * kPi / configuration_.driving.turn_limit;
+  return state.idle_time > std::max(configuration_.idle_limit, turning);
+}
+
+bool BugAlgorithm::LeavePointFound(const BugState& state) const {
+  return state.leave_point.has_value();
+}
+
+bool BugAlgorithm::ResearchComplete(const BugState& state, const BugInput& input) const {
+  return components_.leave->ResearchComplete(View(state, input));
+}
+
+bool BugAlgorithm::CompleteCycleAroundObstacle(const BugState& state) const {
+  return state.lap.is_complete() && components_.leave->decides_after_lap();
+}
+
+bool BugAlgorithm::GoalReached(const BugState& state) const {
+  return state.status.distance_to_goal < configuration_.goal_tolerance;
 }
 
 Twist2 BugAlgorithm::MotionToGoal(BugState& state, const BugInput& input) const {
-  const double bearing = BearingTo(input, MotionTarget(input));
+  const Waypoint waypoint = components_.motion->Target(View(state, input));
+  if (waypoint.node_side) state.node_side = waypoint.node_side;
+  const double bearing = BearingTo(input, waypoint.point);
   const WayAhead way = LookAlong(input.surroundings, bearing,
                                  TravelRadius(configuration_.driving, input.surroundings));
   if (way.free_range < std::min(configuration_.hit_range, state.status.distance_to_goal)) {
@@ -98,6 +128,11 @@ Twist2 BugAlgorithm::MotionToGoal(BugState& state, const BugInput& input) const 
       return TurnTowards(configuration_.driving, way.obstacle_bearing);
     }
     Hit(state, input, way.obstacle_bearing);
+    return {};
+  }
+  // A way that the sensors show now free, now not, is none.
+  if (IsStuck(state)) {
+    Hit(state, input, NearestBoundary(input.surroundings).bearing);
     return {};
   }
   return GoAhead(state, input, bearing);
@@ -110,64 +145,19 @@ Twist2 BugAlgorithm::GoAhead(const BugState& state, const BugInput& input, doubl
   return DriveTowards(driving, input.surroundings, bearing, speed);
 }
 
-Twist2 BugAlgorithm::IdentifyLeavePoint(BugState& state, const BugInput& input) const {
-  if (state.idle_time > configuration_.idle_limit) {
-    GiveUp(state, Unreachability::kNoRoom);
-    return {};
-  }
-  FindLeavePoint(state, input);
-  if (IsFinal(state.status.mode)) return {};
-  if (LeavePointFound(state) && ResearchComplete(state)) {
-    state.status.mode = PlannerMode::kGoingToLeavePoint;
-    state.set_out_length = state.status.path_length;
-    state.is_on_last_stretch = false;
-    return MoveToLeavePoint(state, input);
-  }
-  if (CompleteCycleAroundObstacle(state) && !LeavePointFound(state)) {
-    return FinishFruitlessLap(state, input);
-  }
-  if (state.lap.is_circling()) RestartLap(state, input);
-  return WallFollowing(state, input);
-}
-
-Twist2 BugAlgorithm::FinishFruitlessLap(BugState& state, const BugInput& input) const {
-  // What was hit may have been none, a vague echo say: then the way is free where it was not.
-  const bool is_at_hit_point = Distance(Position(input.pose), state.status.hit_point) < kHitPlace;
-  if (!is_at_hit_point || state.second_looks == kSecondLooks || !FreeTowardsGoal(input)) {
-    GiveUp(state, Unreachability::kEnclosed);
-    return {};
-  }
-  ++state.second_looks;
-  state.status.mode = PlannerMode::kFacingGoal;
-  return FaceGoal(state, input);
-}
-
-Twist2 BugAlgorithm::MoveToLeavePoint(BugState& state, const BugInput& input) const {
-  if (const auto twist = GoToLeavePoint(state, input)) return *twist;
-  if (state.status.mode != PlannerMode::kGoingToLeavePoint) return {};
-  state.status.mode = PlannerMode::kFacingGoal;
-  return FaceGoal(state, input);
-}
-
-Twist2 BugAlgorithm::FaceGoal(BugState& state, const BugInput& input) const {
-  const double bearing = BearingTo(input, input.goal);
-  if (std::abs(bearing) > kFaced) return TurnTowards(configuration_.driving, bearing);
-  if (FreeTowardsGoal(input)) {
-    Leave(state, input);
-  } else {
-    RefuseLeavePoint(state, input);
-  }
-  return {};
-}
-
 void BugAlgorithm::Hit(BugState& state, const BugInput& input, double contact_bearing) const {
-  const double distance = state.status.distance_to_goal;
   state.status.mode = PlannerMode::kFollowingBoundary;
   state.progress_point = Position(input.pose);
   state.idle_time = 0.0;
+  const double distance = state.status.distance_to_goal;
   // Back at the wall just left, without having come nearer to the goal: it was no leave point.
-  if (state.status.leaves > 0 &&
-      distance > Distance(state.status.leave_point, input.goal) - kFalseLeave) {
+  if (distance > state.last_leave_distance - kFalseLeave) {
+    if (!state.leaves.empty()) {
+      state.leaves.RemoveLast();
+      --state.status.leaves;
+      if (!state.leaves.empty()) state.status.leave_point = state.leaves.back();
+    }
+    state.last_leave_distance = BugState::kNever;
     RefuseLeavePoint(state, input);
     return;
   }
@@ -175,55 +165,44 @@ void BugAlgorithm::Hit(BugState& state, const BugInput& input, double contact_be
   state.status.hit_point = Position(input.pose);
   state.hits.Add(state.status.hit_point);
   state.hit_distance = distance;
+  state.least_distance = distance;
+  state.followed_distance = BugState::kNever;
+  state.has_reversed = false;
+  state.is_last_chance = false;
   RestartLap(state, input);
-  state.follower.Start(configuration_.first_direction, input.pose, contact_bearing);
+  const BoundaryDirection direction =
+      components_.direction->Choose(View(state, input), contact_bearing);
+  state.last_direction = direction;
+  state.node_side.reset();
+  state.follower.Start(direction, input.pose, contact_bearing);
 }
 
-void BugAlgorithm::RestartLap(BugState& state, const BugInput& input) const {
-  state.closest_distance = state.status.distance_to_goal;
-  state.closest_point = Position(input.pose);
-  state.closest_length = 0.0;
-  state.leave_point.reset();
-  state.crossing.reset();
-  state.lap.Start(input.pose);
+Twist2 BugAlgorithm::FinishFruitlessLap(BugState& state, const BugInput& input) const {
+  // What was hit may have been none, a vague echo say: then the way is free where it was not.
+  const bool is_at_hit_point = Distance(Position(input.pose), state.status.hit_point) < kHitPlace;
+  if (!is_at_hit_point || state.second_looks == kSecondLooks ||
+      !IsFreeTowardsGoal(View(state, input))) {
+    GiveUp(state, Unreachability::kEnclosed);
+    return {};
+  }
+  ++state.second_looks;
+  state.is_last_chance = true;
+  state.approach = Approach::kNear;
+  state.status.mode = PlannerMode::kFacingGoal;
+  return FaceGoal(state, input);
 }
 
-void BugAlgorithm::Leave(BugState& state, const BugInput& input) const {
-  ++state.status.leaves;
-  state.status.leave_point = Position(input.pose);
-  state.leaves.Add(state.status.leave_point);
-  state.status.mode = PlannerMode::kMotionToGoal;
-  state.leave_point.reset();
-  state.crossing.reset();
-}
-
-void BugAlgorithm::GiveUp(BugState& state, Unreachability reason) const {
-  state.status.mode = PlannerMode::kUnreachable;
-  state.status.unreachability = reason;
-}
-
-bool BugAlgorithm::LeavePointFound(const BugState& state) const {
-  return state.leave_point.has_value();
-}
-
-bool BugAlgorithm::CompleteCycleAroundObstacle(const BugState& state) const {
-  return state.lap.is_complete();
-}
-
-bool BugAlgorithm::GoalReached(const BugState& state) const {
-  return state.status.distance_to_goal < configuration_.goal_tolerance;
-}
-
-bool BugAlgorithm::FreeTowardsGoal(const BugInput& input) const {
-  // As wide as the clearance at this very place allows: narrower would call a way free that runs
-  // into the boundary followed, wider would call the tangent blocked.
-  const double safe_distance = double{input.surroundings.safe_distance};
-  const double narrowest = TravelRadius(configuration_.driving, input.surroundings);
-  const double radius = std::clamp(NearestBoundary(input.surroundings).distance - kClearanceNoise,
-                                   narrowest, safe_distance);
-  const double distance = Distance(Position(input.pose), input.goal);
-  return FreeRange(input.surroundings, BearingTo(input, input.goal), radius) >=
-         std::min(configuration_.leave_range, distance);
+Twist2 BugAlgorithm::FaceGoal(BugState& state, const BugInput& input) const {
+  const double bearing = BearingTo(input, input.goal);
+  if (std::abs(bearing) > kFaced) return TurnTowards(configuration_.driving, bearing);
+  const bool may_leave = state.is_last_chance ? IsFreeTowardsGoal(View(state, input))
+                                              : components_.leave->MayLeave(View(state, input));
+  if (may_leave) {
+    Leave(state, input);
+  } else {
+    RefuseLeavePoint(state, input);
+  }
+  return {};
 }
 
 Twist2 BugAlgorithm::WallFollowing(BugState& state, const BugInput& input) const {
@@ -235,17 +214,9 @@ void BugAlgorithm::StartFollowing(BugState& state, const BugInput& input,
   state.follower.Start(direction, input.pose, NearestBoundary(input.surroundings).bearing);
 }
 
-std::optional<Twist2> BugAlgorithm::DriveToPoint(const BugInput& input, Point2 point,
-                                                 double tolerance) const {
-  const double distance = Distance(Position(input.pose), point);
-  if (distance < tolerance) return std::nullopt;
-  const double radius = TravelRadius(configuration_.driving, input.surroundings);
-  if (FreeRange(input.surroundings, BearingTo(input, point), radius) < distance) {
-    return std::nullopt;
-  }
-  const double speed = SpeedToStopWithin(configuration_.driving, distance);
-  return DriveTowards(configuration_.driving, input.surroundings, BearingTo(input, point),
-                      std::min(speed, configuration_.driving.following_speed));
+void BugAlgorithm::GiveUp(BugState& state, Unreachability reason) const {
+  state.status.mode = PlannerMode::kUnreachable;
+  state.status.unreachability = reason;
 }
 
 }  // namespace runnel

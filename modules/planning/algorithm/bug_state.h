@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "modules/planning/algorithm/lap.h"
@@ -21,32 +23,62 @@ struct BugInput {
   Point2 goal;   ///< m, world
 };
 
+/// How a robot gets to its leave point.
+enum class Approach : std::uint8_t {
+  kNear,           ///< it is there, or nearly: straight, then it faces the goal
+  kAlongBoundary,  ///< by the shorter way along the boundary, then it faces the goal
+  kAcross,         ///< straight to a point away from the boundary, and on from there
+};
+
 /// Everything a Bug algorithm remembers. All variants record all of it, so that one variant can
-/// take over from another in the middle of a task.
+/// take over from another in the middle of a task. Holds no pointers; copied freely.
 struct BugState {
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
+
   PlannerStatus status;
   bool has_task = false;
   Point2 start;
   Point2 goal;
-  Pose2 last_pose;  ///< in the update before
+  std::uint64_t composition = 0;  ///< of the variant that drove last; 0: none has
+  Pose2 last_pose;                ///< in the update before
+  Twist2 last_twist;              ///< commanded then
 
   PointHistory hits;    ///< in the order they were met
   PointHistory leaves;  ///< without those that turned out to be none
 
+  // Of all the task.
+  double least_distance_of_all = kNever;   ///< m to the goal, of all points visited
+  Point2 line_start;                       ///< of the M-line, that ends at the goal
+  double least_distance_on_line = kNever;  ///< m to the goal, of the M-line's points visited
+  double last_leave_distance = kNever;     ///< m to the goal, from where motion to goal began
+  std::optional<BoundaryDirection> last_direction;  ///< chosen at the last hit point
+  std::optional<BoundaryDirection> node_side;  ///< of the goal, of the tangent node chosen last
+  int second_looks = 0;         ///< at hit points, after a lap, that found the way free
+  Point2 progress_point;        ///< where the robot last got on
+  double idle_time = 0.0;       ///< s since then
+  double refused_at = -kNever;  ///< m, the path's length where it last found a leave point blocked
+
+  // Since the last hit point.
   WallFollower follower;
-  Lap lap;                            ///< since the last hit point
-  double hit_distance = 0.0;          ///< m from the last hit point to the goal
-  Point2 closest_point;               ///< nearest to the goal since the last hit point
-  double closest_distance = 0.0;      ///< m, its distance to the goal
-  double closest_length = 0.0;        ///< m, the lap's length there
-  std::optional<Point2> crossing;     ///< of the M-line just behind, where it might leave
+  double hit_distance = kNever;       ///< m from the hit point to the goal
+  double least_distance = kNever;     ///< m to the goal, of all points visited
+  double followed_distance = kNever;  ///< m to the goal, of the boundary sensed
+  bool has_reversed = false;
+
+  // Since the lap began: at the hit point, where it reversed, or in a loop that both are not on.
+  Lap lap;
+  Point2 closest_point;              ///< nearest to the goal
+  double closest_distance = kNever;  ///< m, its distance to the goal
+  double closest_length = 0.0;       ///< m, the lap's length there
+
+  std::optional<Point2> crossing;     ///< of the M-line, just here or just behind
   std::optional<Point2> leave_point;  ///< found, not left yet
-  double way_to_leave_point = 0.0;    ///< m along the boundary, when the robot set out
-  bool is_on_last_stretch = false;    ///< straight to the leave point, no more along the boundary
-  double set_out_length = 0.0;        ///< m, the path's length then
-  int second_looks = 0;               ///< at hit points, after a lap, that found the way free
-  Point2 progress_point;              ///< where the robot last got on
-  double idle_time = 0.0;             ///< s since then
+  Approach approach = Approach::kNear;
+  bool is_last_chance = false;      ///< if the leave point is blocked, there is no other
+  double way_to_leave_point = 0.0;  ///< m along the boundary, when the robot set out
+  bool is_on_last_stretch = false;  ///< straight to the leave point, no more along the boundary
+  Point2 set_out_point;             ///< from where it set out for the leave point
+  double set_out_at = 0.0;          ///< m, the path's length there
 };
 
 }  // namespace runnel

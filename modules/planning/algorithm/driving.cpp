@@ -5,6 +5,12 @@
 
 namespace runnel {
 
+namespace {
+
+constexpr double kNearly = DegreesToRadians(5.0);
+
+}  // namespace
+
 double TravelRadius(const DrivingConfiguration& configuration, const Surroundings& surroundings) {
   return double{surroundings.safe_distance} - configuration.width_tolerance;
 }
@@ -19,7 +25,10 @@ Twist2 DriveTowards(const DrivingConfiguration& configuration, const Surrounding
   Twist2 twist = TurnTowards(configuration, bearing);
   const double part = 1.0 - std::abs(bearing) / configuration.turning_bearing;
   if (part <= 0.0) return twist;
-  const double free = FreeRange(surroundings, 0.0, TravelRadius(configuration, surroundings));
+  const double radius = TravelRadius(configuration, surroundings);
+  double free = FreeRange(surroundings, 0.0, radius);
+  // Beside a wall the only free way may be a narrow one: nearly there is there.
+  if (std::abs(bearing) < kNearly) free = std::max(free, FreeRange(surroundings, bearing, radius));
   twist.forward = std::min(speed * part, SpeedToStopWithin(configuration, free));
   return twist;
 }

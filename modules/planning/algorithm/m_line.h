@@ -7,7 +7,7 @@
 
 namespace runnel {
 
-/// The straight line from the start to the goal on which Bug2 and its kin may leave obstacles.
+/// The straight line from the start to the goal on which some variants may leave obstacles.
 class MLine {
  public:
   MLine(Point2 start, Point2 goal) : segment_{start, goal} {}
@@ -36,6 +36,10 @@ class MLine {
     if (rest <= lookahead) return segment_.to;
     return nearest + (lookahead / rest) * (segment_.to - nearest);
   }
+
+  /// The point of the line, between start and goal, nearest to `point`.
+  [[nodiscard]] Point2 Nearest(Point2 point) const { return NearestPoint(segment_, point); }
+  [[nodiscard]] double DistanceTo(Point2 point) const { return Distance(segment_, point); }
 
  private:
   [[nodiscard]] double Side(Point2 point) const {

@@ -69,6 +69,10 @@ void WallFollower::Start(BoundaryDirection direction, const Pose2& pose, double 
   target_heading_ = pose.heading + sign * offset;
 }
 
+BoundaryPoint WallFollower::Contact(const Surroundings& surroundings) const {
+  return NearestBoundary(surroundings, MirrorSign(direction_) * kHandCentre, kHandHalfWidth);
+}
+
 Twist2 WallFollower::Update(const DrivingConfiguration& configuration, const Pose2& pose,
                             const Surroundings& surroundings) {
   if (is_turning_) {
@@ -78,7 +82,7 @@ Twist2 WallFollower::Update(const DrivingConfiguration& configuration, const Pos
     is_turning_ = false;
   }
   const double sign = MirrorSign(direction_);
-  const BoundaryPoint contact = NearestBoundary(surroundings, sign * kHandCentre, kHandHalfWidth);
+  const BoundaryPoint contact = Contact(surroundings);
   const double speed = configuration.following_speed;
   if (!std::isfinite(contact.distance)) return {speed, -sign * speed / kSearchRadius};
   const double radius = TravelRadius(configuration, surroundings);

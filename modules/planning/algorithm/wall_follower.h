@@ -23,6 +23,8 @@ class WallFollower {
   [[nodiscard]] Twist2 Update(const DrivingConfiguration& configuration, const Pose2& pose,
                               const Surroundings& surroundings);
 
+  /// The nearest point of the boundary on the robot's hand.
+  [[nodiscard]] BoundaryPoint Contact(const Surroundings& surroundings) const;
   [[nodiscard]] BoundaryDirection direction() const { return direction_; }
   /// Whether the robot still turns the boundary to its hand.
   [[nodiscard]] bool is_turning() const { return is_turning_; }

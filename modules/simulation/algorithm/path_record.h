@@ -13,6 +13,8 @@ enum class PathMode { kDrivingToGoal, kFollowingWall, kGoingToLeavePoint };
 struct PathSample {
   Point2 position;
   PathMode mode = PathMode::kDrivingToGoal;
+  double heading = 0.0;  ///< rad
+  double time = 0.0;     ///< s since the run began
 };
 
 /// Remembers a path of any length in memory of a fixed size: points nearer to the last one than the

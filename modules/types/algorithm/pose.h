@@ -27,6 +27,21 @@ struct Pose2 {
   return {c * offset.x + s * offset.y, -s * offset.x + c * offset.y};
 }
 
+/// ToBody for many points: computes the heading's sine and cosine once.
+class BodyFrame {
+ public:
+  explicit BodyFrame(const Pose2& pose)
+      : origin_(Position(pose)), ahead_(UnitVector(pose.heading)) {}
+  [[nodiscard]] constexpr Point2 ToBody(Point2 world) const {
+    const Point2 offset = world - origin_;
+    return {Dot(ahead_, offset), Cross(ahead_, offset)};
+  }
+
+ private:
+  Point2 origin_;
+  Point2 ahead_;
+};
+
 /// How a planar body moves, in its own frame: m/s ahead, rad/s counter-clockwise.
 struct Twist2 {
   double forward = 0.0;

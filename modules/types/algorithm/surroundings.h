@@ -25,7 +25,8 @@ struct Surroundings {
   /// m; fine enough that on a straight wall 0.3 m away neighbouring sectors still differ.
   static constexpr double kContourUnit = 0.25e-3;
 
-  /// m; how far the sensors see. 0 as long as nothing was measured: then nothing here is known.
+  /// m, from the body's centre: how far the sensors see. 0 for sensors that only feel what they
+  /// touch: then the contour is what was touched so far.
   float sensor_range = 0.0F;
   /// m, from the body's centre: how near to a boundary the centre may come, so the body's radius
   /// and the clearance asked for.
@@ -33,6 +34,8 @@ struct Surroundings {
   /// Whether the contour also holds points that are merely possible, of which a closer look may
   /// show that they are free.
   bool is_vague = false;
+  /// False as long as nothing was measured: then nothing here is known.
+  bool is_measured = false;
   /// In units of kContourUnit, from the body's centre to the nearest boundary point known in sector
   /// i, of which the middle has the bearing SectorBearing(i) in the body's frame; kNothingKnown if
   /// there is none.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 
@@ -11,8 +12,12 @@ namespace runnel::test {
 class TagRegistry final : public OfferedRegistry {
  public:
   void Add(const std::string& tag, const std::string& plugin) { plugin_of[tag] = plugin; }
-  void RemovePlugin(std::string_view plugin) override {
-    std::erase_if(plugin_of, [&](const auto& entry) { return entry.second == plugin; });
+  std::function<void()> SetAside(std::string_view plugin) override {
+    std::map<std::string, std::string> removed;
+    std::erase_if(plugin_of, [&](const auto& entry) {
+      return entry.second == plugin && removed.insert(entry).second;
+    });
+    return [this, removed] { plugin_of.insert(removed.begin(), removed.end()); };
   }
   std::map<std::string, std::string> plugin_of;
 };

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "modules/adaptors/bumper_to_surroundings.h"
 #include "modules/adaptors/infrared_to_surroundings.h"
 #include "modules/adaptors/laser_to_surroundings.h"
 #include "tests/support/module_rig.h"
@@ -50,6 +51,26 @@ TEST(InfraredToSurroundings, GivesOneVagueViewForEachMeasurement) {
   const Surroundings seen = rig.Last(rig.module.surroundings);
   EXPECT_NEAR(LeftDistance(seen), 0.8, 0.01);
   EXPECT_TRUE(seen.is_vague);
+}
+
+TEST(BumperToSurroundings, GivesOneViewForEachMessageTouchedOrNot) {
+  test::ModuleRig<BumperToSurroundings> rig;
+  ASSERT_TRUE(rig.Prepare());
+  rig.Feed(rig.module.pose, {});
+  rig.Feed(rig.module.contact, {});
+  rig.RunCycle();
+  EXPECT_TRUE(rig.Last(rig.module.surroundings).is_measured);
+  EXPECT_EQ(rig.Last(rig.module.surroundings).sensor_range, 0.0F);
+  rig.Feed(rig.module.contact, {true, kPi / 2});
+  rig.RunCycle();
+  EXPECT_EQ(rig.module.surroundings.publications(), 2u);
+  EXPECT_NEAR(LeftDistance(rig.Last(rig.module.surroundings)), 0.15, 0.01);
+}
+
+TEST(BumperToSurroundings, RefusesASafeDistanceWithinTheBody) {
+  test::ModuleRig<BumperToSurroundings> rig;
+  ASSERT_TRUE(rig.module.safe_distance.SetFromText("0.1"));
+  EXPECT_FALSE(rig.Prepare());
 }
 
 }  // namespace

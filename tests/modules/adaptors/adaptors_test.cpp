@@ -3,6 +3,7 @@
 #include <type_traits>
 
 #include "gmock/gmock.h"
+#include "modules/adaptors/algorithm/bumper_adaptor.h"
 #include "modules/adaptors/algorithm/infrared_adaptor.h"
 #include "modules/adaptors/algorithm/laser_adaptor.h"
 
@@ -176,6 +177,29 @@ TEST(InfraredAdaptor, RemembersAWallBehindIt) {
   const Surroundings surroundings =
       adaptor.Update({kInfinity, kInfinity, kInfinity, 2.0, kField}, {0.1, 0.0, kPi});
   EXPECT_NEAR(NearestBoundary(surroundings).distance, 0.4, 0.02);
+}
+
+TEST(BumperAdaptor, KnowsWhatItTouchedAndRemembersWhere) {
+  BumperAdaptor adaptor;
+  EXPECT_EQ(NearestBoundary(adaptor.Update({}, {})).distance, kInfinity);
+  (void)adaptor.Update({true, 0.0}, {});
+  const Surroundings behind = adaptor.Update({}, {0.0, 0.1, kPi});
+  EXPECT_EQ(behind.sensor_range, 0.0F);
+  EXPECT_NEAR(NearestBoundary(behind).distance, std::hypot(0.15, 0.1), 1e-3);
+}
+
+TEST(BumperAdaptor, DoesNotTakeASwitchThatSticksForNewTouches) {
+  BumperAdaptor adaptor;
+  (void)adaptor.Update({true, 0.0}, {});
+  const Surroundings turned = adaptor.Update({true, 0.0}, {0.0, 0.0, kPi / 2});
+  EXPECT_EQ(FrontDistance(turned), kInfinity) << "the switch is still pressed, by nothing new";
+  EXPECT_NEAR(RightDistance(turned), 0.15, 1e-3);
+}
+
+TEST(BumperAdaptor, ForgetsWhatTheBodyHasPassedOver) {
+  BumperAdaptor adaptor;
+  (void)adaptor.Update({true, 0.0}, {});
+  EXPECT_EQ(NearestBoundary(adaptor.Update({}, {0.1, 0.0, 0.0})).distance, kInfinity);
 }
 
 }  // namespace

@@ -1,8 +1,7 @@
 #include "modules/planning/bug_planner.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
-#include "modules/planning/algorithm/bug2.h"
 #include "tests/support/module_rig.h"
 
 namespace runnel {
@@ -15,12 +14,13 @@ class BugPlannerTest : public testing::Test {
   /// One cycle in the open, at `pose`.
   void Step(const Pose2& pose) {
     rig.Feed(rig.module.pose, pose);
-    rig.Feed(rig.module.surroundings, Surroundings{.sensor_range = 4, .safe_distance = 0.35F});
+    rig.Feed(rig.module.surroundings,
+             Surroundings{.sensor_range = 4, .safe_distance = 0.35F, .is_measured = true});
     rig.RunCycle();
   }
   PlannerStatus status() const { return rig.Last(rig.module.status); }
 
-  test::ModuleRig<BugPlannerOf<Bug2>> rig;
+  test::ModuleRig<BugPlannerOf<VariantIndex("bug2")>> rig;
 };
 
 TEST_F(BugPlannerTest, IsSilentUntilItKnowsAll) {
@@ -43,7 +43,8 @@ TEST_F(BugPlannerTest, IsSilentWhenNobodyTellsItWhereItIs) {
   rig.Feed(rig.module.goal, {3, 0});
   Step({});
   for (int i = 0; i < 10; ++i) {  // the sensor goes on, the localisation does not
-    rig.Feed(rig.module.surroundings, Surroundings{.sensor_range = 4, .safe_distance = 0.35F});
+    rig.Feed(rig.module.surroundings,
+             Surroundings{.sensor_range = 4, .safe_distance = 0.35F, .is_measured = true});
     rig.RunCycle();
   }
   EXPECT_EQ(rig.module.twist.publications(), 5u) << "for 0.2 s, not longer";
@@ -74,7 +75,7 @@ TEST_F(BugPlannerTest, PublishesItsHitPointsWhenThereIsAnotherOne) {
   rig.Feed(rig.module.goal, {3, 0});
   Step({});
   EXPECT_EQ(rig.module.points.publications(), 0u);
-  Surroundings wall{.sensor_range = 4, .safe_distance = 0.35F};
+  Surroundings wall{.sensor_range = 4, .safe_distance = 0.35F, .is_measured = true};
   AddBoundaryPoint(wall, {0.3, 0.0});
   for (int i = 0; i < 3; ++i) {
     rig.Feed(rig.module.pose, {0.5, 0, 0});
@@ -91,6 +92,77 @@ TEST_F(BugPlannerTest, TakesItsSpeedFromAParameterWhileItRuns) {
   ASSERT_TRUE(rig.module.cruise_speed.Set(0.11));
   Step({0.01, 0, 0});
   EXPECT_NEAR(rig.Last(rig.module.twist).forward, 0.11, 1e-9);
+}
+
+TEST_F(BugPlannerTest, GoesOnWhereAnotherPlannerWas) {
+  rig.Feed(rig.module.goal, {3, 0});
+  Step({});
+  Step({0.5, 0, 0});
+  test::ModuleRig<BugPlannerOf<VariantIndex("tangent_bug")>> other;
+  ASSERT_TRUE(other.Prepare());
+  other.module.TakeOver(rig.module.state());
+  other.Feed(other.module.goal, {3, 0});
+  other.Feed(other.module.pose, {0.6, 0, 0});
+  other.Feed(other.module.surroundings,
+             Surroundings{.sensor_range = 4, .safe_distance = 0.35F, .is_measured = true});
+  other.RunCycle();
+  EXPECT_EQ(other.module.state().start, (Point2{0, 0})) << "the same task";
+  EXPECT_NEAR(other.Last(other.module.status).path_length, 0.6, 1e-9);
+}
+
+bool HasStep(const BugPlanner& planner) { return planner.FindChild("step") != nullptr; }
+
+TEST(BugPlanner, OfDistBugHasItsStepAsAParameter) {
+  test::ModuleRig<BugPlannerOf<VariantIndex("dist_bug")>> dist_bug;
+  EXPECT_TRUE(HasStep(dist_bug.module));
+  test::ModuleRig<BugPlannerOf<VariantIndex("bug1")>> bug1;
+  EXPECT_FALSE(HasStep(bug1.module));
+}
+
+TEST(BugPlanner, OfDistBugStopsWithAFaultBehindASensorThatOnlyFeels) {
+  test::ModuleRig<BugPlannerOf<VariantIndex("dist_bug")>> rig;
+  ASSERT_TRUE(rig.Prepare());
+  rig.Feed(rig.module.goal, {3, 0});
+  rig.Feed(rig.module.pose, {});
+  rig.Feed(rig.module.surroundings, Surroundings{.safe_distance = 0.2F, .is_measured = true});
+  try {
+    rig.RunCycle();
+    FAIL() << "it drove blind";
+  } catch (const ElementError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("'free_range_step' needs a sensor that sees"));
+  }
+}
+
+TEST(ComposedBugPlanner, RefusesComponentsThatDoNotFitTogether) {
+  test::ModuleRig<ComposedBugPlanner> rig;
+  ASSERT_TRUE(rig.module.leave.SetFromText("m_line_closest_so_far"));
+  const auto prepared = rig.Prepare();
+  ASSERT_FALSE(prepared);
+  const std::string text = prepared.error().ToString();
+  EXPECT_THAT(text, testing::HasSubstr("/module: the leave condition 'm_line_closest_so_far'"));
+  EXPECT_THAT(text, testing::HasSubstr("take motion 'm_line', or leave 'closest_so_far'"));
+}
+
+TEST(ComposedBugPlanner, TellsTheNearestNameOfAComponent) {
+  test::ModuleRig<ComposedBugPlanner> rig;
+  const auto set = rig.module.leave.SetFromText("closest_sofar");
+  ASSERT_FALSE(set);
+  EXPECT_THAT(set.error().ToString(), testing::HasSubstr("'closest_so_far'"));
+}
+
+TEST(ComposedBugPlanner, DrivesLikeTheVariantOfTheSameComponents) {
+  test::ModuleRig<ComposedBugPlanner> rig;
+  ASSERT_TRUE(rig.module.motion.SetFromText("m_line"));
+  ASSERT_TRUE(rig.module.leave.SetFromText("m_line_closer_than_hit"));
+  ASSERT_TRUE(rig.Prepare());
+  rig.Feed(rig.module.goal, {3, 0});
+  for (const double x : {0.0, 0.1}) {
+    rig.Feed(rig.module.pose, {x, 0.2 * x, 0});
+    rig.Feed(rig.module.surroundings,
+             Surroundings{.sensor_range = 4, .safe_distance = 0.35F, .is_measured = true});
+    rig.RunCycle();
+  }
+  EXPECT_LT(rig.Last(rig.module.twist).turn, 0.0) << "back to the line";
 }
 
 }  // namespace

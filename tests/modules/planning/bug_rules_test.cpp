@@ -53,15 +53,14 @@ World BoxWorld() { return World({Box(0, 0, 1, 2)}); }
 
 TEST(BugRules, StandsStillWhileNothingWasMeasured) {
   BugState state;
-  const BugOutput out =
-      Bug2(BugConfiguration{}).Update(state, {kTimeStep, {}, Surroundings{}, {0, 0}, {3, 0}});
+  const BugOutput out = Make("bug2").Update(state, {kTimeStep, {}, Surroundings{}, {0, 0}, {3, 0}});
   EXPECT_EQ(out.twist, Twist2{});
   EXPECT_EQ(out.status.mode, PlannerMode::kMotionToGoal);
 }
 
 TEST(BugRules, DoesNotTakeSilentSensorsForLackOfRoom) {
   Session session(BoxWorld(), {-3, 0.2}, {3, 0.1});
-  const Bug2 bug{BugConfiguration{}};
+  const BugAlgorithm bug = Make("bug2");
   session.StepUntil(bug, HasHit);
   for (int step = 0; step < 1000; ++step) {
     (void)bug.Update(session.state, {kTimeStep, session.pose(), {}, {-3, 0.2}, {3, 0.1}});
@@ -71,19 +70,19 @@ TEST(BugRules, DoesNotTakeSilentSensorsForLackOfRoom) {
 
 TEST(BugRules, IsThereAtOnceIfItStartsThere) {
   Session session(World{}, {0, 0}, {0.05, 0});
-  EXPECT_EQ(session.Step(Bug1(BugConfiguration{})).status.mode, PlannerMode::kReached);
+  EXPECT_EQ(session.Step(Make("bug1")).status.mode, PlannerMode::kReached);
 }
 
 TEST(BugRules, StandsStillAfterTheVerdict) {
   Session session(World{}, {0, 0}, {1, 0});
-  const Bug2 bug{BugConfiguration{}};
+  const BugAlgorithm bug = Make("bug2");
   session.StepUntil(bug, IsFinished);
   EXPECT_EQ(session.Step(bug).twist, Twist2{});
 }
 
 TEST(BugRules, ANewGoalIsANewTask) {
   Session session(World{}, {0, 0}, {1, 0});
-  const Bug2 bug{BugConfiguration{}};
+  const BugAlgorithm bug = Make("bug2");
   session.StepUntil(bug, IsFinished);
   session.SetGoal({1, 2});
   EXPECT_EQ(session.Step(bug).status.mode, PlannerMode::kMotionToGoal);
@@ -94,28 +93,31 @@ TEST(BugRules, ANewGoalIsANewTask) {
 
 TEST(BugRules, HitsAtTheSafeDistance) {
   Session session(BoxWorld(), {-3, 0.2}, {3, 0.1});
-  const PlannerStatus status = session.StepUntil(Bug2(BugConfiguration{}), HasHit).status;
+  const PlannerStatus status = session.StepUntil(Make("bug2"), HasHit).status;
   EXPECT_NEAR(status.hit_point.x, -0.85, 0.03);
 }
 
 TEST(BugRules, Bug2LeavesOnTheMLine) {
   Session session(BoxWorld(), {-3, 0.2}, {3, 0.1});
-  const PlannerStatus status = session.StepUntil(Bug2(BugConfiguration{}), HasLeft).status;
+  const PlannerStatus status = session.StepUntil(Make("bug2"), HasLeft).status;
   EXPECT_LT(Distance(Segment2{{-3, 0.2}, {3, 0.1}}, status.leave_point), 0.05);
   EXPECT_NEAR(status.leave_point.x, 0.85, 0.08);
 }
 
 TEST(BugRules, DoesNotHitTheWallItJustLeft) {
-  for (const Variant variant : {Variant::kBug1, Variant::kBug2}) {
+  for (const BugVariant& variant : kBugVariants) {
     Session session(BoxWorld(), {-3, 0.2}, {3, 0.1});
-    const auto bug = Make(variant, BoundaryDirection::kLeft);
-    EXPECT_EQ(session.StepUntil(*bug, IsFinished).status.hits, 1U);
+    const auto bug = Make(variant.name);
+    const PlannerStatus status = session.StepUntil(bug, IsFinished).status;
+    // TangentBug drives past the box without following it.
+    EXPECT_EQ(status.hits, variant.name == "tangent_bug" ? 0U : 1U) << variant.name;
+    EXPECT_EQ(status.leaves, status.hits) << variant.name;
   }
 }
 
 TEST(BugRules, Bug1LeavesAtTheNearestPointOfTheBoundary) {
   Session session(BoxWorld(), {-3, 0.2}, {3, 0.5});
-  const PlannerStatus status = session.StepUntil(Bug1(BugConfiguration{}), HasLeft).status;
+  const PlannerStatus status = session.StepUntil(Make("bug1"), HasLeft).status;
   EXPECT_LT(Distance(status.leave_point, {0.85, 0.5}), 0.12);
 }
 
@@ -124,7 +126,7 @@ TEST(BugRules, Bug1LeavesAtTheNearestPointOfTheBoundary) {
 TEST(BugRules, Bug1GoesBackTheShorterWay) {
   for (const double side : {1.5, -1.5}) {
     Session session(World({Box(0, 0, 0.4, 4)}), {-2, 0}, {2, side});
-    const Bug1 bug{BugConfiguration{}};
+    const BugAlgorithm bug = Make("bug1");
     const double lap =
         session
             .StepUntil(bug, [](const auto& s) { return s.mode == PlannerMode::kGoingToLeavePoint; })
@@ -139,19 +141,19 @@ TEST(BugRules, Bug1GoesBackTheShorterWay) {
 TEST(BugRules, TurnsTheWayItIsTold) {
   for (const auto direction : {BoundaryDirection::kLeft, BoundaryDirection::kRight}) {
     Session session(BoxWorld(), {-3, 0.2}, {3, 0.1});
-    const auto bug = Make(Variant::kBug2, direction);
-    session.StepUntil(*bug, HasHit);
-    for (int step = 0; step < 80; ++step) session.Step(*bug);
+    const auto bug = Make("bug2", direction);
+    session.StepUntil(bug, HasHit);
+    for (int step = 0; step < 80; ++step) session.Step(bug);
     EXPECT_GT(MirrorSign(direction) * (session.pose().y - 0.2), 0.3);
   }
 }
 
 TEST(BugRules, OneVariantTakesOverFromAnotherInTheMiddleOfALap) {
   Session session(BoxWorld(), {-3, 0.2}, {3, 0.1});
-  const Bug1 bug1{BugConfiguration{}};
+  const BugAlgorithm bug1 = Make("bug1");
   session.StepUntil(bug1, HasHit);
   for (int step = 0; step < 100; ++step) session.Step(bug1);
-  const PlannerStatus status = session.StepUntil(Bug2(BugConfiguration{}), IsFinished).status;
+  const PlannerStatus status = session.StepUntil(Make("bug2"), IsFinished).status;
   EXPECT_EQ(status.mode, PlannerMode::kReached);
   EXPECT_EQ(status.leaves, 1U);
   EXPECT_LT(status.path_length, 9.0);
@@ -159,16 +161,16 @@ TEST(BugRules, OneVariantTakesOverFromAnotherInTheMiddleOfALap) {
 
 TEST(BugRules, GivesTheSameCommandsForTheSameMeasurements) {
   Session first(BoxWorld(), {-3, 0.2}, {3, 0.1}), second(BoxWorld(), {-3, 0.2}, {3, 0.1});
-  const Bug1 bug{BugConfiguration{}};
+  const BugAlgorithm bug = Make("bug1");
   for (int step = 0; step < 600; ++step) ASSERT_EQ(first.Step(bug).twist, second.Step(bug).twist);
 }
 
 TEST(BugRules, TellsWhyAGoalIsUnreachable) {
   Session session(World({Box(0, 0, 0.62, 0.62)}), {0, 0}, {3, 0});
-  const PlannerStatus status = session.StepUntil(Bug2(BugConfiguration{}), IsFinished).status;
+  const PlannerStatus status = session.StepUntil(Make("bug2"), IsFinished).status;
   EXPECT_EQ(status.unreachability, Unreachability::kNoRoom);
   Session other(World({Box(0, 0, 3, 3)}), {0, 0}, {3, 0});
-  EXPECT_EQ(other.StepUntil(Bug2(BugConfiguration{}), IsFinished).status.unreachability,
+  EXPECT_EQ(other.StepUntil(Make("bug2"), IsFinished).status.unreachability,
             Unreachability::kEnclosed);
 }
 

@@ -7,19 +7,56 @@
 
 #include <gtest/gtest.h>
 
+#include "modules/adaptors/algorithm/bumper_adaptor.h"
 #include "modules/adaptors/algorithm/infrared_adaptor.h"
 #include "modules/adaptors/algorithm/laser_adaptor.h"
-#include "modules/planning/algorithm/bug1.h"
-#include "modules/planning/algorithm/bug2.h"
+#include "modules/planning/algorithm/bug_algorithm.h"
+#include "modules/planning/algorithm/bug_variants.h"
 #include "tests/modules/planning/test_world.h"
+
+namespace runnel {
+
+inline void PrintTo(const BugVariant& variant, std::ostream* stream) { *stream << variant.name; }
+
+}  // namespace runnel
 
 namespace runnel::testing_world {
 
 inline constexpr double kTimeStep = 0.05;
 inline constexpr int kMostSteps = 20000;
 
-enum class Sensor { kLaser, kInfrared };
-enum class Variant { kBug1, kBug2 };
+enum class Sensor { kLaser, kInfrared, kBumper };
+
+/// A robot in a world with a sensor and its adaptor.
+class Vehicle {
+ public:
+  Vehicle(const World& world, Sensor sensor, const Pose2& pose)
+      : world_(world), sensor_(sensor), robot_(pose) {}
+
+  [[nodiscard]] Surroundings Look() {
+    const Pose2 pose = robot_.pose();
+    if (sensor_ == Sensor::kLaser) return laser_.Update(world_.Scan(pose), pose);
+    if (sensor_ == Sensor::kInfrared) return infrared_.Update(world_.Infrared(pose), pose);
+    return bumper_.Update(contact_, pose);
+  }
+  void Drive(const Twist2& twist, double time_step) {
+    if (sensor_ == Sensor::kBumper) {
+      contact_ = robot_.DriveAndTouch(twist, time_step, world_);
+    } else {
+      robot_.Drive(twist, time_step);
+    }
+  }
+  [[nodiscard]] const Pose2& pose() const { return robot_.pose(); }
+
+ private:
+  World world_;
+  Sensor sensor_;
+  Robot robot_;
+  LaserAdaptor laser_;
+  InfraredAdaptor infrared_;
+  BumperAdaptor bumper_;
+  Contact contact_;
+};
 
 struct Task {
   World world;
@@ -28,8 +65,21 @@ struct Task {
   double heading = 0.0;
 };
 
+/// All but Com.
+inline std::vector<BugVariant> VariantsThatEnd() {
+  std::vector<BugVariant> variants(kBugVariants.begin(), kBugVariants.end());
+  std::erase_if(variants, [](const BugVariant& variant) { return variant.name == "com"; });
+  return variants;
+}
+
+inline bool IsVerdict(PlannerMode mode) {
+  return mode == PlannerMode::kReached || mode == PlannerMode::kUnreachable;
+}
+
 struct Outcome {
   PlannerStatus status;
+  PointHistory hits;
+  PointHistory leaves;
   double least_clearance = std::numeric_limits<double>::infinity();
 };
 
@@ -64,38 +114,39 @@ class Trace {
   std::uint32_t hits_ = 0;
 };
 
-inline std::unique_ptr<BugAlgorithm> Make(Variant variant, BoundaryDirection direction) {
+/// A published variant.
+inline BugAlgorithm Make(std::string_view variant,
+                         BoundaryDirection direction = BoundaryDirection::kLeft) {
   BugConfiguration configuration;
   configuration.first_direction = direction;
-  if (variant == Variant::kBug1) return std::make_unique<Bug1>(configuration);
-  return std::make_unique<Bug2>(configuration);
+  BugComposition composition = kBugVariants.at(VariantIndex(variant)).composition;
+  if (composition.direction == DirectionKind::kLeft && direction == BoundaryDirection::kRight) {
+    composition.direction = DirectionKind::kRight;
+  }
+  return BugAlgorithm(configuration, Assemble(composition));
 }
 
-inline Outcome Drive(Variant variant, BoundaryDirection direction, Sensor sensor, const Task& task,
-                     const std::string& run = "") {
-  const auto algorithm = Make(variant, direction);
-  Robot robot({task.start.x, task.start.y, task.heading});
-  LaserAdaptor laser;
-  InfraredAdaptor infrared;
+inline Outcome Drive(std::string_view variant, BoundaryDirection direction, Sensor sensor,
+                     const Task& task, const std::string& run = "") {
+  const BugAlgorithm algorithm = Make(variant, direction);
+  Vehicle vehicle(task.world, sensor, {task.start.x, task.start.y, task.heading});
   BugState state;
   Outcome outcome;
   Trace trace(run);
   for (int step = 0; step < kMostSteps; ++step) {
-    const Pose2 pose = robot.pose();
-    const Surroundings surroundings = sensor == Sensor::kLaser
-                                          ? laser.Update(task.world.Scan(pose), pose)
-                                          : infrared.Update(task.world.Infrared(pose), pose);
+    const Pose2 pose = vehicle.pose();
+    const Surroundings surroundings = vehicle.Look();
     const BugOutput out =
-        algorithm->Update(state, {kTimeStep, pose, surroundings, task.start, task.goal});
+        algorithm.Update(state, {kTimeStep, pose, surroundings, task.start, task.goal});
     trace.Write(pose, out, surroundings);
     outcome.status = out.status;
     outcome.least_clearance =
         std::min(outcome.least_clearance, task.world.Clearance(Position(pose)));
-    if (out.status.mode == PlannerMode::kReached || out.status.mode == PlannerMode::kUnreachable) {
-      break;
-    }
-    robot.Drive(out.twist, kTimeStep);
+    if (IsVerdict(out.status.mode)) break;
+    vehicle.Drive(out.twist, kTimeStep);
   }
+  outcome.hits = state.hits;
+  outcome.leaves = state.leaves;
   return outcome;
 }
 

@@ -25,12 +25,13 @@ Surroundings Open() {
   Surroundings surroundings;
   surroundings.sensor_range = 4.0F;
   surroundings.safe_distance = 0.35F;
+  surroundings.is_measured = true;
   return surroundings;
 }
 
 TEST(Surroundings, KnowNothingAtFirst) {
   const Surroundings surroundings;
-  EXPECT_EQ(surroundings.sensor_range, 0.0F);
+  EXPECT_FALSE(surroundings.is_measured);
   EXPECT_EQ(NearestBoundary(surroundings).distance, kInfinity);
   EXPECT_EQ(FreeRange(surroundings, 0.3, 0.3), kInfinity);
 }

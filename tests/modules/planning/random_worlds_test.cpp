@@ -90,7 +90,11 @@ struct RandomTask {
   double possibly = 0.0;  ///< m to the goal that a narrower disc can come
 };
 
-RandomTask MakeTask(std::uint32_t seed) {
+/// With infrared a passage must be wider, or its vague echoes close it now and then.
+constexpr double kSurelyWithLaser = 0.40;     // m, radius of a disc that passes
+constexpr double kSurelyWithInfrared = 0.50;  // m
+
+RandomTask MakeTask(std::uint32_t seed, double sure_radius) {
   Dice dice(seed);
   RandomTask random;
   const int polygons = 3 + static_cast<int>(dice.Between(0, 9));
@@ -102,27 +106,32 @@ RandomTask MakeTask(std::uint32_t seed) {
     random.task.goal = dice.Place();
   } while (Distance(random.task.start, random.task.goal) < 2.0);
   random.task.heading = dice.Between(-kPi, kPi);
-  random.surely = Judge(random.task.world, random.task.start, random.task.goal, 0.40).nearest();
+  random.surely =
+      Judge(random.task.world, random.task.start, random.task.goal, sure_radius).nearest();
   random.possibly = Judge(random.task.world, random.task.start, random.task.goal, 0.27).nearest();
   return random;
 }
 
 int Worlds() {
   const char* wanted = std::getenv("RUNNEL_WORLDS");
-  return wanted == nullptr ? 15 : std::stoi(wanted);
+  return wanted == nullptr ? 6 : std::stoi(wanted);
 }
 
-class RandomWorlds : public testing::TestWithParam<std::tuple<Variant, Sensor>> {};
+class RandomWorlds : public testing::TestWithParam<std::tuple<BugVariant, Sensor>> {};
 
 TEST_P(RandomWorlds, GiveTheVerdictOfAnIndependentJudge) {
-  const auto [variant, sensor] = GetParam();
-  for (int seed = 1; seed <= Worlds(); ++seed) {
-    const RandomTask random = MakeTask(static_cast<std::uint32_t>(seed));
+  const auto& [variant, sensor] = GetParam();
+  // Other worlds for every variant.
+  const int first = 1 + 1000 * static_cast<int>(VariantIndex(variant.name));
+  for (int seed = first; seed < first + Worlds(); ++seed) {
+    const RandomTask random =
+        MakeTask(static_cast<std::uint32_t>(seed),
+                 sensor == Sensor::kLaser ? kSurelyWithLaser : kSurelyWithInfrared);
     const auto direction = seed % 2 == 0 ? BoundaryDirection::kLeft : BoundaryDirection::kRight;
     SCOPED_TRACE("world " + std::to_string(seed) + ", surely to " + std::to_string(random.surely) +
                  " m, possibly to " + std::to_string(random.possibly) + " m");
     const Outcome outcome =
-        Drive(variant, direction, sensor, random.task, "world" + std::to_string(seed));
+        Drive(variant.name, direction, sensor, random.task, "world" + std::to_string(seed));
     EXPECT_GT(outcome.least_clearance, sensor == Sensor::kLaser ? 0.25 : Robot::kRadius + 0.02);
     const PlannerMode verdict = outcome.status.mode;
     EXPECT_THAT(verdict, testing::AnyOf(PlannerMode::kReached, PlannerMode::kUnreachable));
@@ -137,12 +146,11 @@ TEST_P(RandomWorlds, GiveTheVerdictOfAnIndependentJudge) {
 
 std::string NameOf(const testing::TestParamInfo<RandomWorlds::ParamType>& param) {
   const auto [variant, sensor] = param.param;
-  return std::string(variant == Variant::kBug1 ? "Bug1" : "Bug2") +
-         (sensor == Sensor::kLaser ? "Laser" : "Infrared");
+  return std::string(variant.name) + (sensor == Sensor::kLaser ? "Laser" : "Infrared");
 }
 
 INSTANTIATE_TEST_SUITE_P(All, RandomWorlds,
-                         testing::Combine(testing::Values(Variant::kBug1, Variant::kBug2),
+                         testing::Combine(testing::ValuesIn(VariantsThatEnd()),
                                           testing::Values(Sensor::kLaser, Sensor::kInfrared)),
                          NameOf);
 

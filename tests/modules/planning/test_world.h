@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "modules/types/algorithm/angle.h"
+#include "modules/types/algorithm/contact.h"
 #include "modules/types/algorithm/infrared_ranges.h"
 #include "modules/types/algorithm/pose.h"
 #include "modules/types/algorithm/range_scan.h"
@@ -46,6 +47,14 @@ class World {
     double clearance = std::numeric_limits<double>::infinity();
     for (const Segment2& wall : walls_) clearance = std::min(clearance, Distance(wall, point));
     return clearance;
+  }
+  [[nodiscard]] Point2 NearestWallPoint(Point2 point) const {
+    Point2 nearest = {1e9, 1e9};
+    for (const Segment2& wall : walls_) {
+      const Point2 candidate = NearestPoint(wall, point);
+      if (Distance(candidate, point) < Distance(nearest, point)) nearest = candidate;
+    }
+    return nearest;
   }
   [[nodiscard]] double CastRay(Point2 from, double direction, double range) const {
     const Segment2 ray = {from, from + range * UnitVector(direction)};
@@ -97,9 +106,24 @@ class Robot {
       pose_.heading = WrapAngle(pose_.heading + twist_.turn * step);
     }
   }
+  /// The same where walls stop the body, and says what it touches.
+  Contact DriveAndTouch(const Twist2& wanted, double time_step, const World& world) {
+    const Pose2 before = pose_;
+    Drive(wanted, time_step);
+    const double clearance = world.Clearance(Position(pose_));
+    if (clearance >= kRadius + kTouch) return {};
+    if (clearance < kRadius && clearance < world.Clearance(Position(before))) {
+      pose_.x = before.x;
+      pose_.y = before.y;
+      twist_.forward = 0.0;
+    }
+    const Point2 touched = ToBody(pose_, world.NearestWallPoint(Position(pose_)));
+    return {true, Direction(touched)};
+  }
   [[nodiscard]] const Pose2& pose() const { return pose_; }
 
  private:
+  static constexpr double kTouch = 0.02;  // m, the travel of the bumper
   static double Approach(double value, double wanted, double step) {
     return value + std::clamp(wanted - value, -step, step);
   }

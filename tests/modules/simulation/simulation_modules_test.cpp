@@ -275,6 +275,30 @@ TEST_F(RefereeTest, DrawsThePath) {
   EXPECT_THAT(picture.Read(), testing::AllOf(HasSubstr("<svg"), HasSubstr("reached")));
 }
 
+TEST_F(RefereeTest, WritesTheResult) {
+  const TemporaryFile result(".json", "");
+  ASSERT_TRUE(rig.module.result.SetFromText(result.path()));
+  ASSERT_TRUE(rig.module.path_step.SetFromText("1"));
+  Begin();
+  At({0.5, 0, 0.25}, PlannerMode::kFollowingBoundary);
+  rig.Feed(rig.module.points, {.hits = {{0.5, 0}, {2, 0}}, .leaves = {{1, 0.25}}});
+  At({2.9, 0, 0}, PlannerMode::kReached);
+  EXPECT_THAT(monitor().Finish().value(), HasSubstr(result.path()));
+  EXPECT_EQ(result.Read(),
+            "{\"outcome\":\"reached\",\"remark\":\"\",\"path_length_m\":2.9,\"sim_time_s\":0.1,"
+            "\"cycles\":3,\"robot_radius_m\":0.15,\"hits\":[[0.5,0],[2,0]],\"leaves\":[[1,0.25]],"
+            "\"path\":[[0,0,0,0],[0.1,2.9,0,0]],\"modes\":[0,0]}\n");
+}
+
+TEST_F(RefereeTest, TellsAMistakenPlannerAsAnError) {
+  const TemporaryFile result(".json", "");
+  ASSERT_TRUE(rig.module.result.SetFromText(result.path()));
+  Begin();
+  At({2.5, 0, 0}, PlannerMode::kReached);
+  ASSERT_TRUE(monitor().Finish());
+  EXPECT_THAT(result.Read(), HasSubstr("\"outcome\":\"error\",\"remark\":\"the planner says"));
+}
+
 TEST_F(RefereeTest, RefusesAPictureInAFolderThatIsNotThere) {
   ASSERT_TRUE(rig.module.picture.SetFromText("/nowhere/at/all/path.svg"));
   EXPECT_THAT(rig.Prepare().error().ToString(), HasSubstr("there is no folder '/nowhere/at/all'"));

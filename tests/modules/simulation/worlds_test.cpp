@@ -49,9 +49,28 @@ TEST_P(WorldOfTheTree, SurvivesWritingAndReading) {
 }
 
 TEST(WorldsOfTheTree, AreAllThere) {
-  EXPECT_THAT(WorldNames(),
-              testing::IsSupersetOf({"comb", "corridor", "cup", "goal_too_near_wall", "met_again",
-                                     "one_obstacle", "open", "rooms", "spiral", "unreachable"}));
+  EXPECT_THAT(WorldNames(), testing::IsSupersetOf({"blocks",
+                                                   "comb",
+                                                   "corridor",
+                                                   "cup",
+                                                   "far_m_line",
+                                                   "goal_in_obstacle",
+                                                   "goal_too_near_wall",
+                                                   "hook",
+                                                   "maze",
+                                                   "met_again",
+                                                   "one_obstacle",
+                                                   "open",
+                                                   "paper_1_unreachable",
+                                                   "paper_2_one_obstacle",
+                                                   "paper_3_points_met_again",
+                                                   "rooms",
+                                                   "scatter",
+                                                   "scatter_unreachable",
+                                                   "spiral",
+                                                   "start_walled_in",
+                                                   "thin_wall",
+                                                   "unreachable"}));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, WorldOfTheTree, testing::ValuesIn(WorldNames()),

@@ -129,7 +129,7 @@ TEST(AddedWords, GoWithARefusedPlugin) {
   tags.AddTag(BeaconTag());
   tags.AddAttribute(NearAttribute(seen));
   tags.set_plugin("");
-  tags.RemovePlugin("beacons");
+  (void)tags.SetAside("beacons");
   EXPECT_EQ(tags.FindTag("beacon"), nullptr);
   EXPECT_TRUE(tags.AddedAttributes("module").empty());
   EXPECT_NE(tags.FindTag("module"), nullptr);

@@ -1,0 +1,112 @@
+#include "apps/arena/arguments.h"
+
+#include <cmath>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+
+namespace runnel::arena {
+
+namespace {
+
+void AddChoices(CLI::App& program, ArenaArguments& arguments) {
+  program
+      .add_option("--world", arguments.worlds,
+                  "world files, or names of those that come with Runnel")
+      ->type_name("FILE")
+      ->required();
+  const auto add_list = [&](const char* name, auto& list, const char* what) {
+    program.add_option(name, list, what)
+        ->type_name("LIST")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->capture_default_str();
+  };
+  add_list(
+      "--variant", arguments.variants,
+      "planners: all, bug1 (planning/bug1), any module type with a '/', or an .xml file with a "
+      "<module> tag");
+  add_list("--sensor", arguments.sensors,
+           "laser, infrared, …: what the applications there are for");
+  add_list("--direction", arguments.directions, "first turn at an obstacle: left, right");
+  add_list("--seed", arguments.seeds, "of the noise, and so of the run");
+  add_list("--plugin", arguments.plugins, "loads others' plugins, whose planners can be variants");
+}
+
+void AddNumbers(CLI::App& program, ArenaArguments& arguments) {
+  RunSettings& settings = arguments.settings;
+  const auto add = [&](const char* name, double& value, const char* type, const char* what) {
+    program.add_option(name, value, what)->type_name(type)->capture_default_str();
+  };
+  add("--noise", settings.noise, "M", "standard deviation of the ranges measured");
+  add("--path-step", settings.path_step, "M", "between the points of a path that are kept");
+  add("--safe-distance", settings.safe_distance, "M", "of the robot's centre from obstacles");
+  add("--time-limit", settings.time_limit, "S", "of simulated time, for each run");
+  add("--wall-limit", arguments.wall_limit, "S",
+      "of real time, for each run; one that takes longer hangs, and is ended");
+  program.add_option("--jobs", arguments.jobs, "runs at the same time")
+      ->type_name("N")
+      ->capture_default_str();
+}
+
+void AddOutputs(CLI::App& program, ArenaArguments& arguments) {
+  program.add_option("--json", arguments.json, "writes all runs into this file")->type_name("FILE");
+  program.add_option("--svg", arguments.svg, "draws a picture of each run in this folder")
+      ->type_name("DIR");
+  program.add_option("--html", arguments.html, "writes a page with all paths and tables")
+      ->type_name("FILE");
+  program.add_flag("--resume", arguments.resume,
+                   "does not repeat runs that an earlier arena with the same --json has finished");
+  program.add_flag("--quiet", arguments.quiet, "no progress, only the tables");
+}
+
+std::string FaultOf(const ArenaArguments& arguments) {
+  const RunSettings& settings = arguments.settings;
+  const auto is_within = [](double value, double low, double high) {
+    return value >= low && value <= high;  // false for what is no number
+  };
+  if (arguments.jobs < 1 || arguments.jobs > 1000) return "--jobs must be between 1 and 1000";
+  if (!is_within(settings.noise, 0.0, 10.0)) return "--noise must be between 0 and 10 m";
+  if (!is_within(settings.path_step, 0.0, 1000.0)) {
+    return "--path-step must be between 0 and 1000 m";
+  }
+  if (!is_within(settings.safe_distance, 0.16, 10.0)) {
+    return "--safe-distance must be between 0.16 and 10 m";  // the robot's radius is 0.15 m
+  }
+  if (!is_within(settings.time_limit, 0.1, 1e6))
+    return "--time-limit must be between 0.1 and 1e6 s";
+  if (!is_within(arguments.wall_limit, 0.1, 1e6)) {
+    return "--wall-limit must be between 0.1 and 1e6 s";
+  }
+  if (arguments.resume && arguments.json.empty()) {
+    return "--resume needs --json, to know what is finished";
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<ArenaArguments> ParseArguments(int count, const char* const* words) {
+  CLI::App program("Compares planners over worlds, sensors, directions and seeds.", "runnel arena");
+  program.footer(
+      "Each run is a process of its own: one that crashes or hangs is a row of the table.\n"
+      "Exit codes: 0 all runs are finished, 1 stopped, or a file could not be written, 2 bad "
+      "input.");
+  ArenaArguments arguments;
+  arguments.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  AddChoices(program, arguments);
+  AddNumbers(program, arguments);
+  AddOutputs(program, arguments);
+  try {
+    program.parse(count, words);
+  } catch (const CLI::Success& help) {
+    program.exit(help);
+    return Error{};
+  } catch (const CLI::ParseError& error) {
+    return Error{.message = error.what(), .hint = "see 'runnel arena --help'"};
+  }
+  if (const std::string fault = FaultOf(arguments); !fault.empty()) return Error{.message = fault};
+  return arguments;
+}
+
+}  // namespace runnel::arena

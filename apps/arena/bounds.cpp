@@ -1,0 +1,47 @@
+#include "apps/arena/bounds.h"
+
+#include <algorithm>
+
+namespace runnel::arena {
+
+std::vector<std::size_t> BoundariesMet(const Course& course, const std::vector<Point2>& hits) {
+  std::vector<std::size_t> met;
+  for (const Point2 hit : hits) {
+    std::size_t nearest = course.boundaries.size();
+    double least = 0.0;
+    for (std::size_t i = 0; i < course.boundaries.size(); ++i) {
+      const double distance = DistanceTo(course.boundaries[i], hit);
+      if (nearest < course.boundaries.size() && distance >= least) continue;
+      nearest = i;
+      least = distance;
+    }
+    const bool is_new = std::ranges::find(met, nearest) == met.end();
+    if (nearest < course.boundaries.size() && is_new) met.push_back(nearest);
+  }
+  return met;
+}
+
+std::optional<double> BoundOf(const std::string& variant, const Course& course,
+                              const std::vector<Point2>& hits) {
+  const Segment2 line{Position(course.world.start), course.world.goal};
+  const auto sum = [&](const auto& factor) {
+    double bound = Distance(line.from, line.to);
+    for (const std::size_t i : BoundariesMet(course, hits)) {
+      bound += factor(course.boundaries[i]) * LengthOf(course.boundaries[i]);
+    }
+    return bound;
+  };
+  if (variant == "bug1") {
+    return sum([](const BoundaryLoop&) { return 1.5; });
+  }
+  if (variant == "bug2") {
+    // A line that ends inside of an obstacle goes in once more than out; then the robot goes round.
+    return sum([&](const BoundaryLoop& loop) { return (Crossings(loop, line) + 1) / 2; });
+  }
+  if (variant == "alg1" || variant == "alg2") {
+    return sum([](const BoundaryLoop&) { return 2.0; });
+  }
+  return std::nullopt;
+}
+
+}  // namespace runnel::arena

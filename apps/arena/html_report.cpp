@@ -1,0 +1,151 @@
+#include "apps/arena/html_report.h"
+
+#include <algorithm>
+
+#include "apps/arena/html_page.h"
+#include "apps/arena/html_world.h"
+
+namespace runnel::arena {
+
+namespace {
+
+struct Column {
+  const char* title;
+  bool is_number;
+};
+
+std::string Head(const std::vector<Column>& columns) {
+  std::string text = "<thead><tr>";
+  for (const Column& column : columns) {
+    text += std::string("<th scope=\"col\"") + (column.is_number ? " class=\"number\"" : "") +
+            "><button type=\"button\">" + column.title + "</button></th>";
+  }
+  return text + "</tr></thead>";
+}
+
+std::string Cell(const std::string& text) { return "<td>" + EscapedHtml(text) + "</td>"; }
+std::string NumberCell(const std::string& text) { return "<td class=\"number\">" + text + "</td>"; }
+std::string NumberCell(const std::optional<double>& number, int digits) {
+  return NumberCell(number ? Fixed(*number, digits) : "–");
+}
+
+std::string OutcomeText(const Row& row) {
+  return std::string("<span class=\"") + (row.is_right ? "good" : "bad") + "\">" +
+         EscapedHtml(row.record->result.outcome) + (row.is_right ? "" : " (wrong)") + "</span>";
+}
+
+std::string SummaryTable(const std::vector<Row>& rows) {
+  std::string text = "<div class=\"scroll\"><table>" +
+                     Head({{"variant", false},
+                           {"runs", true},
+                           {"right", true},
+                           {"success / %", true},
+                           {"mean ratio", true},
+                           {"all paths / m", true}}) +
+                     "<tbody>\n";
+  for (const Summary& summary : SummariesOf(rows)) {
+    text += "<tr>" + Cell(summary.variant) + NumberCell(std::to_string(summary.runs)) +
+            NumberCell(std::to_string(summary.right)) +
+            NumberCell(
+                100.0 * static_cast<double>(summary.right) / static_cast<double>(summary.runs), 1) +
+            NumberCell(summary.mean_ratio, 3) + NumberCell(summary.path_length, 1) + "</tr>\n";
+  }
+  return text + "</tbody></table></div>\n";
+}
+
+std::string RunTable(const std::vector<Row>& rows) {
+  std::string text = "<div class=\"scroll\"><table>" +
+                     Head({{"world", false},
+                           {"variant", false},
+                           {"sensor", false},
+                           {"direction", false},
+                           {"seed", true},
+                           {"outcome", false},
+                           {"length / m", true},
+                           {"ratio", true},
+                           {"bound / m", true},
+                           {"time / s", true},
+                           {"hits", true},
+                           {"remark", false}}) +
+                     "<tbody>\n";
+  for (const Row& row : rows) {
+    const RunKey& key = row.record->key;
+    const RunResult& result = row.record->result;
+    text += "<tr>" + Cell(key.world) + Cell(key.variant) + Cell(key.sensor) + Cell(key.direction) +
+            NumberCell(std::to_string(key.seed)) + "<td>" + OutcomeText(row) + "</td>" +
+            NumberCell(result.path_length, 2) + NumberCell(row.ratio, 2) +
+            NumberCell(row.bound, 2) + NumberCell(result.simulated_time, 1) +
+            NumberCell(std::to_string(result.hits.size())) + Cell(result.remark) + "</tr>\n";
+  }
+  return text + "</tbody></table></div>\n";
+}
+
+std::string Figure(const Row& row, const std::string& world_id, const ViewBox& view) {
+  const RunKey& key = row.record->key;
+  std::string caption = "<b>" + EscapedHtml(key.variant) + "</b> " + EscapedHtml(key.sensor) +
+                        ", " + EscapedHtml(key.direction) + ", seed " + std::to_string(key.seed) +
+                        "<br>" + OutcomeText(row) + ", " +
+                        Fixed(row.record->result.path_length, 2) + " m";
+  if (row.ratio) caption += ", " + Fixed(*row.ratio, 2) + " × shortest";
+  return std::string("<figure") + (row.is_right ? "" : " class=\"wrong\"") + ">" +
+         RunDrawing(world_id, *row.record, view) + "<figcaption>" + caption +
+         "</figcaption></figure>\n";
+}
+
+std::string WorldSection(const Course& course, std::size_t number, const std::vector<Row>& rows) {
+  const std::string id = "w" + std::to_string(number);
+  ViewBox view = ViewBoxOf(course);
+  for (const Row& row : rows) {
+    if (row.course != &course) continue;
+    for (const PathSample& sample : row.record->result.path) view.Include(sample.position, 0.3);
+  }
+  std::string text = "<h2>" + EscapedHtml(course.name) + "</h2>\n<p>" +
+                     (course.shortest ? "Shortest path " + Fixed(course.shortest->length, 2) + " m."
+                                      : "The goal cannot be reached.") +
+                     "</p>\n<svg style=\"display:none\">" + WorldSymbol(id, course, view) +
+                     "</svg>\n<div class=\"runs\">\n";
+  for (const Row& row : rows) {
+    if (row.course == &course) text += Figure(row, id, view);
+  }
+  return text + "</div>\n";
+}
+
+constexpr std::string_view kKey =
+    "<p class=\"key\"><span><i style=\"background:var(--goal-bound)\"></i>driving to the "
+    "goal</span>"
+    "<span><i style=\"background:var(--following)\"></i>following a boundary</span>"
+    "<span><i style=\"background:var(--returning)\"></i>going to the leave point</span>"
+    "<span><i style=\"background:var(--faint)\"></i>shortest path (dashed)</span>"
+    "<span><i class=\"dot\" style=\"background:var(--hit)\"></i>hit point</span>"
+    "<span><i class=\"dot\" style=\"background:var(--leave)\"></i>leave point</span>"
+    "<span><i class=\"dot\" style=\"background:var(--ink)\"></i>start</span>"
+    "<span><i class=\"dot\" style=\"background:var(--good)\"></i>goal</span></p>\n";
+
+}  // namespace
+
+std::string HtmlReport(const Matrix& matrix, const std::vector<RunRecord>& records,
+                       const RunSettings& settings) {
+  const std::vector<Row> rows = RowsOf(matrix, records);
+  std::string text =
+      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<title>Runnel arena</title>\n<style>" +
+      std::string(kStyle) + "</style>\n</head>\n<body>\n<h1>Arena</h1>\n";
+  text += "<p>" + std::to_string(records.size()) + " runs; noise of the ranges " +
+          Fixed(settings.noise, 3) + " m, safe distance " + Fixed(settings.safe_distance, 2) +
+          " m; " + TextOf(SpeedOf(records)) + ".</p>\n";
+  text +=
+      "<p>A ratio is the length of a path to that of the shortest one for the robot's centre; "
+      "a bound is what has been proved for a point that follows boundaries exactly.</p>\n";
+  text += "<h2>Variants</h2>\n" + SummaryTable(rows) + std::string(kKey);
+  for (std::size_t i = 0; i < matrix.courses.size(); ++i) {
+    const Course& course = matrix.courses[i];
+    if (std::ranges::find(rows, &course, &Row::course) != rows.end()) {
+      text += WorldSection(course, i, rows);
+    }
+  }
+  text += "<h2>All runs</h2>\n" + RunTable(rows);
+  return text + "<script>" + std::string(kScript) + "</script>\n</body>\n</html>\n";
+}
+
+}  // namespace runnel::arena

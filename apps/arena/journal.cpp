@@ -1,0 +1,105 @@
+#include "apps/arena/journal.h"
+
+#include <array>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/arena/application_text.h"
+
+namespace runnel::arena {
+
+namespace {
+
+constexpr int kVersion = 1;
+
+struct NamedSetting {
+  const char* name;
+  double RunSettings::*value;
+};
+constexpr std::array<NamedSetting, 4> kSettings{{{"noise", &RunSettings::noise},
+                                                 {"path-step", &RunSettings::path_step},
+                                                 {"time-limit", &RunSettings::time_limit},
+                                                 {"safe-distance", &RunSettings::safe_distance}}};
+
+std::string HeadOf(const RunSettings& settings) {
+  nlohmann::ordered_json head{{"runnel_arena_journal", kVersion}};
+  for (const auto& [name, value] : kSettings) head[name] = settings.*value;
+  return head.dump();
+}
+
+Error ErrorIn(const std::filesystem::path& file, int line, const std::string& message,
+              const std::string& hint) {
+  return {.message = message, .position = {.file = file.string(), .line = line}, .hint = hint};
+}
+
+Result<void> CheckHead(const std::string& line, const RunSettings& settings,
+                       const std::filesystem::path& file) {
+  const auto head = nlohmann::json::parse(line, nullptr, false);
+  if (!head.is_object() || head.value("runnel_arena_journal", 0) != kVersion) {
+    return ErrorIn(file, 1, "this is not the journal of an arena",
+                   "remove it, or leave out --resume");
+  }
+  for (const auto& [name, value] : kSettings) {
+    const double before = head.value(name, -1.0);
+    if (before == settings.*value) continue;
+    std::ostringstream message;
+    message << "the finished runs had --" << name << ' ' << before << ", not " << settings.*value;
+    return ErrorIn(file, 1, message.str(), "give the same again, or leave out --resume");
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<Journal> Journal::Begin(const std::filesystem::path& file, const RunSettings& settings) {
+  if (auto written = WriteFile(file, HeadOf(settings) + "\n"); !written) return written.error();
+  return Journal(file);
+}
+
+Result<Journal> Journal::Resume(const std::filesystem::path& file, const RunSettings& settings) {
+  if (!std::filesystem::exists(file)) return Begin(file, settings);
+  const auto text = ReadFile(file);
+  if (!text) return text.error();
+  std::istringstream lines(*text);
+  std::string line;
+  std::getline(lines, line);
+  if (auto checked = CheckHead(line, settings, file); !checked) return checked.error();
+  Journal journal(file);
+  std::string whole = line + "\n";
+  for (int number = 2; std::getline(lines, line); ++number) {
+    // The arena may have been killed while it wrote the last line.
+    if (lines.eof() && !text->ends_with('\n')) break;
+    const auto entry = ParseJournalLine(line);
+    if (!entry) {
+      return ErrorIn(file, number, "this line is broken: " + entry.error().message,
+                     "remove it, and its run will be repeated");
+    }
+    journal.finished_.insert_or_assign(entry->record.key, *entry);
+    whole += line + "\n";
+  }
+  if (whole.size() != text->size()) {
+    if (auto written = WriteFile(file, whole); !written) return written.error();
+  }
+  return journal;
+}
+
+const RunRecord* Journal::Find(const PlannedRun& run) const {
+  const auto found = finished_.find(run.key);
+  if (found == finished_.end() || found->second.made_of != run.made_of) return nullptr;
+  return found->second.record.has_ended_by_itself ? &found->second.record : nullptr;
+}
+
+Result<void> Journal::Add(const RunRecord& record, const std::string& made_of) {
+  return Append(JournalLineOf(record, made_of) + "\n");
+}
+
+Result<void> Journal::Append(std::string_view line) {
+  std::ofstream stream(file_, std::ios::binary | std::ios::app);
+  stream << line;
+  stream.close();
+  if (stream) return {};
+  return Error{.message = "the journal cannot be written", .position = {.file = file_.string()}};
+}
+
+}  // namespace runnel::arena

@@ -1,0 +1,115 @@
+#include "apps/arena/matrix.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <map>
+
+#include "apps/arena/application_text.h"
+
+namespace runnel::arena {
+
+namespace {
+
+// FNV-1a (Fowler, Noll, Vo): tells versions of files apart, no more.
+std::string HashOf(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char letter : text) {
+    hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3U;
+  }
+  std::array<char, 16> digits{};
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), hash, 16).ptr};
+}
+
+std::vector<std::string> WithoutRepeats(const std::vector<std::string>& words) {
+  std::vector<std::string> single;
+  for (const std::string& word : words) {
+    if (std::ranges::find(single, word) == single.end()) single.push_back(word);
+  }
+  return single;
+}
+
+void ReadCourses(const ArenaArguments& arguments, const Product& product, Matrix& matrix,
+                 Diagnostics& diagnostics) {
+  std::vector<std::filesystem::path> files;
+  for (const std::string& word : arguments.worlds) {
+    const auto file = FindWorld(word, product);
+    if (!file) {
+      diagnostics.Add(file.error());
+    } else if (std::ranges::find(files, *file) == files.end()) {
+      files.push_back(*file);
+    }
+  }
+  for (const auto& file : files) {
+    auto course = ReadCourse(file, arguments.settings.safe_distance, diagnostics);
+    if (!course) continue;
+    const auto same = std::ranges::find(matrix.courses, course->name, &Course::name);
+    if (same == matrix.courses.end()) {
+      matrix.courses.push_back(std::move(*course));
+    } else {
+      diagnostics.Add({.message = "two worlds are called '" + course->name + "'",
+                       .position = {.file = file.string()},
+                       .hint = "the other is " + same->file.string()});
+    }
+  }
+}
+
+/// By sensor and variant's name.
+using Applications = std::map<std::pair<std::string, std::string>, std::string>;
+
+Applications ReadApplications(const ArenaArguments& arguments, const Product& product,
+                              const Matrix& matrix, Diagnostics& diagnostics) {
+  CheckNames(arguments.sensors, NamesIn(product.applications), "sensor", diagnostics);
+  Applications applications;
+  if (!diagnostics.ok()) return applications;
+  for (const std::string& sensor : WithoutRepeats(arguments.sensors)) {
+    for (const Variant& variant : matrix.variants) {
+      const auto file = product.applications / (sensor + ".xml");
+      if (auto text = ApplicationText(file, variant, arguments.plugins)) {
+        applications[{sensor, variant.name}] = std::move(*text);
+      } else {
+        diagnostics.Add(text.error());
+      }
+    }
+  }
+  return applications;
+}
+
+void AddRuns(const ArenaArguments& arguments, const Applications& applications, Matrix& matrix) {
+  const auto sensors = WithoutRepeats(arguments.sensors);
+  const auto directions = WithoutRepeats(arguments.directions);
+  for (std::size_t course = 0; course < matrix.courses.size(); ++course) {
+    for (const Variant& variant : matrix.variants) {
+      for (const std::string& sensor : sensors) {
+        const std::string& application = applications.at({sensor, variant.name});
+        const std::string made_of = HashOf(matrix.courses[course].text + '\0' + application);
+        for (const std::string& direction : directions) {
+          for (const std::uint64_t seed : arguments.seeds) {
+            matrix.runs.push_back(
+                {.key = {matrix.courses[course].name, variant.name, sensor, direction, seed},
+                 .course = course,
+                 .application = application,
+                 .made_of = made_of});
+          }
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<Matrix> MakeMatrix(const ArenaArguments& arguments, const Product& product,
+                                 Diagnostics& diagnostics) {
+  Matrix matrix;
+  ReadCourses(arguments, product, matrix, diagnostics);
+  const auto types = FindTypes(arguments.plugins, diagnostics);
+  matrix.variants = FindVariants(WithoutRepeats(arguments.variants), types, diagnostics);
+  CheckNames(arguments.directions, {"left", "right"}, "direction", diagnostics);
+  const Applications applications = ReadApplications(arguments, product, matrix, diagnostics);
+  if (!diagnostics.ok()) return std::nullopt;
+  AddRuns(arguments, applications, matrix);
+  return matrix;
+}
+
+}  // namespace runnel::arena

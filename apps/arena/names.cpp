@@ -1,0 +1,156 @@
+#include "apps/arena/names.h"
+
+#include <algorithm>
+
+#include "core/base/nearest_name.h"
+#include "core/plugin/plugin_manager.h"
+#include "core/xml/xml_document.h"
+
+namespace runnel::arena {
+
+namespace {
+
+constexpr std::string_view kFamily = "planning/";
+// Put together from parameters: not a variant, before somebody has done so.
+constexpr std::string_view kComposed = "planning/bug";
+
+std::string Escaped(const std::string& text) {
+  std::string escaped;
+  for (const char letter : text) {
+    if (letter == '&') {
+      escaped += "&amp;";
+    } else if (letter == '<') {
+      escaped += "&lt;";
+    } else if (letter == '"') {
+      escaped += "&quot;";
+    } else {
+      escaped += letter;
+    }
+  }
+  return escaped;
+}
+
+Result<Variant> ReadVariant(const std::filesystem::path& file) {
+  const auto document = XmlDocument::Load(file);
+  if (!document) return document.error();
+  const XmlElement root = document->root();
+  const XmlAttribute* const type = root.Attribute("type");
+  if (root.name() != "module" || type == nullptr) {
+    return Error{.message = "a variant is a <module> tag with a type, as in an application",
+                 .position = root.position()};
+  }
+  Variant variant{.name = file.stem().string(), .type = type->value};
+  for (const XmlElement child : root.children()) {
+    std::string tag = "<" + child.name();
+    for (const XmlAttribute& attribute : child.attributes()) {
+      tag += " " + attribute.name + "=\"" + Escaped(attribute.value) + "\"";
+    }
+    variant.parameters += tag + "/>";
+  }
+  return variant;
+}
+
+std::vector<std::string> FamilyNames(const std::vector<std::string>& types) {
+  std::vector<std::string> names;
+  for (const std::string& type : types) {
+    if (type.starts_with(kFamily)) names.push_back(type.substr(kFamily.size()));
+  }
+  return names;
+}
+
+bool Has(const std::vector<std::string>& names, const std::string& name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+Result<Variant> FindVariant(const std::string& word, const std::vector<std::string>& types) {
+  if (word.ends_with(".xml")) return ReadVariant(word);
+  const bool is_type = word.find('/') != std::string::npos;
+  const std::string type = is_type ? word : std::string(kFamily) + word;
+  if (Has(types, type)) return Variant{.name = word, .type = type};
+  return Error{.message = "there is no variant '" + word + "'",
+               .hint = NearestNameHint(word, is_type ? types : FamilyNames(types))};
+}
+
+}  // namespace
+
+Product FindProduct() {
+  const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  auto xml = folder.parent_path() / "share" / "runnel" / "xml";
+  if (!std::filesystem::is_directory(xml)) xml = RUNNEL_XML;
+  return {folder / "runnel", xml / "worlds", xml / "apps" / "arena"};
+}
+
+std::vector<std::string> NamesIn(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".xml") names.push_back(entry.path().stem().string());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+Result<std::filesystem::path> FindWorld(const std::string& word, const Product& product) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(word, error)) return std::filesystem::absolute(word);
+  const auto known = product.worlds / (word + ".xml");
+  if (std::filesystem::is_regular_file(known, error)) return known;
+  std::vector<std::string> names = NamesIn(product.worlds);
+  const std::filesystem::path path(word);
+  if (path.has_parent_path()) {  // a misspelt file: what is beside it?
+    names.clear();
+    for (const std::string& name : NamesIn(path.parent_path())) {
+      names.push_back((path.parent_path() / (name + ".xml")).string());
+    }
+  }
+  return Error{.message = "there is no world '" + word + "'", .hint = NearestNameHint(word, names)};
+}
+
+std::vector<Variant> FindVariants(const std::vector<std::string>& words,
+                                  const std::vector<std::string>& types, Diagnostics& diagnostics) {
+  std::vector<Variant> variants;
+  const auto add = [&](const Variant& variant) {
+    const auto same = std::ranges::find(variants, variant.name, &Variant::name);
+    if (same == variants.end()) {
+      variants.push_back(variant);
+    } else if (same->type != variant.type || same->parameters != variant.parameters) {
+      diagnostics.Add({.message = "two variants are called '" + variant.name + "'"});
+    }
+  };
+  for (const std::string& word : words) {
+    if (word == "all") {
+      for (const std::string& name : FamilyNames(types)) {
+        const std::string type = std::string(kFamily) + name;
+        if (type != kComposed) add({.name = name, .type = type});
+      }
+    } else if (const auto variant = FindVariant(word, types)) {
+      add(*variant);
+    } else {
+      diagnostics.Add(variant.error());
+    }
+  }
+  return variants;
+}
+
+std::vector<std::string> FindTypes(const std::vector<std::string>& plugins,
+                                   Diagnostics& diagnostics) {
+  PluginManager manager;
+  if (auto loaded = manager.Load("planning"); !loaded) diagnostics.Add(loaded.error());
+  for (const std::string& plugin : plugins) {
+    if (auto loaded = manager.Load(plugin); !loaded) diagnostics.Add(loaded.error());
+  }
+  std::vector<std::string> types;
+  for (const ModuleType* type : manager.modules().All()) types.push_back(type->name);
+  return types;
+}
+
+void CheckNames(const std::vector<std::string>& words, const std::vector<std::string>& known,
+                const std::string& what, Diagnostics& diagnostics) {
+  for (const std::string& word : words) {
+    if (Has(known, word)) continue;
+    diagnostics.Add({.message = "there is no " + what + " '" + word + "'",
+                     .hint = NearestNameHint(word, known)});
+  }
+}
+
+}  // namespace runnel::arena

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/base/diagnostics.h"
+#include "core/base/result.h"
+
+namespace runnel::arena {
+
+/// Folders of the product: those of the install tree that the program stands in, or of the sources
+/// that it has been built from.
+struct Product {
+  std::filesystem::path program;       ///< runnel, beside this one
+  std::filesystem::path worlds;        ///< xml/worlds
+  std::filesystem::path applications;  ///< xml/apps/arena: one for each sensor
+};
+[[nodiscard]] Product FindProduct();
+
+/// The names of the files in the folder that end in .xml, without that, sorted.
+[[nodiscard]] std::vector<std::string> NamesIn(const std::filesystem::path& folder);
+
+/// A planner to be compared.
+struct Variant {
+  std::string name;             ///< in tables: "bug1"
+  std::string type;             ///< of the module: "planning/bug1"
+  std::string parameters = {};  ///< <parameter> tags, as they stand in an application
+};
+
+/// The file that the word names: a file, or a world that comes with Runnel.
+[[nodiscard]] Result<std::filesystem::path> FindWorld(const std::string& word,
+                                                      const Product& product);
+
+/// The variants that the words name. `types`: all module types there are. Errors are added.
+[[nodiscard]] std::vector<Variant> FindVariants(const std::vector<std::string>& words,
+                                                const std::vector<std::string>& types,
+                                                Diagnostics& diagnostics);
+
+/// The names of all module types of the product's planners and of others' plugins. Errors: a plugin
+/// that cannot be loaded.
+[[nodiscard]] std::vector<std::string> FindTypes(const std::vector<std::string>& plugins,
+                                                 Diagnostics& diagnostics);
+
+/// Complains about each word that is not among `known`.
+void CheckNames(const std::vector<std::string>& words, const std::vector<std::string>& known,
+                const std::string& what, Diagnostics& diagnostics);
+
+}  // namespace runnel::arena

@@ -1,0 +1,73 @@
+#include "apps/arena/progress.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+
+#include <unistd.h>
+
+namespace runnel::arena {
+
+namespace {
+
+constexpr std::size_t kBar = 30;
+
+std::string DurationText(double seconds) {
+  const auto whole = static_cast<long>(std::ceil(seconds));
+  std::array<char, 48> text{};
+  std::snprintf(text.data(), text.size(), "%ld:%02ld", whole / 60, whole % 60);
+  return text.data();
+}
+
+}  // namespace
+
+std::string ProgressLine(std::size_t done, std::size_t count, double elapsed) {
+  const std::size_t filled = count == 0 ? kBar : kBar * done / count;
+  const std::size_t percent = count == 0 ? 100 : 100 * done / count;
+  std::array<char, 96> figures{};
+  std::snprintf(figures.data(), figures.size(), "] %3zu %%  %zu of %zu", percent, done, count);
+  std::string line =
+      "[" + std::string(filled, '#') + std::string(kBar - filled, '-') + figures.data();
+  if (done > 0 && done < count) {
+    const double left = elapsed / static_cast<double>(done) * static_cast<double>(count - done);
+    line += "  " + DurationText(left) + " left";
+  }
+  return line;
+}
+
+Progress::Progress(bool is_on, std::size_t count, std::size_t jobs)
+    : is_on_(is_on),
+      is_terminal_(isatty(STDERR_FILENO) != 0),
+      count_(count),
+      jobs_(jobs),
+      begin_(std::chrono::steady_clock::now()) {
+  Show();
+}
+
+void Progress::Finished(const std::string& text) {
+  ++done_;
+  last_ = text;
+  if (is_on_ && !is_terminal_) {
+    std::cerr << "[" << done_ << "/" << count_ << "] " << text << std::endl;
+  }
+  Show();
+}
+
+void Progress::Show() {
+  if (!is_on_ || !is_terminal_ || count_ == 0) return;
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
+  std::string line = ProgressLine(done_, count_, elapsed.count());
+  if (done_ == 0) line += "  " + std::to_string(std::min(jobs_, count_)) + " at a time";
+  std::cerr << "\r\x1b[K" << line << (last_.empty() ? "" : "  ") << last_.substr(0, 50)
+            << std::flush;
+  has_line_ = true;
+}
+
+void Progress::Clear() {
+  if (has_line_) std::cerr << "\r\x1b[K" << std::flush;
+  has_line_ = false;
+}
+
+}  // namespace runnel::arena

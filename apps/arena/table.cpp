@@ -1,0 +1,160 @@
+#include "apps/arena/table.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "apps/arena/bounds.h"
+
+namespace runnel::arena {
+
+namespace {
+
+using Line = std::vector<std::string>;
+
+constexpr const char* kNone = "-";
+
+// The first columns are words, the last, if there is one more than numbers, a remark.
+std::string Aligned(const std::vector<Line>& lines, std::size_t words, std::size_t numbers) {
+  std::vector<std::size_t> widths(words + numbers + 1, 0);
+  for (const Line& line : lines) {
+    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
+  }
+  std::string text;
+  for (const Line& line : lines) {
+    std::string out = " ";
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      const std::string padding(widths[i] - line[i].size(), ' ');
+      const bool is_number = i >= words && i < words + numbers;
+      out += " " + (is_number ? padding + line[i] : line[i] + padding);
+    }
+    out.erase(out.find_last_not_of(' ') + 1);
+    text += out + "\n";
+  }
+  return text;
+}
+
+std::string OrNone(const std::optional<double>& number, int digits) {
+  return number ? Fixed(*number, digits) : kNone;
+}
+
+Line LineOf(const Row& row) {
+  const RunRecord& record = *row.record;
+  std::string remark = record.result.remark;
+  if (!row.is_right) remark = "WRONG" + (remark.empty() ? "" : ": " + remark);
+  return {record.key.variant,
+          record.key.sensor,
+          record.key.direction,
+          std::to_string(record.key.seed),
+          record.result.outcome,
+          Fixed(record.result.path_length, 2),
+          OrNone(row.ratio, 2),
+          OrNone(row.bound, 2) + (row.is_over_bound ? "!" : " "),
+          Fixed(record.result.simulated_time, 1),
+          Fixed(record.wall_time, 2),
+          remark};
+}
+
+std::string WorldText(const Course& course, const std::vector<Row>& rows) {
+  std::vector<Line> lines{{"variant", "sensor", "direction", "seed", "outcome", "length/m", "ratio",
+                           "bound/m ", "time/s", "real/s"}};
+  for (const Row& row : rows) {
+    if (row.course == &course) lines.push_back(LineOf(row));
+  }
+  const std::string truth = course.shortest
+                                ? "shortest path " + Fixed(course.shortest->length, 2) + " m"
+                                : "the goal cannot be reached";
+  return course.name + ": " + truth + "\n" + Aligned(lines, 5, 5) + "\n";
+}
+
+std::string SummaryText(const std::vector<Summary>& summaries) {
+  std::vector<Line> lines{{"variant", "runs", "right", "success", "mean ratio", "all paths/m"}};
+  for (const Summary& summary : summaries) {
+    const double share =
+        100.0 * static_cast<double>(summary.right) / static_cast<double>(summary.runs);
+    lines.push_back({summary.variant, std::to_string(summary.runs), std::to_string(summary.right),
+                     Fixed(share, 1) + " %", OrNone(summary.mean_ratio, 3),
+                     Fixed(summary.path_length, 1)});
+  }
+  return "summary\n" + Aligned(lines, 1, 5);
+}
+
+}  // namespace
+
+std::string Fixed(double number, int digits) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", digits, number);
+  return text.data();
+}
+
+std::vector<Row> RowsOf(const Matrix& matrix, const std::vector<RunRecord>& records) {
+  std::vector<Row> rows;
+  for (const RunRecord& record : records) {
+    const auto course = std::ranges::find(matrix.courses, record.key.world, &Course::name);
+    if (course == matrix.courses.end()) continue;
+    const RunResult& result = record.result;
+    Row row{.course = &*course, .record = &record, .is_right = course->IsRight(result.outcome)};
+    if (row.is_right && course->shortest && course->shortest->length > 0.0) {
+      row.ratio = result.path_length / course->shortest->length;
+    }
+    if (result.outcome == "reached" || result.outcome == "unreachable") {
+      row.bound = BoundOf(record.key.variant, *course, result.hits);
+    }
+    row.is_over_bound = row.bound && result.path_length > *row.bound;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+std::vector<Summary> SummariesOf(const std::vector<Row>& rows) {
+  std::vector<Summary> summaries;
+  for (const Row& row : rows) {
+    auto summary = std::ranges::find(summaries, row.record->key.variant, &Summary::variant);
+    if (summary == summaries.end()) {
+      summaries.push_back({.variant = row.record->key.variant});
+      summary = summaries.end() - 1;
+    }
+    ++summary->runs;
+    summary->path_length += row.record->result.path_length;
+    if (row.is_right) ++summary->right;
+    if (!row.ratio) continue;
+    const auto before = static_cast<double>(summary->reached++);
+    summary->mean_ratio = (summary->mean_ratio.value_or(0.0) * before + *row.ratio) / (before + 1);
+  }
+  return summaries;
+}
+
+Speed SpeedOf(const std::vector<RunRecord>& records) {
+  double simulated = 0.0, wall = 0.0, processor = 0.0;
+  for (const RunRecord& record : records) {
+    if (!record.has_ended_by_itself) continue;
+    simulated += record.result.simulated_time;
+    wall += record.wall_time;
+    processor += record.processor_time;
+  }
+  return {.of_wall_time = wall > 0.0 ? simulated / wall : 0.0,
+          .of_processor_time = processor > 0.0 ? simulated / processor : 0.0};
+}
+
+std::string TextOf(const Speed& speed) {
+  return Fixed(speed.of_wall_time, 0) + " simulated seconds per real second and core, " +
+         Fixed(speed.of_processor_time, 0) + " per second of processor time";
+}
+
+std::string TablesText(const std::vector<Row>& rows, const std::vector<RunRecord>& records) {
+  std::string text;
+  std::vector<const Course*> told;
+  for (const Row& row : rows) {
+    if (std::ranges::find(told, row.course) != told.end()) continue;
+    told.push_back(row.course);
+    text += WorldText(*row.course, rows);
+  }
+  text += SummaryText(SummariesOf(rows));
+  if (std::ranges::any_of(rows, &Row::is_over_bound)) {
+    text += "  !  longer than the bound, which holds for a point that follows boundaries exactly\n";
+  }
+  text += TextOf(SpeedOf(records)) + "\n";
+  return text;
+}
+
+}  // namespace runnel::arena

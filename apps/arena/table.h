@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/arena/matrix.h"
+#include "apps/arena/run_record.h"
+
+namespace runnel::arena {
+
+/// What a table says of a run.
+struct Row {
+  const Course* course = nullptr;
+  const RunRecord* record = nullptr;
+  bool is_right = false;  ///< its verdict is the true one
+  std::optional<double> ratio =
+      {};  ///< of the path to the shortest one; only if the goal was reached
+  std::optional<double> bound = {};  ///< m, see BoundOf
+  bool is_over_bound = false;
+};
+
+/// In the order of the records.
+[[nodiscard]] std::vector<Row> RowsOf(const Matrix& matrix, const std::vector<RunRecord>& records);
+
+/// Over all runs of a variant.
+struct Summary {
+  std::string variant;
+  std::size_t runs = 0;
+  std::size_t right = 0;    ///< with the true verdict
+  std::size_t reached = 0;  ///< rightly: those that the mean is of
+  std::optional<double> mean_ratio = {};
+  double path_length = 0.0;  ///< m, of all
+};
+/// In the order in which variants first appear.
+[[nodiscard]] std::vector<Summary> SummariesOf(const std::vector<Row>& rows);
+
+/// How fast the runs were: simulated seconds per second. 0 if nothing has run.
+struct Speed {
+  double of_wall_time = 0.0;       ///< of a process, which keeps one core busy if it gets one
+  double of_processor_time = 0.0;  ///< whatever else the machine was doing
+};
+[[nodiscard]] Speed SpeedOf(const std::vector<RunRecord>& records);
+/// "250 simulated seconds per real second and core, 600 per second of processor time".
+[[nodiscard]] std::string TextOf(const Speed& speed);
+
+/// A block for each world, one for the variants, and notes.
+[[nodiscard]] std::string TablesText(const std::vector<Row>& rows,
+                                     const std::vector<RunRecord>& records);
+
+/// With so many digits after the point.
+[[nodiscard]] std::string Fixed(double number, int digits);
+
+}  // namespace runnel::arena

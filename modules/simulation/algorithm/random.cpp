@@ -1,0 +1,36 @@
+#include "modules/simulation/algorithm/random.h"
+
+#include <bit>
+
+namespace runnel {
+
+Random::Random(std::uint64_t seed) {
+  for (std::uint64_t& word : state_) {  // SplitMix64
+    seed += 0x9e3779b97f4a7c15U;
+    std::uint64_t mixed = (seed ^ (seed >> 30)) * 0xbf58476d1ce4e5b9U;
+    mixed = (mixed ^ (mixed >> 27)) * 0x94d049bb133111ebU;
+    word = mixed ^ (mixed >> 31);
+  }
+}
+
+std::uint64_t Random::NextBits() {
+  const std::uint64_t result = std::rotl(state_[0] + state_[3], 23) + state_[0];
+  const std::uint64_t shifted = state_[1] << 17;
+  state_[2] ^= state_[0];
+  state_[3] ^= state_[1];
+  state_[1] ^= state_[2];
+  state_[0] ^= state_[3];
+  state_[2] ^= shifted;
+  state_[3] = std::rotl(state_[3], 45);
+  return result;
+}
+
+double Random::NextSigned() { return static_cast<double>(NextBits() >> 11) * 0x1.0p-52 - 1.0; }
+
+double Random::Between(double low, double high) {
+  return low + (high - low) * (NextSigned() + 1.0) / 2.0;
+}
+
+int Random::Below(int count) { return static_cast<int>(Between(0.0, count)); }
+
+}  // namespace runnel

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace runnel {
+
+/// Pseudo-random numbers, the same for the same seed with every standard library and compiler.
+///
+/// Blackman and Vigna's xoshiro256++ (2019), seeded by SplitMix64.
+///
+/// Threads: not thread-safe. Allocation: none.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed);
+
+  [[nodiscard]] std::uint64_t NextBits();
+  [[nodiscard]] double NextSigned();  ///< uniform in [-1, 1)
+  /// Uniform in [low, high).
+  [[nodiscard]] double Between(double low, double high);
+  /// One of 0 … count - 1. Precondition: count > 0.
+  [[nodiscard]] int Below(int count);
+  [[nodiscard]] bool Coin() { return Below(2) == 1; }
+
+ private:
+  std::array<std::uint64_t, 4> state_;
+};
+
+}  // namespace runnel

@@ -1,0 +1,123 @@
+#include "plugins/scheduling/internal/loop_cuts.h"
+
+#include <algorithm>
+#include <atomic>
+
+namespace runnel::internal {
+
+namespace {
+
+// Tells the tasks of one call from all others; never used again.
+std::uint64_t NextSet() noexcept {
+  static std::atomic<std::uint64_t> last{0};
+  return last.fetch_add(1, std::memory_order_relaxed) + 1;
+}
+
+// Without recursion: a chain may be as long as the application is large.
+class LoopFinder {
+ public:
+  explicit LoopFinder(const Tasks& tasks) : set_(NextSet()) {
+    for (OrderedTask* task : tasks) {
+      task->set = set_;
+      task->index = kUnseen;
+    }
+    for (OrderedTask* task : tasks) {
+      if (task->index == kUnseen) SearchFrom(*task);
+    }
+    std::ranges::reverse(loops_);
+  }
+  std::vector<Tasks> TakeLoops() { return std::move(loops_); }
+
+ private:
+  static constexpr std::size_t kUnseen = 0;
+  struct Step {
+    OrderedTask* task;
+    std::size_t next = 0;
+  };
+
+  void SearchFrom(OrderedTask& start) {
+    Enter(start);
+    while (!path_.empty()) {
+      Step& step = path_.back();
+      OrderedTask& task = *step.task;
+      if (step.next < task.outgoing.size()) {
+        OrderedTask& to = *task.outgoing[step.next++]->to;
+        if (to.set != set_) continue;
+        if (to.index == kUnseen) {
+          Enter(to);
+        } else {
+          task.low = std::min(task.low, to.index);
+        }
+      } else {
+        path_.pop_back();
+        if (!path_.empty()) path_.back().task->low = std::min(path_.back().task->low, task.low);
+        if (task.low == task.index) TakeLoop(task);
+      }
+    }
+  }
+
+  void Enter(OrderedTask& task) {
+    task.index = task.low = ++entered_;
+    open_.push_back(&task);
+    path_.push_back({&task});
+  }
+
+  void TakeLoop(const OrderedTask& first) {
+    Tasks& loop = loops_.emplace_back();
+    do {
+      loop.push_back(open_.back());
+      loop.back()->set = 0;  // no longer to be looked at
+      open_.pop_back();
+    } while (loop.back() != &first);
+  }
+
+  const std::uint64_t set_;
+  std::size_t entered_ = 0;
+  std::vector<Step> path_;
+  Tasks open_;
+  std::vector<Tasks> loops_;
+};
+
+bool WaitsForItsElement(const OrderedTask& task) {
+  return std::ranges::any_of(task.incoming, [&](const Dependency* each) {
+    return each->is_own && each->from->set == task.set;
+  });
+}
+
+LoopCut CutOnce(Tasks loop) {
+  const std::uint64_t set = NextSet();
+  for (OrderedTask* task : loop) task->set = set;
+  OrderedTask* head = nullptr;
+  for (OrderedTask* task : loop) {
+    const bool is_earlier = head == nullptr || task->key() < head->key();
+    if (is_earlier && !WaitsForItsElement(*task)) head = task;
+  }
+  std::vector<Dependency*> cuts;
+  for (Dependency* each : head->incoming) {
+    if (each->from->set == set && each->from != head) cuts.push_back(each);
+  }
+  return {head, std::move(loop), std::move(cuts)};
+}
+
+}  // namespace
+
+std::vector<Tasks> FindLoops(const Tasks& tasks) { return LoopFinder(tasks).TakeLoops(); }
+
+std::vector<LoopCut> CutLoop(Tasks loop) {
+  std::vector<LoopCut> cuts;
+  std::vector<Tasks> open;
+  open.push_back(std::move(loop));
+  while (!open.empty()) {
+    Tasks next = std::move(open.back());
+    open.pop_back();
+    cuts.push_back(CutOnce(std::move(next)));
+    Tasks others = cuts.back().loop;
+    std::erase(others, cuts.back().head);
+    for (Tasks& each : FindLoops(others)) {
+      if (each.size() > 1) open.push_back(std::move(each));
+    }
+  }
+  return cuts;
+}
+
+}  // namespace runnel::internal

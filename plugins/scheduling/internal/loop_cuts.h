@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "plugins/scheduling/internal/running_order.h"
+
+namespace runnel::internal {
+
+using Tasks = std::vector<OrderedTask*>;
+
+/// The loops among `tasks`, by the dependencies between them alone: none of a loop feeds one of a
+/// loop that comes earlier. O(tasks + dependencies).
+/// Source: Tarjan, "Depth-first search and linear graph algorithms" (1972).
+[[nodiscard]] std::vector<Tasks> FindLoops(const Tasks& tasks);
+
+/// Where a loop is entered, and what is cut for it.
+struct LoopCut {
+  OrderedTask* head;
+  Tasks loop;                     ///< the head and those that feed it in turn
+  std::vector<Dependency*> cuts;  ///< into the head, from the others
+};
+
+/// Cuts `loop`, of more than one task, by rule 4 of OrderTasks(): in front of the task that rule 3
+/// puts first and that waits for no task of its own element; then the loops that are left among the
+/// others. A function of the loop alone. O(size of the loop), times how deep loops lie in loops.
+[[nodiscard]] std::vector<LoopCut> CutLoop(Tasks loop);
+
+}  // namespace runnel::internal

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "plugins/scheduling/cycle_runner.h"
+#include "plugins/scheduling/internal/running_order.h"
+#include "plugins/scheduling/schedule.h"
+
+namespace runnel::internal {
+
+struct Lane;
+
+/// One task of an element, in the order of its thread.
+struct PlannedTask : OrderedTask {
+  explicit PlannedTask(Task of_element) : task(std::move(of_element)) { phase = task.phase; }
+  Task task;
+  struct PlannedElement* element = nullptr;
+  bool is_first = false;  ///< of its element's
+  bool is_last = false;
+};
+
+/// What is known of one element that has tasks.
+struct PlannedElement {
+  FrameworkElement* element = nullptr;
+  std::shared_ptr<ScheduledElement> state;
+  std::shared_ptr<const CyclePresence> current;  ///< of the runner that has it
+  std::vector<Schedule::Before> before;          ///< runners that may still be running it
+  Lane* lane = nullptr;                          ///< nullptr: in no plan
+  std::vector<std::unique_ptr<PlannedTask>> tasks;
+};
+
+/// One thread: what it runs, in which order, and the chunks that have been made of that.
+struct Lane {
+  explicit Lane(std::shared_ptr<CycleRunner> cycle_runner)
+      : runner(std::move(cycle_runner)), old_chunks(std::make_shared<Chunks>()) {}
+
+  using Chunks = std::vector<std::unique_ptr<const Schedule::Chunk>>;
+
+  const std::shared_ptr<CycleRunner> runner;
+  std::string name;         ///< of the container
+  bool is_changed = false;  ///< since the last schedule, which was made after
+  std::uint64_t changes = std::numeric_limits<std::uint64_t>::max();  ///< of the order
+  /// Those of blocks that have changed or gone, while the installed schedule still has them.
+  const std::shared_ptr<Chunks> old_chunks;
+  RunningOrder order;
+};
+
+/// Which tasks read and write through which groups of ports.
+class TasksOfGroups {
+ public:
+  void Add(PlannedTask& task) {
+    Each(task, [&](auto& list) { list.push_back(&task); });
+  }
+  void Remove(PlannedTask& task) {
+    Each(task, [&](auto& list) { std::erase(list, &task); });
+  }
+  void Clear() { groups_.clear(); }
+
+  /// Calls `visit` for each task that publishes through `port`, or reads it.
+  template <typename Visit>
+  void ForEachWriter(const FrameworkElement& port, Visit&& visit) const {
+    ForEach(port, &Tasks::writers, visit);
+  }
+  template <typename Visit>
+  void ForEachReader(const FrameworkElement& port, Visit&& visit) const {
+    ForEach(port, &Tasks::readers, visit);
+  }
+
+ private:
+  struct Tasks {
+    std::vector<PlannedTask*> readers;
+    std::vector<PlannedTask*> writers;
+  };
+
+  template <typename Change>
+  void Each(PlannedTask& task, const Change& change) {
+    for (const FrameworkElement* group : task.task.reads) Each(group, &Tasks::readers, change);
+    for (const FrameworkElement* group : task.task.writes) Each(group, &Tasks::writers, change);
+  }
+  template <typename Change>
+  void Each(const FrameworkElement* group, std::vector<PlannedTask*> Tasks::*which,
+            const Change& change) {
+    if (group == nullptr) return;
+    Tasks& tasks = groups_[group];
+    change(tasks.*which);
+    if (tasks.readers.empty() && tasks.writers.empty()) groups_.erase(group);
+  }
+  template <typename Visit>
+  void ForEach(const FrameworkElement& port, std::vector<PlannedTask*> Tasks::*which,
+               const Visit& visit) const {
+    for (const FrameworkElement* at = &port; at != nullptr; at = at->parent()) {
+      const auto found = groups_.find(at);
+      if (found == groups_.end()) continue;
+      for (PlannedTask* task : found->second.*which) visit(*task);
+    }
+  }
+
+  // Only looked up, never walked through: the order of addresses has no influence.
+  std::unordered_map<const FrameworkElement*, Tasks> groups_;
+};
+
+}  // namespace runnel::internal

@@ -1,0 +1,191 @@
+#include <memory>
+#include <utility>
+
+#include "core/base/nearest_name.h"
+#include "core/element/configurable.h"
+#include "core/module/group.h"
+#include "core/port/proxy_port.h"
+#include "core/types/type_info.h"
+#include "plugins/scheduling/thread_container.h"
+#include "plugins/structure/plan.h"
+#include "plugins/structure/replacement.h"
+
+namespace runnel::internal {
+
+Result<UnlistedElement> Plan::MakeModule(const std::string& type, const Placement& placement) {
+  auto made = modules_.Make(type, placement);
+  if (made || !made.error().path.empty()) return made;
+  Error error = made.error();
+  error.path = placement.parent.path() + "/" + placement.name;
+  return error;
+}
+
+Result<void> Plan::Check(const CreateModule& change) {
+  const auto place = projection_.PlaceFor(change.path);
+  if (!place) return place.error();
+  auto made = MakeModule(change.type, *place);
+  if (!made) return made.error();
+  for (const Setting& each : change.settings) {
+    if (auto set = Configure(**made, each); !set) return set;
+  }
+  if (auto prepared = Runtime::Prepare(*made); !prepared) return prepared;
+  AddCreation(std::move(*made));
+  return {};
+}
+
+Result<void> Plan::Check(const CreateGroup& change) {
+  const auto place = projection_.PlaceFor(change.path);
+  if (!place) return place.error();
+  UnlistedElement made(std::make_unique<Group>(*place));
+  if (auto prepared = Runtime::Prepare(made); !prepared) return prepared;
+  AddCreation(std::move(made));
+  return {};
+}
+
+Result<void> Plan::Check(const CreatePort& change) {
+  const auto place = projection_.PlaceFor(change.path);
+  if (!place) return place.error();
+  const TypeInfo* const type = FindType(change.type);
+  if (type == nullptr) {
+    std::vector<std::string> names;
+    for (const TypeInfo* each : RegisteredTypes()) names.push_back(each->name());
+    return Error{.message = "there is no data type '" + change.type + "'",
+                 .path = change.path,
+                 .hint = NearestNameHint(change.type, names)};
+  }
+  UnlistedElement made(std::make_unique<ProxyPort>(*place, change.direction, *type));
+  if (auto prepared = Runtime::Prepare(made); !prepared) return prepared;
+  AddCreation(std::move(made));
+  return {};
+}
+
+Result<void> Plan::Check(const ConnectPorts& change) {
+  const auto from = projection_.FindPort(change.from, Projection::End::kSends);
+  if (!from) return from.error();
+  const auto to = projection_.FindPort(change.to, Projection::End::kReceives);
+  if (!to) return to.error();
+  if (auto possible = projection_.Connect(**from, **to); !possible) return possible;
+  AddConnection(**from, **to, change.options);
+  return {};
+}
+
+Result<void> Plan::Check(const DisconnectPorts& change) {
+  const auto from = projection_.FindPort(change.from, Projection::End::kSends);
+  if (!from) return from.error();
+  const auto to = projection_.FindPort(change.to, Projection::End::kReceives);
+  if (!to) return to.error();
+  if (auto possible = projection_.Disconnect(**from, **to); !possible) return possible;
+  AddDisconnection(**from, **to);
+  return {};
+}
+
+Result<void> Plan::Check(const DeleteElement& change) {
+  const auto found = projection_.Find(change.path);
+  if (!found) return found.error();
+  FrameworkElement& element = **found;
+  if (element.parent() == nullptr) {
+    return Error{.message = "the root cannot be deleted", .path = element.path()};
+  }
+  const FrameworkElement& owner = *element.parent();
+  const bool is_part =
+      owner.kind() == ElementKind::kModule || owner.kind() == ElementKind::kPortGroup;
+  if (is_part ||
+      (element.kind() == ElementKind::kPort && !dynamic_cast<Port&>(element).is_proxy())) {
+    return Error{.message = "a part of a module cannot be deleted by itself",
+                 .path = element.path()};
+  }
+  Concern(element);
+  for (const Connection& tie : TiesOf(element)) {
+    Concern(*tie.from);
+    Concern(*tie.to);
+  }
+  projection_.Remove(element);
+  AddRemoval(element);
+  return {};
+}
+
+Result<void> Plan::Check(const SetParameter& change) {
+  const auto found = projection_.Find(change.path);
+  if (!found) return found.error();
+  auto* const parameter = dynamic_cast<Configurable*>(*found);
+  if (parameter == nullptr) {
+    return Error{.message = (*found)->path() + " is not a parameter", .path = (*found)->path()};
+  }
+  if (parameter->info().is_static && (*found)->life_cycle() == LifeCycle::kReady) {
+    return Error{.message = "can be set only before its module is ready",
+                 .path = (*found)->path(),
+                 .hint = "replace the module, by the same type, with the new value"};
+  }
+  if (auto accepted = parameter->CheckText(change.value); !accepted) {
+    Error error = accepted.error();
+    if (error.path.empty()) error.path = (*found)->path();
+    return error;
+  }
+  Concern(**found);
+  auto before = std::make_shared<std::string>();
+  steps_.push_back({[parameter, before, value = change.value] {
+                      *before = parameter->ToText();
+                      return parameter->SetFromText(value);
+                    },
+                    [parameter, before] { (void)parameter->SetFromText(*before); }});
+  return {};
+}
+
+Result<void> Plan::Check(const ReplaceModule& change) {
+  const auto found = projection_.Find(change.path);
+  if (!found) return found.error();
+  FrameworkElement& before = **found;
+  if (before.kind() != ElementKind::kModule) {
+    return Error{.message = "is not a module and cannot be replaced by one", .path = before.path()};
+  }
+  auto made = MakeModule(change.type, {*before.parent(), before.name(), false});
+  if (!made) return made.error();
+  if (auto copied = CopySettings(before, **made); !copied) return copied;
+  for (const Setting& each : change.settings) {
+    if (auto set = Configure(**made, each); !set) return set;
+  }
+  (*made)->InheritAnnotations(before);
+  if (auto prepared = Runtime::Prepare(*made); !prepared) return prepared;
+  PortMatch match = MatchPorts(before, **made,
+                               [this](const Port& port) { return projection_.IsConnected(port); });
+  if (!match.errors.empty()) {
+    for (std::size_t i = 1; i < match.errors.size(); ++i)
+      further_errors_.push_back(match.errors[i]);
+    return match.errors.front();
+  }
+  projection_.Replace(before, **made, match.ports);
+  made_.push_back(made->get());
+  AddReplacement(before, std::move(*made), std::move(match.ports), change.probation_cycles);
+  return {};
+}
+
+Result<void> Plan::Check(const AssignToThread& change) {
+  const auto found = projection_.Find(change.path);
+  if (!found) return found.error();
+  FrameworkElement& element = **found;
+  ThreadContainer* thread = nullptr;
+  if (!change.thread.empty()) {
+    const std::string path =
+        change.thread.front() == '/' ? change.thread : "/threads/" + change.thread;
+    const auto named = projection_.Find(path);
+    if (!named) return named.error();
+    thread = dynamic_cast<ThreadContainer*>(*named);
+    if (thread == nullptr) {
+      return Error{.message = (*named)->path() + " is not a thread", .path = element.path()};
+    }
+  }
+  Concern(element);
+  const auto assign = [&element](ThreadContainer* to) {
+    to != nullptr ? AssignThread(element, *to) : UnassignThread(element);
+  };
+  auto before = std::make_shared<ThreadContainer*>(nullptr);
+  steps_.push_back({[=, &element]() -> Result<void> {
+                      *before = OwnThread(element);
+                      assign(thread);
+                      return {};
+                    },
+                    [=] { assign(*before); }});
+  return {};
+}
+
+}  // namespace runnel::internal

@@ -1,0 +1,49 @@
+#include "plugins/structure/reload.h"
+
+#include <mutex>
+#include <optional>
+
+#include "core/plugin/module_type_name.h"
+
+namespace runnel {
+
+namespace {
+
+ChangeSet AllAnew(const ModuleRegistry& modules, FrameworkElement& root, std::string_view plugin) {
+  ChangeSet changes;
+  root.Visit([&](FrameworkElement& each) {
+    const ModuleType* const type = modules.Find(FindModuleType(each));
+    if (type == nullptr || type->plugin != plugin) return;
+    changes.push_back(ReplaceModule{each.path(), type->name});
+  });
+  return changes;
+}
+
+}  // namespace
+
+ChangeOutcome ReloadPlugin(PluginManager& plugins, StructureEditor& editor, Runtime& runtime,
+                           std::string_view plugin) {
+  ChangeSet changes;
+  std::optional<PluginReload> reload;
+  {
+    const std::lock_guard lock(runtime.structure_mutex());
+    changes = AllAnew(plugins.modules(), runtime.root(), plugin);
+    auto loaded = plugins.Reload(plugin);
+    if (!loaded) {
+      ChangeOutcome outcome;
+      outcome.diagnostics.Add(loaded.error());
+      return outcome;
+    }
+    reload.emplace(std::move(*loaded));
+  }
+  ChangeOutcome outcome = editor.Apply(changes);
+  const std::lock_guard lock(runtime.structure_mutex());
+  if (outcome) {
+    reload->Keep();
+  } else {
+    reload->PutBack();
+  }
+  return outcome;
+}
+
+}  // namespace runnel

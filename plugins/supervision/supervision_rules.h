@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+
+#include "core/base/clock.h"
+#include "plugins/structure/change.h"
+
+namespace runnel {
+
+/// What an application does about something: changes of its structure, as one change set, and perhaps
+/// the end of the run.
+struct Reaction {
+  ChangeSet changes;
+  bool stops_application = false;
+  std::string description;  ///< in the past: "switched /a/in from /b/out to /c/out"
+
+  [[nodiscard]] bool is_empty() const noexcept { return changes.empty() && !stops_application; }
+};
+
+/// An input that brings nothing new for a while. Watched are the outputs that feed it when the rule is
+/// added, so that the rule can switch it to others and still sees the first ones come back.
+struct StaleRule {
+  std::string input;       ///< path of the port; of an output, that output itself is watched
+  Duration after{};        ///< stale when nothing new has come for longer; > 0
+  Duration fresh_after{};  ///< fresh again when values have come that long without such a gap
+  Reaction on_stale;
+  Reaction on_fresh = {};
+};
+
+/// A module that has thrown and has been stopped.
+struct FaultReaction {
+  std::string of;  ///< path: faults of this element and of all below it
+  Reaction reaction;
+};
+
+/// Something that has been done by a rule, or could not be.
+struct Notice {
+  std::string path;  ///< of what the rule watches
+  std::string message;
+  Time time{};
+  bool is_failure = false;  ///< the reaction could not be carried out
+};
+
+}  // namespace runnel

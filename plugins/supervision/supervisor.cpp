@@ -1,0 +1,123 @@
+#include "plugins/supervision/supervisor.h"
+
+#include <algorithm>
+#include <mutex>
+#include <utility>
+
+#include "core/port/port.h"
+#include "core/types/duration_text.h"
+#include "plugins/supervision/stale_watch.h"
+
+namespace runnel {
+
+using internal::StaleWatch;
+
+struct Supervisor::Shared {
+  Shared(Runtime& of_runtime, Scheduler& of_scheduler, Perform how)
+      : runtime(of_runtime), scheduler(of_scheduler), perform(std::move(how)) {}
+
+  void Note(Notice notice) {
+    const std::lock_guard lock(mutex);
+    notices.push_back(std::move(notice));
+  }
+  void React(const Reaction& reaction, const std::string& path, const std::string& why, Time now);
+  Time LookOut(Time now);
+
+  Runtime& runtime;
+  Scheduler& scheduler;
+  const Perform perform;
+  std::vector<StaleWatch> watches;  // of the thread that looks out
+  OrderedMutex mutex{LockLevel::kLeaf};
+  std::vector<Notice> notices;  // guarded by mutex
+};
+
+// What can be said of a reaction that failed is told; the application runs on as it is, and stops if
+// it was to stop.
+void Supervisor::Shared::React(const Reaction& reaction, const std::string& path,
+                               const std::string& why, Time now) {
+  const auto done = reaction.changes.empty() ? Result<void>{} : perform(reaction.changes);
+  Notice notice{path, why, now, !done};
+  if (!done) {
+    notice.message += "; what was to be done about it failed: " + done.error().ToString();
+  } else if (!reaction.description.empty()) {
+    notice.message += "; " + reaction.description;
+  }
+  if (reaction.stops_application) {
+    notice.message += "; stops the application";
+    scheduler.StopForFault();
+  }
+  Note(std::move(notice));
+}
+
+Time Supervisor::Shared::LookOut(Time now) {
+  std::vector<std::pair<const StaleWatch*, StaleWatch::Turn>> turns;
+  Time next = Time::max();
+  {
+    const std::lock_guard lock(runtime.structure_mutex());
+    for (StaleWatch& watch : watches) {
+      const auto turn = watch.Look(runtime, now);
+      if (turn != StaleWatch::Turn::kNone) turns.emplace_back(&watch, turn);
+      next = std::min(next, watch.next_look());
+    }
+  }
+  // Reactions take the lock for as long as they need it.
+  for (const auto& [watch, turn] : turns) {
+    const StaleRule& rule = watch->rule();
+    if (turn == StaleWatch::Turn::kStale) {
+      React(rule.on_stale, rule.input,
+            "nothing new for " + DurationText(now - watch->silent_since()) + ", at most " +
+                DurationText(rule.after) + " is allowed",
+            now);
+    } else {
+      React(rule.on_fresh, rule.input,
+            "values come again, for " + DurationText(rule.fresh_after) + " now", now);
+    }
+  }
+  return next;
+}
+
+Supervisor::Supervisor(Runtime& runtime, Scheduler& scheduler, Perform perform)
+    : scheduler_(scheduler),
+      shared_(std::make_shared<Shared>(runtime, scheduler, std::move(perform))) {
+  scheduler_.SetLookout([shared = shared_](Time now) { return shared->LookOut(now); });
+}
+
+Supervisor::~Supervisor() { scheduler_.SetLookout({}); }
+
+Result<void> Supervisor::Add(StaleRule rule) {
+  const std::lock_guard lock(shared_->runtime.structure_mutex());
+  const auto found = shared_->runtime.root().Find(rule.input);
+  if (!found) return found.error();
+  const auto* const port = dynamic_cast<const Port*>(*found);
+  if (port == nullptr) return Error{.message = "is not a port", .path = rule.input};
+  if (rule.after <= Duration::zero() || rule.fresh_after < Duration::zero()) {
+    return Error{.message = "a time-out must be positive", .path = rule.input};
+  }
+  std::vector<std::string> outputs;
+  for (const Port* output : port->Sources()) outputs.push_back(output->path());
+  if (outputs.empty()) {
+    return Error{.message = "cannot become stale, as nothing is connected to it",
+                 .path = rule.input,
+                 .hint = "connect it, or leave out the rule"};
+  }
+  shared_->watches.emplace_back(std::move(rule), std::move(outputs));
+  return {};
+}
+
+Result<void> Supervisor::Add(FaultReaction rule) {
+  FaultRule added{.of = rule.of, .action = FaultRule::Action::kCall};
+  // Weakly, for the scheduler keeps its rules longer than this.
+  added.call = [shared = std::weak_ptr(shared_), rule](const Fault& fault) {
+    if (const auto there = shared.lock()) {
+      there->React(rule.reaction, fault.path, "has failed", fault.time);
+    }
+  };
+  return scheduler_.AddFaultRule(std::move(added));
+}
+
+std::vector<Notice> Supervisor::TakeNotices() {
+  const std::lock_guard lock(shared_->mutex);
+  return std::exchange(shared_->notices, {});
+}
+
+}  // namespace runnel

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/base/result.h"
+#include "plugins/scheduling/scheduler.h"
+#include "plugins/supervision/supervision_rules.h"
+
+namespace runnel {
+
+/// Keeps an application going when a sensor falls silent or a module fails: carries out what its rules
+/// say, and takes it back when all is well again.
+///
+/// Threads:    add rules while nothing runs; they are judged between cycles, by the thread that
+///             supervises (real clock) or steps (simulated clock). TakeNotices() from any thread.
+/// Costs:      publishers and cycles nothing: what is looked at is the stamp of the newest value, a few
+///             times per time-out.
+/// Time:       the application's clock, so in simulated time the same thing happens in the same cycle
+///             in every run.
+/// Ownership:  destroy it after the scheduler has stopped; runtime and scheduler must outlive it.
+class Supervisor {
+ public:
+  /// How changes are carried out: all of them, or none with the reason. Called outside of cycles and
+  /// without locks, for example StructureEditor::Apply().
+  using Perform = std::function<Result<void>(const ChangeSet&)>;
+
+  Supervisor(Runtime& runtime, Scheduler& scheduler, Perform perform);
+  ~Supervisor();
+  Supervisor(const Supervisor&) = delete;
+  Supervisor& operator=(const Supervisor&) = delete;
+
+  /// Errors: no such port; nothing is connected to it; a time-out that is not positive.
+  Result<void> Add(StaleRule rule);
+  /// Errors: as Scheduler::AddFaultRule().
+  Result<void> Add(FaultReaction rule);
+
+  /// What has been done since the last call, oldest first.
+  [[nodiscard]] std::vector<Notice> TakeNotices();
+
+ private:
+  struct Shared;
+
+  Scheduler& scheduler_;
+  const std::shared_ptr<Shared> shared_;  // with the rules that the scheduler keeps
+};
+
+}  // namespace runnel

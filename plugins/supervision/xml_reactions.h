@@ -1,0 +1,16 @@
+#pragma once
+
+#include "plugins/runtime_construction/build_context.h"
+#include "plugins/supervision/supervision_rules.h"
+
+namespace runnel::internal {
+
+/// The tags <switch>, <set>, <replace> and <stop>.
+[[nodiscard]] std::vector<XmlTag> ReactionTags(
+    const std::function<FrameworkElement*(const TagUse&)>& handle);
+
+/// What the tags directly within `xml` say is to be done; mistakes are reported. Paths start at
+/// `base`. When connections have been made.
+[[nodiscard]] Reaction ReadReaction(XmlElement xml, FrameworkElement& base, BuildContext& context);
+
+}  // namespace runnel::internal

@@ -1,0 +1,123 @@
+#include "plugins/structure/reload.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <stdlib.h>
+
+#include "tests/plugins/structure/editor_fixture.h"
+
+namespace runnel::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder with the plugin in one of its versions, and an application that runs it.
+class ReloadTest : public ::testing::Test {
+ protected:
+  ReloadTest() {
+    std::string folder = (fs::temp_directory_path() / "reload-XXXXXX").string();
+    folder_ = mkdtemp(folder.data());
+    plugins.AddSearchFolder(folder_);
+  }
+  ~ReloadTest() override {
+    scheduler.Stop();
+    fs::remove_all(folder_);
+  }
+
+  /// What a linker does when it builds the library anew: another file in the place of the old one, which
+  /// lives on for those who have it mapped.
+  void Build(const std::string& version) {
+    fs::copy_file(fs::path(RUNNEL_TEST_PLUGINS) / ("counting_" + version + ".so"), folder_ / "new");
+    fs::rename(folder_ / "new", folder_ / "counting.so");
+  }
+  void Start() {
+    Build("1");
+    const auto loaded = plugins.Load("counting");
+    ASSERT_TRUE(loaded) << loaded.error().ToString();
+    CreateThread(runtime, "main", {.period = 10ms});
+    ASSERT_TRUE(runtime.MakeReady(runtime.root()));
+    const auto outcome =
+        editor.Apply({CreateGroup{"/app"}, CreateModule{"/app/a", "counting/counting"},
+                      CreateModule{"/app/b", "counting/counting"}});
+    ASSERT_TRUE(outcome) << outcome.diagnostics.ToString();
+  }
+  std::string Refusal(const std::string& version) {
+    Build(version);
+    const auto outcome = ReloadPlugin(plugins, editor, runtime, "counting");
+    EXPECT_FALSE(outcome);
+    return outcome.diagnostics.ToString();
+  }
+  void Steps(int count) { scheduler.RunUntil(runtime.clock().Now() + count * 10ms); }
+  /// What the module has published last.
+  int Value(const std::string& module) {
+    int value = -1;
+    const std::lock_guard lock(runtime.structure_mutex());
+    auto& port = dynamic_cast<Port&>(**runtime.root().Find(module + "/output/out"));
+    // The first member, in all versions.
+    port.LookAtValue([&](const void* at, Time) { value = *static_cast<const int*>(at); });
+    return value;
+  }
+
+  fs::path folder_;
+  PluginManager plugins;
+  Runtime runtime;
+  Scheduler scheduler{runtime, {.clock = SchedulerOptions::ClockKind::kSimulated}};
+  StructureEditor editor{runtime, plugins.modules(), &scheduler};
+};
+
+TEST_F(ReloadTest, TheApplicationGoesOnWithTheNewCodeAndTheOldState) {
+  Start();
+  Steps(3);
+  EXPECT_EQ(Value("/app/a"), 3);
+  Build("2");
+  const auto outcome = ReloadPlugin(plugins, editor, runtime, "counting");
+  ASSERT_TRUE(outcome) << outcome.diagnostics.ToString();
+  EXPECT_EQ(Value("/app/a"), 3) << "the last value stays until the next comes";
+  Steps(2);
+  EXPECT_EQ(Value("/app/a"), 23);
+  EXPECT_EQ(Value("/app/b"), 23);
+  Build("1");
+  ASSERT_TRUE(ReloadPlugin(plugins, editor, runtime, "counting"));
+  Steps(1);
+  EXPECT_EQ(Value("/app/a"), 24);
+}
+
+TEST_F(ReloadTest, WhatIsRefusedLeavesTheOldCodeRunning) {
+  Start();
+  EXPECT_THAT(Refusal("3"), HasSubstr("a library knows the type 'test::Tally' otherwise"));
+  EXPECT_THAT(Refusal("3"), HasSubstr("its values have 16 bytes there, and 4 elsewhere"));
+  EXPECT_THAT(Refusal("4"), HasSubstr("its description is another one there"));
+  const std::string throwing = Refusal("5");
+  EXPECT_THAT(throwing, HasSubstr("cannot register"));
+  EXPECT_THAT(throwing, HasSubstr((folder_ / "counting.so").string())) << "not that of a copy";
+  EXPECT_THAT(Refusal("6"), HasSubstr("no module type 'counting/counting'"));
+  EXPECT_THAT(Refusal("6"), HasSubstr("there is 'counting/renamed'"));
+  std::ofstream(folder_ / "new") << "This is text.";
+  fs::rename(folder_ / "new", folder_ / "counting.so");
+  EXPECT_THAT(ReloadPlugin(plugins, editor, runtime, "counting").diagnostics.ToString(),
+              HasSubstr("counting.so"));
+  EXPECT_THAT(ReloadPlugin(plugins, editor, runtime, "conting").diagnostics.ToString(),
+              HasSubstr("did you mean 'counting'?"));
+  Steps(2);
+  EXPECT_EQ(Value("/app/a"), 2);
+  ASSERT_TRUE(editor.Apply({CreateModule{"/app/c", "counting/counting"}}));
+  EXPECT_EQ(plugins.modules().Find("counting/renamed"), nullptr);
+}
+
+TEST_F(ReloadTest, NoCopyOfTheLibraryIsLeftBehind) {
+  const auto copies = [] {
+    int count = 0;
+    for (const auto& each : fs::directory_iterator(fs::temp_directory_path())) {
+      count += each.path().filename().string().starts_with("runnel-") ? 1 : 0;
+    }
+    return count;
+  };
+  Start();
+  const int before = copies();
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(ReloadPlugin(plugins, editor, runtime, "counting"));
+  EXPECT_LE(copies(), before);
+}
+
+}  // namespace
+}  // namespace runnel::test

@@ -1,0 +1,142 @@
+#include "tests/plugins/structure/editor_fixture.h"
+
+namespace runnel::test {
+namespace {
+
+class ReplaceTest : public EditorTest {
+ protected:
+  ReplaceTest() {
+    Must({CreateModule{"/app/counter", "test/counter", {{"step", "2"}}},
+          CreateModule{"/app/sink", "test/sink"},
+          ConnectPorts{
+              "/app/counter/out", "/app/sink/in", {.queue = 100, .on_full = OnFull::kRefuse}},
+          ConnectPorts{"/app/sink/sum", "/app/sink/side"}});
+  }
+};
+
+TEST_F(ReplaceTest, TheNewModuleGoesOnWhereTheOldOneStopped) {
+  Steps(3);
+  Must({ReplaceModule{"/app/counter", "test/other_counter"}});
+  Steps(3);
+  EXPECT_THAT(At<Sink>("/app/sink").taken, ElementsAre(2, 4, 6, 8, 10, 12));
+  auto& counter = At<OtherCounter>("/app/counter");
+  EXPECT_EQ(counter.step.Get(), 2) << "a value of the same name";
+  EXPECT_EQ(counter.own.Get(), 7);
+}
+
+TEST_F(ReplaceTest, SettingsComeLast) {
+  Must({ReplaceModule{"/app/counter", "test/other_counter", {{"step", "5"}, {"own", "8"}}}});
+  EXPECT_EQ(At<OtherCounter>("/app/counter").step.Get(), 5);
+  EXPECT_EQ(At<OtherCounter>("/app/counter").own.Get(), 8);
+}
+
+TEST_F(ReplaceTest, AReaderIsReplacedWithoutLosingOrRepeatingWhatWaits) {
+  Steps(2);
+  At<Counter>("/app/counter").out.Publish(77);  // waits while the sink is exchanged
+  Must({ReplaceModule{"/app/sink", "test/sink"}});
+  Steps(1);
+  EXPECT_THAT(At<Sink>("/app/sink").taken, ElementsAre(2, 4, 77, 6));
+  EXPECT_THAT(At<Sink>("/app/sink").side.Sources(), ElementsAre(&At<Sink>("/app/sink").sum));
+}
+
+TEST_F(ReplaceTest, ItTakesTheOldPlaceAmongItsSiblingsAndItsThread) {
+  Must({AssignToThread{"/app/counter", "slow"}});
+  Must({ReplaceModule{"/app/counter", "test/other_counter"}});
+  EXPECT_EQ(At<Group>("/app").children().front()->name(), "counter");
+  const auto order = scheduler.Order(At<ThreadContainer>("/threads/slow"));
+  ASSERT_THAT(order, SizeIs(1));
+  EXPECT_EQ(order[0].path, "/app/counter");
+}
+
+TEST_F(ReplaceTest, WhatDoesNotFitIsToldAndChangesNothing) {
+  EXPECT_THAT(Refusal({ReplaceModule{"/app/counter", "test/text_counter"}}), HasSubstr("carries"));
+  EXPECT_THAT(Refusal({ReplaceModule{"/app/counter", "test/silent"}}),
+              HasSubstr("has no port 'out', which is connected"));
+  EXPECT_THAT(Refusal({ReplaceModule{"/app/counter", "test/never_made"}}),
+              HasSubstr("cannot be made"));
+  EXPECT_THAT(Refusal({ReplaceModule{"/app/counter", "test/never_ready"}}),
+              HasSubstr("has no device"));
+  EXPECT_THAT(Refusal({ReplaceModule{"/app/conter", "test/counter"}}), HasSubstr("'counter'?"));
+  Steps(2);
+  EXPECT_THAT(At<Sink>("/app/sink").taken, ElementsAre(2, 4));
+}
+
+TEST_F(ReplaceTest, TwoOfOneConnectionCanBeReplacedTogether) {
+  Steps(1);
+  Must({ReplaceModule{"/app/sink", "test/sink"},
+        ReplaceModule{"/app/counter", "test/other_counter"},
+        ReplaceModule{"/app/counter", "test/counter"}});
+  Steps(2);
+  EXPECT_EQ(FindModuleType(At<Module>("/app/counter")), "test/counter");
+  EXPECT_THAT(At<Sink>("/app/sink").taken, ElementsAre(2, 4, 6));
+}
+
+TEST_F(ReplaceTest, WhatThrowsInItsFirstCyclesMakesRoomForTheOldOne) {
+  Steps(2);
+  Must({ReplaceModule{"/app/counter", "test/faulty", {{"good_cycles", "3"}}}});
+  EXPECT_EQ(editor.on_probation(), 1u);
+  Steps(4);
+  EXPECT_EQ(FindModuleType(At<Module>("/app/counter")), "test/counter");
+  const auto faults = scheduler.TakeFaults();
+  ASSERT_THAT(faults, SizeIs(1));
+  EXPECT_THAT(faults[0].message,
+              HasSubstr("is faulty; the module before (test/counter) is back in its place"));
+  Steps(2);
+  EXPECT_THAT(At<Sink>("/app/sink").taken, ElementsAre(2, 4, -1, -1, -1, 6, 8));
+  EXPECT_EQ(editor.on_probation(), 0u);
+}
+
+TEST_F(ReplaceTest, NoRuleIsAppliedToAFaultThatWasMended) {
+  ASSERT_TRUE(scheduler.AddFaultRule({.of = "/app"}));
+  Must({ReplaceModule{"/app/counter", "test/faulty"}});
+  Steps(2);
+  EXPECT_FALSE(scheduler.stop_requested());
+  Must({ReplaceModule{"/app/counter", "test/faulty", {}, 0}});
+  scheduler.Step();
+  EXPECT_TRUE(scheduler.stop_requested()) << "not on probation";
+}
+
+TEST_F(ReplaceTest, WhoHasProvedItselfStaysEvenIfItThrowsLater) {
+  Must({ReplaceModule{"/app/counter", "test/faulty", {{"good_cycles", "8"}}, 3}});
+  Steps(6);
+  editor.Tend();
+  EXPECT_EQ(editor.on_probation(), 0u);
+  Steps(4);
+  EXPECT_EQ(FindModuleType(At<Module>("/app/counter")), "test/faulty");
+  EXPECT_THAT(scheduler.TakeFaults(), SizeIs(1));
+}
+
+TEST_F(ReplaceTest, AFaultyModuleIsMadeAnewByItsOwnType) {
+  Must({ReplaceModule{"/app/counter", "test/faulty", {}, 0}});
+  Steps(2);
+  EXPECT_THAT(scheduler.TakeFaults(), SizeIs(1));
+  Must({ReplaceModule{"/app/counter", "test/faulty", {{"good_cycles", "100"}}, 0}});
+  Steps(2);
+  EXPECT_THAT(scheduler.TakeFaults(), IsEmpty());
+  EXPECT_THAT(At<Sink>("/app/sink").taken, ElementsAre(-1, -1));
+}
+
+TEST_F(ReplaceTest, TheOldOneComesBackAmongConnectionsThatHaveChangedMeanwhile) {
+  Must({ReplaceModule{"/app/counter", "test/faulty", {{"good_cycles", "2"}}}});
+  Steps(1);
+  Must({DisconnectPorts{"/app/counter/out", "/app/sink/in"},
+        CreateModule{"/app/second", "test/sink"},
+        ConnectPorts{"/app/counter/out", "/app/second/in", {.queue = 10}}});
+  Steps(4);
+  EXPECT_THAT(At<Sink>("/app/sink").taken, ElementsAre(-1));
+  EXPECT_THAT(At<Sink>("/app/second").taken, ElementsAre(-1, -1, 2, 4));
+}
+
+TEST_F(ReplaceTest, ASuccessorOnProbationCanItselfBeReplacedOrDeleted) {
+  Must({ReplaceModule{"/app/counter", "test/faulty", {{"good_cycles", "50"}}}});
+  Must({ReplaceModule{"/app/counter", "test/counter"}});
+  Steps(3);
+  Must({DeleteElement{"/app/counter"}});
+  Steps(1);
+  editor.Tend();
+  EXPECT_EQ(editor.on_probation(), 0u);
+  EXPECT_FALSE(Exists("/app/counter"));
+}
+
+}  // namespace
+}  // namespace runnel::test
