@@ -2,8 +2,8 @@
 # a step; what the tools say goes to a log that is shown when something fails.
 
 packages=(g++ cmake ninja-build ccache libeigen3-dev libboost-dev libtinyxml2-dev libbullet-dev
-  libgtest-dev libgmock-dev libbenchmark-dev libcli11-dev nlohmann-json3-dev graphviz libxml2-utils
-  relacy-dev libconcurrentqueue-dev)
+  libgtest-dev libgmock-dev libbenchmark-dev libcli11-dev nlohmann-json3-dev graphviz
+  libxml2-utils relacy-dev libconcurrentqueue-dev)
 
 say() { printf '%s\n' "$*"; }
 fail() { say "$(basename "$0"): FAILED: $*" >&2; exit 1; }

@@ -27,7 +27,7 @@ void AddChoices(CLI::App& program, ArenaArguments& arguments) {
       "planners: all, bug1 (planning/bug1), any module type with a '/', or an .xml file with a "
       "<module> tag");
   add_list("--sensor", arguments.sensors,
-           "laser, infrared, …: what the applications there are for");
+           "laser, infrared, bumper: what the applications there are for");
   add_list("--direction", arguments.directions, "first turn at an obstacle: left, right");
   add_list("--seed", arguments.seeds, "of the noise, and so of the run");
   add_list("--plugin", arguments.plugins, "loads others' plugins, whose planners can be variants");

@@ -14,10 +14,10 @@
 #include "apps/runnel/progress_display.h"
 #include "apps/runnel/run_report.h"
 #include "apps/runnel/running.h"
-#include "apps/runnel/save_hook.h"
 #include "apps/runnel/statistics_table.h"
 #include "apps/runnel/stop_signal.h"
 #include "apps/runnel/workplace.h"
+#include "plugins/application_files/application_saver.h"
 #include "plugins/control/control_server.h"
 #include "plugins/runtime_construction/plugin_loading.h"
 #include "plugins/runtime_construction/source_place.h"
@@ -87,14 +87,20 @@ void PrintWarnings(std::vector<Error> warnings, FrameworkElement& root, ControlL
 
 // So that other processes can reach the application. That they cannot is no reason not to run it.
 std::unique_ptr<ControlServer> StartControl(const RunArguments& arguments, Workplace& workplace,
-                                            const FrameworkElement& application,
-                                            StructureEditor& editor, ControlLog& log) {
+                                            FrameworkElement& application, StructureEditor& editor,
+                                            ControlLog& log) {
   if (!arguments.has_control) return nullptr;
   ControlHooks hooks;
   hooks.load_plugin = [&workplace](const std::string& plugin) {
     return LoadPlugin(plugin, workplace.plugins(), workplace.tags());
   };
-  hooks.save = SaveHook(workplace, application.name());
+  hooks.save = [&workplace, &application](const std::string& file) -> Result<std::string> {
+    const SaveTools tools{workplace.plugins(), workplace.tags()};
+    const auto saved = file.empty() ? SaveApplication(application, tools)
+                                    : SaveApplication(application, tools, file);
+    if (!saved) return saved.error();
+    return "saved " + application.path() + (file.empty() ? "" : " to " + file);
+  };
   auto server = ControlServer::Start(
       {workplace.runtime(), workplace.plugins().modules(), editor, log, std::move(hooks)},
       {.application = application.name(),
@@ -132,7 +138,7 @@ class Session {
         log_(log),
         root_(application.runtime().root()),
         start_(application.runtime().clock().Now()),
-        report_(application),
+        report_(application.runtime()),
         display_(!arguments.quiet) {}
 
   ExitCode Run(Runtime& runtime) {

@@ -48,6 +48,11 @@ struct Fences {
   [[gnu::always_inline]] static void Full() noexcept { FullFence(); }
   [[gnu::always_inline]] static void Light() noexcept { LightFence(); }
   static void Heavy() noexcept { HeavyFence(); }
+  [[nodiscard]] static bool HeavyIsHeavy() noexcept { return internal::heavy_fence_is_heavy; }
+  /// A light fence where it orders nothing unless HeavyIsHeavy(): it does not ask for it.
+  [[gnu::always_inline]] static void LightIfHeavyIsHeavy() noexcept {
+    std::atomic_signal_fence(std::memory_order_seq_cst);
+  }
 };
 
 }  // namespace runnel

@@ -40,15 +40,17 @@ class BufferLease {
     std::swap(slot_, other.slot_);
     return *this;
   }
-  [[gnu::always_inline]] ~BufferLease() {
-    if (buffer_ != nullptr) Drop();
-  }
+  [[gnu::always_inline]] ~BufferLease() { Drop(); }
 
   [[nodiscard]] Buffer* get() const noexcept { return buffer_; }
 
  private:
+  // What is seldom is not told where the lease lies, so that it can lie in registers.
   [[gnu::always_inline]] void Drop() noexcept {
-    if (slot_ == nullptr) return buffer_->DropHolder();
+    if (slot_ == nullptr) [[unlikely]] {
+      if (buffer_ != nullptr) DropCounted(*buffer_);
+      return;
+    }
     // release: pairs with the acquire in BufferPool::FindFree(); this reader's reads are over.
     slot_->held.store(nullptr, std::memory_order_release);
     // Pairs with the heavy fence in BufferPool::Close(): either the request is seen here, or the
@@ -56,15 +58,16 @@ class BufferLease {
     Fences<Atomic>::Light();
     // relaxed: the exchange in Answer() orders.
     if (slot_->request.load(std::memory_order_relaxed) == buffer_) [[unlikely]]
-      Answer();
+      Answer(*buffer_, *slot_);
   }
-  [[gnu::noinline]] void Answer() noexcept {
-    void* request = buffer_;
+  [[gnu::noinline]] static void DropCounted(Buffer& buffer) noexcept { buffer.DropHolder(); }
+  [[gnu::noinline]] static void Answer(Buffer& buffer, Slot& slot) noexcept {
+    void* request = &buffer;
     // acq_rel: acquire, pairs with the release in BufferPool::Ask(): the pool expects this return,
     // so it still is there; one of the two takes the request back.
-    if (slot_->request.compare_exchange_strong(request, nullptr, std::memory_order_acq_rel,
-                                               std::memory_order_relaxed)) {
-      buffer_->pool().ComeHome();
+    if (slot.request.compare_exchange_strong(request, nullptr, std::memory_order_acq_rel,
+                                             std::memory_order_relaxed)) {
+      buffer.pool().ComeHome();
     }
   }
 

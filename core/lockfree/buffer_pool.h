@@ -26,10 +26,10 @@ struct PoolOptions {
 ///       ▲                 │ dropped                                                  │
 ///       └─────────────────┴──────────── Loan() finds that nobody holds it ───────────┘
 ///
-/// The publisher keeps its buffers in two lists of its own, the free ones and the others. Readers
-/// give nothing back: they cease to hold, and the publisher looks when it needs a buffer. So neither
-/// side writes to a list that the other uses, and no buffer can be given back twice or under
-/// another's name (no ABA).
+/// The publisher keeps its buffers in a list of its own, the free ones first. Readers give nothing
+/// back: they cease to hold, and the publisher looks when it needs a buffer. So neither side writes
+/// to a list that the other uses, and no buffer can be given back twice or under another's name (no
+/// ABA).
 ///
 /// Ownership:   the pool belongs to its maker until Close(); from then on to those who still hold
 ///              buffers, and the last one deletes it. So a lease may outlive the port, the module
@@ -74,14 +74,16 @@ class BufferPool {
   /// after a fence that orders looking at them after publishing (LatestBuffer).
   template <typename Readers>
   [[nodiscard]] Buffer* Loan(const Buffer* newest, Readers&& readers) {
-    if (free_count_ == 0 || (kPrefersWarmBuffers && other_count_ <= kFewBuffers)) [[unlikely]] {
-      if (!SeeToFreeBuffer(newest, readers)) return nullptr;
-    }
-    Buffer* const buffer = free_[--free_count_];
-    others_[other_count_++] = buffer;
-    // relaxed: nobody else can reach the buffer.
-    buffer->loan_.store(Buffer::kLoaned, std::memory_order_relaxed);
-    return buffer;
+    if (Buffer* const buffer = LoanAtOnce()) return buffer;
+    FindFree(newest, readers);
+    return free_count_ > 0 || TakeArriving() || Grow() ? TakeFree() : nullptr;
+  }
+  /// A buffer that was free when others were looked for, or nullptr if it is time to look again.
+  [[nodiscard, gnu::always_inline]] Buffer* LoanAtOnce() noexcept {
+    if (free_count_ == 0 || (kPrefersWarmBuffers && count_ - free_count_ <= kFewBuffers))
+        [[unlikely]]
+      return nullptr;
+    return TakeFree();
   }
 
   /// Sees to it that there are at least `buffers` buffers in all. Allocates; not for a cycle.
@@ -127,7 +129,7 @@ class BufferPool {
     std::unique_ptr<Buffer[]> buffers;
     std::uint32_t size;
     std::uint32_t room;
-    std::unique_ptr<Buffer*[]> lists;  // 2 * room
+    std::unique_ptr<Buffer*[]> list;
     Chunk* next = nullptr;
   };
 
@@ -143,7 +145,7 @@ class BufferPool {
     // chunks arrive.
     chunk->room = capacity_.fetch_add(size, std::memory_order_relaxed) + size;
     try {
-      chunk->lists.reset(new Buffer*[2 * std::size_t{chunk->room}]);
+      chunk->list.reset(new Buffer*[chunk->room]);
     } catch (...) {  // those made meanwhile have room for too many, which is no harm
       capacity_.fetch_sub(size, std::memory_order_relaxed);
       throw;
@@ -152,22 +154,23 @@ class BufferPool {
   }
   void Add(std::unique_ptr<Chunk> chunk) noexcept {
     if (chunk->room > room_) {
-      Buffer** const free = chunk->lists.get();
-      Buffer** const others = free + chunk->room;
-      std::copy_n(free_, free_count_, free);
-      std::copy_n(others_, other_count_, others);
-      free_ = free;
-      others_ = others;
+      std::copy_n(buffers_, count_, chunk->list.get());
+      buffers_ = chunk->list.get();
       room_ = chunk->room;
     }
-    for (std::uint32_t i = chunk->size; i > 0; --i) free_[free_count_++] = &chunk->buffers[i - 1];
+    for (std::uint32_t i = chunk->size; i > 0; --i) {
+      buffers_[count_++] = buffers_[free_count_];
+      buffers_[free_count_++] = &chunk->buffers[i - 1];
+    }
     chunk->next = chunks_;
     chunks_ = chunk.release();
   }
-  template <typename Readers>
-  [[gnu::noinline]] bool SeeToFreeBuffer(const Buffer* newest, Readers&& readers) {
-    FindFree(newest, readers);
-    return free_count_ > 0 || TakeArriving() || Grow();
+  [[gnu::always_inline]] Buffer* TakeFree() noexcept {
+    Buffer* const buffer = buffers_[--free_count_];
+    if (buffer == nullptr) __builtin_unreachable();  // so that no caller looks again
+    // relaxed: nobody else can reach the buffer.
+    buffer->loan_.store(Buffer::kLoaned, std::memory_order_relaxed);
+    return buffer;
   }
   bool TakeArriving() noexcept {
     if (arriving_.load(std::memory_order_relaxed) == nullptr) return false;
@@ -199,7 +202,7 @@ class BufferPool {
 
   // Moves from the other buffers to the free ones those that nobody holds.
   template <typename Readers>
-  void FindFree(const Buffer* newest, Readers&& readers) noexcept {
+  void FindFree(const Buffer* newest, const Readers& readers) noexcept {
     ++search_;
     domain_.ForEach(readers(), [this](const Record& record) {
       for (const auto& slot : record.slots) {
@@ -210,16 +213,18 @@ class BufferPool {
         if (Buffer* const own = Own(held)) own->seen_in_ = search_;
       }
     });
-    const std::uint32_t count = std::exchange(other_count_, 0);
-    for (std::uint32_t i = 0; i < count; ++i) {
-      Buffer* const buffer = others_[i];
-      const bool held = buffer == newest || buffer->seen_in_ == search_ || buffer->IsHeld();
-      if (held) {
-        others_[other_count_++] = buffer;
-      } else {
-        free_[free_count_++] = buffer;
-      }
+    // Copies of the members, which the compiler would load anew after each acquire.
+    Buffer** const buffers = buffers_;
+    const std::uint32_t search = search_;
+    std::uint32_t free = free_count_;
+    for (std::uint32_t i = free, count = count_; i < count; ++i) {
+      Buffer* const buffer = buffers[i];
+      const bool held = buffer == newest || buffer->seen_in_ == search || buffer->IsHeld();
+      if (held) continue;
+      buffers[i] = buffers[free];
+      buffers[free++] = buffer;
     }
+    free_count_ = free;
   }
 
   // Whoever still holds a buffer is counted, and told to come home; the closer counts as one, too,
@@ -283,11 +288,12 @@ class BufferPool {
   const bool may_grow_;
   const Factory factory_;
   // These are the publisher's own.
-  Buffer** free_ = nullptr;    // the one used last is taken first
-  Buffer** others_ = nullptr;  // loaned, newest, or held by readers when they were last looked at
+  // First the free ones, of which the last is taken first; a loan moves only the border between
+  // them and the others: loaned, newest, or held by readers when they were last looked at.
+  Buffer** buffers_ = nullptr;
   std::uint32_t free_count_ = 0;
-  std::uint32_t other_count_ = 0;
-  std::uint32_t room_ = 0;  // of either list
+  std::uint32_t count_ = 0;
+  std::uint32_t room_ = 0;  // in the list
   std::uint32_t search_ = 0;
   Chunk* chunks_ = nullptr;
   alignas(kCacheLineSize) Atomic<Chunk*> arriving_{nullptr};  // reserved, not yet taken over

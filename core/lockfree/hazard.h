@@ -2,6 +2,7 @@
 
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -65,7 +66,7 @@ class HazardDomain {
       records_[number].store(&record, std::memory_order_release);
       return;
     }
-    record.bit = std::uint64_t{1} << kOwnBits;
+    record.bit = kOthers;
     Record* head = others_.load(std::memory_order_relaxed);
     do {
       record.next = head;
@@ -77,8 +78,8 @@ class HazardDomain {
   /// Calls `visit(record)` for all records of which `bits` has the bit.
   template <typename Visit>
   void ForEach(std::uint64_t bits, Visit&& visit) const {
-    for (std::size_t i = 0; i < kOwnBits && (bits >> i) != 0; ++i) {
-      if ((bits >> i & 1) == 0) continue;
+    for (std::uint64_t own = bits & (kOthers - 1); own != 0; own &= own - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(own));
       // acquire: pairs with the release in Add(). Null for a thread that is just being added, and
       // has protected nothing yet.
       if (Record* record = records_[i].load(std::memory_order_acquire)) visit(*record);
@@ -94,6 +95,7 @@ class HazardDomain {
  private:
   static constexpr std::size_t kOwnBits = 9 * kSlots;  // 63; fewer in tests
   static_assert(kOwnBits < 64);
+  static constexpr std::uint64_t kOthers = std::uint64_t{1} << kOwnBits;
 
   std::array<Atomic<Record*>, kOwnBits> records_{};
   Atomic<Record*> others_{nullptr};

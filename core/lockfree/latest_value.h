@@ -69,10 +69,10 @@ class LatestValue {
 
  private:
   static constexpr std::size_t kWords = (sizeof(T) + 7) / 8;
-  static constexpr std::uint64_t kBeingWritten = 0;
+  static constexpr std::uint64_t kBeingWritten = ~std::uint64_t{0};  // never the newest
 
   struct alignas(kCacheLineSize) Cell {
-    Atomic<std::uint64_t> sequence{0};
+    Atomic<std::uint64_t> sequence{kBeingWritten};
     Atomic<std::int64_t> stamp{0};
     Atomic<std::uint64_t> order{0};
     std::array<Atomic<std::uint64_t>, kWords> words{};
@@ -84,7 +84,6 @@ class LatestValue {
     for (;;) {
       // acquire: pairs with the last store in Publish().
       const std::uint64_t sequence = newest_.load(std::memory_order_acquire);
-      if (sequence == 0) return false;
       const Cell& cell = cells_[sequence % kCells];
       std::array<std::uint64_t, kWords> words;
       // acquire: keeps the check below from moving up, and makes it see at least the state that a
@@ -94,7 +93,10 @@ class LatestValue {
       }
       also(cell, sequence);
       // relaxed: the acquire loads above order it.
-      if (cell.sequence.load(std::memory_order_relaxed) != sequence) continue;
+      if (cell.sequence.load(std::memory_order_relaxed) != sequence) [[unlikely]] {
+        if (sequence == 0) return false;  // nor has any cell a number as long as there is none
+        continue;
+      }
       std::memcpy(static_cast<void*>(&value), words.data(), sizeof(T));
       return true;
     }

@@ -12,7 +12,11 @@ std::uint64_t NextChannelNumber() noexcept {
 
 }  // namespace
 
-ChannelBase::ChannelBase() : number_(NextChannelNumber()) {}
+ChannelBase::ChannelBase(bool pullable)
+    : number_(NextChannelNumber()),
+      special_(static_cast<std::uint8_t>(
+          (pullable ? kPullable : 0) |
+          (Fences<std::atomic>::HeavyIsHeavy() ? 0 : kPassesFullFences))) {}
 
 ChannelBase::~ChannelBase() { delete subscribers_.load(std::memory_order_relaxed); }
 
@@ -23,6 +27,14 @@ void ChannelBase::SetSubscribers(Subscribers subscribers) {
   if (previous != nullptr) Retire([previous] { delete previous; });
   // Between saying who subscribes and reading the newest value; pairs with subscribers().
   if (next != nullptr) HeavyFence();
+}
+
+void ChannelBase::Set(Special special, bool is) noexcept {
+  if (is) {
+    special_.fetch_or(special, std::memory_order_relaxed);
+  } else {
+    special_.fetch_and(static_cast<std::uint8_t>(~special), std::memory_order_relaxed);
+  }
 }
 
 std::uint64_t ChannelBase::DrawOrder() noexcept {

@@ -25,7 +25,6 @@ namespace runnel {
 /// Threads:  SetSubscribers() and SetOrdered() under the structure lock; the rest as stated.
 class ChannelBase {
  public:
-  ChannelBase();
   virtual ~ChannelBase();
   ChannelBase(const ChannelBase&) = delete;
   ChannelBase& operator=(const ChannelBase&) = delete;
@@ -38,33 +37,47 @@ class ChannelBase {
   /// whose publisher does not find the new list is seen by who reads the newest value from now on.
   void SetSubscribers(Subscribers subscribers);
   /// A channel that shares an input with others numbers its values in one order with theirs.
-  void SetOrdered(bool ordered) noexcept { ordered_.store(ordered, std::memory_order_relaxed); }
+  void SetOrdered(bool ordered) noexcept { Set(kOrdered, ordered); }
   /// Sees to it that `leases` values can wait in queues besides those that the pool's options plan
   /// for. Allocates.
   virtual void ReserveFor(std::size_t leases) = 0;
 
  protected:
+  enum class Way { kUsual, kSpecial };
   /// Whom to visit after publishing; nullptr if nobody, and to be called again inside an
   /// EpochGuard if somebody.
-  [[nodiscard]] const Subscribers* subscribers() const noexcept {
+  [[nodiscard, gnu::always_inline]] const Subscribers* subscribers(
+      Way way = Way::kSpecial) const noexcept {
     // Between publishing and looking for subscribers; pairs with the heavy fence in
     // SetSubscribers(): the publisher sees the subscriber, or that one sees the value.
-    LightFence();
+    if (way == Way::kUsual) {
+      Fences<std::atomic>::LightIfHeavyIsHeavy();
+    } else {
+      LightFence();
+    }
     // acquire: pairs with the release in SetSubscribers().
     return subscribers_.load(std::memory_order_acquire);
   }
-  [[nodiscard]] std::uint64_t NextOrder() const noexcept {
-    return ordered_.load(std::memory_order_relaxed) ? DrawOrder() : 0;
+  /// What makes publishing more than it usually is; bits, so that one look is enough.
+  enum Special : std::uint8_t { kOrdered = 1, kPullable = 2, kPassesFullFences = 4 };
+  explicit ChannelBase(bool pullable);
+  // relaxed, as all of it: a publisher that sees a change late numbers one value less, which then
+  // counts as older than all numbered ones.
+  [[nodiscard]] bool Has(Special special) const noexcept {
+    return (special_.load(std::memory_order_relaxed) & special) != 0;
   }
+  [[nodiscard, gnu::always_inline]] bool IsSpecial() const noexcept {
+    return special_.load(std::memory_order_relaxed) != 0;
+  }
+  [[nodiscard]] std::uint64_t NextOrder() const noexcept { return Has(kOrdered) ? DrawOrder() : 0; }
 
  private:
   static std::uint64_t DrawOrder() noexcept;
+  void Set(Special special, bool is) noexcept;
 
   const std::uint64_t number_;
   std::atomic<const Subscribers*> subscribers_{nullptr};
-  // relaxed: a publisher that sees the change late numbers one value less, which then counts as
-  // older than all numbered ones.
-  std::atomic<bool> ordered_{false};
+  std::atomic<std::uint8_t> special_;
 };
 
 /// A channel for values of type T.
@@ -79,33 +92,46 @@ class Channel final : public ChannelBase {
   using Provider = typename PullPoint<T>::Provider;
 
   Channel(const PoolOptions& pool, typename BufferPool<T>::Factory factory, bool pullable = false)
-      : pull_point_(pullable ? std::make_unique<PullPoint<T>>() : nullptr),
+      : ChannelBase(pullable),
+        pull_point_(pullable ? std::make_unique<PullPoint<T>>() : nullptr),
         storage_(pool, std::move(factory), pullable) {}
 
-  [[nodiscard]] Loan<T> MakeLoan() {
+  [[nodiscard, gnu::always_inline]] Loan<T> MakeLoan() {
     if constexpr (kIsCheap<T>) {
       static_assert(std::is_default_constructible_v<T>,
                     "Loan() of a small type starts with T{}; publish a ready T instead");
       return Loan<T>(T{});
     } else {
-      return Loan<T>(storage_.newest.Loan(ThisThread().hazards));
+      Buffer<T>* const buffer = storage_.newest.LoanAtOnce();
+      return Loan<T>(buffer != nullptr ? buffer : LookForBuffer());
     }
   }
 
-  PublishStatus Publish(Loan<T>&& loan, Time now) {
-    if (!loan) return PublishStatus::kNoBuffer;
-    if constexpr (!kIsCheap<T>) {
-      RUNNEL_CHECK(&loan.slot_->pool() == storage_.pool.get(),
+  [[gnu::always_inline]] PublishStatus Publish(Loan<T>&& loan, Time now) {
+    if (!loan) [[unlikely]]
+      return PublishStatus::kNoBuffer;
+    if constexpr (kIsCheap<T>) {
+      const T value = *loan;
+      const PublishStatus status = PublishValue(value, now);
+      if (status != PublishStatus::kBusy) loan.Drop();
+      return status;
+    } else {
+      Buffer<T>* const buffer = loan.slot_;
+      RUNNEL_CHECK(&buffer->pool() == storage_.pool.get(),
                    "a loan can be published only by the output that gave it");
+      if (IsSpecial()) [[unlikely]] {
+        const PublishStatus status = PublishSpecially(*buffer, now);
+        if (status != PublishStatus::kBusy) loan.slot_ = nullptr;
+        return status;
+      }
+      loan.slot_ = nullptr;
+      return PublishNow<Way::kUsual>(*buffer, now);
     }
-    if (pull_point_ != nullptr) [[unlikely]]
-      return InTurn([&] { return PublishInTurn(std::move(loan), now); });
-    return PublishInTurn(std::move(loan), now);
   }
   PublishStatus PublishValue(const T& value, Time now) requires(kIsCheap<T>) {
-    if (pull_point_ != nullptr) [[unlikely]]
-      return InTurn([&] { return PublishCopy(value, now); });
-    return PublishCopy(value, now);
+    if (IsSpecial()) [[unlikely]]
+      return PublishSpecially(value, now);
+    return PublishNow<Way::kUsual>(value, now);
   }
 
   /// May have a provider.
@@ -128,7 +154,12 @@ class Channel final : public ChannelBase {
       try {
         Loan<T> loan = LoanForPull();
         if (!loan) return pull_point_->CountFailure();
-        if (pull_point_->Run(*loan)) (void)PublishInTurn(std::move(loan), now());
+        if (!pull_point_->Run(*loan)) return;
+        if constexpr (kIsCheap<T>) {
+          (void)PublishNow<Way::kSpecial>(*loan, now());
+        } else {
+          (void)PublishNow<Way::kSpecial>(*std::exchange(loan.slot_, nullptr), now());
+        }
       } catch (...) {
         pull_point_->CountFailure();
       }
@@ -145,19 +176,25 @@ class Channel final : public ChannelBase {
   }
 
   /// The newest value, or none. Call inside an EpochGuard.
-  [[nodiscard, gnu::always_inline]] internal::HeldValue<T> Read() noexcept {
+  [[nodiscard]] internal::HeldValue<T> Read() noexcept {
+    return Read(internal::thread_record->hazards);
+  }
+  /// The same by who has the calling thread's record at hand.
+  [[nodiscard, gnu::always_inline]] internal::HeldValue<T> Read(
+      [[maybe_unused]] HazardRecord<>& record) noexcept {
     if constexpr (kIsCheap<T>) {
       return internal::HeldValue<T>(storage_);
     } else {
-      return internal::HeldValue<T>(storage_.newest, internal::thread_record->hazards);
+      return internal::HeldValue<T>(storage_.newest, record);
     }
   }
   /// Copies the newest value to `value`; false if there is none. Call inside an EpochGuard.
-  [[gnu::always_inline]] bool Copy(T& value) noexcept requires(std::is_trivially_copyable_v<T>) {
+  [[gnu::always_inline]] bool Copy(T& value, [[maybe_unused]] HazardRecord<>& record) noexcept
+      requires(std::is_trivially_copyable_v<T>) {
     if constexpr (kIsCheap<T>) {
       return storage_.Read(value);
     } else {
-      const auto lease = storage_.newest.Lease(internal::thread_record->hazards);
+      const auto lease = storage_.newest.Lease(record);
       if (lease.get() == nullptr) return false;
       value = std::as_const(*lease.get()).value();
       return true;
@@ -168,7 +205,7 @@ class Channel final : public ChannelBase {
     if constexpr (kIsCheap<T>) {
       return storage_.sequence();
     } else {
-      return storage_.published_count.load(std::memory_order_relaxed);
+      return storage_.published.load(std::memory_order_relaxed);
     }
   }
   void ReserveFor([[maybe_unused]] std::size_t leases) override {
@@ -214,25 +251,20 @@ class Channel final : public ChannelBase {
     typename BufferPool<T>::Owner pool;
     const std::uint32_t first_capacity;
     LatestBuffer<T> newest;
-    std::uint64_t published = 0;  // the publisher's own
-    // relaxed: a count; who reads the value looks again.
-    std::atomic<std::uint64_t> published_count{0};
+    // Written by the publisher alone. relaxed: a count; who reads the value looks again.
+    std::atomic<std::uint64_t> published{0};
   };
 
-  // The rest of publishing, by who has the turn, if there are turns.
-  [[gnu::always_inline]] PublishStatus PublishInTurn(Loan<T>&& loan, Time now) {
-    if constexpr (kIsCheap<T>) {
-      const T value = *loan;
-      loan.Drop();
-      return PublishCopy(value, now);
-    } else {
-      return PublishBuffer(*std::exchange(loan.slot_, nullptr), now);
-    }
+  [[gnu::noinline]] Buffer<T>* LookForBuffer() requires(!kIsCheap<T>) {
+    // Who pulls may look for buffers at the same time, in another thread.
+    return Has(kPullable) ? storage_.newest.Loan() : storage_.newest.Loan(ThisThread().hazards);
   }
-  template <typename Publishing>
-  [[gnu::noinline]] PublishStatus InTurn(const Publishing& publishing) {
+  // In turn, if there are turns, and in order, if there is one.
+  template <typename ValueOrBuffer>
+  [[gnu::noinline]] PublishStatus PublishSpecially(ValueOrBuffer& what, Time now) {
+    if (!Has(kPullable)) return PublishNow<Way::kSpecial>(what, now);
     const typename PullPoint<T>::Turn turn(*pull_point_);
-    return turn.held() ? publishing() : PublishStatus::kBusy;
+    return turn.held() ? PublishNow<Way::kSpecial>(what, now) : PublishStatus::kBusy;
   }
   [[nodiscard]] Loan<T> LoanForPull() requires(kCanPull) {
     if constexpr (kIsCheap<T>) {
@@ -241,20 +273,25 @@ class Channel final : public ChannelBase {
       return Loan<T>(storage_.newest.LoanFrom(*storage_.pool_for_pulls));
     }
   }
-  [[gnu::always_inline]] PublishStatus PublishCopy(const T& value, Time now) requires(kIsCheap<T>) {
+  // The rest of publishing, by who has the turn, if there are turns.
+  template <Way kWay>
+  [[gnu::always_inline]] PublishStatus PublishNow(const T& value, Time now) requires(kIsCheap<T>) {
     const std::int64_t stamp = now.time_since_epoch().count();
-    const std::uint64_t order = NextOrder();
+    const std::uint64_t order = kWay == Way::kUsual ? 0 : NextOrder();
     storage_.Publish(value, stamp, order);
-    if (subscribers() == nullptr) [[likely]]
+    if (subscribers(kWay) == nullptr) [[likely]]
       return PublishStatus::kPublished;
     return Distribute(value, {stamp, storage_.sequence(), order}, nullptr);
   }
-  PublishStatus PublishBuffer(Buffer<T>& buffer, Time now) noexcept {
-    const std::uint64_t sequence = ++storage_.published;
-    buffer.publication = {now.time_since_epoch().count(), sequence, NextOrder()};
+  template <Way kWay>
+  [[gnu::always_inline]] PublishStatus PublishNow(Buffer<T>& buffer, Time now) noexcept
+      requires(!kIsCheap<T>) {
+    const std::uint64_t sequence = storage_.published.load(std::memory_order_relaxed) + 1;
+    storage_.published.store(sequence, std::memory_order_relaxed);
+    buffer.publication = {now.time_since_epoch().count(), sequence,
+                          kWay == Way::kUsual ? 0 : NextOrder()};
     storage_.newest.Publish(buffer);
-    storage_.published_count.store(sequence, std::memory_order_relaxed);
-    if (subscribers() == nullptr) [[likely]]
+    if (subscribers(kWay) == nullptr) [[likely]]
       return PublishStatus::kPublished;
     // The buffer stays the newest while this goes on, which keeps it.
     return Distribute(std::as_const(buffer).value(), buffer.publication, &buffer);
@@ -285,7 +322,6 @@ class Channel final : public ChannelBase {
     });
   }
 
-  // On the line that publishing needs anyway.
   const std::unique_ptr<PullPoint<T>> pull_point_;  // nullptr if the output is not pullable
   std::conditional_t<kIsCheap<T>, CheapStorage, BufferStorage> storage_;
 };

@@ -44,14 +44,21 @@ class Input final : public InputBase {
   }
 
   /// The newest value, with whether it is new since the last Read().
-  [[nodiscard]] Lease<T> Read() noexcept {
-    return EpochGuard::HeldByThisThread() ? ReadInside() : ReadGuarded();
+  [[nodiscard, gnu::always_inline]] Lease<T> Read() noexcept {
+    ThreadRecord& thread = *internal::thread_record;
+    // acquire: pairs with the release in Replace().
+    const Binding* const binding = binding_.load(std::memory_order_acquire);
+    if (thread.epoch.depth == 0 || binding->channel == nullptr) [[unlikely]] {
+      Lease<T> lease = ReadTheLongWay();
+      return Lease<T>(std::move(lease), internal::NoCopy{});
+    }
+    return Lease<T>(*binding->channel, thread.hazards, *binding->only);
   }
   /// The newest value without marking it as read. Any thread.
   [[nodiscard]] Lease<T> Peek() const noexcept {
     const EpochGuard guard;
     const Link* link = nullptr;
-    Lease<T> lease = Newest(link);
+    Lease<T> lease = Newest(*binding_.load(std::memory_order_acquire), link);
     if (lease) lease.last_ = link->read.load_relaxed();
     return lease;
   }
@@ -95,22 +102,18 @@ class Input final : public InputBase {
 
   [[nodiscard]] std::uint64_t dropped() const noexcept override {
     const EpochGuard guard;
-    const Binding* binding = binding_.load(std::memory_order_acquire);
-    return binding != nullptr ? binding->dropped() : 0;
+    return binding_.load(std::memory_order_acquire)->dropped();
   }
   /// How many queues that others have replaced still hold values, or may still get some. Any thread.
   [[nodiscard]] std::size_t replaced_queues() const noexcept {
     const EpochGuard guard;
-    const Binding* binding = binding_.load(std::memory_order_acquire);
-    return binding != nullptr ? binding->older_queues.size() : 0;
+    return binding_.load(std::memory_order_acquire)->older_queues.size();
   }
   [[nodiscard]] std::uint64_t publications() const noexcept override {
     const EpochGuard guard;
     const Binding* binding = binding_.load(std::memory_order_acquire);
     std::uint64_t sum = 0;
-    if (binding != nullptr) {
-      for (const auto& link : binding->links) sum += link->channel->publications();
-    }
+    for (const auto& link : binding->links) sum += link->channel->publications();
     return sum;
   }
   bool LookAtValue(const Look& look) const override {
@@ -126,46 +129,32 @@ class Input final : public InputBase {
     static std::uint64_t Note(std::uint64_t) noexcept { return 0; }
   };
 
-  bool CopyNewest(T& value) const noexcept {
-    return EpochGuard::HeldByThisThread() ? CopyInside(value) : CopyGuarded(value);
-  }
-  [[gnu::noinline]] bool CopyGuarded(T& value) const noexcept {
-    const EpochGuard guard;
-    return CopyInside(value);
-  }
-  [[gnu::always_inline]] bool CopyInside(T& value) const noexcept {
+  [[gnu::always_inline]] bool CopyNewest(T& value) const noexcept {
+    ThreadRecord& thread = *internal::thread_record;
     const Binding* const binding = binding_.load(std::memory_order_acquire);
-    if (binding == nullptr) return false;
-    if (binding->channel != nullptr) [[likely]]
-      return binding->channel->Copy(value);
-    return CopySeveral(*binding, value);
+    if (thread.epoch.depth == 0 || binding->channel == nullptr) [[unlikely]]
+      return CopyTheLongWay(value);
+    return binding->channel->Copy(value, thread.hazards);
   }
-  [[gnu::noinline]] bool CopySeveral(const Binding& binding, T& value) const noexcept {
-    PullInto(binding);
-    const Link* link = nullptr;
-    const Lease<T> newest = NewestOfSeveral(binding, link);
-    if (newest) value = *newest;
-    return newest.has_value();
-  }
-  // The ways that are seldom taken are kept out of line, so that the usual one stays short.
-  [[gnu::noinline]] Lease<T> ReadGuarded() noexcept {
+  // The ways that are seldom taken, outside of a guard, from several sources or none, and with
+  // pulling, are kept out of line, so that the usual one stays short.
+  [[gnu::noinline]] Lease<T> ReadTheLongWay() noexcept {
     const EpochGuard guard;
-    return ReadInside();
-  }
-  [[gnu::always_inline]] Lease<T> ReadInside() noexcept {
-    // acquire: pairs with the release in Replace().
-    const Binding* const binding = binding_.load(std::memory_order_acquire);
-    if (binding == nullptr) return {};
-    if (binding->channel == nullptr) [[unlikely]]
-      return ReadSeveral(*binding);
-    return Lease<T>(*binding->channel, *binding->only);
-  }
-  [[gnu::noinline]] Lease<T> ReadSeveral(const Binding& binding) noexcept {
+    const Binding& binding = *binding_.load(std::memory_order_acquire);
     PullInto(binding);
     Link* link = nullptr;
-    Lease<T> lease = NewestOfSeveral(binding, link);
+    Lease<T> lease = Newest(binding, link);
     if (lease) lease.last_ = link->Note(lease.sequence());
     return lease;
+  }
+  [[gnu::noinline]] bool CopyTheLongWay(T& value) const noexcept {
+    const EpochGuard guard;
+    const Binding& binding = *binding_.load(std::memory_order_acquire);
+    PullInto(binding);
+    const Link* link = nullptr;
+    const Lease<T> newest = Newest(binding, link);
+    if (newest) value = *newest;
+    return newest.has_value();
   }
   void PullInto(const Binding& binding) const noexcept {
     if (!binding.pulls) return;
@@ -174,13 +163,12 @@ class Input final : public InputBase {
     }
   }
   // Inside a guard, by which the link lives.
-  [[nodiscard]] Lease<T> Newest(const Link*& link) const noexcept {
-    const Binding* const binding = binding_.load(std::memory_order_acquire);
-    if (binding == nullptr) return {};
-    if (binding->channel == nullptr) return NewestOfSeveral(*binding, link);
-    link = binding->only;
+  template <typename LinkPointer>
+  [[nodiscard]] static Lease<T> Newest(const Binding& binding, LinkPointer& link) noexcept {
+    if (binding.channel == nullptr) return NewestOfSeveral(binding, link);
+    link = binding.only;
     NotNoted unseen;
-    return Lease<T>(*binding->channel, unseen);
+    return Lease<T>(*binding.channel, internal::thread_record->hazards, unseen);
   }
   template <typename LinkPointer>
   static Lease<T> NewestOfSeveral(const Binding& binding, LinkPointer& newest) noexcept {
@@ -212,14 +200,12 @@ class Input final : public InputBase {
   bool HasNew() const override {
     const EpochGuard guard;
     const Binding* binding = binding_.load(std::memory_order_acquire);
-    if (binding == nullptr) return false;
     // Where there is a queue, nobody may ever call Read().
     return binding->HasNext() || (!binding->queue && Peek().is_new());
   }
 
   void TakeInside(Lease<T>& lease) noexcept {
     const Binding* binding = binding_.load(std::memory_order_acquire);
-    if (binding == nullptr) return;
     std::uint64_t source = 0;
     while (binding->Pop(lease.held_, source)) {
       Link* link = binding->FindLink(source);
@@ -234,9 +220,9 @@ class Input final : public InputBase {
 
   QueueSink* Bind(const std::vector<Source>& sources) override {
     const Binding* before = binding_.load(std::memory_order_relaxed);
-    if (before != nullptr) last_links_ = before->links;
+    if (!before->links.empty()) last_links_ = before->links;
     if (sources.empty()) {
-      Replace(nullptr);
+      Replace(&kUnbound);
       return nullptr;
     }
     auto next = std::make_unique<Binding>();
@@ -246,23 +232,21 @@ class Input final : public InputBase {
     for (const Source& source : sources) {
       // The types are equal: connecting has checked it.
       auto* channel = static_cast<Channel<T>*>(ChannelOf(*source.output));
-      next->links.push_back(KeepOrMakeLink(before, *channel));
+      next->links.push_back(KeepOrMakeLink(*before, *channel));
       if (sources.size() == 1) {
         if (!next->pulls) next->channel = channel;
         next->only = next->links.back().get();
       }
       if (source.options.queue > options.queue) options = source.options;
     }
-    if (options.queue > 0) next->queue = KeepOrMakeQueue(before, *next, options);
-    KeepWaitingValues(before, *next);
+    if (options.queue > 0) next->queue = KeepOrMakeQueue(*before, *next, options);
+    KeepWaitingValues(*before, *next);
     InputQueue<T>* const queue = next->queue.get();
     Replace(next.release());
     return queue;
   }
-  std::shared_ptr<Link> KeepOrMakeLink(const Binding* before, Channel<T>& channel) {
-    if (before != nullptr) {
-      if (const auto kept = before->LinkOf(channel)) return kept;
-    }
+  std::shared_ptr<Link> KeepOrMakeLink(const Binding& before, Channel<T>& channel) {
+    if (const auto kept = before.LinkOf(channel)) return kept;
     fresh_.push_back(&channel);
     auto link = std::make_shared<Link>(&channel);
     // A source that comes back at once does not bring what has been read already as new.
@@ -271,21 +255,20 @@ class Input final : public InputBase {
     }
     return link;
   }
-  auto KeepOrMakeQueue(const Binding* before, const Binding& next, const ConnectOptions& options) {
+  auto KeepOrMakeQueue(const Binding& before, const Binding& next, const ConnectOptions& options) {
     const Writers writers = next.only != nullptr ? Writers::kOne : Writers::kSeveral;
     // A queue for one writer serves the source it was made for: another might begin before that
     // one has ended.
-    if (before != nullptr && before->queue && before->queue->room() == options.queue &&
-        before->queue->on_full() == options.on_full && before->queue->writers() == writers &&
-        (writers == Writers::kSeveral || before->only == next.only)) {
-      return before->queue;
+    if (before.queue && before.queue->room() == options.queue &&
+        before.queue->on_full() == options.on_full && before.queue->writers() == writers &&
+        (writers == Writers::kSeveral || before.only == next.only)) {
+      return before.queue;
     }
     return std::make_shared<InputQueue<T>>(options.queue, options.on_full, writers);
   }
-  static void KeepWaitingValues(const Binding* before, Binding& next) {
-    if (before == nullptr) return;
-    next.dropped_before = before->dropped_before;
-    for (const auto& older : before->older_queues) {
+  static void KeepWaitingValues(const Binding& before, Binding& next) {
+    next.dropped_before = before.dropped_before;
+    for (const auto& older : before.older_queues) {
       // A publisher that found the queue before it was replaced may still put a value in. Its
       // leaving comes before the look at the size.
       const bool settled =
@@ -296,7 +279,7 @@ class Input final : public InputBase {
         next.dropped_before += older->dropped();
       }
     }
-    if (before->queue && before->queue != next.queue) next.older_queues.push_back(before->queue);
+    if (before.queue && before.queue != next.queue) next.older_queues.push_back(before.queue);
     if (next.older_queues.empty()) return;
     for (const auto& older : next.older_queues) next.all_queues.push_back(older.get());
     if (!next.queue) return;
@@ -314,7 +297,6 @@ class Input final : public InputBase {
     for (auto& each : replaced_) Retire([replaced = each.release()] { delete replaced; });
     replaced_.clear();
     const Binding* binding = binding_.load(std::memory_order_relaxed);
-    if (binding == nullptr) return;
     for (const auto& older : binding->older_queues) {
       if (older->left_in_epoch == 0) older->left_in_epoch = ProcessEpochs().Advance();
     }
@@ -328,7 +310,7 @@ class Input final : public InputBase {
   }
   void TakeOverBinding(InputBase& from) override {
     auto& other = static_cast<Input&>(from);
-    Replace(other.binding_.exchange(nullptr, std::memory_order_acq_rel));
+    Replace(other.binding_.exchange(&kUnbound, std::memory_order_acq_rel));
     replaced_.clear();  // nothing: this input was not connected
     last_links_ = std::exchange(other.last_links_, {});
   }
@@ -336,10 +318,18 @@ class Input final : public InputBase {
   void Replace(const Binding* next) {
     replaced_.emplace_back();
     // acq_rel: release, pairs with the acquire of readers; acquire for who destroys the old one.
-    replaced_.back().reset(binding_.exchange(next, std::memory_order_acq_rel));
+    const Binding* const before = binding_.exchange(next, std::memory_order_acq_rel);
+    if (before->links.empty()) {  // kUnbound
+      replaced_.pop_back();
+    } else {
+      replaced_.back().reset(before);
+    }
   }
 
-  std::atomic<const Binding*> binding_{nullptr};
+  // Of an input that is not connected: there always is one, so that readers need not ask.
+  static constinit inline const Binding kUnbound{};
+
+  std::atomic<const Binding*> binding_{&kUnbound};
   // All three under the structure lock: bindings between Bind() and Bound(), sources that have just
   // been connected, and the links of the binding before, also while nothing is connected.
   std::vector<std::unique_ptr<const Binding>> replaced_;

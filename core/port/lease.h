@@ -89,56 +89,66 @@ class LeasedValue {
   BufferLease<T> lease_;
 };
 
+/// What the slot of an output has is never a copy.
+struct NoCopy {};
+
 /// A value in a buffer, leased, or a copy of one: what a queue gives away is a copy.
+///
+/// It says where the value is by a pointer, so that a value that is leased needs no memory for
+/// this, but lies in registers.
 template <typename T>
 class LeasedOrCopiedValue {
  public:
   LeasedOrCopiedValue() noexcept {}
   /// A copy.
   LeasedOrCopiedValue(const T& value, const Publication& publication) noexcept
-      : publication_(publication) {
-    std::construct_at(reinterpret_cast<T*>(bytes_), value);
-  }
+      : value_(Copy(value)), publication_(publication) {}
   /// The newest one, or none.
   [[gnu::always_inline]] LeasedOrCopiedValue(LatestBuffer<T>& latest,
                                              HazardRecord<>& record) noexcept
-      : leased_(latest, record) {}
-  LeasedOrCopiedValue(const LeasedOrCopiedValue& other) noexcept : leased_(other.leased_) {
-    CopyFrom(other);
-  }
-  LeasedOrCopiedValue(LeasedOrCopiedValue&& other) noexcept : leased_(std::move(other.leased_)) {
-    CopyFrom(other);
+      : leased_(latest, record), value_(leased_.has_value() ? &leased_.value() : nullptr) {}
+  /// The same as `other`, which is no copy.
+  [[gnu::always_inline]] LeasedOrCopiedValue(LeasedOrCopiedValue&& other, NoCopy) noexcept
+      : leased_(std::move(other.leased_)), value_(std::exchange(other.value_, nullptr)) {}
+  LeasedOrCopiedValue(const LeasedOrCopiedValue& other) noexcept
+      : leased_(other.leased_),
+        value_(other.is_copy() ? Copy(*other.value_) : other.value_),
+        publication_(other.publication_) {}
+  LeasedOrCopiedValue(LeasedOrCopiedValue&& other) noexcept
+      : leased_(std::move(other.leased_)),
+        value_(leased_.has_value() || !other.has_value() ? other.value_ : Copy(*other.value_)),
+        publication_(other.publication_) {
+    other.value_ = nullptr;
   }
   LeasedOrCopiedValue& operator=(const LeasedOrCopiedValue& other) noexcept {
-    leased_ = other.leased_;
-    CopyFrom(other);
-    return *this;
+    return *this = LeasedOrCopiedValue(other);
   }
   LeasedOrCopiedValue& operator=(LeasedOrCopiedValue&& other) noexcept {
+    if (this == &other) return *this;
+    const bool is_copy = other.is_copy();
     leased_ = std::move(other.leased_);
-    CopyFrom(other);
+    value_ = is_copy ? Copy(*other.value_) : other.value_;
+    publication_ = other.publication_;
+    other.value_ = nullptr;
     return *this;
   }
   [[gnu::always_inline]] ~LeasedOrCopiedValue() {}
 
-  [[nodiscard]] bool has_value() const noexcept { return is_copy() || leased_.has_value(); }
-  [[nodiscard]] const T& value() const noexcept {
-    return is_copy() ? *std::launder(reinterpret_cast<const T*>(bytes_)) : leased_.value();
-  }
-  [[nodiscard]] const Publication& publication() const noexcept {
-    return is_copy() ? publication_ : leased_.publication();
+  [[nodiscard]] bool has_value() const noexcept { return value_ != nullptr; }
+  [[nodiscard]] const T& value() const noexcept { return *value_; }
+  // By value, so that nobody asks where it lies.
+  [[nodiscard, gnu::always_inline]] Publication publication() const noexcept {
+    return leased_.has_value() ? leased_.publication() : publication_;
   }
 
  private:
-  [[nodiscard]] bool is_copy() const noexcept { return publication_.sequence != 0; }
-  void CopyFrom(const LeasedOrCopiedValue& other) noexcept {
-    publication_ = other.publication_;
-    if (this != &other && is_copy()) {
-      std::construct_at(reinterpret_cast<T*>(bytes_), other.value());
-    }
+  [[nodiscard]] bool is_copy() const noexcept { return has_value() && !leased_.has_value(); }
+  const T* Copy(const T& value) noexcept {
+    return std::construct_at(reinterpret_cast<T*>(bytes_), value);
   }
 
   LeasedValue<T> leased_;
+  const T* value_ = nullptr;               // in the buffer, or the copy
   Publication publication_;                // of the copy, if it is one
   alignas(T) std::byte bytes_[sizeof(T)];  // read only then
 };
@@ -163,6 +173,12 @@ template <typename T>
 class Lease {
  public:
   Lease() = default;
+  Lease(const Lease&) = default;
+  Lease(Lease&&) noexcept = default;
+  Lease& operator=(const Lease&) = default;
+  Lease& operator=(Lease&&) noexcept = default;
+  [[gnu::always_inline]] ~Lease() {}
+
   [[nodiscard]] bool has_value() const noexcept { return held_.has_value(); }
   explicit operator bool() const noexcept { return has_value(); }
   const T& operator*() const { return Checked().value(); }
@@ -189,10 +205,22 @@ class Lease {
   // The channel's newest value, made in place, so that it is copied once or not at all; `reader`
   // notes its number and says which it had before.
   template <typename Reader>
-  [[gnu::always_inline]] Lease(Channel<T>& channel, Reader& reader) noexcept
-      : held_(channel.Read()) {
+  [[gnu::always_inline]] Lease(Channel<T>& channel, HazardRecord<>& record, Reader& reader) noexcept
+      : held_(channel.Read(record)) {
     if (has_value()) [[likely]]
       last_ = reader.Note(held_.publication().sequence);
+  }
+  // The same as one that came the longer way. Made anew, so that it may lie in registers even if
+  // the other had to lie in memory.
+  [[gnu::always_inline]] Lease(Lease&& other, internal::NoCopy no_copy) noexcept
+      : held_(FromSlot(std::move(other.held_), no_copy)), last_(other.last_) {}
+  [[gnu::always_inline]] static internal::HeldValue<T> FromSlot(internal::HeldValue<T>&& held,
+                                                                internal::NoCopy no_copy) {
+    if constexpr (std::is_same_v<internal::HeldValue<T>, internal::LeasedOrCopiedValue<T>>) {
+      return internal::HeldValue<T>(std::move(held), no_copy);
+    } else {
+      return std::move(held);
+    }
   }
 
   const internal::HeldValue<T>& Checked() const {
@@ -201,7 +229,10 @@ class Lease {
   }
 
   internal::HeldValue<T> held_;
-  std::uint64_t last_ = 0;  // of the same source, what the reader had before; 0: nothing
+  // Of the same source, what the reader had before; 0: nothing. Mutable only because GCC keeps what
+  // is declared const in memory, unless a part of it is mutable: "const auto read = …" then lies
+  // in registers.
+  mutable std::uint64_t last_ = 0;
 };
 
 }  // namespace runnel

@@ -30,7 +30,7 @@ class Loan {
     }
     return *this;
   }
-  ~Loan() { Drop(); }
+  [[gnu::always_inline]] ~Loan() { Drop(); }
 
   [[nodiscard]] bool has_value() const noexcept {
     if constexpr (kIsCheap<T>) {
@@ -57,11 +57,16 @@ class Loan {
   using Slot = std::conditional_t<kIsCheap<T>, std::optional<T>, Buffer*>;
 
   explicit Loan(Slot slot) noexcept : slot_(std::move(slot)) {}
-  void Drop() noexcept {
+  // What is seldom is not told where the loan lies, so that it can lie in a register.
+  [[gnu::always_inline]] void Drop() noexcept {
     if constexpr (!kIsCheap<T>) {
-      if (slot_ != nullptr) slot_->DropLoan();
+      if (slot_ != nullptr) [[unlikely]]
+        DropLoan(*slot_);
     }
     slot_ = Slot{};
+  }
+  [[gnu::noinline]] static void DropLoan(Buffer& buffer) noexcept requires(!kIsCheap<T>) {
+    buffer.DropLoan();
   }
 
   Slot slot_{};

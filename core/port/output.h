@@ -49,7 +49,7 @@ class Output final : public Port {
   }
 
   /// A buffer to fill; empty if a pool of fixed size is exhausted.
-  [[nodiscard]] runnel::Loan<T> Loan() { return own().MakeLoan(); }
+  [[nodiscard, gnu::always_inline]] runnel::Loan<T> Loan() { return own().MakeLoan(); }
 
   /// Calls `fill` for each buffer that the pool has now, so that values keep their memory from the
   /// start (a list's capacity). For Prepare(); allocates. None of the buffers may be out.
@@ -61,7 +61,7 @@ class Output final : public Port {
   }
 
   /// Errors: the loan of another output (but for cheap types) throws ProgrammingError.
-  PublishStatus Publish(runnel::Loan<T>&& loan) {
+  [[gnu::always_inline]] PublishStatus Publish(runnel::Loan<T>&& loan) {
     return own().Publish(std::move(loan), PublicationTime());
   }
   /// Copies or moves the value into a buffer (cheap types: straight into the slot).

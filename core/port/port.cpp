@@ -242,4 +242,6 @@ std::vector<Port*> Port::Sinks() const {
 
 void Port::Rebind(const std::vector<Source>&) {}
 
+Time Port::TimeOutsideOfCycles() const noexcept { return runtime().clock().Now(); }
+
 }  // namespace runnel

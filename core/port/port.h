@@ -105,6 +105,7 @@ class Port : public FrameworkElement {
   void Detach() noexcept override;
 
  private:
+  [[nodiscard]] Time TimeOutsideOfCycles() const noexcept;
   static Result<void> CheckConnection(const Port& from, const Port& to);
   void CollectSources(const ConnectOptions& options, std::vector<Source>& sources) const;
   static bool RemoveEdge(Port& from, Port& to);
@@ -118,7 +119,9 @@ class Port : public FrameworkElement {
 
 inline Time Port::PublicationTime() const noexcept {
   const Cycle* cycle = CurrentCycle();
-  return cycle != nullptr ? cycle->now : runtime().clock().Now();
+  if (cycle == nullptr) [[unlikely]]
+    return TimeOutsideOfCycles();
+  return cycle->now;
 }
 
 }  // namespace runnel

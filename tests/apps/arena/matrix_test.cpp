@@ -37,7 +37,7 @@ TEST(Variants, ThatAreNotThereAreToldWithTheNearest) {
 }
 
 TEST(ApplicationTexts, HaveThePlannerAndThePluginsAskedFor) {
-  for (const std::string sensor : {"laser", "infrared"}) {
+  for (const std::string sensor : {"laser", "infrared", "bumper"}) {
     const auto file = std::filesystem::path(RUNNEL_XML) / "apps" / "arena" / (sensor + ".xml");
     const auto text = ApplicationText(
         file, {"mine", "other/planner", "<parameter name=\"x\" value=\"1\"/>"}, {"other"});

@@ -170,6 +170,39 @@ struct OwnReaderSuite : rl::test_suite<OwnReaderSuite, 2>, Rig<SearchedPlain, 2>
 
 TEST(BufferSearch, PublisherMayReadItself) { EXPECT_TRUE(Search<OwnReaderSuite>(kIterations)); }
 
+// The publisher's thread reads, too, and spares itself its fences as a reader, until another thread
+// takes over and publishes.
+struct TakingOverSuite : rl::test_suite<TakingOverSuite, 2>, Rig<SearchedPlain, 2> {
+  TakingOverSuite() : Rig({.buffers = 2, .may_grow = false}) {}
+
+  bool PublishAs(std::size_t index, int value) {
+    auto* const buffer = latest.Loan(readers[index]);
+    if (buffer == nullptr) return false;
+    buffer->value().Set(value);
+    buffer->publication.sequence = static_cast<std::uint64_t>(value);
+    latest.Publish(*buffer);
+    return true;
+  }
+  void before() {
+    PublishAs(0, 1);
+    for (int i = 2; i <= 5; ++i) {
+      LookAt(latest.Lease(readers[0]));  // the first sets the bit, and the next search sees it
+      RL_ASSERT(PublishAs(0, i));
+    }
+  }
+  void thread(unsigned index) {
+    if (index == 0) {
+      for (int i = 0; i < 2; ++i) LookAt(latest.Lease(readers[0]));
+    } else {
+      for (int i = 6; i <= 8; ++i) PublishAs(1, i);
+    }
+  }
+};
+
+TEST(BufferSearch, WhoTakesOverPublishingIsSeenByWhoDidSoBefore) {
+  EXPECT_TRUE(Search<TakingOverSuite>(kIterations));
+}
+
 // A record is added while the publisher looks for free buffers.
 // With nine before it, it has no bit of its own.
 template <std::size_t kBefore>

@@ -72,6 +72,42 @@ TEST(LatestBufferTest, NeitherTheNewestNorALeasedBufferIsFree) {
   first.DropLoan();
 }
 
+// Publishes as the thread of `record`, if there is a buffer.
+template <typename Rig, typename Record>
+auto* PublishAs(Rig& rig, Record& record) {
+  auto* const buffer = rig.latest->Loan(record);
+  if (buffer != nullptr) rig.latest->Publish(*buffer);
+  return buffer;
+}
+
+TEST(LatestBufferTest, LeaseOfThePublishersOwnThreadHoldsAsAnyOther) {
+  Rig<int> rig({.buffers = 2, .may_grow = false});
+  auto& own = rig.readers[0];
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_NE(PublishAs(rig, own), nullptr);
+    EXPECT_NE(rig.latest->Lease(own).get(), nullptr);
+  }
+  auto lease = rig.latest->Lease(own);
+  ASSERT_NE(PublishAs(rig, own), nullptr);
+  EXPECT_EQ(rig.latest->Loan(own), nullptr);
+  auto* const held = lease.get();
+  lease = {};
+  EXPECT_EQ(rig.latest->Loan(own), held);
+  held->DropLoan();
+}
+
+TEST(LatestBufferTest, LeasesHoldHoweverOftenThePublisherChanges) {
+  Rig<int, 2> rig({.buffers = 2, .may_grow = false});
+  for (std::size_t i = 0; i < 40; ++i) {
+    auto& publisher =
+        rig.readers[i / 2 % 2];  // each of them twice, and so it reads as the only one
+    ASSERT_NE(PublishAs(rig, publisher), nullptr);
+    auto lease = rig.latest->Lease(publisher);
+    ASSERT_NE(PublishAs(rig, publisher), nullptr);
+    for (auto& each : rig.readers) EXPECT_EQ(rig.latest->Loan(each), nullptr);
+  }
+}
+
 TEST(LatestBufferTest, CopyOfALeaseHoldsByItself) {
   Rig<int> rig({.buffers = 2, .may_grow = false});
   auto& first = rig.Publish();

@@ -55,6 +55,8 @@ struct runnel::Fences<runnel::test::SearchedAtomic> {
   static void Full() { test::SearchedFences::Pass(test::FenceKind::kFull); }
   static void Light() { test::SearchedFences::Pass(test::FenceKind::kLight); }
   static void Heavy() { test::SearchedFences::Pass(test::FenceKind::kHeavy); }
+  static bool HeavyIsHeavy() { return true; }
+  static void LightIfHeavyIsHeavy() { Light(); }
 };
 
 namespace runnel::test {

@@ -31,6 +31,9 @@ class Session {
     return out;
   }
   void SetGoal(Point2 goal) { goal_ = goal; }
+  /// Whoever holds the robot lets go with it at rest.
+  void Stop() { robot_ = Robot(robot_.pose()); }
+  [[nodiscard]] Surroundings Look() { return laser_.Update(world_.Scan(pose()), pose()); }
   [[nodiscard]] const Pose2& pose() const { return robot_.pose(); }
 
   BugState state;
@@ -157,6 +160,54 @@ TEST(BugRules, OneVariantTakesOverFromAnotherInTheMiddleOfALap) {
   EXPECT_EQ(status.mode, PlannerMode::kReached);
   EXPECT_EQ(status.leaves, 1U);
   EXPECT_LT(status.path_length, 9.0);
+}
+
+// The paper's period, with speeds to match.
+TEST(BugRules, AStepOfHalfASecondIsEnoughForASlowRobot) {
+  const Task task = {World({Box(0, 0, 1, 2)}), {-2, 0.2}, {2, 0.1}};
+  BugConfiguration slow;
+  slow.driving.cruise_speed = 0.1;
+  slow.driving.following_speed = 0.1;
+  slow.driving.turn_limit = 0.4;
+  slow.driving.turn_gain = 1.4;
+  for (const BugVariant& variant : VariantsThatEnd()) {
+    for (const Sensor sensor : {Sensor::kLaser, Sensor::kInfrared}) {
+      const BugAlgorithm algorithm(slow, Assemble(variant.composition));
+      Vehicle vehicle(task.world, sensor, {task.start.x, task.start.y, 0.0});
+      BugState state;
+      PlannerStatus status;
+      double clearance = 1.0;
+      for (int step = 0; step < 2000 && !IsFinished(status); ++step) {
+        const BugOutput out =
+            algorithm.Update(state, {0.5, vehicle.pose(), vehicle.Look(), task.start, task.goal});
+        status = out.status;
+        vehicle.Drive(out.twist, 0.5);
+        clearance = std::min(clearance, task.world.Clearance(Position(vehicle.pose())));
+      }
+      EXPECT_EQ(int(status.mode), int(PlannerMode::kReached)) << variant.name;
+      EXPECT_GT(clearance, 0.22) << variant.name;
+    }
+  }
+}
+
+TEST(BugRules, IsThereAtOnceIfItStartsThereWhateverTheVariant) {
+  for (const BugVariant& variant : kBugVariants) {
+    Session session(BoxWorld(), {-2, 0}, {-2, 0});
+    EXPECT_EQ(session.Step(Make(variant.name)).status.mode, PlannerMode::kReached) << variant.name;
+  }
+}
+
+TEST(BugRules, DoesNotTakeBeingHeldForLackOfRoom) {
+  Session session(BoxWorld(), {-3, 0.2}, {3, 0.1});
+  const BugAlgorithm bug = Make("bug2");
+  session.StepUntil(bug, HasHit);
+  for (int step = 0; step < 50; ++step) session.Step(bug);
+  session.Stop();
+  const Surroundings view = session.Look();
+  for (int step = 0; step < 2000; ++step) {  // a gate lets no command pass for 100 s
+    (void)bug.Update(session.state, {kTimeStep, session.pose(), view, {-3, 0.2}, {3, 0.1}});
+  }
+  EXPECT_EQ(session.StepUntil(bug, IsFinished).status.mode, PlannerMode::kReached);
 }
 
 TEST(BugRules, GivesTheSameCommandsForTheSameMeasurements) {

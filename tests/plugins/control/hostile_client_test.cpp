@@ -1,0 +1,190 @@
+#include <sys/resource.h>
+
+#include "tests/plugins/control/control_fixture.h"
+
+namespace runnel::test {
+
+namespace {
+
+std::uint64_t PublicationsOf(Runtime& runtime, const std::string& path) {
+  const std::lock_guard lock(runtime.structure_mutex());
+  const auto port = runtime.root().Find(path);
+  EXPECT_TRUE(port);
+  return port ? dynamic_cast<Port&>(**port).publications() : 0;
+}
+
+}  // namespace
+
+TEST_F(ControlTest, AnswersOthersWhileOneHasSentHalfARequest) {
+  const int half = RawClient();
+  SendAll(half, "request 1000\nls");
+  EXPECT_EQ(Ask("ls").code, 0);
+  close(half);
+  EXPECT_EQ(Ask("ls").code, 0);
+}
+
+TEST_F(ControlTest, AnswersOthersWhileOneNeverReads) {
+  ASSERT_EQ(Change("create /image test/image").code, 0);
+  const int deaf = RawClient();
+  SendAll(deaf, FrameBytes("request", "echo /image/image full=yes"));
+  const int flood = RawClient();
+  std::string requests;
+  for (int i = 0; i < 2'000; ++i) requests += FrameBytes("request", "ls");
+  // As much as the system takes; the rest the server has not read.
+  (void)!send(flood, requests.data(), requests.size(), MSG_NOSIGNAL);
+  const std::uint64_t before = PublicationsOf(runtime, "/app/image/output/image");
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(Ask("ls").code, 0);
+  while (PublicationsOf(runtime, "/app/image/output/image") < before + 20) {
+    std::this_thread::sleep_for(1ms);
+  }
+  close(deaf);
+  close(flood);
+}
+
+TEST_F(ControlTest, CountsWhatASlowReaderMisses) {
+  ASSERT_EQ(Change("create /image test/image").code, 0);
+  auto client = Client();
+  int values = 0;
+  std::string all;
+  (void)client.Ask(
+      "echo /image/image full=yes",
+      [&](std::string_view text) {
+        all += text.substr(text.size() > 60 ? text.size() - 60 : 0);
+        std::this_thread::sleep_for(30ms);
+        return ++values < 8;
+      },
+      [](std::string_view) { return true; });
+  EXPECT_EQ(values, 8);
+  EXPECT_THAT(all, HasSubstr(" not shown)"));
+}
+
+TEST_F(ControlTest, RefusesWhatIsTooLongBeforeItHasCome) {
+  const int client = RawClient();
+  SendAll(client, "request 1048577\n");
+  EXPECT_THAT(ReadAll(client), HasSubstr("too long"));
+  close(client);
+}
+
+TEST_F(ControlTest, RefusesWhatIsNoFrameAndHangsUp) {
+  for (const char* bytes : {"GET / HTTP/1.1\r\n\r\n", "\n", "reply 2\nls\n", "request 2\nlsX",
+                            "request 99999999999999999999\n"}) {
+    const int client = RawClient();
+    SendAll(client, bytes);
+    EXPECT_THAT(ReadAll(client), HasSubstr("error: ")) << bytes;
+    close(client);
+  }
+  EXPECT_EQ(Ask("ls").code, 0);
+}
+
+TEST_F(ControlTest, TakesOnlySoManyClientsAndSaysSo) {
+  StartServer({.application = "app", .folder = folder.path() / "runnel", .most_clients = 4});
+  std::vector<ControlClient> clients;
+  for (int i = 0; i < 4; ++i) clients.push_back(Client());
+  const auto refused = ControlClient::Connect(server->socket());
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("4 clients already"));
+  EXPECT_EQ(test::Ask(clients[0], "ls").code, 0);
+  clients.pop_back();
+  // The server learns of it in a moment.
+  for (;;) {
+    auto next = ControlClient::Connect(server->socket());
+    if (!next) continue;
+    EXPECT_EQ(test::Ask(*next, "ls").code, 0);
+    break;
+  }
+}
+
+TEST_F(ControlTest, ServesManyAtOnce) {
+  std::vector<std::thread> threads;
+  std::atomic<int> good{0};
+  for (int i = 0; i < 16; ++i) {
+    threads.emplace_back([&, i] {
+      auto client = Client();
+      const std::string path = "/c" + std::to_string(i);
+      for (int round = 0; round < 10; ++round) {
+        good += test::Ask(client, "change\ncreate " + path + " test/counter").code == 0;
+        good += test::Ask(client, "echo " + path + "/out count=2").code == 0;
+        good += test::Ask(client, "ls").code == 0;
+        good += test::Ask(client, "change\ndelete " + path).code == 0;
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(good.load(), 16 * 10 * 4);
+}
+
+TEST_F(ControlTest, LosesNoDescriptorOverManyClientsThatComeAndGo) {
+  const auto count = [] {
+    const auto all = std::filesystem::directory_iterator("/proc/self/fd");
+    return std::distance(begin(all), end(all));
+  };
+  (void)Ask("ls");
+  const auto before = count();
+  for (int i = 0; i < 500; ++i) {
+    const int client = RawClient();
+    SendAll(client, FrameBytes("request", i % 2 == 0 ? "echo /a/out" : "log follow=yes"));
+    close(client);
+  }
+  while (count() > before + 1) (void)Ask("types");
+}
+
+TEST_F(ControlTest, EndsWhileClientsWaitForAnswers) {
+  const int echo = RawClient();
+  SendAll(echo, FrameBytes("request", "log follow=yes"));
+  const int idle = RawClient();
+  const int half = RawClient();
+  SendAll(half, "request 10\n");
+  (void)Ask("ls");
+  server.reset();
+  EXPECT_THAT(ReadAll(echo), HasSubstr("the application has ended"));
+  (void)ReadAll(idle);
+  (void)ReadAll(half);
+  for (const int each : {echo, idle, half}) close(each);
+}
+
+TEST_F(ControlTest, EndsWhileChangesAreBeingMade) {
+  for (int round = 0; round < 10; ++round) {
+    const int client = RawClient();
+    std::string all;
+    for (int i = 0; i < 20; ++i) {
+      all += FrameBytes("request", "change\nreplace /a with test/counter probation=1000000");
+    }
+    SendAll(client, all);
+    if (round % 2 == 0) ReadAll(client, "hello");
+    StartServer({.application = "app", .folder = folder.path() / "runnel"});
+    close(client);
+  }
+  EXPECT_EQ(Ask("ls /a").code, 0);
+}
+
+TEST_F(ControlTest, RefusesChangesWithoutEnd) {
+  std::string text;
+  for (int i = 0; i < 20'001; ++i) text += "delete /x\n";
+  EXPECT_THAT(Change(text).errors, HasSubstr("more than 20000 changes"));
+  std::string wrong;
+  for (int i = 0; i < 3'000; ++i) wrong += "delete /x\n";
+  const Told told = Change(wrong);
+  EXPECT_EQ(told.code, 2);
+  EXPECT_THAT(told.errors, HasSubstr("and 2900 more errors"));
+}
+
+TEST_F(ControlTest, DoesNotWaitForWhoHoldsTheStructureLock) {
+  std::thread holder;
+  std::atomic<bool> is_held{false};
+  std::atomic<bool> may_go{false};
+  holder = std::thread([&] {
+    const std::lock_guard lock(runtime.structure_mutex());
+    is_held.store(true);
+    while (!may_go.load()) std::this_thread::sleep_for(1ms);
+  });
+  while (!is_held.load()) std::this_thread::sleep_for(1ms);
+  const int waiting = RawClient();
+  SendAll(waiting, FrameBytes("request", "ls"));
+  EXPECT_EQ(Ask("log").code, 0);  // needs no lock
+  may_go.store(true);
+  holder.join();
+  EXPECT_THAT(ReadAll(waiting, "end 1\n0\n"), HasSubstr("test/counter"));
+  close(waiting);
+}
+
+}  // namespace runnel::test
