@@ -55,6 +55,7 @@ class FileUpdate {
   bool SaysConnection(XmlElement tag, Port* from, Port* to, bool is_only_one);
   void UpdateAddedAttributes(XmlElement tag, FrameworkElement& element);
   void UpdateOther(XmlElement tag, FrameworkElement& parent);
+  [[nodiscard]] bool NamesWhatIsGone(XmlElement tag, FrameworkElement& parent) const;
   void UpdateSavedTags(XmlElement tag, FrameworkElement& parent);
   void UpdateSavedTag(XmlElement tag, const SavedTag& saved);
   void UpdateLoad(XmlElement tag);

@@ -56,17 +56,24 @@ void FileUpdate::UpdateAddedAttributes(XmlElement tag, FrameworkElement& element
   }
 }
 
-// What says itself what has to be there comes later; the rest stays, unless what it names is gone.
-void FileUpdate::UpdateOther(XmlElement tag, FrameworkElement& parent) {
+// Whether something that the tag names, or one within, is gone.
+bool FileUpdate::NamesWhatIsGone(XmlElement tag, FrameworkElement& parent) const {
   const XmlTag* const known = saving_.tools.tags.FindTag(tag.name());
-  if (known == nullptr || known->saved) return;
+  if (known == nullptr) return false;
   for (const AttributeRule& rule : saving_.tools.tags.Rules(*known)) {
     const XmlAttribute* const attribute = tag.Attribute(rule.name);
     if (!rule.names_element || attribute == nullptr) continue;
-    if (!std::ranges::all_of(PathsIn(*attribute, parent), LeadsSomewhere)) {
-      return editor_.Remove(tag);
-    }
+    if (!std::ranges::all_of(PathsIn(*attribute, parent), LeadsSomewhere)) return true;
   }
+  return std::ranges::any_of(tag.children(),
+                             [&](XmlElement child) { return NamesWhatIsGone(child, parent); });
+}
+
+// What says itself what has to be there comes later; the rest stays, unless it names what is gone.
+void FileUpdate::UpdateOther(XmlElement tag, FrameworkElement& parent) {
+  const XmlTag* const known = saving_.tools.tags.FindTag(tag.name());
+  if (known == nullptr || known->saved) return;
+  if (NamesWhatIsGone(tag, parent)) editor_.Remove(tag);
 }
 
 void FileUpdate::UpdateSavedTags(XmlElement tag, FrameworkElement& parent) {

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include "plugins/supervision/xml_supervision_tags.h"
 #include "tests/plugins/application_files/saving_workshop.h"
 
 namespace runnel::testing {
@@ -13,6 +14,7 @@ class ShippedFile : public ::testing::TestWithParam<std::filesystem::path> {};
 
 TEST_P(ShippedFile, IsSavedAsItIs) {
   SavingWorkshop shop;
+  AddSupervisionTags(shop.tags);
   shop.plugins.AddSearchFolder(RUNNEL_BUILD_PLUGINS);
   FrameworkElement* const application = shop.Load(GetParam());
   ASSERT_NE(application, nullptr);
