@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/runnel/control_command_line.h"
 #include "apps/runnel/other_programs.h"
 #include "core/base/nearest_name.h"
 #include "core/xml/xml_reading.h"
@@ -23,6 +24,7 @@ ExitCode Refuse(const std::string& message, const std::string& hint) {
 
 std::vector<std::string> AllCommands() {
   std::vector<std::string> commands = kCommands;
+  for (const std::string& command : ControlCommandLine::Names()) commands.push_back(command);
   for (const std::string& command : OtherCommands()) commands.push_back(command);
   return commands;
 }
@@ -38,7 +40,8 @@ std::string FooterText() {
 }
 
 bool IsUnknownCommand(const std::string& word) {
-  return !word.starts_with('-') && std::ranges::find(kCommands, word) == kCommands.end();
+  const auto names = AllCommands();
+  return !word.starts_with('-') && std::ranges::find(names, word) == names.end();
 }
 
 // CLI11's own checks name bounds with three hundred digits.
@@ -93,6 +96,9 @@ CLI::App& AddRun(CLI::App& program, RunArguments& arguments) {
   run.add_flag("--quiet", arguments.quiet, "no progress, only how the run ended");
   run.add_flag("--statistics", arguments.statistics,
                "at the end, how punctual the threads were and how long their cycles took");
+  run.add_flag_callback(
+      "--no-control", [&arguments] { arguments.has_control = false; },
+      "no other process can look at it or change it");
   return run;
 }
 
@@ -130,13 +136,15 @@ CommandLine ParseCommandLine(int count, const char* const* words) {
       ->type_name("FILE")
       ->check(CheckFile);
   program.add_subcommand("version", "says which version this is");
+  const ControlCommandLine control(program);
 
   if (count > 1 && IsUnknownCommand(words[1])) {
     return Refuse("there is no command '" + std::string(words[1]) + "'",
                   NearestNameHint(words[1], AllCommands()));
   }
   try {
-    program.parse(count, words);
+    const auto all = WithNegativeValues(count, words);
+    program.parse(static_cast<int>(all.size()), all.data());
   } catch (const CLI::Success& help) {
     program.exit(help);
     return ExitCode::kDone;
@@ -148,6 +156,7 @@ CommandLine ParseCommandLine(int count, const char* const* words) {
   if (modules.parsed()) return modules_arguments;
   if (schema.parsed()) return schema_arguments;
   if (graph.parsed()) return graph_arguments;
+  if (auto arguments = control.Parsed()) return *arguments;
   return VersionArguments{};
 }
 

@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "apps/runnel/control_command.h"
 #include "apps/runnel/exit_code.h"
 
 namespace runnel::program {
@@ -23,6 +24,7 @@ struct RunArguments {
   std::optional<double> duration = {};  ///< s, of the application's clock
   bool quiet = false;
   bool statistics = false;
+  bool has_control = true;  ///< other processes of the user can reach it
 };
 
 struct CheckArguments {
@@ -49,7 +51,7 @@ struct VersionArguments {};
 /// What to do; or, if there is nothing (left) to do, the exit code: help has been printed, or what
 /// is wrong with the arguments.
 using CommandLine = std::variant<RunArguments, CheckArguments, ModulesArguments, SchemaArguments,
-                                 GraphArguments, VersionArguments, ExitCode>;
+                                 GraphArguments, ControlArguments, VersionArguments, ExitCode>;
 
 [[nodiscard]] CommandLine ParseCommandLine(int count, const char* const* words);
 

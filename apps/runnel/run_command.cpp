@@ -2,7 +2,9 @@
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -15,6 +17,8 @@
 #include "apps/runnel/statistics_table.h"
 #include "apps/runnel/stop_signal.h"
 #include "apps/runnel/workplace.h"
+#include "plugins/control/control_server.h"
+#include "plugins/runtime_construction/plugin_loading.h"
 #include "plugins/runtime_construction/source_place.h"
 #include "plugins/scheduling/xml_scheduling_tags.h"
 #include "plugins/structure/structure_editor.h"
@@ -66,7 +70,7 @@ struct Supervision {
   Supervisor supervisor;
 };
 
-void PrintWarnings(std::vector<Error> warnings, FrameworkElement& root) {
+void PrintWarnings(std::vector<Error> warnings, FrameworkElement& root, ControlLog& log) {
   const std::lock_guard lock(root.runtime().structure_mutex());
   Diagnostics diagnostics;
   for (Error& warning : warnings) {
@@ -75,6 +79,31 @@ void PrintWarnings(std::vector<Error> warnings, FrameworkElement& root) {
     diagnostics.AddWarning(std::move(warning));
   }
   std::cerr << diagnostics.ToString();
+  for (const Error& warning : diagnostics.warnings()) {
+    log.Add(ControlLog::Kind::kWarning, warning.ToString());
+  }
+}
+
+// So that other processes can reach the application. That they cannot is no reason not to run it.
+std::unique_ptr<ControlServer> StartControl(const RunArguments& arguments, Workplace& workplace,
+                                            const FrameworkElement& application,
+                                            StructureEditor& editor, ControlLog& log) {
+  if (!arguments.has_control) return nullptr;
+  ControlHooks hooks;
+  hooks.load_plugin = [&workplace](const std::string& plugin) {
+    return LoadPlugin(plugin, workplace.plugins(), workplace.tags());
+  };
+  auto server = ControlServer::Start(
+      {workplace.runtime(), workplace.plugins().modules(), editor, log, std::move(hooks)},
+      {.application = application.name(),
+       .file = std::filesystem::absolute(arguments.application.file).string()});
+  if (server) return std::move(*server);
+  Error warning = server.error();
+  warning.message = "other processes cannot reach this application: " + warning.message;
+  Diagnostics diagnostics;
+  diagnostics.AddWarning(warning);
+  std::cerr << diagnostics.ToString();
+  return nullptr;
 }
 
 void PrintTimes(Duration so_far, std::chrono::steady_clock::duration real, ClockKind clock) {
@@ -94,13 +123,14 @@ void PrintTimes(Duration so_far, std::chrono::steady_clock::duration real, Clock
 class Session {
  public:
   Session(const RunArguments& arguments, FrameworkElement& application, Scheduler& scheduler,
-          Supervisor& supervisor)
+          Supervisor& supervisor, ControlLog& log)
       : arguments_(arguments),
         scheduler_(scheduler),
         supervisor_(supervisor),
+        log_(log),
         root_(application.runtime().root()),
         start_(application.runtime().clock().Now()),
-        report_(application),
+        report_(application.runtime()),
         display_(!arguments.quiet) {}
 
   ExitCode Run(Runtime& runtime) {
@@ -133,18 +163,22 @@ class Session {
 
   // Not before the start, which only shows what the system refuses to real-time threads.
   void WarnOnce() {
-    if (!std::exchange(has_warned_, true)) PrintWarnings(scheduler_.Warnings(), root_);
+    if (!std::exchange(has_warned_, true)) PrintWarnings(scheduler_.Warnings(), root_, log_);
   }
 
   void PrintFaults() {
     for (const Fault& fault : scheduler_.TakeFaults()) {
       report_.Hear(fault);
       display_.Clear();
-      std::cerr << FaultText(fault, start_, root_) << std::flush;
+      const std::string text = FaultText(fault, start_, root_);
+      std::cerr << text << std::flush;
+      log_.Add(ControlLog::Kind::kFault, text);
     }
     for (const Notice& notice : supervisor_.TakeNotices()) {
       display_.Clear();
-      std::cerr << NoticeText(notice, start_, root_) << std::flush;
+      const std::string text = NoticeText(notice, start_, root_);
+      std::cerr << text << std::flush;
+      log_.Add(ControlLog::Kind::kFault, text);
     }
   }
 
@@ -171,6 +205,7 @@ class Session {
   const RunArguments& arguments_;
   Scheduler& scheduler_;
   Supervisor& supervisor_;
+  ControlLog& log_;
   FrameworkElement& root_;
   const Time start_;
   RunReport report_;
@@ -195,7 +230,10 @@ ExitCode Run(const RunArguments& arguments) {
   };
   const BuildOutcome outcome = workplace.Build(arguments.application, BuildMode::kRun, schedule);
   if (outcome.application == nullptr) return ExitCode::kBadInput;
-  return Session(arguments, *outcome.application, *scheduler, supervision->supervisor)
+  ControlLog log(workplace.runtime().clock());
+  const auto control =
+      StartControl(arguments, workplace, *outcome.application, supervision->editor, log);
+  return Session(arguments, *outcome.application, *scheduler, supervision->supervisor, log)
       .Run(workplace.runtime());
 }
 

@@ -11,13 +11,24 @@
 
 namespace runnel::program {
 
-RunReport::RunReport(FrameworkElement& application) {
-  const std::lock_guard lock(application.runtime().structure_mutex());
-  application.Visit([this](FrameworkElement& element) {
-    if (auto* const monitor = element.FindAnnotation<RunMonitor>()) {
-      judges_.push_back({monitor, element.path(), FindSourcePlace(element)});
-    }
+RunReport::RunReport(Runtime& runtime) : runtime_(runtime) {
+  const std::lock_guard lock(runtime_.structure_mutex());
+  OnReady(runtime_.root());
+  runtime_.AddListener(*this);
+}
+
+RunReport::~RunReport() { runtime_.RemoveListener(*this); }
+
+void RunReport::OnReady(FrameworkElement& ready) {
+  ready.Visit([this](FrameworkElement& element) {
+    auto* const monitor = element.FindAnnotation<RunMonitor>();
+    if (monitor == nullptr || std::ranges::count(judges_, &element, &Judge::element) > 0) return;
+    judges_.push_back({monitor, &element, element.path(), FindSourcePlace(element)});
   });
+}
+
+void RunReport::OnDeleted(FrameworkElement& element) {
+  std::erase_if(judges_, [&](const Judge& each) { return each.element->IsAtOrBelow(element); });
 }
 
 template <typename Use>
@@ -47,6 +58,7 @@ std::optional<RunOutcome> RunReport::OutcomeOf(Judge& judge) {
 }
 
 std::string RunReport::Progress() {
+  const std::lock_guard lock(runtime_.structure_mutex());
   std::string text;
   for (Judge& judge : judges_) {
     if (judge.has_failed) continue;
@@ -57,18 +69,22 @@ std::string RunReport::Progress() {
 }
 
 void RunReport::Hear(const Fault& fault) {
+  if (fault.is_mended) return;
+  const std::lock_guard lock(runtime_.structure_mutex());
   for (Judge& judge : judges_) {
     if (judge.path == fault.path) judge.has_failed = true;
   }
 }
 
 bool RunReport::IsOver() {
+  const std::lock_guard lock(runtime_.structure_mutex());
   return !judges_.empty() && std::ranges::all_of(judges_, [this](Judge& judge) {
     return OutcomeOf(judge).has_value() || judge.has_failed;
   });
 }
 
 std::string RunReport::Verdicts() {
+  const std::lock_guard lock(runtime_.structure_mutex());
   std::string text;
   for (Judge& judge : judges_) {
     const auto outcome = OutcomeOf(judge);
@@ -79,6 +95,7 @@ std::string RunReport::Verdicts() {
 }
 
 bool RunReport::IsGood() {
+  const std::lock_guard lock(runtime_.structure_mutex());
   return std::ranges::all_of(judges_, [this](Judge& judge) {
     const auto outcome = OutcomeOf(judge);
     return !judge.has_failed && (!outcome || outcome->success);
@@ -86,6 +103,7 @@ bool RunReport::IsGood() {
 }
 
 std::string RunReport::Finish(Diagnostics& diagnostics) {
+  const std::lock_guard lock(runtime_.structure_mutex());
   std::string text;
   for (Judge& judge : judges_) {
     const auto said = Attempt(judge, [](RunMonitor& monitor) { return monitor.Finish(); });
@@ -106,12 +124,17 @@ std::string RunReport::Finish(Diagnostics& diagnostics) {
 
 std::string FaultText(const Fault& fault, Time start, FrameworkElement& root) {
   const std::lock_guard lock(root.runtime().structure_mutex());
-  Diagnostics diagnostics;
   const auto element = root.Find(fault.path);
-  diagnostics.Add({.message = "has been stopped: " + fault.message,
-                   .path = fault.path,
-                   .position = element ? FindSourcePlace(**element) : SourcePosition{},
-                   .hint = DurationText(fault.time - start) + " after the start"});
+  Error text{.message = "has been stopped: " + fault.message,
+             .path = fault.path,
+             .position = element ? FindSourcePlace(**element) : SourcePosition{},
+             .hint = DurationText(fault.time - start) + " after the start"};
+  Diagnostics diagnostics;
+  if (fault.is_mended) {
+    diagnostics.AddWarning(std::move(text));
+  } else {
+    diagnostics.Add(std::move(text));
+  }
   return diagnostics.ToString();
 }
 

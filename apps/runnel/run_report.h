@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "core/base/diagnostics.h"
-#include "core/element/framework_element.h"
+#include "core/element/element_listener.h"
+#include "core/element/runtime.h"
 #include "core/module/run_monitor.h"
 #include "plugins/scheduling/fault.h"
 #include "plugins/supervision/supervision_rules.h"
@@ -14,12 +15,17 @@ namespace runnel::program {
 
 /// What the modules that judge a run have to say, all of them together. A monitor that throws, or
 /// whose module has been stopped by a fault, has failed: it comes to no verdict any more, and the
-/// run is not a good one.
-class RunReport {
+/// run is not a good one. Modules may come and go meanwhile.
+///
+/// Threads:  all but what a listener is told by one thread, which takes the structure lock: no monitor
+///           goes while it is being asked.
+class RunReport final : public ElementListener {
  public:
-  /// Looks for run monitors at and below `application`, which must outlive this. Takes the
-  /// structure lock.
-  explicit RunReport(FrameworkElement& application);
+  /// Looks for run monitors in the runtime, which must outlive this.
+  explicit RunReport(Runtime& runtime);
+  ~RunReport() override;
+  RunReport(const RunReport&) = delete;
+  RunReport& operator=(const RunReport&) = delete;
 
   /// "2.31 m to the goal, following"; several separated by "; ".
   [[nodiscard]] std::string Progress();
@@ -35,9 +41,13 @@ class RunReport {
   /// goes to `diagnostics`, as does what they have thrown. Call once.
   [[nodiscard]] std::string Finish(Diagnostics& diagnostics);
 
+  void OnReady(FrameworkElement& element) override;
+  void OnDeleted(FrameworkElement& element) override;
+
  private:
   struct Judge {
     RunMonitor* monitor;
+    const FrameworkElement* element;
     std::string path;
     SourcePosition position;
     bool has_failed = false;
@@ -49,7 +59,8 @@ class RunReport {
   void Fail(Judge& judge, const std::string& why);
   [[nodiscard]] std::optional<RunOutcome> OutcomeOf(Judge& judge);
 
-  std::vector<Judge> judges_;
+  Runtime& runtime_;
+  std::vector<Judge> judges_;  // guarded by the structure lock
   std::vector<Error> failures_;
 };
 

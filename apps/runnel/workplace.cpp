@@ -2,10 +2,27 @@
 
 #include <iostream>
 
+#include "plugins/finroc_files/finroc_application.h"
 #include "plugins/scheduling/xml_scheduling_tags.h"
 #include "plugins/supervision/xml_supervision_tags.h"
 
 namespace runnel::program {
+
+namespace {
+
+// Of Runnel or of FINROC; what is wrong with the file itself, the first of these says.
+BuildOutcome BuildFile(const std::string& file, const BuildTools& tools, BuildMode mode) {
+  const auto text = XmlDocument::ReadText(file);
+  if (text && text->find("<Finstructable") != std::string::npos) {
+    const auto document = XmlDocument::Parse(*text, file);
+    if (document && IsFinrocFile(document->root())) {
+      return BuildFinrocApplication(*document, file, tools, mode);
+    }
+  }
+  return BuildApplication(file, tools, mode);
+}
+
+}  // namespace
 
 Workplace::Workplace() {
   AddSchedulingTags(tags_);
@@ -26,7 +43,7 @@ BuildOutcome Workplace::Build(const ApplicationArguments& arguments, BuildMode m
   ReadConfiguration(arguments, before);
   // A mistake there does not keep those in the application file from being told, but from running.
   if (!before.ok()) mode = BuildMode::kCheck;
-  BuildOutcome outcome = BuildApplication(
+  BuildOutcome outcome = BuildFile(
       arguments.file, {runtime_, plugins_, tags_, configuration_, std::move(before_ready)}, mode);
   for (const Error& error : before.errors()) outcome.diagnostics.Add(error);
   std::cerr << outcome.diagnostics.ToString();

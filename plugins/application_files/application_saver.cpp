@@ -42,10 +42,23 @@ Result<std::string> UpdatedText(Saving& saving, const ApplicationSource& source)
   return editor.Finish();
 }
 
+// A file that would not load is no use; better to be told now.
+void CheckRequiredInputs(Saving& saving) {
+  saving.application.Visit([&](FrameworkElement& element) {
+    const auto* const port = dynamic_cast<const Port*>(&element);
+    if (port == nullptr || !port->is_required() || !port->Sources().empty()) return;
+    saving.Fail({.message = "nothing is connected to this input, which its module requires: a file "
+                            "that says so would not load",
+                 .path = port->path(),
+                 .hint = "connect it, or delete the module"});
+  });
+}
+
 // Under the structure lock.
 Result<SavedText> TextOfApplication(FrameworkElement& application, const SaveTools& tools,
                                     const fs::path& folder) {
   Saving saving{application, tools, folder, internal::SavedEdges(application)};
+  CheckRequiredInputs(saving);
   const auto* const source = application.FindAnnotation<ApplicationSource>();
   Result<std::string> text =
       source != nullptr ? UpdatedText(saving, *source) : Result<std::string>(WholeText(saving));

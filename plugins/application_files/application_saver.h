@@ -24,7 +24,8 @@ struct SaveTools {
 /// been changed since.
 ///
 /// Threads: any outside of cycles; holds the structure lock.
-/// Errors:  a module of no registered type; a change of what another file describes.
+/// Errors:  a module of no registered type; a change of what another file describes; a required input
+///          that nothing is connected to.
 [[nodiscard]] Result<std::string> ApplicationText(FrameworkElement& application,
                                                   const SaveTools& tools,
                                                   const std::filesystem::path& folder);

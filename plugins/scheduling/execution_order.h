@@ -30,6 +30,8 @@ struct ExecutionOrder {
 ///   4. If none is free, the tasks left contain loops. Of those loops that no other loop feeds, the
 ///      task that rule 3 puts first runs next; the edges into it from tasks that are left are cut,
 ///      and each of their connections is reported. A task that feeds itself is reported likewise.
+///      After 32 such cuts, each within the loop that the one before has left, what is left of it runs
+///      by rule 3 alone, and every connection against that is cut.
 /// No address and no clock enters: the same application gives the same order and the same cuts.
 ///
 /// Threads:     under the structure lock. Effort: O(n log n) for n tasks and connections without

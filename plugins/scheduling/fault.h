@@ -9,9 +9,10 @@ namespace runnel {
 
 /// A module has thrown in its cycle and has been stopped.
 struct Fault {
-  std::string path;     ///< of the module
-  std::string message;  ///< what it threw; cut off after kLongestFaultMessage characters
-  Time time{};          ///< of the cycle in which it happened
+  std::string path;        ///< of the module
+  std::string message;     ///< what it threw; cut off after kLongestFaultMessage characters
+  Time time{};             ///< of the cycle in which it happened
+  bool is_mended = false;  ///< the scheduler's fault handler has seen to it; no rule is applied
 };
 
 inline constexpr std::size_t kLongestFaultMessage = 500;

@@ -67,7 +67,7 @@ void FaultDesk::Attend() {
 
 void FaultDesk::Report(const Fault& fault) {
   if (const auto done = Handle(fault)) {
-    return Log({fault.path, fault.message + "; " + *done, fault.time});
+    return Log({fault.path, fault.message + "; " + *done, fault.time, true});
   }
   std::vector<FaultRule> rules;
   {

@@ -142,10 +142,11 @@ void ScheduleCompiler::Add(FrameworkElement& element) noexcept {
   });
 }
 
+// Its trigger inputs stay tied meanwhile, so that no data are missed.
 void ScheduleCompiler::Refresh(FrameworkElement& element) {
   const auto known = elements_.find(element.serial());
   if (known == elements_.end() || known->second.lane == nullptr) return;
-  Unplan(known->second);
+  RemoveTasks(known->second);
   Plan(element);
   ConnectTasks(known->second);
 }
@@ -159,7 +160,7 @@ void ScheduleCompiler::Reassign(FrameworkElement& element) noexcept {
       const auto known = elements_.find(each->serial());
       Lane* const lane = ChooseLane(*each);
       if (known == elements_.end() || known->second.lane == lane) continue;
-      Unplan(known->second);
+      RemoveTasks(known->second);
       Plan(*each);
       moved.push_back(&known->second);
     }
@@ -198,11 +199,6 @@ void ScheduleCompiler::Plan(FrameworkElement& element) {
   HandOver(planned, *ChooseLane(element));
   AddTasks(planned);
   TieToLane(planned);
-}
-
-void ScheduleCompiler::Unplan(PlannedElement& planned) {
-  internal::Untie(internal::TriggerInputs(TasksOf(planned)));
-  RemoveTasks(planned);
 }
 
 void ScheduleCompiler::AddTasks(PlannedElement& planned) {
@@ -296,7 +292,8 @@ void ScheduleCompiler::Release(FrameworkElement& element) {
     if (lanes_.contains(each.serial())) NeedAll();
     const auto known = elements_.find(each.serial());
     if (known == elements_.end()) return;
-    Unplan(known->second);
+    internal::Untie(internal::TriggerInputs(each.FindAnnotation<Executable>()->tasks()));
+    RemoveTasks(known->second);
     // A publisher may still be about to wake it.
     Retire([state = std::move(known->second.state)] {});
     elements_.erase(known);

@@ -76,7 +76,6 @@ class ScheduleCompiler {
   void Follow(const Change& change) noexcept;
   void MakeLanes(const std::vector<ThreadContainer*>& containers);
   void Plan(FrameworkElement& element);
-  void Unplan(internal::PlannedElement& planned);
   void AddTasks(internal::PlannedElement& planned);
   void RemoveTasks(internal::PlannedElement& planned);
   void Refresh(FrameworkElement& element);

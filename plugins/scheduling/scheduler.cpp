@@ -233,7 +233,7 @@ Scheduler::Runners Scheduler::RunnersOf(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
     if (const auto found = runtime_.root().Find(path)) compiler_.AddRunnersOf(**found, running);
   }
-  return compiler_.RunnersOf(elements);
+  return running;
 }
 
 std::optional<std::uint64_t> Scheduler::CyclesOf(const std::string& path) {

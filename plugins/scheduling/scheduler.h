@@ -147,7 +147,7 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   void FollowChanges();
   bool RunNext(Time due);
 
-  // All five under the structure lock.
+  // All six under the structure lock.
   // Whether a cycle may begin at any time.
   [[nodiscard]] bool is_live() const noexcept { return is_running_ || has_stepped_; }
   [[nodiscard]] bool is_up_to_date() const noexcept {

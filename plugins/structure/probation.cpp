@@ -1,6 +1,7 @@
 #include "plugins/structure/probation.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "core/plugin/module_type_name.h"
@@ -59,7 +60,9 @@ std::optional<std::string> Probation::Answer(const Fault& fault) {
   waiting_.erase(found);
   const std::string before = FindModuleType(*waiting.replaced.before);
   auto gone = PutBack(std::move(waiting));
-  if (!gone) return "the module before could not be put back: " + gone.error().ToString();
+  if (!gone) {
+    throw std::runtime_error("the module before could not be put back: " + gone.error().ToString());
+  }
   runtime_.Destroy(std::move(*gone));
   return "the module before (" + (before.empty() ? "made by code" : before) +
          ") is back in its place";

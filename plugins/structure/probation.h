@@ -26,7 +26,7 @@ class Probation {
   [[nodiscard]] std::vector<UnlistedElement> TakeProved();
   [[nodiscard]] std::vector<UnlistedElement> TakeAll();
   /// The module of the fault has thrown: if it is on probation, its predecessor is back when this returns.
-  /// What has been done, in words; nullopt if it is not on probation.
+  /// What has been done, in words; nullopt if it is not on probation. Throws if it could not be done.
   [[nodiscard]] std::optional<std::string> Answer(const Fault& fault);
   [[nodiscard]] std::size_t size() const noexcept { return waiting_.size(); }
 

@@ -111,7 +111,7 @@ void ReadReplace(const ReactionUse& use) {
   const FrameworkElement* const found = SearchElement(PathIn(*module, use.base), use.context);
   if (found == nullptr) return;
   const ModuleRegistry& modules = use.context.plugins().modules();
-  if (const auto known = modules.Find(by->value); !known) {
+  if (const auto known = modules.Get(by->value); !known) {
     use.Report({.message = known.error().message,
                 .hint = ModuleTypeHint(by->value, use.context.plugins())},
                by->value_position);

@@ -27,6 +27,10 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
                    {"core", "plugins/parameters", "plugins/runtime_construction"}});
   rules.push_back(
       {"plugins/application_graph", "plugins/application_graph", {"core", "plugins/scheduling"}});
+  rules.push_back(
+      {"plugins/finroc_files",
+       "plugins/finroc_files",
+       {"core", "plugins/parameters", "plugins/runtime_construction", "plugins/scheduling"}});
   // The tags of application files stand apart, so that scheduling itself needs no XML.
   rules.push_back(
       {"the tags of scheduling",
@@ -34,6 +38,8 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
        {"core", "plugins/parameters", "plugins/runtime_construction", "plugins/scheduling"}});
   rules.push_back({"plugins/scheduling", "plugins/scheduling", {"core"}});
   rules.push_back({"plugins/structure", "plugins/structure", {"core", "plugins/scheduling"}});
+  rules.push_back(
+      {"plugins/control", "plugins/control", {"core", "plugins/scheduling", "plugins/structure"}});
   rules.push_back({"the tags of supervision",
                    "plugins/supervision/xml_",
                    {"core", "plugins/parameters", "plugins/runtime_construction",

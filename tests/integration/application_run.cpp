@@ -12,6 +12,7 @@
 #include "plugins/runtime_construction/application_builder.h"
 #include "plugins/scheduling/xml_scheduling_tags.h"
 #include "plugins/structure/structure_editor.h"
+#include "plugins/supervision/xml_supervision_tags.h"
 
 namespace runnel::test {
 
@@ -52,6 +53,7 @@ ApplicationRun RunApplication(const ApplicationChoice& choice) {
   plugins.AddSearchFolder(RUNNEL_TEST_PLUGINS);
   XmlTagRegistry tags;
   AddSchedulingTags(tags);
+  AddSupervisionTags(tags);
   plugins.registry().Offer(tags);
   Configuration configuration;
   for (const std::string& argument : choice.arguments) {
@@ -61,6 +63,13 @@ ApplicationRun RunApplication(const ApplicationChoice& choice) {
   }
   Runtime runtime;
   std::optional<Scheduler> scheduler;
+  std::optional<StructureEditor> editor;
+  std::optional<Supervisor> supervisor;
+  const auto perform = [&](const ChangeSet& changes) -> Result<void> {
+    const ChangeOutcome outcome = editor->Apply(changes);
+    if (!outcome) return outcome.diagnostics.errors().front();
+    return {};
+  };
   const auto schedule = [&](FrameworkElement& application) -> Result<void> {
     SchedulerOptions options = SchedulerOptionsOf(application);
     options.speed = 0;
@@ -68,7 +77,9 @@ ApplicationRun RunApplication(const ApplicationChoice& choice) {
     for (const auto& [rule, position] : FaultRulesOf(application)) {
       if (auto added = scheduler->AddFaultRule(rule); !added) return added;
     }
-    return {};
+    editor.emplace(runtime, plugins.modules(), &*scheduler);
+    supervisor.emplace(runtime, *scheduler, perform);
+    return AddSupervisionRules(application, *supervisor);
   };
   const BuildOutcome built = BuildApplication(
       *document, folder, {runtime, plugins, tags, configuration, schedule}, BuildMode::kRun);
@@ -79,7 +90,6 @@ ApplicationRun RunApplication(const ApplicationChoice& choice) {
   if (!pose) throw std::runtime_error(pose.error().ToString());
   ApplicationRun run;
   const Time start = runtime.clock().Now();
-  StructureEditor editor(runtime, plugins.modules(), &*scheduler);
   auto change = choice.changes.begin();
   const auto step = [&] {
     if (choice.before_step) choice.before_step();
@@ -89,7 +99,7 @@ ApplicationRun RunApplication(const ApplicationChoice& choice) {
   };
   while (run.duration < choice.limit && !run.outcome && step()) {
     for (; change != choice.changes.end() && change->first <= run.duration; ++change) {
-      const ChangeOutcome outcome = editor.Apply(change->second);
+      const ChangeOutcome outcome = editor->Apply(change->second);
       if (!outcome) throw std::runtime_error(outcome.diagnostics.ToString());
     }
     dynamic_cast<Port&>(**pose).LookAtValue(
@@ -98,6 +108,7 @@ ApplicationRun RunApplication(const ApplicationChoice& choice) {
     run.duration = runtime.clock().Now() - start;
   }
   run.faults = scheduler->TakeFaults();
+  run.notices = supervisor->TakeNotices();
   run.was_stopped = scheduler->stop_requested();
   return run;
 }

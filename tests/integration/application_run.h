@@ -11,6 +11,7 @@
 #include "modules/types/algorithm/pose.h"
 #include "plugins/scheduling/fault.h"
 #include "plugins/structure/change.h"
+#include "plugins/supervision/supervision_rules.h"
 
 namespace runnel::test {
 
@@ -19,7 +20,8 @@ struct ApplicationRun {
   std::optional<RunOutcome> outcome;  ///< nothing if the time limit came first, or a fault's stop
   std::vector<Pose2> truth;           ///< where the robot really was, after each cycle
   std::vector<Fault> faults;
-  bool was_stopped = false;  ///< by a fault rule
+  std::vector<Notice> notices;  ///< of what was done about faults and silence
+  bool was_stopped = false;     ///< by a fault rule
   Duration duration{};
 };
 

@@ -99,22 +99,45 @@ LoopCut CutOnce(Tasks loop) {
   return {head, std::move(loop), std::move(cuts)};
 }
 
+// All that leads backwards in the order of rule 3. Phases of one element never do.
+LoopCut CutEverywhere(Tasks loop) {
+  const std::uint64_t set = NextSet();
+  for (OrderedTask* task : loop) task->set = set;
+  std::ranges::sort(loop, {}, [](const OrderedTask* task) { return task->key(); });
+  std::vector<Dependency*> cuts;
+  for (OrderedTask* task : loop) {
+    for (Dependency* each : task->incoming) {
+      if (each->from->set == set && task->key() < each->from->key()) cuts.push_back(each);
+    }
+  }
+  OrderedTask* const head = loop.front();
+  return {head, std::move(loop), std::move(cuts)};
+}
+
 }  // namespace
 
 std::vector<Tasks> FindLoops(const Tasks& tasks) { return LoopFinder(tasks).TakeLoops(); }
 
 std::vector<LoopCut> CutLoop(Tasks loop) {
+  struct Open {
+    Tasks loop;
+    int depth;
+  };
   std::vector<LoopCut> cuts;
-  std::vector<Tasks> open;
-  open.push_back(std::move(loop));
+  std::vector<Open> open;
+  open.push_back({std::move(loop), 0});
   while (!open.empty()) {
-    Tasks next = std::move(open.back());
+    Open next = std::move(open.back());
     open.pop_back();
-    cuts.push_back(CutOnce(std::move(next)));
+    if (next.depth == kDeepestLoop) {
+      cuts.push_back(CutEverywhere(std::move(next.loop)));
+      continue;
+    }
+    cuts.push_back(CutOnce(std::move(next.loop)));
     Tasks others = cuts.back().loop;
     std::erase(others, cuts.back().head);
     for (Tasks& each : FindLoops(others)) {
-      if (each.size() > 1) open.push_back(std::move(each));
+      if (each.size() > 1) open.push_back({std::move(each), next.depth + 1});
     }
   }
   return cuts;

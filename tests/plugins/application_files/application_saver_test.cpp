@@ -111,10 +111,20 @@ TEST_F(ApplicationSaver, AddsAValueThatWasNotThere) {
 TEST_F(ApplicationSaver, TakesOneNameOutOfAList) {
   Load();
   ASSERT_TRUE(
-      Port::Disconnect(Get<Port>("/demo/inner/in"), Get<Port>("/demo/inner/filter/input/value")));
+      Port::Disconnect(Get<Port>("/demo/inner/in"), Get<Port>("/demo/inner/sink/input/second")));
   EXPECT_EQ(Text(), With("<port name=\"in\" direction=\"input\"/>",
                          "<port name=\"in\" direction=\"input\" type=\"double\"/>",
-                         With("\"filter/value  sink/second\"", "\"sink/second\"")));
+                         With("\"filter/value  sink/second\"", "\"filter/value\"")));
+}
+
+TEST_F(ApplicationSaver, RefusesWhatWouldNotLoad) {
+  Load();
+  ASSERT_TRUE(
+      Port::Disconnect(Get<Port>("/demo/inner/in"), Get<Port>("/demo/inner/filter/input/value")));
+  const auto text = ApplicationText(*application_, shop_.tools(), folder_.path());
+  ASSERT_FALSE(text);
+  EXPECT_EQ(text.error().path, "/demo/inner/filter/input/value");
+  EXPECT_THAT(text.error().message, HasSubstr("would not load"));
 }
 
 TEST_F(ApplicationSaver, CutsAConnectionWithItsLine) {

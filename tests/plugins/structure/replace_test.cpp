@@ -79,6 +79,7 @@ TEST_F(ReplaceTest, WhatThrowsInItsFirstCyclesMakesRoomForTheOldOne) {
   EXPECT_EQ(FindModuleType(At<Module>("/app/counter")), "test/counter");
   const auto faults = scheduler.TakeFaults();
   ASSERT_THAT(faults, SizeIs(1));
+  EXPECT_TRUE(faults[0].is_mended);
   EXPECT_THAT(faults[0].message,
               HasSubstr("is faulty; the module before (test/counter) is back in its place"));
   Steps(2);

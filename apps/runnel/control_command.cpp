@@ -1,0 +1,158 @@
+#include "apps/runnel/control_command.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+
+#include "apps/runnel/completion.h"
+#include "apps/runnel/print_error.h"
+#include "plugins/control/control_client.h"
+#include "plugins/control/control_folder.h"
+#include "plugins/control/request.h"
+#include "plugins/structure/change_words.h"
+
+namespace runnel::program {
+
+namespace {
+
+using internal::AsWord;
+
+std::string SettingText(const std::string& word) {
+  const std::size_t equals = word.find('=');
+  if (equals == std::string::npos) return AsWord(word);
+  return word.substr(0, equals + 1) + AsWord(word.substr(equals + 1));
+}
+
+// The first words are paths and types, the others "name=value".
+std::string WordsText(const std::vector<std::string>& words, std::size_t plain) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    text += " " + (i < plain ? AsWord(words[i]) : SettingText(words[i]));
+  }
+  return text;
+}
+
+std::string OptionText(const char* name, const std::optional<std::string>& value) {
+  return value ? " " + std::string(name) + "=" + AsWord(*value) : "";
+}
+
+// What the command says in the language of changes; what is wrong with it is for the reader to say.
+std::optional<std::string> ChangeTextOf(const ControlArguments& arguments) {
+  const std::string& command = arguments.command;
+  const std::vector<std::string>& words = arguments.words;
+  if (command == "connect") {
+    return command + WordsText(words, 2) + OptionText("queue", arguments.queue) +
+           OptionText("on_full", arguments.on_full);
+  }
+  if (command == "swap") {
+    std::string text = "replace " + AsWord(words[0]) + " with";
+    text += WordsText({words.begin() + 1, words.end()}, 1);
+    return text + OptionText("probation", arguments.probation);
+  }
+  if (command == "move") return "move " + AsWord(words[0]) + " to " + AsWord(words[1]);
+  if (command == "create") return command + WordsText(words, words[0] == "port" ? 4 : 2);
+  if (command == "set" || command == "disconnect" || command == "delete") {
+    return command + WordsText(words, words.size());
+  }
+  return {};
+}
+
+Result<std::string> ReadChanges(const std::string& file) {
+  if (file == "-") return std::string(std::istreambuf_iterator<char>(std::cin), {});
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(std::istreambuf_iterator<char>(stream), {});
+  if (!stream.is_open() || stream.bad()) {
+    return Error{.message = "cannot be read", .position = {.file = file}};
+  }
+  return text;
+}
+
+Result<Request> RequestOf(const ControlArguments& arguments) {
+  Request request{.command = arguments.command, .words = {}, .options = {}, .body = {}};
+  if (const auto change = ChangeTextOf(arguments)) {
+    request.command = "change";
+    request.body = *change;
+    return request;
+  }
+  if (arguments.command == "change") {
+    const std::string& file = arguments.words[0];
+    const auto text = ReadChanges(file);
+    if (!text) return text.error();
+    request.options["file"] = file == "-" ? "standard input" : file;
+    request.body = *text;
+    return request;
+  }
+  for (const std::string& word : arguments.words) {
+    if (!word.empty()) request.words.push_back(word);
+  }
+  // The application may be at home in another folder.
+  if (arguments.command == "save" && !request.words.empty()) {
+    request.words[0] = std::filesystem::absolute(request.words[0]).string();
+  }
+  if (arguments.count) request.options["count"] = std::to_string(*arguments.count);
+  if (arguments.is_long) request.options["long"] = "yes";
+  if (arguments.is_full) request.options["full"] = "yes";
+  if (arguments.follows) request.options["follow"] = "yes";
+  return request;
+}
+
+Result<std::vector<RunningApplication>> FindThem() {
+  std::vector<Error> silent;
+  auto applications = FindRunningApplications(ControlFolder(), &silent);
+  for (const Error& error : silent) PrintError(error);
+  return applications;
+}
+
+ExitCode ListApplications() {
+  const auto applications = FindThem();
+  if (!applications) {
+    PrintError(applications.error());
+    return ExitCode::kRunFailed;
+  }
+  std::printf("%8s  %-20s  %12s  %s\n", "process", "application", "running for", "file");
+  for (const RunningApplication& each : *applications) {
+    std::printf("%8d  %-20s  %10.2f s  %s\n", static_cast<int>(each.hello.process),
+                each.hello.application.c_str(), ToSeconds(each.hello.time),
+                each.hello.file.c_str());
+  }
+  std::fflush(stdout);
+  return ExitCode::kDone;
+}
+
+Result<int> Ask(const ControlArguments& arguments, const Request& request) {
+  const auto applications = FindThem();
+  if (!applications) return applications.error();
+  const auto chosen = ChooseApplication(*applications, arguments.application);
+  if (!chosen) return chosen.error();
+  auto client = ControlClient::Connect(chosen->socket);
+  if (!client) return client.error();
+  const auto show = [](std::ostream& stream) {
+    return [&stream](std::string_view text) {
+      stream << text << std::flush;
+      return stream.good();
+    };
+  };
+  return client->Ask(request.ToText(), show(std::cout), show(std::cerr));
+}
+
+}  // namespace
+
+ExitCode Control(const ControlArguments& arguments) {
+  if (arguments.command == "ps") return ListApplications();
+  if (arguments.command == "complete") return Complete(arguments);
+  const auto request = RequestOf(arguments);
+  if (!request) {
+    PrintError(request.error());
+    return ExitCode::kBadInput;
+  }
+  const auto code = Ask(arguments, *request);
+  if (!code) {
+    PrintError(code.error());
+    return ExitCode::kRunFailed;
+  }
+  return static_cast<ExitCode>(*code);
+}
+
+}  // namespace runnel::program

@@ -1,0 +1,142 @@
+#include "apps/runnel/control_command_line.h"
+
+#include <algorithm>
+#include <string_view>
+
+namespace runnel::program {
+
+namespace {
+
+constexpr const char* kElement = "PATH";
+constexpr const char* kPort = "PORT";
+constexpr std::size_t kMostWords = 2;  // of those that are parsed one by one
+
+}  // namespace
+
+const std::vector<std::string>& ControlCommandLine::Names() {
+  static const std::vector<std::string> names{
+      "ps",     "ls",   "echo", "hz",   "set",    "connect", "disconnect", "create",
+      "delete", "swap", "move", "save", "change", "log",     "complete"};
+  return names;
+}
+
+ControlCommandLine::ControlCommandLine(CLI::App& program) {
+  const auto add = [&](const char* name, const char* description) -> Entry& {
+    Entry& entry = entries_.emplace_back();
+    entry.command = program.add_subcommand(name, description);
+    entry.arguments.command = name;
+    entry.command
+        ->add_option("--app", entry.arguments.application,
+                     "which one, by name or process, if several are running")
+        ->type_name("NAME|PROCESS");
+    return entry;
+  };
+  const auto word = [](Entry& entry, const char* name, const char* description) {
+    // The parser keeps the address.
+    entry.arguments.words.reserve(kMostWords);
+    return entry.command->add_option(name, entry.arguments.words.emplace_back(), description)
+        ->required();
+  };
+  const auto count = [](Entry& entry, const char* description) {
+    entry.command->add_option("-n", entry.arguments.count, description)
+        ->type_name("N")
+        ->check(CLI::Range(1, 1'000'000'000));
+  };
+
+  Entry& ps = entries_.emplace_back();
+  ps.command = program.add_subcommand("ps", "lists the running applications");
+  ps.arguments.command = "ps";
+
+  Entry& ls = add("ls", "shows what a running application is made of");
+  word(ls, "path", "only this and what is below it")->required(false)->type_name(kElement);
+  ls.command->add_flag("-l,--long", ls.arguments.is_long,
+                       "also connections, rates, threads and their cycles");
+
+  Entry& echo = add("echo", "shows the values of a port, until Ctrl-C");
+  word(echo, "port", "input or output")->type_name(kPort);
+  count(echo, "ends after so many values");
+  echo.command->add_flag("--full", echo.arguments.is_full, "does not shorten long lists and texts");
+
+  Entry& hz = add("hz", "shows each second how often a port publishes, until Ctrl-C");
+  word(hz, "port", "input or output")->type_name(kPort);
+  count(hz, "ends after so many seconds");
+
+  Entry& set = add("set", "gives a parameter another value");
+  word(set, "parameter", "its path")->type_name(kElement);
+  word(set, "value", "in its text form")->type_name("VALUE");
+
+  Entry& connect = add("connect", "connects two ports");
+  word(connect, "from", "output")->type_name(kPort);
+  word(connect, "to", "input")->type_name(kPort);
+  connect.command->add_option("--queue", connect.arguments.queue, "so many values may wait")
+      ->type_name("N");
+  connect.command
+      ->add_option("--on-full", connect.arguments.on_full,
+                   "what a full queue does: drop_oldest, drop_newest, refuse")
+      ->type_name("WORD");
+
+  Entry& disconnect = add("disconnect", "takes the connection of two ports back");
+  word(disconnect, "from", "output")->type_name(kPort);
+  word(disconnect, "to", "input")->type_name(kPort);
+
+  Entry& create =
+      add("create", "makes a module; 'create group PATH'; 'create port PATH input TYPE'");
+  create.command
+      ->add_option("words", create.arguments.words, "path, module type and values of parameters")
+      ->required()
+      ->type_name("PATH TYPE NAME=VALUE");
+
+  Entry& remove = add("delete", "deletes a module, a group or an interface port");
+  word(remove, "path", "of what is to go")->type_name(kElement);
+
+  Entry& swap = add("swap", "puts another module in the place of one, with its connections");
+  swap.command->add_option("words", swap.arguments.words, "path, new type and values of parameters")
+      ->required()
+      ->type_name("PATH TYPE NAME=VALUE");
+  swap.command
+      ->add_option("--probation", swap.arguments.probation,
+                   "the old one comes back if the new one throws in so many first cycles (10)")
+      ->type_name("CYCLES");
+
+  Entry& move = add("move", "has a module or group run by another thread");
+  word(move, "path", "module or group")->type_name(kElement);
+  word(move, "thread", "its name; \"\": that of the group again")->type_name("THREAD");
+
+  Entry& change = add("change", "carries out a file of changes, all or none");
+  word(change, "file", "one change a line; -: standard input")->type_name("FILE|-");
+
+  Entry& save = add("save", "saves the application as it is now");
+  word(save, "file", "instead of the one that it came from")->required(false)->type_name("FILE");
+
+  Entry& log = add("log", "shows faults, warnings and changes since the start");
+  log.command->add_flag("-f,--follow", log.arguments.follows, "goes on with what comes");
+
+  Entry& complete = add("complete", "for the completion of shells");
+  complete.command->group("");
+  complete.command->prefix_command();
+}
+
+std::optional<ControlArguments> ControlCommandLine::Parsed() const {
+  for (const Entry& entry : entries_) {
+    if (!entry.command->parsed()) continue;
+    ControlArguments arguments = entry.arguments;
+    if (arguments.command == "complete") arguments.words = entry.command->remaining();
+    return arguments;
+  }
+  return {};
+}
+
+std::vector<const char*> WithNegativeValues(int count, const char* const* words) {
+  std::vector<const char*> all(words, words + count);
+  const std::string_view last = all.back();
+  const bool is_number =
+      last.size() > 1 && last[0] == '-' && (last[1] == '.' || (last[1] >= '0' && last[1] <= '9'));
+  const auto dashes = [](const char* word) { return std::string_view(word) == "--"; };
+  if (count > 3 && std::string_view(all[1]) == "set" && is_number &&
+      std::none_of(all.begin(), all.end(), dashes)) {
+    all.insert(all.end() - 1, "--");
+  }
+  return all;
+}
+
+}  // namespace runnel::program

@@ -1,0 +1,138 @@
+#include "plugins/control/client_connection.h"
+
+#include <array>
+#include <cerrno>
+#include <exception>
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+namespace runnel {
+
+namespace {
+
+constexpr std::size_t kReadAtOnce = 65'536;
+// With so much to be sent no command goes on.
+constexpr std::size_t kBacklog = 65'536;
+// Larger buffers are given back when they are empty.
+constexpr std::size_t kKept = 1'000'000;
+
+}  // namespace
+
+ClientConnection::ClientConnection(int descriptor, std::size_t longest_request)
+    : descriptor_(descriptor), reader_(longest_request) {}
+
+ClientConnection::~ClientConnection() { close(descriptor_); }
+
+short ClientConnection::events() const noexcept {
+  // Requests are taken one by one: what comes meanwhile stays where it is.
+  const bool reads = !has_ended_ && !is_refused_ && command_ == nullptr && backlog() < kBacklog;
+  return static_cast<short>((reads ? POLLIN : 0) | (backlog() > 0 ? POLLOUT : 0));
+}
+
+bool ClientConnection::is_over() const noexcept {
+  if (is_broken_) return true;
+  if (backlog() > 0 || command_ != nullptr) return false;
+  return is_refused_ || (has_ended_ && !may_have_request_);
+}
+
+std::optional<Command::MachineTime> ClientConnection::due() const noexcept {
+  if (backlog() >= kBacklog || is_refused_) return {};
+  if (command_ != nullptr) return command_->due();
+  return may_have_request_ ? std::optional(MachineTime{}) : std::nullopt;
+}
+
+void ClientConnection::Send(std::string_view kind, std::string_view payload) {
+  out_ += FrameBytes(kind, payload);
+}
+
+void ClientConnection::SendEnd(ControlCode code) {
+  Send("end", std::to_string(static_cast<int>(code)));
+}
+
+void ClientConnection::Refuse(const Error& error) {
+  Complain(ErrorLine(error));
+  SendEnd(ControlCode::kBadInput);
+  is_refused_ = true;
+  command_.reset();
+}
+
+void ClientConnection::OnEvents(short events) {
+  if ((events & (POLLERR | POLLHUP)) != 0 && (events & POLLIN) == 0) {
+    is_broken_ = true;
+    return;
+  }
+  if ((events & POLLIN) != 0) Read();
+  if ((events & POLLOUT) != 0) Flush();
+}
+
+void ClientConnection::Read() {
+  std::array<char, kReadAtOnce> bytes;
+  const ssize_t count = recv(descriptor_, bytes.data(), bytes.size(), 0);
+  if (count < 0 && errno != EAGAIN && errno != EINTR) is_broken_ = true;
+  if (count == 0) has_ended_ = true;
+  if (count <= 0) return;
+  quiet_since_ = std::chrono::steady_clock::now();
+  reader_.Add({bytes.data(), static_cast<std::size_t>(count)});
+  may_have_request_ = true;
+}
+
+void ClientConnection::Flush() {
+  while (backlog() > 0) {
+    const ssize_t count = send(descriptor_, out_.data() + sent_, backlog(), MSG_NOSIGNAL);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) {
+      is_broken_ = errno != EAGAIN && errno != EWOULDBLOCK;
+      return;
+    }
+    sent_ += static_cast<std::size_t>(count);
+    quiet_since_ = std::chrono::steady_clock::now();
+  }
+  if (out_.capacity() > kKept) std::string().swap(out_);
+  out_.clear();
+  sent_ = 0;
+}
+
+void ClientConnection::Begin(const ControlledApplication& application, ChangeWorker& worker) {
+  const auto frame = reader_.Take();
+  if (!frame) return Refuse(frame.error());
+  may_have_request_ = frame->has_value();
+  if (!may_have_request_) return;
+  if ((*frame)->kind != "request") {
+    return Refuse({.message = "a frame '" + (*frame)->kind + "' where a 'request' should be"});
+  }
+  auto command = MakeCommand((*frame)->payload, application, worker);
+  if (command) {
+    command_ = std::move(*command);
+  } else {
+    Complain(ErrorLine(command.error()));
+    SendEnd(ControlCode::kBadInput);
+  }
+}
+
+void ClientConnection::Work(const ControlledApplication& application, ChangeWorker& worker) {
+  if (is_broken_ || is_refused_ || backlog() >= kBacklog) return;
+  try {
+    if (command_ == nullptr) Begin(application, worker);
+    if (command_ == nullptr || command_->due() > std::chrono::steady_clock::now()) return Flush();
+    if (const auto code = command_->Continue(*this)) {
+      command_.reset();
+      SendEnd(*code);
+    }
+  } catch (const std::exception& exception) {  // of a type's text form, or for want of memory
+    Refuse({.message = exception.what()});
+  }
+  Flush();
+}
+
+void ClientConnection::Finish() {
+  if (command_ != nullptr) {
+    command_.reset();
+    Complain("the application has ended\n");
+    SendEnd(ControlCode::kFailed);
+  }
+  Flush();
+}
+
+}  // namespace runnel

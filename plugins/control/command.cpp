@@ -1,0 +1,93 @@
+#include "plugins/control/command.h"
+
+#include <algorithm>
+#include <charconv>
+#include <vector>
+
+#include "core/base/nearest_name.h"
+
+namespace runnel {
+
+namespace {
+
+struct CommandKind {
+  std::string name;
+  std::size_t least_words;
+  std::size_t most_words;
+  std::vector<std::string> options;
+  std::function<CommandResult(const Request&, const ControlledApplication&, ChangeWorker&)> make;
+};
+
+// For those that need no worker.
+auto Alone(CommandResult (*make)(const Request&, const ControlledApplication&)) {
+  return [make](const Request& request, const ControlledApplication& application, ChangeWorker&) {
+    return make(request, application);
+  };
+}
+
+const std::vector<CommandKind>& Kinds() {
+  static const std::vector<CommandKind> kinds{
+      {"ls", 0, 1, {"long"}, Alone(MakeListCommand)},
+      {"paths", 0, 0, {}, Alone(MakePathsCommand)},
+      {"types", 0, 0, {}, Alone(MakeTypesCommand)},
+      {"echo", 1, 1, {"count", "full"}, Alone(MakeEchoCommand)},
+      {"hz", 1, 1, {"count"}, Alone(MakeRateCommand)},
+      {"log", 0, 0, {"follow"}, Alone(MakeLogCommand)},
+      {"change", 0, 0, {"file"}, MakeChangeCommand},
+      {"save", 0, 1, {}, MakeSaveCommand},
+  };
+  return kinds;
+}
+
+Result<void> CheckWords(const Request& request, const CommandKind& kind) {
+  if (request.words.size() < kind.least_words) {
+    return Error{.message = "'" + kind.name + "' wants a path"};
+  }
+  if (request.words.size() > kind.most_words) {
+    return Error{.message = "'" + request.words[kind.most_words] + "' is one word too many for '" +
+                            kind.name + "'"};
+  }
+  for (const auto& [name, value] : request.options) {
+    if (std::ranges::count(kind.options, name) > 0) continue;
+    return Error{.message = "'" + kind.name + "' has no option '" + name + "'",
+                 .hint = NearestNameHint(name, kind.options)};
+  }
+  return {};
+}
+
+}  // namespace
+
+CommandResult MakeCommand(const std::string& text, const ControlledApplication& application,
+                          ChangeWorker& worker) {
+  const auto request = Request::Parse(text);
+  if (!request) return request.error();
+  const auto kind = std::ranges::find(Kinds(), request->command, &CommandKind::name);
+  if (kind == Kinds().end()) {
+    std::vector<std::string> names;
+    for (const CommandKind& each : Kinds()) names.push_back(each.name);
+    return Error{.message = "there is no command '" + request->command + "'",
+                 .hint = NearestNameHint(request->command, names)};
+  }
+  if (auto good = CheckWords(*request, *kind); !good) return good.error();
+  return kind->make(*request, application, worker);
+}
+
+std::string ErrorLine(const Error& error) {
+  Diagnostics diagnostics;
+  diagnostics.Add(error);
+  return diagnostics.ToString();
+}
+
+Result<std::optional<std::uint64_t>> ReadCountOption(const Request& request) {
+  if (!request.Has("count")) return std::optional<std::uint64_t>();
+  const std::string text = request.Option("count");
+  std::uint64_t count = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (error == std::errc{} && end == text.data() + text.size() && count >= 1 &&
+      count <= 1'000'000'000) {
+    return std::optional(count);
+  }
+  return Error{.message = "'" + text + "' is not a count from 1 to 1000000000"};
+}
+
+}  // namespace runnel

@@ -1,0 +1,160 @@
+#include "plugins/control/control_client.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "core/base/nearest_name.h"
+#include "plugins/control/control_folder.h"
+
+namespace runnel {
+
+namespace {
+
+constexpr std::size_t kLongestAnswer = std::size_t{1} << 30;
+
+Error Lost(const std::string& why) {
+  return {.message = "the connection to the application is lost: " + why};
+}
+
+int Milliseconds(std::optional<Duration> patience) {
+  if (!patience) return -1;
+  return static_cast<int>(std::chrono::ceil<std::chrono::milliseconds>(*patience).count());
+}
+
+// -1: interrupted; 0: the time is over.
+int WaitFor(int descriptor, short events, std::optional<Duration> patience) {
+  pollfd polled{.fd = descriptor, .events = events, .revents = 0};
+  return poll(&polled, 1, Milliseconds(patience));
+}
+
+std::string Described(const RunningApplication& application) {
+  return application.hello.application + " (" + std::to_string(application.hello.process) + ")";
+}
+
+}  // namespace
+
+ControlClient::ControlClient(int descriptor) : descriptor_(descriptor), reader_(kLongestAnswer) {}
+
+ControlClient::ControlClient(ControlClient&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)),
+      reader_(std::move(other.reader_)),
+      hello_(std::move(other.hello_)) {}
+
+ControlClient::~ControlClient() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+Result<ControlClient> ControlClient::Connect(const std::filesystem::path& socket,
+                                             Duration patience) {
+  const auto descriptor = ConnectToSocket(socket);
+  if (!descriptor) return descriptor.error();
+  ControlClient client(*descriptor);
+  const auto frame = client.Receive(patience);
+  if (!frame) return frame.error();
+  if (frame->kind == "err") return Error{.message = frame->payload};
+  auto hello = frame->kind == "hello" ? Hello::Parse(frame->payload) : Hello::Parse("");
+  if (!hello) return hello.error();
+  client.hello_ = std::move(*hello);
+  return client;
+}
+
+Result<void> ControlClient::Send(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = send(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    if (count >= 0) {
+      bytes.remove_prefix(static_cast<std::size_t>(count));
+    } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
+      WaitFor(descriptor_, POLLOUT, {});
+    } else if (errno != EINTR) {
+      return Lost(std::strerror(errno));
+    }
+  }
+  return {};
+}
+
+Result<Frame> ControlClient::Receive(std::optional<Duration> patience) {
+  std::array<char, 65'536> bytes;
+  for (;;) {
+    auto frame = reader_.Take();
+    if (!frame) return Lost(frame.error().message);
+    if (*frame) return std::move(**frame);
+    const ssize_t count = recv(descriptor_, bytes.data(), bytes.size(), 0);
+    if (count > 0) {
+      reader_.Add({bytes.data(), static_cast<std::size_t>(count)});
+    } else if (count == 0) {
+      return Lost("it has ended");
+    } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
+      if (WaitFor(descriptor_, POLLIN, patience) == 0) return Lost("it does not answer");
+    } else if (errno != EINTR) {
+      return Lost(std::strerror(errno));
+    }
+  }
+}
+
+Result<int> ControlClient::Ask(const std::string& request, const Use& output, const Use& errors) {
+  if (auto sent = Send(FrameBytes("request", request)); !sent) return sent.error();
+  for (;;) {
+    const auto frame = Receive({});
+    if (!frame) return frame.error();
+    if (frame->kind == "out" && !output(frame->payload)) return 0;
+    if (frame->kind == "err" && !errors(frame->payload)) return 0;
+    if (frame->kind != "end") continue;
+    int code = 1;
+    std::from_chars(frame->payload.data(), frame->payload.data() + frame->payload.size(), code);
+    return code;
+  }
+}
+
+Result<std::vector<RunningApplication>> FindRunningApplications(const std::filesystem::path& folder,
+                                                                std::vector<Error>* silent) {
+  const auto sockets = FindControlSockets(folder);
+  if (!sockets) return sockets.error();
+  std::vector<RunningApplication> applications;
+  for (const auto& socket : *sockets) {
+    const auto client = ControlClient::Connect(socket);
+    if (client) {
+      applications.push_back({socket, client->hello()});
+    } else if (silent != nullptr) {
+      Error error = client.error();
+      error.position.file = socket.string();
+      silent->push_back(std::move(error));
+    }
+  }
+  return applications;
+}
+
+Result<RunningApplication> ChooseApplication(const std::vector<RunningApplication>& applications,
+                                             const std::string& wanted) {
+  std::vector<RunningApplication> meant;
+  std::vector<std::string> names;
+  std::string list;
+  for (const RunningApplication& each : applications) {
+    names.push_back(each.hello.application);
+    list += (list.empty() ? "" : ", ") + Described(each);
+    const bool is_meant = wanted.empty() || wanted == each.hello.application ||
+                          wanted == std::to_string(each.hello.process);
+    if (is_meant) meant.push_back(each);
+  }
+  if (meant.size() == 1) return meant.front();
+  if (applications.empty()) {
+    return Error{.message = "no application is running that could be reached",
+                 .hint = "start one with 'runnel run'"};
+  }
+  if (meant.empty()) {
+    return Error{.message = "no running application is called '" + wanted + "'",
+                 .hint = NearestNameHint(wanted, names)};
+  }
+  return Error{.message = std::to_string(meant.size()) + " applications are running: " + list,
+               .hint = "choose one by --app NAME or --app PROCESS"};
+}
+
+}  // namespace runnel

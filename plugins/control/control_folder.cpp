@@ -1,0 +1,173 @@
+#include "plugins/control/control_folder.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+namespace runnel {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kEnding = ".sock";
+constexpr int kMostSocketsOfAProcess = 100;
+constexpr int kWaitingConnections = 16;
+
+Error SystemError(const std::string& what, const fs::path& path) {
+  return {.message = what + ": " + std::strerror(errno), .position = {.file = path.string()}};
+}
+
+Error Untrusted(const fs::path& folder, const std::string& why) {
+  return {.message = why,
+          .position = {.file = folder.string()},
+          .hint =
+              "running applications are reached through sockets in it, so it must be a folder "
+              "that is yours alone (mode 0700); remove it, or set XDG_RUNTIME_DIR"};
+}
+
+Result<sockaddr_un> AddressOf(const fs::path& path) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  const std::string text = path.string();
+  if (text.size() >= sizeof address.sun_path) {
+    return Error{.message = "the path of a socket may have " +
+                            std::to_string(sizeof address.sun_path - 1) + " bytes at most",
+                 .position = {.file = text},
+                 .hint = "set XDG_RUNTIME_DIR to a shorter one"};
+  }
+  std::memcpy(address.sun_path, text.c_str(), text.size());
+  return address;
+}
+
+int OpenSocket() { return socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0); }
+
+int Connect(int descriptor, const sockaddr_un& address) {
+  return connect(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof address);
+}
+
+// Whether nobody will ever listen there any more.
+bool IsStale(const fs::path& path) {
+  const auto address = AddressOf(path);
+  const int descriptor = address ? OpenSocket() : -1;
+  if (descriptor < 0) return false;
+  const bool is_refused = Connect(descriptor, *address) != 0 && errno == ECONNREFUSED;
+  close(descriptor);
+  return is_refused;
+}
+
+std::pair<long, std::string> OrderOf(const fs::path& path) {
+  const std::string name = path.filename().string();
+  long process = 0;
+  std::from_chars(name.data(), name.data() + name.size(), process);
+  return {process, name};
+}
+
+Result<void> CheckStatus(const fs::path& folder, const struct stat& status) {
+  if (!S_ISDIR(status.st_mode)) return Untrusted(folder, "is not a folder");
+  if (status.st_uid != geteuid()) return Untrusted(folder, "belongs to another user");
+  if ((status.st_mode & 0077) != 0) return Untrusted(folder, "is open to others");
+  return {};
+}
+
+// The socket is its owner's from the first moment on.
+Result<void> BindForOwner(int descriptor, const fs::path& path) {
+  const auto address = AddressOf(path);
+  if (!address) return address.error();
+  if (fchmod(descriptor, 0600) != 0) return SystemError("its mode cannot be set", path);
+  if (bind(descriptor, reinterpret_cast<const sockaddr*>(&*address), sizeof *address) != 0) {
+    return SystemError("no socket can be made there", path);
+  }
+  if (chmod(path.c_str(), 0600) != 0 || listen(descriptor, kWaitingConnections) != 0) {
+    Error error = SystemError("nobody can listen there", path);
+    unlink(path.c_str());
+    return error;
+  }
+  return {};
+}
+
+}  // namespace
+
+fs::path ControlFolder() {
+  const char* const runtime = std::getenv("XDG_RUNTIME_DIR");
+  if (runtime != nullptr && *runtime == '/') return fs::path(runtime) / "runnel";
+  return "/tmp/runnel-" + std::to_string(geteuid());
+}
+
+Result<void> CheckControlFolder(const fs::path& folder) {
+  struct stat status {};
+  if (lstat(folder.c_str(), &status) == 0) return CheckStatus(folder, status);
+  if (errno == ENOENT) return {};
+  return SystemError("cannot be looked at", folder);
+}
+
+Result<void> MakeControlFolder(const fs::path& folder) {
+  if (mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) {
+    return SystemError("the folder for sockets cannot be made", folder);
+  }
+  return CheckControlFolder(folder);
+}
+
+Result<std::vector<fs::path>> FindControlSockets(const fs::path& folder) {
+  if (auto checked = CheckControlFolder(folder); !checked) return checked.error();
+  std::vector<fs::path> sockets;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder, none)) {
+    if (entry.path().extension() != kEnding || !entry.is_socket(none)) continue;
+    if (IsStale(entry.path())) {
+      unlink(entry.path().c_str());
+    } else {
+      sockets.push_back(entry.path());
+    }
+  }
+  std::ranges::sort(sockets, {}, OrderOf);
+  return sockets;
+}
+
+Result<int> ConnectToSocket(const fs::path& path) {
+  const auto address = AddressOf(path);
+  if (!address) return address.error();
+  const int descriptor = OpenSocket();
+  if (descriptor < 0) return SystemError("no socket can be made", path);
+  if (Connect(descriptor, *address) != 0) {
+    Error error = SystemError("cannot be reached", path);
+    close(descriptor);
+    return error;
+  }
+  return descriptor;
+}
+
+Result<ListeningSocket> ListenInFolder(const fs::path& folder) {
+  if (auto made = MakeControlFolder(folder); !made) return made.error();
+  const std::string process = std::to_string(getpid());
+  for (int number = 0; number < kMostSocketsOfAProcess; ++number) {
+    const std::string more = number == 0 ? "" : "-" + std::to_string(number);
+    const fs::path path = folder / (process + more + kEnding);
+    struct stat status {};
+    // A process that had the same number may have left one.
+    if (lstat(path.c_str(), &status) == 0 && (!IsStale(path) || unlink(path.c_str()) != 0))
+      continue;
+    const int descriptor = OpenSocket();
+    if (descriptor < 0) return SystemError("no socket can be made", path);
+    if (auto bound = BindForOwner(descriptor, path); !bound) {
+      close(descriptor);
+      return bound.error();
+    }
+    return ListeningSocket{descriptor, path};
+  }
+  return Error{.message = "this process has too many sockets there already",
+               .position = {.file = folder.string()}};
+}
+
+}  // namespace runnel

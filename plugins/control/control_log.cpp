@@ -1,0 +1,54 @@
+#include "plugins/control/control_log.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <ctime>
+#include <utility>
+
+namespace runnel {
+
+void ControlLog::Add(Kind kind, std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  if (text.size() > kLongestText) text = text.substr(0, kLongestText) + " …";
+  Entry entry{std::chrono::system_clock::now(), clock_.Now() - start_, kind, std::move(text)};
+  const std::lock_guard lock(mutex_);
+  entries_.push_back(std::move(entry));
+  if (entries_.size() <= kMostEntries) return;
+  entries_.pop_front();
+  ++first_;
+}
+
+ControlLog::Lines ControlLog::Read(std::uint64_t from, std::size_t most) const {
+  Lines read;
+  std::vector<Entry> entries;
+  {
+    const std::lock_guard lock(mutex_);
+    read.lost = from < first_ ? first_ - from : 0;
+    const std::uint64_t begin = std::max(from, first_);
+    const std::uint64_t end = first_ + entries_.size();
+    for (read.next = begin; read.next < end && entries.size() < most; ++read.next) {
+      entries.push_back(entries_[read.next - first_]);
+    }
+  }
+  for (const Entry& entry : entries) read.lines.push_back(LineOf(entry));
+  return read;
+}
+
+std::string ControlLog::LineOf(const Entry& entry) {
+  static constexpr std::array kNames{"fault  ", "warning", "change "};
+  const std::time_t wall = std::chrono::system_clock::to_time_t(entry.wall);
+  std::tm parts{};
+  localtime_r(&wall, &parts);
+  char begin[80];
+  std::snprintf(begin, sizeof begin, "%02d:%02d:%02d %10.3f s  %s  ", parts.tm_hour, parts.tm_min,
+                parts.tm_sec, ToSeconds(entry.time), kNames[static_cast<std::size_t>(entry.kind)]);
+  std::string line = begin + entry.text;
+  // What has more than one line goes on below its beginning.
+  for (std::size_t at = line.find('\n'); at != std::string::npos; at = line.find('\n', at + 1)) {
+    line.insert(at + 1, "    ");
+  }
+  return line;
+}
+
+}  // namespace runnel

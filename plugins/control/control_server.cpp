@@ -1,0 +1,190 @@
+#include "plugins/control/control_server.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "core/types/duration_text.h"
+#include "plugins/control/client_connection.h"
+#include "plugins/control/control_folder.h"
+#include "plugins/control/protocol.h"
+#include "plugins/control/structure_recorder.h"
+
+namespace runnel {
+
+namespace {
+
+// A client that has been quiet for so long makes room for another one, if there is no other room.
+constexpr auto kQuiet = std::chrono::seconds(5);
+// After accepting has failed, for want of descriptors.
+constexpr int kPauseMilliseconds = 100;
+
+bool IsOwner(int descriptor) {
+  ucred peer{};
+  socklen_t size = sizeof peer;
+  if (getsockopt(descriptor, SOL_SOCKET, SO_PEERCRED, &peer, &size) != 0) return false;
+  return peer.uid == geteuid() || peer.uid == 0;
+}
+
+}  // namespace
+
+class ControlServer::Loop {
+ public:
+  Loop(ControlledApplication application, ControlOptions options, ListeningSocket listening,
+       int wake)
+      : application_(std::move(application)),
+        options_(std::move(options)),
+        listening_(std::move(listening)),
+        wake_(wake),
+        recorder_(application_.runtime, application_.log),
+        worker_([this] { Wake(); }),
+        thread_([this] { Run(); }) {}
+
+  ~Loop() {
+    ends_.store(true);
+    Wake();
+    thread_.join();
+    unlink(listening_.path.c_str());
+    close(listening_.descriptor);
+    clients_.clear();  // their commands use the worker
+    worker_.reset();   // it wakes this
+    close(wake_);
+  }
+
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return listening_.path; }
+
+ private:
+  // Of any thread.
+  void Wake() const {
+    const std::uint64_t one = 1;
+    // Full means that it has not seen the last ones yet.
+    (void)!write(wake_, &one, sizeof one);
+  }
+
+  void Run() {
+    while (!ends_.load()) {
+      WaitForEvents();
+      for (const auto& client : clients_) client->Work(application_, *worker_);
+      std::erase_if(clients_, [](const auto& client) { return client->is_over(); });
+    }
+    for (const auto& client : clients_) client->Finish();
+  }
+
+  void WaitForEvents() {
+    polled_.assign({{wake_, POLLIN, 0}, {listening_.descriptor, POLLIN, 0}});
+    if (must_pause_) polled_[1].fd = -1;
+    for (const auto& client : clients_)
+      polled_.push_back({client->descriptor(), client->events(), 0});
+    const std::size_t count = clients_.size();
+    if (poll(polled_.data(), polled_.size(), Timeout()) < 0) return;
+    if (polled_[0].revents != 0) {
+      std::uint64_t ignored = 0;
+      (void)!read(wake_, &ignored, sizeof ignored);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      if (polled_[i + 2].revents != 0) clients_[i]->OnEvents(polled_[i + 2].revents);
+    }
+    must_pause_ = false;
+    if (polled_[1].revents != 0) Accept();
+  }
+
+  [[nodiscard]] int Timeout() const {
+    std::optional<Command::MachineTime> first;
+    for (const auto& client : clients_) {
+      const auto due = client->due();
+      if (due && (!first || *due < *first)) first = due;
+    }
+    int milliseconds = must_pause_ ? kPauseMilliseconds : -1;
+    if (first) {
+      const auto left =
+          std::chrono::ceil<std::chrono::milliseconds>(*first - std::chrono::steady_clock::now());
+      const int wait = static_cast<int>(std::clamp<std::int64_t>(left.count(), 0, 60'000));
+      milliseconds = milliseconds < 0 ? wait : std::min(wait, milliseconds);
+    }
+    return milliseconds;
+  }
+
+  void Accept() {
+    const int descriptor =
+        accept4(listening_.descriptor, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+    if (descriptor < 0) {
+      must_pause_ = errno != EAGAIN && errno != EINTR && errno != ECONNABORTED;
+      return;
+    }
+    auto client = std::make_unique<ClientConnection>(descriptor, options_.longest_request);
+    if (!IsOwner(descriptor)) return;
+    if (clients_.size() >= options_.most_clients && !MakeRoom()) {
+      client->Refuse({.message = "there are " + std::to_string(clients_.size()) +
+                                 " clients already, and all are busy"});
+      client->Finish();
+      return;
+    }
+    client->Send("hello", HelloText());
+    clients_.push_back(std::move(client));
+  }
+
+  bool MakeRoom() {
+    const auto quietest = std::ranges::min_element(
+        clients_, {}, [](const auto& client) { return client->quiet_since(); });
+    if (quietest == clients_.end()) return false;
+    const auto quiet_for = std::chrono::steady_clock::now() - (*quietest)->quiet_since();
+    if (quiet_for < kQuiet) return false;
+    clients_.erase(quietest);
+    return true;
+  }
+
+  [[nodiscard]] std::string HelloText() const {
+    Hello hello;
+    hello.process = getpid();
+    hello.application = options_.application;
+    hello.file = options_.file;
+    hello.time = application_.runtime.clock().Now() - start_;
+    return hello.ToText();
+  }
+
+  ControlledApplication application_;
+  const ControlOptions options_;
+  const ListeningSocket listening_;
+  const int wake_;
+  const Time start_ = application_.runtime.clock().Now();
+  std::vector<std::unique_ptr<ClientConnection>> clients_;
+  std::vector<pollfd> polled_;
+  bool must_pause_ = false;
+  std::atomic<bool> ends_{false};
+  StructureRecorder recorder_;
+  std::optional<ChangeWorker> worker_;
+  std::thread thread_;
+};
+
+Result<std::unique_ptr<ControlServer>> ControlServer::Start(ControlledApplication application,
+                                                            ControlOptions options) {
+  if (options.folder.empty()) options.folder = ControlFolder();
+  auto listening = ListenInFolder(options.folder);
+  if (!listening) return listening.error();
+  const int wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+  if (wake < 0) {
+    close(listening->descriptor);
+    unlink(listening->path.c_str());
+    return Error{.message = std::string("no event can be made: ") + std::strerror(errno)};
+  }
+  return std::unique_ptr<ControlServer>(new ControlServer(std::make_unique<Loop>(
+      std::move(application), std::move(options), std::move(*listening), wake)));
+}
+
+ControlServer::ControlServer(std::unique_ptr<Loop> loop) : loop_(std::move(loop)) {}
+ControlServer::~ControlServer() = default;
+
+const std::filesystem::path& ControlServer::socket() const noexcept { return loop_->path(); }
+
+}  // namespace runnel

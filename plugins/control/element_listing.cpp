@@ -1,0 +1,192 @@
+#include "plugins/control/element_listing.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+#include "core/element/configurable.h"
+#include "core/plugin/module_type_name.h"
+#include "core/types/duration_text.h"
+#include "core/types/type_info.h"
+#include "plugins/scheduling/thread_container.h"
+
+namespace runnel {
+
+namespace {
+
+constexpr std::size_t kLongestValue = 200;
+
+const char* KindName(const FrameworkElement& element) {
+  if (const auto* const port = dynamic_cast<const Port*>(&element)) {
+    return port->direction() == Port::Direction::kInput ? "input" : "output";
+  }
+  switch (element.kind()) {
+    case ElementKind::kRuntime:
+      return "runtime";
+    case ElementKind::kGroup:
+      return "group";
+    case ElementKind::kModule:
+      return "module";
+    case ElementKind::kPortGroup:
+      return "ports";
+    case ElementKind::kPort:
+      return "port";
+    case ElementKind::kParameter:
+      return "parameter";
+    case ElementKind::kThread:
+      return "thread";
+    case ElementKind::kOther:
+      break;
+  }
+  return "element";
+}
+
+std::string Milliseconds(Duration duration) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3f", ToSeconds(duration) * 1e3);
+  return text;
+}
+
+std::string ParameterText(const Configurable& parameter) {
+  const ConfigurableInfo& info = parameter.info();
+  const std::string unit = info.unit.empty() ? "" : " " + info.unit;
+  std::string value = parameter.ToText();
+  if (value.size() > kLongestValue) value = value.substr(0, kLongestValue) + "…";
+  std::string text = parameter.type().name() + " = " + (value.empty() ? "\"\"" : value) + unit;
+  if (!info.bounds.empty()) text += ", in " + info.bounds + unit;
+  std::string choices;
+  for (const EnumeratorInfo& each : parameter.type().enumerators()) {
+    choices += (choices.empty() ? ", one of " : " ") + each.name;
+  }
+  return text + choices + (info.is_static ? ", static" : "");
+}
+
+std::string ThreadText(const ThreadContainer& thread, bool is_long) {
+  const ThreadOptions& options = thread.options();
+  std::string text;
+  switch (options.activation) {
+    case ThreadOptions::Activation::kPeriod:
+      text = "every " + DurationText(options.period);
+      break;
+    case ThreadOptions::Activation::kFreeRunning:
+      text = "free-running";
+      break;
+    case ThreadOptions::Activation::kTrigger:
+      text = "when data comes";
+      break;
+  }
+  if (options.priority > 0) text += ", priority " + std::to_string(options.priority);
+  if (!is_long) return text;
+  const CycleStatistics all = thread.statistics();
+  return text + ", " + std::to_string(all.cycles) + " cycles, " + std::to_string(all.overruns) +
+         " overruns, period " + Milliseconds(all.period_mean) + " ms (" +
+         Milliseconds(all.period_min) + " .. " + Milliseconds(all.period_max) + "), jitter " +
+         Milliseconds(all.jitter_mean) + " ms (max " + Milliseconds(all.jitter_max) +
+         "), execution " + Milliseconds(all.execution_mean) + " ms (max " +
+         Milliseconds(all.execution_max) + ")";
+}
+
+std::string PortText(const Port& port, const ListingOptions& options) {
+  std::string text = port.type().name();
+  if (!options.is_long) return text + (port.is_required() ? ", required" : "");
+  const std::uint64_t count = port.publications();
+  text += ", " + std::to_string(count) + " values";
+  const auto before = options.before.find(port.path());
+  if (before != options.before.end() && options.since > Duration{}) {
+    // A port that was made anew since counts from 0 again.
+    const std::uint64_t passed = count >= before->second ? count - before->second : count;
+    text += ", " + RateText(static_cast<double>(passed) / ToSeconds(options.since)) + " Hz";
+  }
+  for (const Port* from : port.incoming()) text += ", from " + from->path();
+  for (const Connection& each : port.outgoing()) {
+    text += ", to " + each.to->path();
+    if (each.options.queue > 0) text += " (queue " + std::to_string(each.options.queue) + ")";
+  }
+  return text;
+}
+
+std::string About(const FrameworkElement& element, const ListingOptions& options) {
+  if (const auto* const port = dynamic_cast<const Port*>(&element)) return PortText(*port, options);
+  if (const auto* const parameter = dynamic_cast<const Configurable*>(&element)) {
+    return ParameterText(*parameter);
+  }
+  if (const auto* const thread = dynamic_cast<const ThreadContainer*>(&element)) {
+    return ThreadText(*thread, options.is_long);
+  }
+  std::string text = FindModuleType(element);
+  const ThreadContainer* const thread = options.is_long ? OwnThread(element) : nullptr;
+  if (thread != nullptr) text += (text.empty() ? "" : ", ") + ("run by " + thread->name());
+  return text;
+}
+
+// Characters, not bytes.
+std::size_t Width(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char byte) { return (byte & 0xc0) != 0x80; }));
+}
+
+struct Row {
+  std::string name;
+  std::string kind;
+  std::string about;
+};
+
+void AddRows(const FrameworkElement& element, std::size_t depth, const ListingOptions& options,
+             std::vector<Row>& rows) {
+  // The groups of ports say nothing that the ports do not say.
+  const bool is_shown = element.kind() != ElementKind::kPortGroup || depth == 0;
+  if (is_shown) {
+    const std::string name = depth == 0 ? element.path() : element.name();
+    rows.push_back(
+        {std::string(2 * depth, ' ') + name, KindName(element), About(element, options)});
+  }
+  for (const FrameworkElement* child : element.children()) {
+    AddRows(*child, is_shown ? depth + 1 : depth, options, rows);
+  }
+}
+
+}  // namespace
+
+std::string RateText(double hertz) {
+  char text[64];
+  std::snprintf(text, sizeof text, hertz >= 10'000 ? "%.0f" : "%.5g", hertz);
+  return text;
+}
+
+std::string ListElements(FrameworkElement& start, const ListingOptions& options) {
+  std::vector<Row> rows;
+  if (start.kind() == ElementKind::kRuntime) {
+    for (const FrameworkElement* child : start.children()) AddRows(*child, 0, options, rows);
+  } else {
+    AddRows(start, 0, options, rows);
+  }
+  std::size_t name_width = 0;
+  std::size_t kind_width = 0;
+  for (const Row& row : rows) {
+    name_width = std::max(name_width, Width(row.name));
+    kind_width = std::max(kind_width, row.kind.size());
+  }
+  std::string text;
+  for (const Row& row : rows) {
+    text += row.name + std::string(name_width - Width(row.name) + 2, ' ') + row.kind;
+    if (!row.about.empty()) {
+      text += std::string(kind_width - row.kind.size() + 2, ' ') + row.about;
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string ListPaths(FrameworkElement& start) {
+  std::string text;
+  start.Visit([&](FrameworkElement& element) {
+    if (element.parent() == nullptr) return;
+    const auto* const port = dynamic_cast<const Port*>(&element);
+    const bool is_interface = port != nullptr && port->is_proxy();
+    text +=
+        KindName(element) + ("\t" + element.path()) + (is_interface ? "\tinterface" : "") + "\n";
+  });
+  return text;
+}
+
+}  // namespace runnel

@@ -1,0 +1,36 @@
+#include "plugins/control/element_search.h"
+
+#include "plugins/structure/projection.h"
+
+namespace runnel {
+
+using internal::Projection;
+
+Result<FrameworkElement*> FindMeant(Runtime& runtime, std::string_view path) {
+  const Projection structure(runtime);
+  const auto found = structure.Find(path);
+  if (found) return found;
+  const auto port = structure.FindPort(path, Projection::End::kSends);
+  if (port) return static_cast<FrameworkElement*>(*port);
+  return found;
+}
+
+Result<Port*> FindMeantPort(Runtime& runtime, std::string_view path) {
+  const Projection structure(runtime);
+  const auto output = structure.FindPort(path, Projection::End::kSends);
+  if (output) return output;
+  const auto input = structure.FindPort(path, Projection::End::kReceives);
+  return input ? input : output;
+}
+
+PublicationCounts CountPublications(FrameworkElement& start) {
+  PublicationCounts counts;
+  start.Visit([&](FrameworkElement& element) {
+    if (const auto* const port = dynamic_cast<const Port*>(&element)) {
+      counts.emplace(port->path(), port->publications());
+    }
+  });
+  return counts;
+}
+
+}  // namespace runnel

@@ -1,0 +1,84 @@
+#include "plugins/finroc_files/finroc_application.h"
+
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include "core/module/group.h"
+#include "plugins/finroc_files/finroc_names.h"
+#include "plugins/finroc_files/finroc_reader.h"
+#include "plugins/runtime_construction/required_inputs.h"
+#include "plugins/runtime_construction/source_place.h"
+
+namespace runnel {
+
+namespace {
+
+std::string NameOf(XmlElement root, const std::filesystem::path& file) {
+  const XmlAttribute* const name = root.Attribute("defaultname");
+  return SnakeCase(name != nullptr ? name->value : file.stem().string());
+}
+
+void MakeReady(FrameworkElement& application, const BuildTools& tools, BuildContext& context) {
+  const auto report = [&](const Result<void>& result) {
+    if (result) return;
+    const auto culprit = tools.runtime.root().Find(result.error().path);
+    const FrameworkElement& at = culprit ? **culprit : application;
+    context.Report(result.error(), FindSourcePlace(at), at);
+  };
+  if (tools.before_ready) report(tools.before_ready(application));
+  if (context.ok()) report(tools.runtime.MakeReady(application));
+}
+
+// What would have fed them may have had no counterpart, which has been told; the rest is built.
+void WarnOfRequiredInputs(FrameworkElement& application, const BuildTools& tools,
+                          const std::filesystem::path& file, BuildContext& context) {
+  Diagnostics missing;
+  BuildContext check(tools, file.parent_path(), missing);
+  CheckRequiredInputs(application, check);
+  for (const Error& error : missing.errors()) context.Warn(error, error.position, application);
+}
+
+FrameworkElement* Build(XmlElement root, const std::filesystem::path& file, const BuildTools& tools,
+                        BuildMode mode, BuildContext& context) {
+  FrameworkElement* application = nullptr;
+  const FrameworkElement& top = tools.runtime.root();
+  context.Attempt({"reading the file", root.position(), &top}, [&] {
+    application = &tools.runtime.Create<Group>(tools.runtime.root(), NameOf(root, file));
+    application->Annotate(std::make_unique<SourcePlace>(root.position()));
+    internal::FinrocReader(*application, context).Read(root, file);
+  });
+  if (application == nullptr) return nullptr;
+  WarnOfRequiredInputs(*application, tools, file, context);
+  for (const std::string& name : tools.configuration.UnusedArguments()) {
+    context.Report({.message = "the application knows no '" + name + "'",
+                    .position = {.file = "command line"}},
+                   {}, *application);
+  }
+  if (context.ok() && mode == BuildMode::kRun) MakeReady(*application, tools, context);
+  return application;
+}
+
+}  // namespace
+
+bool IsFinrocFile(XmlElement root) {
+  return root.name() == "Finstructable" || root.name() == "FinstructableGroup";
+}
+
+BuildOutcome BuildFinrocApplication(const XmlDocument& document, const std::filesystem::path& file,
+                                    const BuildTools& tools, BuildMode mode) {
+  BuildOutcome outcome;
+  BuildContext context(tools, file.parent_path(), outcome.diagnostics);
+  {
+    const std::lock_guard lock(tools.runtime.structure_mutex());
+    outcome.application = Build(document.root(), file, tools, mode, context);
+  }
+  if (outcome.application == nullptr) return outcome;
+  if (!outcome.diagnostics.ok() || mode == BuildMode::kCheck) {
+    const auto deleted = tools.runtime.Delete(*std::exchange(outcome.application, nullptr));
+    if (!deleted) outcome.diagnostics.Add(deleted.error());
+  }
+  return outcome;
+}
+
+}  // namespace runnel

@@ -1,0 +1,75 @@
+#include "plugins/finroc_files/finroc_names.h"
+
+#include <array>
+#include <cctype>
+#include <charconv>
+
+namespace runnel {
+
+namespace {
+
+bool IsUpper(char letter) { return letter >= 'A' && letter <= 'Z'; }
+bool IsLowerOrDigit(char letter) {
+  return (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9');
+}
+
+// "%3C" → "<".
+std::string Decoded(std::string_view text) {
+  std::string decoded;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    int code = 0;
+    const bool may_be_code = text[i] == '%' && i + 2 < text.size();
+    if (may_be_code && std::from_chars(text.data() + i + 1, text.data() + i + 3, code, 16).ptr ==
+                           text.data() + i + 3) {
+      decoded += static_cast<char>(code);
+      i += 2;
+    } else {
+      decoded += text[i];
+    }
+  }
+  return decoded;
+}
+
+}  // namespace
+
+std::string SnakeCase(std::string_view name) {
+  std::string snake;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const char letter = name[i];
+    if (IsUpper(letter)) {
+      const bool follows_small = i > 0 && IsLowerOrDigit(name[i - 1]);
+      const bool ends_capitals = i > 0 && IsUpper(name[i - 1]) && i + 1 < name.size() &&
+                                 name[i + 1] >= 'a' && name[i + 1] <= 'z';
+      if (follows_small || ends_capitals) snake += '_';
+      snake += static_cast<char>(letter - 'A' + 'a');
+    } else if (IsLowerOrDigit(letter)) {
+      snake += letter;
+    } else if (!snake.empty() && snake.back() != '_') {
+      snake += '_';
+    }
+  }
+  while (!snake.empty() && snake.back() == '_') snake.pop_back();
+  return snake.empty() ? "_" : snake;
+}
+
+std::string SnakeCasePath(std::string_view path) {
+  std::string result;
+  while (!path.empty()) {
+    const std::size_t end = path.find('/');
+    const std::string_view name = path.substr(0, end);
+    path.remove_prefix(end == std::string_view::npos ? path.size() : end + 1);
+    if (!name.empty()) result += (result.empty() ? "" : "/") + SnakeCase(Decoded(name));
+  }
+  return result;
+}
+
+std::string LibraryName(std::string_view library) {
+  constexpr std::array<std::string_view, 5> kPrefixes{"finroc_projects_", "finroc_plugins_",
+                                                      "finroc_libraries_", "finroc_", "rrlib_"};
+  for (const std::string_view prefix : kPrefixes) {
+    if (library.starts_with(prefix)) return SnakeCase(library.substr(prefix.size()));
+  }
+  return SnakeCase(library);
+}
+
+}  // namespace runnel

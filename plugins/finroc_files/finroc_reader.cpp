@@ -1,0 +1,326 @@
+#include "plugins/finroc_files/finroc_reader.h"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include "core/base/nearest_name.h"
+#include "core/module/group.h"
+#include "core/port/proxy_port.h"
+#include "core/types/duration_text.h"
+#include "core/types/type_info.h"
+#include "plugins/finroc_files/finroc_names.h"
+#include "plugins/runtime_construction/configurable_search.h"
+#include "plugins/runtime_construction/plugin_loading.h"
+#include "plugins/runtime_construction/source_place.h"
+#include "plugins/scheduling/thread_container.h"
+
+namespace runnel::internal {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr auto kUsualPeriod = std::chrono::milliseconds(40);
+
+std::string TextOfAttribute(XmlElement element, std::string_view name) {
+  const XmlAttribute* const found = element.Attribute(name);
+  return found != nullptr ? found->value : "";
+}
+
+// Of `<parameters><parameter name="XML file">…`; "" if it is not there.
+std::string StaticParameter(XmlElement element, std::string_view name) {
+  for (const XmlElement list : element.children()) {
+    if (list.name() != "parameters") continue;
+    for (const XmlElement each : list.children()) {
+      if (SnakeCase(TextOfAttribute(each, "name")) == name) return each.text();
+    }
+  }
+  return "";
+}
+
+const ConfigurableElement* FindByName(const std::vector<ConfigurableElement>& all,
+                                      const std::string& name) {
+  const auto found = std::ranges::find_if(
+      all, [&](const ConfigurableElement& each) { return each.element->name() == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> NamesOf(const std::vector<ConfigurableElement>& all) {
+  std::vector<std::string> names;
+  for (const ConfigurableElement& each : all) names.push_back(each.element->name());
+  return names;
+}
+
+std::string WithoutLast(const std::string& path, int count) {
+  std::string rest = path;
+  for (int i = 0; i < count; ++i) {
+    const std::size_t end = rest.rfind('/');
+    rest.erase(end == std::string::npos ? 0 : end);
+  }
+  return rest;
+}
+
+std::string Last(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+
+}  // namespace
+
+void FinrocReader::Warn(std::string message, std::string hint, const SourcePosition& position,
+                        const FrameworkElement& element) {
+  context_.Warn({.message = std::move(message), .hint = std::move(hint)}, position, element);
+}
+
+void FinrocReader::Read(XmlElement root, const fs::path& file) {
+  ReadContents(root, application_, file);
+  if (has_thread_) return;
+  FrameworkElement& threads = context_.runtime().Create<Group>(application_, "threads");
+  AssignThread(application_, context_.runtime().Create<ThreadContainer>(
+                                 threads, "main", ThreadOptions{.period = kUsualPeriod}));
+}
+
+void FinrocReader::ReadContents(XmlElement root, FrameworkElement& group, const fs::path& file) {
+  open_.push_back(file);
+  LoadLibraries(root);
+  for (const XmlElement child : root.children()) {
+    if (child.name() == "element") ReadElement(child, group, file);
+  }
+  MakeInterfacePorts(root, group);
+  for (const XmlElement child : root.children()) {
+    if (child.name() == "edge") {
+      ReadEdge(child, group);
+    } else if (child.name() == "parameter") {
+      ReadParameter(child, group);
+    } else if (child.name() != "element" && child.name() != "interface") {
+      Warn("<" + child.name() + "> has no counterpart", "", child.position(), group);
+    }
+  }
+  open_.pop_back();
+}
+
+void FinrocReader::LoadLibraries(XmlElement root) {
+  const XmlAttribute* const dependencies = root.Attribute("dependencies");
+  if (dependencies == nullptr) return;
+  std::istringstream words(dependencies->value);
+  for (std::string word; std::getline(words >> std::ws, word, ',');) {
+    const std::string plugin = LibraryName(word);
+    const bool is_ours = plugin == "structure" || plugin == "scheduling";
+    if (is_ours || LoadLibrary(plugin)) continue;
+    Warn("there is no plugin '" + plugin + "' for " + word,
+         NearestNameHint(plugin, context_.plugins().Available()), dependencies->value_position,
+         application_);
+  }
+}
+
+bool FinrocReader::LoadLibrary(const std::string& plugin) {
+  const auto is_of_plugin = [&](const ModuleType* type) {
+    return type->name.starts_with(plugin + "/");
+  };
+  if (std::ranges::any_of(context_.plugins().modules().All(), is_of_plugin)) return true;
+  const std::vector<std::string> known = context_.plugins().Available();
+  if (std::ranges::find(known, plugin) == known.end()) return false;
+  return LoadPlugin(plugin, context_.plugins(), context_.tags()).has_value();
+}
+
+void FinrocReader::ReadElement(XmlElement element, FrameworkElement& parent, const fs::path& file) {
+  const std::string name = SnakeCase(TextOfAttribute(element, "name"));
+  const std::string type = SnakeCase(TextOfAttribute(element, "type"));
+  if (parent.FindChild(name) != nullptr) {
+    return Warn("there is already an element called '" + name + "'",
+                "names differ by more than blanks and capitals here", element.position(), parent);
+  }
+  const bool is_thread = type.ends_with("thread_container");
+  const bool is_group = is_thread || type == "group" || type.ends_with("_group");
+  const bool is_of_structure = LibraryName(TextOfAttribute(element, "group")) == "structure";
+  if (!is_of_structure || !is_group) return ReadModule(element, parent);
+  auto& group = context_.runtime().Create<Group>(parent, name);
+  group.Annotate(std::make_unique<SourcePlace>(element.position()));
+  if (is_thread) MakeThread(element, group);
+  ReadGroup(element, type, group, file);
+}
+
+void FinrocReader::ReadGroup(XmlElement element, const std::string& type, FrameworkElement& group,
+                             const fs::path& file) {
+  for (const XmlElement child : element.children()) {
+    if (child.name() == "element") ReadElement(child, group, file);
+  }
+  const std::string inner = StaticParameter(element, "xml_file");
+  if (inner.empty()) return;
+  // FINROC counts from its own root folder, which nobody here knows.
+  fs::path found = file.parent_path() / inner;
+  if (!fs::exists(found)) found = file.parent_path() / fs::path(inner).filename();
+  if (!fs::exists(found)) {
+    return Warn("the file '" + inner + "' of this " + type + " is not here",
+                "put it beside " + file.filename().string(), element.position(), group);
+  }
+  const auto is_same = [&](const fs::path& each) { return fs::equivalent(each, found); };
+  if (std::ranges::any_of(open_, is_same)) {
+    return Warn(found.string() + " contains itself", "", element.position(), group);
+  }
+  auto document = XmlDocument::Load(found);
+  if (!document) return context_.Report(document.error(), element.position(), group);
+  documents_.push_back(std::move(*document));
+  ReadContents(documents_.back().root(), group, found);
+}
+
+void FinrocReader::MakeThread(XmlElement element, FrameworkElement& group) {
+  ThreadOptions options{.period = kUsualPeriod};
+  const std::string period = StaticParameter(element, "cycle_time");
+  if (const auto duration = ParseDuration(period); duration && *duration > Duration::zero()) {
+    options.period = *duration;
+  } else if (!period.empty()) {
+    Warn("the cycle time '" + period + "' is no duration", "it is 40ms now", element.position(),
+         group);
+  }
+  FrameworkElement* threads = application_.FindChild("threads");
+  if (threads == nullptr) threads = &context_.runtime().Create<Group>(application_, "threads");
+  std::string name = group.name();
+  for (int i = 2; threads->FindChild(name) != nullptr; ++i) {
+    name = group.name() + "_" + std::to_string(i);
+  }
+  AssignThread(group, context_.runtime().Create<ThreadContainer>(*threads, name, options));
+  has_thread_ = true;
+}
+
+void FinrocReader::ReadModule(XmlElement element, FrameworkElement& parent) {
+  const std::string name = SnakeCase(TextOfAttribute(element, "name"));
+  const std::string library = LibraryName(TextOfAttribute(element, "group"));
+  const std::string type = library + "/" + SnakeCase(TextOfAttribute(element, "type"));
+  const ModuleRegistry& modules = context_.plugins().modules();
+  LoadLibrary(library);
+  if (modules.Find(type) == nullptr) {
+    context_.MarkMissing(parent, name);
+    const auto missing = modules.Get(type);
+    return Warn(
+        "there is no module type '" + type + "' for '" + TextOfAttribute(element, "name") + "'",
+        missing.error().hint, element.position(), parent);
+  }
+  const auto made = modules.Create(type, parent, name);
+  if (!made) return context_.Report(made.error(), element.position(), parent);
+  (*made)->Annotate(std::make_unique<SourcePlace>(element.position()));
+  ReadStaticParameters(element, **made);
+}
+
+void FinrocReader::ReadStaticParameters(XmlElement element, FrameworkElement& module) {
+  const std::vector<ConfigurableElement> all = ConfigurablesOf(module);
+  for (const XmlElement list : element.children()) {
+    if (list.name() == "element" || list.name() == "constructor") {
+      Warn("<" + list.name() + "> in a module has no counterpart", "", list.position(), module);
+    }
+    if (list.name() != "parameters") continue;
+    for (const XmlElement each : list.children()) {
+      const std::string name = SnakeCase(TextOfAttribute(each, "name"));
+      const ConfigurableElement* const parameter = FindByName(all, name);
+      const auto set = parameter != nullptr
+                           ? parameter->configurable->SetFromText(each.text())
+                           : Result<void>(Error{.message = "there is no parameter '" + name + "'",
+                                                .hint = NearestNameHint(name, NamesOf(all))});
+      if (!set) Warn(set.error().message, set.error().hint, each.position(), module);
+    }
+  }
+}
+
+// A port passes on, so that it needs no more than a direction, which the interface is called after,
+// and the type of what it is connected to.
+void FinrocReader::MakeInterfacePorts(XmlElement root, FrameworkElement& group) {
+  for (const XmlElement child : root.children()) {
+    if (child.name() == "interface") ReadInterface(child, group);
+  }
+}
+
+void FinrocReader::ReadInterface(XmlElement interface, FrameworkElement& group) {
+  if (&group == &application_) {
+    return Warn("an application has no interface", "put what is in it into a group",
+                interface.position(), group);
+  }
+  const bool is_output = SnakeCase(TextOfAttribute(interface, "name")).ends_with("output");
+  for (const XmlElement port : interface.children()) {
+    const std::string name = SnakeCase(TextOfAttribute(port, "name"));
+    const TypeInfo* type = FindType(TextOfAttribute(port, "type"));
+    // The first connection tells the type where its name is FINROC's.
+    for (const XmlElement edge : interface.parent()->children()) {
+      if (type != nullptr || edge.name() != "edge") continue;
+      const XmlAttribute* const inner = edge.Attribute(is_output ? "src" : "dest");
+      const XmlAttribute* const own = edge.Attribute(is_output ? "dest" : "src");
+      if (inner == nullptr || own == nullptr || Last(SnakeCasePath(own->value)) != name) continue;
+      const Port* const end =
+          FindEnd(*inner, group, is_output ? ConnectionEnd::kFrom : ConnectionEnd::kTo);
+      if (end != nullptr) type = &end->type();
+    }
+    if (type == nullptr || group.FindChild(name) != nullptr) {
+      context_.MarkMissing(group, name);
+      Warn(type == nullptr ? "the type '" + TextOfAttribute(port, "type") +
+                                 "' is not known, and no connection within tells it"
+                           : "there is already an element called '" + name + "'",
+           "", port.position(), group);
+      continue;
+    }
+    context_.runtime().Create<ProxyPort>(
+        group, name, is_output ? Port::Direction::kOutput : Port::Direction::kInput, *type);
+  }
+}
+
+// With the groups of ports as FINROC has them, or as Runnel may leave them out.
+Port* FinrocReader::FindEnd(const XmlAttribute& path, FrameworkElement& group, ConnectionEnd end) {
+  const std::string whole = SnakeCasePath(path.value);
+  if (Port* port = FindPort({group, whole, path.value_position}, end)) return port;
+  const std::string module = WithoutLast(whole, 2);
+  const std::string shorter = (module.empty() ? "" : module + "/") + Last(whole);
+  return FindPort({group, shorter, path.value_position}, end);
+}
+
+void FinrocReader::ReadEdge(XmlElement edge, FrameworkElement& group) {
+  const XmlAttribute* const source = edge.Attribute("src");
+  const XmlAttribute* const target = edge.Attribute("dest");
+  if (source == nullptr || target == nullptr) {
+    return Warn("<edge> without src or dest", "", edge.position(), group);
+  }
+  Port* const from = FindEnd(*source, group, ConnectionEnd::kFrom);
+  Port* const to = FindEnd(*target, group, ConnectionEnd::kTo);
+  if (from == nullptr || to == nullptr) {
+    const XmlAttribute& missing = from == nullptr ? *source : *target;
+    return Warn("there is no port '" + SnakeCasePath(missing.value) + "'", "",
+                missing.value_position, group);
+  }
+  for (const XmlElement child : edge.children()) {
+    Warn("<" + child.name() + "> of an edge has no counterpart", "put a module between the two",
+         child.position(), group);
+  }
+  if (auto connected = Port::Connect(*from, *to); !connected) {
+    Warn(connected.error().message, connected.error().hint, edge.position(), group);
+  }
+}
+
+void FinrocReader::ReadParameter(XmlElement parameter, FrameworkElement& group) {
+  const std::string link = SnakeCasePath(TextOfAttribute(parameter, "link"));
+  const auto module = group.Find(WithoutLast(link, 2));
+  const std::vector<ConfigurableElement> all =
+      module ? ConfigurablesOf(**module) : std::vector<ConfigurableElement>();
+  const ConfigurableElement* const found = FindByName(all, Last(link));
+  std::vector<std::pair<std::string, SourcePosition>> candidates;
+  if (const XmlAttribute* value = parameter.Attribute("default")) {
+    candidates.emplace_back(value->value, value->value_position);
+  }
+  if (const auto* entry =
+          context_.configuration().FindEntry(TextOfAttribute(parameter, "config"))) {
+    candidates.emplace_back(entry->text, entry->position);
+  }
+  if (const auto* entry =
+          context_.configuration().FindArgument(TextOfAttribute(parameter, "cmdline"))) {
+    candidates.emplace_back(entry->text, entry->position);
+  }
+  if (found == nullptr) {
+    return Warn("there is no parameter '" + link + "'", NearestNameHint(Last(link), NamesOf(all)),
+                parameter.position(), group);
+  }
+  if (candidates.empty()) return;
+  const auto& [text, position] = candidates.back();
+  if (auto set = found->configurable->SetFromText(text); !set) {
+    Error error = set.error();
+    error.position = position;
+    context_.Report(std::move(error), position, *found->element);
+  }
+}
+
+}  // namespace runnel::internal

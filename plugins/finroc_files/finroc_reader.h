@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/xml/xml_document.h"
+#include "plugins/runtime_construction/build_context.h"
+#include "plugins/runtime_construction/port_search.h"
+
+namespace runnel::internal {
+
+/// Makes what a FINROC file describes below an application, and warns of the rest.
+///
+/// Threads: under the structure lock.
+class FinrocReader {
+ public:
+  FinrocReader(FrameworkElement& application, BuildContext& context)
+      : application_(application), context_(context) {}
+
+  void Read(XmlElement root, const std::filesystem::path& file);
+
+ private:
+  void ReadContents(XmlElement root, FrameworkElement& group, const std::filesystem::path& file);
+  void LoadLibraries(XmlElement root);
+  // Whether the plugin is loaded now.
+  bool LoadLibrary(const std::string& plugin);
+  void ReadElement(XmlElement element, FrameworkElement& parent, const std::filesystem::path& file);
+  void ReadGroup(XmlElement element, const std::string& type, FrameworkElement& group,
+                 const std::filesystem::path& file);
+  void ReadModule(XmlElement element, FrameworkElement& parent);
+  void ReadStaticParameters(XmlElement element, FrameworkElement& module);
+  void MakeThread(XmlElement element, FrameworkElement& group);
+  void ReadInterface(XmlElement interface, FrameworkElement& group);
+  void MakeInterfacePorts(XmlElement root, FrameworkElement& group);
+  void ReadEdge(XmlElement edge, FrameworkElement& group);
+  Port* FindEnd(const XmlAttribute& path, FrameworkElement& group, ConnectionEnd end);
+  void ReadParameter(XmlElement parameter, FrameworkElement& group);
+
+  void Warn(std::string message, std::string hint, const SourcePosition& position,
+            const FrameworkElement& element);
+
+  FrameworkElement& application_;
+  BuildContext& context_;
+  std::vector<std::filesystem::path> open_;
+  std::list<XmlDocument> documents_;
+  bool has_thread_ = false;
+};
+
+}  // namespace runnel::internal

@@ -1,0 +1,172 @@
+// What files of FINROC become, and what is told of the rest.
+
+#include "plugins/finroc_files/finroc_application.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+
+#include "core/port/proxy_port.h"
+#include "plugins/application_files/application_saver.h"
+#include "plugins/scheduling/thread_container.h"
+#include "plugins/scheduling/xml_scheduling_tags.h"
+#include "tests/plugins/runtime_construction/test_application.h"
+
+namespace runnel::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+class FinrocApplication : public ::testing::Test {
+ protected:
+  FinrocApplication() {
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+    AddSchedulingTags(shop_.tags);
+  }
+  ~FinrocApplication() override { std::filesystem::remove_all(folder_); }
+
+  FrameworkElement* Build(const std::string& text) {
+    const auto document = XmlDocument::Parse(text, "robot.finroc");
+    if (!document) {
+      said_ = document.error().ToString();
+      return nullptr;
+    }
+    EXPECT_TRUE(IsFinrocFile(document->root()));
+    const BuildOutcome outcome = BuildFinrocApplication(
+        *document, folder_ / "robot.finroc",
+        {shop_.runtime, shop_.plugins, shop_.tags, shop_.configuration}, BuildMode::kRun);
+    said_ = outcome.diagnostics.ToString();
+    return outcome.application;
+  }
+
+  std::filesystem::path folder_ = std::filesystem::path(::testing::TempDir()) /
+                                  "finroc_application_test" /
+                                  ::testing::UnitTest::GetInstance()->current_test_info()->name();
+  Workshop shop_;
+  std::string said_;
+};
+
+TEST_F(FinrocApplication, BecomesModulesConnectionsAndValues) {
+  std::ofstream(folder_ / "inner.xml") << R"(<FinstructableGroup>
+  <interface name="Sensor Output"><port name="Loud Value" type="double"/></interface>
+  <element name="The Source" group="finroc_projects_test" type="Source">
+    <parameters><parameter name="Text">a text</parameter></parameters>
+  </element>
+  <edge src="The Source/Sensor Output/Value" dest="Sensor Output/Loud Value"/>
+  <parameter link="The Source/Parameters/Count" default="8"/>
+</FinstructableGroup>)";
+  ASSERT_TRUE(shop_.configuration.AddArgument("front-gain=4"));
+  FrameworkElement* const application = Build(R"(<?xml version="1.0" encoding="UTF-8"?>
+<Finstructable defaultname="My Robot">
+  <element name="Fast" group="finroc_plugins_structure" type="ThreadContainer">
+    <parameters><parameter name="Cycle Time">20 ms</parameter></parameters>
+    <element name="Inner Group" group="finroc_plugins_structure" type="Group">
+      <parameters><parameter name="XML file">projects/robot/inner.xml</parameter></parameters>
+    </element>
+    <element name="Sink" group="finroc_projects_test" type="Sink"/>
+  </element>
+  <edge src="Fast/Inner Group/Sensor Output/Loud%20Value" dest="Fast/Sink/Input/Value"/>
+  <parameter link="Fast/Inner Group/The Source/Parameters/Gain" config="/gain" cmdline="front-gain"/>
+</Finstructable>)");
+  ASSERT_NE(application, nullptr) << said_;
+  EXPECT_EQ(said_, "");
+  EXPECT_EQ(application->path(), "/my_robot");
+  auto& source = shop_.Get<Source>("/my_robot/fast/inner_group/the_source");
+  auto& sink = shop_.Get<Sink>("/my_robot/fast/sink");
+  EXPECT_EQ(source.count.Get(), 8);
+  EXPECT_EQ(source.gain.Get(), 4);
+  EXPECT_EQ(source.text.Get(), "a text");
+  source.value.Publish(2.5);
+  EXPECT_EQ(*sink.value.Read(), 2.5);
+  const auto& thread = shop_.Get<ThreadContainer>("/my_robot/threads/fast");
+  EXPECT_EQ(thread.options().period, std::chrono::milliseconds(20));
+  EXPECT_EQ(AssignedThread(source), thread.serial());
+}
+
+TEST_F(FinrocApplication, TellsOfEachThatHasNoCounterpart) {
+  FrameworkElement* const application = Build(R"(<Finstructable defaultname="robot"
+    dependencies="finroc_projects_test, finroc_projects_other, finroc_plugins_structure">
+  <interface name="Output"><port name="x" type="double"/></interface>
+  <element name="A" group="finroc_projects_test" type="Source">
+    <parameters><parameter name="Txt">t</parameter></parameters>
+  </element>
+  <element name="B" group="finroc_projects_test" type="Snk"/>
+  <element name="C" group="finroc_projects_test" type="Sink"/>
+  <edge src="A/Output/Value" dest="B/Input/Value"/>
+  <edge src="A/Output/Value" dest="C/Input/Value"><conversion operation="ToString"/></edge>
+  <edge src="A/Output/Label" dest="C/Input/Second"/>
+  <parameter link="A/Parameters/Gian" default="2"/>
+  <unknown/>
+</Finstructable>)");
+  ASSERT_NE(application, nullptr) << said_;
+  for (const char* expected : {
+           "robot.finroc:2:19: warning: /robot: there is no plugin 'other'",
+           "robot.finroc:3:3: warning: /robot: an application has no interface",
+           "robot.finroc:5:17: warning: /robot/a: there is no parameter 'txt'; did you mean "
+           "'text'?",
+           "robot.finroc:7:3: warning: /robot: there is no module type 'test/snk' for 'B'; did you "
+           "mean 'test/sink'?",
+           "robot.finroc:9:36: warning: /robot: there is no port 'b/input/value'",
+           "robot.finroc:10:51: warning: /robot: <conversion> of an edge has no counterpart",
+           "robot.finroc:11:3: warning",
+           "robot.finroc:12:3: warning: /robot: there is no parameter 'a/parameters/gian'; did you "
+           "mean 'gain'?",
+           "robot.finroc:13:3: warning: /robot: <unknown> has no counterpart",
+       }) {
+    EXPECT_THAT(said_, HasSubstr(expected));
+  }
+  EXPECT_EQ(shop_.Get<Port>("/robot/c/input/value").Sources().size(), 1u);
+  EXPECT_EQ(shop_.Get<ThreadContainer>("/robot/threads/main").options().period,
+            std::chrono::milliseconds(40));
+}
+
+TEST_F(FinrocApplication, WarnsOfInputsThatNothingFeedsAnyMore) {
+  ASSERT_NE(Build(R"(<Finstructable>
+  <element name="A" group="finroc_projects_test" type="Filter"/>
+</Finstructable>)"),
+            nullptr);
+  EXPECT_THAT(said_, HasSubstr("robot.finroc:2:3: warning: /robot/a/input/value: nothing is "
+                               "connected"));
+}
+
+TEST_F(FinrocApplication, IsLeftOutWholeIfSomethingIsWrong) {
+  EXPECT_EQ(Build(R"(<Finstructable>
+  <element name="A" group="finroc_projects_test" type="Unready"/>
+</Finstructable>)"),
+            nullptr);
+  EXPECT_THAT(said_, HasSubstr("robot.finroc:2:3: error: /robot/a: the file is not there"));
+  EXPECT_TRUE(shop_.runtime.root().children().empty());
+}
+
+TEST_F(FinrocApplication, ThatContainsItselfComesToAnEnd) {
+  std::ofstream(folder_ / "inner.xml") << R"(<Finstructable>
+  <element name="G" group="finroc_plugins_structure" type="Group">
+    <parameters><parameter name="XML file">inner.xml</parameter></parameters>
+  </element></Finstructable>)";
+  ASSERT_NE(Build(R"(<Finstructable>
+  <element name="G" group="finroc_plugins_structure" type="Group">
+    <parameters><parameter name="XML file">inner.xml</parameter></parameters>
+  </element></Finstructable>)"),
+            nullptr);
+  EXPECT_THAT(said_, HasSubstr("contains itself"));
+}
+
+TEST_F(FinrocApplication, IsSavedAsOneOfRunnel) {
+  FrameworkElement* const application = Build(R"(<Finstructable defaultname="robot">
+  <element name="A" group="finroc_projects_test" type="Source"/>
+</Finstructable>)");
+  ASSERT_NE(application, nullptr) << said_;
+  const auto text = ApplicationText(*application, {shop_.plugins, shop_.tags}, folder_);
+  ASSERT_TRUE(text) << text.error().ToString();
+  EXPECT_EQ(*text, R"(<application name="robot" thread="main">
+  <thread name="main" period="40ms"/>
+
+  <module name="a" type="test/source"/>
+</application>
+)");
+}
+
+}  // namespace
+}  // namespace runnel::testing

@@ -1,0 +1,93 @@
+#include <gmock/gmock.h>
+
+#include "plugins/scheduling/xml_scheduling_tags.h"
+#include "plugins/supervision/xml_supervision_tags.h"
+#include "tests/plugins/runtime_construction/test_application.h"
+
+namespace runnel::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+struct SupervisedWorkshop : Workshop {
+  SupervisedWorkshop() {
+    AddSchedulingTags(tags);
+    AddSupervisionTags(tags);
+  }
+  // What the file says besides two sources and a sink that the first one feeds.
+  std::string ErrorsOf(const std::string& words) {
+    return Errors(
+        "<application name=\"demo\">"
+        "<module name=\"a\" type=\"test/source\"/><module name=\"b\" type=\"test/source\"/>"
+        "<module name=\"sink\" type=\"test/sink\"/>"
+        "<connect from=\"a/value\" to=\"sink/value\" queue=\"5\"/>" +
+        words + "</application>");
+  }
+};
+
+class SupervisionTags : public ::testing::Test {
+ protected:
+  SupervisedWorkshop workshop;
+};
+
+TEST_F(SupervisionTags, MakeRulesThatSwitchSetAndReplace) {
+  const std::string errors = workshop.ErrorsOf(
+      "<on_stale input=\"sink/value\" after=\"30ms\">"
+      "  <switch input=\"sink/value\" from=\"a/value\" to=\"b/value\"/>"
+      "  <set parameter=\"b/gain\" value=\"2\"/>"
+      "  <otherwise><switch input=\"sink/value\" from=\"b/value\" to=\"a/value\"/></otherwise>"
+      "</on_stale>"
+      "<on_fault of=\"a\"><replace module=\"a\" by=\"test/source\"/><stop/></on_fault>");
+  ASSERT_THAT(errors, IsEmpty());
+  Scheduler scheduler(workshop.runtime, {.clock = SchedulerOptions::ClockKind::kSimulated});
+  std::vector<ChangeSet> done;
+  Supervisor supervisor(workshop.runtime, scheduler, [&](const ChangeSet& changes) -> Result<void> {
+    done.push_back(changes);
+    return {};
+  });
+  const auto application = workshop.runtime.root().Find("/demo");
+  ASSERT_TRUE(AddSupervisionRules(**application, supervisor));
+  scheduler.RunUntil(Time(std::chrono::milliseconds(100)));  // the source publishes nothing
+  ASSERT_EQ(done.size(), 1u);
+  ASSERT_EQ(done[0].size(), 3u);
+  EXPECT_EQ(std::get<DisconnectPorts>(done[0][0]).from, "/demo/a/output/value");
+  const auto& connect = std::get<ConnectPorts>(done[0][1]);
+  EXPECT_EQ(connect.from, "/demo/b/output/value");
+  EXPECT_EQ(connect.options.queue, 5u);  // as before
+  EXPECT_EQ(std::get<SetParameter>(done[0][2]).value, "2");
+}
+
+TEST_F(SupervisionTags, TellWhatIsWrongWithTheirPlace) {
+  EXPECT_THAT(workshop.ErrorsOf("<on_stale input=\"sink/valve\" after=\"30ms\"><stop/></on_stale>"),
+              AllOf(HasSubstr("app.xml:1:"), HasSubstr("did you mean 'value'?")));
+  EXPECT_THAT(workshop.ErrorsOf("<on_stale input=\"sink/second\" after=\"1s\"><stop/></on_stale>"),
+              HasSubstr("nothing is connected"));
+  EXPECT_THAT(workshop.ErrorsOf("<on_stale input=\"sink/value\" after=\"soon\"><stop/></on_stale>"),
+              HasSubstr("'soon'"));
+  EXPECT_THAT(workshop.ErrorsOf("<on_stale input=\"sink/value\" after=\"1s\"/>"),
+              HasSubstr("does not say what is to be done"));
+  EXPECT_THAT(workshop.ErrorsOf("<on_stale input=\"sink/value\" after=\"1s\">"
+                                "<switch input=\"sink/value\" to=\"a/label\"/></on_stale>"),
+              HasSubstr("carries"));
+  EXPECT_THAT(workshop.ErrorsOf("<on_stale input=\"sink/value\" after=\"1s\">"
+                                "<switch input=\"sink/value\"/></on_stale>"),
+              HasSubstr("neither"));
+  EXPECT_THAT(
+      workshop.ErrorsOf("<on_fault of=\"a\"><set parameter=\"a/gain\" value=\"99\"/></on_fault>"),
+      HasSubstr("/demo/a/parameter/gain"));
+  EXPECT_THAT(
+      workshop.ErrorsOf("<on_fault of=\"a\"><set parameter=\"a/text\" value=\"x\"/></on_fault>"),
+      HasSubstr("static"));
+  EXPECT_THAT(
+      workshop.ErrorsOf("<on_fault of=\"a\"><replace module=\"b\" by=\"test/sorce\"/></on_fault>"),
+      HasSubstr("test/source"));
+  EXPECT_THAT(workshop.ErrorsOf("<on_fault of=\"nobody\"><stop/></on_fault>"), HasSubstr("nobody"));
+  EXPECT_THAT(
+      workshop.ErrorsOf("<on_fault of=\"a\" action=\"stop_application\"><stop/></on_fault>"),
+      HasSubstr("one thing"));
+}
+
+}  // namespace
+}  // namespace runnel::testing

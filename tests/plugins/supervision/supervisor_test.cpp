@@ -1,0 +1,198 @@
+// Inputs that fall silent and modules that fail, on the simulated clock and on the real one.
+
+#include "plugins/supervision/supervisor.h"
+
+#include <atomic>
+#include <thread>
+
+#include <gmock/gmock.h>
+
+#include "plugins/structure/structure_editor.h"
+#include "tests/plugins/scheduling/test_modules.h"
+
+namespace runnel {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::At;
+using testing::Doing;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::MustSucceed;
+using testing::Relay;
+using ::testing::SizeIs;
+
+ChangeSet Switch(const Port& input, const Port& from, const Port& to) {
+  return {DisconnectPorts{from.path(), input.path()}, ConnectPorts{to.path(), input.path()}};
+}
+
+/// Two sensors that say which they are as long as they work, and a reader that is fed by the first.
+struct Robot {
+  explicit Robot(SchedulerOptions::ClockKind clock) : scheduler(runtime, {.clock = clock}) {
+    laser.action = [this](Doing& module) {
+      if (laser_throws) throw std::runtime_error("no answer");
+      if (laser_works) module.out.Publish(1);
+    };
+    infrared.action = [](Doing& module) { module.out.Publish(2); };
+    reader.action = [this](Doing& module) { seen = module.in.Get(); };
+    MustSucceed(Port::Connect(laser.out, reader.in));
+    MustSucceed(runtime.MakeReady(runtime.root()));
+  }
+  StaleRule SwitchingRule() {
+    return {.input = reader.in.path(),
+            .after = 30ms,
+            .fresh_after = 50ms,
+            .on_stale = {.changes = Switch(reader.in, laser.out, infrared.out),
+                         .description = "switched to infrared"},
+            .on_fresh = {.changes = Switch(reader.in, infrared.out, laser.out),
+                         .description = "switched to the laser"}};
+  }
+  std::vector<std::string> Messages() {
+    std::vector<std::string> messages;
+    for (const Notice& notice : supervisor.TakeNotices()) messages.push_back(notice.message);
+    return messages;
+  }
+
+  Runtime runtime;
+  ModuleRegistry modules;
+  ThreadContainer& thread = CreateThread(runtime, "main", {.period = 10ms});
+  Doing& laser = runtime.Create<Doing>(runtime.root(), "laser");
+  Doing& infrared = runtime.Create<Doing>(runtime.root(), "infrared");
+  Doing& reader = runtime.Create<Doing>(runtime.root(), "reader");
+  std::atomic<bool> laser_works{true};
+  std::atomic<bool> laser_throws{false};
+  std::atomic<double> seen{0};
+  Scheduler scheduler;
+  StructureEditor editor{runtime, modules, &scheduler};
+  Supervisor supervisor{runtime, scheduler, [this](const ChangeSet& changes) -> Result<void> {
+                          const ChangeOutcome outcome = editor.Apply(changes);
+                          if (!outcome) return outcome.diagnostics.errors().front();
+                          return {};
+                        }};
+};
+
+class Supervised : public ::testing::Test {
+ protected:
+  Robot robot{SchedulerOptions::ClockKind::kSimulated};
+};
+
+TEST_F(Supervised, InputsThatFallSilentAreFedByAnotherSourceAndGetTheirsBack) {
+  MustSucceed(robot.supervisor.Add(robot.SwitchingRule()));
+  robot.scheduler.RunUntil(At(100));
+  EXPECT_EQ(robot.seen, 1);
+  EXPECT_THAT(robot.supervisor.TakeNotices(), IsEmpty());
+  robot.laser_works = false;  // last heard at 90 ms
+  robot.scheduler.RunUntil(At(130));
+  EXPECT_THAT(robot.supervisor.TakeNotices(), IsEmpty());
+  robot.scheduler.RunUntil(At(150));
+  EXPECT_EQ(robot.seen, 2);
+  const auto notices = robot.supervisor.TakeNotices();
+  ASSERT_THAT(notices, SizeIs(1));
+  EXPECT_EQ(notices[0].path, robot.reader.in.path());
+  EXPECT_EQ(notices[0].time, At(130));
+  EXPECT_FALSE(notices[0].is_failure);
+  EXPECT_THAT(notices[0].message, HasSubstr("switched to infrared"));
+  robot.laser_works = true;
+  robot.scheduler.RunUntil(At(300));
+  EXPECT_EQ(robot.seen, 1);
+  EXPECT_THAT(robot.Messages(), ElementsAre(HasSubstr("switched to the laser")));
+}
+
+TEST_F(Supervised, InputsAreNotFreshBeforeTheyHaveBeenForAWhile) {
+  MustSucceed(robot.supervisor.Add(robot.SwitchingRule()));
+  robot.laser_works = false;
+  robot.scheduler.RunUntil(At(100));
+  EXPECT_THAT(robot.Messages(), SizeIs(1));
+  for (int time = 100; time < 1000; time += 100) {  // 30 ms of every 100 ms
+    robot.laser_works = true;
+    robot.scheduler.RunUntil(At(time + 30));
+    robot.laser_works = false;
+    robot.scheduler.RunUntil(At(time + 100));
+  }
+  EXPECT_THAT(robot.Messages(), IsEmpty());
+  EXPECT_EQ(robot.seen, 2);
+}
+
+TEST_F(Supervised, AModuleThatThrowsIsAnsweredAtOnce) {
+  MustSucceed(robot.supervisor.Add(
+      FaultReaction{robot.laser.path(),
+                    {.changes = Switch(robot.reader.in, robot.laser.out, robot.infrared.out),
+                     .description = "switched to infrared"}}));
+  robot.scheduler.RunUntil(At(50));
+  robot.laser_throws = true;
+  robot.scheduler.RunUntil(At(70));
+  EXPECT_EQ(robot.seen, 2);
+  EXPECT_THAT(robot.Messages(), ElementsAre(HasSubstr("switched to infrared")));
+  EXPECT_FALSE(robot.scheduler.stop_requested());
+}
+
+TEST_F(Supervised, AReactionMayEndTheRun) {
+  StaleRule rule = robot.SwitchingRule();
+  rule.on_stale = {.stops_application = true};
+  MustSucceed(robot.supervisor.Add(rule));
+  robot.laser_works = false;
+  EXPECT_FALSE(robot.scheduler.RunUntil(At(1000)));
+  EXPECT_TRUE(robot.scheduler.stopped_by_fault());
+  EXPECT_THAT(robot.Messages(), ElementsAre(HasSubstr("stops the application")));
+}
+
+TEST_F(Supervised, WhatCannotBeDoneIsToldAndTheRestRunsOn) {
+  StaleRule rule = robot.SwitchingRule();
+  rule.on_stale.changes = {ConnectPorts{"/infrared/nothing", robot.reader.in.path()}};
+  MustSucceed(robot.supervisor.Add(rule));
+  robot.laser_works = false;
+  EXPECT_TRUE(robot.scheduler.RunUntil(At(200)));
+  const auto notices = robot.supervisor.TakeNotices();
+  ASSERT_THAT(notices, SizeIs(1));
+  EXPECT_TRUE(notices[0].is_failure);
+  EXPECT_THAT(notices[0].message, HasSubstr("'nothing'"));
+}
+
+TEST_F(Supervised, RulesForWhatIsNotThereAreRefused) {
+  StaleRule rule = robot.SwitchingRule();
+  rule.input = "/reader/inn";
+  EXPECT_FALSE(robot.supervisor.Add(rule));
+  rule.input = robot.infrared.in.path();  // nothing feeds it
+  const auto added = robot.supervisor.Add(rule);
+  ASSERT_FALSE(added);
+  EXPECT_THAT(added.error().message, HasSubstr("nothing is connected"));
+  rule = robot.SwitchingRule();
+  rule.after = 0ms;
+  EXPECT_FALSE(robot.supervisor.Add(rule));
+}
+
+TEST_F(Supervised, TheSameHappensInEveryRun) {
+  const auto run = [] {
+    Robot another(SchedulerOptions::ClockKind::kSimulated);
+    MustSucceed(another.supervisor.Add(another.SwitchingRule()));
+    std::vector<Time> times;
+    for (int step = 0; step < 40; ++step) {
+      another.laser_works = step % 13 < 6;
+      another.scheduler.RunUntil(At(10 * step));
+      for (const Notice& notice : another.supervisor.TakeNotices()) times.push_back(notice.time);
+    }
+    return times;
+  };
+  const auto first = run();
+  EXPECT_FALSE(first.empty());
+  EXPECT_EQ(run(), first);
+}
+
+TEST(SupervisedInRealTime, InputsAreSwitchedWhileThreadsRun) {
+  Robot robot(SchedulerOptions::ClockKind::kReal);
+  MustSucceed(robot.supervisor.Add(robot.SwitchingRule()));
+  MustSucceed(robot.scheduler.Start());
+  const auto wait_until_seen = [&](double what) {
+    while (robot.seen != what) std::this_thread::sleep_for(1ms);
+  };
+  wait_until_seen(1);
+  robot.laser_works = false;
+  wait_until_seen(2);
+  robot.laser_works = true;
+  wait_until_seen(1);
+  robot.scheduler.Stop();
+}
+
+}  // namespace
+}  // namespace runnel
