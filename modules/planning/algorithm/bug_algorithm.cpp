@@ -73,7 +73,10 @@ Twist2 BugAlgorithm::GoRoundObstacle(BugState& state, const BugInput& input) con
   if (CompleteCycleAroundObstacle(state) && !LeavePointFound(state)) {
     return FinishFruitlessLap(state, input);
   }
-  if (state.lap.is_circling()) RestartLap(state, input);
+  if (state.lap.is_circling()) {
+    RestartLap(state, input);
+    state.is_other_loop = true;
+  }
   return along;
 }
 
@@ -180,6 +183,7 @@ void BugAlgorithm::Hit(BugState& state, const BugInput& input, double contact_be
 Twist2 BugAlgorithm::FinishFruitlessLap(BugState& state, const BugInput& input) const {
   // What was hit may have been none, a vague echo say: then the way is free where it was not.
   const bool is_at_hit_point = Distance(Position(input.pose), state.status.hit_point) < kHitPlace;
+  if (state.is_other_loop && state.second_looks < kSecondLooks) return LeaveOtherLoop(state, input);
   if (!is_at_hit_point || state.second_looks == kSecondLooks ||
       !IsFreeTowardsGoal(View(state, input))) {
     GiveUp(state, Unreachability::kEnclosed);

@@ -61,6 +61,7 @@ class BugAlgorithm {
   void RestartLap(BugState& state, const BugInput& input) const;
   void Reverse(BugState& state, const BugInput& input) const;
   Twist2 FinishFruitlessLap(BugState& state, const BugInput& input) const;
+  Twist2 LeaveOtherLoop(BugState& state, const BugInput& input) const;
   void SetOut(BugState& state, const BugInput& input) const;
   void ChooseShorterWay(BugState& state, const BugInput& input) const;
   std::optional<Twist2> GoAlongBoundary(BugState& state, const BugInput& input) const;

@@ -41,6 +41,21 @@ void BugAlgorithm::Reverse(BugState& state, const BugInput& input) const {
   StartFollowing(state, input, Opposite(state.follower.direction()));
 }
 
+// The lap went round something that the hit point is not on: the sensors showed a passage closed, then
+// open. That proves nothing of the obstacle hit, and its hit point means nothing here. What can
+// always be done is what Bug1 does; the variant begins anew from there.
+Twist2 BugAlgorithm::LeaveOtherLoop(BugState& state, const BugInput& input) const {
+  ++state.second_looks;
+  state.leave_point = state.closest_point;
+  state.approach = Approach::kAlongBoundary;
+  state.last_leave_distance = BugState::kNever;
+  state.line_start = state.closest_point;
+  state.least_distance_on_line = state.closest_distance;
+  state.least_distance_of_all = state.closest_distance;
+  SetOut(state, input);
+  return GoToLeavePoint(state, input);
+}
+
 void BugAlgorithm::SetOut(BugState& state, const BugInput& input) const {
   state.status.mode = PlannerMode::kGoingToLeavePoint;
   state.set_out_at = state.status.path_length;

@@ -113,6 +113,7 @@ void BugAlgorithm::RestartLap(BugState& state, const BugInput& input) const {
   state.closest_point = Position(input.pose);
   state.closest_length = 0.0;
   state.leave_point.reset();
+  state.is_other_loop = false;
   state.lap.Start(input.pose);
 }
 

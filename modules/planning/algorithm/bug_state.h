@@ -67,6 +67,7 @@ struct BugState {
 
   // Since the lap began: at the hit point, where it reversed, or in a loop that both are not on.
   Lap lap;
+  bool is_other_loop = false;        ///< than the one that the robot hit, or reversed on
   Point2 closest_point;              ///< nearest to the goal
   double closest_distance = kNever;  ///< m, its distance to the goal
   double closest_length = 0.0;       ///< m, the lap's length there

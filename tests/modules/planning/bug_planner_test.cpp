@@ -110,7 +110,7 @@ TEST_F(BugPlannerTest, GoesOnWhereAnotherPlannerWas) {
   EXPECT_NEAR(other.Last(other.module.status).path_length, 0.6, 1e-9);
 }
 
-bool HasStep(const BugPlanner& planner) { return planner.FindChild("step") != nullptr; }
+bool HasStep(const BugPlanner& planner) { return planner.Find("parameter/step").has_value(); }
 
 TEST(BugPlanner, OfDistBugHasItsStepAsAParameter) {
   test::ModuleRig<BugPlannerOf<VariantIndex("dist_bug")>> dist_bug;
