@@ -16,7 +16,7 @@ constexpr std::size_t kMostWords = 2;  // of those that are parsed one by one
 const std::vector<std::string>& ControlCommandLine::Names() {
   static const std::vector<std::string> names{
       "ps",     "ls",   "echo", "hz",   "set",    "connect", "disconnect", "create",
-      "delete", "swap", "move", "save", "change", "log",     "complete"};
+      "delete", "swap", "move", "save", "reload", "change",  "log",        "complete"};
   return names;
 }
 
@@ -107,6 +107,9 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
 
   Entry& save = add("save", "saves the application as it is now");
   word(save, "file", "instead of the one that it came from")->required(false)->type_name("FILE");
+
+  Entry& reload = add("reload", "loads a plugin anew and makes its modules anew by it");
+  word(reload, "plugin", "its name, as in <load>; build its library first")->type_name("PLUGIN");
 
   Entry& log = add("log", "shows faults, warnings and changes since the start");
   log.command->add_flag("-f,--follow", log.arguments.follows, "goes on with what comes");

@@ -22,6 +22,7 @@
 #include "plugins/runtime_construction/plugin_loading.h"
 #include "plugins/runtime_construction/source_place.h"
 #include "plugins/scheduling/xml_scheduling_tags.h"
+#include "plugins/structure/reload.h"
 #include "plugins/structure/structure_editor.h"
 #include "plugins/supervision/xml_supervision_tags.h"
 
@@ -104,6 +105,12 @@ std::unique_ptr<ControlServer> StartControl(const RunArguments& arguments, Workp
         file.empty() ? SaveApplication(**found, tools) : SaveApplication(**found, tools, file);
     if (!saved) return saved.error();
     return "saved " + path + (file.empty() ? "" : " to " + file);
+  };
+  hooks.reload = [&workplace, &editor](const std::string& plugin) -> Result<std::string> {
+    workplace.tags().set_plugin(plugin);
+    const auto outcome = ReloadPlugin(workplace.plugins(), editor, workplace.runtime(), plugin);
+    if (!outcome) return outcome.diagnostics.errors().front();
+    return "loaded " + plugin + " anew";
   };
   auto server = ControlServer::Start(
       {workplace.runtime(), workplace.plugins().modules(), editor, log, std::move(hooks)},

@@ -35,6 +35,7 @@ const std::vector<CommandKind>& Kinds() {
       {"log", 0, 0, {"follow"}, Alone(MakeLogCommand)},
       {"change", 0, 0, {"file"}, MakeChangeCommand},
       {"save", 0, 1, {}, MakeSaveCommand},
+      {"reload", 1, 1, {}, MakeReloadCommand},
   };
   return kinds;
 }

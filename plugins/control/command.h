@@ -24,6 +24,9 @@ struct ControlHooks {
   /// Saves the structure into the file ("": the one that it came from) and says what was done.
   /// Optional. Called by a thread of the server.
   std::function<Result<std::string>(const std::string& file)> save = {};
+  /// Loads a plugin anew, makes its modules anew, and says what was done. Optional. Called by a thread of
+  /// the server.
+  std::function<Result<std::string>(const std::string& plugin)> reload = {};
 };
 
 /// What commands work on. All of it outlives the server.
@@ -89,6 +92,8 @@ using CommandResult = Result<std::unique_ptr<Command>>;
                                               ChangeWorker&);
 [[nodiscard]] CommandResult MakeSaveCommand(const Request&, const ControlledApplication&,
                                             ChangeWorker&);
+[[nodiscard]] CommandResult MakeReloadCommand(const Request&, const ControlledApplication&,
+                                              ChangeWorker&);
 
 /// "path: error: message; hint" with an end of line.
 [[nodiscard]] std::string ErrorLine(const Error& error);

@@ -236,10 +236,12 @@ Scheduler::Runners Scheduler::RunnersOf(const std::vector<std::string>& paths) {
   return running;
 }
 
-std::optional<std::uint64_t> Scheduler::CyclesOf(const std::string& path) {
+std::optional<Scheduler::Pace> Scheduler::PaceOf(const std::string& path) {
   const Runners runners = RunnersOf({path});
   if (runners.empty()) return {};
-  return runners.front()->statistics().cycles;
+  const ThreadOptions& options = runners.front()->options();
+  const bool has_plan = options.activation == ThreadOptions::Activation::kPeriod;
+  return Pace{runners.front()->statistics().cycles, has_plan ? options.period : Duration::zero()};
 }
 
 bool Scheduler::HasTasks() {

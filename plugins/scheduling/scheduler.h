@@ -114,8 +114,12 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   /// that what is changed until the hold goes takes effect as a whole. Errors, threads: see CycleHold;
   /// not under the structure lock.
   Result<CycleHold> HoldCycles(const std::vector<std::string>& paths, Duration patience);
-  /// How many cycles the thread that runs the element has run so far; nullopt if none runs it.
-  [[nodiscard]] std::optional<std::uint64_t> CyclesOf(const std::string& path);
+  /// Of the thread that runs the element; nullopt if none does.
+  struct Pace {
+    std::uint64_t cycles = 0;  ///< so far
+    Duration period{};         ///< planned; 0 without a plan
+  };
+  [[nodiscard]] std::optional<Pace> PaceOf(const std::string& path);
 
   /// Is asked first about each fault, outside of cycles and without locks. What it says it has done
   /// about it is added to the fault's message, and no rule is applied then; nullopt: not its business.

@@ -12,13 +12,18 @@ namespace runnel::internal {
 std::vector<UnlistedElement> Probation::Add(std::vector<Replaced> replaced) {
   std::vector<UnlistedElement> not_kept;
   for (Replaced& each : replaced) {
-    const auto cycles = scheduler_.CyclesOf(each.path);
-    if (each.probation_cycles == 0 || !cycles) {
+    const auto pace = scheduler_.PaceOf(each.path);
+    if (each.probation_cycles == 0 || !pace) {
       not_kept.push_back(std::move(each.before));
       continue;
     }
-    const std::uint64_t until = *cycles + each.probation_cycles;
-    waiting_.push_back({std::move(each), until});
+    Waiting waiting{.until_cycle = pace->cycles + each.probation_cycles};
+    if (pace->period > Duration::zero()) {
+      const auto periods = static_cast<Duration::rep>(each.probation_cycles);
+      waiting.until = runtime_.clock().Now() + periods * pace->period;
+    }
+    waiting.replaced = std::move(each);
+    waiting_.push_back(std::move(waiting));
   }
   return not_kept;
 }
@@ -32,8 +37,13 @@ FrameworkElement* Probation::Successor(const Waiting& waiting) {
 
 // A little later than promised: a fault is answered by another thread than that of the cycles.
 bool Probation::HasProved(const Waiting& waiting) {
-  const auto cycles = scheduler_.CyclesOf(waiting.replaced.path);
-  return Successor(waiting) == nullptr || !cycles || *cycles > waiting.until_cycle + 1;
+  const auto pace = scheduler_.PaceOf(waiting.replaced.path);
+  return Successor(waiting) == nullptr || !pace || pace->cycles > waiting.until_cycle + 1;
+}
+
+// Faults bear the time of their cycle; where cycles have no plan, they are counted.
+bool Probation::IsInTime(const Waiting& waiting, const Fault& fault) {
+  return waiting.until ? fault.time <= *waiting.until : !HasProved(waiting);
 }
 
 std::vector<UnlistedElement> Probation::TakeProved() {
@@ -55,7 +65,8 @@ std::vector<UnlistedElement> Probation::TakeAll() {
 std::optional<std::string> Probation::Answer(const Fault& fault) {
   const auto found = std::ranges::find_if(
       waiting_, [&](const Waiting& each) { return each.replaced.path == fault.path; });
-  if (found == waiting_.end() || Successor(*found) == nullptr) return {};
+  if (found == waiting_.end() || Successor(*found) == nullptr || !IsInTime(*found, fault))
+    return {};
   Waiting waiting = std::move(*found);
   waiting_.erase(found);
   const std::string before = FindModuleType(*waiting.replaced.before);
