@@ -90,12 +90,16 @@ void UnassignThread(FrameworkElement& element) {
   });
 }
 
+// Threads are children of a group "threads", of the root or of an application.
 ThreadContainer* OwnThread(const FrameworkElement& element) {
-  const auto* const found = element.FindAnnotation<ThreadAssignment>();
-  FrameworkElement* const threads = element.runtime().root().FindChild("threads");
-  if (found == nullptr || threads == nullptr) return nullptr;
-  for (FrameworkElement* each : threads->children()) {
-    if (each->serial() == found->serial) return dynamic_cast<ThreadContainer*>(each);
+  const std::uint64_t own = OwnThreadSerial(element);
+  if (own == 0) return nullptr;
+  for (const FrameworkElement* at = &element; at != nullptr; at = at->parent()) {
+    const FrameworkElement* const threads = at->FindChild("threads");
+    if (threads == nullptr) continue;
+    for (FrameworkElement* each : threads->children()) {
+      if (each->serial() == own) return dynamic_cast<ThreadContainer*>(each);
+    }
   }
   return nullptr;
 }
