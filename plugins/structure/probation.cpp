@@ -17,7 +17,8 @@ std::vector<UnlistedElement> Probation::Add(std::vector<Replaced> replaced) {
       not_kept.push_back(std::move(each.before));
       continue;
     }
-    Waiting waiting{.until_cycle = pace->cycles + each.probation_cycles};
+    Waiting waiting;
+    waiting.until_cycle = pace->cycles + each.probation_cycles;
     if (pace->period > Duration::zero()) {
       const auto periods = static_cast<Duration::rep>(each.probation_cycles);
       waiting.until = runtime_.clock().Now() + periods * pace->period;
