@@ -114,7 +114,7 @@ std::string About(const FrameworkElement& element, const ListingOptions& options
     return ThreadText(*thread, options.is_long);
   }
   std::string text = FindModuleType(element);
-  const ThreadContainer* const thread = options.is_long ? OwnThreadContainer(element) : nullptr;
+  const ThreadContainer* const thread = options.is_long ? OwnThread(element) : nullptr;
   if (thread != nullptr) text += (text.empty() ? "" : ", ") + ("run by " + thread->name());
   return text;
 }

@@ -45,7 +45,8 @@ class Pass final : public Module {
 
  private:
   void Update() override {
-    in.Drain([this](const auto& value) { out.Publish(*value + step.Get()); });
+    // Not all that waits: what is connected to itself would never come to an end.
+    if (const auto value = in.Take()) out.Publish(*value + step.Get());
   }
 };
 
@@ -66,7 +67,7 @@ ModuleType TypeCalled(std::string name) {
 }
 
 std::string ThreadOf(const FrameworkElement& element) {
-  const ThreadContainer* const thread = OwnThreadContainer(element);
+  const ThreadContainer* const thread = OwnThread(element);
   return thread != nullptr ? thread->name() : "";
 }
 
