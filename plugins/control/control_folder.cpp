@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <string>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include <fcntl.h>
@@ -23,7 +25,9 @@ namespace fs = std::filesystem;
 
 constexpr const char* kEnding = ".sock";
 constexpr int kMostSocketsOfAProcess = 100;
-constexpr int kWaitingConnections = 16;
+constexpr int kWaitingConnections = 64;
+constexpr int kMostTries = 2'000;
+constexpr auto kBetweenTries = std::chrono::milliseconds(1);
 
 Error SystemError(const std::string& what, const fs::path& path) {
   return {.message = what + ": " + std::strerror(errno), .position = {.file = path.string()}};
@@ -140,7 +144,13 @@ Result<int> ConnectToSocket(const fs::path& path) {
   if (!address) return address.error();
   const int descriptor = OpenSocket();
   if (descriptor < 0) return SystemError("no socket can be made", path);
-  if (Connect(descriptor, *address) != 0) {
+  int refused = Connect(descriptor, *address);
+  // So many wait there already.
+  for (int i = 0; refused != 0 && errno == EAGAIN && i < kMostTries; ++i) {
+    std::this_thread::sleep_for(kBetweenTries);
+    refused = Connect(descriptor, *address);
+  }
+  if (refused != 0) {
     Error error = SystemError("cannot be reached", path);
     close(descriptor);
     return error;

@@ -137,8 +137,9 @@ TEST_F(ControlTest, KeepsALogOfFaultsAndChanges) {
   log.Add(ControlLog::Kind::kFault, "/app/a: has been stopped: boom\n");
   ASSERT_EQ(Change("set /a/parameter/speed 4").code, 0);
   ASSERT_EQ(Change("set /a/parameter/speed 44").code, 2);
-  (void)modules.Create("test/counter", **runtime.root().Find("/app"), "other");
-  ASSERT_TRUE(runtime.MakeReady(runtime.root()));
+  const auto other = modules.Create("test/counter", **runtime.root().Find("/app"), "other");
+  ASSERT_TRUE(other);
+  ASSERT_TRUE(runtime.MakeReady(**other));
   const Told told = Ask("log");
   EXPECT_EQ(told.code, 0);
   EXPECT_THAT(told.output, HasSubstr("fault    /app/a: has been stopped: boom\n"));

@@ -45,7 +45,8 @@ class Pass final : public Module {
 
  private:
   void Update() override {
-    in.Drain([this](const auto& value) { out.Publish(*value + step.Get()); });
+    // Not all that waits: what is connected to itself would never come to an end.
+    if (const auto value = in.Take()) out.Publish(*value + step.Get());
   }
 };
 
@@ -66,7 +67,7 @@ ModuleType TypeCalled(std::string name) {
 }
 
 std::string ThreadOf(const FrameworkElement& element) {
-  const ThreadContainer* const thread = OwnThreadContainer(element);
+  const ThreadContainer* const thread = OwnThread(element);
   return thread != nullptr ? thread->name() : "";
 }
 
@@ -103,7 +104,8 @@ class RandomChanges {
 
   ChangeSet Next(const StructureModel& model) {
     ChangeSet changes;
-    for (std::size_t left = 1 + Below(4); left > 0; --left) changes.push_back(One(model));
+    for (std::size_t left = Below(2) == 0 ? 1 : 1 + Below(4); left > 0; --left)
+      changes.push_back(One(model));
     return changes;
   }
 
@@ -176,7 +178,7 @@ class RandomChanges {
 
 std::size_t SetsPerThread() {
   const char* const asked = std::getenv("RUNNEL_RANDOM_CHANGES");
-  return asked != nullptr ? std::strtoul(asked, nullptr, 10) : 400;
+  return asked != nullptr ? std::strtoul(asked, nullptr, 10) : 3'000;
 }
 
 std::string TextOf(const ChangeSet& changes) {
@@ -229,8 +231,8 @@ TEST(RandomChanges, LeaveTheStructureThatASimpleModelHas) {
   std::vector<std::thread> threads;
   for (std::uint32_t i = 0; i < kThreads; ++i) threads.emplace_back(change_at_random, i);
   for (std::thread& thread : threads) thread.join();
-  EXPECT_GT(accepted.load(), kThreads * SetsPerThread() / 8);
-  EXPECT_GT(refused.load(), kThreads * SetsPerThread() / 8);
+  EXPECT_GT(accepted.load(), kThreads * SetsPerThread() / 10);
+  EXPECT_GT(refused.load(), kThreads * SetsPerThread() / 10);
   EXPECT_THAT(scheduler.TakeFaults(), ::testing::IsEmpty());
   scheduler.Stop();
 }
