@@ -8,6 +8,16 @@ namespace runnel {
 
 using internal::AsWord;
 
+namespace {
+
+bool IsName(const std::string& text) {
+  return !text.empty() && std::ranges::all_of(text, [](char letter) {
+    return (letter >= 'a' && letter <= 'z') || letter == '_';
+  });
+}
+
+}  // namespace
+
 Result<Request> Request::Parse(std::string_view text) {
   const std::size_t end = std::min(text.find('\n'), text.size());
   Diagnostics diagnostics;
@@ -18,6 +28,9 @@ Result<Request> Request::Parse(std::string_view text) {
   }
   Request request;
   for (const internal::ChangeWord& word : lines.front()) {
+    if (!IsName(request.command.empty() || word.equals ? word.name() : request.command)) {
+      return Error{.message = "'" + word.name() + "' is no name of a command or option"};
+    }
     if (request.command.empty()) {
       request.command = word.text;
     } else if (!word.equals) {
