@@ -96,7 +96,7 @@ void Apply(ChangeState& state, const ControlledApplication& application) {
   try {
     LoadMissingPlugins(state.placed.changes, application);
     state.swaps = SwapsIn(state.placed.changes, application.runtime);
-    state.outcome = application.editor.Apply(state.placed.changes);
+    state.outcome = application.editor.Apply(state.placed.changes, state.placed.positions);
   } catch (const std::exception& exception) {
     state.outcome.is_done = false;
     state.outcome.diagnostics.Add({.message = exception.what()});

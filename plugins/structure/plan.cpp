@@ -39,16 +39,22 @@ std::vector<Connection> TiesOf(FrameworkElement& element) {
   return ties;
 }
 
-void Plan::Make(const ChangeSet& changes, Diagnostics& diagnostics) {
-  for (const Change& change : changes) {
+void Plan::Make(const ChangeSet& changes, const std::vector<SourcePosition>& places,
+                Diagnostics& diagnostics) {
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    const auto tell = [&](Error error) {
+      if (i < places.size() && !places[i].file.empty()) error.position = places[i];
+      diagnostics.Add(std::move(error));
+    };
     try {
-      const auto possible = std::visit([this](const auto& each) { return Check(each); }, change);
-      if (!possible) diagnostics.Add(possible.error());
+      const auto check = [this](const auto& change) { return Check(change); };
+      if (const auto possible = std::visit(check, changes[i]); !possible) tell(possible.error());
     } catch (const std::exception& exception) {
-      diagnostics.Add({.message = exception.what()});
+      tell({.message = exception.what()});
     }
+    for (Error& each : further_errors_) tell(std::move(each));
+    further_errors_.clear();
   }
-  for (Error& each : further_errors_) diagnostics.Add(std::move(each));
   if (diagnostics.ok()) WarnOfMissingSources(diagnostics);
 }
 
@@ -153,29 +159,32 @@ void Plan::AddRemoval(FrameworkElement& element) {
 }
 
 void Plan::AddReplacement(FrameworkElement& before, UnlistedElement after,
-                          std::vector<std::pair<Port*, Port*>> ports,
-                          std::uint64_t probation_cycles) {
+                          std::vector<std::pair<Port*, Port*>> ports, const ReplaceModule& change) {
   Concern(before);
   FrameworkElement& next = *after;
   auto kept = std::make_shared<UnlistedElement>(std::move(after));
-  steps_.push_back(
-      {[=, this, &before, &next]() -> Result<void> {
-         if (auto copied = CopyState(before, next); !copied) return copied;
-         const FrameworkElement* const place = NextSibling(before);
-         auto taken = runtime_.Unlist(before);
-         if (!taken) return taken.error();
-         for (const auto& [from, to] : ports) to->TakeOver(*from);
-         (void)runtime_.List(std::move(*kept), place);
-         replaced_.push_back({std::move(*taken), next.path(), next.serial(), probation_cycles});
-         return {};
-       },
-       [=, this, &next] {
-         const FrameworkElement* const place = NextSibling(next);
-         *kept = *runtime_.Unlist(next);
-         for (const auto& [from, to] : ports) from->TakeOver(*to);
-         (void)runtime_.List(std::move(replaced_.back().before), place);
-         replaced_.pop_back();
-       }});
+  steps_.push_back({[=, this, &before, &next, values = ValuesOf(before)]() -> Result<void> {
+                      // What has been set or assigned since the new module was made, by this change set or others.
+                      if (auto set = CopyLateSettings(before, values, change.settings, next); !set)
+                        return set;
+                      next.InheritAnnotations(before);
+                      if (auto copied = CopyState(before, next); !copied) return copied;
+                      const FrameworkElement* const place = NextSibling(before);
+                      auto taken = runtime_.Unlist(before);
+                      if (!taken) return taken.error();
+                      for (const auto& [from, to] : ports) to->TakeOver(*from);
+                      (void)runtime_.List(std::move(*kept), place);
+                      replaced_.push_back(
+                          {std::move(*taken), next.path(), next.serial(), change.probation_cycles});
+                      return {};
+                    },
+                    [=, this, &next] {
+                      const FrameworkElement* const place = NextSibling(next);
+                      *kept = *runtime_.Unlist(next);
+                      for (const auto& [from, to] : ports) from->TakeOver(*to);
+                      (void)runtime_.List(std::move(replaced_.back().before), place);
+                      replaced_.pop_back();
+                    }});
 }
 
 }  // namespace runnel::internal

@@ -35,8 +35,9 @@ class Plan {
       : runtime_(runtime), modules_(modules), projection_(runtime) {}
 
   /// Checks the changes one after the other, each as if those before had been made, and makes what is
-  /// new, beside the tree. All that is wrong goes to `diagnostics`.
-  void Make(const ChangeSet& changes, Diagnostics& diagnostics);
+  /// new, beside the tree. All that is wrong goes to `diagnostics`, at `places`, if there are any.
+  void Make(const ChangeSet& changes, const std::vector<SourcePosition>& places,
+            Diagnostics& diagnostics);
 
   /// Carries it out. Errors: what could not be foreseen; nothing has changed then.
   Result<void> Carry();
@@ -72,7 +73,7 @@ class Plan {
   void AddDisconnection(Port& from, Port& to);
   void AddRemoval(FrameworkElement& element);
   void AddReplacement(FrameworkElement& before, UnlistedElement after,
-                      std::vector<std::pair<Port*, Port*>> ports, std::uint64_t probation_cycles);
+                      std::vector<std::pair<Port*, Port*>> ports, const ReplaceModule& change);
   // The module that a port or parameter belongs to, or the group.
   void Concern(const FrameworkElement& element);
 

@@ -155,7 +155,7 @@ Result<void> Plan::Check(const ReplaceModule& change) {
   }
   projection_.Replace(before, **made, match.ports);
   made_.push_back(made->get());
-  AddReplacement(before, std::move(*made), std::move(match.ports), change.probation_cycles);
+  AddReplacement(before, std::move(*made), std::move(match.ports), change);
   return {};
 }
 
@@ -173,6 +173,10 @@ Result<void> Plan::Check(const AssignToThread& change) {
     if (thread == nullptr) {
       return Error{.message = (*named)->path() + " is not a thread", .path = element.path()};
     }
+  }
+  if (element.kind() != ElementKind::kModule && element.kind() != ElementKind::kGroup) {
+    return Error{.message = "is neither a module nor a group, and no thread runs it",
+                 .path = element.path()};
   }
   Concern(element);
   const auto assign = [&element](ThreadContainer* to) {

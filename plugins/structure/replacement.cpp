@@ -1,5 +1,6 @@
 #include "plugins/structure/replacement.h"
 
+#include <algorithm>
 #include <exception>
 #include <string>
 
@@ -64,6 +65,34 @@ Result<void> CopySettings(const FrameworkElement& before, FrameworkElement& afte
     if (source == nullptr || target == nullptr) continue;
     const std::string value = source->ToText();
     if (value == source->info().default_value) continue;
+    if (const auto set = target->SetFromText(value); !set) return Refused(set, *each);
+  }
+  return {};
+}
+
+Values ValuesOf(const FrameworkElement& module) {
+  Values values;
+  const FrameworkElement* const group = module.FindChild(kParameters);
+  if (group == nullptr) return values;
+  for (const FrameworkElement* each : group->children()) {
+    if (const auto* value = dynamic_cast<const Configurable*>(each)) {
+      values[each->name()] = value->ToText();
+    }
+  }
+  return values;
+}
+
+Result<void> CopyLateSettings(const FrameworkElement& before, const Values& values,
+                              const std::vector<Setting>& settings, FrameworkElement& after) {
+  FrameworkElement* const group = after.FindChild(kParameters);
+  for (const auto& [name, value] : ValuesOf(before)) {
+    const auto known = values.find(name);
+    const bool is_set_anyway =
+        std::ranges::find(settings, name, &Setting::parameter) != settings.end();
+    if (is_set_anyway || (known != values.end() && known->second == value)) continue;
+    FrameworkElement* const each = group != nullptr ? group->FindChild(name) : nullptr;
+    auto* const target = dynamic_cast<Configurable*>(each);
+    if (target == nullptr || target->info().is_static) continue;
     if (const auto set = target->SetFromText(value); !set) return Refused(set, *each);
   }
   return {};

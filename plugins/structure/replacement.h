@@ -1,6 +1,8 @@
 #pragma once
 
 #include <functional>
+#include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -14,6 +16,16 @@ namespace runnel::internal {
 /// The parameter `name` of a module is set to the value. Errors: no such parameter, with the nearest
 /// name; a value it refuses.
 Result<void> Configure(FrameworkElement& module, const Setting& setting);
+
+/// The values of a module's parameters as they are now, for CopyLateSettings().
+using Values = std::map<std::string, std::string>;
+[[nodiscard]] Values ValuesOf(const FrameworkElement& module);
+
+/// Gives `after`, which is prepared, the values that parameters of the same name have got in `before`
+/// since it had `values`, but for those that `settings` name and those that cannot be set any more.
+/// Errors: a value that is refused.
+Result<void> CopyLateSettings(const FrameworkElement& before, const Values& values,
+                              const std::vector<Setting>& settings, FrameworkElement& after);
 
 /// Gives `after` the values that parameters of the same name have in `before`, if they are not the default
 /// ones. Errors: a value that is refused.

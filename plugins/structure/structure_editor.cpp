@@ -61,7 +61,8 @@ void StructureEditor::Tend() {
   if (shared_->probation) runtime_.Destroy(shared_->probation->TakeProved());
 }
 
-ChangeOutcome StructureEditor::Apply(const ChangeSet& changes) {
+ChangeOutcome StructureEditor::Apply(const ChangeSet& changes,
+                                     const std::vector<SourcePosition>& places) {
   RUNNEL_CHECK(!EpochGuard::HeldByThisThread() && !runtime_.structure_mutex().HeldByThisThread(),
                "the structure cannot be changed by an editor from within a cycle, nor under the "
                "structure lock");
@@ -69,19 +70,21 @@ ChangeOutcome StructureEditor::Apply(const ChangeSet& changes) {
   ChangeOutcome outcome;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     outcome = {};
-    if (Try(changes, outcome) != Attempt::kOvertaken) return outcome;
+    if (Try(changes, places, outcome) != Attempt::kOvertaken) return outcome;
   }
   outcome.diagnostics.Add({.message = "others change the structure all the time; gave up after " +
                                       std::to_string(kAttempts) + " attempts"});
   return outcome;
 }
 
-StructureEditor::Attempt StructureEditor::Try(const ChangeSet& changes, ChangeOutcome& outcome) {
+StructureEditor::Attempt StructureEditor::Try(const ChangeSet& changes,
+                                              const std::vector<SourcePosition>& places,
+                                              ChangeOutcome& outcome) {
   internal::Plan plan(runtime_, modules_);
   std::uint64_t revision = 0;
   {
     const std::lock_guard lock(runtime_.structure_mutex());
-    plan.Make(changes, outcome.diagnostics);
+    plan.Make(changes, places, outcome.diagnostics);
     revision = runtime_.revision();
   }
   if (!outcome.diagnostics.ok()) return Attempt::kFailed;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "core/base/clock.h"
 #include "core/base/diagnostics.h"
@@ -44,7 +45,8 @@ class StructureEditor {
   StructureEditor(const StructureEditor&) = delete;
   StructureEditor& operator=(const StructureEditor&) = delete;
 
-  ChangeOutcome Apply(const ChangeSet& changes);
+  /// `places` are those of the changes in a user's text, for the errors.
+  ChangeOutcome Apply(const ChangeSet& changes, const std::vector<SourcePosition>& places = {});
 
   /// Lets go of replaced modules whose successors have proved themselves. Apply() does it too; call it
   /// now and then to have their memory back earlier.
@@ -56,7 +58,8 @@ class StructureEditor {
   struct Shared;
   enum class Attempt { kDone, kFailed, kOvertaken };
 
-  Attempt Try(const ChangeSet& changes, ChangeOutcome& outcome);
+  Attempt Try(const ChangeSet& changes, const std::vector<SourcePosition>& places,
+              ChangeOutcome& outcome);
 
   Runtime& runtime_;
   const ModuleRegistry& modules_;

@@ -105,11 +105,7 @@ class RandomChanges {
   ChangeSet Next(const StructureModel& model) {
     ChangeSet changes;
     for (std::size_t left = Below(2) == 0 ? 1 : 1 + Below(4); left > 0; --left) {
-      Change change = One(model);
-      // A replacement takes over what the module before has when the set is checked, not what changes
-      // before it in the same set give that.
-      if (std::holds_alternative<ReplaceModule>(change)) return {std::move(change)};
-      changes.push_back(std::move(change));
+      changes.push_back(One(model));
     }
     return changes;
   }

@@ -209,7 +209,7 @@ class StructureModel {
   }
   bool Do(const AssignToThread& change) {
     const auto found = elements_.find(change.path);
-    if (found == elements_.end()) return false;
+    if (found == elements_.end() || found->second.kind == Kind::kPort) return false;
     if (!change.thread.empty() && change.thread != "one" && change.thread != "two") return false;
     found->second.thread = change.thread;
     return true;

@@ -30,6 +30,15 @@ TEST_F(ReplaceTest, SettingsComeLast) {
   EXPECT_EQ(At<OtherCounter>("/app/counter").own.Get(), 8);
 }
 
+TEST_F(ReplaceTest, WhatTheSameChangeSetHasSetBeforeIsTakenOver) {
+  Must({SetParameter{"/app/counter/parameter/step", "1"}, AssignToThread{"/app/counter", "slow"},
+        ReplaceModule{"/app/counter", "test/other_counter", {{"own", "9"}}},
+        SetParameter{"/app/counter/parameter/own", "10"}});
+  EXPECT_EQ(At<OtherCounter>("/app/counter").step.Get(), 1) << "the default value, set on purpose";
+  EXPECT_EQ(At<OtherCounter>("/app/counter").own.Get(), 10);
+  EXPECT_THAT(scheduler.Order(At<ThreadContainer>("/threads/slow")), SizeIs(1));
+}
+
 TEST_F(ReplaceTest, AReaderIsReplacedWithoutLosingOrRepeatingWhatWaits) {
   Steps(2);
   At<Counter>("/app/counter").out.Publish(77);  // waits while the sink is exchanged
