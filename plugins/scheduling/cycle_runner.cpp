@@ -22,7 +22,8 @@ bool IsToldAtTheEnd(const CycleRunner& runner) noexcept {
 
 // One that throws is stopped, and the others go on. The try block is around the loop and not within
 // it: a task costs no more than its call.
-void RunInTurn(std::span<const Schedule::Entry> entries, Time now, FaultDesk& desk) noexcept {
+void RunInTurn(std::span<const Schedule::Entry> entries, CycleMoment now,
+               FaultDesk& desk) noexcept {
   auto entry = entries.begin();
   const auto fail = [&](const char* what) { (entry++)->element->Fail(what, now, desk); };
   while (entry != entries.end()) {
@@ -59,10 +60,14 @@ bool CycleRunner::RunCycle(Cycle cycle, FaultDesk& desk) noexcept {
   const Schedule* const schedule = this->schedule();
   if (schedule == nullptr) return true;
   in_cycle_of = schedule;
+  // relaxed: for those who look while this runner is at rest. One thread writes.
+  const std::uint64_t number = cycles_begun_.load(std::memory_order_relaxed) + 1;
+  cycles_begun_.store(number, std::memory_order_relaxed);
+  const CycleMoment now{cycle.now, number};
   if (waits_for_data()) {
-    RunActivated(*schedule, cycle.now, desk);
+    RunActivated(*schedule, now, desk);
   } else {
-    RunAll(*schedule, cycle.now, desk);
+    RunAll(*schedule, now, desk);
   }
   in_cycle_of = nullptr;
   for (CycleRunner* const waiting : *schedule->waiting) {
@@ -83,7 +88,7 @@ bool CycleRunner::IsSettled(const Schedule& schedule) noexcept {
 }
 
 // An element that another thread may still be running is left out of this cycle.
-void CycleRunner::RunAll(const Schedule& schedule, Time now, FaultDesk& desk) noexcept {
+void CycleRunner::RunAll(const Schedule& schedule, CycleMoment now, FaultDesk& desk) noexcept {
   const bool is_settled = IsSettled(schedule);
   for (const Schedule::Chunk* chunk : schedule.chunks) {
     if (is_settled || !chunk->has_arrivals) {
@@ -98,7 +103,8 @@ void CycleRunner::RunAll(const Schedule& schedule, Time now, FaultDesk& desk) no
 
 // The entries of one element follow one another only by chance, so what has come for it is taken
 // once, by its first task, and holds for the others.
-void CycleRunner::RunActivated(const Schedule& schedule, Time now, FaultDesk& desk) noexcept {
+void CycleRunner::RunActivated(const Schedule& schedule, CycleMoment now,
+                               FaultDesk& desk) noexcept {
   const bool is_settled = IsSettled(schedule);
   is_held_up_ = false;
   for (const Schedule::Chunk* chunk : schedule.chunks) {
@@ -116,7 +122,7 @@ void CycleRunner::RunActivated(const Schedule& schedule, Time now, FaultDesk& de
   if (more) activated_.store(true, std::memory_order_release);
 }
 
-void CycleRunner::RunIfActivated(const Schedule::Entry& entry, bool is_settled, Time now,
+void CycleRunner::RunIfActivated(const Schedule::Entry& entry, bool is_settled, CycleMoment now,
                                  FaultDesk& desk) noexcept {
   ScheduledElement& element = *entry.element;
   // What has come for an element that another thread may still be running is not forgotten.

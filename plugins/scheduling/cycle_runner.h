@@ -60,6 +60,10 @@ class CycleRunner {
   [[nodiscard]] bool RunCycle(Cycle cycle, FaultDesk& desk) noexcept;
   /// Counts a cycle that has ended.
   void Record(const CycleMeasurement& cycle) noexcept { meter_.Add(cycle); }
+  /// How many cycles have begun.
+  [[nodiscard]] std::uint64_t cycles_begun() const noexcept {
+    return cycles_begun_.load(std::memory_order_relaxed);
+  }
   [[nodiscard]] CycleStatistics statistics() const noexcept { return meter_.statistics(); }
 
   /// Data has come for an element of this runner. Within a cycle the waiting thread is woken at the
@@ -80,9 +84,9 @@ class CycleRunner {
 
  private:
   [[nodiscard]] bool IsSettled(const Schedule& schedule) noexcept;
-  void RunAll(const Schedule& schedule, Time now, FaultDesk& desk) noexcept;
-  void RunActivated(const Schedule& schedule, Time now, FaultDesk& desk) noexcept;
-  void RunIfActivated(const Schedule::Entry& entry, bool is_settled, Time now,
+  void RunAll(const Schedule& schedule, CycleMoment now, FaultDesk& desk) noexcept;
+  void RunActivated(const Schedule& schedule, CycleMoment now, FaultDesk& desk) noexcept;
+  void RunIfActivated(const Schedule::Entry& entry, bool is_settled, CycleMoment now,
                       FaultDesk& desk) noexcept;
 
   const std::string path_;
@@ -91,6 +95,7 @@ class CycleRunner {
   CycleGate gate_;
   std::atomic<const Schedule*> schedule_{nullptr};
   std::uint64_t settled_ = 0;  // the number of the schedule whose elements have all arrived
+  std::atomic<std::uint64_t> cycles_begun_{0};
   std::atomic<bool> activated_{false};
   bool is_held_up_ = false;
   WakeEvent event_;

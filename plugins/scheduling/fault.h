@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -9,10 +10,11 @@ namespace runnel {
 
 /// A module has thrown in its cycle and has been stopped.
 struct Fault {
-  std::string path;        ///< of the module
-  std::string message;     ///< what it threw; cut off after kLongestFaultMessage characters
-  Time time{};             ///< of the cycle in which it happened
-  bool is_mended = false;  ///< the scheduler's fault handler has seen to it; no rule is applied
+  std::string path;         ///< of the module
+  std::string message;      ///< what it threw; cut off after kLongestFaultMessage characters
+  Time time{};              ///< of the cycle in which it happened
+  std::uint64_t cycle = 0;  ///< of its thread, the first is 1; 0 if it is no cycle's fault
+  bool is_mended = false;   ///< the scheduler's fault handler has seen to it; no rule is applied
 };
 
 inline constexpr std::size_t kLongestFaultMessage = 500;

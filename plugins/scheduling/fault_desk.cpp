@@ -34,9 +34,10 @@ FaultRecord::FaultRecord(std::string path) {
   fault_.message.reserve(kLongestFaultMessage);
 }
 
-void FaultRecord::Fill(std::string_view message, Time time) noexcept {
+void FaultRecord::Fill(std::string_view message, Time time, std::uint64_t cycle) noexcept {
   fault_.message.assign(message.substr(0, kLongestFaultMessage));
   fault_.time = time;
+  fault_.cycle = cycle;
 }
 
 FaultDesk::~FaultDesk() {
@@ -67,7 +68,7 @@ void FaultDesk::Attend() {
 
 void FaultDesk::Report(const Fault& fault) {
   if (const auto done = Handle(fault)) {
-    return Log({fault.path, fault.message + "; " + *done, fault.time, true});
+    return Log({fault.path, fault.message + "; " + *done, fault.time, fault.cycle, true});
   }
   std::vector<FaultRule> rules;
   {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -22,7 +23,7 @@ class FaultRecord {
  public:
   explicit FaultRecord(std::string path);
   /// Cuts `message` off where the room ends.
-  void Fill(std::string_view message, Time time) noexcept;
+  void Fill(std::string_view message, Time time, std::uint64_t cycle) noexcept;
   [[nodiscard]] const Fault& fault() const noexcept { return fault_; }
 
  private:

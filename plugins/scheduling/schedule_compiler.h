@@ -59,6 +59,8 @@ class ScheduleCompiler {
   /// Of all containers, in the order in which they were made.
   [[nodiscard]] Runners runners() const;
   [[nodiscard]] bool HasTasks() const;
+  /// Whether the element has thrown.
+  [[nodiscard]] bool IsStopped(const FrameworkElement& element) const;
   /// Adds those that run anything at or below `element`, as planned, and are not in `runners` yet.
   void AddRunnersOf(FrameworkElement& element, Runners& runners) const;
   /// Loops that were cut, modules that never run or that name no thread where there are several.

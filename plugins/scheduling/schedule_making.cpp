@@ -109,6 +109,11 @@ ScheduleCompiler::Runners ScheduleCompiler::runners() const {
   return runners;
 }
 
+bool ScheduleCompiler::IsStopped(const FrameworkElement& element) const {
+  const auto known = elements_.find(element.serial());
+  return known != elements_.end() && known->second.state->is_stopped();
+}
+
 void ScheduleCompiler::AddRunnersOf(FrameworkElement& element, Runners& runners) const {
   element.Visit([&](const FrameworkElement& each) {
     const auto known = elements_.find(each.serial());

@@ -9,10 +9,10 @@ namespace runnel {
 ScheduledElement::ScheduledElement(std::string path, std::uint64_t serial)
     : path_(std::move(path)), serial_(serial), record_(std::make_unique<FaultRecord>(path_)) {}
 
-void ScheduledElement::Fail(std::string_view message, Time time, FaultDesk& desk) noexcept {
+void ScheduledElement::Fail(std::string_view message, CycleMoment now, FaultDesk& desk) noexcept {
   stopped_.store(true, std::memory_order_relaxed);
   if (!record_) return;
-  record_->Fill(message, time);
+  record_->Fill(message, now.time, now.number);
   desk.Raise(std::move(record_));
 }
 

@@ -13,6 +13,12 @@ namespace runnel {
 
 class CycleRunner;
 
+/// The cycle that a thread is in.
+struct CycleMoment {
+  Time time{};               ///< at its beginning, on the application's clock
+  std::uint64_t number = 0;  ///< 1 for the first of the thread
+};
+
 /// What the scheduler knows of one element that has tasks: whether it still runs, and whether data
 /// has come for it. Outlives changes of the schedule.
 ///
@@ -28,7 +34,7 @@ class ScheduledElement final : public Waker {
   [[nodiscard]] std::uint64_t serial() const noexcept { return serial_; }
 
   /// Stops the element for good and hands the fault in.
-  void Fail(std::string_view message, Time time, FaultDesk& desk) noexcept;
+  void Fail(std::string_view message, CycleMoment now, FaultDesk& desk) noexcept;
   [[nodiscard]] bool is_stopped() const noexcept {
     // relaxed: the hand-over from thread to thread orders it; elsewhere it only informs.
     return stopped_.load(std::memory_order_relaxed);

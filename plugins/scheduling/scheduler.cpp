@@ -236,12 +236,12 @@ Scheduler::Runners Scheduler::RunnersOf(const std::vector<std::string>& paths) {
   return running;
 }
 
-std::optional<Scheduler::Pace> Scheduler::PaceOf(const std::string& path) {
+std::optional<Scheduler::Progress> Scheduler::ProgressOf(const std::string& path) {
+  const std::lock_guard lock(runtime_.structure_mutex());
   const Runners runners = RunnersOf({path});
   if (runners.empty()) return {};
-  const ThreadOptions& options = runners.front()->options();
-  const bool has_plan = options.activation == ThreadOptions::Activation::kPeriod;
-  return Pace{runners.front()->statistics().cycles, has_plan ? options.period : Duration::zero()};
+  const auto element = runtime_.root().Find(path);
+  return Progress{runners.front()->cycles_begun(), element && compiler_.IsStopped(**element)};
 }
 
 bool Scheduler::HasTasks() {

@@ -115,11 +115,11 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   /// not under the structure lock.
   Result<CycleHold> HoldCycles(const std::vector<std::string>& paths, Duration patience);
   /// Of the thread that runs the element; nullopt if none does.
-  struct Pace {
-    std::uint64_t cycles = 0;  ///< so far
-    Duration period{};         ///< planned; 0 without a plan
+  struct Progress {
+    std::uint64_t cycles = 0;  ///< that have begun
+    bool is_stopped = false;   ///< the element has thrown
   };
-  [[nodiscard]] std::optional<Pace> PaceOf(const std::string& path);
+  [[nodiscard]] std::optional<Progress> ProgressOf(const std::string& path);
 
   /// Is asked first about each fault, outside of cycles and without locks. What it says it has done
   /// about it is added to the fault's message, and no rule is applied then; nullopt: not its business.

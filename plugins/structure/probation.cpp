@@ -12,17 +12,13 @@ namespace runnel::internal {
 std::vector<UnlistedElement> Probation::Add(std::vector<Replaced> replaced) {
   std::vector<UnlistedElement> not_kept;
   for (Replaced& each : replaced) {
-    const auto pace = scheduler_.PaceOf(each.path);
-    if (each.probation_cycles == 0 || !pace) {
+    const auto progress = scheduler_.ProgressOf(each.path);
+    if (each.probation_cycles == 0 || !progress) {
       not_kept.push_back(std::move(each.before));
       continue;
     }
     Waiting waiting;
-    waiting.until_cycle = pace->cycles + each.probation_cycles;
-    if (pace->period > Duration::zero()) {
-      const auto periods = static_cast<Duration::rep>(each.probation_cycles);
-      waiting.until = runtime_.clock().Now() + periods * pace->period;
-    }
+    waiting.until_cycle = progress->cycles + each.probation_cycles;
     waiting.replaced = std::move(each);
     waiting_.push_back(std::move(waiting));
   }
@@ -36,19 +32,15 @@ FrameworkElement* Probation::Successor(const Waiting& waiting) {
   return is_it ? *found : nullptr;
 }
 
-// A little later than promised: a fault is answered by another thread than that of the cycles.
+// Who has thrown waits for the answer, however long that takes.
 bool Probation::HasProved(const Waiting& waiting) {
-  const auto pace = scheduler_.PaceOf(waiting.replaced.path);
-  return Successor(waiting) == nullptr || !pace || pace->cycles > waiting.until_cycle + 1;
-}
-
-// Faults bear the time of their cycle; where cycles have no plan, they are counted.
-bool Probation::IsInTime(const Waiting& waiting, const Fault& fault) {
-  return waiting.until ? fault.time <= *waiting.until : !HasProved(waiting);
+  if (Successor(waiting) == nullptr) return true;
+  const auto progress = scheduler_.ProgressOf(waiting.replaced.path);
+  return !progress || (!progress->is_stopped && progress->cycles > waiting.until_cycle);
 }
 
 std::vector<UnlistedElement> Probation::TakeProved() {
-  std::vector<UnlistedElement> proved;
+  std::vector<UnlistedElement> proved = std::exchange(proved_, {});
   for (Waiting& each : waiting_) {
     if (HasProved(each)) proved.push_back(std::move(each.replaced.before));
   }
@@ -57,7 +49,7 @@ std::vector<UnlistedElement> Probation::TakeProved() {
 }
 
 std::vector<UnlistedElement> Probation::TakeAll() {
-  std::vector<UnlistedElement> all;
+  std::vector<UnlistedElement> all = std::exchange(proved_, {});
   for (Waiting& each : waiting_) all.push_back(std::move(each.replaced.before));
   waiting_.clear();
   return all;
@@ -66,10 +58,13 @@ std::vector<UnlistedElement> Probation::TakeAll() {
 std::optional<std::string> Probation::Answer(const Fault& fault) {
   const auto found = std::ranges::find_if(
       waiting_, [&](const Waiting& each) { return each.replaced.path == fault.path; });
-  if (found == waiting_.end() || Successor(*found) == nullptr || !IsInTime(*found, fault))
-    return {};
+  if (found == waiting_.end() || Successor(*found) == nullptr) return {};
   Waiting waiting = std::move(*found);
   waiting_.erase(found);
+  if (fault.cycle > waiting.until_cycle) {
+    proved_.push_back(std::move(waiting.replaced.before));
+    return {};
+  }
   const std::string before = FindModuleType(*waiting.replaced.before);
   auto gone = PutBack(std::move(waiting));
   if (!gone) {

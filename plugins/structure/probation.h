@@ -34,18 +34,17 @@ class Probation {
   struct Waiting {
     Replaced replaced;
     std::uint64_t until_cycle = 0;
-    std::optional<Time> until;  // on the application's clock, if the thread has a plan
   };
 
   [[nodiscard]] FrameworkElement* Successor(const Waiting& waiting);
   [[nodiscard]] bool HasProved(const Waiting& waiting);
-  [[nodiscard]] bool IsInTime(const Waiting& waiting, const Fault& fault);
   Result<UnlistedElement> PutBack(Waiting waiting);
 
   Runtime& runtime_;
   Scheduler& scheduler_;
   const Duration patience_;
   std::vector<Waiting> waiting_;
+  std::vector<UnlistedElement> proved_;  // that nobody has taken yet
 };
 
 }  // namespace runnel::internal

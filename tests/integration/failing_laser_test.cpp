@@ -14,13 +14,13 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-ApplicationRun Run(std::vector<std::string> arguments) {
+ApplicationRun Drive(std::vector<std::string> arguments) {
   arguments.push_back("picture=");
   return RunApplication({.name = "bug_failing_laser.xml", .arguments = std::move(arguments)});
 }
 
 TEST(FailingLaser, TheRobotGoesOnByInfraredAndReachesItsGoal) {
-  const ApplicationRun run = Run({"fails_at=8", "works_again_at=0"});
+  const ApplicationRun run = Drive({"fails_at=8", "works_again_at=0"});
   ASSERT_TRUE(run.outcome);
   EXPECT_EQ(run.outcome->verdict, "reached") << run.outcome->summary;
   EXPECT_THAT(run.faults, IsEmpty());
@@ -32,7 +32,7 @@ TEST(FailingLaser, TheRobotGoesOnByInfraredAndReachesItsGoal) {
 }
 
 TEST(FailingLaser, TheLaserIsTakenBackWhenItWorksAgain) {
-  const ApplicationRun run = Run({"fails_at=8", "works_again_at=15"});
+  const ApplicationRun run = Drive({"fails_at=8", "works_again_at=15"});
   ASSERT_TRUE(run.outcome);
   EXPECT_EQ(run.outcome->verdict, "reached") << run.outcome->summary;
   ASSERT_THAT(run.notices, SizeIs(2));
@@ -42,7 +42,7 @@ TEST(FailingLaser, TheLaserIsTakenBackWhenItWorksAgain) {
 }
 
 TEST(FailingLaser, AnExceptionOfItsModuleIsAnsweredByANewModule) {
-  const ApplicationRun run = Run({"fails_at=8", "works_again_at=0", "fails_loudly=true"});
+  const ApplicationRun run = Drive({"fails_at=8", "works_again_at=0", "fails_loudly=true"});
   ASSERT_TRUE(run.outcome);
   EXPECT_EQ(run.outcome->verdict, "reached") << run.outcome->summary;
   ASSERT_FALSE(run.faults.empty());
