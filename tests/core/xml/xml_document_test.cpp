@@ -148,6 +148,13 @@ TEST(XmlDocumentErrorTest, NamesAreUtf8Too) {
   EXPECT_TRUE(XmlDocument::Parse("<\xC3\xA4 \xC3\xB6=''></\xC3\xA4>", "a.xml"));
 }
 
+TEST(XmlDocumentErrorTest, EntitiesHaveLettersOnly) {
+  EXPECT_THAT(ErrorOf("<a b='&am\xE4p;'/>"),
+              StartsWith("a.xml:1:7: '&' begins an entity that no ';' ends"));
+  EXPECT_THAT(ErrorOf("<a>&am\1p;</a>"),
+              StartsWith("a.xml:1:4: '&' begins an entity that no ';' ends"));
+}
+
 TEST(XmlDocumentErrorTest, DeclaredEncodingMustBeOneThatIsRead) {
   EXPECT_THAT(ErrorOf("<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?><a/>"),
               StartsWith("a.xml:1:1: the file says that it is ISO-8859-1"));
