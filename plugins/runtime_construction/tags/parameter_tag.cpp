@@ -196,7 +196,14 @@ void Give(const TagUse& use, PartUse& part) {
   if (const XmlAttribute* of = use.Find("of")) {
     use.context.Defer(BuildStage::kParameters, [use, of] {
       const FrameworkElement* const module = SearchElement(PathIn(*of, use.parent), use.context);
-      if (module != nullptr) SetParameter(use, *module, *use.parent.parent());
+      if (module == nullptr) return;
+      if (module->IsAtOrBelow(use.parent)) {
+        return SetParameter(use, *module, *use.parent.parent());
+      }
+      // It may even be of another application, which a failed build could not give its value back.
+      use.context.Report({.message = module->path() + " is not within this group",
+                          .hint = "set its parameters where it stands itself"},
+                         of->value_position, use.parent);
     });
     return;
   }
