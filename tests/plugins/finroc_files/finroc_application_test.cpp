@@ -52,7 +52,8 @@ TEST_F(FinrocApplication, BecomesModulesConnectionsAndValues) {
   std::ofstream(folder_ / "inner.xml") << R"(<FinstructableGroup>
   <interface name="Sensor Output"><port name="Loud Value" type="double"/></interface>
   <element name="The Source" group="finroc_projects_test" type="Source">
-    <parameters><parameter name="Text">a text</parameter></parameters>
+    <parameters><parameter name="Text">a text</parameter>
+      <parameter name="File">maps/hall.yaml</parameter></parameters>
   </element>
   <edge src="The Source/Sensor Output/Value" dest="Sensor Output/Loud Value"/>
   <parameter link="The Source/Parameters/Count" default="8"/>
@@ -74,6 +75,7 @@ TEST_F(FinrocApplication, BecomesModulesConnectionsAndValues) {
   EXPECT_EQ(said_, "");
   EXPECT_EQ(application->path(), "/my_robot");
   auto& source = shop_.Get<Source>("/my_robot/fast/inner_group/the_source");
+  EXPECT_EQ(source.file.Get().text, (folder_ / "maps/hall.yaml").string());
   auto& sink = shop_.Get<Sink>("/my_robot/fast/sink");
   EXPECT_EQ(source.count.Get(), 8);
   EXPECT_EQ(source.gain.Get(), 4);
