@@ -146,6 +146,7 @@ TEST_F(ApplicationSaver, RewritesTheQueueOfAConnection) {
 }
 
 TEST_F(ApplicationSaver, KeepsConnectionsThatLeadOutAsLongAsTheyAreThere) {
+  shop_.Add<Optional>("test/optional");
   ASSERT_NE(shop_.Build(R"(<application name="other"><module name="a" type="test/source"/>
     <module name="b" type="test/sink"/></application>)"),
             nullptr);
