@@ -31,7 +31,8 @@ const char* const kNeighbour = R"(<application name="neighbour" thread="main">
 </application>)";
 
 const char* const kConfiguration = R"(<configuration>
-  <section name="drive"><value name="gain">4</value><value name="other">much</value></section>
+  <section name="drive"><value name="gain">4</value><value name="other">5</value>
+    <value name="bad">much</value></section>
   <section name="brake"><value name="force">2</value></section>
 </configuration>)";
 
@@ -132,6 +133,7 @@ struct FileTrial::World : Workshop {
   // What a program makes of an application before it runs.
   [[nodiscard]] BuildTools tools(bool with_scheduler) {
     configuration = outside;
+    if (with_argument) RUNNEL_CHECK(configuration.AddArgument("gain=3").has_value(), "twice");
     BuildTools made{runtime, plugins, tags, configuration};
     if (!with_scheduler) return made;
     made.before_ready = [this](FrameworkElement& application) -> Result<void> {
@@ -154,6 +156,7 @@ struct FileTrial::World : Workshop {
   }
 
   const fs::path folder;
+  bool with_argument = false;
   FrameworkElement* neighbour = nullptr;
   Configuration outside;
   std::optional<Scheduler> scheduler;
@@ -178,6 +181,7 @@ std::string FileTrial::Try(const std::string& text, std::uint64_t number) {
   if (world_ == nullptr || number % 256 == 0) world_ = std::make_unique<World>(folder_);
   std::string fault;
   try {
+    world_->with_argument = number % 16 == 11;
     fault = TryAt(*world_, text, number);
   } catch (const std::exception& exception) {
     fault = std::string("an exception came out: ") + exception.what();
