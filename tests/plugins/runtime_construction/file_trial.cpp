@@ -88,6 +88,12 @@ std::string OwnStructure(FrameworkElement& application) {
   return own;
 }
 
+// Some file systems bring a file to the disk when it is written again, and at once.
+void WriteNew(const fs::path& file, const std::string& text) {
+  fs::remove(file);
+  WriteAll(file, text);
+}
+
 const char* NameOf(BuildMode mode) {
   return mode == BuildMode::kRun ? "run" : mode == BuildMode::kCheck ? "check" : "construct";
 }
@@ -197,7 +203,7 @@ std::string FileTrial::TryAt(World& world, const std::string& text, std::uint64_
 
 std::string FileTrial::TryFile(World& world, const std::string& text, std::uint64_t number) {
   const fs::path file = folder_ / "file.xml";
-  WriteAll(file, text);
+  WriteNew(file, text);
   const std::string before = world.Snapshot();
   const BuildMode mode = number % 8 == 0 ? BuildMode::kConstruct : BuildMode::kRun;
   const BuildOutcome outcome = BuildApplication(file, world.tools(false), mode);
@@ -246,7 +252,7 @@ std::string FileTrial::TryDocument(World& world, const std::string& text, std::u
 
 // The text is that of a file that others use.
 std::string FileTrial::TryAsPart(World& world, const std::string& text) {
-  WriteAll(folder_ / "part.xml", text);
+  WriteNew(folder_ / "part.xml", text);
   const std::string before = world.Snapshot();
   const auto document = XmlDocument::Parse(
       "<application name='a'><group name='g' type='part.xml'/><group name='h' type='part.xml'>"
