@@ -24,6 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// A file of ten groups of ten groups … is short, and would never come to an end.
+constexpr std::size_t kMostFiles = 10'000;
 constexpr auto kUsualPeriod = std::chrono::milliseconds(40);
 
 std::string TextOfAttribute(XmlElement element, std::string_view name) {
@@ -165,6 +167,12 @@ void FinrocReader::ReadGroup(XmlElement element, const std::string& type, Framew
   const auto is_same = [&](const fs::path& each) { return fs::equivalent(each, found); };
   if (std::ranges::any_of(open_, is_same)) {
     return Warn(found.string() + " contains itself", "", element.position(), group);
+  }
+  if (documents_.size() >= kMostFiles) {
+    if (std::exchange(is_too_large_, true)) return;
+    return context_.Report({.message = "the application has more than " +
+                                       std::to_string(kMostFiles) + " groups with a file"},
+                           element.position(), group);
   }
   auto document = XmlDocument::Load(found);
   if (!document) return context_.Report(document.error(), element.position(), group);
