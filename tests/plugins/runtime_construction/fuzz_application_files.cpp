@@ -53,6 +53,19 @@ void TellCrash(int signal) {
   raise(signal);
 }
 
+// On a stack of its own, for the program's may be what has come to its end.
+void HandleCrashes() {
+  static char stack[1U << 16U];
+  const stack_t alternative{.ss_sp = stack, .ss_flags = 0, .ss_size = sizeof(stack)};
+  sigaltstack(&alternative, nullptr);
+  struct sigaction action {};
+  action.sa_handler = TellCrash;
+  action.sa_flags = SA_ONSTACK;
+  for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL}) {
+    sigaction(signal, &action, nullptr);
+  }
+}
+
 // Ends the program if one input takes so long that it must be an endless loop.
 void Watch(const std::atomic<bool>& is_over) {
   std::uint64_t last = current_number;
@@ -143,9 +156,7 @@ int main(int count, char** words) {
         stderr);
     return kBadUsage;
   }
-  for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL}) {
-    std::signal(signal, TellCrash);
-  }
+  HandleCrashes();
   std::atomic<bool> is_over{false};
   std::thread watch(Watch, std::cref(is_over));
   const int verdict = Run(*arguments);

@@ -200,6 +200,17 @@ TEST_F(PartFilesTest, SetParametersOnlyWithinThemselves) {
   EXPECT_EQ(shop_.Get<Source>("/other/m").count.Get(), 3);
 }
 
+TEST_F(PartFilesTest, HaveNoParametersThatComeFromThemselves) {
+  for (const std::string from : {"from", "fron"}) {
+    Write("part.xml", "<group_type>\n<parameter name=\"gain\" " + from +
+                          R"(="gain" value="1"/>
+<module name="m" type="test/source"><parameter name="gain" from="gain"/></module></group_type>)");
+    Write("app.xml",
+          R"(<application name="demo"><group name="g" type="part.xml"/></application>)");
+    EXPECT_THAT(Errors(), HasSubstr("part.xml:2:24: error: /demo/g"));
+  }
+}
+
 TEST_F(PartFilesTest, ThatContainThemselvesAreRefusedWithTheWay) {
   Write("a.xml", "<group_type>\n  <group name=\"b\" type=\"b.xml\"/>\n</group_type>");
   Write("b.xml", "<group_type>\n <group name=\"a\" type=\"./a.xml\"/>\n</group_type>");
