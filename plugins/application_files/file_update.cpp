@@ -178,9 +178,20 @@ void FileUpdate::UpdateConnect(XmlElement tag, FrameworkElement& group) {
   }
 }
 
+namespace {
+
+bool AreConnected(const Port* from, const Port* to) {
+  if (from == nullptr || to == nullptr) return false;
+  return std::ranges::find(from->outgoing(), to, &Connection::to) != from->outgoing().end();
+}
+
+}  // namespace
+
 bool FileUpdate::SaysConnection(XmlElement tag, Port* from, Port* to, bool is_only_one) {
   SavedEdges::Edge* const edge =
       from != nullptr && to != nullptr ? saving_.edges.Find(*from, *to) : nullptr;
+  // One that leads out of the application is left to whoever wrote it.
+  if (edge == nullptr && AreConnected(from, to)) return true;
   if (edge == nullptr || edge->is_saved) {
     touched_.insert({from, to});
     return false;

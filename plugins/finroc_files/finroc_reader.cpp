@@ -12,6 +12,7 @@
 #include "core/types/duration_text.h"
 #include "core/types/type_info.h"
 #include "plugins/finroc_files/finroc_names.h"
+#include "plugins/parameters/file_path.h"
 #include "plugins/runtime_construction/configurable_search.h"
 #include "plugins/runtime_construction/plugin_loading.h"
 #include "plugins/runtime_construction/source_place.h"
@@ -23,6 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// A file of ten groups of ten groups … is short, and would never come to an end.
+constexpr std::size_t kMostFiles = 10'000;
 constexpr auto kUsualPeriod = std::chrono::milliseconds(40);
 
 std::string TextOfAttribute(XmlElement element, std::string_view name) {
@@ -64,6 +67,13 @@ std::string WithoutLast(const std::string& path, int count) {
 }
 
 std::string Last(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+
+// As everywhere, names of files start in the folder of the file that they stand in.
+std::string TextFor(const Configurable& configurable, const std::string& text,
+                    const fs::path& folder) {
+  if (&configurable.type() != &TypeOf<FilePath>()) return text;
+  return ResolvedAgainst(folder, {text}).text;
+}
 
 }  // namespace
 
@@ -158,6 +168,12 @@ void FinrocReader::ReadGroup(XmlElement element, const std::string& type, Framew
   if (std::ranges::any_of(open_, is_same)) {
     return Warn(found.string() + " contains itself", "", element.position(), group);
   }
+  if (documents_.size() >= kMostFiles) {
+    if (std::exchange(is_too_large_, true)) return;
+    return context_.Report({.message = "the application has more than " +
+                                       std::to_string(kMostFiles) + " groups with a file"},
+                           element.position(), group);
+  }
   auto document = XmlDocument::Load(found);
   if (!document) return context_.Report(document.error(), element.position(), group);
   documents_.push_back(std::move(*document));
@@ -213,7 +229,8 @@ void FinrocReader::ReadStaticParameters(XmlElement element, FrameworkElement& mo
       const std::string name = SnakeCase(TextOfAttribute(each, "name"));
       const ConfigurableElement* const parameter = FindByName(all, name);
       const auto set = parameter != nullptr
-                           ? parameter->configurable->SetFromText(each.text())
+                           ? parameter->configurable->SetFromText(TextFor(
+                                 *parameter->configurable, each.text(), open_.back().parent_path()))
                            : Result<void>(Error{.message = "there is no parameter '" + name + "'",
                                                 .hint = NearestNameHint(name, NamesOf(all))});
       if (!set) Warn(set.error().message, set.error().hint, each.position(), module);
@@ -298,13 +315,16 @@ void FinrocReader::ReadParameter(XmlElement parameter, FrameworkElement& group) 
   const std::vector<ConfigurableElement> all =
       module ? ConfigurablesOf(**module) : std::vector<ConfigurableElement>();
   const ConfigurableElement* const found = FindByName(all, Last(link));
+  const auto from_file = [&](const std::string& text, const fs::path& file) {
+    return found != nullptr ? TextFor(*found->configurable, text, file.parent_path()) : text;
+  };
   std::vector<std::pair<std::string, SourcePosition>> candidates;
   if (const XmlAttribute* value = parameter.Attribute("default")) {
-    candidates.emplace_back(value->value, value->value_position);
+    candidates.emplace_back(from_file(value->value, open_.back()), value->value_position);
   }
   if (const auto* entry =
           context_.configuration().FindEntry(TextOfAttribute(parameter, "config"))) {
-    candidates.emplace_back(entry->text, entry->position);
+    candidates.emplace_back(from_file(entry->text, entry->position.file), entry->position);
   }
   if (const auto* entry =
           context_.configuration().FindArgument(TextOfAttribute(parameter, "cmdline"))) {

@@ -47,6 +47,7 @@ class FinrocReader {
   std::vector<std::filesystem::path> open_;
   std::list<XmlDocument> documents_;
   bool has_thread_ = false;
+  bool is_too_large_ = false;
 };
 
 }  // namespace runnel::internal

@@ -63,7 +63,8 @@ struct SourceText {
 
 FrameworkElement* Build(XmlElement root, const BuildTools& tools, BuildContext& context,
                         BuildMode mode, Diagnostics& diagnostics) {
-  FrameworkElement* const application = ApplicationReader(context).Read(root);
+  ApplicationReader reader(context);  // what it defers needs it still
+  FrameworkElement* const application = reader.Read(root);
   context.RunDeferred();
   if (application != nullptr) CheckRequiredInputs(*application, context);
   ReportUnknownArguments(root, context.parts(), tools.configuration, diagnostics);

@@ -102,7 +102,8 @@ class Scanner {
     const TextPlace start = cursor_.place();
     const std::size_t begin = cursor_.offset();
     cursor_.Take(2);
-    const std::string_view name = cursor_.TakeName();
+    std::string_view name;
+    if (!TakeName(name)) return false;
     cursor_.SkipSpace();
     if (open_.empty()) return Fail(start, "</" + std::string(name) + "> closes nothing", "");
     const StartTag& opened = tags_[open_.back()];
@@ -123,7 +124,8 @@ class Scanner {
     const TextPlace start = cursor_.place();
     const std::size_t begin = cursor_.offset();
     cursor_.Take(1);
-    StartTag tag{cursor_.TakeName(), start, {}, {}};
+    StartTag tag{{}, start, {}, {}};
+    if (!TakeName(tag.name)) return false;
     if (tag.name.empty()) return Fail(start, "'<' without a name", "write &lt; for the letter");
     if (open_.empty() && !tags_.empty()) {
       return Fail(start, "a second root element " + Quoted(tag.name), "a file has one");
@@ -143,10 +145,27 @@ class Scanner {
     return true;
   }
 
+  /// `name` is empty if there is none.
+  bool TakeName(std::string_view& name) {
+    TextCursor letters = cursor_;
+    name = cursor_.TakeName();
+    for (std::size_t done = 0; done < name.size();) {
+      const std::size_t length = CharacterLength(letters.rest());
+      if (length == 0) {
+        cursor_ = letters;
+        return FailAtLetter();
+      }
+      letters.Take(length);
+      done += length;
+    }
+    return true;
+  }
+
   bool TakeAttribute(StartTag& tag, bool spaced) {
     const TextPlace place = cursor_.place();
     const std::size_t begin = cursor_.offset();
-    const std::string_view name = cursor_.TakeName();
+    std::string_view name;
+    if (!TakeName(name)) return false;
     if (name.empty()) {
       return cursor_.at_end() || cursor_.next() == '<'
                  ? Fail(tag.place, "the tag " + Quoted(tag.name) + " has no '>'", "")

@@ -44,8 +44,14 @@ std::size_t CharacterLength(std::string_view text) {
 }
 
 std::string EntityFault(std::string_view text) {
-  const std::size_t end = text.substr(0, kLongestEntity).find(';');
-  if (end == std::string_view::npos) return "'&' begins an entity that no ';' ends";
+  text = text.substr(0, kLongestEntity);
+  const auto is_of_name = [](char letter) {
+    return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') ||
+           (letter >= '0' && letter <= '9') || letter == '#';
+  };
+  const auto behind = std::find_if_not(text.begin() + 1, text.end(), is_of_name);
+  const auto end = static_cast<std::size_t>(behind - text.begin());
+  if (end == text.size() || text[end] != ';') return "'&' begins an entity that no ';' ends";
   const std::string_view name = text.substr(1, end - 1);
   if (std::ranges::find(kNamedEntities, name) != kNamedEntities.end()) return "";
   if (IsNumericEntity(name)) return "";

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/nearest_name.h"
@@ -185,7 +186,12 @@ void RefuseAttribute(std::string_view name, std::string hint, const TagUse& use)
 void Declare(const TagUse& use, PartUse& part) {
   RefuseAttribute("from", "leave it out: where the file is used, it may be said", use);
   RefuseAttribute("of", "leave it out", use);
-  if (IsFirstOfItsName(use)) part.declared.emplace(use.Get("name").value, use);
+  if (!IsFirstOfItsName(use)) return;
+  // It might name itself, and looking for its value would have no end.
+  TagUse declared = use;
+  declared.unusable.push_back("from");
+  std::erase_if(declared.stand_ins, [](const XmlAttribute* each) { return each->name == "from"; });
+  part.declared.emplace(use.Get("name").value, std::move(declared));
 }
 
 // In a group whose type is a file: of one of its parameters, or, with `of`, of a module in it.
@@ -196,7 +202,14 @@ void Give(const TagUse& use, PartUse& part) {
   if (const XmlAttribute* of = use.Find("of")) {
     use.context.Defer(BuildStage::kParameters, [use, of] {
       const FrameworkElement* const module = SearchElement(PathIn(*of, use.parent), use.context);
-      if (module != nullptr) SetParameter(use, *module, *use.parent.parent());
+      if (module == nullptr) return;
+      if (module->IsAtOrBelow(use.parent)) {
+        return SetParameter(use, *module, *use.parent.parent());
+      }
+      // It may even be of another application, which a failed build could not give its value back.
+      use.context.Report({.message = module->path() + " is not within this group",
+                          .hint = "set its parameters where it stands itself"},
+                         of->value_position, use.parent);
     });
     return;
   }

@@ -141,6 +141,20 @@ TEST(XmlDocumentErrorTest, OtherEncodingsAreRefused) {
               StartsWith("a.xml:1:1: the file is UTF-16"));
 }
 
+TEST(XmlDocumentErrorTest, NamesAreUtf8Too) {
+  EXPECT_THAT(ErrorOf("<a>\n<n\xE4me/></a>"), StartsWith("a.xml:2:3: byte 0xe4 is no UTF-8"));
+  EXPECT_THAT(ErrorOf("<a n\xC3\xA4=''\xFF=''/>"), StartsWith("a.xml:1:9: byte 0xff is no UTF-8"));
+  EXPECT_THAT(ErrorOf("<a></a\xE4>"), StartsWith("a.xml:1:7: byte 0xe4 is no UTF-8"));
+  EXPECT_TRUE(XmlDocument::Parse("<\xC3\xA4 \xC3\xB6=''></\xC3\xA4>", "a.xml"));
+}
+
+TEST(XmlDocumentErrorTest, EntitiesHaveLettersOnly) {
+  EXPECT_THAT(ErrorOf("<a b='&am\xE4p;'/>"),
+              StartsWith("a.xml:1:7: '&' begins an entity that no ';' ends"));
+  EXPECT_THAT(ErrorOf("<a>&am\1p;</a>"),
+              StartsWith("a.xml:1:4: '&' begins an entity that no ';' ends"));
+}
+
 TEST(XmlDocumentErrorTest, DeclaredEncodingMustBeOneThatIsRead) {
   EXPECT_THAT(ErrorOf("<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?><a/>"),
               StartsWith("a.xml:1:1: the file says that it is ISO-8859-1"));

@@ -145,6 +145,23 @@ TEST_F(ApplicationSaver, RewritesTheQueueOfAConnection) {
   EXPECT_EQ(Text(), With("queue=\"3\" on_full=\"refuse\"", "queue=\"5\""));
 }
 
+TEST_F(ApplicationSaver, KeepsConnectionsThatLeadOutAsLongAsTheyAreThere) {
+  shop_.Add<Optional>("test/optional");
+  ASSERT_NE(shop_.Build(R"(<application name="other"><module name="a" type="test/source"/>
+    <module name="b" type="test/sink"/></application>)"),
+            nullptr);
+  const std::string text = R"(<application name="demo">
+  <module name="m" type="test/optional"/>
+  <connect from="/other/a/value" to="m/value"/>
+  <connect from="m/output/value" to="../other/b/value /other/b/second"/>
+</application>)";
+  Load(text);
+  EXPECT_EQ(Text(), text);
+  ASSERT_TRUE(Port::Disconnect(shop_.Get<Port>("/demo/m/output/value"),
+                               shop_.Get<Port>("/other/b/input/value")));
+  EXPECT_EQ(Text(), With("../other/b/value /other/b/second", "/other/b/second", text));
+}
+
 TEST_F(ApplicationSaver, CutsWhatADeletedModuleLeavesBehind) {
   Load();
   Delete("/demo/inner/filter");

@@ -48,11 +48,33 @@ class FinrocApplication : public ::testing::Test {
   std::string said_;
 };
 
+TEST_F(FinrocApplication, OfTenTimesTenTimesTenGroupsComesToAnEnd) {
+  const auto ten_of = [](const std::string& file) {
+    std::string text = "<FinstructableGroup>\n";
+    for (int i = 0; i < 10; ++i) {
+      text += "<element name=\"g" + std::to_string(i) +
+              "\" group=\"finroc_plugins_structure\" type=\"Group\"><parameters><parameter "
+              "name=\"XML file\">" +
+              file + "</parameter></parameters></element>\n";
+    }
+    return text + "</FinstructableGroup>";
+  };
+  for (int i = 1; i < 8; ++i) {
+    std::ofstream(folder_ / (std::to_string(i) + ".xml")) << ten_of(std::to_string(i + 1) + ".xml");
+  }
+  std::ofstream(folder_ / "8.xml") << "<FinstructableGroup/>";
+  EXPECT_EQ(Build(ten_of("1.xml")), nullptr);
+  EXPECT_THAT(said_, HasSubstr("error: "));
+  EXPECT_THAT(said_, HasSubstr("the application has more than 10000 groups with a file"));
+  EXPECT_EQ(shop_.runtime.root().children().size(), 0U);
+}
+
 TEST_F(FinrocApplication, BecomesModulesConnectionsAndValues) {
   std::ofstream(folder_ / "inner.xml") << R"(<FinstructableGroup>
   <interface name="Sensor Output"><port name="Loud Value" type="double"/></interface>
   <element name="The Source" group="finroc_projects_test" type="Source">
-    <parameters><parameter name="Text">a text</parameter></parameters>
+    <parameters><parameter name="Text">a text</parameter>
+      <parameter name="File">maps/hall.yaml</parameter></parameters>
   </element>
   <edge src="The Source/Sensor Output/Value" dest="Sensor Output/Loud Value"/>
   <parameter link="The Source/Parameters/Count" default="8"/>
@@ -74,6 +96,7 @@ TEST_F(FinrocApplication, BecomesModulesConnectionsAndValues) {
   EXPECT_EQ(said_, "");
   EXPECT_EQ(application->path(), "/my_robot");
   auto& source = shop_.Get<Source>("/my_robot/fast/inner_group/the_source");
+  EXPECT_EQ(source.file.Get().text, (folder_ / "maps/hall.yaml").string());
   auto& sink = shop_.Get<Sink>("/my_robot/fast/sink");
   EXPECT_EQ(source.count.Get(), 8);
   EXPECT_EQ(source.gain.Get(), 4);

@@ -180,6 +180,37 @@ TEST_F(PartFilesTest, KnowTheirParameters) {
                                 "the parameter 'idle'"));
 }
 
+TEST_F(PartFilesTest, SetParametersOnlyWithinThemselves) {
+  ASSERT_NE(shop_.Build(R"(<application name="other"><module name="m" type="test/source"/>
+    </application>)"),
+            nullptr);
+  Write("parts/amplifier.xml", kAmplifier);
+  Write("app.xml", R"(<application name="demo">
+  <module name="beside" type="test/source"/>
+  <group name="left" type="parts/amplifier.xml">
+    <parameter of="/other/m" name="count" value="8"/>
+    <parameter of="../beside" name="count" value="8"/>
+  </group>
+</application>)");
+  EXPECT_EQ(Errors(),
+            "app.xml:4:20: error: /demo/left: /other/m is not within this group; set its "
+            "parameters where it stands itself\n"
+            "app.xml:5:20: error: /demo/left: /demo/beside is not within this group; set its "
+            "parameters where it stands itself\n");
+  EXPECT_EQ(shop_.Get<Source>("/other/m").count.Get(), 3);
+}
+
+TEST_F(PartFilesTest, HaveNoParametersThatComeFromThemselves) {
+  for (const std::string from : {"from", "fron"}) {
+    Write("part.xml", "<group_type>\n<parameter name=\"gain\" " + from +
+                          R"(="gain" value="1"/>
+<module name="m" type="test/source"><parameter name="gain" from="gain"/></module></group_type>)");
+    Write("app.xml",
+          R"(<application name="demo"><group name="g" type="part.xml"/></application>)");
+    EXPECT_THAT(Errors(), HasSubstr("part.xml:2:24: error: /demo/g"));
+  }
+}
+
 TEST_F(PartFilesTest, ThatContainThemselvesAreRefusedWithTheWay) {
   Write("a.xml", "<group_type>\n  <group name=\"b\" type=\"b.xml\"/>\n</group_type>");
   Write("b.xml", "<group_type>\n <group name=\"a\" type=\"./a.xml\"/>\n</group_type>");
