@@ -125,11 +125,14 @@ class Session {
     const auto finished = [&](const PlannedRun& run, const RunRecord& record) -> Result<void> {
       records_[static_cast<std::size_t>(&run - matrix_.runs.data())] = record;
       const std::string& remark = record.result.remark;
+      // First what stays, so that what has been told is never lost.
+      if (journal_) {
+        if (auto added = journal_->Add(record, run.made_of); !added) return added;
+      }
       progress.Finished(TextOf(record.key) + ": " + record.result.outcome + ", " +
                         Fixed(record.result.path_length, 2) + " m" +
                         (remark.empty() ? "" : "; " + remark));
-      if (!journal_) return {};
-      return journal_->Add(record, run.made_of);
+      return {};
     };
     return Runner(arguments_, product_, matrix_)
         .Run(to_do, {.finished = finished,
