@@ -14,6 +14,7 @@
 #include "plugins/finroc_files/finroc_names.h"
 #include "plugins/parameters/file_path.h"
 #include "plugins/runtime_construction/configurable_search.h"
+#include "plugins/runtime_construction/interface_direction.h"
 #include "plugins/runtime_construction/plugin_loading.h"
 #include "plugins/runtime_construction/source_place.h"
 #include "plugins/scheduling/thread_container.h"
@@ -280,8 +281,8 @@ void FinrocReader::ReadInterface(XmlElement interface, FrameworkElement& group) 
 
 // With the groups of ports as FINROC has them, or as Runnel may leave them out.
 Port* FinrocReader::FindEnd(const XmlAttribute& path, FrameworkElement& group, ConnectionEnd end) {
-  const std::string whole = SnakeCasePath(path.value);
-  if (Port* port = FindPort({group, whole, path.value_position}, end)) return port;
+  const auto whole = SnakeCasePath(path.value);
+  if (auto* port = FindPort({group, whole, path.value_position}, end)) return port;
   const std::string module = WithoutLast(whole, 2);
   const std::string shorter = (module.empty() ? "" : module + "/") + Last(whole);
   return FindPort({group, shorter, path.value_position}, end);
@@ -296,15 +297,18 @@ void FinrocReader::ReadEdge(XmlElement edge, FrameworkElement& group) {
   Port* const from = FindEnd(*source, group, ConnectionEnd::kFrom);
   Port* const to = FindEnd(*target, group, ConnectionEnd::kTo);
   if (from == nullptr || to == nullptr) {
-    const XmlAttribute& missing = from == nullptr ? *source : *target;
-    return Warn("there is no port '" + SnakeCasePath(missing.value) + "'", "",
-                missing.value_position, group);
+    const XmlAttribute& lost = from == nullptr ? *source : *target;
+    const std::string path = SnakeCasePath(lost.value);
+    return Warn("there is no port '" + path + "'", "", lost.value_position, group);
   }
   for (const XmlElement child : edge.children()) {
     Warn("<" + child.name() + "> of an edge has no counterpart", "put a module between the two",
          child.position(), group);
   }
-  if (auto connected = Port::Connect(*from, *to); !connected) {
+  if (!IsRightWay(*from, ConnectionEnd::kFrom, *to) ||
+      !IsRightWay(*to, ConnectionEnd::kTo, *from)) {
+    Warn("goes against the direction of an interface port", "", edge.position(), group);
+  } else if (auto connected = Port::Connect(*from, *to); !connected) {
     Warn(connected.error().message, connected.error().hint, edge.position(), group);
   }
 }

@@ -2,9 +2,8 @@
 
 namespace runnel {
 
-namespace {
-
 bool IsRightWay(const Port& port, ConnectionEnd end, const Port& other) {
+  if (!port.is_proxy() || &port == &other) return true;
   const FrameworkElement& group = *port.parent();
   const bool is_input = port.direction() == Port::Direction::kInput;
   // Of one group's input to its output inside, or back outside: either makes sense. Of two outputs
@@ -17,11 +16,9 @@ bool IsRightWay(const Port& port, ConnectionEnd end, const Port& other) {
   return is_input == (is_inside != receives);
 }
 
-}  // namespace
-
 void CheckInterfaceDirection(const Port& port, const PathUse& use, ConnectionEnd end,
                              const Port& other, BuildContext& context) {
-  if (!port.is_proxy() || &port == &other || IsRightWay(port, end, other)) return;
+  if (IsRightWay(port, end, other)) return;
   if (!context.IsFirstFaultOf(port)) return;
   const bool is_input = port.direction() == Port::Direction::kInput;
   const std::string ways = is_input ? "an input of its group: it sends inside of the group and "

@@ -154,6 +154,25 @@ TEST_F(FinrocApplication, WarnsOfInputsThatNothingFeedsAnyMore) {
                                "connected"));
 }
 
+TEST_F(FinrocApplication, ConnectsNothingAgainstTheDirectionOfAGroup) {
+  std::ofstream(folder_ / "inner.xml") << R"(<FinstructableGroup>
+  <interface name="Sensor Output"><port name="Loud Value" type="double"/></interface>
+  <element name="The Source" group="finroc_projects_test" type="Source"/>
+  <edge src="The Source/Sensor Output/Value" dest="Sensor Output/Loud Value"/>
+</FinstructableGroup>)";
+  ASSERT_NE(Build(R"(<Finstructable defaultname="robot">
+  <element name="A" group="finroc_projects_test" type="Source"/>
+  <element name="Inner" group="finroc_plugins_structure" type="Group">
+    <parameters><parameter name="XML file">inner.xml</parameter></parameters>
+  </element>
+  <edge src="A/Output/Value" dest="Inner/Loud Value"/>
+</Finstructable>)"),
+            nullptr)
+      << said_;
+  EXPECT_THAT(said_, HasSubstr("robot.finroc:6:3: warning: /robot: goes against the direction"));
+  EXPECT_TRUE(shop_.Get<Port>("/robot/a/output/value").outgoing().empty());
+}
+
 TEST_F(FinrocApplication, IsLeftOutWholeIfSomethingIsWrong) {
   EXPECT_EQ(Build(R"(<Finstructable>
   <element name="A" group="finroc_projects_test" type="Unready"/>
