@@ -12,6 +12,16 @@ namespace runnel {
 
 namespace {
 
+// The first bytes of a text in UTF-8, `most` of them, but no half letter.
+std::string Beginning(const std::string& text, std::size_t most) {
+  std::size_t end = std::min(most, text.size());
+  const auto is_inside_letter = [&] {
+    return end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U;
+  };
+  while (end > 0 && is_inside_letter()) --end;
+  return text.substr(0, end);
+}
+
 std::optional<double> NumberOf(const XmlAttribute& attribute, Diagnostics& diagnostics) {
   const std::optional<double> number = ParseNumber(attribute.value);
   if (!number) {
@@ -100,7 +110,7 @@ void CheckChildren(XmlElement element, std::span<const std::string> known,
   if (!element.text().empty()) {
     diagnostics.Add({.message = "no text may stand in <" + element.name() + ">",
                      .position = element.text_position(),
-                     .hint = "leave out '" + element.text().substr(0, 40) + "'"});
+                     .hint = "leave out '" + Beginning(element.text(), 40) + "'"});
   }
 }
 

@@ -85,5 +85,13 @@ TEST(CheckChildrenTest, TellsAllUnknownOnesAtOnceAndText) {
             "a.xml:4:1: error: no <xyzzy> may stand in <world>; there is 'box', 'wall'\n");
 }
 
+TEST(CheckChildrenTest, CutsALongTextBetweenLetters) {
+  const std::string before(39, 'x');
+  const XmlDocument document = Parsed("<world>" + before + "\xC3\xA9 and more</world>");
+  Diagnostics diagnostics;
+  CheckChildren(document.root(), {}, diagnostics);
+  EXPECT_EQ(diagnostics.errors().front().hint, "leave out '" + before + "'");
+}
+
 }  // namespace
 }  // namespace runnel
