@@ -1,5 +1,6 @@
 #include "plugins/application_files/application_saver.h"
 
+#include <algorithm>
 #include <mutex>
 #include <utility>
 
@@ -42,15 +43,23 @@ Result<std::string> UpdatedText(Saving& saving, const ApplicationSource& source)
   return editor.Finish();
 }
 
-// A file that would not load is no use; better to be told now.
-void CheckRequiredInputs(Saving& saving) {
+// A file that would not load is no use; better to be told now. A new file has no connections from
+// other applications.
+void CheckRequiredInputs(Saving& saving, bool is_new_file) {
+  const auto feeds = [&](const Port* source) {
+    return !is_new_file || source->IsAtOrBelow(saving.application);
+  };
   saving.application.Visit([&](FrameworkElement& element) {
     const auto* const port = dynamic_cast<const Port*>(&element);
-    if (port == nullptr || !port->is_required() || !port->Sources().empty()) return;
-    saving.Fail({.message = "nothing is connected to this input, which its module requires: a file "
-                            "that says so would not load",
-                 .path = port->path(),
-                 .hint = "connect it, or delete the module"});
+    if (port == nullptr || !port->is_required()) return;
+    const std::vector<Port*> sources = port->Sources();
+    if (std::ranges::any_of(sources, feeds)) return;
+    const std::string what = sources.empty() ? "nothing is connected to this input"
+                                             : "only another application feeds this input";
+    saving.Fail(
+        {.message = what + ", which its module requires: a file that says so would not load",
+         .path = port->path(),
+         .hint = "connect it, or delete the module"});
   });
 }
 
@@ -58,8 +67,8 @@ void CheckRequiredInputs(Saving& saving) {
 Result<SavedText> TextOfApplication(FrameworkElement& application, const SaveTools& tools,
                                     const fs::path& folder) {
   Saving saving{application, tools, folder, internal::SavedEdges(application)};
-  CheckRequiredInputs(saving);
   const auto* const source = application.FindAnnotation<ApplicationSource>();
+  CheckRequiredInputs(saving, source == nullptr);
   Result<std::string> text =
       source != nullptr ? UpdatedText(saving, *source) : Result<std::string>(WholeText(saving));
   if (!text) return text.error();
