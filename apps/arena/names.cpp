@@ -5,6 +5,7 @@
 #include "core/base/nearest_name.h"
 #include "core/plugin/plugin_manager.h"
 #include "core/xml/xml_document.h"
+#include "core/xml/xml_writing.h"
 
 namespace runnel::arena {
 
@@ -13,22 +14,6 @@ namespace {
 constexpr std::string_view kFamily = "planning/";
 // Put together from parameters: not a variant, before somebody has done so.
 constexpr std::string_view kComposed = "planning/bug";
-
-std::string Escaped(const std::string& text) {
-  std::string escaped;
-  for (const char letter : text) {
-    if (letter == '&') {
-      escaped += "&amp;";
-    } else if (letter == '<') {
-      escaped += "&lt;";
-    } else if (letter == '"') {
-      escaped += "&quot;";
-    } else {
-      escaped += letter;
-    }
-  }
-  return escaped;
-}
 
 Result<Variant> ReadVariant(const std::filesystem::path& file) {
   const auto document = XmlDocument::Load(file);
@@ -43,7 +28,7 @@ Result<Variant> ReadVariant(const std::filesystem::path& file) {
   for (const XmlElement child : root.children()) {
     std::string tag = "<" + child.name();
     for (const XmlAttribute& attribute : child.attributes()) {
-      tag += " " + attribute.name + "=\"" + Escaped(attribute.value) + "\"";
+      tag += " " + attribute.name + "=\"" + EscapedAttribute(attribute.value, '"') + "\"";
     }
     variant.parameters += tag + "/>";
   }
