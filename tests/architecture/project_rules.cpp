@@ -19,6 +19,7 @@ void AddCore(std::vector<IncludeRule>& rules) {
 
 void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/parameters", "plugins/parameters", {"core"}});
+  rules.push_back({"plugins/json_values", "plugins/json_values", {"core/base", "core/types"}});
   rules.push_back({"plugins/runtime_construction",
                    "plugins/runtime_construction",
                    {"core", "plugins/parameters"}});
