@@ -5,7 +5,7 @@
 
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/scheduling/thread_container.h"
-#include "plugins/scheduling/xml_scheduling_tags.h"
+#include "plugins/scheduling_tags/xml_scheduling_tags.h"
 #include "tests/plugins/runtime_construction/test_application.h"
 
 namespace runnel::testing {

@@ -3,7 +3,7 @@
 #include "core/types/type_of.h"
 #include "core/xml/xml_reading.h"
 #include "plugins/runtime_construction/build_context.h"
-#include "plugins/scheduling/xml_scheduling_tags.h"
+#include "plugins/scheduling_tags/xml_scheduling_tags.h"
 
 namespace runnel {
 
