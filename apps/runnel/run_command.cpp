@@ -21,7 +21,7 @@
 #include "plugins/control/control_server.h"
 #include "plugins/runtime_construction/plugin_loading.h"
 #include "plugins/runtime_construction/source_place.h"
-#include "plugins/scheduling/xml_scheduling_tags.h"
+#include "plugins/scheduling_tags/xml_scheduling_tags.h"
 #include "plugins/structure/reload.h"
 #include "plugins/structure/structure_editor.h"
 #include "plugins/supervision/xml_supervision_tags.h"
@@ -35,15 +35,19 @@ using ClockKind = SchedulerOptions::ClockKind;
 Result<SchedulerOptions> ChooseOptions(const RunArguments& arguments,
                                        const FrameworkElement& application) {
   SchedulerOptions options = SchedulerOptionsOf(application);
-  if (!arguments.speed) return options;
-  if (options.clock == ClockKind::kReal) {
-    return Error{.message = "the speed of real time cannot be chosen",
-                 .position = {.file = arguments.application.file},
-                 .hint =
-                     "leave out --fast and --speed, or add <clock type=\"simulated\"/> to the "
-                     "application"};
+  const auto refuse = [&](const char* message, const std::string& words) {
+    return Error{
+        .message = message,
+        .position = {.file = arguments.application.file},
+        .hint = "leave out " + words + ", or add <clock type=\"simulated\"/> to the application"};
+  };
+  const bool is_real = options.clock == ClockKind::kReal;
+  if (arguments.speed && is_real) {
+    return refuse("the speed of real time cannot be chosen", "--fast and --speed");
   }
-  options.speed = *arguments.speed;
+  if (arguments.is_paused && is_real) return refuse("real time cannot be paused", "--paused");
+  if (arguments.speed) options.speed = *arguments.speed;
+  if (arguments.is_paused) options.is_paused = true;
   return options;
 }
 
@@ -89,7 +93,7 @@ void PrintWarnings(std::vector<Error> warnings, FrameworkElement& root, ControlL
 // So that other processes can reach the application. That they cannot is no reason not to run it.
 std::unique_ptr<ControlServer> StartControl(const RunArguments& arguments, Workplace& workplace,
                                             FrameworkElement& application, StructureEditor& editor,
-                                            ControlLog& log) {
+                                            ControlLog& log, Pace& pace) {
   if (!arguments.has_control) return nullptr;
   ControlHooks hooks;
   hooks.load_plugin = [&workplace](const std::string& plugin) {
@@ -113,7 +117,8 @@ std::unique_ptr<ControlServer> StartControl(const RunArguments& arguments, Workp
     return "loaded " + plugin + " anew";
   };
   auto server = ControlServer::Start(
-      {workplace.runtime(), workplace.plugins().modules(), editor, log, std::move(hooks)},
+      {workplace.runtime(), workplace.plugins().modules(), editor, log, std::move(hooks), nullptr,
+       &pace},
       {.application = application.name(),
        .file = std::filesystem::absolute(arguments.application.file).string()});
   if (server) return std::move(*server);
@@ -176,7 +181,9 @@ class Session {
   bool LookAround(Duration so_far) {
     WarnOnce();
     PrintFaults();
-    if (display_.IsDue()) display_.Show(so_far, report_.Progress());
+    if (display_.IsDue()) {
+      display_.Show(so_far, scheduler_.pace().is_paused(), report_.Progress());
+    }
     return report_.IsOver();
   }
 
@@ -250,8 +257,8 @@ ExitCode Run(const RunArguments& arguments) {
   const BuildOutcome outcome = workplace.Build(arguments.application, BuildMode::kRun, schedule);
   if (outcome.application == nullptr) return ExitCode::kBadInput;
   ControlLog log(workplace.runtime().clock());
-  const auto control =
-      StartControl(arguments, workplace, *outcome.application, supervision->editor, log);
+  const auto control = StartControl(arguments, workplace, *outcome.application, supervision->editor,
+                                    log, scheduler->pace());
   return Session(arguments, *outcome.application, *scheduler, supervision->supervisor, log)
       .Run(workplace.runtime());
 }

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/element/runtime.h"
+#include "core/port/port.h"
+
+namespace runnel {
+
+/// A port that somebody looks at now and then, by its path: modules may come and go meanwhile.
+/// Publishers do not notice; nothing is subscribed or copied.
+///
+///     const EpochGuard guard;  // what is found stays in memory so long
+///     {
+///       const std::unique_lock lock(runtime.structure_mutex(), std::try_to_lock);
+///       if (!lock || !watched.Find(runtime)) return;
+///     }
+///     watched.LookIfNew([&](const void* value, Time stamp) { … });
+///
+/// Threads:  one at a time.
+class WatchedPort {
+ public:
+  explicit WatchedPort(std::string path) : path_(std::move(path)) {}
+
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
+
+  /// Under the structure lock, and within an EpochGuard that lasts until after LookIfNew().
+  /// Errors: there is no such port (any more), with the nearest name.
+  Result<void> Find(Runtime& runtime);
+  /// Of the port that was found.
+  [[nodiscard]] const TypeInfo& type() const noexcept { return *type_; }
+
+  /// Shows the newest value, unless it has been shown already; returns how many have been published so
+  /// far. Of a group's interface port: the first that there is among its sources'. Not under the
+  /// structure lock.
+  std::optional<std::uint64_t> LookIfNew(const Port::Look& look);
+
+ private:
+  const std::string path_;
+  std::vector<const Port*> sources_;
+  const TypeInfo* type_ = nullptr;
+  std::uint64_t serial_ = 0;  // of the port that was found last
+  std::optional<std::uint64_t> shown_;
+};
+
+}  // namespace runnel

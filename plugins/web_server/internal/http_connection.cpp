@@ -1,0 +1,207 @@
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+#include <boost/beast/core/bind_handler.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/read.hpp>
+#include <boost/beast/http/rfc7230.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <boost/beast/http/write.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+
+#include "plugins/web_server/internal/beast_connections.h"
+
+namespace runnel::internal {
+
+namespace {
+
+namespace beast = boost::beast;
+namespace http = beast::http;
+using boost::asio::ip::tcp;
+
+// What a client may still send after it has been refused, so that it comes to read why.
+constexpr std::size_t kMostToDrain = 64 * 1024;
+constexpr auto kTimeToDrain = std::chrono::seconds(1);
+
+std::string_view View(beast::string_view text) { return {text.data(), text.size()}; }
+
+WebRequest RequestOf(const HttpRequest& request) {
+  return {.target = View(request.target()),
+          .host = View(request[http::field::host]),
+          .origin = View(request[http::field::origin]),
+          .cookie = View(request[http::field::cookie]),
+          .authorization = View(request[http::field::authorization])};
+}
+
+/// What browsers are to allow the page: its own files and this server, and no frame round it.
+std::string ContentPolicy(const HttpRequest& request) {
+  const std::string host(View(request[http::field::host]));
+  return "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; "
+         "img-src 'self' data: blob:; font-src 'self'; worker-src 'self' blob:; "
+         "connect-src 'self' ws://" +
+         host + " wss://" + host + "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+}
+
+/// One connection, request by request.
+class HttpConnection final : public WebConnection,
+                             public std::enable_shared_from_this<HttpConnection> {
+ public:
+  HttpConnection(WebHub& hub, tcp::socket socket)
+      : WebConnection(false), hub_(hub), stream_(std::move(socket)) {}
+
+  void Read() {
+    parser_.emplace();
+    parser_->header_limit(static_cast<std::uint32_t>(hub_.limits().header_bytes));
+    parser_->body_limit(0);
+    // Of the whole request, however many pieces it comes in.
+    stream_.expires_after(hub_.limits().request_time);
+    http::async_read(stream_, buffer_, *parser_,
+                     beast::bind_front_handler(&HttpConnection::OnRead, shared_from_this()));
+  }
+
+  void End(std::string_view /*reason*/) override { Cut(); }
+  void Cut() noexcept override {
+    beast::error_code ignored;
+    stream_.socket().close(ignored);
+  }
+
+ private:
+  void OnRead(beast::error_code error, std::size_t /*bytes*/) {
+    if (!error) return Answer();
+    request_ = {};
+    if (error == http::error::header_limit || error == http::error::buffer_overflow) {
+      return Refuse(http::status::request_header_fields_too_large, "the header is too long");
+    }
+    if (error == http::error::body_limit || error == http::error::unexpected_body) {
+      return Refuse(http::status::payload_too_large, "requests to this server have no body");
+    }
+    const bool is_malformed =
+        error.category() == http::make_error_code(http::error::bad_value).category() &&
+        error != http::error::end_of_stream && error != http::error::partial_message;
+    if (is_malformed) return Refuse(http::status::bad_request, "this is no HTTP request");
+    Remove();  // gone, or too slow
+  }
+
+  void Answer() {
+    request_ = parser_->release();
+    if (request_.version() > 11) {
+      return Refuse(http::status::http_version_not_supported, "this server speaks HTTP/1.1");
+    }
+    if (request_.count(http::field::host) > 1 || request_.count(http::field::origin) > 1) {
+      return Refuse(http::status::bad_request, "a field is there twice");
+    }
+    if (const auto refusal = hub_.rules().Check(RequestOf(request_))) return Refuse(*refusal);
+    if (beast::websocket::is_upgrade(request_)) return Upgrade();
+    if (request_.method() != http::verb::get && request_.method() != http::verb::head) {
+      return Refuse(http::status::method_not_allowed, "this server only answers GET and HEAD");
+    }
+    const WebResource* const resource = hub_.FindResource(PathOf(View(request_.target())));
+    if (resource == nullptr) return Refuse(http::status::not_found, "there is no such page");
+    Send(http::status::ok, resource->content_type, std::string(resource->content),
+         request_.keep_alive());
+  }
+
+  void Upgrade() {
+    if (const auto refusal = hub_.rules().CheckOrigin(RequestOf(request_))) return Refuse(*refusal);
+    const auto offered = View(request_[http::field::sec_websocket_protocol]);
+    for (const auto& each : http::token_list(request_[http::field::sec_websocket_protocol])) {
+      const WebProtocol* const protocol = hub_.FindProtocol(View(each));
+      if (protocol == nullptr) continue;
+      if (hub_.IsFull()) {
+        return Refuse(http::status::service_unavailable, "there are " +
+                                                             std::to_string(hub_.conversations()) +
+                                                             " clients already; close one of them");
+      }
+      std::string name(View(each));
+      const auto self = shared_from_this();
+      hub_.Remove(self);
+      return ServeWebSocket(hub_, stream_.release_socket(), std::move(request_), *protocol,
+                            std::move(name));
+    }
+    Refuse(http::status::bad_request,
+           (offered.empty() ? "no protocol is asked for (Sec-WebSocket-Protocol)"
+                            : "none of the protocols that are asked for is known here") +
+               ("; there is " + hub_.ProtocolNames()));
+  }
+
+  void Refuse(const AccessRules::Refusal& refusal) {
+    Refuse(static_cast<http::status>(refusal.status), refusal.text);
+  }
+  void Refuse(http::status status, std::string text) {
+    Send(status, "text/plain; charset=utf-8", std::move(text) + "\n", false);
+  }
+
+  void Send(http::status status, std::string_view type, std::string body, bool keep_alive) {
+    const bool is_head = request_.method() == http::verb::head;
+    response_ = {};
+    response_.version(11);
+    response_.result(status);
+    response_.keep_alive(keep_alive);
+    response_.set(http::field::content_type, beast::string_view(type.data(), type.size()));
+    response_.set(http::field::cache_control, "no-store");
+    response_.set("X-Content-Type-Options", "nosniff");
+    response_.set("X-Frame-Options", "DENY");
+    response_.set("Referrer-Policy", "no-referrer");
+    response_.set("Cross-Origin-Resource-Policy", "same-origin");
+    response_.set("Cross-Origin-Opener-Policy", "same-origin");
+    if (status == http::status::ok) {
+      response_.set("Content-Security-Policy", ContentPolicy(request_));
+      const std::string cookie = hub_.rules().CookieFor(RequestOf(request_));
+      if (!cookie.empty()) response_.set(http::field::set_cookie, cookie);
+    }
+    if (status == http::status::method_not_allowed) response_.set(http::field::allow, "GET, HEAD");
+    if (status == http::status::unauthorized) {
+      response_.set(http::field::www_authenticate, "Bearer realm=\"runnel\"");
+    }
+    response_.content_length(body.size());
+    if (!is_head) response_.body() = std::move(body);
+    stream_.expires_after(hub_.limits().request_time);
+    http::async_write(stream_, response_,
+                      beast::bind_front_handler(&HttpConnection::OnSent, shared_from_this()));
+  }
+
+  void OnSent(beast::error_code error, std::size_t /*bytes*/) {
+    if (error) return Remove();
+    if (response_.keep_alive()) return Read();
+    stream_.socket().shutdown(tcp::socket::shutdown_send, error);
+    stream_.expires_after(kTimeToDrain);
+    Drain({}, 0);
+  }
+
+  // Closing while something is still to be read would take the answer from the client.
+  void Drain(beast::error_code error, std::size_t bytes) {
+    drained_ += bytes;
+    if (error || drained_ > kMostToDrain) return Remove();
+    stream_.async_read_some(boost::asio::buffer(drain_),
+                            beast::bind_front_handler(&HttpConnection::Drain, shared_from_this()));
+  }
+
+  void Remove() {
+    Cut();
+    hub_.Remove(shared_from_this());
+  }
+
+  WebHub& hub_;
+  beast::tcp_stream stream_;
+  beast::flat_buffer buffer_;
+  std::optional<http::request_parser<http::empty_body>> parser_;
+  HttpRequest request_;
+  http::response<http::string_body> response_;
+  std::array<char, 4096> drain_{};
+  std::size_t drained_ = 0;
+};
+
+}  // namespace
+
+void ServeHttp(WebHub& hub, tcp::socket socket) {
+  hub.MakeRoom();
+  const auto connection = std::make_shared<HttpConnection>(hub, std::move(socket));
+  hub.Add(connection);
+  connection->Read();
+}
+
+}  // namespace runnel::internal

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include <boost/asio/io_context.hpp>
+
+#include "plugins/web_server/access_rules.h"
+#include "plugins/web_server/web_conversation.h"
+#include "plugins/web_server/web_resource.h"
+#include "plugins/web_server/web_server_options.h"
+
+namespace runnel::internal {
+
+/// The server's end of one connection.
+class WebConnection {
+ public:
+  using MachineTime = std::chrono::steady_clock::time_point;
+
+  virtual ~WebConnection() = default;
+  /// For conversations; others have nothing to do.
+  virtual void TakeTurn() {}
+  /// Ends it in order, if its protocol has an order to end in.
+  virtual void End(std::string_view reason) = 0;
+  /// Ends it at once.
+  virtual void Cut() noexcept = 0;
+
+  [[nodiscard]] bool is_conversation() const noexcept { return is_conversation_; }
+  [[nodiscard]] MachineTime since() const noexcept { return since_; }
+
+ protected:
+  explicit WebConnection(bool is_conversation) : is_conversation_(is_conversation) {}
+
+ private:
+  const bool is_conversation_;
+  const MachineTime since_ = std::chrono::steady_clock::now();
+};
+
+/// What the connections of one server share. Threads: the server's; `conversations` any.
+class WebHub {
+ public:
+  WebHub(WebServerOptions options, AccessRules rules, const std::vector<WebResource>& resources,
+         std::vector<WebProtocol> protocols);
+
+  [[nodiscard]] boost::asio::io_context& context() noexcept { return context_; }
+  [[nodiscard]] const WebLimits& limits() const noexcept { return options_.limits; }
+  [[nodiscard]] const AccessRules& rules() const noexcept { return rules_; }
+  [[nodiscard]] const WebResource* FindResource(std::string_view path) const;
+  /// By name. `name`, if found, is the server's copy.
+  [[nodiscard]] const WebProtocol* FindProtocol(std::string_view name) const;
+  /// "a, b, c".
+  [[nodiscard]] std::string ProtocolNames() const;
+
+  void Add(std::shared_ptr<WebConnection> connection);
+  void Remove(const std::shared_ptr<WebConnection>& connection) noexcept;
+  /// The plain connection that has been there for the longest time goes, if there are too many.
+  void MakeRoom();
+  [[nodiscard]] bool IsFull() const noexcept { return conversations_.load() >= limits().clients; }
+  [[nodiscard]] std::size_t conversations() const noexcept { return conversations_.load(); }
+  [[nodiscard]] std::size_t connections() const noexcept { return connections_.size(); }
+
+  /// Also for those that come and go meanwhile.
+  void ForEach(const std::function<void(WebConnection&)>& use);
+  /// No connection is left; the conversations are destroyed.
+  void Clear() noexcept;
+
+ private:
+  boost::asio::io_context context_{1};
+  const WebServerOptions options_;
+  const AccessRules rules_;
+  const std::unordered_map<std::string_view, WebResource> resources_;
+  const std::vector<WebProtocol> protocols_;
+  std::unordered_set<std::shared_ptr<WebConnection>> connections_;
+  std::atomic<std::size_t> conversations_{0};
+};
+
+}  // namespace runnel::internal

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+
+namespace runnel::internal {
+
+/// What a client may still say: it has so much a second, may save up for a second, and pays for each
+/// message and each 4 kB of it.
+class MessageBudget {
+ public:
+  using MachineTime = std::chrono::steady_clock::time_point;
+  static constexpr std::size_t kBytesOfOne = 4096;
+
+  MessageBudget(double messages_per_second, MachineTime now)
+      : rate_(messages_per_second), left_(messages_per_second), then_(now) {}
+
+  void Pay(std::size_t bytes, MachineTime now) {
+    const double seconds = std::chrono::duration<double>(now - then_).count();
+    left_ = std::min(rate_, left_ + rate_ * seconds);
+    then_ = now;
+    left_ -= 1 + static_cast<double>(bytes / kBytesOfOne);
+  }
+  /// How long it has to be silent now; 0: it may go on.
+  [[nodiscard]] std::chrono::nanoseconds Wait() const {
+    if (left_ >= 0) return {};
+    return std::chrono::nanoseconds(static_cast<std::int64_t>(-left_ / rate_ * 1e9) + 1);
+  }
+  /// So far beyond that it does not go by the rules.
+  [[nodiscard]] bool IsFlood() const { return left_ < -10 * rate_; }
+
+ private:
+  const double rate_;
+  double left_;
+  MachineTime then_;
+};
+
+}  // namespace runnel::internal

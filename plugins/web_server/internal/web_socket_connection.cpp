@@ -1,0 +1,239 @@
+#include <algorithm>
+#include <deque>
+#include <exception>
+#include <memory>
+#include <utility>
+
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core/bind_handler.hpp>
+#include <boost/beast/core/buffers_to_string.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/websocket/stream.hpp>
+
+#include "plugins/web_server/internal/beast_connections.h"
+#include "plugins/web_server/internal/message_budget.h"
+
+namespace runnel::internal {
+
+namespace {
+
+namespace beast = boost::beast;
+namespace websocket = beast::websocket;
+using boost::asio::ip::tcp;
+using MachineTime = WebConversation::MachineTime;
+
+// However soon a conversation wants its next turn, others have theirs before.
+constexpr auto kShortestPause = std::chrono::milliseconds(1);
+// What is longer does not fit into a closing frame.
+constexpr std::size_t kLongestReason = 120;
+
+MachineTime Now() { return std::chrono::steady_clock::now(); }
+
+std::string CutAtLetter(std::string_view text, std::size_t longest) {
+  if (text.size() <= longest) return std::string(text);
+  while (longest > 0 && (static_cast<unsigned char>(text[longest]) & 0xc0U) == 0x80U) --longest;
+  return std::string(text.substr(0, longest));
+}
+
+/// One WebSocket with its conversation.
+class WebSocketConnection final : public WebConnection,
+                                  public WebClient,
+                                  public std::enable_shared_from_this<WebSocketConnection> {
+ public:
+  WebSocketConnection(WebHub& hub, tcp::socket socket, HttpRequest request,
+                      const WebProtocol& protocol, std::string name)
+      : WebConnection(true),
+        hub_(hub),
+        request_(std::move(request)),
+        start_(protocol.start),
+        name_(std::move(name)),
+        socket_(std::move(socket)),
+        turn_timer_(hub.context()),
+        read_timer_(hub.context()),
+        write_timer_(hub.context()),
+        budget_(hub.limits().messages_per_second, Now()) {}
+
+  void Accept() {
+    const WebLimits& limits = hub_.limits();
+    beast::get_lowest_layer(socket_).expires_never();
+    socket_.set_option(
+        websocket::stream_base::timeout{limits.request_time, limits.idle_time, true});
+    socket_.set_option(
+        websocket::stream_base::decorator([this](websocket::response_type& response) {
+          response.set(beast::http::field::sec_websocket_protocol, name_);
+        }));
+    socket_.read_message_max(limits.message_bytes);
+    socket_.auto_fragment(false);
+    socket_.control_callback([this](websocket::frame_type, beast::string_view text) {
+      budget_.Pay(text.size(), Now());
+      if (budget_.IsFlood()) Close("too many pings");
+    });
+    socket_.async_accept(request_, [self = shared_from_this()](beast::error_code error) {
+      self->OnAccepted(error);
+    });
+  }
+
+  bool SendText(std::string text) override { return Send({std::move(text), true}); }
+  bool SendBinary(std::string bytes) override { return Send({std::move(bytes), false}); }
+  [[nodiscard]] std::size_t waiting_bytes() const override { return waiting_bytes_; }
+  [[nodiscard]] const std::string& protocol() const override { return name_; }
+  void Close(std::string reason) override { Close(websocket::close_code::policy_error, reason); }
+
+  void TakeTurn() override {
+    if (conversation_ == nullptr || is_closing_) return;
+    Attempt([this] {
+      const MachineTime next = conversation_->OnTurn();
+      turn_timer_.expires_at(std::max(next, Now() + kShortestPause));
+      turn_timer_.async_wait([self = shared_from_this()](beast::error_code error) {
+        if (!error) self->TakeTurn();
+      });
+    });
+  }
+  void End(std::string_view reason) override { Close(websocket::close_code::going_away, reason); }
+  void Cut() noexcept override {
+    beast::error_code ignored;
+    beast::get_lowest_layer(socket_).socket().close(ignored);
+  }
+
+ private:
+  struct Message {
+    std::string bytes;
+    bool is_text;
+  };
+
+  template <typename Do>
+  void Attempt(const Do& attempt) {
+    try {
+      attempt();
+    } catch (const std::exception& exception) {
+      Close(websocket::close_code::internal_error, exception.what());
+    }
+  }
+
+  void OnAccepted(beast::error_code error) {
+    request_ = {};
+    if (error) return Remove();
+    Attempt([this] { conversation_ = start_(*this); });
+    TakeTurn();
+    Read();
+  }
+
+  void Read() {
+    socket_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+      self->OnRead(error);
+    });
+  }
+
+  void OnRead(beast::error_code error) {
+    if (error) return Remove();
+    if (is_closing_) {  // only the client's end of it is of interest
+      buffer_.clear();
+      return Read();
+    }
+    const std::string message = beast::buffers_to_string(buffer_.data());
+    buffer_.clear();
+    buffer_.shrink_to_fit();
+    budget_.Pay(message.size(), Now());
+    Attempt([&] {
+      if (socket_.got_text()) {
+        conversation_->OnText(message);
+      } else {
+        conversation_->OnBinary(message);
+      }
+    });
+    TakeTurn();
+    const auto wait = budget_.Wait();
+    if (wait == std::chrono::nanoseconds()) return Read();
+    // What the client sends meanwhile waits in its own socket.
+    read_timer_.expires_after(wait);
+    read_timer_.async_wait([self = shared_from_this()](beast::error_code cancelled) {
+      if (!cancelled) self->Read();
+    });
+  }
+
+  bool Send(Message message) {
+    if (is_closing_) return false;
+    if (waiting_bytes_ > 0 && waiting_bytes_ + message.bytes.size() > hub_.limits().waiting_bytes) {
+      return false;
+    }
+    waiting_bytes_ += message.bytes.size();
+    waiting_.push_back(std::move(message));
+    if (waiting_.size() == 1) Write();
+    return true;
+  }
+
+  void Write() {
+    const Message& message = waiting_.front();
+    socket_.text(message.is_text);
+    // A client that takes nothing of it all that time is not there any more.
+    write_timer_.expires_after(hub_.limits().idle_time);
+    write_timer_.async_wait([self = shared_from_this()](beast::error_code cancelled) {
+      if (!cancelled) self->Cut();
+    });
+    socket_.async_write(boost::asio::buffer(message.bytes),
+                        [self = shared_from_this()](beast::error_code error, std::size_t) {
+                          self->OnWritten(error);
+                        });
+  }
+
+  void OnWritten(beast::error_code error) {
+    write_timer_.cancel();
+    waiting_bytes_ -= waiting_.front().bytes.size();
+    waiting_.pop_front();
+    if (error) return Remove();
+    if (is_closing_) {
+      waiting_.clear();
+      waiting_bytes_ = 0;
+    } else if (!waiting_.empty()) {
+      Write();
+    }
+  }
+
+  void Close(websocket::close_code code, std::string_view reason) {
+    if (is_closing_ || is_removed_) return;
+    is_closing_ = true;
+    websocket::close_reason why(code);
+    const std::string cut = CutAtLetter(reason, kLongestReason);
+    why.reason.assign(cut.data(), cut.size());
+    socket_.async_close(why, [self = shared_from_this()](beast::error_code) { self->Remove(); });
+  }
+
+  void Remove() {
+    if (std::exchange(is_removed_, true)) return;
+    turn_timer_.cancel();
+    read_timer_.cancel();
+    write_timer_.cancel();
+    Cut();
+    conversation_.reset();
+    hub_.Remove(shared_from_this());
+  }
+
+  WebHub& hub_;
+  HttpRequest request_;
+  const std::function<std::unique_ptr<WebConversation>(WebClient&)> start_;
+  const std::string name_;
+  websocket::stream<beast::tcp_stream, false> socket_;  // false: nothing is compressed
+  boost::asio::steady_timer turn_timer_;
+  boost::asio::steady_timer read_timer_;
+  boost::asio::steady_timer write_timer_;
+  beast::flat_buffer buffer_;
+  MessageBudget budget_;
+  std::deque<Message> waiting_;
+  std::size_t waiting_bytes_ = 0;
+  bool is_closing_ = false;
+  bool is_removed_ = false;
+  std::unique_ptr<WebConversation> conversation_;  // first to go: it uses the rest
+};
+
+}  // namespace
+
+void ServeWebSocket(WebHub& hub, tcp::socket socket, HttpRequest request,
+                    const WebProtocol& protocol, std::string name) {
+  const auto connection = std::make_shared<WebSocketConnection>(
+      hub, std::move(socket), std::move(request), protocol, std::move(name));
+  hub.Add(connection);
+  connection->Accept();
+}
+
+}  // namespace runnel::internal

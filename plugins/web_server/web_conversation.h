@@ -1,0 +1,57 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace runnel {
+
+/// One peer at the other end of a WebSocket, as a conversation sees it.
+///
+/// Threads:  the server's only.
+class WebClient {
+ public:
+  /// Sends one message. False: too much is waiting for a client that is slow, and this is not sent;
+  /// what comes when nothing is waiting is always taken.
+  virtual bool SendText(std::string text) = 0;
+  virtual bool SendBinary(std::string bytes) = 0;
+  /// Not yet taken by the client: send less often if it grows.
+  [[nodiscard]] virtual std::size_t waiting_bytes() const = 0;
+  /// Says why, and ends the conversation; nothing is sent or received any more.
+  virtual void Close(std::string reason) = 0;
+  /// The subprotocol that was agreed on.
+  [[nodiscard]] virtual const std::string& protocol() const = 0;
+
+ protected:
+  ~WebClient() = default;
+};
+
+/// What is said to one client: made when it comes, destroyed when it has gone. Text is valid UTF-8.
+///
+/// Threads:  the server's, which serves all clients: nothing here may wait, neither for a lock nor for a
+///           file. Destroyed by it, or by who destroys the server.
+/// Errors:   whatever is thrown ends this conversation and is told to the client; others go on.
+class WebConversation {
+ public:
+  using MachineTime = std::chrono::steady_clock::time_point;
+
+  virtual ~WebConversation() = default;
+  virtual void OnText(std::string_view message) = 0;
+  virtual void OnBinary(std::string_view message) = 0;
+  /// At the start, whenever due, after each message and each WebServer::Wake(). Returns when it wants
+  /// the next turn.
+  virtual MachineTime OnTurn() = 0;
+};
+
+/// A kind of conversation, which clients choose by one of its names (Sec-WebSocket-Protocol).
+struct WebProtocol {
+  std::vector<std::string> names;
+  /// The client outlives the conversation.
+  std::function<std::unique_ptr<WebConversation>(WebClient& client)> start;
+};
+
+}  // namespace runnel

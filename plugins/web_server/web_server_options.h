@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/clock.h"
+
+namespace runnel {
+
+/// What clients can cost at most.
+struct WebLimits {
+  std::size_t header_bytes = 8 * 1024;
+  std::size_t message_bytes = 1 << 20;  ///< of one message from a client
+  std::size_t clients = 16;             ///< WebSockets at once
+  std::size_t visitors = 64;            ///< plain connections at once; the oldest makes room
+  double messages_per_second = 200;     ///< of one client, each 4 kB counting as one; more waits
+  std::size_t waiting_bytes = 8 << 20;  ///< for one client that does not read
+  Duration request_time =
+      std::chrono::seconds(10);                   ///< for a whole request to come, and a handshake
+  Duration idle_time = std::chrono::seconds(30);  ///< without a sign of life; pings ask for one
+};
+
+struct WebServerOptions {
+  /// Of the machine, "127.0.0.1" or "::1"; "0.0.0.0" or "::" for all networks.
+  std::string address = "127.0.0.1";
+  std::uint16_t port = 8765;  ///< 0: any that is free
+  /// What clients must show: as ?token=… in the address (a cookie keeps it), or as
+  /// "Authorization: Bearer …". "": none on a loopback address, one made at random on others.
+  std::string token = {};
+  /// Pages of other places that may talk to this server: "https://app.example.org".
+  std::vector<std::string> origins = {};
+  /// Names, besides addresses, localhost and the machine's own, by which clients may call it.
+  std::vector<std::string> host_names = {};
+  WebLimits limits = {};
+};
+
+}  // namespace runnel
