@@ -53,7 +53,7 @@ std::vector<RequestError> ErrorsOf(const Diagnostics& diagnostics) {
 PlacedChanges ParseAll(const std::vector<std::string>& texts, Diagnostics& diagnostics) {
   PlacedChanges all;
   for (std::size_t i = 0; i < texts.size(); ++i) {
-    const SourcePosition place{.file = {}, .line = static_cast<int>(i + 1), .column = 1};
+    const SourcePosition place{.file = "changes", .line = static_cast<int>(i + 1), .column = 1};
     PlacedChanges one = ParseChanges(texts[i], place, diagnostics);
     if (diagnostics.ok() && one.changes.size() != 1) {
       diagnostics.Add({.message = one.changes.empty() ? "there is no change in it"
