@@ -124,6 +124,8 @@ CLI::App& AddRun(CLI::App& program, RunArguments& arguments) {
       ->type_name("FACTOR")
       ->check(CheckSpeed)
       ->excludes(fast);
+  run.add_flag("--paused", arguments.is_paused,
+               "simulated time stands still until 'runnel resume' or 'runnel step'");
   run.add_option("--duration", arguments.duration, "ends the run after so long, simulated or real")
       ->type_name("SECONDS")
       ->check(CheckDuration);

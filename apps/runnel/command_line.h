@@ -40,6 +40,7 @@ struct RunArguments {
   ApplicationArguments application;
   std::optional<double> speed = {};     ///< instead of the file's; 0: as fast as it can
   std::optional<double> duration = {};  ///< s, of the application's clock
+  bool is_paused = false;               ///< begins with a pause
   bool quiet = false;
   bool statistics = false;
   bool has_control = true;  ///< other processes of the user can reach it

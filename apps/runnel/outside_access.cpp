@@ -99,7 +99,7 @@ Result<std::unique_ptr<OutsideAccess>> OutsideAccess::Start(
     Scheduler& scheduler, StructureEditor& editor, ControlLog& log) {
   std::unique_ptr<OutsideAccess> access(new OutsideAccess);
   const ControlledApplication controlled{workplace.runtime(), workplace.plugins().modules(), editor,
-                                         log, HooksOf(workplace, application, editor)};
+                                         log, HooksOf(workplace, application, editor), nullptr, &scheduler.pace()};
   const std::string file = std::filesystem::absolute(arguments.application.file).string();
   if (arguments.has_control) {
     auto control =

@@ -19,7 +19,7 @@
 #include "apps/runnel/stop_signal.h"
 #include "apps/runnel/workplace.h"
 #include "plugins/runtime_construction/source_place.h"
-#include "plugins/scheduling/xml_scheduling_tags.h"
+#include "plugins/scheduling_tags/xml_scheduling_tags.h"
 #include "plugins/structure/structure_editor.h"
 #include "plugins/supervision/xml_supervision_tags.h"
 
@@ -34,15 +34,19 @@ constexpr auto kLookForSignal = std::chrono::milliseconds(50);
 Result<SchedulerOptions> ChooseOptions(const RunArguments& arguments,
                                        const FrameworkElement& application) {
   SchedulerOptions options = SchedulerOptionsOf(application);
-  if (!arguments.speed) return options;
-  if (options.clock == ClockKind::kReal) {
-    return Error{.message = "the speed of real time cannot be chosen",
-                 .position = {.file = arguments.application.file},
-                 .hint =
-                     "leave out --fast and --speed, or add <clock type=\"simulated\"/> to the "
-                     "application"};
+  const auto refuse = [&](const char* message, const std::string& words) {
+    return Error{
+        .message = message,
+        .position = {.file = arguments.application.file},
+        .hint = "leave out " + words + ", or add <clock type=\"simulated\"/> to the application"};
+  };
+  const bool is_real = options.clock == ClockKind::kReal;
+  if (arguments.speed && is_real) {
+    return refuse("the speed of real time cannot be chosen", "--fast and --speed");
   }
-  options.speed = *arguments.speed;
+  if (arguments.is_paused && is_real) return refuse("real time cannot be paused", "--paused");
+  if (arguments.speed) options.speed = *arguments.speed;
+  if (arguments.is_paused) options.is_paused = true;
   return options;
 }
 
@@ -146,7 +150,9 @@ class Session {
   bool LookAround(Duration so_far) {
     WarnOnce();
     PrintFaults();
-    if (display_.IsDue()) display_.Show(so_far, report_.Progress());
+    if (display_.IsDue()) {
+      display_.Show(so_far, scheduler_.pace().is_paused(), report_.Progress());
+    }
     return report_.IsOver();
   }
 

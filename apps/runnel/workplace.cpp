@@ -4,7 +4,7 @@
 
 #include "plugins/finroc_files/finroc_application.h"
 #include "plugins/inspector/xml_inspector_tag.h"
-#include "plugins/scheduling/xml_scheduling_tags.h"
+#include "plugins/scheduling_tags/xml_scheduling_tags.h"
 #include "plugins/supervision/xml_supervision_tags.h"
 
 namespace runnel::program {

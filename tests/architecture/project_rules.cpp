@@ -19,6 +19,7 @@ void AddCore(std::vector<IncludeRule>& rules) {
 
 void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/parameters", "plugins/parameters", {"core"}});
+  rules.push_back({"plugins/json_values", "plugins/json_values", {"core/base", "core/types"}});
   rules.push_back({"plugins/runtime_construction",
                    "plugins/runtime_construction",
                    {"core", "plugins/parameters"}});
@@ -33,8 +34,8 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
        {"core", "plugins/parameters", "plugins/runtime_construction", "plugins/scheduling"}});
   // The tags of application files stand apart, so that scheduling itself needs no XML.
   rules.push_back(
-      {"the tags of scheduling",
-       "plugins/scheduling/xml_",
+      {"plugins/scheduling_tags",
+       "plugins/scheduling_tags",
        {"core", "plugins/parameters", "plugins/runtime_construction", "plugins/scheduling"}});
   rules.push_back({"plugins/scheduling", "plugins/scheduling", {"core"}});
   rules.push_back({"plugins/structure", "plugins/structure", {"core", "plugins/scheduling"}});
