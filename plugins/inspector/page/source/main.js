@@ -12,25 +12,25 @@ import { Toasts } from './panels/toast_view.js';
 import { LostBanner, Toolbar } from './panels/toolbar.js';
 import { StartKeeping, panels } from './state/choices.js';
 import { Start, isConnected } from './state/store.js';
-import { WorldView } from './world/world_view.js';
+import { WorldView, hasWorld } from './world/world_view.js';
 
 function Page() {
   const { side, dock, world, worldShown, worldLarge } = panels.value;
-  const showsSmall = worldShown && !worldLarge;
+  const showsWorld = worldShown && hasWorld.value;
   return html`
     <div class=${`page ${isConnected.value ? '' : 'stale'}`} style=${{ '--side': `${side}px`, '--dock': `${dock}px`, '--world': `${world}px` }}>
       <${Toolbar} />
       <${LostBanner} />
       <main class="main" aria-label="Data flow">
-        ${worldShown && worldLarge ? html`<${WorldView} />` : html`<${GraphView} />`}
+        ${showsWorld && worldLarge ? html`<${WorldView} />` : html`<${GraphView} />`}
         <${Splitter} name="dock" axis="y" sign=${-1} least=${80} most=${700} label="Height of the lower panel" />
         <${Dock} />
       </main>
       <${Splitter} name="side" axis="x" sign=${-1} least=${280} most=${900} label="Width of the side panel" />
       <aside class="side" aria-label="World and details">
-        ${showsSmall && html`<div class="world-small"><${WorldView} /></div>
+        ${showsWorld && !worldLarge && html`<div class="world-small"><${WorldView} /></div>
           <${Splitter} name="world" axis="y" sign=${1} least=${120} most=${800} label="Height of the world" />`}
-        ${worldShown && worldLarge && html`<div class="graph-small"><${GraphView} /></div>`}
+        ${showsWorld && worldLarge && html`<div class="graph-small"><${GraphView} /></div>`}
         <${Details} />
       </aside>
       <${Toasts} />

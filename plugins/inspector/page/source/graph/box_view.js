@@ -21,10 +21,10 @@ export const BoxView = memo(({ box }) => {
   return html`
     <g class=${classes} transform=${`translate(${box.x},${box.y})`} data-node=${path} id=${NodeId(path)}
        role="treeitem" aria-label=${DescribeBox(box, thread)} aria-selected=${isSelected.value}>
-      ${isGroup && html`<rect class="behind" x="4" y="4" width=${box.width} height=${box.height} rx="7" />`}
-      <rect class="body" width=${box.width} height=${box.height} rx="7" />
+      ${isGroup && html`<rect class="behind" x="4" y="4" width=${box.width} height=${box.height} rx="6" />`}
+      <rect class="body" width=${box.width} height=${box.height} rx="6" />
       <path class="stripe" style=${{ fill: ThreadColour(thread) }}
-        d=${`M7,0H4a4,4 0 0 0 -4,4V${box.height - 4}a4,4 0 0 0 4,4h0z`} />
+        d=${`M6,0a6,6 0 0 0 -6,6V${box.height - 6}a6,6 0 0 0 6,6z`} />
       ${box.inputs.length + box.outputs.length > 0 &&
         html`<path class="rule" d=${`M8,${kHeader - 3}H${box.width - 8}`} />`}
       <text class="name" x="14" y="18">${Cut(element.name, (box.width - 44) / 7.4)}</text>

@@ -45,7 +45,7 @@ export function GraphView() {
 function Drawing() {
   const { x, y, scale } = view.value;
   return html`
-    <g class=${`scene ${scale < 0.5 ? 'coarse' : ''}`} transform=${`translate(${x},${y}) scale(${scale})`}>
+    <g class=${`scene ${scale < 0.5 ? 'coarse' : ''} ${scale < 0.3 ? 'coarser' : ''}`} transform=${`translate(${x},${y}) scale(${scale})`}>
       <${Contents} />
     </g>`;
 }

@@ -7,6 +7,8 @@ import { ClosingEdges, ConnectionsByLevel, IsDistant, kInside, kOutside } from '
 import { LevelLayout } from './level_layout.js';
 import { BoxSize, PortHeight } from './measure.js';
 
+const kRateWidth = 40; // of the rate beside the ports of the last box
+
 export class GraphLayout {
   #kept = new Map(); // group -> {signature, layout}
 
@@ -22,7 +24,7 @@ export class GraphLayout {
     if (structure.root === null) return result;
     const levels = ConnectionsByLevel(structure);
     const level = this.#level(structure, levels, structure.root, isOpen);
-    result.width = level.width;
+    result.width = level.width + kRateWidth;
     result.height = level.height;
     Flatten(level, 0, 0, 0, result);
     AddDistantEdges(structure, levels, result);

@@ -1,6 +1,7 @@
 // The layout of one level: the boxes of a group's members, its own ports on the border, and the
 // curves between them. All places are relative to the group's left upper corner.
 
+import { NameOf } from '../model/structure.js';
 import { BowPath, ForwardPath, LanePath } from './edge_path.js';
 import { IsDistant, kInside, kOutside } from './levels.js';
 import { kGroupHeader, kPadding, kRow, PortHeight, PortLabelWidth } from './measure.js';
@@ -61,7 +62,7 @@ function FlowEdges(connections, closing) {
 }
 
 function Border(id, ports) {
-  return { id, width: PortLabelWidth(ports) + 8, height: ports.length * kRow };
+  return { id, width: PortLabelWidth(ports) + 4, height: ports.length * kRow };
 }
 
 /** A group's own ports stand at its edges: before all that has nothing before it, and after the rest. */
@@ -116,8 +117,8 @@ function Edges(connections, closing, { placed, border, bends, side, top, content
   const lanes = new Map(); // port that data flows back from -> number of its lane
   const shares = new Map(); // bent edges between the same boxes run beside each other
   for (const connection of connections) {
-    const start = End(connection.from, placed.get(connection.source), 'outputs', border);
-    const end = End(connection.to, placed.get(connection.target), 'inputs', border);
+    const start = End(connection.from, placed.get(connection.source), 'outputs', border, NameOf(connection.from));
+    const end = End(connection.to, placed.get(connection.target), 'inputs', border, NameOf(connection.to));
     if (!start || !end) continue;
     const pair = `${connection.source} ${connection.target}`;
     const edge = { key: connection.key, from: connection.from, to: connection.to, start, end };
@@ -144,8 +145,13 @@ function Edges(connections, closing, { placed, border, bends, side, top, content
   return { edges, lanes: lanes.size };
 }
 
-function End(port, box, list, border) {
-  if (border.has(port)) return border.get(port);
+function End(port, box, list, border, name) {
+  if (border.has(port)) {
+    // Inside of the group the port's name stands between the border and the line.
+    const { x, y, side } = border.get(port);
+    const label = PortLabelWidth([{ name }]) + 14;
+    return { x: side === 'left' ? x + label : x - label, y };
+  }
   if (!box) return null;
   if (box.open) {
     const place = box.level.border.get(port);

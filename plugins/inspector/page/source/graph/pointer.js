@@ -41,7 +41,6 @@ class Pointer {
 
   down(event) {
     if (event.button > 1 || event.target.closest('button, output, input')) return;
-    this.#host.focus({ preventScroll: true });
     const point = this.#point(event);
     const hit = this.#hit(event);
     this.#press = { kind: 'pan', start: point, view: view.value, hit, moved: false };

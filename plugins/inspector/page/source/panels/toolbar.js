@@ -7,6 +7,7 @@ import { Pause, Redo, Resume, Save, SetSpeed, Step, Undo } from '../state/action
 import { SetPanels, openDialog, panels, selected, theme } from '../state/choices.js';
 import { canChange, connection, hello, isConnected, isReadOnly, run, structure } from '../state/store.js';
 import { IsGroup, ParentOf } from '../model/structure.js';
+import { hasWorld } from '../world/world_view.js';
 import { Icon } from './icon.js';
 import { SearchBox } from './search_box.js';
 
@@ -96,7 +97,7 @@ function Looks() {
     <div class="cluster" role="group" aria-label="View">
       ${faults > 0 && html`<button id="faults" class="faults" onClick=${() => SetPanels({ tab: 'log' })}
         title="Faults since the start: see the log">${faults} fault${faults === 1 ? '' : 's'}</button>`}
-      <button onClick=${() => SetPanels({ worldShown: !panels.value.worldShown, worldLarge: false })} id="show-world"
+      <button disabled=${!hasWorld.value} onClick=${() => SetPanels({ worldShown: !panels.value.worldShown, worldLarge: false })} id="show-world"
         aria-pressed=${panels.value.worldShown} title="World view" aria-label="World view"><${Icon} name="world" /></button>
       <button id="theme" onClick=${() => { theme.value = next; }} title=${`Colours: ${theme.value}; next: ${next}`}
         aria-label=${`Colours: ${theme.value}`}><${Icon} name=${theme.value} /></button>

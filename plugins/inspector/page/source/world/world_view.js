@@ -1,6 +1,6 @@
 // The world: what the application says of where its robot is, drawn as a map.
 
-import { useComputed, useSignal } from '@preact/signals';
+import { computed, useSignal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import { html } from 'htm/preact';
 import { SetPanels, panels } from '../state/choices.js';
@@ -11,17 +11,16 @@ import { GoalHandle } from './goal_handle.js';
 import { FindLayers } from './layers.js';
 import { WorldScene } from './world_scene.js';
 
+const found = computed(() => {
+  revision.value;
+  return FindLayers(structure, catalogue.value);
+});
+
+/** Whether the application has anything to be drawn: a pose, a scan, a path … */
+export const hasWorld = computed(() => found.value.layers.length > 0);
+
 export function WorldView() {
-  const found = useComputed(() => {
-    revision.value;
-    return FindLayers(structure, catalogue.value);
-  });
-  const { key } = found.value;
-  if (found.value.layers.length === 0) {
-    return html`<section class="world" aria-label="World"><p class="empty">No port of this application has a value
-      that can be drawn on a map: a pose, a scan, a path …</p></section>`;
-  }
-  return html`<${World} key=${key} found=${found.value} />`;
+  return html`<${World} key=${found.value.key} found=${found.value} />`;
 }
 
 function World({ found }) {
