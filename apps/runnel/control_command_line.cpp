@@ -15,8 +15,9 @@ constexpr std::size_t kMostWords = 2;  // of those that are parsed one by one
 
 const std::vector<std::string>& ControlCommandLine::Names() {
   static const std::vector<std::string> names{
-      "ps",     "ls",   "echo", "hz",   "set",    "connect", "disconnect", "create",
-      "delete", "swap", "move", "save", "reload", "change",  "log",        "complete"};
+      "ps",     "ls",     "echo",   "hz",   "set",   "connect", "disconnect",
+      "create", "delete", "swap",   "move", "save",  "reload",  "change",
+      "log",    "pause",  "resume", "step", "speed", "complete"};
   return names;
 }
 
@@ -110,6 +111,17 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
 
   Entry& reload = add("reload", "loads a plugin anew and makes its modules anew by it");
   word(reload, "plugin", "its name, as in <load>; build its library first")->type_name("PLUGIN");
+
+  add("pause", "lets simulated time stand still");
+  add("resume", "lets simulated time go on");
+
+  Entry& step = add("step", "lets a paused application run one cycle, or some");
+  word(step, "cycles", "how many; without, one")->required(false)->type_name("N");
+
+  Entry& speed = add("speed", "says how fast simulated time passes, or changes it");
+  word(speed, "factor", "1 is real time, 0 as fast as it can")
+      ->required(false)
+      ->type_name("FACTOR");
 
   Entry& log = add("log", "shows faults, warnings and changes since the start");
   log.command->add_flag("-f,--follow", log.arguments.follows, "goes on with what comes");

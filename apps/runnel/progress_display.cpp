@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
+#include <utility>
 
 #include <unistd.h>
 
@@ -38,13 +39,15 @@ bool ProgressDisplay::IsDue() const {
   return is_on_ && since >= (is_terminal_ ? Duration(kOnTerminal) : Duration(kElsewhere));
 }
 
-void ProgressDisplay::Show(Duration time, const std::string& text) {
+void ProgressDisplay::Show(Duration time, bool is_paused, const std::string& text) {
   const auto now = std::chrono::steady_clock::now();
   const double factor = ToSeconds(time - shown_time_) / ToSeconds(Duration(now - shown_at_));
   shown_at_ = now;
-  shown_time_ = time;
+  const bool stands_still = is_paused && time == std::exchange(shown_time_, time);
+  if (std::exchange(has_shown_pause_, is_paused) && stands_still && !is_terminal_) return;
   if (is_terminal_) std::cout << "\r\x1b[K";
-  std::cout << SecondsText(ToSeconds(time)) << "  x" << Padded(NumberText(factor), 6) << text;
+  const std::string pace = is_paused ? "paused" : "x" + NumberText(factor);
+  std::cout << SecondsText(ToSeconds(time)) << "  " << Padded(pace, 7) << text;
   if (!is_terminal_) std::cout << '\n';
   std::cout << std::flush;
   has_line_ = is_terminal_;

@@ -19,8 +19,9 @@ class ProgressDisplay {
 
   /// Whether it is time for another Show(). Looks at the machine's clock.
   [[nodiscard]] bool IsDue() const;
-  /// `time` is how long the application has been running, on its own clock.
-  void Show(Duration time, const std::string& text);
+  /// `time` is how long the application has been running, on its own clock. Where lines are written
+  /// one below the other, a pause is one line.
+  void Show(Duration time, bool is_paused, const std::string& text);
   /// Makes room for other output.
   void Clear();
 
@@ -32,6 +33,7 @@ class ProgressDisplay {
   bool has_line_ = false;
   WallTime shown_at_;
   Duration shown_time_{};
+  bool has_shown_pause_ = false;  // at shown_time_
 };
 
 }  // namespace runnel::program

@@ -22,16 +22,13 @@ bool IsOver(const Running& running, Duration so_far) {
 Result<Duration> RunSimulated(const Running& running) {
   const Clock& clock = running.runtime.clock();
   const Time start = clock.Now();
+  const auto end = running.limit ? std::optional(start + *running.limit) : std::nullopt;
   for (;;) {
-    const auto due = running.scheduler.NextDue();
-    if (!due) return NothingToRun();
-    if (running.limit && *due - start >= *running.limit) {
-      running.scheduler.RunUntil(start + *running.limit);
-      return clock.Now() - start;
-    }
-    running.scheduler.Step();
+    if (!running.scheduler.NextDue()) return NothingToRun();
+    const auto went = running.scheduler.GoOn(end, kLookAround);
     const Duration so_far = clock.Now() - start;
-    if (IsOver(running, so_far)) return so_far;
+    const bool is_at_the_end = end && went == Scheduler::Went::kToTheEnd;
+    if (is_at_the_end || IsOver(running, so_far)) return so_far;
   }
 }
 

@@ -18,7 +18,7 @@ struct Running {
   Scheduler& scheduler;
   Runtime& runtime;
   std::optional<Duration> limit;  ///< on the application's clock
-  /// Asked after each simulated cycle, or some fifty times a real second.
+  /// Asked after each simulated cycle, and some fifty times a real second while none runs.
   std::function<bool(Duration so_far)> is_over;
 };
 

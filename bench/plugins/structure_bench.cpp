@@ -23,7 +23,7 @@
 #include "core/port/output.h"
 #include "plugins/runtime_construction/application_builder.h"
 #include "plugins/scheduling/scheduler.h"
-#include "plugins/scheduling/xml_scheduling_tags.h"
+#include "plugins/scheduling_tags/xml_scheduling_tags.h"
 
 namespace runnel {
 namespace {

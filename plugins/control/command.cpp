@@ -35,6 +35,10 @@ const std::vector<CommandKind>& Kinds() {
       {"log", 0, 0, {"follow"}, Alone(MakeLogCommand)},
       {"change", 0, 0, {"file"}, MakeChangeCommand},
       {"save", 0, 1, {}, MakeSaveCommand},
+      {"pause", 0, 0, {}, Alone(MakePauseCommand)},
+      {"resume", 0, 0, {}, Alone(MakeResumeCommand)},
+      {"step", 0, 1, {}, Alone(MakeStepCommand)},
+      {"speed", 0, 1, {}, Alone(MakeSpeedCommand)},
       {"reload", 1, 1, {}, MakeReloadCommand},
   };
   return kinds;

@@ -16,6 +16,9 @@
 
 namespace runnel {
 
+class ChangeHistory;
+class Pace;
+
 /// What a program may give to clients besides looking at the structure and changing it.
 struct ControlHooks {
   /// Loads a plugin, under the structure lock: change sets may name types of plugins that are not
@@ -36,6 +39,10 @@ struct ControlledApplication {
   StructureEditor& editor;
   ControlLog& log;
   ControlHooks hooks = {};
+  /// Changes go through it, so that they can be undone. Optional.
+  ChangeHistory* history = nullptr;
+  /// Of the scheduler that runs the application. Optional.
+  Pace* pace = nullptr;
 };
 
 /// How a command ended: the exit codes of the program.
@@ -94,6 +101,10 @@ using CommandResult = Result<std::unique_ptr<Command>>;
                                             ChangeWorker&);
 [[nodiscard]] CommandResult MakeReloadCommand(const Request&, const ControlledApplication&,
                                               ChangeWorker&);
+[[nodiscard]] CommandResult MakePauseCommand(const Request&, const ControlledApplication&);
+[[nodiscard]] CommandResult MakeResumeCommand(const Request&, const ControlledApplication&);
+[[nodiscard]] CommandResult MakeStepCommand(const Request&, const ControlledApplication&);
+[[nodiscard]] CommandResult MakeSpeedCommand(const Request&, const ControlledApplication&);
 
 /// "path: error: message; hint" with an end of line.
 [[nodiscard]] std::string ErrorLine(const Error& error);

@@ -1,13 +1,11 @@
 #pragma once
 
-#include <functional>
-
 #include "core/base/clock.h"
 
 namespace runnel {
 
-/// Lets simulated time pass no faster than `speed` times real time. It only ever delays cycles, so
-/// what they compute does not depend on it.
+/// When simulated time is due on the machine's clock, if it is to pass no faster than `speed` times
+/// real time.
 ///
 /// Threads: one, but for what the clock allows.
 class Pacing {
@@ -27,16 +25,20 @@ class Pacing {
   /// it does not race after a pause.
   [[nodiscard]] Time Deadline(Time simulated);
 
-  /// Sleeps until `simulated` is due, or until `give_up()`, which is asked a few times a second.
-  void WaitFor(Time simulated, const std::function<bool()>& give_up);
+  [[nodiscard]] double speed() const noexcept { return speed_; }
+  /// From what is due now on, time passes at another speed. Precondition: Takes(speed).
+  void SetSpeed(double speed);
+  /// The next call of Deadline() ties the clocks together anew.
+  void Untie() noexcept { is_tied_ = false; }
 
   static constexpr Duration kLongestLag = std::chrono::milliseconds(200);
 
  private:
-  const double speed_;
+  double speed_;
   const Clock& real_;
   bool is_tied_ = false;
   Time simulated_start_{};
+  Time asked_for_{};  // last
   Time real_start_{};
 };
 

@@ -23,7 +23,7 @@ Scheduler::Scheduler(Runtime& runtime, SchedulerOptions options)
       options_(std::move(options)),
       clock_before_(runtime.clock()),
       desk_(runtime),
-      pacing_(options_.speed, machine_),
+      pace_(IsSimulated(options_), options_.speed, options_.is_paused, machine_),
       compiler_(options_.default_thread) {
   if (IsSimulated(options_)) runtime_.set_clock(simulation_.clock());
   runtime_.AddListener(*this);
@@ -190,26 +190,42 @@ std::optional<Time> Scheduler::NextDue() {
   return simulation_.NextDue();
 }
 
-bool Scheduler::RunNext(Time due) {
-  if (options_.speed != 0) pacing_.WaitFor(due, [this] { return stop_requested(); });
-  if (stop_requested() || !simulation_.Step()) return false;
-  LookOut();
-  return true;
+// What is due next is asked anew each time, as the structure may change while the pace lets nothing
+// run.
+Scheduler::Went Scheduler::GoOn(std::optional<Time> end, Duration patience) {
+  std::optional<Time> latest;
+  while (!stop_requested()) {
+    const auto due = NextDue();
+    const bool is_cycle = due && (!end || *due < *end);
+    if (!is_cycle && !end) return Went::kToTheEnd;
+    if (pace_.MayGoOnTo(is_cycle ? *due : *end)) {
+      if (stop_requested()) break;
+      if (!is_cycle) {
+        simulation_.clock().Set(*end);
+        return Went::kToTheEnd;
+      }
+      simulation_.Step();
+      pace_.CountCycle();
+      LookOut();
+      return Went::kOneCycle;
+    }
+    if (!latest) latest = machine_.Now() + patience;
+    if (machine_.Now() >= *latest) return Went::kNowhere;
+    pace_.Wait(*latest);
+  }
+  return Went::kStopped;
 }
 
 bool Scheduler::Step() {
-  const auto due = NextDue();
-  return due.has_value() && RunNext(*due);
+  Went went = Went::kNowhere;
+  while (went == Went::kNowhere) went = GoOn({}, Pace::kLongestSleep);
+  return went == Went::kOneCycle;
 }
 
 bool Scheduler::RunUntil(Time end) {
-  for (auto due = NextDue(); due.has_value() && *due < end; due = NextDue()) {
-    if (!RunNext(*due)) return false;
-  }
-  pacing_.WaitFor(end, [this] { return stop_requested(); });
-  if (stop_requested()) return false;
-  simulation_.clock().Set(end);
-  return true;
+  Went went = Went::kNowhere;
+  while (went == Went::kNowhere || went == Went::kOneCycle) went = GoOn(end, Pace::kLongestSleep);
+  return went == Went::kToTheEnd;
 }
 
 std::vector<Fault> Scheduler::TakeFaults() {

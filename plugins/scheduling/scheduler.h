@@ -15,7 +15,7 @@
 #include "plugins/scheduling/cycle_hold.h"
 #include "plugins/scheduling/fault.h"
 #include "plugins/scheduling/fault_desk.h"
-#include "plugins/scheduling/pacing.h"
+#include "plugins/scheduling/pace.h"
 #include "plugins/scheduling/real_thread.h"
 #include "plugins/scheduling/schedule_compiler.h"
 #include "plugins/scheduling/simulated_executor.h"
@@ -32,6 +32,8 @@ struct SchedulerOptions {
   ClockKind clock = ClockKind::kReal;
   /// kSimulated: how many times faster than real time it may go; 0: as fast as it can.
   double speed = 0;
+  /// kSimulated: begins with a pause (Pace).
+  bool is_paused = false;
   /// kReal: lock the memory of the process, if any thread has a priority.
   bool lock_memory = true;
   /// Name of the container for what is assigned to none; "" or unknown: the one made first.
@@ -65,15 +67,28 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   void Stop();
   [[nodiscard]] bool is_running() const;
 
-  /// kSimulated: runs the cycle that is due next and what its data sets off. False, with nothing
-  /// run, if there is nothing to run or a stop has been requested.
+  /// How fast simulated time passes, and whether it does, also while it does.
+  [[nodiscard]] Pace& pace() noexcept { return pace_; }
+
+  /// kSimulated: runs the cycle that is due next and what its data sets off, as soon as the pace
+  /// allows it. False, with nothing run, if there is nothing to run or a stop has been requested.
   bool Step();
   /// kSimulated: when Step() would run something; nullopt if there is nothing to run.
   [[nodiscard]] std::optional<Time> NextDue();
   /// kSimulated: runs all cycles that are due before `end`, then sets the clock to it, no faster
-  /// than the speed allows. False if a stop was requested: the clock then stays at the cycle that
+  /// than the pace allows. False if a stop was requested: the clock then stays at the cycle that
   /// was the last.
   bool RunUntil(Time end);
+  /// What has come of GoOn().
+  enum class Went {
+    kOneCycle,  ///< one has run, and what its data set off
+    kToTheEnd,  ///< the clock shows `end`, or there is nothing to run and no end
+    kNowhere,   ///< the pace has not allowed it in time; ask again
+    kStopped,   ///< a stop has been requested
+  };
+  /// kSimulated: one Step() of a RunUntil(end), for those who have other things to do meanwhile: waits
+  /// for the pace no longer than `patience` of the machine's clock.
+  Went GoOn(std::optional<Time> end, Duration patience);
   /// kSimulated: tests may move it between cycles, and inside of them to let a cycle take time.
   [[nodiscard]] ManualClock& simulated_clock() noexcept { return simulation_.clock(); }
 
@@ -149,7 +164,6 @@ class Scheduler final : public ElementListener, public AssignmentListener {
 
   // Simulated clock.
   void FollowChanges();
-  bool RunNext(Time due);
 
   // All six under the structure lock.
   // Whether a cycle may begin at any time.
@@ -172,7 +186,7 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   FaultDesk desk_;
   SimulatedExecutor simulation_{desk_};
   SteadyClock machine_;
-  Pacing pacing_;
+  Pace pace_;
 
   OrderedMutex start_mutex_{LockLevel::kScheduler};
   // Guarded by the structure lock, down to the next comment:

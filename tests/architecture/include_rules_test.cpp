@@ -18,7 +18,7 @@ SourceTree Innocent() {
           {"plugins/parameters/parameter.h", "#include \"core/port/input.h\"\n"},
           {"plugins/scheduling/thread.h", "#include \"core/base/error.h\"\n"},
           {"plugins/scheduling/internal/flow.h", ""},
-          {"plugins/scheduling/xml_tags.h",
+          {"plugins/scheduling_tags/tags.h",
            "#include \"plugins/scheduling/thread.h\"\n"
            "#include \"plugins/runtime_construction/tag.h\"\n"},
           {"plugins/runtime_construction/tag.h", "#include \"plugins/parameters/parameter.h\"\n"},
@@ -33,7 +33,7 @@ SourceTree Innocent() {
            "#include \"plugins/parameters/parameter.h\"\n"
            "#include \"modules/types/pose_type.h\"\n"},
           {"modules/simulation/algorithm/world.cpp", "#include <btBulletDynamicsCommon.h>\n"},
-          {"apps/runnel/main.cpp", "#include \"plugins/scheduling/xml_tags.h\"\n"},
+          {"apps/runnel/main.cpp", "#include \"plugins/scheduling_tags/tags.h\"\n"},
           {"tests/modules/planning/bug_test.cpp",
            "#include \"modules/planning/algorithm/bug.h\"\n"
            "#include \"plugins/scheduling/internal/flow.h\"\n"}};
@@ -65,9 +65,9 @@ TEST(IncludeRulesTest, PluginsKnowOnlyTheirDeclaredNeighbours) {
   const std::string tag = "#include \"plugins/runtime_construction/tag.h\"";
   EXPECT_EQ(Planted("plugins/scheduling/thread.h", tag).size(), 1u);
   EXPECT_EQ(Planted("plugins/parameters/parameter.h", tag).size(), 1u);
-  EXPECT_THAT(Planted("plugins/scheduling/xml_tags.h", tag), IsEmpty());
+  EXPECT_THAT(Planted("plugins/scheduling_tags/tags.h", tag), IsEmpty());
   EXPECT_EQ(
-      Planted("plugins/scheduling/thread.h", "#include \"plugins/scheduling/xml_tags.h\"").size(),
+      Planted("plugins/scheduling/thread.h", "#include \"plugins/scheduling_tags/tags.h\"").size(),
       1u);
 }
 

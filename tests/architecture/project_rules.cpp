@@ -34,8 +34,8 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
        {"core", "plugins/parameters", "plugins/runtime_construction", "plugins/scheduling"}});
   // The tags of application files stand apart, so that scheduling itself needs no XML.
   rules.push_back(
-      {"the tags of scheduling",
-       "plugins/scheduling/xml_",
+      {"plugins/scheduling_tags",
+       "plugins/scheduling_tags",
        {"core", "plugins/parameters", "plugins/runtime_construction", "plugins/scheduling"}});
   rules.push_back({"plugins/scheduling", "plugins/scheduling", {"core"}});
   rules.push_back({"plugins/structure", "plugins/structure", {"core", "plugins/scheduling"}});
@@ -46,7 +46,7 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/web_server", "plugins/web_server", {"core"}});
   rules.push_back({"the tags of the inspector",
                    "plugins/inspector/xml_",
-                   {"core", "plugins/runtime_construction", "plugins/web_server"}});
+                   {"core", "plugins/inspector", "plugins/runtime_construction", "plugins/web_server"}});
   rules.push_back({"plugins/inspector",
                    "plugins/inspector",
                    {"core", "plugins/control", "plugins/json_values", "plugins/scheduling",

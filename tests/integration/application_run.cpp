@@ -10,7 +10,7 @@
 #include "core/port/port.h"
 #include "plugins/parameters/configuration.h"
 #include "plugins/runtime_construction/application_builder.h"
-#include "plugins/scheduling/xml_scheduling_tags.h"
+#include "plugins/scheduling_tags/xml_scheduling_tags.h"
 #include "plugins/structure/structure_editor.h"
 #include "plugins/supervision/xml_supervision_tags.h"
 

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "plugins/scheduling/xml_scheduling_tags.h"
+#include "plugins/scheduling_tags/xml_scheduling_tags.h"
 #include "tests/plugins/runtime_construction/test_application.h"
 
 namespace runnel::testing {

@@ -150,7 +150,8 @@ class ControlTest : public ::testing::Test {
   }
   void StartServer(ControlOptions options) {
     server.reset();
-    auto started = ControlServer::Start({runtime, modules, editor, log, hooks}, std::move(options));
+    auto started = ControlServer::Start(
+        {runtime, modules, editor, log, hooks, nullptr, &scheduler.pace()}, std::move(options));
     ASSERT_TRUE(started) << started.error().ToString();
     server = std::move(*started);
   }

@@ -10,7 +10,7 @@
 #include "core/port/proxy_port.h"
 #include "plugins/application_files/application_saver.h"
 #include "plugins/scheduling/thread_container.h"
-#include "plugins/scheduling/xml_scheduling_tags.h"
+#include "plugins/scheduling_tags/xml_scheduling_tags.h"
 #include "tests/plugins/runtime_construction/test_application.h"
 
 namespace runnel::testing {

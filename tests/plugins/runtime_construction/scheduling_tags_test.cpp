@@ -5,7 +5,7 @@
 
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/scheduling/thread_container.h"
-#include "plugins/scheduling/xml_scheduling_tags.h"
+#include "plugins/scheduling_tags/xml_scheduling_tags.h"
 #include "tests/plugins/runtime_construction/test_application.h"
 
 namespace runnel::testing {
@@ -124,6 +124,9 @@ TEST_F(SchedulingTags, ChooseTheClock) {
   EXPECT_EQ(options("<clock type='simulated'/>").clock, SchedulerOptions::ClockKind::kSimulated);
   EXPECT_EQ(options("<clock type='simulated'/>").speed, 1.0);
   EXPECT_EQ(options("<clock type='simulated' speed='2.5'/>").speed, 2.5);
+  EXPECT_FALSE(options("<clock type='simulated'/>").is_paused);
+  EXPECT_FALSE(options("<clock type='simulated' paused='false'/>").is_paused);
+  EXPECT_TRUE(options("<clock type='simulated' paused='true'/>").is_paused);
 }
 
 TEST_F(SchedulingTags, TellWhatIsWrongWithClocks) {
@@ -144,6 +147,11 @@ TEST_F(SchedulingTags, TellWhatIsWrongWithClocks) {
 </application>)"),
             "app.xml:2:22: error: /demo: the speed of real time cannot be chosen; leave out speed, "
             "or write type=\"simulated\"\n");
+  EXPECT_EQ(Errors(R"(<application name="demo">
+  <clock type="real" paused="true"/>
+</application>)"),
+            "app.xml:2:22: error: /demo: real time cannot be paused; leave out paused, or write "
+            "type=\"simulated\"\n");
 }
 
 TEST_F(SchedulingTags, SayWhatHappensOnFaults) {

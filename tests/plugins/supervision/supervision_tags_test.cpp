@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "plugins/scheduling/xml_scheduling_tags.h"
+#include "plugins/scheduling_tags/xml_scheduling_tags.h"
 #include "plugins/supervision/xml_supervision_tags.h"
 #include "tests/plugins/runtime_construction/test_application.h"
 

@@ -12,7 +12,7 @@
 #include "plugins/runtime_construction/not_saved.h"
 #include "plugins/runtime_construction/path_walk.h"
 #include "plugins/scheduling/thread_container.h"
-#include "plugins/scheduling/xml_scheduling_tags.h"
+#include "plugins/scheduling_tags/xml_scheduling_tags.h"
 
 namespace runnel {
 

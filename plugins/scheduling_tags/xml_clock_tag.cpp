@@ -3,7 +3,7 @@
 #include "core/types/type_of.h"
 #include "core/xml/xml_reading.h"
 #include "plugins/runtime_construction/build_context.h"
-#include "plugins/scheduling/xml_scheduling_tags.h"
+#include "plugins/scheduling_tags/xml_scheduling_tags.h"
 
 namespace runnel {
 
@@ -34,6 +34,17 @@ void ReadSpeed(const TagUse& use, ClockChoice& choice) {
   }
 }
 
+void ReadPaused(const TagUse& use, ClockChoice& choice) {
+  const XmlAttribute* const paused = use.Find("paused");
+  if (paused == nullptr) return;
+  choice.options.is_paused = paused->value == "true";
+  if (choice.options.clock == SchedulerOptions::ClockKind::kReal) {
+    use.context.Report({.message = "real time cannot be paused",
+                        .hint = "leave out paused, or write type=\"simulated\""},
+                       paused->position, use.parent);
+  }
+}
+
 FrameworkElement* ChooseClock(const TagUse& use) {
   if (const auto* first = use.parent.FindAnnotation<ClockChoice>()) {
     use.context.Report({.message = "the clock is chosen twice",
@@ -48,6 +59,7 @@ FrameworkElement* ChooseClock(const TagUse& use) {
       is_simulated ? SchedulerOptions::ClockKind::kSimulated : SchedulerOptions::ClockKind::kReal;
   if (is_simulated) choice.options.speed = 1;
   ReadSpeed(use, choice);
+  ReadPaused(use, choice);
   return &use.parent;
 }
 
@@ -58,6 +70,8 @@ std::vector<SavedTag> SavedClock(const FrameworkElement& application) {
   SavedTag tag{{"type", is_simulated ? "simulated" : "real"}};
   if (is_simulated) {
     tag.push_back({"speed", TextOf(choice->options.speed), choice->options.speed == 1});
+    tag.push_back(
+        {"paused", choice->options.is_paused ? "true" : "false", !choice->options.is_paused});
   }
   return {tag};
 }
@@ -80,7 +94,12 @@ XmlTag internal::ClockTag() {
                          {.name = "speed",
                           .kind = AttributeKind::kNumber,
                           .summary = "of simulated time, at most; 1 (which it is by default) is "
-                                     "real time, 0 as fast as it can"}},
+                                     "real time, 0 as fast as it can"},
+                         {.name = "paused",
+                          .kind = AttributeKind::kChoice,
+                          .summary = "whether simulated time stands still until somebody lets it "
+                                     "go on; false by default",
+                          .choices = {"false", "true"}}},
           .handle = ChooseClock,
           .saved = SavedClock};
 }

@@ -12,7 +12,7 @@ namespace runnel {
 
 /// Adds what application files say of how they are run:
 ///
-///     <clock type="simulated" speed="1"/>
+///     <clock type="simulated" speed="1" paused="false"/>
 ///     <thread name="control" period="50ms" priority="0" on_overrun="skip"/>
 ///     <on_fault of="laser" action="stop_application"/>
 ///     <on_fault of="laser" set="motion/stop" value="true"/>

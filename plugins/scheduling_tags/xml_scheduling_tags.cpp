@@ -1,4 +1,4 @@
-#include "plugins/scheduling/xml_scheduling_tags.h"
+#include "plugins/scheduling_tags/xml_scheduling_tags.h"
 
 namespace runnel {
 

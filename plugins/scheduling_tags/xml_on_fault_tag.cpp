@@ -4,7 +4,7 @@
 #include "plugins/runtime_construction/build_context.h"
 #include "plugins/runtime_construction/configurable_search.h"
 #include "plugins/runtime_construction/path_walk.h"
-#include "plugins/scheduling/xml_scheduling_tags.h"
+#include "plugins/scheduling_tags/xml_scheduling_tags.h"
 
 namespace runnel {
 

@@ -1,0 +1,123 @@
+#include <charconv>
+#include <cstdio>
+#include <string>
+
+#include "plugins/control/command.h"
+#include "plugins/scheduling/pace.h"
+
+namespace runnel {
+
+namespace {
+
+constexpr Duration kLookWhetherDone = std::chrono::milliseconds(5);
+
+template <typename Number>
+std::optional<Number> ReadAll(const std::string& text) {
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size()) return {};
+  return number;
+}
+
+std::string TimeText(const ControlledApplication& application) {
+  char text[48];
+  std::snprintf(text, sizeof text, "%.3f s", ToSeconds(application.runtime.clock().Now()));
+  return text;
+}
+
+std::string SpeedText(double speed) {
+  if (speed == 0) return "as fast as it can";
+  if (speed == 1) return "as fast as real time";
+  char text[64];
+  std::snprintf(text, sizeof text, "%.6g times as fast as real time", speed);
+  return text;
+}
+
+// Says what has been done; what could not be is the command's error.
+class SaidCommand final : public Command {
+ public:
+  explicit SaidCommand(std::string text) : text_(std::move(text)) {}
+  std::optional<ControlCode> Continue(Answer& answer) override {
+    answer.Write(text_ + "\n");
+    return ControlCode::kDone;
+  }
+
+ private:
+  const std::string text_;
+};
+
+CommandResult Say(std::string text) {
+  return std::unique_ptr<Command>(std::make_unique<SaidCommand>(std::move(text)));
+}
+
+// Waits until the cycles have run.
+class StepCommand final : public Command {
+ public:
+  explicit StepCommand(const ControlledApplication& application) : application_(application) {}
+
+  std::optional<ControlCode> Continue(Answer& answer) override {
+    const Pace& pace = *application_.pace;
+    if (!pace.is_paused()) {
+      answer.Complain("somebody else has let it go on meanwhile\n");
+      return ControlCode::kFailed;
+    }
+    if (pace.cycles_to_step() > 0) {
+      ContinueIn(kLookWhetherDone);
+      return {};
+    }
+    answer.Write("stands at " + TimeText(application_) + "\n");
+    return ControlCode::kDone;
+  }
+
+ private:
+  const ControlledApplication& application_;
+};
+
+// What it wants, done and logged. Errors: of the pace.
+CommandResult Do(const ControlledApplication& application, const Result<void>& done,
+                 const std::string& what) {
+  if (!done) return done.error();
+  application.log.Add(ControlLog::Kind::kChange, what);
+  return Say(what + " at " + TimeText(application));
+}
+
+Error NoPace() {
+  return {.message = "the program that runs this application cannot pause it or change its speed"};
+}
+
+}  // namespace
+
+CommandResult MakePauseCommand(const Request&, const ControlledApplication& application) {
+  if (application.pace == nullptr) return NoPace();
+  return Do(application, application.pace->Pause(), "paused");
+}
+
+CommandResult MakeResumeCommand(const Request&, const ControlledApplication& application) {
+  if (application.pace == nullptr) return NoPace();
+  return Do(application, application.pace->Resume(), "resumed");
+}
+
+CommandResult MakeStepCommand(const Request& request, const ControlledApplication& application) {
+  if (application.pace == nullptr) return NoPace();
+  const std::string word = request.words.empty() ? "1" : request.words[0];
+  const auto count = ReadAll<std::uint64_t>(word);
+  if (!count) {
+    return Error{.message = "'" + word + "' is not a count of cycles",
+                 .hint = "allowed is 1 .. " + std::to_string(Pace::kMostCycles)};
+  }
+  if (auto stepped = application.pace->StepCycles(*count); !stepped) return stepped.error();
+  return std::unique_ptr<Command>(std::make_unique<StepCommand>(application));
+}
+
+CommandResult MakeSpeedCommand(const Request& request, const ControlledApplication& application) {
+  if (application.pace == nullptr) return NoPace();
+  Pace& pace = *application.pace;
+  if (request.words.empty()) {
+    return Say(SpeedText(pace.speed()) + (pace.is_paused() ? ", but paused" : ""));
+  }
+  const auto speed = ReadAll<double>(request.words[0]);
+  if (!speed) return Error{.message = "'" + request.words[0] + "' is not a number"};
+  return Do(application, pace.SetSpeed(*speed), SpeedText(*speed));
+}
+
+}  // namespace runnel

@@ -1,0 +1,106 @@
+#include "plugins/scheduling/pace.h"
+
+#include <algorithm>
+#include <mutex>
+#include <string>
+
+namespace runnel {
+
+namespace {
+
+constexpr Time kNever = Time::max();
+
+Error OutOfBounds(std::string message, std::string hint) {
+  return {.message = std::move(message), .hint = std::move(hint)};
+}
+
+}  // namespace
+
+Pace::Pace(bool is_simulated, double speed, bool is_paused, const Clock& machine)
+    : is_simulated_(is_simulated),
+      machine_(machine),
+      pacing_(speed, machine),
+      speed_(is_simulated ? speed : 1),
+      is_paused_(is_simulated && is_paused),
+      is_free_(speed == 0 && !is_paused) {}
+
+Result<void> Pace::CheckClock(const char* what) const {
+  if (is_simulated_) return {};
+  return OutOfBounds("real time cannot be " + std::string(what),
+                     "only of simulated time: <clock type=\"simulated\"/> in the application file");
+}
+
+void Pace::Changed() {
+  is_free_.store(!is_paused() && pacing_.speed() == 0, std::memory_order_release);
+  event_.Notify();
+}
+
+Result<void> Pace::Pause() {
+  if (auto simulated = CheckClock("paused"); !simulated) return simulated;
+  const std::lock_guard lock(mutex_);
+  is_paused_.store(true, std::memory_order_release);
+  cycles_to_step_.store(0, std::memory_order_release);
+  pacing_.Untie();
+  Changed();
+  return {};
+}
+
+Result<void> Pace::Resume() {
+  if (auto simulated = CheckClock("resumed"); !simulated) return simulated;
+  const std::lock_guard lock(mutex_);
+  if (is_paused()) pacing_.Untie();
+  is_paused_.store(false, std::memory_order_release);
+  cycles_to_step_.store(0, std::memory_order_release);
+  Changed();
+  return {};
+}
+
+Result<void> Pace::StepCycles(std::uint64_t count) {
+  if (auto simulated = CheckClock("stepped"); !simulated) return simulated;
+  if (count < 1 || count > kMostCycles) {
+    return OutOfBounds(std::to_string(count) + " cycles cannot be stepped",
+                       "allowed is 1 .. " + std::to_string(kMostCycles));
+  }
+  const std::lock_guard lock(mutex_);
+  if (cycles_to_step() == 0) pacing_.Untie();
+  is_paused_.store(true, std::memory_order_release);
+  cycles_to_step_.store(std::min(cycles_to_step() + count, kMostCycles), std::memory_order_release);
+  Changed();
+  return {};
+}
+
+Result<void> Pace::SetSpeed(double speed) {
+  if (auto simulated = CheckClock("made faster or slower"); !simulated) return simulated;
+  if (!Pacing::Takes(speed)) {
+    return OutOfBounds("speed " + std::to_string(speed) + " is out of bounds",
+                       "allowed is 0 (as fast as it can), or 1e-6 .. 1e6");
+  }
+  const std::lock_guard lock(mutex_);
+  pacing_.SetSpeed(speed);
+  speed_.store(speed, std::memory_order_release);
+  Changed();
+  return {};
+}
+
+bool Pace::MayGoOnNow(Time due) {
+  const std::lock_guard lock(mutex_);
+  may_go_on_at_ = kNever;
+  if (is_paused() && cycles_to_step() == 0) return false;
+  may_go_on_at_ = pacing_.Deadline(due);
+  if (machine_.Now() < may_go_on_at_) return false;
+  is_a_step_ = is_paused();
+  return true;
+}
+
+void Pace::CountStep() noexcept {
+  is_a_step_ = false;
+  const std::lock_guard lock(mutex_);
+  const std::uint64_t left = cycles_to_step();
+  if (left > 0) cycles_to_step_.store(left - 1, std::memory_order_release);
+}
+
+void Pace::Wait(Time latest) {
+  event_.WaitUntil(std::min({may_go_on_at_, latest, machine_.Now() + kLongestSleep}));
+}
+
+}  // namespace runnel

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "core/base/clock.h"
+#include "core/base/ordered_mutex.h"
+#include "core/base/result.h"
+#include "plugins/scheduling/pacing.h"
+#include "plugins/scheduling/wake_event.h"
+
+namespace runnel {
+
+/// How fast simulated time passes, and whether it does, while the application runs. It only ever
+/// delays cycles: what they compute does not depend on it.
+///
+/// Threads:  any, also within cycles, but for what is the scheduler's.
+/// Errors:   all that changes anything fails on a real clock, which passes as it does.
+class Pace {
+ public:
+  /// `machine` must outlive this. Precondition: Pacing::Takes(speed).
+  Pace(bool is_simulated, double speed, bool is_paused, const Clock& machine);
+
+  /// No further cycle begins; one that is under way comes to its end.
+  Result<void> Pause();
+  /// Goes on, and forgets cycles that were still to be stepped.
+  Result<void> Resume();
+  /// Pauses if it is not paused, and lets so many further cycles run, no faster than the speed allows:
+  /// each the one that is due next, and what its data sets off (Scheduler::Step()). Adds up.
+  /// Errors: not from 1 to kMostCycles.
+  Result<void> StepCycles(std::uint64_t count = 1);
+  /// At most so many times real time; 0: as fast as it can. Errors: not in Pacing's bounds.
+  Result<void> SetSpeed(double speed);
+
+  [[nodiscard]] bool is_simulated() const noexcept { return is_simulated_; }
+  /// Also while cycles are stepped.
+  [[nodiscard]] bool is_paused() const noexcept {
+    return is_paused_.load(std::memory_order_acquire);
+  }
+  /// That have been stepped for and have not come to their end yet.
+  [[nodiscard]] std::uint64_t cycles_to_step() const noexcept {
+    return cycles_to_step_.load(std::memory_order_acquire);
+  }
+  /// 1 on a real clock.
+  [[nodiscard]] double speed() const noexcept { return speed_.load(std::memory_order_acquire); }
+
+  static constexpr std::uint64_t kMostCycles = 1'000'000'000;
+
+  /// Whether simulated time may go on to `due` now. Takes no lock while there is neither a pause nor
+  /// a speed. By the scheduler, between cycles.
+  [[nodiscard]] bool MayGoOnTo(Time due) {
+    return is_free_.load(std::memory_order_acquire) || MayGoOnNow(due);
+  }
+  /// The cycle that MayGoOnTo() has allowed is over. By the scheduler.
+  void CountCycle() noexcept {
+    if (is_a_step_) CountStep();
+  }
+  /// After MayGoOnTo() has said no: sleeps until it may say yes, but not beyond `latest` of the
+  /// machine's clock, nor longer than kLongestSleep. By the scheduler.
+  void Wait(Time latest);
+
+  static constexpr Duration kLongestSleep = std::chrono::milliseconds(100);
+
+ private:
+  [[nodiscard]] bool MayGoOnNow(Time due);
+  void CountStep() noexcept;
+  Result<void> CheckClock(const char* what) const;
+  // Under the mutex. Has the scheduler look again.
+  void Changed();
+
+  const bool is_simulated_;
+  const Clock& machine_;
+  OrderedMutex mutex_{LockLevel::kLeaf};
+  Pacing pacing_;  // guarded by mutex_
+  // Written under mutex_:
+  std::atomic<double> speed_;
+  std::atomic<bool> is_paused_;
+  std::atomic<std::uint64_t> cycles_to_step_{0};
+  std::atomic<bool> is_free_;
+  WakeEvent event_;
+  // The scheduler's own:
+  bool is_a_step_ = false;
+  Time may_go_on_at_{};
+};
+
+}  // namespace runnel
