@@ -45,7 +45,7 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/web_server", "plugins/web_server", {"core"}});
   rules.push_back({"the tags of the inspector",
                    "plugins/inspector/xml_",
-                   {"core", "plugins/runtime_construction", "plugins/web_server"}});
+                   {"core", "plugins/inspector", "plugins/runtime_construction", "plugins/web_server"}});
   rules.push_back({"plugins/inspector",
                    "plugins/inspector",
                    {"core", "plugins/control", "plugins/json_values", "plugins/scheduling",

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <utility>
 
-#include "plugins/inspector/internal/json_object.h"
+#include "plugins/inspector/internal/json_parts.h"
 #include "plugins/structure/change_text.h"
 
 namespace runnel::internal {
@@ -19,23 +19,24 @@ constexpr std::size_t kMostChanges = 20'000;
 
 void AppendError(const RequestError& each, std::string& text) {
   JsonObject json(text);
-  json.Text("message", each.error.message).TextOrNull("path", each.error.path);
-  json.TextOrNull("hint", each.error.hint);
+  json.Add("message", each.error.message);
+  AddTextOrNull("path", each.error.path, json);
+  AddTextOrNull("hint", each.error.hint, json);
   if (each.change) {
-    json.Whole("change", *each.change);
+    json.Add("change", *each.change);
   } else {
-    json.Null("change");
+    AddNull("change", json);
   }
 }
 
 void AddHead(std::optional<std::uint64_t> request, bool is_ok, JsonObject& json) {
-  json.Text("op", "reply");
+  json.Add("op", "reply");
   if (request) {
-    json.Whole("request", *request);
+    json.Add("request", *request);
   } else {
-    json.Null("request");
+    AddNull("request", json);
   }
-  json.Flag("ok", is_ok);
+  json.Add("ok", is_ok);
 }
 
 // Each change is a line of its own in the places, so that errors say which it is.
@@ -53,7 +54,7 @@ std::vector<RequestError> ErrorsOf(const Diagnostics& diagnostics) {
 PlacedChanges ParseAll(const std::vector<std::string>& texts, Diagnostics& diagnostics) {
   PlacedChanges all;
   for (std::size_t i = 0; i < texts.size(); ++i) {
-    const SourcePosition place{.file = {}, .line = static_cast<int>(i + 1), .column = 1};
+    const SourcePosition place{.file = "changes", .line = static_cast<int>(i + 1), .column = 1};
     PlacedChanges one = ParseChanges(texts[i], place, diagnostics);
     if (diagnostics.ok() && one.changes.size() != 1) {
       diagnostics.Add({.message = one.changes.empty() ? "there is no change in it"
@@ -140,7 +141,7 @@ std::string FindCompatible(Inspection& inspection, const ViewerMessage& message)
   {
     JsonObject json(text);
     AddHead(message.request, true, json);
-    json.Json("types", *types);
+    json.AddJson("types", *types);
   }
   return text;
 }
@@ -164,7 +165,7 @@ std::string Reply(std::optional<std::uint64_t> request, const std::string& text)
   {
     JsonObject json(reply);
     AddHead(request, true, json);
-    json.Text("text", text);
+    json.Add("text", text);
   }
   return reply;
 }
