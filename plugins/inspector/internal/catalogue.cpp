@@ -10,7 +10,7 @@
 #include "core/port/port.h"
 #include "core/types/type_info.h"
 #include "plugins/inspector/internal/element_json.h"
-#include "plugins/inspector/internal/json_object.h"
+#include "plugins/inspector/internal/json_parts.h"
 
 namespace runnel::internal {
 
@@ -35,35 +35,38 @@ const char* KindName(TypeKind kind) {
 }
 
 void AppendField(const FieldInfo& field, std::string& text) {
-  JsonObject(text)
-      .Text("name", field.name)
-      .Text("type", field.type->name())
-      .Text("unit", field.unit)
-      .Text("description", field.description);
+  JsonObject object(text);
+  object.Add("name", field.name);
+  object.Add("type", field.type->name());
+  object.Add("unit", field.unit);
+  object.Add("description", field.description);
 }
 
 void AppendType(const TypeInfo* type, std::string& text) {
   JsonObject json(text);
-  json.Text("name", type->name()).Text("kind", KindName(type->kind()));
+  json.Add("name", type->name());
+  json.Add("kind", KindName(type->kind()));
+  AddTextOrNull("meaning", type->meaning(), json);
   if (type->kind() == TypeKind::kStructure) {
     AppendList(type->fields(), json.Key("fields"), AppendField);
   }
   if (type->kind() == TypeKind::kEnumeration) {
-    AppendList(type->enumerators(), json.Key("values"),
-               [](const EnumeratorInfo& each, std::string& to) { AppendQuoted(each.name, to); });
+    AppendList(
+        type->enumerators(), json.Key("values"),
+        [](const EnumeratorInfo& each, std::string& to) { AppendJsonString(each.name, to); });
   }
   if (type->kind() == TypeKind::kSequence || type->kind() == TypeKind::kMatrix) {
-    json.Text("element", type->elements().type->name());
+    json.Add("element", type->elements().type->name());
   }
 }
 
 void AppendPort(const Port* port, std::string& text) {
-  JsonObject(text)
-      .Text("name", port->name())
-      .Text("direction", port->direction() == Port::Direction::kInput ? "input" : "output")
-      .Text("type", port->type().name())
-      .Flag("required", port->is_required())
-      .Text("description", port->description());
+  JsonObject object(text);
+  object.Add("name", port->name());
+  object.Add("direction", port->direction() == Port::Direction::kInput ? "input" : "output");
+  object.Add("type", port->type().name());
+  object.Add("required", port->is_required());
+  object.Add("description", port->description());
 }
 
 struct ParameterOfType {
@@ -74,14 +77,14 @@ struct ParameterOfType {
 void AppendParameter(const ParameterOfType& each, std::string& text) {
   const ConfigurableInfo& info = each.parameter->info();
   const BoundsEnds bounds = ParseBounds(info.bounds);
-  JsonObject(text)
-      .Text("name", each.name)
-      .Text("type", each.parameter->type().name())
-      .Text("unit", info.unit)
-      .Text("default", info.default_value)
-      .NumberOrNull("minimum", bounds.minimum)
-      .NumberOrNull("maximum", bounds.maximum)
-      .Text("description", info.description);
+  JsonObject object(text);
+  object.Add("name", each.name);
+  object.Add("type", each.parameter->type().name());
+  object.Add("unit", info.unit);
+  object.Add("default", info.default_value);
+  AddNumberOrNull("minimum", bounds.minimum, object);
+  AddNumberOrNull("maximum", bounds.maximum, object);
+  object.Add("description", info.description);
 }
 
 CatalogueItem Describe(const ModuleType& type, FrameworkElement& module) {
@@ -99,7 +102,9 @@ CatalogueItem Describe(const ModuleType& type, FrameworkElement& module) {
                           port->type().name(), port->is_required()});
   }
   JsonObject json(item.json);
-  json.Text("type", type.name).Text("summary", type.summary).Text("plugin", type.plugin);
+  json.Add("type", type.name);
+  json.Add("summary", type.summary);
+  json.Add("plugin", type.plugin);
   AppendList(ports, json.Key("ports"), AppendPort);
   AppendList(parameters, json.Key("parameters"), AppendParameter);
   return item;
@@ -108,8 +113,12 @@ CatalogueItem Describe(const ModuleType& type, FrameworkElement& module) {
 CatalogueItem DescribeProblem(const ModuleType& type, const Error& error) {
   CatalogueItem item{type.name, type.summary, {}, {}};
   JsonObject json(item.json);
-  json.Text("type", type.name).Text("summary", type.summary).Text("plugin", type.plugin);
-  json.Json("ports", "[]").Json("parameters", "[]").Text("problem", error.ToString());
+  json.Add("type", type.name);
+  json.Add("summary", type.summary);
+  json.Add("plugin", type.plugin);
+  json.AddJson("ports", "[]");
+  json.AddJson("parameters", "[]");
+  json.Add("problem", error.ToString());
   return item;
 }
 
@@ -158,7 +167,7 @@ Catalogue MakeCatalogue(Runtime& runtime, const ModuleRegistry& modules) {
     if (auto item = Look(runtime, modules, name)) catalogue.modules.push_back(std::move(*item));
   }
   JsonObject json(catalogue.message);
-  json.Text("op", "catalogue");
+  json.Add("op", "catalogue");
   AppendList(catalogue.modules, json.Key("modules"),
              [](const CatalogueItem& item, std::string& text) { text += item.json; });
   AppendList(RegisteredTypes(), json.Key("types"), AppendType);
@@ -207,8 +216,9 @@ Result<std::string> CompatibleTypes(Runtime& runtime, const Catalogue& catalogue
   std::string text;
   AppendList(candidates, text, [](const Candidate& each, std::string& to) {
     JsonObject json(to);
-    json.Text("type", each.item->type).Text("summary", each.item->summary);
-    AppendList(each.lost, json.Key("lost"), AppendQuoted);
+    json.Add("type", each.item->type);
+    json.Add("summary", each.item->summary);
+    AppendList(each.lost, json.Key("lost"), AppendJsonString);
   });
   return text;
 }

@@ -6,7 +6,7 @@
 #include "core/plugin/module_type_name.h"
 #include "core/types/type_info.h"
 #include "core/xml/xml_reading.h"
-#include "plugins/inspector/internal/json_object.h"
+#include "plugins/inspector/internal/json_parts.h"
 #include "plugins/scheduling/thread_container.h"
 
 namespace runnel::internal {
@@ -40,23 +40,28 @@ std::string_view StoppedBy(const FrameworkElement& element, const ElementSurroun
 void AddThread(const ThreadContainer& thread, JsonObject& json) {
   const ThreadOptions& options = thread.options();
   const bool has_period = options.activation == ThreadOptions::Activation::kPeriod;
-  json.Text("kind", "thread").Text("name", thread.name());
-  json.NumberOrNull("period", has_period ? std::optional(ToSeconds(options.period)) : std::nullopt);
-  json.Text("activation", has_period ? "period"
-                          : options.activation == ThreadOptions::Activation::kTrigger
-                              ? "trigger"
-                              : "free_running");
-  json.Whole("priority", static_cast<std::uint64_t>(options.priority));
-  json.Whole("order", thread.serial());
+  json.Add("kind", "thread");
+  json.Add("name", thread.name());
+  AddNumberOrNull("period", has_period ? std::optional(ToSeconds(options.period)) : std::nullopt,
+                  json);
+  json.Add("activation", has_period ? "period"
+                         : options.activation == ThreadOptions::Activation::kTrigger
+                             ? "trigger"
+                             : "free_running");
+  json.Add("priority", static_cast<std::uint64_t>(options.priority));
+  json.Add("order", thread.serial());
 }
 
 void AddPort(const Port& port, JsonObject& json) {
   const FrameworkElement* const owner = OwnerOf(port);
-  json.Text("kind", "port").Text("name", port.name());
-  json.Text("direction", port.direction() == Port::Direction::kInput ? "input" : "output");
-  json.Text("data_type", port.type().name()).Flag("interface", port.is_proxy());
-  json.Flag("required", port.is_required()).Text("description", port.description());
-  json.Text("owner", owner != nullptr ? owner->path() : "");
+  json.Add("kind", "port");
+  json.Add("name", port.name());
+  json.Add("direction", port.direction() == Port::Direction::kInput ? "input" : "output");
+  json.Add("data_type", port.type().name());
+  json.Add("interface", port.is_proxy());
+  json.Add("required", port.is_required());
+  json.Add("description", port.description());
+  json.Add("owner", owner != nullptr ? owner->path() : "");
 }
 
 void AddParameter(const FrameworkElement& element, const Configurable& parameter,
@@ -64,29 +69,39 @@ void AddParameter(const FrameworkElement& element, const Configurable& parameter
   const ConfigurableInfo& info = parameter.info();
   const BoundsEnds bounds = ParseBounds(info.bounds);
   const FrameworkElement* const owner = OwnerOf(element);
-  json.Text("kind", "parameter").Text("name", element.name());
-  json.Text("data_type", parameter.type().name()).Text("unit", info.unit);
-  json.NumberOrNull("minimum", bounds.minimum).NumberOrNull("maximum", bounds.maximum);
-  json.Text("description", info.description).Text("value", parameter.ToText());
-  json.Text("default", info.default_value).Flag("settable", !info.is_static);
-  json.Text("owner", owner != nullptr ? owner->path() : "");
+  json.Add("kind", "parameter");
+  json.Add("name", element.name());
+  json.Add("data_type", parameter.type().name());
+  json.Add("unit", info.unit);
+  AddNumberOrNull("minimum", bounds.minimum, json);
+  AddNumberOrNull("maximum", bounds.maximum, json);
+  json.Add("description", info.description);
+  json.Add("value", parameter.ToText());
+  json.Add("default", info.default_value);
+  json.Add("settable", !info.is_static);
+  json.Add("owner", owner != nullptr ? owner->path() : "");
 }
 
 void AddOther(const FrameworkElement& element, const ElementSurroundings& around,
               JsonObject& json) {
   if (IsModule(element)) {
-    json.Text("kind", "module").Text("name", element.name());
-    json.Text("type", FindModuleType(element));
-    json.TextOrNull("thread", ThreadName(element, around));
-    json.TextOrNull("stopped", StoppedBy(element, around));
+    json.Add("kind", "module");
+    json.Add("name", element.name());
+    const std::string name = FindModuleType(element);
+    const ModuleType* const type = around.modules->Find(name);
+    json.Add("type", name);
+    json.Add("summary", type != nullptr ? type->summary : "");
+    AddTextOrNull("thread", ThreadName(element, around), json);
+    AddTextOrNull("stopped", StoppedBy(element, around), json);
     return;
   }
   const bool is_group = element.kind() == ElementKind::kGroup;
   const bool is_top = element.parent() != nullptr && element.parent()->parent() == nullptr;
-  json.Text("kind", is_group && is_top ? "application" : "group").Text("name", element.name());
-  if (!is_group) json.Flag("is_plain", true);
+  json.Add("kind", is_group && is_top ? "application" : "group");
+  json.Add("name", element.name());
+  if (!is_group) json.Add("is_plain", true);
   const ThreadContainer* const thread = OwnThread(element);
-  if (thread != nullptr) json.Text("thread", thread->name());
+  if (thread != nullptr) json.Add("thread", thread->name());
 }
 
 void Mix(std::uint64_t more, std::uint64_t& hash) {
@@ -119,7 +134,7 @@ std::string ElementJson(const FrameworkElement& element, const ElementSurroundin
   std::string text;
   {
     JsonObject json(text);
-    json.Text("path", element.path());
+    json.Add("path", element.path());
     if (const auto* const port = dynamic_cast<const Port*>(&element)) {
       AddPort(*port, json);
     } else if (const auto* const parameter = dynamic_cast<const Configurable*>(&element)) {
@@ -154,9 +169,10 @@ std::string ConnectionJson(const Connection& connection) {
   std::string text;
   {
     JsonObject json(text);
-    json.Text("from", connection.from->path()).Text("to", connection.to->path());
-    json.Whole("queue", connection.options.queue);
-    json.Text("on_full", OnFullName(connection.options.on_full));
+    json.Add("from", connection.from->path());
+    json.Add("to", connection.to->path());
+    json.Add("queue", connection.options.queue);
+    json.Add("on_full", OnFullName(connection.options.on_full));
   }
   return text;
 }

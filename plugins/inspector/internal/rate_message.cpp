@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "plugins/inspector/internal/json_object.h"
+#include "plugins/inspector/internal/json_parts.h"
 
 namespace runnel::internal {
 
@@ -21,20 +21,13 @@ double Milliseconds(Duration duration) { return Rounded(ToSeconds(duration) * 1e
 
 void AppendThread(const CycleStatistics& statistics, std::string& text) {
   JsonObject json(text);
-  json.Whole("cycles", statistics.cycles);
-  json.Number("period_ms", Milliseconds(statistics.period_mean));
-  JsonObject(json.Key("duration_ms"))
-      .Number("mean", Milliseconds(statistics.execution_mean))
-      .Number("max", Milliseconds(statistics.execution_max));
-  json.Number("jitter_ms", Milliseconds(statistics.jitter_mean));
-  json.Whole("overruns", statistics.overruns);
-}
-
-// Paths are keys here.
-std::string& KeyOf(const std::string& path, JsonObject& json) {
-  std::string quoted;
-  AppendQuoted(path, quoted);
-  return json.Key(std::string_view(quoted).substr(1, quoted.size() - 2));
+  json.Add("cycles", statistics.cycles);
+  json.Add("period_ms", Milliseconds(statistics.period_mean));
+  json.Add("jitter_ms", Milliseconds(statistics.jitter_mean));
+  json.Add("overruns", statistics.overruns);
+  JsonObject duration(json.Key("duration_ms"));
+  duration.Add("mean", Milliseconds(statistics.execution_mean));
+  duration.Add("max", Milliseconds(statistics.execution_max));
 }
 
 void AppendPorts(const CountSample& before, const CountSample& now, std::vector<double>& told,
@@ -51,7 +44,7 @@ void AppendPorts(const CountSample& before, const CountSample& now, std::vector<
     const double rate = seconds > 0 ? Rounded(static_cast<double>(passed) / seconds) : 0;
     if (rate == told[i]) continue;
     told[i] = rate;
-    AppendNumber(rate, KeyOf(paths[i], json));
+    json.Add(paths[i], rate);
   }
 }
 
@@ -60,7 +53,7 @@ void AppendThreads(const CountSample& before, const CountSample& now, std::strin
   JsonObject json(text);
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (now.threads[i].cycles == before.threads[i].cycles) continue;
-    AppendThread(now.threads[i], KeyOf(paths[i], json));
+    AppendThread(now.threads[i], json.Key(paths[i]));
   }
 }
 
@@ -71,10 +64,11 @@ std::string RateMessage(const CountSample& before, const CountSample& now, doubl
   std::string text;
   {
     JsonObject json(text);
-    json.Text("op", "rates").Number("time", time);
+    json.Add("op", "rates");
+    json.Add("time", time);
     AppendPorts(before, now, told, json.Key("ports"));
     AppendThreads(before, now, json.Key("threads"));
-    json.Json("modules", "{}");
+    json.AddJson("modules", "{}");
   }
   return text;
 }

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <utility>
 
-#include "plugins/inspector/internal/json_object.h"
+#include "plugins/inspector/internal/json_parts.h"
 #include "plugins/structure/change_text.h"
 
 namespace runnel::internal {
@@ -19,23 +19,28 @@ constexpr std::size_t kMostChanges = 20'000;
 
 void AppendError(const RequestError& each, std::string& text) {
   JsonObject json(text);
-  json.Text("message", each.error.message).TextOrNull("path", each.error.path);
-  json.TextOrNull("hint", each.error.hint);
+  json.Add("message", each.error.message);
+  AddTextOrNull("path", each.error.path, json);
+  AddTextOrNull("hint", each.error.hint, json);
   if (each.change) {
-    json.Whole("change", *each.change);
+    json.Add("change", *each.change);
   } else {
-    json.Null("change");
+    AddNull("change", json);
   }
 }
 
 void AddHead(std::optional<std::uint64_t> request, bool is_ok, JsonObject& json) {
-  json.Text("op", "reply");
+  json.Add("op", "reply");
   if (request) {
-    json.Whole("request", *request);
+    json.Add("request", *request);
   } else {
-    json.Null("request");
+    AddNull("request", json);
   }
-  json.Flag("ok", is_ok);
+  json.Add("ok", is_ok);
+}
+
+bool IsOneOf(std::string_view word, std::initializer_list<std::string_view> words) {
+  return std::ranges::find(words, word) != words.end();
 }
 
 // Each change is a line of its own in the places, so that errors say which it is.
@@ -140,14 +145,34 @@ std::string FindCompatible(Inspection& inspection, const ViewerMessage& message)
   {
     JsonObject json(text);
     AddHead(message.request, true, json);
-    json.Json("types", *types);
+    json.AddJson("types", *types);
   }
   return text;
+}
+
+std::string SetPace(Inspection& inspection, const ViewerMessage& message) {
+  Pace& pace = inspection.scheduler().pace();
+  Result<void> done;
+  if (message.op == "pause") {
+    done = pace.Pause();
+  } else if (message.op == "resume") {
+    done = pace.Resume();
+  } else if (message.op == "step") {
+    done = pace.StepCycles(message.cycles);
+  } else if (!message.speed) {
+    done = Error{.message = "the speed is missing",
+                 .hint = "\"speed\": 1 is real time, 0 as fast as it can"};
+  } else {
+    done = pace.SetSpeed(*message.speed);
+  }
+  return done ? Reply(message.request, "done") : Refusal(message.request, {{done.error()}});
 }
 
 std::string Do(Inspection& inspection, const ViewerMessage& message) {
   const ControlHooks& hooks = inspection.application().hooks;
   if (message.op == "change") return ApplyChanges(inspection, message);
+  if (IsOneOf(message.op, {"pause", "resume", "step", "speed"}))
+    return SetPace(inspection, message);
   if (message.op == "compatible") return FindCompatible(inspection, message);
   if (message.op == "save") return Call(hooks.save, message.file, "save it", message);
   if (message.op == "reload") {
@@ -164,7 +189,7 @@ std::string Reply(std::optional<std::uint64_t> request, const std::string& text)
   {
     JsonObject json(reply);
     AddHead(request, true, json);
-    json.Text("text", text);
+    json.Add("text", text);
   }
   return reply;
 }

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/element/configurable.h"
-#include "plugins/inspector/internal/json_object.h"
+#include "plugins/inspector/internal/json_parts.h"
 
 namespace runnel::internal {
 
@@ -40,8 +40,11 @@ void AppendRaw(const std::string& item, std::string& json) { json += item; }
 
 }  // namespace
 
-StructureMirror::StructureMirror(Runtime& runtime, const Scheduler& scheduler, FaultBook& faults)
-    : runtime_(runtime), scheduler_(scheduler), faults_(faults) {}
+StructureMirror::StructureMirror(Runtime& runtime, const ModuleRegistry& modules,
+                                 const Scheduler& scheduler, FaultBook& faults)
+    : runtime_(runtime), scheduler_(scheduler), faults_(faults) {
+  around_.modules = &modules;
+}
 
 bool StructureMirror::Look() {
   std::unique_lock lock(runtime_.structure_mutex(), std::try_to_lock);
@@ -222,8 +225,9 @@ void StructureMirror::Tell(Difference difference) {
   std::string message;
   if (revision_ > 1) {  // what comes first is told as a whole
     JsonObject json(message);
-    json.Text("op", "structure_change").Whole("revision", revision_);
-    AppendList(difference.gone, json.Key("gone"), AppendQuoted);
+    json.Add("op", "structure_change");
+    json.Add("revision", revision_);
+    AppendList(difference.gone, json.Key("gone"), AppendJsonString);
     AppendList(difference.elements, json.Key("elements"), AppendRaw);
     AppendList(difference.connected, json.Key("connected"), AppendRaw);
     AppendList(difference.disconnected, json.Key("disconnected"), AppendRaw);
@@ -237,7 +241,8 @@ std::string StructureMirror::Whole() const {
   std::vector<std::string> connections;
   {
     JsonObject json(message);
-    json.Text("op", "structure").Whole("revision", revision_);
+    json.Add("op", "structure");
+    json.Add("revision", revision_);
     AppendList(order_, json.Key("elements"), [&](std::uint64_t serial, std::string& text) {
       const Entry& entry = entries_.at(serial);
       text += entry.json;

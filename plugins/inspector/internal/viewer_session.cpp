@@ -8,10 +8,10 @@
 #include "core/base/nearest_name.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/types/type_info.h"
-#include "plugins/control/value_text.h"
-#include "plugins/inspector/internal/json_object.h"
+#include "plugins/inspector/internal/json_parts.h"
 #include "plugins/inspector/internal/rate_message.h"
 #include "plugins/inspector/internal/requests.h"
+#include "plugins/json_values/json_values.h"
 
 namespace runnel::internal {
 
@@ -30,6 +30,8 @@ constexpr auto kLookForReply = milliseconds(5);
 constexpr double kFastestWatch = 60;
 constexpr double kFastestRates = 10;
 constexpr std::size_t kMostElements = 1'000'000;
+constexpr std::size_t kLongestText = 2'000;
+constexpr std::size_t kLargestValue = 4'000'000;  // bytes
 
 Duration IntervalOf(double rate) { return FromSeconds(1 / rate); }
 
@@ -53,10 +55,14 @@ void ViewerSession::SendHello() {
   std::string text;
   {
     JsonObject json(text);
-    json.Text("op", "hello").Whole("protocol", 1);
-    json.Text("application", options.application).Text("file", options.file);
-    json.Text("run", inspection_.run()).Text("clock", is_simulated ? "simulated" : "real");
-    json.Flag("read_only", options.is_read_only).Text("runnel", options.version);
+    json.Add("op", "hello");
+    json.Add("protocol", 1);
+    json.Add("application", options.application);
+    json.Add("file", options.file);
+    json.Add("run", inspection_.run());
+    json.Add("clock", is_simulated ? "simulated" : "real");
+    json.Add("read_only", options.is_read_only);
+    json.Add("runnel", options.version);
   }
   client_.SendText(std::move(text));
 }
@@ -103,25 +109,25 @@ void ViewerSession::SendStructure() {
 void ViewerSession::SendState(MachineTime now) {
   state_due_ = now + kState;
   if (IsSlow()) return;
-  const SchedulerOptions& options = inspection_.scheduler().options();
+  const Pace& pace = inspection_.scheduler().pace();
   const Duration time = inspection_.running_for();
   const auto verdict = inspection_.verdict();
   std::string state;
   {
     JsonObject json(state);
-    json.Flag("paused", false);
-    if (options.clock == SchedulerOptions::ClockKind::kSimulated) {
-      json.Number("speed", options.speed);
-    } else {
-      json.Null("speed");
-    }
-    json.Null("undo").Null("redo").Whole("faults", inspection_.faults.count());
-    json.Flag("ended", verdict.has_value()).TextOrNull("verdict", verdict.value_or(""));
+    json.Add("paused", pace.is_paused());
+    AddNumberOrNull("speed", pace.is_simulated() ? std::optional(pace.speed()) : std::nullopt,
+                    json);
+    AddNull("undo", json);
+    AddNull("redo", json);
+    json.Add("faults", inspection_.faults.count());
+    json.Add("ended", verdict.has_value());
+    AddTextOrNull("verdict", verdict.value_or(""), json);
   }
   if (state == state_ && (time == state_time_)) return;
   if (state == state_) state_due_ = now + kTimeAlone;
   std::string text = "{\"op\":\"state\",\"time\":";
-  AppendNumber(ToSeconds(time), text);
+  AppendJsonNumber(ToSeconds(time), text);
   text += "," + state.substr(1);
   if (!client_.SendText(std::move(text))) return;
   state_ = std::move(state);
@@ -148,14 +154,14 @@ void ViewerSession::SendLog() {
   std::string text;
   {
     JsonObject json(text);
-    json.Text("op", "log");
+    json.Add("op", "log");
     AppendList(read.entries, json.Key("entries"),
                [](const ControlLog::Entry& each, std::string& to) {
-                 JsonObject(to)
-                     .Whole("number", each.number)
-                     .Number("time", ToSeconds(each.time))
-                     .Text("kind", ControlLog::KindName(each.kind))
-                     .Text("text", each.text);
+                 JsonObject object(to);
+                 object.Add("number", each.number);
+                 object.Add("time", ToSeconds(each.time));
+                 object.Add("kind", ControlLog::KindName(each.kind));
+                 object.Add("text", each.text);
                });
   }
   if (client_.SendText(std::move(text))) log_ = read.next;
@@ -189,18 +195,19 @@ void ViewerSession::SendValues(MachineTime now) {
     std::string item;
     const auto count = watch->port.LookIfNew([&](const void* value, Time stamp) {
       item = "{\"path\":";
-      AppendQuoted(watch->port.path(), item);
+      AppendJsonString(watch->port.path(), item);
       item += ",\"stamp\":";
-      AppendNumber(ToSeconds(stamp), item);
+      AppendJsonNumber(ToSeconds(stamp), item);
       item += ",\"value\":";
-      AppendQuoted(ValueText(watch->port.type(), value, {.elements = watch->elements}), item);
+      const JsonLimits limits{watch->elements, kLongestText, kLargestValue};
+      if (!AppendJson(watch->port.type(), value, item, limits)) item += ",\"cut\":true";
     });
     if (!count) continue;
     items += (items.empty() ? "" : ",") + item + ",\"count\":" + std::to_string(*count) + "}";
   }
   if (items.empty()) return;
   std::string text = "{\"op\":\"values\",\"time\":";
-  AppendNumber(ToSeconds(inspection_.running_for()), text);
+  AppendJsonNumber(ToSeconds(inspection_.running_for()), text);
   client_.SendText(text + ",\"items\":[" + items + "]}");
 }
 
