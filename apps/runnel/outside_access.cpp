@@ -9,7 +9,7 @@
 
 #include "core/base/diagnostics.h"
 #include "plugins/application_files/application_saver.h"
-#include "plugins/inspector/inspector_page.h"
+#include "plugins/inspector/inspector_resources.h"
 #include "plugins/inspector/xml_inspector_tag.h"
 #include "plugins/runtime_construction/plugin_loading.h"
 #include "plugins/structure/reload.h"
@@ -75,8 +75,7 @@ Result<std::optional<Wish>> WishOf(const InspectArguments& arguments,
 Result<std::unique_ptr<WebServer>> StartWebServer(const Wish& wish,
                                                   const std::vector<std::string>& origins,
                                                   Inspector& inspector) {
-  const auto files = InspectorPage();
-  const std::vector<WebResource> resources(files.begin(), files.end());
+  const auto resources = InspectorResources();
   WebServerOptions options{.address = wish.place.address,
                            .port = wish.place.port,
                            .token = wish.place.token,
@@ -98,8 +97,13 @@ Result<std::unique_ptr<OutsideAccess>> OutsideAccess::Start(
     const RunArguments& arguments, Workplace& workplace, FrameworkElement& application,
     Scheduler& scheduler, StructureEditor& editor, ControlLog& log) {
   std::unique_ptr<OutsideAccess> access(new OutsideAccess);
-  const ControlledApplication controlled{workplace.runtime(), workplace.plugins().modules(), editor,
-                                         log, HooksOf(workplace, application, editor), nullptr, &scheduler.pace()};
+  const ControlledApplication controlled{workplace.runtime(),
+                                         workplace.plugins().modules(),
+                                         editor,
+                                         log,
+                                         HooksOf(workplace, application, editor),
+                                         nullptr,
+                                         &scheduler.pace()};
   const std::string file = std::filesystem::absolute(arguments.application.file).string();
   if (arguments.has_control) {
     auto control =

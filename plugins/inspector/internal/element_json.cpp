@@ -87,7 +87,10 @@ void AddOther(const FrameworkElement& element, const ElementSurroundings& around
   if (IsModule(element)) {
     json.Add("kind", "module");
     json.Add("name", element.name());
-    json.Add("type", FindModuleType(element));
+    const std::string name = FindModuleType(element);
+    const ModuleType* const type = around.modules->Find(name);
+    json.Add("type", name);
+    json.Add("summary", type != nullptr ? type->summary : "");
     AddTextOrNull("thread", ThreadName(element, around), json);
     AddTextOrNull("stopped", StoppedBy(element, around), json);
     return;

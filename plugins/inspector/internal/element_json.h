@@ -7,12 +7,14 @@
 #include <unordered_map>
 
 #include "core/element/framework_element.h"
+#include "core/plugin/module_registry.h"
 #include "core/port/port.h"
 
 namespace runnel::internal {
 
 /// What there is to know of elements besides themselves.
 struct ElementSurroundings {
+  const ModuleRegistry* modules = nullptr;                 ///< their summaries
   std::map<std::uint64_t, std::string> thread_names;       ///< by serial number
   std::uint64_t default_thread = 0;                        ///< for what is assigned to none
   std::unordered_map<std::uint64_t, std::string> stopped;  ///< modules, and what they threw

@@ -31,7 +31,7 @@ Inspection::Inspection(ControlledApplication application, Scheduler& scheduler,
       options_(std::move(options)),
       run_(RunName()),
       start_(application_.runtime.clock().Now()),
-      mirror_(application_.runtime, scheduler, faults),
+      mirror_(application_.runtime, application_.modules, scheduler, faults),
       worker_([] {}) {}
 
 std::shared_ptr<const Catalogue> Inspection::catalogue() const {

@@ -39,6 +39,10 @@ void AddHead(std::optional<std::uint64_t> request, bool is_ok, JsonObject& json)
   json.Add("ok", is_ok);
 }
 
+bool IsOneOf(std::string_view word, std::initializer_list<std::string_view> words) {
+  return std::ranges::find(words, word) != words.end();
+}
+
 // Each change is a line of its own in the places, so that errors say which it is.
 std::vector<RequestError> ErrorsOf(const Diagnostics& diagnostics) {
   std::vector<RequestError> errors;
@@ -146,9 +150,29 @@ std::string FindCompatible(Inspection& inspection, const ViewerMessage& message)
   return text;
 }
 
+std::string SetPace(Inspection& inspection, const ViewerMessage& message) {
+  Pace& pace = inspection.scheduler().pace();
+  Result<void> done;
+  if (message.op == "pause") {
+    done = pace.Pause();
+  } else if (message.op == "resume") {
+    done = pace.Resume();
+  } else if (message.op == "step") {
+    done = pace.StepCycles(message.cycles);
+  } else if (!message.speed) {
+    done = Error{.message = "the speed is missing",
+                 .hint = "\"speed\": 1 is real time, 0 as fast as it can"};
+  } else {
+    done = pace.SetSpeed(*message.speed);
+  }
+  return done ? Reply(message.request, "done") : Refusal(message.request, {{done.error()}});
+}
+
 std::string Do(Inspection& inspection, const ViewerMessage& message) {
   const ControlHooks& hooks = inspection.application().hooks;
   if (message.op == "change") return ApplyChanges(inspection, message);
+  if (IsOneOf(message.op, {"pause", "resume", "step", "speed"}))
+    return SetPace(inspection, message);
   if (message.op == "compatible") return FindCompatible(inspection, message);
   if (message.op == "save") return Call(hooks.save, message.file, "save it", message);
   if (message.op == "reload") {

@@ -40,8 +40,11 @@ void AppendRaw(const std::string& item, std::string& json) { json += item; }
 
 }  // namespace
 
-StructureMirror::StructureMirror(Runtime& runtime, const Scheduler& scheduler, FaultBook& faults)
-    : runtime_(runtime), scheduler_(scheduler), faults_(faults) {}
+StructureMirror::StructureMirror(Runtime& runtime, const ModuleRegistry& modules,
+                                 const Scheduler& scheduler, FaultBook& faults)
+    : runtime_(runtime), scheduler_(scheduler), faults_(faults) {
+  around_.modules = &modules;
+}
 
 bool StructureMirror::Look() {
   std::unique_lock lock(runtime_.structure_mutex(), std::try_to_lock);

@@ -38,7 +38,8 @@ struct CountSample {
 /// Threads:  the server's. Tries the structure lock, and holds it for kHold at a time.
 class StructureMirror {
  public:
-  StructureMirror(Runtime& runtime, const Scheduler& scheduler, FaultBook& faults);
+  StructureMirror(Runtime& runtime, const ModuleRegistry& modules, const Scheduler& scheduler,
+                  FaultBook& faults);
 
   /// Looks on for a moment. True: what there is to see has been seen; false: come again soon.
   bool Look();

@@ -8,10 +8,10 @@
 #include "core/base/nearest_name.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/types/type_info.h"
-#include "plugins/control/value_text.h"
 #include "plugins/inspector/internal/json_parts.h"
 #include "plugins/inspector/internal/rate_message.h"
 #include "plugins/inspector/internal/requests.h"
+#include "plugins/json_values/json_values.h"
 
 namespace runnel::internal {
 
@@ -30,6 +30,8 @@ constexpr auto kLookForReply = milliseconds(5);
 constexpr double kFastestWatch = 60;
 constexpr double kFastestRates = 10;
 constexpr std::size_t kMostElements = 1'000'000;
+constexpr std::size_t kLongestText = 2'000;
+constexpr std::size_t kLargestValue = 4'000'000;  // bytes
 
 Duration IntervalOf(double rate) { return FromSeconds(1 / rate); }
 
@@ -107,18 +109,15 @@ void ViewerSession::SendStructure() {
 void ViewerSession::SendState(MachineTime now) {
   state_due_ = now + kState;
   if (IsSlow()) return;
-  const SchedulerOptions& options = inspection_.scheduler().options();
+  const Pace& pace = inspection_.scheduler().pace();
   const Duration time = inspection_.running_for();
   const auto verdict = inspection_.verdict();
   std::string state;
   {
     JsonObject json(state);
-    json.Add("paused", false);
-    if (options.clock == SchedulerOptions::ClockKind::kSimulated) {
-      json.Add("speed", options.speed);
-    } else {
-      AddNull("speed", json);
-    }
+    json.Add("paused", pace.is_paused());
+    AddNumberOrNull("speed", pace.is_simulated() ? std::optional(pace.speed()) : std::nullopt,
+                    json);
     AddNull("undo", json);
     AddNull("redo", json);
     json.Add("faults", inspection_.faults.count());
@@ -200,7 +199,8 @@ void ViewerSession::SendValues(MachineTime now) {
       item += ",\"stamp\":";
       AppendJsonNumber(ToSeconds(stamp), item);
       item += ",\"value\":";
-      AppendJsonString(ValueText(watch->port.type(), value, {.elements = watch->elements}), item);
+      const JsonLimits limits{watch->elements, kLongestText, kLargestValue};
+      if (!AppendJson(watch->port.type(), value, item, limits)) item += ",\"cut\":true";
     });
     if (!count) continue;
     items += (items.empty() ? "" : ",") + item + ",\"count\":" + std::to_string(*count) + "}";

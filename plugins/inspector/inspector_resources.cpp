@@ -1,6 +1,6 @@
-#include <array>
+#include "plugins/inspector/inspector_resources.h"
 
-#include "plugins/inspector/inspector_page.h"
+#include "plugins/inspector/page/inspector_page.h"
 
 namespace runnel {
 
@@ -24,10 +24,11 @@ cmake --preset release &amp;&amp; ninja -C &lt;build folder&gt; runnel_program</
 </html>
 )";
 
-constexpr std::array<WebResource, 1> kResources{{{"/", "text/html; charset=utf-8", kPage}}};
-
 }  // namespace
 
-std::span<const WebResource> InspectorPage() { return kResources; }
+std::vector<WebResource> InspectorResources() {
+  if (!InspectorPage().empty()) return InspectorPage();
+  return {{"/", "text/html; charset=utf-8", kPage}};
+}
 
 }  // namespace runnel
