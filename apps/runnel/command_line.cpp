@@ -7,6 +7,7 @@
 
 #include "apps/runnel/control_command_line.h"
 #include "apps/runnel/other_programs.h"
+#include "apps/runnel/recording_command_line.h"
 #include "core/base/nearest_name.h"
 #include "core/xml/xml_reading.h"
 #include "plugins/inspector/inspector_place.h"
@@ -27,6 +28,7 @@ ExitCode Refuse(const std::string& message, const std::string& hint) {
 std::vector<std::string> AllCommands() {
   std::vector<std::string> commands = kCommands;
   for (const std::string& command : ControlCommandLine::Names()) commands.push_back(command);
+  for (const std::string& command : RecordingCommandLine::Names()) commands.push_back(command);
   for (const std::string& command : OtherCommands()) commands.push_back(command);
   return commands;
 }
@@ -115,6 +117,21 @@ void AddInspect(CLI::App& run, InspectArguments& arguments) {
       ->excludes(none);
 }
 
+// The same for whatever is run.
+void AddWhatAccompaniesARun(CLI::App& run, RunArguments& arguments) {
+  run.add_option("--duration", arguments.duration, "ends the run after so long, simulated or real")
+      ->type_name("SECONDS")
+      ->check(CheckDuration);
+  run.add_flag("--quiet", arguments.quiet, "no progress, only how the run ended");
+  run.add_flag("--statistics", arguments.statistics,
+               "at the end, how punctual the threads were and how long their cycles took");
+  run.add_flag_callback(
+      "--no-control", [&arguments] { arguments.has_control = false; },
+      "no other process can look at it or change it");
+  AddInspect(run, arguments.inspect);
+  AddRecordOptions(run, arguments.record);
+}
+
 CLI::App& AddRun(CLI::App& program, RunArguments& arguments) {
   CLI::App& run = *program.add_subcommand("run", "runs an application until it ends, or Ctrl-C");
   AddApplicationArguments(run, arguments.application);
@@ -126,16 +143,7 @@ CLI::App& AddRun(CLI::App& program, RunArguments& arguments) {
       ->excludes(fast);
   run.add_flag("--paused", arguments.is_paused,
                "simulated time stands still until 'runnel resume' or 'runnel step'");
-  run.add_option("--duration", arguments.duration, "ends the run after so long, simulated or real")
-      ->type_name("SECONDS")
-      ->check(CheckDuration);
-  run.add_flag("--quiet", arguments.quiet, "no progress, only how the run ended");
-  run.add_flag("--statistics", arguments.statistics,
-               "at the end, how punctual the threads were and how long their cycles took");
-  run.add_flag_callback(
-      "--no-control", [&arguments] { arguments.has_control = false; },
-      "no other process can look at it or change it");
-  AddInspect(run, arguments.inspect);
+  AddWhatAccompaniesARun(run, arguments);
   return run;
 }
 
@@ -174,6 +182,8 @@ CommandLine ParseCommandLine(int count, const char* const* words) {
       ->check(CheckFile);
   program.add_subcommand("version", "says which version this is");
   const ControlCommandLine control(program);
+  RecordingCommandLine recording(program);
+  AddWhatAccompaniesARun(recording.replay(), recording.replay_arguments());
 
   if (count > 1 && IsUnknownCommand(words[1])) {
     return Refuse("there is no command '" + std::string(words[1]) + "'",
@@ -194,6 +204,7 @@ CommandLine ParseCommandLine(int count, const char* const* words) {
   if (schema.parsed()) return schema_arguments;
   if (graph.parsed()) return graph_arguments;
   if (auto arguments = control.Parsed()) return *arguments;
+  if (auto arguments = recording.Parsed()) return *arguments;
   return VersionArguments{};
 }
 

@@ -63,6 +63,12 @@ std::vector<Parts> Forms(std::string_view path) {
   return forms;
 }
 
+std::string Join(std::span<const std::string> parts) {
+  std::string text;
+  for (const std::string& part : parts) text += "/" + part;
+  return text;
+}
+
 }  // namespace
 
 Result<PortPatterns> PortPatterns::Make(const std::vector<std::string>& patterns) {
@@ -109,12 +115,11 @@ bool PortPatterns::Name(std::string_view path) const {
          });
 }
 
+std::string PlainPortPath(std::string_view path) { return Join(Forms(path).back()); }
+
 std::string ShortPortPath(std::string_view path) {
-  Parts parts = Forms(path).back();
-  if (parts.size() > 1) parts.erase(parts.begin());
-  std::string text;
-  for (const std::string& part : parts) text += "/" + part;
-  return text;
+  const Parts parts = Forms(path).back();
+  return Join(std::span(parts).subspan(parts.size() > 1 ? 1 : 0));
 }
 
 }  // namespace runnel

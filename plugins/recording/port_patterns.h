@@ -41,7 +41,9 @@ class PortPatterns {
   std::vector<Parts> excluded_;
 };
 
-/// The path by which people know a port: without the application's name and the port's group.
+/// The path by which people know a port: without the port's group.
+[[nodiscard]] std::string PlainPortPath(std::string_view path);
+/// The same without the application's name, which is the first.
 [[nodiscard]] std::string ShortPortPath(std::string_view path);
 
 }  // namespace runnel

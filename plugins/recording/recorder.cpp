@@ -111,6 +111,7 @@ Result<void> Recorder::CheckNames() {
     if (port == nullptr) return;
     ports.push_back(port);
     if (port->is_proxy() || port->direction() == Port::Direction::kOutput) {
+      paths.push_back(PlainPortPath(port->path()));
       paths.push_back(ShortPortPath(port->path()));
     }
   });
@@ -131,7 +132,7 @@ Result<void> Recorder::CheckNames() {
       return Error{.message = "is an input; recorded is what outputs publish",
                    .path = (*meant)->path(),
                    .hint = sources.empty() ? "nothing is connected to it"
-                                           : "record " + ShortPortPath(sources.front()->path())};
+                                           : "record " + PlainPortPath(sources.front()->path())};
     }
     if (!(*sender)->type().is_transparent()) {
       return Error{.message = "values of type " + (*sender)->type().name() +
@@ -177,8 +178,11 @@ Result<void> Recorder::Finish() {
   wake_.notify_one();
   thread_.join();
   {
+    // Destroyed after the mutex is free: cutting their connections takes the structure lock.
+    std::vector<std::shared_ptr<Recorded>> ended;
     const std::lock_guard lock(mutex_);
-    recorded_.clear();
+    for (const auto& each : recorded_) status_.dropped += each->tap->dropped();
+    ended.swap(recorded_);
   }
   (void)runtime_.Delete(*element_);
   const std::lock_guard lock(mutex_);
@@ -188,7 +192,6 @@ Result<void> Recorder::Finish() {
 RecordingStatus Recorder::status() const {
   const std::lock_guard lock(mutex_);
   RecordingStatus status = status_;
-  status.ports = recorded_.size();
   for (const auto& each : recorded_) status.dropped += each->tap->dropped();
   return status;
 }
@@ -228,6 +231,7 @@ void Recorder::Follow(Port& port) {
   if (!Port::Connect(port, *recorded->tap)) return;
   const std::lock_guard lock(mutex_);
   recorded_.push_back(std::move(recorded));
+  ++status_.ports;
 }
 
 void Recorder::OnReady(FrameworkElement& element) {

@@ -45,8 +45,8 @@ struct RecorderOptions {
 struct RecordingStatus {
   std::uint64_t values = 0;
   std::uint64_t dropped = 0;  ///< had no room to wait
-  std::size_t ports = 0;
-  std::uint64_t bytes = 0;  ///< of the file
+  std::size_t ports = 0;      ///< all that were there while it ran
+  std::uint64_t bytes = 0;    ///< of the file
   /// Ports that fit, but whose values have no form that can be written.
   std::vector<std::string> left_out = {};
   std::optional<Error> failure = {};  ///< nothing more is written
