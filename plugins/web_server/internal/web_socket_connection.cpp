@@ -113,7 +113,8 @@ class WebSocketConnection final : public WebConnection,
 
   void OnAccepted(beast::error_code error) {
     request_ = {};
-    if (error) return Remove();
+    if (error || is_closing_) return Remove();
+    is_accepted_ = true;
     Attempt([this] { conversation_ = start_(*this); });
     TakeTurn();
     Read();
@@ -193,6 +194,7 @@ class WebSocketConnection final : public WebConnection,
   void Close(websocket::close_code code, std::string_view reason) {
     if (is_closing_ || is_removed_) return;
     is_closing_ = true;
+    if (!is_accepted_) return Cut();  // there is nobody yet who could be told
     websocket::close_reason why(code);
     const std::string cut = CutAtLetter(reason, kLongestReason);
     why.reason.assign(cut.data(), cut.size());
@@ -221,6 +223,7 @@ class WebSocketConnection final : public WebConnection,
   MessageBudget budget_;
   std::deque<Message> waiting_;
   std::size_t waiting_bytes_ = 0;
+  bool is_accepted_ = false;
   bool is_closing_ = false;
   bool is_removed_ = false;
   std::unique_ptr<WebConversation> conversation_;  // first to go: it uses the rest
