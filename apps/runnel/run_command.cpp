@@ -22,6 +22,7 @@
 #include "plugins/runtime_construction/plugin_loading.h"
 #include "plugins/runtime_construction/source_place.h"
 #include "plugins/scheduling_tags/xml_scheduling_tags.h"
+#include "plugins/structure/change_history.h"
 #include "plugins/structure/reload.h"
 #include "plugins/structure/structure_editor.h"
 #include "plugins/supervision/xml_supervision_tags.h"
@@ -73,6 +74,8 @@ struct Supervision {
         }) {}
 
   StructureEditor editor;
+  ChangeHistory history{
+      editor};  // what people have changed; the supervisor's changes are not theirs
   Supervisor supervisor;
 };
 
@@ -92,9 +95,10 @@ void PrintWarnings(std::vector<Error> warnings, FrameworkElement& root, ControlL
 
 // So that other processes can reach the application. That they cannot is no reason not to run it.
 std::unique_ptr<ControlServer> StartControl(const RunArguments& arguments, Workplace& workplace,
-                                            FrameworkElement& application, StructureEditor& editor,
+                                            FrameworkElement& application, Supervision& supervision,
                                             ControlLog& log, Pace& pace) {
   if (!arguments.has_control) return nullptr;
+  StructureEditor& editor = supervision.editor;
   ControlHooks hooks;
   hooks.load_plugin = [&workplace](const std::string& plugin) {
     return LoadPlugin(plugin, workplace.plugins(), workplace.tags());
@@ -117,8 +121,8 @@ std::unique_ptr<ControlServer> StartControl(const RunArguments& arguments, Workp
     return "loaded " + plugin + " anew";
   };
   auto server = ControlServer::Start(
-      {workplace.runtime(), workplace.plugins().modules(), editor, log, std::move(hooks), nullptr,
-       &pace},
+      {workplace.runtime(), workplace.plugins().modules(), editor, log, std::move(hooks),
+       &supervision.history, &pace},
       {.application = application.name(),
        .file = std::filesystem::absolute(arguments.application.file).string()});
   if (server) return std::move(*server);
@@ -257,8 +261,8 @@ ExitCode Run(const RunArguments& arguments) {
   const BuildOutcome outcome = workplace.Build(arguments.application, BuildMode::kRun, schedule);
   if (outcome.application == nullptr) return ExitCode::kBadInput;
   ControlLog log(workplace.runtime().clock());
-  const auto control = StartControl(arguments, workplace, *outcome.application, supervision->editor,
-                                    log, scheduler->pace());
+  const auto control = StartControl(arguments, workplace, *outcome.application, *supervision, log,
+                                    scheduler->pace());
   return Session(arguments, *outcome.application, *scheduler, supervision->supervisor, log)
       .Run(workplace.runtime());
 }
