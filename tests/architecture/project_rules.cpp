@@ -42,6 +42,7 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back(
       {"plugins/control", "plugins/control", {"core", "plugins/scheduling", "plugins/structure"}});
   rules.push_back({"plugins/watching", "plugins/watching", {"core"}});
+  rules.push_back({"plugins/mcap", "plugins/mcap", {"core"}});
   rules.push_back({"plugins/web_server", "plugins/web_server", {"core"}});
   rules.push_back({"the tags of the inspector",
                    "plugins/inspector/xml_",

@@ -2,26 +2,15 @@
 # source that has its files as bytes. Without a network there is no page, the rest is built.
 #   cmake -D NPM= -D NODE= -D SOURCE= -D BUILD= -D OUTPUT= -D STAMP= -P build_page.cmake
 
-function(write_source entries arrays)
-  file(WRITE "${OUTPUT}.new" "// Made by build_page.cmake.
-#include \"plugins/inspector/page/inspector_page.h\"
-
-namespace runnel {
-${arrays}
-const std::vector<WebResource>& InspectorPage() {
-  static const std::vector<WebResource> files = {${entries}};
-  return files;
-}
-
-}  // namespace runnel
-")
+function(write_source text)
+  file(WRITE "${OUTPUT}.new" "// Made by build_page.cmake.\n${text}")
   file(COPY_FILE "${OUTPUT}.new" "${OUTPUT}" ONLY_IF_DIFFERENT)
   file(REMOVE "${OUTPUT}.new")
 endfunction()
 
 function(give_up reason)
   message("The inspector has no page: ${reason}\nAll else is built; the next build tries again.")
-  write_source("" "")
+  write_source("#include \"plugins/inspector/no_page.cpp\"\n")
 endfunction()
 
 file(MAKE_DIRECTORY "${BUILD}")
@@ -70,5 +59,15 @@ embed(page.js "/page.js" "text/javascript; charset=utf-8")
 embed(page.css "/page.css" "text/css; charset=utf-8")
 embed(icon.svg "/icon.svg" "image/svg+xml")
 embed(licences.txt "/licences.txt" "text/plain; charset=utf-8")
-write_source("${entries}" "${arrays}")
+write_source("#include \"plugins/inspector/inspector_page.h\"
+
+namespace runnel {
+${arrays}
+std::span<const WebResource> InspectorPage() {
+  static const WebResource files[] = {${entries}};
+  return files;
+}
+
+}  // namespace runnel
+")
 file(TOUCH "${STAMP}")

@@ -27,7 +27,7 @@ export const BoxView = memo(({ box }) => {
         d=${`M6,0a6,6 0 0 0 -6,6V${box.height - 6}a6,6 0 0 0 6,6z`} />
       ${box.inputs.length + box.outputs.length > 0 &&
         html`<path class="rule" d=${`M8,${kHeader - 3}H${box.width - 8}`} />`}
-      <text class="name" x="14" y="18">${Cut(element.name, (box.width - 44) / 7.4)}</text>
+      <text class="name" x="14" y="18" style=${{ '--most': `${MostSize(box)}px` }}>${Cut(element.name, (box.width - 44) / 7.4)}</text>
       <text class="type" x="14" y="32">${Cut(Detail(box), (box.width - 26) / 6)}</text>
       ${isGroup && html`<g class="fold" data-fold=${path}><rect x=${box.width - 28} y="5" width="22" height="22" rx="4" />
         <path d=${`M${box.width - 20},${11}l5,5l-5,5`} /></g>`}
@@ -74,6 +74,11 @@ export function DescribeBox({ element, hidden, open, inputs, outputs }, thread) 
   if (thread) parts.push(`thread ${thread}`);
   if (element.stopped) parts.push(`stopped: ${element.stopped}`);
   return parts.join(', ');
+}
+
+/** How large the name can be. */
+function MostSize({ element, width, height }) {
+  return Math.max(13, Math.min((width - 40) / (element.name.length * 0.6), height * 0.5));
 }
 
 function Count(number, word) {

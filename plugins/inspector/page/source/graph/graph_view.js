@@ -45,9 +45,14 @@ export function GraphView() {
 function Drawing() {
   const { x, y, scale } = view.value;
   return html`
-    <g class=${`scene ${scale < 0.5 ? 'coarse' : ''} ${scale < 0.3 ? 'coarser' : ''}`} transform=${`translate(${x},${y}) scale(${scale})`}>
+    <g class=${`scene ${scale < 0.5 ? 'coarse' : ''}`} style=${{ '--name': `${NameSize(scale)}px` }} transform=${`translate(${x},${y}) scale(${scale})`}>
       <${Contents} />
     </g>`;
+}
+
+/** From further away names are larger than the rest, so that they can be read; in steps. */
+function NameSize(scale) {
+  return [13, 16, 19, 23, 28].find((size) => size * scale >= 9) ?? 34;
 }
 
 function Contents() {

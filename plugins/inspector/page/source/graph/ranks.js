@@ -5,7 +5,7 @@
 
 import dagre from '@dagrejs/dagre';
 
-const kRankGap = 76;
+const kRankGap = 64;
 const kNodeGap = 26;
 const kPatience = 140; // boxes; dagre takes a second for some more
 

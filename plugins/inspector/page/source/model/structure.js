@@ -52,7 +52,16 @@ export class Structure {
   /** Modules and groups that are drawn inside of a group; containers of ports are no groups. */
   membersOf(group) {
     const element = this.elements.get(group);
-    return element ? element.children.filter((path) => IsNode(this.elements.get(path))) : [];
+    return element ? element.children.filter((path) => this.isNode(path)) : [];
+  }
+
+  /** Whether the graph has a box for it. The group that holds the threads has none. */
+  isNode(path) {
+    const element = this.elements.get(path);
+    if (!element || element.is_plain || !(element.kind === 'module' || IsGroup(element))) return false;
+    const holdsThreads = element.children.length > 0 &&
+      element.children.every((child) => this.elements.get(child)?.kind === 'thread');
+    return !holdsThreads;
   }
 
   /** All elements of a kind, in the order of the tree. */
@@ -124,12 +133,6 @@ export function ParentOf(path) {
 
 export function NameOf(path) {
   return path.slice(path.lastIndexOf('/') + 1);
-}
-
-/** Whether the graph has a box for it. */
-export function IsNode(element) {
-  return element !== undefined && !element.is_plain &&
-    (element.kind === 'module' || element.kind === 'group' || element.kind === 'application');
 }
 
 export function IsGroup(element) {

@@ -9,7 +9,7 @@ const kOpenBelow = 60; // applications with fewer modules show all of them at fi
 export const selected = signal(null);   // a path, the key of a connection, or nothing
 export const openGroups = signal({});   // path -> true or false, where the user has decided
 export const theme = signal(Kept('theme', 'system'));
-export const panels = signal(Kept('panels', { side: 400, dock: 230, world: 340, worldShown: true, worldLarge: false, tab: 'plots' }));
+export const panels = signal(Kept('panels', { side: 380, dock: 220, world: 330, worldShown: true, worldLarge: false, tab: 'plots' }));
 export const openDialog = signal(null); // {kind: 'create' | 'connect' | …, …}
 export const announcement = signal(''); // for screen readers
 
