@@ -95,7 +95,7 @@ Result<std::unique_ptr<WebServer>> StartWebServer(const Wish& wish,
 
 Result<std::unique_ptr<OutsideAccess>> OutsideAccess::Start(
     const RunArguments& arguments, Workplace& workplace, FrameworkElement& application,
-    Scheduler& scheduler, StructureEditor& editor, ControlLog& log) {
+    Scheduler& scheduler, StructureEditor& editor, ChangeHistory& history, ControlLog& log) {
   std::unique_ptr<OutsideAccess> access(new OutsideAccess);
   const ControlledApplication controlled{workplace.runtime(),
                                          workplace.plugins().modules(),
