@@ -102,7 +102,7 @@ Result<std::unique_ptr<OutsideAccess>> OutsideAccess::Start(
                                          editor,
                                          log,
                                          HooksOf(workplace, application, editor),
-                                         nullptr,
+                                         &history,
                                          &scheduler.pace()};
   const std::string file = std::filesystem::absolute(arguments.application.file).string();
   if (arguments.has_control) {
