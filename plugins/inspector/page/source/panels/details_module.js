@@ -5,7 +5,7 @@ import { FormatMilliseconds } from '../model/value_format.js';
 import { IsGroup, ThreadOf } from '../model/structure.js';
 import { Delete, Reload } from '../state/actions.js';
 import { IsOpen, openDialog } from '../state/choices.js';
-import { DurationOf, canChange, catalogue, structure } from '../state/store.js';
+import { DurationOf, canChange, catalogue, revision, structure } from '../state/store.js';
 import { ThreadColour } from '../graph/thread_colour.js';
 import { ToggleGroup } from '../graph/graph_state.js';
 import { ParameterRow } from './parameter_row.js';
@@ -13,6 +13,7 @@ import { ActionButton, Facts, Link, Section, Title } from './parts.js';
 import { PortRow } from './port_row.js';
 
 export function ModuleDetails({ element }) {
+  revision.value;
   const { path } = element;
   const isGroup = IsGroup(element);
   const parameters = structure.parametersOf(path);

@@ -67,11 +67,11 @@ class Drawing {
     const times = this.#plot.curves.map((curve) => curve.series.lastTime).filter((time) => time !== null);
     if (times.length === 0) return;
     const to = Math.max(...times);
-    const from = to - plotWindow.peek();
+    const from = Math.max(0, to - plotWindow.peek());
     const tables = this.#plot.curves.map((curve) => curve.series.window(from, to));
     this.#chart.batch(() => {
       this.#chart.setData(tables.length === 1 ? tables[0] : uPlot.join(tables), false);
-      this.#chart.setScale('x', { min: from, max: to });
+      this.#chart.setScale('x', { min: from, max: Math.max(to, from + plotWindow.peek()) });
     });
   }
 }
@@ -99,6 +99,6 @@ function Options(host, plot, size) {
 /** A curve that stands still is drawn in the middle, not as noise. */
 function Range(_, least, greatest) {
   if (least === null) return [0, 1];
-  const space = Math.max((greatest - least) * 0.08, Math.abs(greatest) * 1e-3, 1e-6);
+  const space = greatest > least ? (greatest - least) * 0.08 : Math.abs(greatest) * 0.1 || 1;
   return [least - space, greatest + space];
 }
