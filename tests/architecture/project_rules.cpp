@@ -20,6 +20,13 @@ void AddCore(std::vector<IncludeRule>& rules) {
 void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/parameters", "plugins/parameters", {"core"}});
   rules.push_back({"plugins/json_values", "plugins/json_values", {"core/base", "core/types"}});
+  rules.push_back({"plugins/foxglove_schemas",
+                   "plugins/foxglove_schemas",
+                   {"core", "plugins/json_values"}});
+  rules.push_back({"plugins/foxglove",
+                   "plugins/foxglove",
+                   {"core", "plugins/control", "plugins/foxglove_schemas", "plugins/json_values",
+                    "plugins/structure", "plugins/watching", "plugins/web_server"}});
   rules.push_back({"plugins/runtime_construction",
                    "plugins/runtime_construction",
                    {"core", "plugins/parameters"}});
