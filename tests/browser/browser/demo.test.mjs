@@ -10,7 +10,7 @@ const kPlanner = '/bug_demo/robot/planner';
 test('the graph is seen, a value changes, a parameter is set, the planner is swapped, the robot arrives', async (t) => {
   const { file } = await DemoFile(t, (text) => Replaced(text, 'speed="10"', 'speed="2"'));
   const application = await RunApplication(t, file);
-  const inspector = await OpenPage(t, application.url, { width: 1600, height: 1000 });
+  const inspector = await OpenPage(t, application.url, { width: 1600, height: 1000, lost: true });
   const { page } = inspector;
 
   for (const name of ['world', 'laser', 'robot', 'robot/planner', 'referee']) {

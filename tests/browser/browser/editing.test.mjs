@@ -10,10 +10,10 @@ import { DemoFile, Replaced, RunApplication } from '../support/runnel.mjs';
 const kSlow = (text) => Replaced(Replaced(text, 'speed="10"', 'speed="0.2"'),
   '<thread name="control" period="50ms"/>', '<thread name="control" period="50ms"/> <thread name="slow" period="100ms"/>');
 
-async function Demo(t) {
+async function Demo(t, options) {
   const { file, folder } = await DemoFile(t, kSlow);
   const application = await RunApplication(t, file);
-  const inspector = await OpenPage(t, application.url, { width: 1920, height: 1080 });
+  const inspector = await OpenPage(t, application.url, { width: 1920, height: 1080, ...options });
   return { file, folder, application, inspector, page: inspector.page };
 }
 
@@ -26,7 +26,7 @@ async function Create(inspector, type, name) {
 }
 
 test('a module is made, connected by dragging, undone, made again, saved, and is there after a restart', async (t) => {
-  const { folder, application, inspector, page } = await Demo(t);
+  const { folder, application, inspector, page } = await Demo(t, { lost: true });
   await Create(inspector, 'simulation/localisation', 'second');
   await inspector.node('/bug_demo/second').waitFor();
   const [from, to] = ['/bug_demo/world/sensor_output/pose', '/bug_demo/second/input/truth'];
@@ -118,6 +118,6 @@ test('what the application refuses comes up with its reason, and changes nothing
   await page.locator('#save-now').click();
   await page.locator('dialog .problem', { hasText: '/nowhere' }).waitFor();
   await page.keyboard.press('Escape');
-  assert.equal(await page.locator('dialog').count(), 0);
+  await page.locator('dialog').waitFor({ state: 'detached' });
   assert.equal((await inspector.edges()).length, 24);
 });

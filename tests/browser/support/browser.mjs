@@ -57,7 +57,7 @@ export class InspectorPage {
 
   /** The same with what is said of it: bounds, problems. */
   parameterRow(name) {
-    return this.details.locator('.parameter', { has: this.parameter(name) });
+    return this.details.locator('.parameter', { has: this.page.getByLabel(name, { exact: true }) });
   }
 
   /** Presses the mouse on the name of a box. */
