@@ -8,7 +8,7 @@ import { DemoFile, Replaced, RunApplication } from '../support/runnel.mjs';
 const kPlanner = '/bug_demo/robot/planner';
 
 test('the graph is seen, a value changes, a parameter is set, the planner is swapped, the robot arrives', async (t) => {
-  const { file } = await DemoFile(t, (text) => Replaced(text, 'speed="10"', 'speed="2"'));
+  const { file } = await DemoFile(t, (text) => Replaced(text, 'speed="10"', 'speed="3"'));
   const application = await RunApplication(t, file);
   const inspector = await OpenPage(t, application.url, { width: 1600, height: 1000, lost: true });
   const { page } = inspector;
@@ -64,10 +64,12 @@ test('the graph is seen, a value changes, a parameter is set, the planner is swa
 
   await t.test('the robot arrives', async () => {
     await inspector.click(kPlanner);
-    await inspector.until('20 s of the way', () => {
+    const plotted = await inspector.time();
+    await inspector.until('20 s of plots', (time) => {
       const [seconds, minutes = 0] = document.querySelector('#time').textContent.split(':').map(parseFloat).reverse();
-      return minutes * 60 + seconds > 20;
-    });
+      return minutes * 60 + seconds > time;
+    }, plotted + 20);
+    await page.locator('.toast').waitFor({ state: 'detached' });
     await inspector.picture('demo_light');
     await page.emulateMedia({ colorScheme: 'dark' });
     await inspector.until('dark', () => getComputedStyle(document.body).backgroundColor === 'rgb(16, 20, 26)');
@@ -75,6 +77,6 @@ test('the graph is seen, a value changes, a parameter is set, the planner is swa
     await page.locator('#speed').selectOption('0');
     assert.equal(await application.ended, 0, application.output());
     assert.match(application.output(), /reached: path/);
-    await page.locator('#connection-state', { hasText: 'disconnected' }).waitFor();
+    await page.locator('#lost', { hasText: 'reached' }).waitFor();
   }, { timeout: 60000 });
 });

@@ -40,7 +40,7 @@ export function ModuleDetails({ element }) {
       ['thread', thread && html`<span class="thread-name"><i style=${{ background: ThreadColour(thread) }}></i>${thread}${
         element.thread ? '' : html` <small>of its group</small>`}</span>`],
       ['plugin', plugin],
-      ['update takes', !isGroup && html`<${UpdateTime} path=${path} />`],
+      ['update takes', DurationOf(path).value === null ? '' : FormatMilliseconds(DurationOf(path).value / 1000)],
     ]} />
     ${parameters.length > 0 && html`<${Section} title="Parameters" count=${parameters.length} id="parameters">
       ${parameters.map((parameter) => html`<${ParameterRow} key=${parameter.path} parameter=${parameter} />`)}<//>`}
@@ -52,9 +52,4 @@ export function ModuleDetails({ element }) {
     ${members.length > 0 && html`<${Section} title="Contains" count=${members.length}>
       <ul class="members">${members.slice(0, 200).map((member) => html`<li key=${member}><${Link} path=${member} />
         <small>${structure.get(member).type ?? 'group'}</small></li>`)}</ul><//>`}`;
-}
-
-function UpdateTime({ path }) {
-  const microseconds = DurationOf(path).value;
-  return microseconds === null ? '–' : FormatMilliseconds(microseconds / 1000);
 }

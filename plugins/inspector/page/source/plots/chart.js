@@ -4,7 +4,7 @@ import uPlot from 'uplot';
 import { effect } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import { html } from 'htm/preact';
-import { theme } from '../state/choices.js';
+import { isDark } from '../state/choices.js';
 import { FormatNumber } from '../model/value_format.js';
 import { isPaused, plotWindow, pulse } from './plot_list.js';
 
@@ -20,7 +20,7 @@ export function Chart({ plot }) {
       plotWindow.value;
       if (!isPaused.value) drawing.askForFrame();
     });
-    const stopTheme = effect(() => { theme.value; drawing.recolour(); });
+    const stopTheme = effect(() => { isDark.value; drawing.recolour(); });
     const observer = new ResizeObserver(() => drawing.resize());
     observer.observe(host.current);
     return () => { stop(); stopTheme(); observer.disconnect(); drawing.end(); };
