@@ -9,7 +9,7 @@ const kPlanner = '/bug_demo/robot/planner';
 
 test('the graph is seen, a value changes, a parameter is set, the planner is swapped, the robot arrives', async (t) => {
   const { file } = await DemoFile(t, (text) => Replaced(text, 'speed="10"', 'speed="3"'));
-  const application = await RunApplication(t, file);
+  const application = await RunApplication(t, file, { options: ['--hold'] });
   const inspector = await OpenPage(t, application.url, { width: 1600, height: 1000, lost: true });
   const { page } = inspector;
 
@@ -75,7 +75,8 @@ test('the graph is seen, a value changes, a parameter is set, the planner is swa
     await inspector.until('dark', () => getComputedStyle(document.body).backgroundColor === 'rgb(16, 20, 26)');
     await inspector.picture('demo_dark');
     await page.locator('#speed').selectOption('0');
-    assert.equal(await application.ended, 0, application.output());
+    await page.locator('#connection-state', { hasText: 'reached' }).waitFor();
+    assert.equal(await application.stop(), 0, application.output());
     assert.match(application.output(), /reached: path/);
     await page.locator('#lost', { hasText: 'reached' }).waitFor();
   }, { timeout: 60000 });
