@@ -10,7 +10,13 @@ endfunction()
 
 function(give_up reason)
   message("The inspector has no page: ${reason}\nAll else is built; the next build tries again.")
-  write_source("#include \"plugins/inspector/no_page.cpp\"\n")
+  write_source("#include \"plugins/inspector/page/inspector_page.h\"
+
+const std::vector<runnel::WebResource>& runnel::InspectorPage() {
+  static const std::vector<WebResource> none;
+  return none;
+}
+")
 endfunction()
 
 file(MAKE_DIRECTORY "${BUILD}")
@@ -59,12 +65,12 @@ embed(page.js "/page.js" "text/javascript; charset=utf-8")
 embed(page.css "/page.css" "text/css; charset=utf-8")
 embed(icon.svg "/icon.svg" "image/svg+xml")
 embed(licences.txt "/licences.txt" "text/plain; charset=utf-8")
-write_source("#include \"plugins/inspector/inspector_page.h\"
+write_source("#include \"plugins/inspector/page/inspector_page.h\"
 
 namespace runnel {
 ${arrays}
-std::span<const WebResource> InspectorPage() {
-  static const WebResource files[] = {${entries}};
+const std::vector<WebResource>& InspectorPage() {
+  static const std::vector<WebResource> files = {${entries}};
   return files;
 }
 

@@ -14,6 +14,8 @@ export function ChoiceList({ label, placeholder, find, onChoose, onCurrent, empt
   const text = useSignal('');
   const at = useSignal(0);
   const list = useRef(null);
+  const field = useRef(null);
+  useEffect(() => field.current.focus(), []);
   const all = find(text.value);
   const entries = all.slice(0, kShown);
   const current = entries[Math.min(at.value, entries.length - 1)];
@@ -28,8 +30,8 @@ export function ChoiceList({ label, placeholder, find, onChoose, onCurrent, empt
     event.preventDefault();
   };
   return html`
-    <input type="search" class="choice-search" role="combobox" aria-label=${label} placeholder=${placeholder} value=${text.value}
-      autocomplete="off" spellcheck="false" aria-controls="choices" aria-expanded="true" autofocus
+    <input ref=${field} type="search" class="choice-search" role="combobox" aria-label=${label} placeholder=${placeholder} value=${text.value}
+      autocomplete="off" spellcheck="false" aria-controls="choices" aria-expanded="true"
       aria-activedescendant=${current ? `choice-${entries.indexOf(current)}` : undefined}
       onInput=${(event) => { text.value = event.target.value; at.value = 0; }} onKeyDown=${onKey} />
     <ul ref=${list} id="choices" class="choices" role="listbox" aria-label=${label}>

@@ -7,10 +7,12 @@ import { ClosingEdges, ConnectionsByLevel, IsDistant, kInside, kOutside } from '
 import { LevelLayout } from './level_layout.js';
 import { BoxSize, PortHeight } from './measure.js';
 
+const kPatience = 150; // boxes at once; dagre takes half a second for as many
 const kRateWidth = 40; // of the rate beside the ports of the last box
 
 export class GraphLayout {
   #kept = new Map(); // group -> {signature, layout}
+  #placed = 0;       // boxes that dagre has placed in this computation
 
   /**
    * {boxes: Map path -> box, edges: [edge], width, height}.
@@ -22,6 +24,7 @@ export class GraphLayout {
   compute(structure, isOpen) {
     const result = { boxes: new Map(), edges: [], ports: new Map(), width: 0, height: 0 };
     if (structure.root === null) return result;
+    this.#placed = 0;
     const levels = ConnectionsByLevel(structure);
     const level = this.#level(structure, levels, structure.root, isOpen);
     result.width = level.width + kRateWidth;
@@ -44,7 +47,9 @@ export class GraphLayout {
     }
     const members = [kInside, ...boxes.map((box) => box.path), kOutside];
     const closing = ClosingEdges(members, connections);
-    const layout = LevelLayout(structure, { group, boxes, connections, closing, ports });
+    const isQuick = this.#placed + boxes.length > kPatience;
+    if (!isQuick) this.#placed += boxes.length;
+    const layout = LevelLayout(structure, { group, boxes, connections, closing, ports, isQuick });
     layout.signature = signature;
     this.#kept.set(group, { signature, layout });
     return layout;

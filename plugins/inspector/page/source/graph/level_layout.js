@@ -11,7 +11,7 @@ const kLane = 9;      // between two lanes
 const kGridGap = 22;
 
 /** {boxes with x and y, edges, border: Map port -> {x, y, side}, width, height}. */
-export function LevelLayout(structure, { boxes, connections, closing, ports, group }) {
+export function LevelLayout(structure, { boxes, connections, closing, ports, group, isQuick }) {
   const isRoot = group === structure.root;
   const inputs = ports.filter((port) => port.direction === 'input');
   const outputs = ports.filter((port) => port.direction === 'output');
@@ -26,7 +26,7 @@ export function LevelLayout(structure, { boxes, connections, closing, ports, gro
   const ranked = flowing.map((box) => ({ id: box.path, width: box.width, height: box.height }));
   if (inputs.length > 0) ranked.push(Border(kInside, inputs));
   if (outputs.length > 0) ranked.push(Border(kOutside, outputs));
-  const ranks = PlaceInRanks(ranked, WithBorders(ranked, flow));
+  const ranks = PlaceInRanks(ranked, WithBorders(ranked, flow), isQuick);
 
   const placed = new Map();
   for (const box of flowing) {

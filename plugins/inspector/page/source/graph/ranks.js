@@ -1,5 +1,5 @@
-// Places the boxes of one level, from left to right along the data flow: small levels by dagre,
-// large ones by the same idea without its patience. Boxes are {id, width, height}, edges {source,
+// Places the boxes of one level, from left to right along the data flow: by dagre, or by the
+// same idea without its patience. Boxes are {id, width, height}, edges {source,
 // target} without circles. Both return {places: Map id -> {x, y} of the left upper corner, bends:
 // Map "source target" -> points that a long edge passes, width, height}.
 
@@ -7,10 +7,9 @@ import dagre from '@dagrejs/dagre';
 
 const kRankGap = 64;
 const kNodeGap = 26;
-const kPatience = 140; // boxes; dagre takes a second for some more
 
-export function PlaceInRanks(boxes, edges) {
-  return boxes.length > kPatience ? PlaceQuickly(boxes, edges) : PlaceWithDagre(boxes, edges);
+export function PlaceInRanks(boxes, edges, isQuick) {
+  return isQuick ? PlaceQuickly(boxes, edges) : PlaceWithDagre(boxes, edges);
 }
 
 function PlaceWithDagre(boxes, edges) {
