@@ -114,14 +114,14 @@ FoxgloveApplication FoxgloveOf(const ControlledApplication& controlled, const st
 
 Result<std::unique_ptr<OutsideAccess>> OutsideAccess::Start(
     const RunArguments& arguments, Workplace& workplace, FrameworkElement& application,
-    Scheduler& scheduler, StructureEditor& editor, ControlLog& log) {
+    Scheduler& scheduler, StructureEditor& editor, ChangeHistory& history, ControlLog& log) {
   std::unique_ptr<OutsideAccess> access(new OutsideAccess);
   const ControlledApplication controlled{workplace.runtime(),
                                          workplace.plugins().modules(),
                                          editor,
                                          log,
                                          HooksOf(workplace, application, editor),
-                                         nullptr,
+                                         &history,
                                          &scheduler.pace()};
   const std::string file = std::filesystem::absolute(arguments.application.file).string();
   if (arguments.has_control) {

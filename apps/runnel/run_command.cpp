@@ -20,6 +20,7 @@
 #include "apps/runnel/workplace.h"
 #include "plugins/runtime_construction/source_place.h"
 #include "plugins/scheduling_tags/xml_scheduling_tags.h"
+#include "plugins/structure/change_history.h"
 #include "plugins/structure/structure_editor.h"
 #include "plugins/supervision/xml_supervision_tags.h"
 
@@ -72,6 +73,8 @@ struct Supervision {
         }) {}
 
   StructureEditor editor;
+  ChangeHistory history{
+      editor};  // what people have changed; the supervisor's changes are not theirs
   Supervisor supervisor;
 };
 
@@ -231,7 +234,7 @@ ExitCode Run(const RunArguments& arguments) {
   if (outcome.application == nullptr) return ExitCode::kBadInput;
   ControlLog log(workplace.runtime().clock());
   auto access = OutsideAccess::Start(arguments, workplace, *outcome.application, *scheduler,
-                                     supervision->editor, log);
+                                     supervision->editor, supervision->history, log);
   if (!access) {
     PrintError(access.error());
     return ExitCode::kBadInput;

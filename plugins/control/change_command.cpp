@@ -6,6 +6,7 @@
 
 #include "plugins/control/command.h"
 #include "plugins/control/element_search.h"
+#include "plugins/structure/change_history.h"
 #include "plugins/structure/change_text.h"
 
 namespace runnel {
@@ -96,7 +97,10 @@ void Apply(ChangeState& state, const ControlledApplication& application) {
   try {
     LoadMissingPlugins(state.placed.changes, application);
     state.swaps = SwapsIn(state.placed.changes, application.runtime);
-    state.outcome = application.editor.Apply(state.placed.changes, state.placed.positions);
+    const PlacedChanges& placed = state.placed;
+    state.outcome = application.history != nullptr
+                        ? application.history->Apply(placed.changes, placed.positions)
+                        : application.editor.Apply(placed.changes, placed.positions);
   } catch (const std::exception& exception) {
     state.outcome.is_done = false;
     state.outcome.diagnostics.Add({.message = exception.what()});
