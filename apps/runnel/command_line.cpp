@@ -9,7 +9,9 @@
 #include "apps/runnel/other_programs.h"
 #include "core/base/nearest_name.h"
 #include "core/xml/xml_reading.h"
+#include "plugins/inspector/inspector_place.h"
 #include "plugins/scheduling/pacing.h"
+#include "plugins/web_server/access_rules.h"
 
 namespace runnel::program {
 
@@ -81,6 +83,38 @@ void AddApplicationArguments(CLI::App& command, ApplicationArguments& arguments)
       ->allow_extra_args(false);
 }
 
+std::string CheckPlace(const std::string& text) {
+  if (text == InspectArguments::kUsualPlace) return "";
+  const auto place = ParseInspectorPlace(text);
+  return place ? "" : place.error().ToString();
+}
+std::string CheckInspectToken(const std::string& text) {
+  const auto good = CheckToken(text);
+  return good ? "" : good.error().ToString();
+}
+
+void AddInspect(CLI::App& run, InspectArguments& arguments) {
+  // A flag that may have a value, so that the word after it is not taken for one.
+  run.add_flag("--inspect{" + std::string(InspectArguments::kUsualPlace) + "}", arguments.place,
+               "shows the application in a browser: --inspect, --inspect=PORT or "
+               "--inspect=ADDRESS:PORT")
+      ->check(CheckPlace);
+  run.add_option("--inspect-token", arguments.token,
+                 "what viewers must show; made at random if others than this machine can reach the "
+                 "address")
+      ->type_name("TOKEN")
+      ->check(CheckInspectToken);
+  run.add_flag("--inspect-read-only", arguments.is_read_only, "viewers change nothing");
+  run.add_option("--inspect-origin", arguments.origins,
+                 "pages of other places that may connect, may be given several times")
+      ->type_name("URL")
+      ->allow_extra_args(false);
+  const auto none = run.add_flag("--no-inspect", arguments.is_refused,
+                                 "no inspector, whatever the application file says");
+  run.add_flag("--hold", arguments.hold, "when the run has ended, viewers can go on until Ctrl-C")
+      ->excludes(none);
+}
+
 CLI::App& AddRun(CLI::App& program, RunArguments& arguments) {
   CLI::App& run = *program.add_subcommand("run", "runs an application until it ends, or Ctrl-C");
   AddApplicationArguments(run, arguments.application);
@@ -101,6 +135,7 @@ CLI::App& AddRun(CLI::App& program, RunArguments& arguments) {
   run.add_flag_callback(
       "--no-control", [&arguments] { arguments.has_control = false; },
       "no other process can look at it or change it");
+  AddInspect(run, arguments.inspect);
   return run;
 }
 

@@ -18,6 +18,24 @@ struct ApplicationArguments {
   std::vector<std::string> settings = {};  ///< name=value
 };
 
+/// Whether browsers see it, and where.
+struct InspectArguments {
+  /// Stands for what the application file says, or else port 8765 of this machine; if another program
+  /// has it, any that is free.
+  static constexpr const char* kUsualPlace = "usual";
+
+  std::string place = {};  ///< "": only if the file says so; "usual"; "[ADDRESS:]PORT"
+  std::string token = {};
+  std::vector<std::string> origins = {};  ///< of pages of other places that may connect
+  bool is_read_only = false;
+  bool is_refused = false;  ///< whatever the file says
+  bool hold = false;        ///< goes on after the run, until Ctrl-C
+
+  [[nodiscard]] bool is_wanted() const noexcept {
+    return !place.empty() || !token.empty() || !origins.empty() || is_read_only || hold;
+  }
+};
+
 struct RunArguments {
   ApplicationArguments application;
   std::optional<double> speed = {};     ///< instead of the file's; 0: as fast as it can
@@ -26,6 +44,7 @@ struct RunArguments {
   bool quiet = false;
   bool statistics = false;
   bool has_control = true;  ///< other processes of the user can reach it
+  InspectArguments inspect = {};
 };
 
 struct CheckArguments {

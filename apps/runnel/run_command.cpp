@@ -2,14 +2,15 @@
 
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #include "apps/runnel/number_text.h"
+#include "apps/runnel/outside_access.h"
 #include "apps/runnel/print_error.h"
 #include "apps/runnel/progress_display.h"
 #include "apps/runnel/run_report.h"
@@ -17,13 +18,9 @@
 #include "apps/runnel/statistics_table.h"
 #include "apps/runnel/stop_signal.h"
 #include "apps/runnel/workplace.h"
-#include "plugins/application_files/application_saver.h"
-#include "plugins/control/control_server.h"
-#include "plugins/runtime_construction/plugin_loading.h"
 #include "plugins/runtime_construction/source_place.h"
 #include "plugins/scheduling_tags/xml_scheduling_tags.h"
 #include "plugins/structure/change_history.h"
-#include "plugins/structure/reload.h"
 #include "plugins/structure/structure_editor.h"
 #include "plugins/supervision/xml_supervision_tags.h"
 
@@ -32,6 +29,8 @@ namespace runnel::program {
 namespace {
 
 using ClockKind = SchedulerOptions::ClockKind;
+
+constexpr auto kLookForSignal = std::chrono::milliseconds(50);
 
 Result<SchedulerOptions> ChooseOptions(const RunArguments& arguments,
                                        const FrameworkElement& application) {
@@ -93,47 +92,6 @@ void PrintWarnings(std::vector<Error> warnings, FrameworkElement& root, ControlL
   }
 }
 
-// So that other processes can reach the application. That they cannot is no reason not to run it.
-std::unique_ptr<ControlServer> StartControl(const RunArguments& arguments, Workplace& workplace,
-                                            FrameworkElement& application, Supervision& supervision,
-                                            ControlLog& log, Pace& pace) {
-  if (!arguments.has_control) return nullptr;
-  StructureEditor& editor = supervision.editor;
-  ControlHooks hooks;
-  hooks.load_plugin = [&workplace](const std::string& plugin) {
-    return LoadPlugin(plugin, workplace.plugins(), workplace.tags());
-  };
-  hooks.save = [&workplace,
-                path = application.path()](const std::string& file) -> Result<std::string> {
-    const std::lock_guard lock(workplace.runtime().structure_mutex());
-    const auto found = workplace.runtime().root().Find(path);  // it may have been deleted
-    if (!found) return found.error();
-    const SaveTools tools{workplace.plugins(), workplace.tags()};
-    const auto saved =
-        file.empty() ? SaveApplication(**found, tools) : SaveApplication(**found, tools, file);
-    if (!saved) return saved.error();
-    return "saved " + path + (file.empty() ? "" : " to " + file);
-  };
-  hooks.reload = [&workplace, &editor](const std::string& plugin) -> Result<std::string> {
-    workplace.tags().set_plugin(plugin);
-    const auto outcome = ReloadPlugin(workplace.plugins(), editor, workplace.runtime(), plugin);
-    if (!outcome) return outcome.diagnostics.errors().front();
-    return "loaded " + plugin + " anew";
-  };
-  auto server = ControlServer::Start(
-      {workplace.runtime(), workplace.plugins().modules(), editor, log, std::move(hooks),
-       &supervision.history, &pace},
-      {.application = application.name(),
-       .file = std::filesystem::absolute(arguments.application.file).string()});
-  if (server) return std::move(*server);
-  Error warning = server.error();
-  warning.message = "other processes cannot reach this application: " + warning.message;
-  Diagnostics diagnostics;
-  diagnostics.AddWarning(warning);
-  std::cerr << diagnostics.ToString();
-  return nullptr;
-}
-
 void PrintTimes(Duration so_far, std::chrono::steady_clock::duration real, ClockKind clock) {
   char line[64];
   const double seconds = ToSeconds(so_far);
@@ -151,11 +109,12 @@ void PrintTimes(Duration so_far, std::chrono::steady_clock::duration real, Clock
 class Session {
  public:
   Session(const RunArguments& arguments, FrameworkElement& application, Scheduler& scheduler,
-          Supervisor& supervisor, ControlLog& log)
+          Supervisor& supervisor, ControlLog& log, OutsideAccess& access)
       : arguments_(arguments),
         scheduler_(scheduler),
         supervisor_(supervisor),
         log_(log),
+        access_(access),
         root_(application.runtime().root()),
         start_(application.runtime().clock().Now()),
         report_(application.runtime()),
@@ -178,10 +137,19 @@ class Session {
       PrintError(error);
       return ExitCode::kBadInput;
     }
-    return Conclude(*ran, real, stop_signal.has_come());
+    const bool was_asked = stop_signal.has_come();
+    const ExitCode code = Conclude(*ran, real, was_asked);
+    if (arguments_.inspect.hold && !was_asked) Hold(stop_signal);
+    return code;
   }
 
  private:
+  // What has come of the run can still be looked at.
+  static void Hold(const StopSignal& stop_signal) {
+    std::cout << "held for viewers; Ctrl-C ends it\n" << std::flush;
+    while (!stop_signal.has_come()) std::this_thread::sleep_for(kLookForSignal);
+  }
+
   bool LookAround(Duration so_far) {
     WarnOnce();
     PrintFaults();
@@ -203,6 +171,7 @@ class Session {
       const std::string text = FaultText(fault, start_, root_);
       std::cerr << text << std::flush;
       log_.Add(ControlLog::Kind::kFault, text);
+      access_.Hear(fault);
     }
     for (const Notice& notice : supervisor_.TakeNotices()) {
       display_.Clear();
@@ -212,20 +181,22 @@ class Session {
     }
   }
 
+  std::string WhyItEnded(bool was_stopped, bool was_asked) {
+    if (was_stopped) return "the run was stopped because of a fault\n";
+    if (was_asked) return "stopped by the user\n";
+    return report_.IsOver() ? "" : "the time is up\n";
+  }
+
   ExitCode Conclude(Duration so_far, std::chrono::steady_clock::duration real, bool was_asked) {
     const bool was_stopped = scheduler_.stopped_by_fault();
     const std::string verdicts = report_.Verdicts();
     Diagnostics failures;
     std::cout << verdicts << report_.Finish(failures);
     std::cout << std::flush;
+    const std::string why = WhyItEnded(was_stopped, was_asked);
+    access_.NoteEnd(verdicts + why);
     std::cerr << failures.ToString();
-    if (was_stopped) {
-      std::cerr << "the run was stopped because of a fault\n";
-    } else if (was_asked) {
-      std::cout << "stopped by the user\n";
-    } else if (!report_.IsOver()) {
-      std::cout << "the time is up\n";
-    }
+    (was_stopped ? std::cerr : std::cout) << why;
     if (!arguments_.quiet) PrintTimes(so_far, real, scheduler_.options().clock);
     if (arguments_.statistics) std::cout << StatisticsTable(root_);
     return was_stopped || !report_.IsGood() || !failures.ok() ? ExitCode::kRunFailed
@@ -236,6 +207,7 @@ class Session {
   Scheduler& scheduler_;
   Supervisor& supervisor_;
   ControlLog& log_;
+  OutsideAccess& access_;
   FrameworkElement& root_;
   const Time start_;
   RunReport report_;
@@ -261,9 +233,14 @@ ExitCode Run(const RunArguments& arguments) {
   const BuildOutcome outcome = workplace.Build(arguments.application, BuildMode::kRun, schedule);
   if (outcome.application == nullptr) return ExitCode::kBadInput;
   ControlLog log(workplace.runtime().clock());
-  const auto control = StartControl(arguments, workplace, *outcome.application, *supervision, log,
-                                    scheduler->pace());
-  return Session(arguments, *outcome.application, *scheduler, supervision->supervisor, log)
+  auto access = OutsideAccess::Start(arguments, workplace, *outcome.application, *scheduler,
+                                     supervision->editor, supervision->history, log);
+  if (!access) {
+    PrintError(access.error());
+    return ExitCode::kBadInput;
+  }
+  return Session(arguments, *outcome.application, *scheduler, supervision->supervisor, log,
+                 **access)
       .Run(workplace.runtime());
 }
 

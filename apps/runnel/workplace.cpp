@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "plugins/finroc_files/finroc_application.h"
+#include "plugins/inspector/xml_inspector_tag.h"
 #include "plugins/scheduling_tags/xml_scheduling_tags.h"
 #include "plugins/supervision/xml_supervision_tags.h"
 
@@ -27,6 +28,7 @@ BuildOutcome BuildFile(const std::string& file, const BuildTools& tools, BuildMo
 Workplace::Workplace() {
   AddSchedulingTags(tags_);
   AddSupervisionTags(tags_);
+  AddInspectorTag(tags_);
   plugins_.registry().Offer(tags_);
 }
 

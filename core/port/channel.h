@@ -16,6 +16,7 @@
 #include "core/port/loan.h"
 #include "core/port/pull_point.h"
 #include "core/port/subscribers.h"
+#include "core/port/tap_queue.h"
 
 namespace runnel {
 
@@ -41,6 +42,8 @@ class ChannelBase {
   /// Sees to it that `leases` values can wait in queues besides those that the pool's options plan
   /// for. Allocates.
   virtual void ReserveFor(std::size_t leases) = 0;
+  /// Pushes the newest value, if there is one. Call inside an EpochGuard.
+  virtual void DeliverNewest(TapQueue& tap) = 0;
 
  protected:
   enum class Way { kUsual, kSpecial };
@@ -217,6 +220,15 @@ class Channel final : public ChannelBase {
       if (storage_.pool_for_pulls) storage_.pool_for_pulls->Reserve(buffers);
     }
   }
+  void DeliverNewest(TapQueue& tap) override {
+    if constexpr (kIsCheap<T>) {
+      const internal::HeldValue<T> held = Read();
+      if (held.has_value()) PushTo(tap, held.value(), held.publication(), nullptr);
+    } else if (const auto lease = storage_.newest.Lease(ThisThread().hazards); lease.get()) {
+      Buffer<T>& buffer = *lease.get();
+      PushTo(tap, buffer.value(), buffer.publication, &buffer);
+    }
+  }
   /// How many buffers there are for Loan().
   [[nodiscard]] std::size_t buffers() const noexcept requires(!kIsCheap<T>) {
     return storage_.pool->capacity();
@@ -317,9 +329,18 @@ class Channel final : public ChannelBase {
         }
         if (!taken) status = PublishStatus::kRefused;
       }
+      for (TapQueue* tap : list->taps) PushTo(*tap, value, publication, buffer);
       for (Waker* waker : list->wakers) waker->Wake();
       return status;
     });
+  }
+
+  void PushTo(TapQueue& tap, const T& value, const Publication& of, Buffer<T>* buffer) noexcept {
+    if constexpr (kLiesInQueuesAsCopy<T>) {
+      tap.PushCopy(value, of, number());
+    } else {
+      tap.PushLease(*buffer, number());
+    }
   }
 
   const std::unique_ptr<PullPoint<T>> pull_point_;  // nullptr if the output is not pullable

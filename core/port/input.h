@@ -10,6 +10,7 @@
 #include "core/port/input_base.h"
 #include "core/port/input_binding.h"
 #include "core/port/lease.h"
+#include "core/port/output.h"
 #include "core/port/port.h"
 #include "core/port/port_owner.h"
 #include "core/types/type_of.h"
@@ -120,6 +121,10 @@ class Input final : public InputBase {
     const Lease<T> lease = Peek();
     if (lease) look(&*lease, lease.stamp());
     return lease.has_value();
+  }
+  [[nodiscard]] std::unique_ptr<Port> MakeOutput(FrameworkElement& group, std::string name,
+                                                 OutputOptions options) const override {
+    return internal::MakeOutput<T>(group, std::move(name), std::move(options));
   }
 
  private:

@@ -114,7 +114,11 @@ void InputBase::UpdateChannel(Port& output) {
     // A sink is an input that is no interface port, and all of those derive from InputBase.
     auto& input = static_cast<InputBase&>(*port);
     if (input.sink_ != nullptr) {
-      subscribers.queues.push_back(input.sink_);
+      if (TapQueue* const tap = input.sink_->tap()) {
+        subscribers.taps.push_back(tap);
+      } else {
+        subscribers.queues.push_back(input.sink_);
+      }
       waiting += input.sink_->room();
     }
     if (input.waker_ != nullptr) subscribers.wakers.push_back(input.waker_);

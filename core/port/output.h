@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -13,6 +14,12 @@
 #include "core/types/type_of.h"
 
 namespace runnel {
+
+namespace internal {
+/// Port::MakeOutput() of inputs and outputs.
+template <typename T>
+std::unique_ptr<Port> MakeOutput(FrameworkElement& group, std::string name, OutputOptions options);
+}  // namespace internal
 
 /// Where a module publishes values of type T.
 ///
@@ -124,6 +131,20 @@ class Output final : public Port {
     look(&held.value(), Time(Duration(held.publication().stamp)));
     return true;
   }
+  Result<PublishStatus> PublishFilled(const Fill& fill) override {
+    if constexpr (Channel<T>::kCanPull) {
+      auto loan = Loan();
+      if (!loan) return CannotPublish("its pool has no free buffer");
+      if (auto filled = fill(&*loan); !filled) return filled.error();
+      return Publish(std::move(loan));
+    } else {
+      return CannotPublish("only its module can make values of its type");
+    }
+  }
+  [[nodiscard]] std::unique_ptr<Port> MakeOutput(FrameworkElement& group, std::string name,
+                                                 OutputOptions options) const override {
+    return internal::MakeOutput<T>(group, std::move(name), std::move(options));
+  }
 
  private:
   // acquire: pairs with the release in TakeOverFlow(), for viewers; publishers are at rest then.
@@ -154,5 +175,15 @@ class Output final : public Port {
 
   std::atomic<Channel<T>*> channel_;  // owned
 };
+
+template <typename T>
+std::unique_ptr<Port> internal::MakeOutput(FrameworkElement& group, std::string name,
+                                           OutputOptions options) {
+  if constexpr (std::is_default_constructible_v<T>) {
+    return std::make_unique<Output<T>>(group, std::move(name), std::move(options));
+  } else {
+    return nullptr;
+  }
+}
 
 }  // namespace runnel

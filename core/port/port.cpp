@@ -240,6 +240,18 @@ std::vector<Port*> Port::Sinks() const {
   return sinks;
 }
 
+Result<PublishStatus> Port::PublishFilled(const Fill&) {
+  return CannotPublish(is_proxy() ? "is an interface port" : "is an input");
+}
+
+Error Port::CannotPublish(const char* why) const {
+  return Refusal(*this, std::string("cannot publish: ") + why);
+}
+
+std::unique_ptr<Port> Port::MakeOutput(FrameworkElement&, std::string, OutputOptions) const {
+  return nullptr;
+}
+
 void Port::Rebind(const std::vector<Source>&) {}
 
 Time Port::TimeOutsideOfCycles() const noexcept { return runtime().clock().Now(); }

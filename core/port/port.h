@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -76,6 +77,18 @@ class Port : public FrameworkElement {
   /// How many values have passed this port's source. Any thread.
   [[nodiscard]] virtual std::uint64_t publications() const noexcept { return 0; }
 
+  /// Outputs: lends a buffer, has `fill` write the value, and publishes that. `value` is of this
+  /// port's type, T{} or what an earlier use has left there. For who knows the type by its TypeInfo
+  /// only. Threads: as Output::Publish(). Errors: those of `fill`, a fixed pool without a free buffer,
+  /// a type that only its module can make, a port that is no output; nothing is published then.
+  using Fill = std::function<Result<void>(void* value)>;
+  virtual Result<PublishStatus> PublishFilled(const Fill& fill);
+  /// Another output for values of the type of this one, which the caller owns; nullptr if only a module
+  /// can make such values (no default constructor), and for ports that know no C++ type: interface ports
+  /// and taps. Throws what the constructor of an element throws.
+  [[nodiscard]] virtual std::unique_ptr<Port> MakeOutput(FrameworkElement& group, std::string name,
+                                                         OutputOptions options) const;
+
  protected:
   Port(const Placement& placement, Direction direction, const TypeInfo& type,
        std::string description);
@@ -94,6 +107,8 @@ class Port : public FrameworkElement {
   virtual void ReplaceSource(const Port& /*from*/, Port& /*to*/) noexcept {}
   /// Binds all inputs at the far end anew.
   void RebindSinks();
+  /// What PublishFilled() says when it cannot.
+  [[nodiscard]] Error CannotPublish(const char* why) const;
   /// Outputs: the channel that inputs are bound to; nullptr for other ports.
   [[nodiscard]] virtual ChannelBase* channel() noexcept { return nullptr; }
   /// Gives derived ports access to one another's channel.

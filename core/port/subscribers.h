@@ -7,6 +7,8 @@
 
 namespace runnel {
 
+class TapQueue;
+
 /// The part of an input's queue that a channel keeps without knowing its type.
 class QueueSink {
  public:
@@ -15,15 +17,20 @@ class QueueSink {
   [[nodiscard]] virtual std::size_t room() const noexcept = 0;
   /// Whether the queue would refuse a value now. For publishers.
   [[nodiscard]] virtual bool WouldRefuse() noexcept = 0;
+  /// Itself, if it takes values of any type; else it takes those of its channel's.
+  [[nodiscard]] virtual TapQueue* tap() noexcept { return nullptr; }
 };
 
 /// Those a publisher has to visit: queues and wakers. Readers of the latest value are not among
 /// them; they look at the publisher's slot. Never changed once made; a channel swaps whole lists.
 struct Subscribers {
-  std::vector<QueueSink*> queues;
+  std::vector<QueueSink*> queues;  // of the channel's type
+  std::vector<TapQueue*> taps;
   std::vector<Waker*> wakers;
 
-  [[nodiscard]] bool empty() const noexcept { return queues.empty() && wakers.empty(); }
+  [[nodiscard]] bool empty() const noexcept {
+    return queues.empty() && taps.empty() && wakers.empty();
+  }
 };
 
 }  // namespace runnel

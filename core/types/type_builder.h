@@ -44,6 +44,13 @@ class TypeBuilder {
     return *this;
   }
 
+  /// What a value stands for, so that viewers can draw it: a word of core/types/README.md, whose
+  /// fields T then has.
+  TypeBuilder& Meaning(std::string meaning) {
+    type_.meaning_ = std::move(meaning);
+    return *this;
+  }
+
   /// A public member of T or of a base class.
   template <typename Member, typename Owner>
   requires std::derived_from<T, Owner> TypeBuilder& Field(std::string name, Member Owner::*member,

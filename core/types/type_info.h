@@ -83,6 +83,9 @@ class TypeInfo {
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] TypeKind kind() const noexcept { return kind_; }
   [[nodiscard]] std::type_index cpp_type() const noexcept { return cpp_type_; }
+  /// What a value stands for, for viewers that know no module: "pose", "range_scan"; "" if nobody
+  /// said. The words and the fields that go with them: core/types/README.md.
+  [[nodiscard]] const std::string& meaning() const noexcept { return meaning_; }
   /// Whether values have a text and a binary form: nothing in them is opaque.
   [[nodiscard]] bool is_transparent() const;
 
@@ -112,6 +115,7 @@ class TypeInfo {
   std::size_t size_ = 0;  // of a value, and how it is aligned, where it was described first
   std::size_t alignment_ = 0;
   std::string name_;
+  std::string meaning_;
   TypeKind kind_ = TypeKind::kOpaque;
   bool is_complete_ = false;
   std::vector<FieldInfo> fields_;

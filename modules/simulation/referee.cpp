@@ -16,6 +16,10 @@ namespace {
 // So many hit and leave points are drawn; a run that has more is not told by its points any more.
 constexpr std::size_t kMostPoints = 1000;
 
+// What viewers get of the path: enough for a picture, little enough to be sent again and again.
+constexpr std::size_t kMostShown = 1000;
+constexpr double kShownSpacing = 0.05;  // m
+
 std::string_view Words(Verdict verdict) {
   switch (verdict) {
     case Verdict::kRunning:
@@ -111,13 +115,15 @@ class Referee::Monitor final : public RunMonitor {
   Referee& referee_;
 };
 
-Referee::Referee(const Placement& placement) : Module(placement) {
+Referee::Referee(const Placement& placement)
+    : Module(placement), shown_path_(kMostShown, kShownSpacing) {
   Annotate<RunMonitor>(std::make_unique<Monitor>(*this));
   hit_points_.reserve(kMostPoints);
   leave_points_.reserve(kMostPoints);
 }
 
 Result<void> Referee::Prepare() {
+  driven_path.PrepareBuffers([](Path2& buffer) { buffer.points.reserve(kMostShown); });
   if (auto checked = CheckFolder(picture, "the picture"); !checked) return checked;
   return CheckFolder(result, "the result");
 }
@@ -162,9 +168,20 @@ void Referee::JudgeTime() {
 bool Referee::IsTimeUp() const { return now() - *begin_ >= FromSeconds(time_limit.Get()); }
 
 void Referee::Record(const Pose2& at) {
-  path_.Add({Position(at), LookOf(planner_.mode), at.heading, ToSeconds(now() - *begin_)});
+  const PathSample sample{Position(at), LookOf(planner_.mode), at.heading,
+                          ToSeconds(now() - *begin_)};
+  path_.Add(sample);
+  ShowPath(sample);
   end_ = at;
   RecordPoints();
+}
+
+void Referee::ShowPath(const PathSample& sample) {
+  if (!shown_path_.Add(sample)) return;
+  auto loan = driven_path.Loan();
+  if (!loan) return;  // viewers hold all that there are; the next one has this point, too
+  shown_path_.CopyPositions(loan->points);
+  driven_path.Publish(std::move(loan));
 }
 
 void Referee::RecordPoints() {

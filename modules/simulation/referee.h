@@ -10,10 +10,12 @@
 #include "core/module/module.h"
 #include "core/module/run_monitor.h"
 #include "core/port/input.h"
+#include "core/port/output.h"
 #include "modules/simulation/algorithm/path_record.h"
 #include "modules/simulation/scene.h"
 #include "modules/types/contact.h"
 #include "modules/types/hit_and_leave_points.h"
+#include "modules/types/path.h"
 #include "modules/types/planner_status.h"
 #include "modules/types/pose.h"
 #include "plugins/parameters/file_path.h"
@@ -58,6 +60,11 @@ class Referee final : public Module {
       this,
       "points",
       {.description = "all hit and leave points; unconnected, those that the status has had"}};
+
+  Output<Path2> driven_path{this,
+                            "path",
+                            {.description = "where the robot went; the longer it is, the coarser",
+                             .pool = {.buffers = 4, .may_grow = false}}};
 
   StaticParameter<double> time_limit{this,
                                      "time_limit",
@@ -112,6 +119,7 @@ class Referee final : public Module {
   [[nodiscard]] bool IsTimeUp() const;
   void Record(const Pose2& at);
   void RecordPoints();
+  void ShowPath(const PathSample& sample);
   [[nodiscard]] Verdict Judge(const Pose2& at, const Point2& there) const;
   [[nodiscard]] Standing LastStanding() const;
   [[nodiscard]] bool IsSuccess(Verdict verdict) const;
@@ -125,6 +133,7 @@ class Referee final : public Module {
   bool has_points_ = false;
   bool touched_ = false;
   PathRecord path_;
+  PathRecord shown_path_;
   std::vector<Point2> hit_points_;
   std::vector<Point2> leave_points_;
   std::optional<Pose2> end_;

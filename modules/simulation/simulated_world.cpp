@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/diagnostics.h"
+#include "modules/simulation/algorithm/map_of_world.h"
 #include "modules/simulation/algorithm/world_geometry.h"
 #include "modules/simulation/world_file/world_reader.h"
 
@@ -52,6 +53,8 @@ Result<void> SimulatedWorld::Prepare() {
   scene_ = {description_,
             std::make_shared<const RayCaster>(OutlineOf(*description_), EyeHeight(options.robot)),
             options.robot.radius};
+  map_of_world_ = MapOf(*description_);
+  map.PrepareBuffers([this](WorldMap& buffer) { buffer = map_of_world_; });
   return {};
 }
 
@@ -72,8 +75,21 @@ void SimulatedWorld::PublishTruth() {
   twist.Publish(physics_->twist());
   contact.Publish(physics_->contact());
   const double x = goal_x.Get(), y = goal_y.Get();
-  goal.Publish(
-      {std::isnan(x) ? description_->goal.x : x, std::isnan(y) ? description_->goal.y : y});
+  const Point2 goal_now{std::isnan(x) ? description_->goal.x : x,
+                        std::isnan(y) ? description_->goal.y : y};
+  goal.Publish(goal_now);
+  if (goal_on_map_ != goal_now) PublishMap(goal_now);
+}
+
+// The buffers have the map already, so copying it into one allocates nothing; but for those of a
+// world that this one has taken the place of.
+void SimulatedWorld::PublishMap(Point2 goal_now) {
+  auto loan = map.Loan();
+  if (!loan) return;  // viewers hold all that there are; tried again in the next cycle
+  *loan = map_of_world_;
+  loan->goal = goal_now;
+  map.Publish(std::move(loan));
+  goal_on_map_ = goal_now;
 }
 
 }  // namespace runnel

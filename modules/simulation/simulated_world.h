@@ -12,6 +12,7 @@
 #include "modules/types/contact.h"
 #include "modules/types/pose.h"
 #include "modules/types/wheel_speeds.h"
+#include "modules/types/world_map.h"
 #include "plugins/parameters/file_path.h"
 #include "plugins/parameters/parameter.h"
 #include "plugins/parameters/static_parameter.h"
@@ -37,6 +38,10 @@ class SimulatedWorld final : public SenseControlModule {
   Output<Contact> contact{
       sensor_outputs(), "contact", {.description = "whether it touches anything, and where"}};
   Output<Point2> goal{sensor_outputs(), "goal", {.description = "where it is to go"}};
+  Output<WorldMap> map{sensor_outputs(),
+                       "map",
+                       {.description = "start, goal and obstacles, for those who draw",
+                        .pool = {.buffers = 4, .may_grow = false}}};
 
   StaticParameter<FilePath> world{this, "world", {.description = "the world file"}};
   Parameter<double> goal_x{this, "goal_x", kGoalOfFile};
@@ -67,11 +72,14 @@ class SimulatedWorld final : public SenseControlModule {
   void Sense() override;
   void Control() override;
   void PublishTruth();
+  void PublishMap(Point2 goal_now);
 
   std::shared_ptr<const World> description_;
   std::unique_ptr<PhysicsWorld> physics_;
   std::optional<Time> last_;
   Scene scene_;
+  WorldMap map_of_world_;
+  std::optional<Point2> goal_on_map_;
 };
 
 }  // namespace runnel

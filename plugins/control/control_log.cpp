@@ -11,38 +11,51 @@ namespace runnel {
 void ControlLog::Add(Kind kind, std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
   if (text.size() > kLongestText) text = text.substr(0, kLongestText) + " …";
-  Entry entry{std::chrono::system_clock::now(), clock_.Now() - start_, kind, std::move(text)};
+  Entry entry{0, std::chrono::system_clock::now(), clock_.Now() - start_, kind, std::move(text)};
   const std::lock_guard lock(mutex_);
+  entry.number = first_ + entries_.size();
   entries_.push_back(std::move(entry));
   if (entries_.size() <= kMostEntries) return;
   entries_.pop_front();
   ++first_;
 }
 
-ControlLog::Lines ControlLog::Read(std::uint64_t from, std::size_t most) const {
-  Lines read;
-  std::vector<Entry> entries;
-  {
-    const std::lock_guard lock(mutex_);
-    read.lost = from < first_ ? first_ - from : 0;
-    const std::uint64_t begin = std::max(from, first_);
-    const std::uint64_t end = first_ + entries_.size();
-    for (read.next = begin; read.next < end && entries.size() < most; ++read.next) {
-      entries.push_back(entries_[read.next - first_]);
-    }
+ControlLog::Entries ControlLog::ReadEntries(std::uint64_t from, std::size_t most) const {
+  Entries read;
+  const std::lock_guard lock(mutex_);
+  read.lost = from < first_ ? first_ - from : 0;
+  const std::uint64_t begin = std::max(from, first_);
+  const std::uint64_t end = first_ + entries_.size();
+  for (read.next = begin; read.next < end && read.entries.size() < most; ++read.next) {
+    read.entries.push_back(entries_[read.next - first_]);
   }
-  for (const Entry& entry : entries) read.lines.push_back(LineOf(entry));
   return read;
 }
 
+std::uint64_t ControlLog::end() const {
+  const std::lock_guard lock(mutex_);
+  return first_ + entries_.size();
+}
+
+ControlLog::Lines ControlLog::Read(std::uint64_t from, std::size_t most) const {
+  const Entries read = ReadEntries(from, most);
+  Lines lines{.lines = {}, .lost = read.lost, .next = read.next};
+  for (const Entry& entry : read.entries) lines.lines.push_back(LineOf(entry));
+  return lines;
+}
+
+const char* ControlLog::KindName(Kind kind) noexcept {
+  static constexpr std::array kNames{"fault", "warning", "change"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
 std::string ControlLog::LineOf(const Entry& entry) {
-  static constexpr std::array kNames{"fault  ", "warning", "change "};
   const std::time_t wall = std::chrono::system_clock::to_time_t(entry.wall);
   std::tm parts{};
   localtime_r(&wall, &parts);
   char begin[80];
-  std::snprintf(begin, sizeof begin, "%02d:%02d:%02d %10.3f s  %s  ", parts.tm_hour, parts.tm_min,
-                parts.tm_sec, ToSeconds(entry.time), kNames[static_cast<std::size_t>(entry.kind)]);
+  std::snprintf(begin, sizeof begin, "%02d:%02d:%02d %10.3f s  %-7s  ", parts.tm_hour, parts.tm_min,
+                parts.tm_sec, ToSeconds(entry.time), KindName(entry.kind));
   std::string line = begin + entry.text;
   // What has more than one line goes on below its beginning.
   for (std::size_t at = line.find('\n'); at != std::string::npos; at = line.find('\n', at + 1)) {

@@ -27,21 +27,36 @@ class ControlLog {
 
   void Add(Kind kind, std::string text);
 
+  /// "fault", "warning", "change".
+  [[nodiscard]] static const char* KindName(Kind kind) noexcept;
+
+  /// What has happened, as it was added.
+  struct Entry {
+    std::uint64_t number = 0;  ///< of the first: 0
+    std::chrono::system_clock::time_point wall;
+    Duration time{};  ///< on the application's clock
+    Kind kind = Kind::kChange;
+    std::string text;
+  };
+  struct Entries {
+    std::vector<Entry> entries;
+    std::uint64_t lost = 0;  ///< that were asked for and are gone
+    std::uint64_t next = 0;  ///< what to ask for the next time
+  };
+  /// The entries from number `from` on, `most` at most.
+  [[nodiscard]] Entries ReadEntries(std::uint64_t from, std::size_t most) const;
+  /// The number that the next entry will have.
+  [[nodiscard]] std::uint64_t end() const;
+
   struct Lines {
     std::vector<std::string> lines;  ///< "14:31:05  12.350 s  fault    /robot/arm: …"
     std::uint64_t lost = 0;          ///< entries that were asked for and are gone
     std::uint64_t next = 0;          ///< what to ask for the next time
   };
-  /// The entries from number `from` on, `most` at most. The first one has number 0.
+  /// The same as lines.
   [[nodiscard]] Lines Read(std::uint64_t from, std::size_t most) const;
 
  private:
-  struct Entry {
-    std::chrono::system_clock::time_point wall;
-    Duration time;
-    Kind kind;
-    std::string text;
-  };
   static std::string LineOf(const Entry& entry);
 
   const Clock& clock_;

@@ -19,6 +19,14 @@ void AddCore(std::vector<IncludeRule>& rules) {
 
 void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/parameters", "plugins/parameters", {"core"}});
+  rules.push_back({"plugins/json_values", "plugins/json_values", {"core/base", "core/types"}});
+  rules.push_back({"plugins/foxglove_schemas",
+                   "plugins/foxglove_schemas",
+                   {"core", "plugins/json_values"}});
+  rules.push_back({"plugins/foxglove",
+                   "plugins/foxglove",
+                   {"core", "plugins/control", "plugins/foxglove_schemas", "plugins/json_values",
+                    "plugins/structure", "plugins/watching", "plugins/web_server"}});
   rules.push_back({"plugins/runtime_construction",
                    "plugins/runtime_construction",
                    {"core", "plugins/parameters"}});
@@ -41,10 +49,11 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back(
       {"plugins/control", "plugins/control", {"core", "plugins/scheduling", "plugins/structure"}});
   rules.push_back({"plugins/watching", "plugins/watching", {"core"}});
+  rules.push_back({"plugins/mcap", "plugins/mcap", {"core"}});
   rules.push_back({"plugins/web_server", "plugins/web_server", {"core"}});
   rules.push_back({"the tags of the inspector",
                    "plugins/inspector/xml_",
-                   {"core", "plugins/runtime_construction", "plugins/web_server"}});
+                   {"core", "plugins/inspector", "plugins/runtime_construction", "plugins/web_server"}});
   rules.push_back({"plugins/inspector",
                    "plugins/inspector",
                    {"core", "plugins/control", "plugins/json_values", "plugins/scheduling",

@@ -29,20 +29,22 @@ class PathRecord {
     samples_.reserve(capacity_);
   }
 
-  void Add(const PathSample& sample) {
+  /// Whether the point was kept for good, not only as the last one.
+  bool Add(const PathSample& sample) {
     if (samples_.empty()) {
       last_ = sample;
       samples_.push_back(sample);
-      return;
+      return true;
     }
     length_ += Distance(last_.position, sample.position);
     last_ = sample;
     if (sample.mode == samples_.back().mode &&
         Distance(samples_.back().position, sample.position) < spacing_) {
-      return;
+      return false;
     }
     if (samples_.size() == capacity_) Thin();
     samples_.push_back(sample);
+    return true;
   }
 
   /// Whole, with the very last point.
@@ -50,6 +52,11 @@ class PathRecord {
     std::vector<PathSample> samples = samples_;
     if (!samples.empty()) samples.push_back(last_);
     return samples;
+  }
+  /// The points that were kept, at most the capacity.
+  void CopyPositions(std::vector<Point2>& to) const {
+    to.clear();
+    for (const PathSample& sample : samples_) to.push_back(sample.position);
   }
   [[nodiscard]] double length() const noexcept { return length_; }  ///< m
 

@@ -24,5 +24,16 @@ TEST(PathRecord, KeepsAChangeOfModeHoweverShort) {
   EXPECT_EQ(record.Samples()[1].mode, PathMode::kFollowingWall);
 }
 
+TEST(PathRecord, SaysWhichPointsItKeepsAndCopiesThem) {
+  PathRecord record(100, 1.0);
+  EXPECT_TRUE(record.Add({{0, 0}, PathMode::kDrivingToGoal}));
+  EXPECT_FALSE(record.Add({{0.5, 0}, PathMode::kDrivingToGoal}));
+  EXPECT_TRUE(record.Add({{1.5, 0}, PathMode::kDrivingToGoal}));
+  EXPECT_FALSE(record.Add({{1.6, 0}, PathMode::kDrivingToGoal}));
+  std::vector<Point2> points = {{9, 9}};
+  record.CopyPositions(points);
+  EXPECT_EQ(points, (std::vector<Point2>{{0, 0}, {1.5, 0}}));
+}
+
 }  // namespace
 }  // namespace runnel

@@ -78,6 +78,30 @@ TEST(SimulatedWorld, TakesTheGoalFromParametersIfTheyAreSet) {
   EXPECT_EQ(rig.Last(rig.module.goal), (Point2{-3, 1}));
 }
 
+TEST(SimulatedWorld, PublishesItsMapWhenTheGoalMoves) {
+  const TemporaryFile file(".xml", kOneWall);
+  test::ModuleRig<SimulatedWorld> rig;
+  ASSERT_TRUE(rig.module.world.SetFromText(file.path()));
+  ASSERT_TRUE(rig.Prepare());
+  for (int i = 0; i < 3; ++i) rig.RunCycle();
+  EXPECT_EQ(rig.module.map.publications(), 1u);
+  const WorldMap map = rig.Last(rig.module.map);
+  EXPECT_EQ(map.name, "one wall");
+  EXPECT_EQ(map.goal, (Point2{5, 1}));
+  ASSERT_EQ(map.outlines.size(), 1u);
+  EXPECT_EQ(map.outlines[0].points.size(), 4u);
+
+  ASSERT_TRUE(rig.module.goal_x.Set(-3));
+  const auto tasks = rig.module.FindAnnotation<Executable>()->tasks();
+  const CycleScope cycle({});
+  const test::AllocationGuard guard;
+  for (const Task& task : tasks) task.run();
+  EXPECT_EQ(guard.allocations(), 0u);
+  EXPECT_EQ(rig.module.map.publications(), 2u);
+  EXPECT_EQ(rig.Last(rig.module.map).goal, (Point2{-3, 1}));
+  EXPECT_EQ(rig.Last(rig.module.map).outlines, map.outlines);
+}
+
 TEST(SimulatedWorld, SaysWhatIsWrongWithItsFile) {
   test::ModuleRig<SimulatedWorld> without;
   EXPECT_THAT(without.Prepare().error().ToString(), HasSubstr("no world file is named"));
@@ -264,6 +288,29 @@ TEST_F(RefereeTest, EndsARunInWhichTheWorldHasFallenSilent) {
   rig.RunCycle();
   ASSERT_TRUE(monitor().Outcome());
   EXPECT_EQ(monitor().Outcome()->verdict, "timeout");
+}
+
+TEST_F(RefereeTest, PublishesThePathAndNeverALongOne) {
+  ASSERT_TRUE(rig.module.time_limit.SetFromText("100000"));
+  Begin();
+  At({0.01, 0, 0}, PlannerMode::kMotionToGoal);
+  EXPECT_EQ(rig.module.driven_path.publications(), 1u) << "too near to the point before";
+  At({0.1, 0, 0}, PlannerMode::kMotionToGoal);
+  EXPECT_EQ(rig.Last(rig.module.driven_path), (Path2{{{0, 0}, {0.1, 0}}}));
+  const auto tasks = rig.module.FindAnnotation<Executable>()->tasks();
+  for (int i = 2; i < 3000; ++i) {
+    rig.Feed(rig.module.pose, {0.1 * (i % 1000), 0.1 * i, 0});
+    rig.Wait(milliseconds(1));
+    const CycleScope cycle({});
+    const test::AllocationGuard guard;
+    for (const Task& task : tasks) task.run();
+    ASSERT_EQ(guard.allocations(), 0u) << i;
+  }
+  const Path2 path = rig.Last(rig.module.driven_path);
+  EXPECT_LE(path.points.size(), 1000u);
+  EXPECT_GT(path.points.size(), 500u);
+  EXPECT_EQ(path.points.front(), (Point2{0, 0}));
+  EXPECT_NEAR(path.points.back().y, 300, 1);
 }
 
 TEST_F(RefereeTest, DrawsThePath) {

@@ -5,10 +5,13 @@
 #include "core/types/binary_form.h"
 #include "modules/types/contact.h"
 #include "modules/types/hit_and_leave_points.h"
+#include "modules/types/image.h"
 #include "modules/types/infrared_ranges.h"
+#include "modules/types/path.h"
 #include "modules/types/pose.h"
 #include "modules/types/range_scan.h"
 #include "modules/types/wheel_speeds.h"
+#include "modules/types/world_map.h"
 
 namespace runnel {
 namespace {
@@ -37,12 +40,39 @@ TEST(ModuleTypes, ReadBackFromTextAndBytes) {
   ExpectBothFormsReadBack(InfraredRanges{1, std::numeric_limits<double>::infinity(), 2, 2, 0.45});
   ExpectBothFormsReadBack(Contact{true, -0.7});
   ExpectBothFormsReadBack(HitAndLeavePoints{{{1, 2}, {3, 4}}, {{5, 6}}});
+  ExpectBothFormsReadBack(Path2{{{1, 2}, {3, 4}}});
+  ExpectBothFormsReadBack(Image{2, 1, "rgb8", 6, {1, 2, 3, 255, 0, 4}});
+  ExpectBothFormsReadBack(
+      WorldMap{"a", {1, 2, 3}, {4, 5}, {{{{0, 0}, {1, 0}, {0, 1}}, 0.5, true}}, {{7, 7}}});
   ExpectBothFormsReadBack(std::vector<Pose2>{{1, 2, 3}, {4, 5, 6}});
 }
 
 TEST(ModuleTypes, ReadAsAPersonWouldWriteThem) {
   EXPECT_EQ(TextOf(Pose2{1, 2, 0.5}), "{x: 1, y: 2, heading: 0.5}");
   EXPECT_EQ(TypeOf<Twist2>().FindField("turn")->unit, "rad/s");
+}
+
+// core/types/README.md promises these fields to viewers.
+TEST(ModuleTypes, HaveTheFieldsThatTheirMeaningsPromise) {
+  const auto expect = [](const TypeInfo& type, const std::string& meaning,
+                         std::initializer_list<const char*> fields) {
+    EXPECT_EQ(type.meaning(), meaning) << type.name();
+    for (const char* field : fields) {
+      EXPECT_NE(type.FindField(field), nullptr) << type.name() << "." << field;
+    }
+  };
+  expect(TypeOf<Point2>(), "point", {"x", "y"});
+  expect(TypeOf<Pose2>(), "pose", {"x", "y", "heading"});
+  expect(TypeOf<Twist2>(), "twist", {"forward", "turn"});
+  expect(TypeOf<RangeScan>(), "range_scan",
+         {"start_angle", "angle_step", "range_minimum", "range_maximum", "ranges"});
+  expect(TypeOf<Contact>(), "contact", {"is_touching", "bearing"});
+  expect(TypeOf<Path2>(), "path", {"points"});
+  expect(TypeOf<HitAndLeavePoints>(), "hit_and_leave_points", {"hits", "leaves"});
+  expect(TypeOf<WorldMap>(), "world_map", {"name", "start", "goal", "outlines", "bounds"});
+  expect(TypeOf<MapOutline>(), "", {"points", "height", "is_hole"});
+  expect(TypeOf<Image>(), "image", {"width", "height", "encoding", "row_stride", "data"});
+  expect(TypeOf<WheelSpeeds>(), "", {});
 }
 
 }  // namespace

@@ -1,0 +1,81 @@
+#include "core/port/tap.h"
+
+#include <algorithm>
+#include <mutex>
+
+#include "core/element/runtime.h"
+#include "core/port/channel.h"
+#include "core/port/tap_queue.h"
+
+namespace runnel {
+
+Tap::Tap(FrameworkElement& group, std::string name, const TypeInfo& type, std::size_t room)
+    : InputBase({group, std::move(name)}, type, {}), queue_(std::make_unique<TapQueue>(room)) {}
+
+Tap::~Tap() {
+  SetWaker(nullptr);
+  DisconnectAll();
+  // Publishers that found the queue before it was disconnected may still be filling it.
+  Retire([queue = queue_.release()] { delete queue; });
+}
+
+bool Tap::Take(const Look& look) {
+  bool is_taken = false;
+  while (!is_taken) {
+    const bool found = queue_->TryTake(
+        [&](const void* value, const Publication& publication, std::uint64_t source) {
+          std::uint64_t& last = taken_[source];
+          if (publication.sequence <= last) return;
+          last = publication.sequence;
+          is_taken = true;
+          look(value, Time(Duration(publication.stamp)));
+        });
+    if (!found) return false;
+  }
+  return true;
+}
+
+std::size_t Tap::waiting() const noexcept { return queue_->size(); }
+std::size_t Tap::room() const noexcept { return queue_->room(); }
+std::uint64_t Tap::dropped() const noexcept { return queue_->dropped(); }
+bool Tap::HasNew() const { return queue_->HasNext(); }
+
+std::uint64_t Tap::publications() const noexcept {
+  const std::lock_guard lock(runtime().structure_mutex());
+  std::uint64_t all = 0;
+  for (const Port* source : Sources()) all += source->publications();
+  return all;
+}
+
+bool Tap::LookAtValue(const Look& look) const {
+  const std::lock_guard lock(runtime().structure_mutex());
+  return std::ranges::any_of(Sources(), [&](Port* source) { return source->LookAtValue(look); });
+}
+
+QueueSink* Tap::Bind(const std::vector<Source>& sources) {
+  std::vector<std::uint64_t> bound;
+  fresh_.clear();
+  for (const Source& source : sources) {
+    ChannelBase* const channel = ChannelOf(*source.output);
+    bound.push_back(channel->number());
+    if (std::ranges::count(bound_, channel->number()) == 0) fresh_.push_back(channel);
+  }
+  bound_ = std::move(bound);
+  return sources.empty() ? nullptr : queue_.get();
+}
+
+// Publishers know of the queue by now, so none of their values is lost between this one and those.
+void Tap::Bound() {
+  const EpochGuard guard;
+  for (ChannelBase* channel : fresh_) channel->DeliverNewest(*queue_);
+  fresh_.clear();
+}
+
+void Tap::TakeOverBinding(InputBase& from) {
+  auto& other = static_cast<Tap&>(from);
+  queue_.swap(other.queue_);
+  bound_.swap(other.bound_);
+  taken_.swap(other.taken_);
+}
+
+}  // namespace runnel

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "core/port/input_base.h"
+
+namespace runnel {
+
+class TapQueue;
+
+/// An input that takes each value of the outputs connected to it, without knowing their type: for
+/// recorders and bridges. What is connected to it delivers its newest value at once. Connections bring
+/// no queue of their own: `room` values can wait, and what comes when it is full is not taken, and
+/// counted. Publishers pay for it what a queue costs.
+///
+/// Threads:     Take() by one thread at a time; the rest from any. Connecting and publishing go on
+///              meanwhile.
+/// Allocation:  in the constructor and by connecting.
+class Tap final : public InputBase {
+ public:
+  /// As large as that of an input that asks for as many.
+  static constexpr std::size_t kRoom = 128;
+
+  /// Precondition: room > 0.
+  Tap(FrameworkElement& group, std::string name, const TypeInfo& type, std::size_t room = kRoom);
+  ~Tap() override;
+
+  /// Shows the oldest value that waits to `look`, and lets it go; false if none does. What `look` is
+  /// shown is gone when it returns. `look` must not throw.
+  bool Take(const Look& look);
+  /// How many values wait, about.
+  [[nodiscard]] std::size_t waiting() const noexcept;
+  [[nodiscard]] std::size_t room() const noexcept;
+
+  [[nodiscard]] std::uint64_t dropped() const noexcept override;
+  /// Both of what it is connected to, and under the structure lock.
+  [[nodiscard]] std::uint64_t publications() const noexcept override;
+  bool LookAtValue(const Look& look) const override;
+
+ private:
+  QueueSink* Bind(const std::vector<Source>& sources) override;
+  void TakeOverBinding(InputBase& from) override;
+  void Bound() override;
+  [[nodiscard]] bool HasNew() const override;
+
+  std::unique_ptr<TapQueue> queue_;
+  // Under the structure lock: the numbers of the channels it is bound to, and those that are new.
+  std::vector<std::uint64_t> bound_;
+  std::vector<ChannelBase*> fresh_;
+  // The reader's own: the number of the last value taken from each channel. A value may lie in the
+  // queue twice just after connecting.
+  std::map<std::uint64_t, std::uint64_t> taken_;
+};
+
+}  // namespace runnel

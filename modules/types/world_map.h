@@ -1,0 +1,28 @@
+#pragma once
+
+#include "core/types/builtin_types.h"
+#include "core/types/type_of.h"
+#include "modules/types/algorithm/world_map.h"
+#include "modules/types/pose.h"
+
+namespace runnel {
+
+inline void Describe(TypeBuilder<MapOutline>& type) {
+  type.Name("MapOutline")
+      .Field("points", &MapOutline::points, {.unit = "m"})
+      .Field("height", &MapOutline::height, {.unit = "m"})
+      .Field("is_hole", &MapOutline::is_hole,
+             {.description = "within the outlines that come before it"});
+}
+
+inline void Describe(TypeBuilder<WorldMap>& type) {
+  type.Name("WorldMap")
+      .Meaning("world_map")
+      .Field("name", &WorldMap::name)
+      .Field("start", &WorldMap::start)
+      .Field("goal", &WorldMap::goal)
+      .Field("outlines", &WorldMap::outlines)
+      .Field("bounds", &WorldMap::bounds, {.unit = "m"});
+}
+
+}  // namespace runnel

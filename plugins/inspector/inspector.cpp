@@ -1,0 +1,30 @@
+#include "plugins/inspector/inspector.h"
+
+#include <utility>
+
+#include "plugins/inspector/internal/inspection.h"
+#include "plugins/inspector/internal/viewer_session.h"
+
+namespace runnel {
+
+class Inspector::Shared final : public internal::Inspection {
+ public:
+  using Inspection::Inspection;
+};
+
+Inspector::Inspector(ControlledApplication application, Scheduler& scheduler,
+                     InspectorOptions options)
+    : shared_(std::make_unique<Shared>(std::move(application), scheduler, std::move(options))) {}
+Inspector::~Inspector() = default;
+
+WebProtocol Inspector::Protocol() {
+  return {.names = {"runnel.inspector.v1"},
+          .start = [shared = shared_.get()](WebClient& client) -> std::unique_ptr<WebConversation> {
+            return std::make_unique<internal::ViewerSession>(*shared, client);
+          }};
+}
+
+void Inspector::Hear(const Fault& fault) { shared_->faults.Add(fault.path, fault.message); }
+void Inspector::NoteEnd(std::string verdict) { shared_->NoteEnd(std::move(verdict)); }
+
+}  // namespace runnel

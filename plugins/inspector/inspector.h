@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "plugins/control/command.h"
+#include "plugins/scheduling/scheduler.h"
+#include "plugins/web_server/web_conversation.h"
+
+namespace runnel {
+
+struct InspectorOptions {
+  std::string application;    ///< its name
+  std::string file = {};      ///< that it came from
+  std::string version = {};   ///< of the program
+  bool is_read_only = false;  ///< viewers look, and change nothing
+};
+
+/// Shows a running application to viewers, and lets them change it: the other end of the protocol in
+/// PROTOCOL.md. As many viewers as the server lets in share what is found out about the structure.
+///
+/// Ownership:  what is inspected must outlive it, and it the server that it gives its protocol to.
+/// Threads:    conversations on the server's; changes, saving and reloading on one of its own, neither
+///             of which ever takes part in a cycle. The rest from any.
+/// Errors:     what viewers get wrong is answered, and never reaches the application.
+class Inspector {
+ public:
+  Inspector(ControlledApplication application, Scheduler& scheduler, InspectorOptions options);
+  ~Inspector();
+  Inspector(const Inspector&) = delete;
+  Inspector& operator=(const Inspector&) = delete;
+
+  [[nodiscard]] WebProtocol Protocol();
+  /// A module has been stopped.
+  void Hear(const Fault& fault);
+  /// No cycle will run any more; `verdict` is what has come of it, for people.
+  void NoteEnd(std::string verdict);
+
+ private:
+  class Shared;
+  const std::unique_ptr<Shared> shared_;
+};
+
+}  // namespace runnel

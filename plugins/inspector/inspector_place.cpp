@@ -1,0 +1,36 @@
+#include "plugins/inspector/inspector_place.h"
+
+#include <charconv>
+
+#include "plugins/web_server/access_rules.h"
+
+namespace runnel {
+
+Result<std::uint16_t> ParseNetworkPort(std::string_view text) {
+  std::uint16_t port = 0;
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, port);
+  if (read.ec == std::errc() && read.ptr == end) return port;
+  return Error{.message = "'" + std::string(text) + "' is not a port",
+               .hint = "write a number from 1 to 65535, or 0 for any that is free"};
+}
+
+Result<InspectorPlace> ParseInspectorPlace(std::string_view text) {
+  InspectorPlace place;
+  // The last one: addresses of IPv6 have colons of their own, and stand in brackets.
+  const std::size_t colon = text.rfind(':');
+  const auto port =
+      ParseNetworkPort(colon == std::string_view::npos ? text : text.substr(colon + 1));
+  if (!port) return port.error();
+  place.port = *port;
+  if (colon == std::string_view::npos) return place;
+  std::string_view address = text.substr(0, colon);
+  if (address.starts_with('[') && address.ends_with(']')) {
+    address = address.substr(1, address.size() - 2);
+  }
+  place.address = address == "localhost" ? "127.0.0.1" : std::string(address);
+  if (const auto known = IsLoopback(place.address); !known) return known.error();
+  return place;
+}
+
+}  // namespace runnel

@@ -1,0 +1,226 @@
+#include "plugins/inspector/internal/catalogue.h"
+
+#include <algorithm>
+#include <functional>
+#include <mutex>
+#include <optional>
+
+#include "core/element/configurable.h"
+#include "core/plugin/module_type_name.h"
+#include "core/port/port.h"
+#include "core/types/type_info.h"
+#include "plugins/inspector/internal/element_json.h"
+#include "plugins/inspector/internal/json_parts.h"
+
+namespace runnel::internal {
+
+namespace {
+
+const char* KindName(TypeKind kind) {
+  switch (kind) {
+    case TypeKind::kOpaque:
+      break;
+    case TypeKind::kLeaf:
+      return "leaf";
+    case TypeKind::kEnumeration:
+      return "enumeration";
+    case TypeKind::kStructure:
+      return "structure";
+    case TypeKind::kSequence:
+      return "sequence";
+    case TypeKind::kMatrix:
+      return "matrix";
+  }
+  return "opaque";
+}
+
+void AppendField(const FieldInfo& field, std::string& text) {
+  JsonObject object(text);
+  object.Add("name", field.name);
+  object.Add("type", field.type->name());
+  object.Add("unit", field.unit);
+  object.Add("description", field.description);
+}
+
+void AppendType(const TypeInfo* type, std::string& text) {
+  JsonObject json(text);
+  json.Add("name", type->name());
+  json.Add("kind", KindName(type->kind()));
+  AddTextOrNull("meaning", type->meaning(), json);
+  if (type->kind() == TypeKind::kStructure) {
+    AppendList(type->fields(), json.Key("fields"), AppendField);
+  }
+  if (type->kind() == TypeKind::kEnumeration) {
+    AppendList(
+        type->enumerators(), json.Key("values"),
+        [](const EnumeratorInfo& each, std::string& to) { AppendJsonString(each.name, to); });
+  }
+  if (type->kind() == TypeKind::kSequence || type->kind() == TypeKind::kMatrix) {
+    json.Add("element", type->elements().type->name());
+  }
+}
+
+void AppendPort(const Port* port, std::string& text) {
+  JsonObject object(text);
+  object.Add("name", port->name());
+  object.Add("direction", port->direction() == Port::Direction::kInput ? "input" : "output");
+  object.Add("type", port->type().name());
+  object.Add("required", port->is_required());
+  object.Add("description", port->description());
+}
+
+struct ParameterOfType {
+  std::string name;
+  const Configurable* parameter;
+};
+
+void AppendParameter(const ParameterOfType& each, std::string& text) {
+  const ConfigurableInfo& info = each.parameter->info();
+  const BoundsEnds bounds = ParseBounds(info.bounds);
+  JsonObject object(text);
+  object.Add("name", each.name);
+  object.Add("type", each.parameter->type().name());
+  object.Add("unit", info.unit);
+  object.Add("default", info.default_value);
+  AddNumberOrNull("minimum", bounds.minimum, object);
+  AddNumberOrNull("maximum", bounds.maximum, object);
+  object.Add("description", info.description);
+}
+
+CatalogueItem Describe(const ModuleType& type, FrameworkElement& module) {
+  std::vector<const Port*> ports;
+  std::vector<ParameterOfType> parameters;
+  module.Visit([&](FrameworkElement& element) {
+    if (const auto* const port = dynamic_cast<const Port*>(&element)) ports.push_back(port);
+    if (const auto* const parameter = dynamic_cast<const Configurable*>(&element)) {
+      parameters.push_back({element.name(), parameter});
+    }
+  });
+  CatalogueItem item{type.name, type.summary, {}, {}};
+  for (const Port* port : ports) {
+    item.ports.push_back({port->name(), port->direction() == Port::Direction::kInput,
+                          port->type().name(), port->is_required()});
+  }
+  JsonObject json(item.json);
+  json.Add("type", type.name);
+  json.Add("summary", type.summary);
+  json.Add("plugin", type.plugin);
+  AppendList(ports, json.Key("ports"), AppendPort);
+  AppendList(parameters, json.Key("parameters"), AppendParameter);
+  return item;
+}
+
+CatalogueItem DescribeProblem(const ModuleType& type, const Error& error) {
+  CatalogueItem item{type.name, type.summary, {}, {}};
+  JsonObject json(item.json);
+  json.Add("type", type.name);
+  json.Add("summary", type.summary);
+  json.Add("plugin", type.plugin);
+  json.AddJson("ports", "[]");
+  json.AddJson("parameters", "[]");
+  json.Add("problem", error.ToString());
+  return item;
+}
+
+std::vector<std::string> NamesOf(Runtime& runtime, const ModuleRegistry& modules) {
+  const std::lock_guard lock(runtime.structure_mutex());
+  std::vector<std::string> names;
+  for (const ModuleType* type : modules.All()) names.push_back(type->name);
+  return names;
+}
+
+// Nothing if the type has just gone.
+std::optional<CatalogueItem> Look(Runtime& runtime, const ModuleRegistry& modules,
+                                  const std::string& name) {
+  std::optional<UnlistedElement> made;
+  std::optional<CatalogueItem> item;
+  {
+    const std::lock_guard lock(runtime.structure_mutex());
+    const ModuleType* const type = modules.Find(name);
+    if (type == nullptr) return {};
+    auto module = modules.Make(name, {runtime.root(), "module", false});
+    if (!module) return DescribeProblem(*type, module.error());
+    item = Describe(*type, **module);
+    made = std::move(*module);
+  }
+  runtime.Destroy(std::move(*made));
+  return item;
+}
+
+// A module's connected ports, those of its other faces included.
+std::vector<CatalogueItemPort> ConnectedPorts(FrameworkElement& module) {
+  std::vector<CatalogueItemPort> ports;
+  module.Visit([&](FrameworkElement& element) {
+    const auto* const port = dynamic_cast<const Port*>(&element);
+    if (port == nullptr || (port->outgoing().empty() && port->incoming().empty())) return;
+    ports.push_back({port->name(), port->direction() == Port::Direction::kInput,
+                     port->type().name(), port->is_required()});
+  });
+  return ports;
+}
+
+}  // namespace
+
+Catalogue MakeCatalogue(Runtime& runtime, const ModuleRegistry& modules) {
+  Catalogue catalogue;
+  for (const std::string& name : NamesOf(runtime, modules)) {
+    if (auto item = Look(runtime, modules, name)) catalogue.modules.push_back(std::move(*item));
+  }
+  JsonObject json(catalogue.message);
+  json.Add("op", "catalogue");
+  AppendList(catalogue.modules, json.Key("modules"),
+             [](const CatalogueItem& item, std::string& text) { text += item.json; });
+  AppendList(RegisteredTypes(), json.Key("types"), AppendType);
+  return catalogue;
+}
+
+std::uint64_t RegistryFingerprint(const ModuleRegistry& modules) {
+  std::uint64_t hash = 1;
+  for (const ModuleType* type : modules.All()) {
+    hash = hash * 31 + std::hash<std::string>{}(type->name);
+    hash = hash * 31 + std::hash<const void*>{}(type);  // made anew when its plugin is loaded anew
+  }
+  return hash;
+}
+
+Result<std::string> CompatibleTypes(Runtime& runtime, const Catalogue& catalogue,
+                                    const std::string& path) {
+  std::vector<CatalogueItemPort> connected;
+  std::string own_type;
+  {
+    const std::lock_guard lock(runtime.structure_mutex());
+    const auto found = runtime.root().Find(path);
+    if (!found) return found.error();
+    if (!IsModule(**found)) return Error{.message = "this is not a module", .path = path};
+    connected = ConnectedPorts(**found);
+    own_type = FindModuleType(**found);
+  }
+  struct Candidate {
+    const CatalogueItem* item;
+    std::vector<std::string> lost;
+  };
+  std::vector<Candidate> candidates;
+  for (const CatalogueItem& item : catalogue.modules) {
+    if (item.type == own_type) continue;
+    Candidate candidate{&item, {}};
+    for (const CatalogueItemPort& port : connected) {
+      const bool is_kept = std::ranges::any_of(item.ports, [&](const CatalogueItemPort& each) {
+        return each.name == port.name && each.is_input == port.is_input && each.type == port.type;
+      });
+      if (!is_kept) candidate.lost.push_back(port.name);
+    }
+    const bool is_stranger = !connected.empty() && candidate.lost.size() == connected.size();
+    if (!is_stranger && !connected.empty()) candidates.push_back(std::move(candidate));
+  }
+  std::ranges::stable_sort(candidates, {}, [](const Candidate& each) { return each.lost.size(); });
+  std::string text;
+  AppendList(candidates, text, [](const Candidate& each, std::string& to) {
+    JsonObject json(to);
+    json.Add("type", each.item->type);
+    json.Add("summary", each.item->summary);
+    AppendList(each.lost, json.Key("lost"), AppendJsonString);
+  });
+  return text;
+}
+
+}  // namespace runnel::internal

@@ -1,0 +1,180 @@
+#include "plugins/inspector/internal/element_json.h"
+
+#include <functional>
+
+#include "core/element/configurable.h"
+#include "core/plugin/module_type_name.h"
+#include "core/types/type_info.h"
+#include "core/xml/xml_reading.h"
+#include "plugins/inspector/internal/json_parts.h"
+#include "plugins/scheduling/thread_container.h"
+
+namespace runnel::internal {
+
+namespace {
+
+const char* OnFullName(OnFull on_full) {
+  switch (on_full) {
+    case OnFull::kDropOldest:
+      return "drop_oldest";
+    case OnFull::kDropNewest:
+      return "drop_newest";
+    case OnFull::kRefuse:
+      break;
+  }
+  return "refuse";
+}
+
+std::string_view ThreadName(const FrameworkElement& element, const ElementSurroundings& around) {
+  std::uint64_t serial = AssignedThread(element);
+  if (serial == 0) serial = around.default_thread;
+  const auto found = around.thread_names.find(serial);
+  return found == around.thread_names.end() ? std::string_view() : found->second;
+}
+
+std::string_view StoppedBy(const FrameworkElement& element, const ElementSurroundings& around) {
+  const auto found = around.stopped.find(element.serial());
+  return found == around.stopped.end() ? std::string_view() : found->second;
+}
+
+void AddThread(const ThreadContainer& thread, JsonObject& json) {
+  const ThreadOptions& options = thread.options();
+  const bool has_period = options.activation == ThreadOptions::Activation::kPeriod;
+  json.Add("kind", "thread");
+  json.Add("name", thread.name());
+  AddNumberOrNull("period", has_period ? std::optional(ToSeconds(options.period)) : std::nullopt,
+                  json);
+  json.Add("activation", has_period ? "period"
+                         : options.activation == ThreadOptions::Activation::kTrigger
+                             ? "trigger"
+                             : "free_running");
+  json.Add("priority", static_cast<std::uint64_t>(options.priority));
+  json.Add("order", thread.serial());
+}
+
+void AddPort(const Port& port, JsonObject& json) {
+  const FrameworkElement* const owner = OwnerOf(port);
+  json.Add("kind", "port");
+  json.Add("name", port.name());
+  json.Add("direction", port.direction() == Port::Direction::kInput ? "input" : "output");
+  json.Add("data_type", port.type().name());
+  json.Add("interface", port.is_proxy());
+  json.Add("required", port.is_required());
+  json.Add("description", port.description());
+  json.Add("owner", owner != nullptr ? owner->path() : "");
+}
+
+void AddParameter(const FrameworkElement& element, const Configurable& parameter,
+                  JsonObject& json) {
+  const ConfigurableInfo& info = parameter.info();
+  const BoundsEnds bounds = ParseBounds(info.bounds);
+  const FrameworkElement* const owner = OwnerOf(element);
+  json.Add("kind", "parameter");
+  json.Add("name", element.name());
+  json.Add("data_type", parameter.type().name());
+  json.Add("unit", info.unit);
+  AddNumberOrNull("minimum", bounds.minimum, json);
+  AddNumberOrNull("maximum", bounds.maximum, json);
+  json.Add("description", info.description);
+  json.Add("value", parameter.ToText());
+  json.Add("default", info.default_value);
+  json.Add("settable", !info.is_static);
+  json.Add("owner", owner != nullptr ? owner->path() : "");
+}
+
+void AddOther(const FrameworkElement& element, const ElementSurroundings& around,
+              JsonObject& json) {
+  if (IsModule(element)) {
+    json.Add("kind", "module");
+    json.Add("name", element.name());
+    const std::string name = FindModuleType(element);
+    const ModuleType* const type = around.modules->Find(name);
+    json.Add("type", name);
+    json.Add("summary", type != nullptr ? type->summary : "");
+    AddTextOrNull("thread", ThreadName(element, around), json);
+    AddTextOrNull("stopped", StoppedBy(element, around), json);
+    return;
+  }
+  const bool is_group = element.kind() == ElementKind::kGroup;
+  const bool is_top = element.parent() != nullptr && element.parent()->parent() == nullptr;
+  json.Add("kind", is_group && is_top ? "application" : "group");
+  json.Add("name", element.name());
+  if (!is_group) json.Add("is_plain", true);
+  const ThreadContainer* const thread = OwnThread(element);
+  if (thread != nullptr) json.Add("thread", thread->name());
+}
+
+void Mix(std::uint64_t more, std::uint64_t& hash) {
+  hash = (hash ^ more) * 0x9e3779b97f4a7c15U;
+  hash ^= hash >> 29U;
+}
+void Mix(std::string_view text, std::uint64_t& hash) {
+  Mix(std::hash<std::string_view>{}(text), hash);
+}
+
+}  // namespace
+
+bool IsModule(const FrameworkElement& element) {
+  return element.kind() == ElementKind::kModule || !FindModuleType(element).empty();
+}
+
+const FrameworkElement* OwnerOf(const FrameworkElement& element) {
+  const FrameworkElement* at = element.parent();
+  while (at != nullptr && !IsModule(*at) && at->kind() != ElementKind::kGroup) at = at->parent();
+  return at;
+}
+
+BoundsEnds ParseBounds(std::string_view bounds) {
+  const std::size_t dots = bounds.find("..");
+  if (dots == std::string_view::npos) return {};
+  return {ParseNumber(bounds.substr(0, dots)), ParseNumber(bounds.substr(dots + 2))};
+}
+
+std::string ElementJson(const FrameworkElement& element, const ElementSurroundings& around) {
+  std::string text;
+  {
+    JsonObject json(text);
+    json.Add("path", element.path());
+    if (const auto* const port = dynamic_cast<const Port*>(&element)) {
+      AddPort(*port, json);
+    } else if (const auto* const parameter = dynamic_cast<const Configurable*>(&element)) {
+      AddParameter(element, *parameter, json);
+    } else if (const auto* const thread = dynamic_cast<const ThreadContainer*>(&element)) {
+      AddThread(*thread, json);
+    } else {
+      AddOther(element, around, json);
+    }
+  }
+  return text;
+}
+
+std::uint64_t ElementFingerprint(const FrameworkElement& element,
+                                 const ElementSurroundings& around) {
+  std::uint64_t hash = element.serial();
+  if (element.kind() == ElementKind::kPort || element.kind() == ElementKind::kThread) return hash;
+  if (element.kind() == ElementKind::kParameter) {
+    if (const auto* const parameter = dynamic_cast<const Configurable*>(&element)) {
+      Mix(parameter->ToText(), hash);
+    }
+    return hash;
+  }
+  Mix(ThreadName(element, around), hash);
+  Mix(StoppedBy(element, around), hash);
+  const ThreadContainer* const own = OwnThread(element);
+  Mix(own != nullptr ? own->serial() : 0, hash);
+  return hash;
+}
+
+std::string ConnectionJson(const Connection& connection) {
+  std::string text;
+  {
+    JsonObject json(text);
+    json.Add("from", connection.from->path());
+    json.Add("to", connection.to->path());
+    json.Add("queue", connection.options.queue);
+    json.Add("on_full", OnFullName(connection.options.on_full));
+  }
+  return text;
+}
+
+}  // namespace runnel::internal

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "core/element/framework_element.h"
+#include "core/plugin/module_registry.h"
+#include "core/port/port.h"
+
+namespace runnel::internal {
+
+/// What there is to know of elements besides themselves.
+struct ElementSurroundings {
+  const ModuleRegistry* modules = nullptr;                 ///< their summaries
+  std::map<std::uint64_t, std::string> thread_names;       ///< by serial number
+  std::uint64_t default_thread = 0;                        ///< for what is assigned to none
+  std::unordered_map<std::uint64_t, std::string> stopped;  ///< modules, and what they threw
+};
+
+/// The element as the protocol has it: {"path":…,"kind":…,…}. Under the structure lock.
+[[nodiscard]] std::string ElementJson(const FrameworkElement& element,
+                                      const ElementSurroundings& around);
+/// A number that is another one if ElementJson() of the same element would be (or most probably so):
+/// quicker. Under the structure lock.
+[[nodiscard]] std::uint64_t ElementFingerprint(const FrameworkElement& element,
+                                               const ElementSurroundings& around);
+
+/// {"from":…,"to":…,…}. Under the structure lock.
+[[nodiscard]] std::string ConnectionJson(const Connection& connection);
+
+/// The two ends of ".. 5", "0.05 .. 5".
+struct BoundsEnds {
+  std::optional<double> minimum;
+  std::optional<double> maximum;
+};
+[[nodiscard]] BoundsEnds ParseBounds(std::string_view bounds);
+
+/// The module or group that a port or parameter belongs to; nullptr if there is none.
+[[nodiscard]] const FrameworkElement* OwnerOf(const FrameworkElement& element);
+[[nodiscard]] bool IsModule(const FrameworkElement& element);
+
+}  // namespace runnel::internal

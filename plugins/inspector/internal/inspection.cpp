@@ -1,0 +1,78 @@
+#include "plugins/inspector/internal/inspection.h"
+
+#include <utility>
+
+#include <unistd.h>
+
+namespace runnel::internal {
+
+namespace {
+
+using std::chrono::milliseconds;
+
+// How often structure and parameters are looked at for changes that others have made.
+constexpr auto kLook = milliseconds(50);
+// While there is more to look at, or the structure is locked.
+constexpr auto kLookOn = milliseconds(2);
+constexpr auto kLookAtRegistry = milliseconds(1000);
+
+std::string RunName() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::to_string(getpid()) + "-" +
+         std::to_string(std::chrono::duration_cast<milliseconds>(now).count());
+}
+
+}  // namespace
+
+Inspection::Inspection(ControlledApplication application, Scheduler& scheduler,
+                       InspectorOptions options)
+    : application_(std::move(application)),
+      scheduler_(scheduler),
+      options_(std::move(options)),
+      run_(RunName()),
+      start_(application_.runtime.clock().Now()),
+      mirror_(application_.runtime, application_.modules, scheduler, faults),
+      worker_([] {}) {}
+
+std::shared_ptr<const Catalogue> Inspection::catalogue() const {
+  const std::lock_guard lock(mutex_);
+  return catalogue_;
+}
+
+void Inspection::NoteEnd(std::string verdict) {
+  const std::lock_guard lock(mutex_);
+  verdict_ = std::move(verdict);
+}
+
+std::optional<std::string> Inspection::verdict() const {
+  const std::lock_guard lock(mutex_);
+  return verdict_;
+}
+
+Inspection::MachineTime Inspection::Look() {
+  const MachineTime now = std::chrono::steady_clock::now();
+  if (now < look_at_) return look_at_;
+  LookAtRegistry(now);
+  look_at_ = now + (mirror_.Look() ? Duration(kLook) : Duration(kLookOn));
+  return look_at_;
+}
+
+void Inspection::LookAtRegistry(MachineTime now) {
+  if (now < look_at_registry_ || (cataloguing_ && !cataloguing_->is_done())) return;
+  std::unique_lock lock(application_.runtime.structure_mutex(), std::try_to_lock);
+  if (!lock) return;
+  const std::uint64_t registry = RegistryFingerprint(application_.modules);
+  lock.unlock();
+  look_at_registry_ = now + kLookAtRegistry;
+  if (registry == registry_) return;
+  registry_ = registry;
+  // Modules are made for it, some of which take their time.
+  cataloguing_ = worker_.Post([this] {
+    auto made = std::make_shared<const Catalogue>(
+        MakeCatalogue(application_.runtime, application_.modules));
+    const std::lock_guard guard(mutex_);
+    catalogue_ = std::move(made);
+  });
+}
+
+}  // namespace runnel::internal

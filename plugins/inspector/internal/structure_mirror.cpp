@@ -1,0 +1,273 @@
+#include "plugins/inspector/internal/structure_mirror.h"
+
+#include <algorithm>
+#include <mutex>
+#include <unordered_set>
+#include <utility>
+
+#include "core/element/configurable.h"
+#include "plugins/inspector/internal/json_parts.h"
+
+namespace runnel::internal {
+
+namespace {
+
+using MachineTime = std::chrono::steady_clock::time_point;
+
+// For which the structure is locked at a time; whoever changes it waits so long.
+constexpr auto kHold = std::chrono::milliseconds(2);
+// If it changes all the time, it is looked at in one go in the end.
+constexpr int kMostRestarts = 20;
+constexpr std::size_t kMostChanges = 100;
+// Elements between two looks at the clock.
+constexpr std::size_t kStride = 64;
+
+MachineTime Now() { return std::chrono::steady_clock::now(); }
+
+// What is in both lists goes from both.
+void Cancel(std::vector<std::string>& a, std::vector<std::string>& b) {
+  std::sort(a.begin(), a.end());
+  std::sort(b.begin(), b.end());
+  std::vector<std::string> only_a;
+  std::vector<std::string> only_b;
+  std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(only_a));
+  std::set_difference(b.begin(), b.end(), a.begin(), a.end(), std::back_inserter(only_b));
+  a = std::move(only_a);
+  b = std::move(only_b);
+}
+
+void AppendRaw(const std::string& item, std::string& json) { json += item; }
+
+}  // namespace
+
+StructureMirror::StructureMirror(Runtime& runtime, const ModuleRegistry& modules,
+                                 const Scheduler& scheduler, FaultBook& faults)
+    : runtime_(runtime), scheduler_(scheduler), faults_(faults) {
+  around_.modules = &modules;
+}
+
+bool StructureMirror::Look() {
+  std::unique_lock lock(runtime_.structure_mutex(), std::try_to_lock);
+  if (!lock) return false;
+  NoteFaults();
+  const MachineTime until = Now() + kHold;
+  if (seen_ == runtime_.revision()) {
+    SweepParameters(until);
+    return true;
+  }
+  if (walked_ != runtime_.revision()) BeginWalk();
+  if (!Walk(restarts_ > kMostRestarts ? MachineTime::max() : until)) return false;
+  FinishWalk();
+  return true;
+}
+
+void StructureMirror::NoteFaults() {
+  for (const FaultBook::Entry& fault : faults_.Take()) {
+    const auto found = runtime_.root().Find(fault.path);
+    if (!found) continue;  // it has been deleted since
+    around_.stopped[(*found)->serial()] = fault.message;
+    seen_.reset();
+  }
+}
+
+void StructureMirror::NoteThreads() {
+  around_.thread_names.clear();
+  around_.default_thread = 0;
+  const auto note = [&](const FrameworkElement& folder) {
+    for (const FrameworkElement* each : folder.children()) {
+      if (each->kind() != ElementKind::kThread) continue;
+      around_.thread_names[each->serial()] = each->name();
+      const bool is_default = each->name() == scheduler_.options().default_thread;
+      if (around_.default_thread == 0 || is_default) around_.default_thread = each->serial();
+    }
+  };
+  for (const FrameworkElement* top : runtime_.root().children()) {
+    note(*top);
+    if (const auto* const folder = top->FindChild("threads")) note(*folder);
+  }
+}
+
+void StructureMirror::BeginWalk() {
+  restarts_ = walked_ ? restarts_ + 1 : 0;
+  walked_ = runtime_.revision();
+  ++walk_;
+  found_ = {};
+  found_.ahead = {&runtime_.root()};
+  NoteThreads();  // first: modules name theirs
+}
+
+bool StructureMirror::Walk(MachineTime until) {
+  for (std::size_t i = 1; !found_.ahead.empty(); ++i) {
+    FrameworkElement& element = *found_.ahead.back();
+    found_.ahead.pop_back();
+    const auto& children = element.children();
+    found_.ahead.insert(found_.ahead.end(), children.rbegin(), children.rend());
+    if (element.parent() != nullptr) Visit(element);
+    if (i % kStride == 0 && Now() >= until) return found_.ahead.empty();
+  }
+  return true;
+}
+
+void StructureMirror::Visit(FrameworkElement& element) {
+  const std::uint64_t fingerprint = Fingerprint(element);
+  const auto known = entries_.find(element.serial());
+  if (known != entries_.end()) known->second.walk = walk_;
+  if (known == entries_.end() || known->second.fingerprint != fingerprint) {
+    found_.news.emplace_back(element.serial(), Describe(element, fingerprint));
+  }
+  found_.order.push_back(element.serial());
+  switch (element.kind()) {
+    case ElementKind::kPort: {
+      const auto* const port = dynamic_cast<const Port*>(&element);
+      if (port->is_proxy() || port->direction() != Port::Direction::kOutput) return;
+      found_.metered.ports.push_back(port->path());
+      found_.ports.push_back(port);
+      return;
+    }
+    case ElementKind::kThread:
+      if (const auto* const thread = dynamic_cast<const ThreadContainer*>(&element)) {
+        found_.metered.threads.push_back(thread->path());
+        found_.threads.push_back(thread);
+      }
+      return;
+    case ElementKind::kParameter:
+      found_.parameters.push_back(&element);
+      return;
+    default:
+      return;
+  }
+}
+
+std::uint64_t StructureMirror::Fingerprint(const FrameworkElement& element) const {
+  std::uint64_t hash = ElementFingerprint(element, around_);
+  if (element.kind() != ElementKind::kPort) return hash;
+  for (const Connection& each : dynamic_cast<const Port&>(element).outgoing()) {
+    hash = hash * 31 + each.to->serial();
+    hash = hash * 31 + each.options.queue * 4 + static_cast<std::uint64_t>(each.options.on_full);
+  }
+  return hash;
+}
+
+StructureMirror::Entry StructureMirror::Describe(const FrameworkElement& element,
+                                                 std::uint64_t fingerprint) const {
+  Entry entry{.path = element.path(),
+              .json = ElementJson(element, around_),
+              .connections = {},
+              .fingerprint = fingerprint,
+              .walk = walk_};
+  if (const auto* const port = dynamic_cast<const Port*>(&element)) {
+    for (const Connection& each : port->outgoing()) {
+      entry.connections.push_back(ConnectionJson(each));
+    }
+  }
+  return entry;
+}
+
+void StructureMirror::FinishWalk() {
+  Difference difference;
+  const auto add = [](std::vector<std::string>& to, const std::vector<std::string>& more) {
+    to.insert(to.end(), more.begin(), more.end());
+  };
+  std::unordered_set<std::string_view> made_anew;
+  for (auto& [serial, entry] : found_.news) {
+    Entry& before = entries_[serial];
+    if (before.json != entry.json) difference.elements.push_back(entry.json);
+    add(difference.disconnected, before.connections);
+    add(difference.connected, entry.connections);
+    before = std::move(entry);
+    made_anew.insert(before.path);
+  }
+  std::erase_if(entries_, [&](const auto& each) {
+    const Entry& entry = each.second;
+    if (entry.walk == walk_) return false;
+    if (made_anew.count(entry.path) == 0) difference.gone.push_back(entry.path);
+    add(difference.disconnected, entry.connections);
+    around_.stopped.erase(each.first);
+    return true;
+  });
+  // A connection to another element of the same path is the same to a viewer.
+  Cancel(difference.connected, difference.disconnected);
+  std::sort(difference.gone.begin(), difference.gone.end());
+
+  order_ = std::move(found_.order);
+  ports_ = std::move(found_.ports);
+  threads_ = std::move(found_.threads);
+  parameters_ = std::move(found_.parameters);
+  metered_ = std::make_shared<const MeteredElements>(std::move(found_.metered));
+  next_parameter_ = 0;
+  seen_ = walked_;
+  walked_.reset();
+  restarts_ = 0;
+  Tell(std::move(difference));
+}
+
+// Nobody announces that a parameter has been set.
+void StructureMirror::SweepParameters(MachineTime until) {
+  Difference difference;
+  for (std::size_t i = 0; i < parameters_.size() && (i % kStride != 0 || Now() < until); ++i) {
+    const FrameworkElement& parameter = *parameters_[next_parameter_];
+    next_parameter_ = (next_parameter_ + 1) % parameters_.size();
+    const std::uint64_t fingerprint = Fingerprint(parameter);
+    Entry& entry = entries_[parameter.serial()];
+    if (entry.fingerprint == fingerprint) continue;
+    entry.fingerprint = fingerprint;
+    entry.json = ElementJson(parameter, around_);
+    difference.elements.push_back(entry.json);
+  }
+  Tell(std::move(difference));
+}
+
+void StructureMirror::Tell(Difference difference) {
+  const bool is_same = difference.gone.empty() && difference.elements.empty() &&
+                       difference.connected.empty() && difference.disconnected.empty();
+  if (is_same && revision_ > 0) return;
+  ++revision_;
+  std::string message;
+  if (revision_ > 1) {  // what comes first is told as a whole
+    JsonObject json(message);
+    json.Add("op", "structure_change");
+    json.Add("revision", revision_);
+    AppendList(difference.gone, json.Key("gone"), AppendJsonString);
+    AppendList(difference.elements, json.Key("elements"), AppendRaw);
+    AppendList(difference.connected, json.Key("connected"), AppendRaw);
+    AppendList(difference.disconnected, json.Key("disconnected"), AppendRaw);
+  }
+  changes_.push_back(std::move(message));
+  if (changes_.size() > kMostChanges) changes_.pop_front();
+}
+
+std::string StructureMirror::Whole() const {
+  std::string message;
+  std::vector<std::string> connections;
+  {
+    JsonObject json(message);
+    json.Add("op", "structure");
+    json.Add("revision", revision_);
+    AppendList(order_, json.Key("elements"), [&](std::uint64_t serial, std::string& text) {
+      const Entry& entry = entries_.at(serial);
+      text += entry.json;
+      connections.insert(connections.end(), entry.connections.begin(), entry.connections.end());
+    });
+    AppendList(connections, json.Key("connections"), AppendRaw);
+  }
+  return message;
+}
+
+const std::string* StructureMirror::ChangeTo(std::uint64_t revision) const {
+  const std::uint64_t oldest = revision_ + 1 - changes_.size();
+  if (revision < oldest || revision > revision_) return nullptr;
+  return &changes_[revision - oldest];
+}
+
+std::optional<CountSample> StructureMirror::Count() const {
+  const std::unique_lock lock(runtime_.structure_mutex(), std::try_to_lock);
+  if (!lock || seen_ != runtime_.revision()) return {};
+  CountSample sample{
+      .of = metered_, .publications = {}, .threads = {}, .time = runtime_.clock().Now()};
+  sample.publications.reserve(ports_.size());
+  for (const Port* port : ports_) sample.publications.push_back(port->publications());
+  for (const ThreadContainer* thread : threads_) sample.threads.push_back(thread->statistics());
+  return sample;
+}
+
+}  // namespace runnel::internal

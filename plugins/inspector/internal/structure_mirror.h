@@ -1,0 +1,119 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "core/element/runtime.h"
+#include "plugins/inspector/internal/element_json.h"
+#include "plugins/inspector/internal/fault_book.h"
+#include "plugins/scheduling/scheduler.h"
+#include "plugins/scheduling/thread_container.h"
+
+namespace runnel::internal {
+
+/// What counts can be read of: the outputs that publish, and the threads.
+struct MeteredElements {
+  std::vector<std::string> ports;    ///< paths
+  std::vector<std::string> threads;  ///< paths
+};
+
+/// The counts at one moment.
+struct CountSample {
+  std::shared_ptr<const MeteredElements> of;
+  std::vector<std::uint64_t> publications;
+  std::vector<CycleStatistics> threads;
+  Time time{};  ///< on the application's clock
+};
+
+/// The structure of an application as viewers have been told it, once for all of them: what has changed
+/// since is found by looking at everything again, bit by bit, whenever the structure has another
+/// revision; the values of parameters, whose changes nobody announces, by looking at some of them in turn.
+///
+/// Threads:  the server's. Tries the structure lock, and holds it for kHold at a time.
+class StructureMirror {
+ public:
+  StructureMirror(Runtime& runtime, const ModuleRegistry& modules, const Scheduler& scheduler,
+                  FaultBook& faults);
+
+  /// Looks on for a moment. True: what there is to see has been seen; false: come again soon.
+  bool Look();
+  /// Grows with each difference that Look() finds; 0: nothing has been seen yet.
+  [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
+  /// A message of the protocol with everything.
+  [[nodiscard]] std::string Whole() const;
+  /// The message that leads from the revision before to `revision`; nullptr if it is forgotten.
+  [[nodiscard]] const std::string* ChangeTo(std::uint64_t revision) const;
+  [[nodiscard]] std::size_t size() const noexcept { return order_.size(); }
+
+  /// Nothing if the structure is locked or has just changed.
+  [[nodiscard]] std::optional<CountSample> Count() const;
+
+ private:
+  // An element as viewers have been told it, with the connections that begin there.
+  struct Entry {
+    std::string path;
+    std::string json;
+    std::vector<std::string> connections;
+    std::uint64_t fingerprint = 0;  // of both
+    std::uint64_t walk = 0;         // that has seen it last
+  };
+  struct Difference {
+    std::vector<std::string> gone;      // paths
+    std::vector<std::string> elements;  // these and all that follow: as JSON
+    std::vector<std::string> connected;
+    std::vector<std::string> disconnected;
+  };
+  // What a walk has found, to be told when it has come to its end.
+  struct Findings {
+    std::vector<FrameworkElement*> ahead;
+    std::vector<std::uint64_t> order;
+    std::vector<std::pair<std::uint64_t, Entry>> news;
+    MeteredElements metered;
+    std::vector<const Port*> ports;
+    std::vector<const ThreadContainer*> threads;
+    std::vector<const FrameworkElement*> parameters;
+  };
+
+  // All of the following under the structure lock.
+  void BeginWalk();
+  bool Walk(std::chrono::steady_clock::time_point until);
+  void Visit(FrameworkElement& element);
+  [[nodiscard]] Entry Describe(const FrameworkElement& element, std::uint64_t fingerprint) const;
+  [[nodiscard]] std::uint64_t Fingerprint(const FrameworkElement& element) const;
+  void FinishWalk();
+  void SweepParameters(std::chrono::steady_clock::time_point until);
+  void NoteFaults();
+  void NoteThreads();
+
+  void Tell(Difference difference);
+
+  Runtime& runtime_;
+  const Scheduler& scheduler_;
+  FaultBook& faults_;
+  ElementSurroundings around_;
+  std::uint64_t revision_ = 0;
+  std::deque<std::string> changes_;  // the newest leads to revision_
+
+  std::unordered_map<std::uint64_t, Entry> entries_;  // by serial number
+  std::vector<std::uint64_t> order_;                  // of the tree
+  std::optional<std::uint64_t> seen_;                 // the runtime's revision that has been seen
+  std::uint64_t walk_ = 0;
+  std::optional<std::uint64_t> walked_;  // the runtime's revision in which a walk is under way
+  int restarts_ = 0;
+  Findings found_;  // valid while the runtime has that revision
+
+  // Valid while the runtime has the revision seen_.
+  std::vector<const Port*> ports_;
+  std::vector<const ThreadContainer*> threads_;
+  std::vector<const FrameworkElement*> parameters_;
+  std::size_t next_parameter_ = 0;
+  std::shared_ptr<const MeteredElements> metered_;
+};
+
+}  // namespace runnel::internal

@@ -1,0 +1,296 @@
+#include "plugins/inspector/internal/viewer_session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <utility>
+
+#include "core/base/nearest_name.h"
+#include "core/lockfree/thread_epoch.h"
+#include "core/types/type_info.h"
+#include "plugins/inspector/internal/json_parts.h"
+#include "plugins/inspector/internal/rate_message.h"
+#include "plugins/inspector/internal/requests.h"
+#include "plugins/json_values/json_values.h"
+
+namespace runnel::internal {
+
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr std::size_t kMostWatches = 500;
+constexpr std::size_t kMostPending = 64;
+constexpr std::size_t kMostLogEntries = 500;
+// A viewer for which more is waiting gets no values, rates and states until it has taken it.
+constexpr std::size_t kSlow = 1 << 20;
+constexpr auto kState = milliseconds(100);
+constexpr auto kTimeAlone = milliseconds(200);
+constexpr auto kLookForReply = milliseconds(5);
+constexpr double kFastestWatch = 60;
+constexpr double kFastestRates = 10;
+constexpr std::size_t kMostElements = 1'000'000;
+constexpr std::size_t kLongestText = 2'000;
+constexpr std::size_t kLargestValue = 4'000'000;  // bytes
+
+Duration IntervalOf(double rate) { return FromSeconds(1 / rate); }
+
+}  // namespace
+
+ViewerSession::ViewerSession(Inspection& inspection, WebClient& client)
+    : inspection_(inspection), client_(client) {
+  SendHello();
+}
+
+ViewerSession::~ViewerSession() {
+  for (const Pending& each : pending_) each.job->Cancel();
+}
+
+bool ViewerSession::IsSlow() const { return client_.waiting_bytes() > kSlow; }
+
+void ViewerSession::SendHello() {
+  const InspectorOptions& options = inspection_.options();
+  const bool is_simulated =
+      inspection_.scheduler().options().clock == SchedulerOptions::ClockKind::kSimulated;
+  std::string text;
+  {
+    JsonObject json(text);
+    json.Add("op", "hello");
+    json.Add("protocol", 1);
+    json.Add("application", options.application);
+    json.Add("file", options.file);
+    json.Add("run", inspection_.run());
+    json.Add("clock", is_simulated ? "simulated" : "real");
+    json.Add("read_only", options.is_read_only);
+    json.Add("runnel", options.version);
+  }
+  client_.SendText(std::move(text));
+}
+
+WebConversation::MachineTime ViewerSession::OnTurn() {
+  MachineTime next = inspection_.Look();
+  SendReplies();
+  SendStructure();
+  SendLog();
+  const MachineTime now = std::chrono::steady_clock::now();
+  if (now >= state_due_) SendState(now);
+  next = std::min(next, state_due_);
+  if (!watches_.empty()) {
+    SendValues(now);
+    for (const auto& [path, watch] : watches_) next = std::min(next, watch.due);
+  }
+  if (rates_interval_ > Duration{}) {
+    if (now >= rates_due_) SendRates(now);
+    next = std::min(next, rates_due_);
+  }
+  if (!pending_.empty()) next = std::min(next, now + kLookForReply);
+  return next;
+}
+
+void ViewerSession::SendStructure() {
+  if (IsSlow()) return;
+  const auto catalogue = inspection_.catalogue();
+  if (catalogue != nullptr && catalogue != catalogue_) {
+    if (client_.SendText(catalogue->message)) catalogue_ = catalogue;
+  }
+  if (catalogue_ == nullptr) return;
+  const StructureMirror& mirror = inspection_.mirror();
+  while (structure_ < mirror.revision() && !IsSlow()) {
+    const std::string* const change = structure_ > 0 ? mirror.ChangeTo(structure_ + 1) : nullptr;
+    if (change == nullptr) {
+      if (client_.SendText(mirror.Whole())) structure_ = mirror.revision();
+      return;
+    }
+    if (!client_.SendText(*change)) return;
+    ++structure_;
+  }
+}
+
+void ViewerSession::SendState(MachineTime now) {
+  state_due_ = now + kState;
+  if (IsSlow()) return;
+  const Pace& pace = inspection_.scheduler().pace();
+  const Duration time = inspection_.running_for();
+  const auto verdict = inspection_.verdict();
+  std::string state;
+  {
+    JsonObject json(state);
+    json.Add("paused", pace.is_paused());
+    AddNumberOrNull("speed", pace.is_simulated() ? std::optional(pace.speed()) : std::nullopt,
+                    json);
+    AddNull("undo", json);
+    AddNull("redo", json);
+    json.Add("faults", inspection_.faults.count());
+    json.Add("ended", verdict.has_value());
+    AddTextOrNull("verdict", verdict.value_or(""), json);
+  }
+  if (state == state_ && (time == state_time_)) return;
+  if (state == state_) state_due_ = now + kTimeAlone;
+  std::string text = "{\"op\":\"state\",\"time\":";
+  AppendJsonNumber(ToSeconds(time), text);
+  text += "," + state.substr(1);
+  if (!client_.SendText(std::move(text))) return;
+  state_ = std::move(state);
+  state_time_ = time;
+}
+
+void ViewerSession::SendReplies() {
+  std::erase_if(pending_, [&](const Pending& each) {
+    if (!each.job->is_done() || !client_.SendText(*each.reply)) return false;
+    inspection_.LookSoon();
+    return true;
+  });
+}
+
+void ViewerSession::SendLog() {
+  if (IsSlow()) return;
+  const ControlLog& log = inspection_.application().log;
+  if (!log_) {
+    const std::uint64_t end = log.end();
+    log_ = end > kMostLogEntries ? end - kMostLogEntries : 0;
+  }
+  if (log.end() <= *log_) return;
+  const ControlLog::Entries read = log.ReadEntries(*log_, kMostLogEntries);
+  std::string text;
+  {
+    JsonObject json(text);
+    json.Add("op", "log");
+    AppendList(read.entries, json.Key("entries"),
+               [](const ControlLog::Entry& each, std::string& to) {
+                 JsonObject object(to);
+                 object.Add("number", each.number);
+                 object.Add("time", ToSeconds(each.time));
+                 object.Add("kind", ControlLog::KindName(each.kind));
+                 object.Add("text", each.text);
+               });
+  }
+  if (client_.SendText(std::move(text))) log_ = read.next;
+}
+
+void ViewerSession::SendValues(MachineTime now) {
+  std::vector<Watch*> due;
+  for (auto& [path, watch] : watches_) {
+    if (now >= watch.due) due.push_back(&watch);
+  }
+  if (due.empty()) return;
+  // What is found under the lock stays in memory while the guard is held; so the lock need not be.
+  const EpochGuard guard;
+  std::vector<Watch*> found;
+  {
+    const std::unique_lock lock(inspection_.application().runtime.structure_mutex(),
+                                std::try_to_lock);
+    if (!lock) {
+      for (Watch* watch : due) watch->due = now + milliseconds(5);
+      return;
+    }
+    for (Watch* watch : due) {
+      watch->due = std::max(watch->due + watch->interval, now + watch->interval / 2);
+      // One that has been deleted may come back.
+      if (watch->port.Find(inspection_.application().runtime)) found.push_back(watch);
+    }
+  }
+  if (IsSlow()) return;
+  std::string items;
+  for (Watch* watch : found) {
+    std::string item;
+    const auto count = watch->port.LookIfNew([&](const void* value, Time stamp) {
+      item = "{\"path\":";
+      AppendJsonString(watch->port.path(), item);
+      item += ",\"stamp\":";
+      AppendJsonNumber(ToSeconds(stamp), item);
+      item += ",\"value\":";
+      const JsonLimits limits{watch->elements, kLongestText, kLargestValue};
+      if (!AppendJson(watch->port.type(), value, item, limits)) item += ",\"cut\":true";
+    });
+    if (!count) continue;
+    items += (items.empty() ? "" : ",") + item + ",\"count\":" + std::to_string(*count) + "}";
+  }
+  if (items.empty()) return;
+  std::string text = "{\"op\":\"values\",\"time\":";
+  AppendJsonNumber(ToSeconds(inspection_.running_for()), text);
+  client_.SendText(text + ",\"items\":[" + items + "]}");
+}
+
+void ViewerSession::SendRates(MachineTime now) {
+  if (IsSlow()) {
+    rates_due_ = now + rates_interval_;
+    return;
+  }
+  auto sample = inspection_.mirror().Count();
+  if (!sample) {
+    rates_due_ = now + milliseconds(5);
+    return;
+  }
+  rates_due_ = now + rates_interval_;
+  if (!counted_ || counted_->of != sample->of) {
+    counted_ = std::move(sample);
+    rates_.clear();
+    return;
+  }
+  std::string text = RateMessage(*counted_, *sample, ToSeconds(inspection_.running_for()), rates_);
+  if (client_.SendText(std::move(text))) counted_ = std::move(sample);
+}
+
+void ViewerSession::OnBinary(std::string_view /*message*/) {
+  client_.Close("messages of this protocol are text");
+}
+
+void ViewerSession::OnText(std::string_view text) {
+  auto parsed = ParseViewerMessage(text);
+  if (!parsed) {
+    Refuse({}, parsed.error());
+    return;
+  }
+  ViewerMessage& message = *parsed;
+  if (IsRequest(message.op)) return BeginRequest(std::move(message));
+  if (message.op == "watch") return BeginWatching(message);
+  if (message.op == "unwatch") {
+    watches_.erase(message.path);
+    return;
+  }
+  if (message.op == "watch_rates") {
+    const double rate = std::min(message.rate.value_or(1), kFastestRates);
+    rates_interval_ = rate > 0 ? IntervalOf(std::max(rate, 0.01)) : Duration{};
+    rates_due_ = {};
+    counted_.reset();
+    return;
+  }
+  Refuse(message, {.message = "there is no operation '" + message.op + "'",
+                   .hint = NearestNameHint(message.op, AllOperations())});
+}
+
+void ViewerSession::Refuse(const ViewerMessage& message, Error error) {
+  client_.SendText(Refusal(message.request, {{std::move(error)}}));
+}
+
+void ViewerSession::BeginWatching(const ViewerMessage& message) {
+  const double rate = std::clamp(message.rate.value_or(10), 1.0, kFastestWatch);
+  const std::size_t elements = std::min(message.elements, kMostElements);
+  const auto found = watches_.find(message.path);
+  if (found != watches_.end())
+    watches_.erase(found);  // with what has been shown: all is shown anew
+  if (watches_.size() >= kMostWatches) {
+    return Refuse(message, {.message = "more than " + std::to_string(kMostWatches) +
+                                       " ports cannot be watched at once",
+                            .path = message.path});
+  }
+  watches_.emplace(message.path, Watch{WatchedPort(message.path), IntervalOf(rate), elements});
+}
+
+void ViewerSession::BeginRequest(ViewerMessage message) {
+  if (inspection_.options().is_read_only && !OnlyLooks(message.op)) {
+    return Refuse(message,
+                  {.message = "this inspector is read-only: '" + message.op + "' is not allowed"});
+  }
+  if (pending_.size() >= kMostPending) {
+    return Refuse(message, {.message = "too many requests are waiting already"});
+  }
+  auto reply = std::make_shared<std::string>();
+  auto job =
+      inspection_.worker().Post([&inspection = inspection_, reply, message = std::move(message)] {
+        *reply = CarryOut(inspection, message);
+      });
+  pending_.push_back({std::move(job), std::move(reply)});
+}
+
+}  // namespace runnel::internal

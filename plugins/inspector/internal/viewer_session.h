@@ -1,0 +1,68 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plugins/inspector/internal/inspection.h"
+#include "plugins/inspector/internal/viewer_message.h"
+#include "plugins/watching/watched_port.h"
+#include "plugins/web_server/web_conversation.h"
+
+namespace runnel::internal {
+
+/// What is said to one viewer. See PROTOCOL.md.
+///
+/// Threads:  the server's.
+class ViewerSession final : public WebConversation {
+ public:
+  ViewerSession(Inspection& inspection, WebClient& client);
+  ~ViewerSession() override;
+
+  void OnText(std::string_view message) override;
+  void OnBinary(std::string_view message) override;
+  MachineTime OnTurn() override;
+
+ private:
+  struct Watch {
+    WatchedPort port;
+    Duration interval;
+    std::size_t elements;
+    MachineTime due{};
+  };
+  struct Pending {
+    std::shared_ptr<ChangeWorker::Job> job;
+    std::shared_ptr<std::string> reply;
+  };
+
+  void SendHello();
+  void SendStructure();
+  void SendLog();
+  void SendState(MachineTime now);
+  void SendReplies();
+  void SendValues(MachineTime now);
+  void SendRates(MachineTime now);
+  void BeginWatching(const ViewerMessage& message);
+  void BeginRequest(ViewerMessage message);
+  void Refuse(const ViewerMessage& message, Error error);
+  [[nodiscard]] bool IsSlow() const;
+
+  Inspection& inspection_;
+  WebClient& client_;
+  std::shared_ptr<const Catalogue> catalogue_;
+  std::uint64_t structure_ = 0;  // the revision that has been told
+  std::optional<std::uint64_t> log_;
+  std::string state_;  // as it was told, without the time
+  Duration state_time_{-1};
+  MachineTime state_due_{};
+  std::vector<Pending> pending_;
+  std::map<std::string, Watch, std::less<>> watches_;
+  Duration rates_interval_{};  // 0: not wanted
+  MachineTime rates_due_{};
+  std::optional<CountSample> counted_;
+  std::vector<double> rates_;  // as they were told, of counted_
+};
+
+}  // namespace runnel::internal

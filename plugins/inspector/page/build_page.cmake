@@ -1,0 +1,79 @@
+# Run while building: packages by `npm ci` into BUILD, the bundle into BUILD/page, and OUTPUT, a C++
+# source that has its files as bytes. Without a network there is no page, the rest is built.
+#   cmake -D NPM= -D NODE= -D SOURCE= -D BUILD= -D OUTPUT= -D STAMP= -P build_page.cmake
+
+function(write_source text)
+  file(WRITE "${OUTPUT}.new" "// Made by build_page.cmake.\n${text}")
+  file(COPY_FILE "${OUTPUT}.new" "${OUTPUT}" ONLY_IF_DIFFERENT)
+  file(REMOVE "${OUTPUT}.new")
+endfunction()
+
+function(give_up reason)
+  message("The inspector has no page: ${reason}\nAll else is built; the next build tries again.")
+  write_source("#include \"plugins/inspector/page/inspector_page.h\"
+
+const std::vector<runnel::WebResource>& runnel::InspectorPage() {
+  static const std::vector<WebResource> none;
+  return none;
+}
+")
+endfunction()
+
+file(MAKE_DIRECTORY "${BUILD}")
+file(READ "${SOURCE}/package-lock.json" wanted)
+set(installed "")
+if(EXISTS "${BUILD}/installed.json")
+  file(READ "${BUILD}/installed.json" installed)
+endif()
+if(NOT installed STREQUAL wanted)
+  foreach(file package.json package-lock.json)
+    file(COPY_FILE "${SOURCE}/${file}" "${BUILD}/${file}")
+  endforeach()
+  execute_process(
+    COMMAND "${NPM}" ci --ignore-scripts --no-audit --no-fund --fetch-retries=1 --loglevel=error
+    WORKING_DIRECTORY "${BUILD}" RESULT_VARIABLE status OUTPUT_VARIABLE said ERROR_VARIABLE said)
+  if(NOT status EQUAL 0)
+    give_up("npm could not get its packages (is there a network?):\n${said}")
+    return()
+  endif()
+  file(WRITE "${BUILD}/installed.json" "${wanted}")
+endif()
+
+execute_process(COMMAND "${NODE}" "${SOURCE}/bundle.mjs" "${BUILD}/page" "${BUILD}/node_modules"
+  RESULT_VARIABLE status)
+if(NOT status EQUAL 0)
+  message(FATAL_ERROR "The page of the inspector could not be bundled.")
+endif()
+
+set(entries "")
+set(arrays "")
+macro(embed file path type)
+  file(READ "${BUILD}/page/${file}" bytes HEX)
+  string(REGEX REPLACE "(................................)" "\\1\n" bytes "${bytes}")
+  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${bytes}")
+  string(MAKE_C_IDENTIFIER "k_${file}" name)
+  string(APPEND arrays "
+static constexpr unsigned char ${name}[] = {
+${bytes}};
+")
+  string(APPEND entries "
+      {\"${path}\", \"${type}\", {reinterpret_cast<const char*>(${name}), sizeof(${name})}},")
+endmacro()
+
+embed(index.html "/" "text/html; charset=utf-8")
+embed(page.js "/page.js" "text/javascript; charset=utf-8")
+embed(page.css "/page.css" "text/css; charset=utf-8")
+embed(icon.svg "/icon.svg" "image/svg+xml")
+embed(licences.txt "/licences.txt" "text/plain; charset=utf-8")
+write_source("#include \"plugins/inspector/page/inspector_page.h\"
+
+namespace runnel {
+${arrays}
+const std::vector<WebResource>& InspectorPage() {
+  static const std::vector<WebResource> files = {${entries}};
+  return files;
+}
+
+}  // namespace runnel
+")
+file(TOUCH "${STAMP}")

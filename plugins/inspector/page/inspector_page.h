@@ -1,0 +1,13 @@
+#pragma once
+
+#include <vector>
+
+#include "plugins/web_server/web_resource.h"
+
+namespace runnel {
+
+/// The files of the page, for WebServer::Start(). Empty if Runnel was built without npm, or without a
+/// network to get npm's packages from. Any thread; the bytes live as long as the program.
+[[nodiscard]] const std::vector<WebResource>& InspectorPage();
+
+}  // namespace runnel

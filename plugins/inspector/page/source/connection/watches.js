@@ -1,0 +1,71 @@
+// Which values the server is to send: what several parts of the page look at is asked for once, at
+// the highest rate that one of them wants.
+
+import { signal } from '@preact/signals';
+
+const kRate = 10;
+const kElements = 12;
+
+export class Watches {
+  #watched = new Map(); // path -> {value: signal, users: Set of {rate, elements}, asked}
+  #send;
+
+  constructor(send) {
+    this.#send = send;
+  }
+
+  /** A signal of {stamp, count, value, cut, drops} or null, and the function that ends it. */
+  watch(path, { rate = kRate, elements = kElements, onValue } = {}) {
+    if (!this.#watched.has(path)) {
+      this.#watched.set(path, { value: signal(null), users: new Set(), asked: '' });
+    }
+    const entry = this.#watched.get(path);
+    const user = { rate, elements, onValue };
+    entry.users.add(user);
+    this.#ask(path, entry);
+    if (onValue && entry.value.peek()) onValue(entry.value.peek());
+    const end = () => {
+      if (!entry.users.delete(user)) return;
+      if (entry.users.size > 0) return this.#ask(path, entry);
+      this.#watched.delete(path);
+      this.#send({ op: 'unwatch', path });
+    };
+    return { value: entry.value, end };
+  }
+
+  /** A new connection knows of no watches. */
+  askAgain() {
+    for (const [path, entry] of this.#watched) {
+      entry.asked = '';
+      this.#ask(path, entry);
+    }
+  }
+
+  /** A value can only be watched once its port is there. */
+  askAgainFor(paths) {
+    for (const path of paths) {
+      const entry = this.#watched.get(path);
+      if (!entry) continue;
+      entry.asked = '';
+      this.#ask(path, entry);
+    }
+  }
+
+  receive(message) {
+    for (const item of message.items) {
+      const entry = this.#watched.get(item.path);
+      if (!entry) continue;
+      entry.value.value = item;
+      for (const user of entry.users) user.onValue?.(item);
+    }
+  }
+
+  #ask(path, entry) {
+    const users = [...entry.users];
+    const rate = Math.max(...users.map((user) => user.rate));
+    const elements = Math.max(...users.map((user) => user.elements));
+    const asked = `${rate} ${elements}`;
+    if (asked === entry.asked) return;
+    if (this.#send({ op: 'watch', path, rate, elements })) entry.asked = asked;
+  }
+}

@@ -1,0 +1,28 @@
+// Connecting without a mouse: the ports that suit, with a search.
+
+import { html } from 'htm/preact';
+import { Partners } from '../model/compatibility.js';
+import { Connect } from '../state/actions.js';
+import { structure } from '../state/store.js';
+import { ChoiceList } from './choice_list.js';
+import { CloseDialog, Dialog } from './dialog.js';
+
+export function ConnectDialog({ path }) {
+  const port = structure.get(path);
+  const partners = Partners(structure, path);
+  const find = (text) => {
+    const words = text.toLowerCase().split(/\s+/).filter(Boolean);
+    return partners.filter(({ port: other }) => words.every((word) => other.path.toLowerCase().includes(word)))
+      .map(({ port: other, ends }) => ({
+        key: other.path, title: `${structure.get(other.owner)?.name ?? ''}/${other.name}`, ends,
+        note: ends.from === path ? 'takes what this gives' : 'gives what this takes', detail: other.path,
+      }));
+  };
+  const choose = ({ ends }) => { CloseDialog(); Connect(ends.from, ends.to); };
+  return html`
+    <${Dialog} title=${`Connect ${port?.name}`}>
+      <h2>Connect ${port?.name} <small>${port?.data_type}</small></h2>
+      <${ChoiceList} label=${`Ports that ${port?.name} can be connected with`} placeholder="With which port?" find=${find} onChoose=${choose}
+        empty=${`no other port of type ${port?.data_type} is left`} />
+    <//>`;
+}

@@ -1,0 +1,60 @@
+// A new module from the catalogue, or a new group.
+
+import { useState } from 'preact/hooks';
+import { html } from 'htm/preact';
+import { FreeName, NameProblem } from '../model/change_text.js';
+import { CreateGroup, CreateModule, ErrorText } from '../state/actions.js';
+import { Reveal } from '../state/choices.js';
+import { catalogue, structure } from '../state/store.js';
+import { Select } from '../graph/graph_keys.js';
+import { ChoiceList } from './choice_list.js';
+import { CloseDialog, Dialog } from './dialog.js';
+
+export function CreateDialog({ group }) {
+  const [type, setType] = useState(null);
+  const [typed, setTyped] = useState(null);
+  const [problem, setProblem] = useState('');
+  const name = typed ?? (type ? FreeName(structure, group, type) : '');
+
+  const create = async (wanted) => {
+    const free = typed ?? FreeName(structure, group, wanted);
+    const wrong = NameProblem(structure, group, free);
+    if (wrong) return setProblem(wrong);
+    const reply = await CreateModule(wanted, group, free);
+    if (!reply.ok) return setProblem((reply.errors ?? []).map(ErrorText).join('\n'));
+    CloseDialog();
+    ShowNew(`${group}/${free}`);
+  };
+  const find = (text) => catalogue.value.search(text).map((module) => ({
+    key: module.type, title: module.type, note: Ports(module), detail: module.summary,
+  }));
+  return html`
+    <${Dialog} title="Add a module" className="wide">
+      <h2>Add a module <small>to ${group}</small></h2>
+      <${ChoiceList} label="Module types" placeholder="What shall it do?" find=${find} onChoose=${(entry) => create(entry.key)}
+        onCurrent=${(entry) => { setType(entry?.key ?? null); setProblem(''); }} empty="no module type is like that" />
+      <div class="dialog-foot">
+        <label>Name <input id="new-name" value=${name} spellcheck="false" autocomplete="off"
+          onInput=${(event) => { setTyped(event.target.value); setProblem(''); }}
+          onKeyDown=${(event) => { if (event.key === 'Enter' && type) create(type); }} /></label>
+        <button onClick=${() => { CloseDialog(); CreateGroup(group); }}>New group</button>
+        <button class="primary" id="create" disabled=${!type} onClick=${() => create(type)}>Add ${type ?? ''}</button>
+      </div>
+      ${problem && html`<p class="problem" role="alert">${problem}</p>`}
+    <//>`;
+}
+
+function Ports({ ports = [] }) {
+  const count = (direction) => ports.filter((port) => port.direction === direction).length;
+  return `${count('input')} in, ${count('output')} out`;
+}
+
+/** Selects a new element as soon as the structure has it. */
+function ShowNew(path, attempts = 40) {
+  if (structure.get(path)) {
+    Reveal(path);
+    Select(path);
+  } else if (attempts > 0) {
+    setTimeout(() => ShowNew(path, attempts - 1), 50);
+  }
+}

@@ -1,0 +1,23 @@
+// The frame of all dialogs: modal, closed by Escape or a click beside it, focus goes back after it.
+
+import { useEffect, useRef } from 'preact/hooks';
+import { html } from 'htm/preact';
+import { openDialog } from '../state/choices.js';
+
+export function CloseDialog() {
+  openDialog.value = null;
+}
+
+export function Dialog({ title, children, className = '', style }) {
+  const element = useRef(null);
+  useEffect(() => {
+    const before = document.activeElement;
+    element.current.showModal();
+    element.current.querySelector('[autofocus], input, button:not(.remove)')?.focus();
+    return () => before?.focus?.();
+  }, []);
+  const onPointerDown = (event) => { if (event.target === element.current) CloseDialog(); };
+  return html`<dialog ref=${element} class=${className} style=${style} aria-label=${title} onClose=${CloseDialog}
+      onPointerDown=${onPointerDown} onKeyDown=${(event) => event.stopPropagation()}>
+    <div class="dialog-body">${children}</div></dialog>`;
+}

@@ -1,0 +1,70 @@
+// The menu of an element: what can be done with it.
+
+import { html } from 'htm/preact';
+import { IsGroup } from '../model/structure.js';
+import { CreateGroup, Delete, Disconnect, Reload } from '../state/actions.js';
+import { IsOpen, SetAllOpen, openDialog } from '../state/choices.js';
+import { canChange, catalogue, structure } from '../state/store.js';
+import { Fit, ToggleGroup } from '../graph/graph_state.js';
+import { CloseDialog, Dialog } from './dialog.js';
+
+export function Menu({ path, x, y }) {
+  const items = MenuItems(path);
+  const onKey = (event) => {
+    const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    const buttons = [...event.currentTarget.querySelectorAll('button:not(:disabled)')];
+    const at = buttons.indexOf(document.activeElement);
+    buttons[(at + step + buttons.length) % buttons.length]?.focus();
+  };
+  const style = { left: `${Math.min(x, innerWidth - 230)}px`, top: `${Math.min(y, innerHeight - items.length * 32 - 20)}px` };
+  return html`
+    <${Dialog} title="Menu" className="menu" style=${style}>
+      <div role="menu" onKeyDown=${onKey}>
+        ${items.map(({ text, action, changes, danger }) => html`
+          <button key=${text} role="menuitem" class=${danger ? 'danger' : ''} disabled=${changes && !canChange.value}
+            onClick=${() => { CloseDialog(); action(); }}>${text}</button>`)}
+      </div>
+    <//>`;
+}
+
+function MenuItems(path) {
+  const connection = structure.connections.get(path);
+  if (connection) {
+    return [{ text: 'Disconnect', changes: true, danger: true, action: () => Disconnect(connection.from, connection.to) }];
+  }
+  const element = structure.get(path);
+  const open = (kind) => () => { openDialog.value = { kind, path }; };
+  if (!element) return [];
+  if (element.kind === 'port') return [{ text: 'Connect …', changes: true, action: open('connect') }];
+  if (element.kind === 'module') return ModuleItems(element, open);
+  return IsGroup(element) ? GroupItems(element, open) : [];
+}
+
+function ModuleItems({ path, type }, open) {
+  const plugin = catalogue.value.module(type)?.plugin;
+  return [
+    { text: 'Swap …', changes: true, action: open('swap') },
+    { text: 'Move to thread …', changes: true, action: open('move') },
+    ...(plugin ? [{ text: `Reload plugin ${plugin}`, changes: true, action: () => Reload(plugin) }] : []),
+    { text: 'Delete', changes: true, danger: true, action: () => Delete(path) },
+  ];
+}
+
+function GroupItems({ path }, open) {
+  const isRoot = path === structure.root;
+  return [
+    { text: 'Add a module …', changes: true, action: () => { openDialog.value = { kind: 'create', group: path }; } },
+    { text: 'New group', changes: true, action: () => CreateGroup(path) },
+    ...(isRoot ? [
+      { text: 'Open all groups', action: () => SetAllOpen(true) },
+      { text: 'Fold all groups', action: () => SetAllOpen(false) },
+      { text: 'Fit', action: Fit },
+    ] : [
+      { text: IsOpen(path) ? 'Fold' : 'Open', action: () => ToggleGroup(path) },
+      { text: 'Move to thread …', changes: true, action: open('move') },
+      { text: 'Delete', changes: true, danger: true, action: () => Delete(path) },
+    ]),
+  ];
+}

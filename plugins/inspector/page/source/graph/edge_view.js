@@ -1,0 +1,26 @@
+// A connection in the graph. It is bright while its source publishes.
+
+import { useComputed } from '@preact/signals';
+import { html } from 'htm/preact';
+import { memo } from '../panels/memo.js';
+import { OriginsOf } from '../model/origin.js';
+import { selected } from '../state/choices.js';
+import { RateOf, structure } from '../state/store.js';
+
+export const EdgeView = memo(({ edge }) => {
+  const state = useComputed(() => {
+    if (selected.value === edge.key) return 'selected';
+    return Touches(selected.value, edge) ? 'near' : '';
+  });
+  const isLive = useComputed(() =>
+    OriginsOf(structure, edge.from).some((origin) => RateOf(origin).value > 0));
+  return html`<path class=${`edge ${state.value} ${isLive.value ? 'live' : ''}`} data-edge=${edge.key}
+    d=${edge.path} transform=${edge.dx || edge.dy ? `translate(${edge.dx},${edge.dy})` : undefined} />`;
+});
+
+/** Whether a connection begins or ends at what is selected: a port, or a box. */
+function Touches(path, edge) {
+  if (!path) return false;
+  return edge.from === path || edge.to === path ||
+    edge.from.startsWith(`${path}/`) || edge.to.startsWith(`${path}/`);
+}

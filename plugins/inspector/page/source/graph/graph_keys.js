@@ -1,0 +1,119 @@
+// The graph by keyboard. What is selected is where the keys are.
+
+import { Delete, Disconnect } from '../state/actions.js';
+import { announcement, openDialog, selected } from '../state/choices.js';
+import { canChange, structure } from '../state/store.js';
+import { IsGroup, ParentOf } from '../model/structure.js';
+import { DescribeBox } from './box_view.js';
+import { Fit, MoveView, ShowElement, ToggleGroup, connecting, layout, size, view } from './graph_state.js';
+import { StopConnecting } from './pointer.js';
+import { DescribePort } from './port_view.js';
+import { ZoomAt } from './viewport.js';
+
+const kDirections = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+
+export function OnGraphKey(event) {
+  if (event.ctrlKey || event.altKey || event.metaKey || event.target.closest('button')) return;
+  const action = event.key in kDirections ? () => Go(event.key, event.shiftKey) : kKeys[event.key];
+  if (!action) return;
+  event.preventDefault();
+  event.stopPropagation();
+  action();
+}
+
+const kKeys = {
+  Enter: () => { if (IsSelectedGroup()) ToggleGroup(selected.value); },
+  ' ': () => { if (IsSelectedGroup()) ToggleGroup(selected.value); },
+  Escape: () => { if (connecting.value) StopConnecting(); else selected.value = null; },
+  Delete: DeleteSelected,
+  Backspace: DeleteSelected,
+  f: Fit,
+  '+': () => Zoom(1.25),
+  '-': () => Zoom(0.8),
+  c: () => OpenFor('connect', (element) => element.kind === 'port'),
+  s: () => OpenFor('swap', (element) => element.kind === 'module'),
+  m: () => OpenFor('move', (element) => element.kind === 'module' || element.kind === 'group'),
+  ContextMenu: OpenMenu,
+  F10: OpenMenu,
+};
+
+function Zoom(factor) {
+  MoveView(ZoomAt(view.value, { x: size.value.width / 2, y: size.value.height / 2 }, factor));
+}
+
+function IsSelectedGroup() {
+  const element = structure.get(selected.value);
+  return element !== undefined && IsGroup(element);
+}
+
+function OpenFor(kind, suits) {
+  const element = structure.get(selected.value);
+  if (element && suits(element) && canChange.value) openDialog.value = { kind, path: element.path };
+}
+
+function OpenMenu() {
+  const box = layout.value.boxes.get(structure.get(selected.value)?.owner ?? selected.value);
+  const host = document.getElementById('graph').getBoundingClientRect();
+  const { x, y, scale } = view.value;
+  openDialog.value = { kind: 'menu', path: selected.value ?? structure.root,
+    x: host.left + (box ? x + scale * (box.x + 30) : host.width / 2),
+    y: host.top + (box ? y + scale * (box.y + 20) : host.height / 2) };
+}
+
+export function DeleteSelected() {
+  if (!canChange.value || !selected.value) return;
+  const connection = structure.connections.get(selected.value);
+  const element = structure.get(selected.value);
+  if (connection) Disconnect(connection.from, connection.to).then((reply) => { if (reply.ok) selected.value = null; });
+  else if (element?.kind === 'module' || element?.kind === 'group') Delete(element.path);
+}
+
+function Go(key, alongPorts) {
+  const next = alongPorts ? NextPort(key) : NextBox(kDirections[key]);
+  if (next) Select(next);
+}
+
+/** Selects what keys or a search have found, shows it, and says what it is. */
+export function Select(path) {
+  selected.value = path;
+  const element = structure.get(path);
+  const box = layout.value.boxes.get(element?.owner ?? path);
+  ShowElement(element?.owner ?? path);
+  if (element?.kind === 'port') announcement.value = DescribePort(element);
+  else if (box) announcement.value = DescribeBox(box, element.thread);
+}
+
+/** The nearest box in a direction; those straight ahead count as nearer. */
+function NextBox([dx, dy]) {
+  const boxes = [...layout.value.boxes.values()];
+  const path = structure.get(selected.value)?.owner ?? selected.value;
+  const here = layout.value.boxes.get(path) ?? layout.value.boxes.get(ParentOf(path ?? ''));
+  if (!here) return boxes.find((box) => !box.open)?.path;
+  const from = Middle(here);
+  let best = null;
+  let least = Infinity;
+  for (const box of boxes) {
+    if (box.path === here.path || (box.open && here.path.startsWith(`${box.path}/`) && dx !== -1)) continue;
+    const to = Middle(box);
+    const ahead = (to.x - from.x) * dx + (to.y - from.y) * dy;
+    const aside = Math.abs((to.x - from.x) * dy) + Math.abs((to.y - from.y) * dx);
+    if (ahead <= 1 || aside > ahead * 4) continue;
+    const cost = ahead + 2 * aside;
+    if (cost < least) [best, least] = [box.path, cost];
+  }
+  return best;
+}
+
+function Middle(box) {
+  // Of an open group its bar is meant, not the middle of what it holds.
+  return { x: box.x + box.width / 2, y: box.open ? box.y + 15 : box.y + box.height / 2 };
+}
+
+function NextPort(key) {
+  const owner = structure.get(selected.value)?.owner ?? selected.value;
+  const ports = structure.portsOf(owner).map((port) => port.path);
+  if (ports.length === 0) return null;
+  const at = ports.indexOf(selected.value);
+  const step = key === 'ArrowUp' || key === 'ArrowLeft' ? -1 : 1;
+  return ports[at < 0 ? 0 : (at + step + ports.length) % ports.length];
+}

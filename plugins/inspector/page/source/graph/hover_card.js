@@ -1,0 +1,36 @@
+// What a port carries, beside the pointer.
+
+import { signal } from '@preact/signals';
+import { useEffect, useState } from 'preact/hooks';
+import { html } from 'htm/preact';
+import { FormatNumber, FormatValue } from '../model/value_format.js';
+import { structure, watches } from '../state/store.js';
+import { size } from './graph_state.js';
+
+export const hovered = signal(null); // {path, x, y, isPort}
+
+export function HoverCard() {
+  const at = hovered.value;
+  const element = at?.isPort ? structure.get(at.path) : null;
+  if (!element) return null;
+  const right = at.x > size.value.width - 300;
+  const below = at.y > size.value.height - 130;
+  const style = {
+    left: right ? undefined : `${at.x + 16}px`, right: right ? `${size.value.width - at.x + 12}px` : undefined,
+    top: below ? undefined : `${at.y + 14}px`, bottom: below ? `${size.value.height - at.y + 12}px` : undefined,
+  };
+  return html`
+    <div class="hover-card" style=${style} role="tooltip">
+      <strong>${element.name}</strong> <span class="type">${element.data_type}</span>
+      ${element.description && html`<p>${element.description}</p>`}
+      <${LiveValue} path=${element.path} key=${element.path} />
+    </div>`;
+}
+
+function LiveValue({ path }) {
+  const [item, setItem] = useState(null);
+  useEffect(() => watches.watch(path, { rate: 5, onValue: setItem }).end, [path]);
+  if (!item) return html`<p class="value none">nothing yet</p>`;
+  return html`<p class="value">${FormatValue(item.value, 90)}</p>
+    <p class="stamp">${item.count} values, the last at ${FormatNumber(item.stamp)} s</p>`;
+}

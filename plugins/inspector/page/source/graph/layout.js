@@ -1,0 +1,137 @@
+// The layout of the graph: boxes and curves with absolute places, of what is open only. Levels are
+// laid out alone, inner ones first, and kept: a change makes anew its own level and those around it.
+
+import { IsGroup } from '../model/structure.js';
+import { BowPath, ForwardPath } from './edge_path.js';
+import { ClosingEdges, ConnectionsByLevel, IsDistant, kInside, kOutside } from './levels.js';
+import { LevelLayout } from './level_layout.js';
+import { BoxSize, PortHeight } from './measure.js';
+
+const kPatience = 150; // boxes at once; dagre takes half a second for as many
+const kRateWidth = 40; // of the rate beside the ports of the last box
+
+export class GraphLayout {
+  #kept = new Map(); // group -> {signature, layout}
+  #placed = 0;       // boxes that dagre has placed in this computation
+
+  /**
+   * {boxes: Map path -> box, edges: [edge], width, height}.
+   * box:  {path, element, x, y, width, height, depth, open, inputs, outputs, hidden}; hidden: number of
+   *       modules in a folded group
+   * edge: {key, from, to, start, end, path, left, top, right, bottom, depth}
+   * ports: Map port path -> {x, y, side}
+   */
+  compute(structure, isOpen) {
+    const result = { boxes: new Map(), edges: [], ports: new Map(), width: 0, height: 0 };
+    if (structure.root === null) return result;
+    this.#placed = 0;
+    const levels = ConnectionsByLevel(structure);
+    const level = this.#level(structure, levels, structure.root, isOpen);
+    result.width = level.width + kRateWidth;
+    result.height = level.height;
+    Flatten(level, 0, 0, 0, result);
+    AddDistantEdges(structure, levels, result);
+    return result;
+  }
+
+  #level(structure, levels, group, isOpen) {
+    const boxes = structure.membersOf(group).map((path) => this.#box(structure, levels, path, isOpen));
+    const connections = levels.get(group) ?? [];
+    const ports = group === structure.root ? [] : structure.portsOf(group);
+    const signature = JSON.stringify([boxes.map((box) => box.signature),
+      connections.map((connection) => connection.key), ports.map((port) => port.path)]);
+    const kept = this.#kept.get(group);
+    if (kept?.signature === signature) {
+      kept.layout.boxes.forEach((box, index) => { box.element = boxes[index].element; });
+      return kept.layout;
+    }
+    const members = [kInside, ...boxes.map((box) => box.path), kOutside];
+    const closing = ClosingEdges(members, connections);
+    const isQuick = this.#placed + boxes.length > kPatience;
+    if (!isQuick) this.#placed += boxes.length;
+    const layout = LevelLayout(structure, { group, boxes, connections, closing, ports, isQuick });
+    layout.signature = signature;
+    this.#kept.set(group, { signature, layout });
+    return layout;
+  }
+
+  #box(structure, levels, path, isOpen) {
+    const element = structure.get(path);
+    const ports = structure.portsOf(path);
+    const inputs = ports.filter((port) => port.direction === 'input');
+    const outputs = ports.filter((port) => port.direction === 'output');
+    const box = { path, element, inputs, outputs, open: IsGroup(element) && isOpen(path) };
+    if (box.open) {
+      box.level = this.#level(structure, levels, path, isOpen);
+      box.width = box.level.width;
+      box.height = box.level.height;
+      box.signature = `${path} ${box.level.signature}`;
+      return box;
+    }
+    box.hidden = IsGroup(element) ? CountModules(structure, path) : 0;
+    const detail = IsGroup(element) ? `${box.hidden} modules` : element.type ?? '';
+    Object.assign(box, BoxSize(element.name, detail, inputs, outputs));
+    box.signature = `${path} ${detail} ${ports.map((port) => port.path)}`;
+    return box;
+  }
+}
+
+function CountModules(structure, group) {
+  let count = 0;
+  for (const path of structure.get(group)?.children ?? []) {
+    const kind = structure.get(path)?.kind;
+    if (kind === 'module') ++count;
+    else if (kind === 'group') count += CountModules(structure, path);
+  }
+  return count;
+}
+
+function Flatten(level, x, y, depth, result) {
+  for (const edge of level.edges) {
+    result.edges.push({ ...edge, dx: x, dy: y, depth,
+      left: edge.left + x, right: edge.right + x, top: edge.top + y, bottom: edge.bottom + y,
+      start: { x: edge.start.x + x, y: edge.start.y + y },
+      end: { x: edge.end.x + x, y: edge.end.y + y } });
+  }
+  for (const [port, place] of level.border) {
+    result.ports.set(port, { x: place.x + x, y: place.y + y, side: place.side });
+  }
+  for (const box of level.boxes) {
+    const place = { ...box, x: box.x + x, y: box.y + y, depth };
+    result.boxes.set(box.path, place);
+    if (box.open) {
+      Flatten(box.level, place.x, place.y, depth + 1, result);
+      continue;
+    }
+    box.inputs.forEach((port, index) =>
+      result.ports.set(port.path, { x: place.x, y: place.y + PortHeight(index), side: 'left' }));
+    box.outputs.forEach((port, index) =>
+      result.ports.set(port.path, { x: place.x + box.width, y: place.y + PortHeight(index), side: 'right' }));
+  }
+}
+
+/** Connections that pass the border of a group without a port of it: bows over everything. */
+function AddDistantEdges(structure, levels, result) {
+  for (const [group, connections] of levels) {
+    if (group !== structure.root && !result.boxes.get(group)?.open) continue;
+    for (const connection of connections) {
+      if (!IsDistant(structure, connection)) continue;
+      const start = EndPlace(structure, result, connection.from, connection.source);
+      const end = EndPlace(structure, result, connection.to, connection.target);
+      if (!start || !end) continue;
+      result.edges.push({ key: connection.key, from: connection.from, to: connection.to, start, end,
+        path: end.x < start.x ? BowPath(start, end) : ForwardPath(start, end),
+        dx: 0, dy: 0, depth: 0, left: Math.min(start.x, end.x) - 100,
+        right: Math.max(start.x, end.x) + 100, top: Math.min(start.y, end.y), bottom: Math.max(start.y, end.y) });
+    }
+  }
+}
+
+function EndPlace(structure, result, port, member) {
+  const place = result.ports.get(port);
+  if (place) return place;
+  const box = result.boxes.get(member);
+  if (!box) return null;
+  const isOutput = structure.get(port).direction === 'output';
+  return { x: isOutput ? box.x + box.width : box.x, y: box.y + box.height / 2 };
+}

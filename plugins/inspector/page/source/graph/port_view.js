@@ -1,0 +1,46 @@
+// A port of a box: a dot that edges begin or end at, its name, and how often it publishes.
+
+import { useComputed } from '@preact/signals';
+import { html } from 'htm/preact';
+import { memo } from '../panels/memo.js';
+import { OriginsOf } from '../model/origin.js';
+import { FormatRate } from '../model/value_format.js';
+import { selected } from '../state/choices.js';
+import { RateOf, structure } from '../state/store.js';
+import { candidates, connecting } from './graph_state.js';
+
+export const PortView = memo(({ port, x, y, side, inside }) => {
+  const isSelected = useComputed(() => selected.value === port.path);
+  const role = useComputed(() => {
+    if (candidates.value === null) return '';
+    if (connecting.value?.target === port.path) return 'target';
+    return candidates.value.has(port.path) || connecting.value?.port === port.path ? 'candidate' : 'other';
+  });
+  const isLeft = side === 'left';
+  const labelRight = inside ? !isLeft : isLeft; // on which side of the dot there is room for the name
+  const label = inside ? isLeft : labelRight;
+  return html`
+    <g class=${`port ${port.direction} ${role.value} ${isSelected.value ? 'selected' : ''}`}
+       data-port=${port.path} id=${`port:${port.path}`} transform=${`translate(${x},${y})`}
+       role="treeitem" aria-label=${DescribePort(port)} aria-selected=${isSelected.value}>
+      <rect class="grip" x=${label ? -9 : -(port.name.length * 6.3 + 12)} y="-10" height="20"
+        width=${port.name.length * 6.3 + 21} />
+      <circle r="4" class=${port.required ? 'required' : ''} />
+      <text x=${label ? 10 : -10} y="3.8" text-anchor=${label ? 'start' : 'end'}>${port.name}</text>
+      ${!isLeft && html`<${Rate} path=${port.path} />`}
+    </g>`;
+});
+
+/** Publications per second, beside the beginning of an edge. */
+function Rate({ path }) {
+  const text = useComputed(() => {
+    const origins = OriginsOf(structure, path);
+    const rates = origins.map((origin) => RateOf(origin).value).filter((rate) => rate !== null);
+    return rates.length === 0 ? '' : FormatRate(rates.reduce((sum, rate) => sum + rate, 0));
+  });
+  return html`<text class="rate" x="9" y="-4">${text}</text>`;
+}
+
+export function DescribePort(port) {
+  return `${port.direction} ${port.name}, ${port.data_type}${port.required ? ', required' : ''}`;
+}

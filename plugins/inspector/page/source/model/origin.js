@@ -1,0 +1,27 @@
+// Ports of groups publish nothing themselves: where what flows through them comes from.
+
+import { IsGroup } from './structure.js';
+
+/** The outputs of modules that feed a port: itself, if it is one. */
+export function OriginsOf(structure, path, seen = new Set()) {
+  if (seen.has(path)) return [];
+  seen.add(path);
+  const port = structure.get(path);
+  if (!port) return [];
+  const owner = structure.get(port.owner);
+  if (port.direction === 'output' && !(owner && IsGroup(owner))) return [path];
+  return structure.connectionsOf(path)
+    .filter((connection) => connection.to === path)
+    .flatMap((connection) => OriginsOf(structure, connection.from, seen));
+}
+
+/** The inputs of modules that a port feeds, through however many groups. */
+export function ReadersOf(structure, path, seen = new Set()) {
+  return structure.connectionsOf(path)
+    .filter((connection) => connection.from === path && !seen.has(connection.to))
+    .flatMap((connection) => {
+      seen.add(connection.to);
+      const owner = structure.get(structure.get(connection.to)?.owner);
+      return owner && IsGroup(owner) ? ReadersOf(structure, connection.to, seen) : [connection.to];
+    });
+}

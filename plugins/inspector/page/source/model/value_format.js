@@ -1,0 +1,85 @@
+// Numbers, times and values as people read them.
+
+/** A number with about four significant digits, without jumping between notations while it changes. */
+export function FormatNumber(number) {
+  if (number === null || number === undefined || Number.isNaN(number)) return 'NaN';
+  if (!Number.isFinite(number)) return number > 0 ? '∞' : '−∞';
+  const size = Math.abs(number);
+  if (Number.isInteger(number) && size < 1e9) return Minus(String(number));
+  if (size >= 1e6 || size < 1e-4) return Minus(number.toExponential(3));
+  const decimals = size >= 1000 ? 1 : size >= 100 ? 2 : size >= 0.01 ? 3 : 5;
+  return Minus(number.toFixed(decimals));
+}
+
+/** A rate in Hz: "20 Hz", "19.8 Hz", "0 Hz". */
+export function FormatRate(rate) {
+  if (!rate) return '0 Hz';
+  if (rate >= 10000) return `${(rate / 1000).toFixed(0)} kHz`;
+  const rounded = Math.round(rate);
+  if (rate >= 100 || Math.abs(rate - rounded) < 0.05) return `${rounded} Hz`;
+  return `${rate.toFixed(1)} Hz`;
+}
+
+/** Milliseconds in a unit that suits: "0.18 ms", "45 µs", "1.2 s". */
+export function FormatMilliseconds(milliseconds) {
+  if (milliseconds === null || milliseconds === undefined) return '–';
+  const size = Math.abs(milliseconds);
+  if (size >= 1000) return `${Digits(milliseconds / 1000)} s`;
+  if (size >= 0.1 || size === 0) return `${Digits(milliseconds)} ms`;
+  return `${Digits(milliseconds * 1000)} µs`;
+}
+
+/** Seconds as a clock: "12.35 s", "1:02:03.4". */
+export function FormatTime(seconds) {
+  if (seconds === null || seconds === undefined) return '–';
+  if (seconds < 60) return `${seconds.toFixed(2)} s`;
+  const whole = Math.floor(seconds);
+  const rest = (seconds - Math.floor(seconds / 60) * 60).toFixed(1).padStart(4, '0');
+  const minutes = Math.floor(whole / 60) % 60;
+  const hours = Math.floor(whole / 3600);
+  return hours > 0 ? `${hours}:${String(minutes).padStart(2, '0')}:${rest}` : `${minutes}:${rest}`;
+}
+
+/** A whole value in one line, cut at `limit` letters. */
+export function FormatValue(value, limit = 60) {
+  const text = Short(value);
+  return text.length > limit ? `${text.slice(0, limit - 1)}…` : text;
+}
+
+/** The bounds of a parameter: "0.02 … 2 m", "≥ 0", or "". */
+export function FormatBounds({ minimum, maximum, unit }) {
+  const has = (bound) => bound !== null && bound !== undefined;
+  const suffix = unit ? ` ${unit}` : '';
+  if (has(minimum) && has(maximum)) return `${minimum} … ${maximum}${suffix}`;
+  if (has(minimum)) return `≥ ${minimum}${suffix}`;
+  return has(maximum) ? `≤ ${maximum}${suffix}` : '';
+}
+
+/** Times and durations come as {sec, nsec}. */
+export function IsTime(value) {
+  return value !== null && typeof value === 'object' && 'sec' in value && 'nsec' in value;
+}
+
+export function SecondsOf(time) {
+  return time.sec + time.nsec * 1e-9;
+}
+
+function Digits(number) {
+  return Math.abs(number) >= 100 ? number.toFixed(0) : number.toFixed(Math.abs(number) >= 10 ? 1 : 2);
+}
+
+function Minus(text) {
+  return text.replace(/^-/, '−').replace('e-', 'e−');
+}
+
+function Short(value) {
+  if (typeof value === 'number' || value === null || value === undefined) return FormatNumber(value);
+  if (typeof value === 'string') return value;
+  if (typeof value === 'boolean') return value ? 'true' : 'false';
+  if (Array.isArray(value)) {
+    return value.length > 4 ? `[${value.slice(0, 4).map(Short).join(', ')}, … ${value.length}]`
+      : `[${value.map(Short).join(', ')}]`;
+  }
+  if (IsTime(value)) return `${FormatNumber(SecondsOf(value))} s`;
+  return Object.entries(value).map(([name, field]) => `${name} ${Short(field)}`).join(', ');
+}

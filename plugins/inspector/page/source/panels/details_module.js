@@ -1,0 +1,59 @@
+// A module or a group: what it is, what can be done with it, its parameters, ports and times.
+
+import { html } from 'htm/preact';
+import { FormatMilliseconds } from '../model/value_format.js';
+import { IsGroup, ThreadOf } from '../model/structure.js';
+import { Delete, Reload } from '../state/actions.js';
+import { IsOpen, openDialog } from '../state/choices.js';
+import { DurationOf, canChange, catalogue, structure } from '../state/store.js';
+import { ThreadColour } from '../graph/thread_colour.js';
+import { ToggleGroup } from '../graph/graph_state.js';
+import { ParameterRow } from './parameter_row.js';
+import { ActionButton, Facts, Link, Section, Title } from './parts.js';
+import { PortRow } from './port_row.js';
+
+export function ModuleDetails({ element }) {
+  const { path } = element;
+  const isGroup = IsGroup(element);
+  const parameters = structure.parametersOf(path);
+  const ports = structure.portsOf(path);
+  const members = isGroup ? structure.membersOf(path) : [];
+  const plugin = catalogue.value.module(element.type)?.plugin;
+  const thread = ThreadOf(structure, path);
+  const open = (kind) => () => { openDialog.value = { kind, path }; };
+  const locked = !canChange.value;
+  return html`
+    <${Title} kind=${isGroup ? 'group' : element.type} name=${element.name} path=${path}>
+      ${(element.summary || element.description) && html`<p class="summary">${element.summary || element.description}</p>`}
+    <//>
+    ${element.stopped && html`<p class="trouble" role="alert"><strong>Stopped:</strong> ${element.stopped}</p>`}
+    <div class="actions">
+      ${!isGroup && html`<${ActionButton} id="swap" icon="swap" text="Swap" disabled=${locked} onClick=${open('swap')} title="Put a module of another type in its place (S)" />`}
+      ${isGroup && html`<${ActionButton} id="fold" icon="layers" text=${IsOpen(path) ? 'Fold' : 'Open'} onClick=${() => ToggleGroup(path)} />`}
+      <${ActionButton} id="move" icon="follow" text="Thread" disabled=${locked} onClick=${open('move')} title="Have another thread run it (M)" />
+      ${plugin && html`<${ActionButton} id="reload" icon="reset" text="Reload" disabled=${locked} onClick=${() => Reload(plugin)}
+        title=${`Load the plugin ${plugin} anew, with all its modules`} />`}
+      <${ActionButton} id="delete" icon="trash" text="Delete" disabled=${locked} onClick=${() => Delete(path)} />
+    </div>
+    <${Facts} facts=${[
+      ['thread', thread && html`<span class="thread-name"><i style=${{ background: ThreadColour(thread) }}></i>${thread}${
+        element.thread ? '' : html` <small>of its group</small>`}</span>`],
+      ['plugin', plugin],
+      ['update takes', !isGroup && html`<${UpdateTime} path=${path} />`],
+    ]} />
+    ${parameters.length > 0 && html`<${Section} title="Parameters" count=${parameters.length} id="parameters">
+      ${parameters.map((parameter) => html`<${ParameterRow} key=${parameter.path} parameter=${parameter} />`)}<//>`}
+    ${['input', 'output'].map((direction) => {
+      const some = ports.filter((port) => port.direction === direction);
+      return some.length > 0 && html`<${Section} title=${`${direction === 'input' ? 'Inputs' : 'Outputs'}`} count=${some.length} key=${direction}>
+        <ul class="ports">${some.map((port) => html`<${PortRow} key=${port.path} port=${port} />`)}</ul><//>`;
+    })}
+    ${members.length > 0 && html`<${Section} title="Contains" count=${members.length}>
+      <ul class="members">${members.slice(0, 200).map((member) => html`<li key=${member}><${Link} path=${member} />
+        <small>${structure.get(member).type ?? 'group'}</small></li>`)}</ul><//>`}`;
+}
+
+function UpdateTime({ path }) {
+  const microseconds = DurationOf(path).value;
+  return microseconds === null ? '–' : FormatMilliseconds(microseconds / 1000);
+}

@@ -1,0 +1,63 @@
+// A port: what it carries, field by field, its connections, and how often values come.
+
+import { useState } from 'preact/hooks';
+import { html } from 'htm/preact';
+import { OriginsOf } from '../model/origin.js';
+import { NameOf } from '../model/structure.js';
+import { FormatNumber, FormatRate } from '../model/value_format.js';
+import { Disconnect } from '../state/actions.js';
+import { openDialog } from '../state/choices.js';
+import { RateOf, canChange, catalogue, structure } from '../state/store.js';
+import { ActionButton, Facts, Link, Section, Title } from './parts.js';
+import { useWatched } from './use_watched.js';
+import { ValueTable } from './value_table.js';
+
+const kFew = 12;
+const kMany = 400;
+
+export function PortDetails({ element }) {
+  const { path } = element;
+  const [elements, setElements] = useState(kFew);
+  const item = useWatched(path, { rate: 8, elements });
+  const connections = structure.connectionsOf(path);
+  const rates = OriginsOf(structure, path).map((origin) => RateOf(origin).value).filter((rate) => rate !== null);
+  const type = catalogue.value.type(element.data_type);
+  return html`
+    <${Title} kind=${`${element.interface ? 'group ' : ''}${element.direction}`} name=${element.name} path=${path}>
+      ${element.description && html`<p class="summary">${element.description}</p>`}<//>
+    <div class="actions">
+      <${ActionButton} id="connect" icon="plug" text="Connect …" disabled=${!canChange.value}
+        onClick=${() => { openDialog.value = { kind: 'connect', path }; }} title="Connect with another port (C)" />
+    </div>
+    <${Facts} facts=${[
+      ['type', element.data_type],
+      ['of', structure.get(element.owner) && html`<${Link} path=${element.owner} />`],
+      ['rate', rates.length > 0 && FormatRate(rates.reduce((a, b) => a + b, 0))],
+      ['values', item?.count !== undefined && item?.count !== null && String(item.count)],
+      ['last at', item && `${FormatNumber(item.stamp)} s`],
+      ['lost from queues', item?.drops ? String(item.drops) : ''],
+      ['required', element.required ? 'yes' : ''],
+    ]} />
+    <${Section} title="Value" id="value">
+      ${item ? html`<${ValueTable} port=${path} type=${element.data_type} value=${item.value} />`
+        : html`<p class="none">${type?.kind === 'opaque' ? 'values of this type cannot be shown' : 'nothing has come yet'}</p>`}
+      ${item?.cut && elements === kFew && html`<button class="link" onClick=${() => setElements(kMany)}>show up to ${kMany} elements of lists</button>`}
+      ${item?.cut && elements === kMany && html`<p class="note">longer lists are cut</p>`}
+    <//>
+    <${Section} title="Connections" count=${connections.length}>
+      ${connections.length === 0 && html`<p class="none">none</p>`}
+      <ul class="connections">${connections.map((connection) => html`<${ConnectionRow} key=${connection.from + connection.to} port=${path} connection=${connection} />`)}</ul>
+    <//>`;
+}
+
+function ConnectionRow({ port, connection }) {
+  const isSource = connection.from === port;
+  const other = isSource ? connection.to : connection.from;
+  const owner = structure.get(other)?.owner;
+  return html`<li>
+    <span class="arrow">${isSource ? 'to' : 'from'}</span>
+    <${Link} path=${other} text=${`${owner ? NameOf(owner) : ''}/${NameOf(other)}`} />
+    ${connection.queue > 0 && html`<small>queue of ${connection.queue}</small>`}
+    <button class="remove" disabled=${!canChange.value} title="Disconnect" aria-label=${`Disconnect ${other}`}
+      onClick=${() => Disconnect(connection.from, connection.to)}>✕</button></li>`;
+}

@@ -1,0 +1,33 @@
+// The panel at the bottom: plots, log, threads.
+
+import { html } from 'htm/preact';
+import { Plots } from '../plots/plots.js';
+import { plots } from '../plots/plot_list.js';
+import { SetPanels, panels } from '../state/choices.js';
+import { log } from '../state/store.js';
+import { LogView } from './log_view.js';
+import { ThreadTable } from './thread_table.js';
+
+const kTabs = [['plots', 'Plots', Plots], ['log', 'Log', LogView], ['threads', 'Threads', ThreadTable]];
+
+export function Dock() {
+  const current = kTabs.find(([id]) => id === panels.value.tab) ?? kTabs[0];
+  const [id, , View] = current;
+  const counts = { plots: plots.value.length, log: log.value.length };
+  const onKey = (event) => {
+    const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+    if (!step) return;
+    const next = kTabs[(kTabs.indexOf(current) + step + kTabs.length) % kTabs.length][0];
+    SetPanels({ tab: next });
+    requestAnimationFrame(() => document.getElementById(`tab-${next}`)?.focus());
+  };
+  return html`
+    <section class="dock" aria-label="Plots, log and threads">
+      <div class="tabs" role="tablist" onKeyDown=${onKey}>
+        ${kTabs.map(([tab, title]) => html`<button key=${tab} role="tab" id=${`tab-${tab}`} aria-selected=${tab === id}
+          aria-controls="tab-panel" tabindex=${tab === id ? 0 : -1} onClick=${() => SetPanels({ tab })}>${title}
+          ${counts[tab] > 0 && html`<small>${counts[tab]}</small>`}</button>`)}
+      </div>
+      <div role="tabpanel" id="tab-panel" aria-labelledby=${`tab-${id}`} class=${`tab-panel ${id}`}><${View} key=${id} /></div>
+    </section>`;
+}

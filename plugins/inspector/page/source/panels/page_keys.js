@@ -1,0 +1,39 @@
+// Keys that work wherever one is, but in a field that takes text.
+
+import { Pause, Redo, Resume, Save, Step, Undo } from '../state/actions.js';
+import { openDialog } from '../state/choices.js';
+import { canChange, hello, run, structure } from '../state/store.js';
+
+export function AttachKeys() {
+  document.addEventListener('keydown', (event) => {
+    if (openDialog.value || event.altKey) return;
+    const isField = event.target.closest?.('input, select, textarea') && event.target.type !== 'checkbox';
+    const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+    const action = event.ctrlKey || event.metaKey ? WithControl(key, event.shiftKey, isField) : isField ? null : kPlain[key];
+    if (!action) return;
+    event.preventDefault();
+    action();
+  });
+}
+
+function WithControl(key, shift, isField) {
+  if (key === 's') return () => { if (canChange.value) Save(); };
+  if (isField || !canChange.value) return null; // fields have an undo of their own
+  if (key === 'z' && !shift) return () => { if (run.value.undo) Undo(); };
+  if (key === 'y' || (key === 'z' && shift)) return () => { if (run.value.redo) Redo(); };
+  return null;
+}
+
+const kPlain = {
+  '/': () => document.getElementById('search')?.focus(),
+  '?': () => { openDialog.value = { kind: 'help' }; },
+  a: () => { if (canChange.value && structure.root) openDialog.value = { kind: 'create', group: structure.root }; },
+  g: () => document.getElementById('graph')?.focus(),
+  d: () => document.getElementById('details')?.focus(),
+  p: () => { if (CanPace()) (run.value.paused ? Resume() : Pause()); },
+  '.': () => { if (CanPace()) Step(1); },
+};
+
+function CanPace() {
+  return canChange.value && hello.value?.clock === 'simulated';
+}

@@ -1,0 +1,70 @@
+// A parameter: its value in a field that suits its type, its bounds, and what the application says
+// of a value that it does not take.
+
+import { useEffect, useRef, useState } from 'preact/hooks';
+import { html } from 'htm/preact';
+import { CheckValue } from '../model/parameter_check.js';
+import { FormatBounds } from '../model/value_format.js';
+import { ErrorText, SetParameter } from '../state/actions.js';
+import { canChange, catalogue } from '../state/store.js';
+
+export function ParameterRow({ parameter }) {
+  const [draft, setDraft] = useState(null);   // what is being typed, or null
+  const [problem, setProblem] = useState('');
+  const [isBusy, setBusy] = useState(false);
+  const id = `parameter:${parameter.path}`;
+  const locked = !parameter.settable || !canChange.value;
+  useEffect(() => { setProblem(''); }, [parameter.value]);
+
+  const send = async (text) => {
+    if (text === null || text === parameter.value) return setDraft(null);
+    const wrong = CheckValue(parameter, text, catalogue.value);
+    setProblem(wrong);
+    if (wrong) return;
+    setBusy(true);
+    const reply = await SetParameter(parameter.path, text, { quiet: true });
+    setBusy(false);
+    if (reply.ok) setDraft(null);
+    else setProblem((reply.errors ?? []).map(ErrorText).join('\n') || 'it was refused');
+  };
+  const drop = () => { setDraft(null); setProblem(''); };
+  const bounds = FormatBounds(parameter);
+  const isChanged = parameter.default !== undefined && parameter.default !== null && parameter.value !== parameter.default;
+  return html`
+    <div class=${`parameter ${problem ? 'wrong' : ''} ${draft !== null && draft !== parameter.value ? 'edited' : ''}`} data-parameter=${parameter.path}>
+      <label for=${id} title=${parameter.description}>${parameter.name}</label>
+      <div class="field">
+        <${Field} id=${id} parameter=${parameter} text=${draft ?? parameter.value ?? ''} locked=${locked} busy=${isBusy}
+          wrong=${problem !== ''} onDraft=${setDraft} onSend=${send} onDrop=${drop} />
+        ${parameter.unit && html`<span class="unit">${parameter.unit}</span>`}
+        ${isChanged && parameter.settable && html`<button class="reset" disabled=${locked} title=${`Back to ${parameter.default}`}
+          aria-label=${`Set ${parameter.name} back to ${parameter.default}`} onClick=${() => send(parameter.default)}>↺</button>`}
+      </div>
+      <p class="note" id=${`${id}:note`}>
+        ${[bounds, !parameter.settable && 'fixed while it runs'].filter(Boolean).join(' · ')}</p>
+      ${problem && html`<p class="problem" role="alert" id=${`${id}:problem`}>${problem}</p>`}
+    </div>`;
+}
+
+function Field({ id, parameter, text, locked, busy, wrong, onDraft, onSend, onDrop }) {
+  const input = useRef(null);
+  const common = { id, disabled: locked || busy, 'aria-invalid': wrong,
+    'aria-describedby': `${id}:note${wrong ? ` ${id}:problem` : ''}` };
+  const values = catalogue.value.type(parameter.data_type)?.values;
+  if (parameter.data_type === 'bool') {
+    return html`<input type="checkbox" class="switch" role="switch" ...${common} checked=${text === 'true'}
+      onChange=${(event) => onSend(event.target.checked ? 'true' : 'false')} />`;
+  }
+  if (values?.length > 0) {
+    return html`<select ...${common} value=${text} onChange=${(event) => onSend(event.target.value)}>
+      ${values.map((value) => html`<option key=${value} value=${value} selected=${value === text}>${value}</option>`)}</select>`;
+  }
+  const onKey = (event) => {
+    if (event.key === 'Enter') onSend(event.target.value);
+    else if (event.key === 'Escape') { onDrop(); input.current.blur(); } else return;
+    event.stopPropagation();
+  };
+  return html`<input type="text" ref=${input} spellcheck="false" autocomplete="off" ...${common} value=${text}
+    onInput=${(event) => onDraft(event.target.value)} onKeyDown=${onKey}
+    onBlur=${(event) => onSend(event.target.value === parameter.value ? null : event.target.value)} />`;
+}

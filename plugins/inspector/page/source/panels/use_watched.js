@@ -1,0 +1,14 @@
+// The newest value of a port, for as long as a component is shown.
+
+import { useEffect, useState } from 'preact/hooks';
+import { watches } from '../state/store.js';
+
+/** {stamp, count, value, cut, drops} or null. */
+export function useWatched(path, options) {
+  const [item, setItem] = useState(null);
+  useEffect(() => {
+    setItem(null);
+    return watches.watch(path, { ...options, onValue: setItem }).end;
+  }, [path, options?.rate, options?.elements]);
+  return item;
+}

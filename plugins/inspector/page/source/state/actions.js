@@ -1,0 +1,89 @@
+// What the user can ask of the application. Each returns the server's reply; what went wrong comes
+// up as a toast, unless the caller shows it where it belongs.
+
+import { Change, FreeName } from '../model/change_text.js';
+import { NameOf, ParentOf } from '../model/structure.js';
+import { selected } from './choices.js';
+import { Request, run, structure } from './store.js';
+import { Toast } from './toasts.js';
+
+/** One error as text, with its place and its cure. */
+export function ErrorText(error) {
+  const place = error.path && !error.message.includes(error.path) ? `${error.path}: ` : '';
+  return `${place}${error.message}${error.hint ? `; ${error.hint}` : ''}`;
+}
+
+async function Ask(message, failed, { quiet = false } = {}) {
+  const reply = await Request(message);
+  if (!reply.ok && !quiet) Toast('error', failed, (reply.errors ?? []).map(ErrorText));
+  return reply;
+}
+
+export function Apply(changes, label, options) {
+  return Ask({ op: 'change', label, changes }, `Could not ${label}`, options);
+}
+
+export function SetParameter(path, value, options) {
+  return Apply([Change.set(path, value)], `set ${NameOf(path)} to ${value}`, options);
+}
+
+export async function Connect(from, to) {
+  const reply = await Apply([Change.connect(from, to)], `connect ${Brief(from)} to ${Brief(to)}`);
+  if (reply.ok) Toast('done', `Connected ${Brief(from)} to ${Brief(to)}`);
+  return reply;
+}
+
+export function Disconnect(from, to) {
+  return Apply([Change.disconnect(from, to)], `disconnect ${Brief(from)} from ${Brief(to)}`);
+}
+
+export async function Delete(path) {
+  const reply = await Apply([Change.delete(path)], `delete ${NameOf(path)}`);
+  if (reply.ok && selected.value === path) selected.value = ParentOf(path);
+  return reply;
+}
+
+export function CreateModule(type, group, name) {
+  return Apply([Change.create(type, `${group}/${name}`)], `create ${name}`, { quiet: true });
+}
+
+export function CreateGroup(group) {
+  const path = `${group}/${FreeName(structure, group, 'group')}`;
+  return Apply([Change.createGroup(path)], `create ${NameOf(path)}`);
+}
+
+export async function Swap(path, type) {
+  const reply = await Apply([Change.replace(path, type)], `swap ${NameOf(path)} for ${type}`);
+  if (reply.ok) Toast('done', `${NameOf(path)} is now ${type}`);
+  return reply;
+}
+
+export function MoveToThread(path, thread) {
+  return Apply([Change.move(path, thread)],
+    thread ? `move ${NameOf(path)} to ${thread}` : `have ${NameOf(path)} run with its group`);
+}
+
+export const Undo = () => Ask({ op: 'undo' }, `Could not undo “${run.value.undo}”`);
+export const Redo = () => Ask({ op: 'redo' }, `Could not redo “${run.value.redo}”`);
+export const Pause = () => Ask({ op: 'pause' }, 'Could not pause');
+export const Resume = () => Ask({ op: 'resume' }, 'Could not go on');
+export const Step = (cycles) => Ask({ op: 'step', cycles }, 'Could not step');
+export const SetSpeed = (speed) => Ask({ op: 'speed', speed }, 'Could not set the speed');
+export const CompatibleTypes = (path) => Ask({ op: 'compatible', path }, 'Could not ask for other types');
+
+export async function Save(file = '', options) {
+  const reply = await Ask({ op: 'save', file }, 'Could not save', options);
+  if (reply.ok) Toast('done', reply.text || 'Saved');
+  return reply;
+}
+
+export async function Reload(plugin) {
+  const reply = await Ask({ op: 'reload', plugin }, `Could not load ${plugin} anew`);
+  if (reply.ok) Toast('done', reply.text || `${plugin} has been loaded anew`);
+  return reply;
+}
+
+function Brief(path) {
+  const port = structure.get(path);
+  return port?.owner ? `${NameOf(port.owner)}/${port.name}` : path;
+}

@@ -1,0 +1,93 @@
+// What the user has chosen: selection, open groups, panels. Kept by the browser, by application.
+
+import { computed, effect, signal } from '@preact/signals';
+import { IsGroup, ParentOf } from '../model/structure.js';
+import { hello, revision, structure } from './store.js';
+
+const kOpenBelow = 60; // applications with fewer modules show all of them at first
+
+export const selected = signal(null);   // a path, the key of a connection, or nothing
+export const openGroups = signal({});   // path -> true or false, where the user has decided
+export const theme = signal(Kept('theme', 'system'));
+export const panels = signal(Kept('panels', { side: 380, dock: 220, world: 330, worldShown: true, worldLarge: false, tab: 'plots' }));
+export const openDialog = signal(null); // {kind: 'create' | 'connect' | …, …}
+export const announcement = signal(''); // for screen readers
+
+/** The thread whose modules stand out, or null. */
+export const selectedThread = computed(() => {
+  revision.value;
+  const element = selected.value ? structure.get(selected.value) : null;
+  return element?.kind === 'thread' ? element.name : null;
+});
+
+const opensByItself = computed(() => {
+  revision.value;
+  let count = 0;
+  for (const element of structure.elements.values()) if (element.kind === 'module') ++count;
+  return count < kOpenBelow;
+});
+
+export function IsOpen(path) {
+  return openGroups.value[path] ?? opensByItself.value;
+}
+
+export function SetOpen(path, open) {
+  openGroups.value = { ...openGroups.value, [path]: open };
+}
+
+export function SetAllOpen(open) {
+  const all = {};
+  for (const element of structure.elements.values()) {
+    if (IsGroup(element) && !element.is_plain) all[element.path] = open;
+  }
+  openGroups.value = all;
+}
+
+/** Opens the groups around an element, so that it can be seen. */
+export function Reveal(path) {
+  const open = { ...openGroups.value };
+  for (let at = ParentOf(path); at; at = ParentOf(at)) open[at] = true;
+  openGroups.value = open;
+}
+
+export function SetPanels(change) {
+  panels.value = { ...panels.value, ...change };
+}
+
+function Kept(key, value) {
+  try {
+    const kept = JSON.parse(localStorage.getItem(`runnel.${key}`));
+    return kept === null ? value : typeof value === 'object' ? { ...value, ...kept } : kept;
+  } catch {
+    return value; // kept by another version, or nothing may be kept: begin afresh
+  }
+}
+
+function Keep(key, value) {
+  try {
+    localStorage.setItem(`runnel.${key}`, JSON.stringify(value));
+  } catch {
+    // A browser that keeps nothing still shows everything.
+  }
+}
+
+/** Keeps choices from now on, and applies the theme. */
+export function StartKeeping() {
+  effect(() => Keep('theme', theme.value));
+  effect(() => Keep('panels', panels.value));
+  effect(() => {
+    if (theme.value === 'system') delete document.documentElement.dataset.theme;
+    else document.documentElement.dataset.theme = theme.value;
+  });
+  let application = null;
+  effect(() => {
+    const name = hello.value?.application;
+    if (!name) return;
+    if (name !== application) {
+      application = name;
+      openGroups.value = Kept(`open.${name}`, {});
+    } else {
+      Keep(`open.${name}`, openGroups.value);
+    }
+  });
+}

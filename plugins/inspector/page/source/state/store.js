@@ -1,0 +1,106 @@
+// All that the page knows, as signals: what the server has told, and what the user has chosen.
+
+import { batch, computed, signal } from '@preact/signals';
+import { Link } from '../connection/link.js';
+import { Watches } from '../connection/watches.js';
+import { Catalogue } from '../model/catalogue.js';
+import { Structure } from '../model/structure.js';
+import { AddLogEntries } from './log.js';
+
+export const connection = signal({ state: 'connecting', reason: '', since: 0 });
+export const hello = signal(null);
+export const catalogue = signal(new Catalogue());
+export const structure = new Structure();
+export const revision = signal(0);      // counts the changes of `structure`
+export const shapeRevision = signal(0); // the same, but for changes of parameters' values alone
+export const run = signal({ time: 0, paused: false, speed: null, undo: null, redo: null, faults: 0, ended: false });
+export const log = signal([]);
+export const threadStatistics = signal({});
+
+export const isConnected = computed(() => connection.value.state === 'open' && hello.value !== null);
+export const isReadOnly = computed(() => hello.value?.read_only ?? false);
+/** Whether changes may be asked for now. */
+export const canChange = computed(() => isConnected.value && !isReadOnly.value);
+
+const rates = new Map();   // port path -> signal of publications per second
+const moduleTimes = new Map(); // module path -> signal of microseconds
+
+export const RateOf = (path) => SignalOf(rates, path);
+export const DurationOf = (path) => SignalOf(moduleTimes, path);
+
+function SignalOf(map, path) {
+  if (!map.has(path)) map.set(path, signal(null));
+  return map.get(path);
+}
+
+let link = null;
+export const watches = new Watches((message) => link?.send(message) ?? false);
+
+export function Request(message) {
+  return link.request(message);
+}
+
+/** Begins to talk with the application that has sent this page. */
+export function Start(url) {
+  link = new Link(url, { onMessage: Receive, onState: OnState });
+  link.open();
+  return link;
+}
+
+function OnState(state, reason) {
+  connection.value = { state, reason };
+}
+
+const kReceivers = {
+  hello: OnHello,
+  catalogue: (message) => { catalogue.value = new Catalogue(message); },
+  structure: OnStructure,
+  structure_change: OnStructureChange,
+  state: ({ op, ...told }) => { run.value = { ...run.value, ...told }; },
+  rates: OnRates,
+  values: (message) => watches.receive(message),
+  log: (message) => { log.value = AddLogEntries(log.value, message.entries); },
+};
+
+function Receive(message) {
+  const receiver = kReceivers[message.op];
+  if (receiver) batch(() => receiver(message));
+}
+
+function OnHello(message) {
+  if (hello.value && hello.value.run !== message.run) {
+    log.value = [];
+    threadStatistics.value = {};
+  }
+  hello.value = message;
+}
+
+function OnStructure(message) {
+  structure.replaceAll(message);
+  for (const map of [rates, moduleTimes]) for (const rate of map.values()) rate.value = null;
+  revision.value += 1;
+  shapeRevision.value += 1;
+  watches.askAgain();
+  link.send({ op: 'watch_rates', rate: 2 });
+}
+
+function OnStructureChange(message) {
+  structure.change(message);
+  revision.value += 1;
+  if (ChangesShape(message)) shapeRevision.value += 1;
+  watches.askAgainFor((message.elements ?? []).map((element) => element.path));
+}
+
+function ChangesShape({ gone, connected, disconnected, elements }) {
+  const isThere = (list) => (list?.length ?? 0) > 0;
+  return isThere(gone) || isThere(connected) || isThere(disconnected) ||
+    (elements ?? []).some((element) => element.kind !== 'parameter');
+}
+
+function OnRates(message) {
+  for (const [path, rate] of Object.entries(message.ports ?? {})) RateOf(path).value = rate;
+  for (const [path, module] of Object.entries(message.modules ?? {})) {
+    DurationOf(path).value = module.duration_us ?? null;
+  }
+  if (message.threads) threadStatistics.value = { ...threadStatistics.value, ...message.threads };
+}

@@ -1,0 +1,64 @@
+// What of an application can be drawn in its world: the outputs whose types have a meaning. Knows no
+// module and no type by name.
+
+import { OriginsOf } from '../model/origin.js';
+import { IsGroup, NameOf } from '../model/structure.js';
+
+// From the bottom to the top of the drawing.
+export const kDrawable = ['world_map', 'path', 'hit_and_leave_points', 'range_scan', 'point', 'pose', 'contact'];
+
+/** Layers {port, meaning, label, pose, goal}; pose: the port that says where it is seen from. */
+export function FindLayers(structure, catalogue) {
+  const layers = [];
+  for (const port of structure.ofKind('port')) {
+    const owner = structure.get(port.owner);
+    if (port.direction !== 'output' || !owner || IsGroup(owner)) continue;
+    const meaning = catalogue.meaning(port.data_type);
+    if (kDrawable.includes(meaning)) {
+      layers.push({ port: port.path, meaning, label: `${NameOf(port.owner)}/${port.name}`, owner: port.owner });
+    }
+  }
+  const pose = MainPose(layers);
+  for (const layer of layers) {
+    if (layer.meaning === 'range_scan' || layer.meaning === 'contact') {
+      layer.pose = PoseSeenBy(structure, catalogue, layer.owner) ?? pose;
+    }
+    if (layer.meaning === 'point') layer.goal = GoalParameters(structure, layer);
+  }
+  layers.sort((a, b) => kDrawable.indexOf(a.meaning) - kDrawable.indexOf(b.meaning));
+  return { layers, pose, key: layers.map((layer) => `${layer.port} ${layer.pose} ${layer.goal?.x}`).join('\n') };
+}
+
+/** The pose of the robot: that of the module which has the map, or else the first. */
+function MainPose(layers) {
+  const map = layers.find((layer) => layer.meaning === 'world_map');
+  const poses = layers.filter((layer) => layer.meaning === 'pose');
+  return (poses.find((layer) => layer.owner === map?.owner) ?? poses[0])?.port ?? null;
+}
+
+/** The pose that a module is told, which its measurements belong to; or that it gives itself. */
+function PoseSeenBy(structure, catalogue, owner) {
+  const poses = structure.portsOf(owner).filter((port) => catalogue.meaning(port.data_type) === 'pose');
+  for (const port of poses) {
+    const [origin] = OriginsOf(structure, port.path);
+    if (origin) return origin;
+  }
+  return null;
+}
+
+/** A point <name> can be dragged if its module has the parameters <name>_x and <name>_y. */
+function GoalParameters(structure, { port, owner }) {
+  const name = NameOf(port);
+  const find = (wanted) => structure.parametersOf(owner)
+    .find((parameter) => parameter.name === wanted && parameter.settable)?.path;
+  const [x, y] = [find(`${name}_x`), find(`${name}_y`)];
+  return x && y ? { x, y, name: `${name} of ${NameOf(owner)}` } : null;
+}
+
+/** The radius of the robot, if the module that has its pose says so by a parameter. */
+export function RobotRadius(structure, posePort) {
+  const owner = structure.get(posePort)?.owner;
+  const parameter = structure.parametersOf(owner).find(({ name, unit }) => /radius$/.test(name) && unit === 'm');
+  const radius = Number(parameter?.value);
+  return radius > 0 ? radius : 0.15;
+}

@@ -1,0 +1,63 @@
+// The world: what the application says of where its robot is, drawn as a map.
+
+import { computed, useSignal } from '@preact/signals';
+import { useEffect, useRef } from 'preact/hooks';
+import { html } from 'htm/preact';
+import { SetPanels, panels } from '../state/choices.js';
+import { catalogue, revision, structure } from '../state/store.js';
+import { Icon } from '../panels/icon.js';
+import { ToCanvas } from './camera.js';
+import { GoalHandle } from './goal_handle.js';
+import { FindLayers } from './layers.js';
+import { WorldScene } from './world_scene.js';
+
+const found = computed(() => {
+  revision.value;
+  return FindLayers(structure, catalogue.value);
+});
+
+/** Whether the application has anything to be drawn: a pose, a scan, a path … */
+export const hasWorld = computed(() => found.value.layers.length > 0);
+
+export function WorldView() {
+  return html`<${World} key=${found.value.key} found=${found.value} />`;
+}
+
+function World({ found }) {
+  const host = useRef(null);
+  const canvas = useRef(null);
+  const scene = useRef(null);
+  scene.current ??= new WorldScene(found);
+  const hidden = useSignal(new Set());
+  const showsLayers = useSignal(false);
+  useEffect(() => scene.current.attach(host.current, canvas.current), []);
+  const toggle = (port) => {
+    const next = new Set(hidden.value);
+    if (!next.delete(port)) next.add(port);
+    hidden.value = next;
+    scene.current.setHidden(next);
+  };
+  const { camera, size, following, goals } = scene.current;
+  return html`
+    <section class="world" aria-label="World" id="world">
+      <div class="world-canvas" ref=${host} tabindex="0" aria-label="Map: drag to move, wheel to zoom" role="img"
+           onKeyDown=${(event) => scene.current.onKey(event)}>
+        <canvas ref=${canvas}></canvas></div>
+      ${goals.value.map(({ layer, place }) => html`<${GoalHandle} key=${layer.port} layer=${layer}
+        point=${ToCanvas(camera.value, size.value, place)} place=${place} scene=${scene.current} />`)}
+      <div class="world-tools" role="group" aria-label="Map">
+        <button aria-pressed=${following.value} onClick=${() => scene.current.follow(!following.value)} title="Follow the robot"
+          aria-label="Follow the robot" id="follow"><${Icon} name="follow" size=${16} /></button>
+        <button onClick=${() => scene.current.fit()} title="Show all" aria-label="Show all of the world"><${Icon} name="fit" size=${16} /></button>
+        <button aria-pressed=${showsLayers.value} onClick=${() => { showsLayers.value = !showsLayers.value; }} title="Layers"
+          aria-label="Layers"><${Icon} name="layers" size=${16} /></button>
+        <button aria-pressed=${panels.value.worldLarge} onClick=${() => SetPanels({ worldLarge: !panels.value.worldLarge })}
+          title=${panels.value.worldLarge ? 'Small' : 'Large'} aria-label=${panels.value.worldLarge ? 'Small map' : 'Large map'}>
+          <${Icon} name=${panels.value.worldLarge ? 'small' : 'large'} size=${16} /></button>
+      </div>
+      ${showsLayers.value && html`<fieldset class="layers"><legend>Layers</legend>
+        ${found.layers.map((layer) => html`<label key=${layer.port} title=${layer.port}>
+          <input type="checkbox" checked=${!hidden.value.has(layer.port)} onChange=${() => toggle(layer.port)} />
+          ${layer.label} <small>${layer.meaning.replaceAll('_', ' ')}</small></label>`)}</fieldset>`}
+    </section>`;
+}

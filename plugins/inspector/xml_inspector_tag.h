@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+
+#include "plugins/inspector/inspector_place.h"
+#include "plugins/runtime_construction/xml_tag.h"
+
+namespace runnel {
+
+/// Adds what application files say of the inspector:
+///
+///     <inspector port="8765" address="127.0.0.1" read_only="false" token="…"/>
+void AddInspectorTag(XmlTagRegistry& tags);
+
+/// What the application file says; nothing without <inspector>.
+[[nodiscard]] std::optional<InspectorPlace> InspectorPlaceOf(const FrameworkElement& application);
+
+}  // namespace runnel

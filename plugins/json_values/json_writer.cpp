@@ -1,0 +1,112 @@
+#include "plugins/json_values/json_writer.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "plugins/json_values/internal/utf8.h"
+
+namespace runnel {
+
+namespace {
+
+constexpr std::string_view kReplacement = "\xef\xbf\xbd";
+
+void AppendControl(char character, std::string& json) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  const auto byte = static_cast<unsigned char>(character);
+  json += "\\u00";
+  json += kDigits[byte >> 4];
+  json += kDigits[byte & 15];
+}
+
+void AppendAscii(char character, std::string& json) {
+  switch (character) {
+    case '"':
+      json += "\\\"";
+      return;
+    case '\\':
+      json += "\\\\";
+      return;
+    case '\n':
+      json += "\\n";
+      return;
+    case '\t':
+      json += "\\t";
+      return;
+    case '\r':
+      json += "\\r";
+      return;
+    default:
+      break;
+  }
+  if (static_cast<unsigned char>(character) < 0x20 || character == 0x7f) {
+    AppendControl(character, json);
+  } else {
+    json += character;
+  }
+}
+
+template <typename N>
+void AppendDigits(N number, std::string& json) {
+  std::array<char, 32> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number);
+  json.append(digits.data(), end.ptr);
+}
+
+template <typename N>
+void AppendFloating(N number, std::string& json) {
+  if (std::isfinite(number)) return AppendDigits(number, json);
+  json += std::isnan(number) ? "null" : number > 0 ? "1e999" : "-1e999";
+}
+
+}  // namespace
+
+void AppendJsonString(std::string_view text, std::string& json) {
+  json += '"';
+  while (!text.empty()) {
+    const std::size_t length = LengthOfLetter(text);
+    if (length == 1 && static_cast<unsigned char>(text.front()) < 0x80) {
+      AppendAscii(text.front(), json);
+    } else if (length > 0) {
+      json += text.substr(0, length);
+    } else {
+      json += kReplacement;
+    }
+    text.remove_prefix(length > 0 ? length : 1);
+  }
+  json += '"';
+}
+
+void AppendJsonNumber(double number, std::string& json) { AppendFloating(number, json); }
+void AppendJsonNumber(float number, std::string& json) { AppendFloating(number, json); }
+void AppendJsonNumber(std::int64_t number, std::string& json) { AppendDigits(number, json); }
+void AppendJsonNumber(std::uint64_t number, std::string& json) { AppendDigits(number, json); }
+
+std::size_t WholeLetters(std::string_view text, std::size_t most) {
+  if (text.size() <= most) return text.size();
+  const auto is_inner = [&](std::size_t at) {
+    return (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80;
+  };
+  std::size_t end = most;
+  while (end > 0 && most - end < 3 && is_inner(end)) --end;
+  return is_inner(end) ? most : end;
+}
+
+void AppendBase64(std::string_view bytes, std::string& text) {
+  constexpr std::string_view kLetters =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  text.reserve(text.size() + (bytes.size() + 2) / 3 * 4);
+  const auto byte = [&](std::size_t i) -> unsigned {
+    return i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0;
+  };
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const unsigned three = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
+    text += kLetters[three >> 18 & 63];
+    text += kLetters[three >> 12 & 63];
+    text += i + 1 < bytes.size() ? kLetters[three >> 6 & 63] : '=';
+    text += i + 2 < bytes.size() ? kLetters[three & 63] : '=';
+  }
+}
+
+}  // namespace runnel

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+
+namespace runnel {
+
+/// `text` in quotation marks, with what JSON wants escaped; bytes that are no UTF-8 become U+FFFD.
+void AppendJsonString(std::string_view text, std::string& json);
+/// In the fewest digits that read back the same; NaN is null, infinities are 1e999 and -1e999.
+void AppendJsonNumber(double number, std::string& json);
+void AppendJsonNumber(float number, std::string& json);
+void AppendJsonNumber(std::int64_t number, std::string& json);
+void AppendJsonNumber(std::uint64_t number, std::string& json);
+
+/// How many of the first `most` bytes of a text hold whole letters, so that it is not cut in one.
+[[nodiscard]] std::size_t WholeLetters(std::string_view text, std::size_t most);
+
+/// Bytes as text (RFC 4648), which JSON has no other way for. Without quotation marks.
+void AppendBase64(std::string_view bytes, std::string& text);
+
+/// Writes one JSON object behind what is in `json`, which must not be written to otherwise but where
+/// Key() says so. Closed by its end of life.
+///
+///     JsonObject object(json);
+///     object.Add("op", "advertise");
+///     JsonArray channels(object.Key("channels"));
+class JsonObject {
+ public:
+  explicit JsonObject(std::string& json) : json_(json) { json_ += '{'; }
+  ~JsonObject() { json_ += '}'; }
+  JsonObject(const JsonObject&) = delete;
+  JsonObject& operator=(const JsonObject&) = delete;
+
+  /// Whoever calls it writes the value next, whole.
+  std::string& Key(std::string_view name) {
+    if (!is_empty_) json_ += ',';
+    is_empty_ = false;
+    AppendJsonString(name, json_);
+    json_ += ':';
+    return json_;
+  }
+  void Add(std::string_view name, std::string_view text) { AppendJsonString(text, Key(name)); }
+  void Add(std::string_view name, const char* text) { Add(name, std::string_view(text)); }
+  template <std::same_as<bool> B>
+  void Add(std::string_view name, B value) {
+    Key(name) += value ? "true" : "false";
+  }
+  template <typename N>
+  requires(std::integral<N> && !std::same_as<N, bool>) void Add(std::string_view name, N number) {
+    using Wide = std::conditional_t<std::signed_integral<N>, std::int64_t, std::uint64_t>;
+    AppendJsonNumber(static_cast<Wide>(number), Key(name));
+  }
+  template <std::floating_point N>
+  void Add(std::string_view name, N number) {
+    AppendJsonNumber(number, Key(name));
+  }
+  /// `json` is JSON.
+  void AddJson(std::string_view name, std::string_view json) { Key(name) += json; }
+
+ private:
+  std::string& json_;
+  bool is_empty_ = true;
+};
+
+/// The same for a list.
+class JsonArray {
+ public:
+  explicit JsonArray(std::string& json) : json_(json) { json_ += '['; }
+  ~JsonArray() { json_ += ']'; }
+  JsonArray(const JsonArray&) = delete;
+  JsonArray& operator=(const JsonArray&) = delete;
+
+  /// Whoever calls it writes the element next, whole.
+  std::string& Next() {
+    if (!is_empty_) json_ += ',';
+    is_empty_ = false;
+    return json_;
+  }
+  void Add(std::string_view text) { AppendJsonString(text, Next()); }
+
+ private:
+  std::string& json_;
+  bool is_empty_ = true;
+};
+
+}  // namespace runnel

@@ -1,0 +1,125 @@
+#include "plugins/mcap/compression.h"
+
+#include <algorithm>
+
+#ifdef RUNNEL_HAS_ZSTD
+#include <zstd.h>
+#endif
+#ifdef RUNNEL_HAS_LZ4
+#include <lz4frame.h>
+#endif
+
+namespace runnel {
+
+namespace {
+
+// A run's worth of JSON is packed to a tenth by the quickest level already.
+[[maybe_unused]] constexpr int kLevel = 1;
+
+Error Broken(const std::string& compression, const std::string& why) {
+  return {.message = "what is packed with " + compression + " cannot be unpacked: " + why};
+}
+
+#ifdef RUNNEL_HAS_ZSTD
+Result<void> CompressZstd(std::string_view bytes, std::string& packed) {
+  packed.resize(ZSTD_compressBound(bytes.size()));
+  const std::size_t size =
+      ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), kLevel);
+  if (ZSTD_isError(size) != 0) return Error{.message = ZSTD_getErrorName(size)};
+  packed.resize(size);
+  return {};
+}
+Result<void> DecompressZstd(std::string_view packed, std::string& bytes) {
+  const std::size_t size =
+      ZSTD_decompress(bytes.data(), bytes.size(), packed.data(), packed.size());
+  if (ZSTD_isError(size) != 0) return Broken("zstd", ZSTD_getErrorName(size));
+  if (size != bytes.size()) return Broken("zstd", "it is shorter than it says");
+  return {};
+}
+#endif
+
+#ifdef RUNNEL_HAS_LZ4
+Result<void> CompressLz4(std::string_view bytes, std::string& packed) {
+  packed.resize(LZ4F_compressFrameBound(bytes.size(), nullptr));
+  const std::size_t size =
+      LZ4F_compressFrame(packed.data(), packed.size(), bytes.data(), bytes.size(), nullptr);
+  if (LZ4F_isError(size) != 0) return Error{.message = LZ4F_getErrorName(size)};
+  packed.resize(size);
+  return {};
+}
+Result<void> DecompressLz4(std::string_view packed, std::string& bytes) {
+  LZ4F_dctx* context = nullptr;
+  if (const auto made = LZ4F_createDecompressionContext(&context, LZ4F_VERSION);
+      LZ4F_isError(made) != 0) {
+    return Error{.message = LZ4F_getErrorName(made)};
+  }
+  std::size_t filled = 0;
+  std::size_t hint = 1;
+  // Ends when the frame does, or when there is nothing left to read or no room left to write.
+  while (hint != 0) {
+    std::size_t read = packed.size();
+    std::size_t written = bytes.size() - filled;
+    hint = LZ4F_decompress(context, bytes.data() + filled, &written, packed.data(), &read, nullptr);
+    packed.remove_prefix(read);
+    filled += written;
+    if (LZ4F_isError(hint) != 0 || (read == 0 && written == 0)) break;
+  }
+  (void)LZ4F_freeDecompressionContext(context);
+  if (LZ4F_isError(hint) != 0) return Broken("lz4", LZ4F_getErrorName(hint));
+  if (hint != 0) return Broken("lz4", "it does not end where it says");
+  if (filled != bytes.size()) return Broken("lz4", "it is shorter than it says");
+  return {};
+}
+#endif
+
+}  // namespace
+
+std::vector<std::string> Compressions() {
+  std::vector<std::string> all;
+#ifdef RUNNEL_HAS_ZSTD
+  all.emplace_back("zstd");
+#endif
+#ifdef RUNNEL_HAS_LZ4
+  all.emplace_back("lz4");
+#endif
+  all.emplace_back();
+  return all;
+}
+
+Result<void> CheckCompression(const std::string& compression) {
+  const std::vector<std::string> all = Compressions();
+  if (std::ranges::count(all, compression) > 0) return {};
+  std::string names;
+  for (const std::string& each : all) names += each.empty() ? "none" : each + ", ";
+  return Error{.message = "the compression '" + compression + "' is not there",
+               .hint = "this Runnel was built with: " + names};
+}
+
+Result<void> Compress(const std::string& compression, std::string_view bytes, std::string& packed) {
+#ifdef RUNNEL_HAS_ZSTD
+  if (compression == "zstd") return CompressZstd(bytes, packed);
+#endif
+#ifdef RUNNEL_HAS_LZ4
+  if (compression == "lz4") return CompressLz4(bytes, packed);
+#endif
+  if (auto known = CheckCompression(compression); !known) return known;
+  packed = bytes;
+  return {};
+}
+
+Result<void> Decompress(const std::string& compression, std::string_view packed, std::uint64_t size,
+                        std::string& bytes) {
+  if (auto known = CheckCompression(compression); !known) return known;
+  bytes.resize(size);
+#ifdef RUNNEL_HAS_ZSTD
+  if (compression == "zstd") return DecompressZstd(packed, bytes);
+#endif
+#ifdef RUNNEL_HAS_LZ4
+  if (compression == "lz4") return DecompressLz4(packed, bytes);
+#endif
+  if (packed.size() != size) return Broken("none", "it is not as long as it says");
+  bytes = packed;
+  return {};
+}
+
+}  // namespace runnel

@@ -1,0 +1,138 @@
+#include "plugins/mcap/mcap_reader.h"
+
+#include <algorithm>
+
+#include "plugins/mcap/checksum.h"
+#include "plugins/mcap/compression.h"
+#include "plugins/mcap/mcap_bytes.h"
+
+namespace runnel {
+
+namespace {
+
+// "7f 45 4c 46 …", as a person compares it with what a file should begin with.
+std::string Hexadecimal(std::string_view bytes) {
+  std::string text;
+  for (const char each : bytes) {
+    constexpr std::string_view kDigits = "0123456789abcdef";
+    const auto byte = static_cast<unsigned char>(each);
+    if (!text.empty()) text += ' ';
+    text += {kDigits[byte >> 4], kDigits[byte & 15]};
+  }
+  return text;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<McapReader>> McapReader::Open(const std::string& file) {
+  auto opened = McapFile::Open(file);
+  if (!opened) return opened.error();
+  std::unique_ptr<McapReader> reader(new McapReader(std::move(*opened)));
+  const auto magic = reader->file_->Look(0, kMcapMagic.size());
+  if (!magic) return magic.error();
+  if (*magic != kMcapMagic) {
+    return Error{.message = magic->empty()
+                                ? "this is no MCAP file: it is empty"
+                                : "this is no MCAP file: it begins with " + Hexadecimal(*magic) +
+                                      ", expected " + Hexadecimal(kMcapMagic),
+                 .position = {.file = file}};
+  }
+  reader->Scan();
+  return reader;
+}
+
+const McapMetadata* McapReader::FindMetadata(std::string_view name) const {
+  const auto found = std::ranges::find(contents_.metadata, name, &McapMetadata::name);
+  return found == contents_.metadata.end() ? nullptr : &*found;
+}
+
+Error McapReader::ErrorIn(const McapChunk& chunk, std::uint64_t at,
+                          const std::string& message) const {
+  if (chunk.is_loose) return file_->ErrorAt(chunk.offset + at, message);
+  return file_->ErrorAt(chunk.offset,
+                        "in this chunk, unpacked, at byte " + std::to_string(at) + ": " + message);
+}
+
+Result<std::string_view> McapReader::Unpack(const McapChunk& chunk) {
+  if (auto read = file_->Read(chunk.packed_offset, chunk.packed_size, packed_); !read) {
+    return read.error();
+  }
+  if (chunk.is_loose) return std::string_view(packed_);
+  if (auto unpacked = Decompress(chunk.compression, packed_, chunk.size, unpacked_); !unpacked) {
+    Error error = file_->ErrorAt(chunk.offset, "in this chunk, " + unpacked.error().message);
+    error.hint = unpacked.error().hint;
+    return error;
+  }
+  const std::uint32_t checksum = chunk.checksum == 0 ? 0 : ChecksumOf(unpacked_);
+  if (checksum != chunk.checksum) {
+    return file_->ErrorAt(chunk.offset, "the content of this chunk has the checksum " +
+                                            std::to_string(checksum) + ", expected " +
+                                            std::to_string(chunk.checksum));
+  }
+  return std::string_view(unpacked_);
+}
+
+Result<void> McapReader::UseMessage(const McapChunk& chunk, std::string_view content,
+                                    std::uint64_t at, const Use& use) {
+  McapMessage message;
+  McapBytesReader bytes(content);
+  bytes.Number(message.channel)
+      .Number(message.sequence)
+      .Number(message.log_time)
+      .Number(message.publish_time);
+  if (bytes.has_failed()) {
+    return ErrorIn(chunk, at,
+                   "expected a message, but this record has only " +
+                       std::to_string(content.size()) + " bytes");
+  }
+  if (!contents_.channels.contains(message.channel)) {
+    return ErrorIn(chunk, at,
+                   "this message is of channel " + std::to_string(message.channel) +
+                       ", which the file does not have before it");
+  }
+  message.data = bytes.rest();
+  return use(message);
+}
+
+Result<void> McapReader::ReadMessages(const McapChunk& chunk, const Use& use) {
+  const auto unpacked = Unpack(chunk);
+  if (!unpacked) return unpacked.error();
+  std::string_view rest = *unpacked;
+  while (!rest.empty()) {
+    const std::uint64_t at = unpacked->size() - rest.size();
+    McapBytesReader bytes(rest);
+    std::uint8_t opcode = 0;
+    const std::string_view content = bytes.Number(opcode).View<std::uint64_t>();
+    if (bytes.has_failed()) return ErrorIn(chunk, at, "expected a record, but it is not whole");
+    rest = bytes.rest();
+    const auto kind = static_cast<McapOpcode>(opcode);
+    Result<void> used;
+    if (kind == McapOpcode::kMessage) {
+      used = UseMessage(chunk, content, at, use);
+    } else if (kind == McapOpcode::kSchema || kind == McapOpcode::kChannel) {
+      used = TakeSmall(kind, content, chunk.offset);
+    }
+    if (!used) return used;
+  }
+  return {};
+}
+
+Result<void> McapReader::ReadMessages(const Use& use) {
+  for (const McapChunk& chunk : contents_.chunks) {
+    if (auto read = ReadMessages(chunk, use); !read) return read;
+  }
+  return {};
+}
+
+Result<std::string> McapReader::ReadAttachment(const McapAttachmentPlace& place) {
+  if (place.data_size > kLargest) {
+    return file_->ErrorAt(place.data_offset, "this attachment is larger than can be read");
+  }
+  std::string data;
+  if (auto read = file_->Read(place.data_offset, place.data_size, data); !read) {
+    return read.error();
+  }
+  return data;
+}
+
+}  // namespace runnel

@@ -1,0 +1,312 @@
+#include "plugins/mcap/mcap_writer.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "core/base/check.h"
+#include "plugins/mcap/compression.h"
+#include "plugins/mcap/mcap_bytes.h"
+
+namespace runnel {
+
+namespace {
+
+constexpr std::size_t kMostIds = 65535;
+
+template <typename Write>
+std::string Content(Write&& write) {
+  std::string content;
+  McapBytesWriter writer(content);
+  write(writer);
+  return content;
+}
+
+void AppendRecord(McapOpcode opcode, std::string_view content, std::string& bytes) {
+  McapBytesWriter(bytes)
+      .Number(static_cast<std::uint8_t>(opcode))
+      .Number(static_cast<std::uint64_t>(content.size()))
+      .Bytes(content);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<McapWriter>> McapWriter::Create(const std::string& file,
+                                                       McapWriterOptions options) {
+  if (auto known = CheckCompression(options.compression); !known) return known.error();
+  const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (descriptor < 0) {
+    const int number = errno;
+    return Error{.message = std::string("cannot be made: ") + std::strerror(number),
+                 .position = {.file = file},
+                 .hint = number == EEXIST   ? "choose another name, or remove it"
+                         : number == ENOENT ? "make its folder first"
+                                            : ""};
+  }
+  std::unique_ptr<McapWriter> writer(new McapWriter(file, descriptor, std::move(options)));
+  std::string start(kMcapMagic);
+  AppendMcapRecord(McapOpcode::kHeader, start, [&](McapBytesWriter& bytes) {
+    bytes.Text(writer->options_.header.profile).Text(writer->options_.header.library);
+  });
+  if (auto written = writer->Write(start); !written) return written.error();
+  return writer;
+}
+
+McapWriter::McapWriter(std::string file, int descriptor, McapWriterOptions options)
+    : file_(std::move(file)), options_(std::move(options)), descriptor_(descriptor) {}
+
+McapWriter::~McapWriter() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+Error McapWriter::Failure(const std::string& what, int number) {
+  failure_ = {
+      {.message = what + ": " + std::strerror(number),
+       .position = {.file = file_},
+       .hint = "what was recorded until then, " + std::to_string(offset_) + " bytes, can be read"}};
+  return failure_.front();
+}
+
+// All of it or nothing: what was written in part is cut off again.
+Result<void> McapWriter::Write(std::string_view bytes) {
+  if (!failure_.empty()) return failure_.front();
+  for (std::string_view rest = bytes; !rest.empty();) {
+    const ssize_t count = write(descriptor_, rest.data(), rest.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) {
+      const int number = count < 0 ? errno : EIO;
+      Error error = Failure("cannot be written on", number);
+      if (ftruncate(descriptor_, static_cast<off_t>(offset_)) != 0) {
+        error.hint += "; the rest could not be cut off: " + std::string(std::strerror(errno));
+      }
+      return error;
+    }
+    rest.remove_prefix(static_cast<std::size_t>(count));
+  }
+  offset_ += bytes.size();
+  checksum_.Add(bytes);
+  return {};
+}
+
+Result<void> McapWriter::WriteRecord(McapOpcode opcode, std::string_view content) {
+  record_.clear();
+  AppendRecord(opcode, content, record_);
+  return Write(record_);
+}
+
+Result<std::uint16_t> McapWriter::AddSchema(const std::string& name, const std::string& encoding,
+                                            const std::string& data) {
+  if (statistics_.schemas == kMostIds) {
+    return Error{.message = "a file cannot have more than 65535 schemas",
+                 .position = {.file = file_}};
+  }
+  const auto id = static_cast<std::uint16_t>(statistics_.schemas + 1);
+  const std::string content = Content(
+      [&](McapBytesWriter& bytes) { bytes.Number(id).Text(name).Text(encoding).Text(data); });
+  if (auto written = WriteRecord(McapOpcode::kSchema, content); !written) return written.error();
+  schemas_ += record_;
+  ++statistics_.schemas;
+  return id;
+}
+
+Result<std::uint16_t> McapWriter::AddChannel(std::uint16_t schema, const std::string& topic,
+                                             const std::string& message_encoding,
+                                             const McapTexts& metadata) {
+  if (statistics_.channels == kMostIds) {
+    return Error{.message = "a file cannot have more than 65535 channels",
+                 .position = {.file = file_},
+                 .hint = "record fewer ports"};
+  }
+  const auto id = static_cast<std::uint16_t>(statistics_.channels);
+  const std::string content = Content([&](McapBytesWriter& bytes) {
+    bytes.Number(id).Number(schema).Text(topic).Text(message_encoding).Texts(metadata);
+  });
+  if (auto written = WriteRecord(McapOpcode::kChannel, content); !written) return written.error();
+  channels_ += record_;
+  ++statistics_.channels;
+  statistics_.messages_of[id] = 0;
+  return id;
+}
+
+Result<void> McapWriter::AddMessage(const McapMessage& message) {
+  if (!failure_.empty()) return failure_.front();
+  const auto count = statistics_.messages_of.find(message.channel);
+  RUNNEL_CHECK(count != statistics_.messages_of.end(), "a message needs a channel of its file");
+  chunk_start_ = chunk_.empty() ? message.log_time : std::min(chunk_start_, message.log_time);
+  chunk_end_ = chunk_.empty() ? message.log_time : std::max(chunk_end_, message.log_time);
+  index_[message.channel].push_back({message.log_time, chunk_.size()});
+  constexpr std::uint64_t kHead = 2 + 4 + 8 + 8;
+  McapBytesWriter(chunk_)
+      .Number(static_cast<std::uint8_t>(McapOpcode::kMessage))
+      .Number(kHead + message.data.size())
+      .Number(message.channel)
+      .Number(message.sequence)
+      .Number(message.log_time)
+      .Number(message.publish_time)
+      .Bytes(message.data);
+  McapStatistics& all = statistics_;
+  all.start = all.messages == 0 ? message.log_time : std::min(all.start, message.log_time);
+  all.end = std::max(all.end, message.log_time);
+  ++all.messages;
+  ++count->second;
+  return chunk_.size() >= options_.chunk_bytes ? WriteChunk() : Result<void>();
+}
+
+Result<void> McapWriter::AddAttachment(const McapAttachment& attachment) {
+  std::string content = Content([&](McapBytesWriter& bytes) {
+    bytes.Number(attachment.log_time)
+        .Number(attachment.create_time)
+        .Text(attachment.name)
+        .Text(attachment.media_type)
+        .Number(static_cast<std::uint64_t>(attachment.data.size()))
+        .Bytes(attachment.data);
+  });
+  McapBytesWriter(content).Number(ChecksumOf(content));
+  const std::uint64_t offset = offset_;
+  if (auto written = WriteRecord(McapOpcode::kAttachment, content); !written) return written;
+  AppendMcapRecord(McapOpcode::kAttachmentIndex, attachment_indexes_, [&](McapBytesWriter& bytes) {
+    bytes.Number(offset)
+        .Number(offset_ - offset)
+        .Number(attachment.log_time)
+        .Number(attachment.create_time)
+        .Number(static_cast<std::uint64_t>(attachment.data.size()))
+        .Text(attachment.name)
+        .Text(attachment.media_type);
+  });
+  ++statistics_.attachments;
+  return {};
+}
+
+Result<void> McapWriter::AddMetadata(const McapMetadata& metadata) {
+  const std::uint64_t offset = offset_;
+  const std::string content =
+      Content([&](McapBytesWriter& bytes) { bytes.Text(metadata.name).Texts(metadata.texts); });
+  if (auto written = WriteRecord(McapOpcode::kMetadata, content); !written) return written;
+  AppendMcapRecord(McapOpcode::kMetadataIndex, metadata_indexes_, [&](McapBytesWriter& bytes) {
+    bytes.Number(offset).Number(offset_ - offset).Text(metadata.name);
+  });
+  ++statistics_.metadata;
+  return {};
+}
+
+Result<void> McapWriter::Flush() { return chunk_.empty() ? Result<void>() : WriteChunk(); }
+
+// One index for each channel, behind the chunk that starts at offset_; `offsets` says where they will
+// stand, as the chunk's own index has it.
+void McapWriter::AppendMessageIndexes(std::string& bytes, std::string& offsets) const {
+  McapBytesWriter offsets_writer(offsets);
+  for (const auto& [channel, entries] : index_) {
+    offsets_writer.Number(channel).Number(offset_ + bytes.size());
+    AppendMcapRecord(McapOpcode::kMessageIndex, bytes,
+                     [&, id = channel, &all = entries](McapBytesWriter& writer) {
+                       writer.Number(id).Number(static_cast<std::uint32_t>(all.size() * 16));
+                       for (const IndexEntry& entry : all)
+                         writer.Number(entry.time).Number(entry.offset);
+                     });
+  }
+}
+
+Result<void> McapWriter::WriteChunk() {
+  if (auto packed = Compress(options_.compression, chunk_, packed_); !packed) {
+    failure_ = {packed.error()};
+    return packed;
+  }
+  std::string bytes;
+  bytes.reserve(packed_.size() + 64);
+  AppendMcapRecord(McapOpcode::kChunk, bytes, [&](McapBytesWriter& writer) {
+    writer.Number(chunk_start_)
+        .Number(chunk_end_)
+        .Number(static_cast<std::uint64_t>(chunk_.size()))
+        .Number(ChecksumOf(chunk_))
+        .Text(options_.compression)
+        .Number(static_cast<std::uint64_t>(packed_.size()))
+        .Bytes(packed_);
+  });
+  const std::uint64_t chunk_length = bytes.size();
+  const std::uint64_t chunk_offset = offset_;
+  std::string offsets;
+  AppendMessageIndexes(bytes, offsets);
+  // At one go, so that a file that was never finished ends behind a chunk.
+  if (auto written = Write(bytes); !written) return written;
+  AppendMcapRecord(McapOpcode::kChunkIndex, chunk_indexes_, [&](McapBytesWriter& writer) {
+    writer.Number(chunk_start_)
+        .Number(chunk_end_)
+        .Number(chunk_offset)
+        .Number(chunk_length)
+        .Text(offsets)
+        .Number(bytes.size() - chunk_length)
+        .Text(options_.compression)
+        .Number(static_cast<std::uint64_t>(packed_.size()))
+        .Number(static_cast<std::uint64_t>(chunk_.size()));
+  });
+  ++statistics_.chunks;
+  chunk_.clear();
+  index_.clear();
+  return {};
+}
+
+std::string McapWriter::StatisticsContent() const {
+  return Content([&](McapBytesWriter& bytes) {
+    bytes.Number(statistics_.messages)
+        .Number(statistics_.schemas)
+        .Number(statistics_.channels)
+        .Number(statistics_.attachments)
+        .Number(statistics_.metadata)
+        .Number(statistics_.chunks)
+        .Number(statistics_.start)
+        .Number(statistics_.end)
+        .Text(Content([&](McapBytesWriter& counts) {
+          for (const auto& [id, count] : statistics_.messages_of) counts.Number(id).Number(count);
+        }));
+  });
+}
+
+void McapWriter::AppendSummaryGroup(McapOpcode opcode, const std::string& records,
+                                    std::string& summary) {
+  if (records.empty()) return;
+  const std::uint64_t start = summary_start_ + summary.size();
+  summary += records;
+  AppendMcapRecord(McapOpcode::kSummaryOffset, summary_offsets_, [&](McapBytesWriter& bytes) {
+    bytes.Number(static_cast<std::uint8_t>(opcode))
+        .Number(start)
+        .Number(static_cast<std::uint64_t>(records.size()));
+  });
+}
+
+Result<void> McapWriter::Finish() {
+  if (is_finished_) return {};
+  if (auto flushed = Flush(); !flushed) return flushed;
+  std::string end;
+  AppendMcapRecord(McapOpcode::kDataEnd, end,
+                   [&](McapBytesWriter& bytes) { bytes.Number(checksum_.value()); });
+  summary_start_ = offset_ + end.size();
+  std::string summary;
+  AppendSummaryGroup(McapOpcode::kSchema, schemas_, summary);
+  AppendSummaryGroup(McapOpcode::kChannel, channels_, summary);
+  std::string statistics;
+  AppendRecord(McapOpcode::kStatistics, StatisticsContent(), statistics);
+  AppendSummaryGroup(McapOpcode::kStatistics, statistics, summary);
+  AppendSummaryGroup(McapOpcode::kChunkIndex, chunk_indexes_, summary);
+  AppendSummaryGroup(McapOpcode::kAttachmentIndex, attachment_indexes_, summary);
+  AppendSummaryGroup(McapOpcode::kMetadataIndex, metadata_indexes_, summary);
+  const std::uint64_t offsets_start = summary_start_ + summary.size();
+  summary += summary_offsets_;
+  constexpr std::uint64_t kFooterLength = 8 + 8 + 4;
+  McapBytesWriter(summary)
+      .Number(static_cast<std::uint8_t>(McapOpcode::kFooter))
+      .Number(kFooterLength)
+      .Number(summary_start_)
+      .Number(offsets_start);
+  McapBytesWriter(summary).Number(ChecksumOf(summary)).Bytes(kMcapMagic);
+  if (auto written = Write(end + summary); !written) return written;
+  is_finished_ = true;
+  const int closed = close(std::exchange(descriptor_, -1));
+  if (closed != 0) return Failure("cannot be closed", errno);
+  return {};
+}
+
+}  // namespace runnel

@@ -1,0 +1,129 @@
+// An application that is none: a structure, values that go by a clock of its own, and changes in
+// their text form. For what a real one cannot show on demand: a thousand modules, a server that
+// refuses, one that is gone and comes again.
+
+export class MockApplication {
+  constructor({ name = 'mock', structure, catalogue, values = {} }) {
+    this.name = name;
+    this.catalogue = catalogue;
+    this.values = values; // port path -> function of time
+    this.elements = new Map(structure.elements.map((element) => [element.path, element]));
+    this.connections = [...structure.connections];
+    this.revision = 1;
+    this.time = 0;
+    this.paused = false;
+    this.speed = 1;
+    this.past = [];
+    this.future = [];
+    this.log = [{ number: 1, time: 0, kind: 'change', text: 'the mock began' }];
+  }
+
+  get structure() {
+    return { elements: [...this.elements.values()], connections: this.connections };
+  }
+
+  get state() {
+    return { time: this.time, paused: this.paused, speed: this.speed, faults: 0, ended: false,
+      undo: this.past.at(-1)?.label ?? null, redo: this.future.at(-1)?.label ?? null };
+  }
+
+  /** All changes or none; returns errors. What is new is told by `difference`. */
+  change(lines, label) {
+    const before = this.#snapshot();
+    for (const [index, line] of lines.entries()) {
+      const error = this.#apply(line.match(/"(?:[^"\\]|\\.)*"|\S+/g).map(Unquote));
+      if (error) {
+        this.#restore(before);
+        return [{ ...error, change: index }];
+      }
+    }
+    this.past.push({ label, state: before });
+    this.future = [];
+    this.log.push({ number: this.log.length + 1, time: this.time, kind: 'change', text: label });
+    return [];
+  }
+
+  travel(from, to) {
+    const step = from.pop();
+    if (!step) return false;
+    to.push({ label: step.label, state: this.#snapshot() });
+    this.#restore(step.state);
+    return true;
+  }
+
+  /** What has changed since an earlier structure, as the protocol tells it. */
+  difference(before) {
+    const key = (connection) => `${connection.from} ${connection.to}`;
+    const old = new Map(before.elements.map((element) => [element.path, element]));
+    const had = new Set(before.connections.map(key));
+    const has = new Set(this.connections.map(key));
+    return {
+      op: 'structure_change', revision: ++this.revision,
+      gone: [...old.keys()].filter((path) => !this.elements.has(path)),
+      elements: [...this.elements.values()].filter((element) => old.get(element.path) !== element),
+      connected: this.connections.filter((connection) => !had.has(key(connection))),
+      disconnected: before.connections.filter((connection) => !has.has(key(connection))),
+    };
+  }
+
+  #snapshot() {
+    return { elements: [...this.elements.values()], connections: this.connections };
+  }
+
+  #restore({ elements, connections }) {
+    this.elements = new Map(elements.map((element) => [element.path, element]));
+    this.connections = connections;
+  }
+
+  #apply([verb, ...words]) {
+    const missing = words.filter((word) => word.startsWith('/')).find((path) =>
+      !this.elements.has(path) && verb !== 'create');
+    if (missing) return { message: `there is no '${missing}'`, path: missing, hint: '' };
+    if (verb === 'set') {
+      const parameter = this.elements.get(words[0]);
+      if (parameter.name === 'stubborn') {
+        return { message: `'${words[1]}' is not to its taste`, path: words[0], hint: 'try 7' };
+      }
+      this.elements.set(words[0], { ...parameter, value: words[1] });
+    } else if (verb === 'connect') {
+      this.connections = [...this.connections, { from: words[0], to: words[1], queue: 0, on_full: 'drop_oldest' }];
+    } else if (verb === 'disconnect') {
+      this.connections = this.connections.filter(({ from, to }) => from !== words[0] || to !== words[1]);
+    } else if (verb === 'delete') {
+      const isIn = (path) => path === words[0] || path.startsWith(`${words[0]}/`);
+      this.connections = this.connections.filter(({ from, to }) => !isIn(from) && !isIn(to));
+      for (const path of [...this.elements.keys()]) if (isIn(path)) this.elements.delete(path);
+    } else if (verb === 'create') {
+      for (const element of ModuleElements(this.catalogue, words[0], words[1])) this.elements.set(element.path, element);
+    } else if (verb === 'move') {
+      this.elements.set(words[0], { ...this.elements.get(words[0]), thread: words[2] || null });
+    } else if (verb === 'replace') {
+      const type = this.catalogue.modules.find((module) => module.type === words[2]);
+      this.elements.set(words[0], { ...this.elements.get(words[0]), type: words[2], summary: type.summary });
+    } else {
+      return { message: `the mock knows no '${verb}'`, path: '', hint: '' };
+    }
+    return null;
+  }
+}
+
+/** A module as the catalogue has it, with its ports and parameters. */
+export function ModuleElements(catalogue, type, path, { thread = null } = {}) {
+  const module = catalogue.modules.find((candidate) => candidate.type === type);
+  if (!module) throw new Error(`the mock has no module type '${type}'`);
+  const elements = [{ path, kind: 'module', type, summary: module.summary, thread, stopped: null }];
+  for (const port of module.ports) {
+    elements.push({ path: `${path}/${port.name}`, kind: 'port', name: port.name, direction: port.direction,
+      data_type: port.type, interface: false, required: port.required ?? false, description: '', owner: path });
+  }
+  for (const parameter of module.parameters) {
+    elements.push({ path: `${path}/${parameter.name}`, kind: 'parameter', name: parameter.name, data_type: parameter.type,
+      unit: parameter.unit ?? '', minimum: parameter.minimum ?? null, maximum: parameter.maximum ?? null,
+      description: '', value: parameter.default, default: parameter.default, settable: true, owner: path });
+  }
+  return elements;
+}
+
+function Unquote(word) {
+  return word.startsWith('"') ? word.slice(1, -1).replace(/\\(.)/g, '$1') : word;
+}

@@ -1,0 +1,131 @@
+// Serves the page and speaks its protocol for a MockApplication.
+
+import { readFile } from 'node:fs/promises';
+import { createServer } from 'node:http';
+import { join } from 'node:path';
+import { WebSocketServer } from 'ws';
+
+const kTypes = { '/': ['index.html', 'text/html'], '/page.js': ['page.js', 'text/javascript'],
+  '/page.css': ['page.css', 'text/css'], '/icon.svg': ['icon.svg', 'image/svg+xml'] };
+let runs = 0;
+
+/** {url, port, close(), application}; `page`: the folder of the bundle. */
+export async function ServeMock(application, { page, port = 0, readOnly = false }) {
+  const http = createServer(async (request, response) => {
+    const entry = kTypes[request.url.split('?')[0]];
+    if (!entry) return response.writeHead(404).end();
+    response.writeHead(200, { 'content-type': entry[1] }).end(await readFile(join(page, entry[0])));
+  });
+  const sockets = new WebSocketServer({ server: http });
+  const run = `run ${++runs}`;
+  const clients = new Set();
+  sockets.on('connection', (socket) => {
+    const client = new Client(socket, application, { run, readOnly, tellAll: (message) => clients.forEach((each) => each.send(message)) });
+    clients.add(client);
+    socket.on('close', () => clients.delete(client));
+  });
+  const timer = setInterval(() => {
+    if (!application.paused) application.time += 0.05 * (application.speed || 20);
+    clients.forEach((client) => client.turn());
+  }, 50);
+  await new Promise((done) => { http.listen(port, '127.0.0.1', done); });
+  return {
+    application, port: http.address().port, url: `http://127.0.0.1:${http.address().port}/`,
+    close: async () => {
+      clearInterval(timer);
+      for (const socket of sockets.clients) socket.terminate();
+      await new Promise((done) => { http.close(done); });
+    },
+  };
+}
+
+class Client {
+  #watched = new Map(); // path -> how many values have been sent
+  #lastState = '';
+  #rated = 0;
+
+  constructor(socket, application, { run, readOnly, tellAll }) {
+    Object.assign(this, { socket, application, readOnly, tellAll });
+    this.rates = false;
+    socket.on('message', (text) => this.#receive(JSON.parse(text)));
+    this.send({ op: 'hello', protocol: 1, application: application.name, file: `/mock/${application.name}.xml`, run,
+      clock: 'simulated', read_only: readOnly, runnel: '0.0.0' });
+    this.send({ op: 'catalogue', ...application.catalogue });
+    this.send({ op: 'structure', revision: application.revision, ...application.structure });
+    this.send({ op: 'log', entries: application.log });
+    this.turn();
+  }
+
+  send(message) {
+    this.socket.send(JSON.stringify(message));
+  }
+
+  turn() {
+    const { application } = this;
+    const state = JSON.stringify(application.state);
+    if (state !== this.#lastState) this.send({ op: 'state', ...application.state });
+    this.#lastState = state;
+    const items = [];
+    for (const [path, count] of this.#watched) {
+      const value = application.values[path]?.(application.time);
+      if (value === undefined) continue;
+      this.#watched.set(path, count + 1);
+      items.push({ path, stamp: application.time, count: count + 1, value });
+    }
+    if (items.length > 0) this.send({ op: 'values', time: application.time, items });
+    if (this.rates && ++this.#rated % 10 === 1) this.#sendRates();
+  }
+
+  #sendRates() {
+    const ports = {};
+    const threads = {};
+    for (const { path, kind, direction } of this.application.elements.values()) {
+      if (kind === 'port' && direction === 'output') ports[path] = 20 + (this.#rated % 3) * 0.1;
+      if (kind === 'thread') {
+        threads[path] = { cycles: this.#rated, period_ms: 50, duration_ms: { mean: 0.18, max: 1.2 }, jitter_ms: 0.01, overruns: 0 };
+      }
+    }
+    this.send({ op: 'rates', time: this.application.time, ports, threads, modules: {} });
+  }
+
+  #receive(message) {
+    if (message.op === 'watch') this.#watched.set(message.path, 0);
+    else if (message.op === 'unwatch') this.#watched.delete(message.path);
+    else if (message.op === 'watch_rates') this.rates = message.rate > 0;
+    else this.#answer(message);
+  }
+
+  #answer({ op, request, ...asked }) {
+    const { application } = this;
+    const reply = (told) => this.send({ op: 'reply', request, ...told });
+    const refuse = (text) => reply({ ok: false, errors: [{ message: text, path: '', hint: '', change: null }] });
+    if (this.readOnly && op !== 'compatible') return refuse('the application can be watched only');
+    const before = application.structure;
+    const count = application.log.length;
+    const finish = (ok, told = {}) => {
+      const difference = application.difference(before);
+      this.tellAll(difference);
+      const entries = application.log.slice(count);
+      if (entries.length > 0) this.tellAll({ op: 'log', entries });
+      if (ok) reply({ ok: true, text: '', ...told });
+    };
+    if (op === 'change') {
+      const errors = application.change(asked.changes, asked.label);
+      return errors.length > 0 ? reply({ ok: false, errors }) : finish(true);
+    }
+    if (op === 'undo' || op === 'redo') {
+      const [from, to] = op === 'undo' ? [application.past, application.future] : [application.future, application.past];
+      return application.travel(from, to) ? finish(true) : refuse(`nothing to ${op}`);
+    }
+    if (op === 'compatible') {
+      const types = application.catalogue.modules.map(({ type, summary }) => ({ type, summary, lost: [] }));
+      return reply({ ok: true, text: '', types });
+    }
+    if (op === 'pause') application.paused = true;
+    else if (op === 'resume') application.paused = false;
+    else if (op === 'speed') application.speed = asked.speed;
+    else if (op === 'step') { application.paused = true; application.time += 0.05 * asked.cycles; }
+    else if (op !== 'save') return refuse(`the mock knows no '${op}'`);
+    return reply({ ok: true, text: op === 'save' ? 'Saved nowhere' : '' });
+  }
+}

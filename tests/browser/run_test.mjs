@@ -1,0 +1,28 @@
+// Runs one file of tests, in the folder of the build tree that has their packages; exit code 77 where
+// something that they need is missing: node run_test.mjs unit|browser <file>
+
+import { spawnSync } from 'node:child_process';
+import { existsSync } from 'node:fs';
+import { delimiter, join } from 'node:path';
+
+const [kind, file] = process.argv.slice(2);
+const kBrowsers = ['chromium', 'chromium-browser', 'google-chrome'];
+
+function Skip(reason) {
+  console.log(`skipped: ${reason}`);
+  process.exit(77);
+}
+
+function Find(names) {
+  const folders = (process.env.PATH ?? '').split(delimiter);
+  return names.flatMap((name) => folders.map((folder) => join(folder, name))).find(existsSync);
+}
+
+if (!existsSync(file)) Skip('npm could not get the packages of the tests; build again with a network');
+const environment = { ...process.env };
+if (kind === 'browser') {
+  environment.RUNNEL_BROWSER ??= Find(kBrowsers);
+  if (!environment.RUNNEL_BROWSER) Skip('chromium is not here (apt-get install chromium)');
+}
+const run = spawnSync(process.execPath, ['--enable-source-maps', '--test', file], { stdio: 'inherit', env: environment });
+process.exit(run.status ?? 1);

@@ -1,0 +1,95 @@
+// A browser for tests. What a page says to its console as an error, or throws, fails the test.
+
+import assert from 'node:assert/strict';
+import { mkdir } from 'node:fs/promises';
+import { join } from 'node:path';
+import { chromium } from 'playwright-core';
+
+const kPatience = 20000; // ms that a condition may take to come true; nothing waits longer than it has to
+
+/** Opens a page, which is closed after the test. */
+export async function OpenPage(t, url, { width = 1280, height = 800, colours = 'light', lost = false } = {}) {
+  const browser = await chromium.launch({ executablePath: process.env.RUNNEL_BROWSER, args: ['--no-sandbox'] });
+  const page = await browser.newPage({ viewport: { width, height }, colorScheme: colours, reducedMotion: 'reduce' });
+  page.setDefaultTimeout(kPatience);
+  const complaints = [];
+  page.on('pageerror', (error) => complaints.push(error.stack));
+  page.on('console', (message) => {
+    if (message.type() !== 'error' && message.type() !== 'warning') return;
+    // A browser itself complains of a server that is away; `lost` says that the test takes it away.
+    if (lost && /WebSocket connection to .* failed/.test(message.text())) return;
+    complaints.push(message.text());
+  });
+  t.after(async () => {
+    await browser.close();
+    assert.deepEqual(complaints, [], 'the page complains');
+  });
+  await page.goto(url);
+  await page.locator('#connection-state', { hasText: 'connected' }).waitFor();
+  await page.locator('[data-node]').first().waitFor();
+  return new InspectorPage(page);
+}
+
+/** What a user does with the page, in words. */
+export class InspectorPage {
+  constructor(page) {
+    this.page = page;
+    this.details = page.locator('#details');
+  }
+
+  node(path) {
+    return this.page.locator(`[data-node="${path}"]`);
+  }
+
+  port(path) {
+    return this.page.locator(`[data-port="${path}"]`);
+  }
+
+  edges() {
+    return this.page.locator('path[data-edge]').evaluateAll((edges) => edges.map((edge) => edge.dataset.edge).sort());
+  }
+
+  parameter(path) {
+    return this.page.locator(`[id="parameter:${path}"]`);
+  }
+
+  /** By the search, so that it does not matter where it is on the screen. */
+  async select(path) {
+    const words = path.split('/').filter(Boolean).join(' ');
+    await this.page.locator('#search').fill(words);
+    await this.page.locator('#search-found li', { has: this.page.locator(`.path:text-is("${path}")`) }).first().dispatchEvent('pointerdown');
+    await this.details.locator('.title').waitFor();
+  }
+
+  /** Waits until a function of the page's document holds; `what` is told if it never does. */
+  async until(what, check, argument) {
+    try {
+      await this.page.waitForFunction(check, argument);
+    } catch (error) {
+      throw new Error(`never came: ${what}`, { cause: error });
+    }
+  }
+
+  /** The clock of the application, in seconds. */
+  async time() {
+    const text = await this.page.locator('#time').textContent();
+    return text.endsWith(' s') ? Number.parseFloat(text)
+      : text.split(':').reduce((seconds, part) => seconds * 60 + Number(part), 0);
+  }
+
+  async dragPort(from, to) {
+    const [a, b] = [this.port(from).locator('circle'), this.port(to).locator('circle')];
+    const [start, end] = [await a.boundingBox(), await b.boundingBox()];
+    const middle = ({ x, y, width, height }) => [x + width / 2, y + height / 2];
+    await this.page.mouse.move(...middle(start));
+    await this.page.mouse.down();
+    await this.page.mouse.move(...middle(end).map((value) => value + 6), { steps: 4 });
+    return { drop: () => this.page.mouse.up() };
+  }
+
+  /** A picture into the build tree. */
+  async picture(name) {
+    await mkdir('pictures', { recursive: true });
+    await this.page.screenshot({ path: join('pictures', `${name}.png`) });
+  }
+}
