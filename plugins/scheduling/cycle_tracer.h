@@ -25,7 +25,7 @@ class CycleTracer {
   virtual void OnHold(const std::string& path, Time began, Time ended) noexcept = 0;
 
  protected:
-  ~CycleTracer() = default;
+  virtual ~CycleTracer() = default;
 };
 
 }  // namespace runnel
