@@ -15,9 +15,9 @@ constexpr std::size_t kMostWords = 2;  // of those that are parsed one by one
 
 const std::vector<std::string>& ControlCommandLine::Names() {
   static const std::vector<std::string> names{
-      "ps",     "ls",     "echo",   "hz",   "set",   "connect", "disconnect",
-      "create", "delete", "swap",   "move", "save",  "reload",  "change",
-      "log",    "pause",  "resume", "step", "speed", "complete"};
+      "ps",     "ls",    "echo",   "hz",   "set",   "connect", "disconnect", "create",
+      "delete", "swap",  "move",   "undo", "redo",  "save",    "reload",     "change",
+      "log",    "pause", "resume", "step", "speed", "complete"};
   return names;
 }
 
@@ -105,6 +105,9 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
 
   Entry& change = add("change", "carries out a file of changes, all or none");
   word(change, "file", "one change a line; -: standard input")->type_name("FILE|-");
+
+  add("undo", "takes back what was changed last");
+  add("redo", "does again what was undone last");
 
   Entry& save = add("save", "saves the application as it is now");
   word(save, "file", "instead of the one that it came from")->required(false)->type_name("FILE");

@@ -10,6 +10,7 @@
 #include "plugins/control/control_server.h"
 #include "plugins/inspector/inspector.h"
 #include "plugins/scheduling/scheduler.h"
+#include "plugins/structure/change_history.h"
 #include "plugins/structure/structure_editor.h"
 #include "plugins/web_server/web_server.h"
 
@@ -27,7 +28,7 @@ class OutsideAccess {
                                                       Workplace& workplace,
                                                       FrameworkElement& application,
                                                       Scheduler& scheduler, StructureEditor& editor,
-                                                      ControlLog& log);
+                                                      ChangeHistory& history, ControlLog& log);
 
   /// A module has been stopped.
   void Hear(const Fault& fault);

@@ -34,6 +34,8 @@ const std::vector<CommandKind>& Kinds() {
       {"hz", 1, 1, {"count"}, Alone(MakeRateCommand)},
       {"log", 0, 0, {"follow"}, Alone(MakeLogCommand)},
       {"change", 0, 0, {"file"}, MakeChangeCommand},
+      {"undo", 0, 0, {}, MakeUndoCommand},
+      {"redo", 0, 0, {}, MakeRedoCommand},
       {"save", 0, 1, {}, MakeSaveCommand},
       {"pause", 0, 0, {}, Alone(MakePauseCommand)},
       {"resume", 0, 0, {}, Alone(MakeResumeCommand)},

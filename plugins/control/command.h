@@ -101,6 +101,10 @@ using CommandResult = Result<std::unique_ptr<Command>>;
                                             ChangeWorker&);
 [[nodiscard]] CommandResult MakeReloadCommand(const Request&, const ControlledApplication&,
                                               ChangeWorker&);
+[[nodiscard]] CommandResult MakeUndoCommand(const Request&, const ControlledApplication&,
+                                            ChangeWorker&);
+[[nodiscard]] CommandResult MakeRedoCommand(const Request&, const ControlledApplication&,
+                                            ChangeWorker&);
 [[nodiscard]] CommandResult MakePauseCommand(const Request&, const ControlledApplication&);
 [[nodiscard]] CommandResult MakeResumeCommand(const Request&, const ControlledApplication&);
 [[nodiscard]] CommandResult MakeStepCommand(const Request&, const ControlledApplication&);

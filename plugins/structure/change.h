@@ -36,6 +36,7 @@ struct CreatePort {
   std::string path;
   Port::Direction direction = Port::Direction::kInput;
   std::string type;  ///< name of the data type, as a loaded plugin has described it
+  std::string description = {};
 };
 
 /// With all that is below it and all its connections.

@@ -133,7 +133,10 @@ Change ReadCreate(Words& words) {
                            ? Port::Direction::kInput
                            : Port::Direction::kOutput;
     change.type = words.Take("a data type");
-    words.End();
+    words.TakeOptions({"description"}, [&](const ChangeWord& word) {
+      if (word.name() == "description") change.description = word.value();
+      return word.name() == "description";
+    });
     return change;
   }
   CreateModule change{words.Take("a path"), {}};
@@ -213,7 +216,9 @@ struct Verb {
   Change (*read)(Words& words);
 };
 constexpr std::array<Verb, 7> kVerbs{{
-    {"create", "create [group] PATH TYPE [NAME=VALUE ...], or create port PATH input|output TYPE",
+    {"create",
+     "create [group] PATH TYPE [NAME=VALUE ...], or create port PATH input|output TYPE "
+     "[description=TEXT]",
      ReadCreate},
     {"delete", "delete PATH", ReadDelete},
     {"connect", "connect FROM TO [queue=N] [on_full=drop_oldest|drop_newest|refuse]", ReadConnect},
@@ -254,7 +259,8 @@ std::string Text(const CreateGroup& change) { return "create group " + AsWord(ch
 std::string Text(const CreatePort& change) {
   const bool is_input = change.direction == Port::Direction::kInput;
   return "create port " + AsWord(change.path) + " " + kDirections[is_input ? 0 : 1] + " " +
-         AsWord(change.type);
+         AsWord(change.type) +
+         (change.description.empty() ? "" : " description=" + AsWord(change.description));
 }
 std::string Text(const DeleteElement& change) { return "delete " + AsWord(change.path); }
 std::string Text(const ConnectPorts& change) {

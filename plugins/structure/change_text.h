@@ -15,7 +15,7 @@ namespace runnel {
 ///
 ///     create /robot/filter sensors/scan_filter window=5
 ///     create group /robot/left
-///     create port /robot/left/scan input RangeScan
+///     create port /robot/left/scan input RangeScan description="of the front laser"
 ///     delete /robot/filter
 ///     connect /laser/scan /robot/filter/scan queue=10 on_full=refuse
 ///     disconnect /laser/scan /robot/planner/scan

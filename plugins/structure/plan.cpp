@@ -58,11 +58,14 @@ void Plan::Make(const ChangeSet& changes, const std::vector<SourcePosition>& pla
   if (diagnostics.ok()) WarnOfMissingSources(diagnostics);
 }
 
-Result<void> Plan::Carry() {
+Result<void> Plan::Carry(Inverse* inverse) {
   const ChangeScope all_at_once(runtime_);
   for (std::size_t done = 0; done < steps_.size(); ++done) {
     Result<void> result;
     try {
+      if (inverse != nullptr) {
+        inverse->of_steps.push_back(steps_[done].inverse(inverse->why_not));
+      }
       result = steps_[done].apply();
     } catch (const std::exception& exception) {
       result = Error{.message = exception.what()};
@@ -111,14 +114,18 @@ void Plan::AddCreation(UnlistedElement element) {
                       const auto listed = runtime_.List(std::move(*kept));
                       return listed ? Result<void>() : listed.error();
                     },
-                    [this, kept, &made] { *kept = *runtime_.Unlist(made); }});
+                    [this, kept, &made] { *kept = *runtime_.Unlist(made); },
+                    [&made](auto&) -> ChangeSet { return {DeleteElement{made.path()}}; }});
 }
 
 void Plan::AddConnection(Port& from, Port& to, const ConnectOptions& options) {
   Concern(from);
   Concern(to);
   steps_.push_back({[&from, &to, options] { return Port::Connect(from, to, options); },
-                    [&from, &to] { (void)Port::Disconnect(from, to); }});
+                    [&from, &to] { (void)Port::Disconnect(from, to); },
+                    [&from, &to](auto&) -> ChangeSet {
+                      return {DisconnectPorts{from.path(), to.path()}};
+                    }});
 }
 
 void Plan::AddDisconnection(Port& from, Port& to) {
@@ -129,7 +136,10 @@ void Plan::AddDisconnection(Port& from, Port& to) {
                       *options = OptionsOf(from, to);
                       return Port::Disconnect(from, to);
                     },
-                    [&from, &to, options] { (void)Port::Connect(from, to, *options); }});
+                    [&from, &to, options] { (void)Port::Connect(from, to, *options); },
+                    [&from, &to](auto&) -> ChangeSet {
+                      return {ConnectPorts{from.path(), to.path(), OptionsOf(from, to)}};
+                    }});
 }
 
 // What goes with it stays as it is among itself; what ties it to others is cut.
@@ -155,7 +165,8 @@ void Plan::AddRemoval(FrameworkElement& element) {
                       for (const Connection& tie : undo->ties) {
                         (void)Port::Connect(*tie.from, *tie.to, tie.options);
                       }
-                    }});
+                    },
+                    [&element](auto& why_not) { return MakeAgain(element, why_not); }});
 }
 
 void Plan::AddReplacement(FrameworkElement& before, UnlistedElement after,
@@ -184,6 +195,9 @@ void Plan::AddReplacement(FrameworkElement& before, UnlistedElement after,
                       for (const auto& [from, to] : ports) from->TakeOver(*to);
                       (void)runtime_.List(std::move(replaced_.back().before), place);
                       replaced_.pop_back();
+                    },
+                    [&before, &next, cycles = change.probation_cycles](auto& why_not) {
+                      return ReplaceBack(before, next, cycles, why_not);
                     }});
 }
 

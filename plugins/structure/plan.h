@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "core/element/unlisted_element.h"
 #include "core/plugin/module_registry.h"
 #include "plugins/structure/change.h"
+#include "plugins/structure/inverse.h"
 #include "plugins/structure/projection.h"
 
 namespace runnel::internal {
@@ -39,8 +41,9 @@ class Plan {
   void Make(const ChangeSet& changes, const std::vector<SourcePosition>& places,
             Diagnostics& diagnostics);
 
-  /// Carries it out. Errors: what could not be foreseen; nothing has changed then.
-  Result<void> Carry();
+  /// Carries it out. Errors: what could not be foreseen; nothing has changed then. `inverse`, if there
+  /// is one, gets what would take it back.
+  Result<void> Carry(Inverse* inverse);
 
   /// The elements whose threads shall stand between two cycles meanwhile.
   [[nodiscard]] const std::vector<std::string>& concerned() const noexcept { return concerned_; }
@@ -49,10 +52,12 @@ class Plan {
   [[nodiscard]] std::vector<Replaced>& replaced() noexcept { return replaced_; }
 
  private:
-  // Undo is called only if Do succeeded and a later step did not. Neither waits for anything.
+  // Undo is called only if Do succeeded and a later step did not. None of them waits for anything.
   struct Step {
     std::function<Result<void>()> apply;
     std::function<void()> undo;
+    // What would take it back, asked right before it is applied.
+    std::function<ChangeSet(std::optional<Error>& why_not)> inverse;
   };
 
   Result<void> Check(const CreateModule& change);

@@ -53,7 +53,8 @@ Result<void> Plan::Check(const CreatePort& change) {
                  .path = change.path,
                  .hint = NearestNameHint(change.type, names)};
   }
-  UnlistedElement made(std::make_unique<ProxyPort>(*place, change.direction, *type));
+  UnlistedElement made(
+      std::make_unique<ProxyPort>(*place, change.direction, *type, change.description));
   if (auto prepared = Runtime::Prepare(made); !prepared) return prepared;
   AddCreation(std::move(made));
   return {};
@@ -127,7 +128,12 @@ Result<void> Plan::Check(const SetParameter& change) {
                       *before = parameter->ToText();
                       return parameter->SetFromText(value);
                     },
-                    [parameter, before] { (void)parameter->SetFromText(*before); }});
+                    [parameter, before] { (void)parameter->SetFromText(*before); },
+                    [parameter, path = (*found)->path()](auto&) -> ChangeSet {
+                      // The module has been made by this change set, and goes as a whole.
+                      if (parameter->info().is_static) return {};
+                      return {SetParameter{path, parameter->ToText()}};
+                    }});
   return {};
 }
 
@@ -188,7 +194,10 @@ Result<void> Plan::Check(const AssignToThread& change) {
                       assign(thread);
                       return {};
                     },
-                    [=] { assign(*before); }});
+                    [=] { assign(*before); },
+                    [&element](auto&) -> ChangeSet {
+                      return {AssignToThread{element.path(), OwnThreadPath(element)}};
+                    }});
   return {};
 }
 

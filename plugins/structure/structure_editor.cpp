@@ -6,6 +6,7 @@
 
 #include "core/base/check.h"
 #include "core/lockfree/thread_epoch.h"
+#include "plugins/structure/inverse.h"
 #include "plugins/structure/plan.h"
 #include "plugins/structure/probation.h"
 
@@ -18,6 +19,17 @@ constexpr int kAttempts = 100;
 
 void Append(std::vector<UnlistedElement>& to, std::vector<UnlistedElement> from) {
   for (UnlistedElement& each : from) to.push_back(std::move(each));
+}
+
+void CheckTaking(const internal::Taking& taking, Runtime& runtime, Diagnostics& diagnostics) {
+  const auto possible = internal::CheckExpected(taking.changes, taking.expected, runtime.root());
+  if (!possible) diagnostics.Add(possible.error());
+}
+
+internal::Taking TakingOf(internal::Inverse inverse, Runtime& runtime) {
+  internal::Taking taking{inverse.All(), {}, std::move(inverse.why_not)};
+  taking.expected = internal::WhatIsThere(taking.changes, runtime.root());
+  return taking;
 }
 
 }  // namespace
@@ -63,6 +75,10 @@ void StructureEditor::Tend() {
 
 ChangeOutcome StructureEditor::Apply(const ChangeSet& changes,
                                      const std::vector<SourcePosition>& places) {
+  return Apply(Order{changes, places});
+}
+
+ChangeOutcome StructureEditor::Apply(const Order& order) {
   RUNNEL_CHECK(!EpochGuard::HeldByThisThread() && !runtime_.structure_mutex().HeldByThisThread(),
                "the structure cannot be changed by an editor from within a cycle, nor under the "
                "structure lock");
@@ -70,24 +86,24 @@ ChangeOutcome StructureEditor::Apply(const ChangeSet& changes,
   ChangeOutcome outcome;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     outcome = {};
-    if (Try(changes, places, outcome) != Attempt::kOvertaken) return outcome;
+    if (Try(order, outcome) != Attempt::kOvertaken) return outcome;
   }
   outcome.diagnostics.Add({.message = "others change the structure all the time; gave up after " +
                                       std::to_string(kAttempts) + " attempts"});
   return outcome;
 }
 
-StructureEditor::Attempt StructureEditor::Try(const ChangeSet& changes,
-                                              const std::vector<SourcePosition>& places,
-                                              ChangeOutcome& outcome) {
+StructureEditor::Attempt StructureEditor::Try(const Order& order, ChangeOutcome& outcome) {
   internal::Plan plan(runtime_, modules_);
   std::uint64_t revision = 0;
   {
     const std::lock_guard lock(runtime_.structure_mutex());
-    plan.Make(changes, places, outcome.diagnostics);
+    if (order.taking != nullptr) CheckTaking(*order.taking, runtime_, outcome.diagnostics);
+    if (outcome.diagnostics.ok()) plan.Make(order.changes, order.places, outcome.diagnostics);
     revision = runtime_.revision();
   }
-  if (!outcome.diagnostics.ok()) return Attempt::kFailed;
+  outcome.is_refused = !outcome.diagnostics.ok();
+  if (outcome.is_refused) return Attempt::kFailed;
   std::optional<CycleHold> hold;
   if (scheduler_ != nullptr) {
     auto held = scheduler_->HoldCycles(plan.concerned(), options_.patience);
@@ -106,10 +122,13 @@ StructureEditor::Attempt StructureEditor::Try(const ChangeSet& changes,
       return Attempt::kOvertaken;
     }
     if (runtime_.revision() != revision) return Attempt::kOvertaken;
-    if (auto carried = plan.Carry(); !carried) {
+    internal::Inverse inverse;
+    if (auto carried = plan.Carry(order.back != nullptr ? &inverse : nullptr); !carried) {
       outcome.diagnostics.Add(carried.error());
+      outcome.is_refused = true;
       return Attempt::kFailed;
     }
+    if (order.back != nullptr) *order.back = TakingOf(std::move(inverse), runtime_);
   }
   outcome.is_done = true;
   if (hold) {

@@ -12,9 +12,14 @@
 
 namespace runnel {
 
+namespace internal {
+struct Taking;
+}
+
 /// What has become of a change set.
 struct ChangeOutcome {
   bool is_done = false;     ///< else nothing has changed
+  bool is_refused = false;  ///< not done as the structure is not such that it could be
   Diagnostics diagnostics;  ///< why not; warnings also of what has been done
   Duration stood_still{};   ///< how long the threads concerned have been kept between two cycles
 
@@ -55,11 +60,19 @@ class StructureEditor {
   [[nodiscard]] std::size_t on_probation() const;
 
  private:
+  friend class ChangeHistory;
   struct Shared;
   enum class Attempt { kDone, kFailed, kOvertaken };
 
-  Attempt Try(const ChangeSet& changes, const std::vector<SourcePosition>& places,
-              ChangeOutcome& outcome);
+  /// What is to be done, and what is to be known of it besides.
+  struct Order {
+    const ChangeSet& changes;
+    const std::vector<SourcePosition>& places;
+    const internal::Taking* taking = nullptr;  // that `changes` are of
+    internal::Taking* back = nullptr;          // is to be filled
+  };
+  ChangeOutcome Apply(const Order& order);
+  Attempt Try(const Order& order, ChangeOutcome& outcome);
 
   Runtime& runtime_;
   const ModuleRegistry& modules_;

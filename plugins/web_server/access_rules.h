@@ -13,11 +13,11 @@ namespace runnel {
 
 /// What a request says of where it comes from and where it believes to go, in the words of HTTP.
 struct WebRequest {
-  std::string_view target;         ///< "/page.js?token=…"
-  std::string_view host;           ///< "" if it has none
-  std::string_view origin;         ///< "" if it has none: then it is no page that asks
-  std::string_view cookie;         ///< all of them
-  std::string_view authorization;  ///< "Bearer …"
+  std::string_view target = {};         ///< "/page.js?token=…"
+  std::string_view host = {};           ///< "" if it has none
+  std::string_view origin = {};         ///< "" if it has none: then it is no page that asks
+  std::string_view cookie = {};         ///< all of them
+  std::string_view authorization = {};  ///< "Bearer …"
 };
 
 /// Who may ask. Nothing of the network is in here.

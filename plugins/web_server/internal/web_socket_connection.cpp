@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/bind_handler.hpp>
 #include <boost/beast/core/buffers_to_string.hpp>
@@ -25,6 +26,8 @@ using MachineTime = WebConversation::MachineTime;
 
 // However soon a conversation wants its next turn, others have theirs before.
 constexpr auto kShortestPause = std::chrono::milliseconds(1);
+// For a client to answer that it ends.
+constexpr auto kTimeToClose = std::chrono::milliseconds(1000);
 // What is longer does not fit into a closing frame.
 constexpr std::size_t kLongestReason = 120;
 
@@ -65,7 +68,8 @@ class WebSocketConnection final : public WebConnection,
         }));
     socket_.read_message_max(limits.message_bytes);
     socket_.auto_fragment(false);
-    socket_.control_callback([this](websocket::frame_type, beast::string_view text) {
+    socket_.control_callback([this](websocket::frame_type kind, beast::string_view text) {
+      if (kind == websocket::frame_type::close) return BeginClosing();  // answered by Beast
       budget_.Pay(text.size(), Now());
       if (budget_.IsFlood()) Close("too many pings");
     });
@@ -84,6 +88,7 @@ class WebSocketConnection final : public WebConnection,
     if (conversation_ == nullptr || is_closing_) return;
     Attempt([this] {
       const MachineTime next = conversation_->OnTurn();
+      if (is_closing_) return;
       turn_timer_.expires_at(std::max(next, Now() + kShortestPause));
       turn_timer_.async_wait([self = shared_from_this()](beast::error_code error) {
         if (!error) self->TakeTurn();
@@ -113,7 +118,8 @@ class WebSocketConnection final : public WebConnection,
 
   void OnAccepted(beast::error_code error) {
     request_ = {};
-    if (error) return Remove();
+    if (error || is_closing_) return Remove();
+    is_accepted_ = true;
     Attempt([this] { conversation_ = start_(*this); });
     TakeTurn();
     Read();
@@ -192,11 +198,23 @@ class WebSocketConnection final : public WebConnection,
 
   void Close(websocket::close_code code, std::string_view reason) {
     if (is_closing_ || is_removed_) return;
-    is_closing_ = true;
+    BeginClosing();
+    if (!is_accepted_) return Cut();  // there is nobody yet who could be told
     websocket::close_reason why(code);
     const std::string cut = CutAtLetter(reason, kLongestReason);
     why.reason.assign(cut.data(), cut.size());
     socket_.async_close(why, [self = shared_from_this()](beast::error_code) { self->Remove(); });
+  }
+
+  // Whoever does not close its end soon is cut.
+  void BeginClosing() {
+    is_closing_ = true;
+    // Not here: it may be the conversation itself that has asked for it.
+    boost::asio::post(hub_.context(), [self = shared_from_this()] { self->conversation_.reset(); });
+    turn_timer_.expires_after(kTimeToClose);
+    turn_timer_.async_wait([self = shared_from_this()](beast::error_code cancelled) {
+      if (!cancelled) self->Cut();
+    });
   }
 
   void Remove() {
@@ -221,6 +239,7 @@ class WebSocketConnection final : public WebConnection,
   MessageBudget budget_;
   std::deque<Message> waiting_;
   std::size_t waiting_bytes_ = 0;
+  bool is_accepted_ = false;
   bool is_closing_ = false;
   bool is_removed_ = false;
   std::unique_ptr<WebConversation> conversation_;  // first to go: it uses the rest

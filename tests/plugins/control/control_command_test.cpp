@@ -250,4 +250,27 @@ TEST(SimulatedControl, IsReachedWhileTimeRunsAsFastAsItCan) {
   runner.join();
 }
 
+TEST_F(ControlTest, UndoesAndRedoesWhatClientsHaveChanged) {
+  EXPECT_THAT(Ask("undo").errors, HasSubstr("there is nothing to be undone"));
+  ASSERT_EQ(Change("set /a/speed 3; connect /a/out /b/in queue=4").code, 0);
+  const Told undone = Ask("undo");
+  EXPECT_EQ(undone.code, 0) << undone.errors;
+  EXPECT_EQ(undone.output, "undone: set /a/speed 3 and 1 more\n");
+  EXPECT_THAT(Ask("ls /a long=yes").output, HasSubstr("double = 1 m/s"));
+  EXPECT_THAT(Ask("ls /a long=yes").output, Not(HasSubstr("queue 4")));
+  EXPECT_EQ(Ask("redo").output, "redone: set /a/speed 3 and 1 more\n");
+  EXPECT_THAT(Ask("ls /a long=yes").output, HasSubstr("(queue 4)"));
+  EXPECT_EQ(Ask("redo").code, 2);
+  EXPECT_THAT(Ask("log").output, HasSubstr("undone: set /a/speed 3 and 1 more"));
+}
+
+TEST_F(ControlTest, SaysWhyAChangeCannotBeUndone) {
+  ASSERT_EQ(Change("create /c test/counter").code, 0);
+  ASSERT_TRUE(editor.Apply({DeleteElement{"/c"}}));
+  const Told told = Ask("undo");
+  EXPECT_EQ(told.code, 2);
+  EXPECT_THAT(told.errors, HasSubstr("no 'c' in /"));
+  EXPECT_THAT(told.errors, HasSubstr("can no longer be undone, and is forgotten"));
+}
+
 }  // namespace runnel::test

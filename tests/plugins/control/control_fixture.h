@@ -25,6 +25,7 @@
 #include "plugins/control/control_server.h"
 #include "plugins/parameters/parameter.h"
 #include "plugins/scheduling/scheduler.h"
+#include "plugins/structure/change_history.h"
 
 namespace runnel::test {
 
@@ -151,7 +152,7 @@ class ControlTest : public ::testing::Test {
   void StartServer(ControlOptions options) {
     server.reset();
     auto started = ControlServer::Start(
-        {runtime, modules, editor, log, hooks, nullptr, &scheduler.pace()}, std::move(options));
+        {runtime, modules, editor, log, hooks, &history, &scheduler.pace()}, std::move(options));
     ASSERT_TRUE(started) << started.error().ToString();
     server = std::move(*started);
   }
@@ -206,6 +207,7 @@ class ControlTest : public ::testing::Test {
   ModuleRegistry modules;
   Scheduler scheduler{runtime};
   StructureEditor editor{runtime, modules, &scheduler};
+  ChangeHistory history{editor};
   ControlLog log{runtime.clock()};
   ControlHooks hooks;
   std::unique_ptr<ControlServer> server;

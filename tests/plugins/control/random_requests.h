@@ -117,7 +117,7 @@ class RandomRequests {
         return OneOf({"echo ", "hz "}) + Path() + OneOf({"", " count=2", " full=yes", " count=0"});
       case 2:
         return OneOf({"log", "log follow=yes", "paths", "types", "save", "save x", "lss", "pause",
-                      "resume", "step", "step 3", "speed 2", "speed x", ""});
+                      "resume", "step", "step 3", "speed 2", "speed x", "undo", "redo", ""});
       default: {
         std::string text = "change" + OneOf({"", " file=f"}) + "\n";
         for (std::size_t left = 1 + Below(5); left > 0; --left)

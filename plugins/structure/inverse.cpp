@@ -1,0 +1,173 @@
+#include "plugins/structure/inverse.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "core/element/configurable.h"
+#include "core/plugin/module_type_name.h"
+#include "core/port/port.h"
+#include "core/types/type_info.h"
+#include "plugins/scheduling/thread_container.h"
+#include "plugins/structure/plan.h"
+
+namespace runnel::internal {
+
+namespace {
+
+constexpr const char* kParameters = "parameter";
+
+Error CannotBeMade(const FrameworkElement& element) {
+  return {.message = "could not be made again by a change: it is of no registered type",
+          .path = element.path()};
+}
+
+// The values that a module of the same type would not have by itself.
+std::vector<Setting> Settings(const FrameworkElement& module) {
+  std::vector<Setting> settings;
+  const FrameworkElement* const group = module.FindChild(kParameters);
+  if (group == nullptr) return settings;
+  for (const FrameworkElement* each : group->children()) {
+    const auto* const parameter = dynamic_cast<const Configurable*>(each);
+    if (parameter == nullptr) continue;
+    std::string value = parameter->ToText();
+    if (value != parameter->info().default_value) {
+      settings.push_back({each->name(), std::move(value)});
+    }
+  }
+  return settings;
+}
+
+// Those that `after` would otherwise hand over.
+void AddDefaults(const FrameworkElement& before, const FrameworkElement& after,
+                 std::vector<Setting>& settings) {
+  const FrameworkElement* const from = after.FindChild(kParameters);
+  const FrameworkElement* const to = before.FindChild(kParameters);
+  if (from == nullptr || to == nullptr) return;
+  for (const FrameworkElement* each : to->children()) {
+    const auto* const parameter = dynamic_cast<const Configurable*>(each);
+    const auto* const other = dynamic_cast<const Configurable*>(from->FindChild(each->name()));
+    if (parameter == nullptr || other == nullptr) continue;
+    if (std::ranges::count(settings, each->name(), &Setting::parameter) > 0) continue;
+    const std::string value = parameter->ToText();
+    if (other->ToText() != value) settings.push_back({each->name(), value});
+  }
+}
+
+// Nothing for what comes with a module.
+void AddMaking(const FrameworkElement& element, ChangeSet& changes, std::optional<Error>& why_not) {
+  const std::string type = FindModuleType(element);
+  const auto* const port = dynamic_cast<const Port*>(&element);
+  if (!type.empty()) {
+    changes.push_back(CreateModule{element.path(), type, Settings(element)});
+  } else if (element.kind() == ElementKind::kGroup) {
+    changes.push_back(CreateGroup{element.path()});
+  } else if (port != nullptr && port->is_proxy()) {
+    changes.push_back(
+        CreatePort{element.path(), port->direction(), port->type().name(), port->description()});
+  } else if (!why_not) {
+    why_not = CannotBeMade(element);
+  }
+  const std::string thread = OwnThreadPath(element);
+  if (!thread.empty()) changes.push_back(AssignToThread{element.path(), thread});
+  const bool is_whole = !type.empty() || element.kind() != ElementKind::kGroup;
+  if (is_whole) return;
+  for (const FrameworkElement* each : element.children()) AddMaking(*each, changes, why_not);
+}
+
+void AddConnections(FrameworkElement& element, ChangeSet& changes) {
+  const auto add = [&](const Connection& edge) {
+    changes.push_back(ConnectPorts{edge.from->path(), edge.to->path(), edge.options});
+  };
+  element.Visit([&](FrameworkElement& each) {
+    const auto* const port = dynamic_cast<const Port*>(&each);
+    if (port == nullptr) return;
+    for (const Connection& edge : port->outgoing()) {
+      if (edge.to->IsAtOrBelow(element)) add(edge);
+    }
+  });
+  for (const Connection& tie : TiesOf(element)) add(tie);
+}
+
+// In which it would show if somebody had made something else of it.
+std::string WhatItIs(const FrameworkElement& element) {
+  const std::string type = FindModuleType(element);
+  if (!type.empty()) return type;
+  return element.kind() == ElementKind::kGroup ? "group" : "port";
+}
+
+// The path of what a change deletes or replaces; nullptr for other changes.
+const std::string* Takes(const Change& change) {
+  if (const auto* const each = std::get_if<DeleteElement>(&change)) return &each->path;
+  if (const auto* const each = std::get_if<ReplaceModule>(&change)) return &each->path;
+  return nullptr;
+}
+
+}  // namespace
+
+ChangeSet Inverse::All() const {
+  ChangeSet all;
+  for (auto step = of_steps.rbegin(); step != of_steps.rend(); ++step) {
+    all.insert(all.end(), step->begin(), step->end());
+  }
+  return all;
+}
+
+std::string OwnThreadPath(const FrameworkElement& element) {
+  const ThreadContainer* const thread = OwnThread(element);
+  return thread != nullptr ? thread->path() : "";
+}
+
+ChangeSet MakeAgain(FrameworkElement& element, std::optional<Error>& why_not) {
+  ChangeSet changes;
+  AddMaking(element, changes, why_not);
+  AddConnections(element, changes);
+  return changes;
+}
+
+ChangeSet ReplaceBack(const FrameworkElement& before, const FrameworkElement& after,
+                      std::uint64_t probation_cycles, std::optional<Error>& why_not) {
+  const std::string type = FindModuleType(before);
+  if (type.empty()) {
+    if (!why_not) why_not = CannotBeMade(before);
+    return {};
+  }
+  std::vector<Setting> settings = Settings(before);
+  AddDefaults(before, after, settings);
+  return {ReplaceModule{before.path(), type, std::move(settings), probation_cycles}};
+}
+
+Expected WhatIsThere(const ChangeSet& changes, FrameworkElement& root) {
+  Expected expected;
+  for (const Change& each : changes) {
+    const std::string* const path = Takes(each);
+    if (path == nullptr) continue;
+    if (const auto found = root.Find(*path)) expected[*path] = WhatItIs(**found);
+  }
+  return expected;
+}
+
+Result<void> CheckExpected(const ChangeSet& changes, const Expected& expected,
+                           FrameworkElement& root) {
+  std::set<std::string> deleted;
+  for (const Change& each : changes) {
+    if (const auto* const change = std::get_if<DeleteElement>(&each)) deleted.insert(change->path);
+  }
+  for (const auto& [path, what] : expected) {
+    const auto found = root.Find(path);
+    if (!found) return found.error();
+    if (WhatItIs(**found) != what) {
+      return Error{
+          .message = "is not what it was any more: " + WhatItIs(**found) + " instead of " + what,
+          .path = path};
+    }
+    if (what != "group" || !deleted.contains(path)) continue;
+    for (const FrameworkElement* child : (*found)->children()) {
+      if (deleted.contains(child->path())) continue;
+      return Error{.message = "has got '" + child->name() + "' meanwhile", .path = path};
+    }
+  }
+  return {};
+}
+
+}  // namespace runnel::internal

@@ -1,0 +1,182 @@
+#include "plugins/structure/change_history.h"
+
+#include "tests/plugins/structure/editor_fixture.h"
+
+namespace runnel::test {
+namespace {
+
+class ChangeHistoryTest : public EditorTest {
+ protected:
+  void MustDo(const ChangeSet& changes) { MustBe(history.Apply(changes)); }
+  void MustBe(const ChangeOutcome& outcome) {
+    ASSERT_TRUE(outcome) << outcome.diagnostics.ToString();
+  }
+  std::string TextOf(const std::string& parameter) { return At<Configurable&>(parameter).ToText(); }
+  template <typename E>
+  std::remove_reference_t<E>& At(const std::string& path) {
+    return EditorTest::At<std::remove_reference_t<E>>(path);
+  }
+
+  ChangeHistory history{editor};
+};
+
+TEST_F(ChangeHistoryTest, SaysWhatIsNextByALabel) {
+  EXPECT_FALSE(history.NextUndo());
+  EXPECT_FALSE(history.NextRedo());
+  MustDo({CreateModule{"/app/a", "test/counter"}, CreateGroup{"/app/g"}});
+  EXPECT_EQ(history.NextUndo(), "create /app/a test/counter and 1 more");
+  MustBe(history.Apply({SetParameter{"/app/a/step", "3"}}, {}, "three at a time"));
+  EXPECT_EQ(history.NextUndo(), "three at a time");
+  MustBe(history.Undo());
+  EXPECT_EQ(history.NextUndo(), "create /app/a test/counter and 1 more");
+  EXPECT_EQ(history.NextRedo(), "three at a time");
+  MustBe(history.Redo());
+  EXPECT_EQ(TextOf("/app/a/parameter/step"), "3");
+  EXPECT_EQ(history.NextUndo(), "three at a time");
+  EXPECT_FALSE(history.NextRedo());
+}
+
+TEST_F(ChangeHistoryTest, MakesWhatWasDeletedAsItWas) {
+  MustDo({CreateGroup{"/app/g"}, CreateModule{"/app/g/a", "test/counter", {{"label", "left"}}},
+          CreateModule{"/app/b", "test/sink"},
+          CreatePort{"/app/g/out", Port::Direction::kOutput, "int32", "what it counts"},
+          ConnectPorts{"/app/g/a/output/out", "/app/g/out"},
+          ConnectPorts{"/app/g/out", "/app/b/input/in", {.queue = 5, .on_full = OnFull::kRefuse}},
+          SetParameter{"/app/g/a/step", "4"}, AssignToThread{"/app/g", "slow"},
+          AssignToThread{"/app/g/a", "fast"}});
+  MustDo({DeleteElement{"/app/g"}});
+  EXPECT_FALSE(Exists("/app/g"));
+  MustBe(history.Undo());
+  EXPECT_EQ(TextOf("/app/g/a/parameter/step"), "4");
+  EXPECT_EQ(TextOf("/app/g/a/parameter/label"), "left");
+  EXPECT_EQ(At<Port>("/app/g/out").description(), "what it counts");
+  const auto& edges = At<Port>("/app/g/out").outgoing();
+  ASSERT_THAT(edges, SizeIs(1));
+  EXPECT_EQ(edges[0].to->path(), "/app/b/input/in");
+  EXPECT_EQ(edges[0].options.queue, 5U);
+  EXPECT_EQ(edges[0].options.on_full, OnFull::kRefuse);
+  EXPECT_EQ(OwnThread(At<Group>("/app/g"))->name(), "slow");
+  EXPECT_EQ(OwnThread(At<Counter>("/app/g/a"))->name(), "fast");
+  Steps(3);
+  EXPECT_THAT(At<Sink>("/app/b").taken, ElementsAre(4, 8, 12));
+}
+
+TEST_F(ChangeHistoryTest, PutsTheOldTypeBackWithItsValues) {
+  MustDo({CreateModule{"/app/a", "test/other_counter", {{"own", "9"}}},
+          CreateModule{"/app/b", "test/sink"}, ConnectPorts{"/app/a/out", "/app/b/in"}});
+  MustDo({ReplaceModule{"/app/a", "test/counter", {{"step", "5"}, {"label", "new"}}, 0}});
+  EXPECT_EQ(TextOf("/app/a/parameter/step"), "5");
+  MustBe(history.Undo());
+  EXPECT_EQ(TextOf("/app/a/parameter/own"), "9");
+  EXPECT_EQ(TextOf("/app/a/parameter/step"), "1");  // which the other would have handed over
+  EXPECT_EQ(TextOf("/app/a/parameter/label"), "none");
+  EXPECT_THAT(At<Port>("/app/a/output/out").outgoing(), SizeIs(1));
+  MustBe(history.Redo());
+  EXPECT_FALSE(Exists("/app/a/parameter/own"));
+  EXPECT_EQ(TextOf("/app/a/parameter/label"), "new");
+}
+
+TEST_F(ChangeHistoryTest, ForgetsWhatCouldBeRedoneWhenSomethingElseIsDone) {
+  MustDo({CreateGroup{"/app/g"}});
+  MustBe(history.Undo());
+  MustDo({CreateGroup{"/app/h"}});
+  EXPECT_FALSE(history.NextRedo());
+  const ChangeOutcome outcome = history.Redo();
+  EXPECT_TRUE(outcome.is_refused);
+  EXPECT_THAT(outcome.diagnostics.ToString(), HasSubstr("there is nothing to be redone"));
+}
+
+TEST_F(ChangeHistoryTest, DoesNotRememberWhatWasRefused) {
+  EXPECT_FALSE(history.Apply({DeleteElement{"/app/none"}}));
+  EXPECT_FALSE(history.NextUndo());
+}
+
+TEST_F(ChangeHistoryTest, ForgetsTheOldest) {
+  ChangeHistory small(editor, 2);
+  for (const char* name : {"/app/a", "/app/b", "/app/c"}) {
+    MustBe(small.Apply({CreateGroup{name}}));
+  }
+  MustBe(small.Undo());
+  MustBe(small.Undo());
+  EXPECT_FALSE(small.Undo());
+  EXPECT_TRUE(Exists("/app/a"));
+  EXPECT_FALSE(Exists("/app/b"));
+}
+
+TEST_F(ChangeHistoryTest, RefusesWhatOthersHaveMadeImpossibleAndForgetsOnlyThat) {
+  MustDo({CreateModule{"/app/a", "test/counter"}});
+  MustDo({SetParameter{"/app/a/step", "3"}});
+  MustDo({CreateModule{"/app/b", "test/counter"}});
+  Must({DeleteElement{"/app/b"}});
+  const std::string before = Structure();
+  const ChangeOutcome outcome = history.Undo();
+  EXPECT_TRUE(outcome.is_refused);
+  EXPECT_EQ(Structure(), before);
+  EXPECT_THAT(outcome.diagnostics.ToString(), HasSubstr("no 'b' in /app"));
+  EXPECT_THAT(outcome.diagnostics.ToString(),
+              HasSubstr("'create /app/b test/counter' can no longer be undone, and is forgotten"));
+  MustBe(history.Undo());
+  EXPECT_EQ(TextOf("/app/a/parameter/step"), "1");
+}
+
+TEST_F(ChangeHistoryTest, DeletesNothingThatOthersHavePutIn) {
+  MustDo({CreateGroup{"/app/g"}});
+  Must({CreateModule{"/app/g/theirs", "test/counter"}});
+  EXPECT_THAT(history.Undo().diagnostics.ToString(), HasSubstr("has got 'theirs' meanwhile"));
+  EXPECT_TRUE(Exists("/app/g/theirs"));
+}
+
+TEST_F(ChangeHistoryTest, LeavesAloneWhatOthersHaveReplaced) {
+  MustDo({CreateModule{"/app/a", "test/counter"}});
+  Must({ReplaceModule{"/app/a", "test/other_counter"}});
+  EXPECT_THAT(history.Undo().diagnostics.ToString(),
+              HasSubstr("is not what it was any more: test/other_counter instead of test/counter"));
+  EXPECT_TRUE(Exists("/app/a"));
+}
+
+TEST_F(ChangeHistoryTest, SaysWhatNoChangeCanMakeAgain) {
+  runtime.Create<Counter>(At<Group>("/app"), "code");
+  MustReady();
+  MustDo({DeleteElement{"/app/code"}});
+  EXPECT_TRUE(history.NextUndo());
+  const std::string text = history.Undo().diagnostics.ToString();
+  EXPECT_THAT(text, HasSubstr("/app/code: could not be made again"));
+  EXPECT_FALSE(history.NextUndo());
+}
+
+TEST_F(ChangeHistoryTest, KeepsWhatCouldNotBeUndoneJustNow) {
+  EditorOptions hasty{.patience = 1ms};
+  StructureEditor impatient(runtime, modules, &scheduler, hasty);
+  ChangeHistory kept(impatient);
+  MustBe(kept.Apply({CreateModule{"/app/a", "test/counter"}}));
+  // Somebody is in a cycle that does not come to an end.
+  std::atomic<bool> is_in{false};
+  std::atomic<bool> may_end{false};
+  class Slow final : public Module {
+   public:
+    Slow(const Placement& placement, std::atomic<bool>& in, std::atomic<bool>& end)
+        : Module(placement), in_(in), end_(end) {}
+
+   private:
+    void Update() override {
+      in_ = true;
+      while (!end_) std::this_thread::sleep_for(100us);
+    }
+    std::atomic<bool>& in_;
+    std::atomic<bool>& end_;
+  };
+  runtime.Create<Slow>(At<Group>("/app"), "slow", is_in, may_end);
+  MustReady();
+  std::thread running([this] { (void)scheduler.Step(); });
+  WaitUntil([&] { return is_in.load(); });
+  const ChangeOutcome outcome = kept.Undo();
+  EXPECT_FALSE(outcome);
+  EXPECT_FALSE(outcome.is_refused);
+  EXPECT_TRUE(kept.NextUndo());
+  may_end = true;
+  running.join();
+  MustBe(kept.Undo());
+}
+
+}  // namespace
+}  // namespace runnel::test

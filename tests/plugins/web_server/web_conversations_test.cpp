@@ -1,0 +1,186 @@
+#include "tests/plugins/web_server/web_server_fixture.h"
+
+namespace runnel::test {
+
+namespace {
+
+class WebConversations : public WebServerTest {};
+
+TEST_F(WebConversations, SpeakTheFirstProtocolThatBothKnow) {
+  Start();
+  const auto agreed = [this](const std::string& offered) { return Client().Upgrade(offered); };
+  EXPECT_THAT(agreed("echo.v1"), HasSubstr("Sec-WebSocket-Protocol: echo.v1\r\n"));
+  EXPECT_THAT(agreed("other, echo.v2, echo.v1"), HasSubstr("Sec-WebSocket-Protocol: echo.v2\r\n"));
+  EXPECT_THAT(agreed("echo.v2,echo.v1"), HasSubstr("Sec-WebSocket-Protocol: echo.v2\r\n"));
+}
+
+TEST_F(WebConversations, DoNotBeginWithoutAProtocolThatIsKnown) {
+  Start();
+  RawClient stranger = Client();
+  EXPECT_THAT(stranger.Upgrade("other, echo.v"), StartsWith("HTTP/1.1 400 "));
+  EXPECT_THAT(stranger.Read(), HasSubstr("there is echo.v1, echo.v2"));
+  RawClient silent = Client();
+  EXPECT_THAT(silent.Upgrade(""), StartsWith("HTTP/1.1 400 "));
+  EXPECT_THAT(silent.Read(), HasSubstr("no protocol is asked for"));
+  EXPECT_EQ(met.begun, 0);
+}
+
+TEST_F(WebConversations, CarryTextAndBytes) {
+  Start();
+  RawClient client = Talker();
+  client.SendText("grüß dich");
+  const auto text = client.Receive();
+  ASSERT_TRUE(text);
+  EXPECT_EQ(text->operation, 1);
+  EXPECT_EQ(text->payload, "grüß dich");
+  const std::string bytes("\x00\xff\xfe", 3);
+  client.Send(RawClient::Frame(2, bytes));
+  const auto binary = client.Receive();
+  ASSERT_TRUE(binary);
+  EXPECT_EQ(binary->operation, 2);
+  EXPECT_EQ(binary->payload, bytes);
+}
+
+TEST_F(WebConversations, PutMessagesTogetherThatComeInParts) {
+  Start();
+  RawClient client = Talker();
+  client.Send(RawClient::Frame(1, "one ", false));
+  client.Send(RawClient::Frame(9, "ping in between"));
+  client.Send(RawClient::Frame(0, "two", true));
+  const auto pong = client.Receive();
+  ASSERT_TRUE(pong);
+  EXPECT_EQ(pong->operation, 10);
+  const auto text = client.Receive();
+  ASSERT_TRUE(text);
+  EXPECT_EQ(text->payload, "one two");
+}
+
+TEST_F(WebConversations, CarryLargeMessages) {
+  Start();
+  RawClient client = Talker();
+  const std::string large(1 << 20, 'x');  // what is allowed, exactly
+  client.SendText(large);
+  const auto answer = client.Receive();
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->payload, large);
+}
+
+TEST_F(WebConversations, EndWhenTheClientGoes) {
+  Start();
+  {
+    RawClient client = Talker();
+    EXPECT_TRUE(Eventually([&] { return met.begun == 1; }));
+    EXPECT_EQ(server->clients(), 1U);
+  }
+  EXPECT_TRUE(Eventually([&] { return met.ended == 1; }));
+  EXPECT_TRUE(Eventually([&] { return server->clients() == 0; }));
+}
+
+TEST_F(WebConversations, EndInOrderWhenTheClientSaysSo) {
+  Start();
+  RawClient client = Talker();
+  client.Send(RawClient::Frame(8, std::string("\x03\xe8", 2)));
+  const auto closing = client.Receive(8);
+  ASSERT_TRUE(closing);
+  EXPECT_EQ(closing->code(), 1000);
+  EXPECT_TRUE(client.IsClosed());
+  EXPECT_TRUE(Eventually([&] { return met.ended == 1; }));
+}
+
+TEST_F(WebConversations, CanEndThemselvesAndSayWhy) {
+  Start();
+  RawClient client = Talker();
+  client.SendText("close");
+  const auto closing = client.Receive(8);
+  ASSERT_TRUE(closing);
+  EXPECT_EQ(closing->code(), 1008);
+  EXPECT_EQ(closing->reason(), "as you wish");
+  client.Send(RawClient::Frame(8, closing->payload));
+  EXPECT_TRUE(client.IsClosed());
+  ExpectThatOthersAreServed();
+}
+
+TEST_F(WebConversations, OneThatThrowsEndsAloneAndTellsItsClient) {
+  Start();
+  RawClient other = Talker();
+  RawClient client = Talker();
+  client.SendText("throw");
+  const auto closing = client.Receive(8);
+  ASSERT_TRUE(closing);
+  EXPECT_EQ(closing->code(), 1011);
+  EXPECT_EQ(closing->reason(), "the conversation has thrown");
+  other.SendText("still here");
+  const auto answer = other.Receive();
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->payload, "still here");
+}
+
+TEST_F(WebConversations, HaveATurnAtTheStartAfterMessagesAndWhenWoken) {
+  Start();
+  RawClient client = Talker();
+  EXPECT_TRUE(Eventually([&] { return met.turns == 1; }));
+  client.SendText("hello");
+  EXPECT_TRUE(Eventually([&] { return met.turns == 2; }));
+  server->Wake();
+  EXPECT_TRUE(Eventually([&] { return met.turns == 3; }));
+}
+
+TEST_F(WebConversations, HaveTurnsWhenTheyAreDue) {
+  Start();
+  RawClient client = Talker();
+  client.SendText("soon");
+  EXPECT_TRUE(Eventually([&] { return met.turns > 20; }));
+  ExpectThatOthersAreServed();
+}
+
+TEST_F(WebConversations, AreToldWhenTheServerEnds) {
+  Start();
+  RawClient client = Talker();
+  EXPECT_TRUE(Eventually([&] { return met.begun == 1; }));
+  std::thread end([this] { server.reset(); });
+  const auto closing = client.Receive(8);
+  client.Send(RawClient::Frame(8, closing ? closing->payload : ""));
+  end.join();
+  ASSERT_TRUE(closing);
+  EXPECT_EQ(closing->code(), 1001);
+  EXPECT_EQ(closing->reason(), "the application has ended");
+  EXPECT_EQ(met.ended, 1);
+}
+
+TEST_F(WebConversations, AreNotBegunByPagesOfOthers) {
+  Start({.origins = {"https://app.example.org"}});
+  EXPECT_THAT(Client().Upgrade("echo.v1", "Origin: http://evil.example\r\n"),
+              StartsWith("HTTP/1.1 403 "));
+  EXPECT_THAT(Client().Upgrade("echo.v1", "Origin: null\r\n"), StartsWith("HTTP/1.1 403 "));
+  EXPECT_THAT(Client().Upgrade("echo.v1", "Origin: http://" + Client().host() + "\r\n"),
+              StartsWith("HTTP/1.1 101 "));
+  EXPECT_THAT(Client().Upgrade("echo.v1", "Origin: https://app.example.org\r\n"),
+              StartsWith("HTTP/1.1 101 "));
+  EXPECT_THAT(Client().Upgrade(
+                  "echo.v1", "Origin: https://app.example.org\r\nOrigin: http://evil.example\r\n"),
+              StartsWith("HTTP/1.1 400 "));
+}
+
+TEST_F(WebConversations, NeedTheToken) {
+  Start({.token = "open-sesame"});
+  EXPECT_THAT(Client().Upgrade("echo.v1"), StartsWith("HTTP/1.1 401 "));
+  EXPECT_THAT(Client().Upgrade("echo.v1", "", "/?token=wrong-sesame"), StartsWith("HTTP/1.1 401 "));
+  EXPECT_THAT(Client().Upgrade("echo.v1", "", "/?token=open-sesame"), StartsWith("HTTP/1.1 101 "));
+}
+
+TEST_F(WebConversations, AreLimitedInNumber) {
+  Start({.limits = {.clients = 2}});
+  RawClient first = Talker();
+  {
+    RawClient second = Talker();
+    RawClient third = Client();
+    EXPECT_THAT(third.Upgrade("echo.v1"), StartsWith("HTTP/1.1 503 "));
+    EXPECT_THAT(third.Read(), HasSubstr("2 clients already"));
+  }
+  EXPECT_TRUE(Eventually([&] { return server->clients() == 1; }));
+  ExpectThatOthersAreServed();
+}
+
+}  // namespace
+
+}  // namespace runnel::test
