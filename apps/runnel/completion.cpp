@@ -99,13 +99,15 @@ Candidates Propose(ControlClient& client, const std::string& command, std::size_
     return groups;
   }
   if ((command == "create" || command == "swap") && place == 1) return Types(client);
+  if (command == "record") return Paths(client, Sends);
   if (command == "move") return is_first ? Paths(client, IsPart) : Threads(client);
   return {};
 }
 
 // The words that are no options; what follows an option that has a value is left out.
 Candidates WithoutOptions(const Candidates& words, std::string& application) {
-  static const Candidates kWithValue{"--app", "-n", "--queue", "--on-full", "--probation"};
+  static const Candidates kWithValue{"--app",       "-n", "--queue",  "--on-full",
+                                     "--probation", "-o", "--output", "--compression"};
   Candidates plain;
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (std::ranges::count(kWithValue, words[i]) > 0 && i + 1 < words.size()) {

@@ -8,6 +8,7 @@
 
 #include "apps/runnel/completion.h"
 #include "apps/runnel/print_error.h"
+#include "apps/runnel/remote_recording.h"
 #include "plugins/control/control_client.h"
 #include "plugins/control/control_folder.h"
 #include "plugins/control/request.h"
@@ -91,6 +92,10 @@ Result<Request> RequestOf(const ControlArguments& arguments) {
   if (arguments.command == "save" && !request.words.empty()) {
     request.words[0] = std::filesystem::absolute(request.words[0]).string();
   }
+  if (!arguments.file.empty()) {
+    request.options["file"] = std::filesystem::absolute(arguments.file).string();
+  }
+  if (!arguments.compression.empty()) request.options["compression"] = arguments.compression;
   if (arguments.count) request.options["count"] = std::to_string(*arguments.count);
   if (arguments.is_long) request.options["long"] = "yes";
   if (arguments.is_full) request.options["full"] = "yes";
@@ -128,6 +133,7 @@ Result<int> Ask(const ControlArguments& arguments, const Request& request) {
   if (!chosen) return chosen.error();
   auto client = ControlClient::Connect(chosen->socket);
   if (!client) return client.error();
+  if (arguments.command == "record") return AskToRecord(*client, request, arguments.file);
   const auto show = [](std::ostream& stream) {
     return [&stream](std::string_view text) {
       stream << text << std::flush;

@@ -47,7 +47,7 @@ void Print(const RecordingInfo& info) {
                 info.end);
   PrintLine("file", info.file + ", " + SizeText(info.bytes));
   PrintLine("duration", times);
-  PrintLine("values", std::to_string(info.values) + " of " + std::to_string(info.channels.size()) +
+  PrintLine("values", std::to_string(info.values) + " of " + std::to_string(info.ports) +
                           " ports, " + std::to_string(info.dropped) + " more came too fast");
   PrintLine("chunks", PackingText(info));
   for (const auto& [key, text] : info.about) PrintLine(key.c_str(), text);

@@ -14,6 +14,7 @@
 #include "apps/runnel/outside_access.h"
 #include "apps/runnel/print_error.h"
 #include "apps/runnel/progress_display.h"
+#include "apps/runnel/recorded_application.h"
 #include "apps/runnel/recording.h"
 #include "apps/runnel/replay.h"
 #include "apps/runnel/run_report.h"
@@ -36,9 +37,15 @@ using ClockKind = SchedulerOptions::ClockKind;
 
 constexpr auto kLookForSignal = std::chrono::milliseconds(50);
 
+// A recording that is replayed for viewers alone.
+bool IsWithoutApplication(const RunArguments& arguments) {
+  return arguments.replay && arguments.application.file.empty();
+}
+
 Result<SchedulerOptions> ChooseOptions(const RunArguments& arguments,
                                        const FrameworkElement& application) {
   SchedulerOptions options = SchedulerOptionsOf(application);
+  if (IsWithoutApplication(arguments)) options.clock = ClockKind::kSimulated;
   const auto refuse = [&](const char* message, const std::string& words) {
     return Error{
         .message = message,
@@ -252,6 +259,18 @@ class Session {
   bool has_warned_ = false;
 };
 
+// nullptr: it has been said what is wrong.
+FrameworkElement* BuildWhatRuns(const RunArguments& arguments, Workplace& workplace,
+                                const Workplace::BeforeReady& before_ready) {
+  if (!IsWithoutApplication(arguments)) {
+    return workplace.Build(arguments.application, BuildMode::kRun, before_ready).application;
+  }
+  const auto made = MakeRecordedApplication(arguments.replay->file, workplace, before_ready);
+  if (made) return *made;
+  PrintError(made.error());
+  return nullptr;
+}
+
 }  // namespace
 
 ExitCode Run(const RunArguments& arguments) {
@@ -271,8 +290,8 @@ ExitCode Run(const RunArguments& arguments) {
     if (auto added = AddFaultRules(application, *scheduler); !added) return added;
     return AddSupervisionRules(application, supervision->supervisor);
   };
-  const BuildOutcome outcome = workplace.Build(arguments.application, BuildMode::kRun, schedule);
-  if (outcome.application == nullptr) return ExitCode::kBadInput;
+  FrameworkElement* const application = BuildWhatRuns(arguments, workplace, schedule);
+  if (application == nullptr) return ExitCode::kBadInput;
   if (trace) trace->FollowStructure();
   std::unique_ptr<Replay> replay;
   if (arguments.replay) {
@@ -284,23 +303,22 @@ ExitCode Run(const RunArguments& arguments) {
     replay = std::move(*prepared);
   }
   ControlLog log(workplace.runtime().clock());
-  auto access = OutsideAccess::Start(arguments, workplace, *outcome.application, *scheduler,
+  auto access = OutsideAccess::Start(arguments, workplace, *application, *scheduler,
                                      supervision->editor, supervision->history, log);
   if (!access) {
     PrintError(access.error());
     return ExitCode::kBadInput;
   }
-  const auto recorder = StartRecording(
-      arguments.record, AboutApplication(arguments.application, outcome.application->name()),
-      workplace.runtime(), *scheduler);
+  const auto recorder =
+      StartRecording(arguments.record, AboutApplication(arguments.application, application->name()),
+                     workplace.runtime(), *scheduler);
   if (!recorder) {
     PrintError(recorder.error());
     return ExitCode::kBadInput;
   }
-  const ExitCode code =
-      Session(arguments, *outcome.application, *scheduler, supervision->supervisor, log, **access,
-              recorder->get(), replay.get())
-          .Run(workplace.runtime());
+  const ExitCode code = Session(arguments, *application, *scheduler, supervision->supervisor, log,
+                                **access, recorder->get(), replay.get())
+                            .Run(workplace.runtime());
   return trace ? FinishTrace(*trace, arguments, code) : code;
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/base/nearest_name.h"
 #include "core/types/type_info.h"
+#include "plugins/foxglove_schemas/foxglove_topics.h"
 #include "plugins/mcap/compression.h"
 #include "plugins/mcap/mcap_writer.h"
 #include "plugins/recording/recording_names.h"
@@ -18,19 +19,15 @@ namespace runnel {
 
 namespace {
 
-/// Below which the taps of a recorder are; no part of the application.
+/// Below which the taps of a recorder are. Beside the tree: no part of the application, so that nobody
+/// finds or saves it, and modules need not be held back when it goes.
 class RecorderElement final : public FrameworkElement {
  public:
-  explicit RecorderElement(const Placement& placement) : FrameworkElement(placement) {
+  explicit RecorderElement(FrameworkElement& root)
+      : FrameworkElement(Placement{root, "recorder", false}) {
     Annotate(std::make_unique<NotSaved>());
   }
 };
-
-std::string FreeName(const FrameworkElement& root) {
-  std::string name = "recorder";
-  for (int i = 2; root.FindChild(name) != nullptr; ++i) name = "recorder_" + std::to_string(i);
-  return name;
-}
 
 bool Feeds(const Port& port, const FrameworkElement& below) {
   return std::ranges::any_of(port.outgoing(),
@@ -91,10 +88,11 @@ Result<void> Recorder::Begin() {
   {
     // One change: nobody publishes to some of the taps only.
     const ChangeScope changes(runtime_);
-    element_ = &runtime_.Create<RecorderElement>(runtime_.root(), FreeName(runtime_.root()));
+    element_ = std::make_unique<RecorderElement>(runtime_.root());
     runtime_.root().Visit([this](FrameworkElement& element) {
       if (auto* const port = dynamic_cast<Port*>(&element)) Follow(*port);
     });
+    ShowWhereTheRobotIs();
     runtime_.AddListener(*this);
   }
   if (scheduler_ != nullptr) scheduler_->brakes().Add(*this);
@@ -184,7 +182,6 @@ Result<void> Recorder::Finish() {
     for (const auto& each : recorded_) status_.dropped += each->tap->dropped();
     ended.swap(recorded_);
   }
-  (void)runtime_.Delete(*element_);
   const std::lock_guard lock(mutex_);
   return status_.failure ? Result<void>(*status_.failure) : Result<void>();
 }
@@ -227,11 +224,29 @@ void Recorder::Follow(Port& port) {
   recorded->type = &port.type();
   recorded->tap = std::make_unique<Tap>(*element_, "tap_" + std::to_string(++made_taps_),
                                         port.type(), options_.room);
+  recorded->forms = ChannelsFor(port.type(), TopicOf(port), WholeValues());
   // Refused only to a port that is being deleted.
   if (!Port::Connect(port, *recorded->tap)) return;
   const std::lock_guard lock(mutex_);
   recorded_.push_back(std::move(recorded));
   ++status_.ports;
+}
+
+// The poses of the port that says it, as the transform that scans are drawn by.
+void Recorder::ShowWhereTheRobotIs() {
+  std::vector<const Port*> outputs;
+  runtime_.root().Visit([&](FrameworkElement& element) {
+    const auto* const port = dynamic_cast<const Port*>(&element);
+    if (port != nullptr && !port->is_proxy() && port->direction() == Port::Direction::kOutput) {
+      outputs.push_back(port);
+    }
+  });
+  const Port* const pose = RobotPose(outputs);
+  if (pose == nullptr) return;
+  const auto transform = TransformChannelFor(pose->type());
+  for (const auto& each : All()) {
+    if (transform && each->path == pose->path()) each->forms.push_back(*transform);
+  }
 }
 
 void Recorder::OnReady(FrameworkElement& element) {

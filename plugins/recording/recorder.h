@@ -14,6 +14,7 @@
 #include "core/element/element_listener.h"
 #include "core/element/runtime.h"
 #include "core/port/tap.h"
+#include "plugins/foxglove_schemas/foxglove_channel.h"
 #include "plugins/mcap/mcap_records.h"
 #include "plugins/recording/port_patterns.h"
 #include "plugins/scheduling/brakes.h"
@@ -53,7 +54,7 @@ struct RecordingStatus {
 };
 
 /// Records the values of outputs into an MCAP file: as JSON, with the time that each value bears, with
-/// JSON schemas, and with what the application was. Ports that come later are recorded from their first
+/// JSON schemas, and with what the application was; what Foxglove can draw also in its own schemas. Ports that come later are recorded from their first
 /// value on, as soon as they fit; those that go just end.
 ///
 /// Publishers pay what a queue costs (Tap). A thread of the recorder takes the values, makes text of them
@@ -85,15 +86,19 @@ class Recorder final : public ElementListener, public Brake {
   void OnDeleted(FrameworkElement& element) override;
   void HoldBack() noexcept override;
 
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
  private:
   /// One port, as it is recorded.
   struct Recorded {
     std::string path;
     const TypeInfo* type;
     std::unique_ptr<Tap> tap;
-    bool may_be_gone = false;  // under the structure lock
+    std::vector<FoxgloveChannel> forms;  // in which its values are written, the whole one first
     // The writing thread's own:
-    std::optional<std::uint16_t> channel;
+    std::vector<std::uint16_t> channels;  // one for each form, once there is a value
+    std::vector<std::string> messages;    // likewise: the newest
     std::uint32_t sequence = 0;
   };
 
@@ -104,6 +109,7 @@ class Recorder final : public ElementListener, public Brake {
 
   // Under the structure lock.
   void Follow(Port& port);
+  void ShowWhereTheRobotIs();
   [[nodiscard]] bool IsRecorded(const Port& port);
   void DropGone();
 
@@ -112,7 +118,7 @@ class Recorder final : public ElementListener, public Brake {
   bool WriteWaiting();
   std::uint64_t WriteWaitingOf(Recorded& recorded);
   Result<void> WriteValue(Recorded& recorded, Time stamp);
-  Result<void> AddChannel(Recorded& recorded);
+  Result<void> AddChannels(Recorded& recorded);
   Result<void> WriteDrops();
   void Note(const Result<void>& done);
   [[nodiscard]] std::vector<std::shared_ptr<Recorded>> All() const;
@@ -121,7 +127,7 @@ class Recorder final : public ElementListener, public Brake {
   Scheduler* const scheduler_;
   RecorderOptions options_;
   const PortPatterns patterns_;
-  FrameworkElement* element_ = nullptr;  // below which the taps are
+  std::unique_ptr<FrameworkElement> element_;  // below which the taps are
 
   mutable OrderedMutex mutex_{LockLevel::kLeaf};
   std::vector<std::shared_ptr<Recorded>> recorded_;  // guarded by mutex_
@@ -131,7 +137,6 @@ class Recorder final : public ElementListener, public Brake {
   std::uint64_t made_taps_ = 0;  // under the structure lock
 
   std::unique_ptr<McapWriter> writer_;
-  std::string json_;
   std::vector<std::pair<std::string, std::uint16_t>> schemas_;
   std::vector<std::pair<std::string, std::uint16_t>> channels_;
   std::uint64_t written_drops_ = 0;

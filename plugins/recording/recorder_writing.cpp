@@ -3,7 +3,6 @@
 #include <chrono>
 
 #include "core/types/type_info.h"
-#include "plugins/json_values/json_values.h"
 #include "plugins/mcap/mcap_writer.h"
 #include "plugins/recording/recorder.h"
 #include "plugins/recording/recording_names.h"
@@ -72,8 +71,11 @@ std::uint64_t Recorder::WriteWaitingOf(Recorded& recorded) {
     Time stamp;
     const bool taken = recorded.tap->Take([&](const void* value, Time of) {
       stamp = of;
-      json_.clear();
-      AppendJson(*recorded.type, value, json_);
+      recorded.messages.resize(recorded.forms.size());
+      for (std::size_t i = 0; i < recorded.forms.size(); ++i) {
+        recorded.messages[i].clear();
+        recorded.forms[i].Append(value, of, recorded.messages[i]);
+      }
     });
     if (!taken) break;
     if (auto written = WriteValue(recorded, stamp); !written) {
@@ -86,26 +88,36 @@ std::uint64_t Recorder::WriteWaitingOf(Recorded& recorded) {
 }
 
 Result<void> Recorder::WriteValue(Recorded& recorded, Time stamp) {
-  if (!recorded.channel) {
-    if (auto added = AddChannel(recorded); !added) return added;
+  if (recorded.channels.empty()) {
+    if (auto added = AddChannels(recorded); !added) return added;
   }
   const auto time =
       static_cast<std::uint64_t>(std::max<std::int64_t>(stamp.time_since_epoch().count(), 0));
-  return writer_->AddMessage({*recorded.channel, ++recorded.sequence, time, time, json_});
+  ++recorded.sequence;
+  for (std::size_t i = 0; i < recorded.channels.size(); ++i) {
+    auto added = writer_->AddMessage(
+        {recorded.channels[i], recorded.sequence, time, time, recorded.messages[i]});
+    if (!added) return added;
+  }
+  return {};
 }
 
-// A port that has come back goes on in its channel, if it has its type.
-Result<void> Recorder::AddChannel(Recorded& recorded) {
-  const std::string& type = recorded.type->name();
-  const auto schema = FindOrMake(schemas_, type, [&] {
-    return writer_->AddSchema(type, kSchemaEncoding, JsonSchemaOf(*recorded.type));
-  });
-  if (!schema) return schema.error();
-  const auto channel = FindOrMake(channels_, recorded.path + " " + type, [&] {
-    return writer_->AddChannel(*schema, recorded.path, kMessageEncoding, {{kTypeKey, type}});
-  });
-  if (!channel) return channel.error();
-  recorded.channel = *channel;
+// A port that has come back goes on in its channels, if it has its type.
+Result<void> Recorder::AddChannels(Recorded& recorded) {
+  for (std::size_t i = 0; i < recorded.forms.size(); ++i) {
+    const FoxgloveChannel& form = recorded.forms[i];
+    const auto schema = FindOrMake(schemas_, form.schema_name, [&] {
+      return writer_->AddSchema(form.schema_name, kSchemaEncoding, form.schema);
+    });
+    if (!schema) return schema.error();
+    const std::string of = recorded.path + " " + form.topic + " " + form.schema_name;
+    const auto channel = FindOrMake(channels_, of, [&] {
+      return writer_->AddChannel(*schema, form.topic, kMessageEncoding,
+                                 {{i == 0 ? kPortKey : kViewOfKey, recorded.path}});
+    });
+    if (!channel) return channel.error();
+    recorded.channels.push_back(*channel);
+  }
   return {};
 }
 

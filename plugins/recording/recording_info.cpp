@@ -60,7 +60,6 @@ RecordingInfo InfoOf(const McapReader& reader) {
   for (const auto& each : contents.attachments) info.attachments.push_back(each.attachment.name);
   info.start = Seconds(all.start);
   info.end = Seconds(all.end);
-  info.values = all.messages;
   std::set<std::string> compressions;
   for (const McapChunk& chunk : contents.chunks) {
     compressions.insert(chunk.compression);
@@ -75,12 +74,17 @@ RecordingInfo InfoOf(const McapReader& reader) {
     const auto schema = contents.schemas.find(channel.schema);
     const auto count = all.messages_of.find(id);
     RecordingInfo::Channel& added = info.channels.emplace_back();
-    added.path = channel.topic;
+    added.is_view = IsView(channel);
+    added.path = added.is_view ? channel.topic : PortOf(channel);
     added.type = schema != contents.schemas.end() ? schema->second.name : "";
     added.encoding = channel.message_encoding;
     added.values = count != all.messages_of.end() ? count->second : 0;
-    if (const auto dropped = drops.find(channel.topic); dropped != drops.end()) {
+    if (const auto dropped = drops.find(added.path); dropped != drops.end()) {
       added.dropped = dropped->second;
+    }
+    if (!added.is_view) {
+      ++info.ports;
+      info.values += added.values;
     }
     if (info.duration() > 0) added.rate = static_cast<double>(added.values) / info.duration();
   }
@@ -108,6 +112,7 @@ std::string RecordingInfoJson(const RecordingInfo& info) {
     object.Add("start", info.start);
     object.Add("end", info.end);
     object.Add("duration", info.duration());
+    object.Add("ports", info.ports);
     object.Add("values", info.values);
     object.Add("dropped", info.dropped);
     object.Add("chunks", info.chunks);
@@ -123,6 +128,7 @@ std::string RecordingInfoJson(const RecordingInfo& info) {
       channel.Add("values", each.values);
       channel.Add("rate", each.rate);
       channel.Add("dropped", each.dropped);
+      channel.Add("is_view", each.is_view);
     }
   }
   return json;

@@ -20,7 +20,8 @@ struct RecordingInfo {
     std::string encoding;
     std::uint64_t values = 0;
     std::uint64_t dropped = 0;
-    double rate = 0;  ///< Hz, over the whole recording
+    double rate = 0;       ///< Hz, over the whole recording
+    bool is_view = false;  ///< shows what another channel has
   };
 
   std::string file;
@@ -32,7 +33,8 @@ struct RecordingInfo {
   std::vector<std::string> attachments = {};
   double start = 0;  ///< s, on the clock of what was recorded
   double end = 0;
-  std::uint64_t values = 0;
+  std::size_t ports = 0;     ///< channels but for views
+  std::uint64_t values = 0;  ///< of these
   std::uint64_t dropped = 0;
   std::uint64_t chunks = 0;
   std::string compression = {};  ///< "zstd", "none", "lz4, zstd"

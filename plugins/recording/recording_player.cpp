@@ -45,22 +45,6 @@ bool Writes(const Task& task, const Port& port) {
   });
 }
 
-// Whether anybody but a recorder reads what the task itself publishes.
-bool IsRead(const Task& task) {
-  bool is_read = false;
-  for (const FrameworkElement* group : task.writes) {
-    if (group == nullptr) continue;
-    const_cast<FrameworkElement*>(group)->Visit([&](FrameworkElement& each) {
-      const auto* const port = dynamic_cast<const Port*>(&each);
-      if (port == nullptr) return;
-      for (const Port* sink : port->Sinks()) {
-        if (dynamic_cast<const Tap*>(sink) == nullptr) is_read = true;
-      }
-    });
-  }
-  return is_read;
-}
-
 // The port at a recorded path; or, if the application is called otherwise now, in its place.
 Port* FindPort(Runtime& runtime, const std::string& path) {
   if (const auto found = runtime.root().Find(path)) return dynamic_cast<Port*>(*found);
@@ -74,13 +58,28 @@ Port* FindPort(Runtime& runtime, const std::string& path) {
   return match;
 }
 
+// What is no structure stands in an object of its own, as messages have to be objects.
+Result<void> SetFromMessage(const TypeInfo& type, std::string_view json, void* value) {
+  constexpr std::string_view kBefore = "{\"value\":";
+  if (type.kind() == TypeKind::kStructure) return SetFromJson(type, json, value);
+  if (!json.starts_with(kBefore) || !json.ends_with('}')) {
+    return Error{.message = "expected {\"value\":…}"};
+  }
+  json.remove_prefix(kBefore.size());
+  json.remove_suffix(1);
+  return SetFromJson(type, json, value);
+}
+
 }  // namespace
 
-/// One recorded port, with the output that plays it.
+/// One recorded port, with the output that plays it: an own one, where the module goes on publishing at
+/// the original.
 struct Player::PlayedPort {
   Port* original;
   std::uint16_t channel;
   std::unique_ptr<Port> output;
+
+  [[nodiscard]] Port& publisher() const noexcept { return output ? *output : *original; }
 };
 
 /// What runs in the place of a module's task.
@@ -145,12 +144,14 @@ Result<void> Player::FindPorts(const PortPatterns& patterns) {
   element_ = &runtime_.Create<PlayerElement>(runtime_.root(), FreeName(runtime_.root(), "player"));
   std::vector<std::string> recorded;
   for (const auto& [id, channel] : values_->reader().contents().channels) {
-    recorded.push_back(PlainPortPath(channel.topic));
-    recorded.push_back(ShortPortPath(channel.topic));
-    if (!patterns.Fit(channel.topic)) continue;
-    Port* const port = FindPort(runtime_, channel.topic);
+    if (IsView(channel)) continue;
+    const std::string path = PortOf(channel);
+    recorded.push_back(PlainPortPath(path));
+    recorded.push_back(ShortPortPath(path));
+    if (!patterns.Fit(path)) continue;
+    Port* const port = FindPort(runtime_, path);
     if (port == nullptr) {
-      missing_.push_back(channel.topic);
+      missing_.push_back(path);
       continue;
     }
     if (auto good = CheckType(*port, channel); !good) return good;
@@ -164,7 +165,7 @@ Result<void> Player::FindPorts(const PortPatterns& patterns) {
       return Error{.message = "the application has no port '" + name + "' to play"};
     }
     if (std::ranges::none_of(played_, [&](const auto& each) {
-          return one->Fit(values_->reader().contents().channels.at(each->channel).topic);
+          return one->Fit(PortOf(values_->reader().contents().channels.at(each->channel)));
         })) {
       return Error{.message = "the recording has no port '" + name + "'",
                    .hint = NearestNameHint(name, recorded)};
@@ -192,7 +193,7 @@ Result<void> Player::CheckType(const Port& port, const McapChannel& channel) con
                   port.type().name());
   }
   if (port.type().Make() == nullptr) return refuse("only its module can make such values");
-  if (schema->second.data != JsonSchemaOf(port.type())) {
+  if (schema->second.data != ChannelsFor(port.type(), "", WholeValues()).front().schema) {
     return refuse("the type " + port.type().name() + " was another one when it was recorded");
   }
   return {};
@@ -234,6 +235,23 @@ FrameworkElement& Player::TakePlaces(const std::vector<PlayedPort*>& ports) {
   return group;
 }
 
+// Whether somebody, recorders aside, reads what the task publishes and is not played.
+bool Player::IsReadUnplayed(const Task& task) const {
+  bool is_read = false;
+  for (const FrameworkElement* group : task.writes) {
+    if (group == nullptr) continue;
+    const_cast<FrameworkElement*>(group)->Visit([&](FrameworkElement& each) {
+      const auto* const port = dynamic_cast<const Port*>(&each);
+      const auto plays = [&](const auto& played) { return played->original == port; };
+      if (port == nullptr || std::ranges::any_of(played_, plays)) return;
+      for (const Port* sink : port->Sinks()) {
+        if (dynamic_cast<const Tap*>(sink) == nullptr) is_read = true;
+      }
+    });
+  }
+  return is_read;
+}
+
 void Player::WrapTasksOf(FrameworkElement& module, const std::vector<PlayedPort*>& ports) {
   const auto* const executable = module.FindAnnotation<Executable>();
   std::vector<Task> tasks = executable != nullptr ? executable->tasks() : std::vector<Task>();
@@ -245,12 +263,13 @@ void Player::WrapTasksOf(FrameworkElement& module, const std::vector<PlayedPort*
       if (&module == element_ || Writes(task, *each->original)) of_task.push_back(each);
     }
     if (of_task.empty()) continue;
-    FrameworkElement& group = TakePlaces(of_task);
-    const bool runs = module.FindAnnotation<RunMonitor>() != nullptr || IsRead(task);
+    const bool is_own = &module == element_;
+    const bool runs =
+        !is_own && (module.FindAnnotation<RunMonitor>() != nullptr || IsReadUnplayed(task));
+    if (runs || is_own) task.writes.push_back(&TakePlaces(of_task));
     tasks_.push_back(std::make_unique<PlayedTask>(
         *this, runs ? std::optional(task.run) : std::nullopt, std::move(of_task)));
     task.run = BoundCall::To<&PlayedTask::Run>(*tasks_.back());
-    task.writes.push_back(&group);
   }
   module.Annotate(std::make_unique<Executable>([tasks] { return tasks; }));
 }
@@ -261,8 +280,9 @@ void Player::Publish(const std::vector<PlayedPort*>& ports) {
   for (PlayedPort* each : ports) {
     while (auto value = values_->Take(each->channel, now)) {
       const CycleScope at({value->time, cycle != nullptr ? cycle->period : Duration::zero()});
-      const auto published = each->output->PublishFilled(
-          [&](void* filled) { return SetFromJson(each->output->type(), value->json, filled); });
+      const auto published = each->publisher().PublishFilled([&](void* filled) {
+        return SetFromMessage(each->original->type(), value->json, filled);
+      });
       if (published) {
         published_.fetch_add(1, std::memory_order_relaxed);
         continue;

@@ -25,14 +25,14 @@ struct PlayerOptions {
   bool loops = false;
 };
 
-/// Publishes what was recorded, in the place of what was recorded: for each recorded output that the
-/// application has, an output of the player takes over its connections, and the task of the module that
-/// used to publish there publishes the recorded values instead, in its place in the cycle. So everything
+/// Publishes what was recorded, in the place of what was recorded: in the place of the task of the module
+/// that used to publish there, in its place in the cycle, the player publishes the recorded values. So everything
 /// that reads them runs as it did: on a simulated clock, replaying what a module read into the same
 /// application gives what it published, bit for bit.
 ///
-/// A task of which all that anybody reads is played does not run itself; others run on, and what they
-/// publish at played ports nobody reads. Modules that judge the run always run.
+/// A task of which all that anybody reads is played does not run itself. Others run on: an output of the
+/// player takes over the connections of each played port, and what the module publishes there nobody reads.
+/// Modules that judge the run always run.
 ///
 ///     auto player = Player::Prepare(runtime, std::move(reader), {.ports = {"laser/scan"}});
 ///     (*player)->Start(clock.Now());   // before the first cycle
@@ -82,6 +82,7 @@ class Player {
   // A group of outputs that stand where those of `ports` stood.
   FrameworkElement& TakePlaces(const std::vector<PlayedPort*>& ports);
   void WrapTasks();
+  [[nodiscard]] bool IsReadUnplayed(const Task& task) const;
   void WrapTasksOf(FrameworkElement& module, const std::vector<PlayedPort*>& ports);
   void Publish(const std::vector<PlayedPort*>& ports);
   void DoNothing() {}

@@ -55,8 +55,8 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/mcap", "plugins/mcap", {"core"}});
   rules.push_back({"plugins/recording",
                    "plugins/recording",
-                   {"core", "plugins/json_values", "plugins/mcap", "plugins/parameters",
-                    "plugins/runtime_construction", "plugins/scheduling"}});
+                   {"core", "plugins/foxglove_schemas", "plugins/json_values", "plugins/mcap",
+                    "plugins/parameters", "plugins/runtime_construction", "plugins/scheduling"}});
   rules.push_back({"plugins/web_server", "plugins/web_server", {"core"}});
   rules.push_back({"the tags of the inspector",
                    "plugins/inspector/xml_",

@@ -10,6 +10,7 @@
 #include "core/port/output.h"
 #include "core/types/type_of.h"
 #include "plugins/recording/recorder.h"
+#include "plugins/recording/recording_names.h"
 #include "plugins/scheduling/scheduler.h"
 #include "tests/plugins/mcap/mcap_fixture.h"
 
@@ -105,7 +106,8 @@ class RecordingTest : public McapTest {
     auto reader = Must(McapReader::Open(file));
     std::vector<std::string> values;
     Must(reader->ReadMessages([&](const McapMessage& message) -> Result<void> {
-      if (reader->contents().channels.at(message.channel).topic == path) {
+      const McapChannel& channel = reader->contents().channels.at(message.channel);
+      if (!IsView(channel) && PortOf(channel) == path) {
         values.push_back(std::to_string(message.log_time) + " " + std::string(message.data));
       }
       return {};

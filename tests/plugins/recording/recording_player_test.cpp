@@ -10,6 +10,8 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using testing::HasSubstr;
 
+const std::string kNumberSchema = ChannelsFor(TypeOf<double>(), "", WholeValues()).front().schema;
+
 class RecordingPlayerTest : public RecordingTest {
  protected:
   static Result<std::unique_ptr<Player>> Play(Application& application, const std::string& file,
@@ -50,9 +52,11 @@ TEST_F(RecordingPlayerTest, AModuleRunsOnIfSomethingElseOfItIsRead) {
   some->Start(Time{});
   both.Run(milliseconds(100));
   one.Run(milliseconds(100));
-  EXPECT_EQ(both.source->sample.publications(), 0u) << "all that is read of it is played";
-  EXPECT_EQ(one.source->sample.publications(), 10u);
+  EXPECT_EQ(both.source->secret.publications(), 0u) << "all that is read of it is played";
+  EXPECT_EQ(both.source->number.publications(), 10u) << "viewers find the values where they were";
+  EXPECT_EQ(one.source->secret.publications(), 10u);
   EXPECT_EQ(one.source->number.publications(), 10u) << "into a channel that nobody reads";
+  EXPECT_EQ(one.source->number.outgoing().size(), 0u);
 }
 
 TEST_F(RecordingPlayerTest, PlaysAStretchFromLaterOn) {
@@ -64,20 +68,19 @@ TEST_F(RecordingPlayerTest, PlaysAStretchFromLaterOn) {
   EXPECT_EQ(player->length(), milliseconds(500));
   other.scheduler.simulated_clock().Set(player->start());
   player->Start(player->start());
-  const std::string again = Record("b.mcap", other, seconds(1), {"/player/**"});
+  const std::string again = Record("b.mcap", other, seconds(1), {"/source/number"});
   const auto whole = ValuesOf(file, "/source/output/number");
   // What was the newest at the beginning comes first.
-  EXPECT_EQ(ValuesOf(again, "/player/played/number"),
+  EXPECT_EQ(ValuesOf(again, "/source/output/number"),
             std::vector<std::string>(whole.begin() + 99, whole.begin() + 151));
 }
 
 TEST_F(RecordingPlayerTest, PlaysIntoAnInputAsIfItsSourcesWereDisconnected) {
   auto writer = Must(McapWriter::Create(Path("input.mcap"), {}));
-  const auto schema =
-      Must(writer->AddSchema("double", "jsonschema", JsonSchemaOf(TypeOf<double>())));
+  const auto schema = Must(writer->AddSchema("double", "jsonschema", kNumberSchema));
   const auto channel = Must(writer->AddChannel(schema, "/sink/input/number", "json", {}));
-  Must(writer->AddMessage({channel, 1, 0, 0, "7"}));
-  Must(writer->AddMessage({channel, 2, 50'000'000, 0, "14"}));
+  Must(writer->AddMessage({channel, 1, 0, 0, R"({"value":7})"}));
+  Must(writer->AddMessage({channel, 2, 50'000'000, 0, R"({"value":14})"}));
   Must(writer->Finish());
   Application other;
   auto player = Must(Play(other, Path("input.mcap")));
@@ -85,8 +88,8 @@ TEST_F(RecordingPlayerTest, PlaysIntoAnInputAsIfItsSourcesWereDisconnected) {
   const std::string file = Record("b.mcap", other, milliseconds(100), {"**/sum"});
   const auto sums = ValuesOf(file, "/sink/output/sum");
   ASSERT_EQ(sums.size(), 10u);
-  EXPECT_THAT(sums[0], testing::MatchesRegex("0 1\\.00.*"));  // 7 / 7 and the size of a sample
-  EXPECT_THAT(sums[9], testing::MatchesRegex("90000000 3\\.0.*"));
+  EXPECT_THAT(sums[0], testing::MatchesRegex("0 .\"value\":1\\.00.*"));  // 7 / 7 and the size of a sample
+  EXPECT_THAT(sums[9], testing::MatchesRegex("90000000 .\"value\":3\\.0.*"));
 }
 
 TEST_F(RecordingPlayerTest, SaysWhatCannotBePlayed) {
@@ -127,11 +130,10 @@ TEST_F(RecordingPlayerTest, RefusesATypeThatHasChanged) {
 TEST_F(RecordingPlayerTest, AValueThatCannotBeReadEndsThePlayingWithItsPlace) {
   Application other;
   auto writer = Must(McapWriter::Create(Path("bad.mcap"), {}));
-  const auto schema =
-      Must(writer->AddSchema("double", "jsonschema", JsonSchemaOf(TypeOf<double>())));
+  const auto schema = Must(writer->AddSchema("double", "jsonschema", kNumberSchema));
   const auto channel = Must(writer->AddChannel(schema, "/source/output/number", "json", {}));
-  Must(writer->AddMessage({channel, 1, 0, 0, "1.5"}));
-  Must(writer->AddMessage({channel, 2, 20'000'000, 0, "oops"}));
+  Must(writer->AddMessage({channel, 1, 0, 0, R"({"value":1.5})"}));
+  Must(writer->AddMessage({channel, 2, 20'000'000, 0, R"({"value":"oops"})"}));
   Must(writer->Finish());
   auto player = Must(Play(other, Path("bad.mcap")));
   player->Start(Time{});
