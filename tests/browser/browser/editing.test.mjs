@@ -105,6 +105,16 @@ test('a module is deleted by a key, and an undo brings it back with its connecti
   assert.deepEqual(await inspector.edges(), before);
 });
 
+test('a plugin is loaded anew while its modules run', async (t) => {
+  const { inspector, page } = await Demo(t);
+  await inspector.select('/bug_demo/robot/planner');
+  await page.locator('#reload').click();
+  await page.locator('.toast.done', { hasText: 'planning' }).waitFor();
+  await page.locator('#tab-log').click();
+  await page.locator('#log li', { hasText: 'planning' }).waitFor();
+  assert.equal((await inspector.edges()).length, 24);
+});
+
 test('what the application refuses comes up with its reason, and changes nothing', async (t) => {
   const { inspector, page } = await Demo(t);
   await page.locator('#add').click();
