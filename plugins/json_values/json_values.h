@@ -20,12 +20,15 @@ struct JsonLimits {
   std::size_t letters = kNone;   ///< of each text, in bytes
   /// Of the whole, roughly: once so many bytes are there, lists end and texts are empty.
   std::size_t bytes = kNone;
+  /// Whether infinities are 1e999; else null. Some readers (nlohmann-json, RapidJSON, serde) refuse the
+  /// whole text for a number that large.
+  bool has_infinity = true;
 };
 
 /// Values as JSON, for programs that were compiled without their types:
 ///
 ///     bool, numbers   true   -3   0.25     numbers in the fewest digits that read back the same
-///     NaN, infinity   null   1e999 -1e999  which parsers read as infinity
+///     NaN, infinity   null   1e999 -1e999  which browsers and most others read as infinity
 ///     string          "…"                  what is no UTF-8 becomes U+FFFD
 ///     duration, time  {"sec":-1,"nsec":500000000}      nsec from 0 to 999999999
 ///     enumeration     "left"               a value that nobody named: its number

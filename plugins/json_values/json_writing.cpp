@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "core/base/clock.h"
 #include "core/types/type_info.h"
@@ -72,9 +73,9 @@ class ValueWriter {
       case LeafKind::kUint64:
         return AppendJsonNumber(As<std::uint64_t>(value), json_);
       case LeafKind::kFloat:
-        return AppendJsonNumber(As<float>(value), json_);
+        return WriteFloating(As<float>(value));
       case LeafKind::kDouble:
-        return AppendJsonNumber(As<double>(value), json_);
+        return WriteFloating(As<double>(value));
       case LeafKind::kString:
         return WriteText(As<std::string>(value));
       case LeafKind::kDuration:
@@ -83,6 +84,15 @@ class ValueWriter {
         return WriteSeconds(As<Time>(value).time_since_epoch());
       case LeafKind::kOther:
         return WriteText(type.leaf().to_text(value));
+    }
+  }
+
+  template <typename N>
+  void WriteFloating(N number) {
+    if (std::isinf(number) && !limits_.has_infinity) {
+      json_ += "null";
+    } else {
+      AppendJsonNumber(number, json_);
     }
   }
 

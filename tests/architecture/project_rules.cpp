@@ -20,6 +20,13 @@ void AddCore(std::vector<IncludeRule>& rules) {
 void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/parameters", "plugins/parameters", {"core"}});
   rules.push_back({"plugins/json_values", "plugins/json_values", {"core/base", "core/types"}});
+  rules.push_back({"plugins/foxglove_schemas",
+                   "plugins/foxglove_schemas",
+                   {"core", "plugins/json_values"}});
+  rules.push_back({"plugins/foxglove",
+                   "plugins/foxglove",
+                   {"core", "plugins/control", "plugins/foxglove_schemas", "plugins/json_values",
+                    "plugins/structure", "plugins/watching", "plugins/web_server"}});
   rules.push_back({"plugins/runtime_construction",
                    "plugins/runtime_construction",
                    {"core", "plugins/parameters"}});
@@ -39,6 +46,9 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
        {"core", "plugins/parameters", "plugins/runtime_construction", "plugins/scheduling"}});
   rules.push_back({"plugins/scheduling", "plugins/scheduling", {"core"}});
   rules.push_back({"plugins/structure", "plugins/structure", {"core", "plugins/scheduling"}});
+  rules.push_back({"plugins/tracing",
+                   "plugins/tracing",
+                   {"core", "plugins/json_values", "plugins/scheduling"}});
   rules.push_back(
       {"plugins/control", "plugins/control", {"core", "plugins/scheduling", "plugins/structure"}});
   rules.push_back({"plugins/watching", "plugins/watching", {"core"}});

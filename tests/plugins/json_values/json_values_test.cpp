@@ -149,6 +149,7 @@ TEST(JsonValues, HaveNoNumberAndInfinityToo) {
   EXPECT_EQ(JsonOf(std::vector<double>{std::nan(""), kInfinity, -kInfinity}),
             "[null,1e999,-1e999]");
   EXPECT_EQ(JsonOf(std::vector<float>{NAN, INFINITY}), "[null,1e999]");
+  EXPECT_EQ(JsonOf(std::vector<double>{1, -kInfinity}, {.has_infinity = false}), "[1,null]");
   const auto read = Read<std::vector<double>>("[null,1e999,-1e999,1e-999,0.0001e400,0e999]");
   EXPECT_TRUE(std::isnan(read[0]));
   EXPECT_EQ(read[1], kInfinity);

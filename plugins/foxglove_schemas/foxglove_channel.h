@@ -1,0 +1,56 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/clock.h"
+
+namespace runnel {
+
+class TypeInfo;
+
+/// One of the ways in which the values of a port are shown to Foxglove, Lichtblick, PlotJuggler, live or
+/// in a file: messages in JSON with a JSON Schema.
+struct FoxgloveChannel {
+  std::string topic;
+  std::string schema_name;  ///< the type's name, or one of Foxglove's own: "foxglove.LaserScan"
+  std::string schema;       ///< JSON Schema; "" where viewers could not read it (lists of lists)
+  /// Appends the message for a value of the type, with the time it was published.
+  /// Threads: as for the value. Allocates what the message needs.
+  std::function<void(const void* value, Time stamp, std::string& json)> append;
+
+  void Append(const void* value, Time stamp, std::string& json) const {
+    append(value, stamp, json);
+  }
+};
+
+struct FoxgloveOptions {
+  std::string world_frame = "world";  ///< that poses, points, paths and maps are told in
+  std::string body_frame = "robot";   ///< that scans are told in
+  /// Whether infinities may stand in plain values as 1e999, which keeps them; else they are null, so
+  /// that every reader takes the message. In Foxglove's own schemas they stay: there they mean "no
+  /// echo".
+  bool has_infinity = false;
+};
+
+/// The channels for values of a type that are published under `topic`:
+///
+///     topic            the value as it is, for plots, tables and raw views: {"x":1,"y":2,"heading":0};
+///                      what is no structure stands in "value"
+///     topic/foxglove   if its meaning (TypeInfo::meaning) is one that Foxglove can draw: pose
+///                      (PoseInFrame), path (PosesInFrame), range_scan (LaserScan), image (RawImage),
+///                      point, hit_and_leave_points, world_map (SceneUpdate)
+///
+/// Empty for a type that is not transparent.
+[[nodiscard]] std::vector<FoxgloveChannel> ChannelsFor(const TypeInfo& type, std::string_view topic,
+                                                       const FoxgloveOptions& options = {});
+
+/// Foxglove's transform from the world to the body, made of the body's poses: what puts scans where the
+/// robot is. Its topic is "/tf". Nothing if the type's values are no poses.
+[[nodiscard]] std::optional<FoxgloveChannel> TransformChannelFor(
+    const TypeInfo& type, const FoxgloveOptions& options = {});
+
+}  // namespace runnel
