@@ -132,6 +132,10 @@ CLI::App& AddRun(CLI::App& program, RunArguments& arguments) {
   run.add_flag("--quiet", arguments.quiet, "no progress, only how the run ended");
   run.add_flag("--statistics", arguments.statistics,
                "at the end, how punctual the threads were and how long their cycles took");
+  run.add_option("--trace", arguments.trace,
+                 "writes cycles, updates and publications into a file (JSON) for ui.perfetto.dev")
+      ->type_name("FILE")
+      ->check(CheckFile);
   run.add_flag_callback(
       "--no-control", [&arguments] { arguments.has_control = false; },
       "no other process can look at it or change it");

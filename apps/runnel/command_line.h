@@ -43,6 +43,7 @@ struct RunArguments {
   bool is_paused = false;               ///< begins with a pause
   bool quiet = false;
   bool statistics = false;
+  std::string trace = {};   ///< a file for what the threads do; "": none
   bool has_control = true;  ///< other processes of the user can reach it
   InspectArguments inspect = {};
 };

@@ -17,6 +17,7 @@
 #include "apps/runnel/running.h"
 #include "apps/runnel/statistics_table.h"
 #include "apps/runnel/stop_signal.h"
+#include "apps/runnel/trace_run.h"
 #include "apps/runnel/workplace.h"
 #include "plugins/runtime_construction/source_place.h"
 #include "plugins/scheduling_tags/xml_scheduling_tags.h"
@@ -219,12 +220,16 @@ class Session {
 
 ExitCode Run(const RunArguments& arguments) {
   Workplace workplace;
+  std::unique_ptr<TraceRecorder> trace;  // outlives the scheduler
   std::optional<Scheduler> scheduler;
   std::optional<Supervision> supervision;
   // Before modules become ready, so that they see the right clock from the start.
   const auto schedule = [&](FrameworkElement& application) -> Result<void> {
-    const auto options = ChooseOptions(arguments, application);
+    auto options = ChooseOptions(arguments, application);
     if (!options) return options.error();
+    auto started = StartTrace(arguments, application, *options);
+    if (!started) return started.error();
+    trace = std::move(*started);
     scheduler.emplace(workplace.runtime(), *options);
     supervision.emplace(workplace.runtime(), workplace.plugins().modules(), *scheduler);
     if (auto added = AddFaultRules(application, *scheduler); !added) return added;
@@ -232,6 +237,7 @@ ExitCode Run(const RunArguments& arguments) {
   };
   const BuildOutcome outcome = workplace.Build(arguments.application, BuildMode::kRun, schedule);
   if (outcome.application == nullptr) return ExitCode::kBadInput;
+  if (trace) trace->FollowStructure();
   ControlLog log(workplace.runtime().clock());
   auto access = OutsideAccess::Start(arguments, workplace, *outcome.application, *scheduler,
                                      supervision->editor, supervision->history, log);
@@ -239,9 +245,10 @@ ExitCode Run(const RunArguments& arguments) {
     PrintError(access.error());
     return ExitCode::kBadInput;
   }
-  return Session(arguments, *outcome.application, *scheduler, supervision->supervisor, log,
-                 **access)
-      .Run(workplace.runtime());
+  const ExitCode code =
+      Session(arguments, *outcome.application, *scheduler, supervision->supervisor, log, **access)
+          .Run(workplace.runtime());
+  return trace ? FinishTrace(*trace, arguments, code) : code;
 }
 
 }  // namespace runnel::program

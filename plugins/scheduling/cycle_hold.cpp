@@ -6,11 +6,12 @@
 #include "core/lockfree/patience.h"
 #include "core/lockfree/thread_epoch.h"
 #include "plugins/scheduling/cycle_runner.h"
+#include "plugins/scheduling/cycle_tracer.h"
 
 namespace runnel {
 
 Result<CycleHold> CycleHold::Take(std::vector<std::shared_ptr<CycleRunner>> runners,
-                                  Duration patience) {
+                                  Duration patience, CycleTracer* tracer) {
   RUNNEL_CHECK(!EpochGuard::HeldByThisThread(),
                "threads cannot be kept between cycles from within a cycle");
   const SteadyClock clock;
@@ -18,6 +19,7 @@ Result<CycleHold> CycleHold::Take(std::vector<std::shared_ptr<CycleRunner>> runn
   std::ranges::stable_sort(runners, std::ranges::greater{},
                            [](const auto& runner) { return runner->statistics().execution_mean; });
   CycleHold hold;
+  hold.tracer_ = tracer;
   hold.began_ = clock.Now();
   for (auto& runner : runners) {
     runner->gate().Close();
@@ -40,6 +42,10 @@ Result<CycleHold> CycleHold::Take(std::vector<std::shared_ptr<CycleRunner>> runn
 
 void CycleHold::Release() noexcept {
   for (const auto& runner : runners_) runner->gate().Open();
+  if (tracer_ != nullptr) {
+    const Time ended = SteadyClock().Now();
+    for (const auto& runner : runners_) tracer_->OnHold(runner->path(), began_, ended);
+  }
   runners_.clear();
 }
 

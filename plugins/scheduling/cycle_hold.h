@@ -10,6 +10,7 @@
 namespace runnel {
 
 class CycleRunner;
+class CycleTracer;
 
 /// Keeps some threads between two of their cycles while it lives, so that what is changed meanwhile
 /// takes effect as a whole. They sleep; cycles that fall due begin when it ends.
@@ -26,6 +27,7 @@ class CycleHold {
       Release();
       runners_ = std::exchange(other.runners_, {});
       began_ = other.began_;
+      tracer_ = other.tracer_;
     }
     return *this;
   }
@@ -33,8 +35,9 @@ class CycleHold {
   /// Waits until all `runners` have come to the end of a cycle, those whose cycles take long first:
   /// so the others are kept for a moment only.
   /// Errors: one that has not after `patience`, of the machine's clock; all go on then.
+  /// `tracer`, if there is one, is told when it is over.
   static Result<CycleHold> Take(std::vector<std::shared_ptr<CycleRunner>> runners,
-                                Duration patience);
+                                Duration patience, CycleTracer* tracer = nullptr);
   /// Lets them go on.
   void Release() noexcept;
 
@@ -44,6 +47,7 @@ class CycleHold {
  private:
   std::vector<std::shared_ptr<CycleRunner>> runners_;
   Time began_{};
+  CycleTracer* tracer_ = nullptr;
 };
 
 }  // namespace runnel

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/lockfree/thread_epoch.h"
+#include "plugins/scheduling/trace_track.h"
 
 namespace runnel {
 
@@ -39,6 +40,30 @@ void RunInTurn(std::span<const Schedule::Entry> entries, CycleMoment now,
   }
 }
 
+// The same, of one element after the other, with what is written down of it.
+[[gnu::cold, gnu::noinline]] void RunTraced(std::span<const Schedule::Entry> entries,
+                                            CycleMoment now, FaultDesk& desk,
+                                            TraceTrack& track) noexcept {
+  for (const Schedule::Entry& entry : entries) {
+    TracedElement* const traced = entry.element->traced();
+    if (traced == nullptr || entry.element->is_stopped()) {
+      RunInTurn({&entry, 1}, now, desk);
+      continue;
+    }
+    traced->track = &track;
+    const Time began = track.Now();
+    RunInTurn({&entry, 1}, now, desk);
+    track.NoteUpdate(began, entry.phase, traced->number, traced->ports);
+  }
+}
+
+void Run(std::span<const Schedule::Entry> entries, CycleMoment now, FaultDesk& desk,
+         TraceTrack* track) noexcept {
+  if (track != nullptr) [[unlikely]]
+    return RunTraced(entries, now, desk, *track);
+  RunInTurn(entries, now, desk);
+}
+
 }  // namespace
 
 CycleRunner::~CycleRunner() { delete schedule_.load(std::memory_order_seq_cst); }
@@ -64,6 +89,8 @@ bool CycleRunner::RunCycle(Cycle cycle, FaultDesk& desk) noexcept {
   const std::uint64_t number = cycles_begun_.load(std::memory_order_relaxed) + 1;
   cycles_begun_.store(number, std::memory_order_relaxed);
   const CycleMoment now{cycle.now, number};
+  TraceTrack* const track = schedule->track;
+  const Time began = track != nullptr ? track->Now() : Time{};
   if (waits_for_data()) {
     RunActivated(*schedule, now, desk);
   } else {
@@ -73,6 +100,8 @@ bool CycleRunner::RunCycle(Cycle cycle, FaultDesk& desk) noexcept {
   for (CycleRunner* const waiting : *schedule->waiting) {
     if (waiting->is_activated()) waiting->event_.Notify();
   }
+  if (track != nullptr) [[unlikely]]
+    track->NoteCycle(began, cycle.now, number);
   return true;
 }
 
@@ -92,11 +121,11 @@ void CycleRunner::RunAll(const Schedule& schedule, CycleMoment now, FaultDesk& d
   const bool is_settled = IsSettled(schedule);
   for (const Schedule::Chunk* chunk : schedule.chunks) {
     if (is_settled || !chunk->has_arrivals) {
-      RunInTurn(chunk->entries, now, desk);
+      Run(chunk->entries, now, desk, schedule.track);
       continue;
     }
     for (const Schedule::Entry& entry : chunk->entries) {
-      if (entry.HasArrived()) RunInTurn({&entry, 1}, now, desk);
+      if (entry.HasArrived()) Run({&entry, 1}, now, desk, schedule.track);
     }
   }
 }
@@ -109,7 +138,7 @@ void CycleRunner::RunActivated(const Schedule& schedule, CycleMoment now,
   is_held_up_ = false;
   for (const Schedule::Chunk* chunk : schedule.chunks) {
     for (const Schedule::Entry& entry : chunk->entries) {
-      RunIfActivated(entry, is_settled, now, desk);
+      RunIfActivated(entry, is_settled, now, desk, schedule.track);
     }
   }
   // What came during the pass for those further down has been used in it; what came for those
@@ -123,7 +152,7 @@ void CycleRunner::RunActivated(const Schedule& schedule, CycleMoment now,
 }
 
 void CycleRunner::RunIfActivated(const Schedule::Entry& entry, bool is_settled, CycleMoment now,
-                                 FaultDesk& desk) noexcept {
+                                 FaultDesk& desk, TraceTrack* track) noexcept {
   ScheduledElement& element = *entry.element;
   // What has come for an element that another thread may still be running is not forgotten.
   if (!is_settled && !entry.HasArrived()) {
@@ -131,7 +160,7 @@ void CycleRunner::RunIfActivated(const Schedule::Entry& entry, bool is_settled, 
     return;
   }
   if (entry.is_first && element.TakeActivation()) element.set_in_pass(true);
-  if (element.in_pass()) RunInTurn({&entry, 1}, now, desk);
+  if (element.in_pass()) Run({&entry, 1}, now, desk, track);
   if (entry.is_last) element.set_in_pass(false);
 }
 

@@ -87,7 +87,7 @@ class CycleRunner {
   void RunAll(const Schedule& schedule, CycleMoment now, FaultDesk& desk) noexcept;
   void RunActivated(const Schedule& schedule, CycleMoment now, FaultDesk& desk) noexcept;
   void RunIfActivated(const Schedule::Entry& entry, bool is_settled, CycleMoment now,
-                      FaultDesk& desk) noexcept;
+                      FaultDesk& desk, TraceTrack* track) noexcept;
 
   const std::string path_;
   const ThreadOptions options_;

@@ -10,6 +10,8 @@
 
 namespace runnel {
 
+class TraceTrack;
+
 /// What one thread does in a cycle, ready to be run through. Never changed once made: a change of
 /// the structure makes a new one, and the old one goes when no cycle can be using it. Its entries
 /// lie in chunks, which a new schedule shares with the one before as far as nothing has changed in
@@ -51,6 +53,7 @@ struct Schedule {
   std::uint64_t number = 0;          ///< later ones of the same runner have higher numbers
   std::vector<const Chunk*> chunks;  ///< in the order of running; see CycleRunner::Install()
   bool has_arrivals = false;         ///< in any of them
+  TraceTrack* track = nullptr;       ///< where its cycles are noted; nullptr: nowhere
   /// The runners that wait for data; they are told at the end of the cycle, not in the midst of it.
   std::shared_ptr<const std::vector<CycleRunner*>> waiting;
 };

@@ -6,6 +6,7 @@
 #include "core/lockfree/thread_epoch.h"
 #include "core/port/port.h"
 #include "plugins/scheduling/cycle_runner.h"
+#include "plugins/scheduling/cycle_tracer.h"
 #include "plugins/scheduling/internal/data_flow.h"
 #include "plugins/scheduling/internal/trigger_ties.h"
 
@@ -94,6 +95,9 @@ void ScheduleCompiler::MakeLanes(const std::vector<ThreadContainer*>& containers
   for (const ThreadContainer* container : containers) {
     auto& lane = lanes_[container->serial()] = std::make_unique<Lane>(container->runner());
     lane->name = container->name();
+    if (tracer_ != nullptr) {
+      lane->track = &tracer_->TrackOf(container->serial(), container->path());
+    }
     if (lane->runner->waits_for_data()) waiting->push_back(lane->runner.get());
     Touch(*lane);
   }
@@ -194,7 +198,8 @@ void ScheduleCompiler::Plan(FrameworkElement& element) {
   PlannedElement& planned = elements_[element.serial()];
   planned.element = &element;
   if (!planned.state) {
-    planned.state = std::make_shared<ScheduledElement>(element.path(), element.serial());
+    planned.state = std::make_shared<ScheduledElement>(
+        element.path(), element.serial(), tracer_ != nullptr ? tracer_->Watch(element) : nullptr);
   }
   HandOver(planned, *ChooseLane(element));
   AddTasks(planned);

@@ -14,6 +14,8 @@
 
 namespace runnel {
 
+class CycleTracer;
+
 /// Keeps a schedule for each thread container of the tree: all of them made anew at first and when
 /// containers come or go, then only what a change touches. Nothing takes effect before Install().
 ///
@@ -26,8 +28,9 @@ class ScheduleCompiler {
 
   /// Tasks that are assigned to no container go to the one called `default_thread`, or to the first
   /// if there is none of that name.
-  explicit ScheduleCompiler(std::string default_thread)
-      : default_thread_(std::move(default_thread)) {}
+  /// `tracer`, if there is one, is told of all that is to be run.
+  explicit ScheduleCompiler(std::string default_thread, CycleTracer* tracer = nullptr)
+      : default_thread_(std::move(default_thread)), tracer_(tracer) {}
   ~ScheduleCompiler();
   ScheduleCompiler(const ScheduleCompiler&) = delete;
   ScheduleCompiler& operator=(const ScheduleCompiler&) = delete;
@@ -91,6 +94,7 @@ class ScheduleCompiler {
   std::unique_ptr<Schedule> MakeSchedule(internal::Lane& lane);
 
   const std::string default_thread_;
+  CycleTracer* const tracer_;
   bool needs_all_ = true;
   bool has_handovers_ = false;
   bool has_unassigned_tasks_ = false;

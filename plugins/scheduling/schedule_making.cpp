@@ -62,6 +62,7 @@ std::unique_ptr<Schedule> ScheduleCompiler::MakeSchedule(Lane& lane) {
   auto schedule = std::make_unique<Schedule>();
   schedule->number = ++schedules_made_;
   schedule->waiting = waiting_;
+  schedule->track = lane.track;
   const auto& blocks = lane.order.tasks().blocks();
   schedule->chunks.reserve(blocks.size());
   for (const auto& block : blocks) {

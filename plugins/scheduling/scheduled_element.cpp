@@ -3,15 +3,23 @@
 #include <utility>
 
 #include "plugins/scheduling/cycle_runner.h"
+#include "plugins/scheduling/trace_track.h"
 
 namespace runnel {
 
-ScheduledElement::ScheduledElement(std::string path, std::uint64_t serial)
-    : path_(std::move(path)), serial_(serial), record_(std::make_unique<FaultRecord>(path_)) {}
+ScheduledElement::ScheduledElement(std::string path, std::uint64_t serial,
+                                   std::unique_ptr<TracedElement> traced)
+    : path_(std::move(path)),
+      serial_(serial),
+      traced_(std::move(traced)),
+      record_(std::make_unique<FaultRecord>(path_)) {}
+
+ScheduledElement::~ScheduledElement() = default;
 
 void ScheduledElement::Fail(std::string_view message, CycleMoment now, FaultDesk& desk) noexcept {
   stopped_.store(true, std::memory_order_relaxed);
   if (!record_) return;
+  if (traced_ && traced_->track != nullptr) traced_->track->NoteFault(traced_->number, message);
   record_->Fill(message, now.time, now.number);
   desk.Raise(std::move(record_));
 }

@@ -12,6 +12,7 @@
 namespace runnel {
 
 class CycleRunner;
+struct TracedElement;
 
 /// The cycle that a thread is in.
 struct CycleMoment {
@@ -28,7 +29,10 @@ struct CycleMoment {
 /// Progress: wait-free. Allocation: in the constructor only.
 class ScheduledElement final : public Waker {
  public:
-  ScheduledElement(std::string path, std::uint64_t serial);
+  /// `traced`: what is written down of it, if anything is.
+  ScheduledElement(std::string path, std::uint64_t serial,
+                   std::unique_ptr<TracedElement> traced = {});
+  ~ScheduledElement();
 
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
   [[nodiscard]] std::uint64_t serial() const noexcept { return serial_; }
@@ -39,6 +43,9 @@ class ScheduledElement final : public Waker {
     // relaxed: the hand-over from thread to thread orders it; elsewhere it only informs.
     return stopped_.load(std::memory_order_relaxed);
   }
+
+  /// nullptr: nothing is written down of it. By the thread whose cycle has it.
+  [[nodiscard]] TracedElement* traced() noexcept { return traced_.get(); }
 
   /// Who runs the element on new data; nullptr for nobody.
   void set_runner(CycleRunner* runner) noexcept {
@@ -64,6 +71,7 @@ class ScheduledElement final : public Waker {
  private:
   const std::string path_;
   const std::uint64_t serial_;
+  const std::unique_ptr<TracedElement> traced_;
   std::unique_ptr<FaultRecord> record_;  // until the element has failed
   std::atomic<bool> stopped_{false};
   std::atomic<bool> activated_{false};

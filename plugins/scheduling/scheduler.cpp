@@ -24,7 +24,7 @@ Scheduler::Scheduler(Runtime& runtime, SchedulerOptions options)
       clock_before_(runtime.clock()),
       desk_(runtime),
       pace_(IsSimulated(options_), options_.speed, options_.is_paused, machine_),
-      compiler_(options_.default_thread) {
+      compiler_(options_.default_thread, options_.tracer) {
   if (IsSimulated(options_)) runtime_.set_clock(simulation_.clock());
   runtime_.AddListener(*this);
 }
@@ -239,7 +239,7 @@ Result<CycleHold> Scheduler::HoldCycles(const std::vector<std::string>& paths, D
       !runtime_.structure_mutex().HeldByThisThread(),
       "threads cannot be kept between cycles under the structure lock, which a cycle might "
       "be waiting for");
-  return CycleHold::Take(RunnersOf(paths), patience);
+  return CycleHold::Take(RunnersOf(paths), patience, options_.tracer);
 }
 
 Scheduler::Runners Scheduler::RunnersOf(const std::vector<std::string>& paths) {

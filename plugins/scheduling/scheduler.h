@@ -23,6 +23,8 @@
 
 namespace runnel {
 
+class CycleTracer;
+
 struct SchedulerOptions {
   enum class ClockKind {
     kReal,       ///< threads of the system, on the machine's clock: Start(), Stop()
@@ -38,6 +40,8 @@ struct SchedulerOptions {
   bool lock_memory = true;
   /// Name of the container for what is assigned to none; "" or unknown: the one made first.
   std::string default_thread = {};
+  /// Has it written down what cycles do. Must outlive the scheduler and the runtime. nullptr: nobody.
+  CycleTracer* tracer = nullptr;
   /// If there is something to run but no container, one called "main" is made with these.
   ThreadOptions default_options = {};
 };

@@ -46,6 +46,9 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
        {"core", "plugins/parameters", "plugins/runtime_construction", "plugins/scheduling"}});
   rules.push_back({"plugins/scheduling", "plugins/scheduling", {"core"}});
   rules.push_back({"plugins/structure", "plugins/structure", {"core", "plugins/scheduling"}});
+  rules.push_back({"plugins/tracing",
+                   "plugins/tracing",
+                   {"core", "plugins/json_values", "plugins/scheduling"}});
   rules.push_back(
       {"plugins/control", "plugins/control", {"core", "plugins/scheduling", "plugins/structure"}});
   rules.push_back({"plugins/watching", "plugins/watching", {"core"}});

@@ -42,8 +42,9 @@ struct Lane {
   using Chunks = std::vector<std::unique_ptr<const Schedule::Chunk>>;
 
   const std::shared_ptr<CycleRunner> runner;
-  std::string name;         ///< of the container
-  bool is_changed = false;  ///< since the last schedule, which was made after
+  std::string name;             ///< of the container
+  TraceTrack* track = nullptr;  ///< nullptr: nothing is written down
+  bool is_changed = false;      ///< since the last schedule, which was made after
   std::uint64_t changes = std::numeric_limits<std::uint64_t>::max();  ///< of the order
   /// Those of blocks that have changed or gone, while the installed schedule still has them.
   const std::shared_ptr<Chunks> old_chunks;

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/lockfree/stream_queue.h"
+#include "core/module/executable.h"
+#include "core/port/port.h"
+#include "plugins/scheduling/tick_clock.h"
+
+namespace runnel {
+
+/// What has happened in a cycle, as short as it can be said. Who is meant is a number that whoever reads
+/// it has given out.
+struct TraceEvent {
+  enum class Kind : std::uint8_t {
+    kCycle,  ///< words: begin, end, the cycle's time on the application's clock; number: the cycle's
+    kUpdate,       ///< words: begin, end; number: the element's
+    kPublication,  ///< words: when it was noticed, how many values; number: the port's
+    kFault,        ///< words: when; number: the element's; its text follows
+    kText,  ///< the bytes of `words`, as far as `length` says: goes on with the fault's message
+  };
+  static constexpr std::size_t kTextBytes = 24;
+
+  Kind kind = Kind::kCycle;
+  Phase phase = Phase::kUpdate;
+  std::uint8_t length = 0;
+  std::uint64_t number = 0;
+  std::array<std::int64_t, 3> words{};  ///< times in ns, of the machine unless said otherwise
+};
+
+/// An output that is looked at after each update of its module.
+struct TracedPort {
+  const Port* port;
+  std::uint64_t number;
+  std::uint64_t publications;  ///< seen so far
+};
+
+/// What is written down of the cycles of one thread: taken in the cycle, read by another thread.
+///
+/// Threads:     Note…() and Now() by the thread of the cycles; events() and TakeLost() by one reader.
+/// Progress:    wait-free. What finds no room is counted and lost.
+/// Allocation:  in the constructor only. Asks the system for the time, once a millisecond.
+class TraceTrack {
+ public:
+  explicit TraceTrack(std::size_t capacity) : events_(capacity) {}
+
+  [[nodiscard]] Time Now() noexcept { return clock_.Now(); }
+
+  void NoteCycle(Time began, Time application_time, std::uint64_t number) noexcept {
+    Add({.kind = TraceEvent::Kind::kCycle,
+         .number = number,
+         .words = {Count(began), Count(Now()), Count(application_time)}});
+  }
+  /// An update that ends now, and what has been published since the one before.
+  void NoteUpdate(Time began, Phase phase, std::uint64_t element,
+                  std::vector<TracedPort>& ports) noexcept {
+    const std::int64_t now = Count(Now());
+    Add({.kind = TraceEvent::Kind::kUpdate,
+         .phase = phase,
+         .number = element,
+         .words = {Count(began), now, 0}});
+    for (TracedPort& each : ports) {
+      const std::uint64_t before = each.publications;
+      each.publications = each.port->publications();
+      if (each.publications <= before) continue;  // fewer: the channel of another one, taken over
+      Add({.kind = TraceEvent::Kind::kPublication,
+           .number = each.number,
+           .words = {now, static_cast<std::int64_t>(each.publications - before), 0}});
+    }
+  }
+  void NoteFault(std::uint64_t element, std::string_view message) noexcept {
+    Add({.kind = TraceEvent::Kind::kFault, .number = element, .words = {Count(Now()), 0, 0}});
+    for (; !message.empty(); message.remove_prefix(std::min(message.size(), kPart))) {
+      TraceEvent text{.kind = TraceEvent::Kind::kText};
+      text.length = static_cast<std::uint8_t>(std::min(message.size(), kPart));
+      std::memcpy(text.words.data(), message.data(), text.length);
+      Add(text);
+    }
+  }
+
+  [[nodiscard]] StreamQueue<TraceEvent>& events() noexcept { return events_; }
+  /// How many have been lost since the last call.
+  [[nodiscard]] std::uint64_t TakeLost() noexcept {
+    const std::uint64_t lost = lost_.load(std::memory_order_relaxed);
+    return lost - std::exchange(lost_taken_, lost);
+  }
+
+ private:
+  static constexpr std::size_t kPart = TraceEvent::kTextBytes;
+  static std::int64_t Count(Time time) noexcept { return time.time_since_epoch().count(); }
+
+  void Add(TraceEvent event) noexcept {
+    if (events_.TryPush(std::move(event))) return;
+    // relaxed: a count, which one thread writes.
+    lost_.store(lost_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  }
+
+  StreamQueue<TraceEvent> events_;
+  TickClock clock_;
+  std::atomic<std::uint64_t> lost_{0};
+  std::uint64_t lost_taken_ = 0;  // the reader's
+};
+
+/// What is written down of one element. By the thread whose cycle has it.
+struct TracedElement {
+  std::uint64_t number = 0;
+  std::vector<TracedPort> ports = {};
+  TraceTrack* track = nullptr;  ///< of the thread that is just running it
+};
+
+}  // namespace runnel

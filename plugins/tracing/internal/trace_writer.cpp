@@ -1,0 +1,159 @@
+#include "plugins/tracing/internal/trace_writer.h"
+
+#include <utility>
+
+#include "plugins/json_values/json_writer.h"
+
+namespace runnel::internal {
+
+namespace {
+
+// Where changes of the structure are shown; thread containers come after it.
+constexpr int kChanges = 1;
+
+Time TimeAt(std::int64_t count) { return Time(Duration(count)); }
+
+// As a number of events is to be shown.
+std::string CountArgument(const char* name, std::uint64_t count) {
+  std::string text = "\"" + std::string(name) + "\":";
+  AppendJsonNumber(count, text);
+  return text;
+}
+
+const char* PhaseText(Phase phase) {
+  switch (phase) {
+    case Phase::kSense:
+      return " sense";
+    case Phase::kUpdate:
+      return "";
+    case Phase::kControl:
+      return " control";
+  }
+  return "";
+}
+
+}  // namespace
+
+void AppendSimulatedTime(Time time, std::string& json) {
+  const std::int64_t count = time.time_since_epoch().count();
+  json += "\"simulated_s\":";
+  AppendJsonNumber(count / 1'000'000'000, json);
+  std::string fraction = std::to_string(1'000'000'000 + count % 1'000'000'000);
+  fraction[0] = '.';
+  json += fraction;
+}
+
+TraceWriter::TraceWriter(TraceFile file, const std::string& application, bool is_simulated)
+    : file_(std::move(file)), is_simulated_(is_simulated) {
+  std::string name = "\"name\":";
+  AppendJsonString("runnel " + application, name);
+  file_.AddName(kChanges, "\"process_name\"", name);
+  file_.AddName(kChanges, "\"thread_name\"", "\"name\":\"changes\"");
+  file_.AddName(kChanges, "\"thread_sort_index\"", "\"sort_index\":1");
+}
+
+void TraceWriter::Introduce(TracedThread& thread) {
+  const int track = kChanges + 1 + static_cast<int>(threads_.size());
+  threads_.push_back({&thread, track});
+  file_.AddName(track, "\"thread_name\"", "\"name\":" + thread.name);
+  file_.AddName(track, "\"thread_sort_index\"", "\"sort_index\":" + std::to_string(track));
+}
+
+void TraceWriter::Write(TraceNews news) {
+  for (TracedThread* thread : news.threads) Introduce(*thread);
+  for (std::string& name : news.names) names_.push_back(std::move(name));
+  for (const TraceRemark& each : news.remarks) {
+    if (each.ended) {
+      file_.AddSlice(kChanges, each.name, each.category, each.began, *each.ended, each.arguments);
+    } else {
+      file_.AddInstant(kChanges, each.name, each.category, each.began, each.arguments);
+    }
+  }
+  TellOfLost(kChanges, news.lost_remarks);
+  for (Known& each : threads_) WriteEvents(each);
+  file_.Flush();
+}
+
+// No more than a queue can hold, so that a thread that never rests does not keep the others waiting.
+void TraceWriter::WriteEvents(Known& known) {
+  auto& events = known.thread->track.events();
+  for (std::size_t left = events.size(); left > 0; --left) {
+    const TraceEvent* const event = events.Front();
+    if (event == nullptr || (HasName(*event) && event->number >= names_.size())) break;
+    WriteEvent(known, *event);
+    events.PopFront();
+  }
+  TellOfLost(known.track, known.thread->track.TakeLost());
+}
+
+bool TraceWriter::HasName(const TraceEvent& event) {
+  return event.kind == TraceEvent::Kind::kUpdate || event.kind == TraceEvent::Kind::kPublication ||
+         event.kind == TraceEvent::Kind::kFault;
+}
+
+void TraceWriter::WriteEvent(Known& known, const TraceEvent& event) {
+  using Kind = TraceEvent::Kind;
+  if (event.kind == Kind::kText) {
+    const auto* const bytes = reinterpret_cast<const char*>(event.words.data());
+    if (known.fault) known.fault->message.append(bytes, event.length);
+    return;
+  }
+  CloseFault(known);
+  switch (event.kind) {
+    case Kind::kCycle:
+      return WriteCycle(known, event);
+    case Kind::kUpdate:
+      name_ = names_[event.number];
+      if (event.phase != Phase::kUpdate) name_.insert(name_.size() - 1, PhaseText(event.phase));
+      return file_.AddSlice(known.track, name_, "update", TimeAt(event.words[0]),
+                            TimeAt(event.words[1]), "");
+    case Kind::kPublication:
+      arguments_ = "\"values\":";
+      AppendJsonNumber(event.words[1], arguments_);
+      return file_.AddInstant(known.track, names_[event.number], "publish", TimeAt(event.words[0]),
+                              arguments_);
+    case Kind::kFault:
+      known.fault = OpenFault{TimeAt(event.words[0]), names_[event.number], {}};
+      return;
+    case Kind::kText:
+      return;
+  }
+}
+
+void TraceWriter::WriteCycle(const Known& known, const TraceEvent& event) {
+  arguments_ = "\"number\":";
+  AppendJsonNumber(event.number, arguments_);
+  if (is_simulated_) {
+    arguments_ += ',';
+    AppendSimulatedTime(TimeAt(event.words[2]), arguments_);
+  }
+  file_.AddSlice(known.track, "\"cycle\"", "cycle", TimeAt(event.words[0]), TimeAt(event.words[1]),
+                 arguments_);
+}
+
+void TraceWriter::CloseFault(Known& known) {
+  if (!known.fault) return;
+  arguments_ = "\"module\":" + known.fault->element + ",\"message\":";
+  AppendJsonString(known.fault->message, arguments_);
+  file_.AddInstant(known.track, "\"fault\"", "fault", known.fault->when, arguments_);
+  known.fault.reset();
+}
+
+void TraceWriter::TellOfLost(int track, std::uint64_t lost) {
+  if (lost == 0) return;
+  lost_ += lost;
+  file_.AddInstant(track, "\"lost events\"", "tracing", SteadyClock().Now(),
+                   CountArgument("count", lost));
+}
+
+Result<TraceSummary> TraceWriter::Finish() {
+  for (Known& each : threads_) CloseFault(each);
+  file_.UseReserve();
+  file_.AddInstant(kChanges, "\"end of the trace\"", "tracing", SteadyClock().Now(),
+                   CountArgument("lost_events", lost_) + "," +
+                       CountArgument("left_out_events", file_.left_out()));
+  if (auto closed = file_.Close(); !closed) return closed.error();
+  return TraceSummary{file_.events(), lost_, file_.left_out()};
+}
+
+}  // namespace runnel::internal

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/base/clock.h"
+#include "core/base/result.h"
+
+namespace runnel {
+
+/// A file in Chrome's trace event format, the array form of it, which Perfetto and chrome://tracing open:
+///
+///     [
+///     {"ph":"X","pid":4711,"tid":2,"ts":12.345,"dur":1.002,"name":"cycle","cat":"cycle","args":{…}},
+///     …
+///     ]
+///
+/// It is whole after each Flush() but for the last bracket, which readers do not insist on: nothing is lost
+/// of a program that is killed but what has not been flushed.
+///
+/// Threads: one at a time. Allocation: yes.
+class TraceFile {
+ public:
+  /// Errors: the file cannot be made.
+  static Result<TraceFile> Create(const std::string& file, std::uint64_t most_bytes);
+  ~TraceFile();
+  TraceFile(TraceFile&& other) noexcept;
+  TraceFile& operator=(TraceFile&&) = delete;
+
+  /// Times count from now on.
+  [[nodiscard]] Time start() const noexcept { return start_; }
+
+  // One event each. `name` and the texts in `arguments` are JSON already; `arguments` is the inside of an
+  // object, "" for none. All are left out and counted once the file is as long as it may be.
+
+  /// What a process or thread is called: "process_name", "thread_name", "thread_sort_index".
+  void AddName(int track, std::string_view what, std::string_view arguments);
+  /// Something that took some time.
+  void AddSlice(int track, std::string_view name, const char* category, Time began, Time ended,
+                std::string_view arguments);
+  /// Something that happened.
+  void AddInstant(int track, std::string_view name, const char* category, Time when,
+                  std::string_view arguments);
+
+  /// From now on the room may be used that was left for the last events.
+  void UseReserve() noexcept { reserve_ = 0; }
+  /// Writes down what has been added.
+  void Flush();
+  /// Flushes and closes. Errors: what could not be written, since the beginning.
+  Result<void> Close();
+
+  [[nodiscard]] std::uint64_t events() const noexcept { return events_; }
+  /// That found no room in the file, or could not be written.
+  [[nodiscard]] std::uint64_t left_out() const noexcept { return left_out_; }
+
+ private:
+  TraceFile(std::string file, int descriptor, std::uint64_t most_bytes);
+
+  /// Whether there is room for an event. Appends what all have in common.
+  bool Begin(char phase, int track, std::string_view name);
+  void AppendTime(std::string_view key, Duration duration);
+  void End(std::string_view arguments);
+  void Write(std::string_view bytes);
+
+  std::string file_;
+  int descriptor_;
+  const std::uint64_t most_bytes_;
+  const Time start_;
+  std::string head_;  // of each event, from its second letter on
+  std::string text_;  // not written yet
+  std::size_t events_in_text_ = 0;
+  std::uint64_t reserve_ = 4096;
+  std::uint64_t written_ = 0;
+  std::uint64_t events_ = 0;
+  std::uint64_t left_out_ = 0;
+  std::optional<Error> error_;
+};
+
+}  // namespace runnel

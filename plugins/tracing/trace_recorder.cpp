@@ -1,0 +1,162 @@
+#include "plugins/tracing/trace_recorder.h"
+
+#include <new>
+#include <utility>
+
+#include "core/plugin/module_type_name.h"
+#include "core/port/port.h"
+#include "plugins/json_values/json_writer.h"
+#include "plugins/tracing/internal/trace_writer.h"
+
+namespace runnel {
+
+namespace {
+
+constexpr std::size_t kMostRemarks = 100'000;
+
+std::string JsonText(std::string_view text) {
+  std::string json;
+  AppendJsonString(text, json);
+  return json;
+}
+
+}  // namespace
+
+using internal::TracedThread;
+using internal::TraceRemark;
+using internal::TraceWriter;
+
+Result<std::unique_ptr<TraceRecorder>> TraceRecorder::Start(Runtime& runtime,
+                                                            TraceOptions options) {
+  auto file = TraceFile::Create(options.file, options.most_bytes);
+  if (!file) return file.error();
+  return std::unique_ptr<TraceRecorder>(
+      new TraceRecorder(runtime, std::move(options), std::move(*file)));
+}
+
+TraceRecorder::TraceRecorder(Runtime& runtime, TraceOptions options, TraceFile file)
+    : runtime_(runtime),
+      options_(std::move(options)),
+      writer_(std::make_unique<TraceWriter>(std::move(file), options_.application,
+                                            options_.is_simulated)) {
+  runtime_.AddListener(*this);
+  thread_ = std::thread([this] { Work(); });
+}
+
+TraceRecorder::~TraceRecorder() {
+  if (thread_.joinable()) (void)Finish();
+}
+
+void TraceRecorder::FollowStructure() {
+  const std::lock_guard lock(mutex_);
+  follows_structure_ = true;
+}
+
+Result<TraceSummary> TraceRecorder::Finish() {
+  runtime_.RemoveListener(*this);
+  {
+    const std::lock_guard lock(mutex_);
+    ends_ = true;
+  }
+  end_.notify_one();
+  if (thread_.joinable()) thread_.join();
+  return writer_->Finish();
+}
+
+void TraceRecorder::Work() {
+  std::unique_lock lock(mutex_);
+  while (!end_.wait_for(lock, options_.interval, [this] { return ends_; })) {
+    lock.unlock();
+    writer_->Write(TakeNews());
+    lock.lock();
+  }
+  lock.unlock();
+  writer_->Write(TakeNews());
+}
+
+internal::TraceNews TraceRecorder::TakeNews() {
+  const std::lock_guard lock(mutex_);
+  return {std::exchange(new_threads_, {}), std::exchange(new_names_, {}),
+          std::exchange(remarks_, {}), std::exchange(lost_remarks_, 0)};
+}
+
+TraceTrack& TraceRecorder::TrackOf(std::uint64_t serial, const std::string& path) {
+  const std::lock_guard lock(mutex_);
+  for (const auto& each : threads_) {
+    if (each->serial == serial) return each->track;
+  }
+  threads_.push_back(std::make_unique<TracedThread>(serial, JsonText(path), options_.room));
+  new_threads_.push_back(threads_.back().get());
+  return threads_.back()->track;
+}
+
+std::unique_ptr<TracedElement> TraceRecorder::Watch(FrameworkElement& element) {
+  auto traced = std::make_unique<TracedElement>();
+  const std::lock_guard lock(mutex_);
+  const auto number_for = [this](const std::string& name) {
+    new_names_.push_back(JsonText(name));
+    return names_given_++;
+  };
+  traced->number = number_for(element.path());
+  for (FrameworkElement* group : element.children()) {
+    if (group->kind() != ElementKind::kPortGroup) continue;
+    for (FrameworkElement* each : group->children()) {
+      const auto* const port = dynamic_cast<const Port*>(each);
+      if (port == nullptr || port->is_proxy() || port->direction() != Port::Direction::kOutput) {
+        continue;
+      }
+      traced->ports.push_back({port, number_for("publish " + port->path()), port->publications()});
+    }
+  }
+  return traced;
+}
+
+void TraceRecorder::OnHold(const std::string& path, Time began, Time ended) noexcept {
+  try {
+    Add({"\"hold\"", "hold", began, ended, "\"thread\":" + JsonText(path)});
+  } catch (const std::bad_alloc&) {
+    const std::lock_guard lock(mutex_);
+    ++lost_remarks_;
+  }
+}
+
+void TraceRecorder::Add(TraceRemark remark) {
+  if (options_.is_simulated) {
+    if (!remark.arguments.empty()) remark.arguments += ',';
+    internal::AppendSimulatedTime(runtime_.clock().Now(), remark.arguments);
+  }
+  const std::lock_guard lock(mutex_);
+  if (ends_) return;
+  if (remarks_.size() < kMostRemarks) {
+    remarks_.push_back(std::move(remark));
+  } else {
+    ++lost_remarks_;
+  }
+}
+
+void TraceRecorder::AddChange(const std::string& what) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!follows_structure_) return;
+  }
+  Add({JsonText(what), "structure", SteadyClock().Now(), {}, {}});
+}
+
+void TraceRecorder::OnReady(FrameworkElement& element) {
+  const std::string type = FindModuleType(element);
+  AddChange("put in " + element.path() + (type.empty() ? "" : " (" + type + ")"));
+}
+
+void TraceRecorder::OnDeleted(FrameworkElement& element) {
+  AddChange("took out " + element.path());
+}
+
+void TraceRecorder::OnConnected(FrameworkElement& from, FrameworkElement& to) {
+  AddChange("connected " + from.path() + " to " + to.path());
+}
+
+void TraceRecorder::OnDisconnected(FrameworkElement& from, FrameworkElement& to) {
+  AddChange("disconnected " + from.path() + " from " + to.path());
+}
+
+}  // namespace runnel

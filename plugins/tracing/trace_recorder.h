@@ -1,0 +1,95 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/element/element_listener.h"
+#include "core/element/runtime.h"
+#include "plugins/scheduling/cycle_tracer.h"
+#include "plugins/tracing/trace_file.h"
+#include "plugins/tracing/trace_summary.h"
+
+namespace runnel {
+
+namespace internal {
+struct TracedThread;
+struct TraceNews;
+struct TraceRemark;
+class TraceWriter;
+}  // namespace internal
+
+struct TraceOptions {
+  std::string file;
+  std::string application;    ///< its name
+  bool is_simulated = false;  ///< cycles bear the time of the simulated clock
+  /// How many events of one thread may wait to be written down.
+  std::size_t room = 65'536;
+  /// How long the file may become; what comes then is left out. Viewers hold all of it in memory.
+  std::uint64_t most_bytes = 1'000'000'000;
+  Duration interval = std::chrono::milliseconds(5);  ///< from one writing to the next
+};
+
+/// Writes into a file what the threads of an application do: cycles, the updates in them and what those
+/// publish, faults, holds and changes of the structure. A track for each thread container, and one for
+/// changes.
+///
+/// Give it to the scheduler (SchedulerOptions::tracer) before anything is scheduled. Cycles note what they
+/// do on tracks of their own, lock-free; a thread of this class takes it from there every few milliseconds.
+///
+/// Ownership:  must outlive the scheduler; the runtime must outlive it.
+/// Threads:    Finish() by one thread, when no cycle runs any more; the rest by the framework.
+class TraceRecorder final : public CycleTracer, private ElementListener {
+ public:
+  /// Errors: the file cannot be made.
+  static Result<std::unique_ptr<TraceRecorder>> Start(Runtime& runtime, TraceOptions options);
+  ~TraceRecorder() override;
+  TraceRecorder(const TraceRecorder&) = delete;
+  TraceRecorder& operator=(const TraceRecorder&) = delete;
+
+  /// What is put in, taken out and connected from now on is written down; not what is built before.
+  void FollowStructure();
+  /// Writes the rest and closes the file. Errors: what could not be written.
+  Result<TraceSummary> Finish();
+
+  TraceTrack& TrackOf(std::uint64_t serial, const std::string& path) override;
+  std::unique_ptr<TracedElement> Watch(FrameworkElement& element) override;
+  void OnHold(const std::string& path, Time began, Time ended) noexcept override;
+
+ private:
+  TraceRecorder(Runtime& runtime, TraceOptions options, TraceFile file);
+
+  void OnReady(FrameworkElement& element) override;
+  void OnDeleted(FrameworkElement& element) override;
+  void OnConnected(FrameworkElement& from, FrameworkElement& to) override;
+  void OnDisconnected(FrameworkElement& from, FrameworkElement& to) override;
+
+  void Add(internal::TraceRemark remark);
+  void AddChange(const std::string& what);
+  [[nodiscard]] internal::TraceNews TakeNews();
+  void Work();
+
+  Runtime& runtime_;
+  const TraceOptions options_;
+  std::mutex mutex_;  // a leaf
+  // Guarded by mutex_, down to the next blank line. The threads remain, whatever becomes of them.
+  std::vector<std::unique_ptr<internal::TracedThread>> threads_;
+  std::uint64_t names_given_ = 0;
+  // That the writer does not know yet:
+  std::vector<internal::TracedThread*> new_threads_;
+  std::vector<std::string> new_names_;
+  std::vector<internal::TraceRemark> remarks_;
+  std::uint64_t lost_remarks_ = 0;
+  bool follows_structure_ = false;
+  bool ends_ = false;
+
+  std::condition_variable end_;
+  const std::unique_ptr<internal::TraceWriter> writer_;
+  std::thread thread_;
+};
+
+}  // namespace runnel
