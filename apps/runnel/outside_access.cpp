@@ -9,9 +9,11 @@
 
 #include "core/base/diagnostics.h"
 #include "plugins/application_files/application_saver.h"
+#include "plugins/foxglove/foxglove.h"
 #include "plugins/inspector/inspector_resources.h"
 #include "plugins/inspector/xml_inspector_tag.h"
 #include "plugins/runtime_construction/plugin_loading.h"
+#include "plugins/structure/change_text.h"
 #include "plugins/structure/reload.h"
 
 namespace runnel::program {
@@ -74,21 +76,38 @@ Result<std::optional<Wish>> WishOf(const InspectArguments& arguments,
 
 Result<std::unique_ptr<WebServer>> StartWebServer(const Wish& wish,
                                                   const std::vector<std::string>& origins,
-                                                  Inspector& inspector) {
+                                                  const std::vector<WebProtocol>& protocols) {
   const auto resources = InspectorResources();
   WebServerOptions options{.address = wish.place.address,
                            .port = wish.place.port,
                            .token = wish.place.token,
                            .origins = origins};
-  auto server = WebServer::Start(options, resources, {inspector.Protocol()});
+  auto server = WebServer::Start(options, resources, protocols);
   if (server || wish.is_exact || options.port == 0) return server;
   Error notice = server.error();
   options.port = 0;
-  server = WebServer::Start(options, resources, {inspector.Protocol()});
+  server = WebServer::Start(options, resources, protocols);
   if (!server) return server;
   notice.hint = "the inspector takes " + std::to_string((*server)->port());
   Warn(notice);
   return server;
+}
+
+FoxgloveApplication FoxgloveOf(const ControlledApplication& controlled, const std::string& name,
+                               bool is_read_only) {
+  return {.runtime = controlled.runtime,
+          .name = name,
+          .version = RUNNEL_VERSION,
+          .is_read_only = is_read_only,
+          .change = [&history = *controlled.history,
+                     &log = controlled.log](const ChangeSet& changes) -> Result<void> {
+            const ChangeOutcome outcome = history.Apply(changes);
+            std::string text = outcome ? "" : "refused: ";
+            for (const Change& change : changes) text += ChangeText(change) + "; ";
+            log.Add(ControlLog::Kind::kChange, text.substr(0, text.size() - 2));
+            if (outcome) return {};
+            return outcome.diagnostics.errors().front();
+          }};
 }
 
 }  // namespace
@@ -125,7 +144,10 @@ Result<std::unique_ptr<OutsideAccess>> OutsideAccess::Start(
                                                    .file = file,
                                                    .version = RUNNEL_VERSION,
                                                    .is_read_only = (*wish)->place.is_read_only});
-  auto web = StartWebServer(**wish, arguments.inspect.origins, *access->inspector_);
+  auto web = StartWebServer(
+      **wish, arguments.inspect.origins,
+      {access->inspector_->Protocol(),
+       FoxgloveProtocol(FoxgloveOf(controlled, application.name(), (*wish)->place.is_read_only))});
   if (!web) {
     Error error = web.error();
     error.message = "the inspector cannot be started: " + error.message;

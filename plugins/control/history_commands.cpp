@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "plugins/control/command.h"
+#include "plugins/control/history_step.h"
 #include "plugins/structure/change_history.h"
 
 namespace runnel {
@@ -10,32 +11,13 @@ namespace {
 
 constexpr Duration kLookWhetherDone = std::chrono::milliseconds(20);
 
-// What worker and command share; the command may be gone before the worker is done.
-struct HistoryState {
-  bool goes_back;
-  ChangeOutcome outcome = {};
-  std::string what = {};
-};
-
-void Take(HistoryState& state, const ControlledApplication& application) {
-  ChangeHistory& history = *application.history;
-  const auto label = state.goes_back ? history.NextUndo() : history.NextRedo();
-  try {
-    state.outcome = state.goes_back ? history.Undo() : history.Redo();
-  } catch (const std::exception& exception) {
-    state.outcome.diagnostics.Add({.message = exception.what()});
-  }
-  if (!label) return;
-  state.what = (state.goes_back ? "undone: " : "redone: ") + *label;
-  application.log.Add(ControlLog::Kind::kChange,
-                      (state.outcome ? "" : "could not be ") + state.what);
-}
-
 class HistoryCommand final : public Command {
  public:
   HistoryCommand(bool goes_back, const ControlledApplication& application, ChangeWorker& worker)
-      : state_(std::make_shared<HistoryState>(HistoryState{goes_back})),
-        job_(worker.Post([state = state_, &application] { Take(*state, application); })) {}
+      : state_(std::make_shared<HistoryStep>()),
+        job_(worker.Post([state = state_, &application, goes_back] {
+          *state = TakeHistoryStep(application, goes_back);
+        })) {}
   ~HistoryCommand() override { job_->Cancel(); }
 
   std::optional<ControlCode> Continue(Answer& answer) override {
@@ -49,7 +31,7 @@ class HistoryCommand final : public Command {
   }
 
  private:
-  const std::shared_ptr<HistoryState> state_;
+  const std::shared_ptr<HistoryStep> state_;
   const std::shared_ptr<ChangeWorker::Job> job_;
 };
 
@@ -61,6 +43,21 @@ CommandResult Make(bool goes_back, const ControlledApplication& application, Cha
 }
 
 }  // namespace
+
+HistoryStep TakeHistoryStep(const ControlledApplication& application, bool goes_back) {
+  ChangeHistory& history = *application.history;
+  const auto label = goes_back ? history.NextUndo() : history.NextRedo();
+  HistoryStep step;
+  try {
+    step.outcome = goes_back ? history.Undo() : history.Redo();
+  } catch (const std::exception& exception) {
+    step.outcome.diagnostics.Add({.message = exception.what()});
+  }
+  if (!label) return step;
+  step.what = (goes_back ? "undone: " : "redone: ") + *label;
+  application.log.Add(ControlLog::Kind::kChange, (step.outcome ? "" : "could not be ") + step.what);
+  return step;
+}
 
 CommandResult MakeUndoCommand(const Request&, const ControlledApplication& application,
                               ChangeWorker& worker) {

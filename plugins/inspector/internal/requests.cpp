@@ -1,12 +1,14 @@
 #include "plugins/inspector/internal/requests.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <exception>
-#include <mutex>
+#include <functional>
+#include <initializer_list>
+#include <memory>
 #include <utility>
 
+#include "plugins/control/client_change.h"
+#include "plugins/control/history_step.h"
 #include "plugins/inspector/internal/json_parts.h"
 #include "plugins/structure/change_text.h"
 
@@ -15,7 +17,6 @@ namespace runnel::internal {
 namespace {
 
 constexpr std::size_t kMostErrors = 100;
-constexpr std::size_t kMostChanges = 20'000;
 
 void AppendError(const RequestError& each, std::string& text) {
   JsonObject json(text);
@@ -73,50 +74,86 @@ PlacedChanges ParseAll(const std::vector<std::string>& texts, Diagnostics& diagn
   return all;
 }
 
-std::string TypeIn(const Change& change) {
-  if (const auto* const create = std::get_if<CreateModule>(&change)) return create->type;
-  if (const auto* const replace = std::get_if<ReplaceModule>(&change)) return replace->type;
-  return {};
-}
+// What others do in a thread that may wait.
+class WorkerRequest final : public ViewerRequest {
+ public:
+  WorkerRequest(ChangeWorker& worker, std::function<std::string()> work)
+      : reply_(std::make_shared<std::string>()),
+        job_(worker.Post([reply = reply_, work = std::move(work)] { *reply = work(); })) {}
+  ~WorkerRequest() override { job_->Cancel(); }
 
-// The plugin of type "planning/bug1" is called planning.
-void LoadMissingPlugins(const ChangeSet& changes, const ControlledApplication& application) {
-  if (!application.hooks.load_plugin) return;
-  const std::lock_guard lock(application.runtime.structure_mutex());
-  for (const Change& change : changes) {
-    const std::string type = TypeIn(change);
-    const std::size_t slash = type.find('/');
-    if (slash == std::string::npos || application.modules.Find(type) != nullptr) continue;
-    // If it cannot be loaded, the error that there is no such type names the nearest.
-    (void)application.hooks.load_plugin(type.substr(0, slash));
+  std::optional<std::string> Continue() override {
+    if (!job_->is_done()) return {};
+    return std::move(*reply_);
   }
-}
 
-std::string ApplyChanges(Inspection& inspection, const ViewerMessage& message) {
-  const ControlledApplication& application = inspection.application();
+ private:
+  const std::shared_ptr<std::string> reply_;
+  const std::shared_ptr<ChangeWorker::Job> job_;
+};
+
+class ChangeRequest final : public ViewerRequest {
+ public:
+  ChangeRequest(std::optional<std::uint64_t> request, PlacedChanges placed, std::string label,
+                Inspection& inspection)
+      : request_(request),
+        change_(std::move(placed), std::move(label), inspection.application(),
+                inspection.worker()) {}
+
+  std::optional<std::string> Continue() override {
+    if (!change_.Continue()) return {};
+    const ChangeOutcome& outcome = change_.outcome();
+    if (!outcome) return Refusal(request_, ErrorsOf(outcome.diagnostics));
+    std::vector<RequestError> errors;
+    for (Error& error : change_.SwappedBack()) errors.push_back({std::move(error)});
+    if (!errors.empty()) return Refusal(request_, errors);
+    std::string text = change_.DoneText();
+    if (change_.is_on_probation()) {
+      text += "\nthe new module has not run all the cycles of its probation yet";
+    }
+    for (const Error& warning : outcome.diagnostics.warnings()) text += "\n" + warning.ToString();
+    return Reply(request_, text);
+  }
+
+ private:
+  const std::optional<std::uint64_t> request_;
+  ClientChange change_;
+};
+
+// One that has been answered before it began.
+class AnsweredRequest final : public ViewerRequest {
+ public:
+  explicit AnsweredRequest(std::string reply) : reply_(std::move(reply)) {}
+  std::optional<std::string> Continue() override { return reply_; }
+
+ private:
+  const std::string reply_;
+};
+
+std::unique_ptr<ViewerRequest> BeginChange(Inspection& inspection, ViewerMessage message) {
   Diagnostics diagnostics;
   if (message.changes.empty()) diagnostics.Add({.message = "there are no changes in it"});
-  if (message.changes.size() > kMostChanges) {
-    diagnostics.Add({.message = "more than " + std::to_string(kMostChanges) + " changes at once"});
+  if (message.changes.size() > ClientChange::kMostChanges) {
+    diagnostics.Add({.message = "more than " + std::to_string(ClientChange::kMostChanges) +
+                                " changes at once"});
   }
   PlacedChanges placed;
   if (diagnostics.ok()) placed = ParseAll(message.changes, diagnostics);
-  if (!diagnostics.ok()) return Refusal(message.request, ErrorsOf(diagnostics));
-  LoadMissingPlugins(placed.changes, application);
-  const ChangeOutcome outcome = application.editor.Apply(placed.changes, placed.positions);
-  std::string log = outcome ? "" : "refused: ";
-  for (std::size_t i = 0; i < placed.changes.size(); ++i) {
-    log += (i > 0 ? "; " : "") + ChangeText(placed.changes[i]);
-    if (log.size() > ControlLog::kLongestText) break;
+  if (!diagnostics.ok()) {
+    return std::make_unique<AnsweredRequest>(Refusal(message.request, ErrorsOf(diagnostics)));
   }
-  application.log.Add(ControlLog::Kind::kChange, std::move(log));
-  if (!outcome) return Refusal(message.request, ErrorsOf(outcome.diagnostics));
-  std::array<char, 80> text{};
-  std::snprintf(text.data(), text.size(), "done; threads stood still for %.3f ms",
-                ToSeconds(outcome.stood_still) * 1e3);
-  std::string all = text.data();
-  for (const Error& warning : outcome.diagnostics.warnings()) all += "\n" + warning.ToString();
-  return Reply(message.request, all);
+  return std::make_unique<ChangeRequest>(message.request, std::move(placed),
+                                         std::move(message.label), inspection);
+}
+
+std::string TakeStep(Inspection& inspection, const ViewerMessage& message) {
+  if (inspection.application().history == nullptr) {
+    return Refusal(message.request, {{Error{.message = "the program that runs this application "
+                                                       "remembers no changes"}}});
+  }
+  const HistoryStep step = TakeHistoryStep(inspection.application(), message.op == "undo");
+  if (!step.outcome) return Refusal(message.request, ErrorsOf(step.outcome.diagnostics));
+  return Reply(message.request, step.what);
 }
 
 using Hook = std::function<Result<std::string>(const std::string&)>;
@@ -170,16 +207,10 @@ std::string SetPace(Inspection& inspection, const ViewerMessage& message) {
 
 std::string Do(Inspection& inspection, const ViewerMessage& message) {
   const ControlHooks& hooks = inspection.application().hooks;
-  if (message.op == "change") return ApplyChanges(inspection, message);
-  if (IsOneOf(message.op, {"pause", "resume", "step", "speed"}))
-    return SetPace(inspection, message);
+  if (IsOneOf(message.op, {"undo", "redo"})) return TakeStep(inspection, message);
   if (message.op == "compatible") return FindCompatible(inspection, message);
   if (message.op == "save") return Call(hooks.save, message.file, "save it", message);
-  if (message.op == "reload") {
-    return Call(hooks.reload, message.plugin, "load plugins anew", message);
-  }
-  return Refusal(message.request,
-                 {{Error{.message = "this program cannot do '" + message.op + "'"}}});
+  return Call(hooks.reload, message.plugin, "load plugins anew", message);
 }
 
 }  // namespace
@@ -218,12 +249,20 @@ bool IsRequest(const std::string& op) {
 
 bool OnlyLooks(const std::string& op) { return op == "compatible"; }
 
-std::string CarryOut(Inspection& inspection, const ViewerMessage& message) {
-  try {
-    return Do(inspection, message);
-  } catch (const std::exception& exception) {
-    return Refusal(message.request, {{Error{.message = exception.what()}}});
+std::unique_ptr<ViewerRequest> BeginRequest(Inspection& inspection, ViewerMessage message) {
+  if (message.op == "change") return BeginChange(inspection, std::move(message));
+  // At once, whatever the worker is waiting for.
+  if (IsOneOf(message.op, {"pause", "resume", "step", "speed"})) {
+    return std::make_unique<AnsweredRequest>(SetPace(inspection, message));
   }
+  return std::make_unique<WorkerRequest>(
+      inspection.worker(), [&inspection, message = std::move(message)] {
+        try {
+          return Do(inspection, message);
+        } catch (const std::exception& exception) {
+          return Refusal(message.request, {{Error{.message = exception.what()}}});
+        }
+      });
 }
 
 }  // namespace runnel::internal

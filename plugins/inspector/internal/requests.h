@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,8 +11,7 @@
 
 namespace runnel::internal {
 
-/// {"op":"reply","request":…,"ok":true,"text":…}; `further`: members that only this reply has, as JSON
-/// (",\"types\":[]").
+/// {"op":"reply","request":…,"ok":true,"text":…}
 [[nodiscard]] std::string Reply(std::optional<std::uint64_t> request, const std::string& text);
 
 /// What is wrong with a request; `change`: with which of its changes, from 0.
@@ -29,9 +29,16 @@ struct RequestError {
 /// All that viewers may say, for the hint to one that says something else.
 [[nodiscard]] const std::vector<std::string>& AllOperations();
 
-/// Does what is asked for, and returns the reply.
+/// A request while it is being carried out; destroyed before it has begun, it is not done.
 ///
-/// Threads:  the worker's: waits for locks and cycles.
-[[nodiscard]] std::string CarryOut(Inspection& inspection, const ViewerMessage& message);
+/// Threads:  the server's; waits for nothing.
+class ViewerRequest {
+ public:
+  virtual ~ViewerRequest() = default;
+  /// The reply, once there is one.
+  virtual std::optional<std::string> Continue() = 0;
+};
+[[nodiscard]] std::unique_ptr<ViewerRequest> BeginRequest(Inspection& inspection,
+                                                          ViewerMessage message);
 
 }  // namespace runnel::internal

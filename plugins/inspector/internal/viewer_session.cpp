@@ -10,8 +10,8 @@
 #include "core/types/type_info.h"
 #include "plugins/inspector/internal/json_parts.h"
 #include "plugins/inspector/internal/rate_message.h"
-#include "plugins/inspector/internal/requests.h"
 #include "plugins/json_values/json_values.h"
+#include "plugins/structure/change_history.h"
 
 namespace runnel::internal {
 
@@ -40,10 +40,6 @@ Duration IntervalOf(double rate) { return FromSeconds(1 / rate); }
 ViewerSession::ViewerSession(Inspection& inspection, WebClient& client)
     : inspection_(inspection), client_(client) {
   SendHello();
-}
-
-ViewerSession::~ViewerSession() {
-  for (const Pending& each : pending_) each.job->Cancel();
 }
 
 bool ViewerSession::IsSlow() const { return client_.waiting_bytes() > kSlow; }
@@ -106,6 +102,12 @@ void ViewerSession::SendStructure() {
   }
 }
 
+std::string ViewerSession::NextStep(std::optional<std::string> (ChangeHistory::*next)()
+                                        const) const {
+  const ChangeHistory* const history = inspection_.application().history;
+  return history != nullptr ? (history->*next)().value_or("") : "";
+}
+
 void ViewerSession::SendState(MachineTime now) {
   state_due_ = now + kState;
   if (IsSlow()) return;
@@ -118,8 +120,8 @@ void ViewerSession::SendState(MachineTime now) {
     json.Add("paused", pace.is_paused());
     AddNumberOrNull("speed", pace.is_simulated() ? std::optional(pace.speed()) : std::nullopt,
                     json);
-    AddNull("undo", json);
-    AddNull("redo", json);
+    AddTextOrNull("undo", NextStep(&ChangeHistory::NextUndo), json);
+    AddTextOrNull("redo", NextStep(&ChangeHistory::NextRedo), json);
     json.Add("faults", inspection_.faults.count());
     json.Add("ended", verdict.has_value());
     AddTextOrNull("verdict", verdict.value_or(""), json);
@@ -135,11 +137,14 @@ void ViewerSession::SendState(MachineTime now) {
 }
 
 void ViewerSession::SendReplies() {
-  std::erase_if(pending_, [&](const Pending& each) {
-    if (!each.job->is_done() || !client_.SendText(*each.reply)) return false;
+  std::erase_if(pending_, [&](const std::unique_ptr<ViewerRequest>& each) {
+    auto reply = each->Continue();
+    if (!reply) return false;
+    replies_.push_back(std::move(*reply));
     inspection_.LookSoon();
     return true;
   });
+  while (!replies_.empty() && client_.SendText(replies_.front())) replies_.pop_front();
 }
 
 void ViewerSession::SendLog() {
@@ -260,7 +265,7 @@ void ViewerSession::OnText(std::string_view text) {
 }
 
 void ViewerSession::Refuse(const ViewerMessage& message, Error error) {
-  client_.SendText(Refusal(message.request, {{std::move(error)}}));
+  replies_.push_back(Refusal(message.request, {{std::move(error)}}));
 }
 
 void ViewerSession::BeginWatching(const ViewerMessage& message) {
@@ -282,15 +287,10 @@ void ViewerSession::BeginRequest(ViewerMessage message) {
     return Refuse(message,
                   {.message = "this inspector is read-only: '" + message.op + "' is not allowed"});
   }
-  if (pending_.size() >= kMostPending) {
+  if (pending_.size() + replies_.size() >= kMostPending) {
     return Refuse(message, {.message = "too many requests are waiting already"});
   }
-  auto reply = std::make_shared<std::string>();
-  auto job =
-      inspection_.worker().Post([&inspection = inspection_, reply, message = std::move(message)] {
-        *reply = CarryOut(inspection, message);
-      });
-  pending_.push_back({std::move(job), std::move(reply)});
+  pending_.push_back(internal::BeginRequest(inspection_, std::move(message)));
 }
 
 }  // namespace runnel::internal

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "plugins/inspector/internal/inspection.h"
+#include "plugins/inspector/internal/requests.h"
 #include "plugins/inspector/internal/viewer_message.h"
 #include "plugins/watching/watched_port.h"
 #include "plugins/web_server/web_conversation.h"
@@ -19,7 +21,6 @@ namespace runnel::internal {
 class ViewerSession final : public WebConversation {
  public:
   ViewerSession(Inspection& inspection, WebClient& client);
-  ~ViewerSession() override;
 
   void OnText(std::string_view message) override;
   void OnBinary(std::string_view message) override;
@@ -32,15 +33,12 @@ class ViewerSession final : public WebConversation {
     std::size_t elements;
     MachineTime due{};
   };
-  struct Pending {
-    std::shared_ptr<ChangeWorker::Job> job;
-    std::shared_ptr<std::string> reply;
-  };
-
   void SendHello();
   void SendStructure();
   void SendLog();
   void SendState(MachineTime now);
+  [[nodiscard]] std::string NextStep(std::optional<std::string> (ChangeHistory::*next)()
+                                         const) const;
   void SendReplies();
   void SendValues(MachineTime now);
   void SendRates(MachineTime now);
@@ -57,7 +55,8 @@ class ViewerSession final : public WebConversation {
   std::string state_;  // as it was told, without the time
   Duration state_time_{-1};
   MachineTime state_due_{};
-  std::vector<Pending> pending_;
+  std::vector<std::unique_ptr<ViewerRequest>> pending_;
+  std::deque<std::string> replies_;  // that the client has not taken yet
   std::map<std::string, Watch, std::less<>> watches_;
   Duration rates_interval_{};  // 0: not wanted
   MachineTime rates_due_{};

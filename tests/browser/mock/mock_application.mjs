@@ -94,7 +94,7 @@ export class MockApplication {
       this.connections = this.connections.filter(({ from, to }) => !isIn(from) && !isIn(to));
       for (const path of [...this.elements.keys()]) if (isIn(path)) this.elements.delete(path);
     } else if (verb === 'create') {
-      for (const element of ModuleElements(this.catalogue, words[0], words[1])) this.elements.set(element.path, element);
+      for (const element of ModuleElements(this.catalogue, words[1], words[0])) this.elements.set(element.path, element);
     } else if (verb === 'move') {
       this.elements.set(words[0], { ...this.elements.get(words[0]), thread: words[2] || null });
     } else if (verb === 'replace') {

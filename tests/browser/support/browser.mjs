@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import { mkdir } from 'node:fs/promises';
 import { join } from 'node:path';
 import { chromium } from 'playwright-core';
+import { Cleanup } from './cleanup.mjs';
 
 const kPatience = 20000; // ms that a condition may take to come true; nothing waits longer than it has to
 
@@ -20,7 +21,7 @@ export async function OpenPage(t, url, { width = 1280, height = 800, colours = '
     if (lost && /WebSocket connection to .* failed/.test(message.text())) return;
     complaints.push(message.text());
   });
-  t.after(async () => {
+  Cleanup(t, async () => {
     await browser.close();
     assert.deepEqual(complaints, [], 'the page complains');
   });
@@ -49,8 +50,22 @@ export class InspectorPage {
     return this.page.locator('path[data-edge]').evaluateAll((edges) => edges.map((edge) => edge.dataset.edge).sort());
   }
 
-  parameter(path) {
-    return this.page.locator(`[id="parameter:${path}"]`);
+  /** The field of a parameter of what is selected. */
+  parameter(name) {
+    return this.details.getByLabel(name, { exact: true });
+  }
+
+  /** The same with what is said of it: bounds, problems. */
+  parameterRow(name) {
+    return this.details.locator('.parameter', { has: this.page.getByLabel(name, { exact: true }) });
+  }
+
+  /** Presses the mouse on the name of a box. */
+  async click(path) {
+    const name = this.node(path).locator('.name');
+    await name.waitFor();
+    const { x, y, width, height } = await name.boundingBox();
+    await this.page.mouse.click(x + width / 2, y + height / 2);
   }
 
   /** By the search, so that it does not matter where it is on the screen. */

@@ -5,6 +5,7 @@ import { spawn } from 'node:child_process';
 import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import { Cleanup } from './cleanup.mjs';
 
 /** Starts an application file, which is ended after the test. {url, port, ended, output(), stop()} */
 export async function RunApplication(t, file, { port = 0, options = [] } = {}) {
@@ -25,14 +26,14 @@ export async function RunApplication(t, file, { port = 0, options = [] } = {}) {
     process_.kill('SIGINT');
     return ended;
   };
-  t.after(stop);
+  Cleanup(t, stop);
   return { url, port: Number(new URL(url).port), ended, stop, output: () => output };
 }
 
 /** A folder of its own with the demonstration in it; `change` may rewrite its text. */
 export async function DemoFile(t, change = (text) => text) {
   const folder = await mkdtemp(join(tmpdir(), 'runnel_browser_'));
-  t.after(() => rm(folder, { recursive: true, force: true }));
+  Cleanup(t, () => rm(folder, { recursive: true, force: true }));
   const text = (await readFile(join(process.env.RUNNEL_XML, 'apps/bug_demo.xml'), 'utf8'))
     .replaceAll('../worlds/', `${process.env.RUNNEL_XML}/worlds/`);
   const changed = change(text);

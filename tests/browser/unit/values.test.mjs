@@ -100,6 +100,7 @@ test('words of changes are quoted where they have to be', () => {
   assert.equal(Word('say "x" \\ now'), '"say \\"x\\" \\\\ now"');
   assert.equal(Word(''), '""');
   assert.equal(Word('{x: 1}'), '"{x: 1}"');
+  assert.equal(Change.create('/a/b', 'p/c'), 'create /a/b p/c');
   assert.equal(Change.move('/a', ''), 'move /a to ""');
   assert.equal(Change.replace('/a', 'p/b'), 'replace /a with p/b');
 });

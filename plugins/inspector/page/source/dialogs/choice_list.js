@@ -30,7 +30,7 @@ export function ChoiceList({ label, placeholder, find, onChoose, onCurrent, empt
     event.preventDefault();
   };
   return html`
-    <input ref=${field} type="search" class="choice-search" role="combobox" aria-label=${label} placeholder=${placeholder} value=${text.value}
+    <input ref=${field} type="text" class="choice-search" role="combobox" aria-label=${label} placeholder=${placeholder} value=${text.value}
       autocomplete="off" spellcheck="false" aria-controls="choices" aria-expanded="true"
       aria-activedescendant=${current ? `choice-${entries.indexOf(current)}` : undefined}
       onInput=${(event) => { text.value = event.target.value; at.value = 0; }} onKeyDown=${onKey} />

@@ -5,12 +5,13 @@ import { html } from 'htm/preact';
 import { FreeName, NameProblem } from '../model/change_text.js';
 import { CreateGroup, CreateModule, ErrorText } from '../state/actions.js';
 import { Reveal } from '../state/choices.js';
-import { catalogue, structure } from '../state/store.js';
+import { catalogue, revision, structure } from '../state/store.js';
 import { Select } from '../graph/graph_keys.js';
 import { ChoiceList } from './choice_list.js';
 import { CloseDialog, Dialog } from './dialog.js';
 
 export function CreateDialog({ group }) {
+  revision.value;
   const [type, setType] = useState(null);
   const [typed, setTyped] = useState(null);
   const [problem, setProblem] = useState('');

@@ -5,7 +5,7 @@ import { html } from 'htm/preact';
 import { memo } from '../panels/memo.js';
 import { ThreadOf } from '../model/structure.js';
 import { selected, selectedThread } from '../state/choices.js';
-import { structure } from '../state/store.js';
+import { revision, structure } from '../state/store.js';
 import { PortHeight, kHeader } from './measure.js';
 import { PortView } from './port_view.js';
 import { ThreadColour } from './thread_colour.js';
@@ -13,7 +13,10 @@ import { ThreadColour } from './thread_colour.js';
 export const BoxView = memo(({ box }) => {
   const { path, element } = box;
   const isSelected = useComputed(() => selected.value === path);
-  const thread = ThreadOf(structure, path);
+  const thread = useComputed(() => {
+    revision.value;
+    return ThreadOf(structure, path);
+  }).value;
   const isFaint = useComputed(() => selectedThread.value !== null && selectedThread.value !== thread);
   const isGroup = element.kind !== 'module';
   const classes = ['box', element.kind, isSelected.value && 'selected', element.stopped && 'stopped',

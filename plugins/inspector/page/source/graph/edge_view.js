@@ -5,15 +5,17 @@ import { html } from 'htm/preact';
 import { memo } from '../panels/memo.js';
 import { OriginsOf } from '../model/origin.js';
 import { selected } from '../state/choices.js';
-import { RateOf, structure } from '../state/store.js';
+import { RateOf, shapeRevision, structure } from '../state/store.js';
 
 export const EdgeView = memo(({ edge }) => {
   const state = useComputed(() => {
     if (selected.value === edge.key) return 'selected';
     return Touches(selected.value, edge) ? 'near' : '';
   });
-  const isLive = useComputed(() =>
-    OriginsOf(structure, edge.from).some((origin) => RateOf(origin).value > 0));
+  const isLive = useComputed(() => {
+    shapeRevision.value;
+    return OriginsOf(structure, edge.from).some((origin) => RateOf(origin).value > 0);
+  });
   return html`<path class=${`edge ${state.value} ${isLive.value ? 'live' : ''}`} data-edge=${edge.key}
     d=${edge.path} transform=${edge.dx || edge.dy ? `translate(${edge.dx},${edge.dy})` : undefined} />`;
 });

@@ -83,7 +83,7 @@ export function Select(path) {
   else if (box) announcement.value = DescribeBox(box, element.thread);
 }
 
-/** The nearest box in a direction; those straight ahead count as nearer. */
+/** The nearest box in a direction; those straight ahead count as nearer. Up and left out of a group leads to it. */
 function NextBox([dx, dy]) {
   const boxes = [...layout.value.boxes.values()];
   const path = structure.get(selected.value)?.owner ?? selected.value;
@@ -93,7 +93,7 @@ function NextBox([dx, dy]) {
   let best = null;
   let least = Infinity;
   for (const box of boxes) {
-    if (box.path === here.path || (box.open && here.path.startsWith(`${box.path}/`) && dx !== -1)) continue;
+    if (box.path === here.path || here.path.startsWith(`${box.path}/`)) continue;
     const to = Middle(box);
     const ahead = (to.x - from.x) * dx + (to.y - from.y) * dy;
     const aside = Math.abs((to.x - from.x) * dy) + Math.abs((to.y - from.y) * dx);
@@ -101,7 +101,9 @@ function NextBox([dx, dy]) {
     const cost = ahead + 2 * aside;
     if (cost < least) [best, least] = [box.path, cost];
   }
-  return best;
+  const group = ParentOf(here.path);
+  const leaves = dx < 0 || dy < 0;
+  return leaves && layout.value.boxes.has(group) && !best?.startsWith(`${group}/`) ? group : best;
 }
 
 function Middle(box) {

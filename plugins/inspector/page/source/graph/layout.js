@@ -42,7 +42,10 @@ export class GraphLayout {
       connections.map((connection) => connection.key), ports.map((port) => port.path)]);
     const kept = this.#kept.get(group);
     if (kept?.signature === signature) {
-      kept.layout.boxes.forEach((box, index) => { box.element = boxes[index].element; });
+      kept.layout.boxes.forEach((box, index) => {
+        const { element, inputs, outputs } = boxes[index];
+        Object.assign(box, { element, inputs, outputs });
+      });
       return kept.layout;
     }
     const members = [kInside, ...boxes.map((box) => box.path), kOutside];

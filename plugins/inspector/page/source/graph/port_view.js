@@ -6,7 +6,7 @@ import { memo } from '../panels/memo.js';
 import { OriginsOf } from '../model/origin.js';
 import { FormatRate } from '../model/value_format.js';
 import { selected } from '../state/choices.js';
-import { RateOf, structure } from '../state/store.js';
+import { RateOf, shapeRevision, structure } from '../state/store.js';
 import { candidates, connecting } from './graph_state.js';
 
 export const PortView = memo(({ port, x, y, side, inside }) => {
@@ -34,6 +34,7 @@ export const PortView = memo(({ port, x, y, side, inside }) => {
 /** Publications per second, beside the beginning of an edge. */
 function Rate({ path }) {
   const text = useComputed(() => {
+    shapeRevision.value;
     const origins = OriginsOf(structure, path);
     const rates = origins.map((origin) => RateOf(origin).value).filter((rate) => rate !== null);
     return rates.length === 0 ? '' : FormatRate(rates.reduce((sum, rate) => sum + rate, 0));

@@ -9,7 +9,7 @@ export function Word(text) {
 }
 
 export const Change = {
-  create: (type, path) => `create ${Word(type)} ${Word(path)}`,
+  create: (path, type) => `create ${Word(path)} ${Word(type)}`,
   createGroup: (path) => `create group ${Word(path)}`,
   delete: (path) => `delete ${Word(path)}`,
   connect: (from, to) => `connect ${Word(from)} ${Word(to)}`,

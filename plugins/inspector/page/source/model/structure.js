@@ -75,7 +75,7 @@ export class Structure {
     for (const told of elements) {
       const known = this.elements.get(told.path);
       if (known) {
-        Object.assign(known, told);
+        this.elements.set(told.path, { ...known, ...told }); // another object, so that views see it
         continue;
       }
       const element = { ...told, name: told.name ?? NameOf(told.path), children: [] };

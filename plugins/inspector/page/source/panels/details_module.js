@@ -5,7 +5,7 @@ import { FormatMilliseconds } from '../model/value_format.js';
 import { IsGroup, ThreadOf } from '../model/structure.js';
 import { Delete, Reload } from '../state/actions.js';
 import { IsOpen, openDialog } from '../state/choices.js';
-import { DurationOf, canChange, catalogue, structure } from '../state/store.js';
+import { DurationOf, canChange, catalogue, revision, structure } from '../state/store.js';
 import { ThreadColour } from '../graph/thread_colour.js';
 import { ToggleGroup } from '../graph/graph_state.js';
 import { ParameterRow } from './parameter_row.js';
@@ -13,6 +13,7 @@ import { ActionButton, Facts, Link, Section, Title } from './parts.js';
 import { PortRow } from './port_row.js';
 
 export function ModuleDetails({ element }) {
+  revision.value;
   const { path } = element;
   const isGroup = IsGroup(element);
   const parameters = structure.parametersOf(path);
@@ -39,7 +40,7 @@ export function ModuleDetails({ element }) {
       ['thread', thread && html`<span class="thread-name"><i style=${{ background: ThreadColour(thread) }}></i>${thread}${
         element.thread ? '' : html` <small>of its group</small>`}</span>`],
       ['plugin', plugin],
-      ['update takes', !isGroup && html`<${UpdateTime} path=${path} />`],
+      ['update takes', DurationOf(path).value === null ? '' : FormatMilliseconds(DurationOf(path).value / 1000)],
     ]} />
     ${parameters.length > 0 && html`<${Section} title="Parameters" count=${parameters.length} id="parameters">
       ${parameters.map((parameter) => html`<${ParameterRow} key=${parameter.path} parameter=${parameter} />`)}<//>`}
@@ -51,9 +52,4 @@ export function ModuleDetails({ element }) {
     ${members.length > 0 && html`<${Section} title="Contains" count=${members.length}>
       <ul class="members">${members.slice(0, 200).map((member) => html`<li key=${member}><${Link} path=${member} />
         <small>${structure.get(member).type ?? 'group'}</small></li>`)}</ul><//>`}`;
-}
-
-function UpdateTime({ path }) {
-  const microseconds = DurationOf(path).value;
-  return microseconds === null ? '–' : FormatMilliseconds(microseconds / 1000);
 }

@@ -7,7 +7,7 @@ import { NameOf } from '../model/structure.js';
 import { FormatNumber, FormatRate } from '../model/value_format.js';
 import { Disconnect } from '../state/actions.js';
 import { openDialog } from '../state/choices.js';
-import { RateOf, canChange, catalogue, structure } from '../state/store.js';
+import { RateOf, canChange, catalogue, revision, structure } from '../state/store.js';
 import { ActionButton, Facts, Link, Section, Title } from './parts.js';
 import { useWatched } from './use_watched.js';
 import { ValueTable } from './value_table.js';
@@ -16,6 +16,7 @@ const kFew = 12;
 const kMany = 400;
 
 export function PortDetails({ element }) {
+  revision.value;
   const { path } = element;
   const [elements, setElements] = useState(kFew);
   const item = useWatched(path, { rate: 8, elements });

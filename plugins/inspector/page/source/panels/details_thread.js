@@ -3,10 +3,11 @@
 import { html } from 'htm/preact';
 import { ThreadOf } from '../model/structure.js';
 import { FormatMilliseconds } from '../model/value_format.js';
-import { structure, threadStatistics } from '../state/store.js';
+import { revision, structure, threadStatistics } from '../state/store.js';
 import { Facts, Link, Section, Title } from './parts.js';
 
 export function ThreadDetails({ element }) {
+  revision.value;
   const statistics = threadStatistics.value[element.path];
   const modules = [...structure.ofKind('module')].filter((module) => ThreadOf(structure, module.path) === element.name);
   return html`

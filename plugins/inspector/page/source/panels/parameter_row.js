@@ -11,19 +11,20 @@ import { canChange, catalogue } from '../state/store.js';
 export function ParameterRow({ parameter }) {
   const [draft, setDraft] = useState(null);   // what is being typed, or null
   const [problem, setProblem] = useState('');
-  const [isBusy, setBusy] = useState(false);
+  const sending = useRef(false); // a field that is sent is left, too: that must not send it again
   const id = `parameter:${parameter.path}`;
   const locked = !parameter.settable || !canChange.value;
   useEffect(() => { setProblem(''); }, [parameter.value]);
 
   const send = async (text) => {
+    if (sending.current) return;
     if (text === null || text === parameter.value) return setDraft(null);
     const wrong = CheckValue(parameter, text, catalogue.value);
     setProblem(wrong);
     if (wrong) return;
-    setBusy(true);
+    sending.current = true;
     const reply = await SetParameter(parameter.path, text, { quiet: true });
-    setBusy(false);
+    sending.current = false;
     if (reply.ok) setDraft(null);
     else setProblem((reply.errors ?? []).map(ErrorText).join('\n') || 'it was refused');
   };
@@ -34,7 +35,7 @@ export function ParameterRow({ parameter }) {
     <div class=${`parameter ${problem ? 'wrong' : ''} ${draft !== null && draft !== parameter.value ? 'edited' : ''}`} data-parameter=${parameter.path}>
       <label for=${id} title=${parameter.description}>${parameter.name}</label>
       <div class="field">
-        <${Field} id=${id} parameter=${parameter} text=${draft ?? parameter.value ?? ''} locked=${locked} busy=${isBusy}
+        <${Field} id=${id} parameter=${parameter} text=${draft ?? parameter.value ?? ''} locked=${locked}
           wrong=${problem !== ''} onDraft=${setDraft} onSend=${send} onDrop=${drop} />
         ${parameter.unit && html`<span class="unit">${parameter.unit}</span>`}
         ${isChanged && parameter.settable && html`<button class="reset" disabled=${locked} title=${`Back to ${parameter.default}`}
@@ -46,9 +47,9 @@ export function ParameterRow({ parameter }) {
     </div>`;
 }
 
-function Field({ id, parameter, text, locked, busy, wrong, onDraft, onSend, onDrop }) {
+function Field({ id, parameter, text, locked, wrong, onDraft, onSend, onDrop }) {
   const input = useRef(null);
-  const common = { id, disabled: locked || busy, 'aria-invalid': wrong,
+  const common = { id, disabled: locked, 'aria-invalid': wrong,
     'aria-describedby': `${id}:note${wrong ? ` ${id}:problem` : ''}` };
   const values = catalogue.value.type(parameter.data_type)?.values;
   if (parameter.data_type === 'bool') {

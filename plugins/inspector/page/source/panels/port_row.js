@@ -3,11 +3,12 @@
 import { html } from 'htm/preact';
 import { FormatRate, FormatValue } from '../model/value_format.js';
 import { OriginsOf } from '../model/origin.js';
-import { RateOf, structure } from '../state/store.js';
+import { RateOf, revision, structure } from '../state/store.js';
 import { Link } from './parts.js';
 import { useWatched } from './use_watched.js';
 
 export function PortRow({ port }) {
+  revision.value;
   const item = useWatched(port.path, { rate: 4 });
   const rates = OriginsOf(structure, port.path).map((origin) => RateOf(origin).value).filter((rate) => rate !== null);
   const isOpenEnded = port.required && structure.connectionsOf(port.path).length === 0;

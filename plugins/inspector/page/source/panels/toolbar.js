@@ -28,7 +28,8 @@ export function Toolbar() {
 
 function ConnectionState() {
   const { state } = connection.value;
-  const [kind, text] = isConnected.value ? (run.value.ended ? ['ended', 'ended'] : ['good', 'connected'])
+  const { ended, verdict } = run.value;
+  const [kind, text] = isConnected.value ? (ended ? ['ended', verdict ?? 'ended'] : ['good', 'connected'])
     : state === 'connecting' && !hello.value ? ['wait', 'connecting'] : ['bad', 'disconnected'];
   return html`<span class=${`state ${kind}`} role="status" id="connection-state"
       title=${hello.value ? `${hello.value.file}, Runnel ${hello.value.runnel}` : ''}>${text}</span>
@@ -115,8 +116,9 @@ export function LostBanner() {
     return () => clearTimeout(timer);
   }, [lost]);
   if (!lost || !isLong) return null;
-  return html`<div class="lost" role="alert" id="lost">
-    ${hello.value ? 'The application does not answer. What you see is how it was last. Trying to reach it again …'
-      : 'Trying to reach the application …'}
-    ${connection.value.reason && html` <span>(${connection.value.reason})</span>`}</div>`;
+  const { ended, verdict } = run.value;
+  return html`<div class=${`lost ${ended ? 'ended' : ''}`} role="alert" id="lost">
+    ${!hello.value ? 'Trying to reach the application …'
+      : ended ? `The application has ended${verdict ? `: ${verdict}` : ''}. The page goes on when it is started again.`
+      : 'The application does not answer. What you see is how it was last. Trying to reach it again …'}</div>`;
 }

@@ -4,7 +4,7 @@ import uPlot from 'uplot';
 import { effect } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import { html } from 'htm/preact';
-import { theme } from '../state/choices.js';
+import { isDark } from '../state/choices.js';
 import { FormatNumber } from '../model/value_format.js';
 import { isPaused, plotWindow, pulse } from './plot_list.js';
 
@@ -20,7 +20,7 @@ export function Chart({ plot }) {
       plotWindow.value;
       if (!isPaused.value) drawing.askForFrame();
     });
-    const stopTheme = effect(() => { theme.value; drawing.recolour(); });
+    const stopTheme = effect(() => { isDark.value; drawing.recolour(); });
     const observer = new ResizeObserver(() => drawing.resize());
     observer.observe(host.current);
     return () => { stop(); stopTheme(); observer.disconnect(); drawing.end(); };
@@ -67,11 +67,11 @@ class Drawing {
     const times = this.#plot.curves.map((curve) => curve.series.lastTime).filter((time) => time !== null);
     if (times.length === 0) return;
     const to = Math.max(...times);
-    const from = to - plotWindow.peek();
+    const from = Math.max(0, to - plotWindow.peek());
     const tables = this.#plot.curves.map((curve) => curve.series.window(from, to));
     this.#chart.batch(() => {
       this.#chart.setData(tables.length === 1 ? tables[0] : uPlot.join(tables), false);
-      this.#chart.setScale('x', { min: from, max: to });
+      this.#chart.setScale('x', { min: from, max: Math.max(to, from + plotWindow.peek()) });
     });
   }
 }
@@ -99,6 +99,6 @@ function Options(host, plot, size) {
 /** A curve that stands still is drawn in the middle, not as noise. */
 function Range(_, least, greatest) {
   if (least === null) return [0, 1];
-  const space = Math.max((greatest - least) * 0.08, Math.abs(greatest) * 1e-3, 1e-6);
+  const space = greatest > least ? (greatest - least) * 0.08 : Math.abs(greatest) * 0.1 || 1;
   return [least - space, greatest + space];
 }

@@ -44,7 +44,7 @@ export async function Delete(path) {
 }
 
 export function CreateModule(type, group, name) {
-  return Apply([Change.create(type, `${group}/${name}`)], `create ${name}`, { quiet: true });
+  return Apply([Change.create(`${group}/${name}`, type)], `create ${name}`, { quiet: true });
 }
 
 export function CreateGroup(group) {

@@ -9,6 +9,8 @@ const kOpenBelow = 60; // applications with fewer modules show all of them at fi
 export const selected = signal(null);   // a path, the key of a connection, or nothing
 export const openGroups = signal({});   // path -> true or false, where the user has decided
 export const theme = signal(Kept('theme', 'system'));
+const systemIsDark = signal(false);
+export const isDark = computed(() => (theme.value === 'system' ? systemIsDark.value : theme.value === 'dark'));
 export const panels = signal(Kept('panels', { side: 380, dock: 220, world: 330, worldShown: true, worldLarge: false, tab: 'plots' }));
 export const openDialog = signal(null); // {kind: 'create' | 'connect' | …, …}
 export const announcement = signal(''); // for screen readers
@@ -73,6 +75,9 @@ function Keep(key, value) {
 
 /** Keeps choices from now on, and applies the theme. */
 export function StartKeeping() {
+  const dark = matchMedia('(prefers-color-scheme: dark)');
+  systemIsDark.value = dark.matches;
+  dark.addEventListener('change', () => { systemIsDark.value = dark.matches; });
   effect(() => Keep('theme', theme.value));
   effect(() => Keep('panels', panels.value));
   effect(() => {

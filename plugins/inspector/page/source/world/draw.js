@@ -133,10 +133,10 @@ function DrawHitsAndLeaves({ context, colours, camera, size }, { hits = [], leav
     context.stroke();
     context.fill();
     context.font = '600 10px system-ui, sans-serif';
-    context.textAlign = 'left';
+    context.textAlign = 'center';
     context.lineWidth = 3;
-    context.strokeText(`${letter}${index + 1}`, x + 7, y + 3.5);
-    context.fillText(`${letter}${index + 1}`, x + 7, y + 3.5);
+    context.strokeText(`${letter}${index + 1}`, x, y + (down ? -8 : 15));
+    context.fillText(`${letter}${index + 1}`, x, y + (down ? -8 : 15));
   });
   mark(hits, colours.hit, 'H', true);
   mark(leaves, colours.leave, 'L', false);

@@ -1,7 +1,7 @@
 // The world as it is now: the newest value of each layer, the camera, and when to draw.
 
 import { batch, effect, signal } from '@preact/signals';
-import { theme } from '../state/choices.js';
+import { isDark } from '../state/choices.js';
 import { hello, isConnected, structure, watches } from '../state/store.js';
 import { AreaOf, FitCamera, ZoomCamera } from './camera.js';
 import { DrawWorld } from './draw.js';
@@ -37,10 +37,7 @@ export class WorldScene {
     const observer = new ResizeObserver(() => this.resize());
     observer.observe(host);
     const detach = this.attachPointer();
-    const stop = effect(() => { theme.value; isConnected.value; this.colours = null; this.askForFrame(); });
-    const dark = matchMedia('(prefers-color-scheme: dark)');
-    const recolour = () => { this.colours = null; this.askForFrame(); };
-    dark.addEventListener('change', recolour);
+    const stop = effect(() => { isDark.value; isConnected.value; this.colours = null; this.askForFrame(); });
     let run = hello.peek()?.run;
     const stopRun = effect(() => {
       if (hello.value?.run !== run) this.trail = [];
@@ -49,7 +46,6 @@ export class WorldScene {
     return () => {
       for (const end of [...ends, detach, stop, stopRun]) end();
       observer.disconnect();
-      dark.removeEventListener('change', recolour);
       cancelAnimationFrame(this.frame);
     };
   }

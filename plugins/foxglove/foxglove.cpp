@@ -1,0 +1,40 @@
+#include "plugins/foxglove/foxglove.h"
+
+#include <chrono>
+#include <utility>
+
+#include "plugins/foxglove/internal/conversation.h"
+#include "plugins/foxglove/internal/foxglove_shared.h"
+
+namespace runnel {
+
+namespace {
+
+// By which clients know that they talk to another run, and forget what they have of the last.
+std::string NewSession() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
+}
+
+}  // namespace
+
+internal::FoxgloveShared::FoxgloveShared(FoxgloveApplication given)
+    : application(std::move(given)),
+      session(NewSession()),
+      directory(application.runtime),
+      worker(std::make_unique<ChangeWorker>([] {})) {}
+
+internal::FoxgloveShared::~FoxgloveShared() {
+  worker = nullptr;  // its jobs use the rest
+  for (const std::string& path : places) DeletePlace(application.runtime, path);
+}
+
+WebProtocol FoxgloveProtocol(FoxgloveApplication application) {
+  return {.names = {"foxglove.websocket.v1", "foxglove.sdk.v1"},
+          .start = [shared = std::make_shared<internal::FoxgloveShared>(std::move(application))](
+                       WebClient& client) -> std::unique_ptr<WebConversation> {
+            return std::make_unique<internal::FoxgloveConversation>(shared, client);
+          }};
+}
+
+}  // namespace runnel

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/base/result.h"
+
+namespace runnel::internal {
+
+struct SubscribeMessage {
+  struct Item {
+    std::uint32_t id;
+    std::uint32_t channel;
+  };
+  std::vector<Item> subscriptions;
+};
+struct UnsubscribeMessage {
+  std::vector<std::uint32_t> ids;
+};
+struct AdvertiseMessage {
+  struct Channel {
+    std::uint32_t id;
+    std::string topic;
+    std::string encoding;
+  };
+  std::vector<Channel> channels;
+};
+struct UnadvertiseMessage {
+  std::vector<std::uint32_t> ids;
+};
+struct GetParametersMessage {
+  std::vector<std::string> names;  ///< none: all
+  std::optional<std::string> id;
+};
+struct SetParametersMessage {
+  struct Item {
+    std::string name;
+    std::string json;                 ///< the value; "" if there is none
+    std::optional<std::string> text;  ///< the value, if it is a text
+    std::string type;                 ///< "byte_array", "float64", "float64_array" or ""
+  };
+  std::vector<Item> parameters;
+  std::optional<std::string> id;
+};
+struct SubscribeParametersMessage {
+  std::vector<std::string> names;  ///< none: all
+  bool is_wanted;
+};
+struct SubscribeGraphMessage {
+  bool is_wanted;
+};
+
+/// What a client says in text.
+using ClientMessage = std::variant<SubscribeMessage, UnsubscribeMessage, AdvertiseMessage,
+                                   UnadvertiseMessage, GetParametersMessage, SetParametersMessage,
+                                   SubscribeParametersMessage, SubscribeGraphMessage>;
+
+/// Errors: no JSON, no such operation, fields that are missing or of a wrong kind.
+[[nodiscard]] Result<ClientMessage> ParseClientMessage(std::string_view text);
+
+}  // namespace runnel::internal

@@ -1,0 +1,141 @@
+#include "plugins/foxglove/internal/client_publication.h"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <utility>
+
+#include "core/types/type_info.h"
+#include "plugins/json_values/json_values.h"
+
+namespace runnel::internal {
+
+/// What holds the output in the tree, beside the application.
+class ClientPublication::Place final : public FrameworkElement {
+ public:
+  explicit Place(const Placement& placement) : FrameworkElement(placement) {
+    Annotate(std::make_unique<BroughtByClient>());
+  }
+  std::unique_ptr<Port> output;
+};
+
+struct ClientPublication::Making {
+  Place* place = nullptr;  // the runtime's
+  std::optional<Error> error;
+};
+
+namespace {
+
+// {"value":…} around what is no structure, as its channel has it; else the JSON as it is.
+std::string_view Unwrapped(const TypeInfo& type, std::string_view json) {
+  if (type.kind() == TypeKind::kStructure) return json;
+  constexpr std::string_view kBlanks = " \t\r\n";
+  const auto skip = [&](std::string_view& rest, std::string_view word) {
+    rest.remove_prefix(std::min(rest.find_first_not_of(kBlanks), rest.size()));
+    if (!rest.starts_with(word)) return false;
+    rest.remove_prefix(word.size());
+    return true;
+  };
+  std::string_view rest = json;
+  if (!skip(rest, "{") || !skip(rest, "\"value\"") || !skip(rest, ":")) return json;
+  const auto end = rest.find_last_not_of(kBlanks);
+  if (end == std::string_view::npos || rest[end] != '}') return json;
+  return rest.substr(0, end);
+}
+
+}  // namespace
+
+ClientPublication::ClientPublication(FoxgloveShared& shared, const DirectoryInput& input)
+    : shared_(shared), type_(*input.type), making_(std::make_shared<Making>()) {
+  if (const auto usual = type_.Make()) AppendJson(type_, usual.get(), usual_);
+  job_ = shared_.worker->Post([&shared, input, making = making_] {
+    try {
+      if (auto made = Make(shared, input, *making); !made) making->error = made.error();
+    } catch (const ElementError& error) {
+      making->error = error.error();
+    }
+  });
+}
+
+Result<void> ClientPublication::Make(FoxgloveShared& shared, const DirectoryInput& input,
+                                     Making& making) {
+  static std::atomic<std::uint64_t> number{0};
+  Runtime& runtime = shared.application.runtime;
+  const std::lock_guard lock(runtime.structure_mutex());
+  const auto found = runtime.root().Find(input.path);
+  if (!found) return found.error();
+  auto* const port = dynamic_cast<Port*>(*found);
+  if (port == nullptr || &port->type() != input.type) {
+    return Error{.message = "this is another port by now", .path = input.path};
+  }
+  // An interface port knows no C++ type; the inputs behind it do.
+  const auto sinks = port->Sinks();
+  const Port& maker = port->is_proxy() && !sinks.empty() ? *sinks.front() : *port;
+  auto& place =
+      runtime.Create<Place>(runtime.root(), "foxglove_client_" + std::to_string(++number));
+  shared.places.insert(place.path());
+  making.place = &place;
+  place.output = maker.MakeOutput(place, port->name(), {});
+  if (!place.output) {
+    return Error{.message = maker.is_proxy()
+                                ? "nothing is connected to this port that could read it"
+                                : "only a module can make a " + input.type->name(),
+                 .path = input.path};
+  }
+  if (auto ready = runtime.MakeReady(place); !ready) return ready;
+  return Port::Connect(*place.output, *port);
+}
+
+ClientPublication::~ClientPublication() {
+  shared_.worker->Post([&shared = shared_, making = making_] {
+    if (making->place == nullptr) return;
+    const std::string path = making->place->path();
+    DeletePlace(shared.application.runtime, path);
+    shared.places.erase(path);
+  });
+}
+
+std::optional<Error> ClientPublication::TakeError() { return std::exchange(error_, std::nullopt); }
+
+bool ClientPublication::Continue() {
+  if (!job_) return false;
+  if (!job_->is_done()) return true;
+  job_ = nullptr;
+  error_ = making_->error;
+  is_made_ = !error_;
+  if (is_made_ && waiting_) {
+    if (auto published = PublishNow(*waiting_); !published) error_ = published.error();
+  }
+  waiting_ = std::nullopt;
+  return false;
+}
+
+Result<void> ClientPublication::Publish(std::string_view json) {
+  if (job_) {
+    waiting_ = json;
+    return {};
+  }
+  return PublishNow(json);
+}
+
+Result<void> ClientPublication::PublishNow(std::string_view json) {
+  const auto fill = [&](void* value) -> Result<void> {
+    if (auto usual = SetFromJson(type_, usual_, value); !usual) return usual;
+    return SetFromJson(type_, Unwrapped(type_, json), value);
+  };
+  const auto published = making_->place->output->PublishFilled(fill);
+  if (!published) return published.error();
+  return {};
+}
+
+void DeletePlace(Runtime& runtime, const std::string& path) {
+  FrameworkElement* place = nullptr;
+  {
+    const std::lock_guard lock(runtime.structure_mutex());
+    if (const auto found = runtime.root().Find(path)) place = *found;
+  }
+  // That somebody else has deleted it is as good.
+  if (place != nullptr) (void)runtime.Delete(*place);
+}
+
+}  // namespace runnel::internal

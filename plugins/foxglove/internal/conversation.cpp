@@ -1,0 +1,209 @@
+#include "plugins/foxglove/internal/conversation.h"
+
+#include <algorithm>
+#include <variant>
+#include <vector>
+
+#include "core/base/nearest_name.h"
+
+namespace runnel::internal {
+
+namespace {
+
+constexpr auto kBetweenSamples = std::chrono::microseconds(16'667);  // 60 Hz
+constexpr auto kBetweenTimes = std::chrono::milliseconds(50);
+constexpr auto kBetweenTurns = std::chrono::milliseconds(100);  // to see changes of the structure
+constexpr auto kSoon = std::chrono::milliseconds(5);
+constexpr std::size_t kChannelsInMessage = 50;
+constexpr std::size_t kMostPublications = 100;
+
+std::vector<std::string> TopicsOf(const DirectoryContent& content) {
+  std::vector<std::string> topics;
+  for (const auto& [topic, input] : content.inputs) topics.push_back(topic);
+  return topics;
+}
+
+std::uint32_t ReadNumber(std::string_view bytes) {
+  std::uint32_t number = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    number |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[i])) << (8 * i);
+  }
+  return number;
+}
+
+}  // namespace
+
+FoxgloveConversation::FoxgloveConversation(std::shared_ptr<FoxgloveShared> shared,
+                                           WebClient& client)
+    : shared_(std::move(shared)),
+      client_(client),
+      outbox_(client),
+      subscriptions_(shared_->application.runtime, client),
+      parameters_(*shared_, outbox_) {
+  outbox_.Send(ServerInfoMessage(*shared_));
+}
+
+void FoxgloveConversation::Tell(StatusLevel level, const Error& error) {
+  // A client that makes mistakes and does not listen need not hear of all of them.
+  if (!outbox_.is_long()) outbox_.Send(StatusMessage(level, error.ToString()));
+}
+
+void FoxgloveConversation::OnText(std::string_view message) {
+  const auto parsed = ParseClientMessage(message);
+  if (!parsed) return Complain(parsed.error());
+  std::visit([this](const auto& each) { Handle(each); }, *parsed);
+}
+
+void FoxgloveConversation::OnBinary(std::string_view message) {
+  constexpr std::size_t kHead = 5;
+  constexpr char kMessageData = 1;
+  if (message.size() < kHead || message[0] != kMessageData) {
+    return Complain({.message = "there is no binary message of this kind here",
+                     .hint = "byte 1: the value of a client's channel, then the channel's id"});
+  }
+  const std::uint32_t id = ReadNumber(message.substr(1));
+  const auto found = publications_.find(id);
+  if (found == publications_.end()) {
+    return Complain({.message = "channel " + std::to_string(id) + " is not advertised"});
+  }
+  const auto published = found->second.channel->Publish(message.substr(kHead));
+  if (published) return;
+  Error error = published.error();
+  if (error.path.empty()) error.path = found->second.path;
+  Complain(error);
+}
+
+void FoxgloveConversation::Handle(const SubscribeMessage& message) {
+  shared_->directory.Look(std::chrono::steady_clock::now());
+  const auto content = shared_->directory.content();
+  for (const Error& error : subscriptions_.Add(message, *content)) Complain(error);
+  sample_at_ = {};
+}
+
+void FoxgloveConversation::Handle(const UnsubscribeMessage& message) {
+  for (const Error& error : subscriptions_.Remove(message)) Complain(error);
+}
+
+void FoxgloveConversation::Handle(const AdvertiseMessage& message) {
+  if (shared_->application.is_read_only) {
+    return Complain({.message = "advertise: viewers may look, and publish nothing"});
+  }
+  for (const AdvertiseMessage::Channel& channel : message.channels) Advertise(channel);
+}
+
+void FoxgloveConversation::Advertise(const AdvertiseMessage::Channel& channel) {
+  if (channel.encoding != "json") {
+    return Complain(
+        {.message = "advertise: values come as 'json' here, not as '" + channel.encoding + "'"});
+  }
+  if (publications_.contains(channel.id)) {
+    return Complain({.message = "advertise: channel " + std::to_string(channel.id) + " is in use"});
+  }
+  if (publications_.size() >= kMostPublications) {
+    return Complain(
+        {.message = "advertise: more than " + std::to_string(kMostPublications) + " channels"});
+  }
+  const auto content = shared_->directory.content();
+  const auto input = content->inputs.find(channel.topic);
+  if (input == content->inputs.end()) {
+    return Complain({.message = "advertise: '" + channel.topic + "' is no input, or means several",
+                     .hint = NearestNameHint(channel.topic, TopicsOf(*content))});
+  }
+  publications_[channel.id] = {input->second.path, input->second.type,
+                               std::make_unique<ClientPublication>(*shared_, input->second)};
+}
+
+void FoxgloveConversation::Handle(const UnadvertiseMessage& message) {
+  for (const std::uint32_t id : message.ids) {
+    if (publications_.erase(id) > 0) continue;
+    Complain({.message = "unadvertise: channel " + std::to_string(id) + " is not advertised"});
+  }
+}
+
+void FoxgloveConversation::Handle(const SubscribeGraphMessage& message) {
+  has_graph_ = message.is_wanted;
+  graph_.clear();
+  if (!has_graph_) return;
+  graph_ = shared_->directory.content()->graph;
+  outbox_.Send(GraphMessage({}, graph_));
+}
+
+FoxgloveConversation::MachineTime FoxgloveConversation::OnTurn() {
+  const auto now = std::chrono::steady_clock::now();
+  shared_->directory.Look(now);
+  if (!outbox_.Continue()) return now + kSoon;
+  FollowStructure();
+  const bool is_publishing = ContinuePublications();
+  MachineTime next = std::min(now + kBetweenTurns, parameters_.Continue(now));
+  SendTime(now);
+  if (now >= sample_at_) sample_at_ = now + (subscriptions_.Sample() ? kBetweenSamples : kSoon);
+  if (!subscriptions_.is_empty()) next = std::min(next, sample_at_);
+  if (is_publishing || !outbox_.is_empty()) next = std::min<MachineTime>(next, now + kSoon);
+  return std::min(next, time_at_);
+}
+
+void FoxgloveConversation::FollowStructure() {
+  const auto content = shared_->directory.content();
+  if (content != content_) {
+    content_ = content;
+    std::vector<std::uint32_t> gone;
+    for (const std::uint32_t id : advertised_) {
+      if (!content->channels.contains(id)) gone.push_back(id);
+    }
+    for (const std::uint32_t id : gone) advertised_.erase(id);
+    subscriptions_.Retain(*content);
+    if (!gone.empty()) outbox_.Send(UnadvertiseMessageFor(gone));
+    DropPublications(*content);
+    if (has_graph_ && content->graph != graph_) {
+      outbox_.Send(GraphMessage(graph_, content->graph));
+      graph_ = content->graph;
+    }
+  }
+  AdvertiseNew();
+}
+
+// In pieces, since there may be thousands.
+void FoxgloveConversation::AdvertiseNew() {
+  auto channel = content_->channels.begin();
+  while (advertised_.size() < content_->channels.size() && outbox_.is_empty()) {
+    std::vector<const DirectoryChannel*> fresh;
+    for (; channel != content_->channels.end() && fresh.size() < kChannelsInMessage; ++channel) {
+      if (advertised_.insert(channel->first).second) fresh.push_back(&channel->second);
+    }
+    outbox_.Send(AdvertiseMessageFor(fresh));
+  }
+}
+
+void FoxgloveConversation::DropPublications(const DirectoryContent& content) {
+  std::erase_if(publications_, [&](const auto& each) {
+    const auto& [id, publication] = each;
+    const auto input = content.inputs.find(publication.path);
+    if (input != content.inputs.end() && input->second.type == publication.type) return false;
+    Tell(StatusLevel::kWarning,
+         {.message = "channel " + std::to_string(id) + " is closed: its input is gone",
+          .path = publication.path});
+    return true;
+  });
+}
+
+// Whether outputs are still being made.
+bool FoxgloveConversation::ContinuePublications() {
+  bool is_any_making = false;
+  std::erase_if(publications_, [&](const auto& each) {
+    if (each.second.channel->Continue()) is_any_making = true;
+    const auto error = each.second.channel->TakeError();
+    if (error) Complain(*error);
+    return error.has_value() && !each.second.channel->is_made();
+  });
+  return is_any_making;
+}
+
+void FoxgloveConversation::SendTime(MachineTime now) {
+  if (now < time_at_) return;
+  time_at_ = now + kBetweenTimes;
+  const Time time = shared_->application.runtime.clock().Now();
+  if (time == time_) return;
+  if (client_.SendBinary(TimeMessage(time))) time_ = time;
+}
+
+}  // namespace runnel::internal

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+
+#include "plugins/foxglove/internal/client_publication.h"
+#include "plugins/foxglove/internal/foxglove_shared.h"
+#include "plugins/foxglove/internal/outbox.h"
+#include "plugins/foxglove/internal/parameter_talk.h"
+#include "plugins/foxglove/internal/server_messages.h"
+#include "plugins/foxglove/internal/subscriptions.h"
+#include "plugins/web_server/web_conversation.h"
+
+namespace runnel::internal {
+
+/// The protocol with one client.
+class FoxgloveConversation final : public WebConversation {
+ public:
+  FoxgloveConversation(std::shared_ptr<FoxgloveShared> shared, WebClient& client);
+
+  void OnText(std::string_view message) override;
+  void OnBinary(std::string_view message) override;
+  MachineTime OnTurn() override;
+
+ private:
+  void Handle(const SubscribeMessage& message);
+  void Handle(const UnsubscribeMessage& message);
+  void Handle(const AdvertiseMessage& message);
+  void Handle(const UnadvertiseMessage& message);
+  void Handle(const GetParametersMessage& message) { parameters_.Get(message); }
+  void Handle(const SetParametersMessage& message) { parameters_.Set(message); }
+  void Handle(const SubscribeParametersMessage& message) { parameters_.Subscribe(message); }
+  void Handle(const SubscribeGraphMessage& message);
+  void Advertise(const AdvertiseMessage::Channel& channel);
+
+  void Tell(StatusLevel level, const Error& error);
+  void Complain(const Error& error) { Tell(StatusLevel::kError, error); }
+  void FollowStructure();
+  void AdvertiseNew();
+  void DropPublications(const DirectoryContent& content);
+  bool ContinuePublications();
+  void SendTime(MachineTime now);
+
+  struct Publication {
+    std::string path;  // of the input
+    const TypeInfo* type;
+    std::unique_ptr<ClientPublication> channel;
+  };
+
+  const std::shared_ptr<FoxgloveShared> shared_;
+  WebClient& client_;
+  Outbox outbox_;
+  Subscriptions subscriptions_;
+  ParameterTalk parameters_;
+  std::map<std::uint32_t, Publication> publications_;  // by the client's numbers
+  std::shared_ptr<const DirectoryContent> content_;    // that the client has been told of
+  std::set<std::uint32_t> advertised_;
+  bool has_graph_ = false;
+  std::map<std::string, GraphTopic> graph_;  // that the client has been told of
+  MachineTime sample_at_{};
+  MachineTime time_at_{};
+  std::optional<Time> time_;  // that the client has been told
+};
+
+}  // namespace runnel::internal

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "core/element/runtime.h"
+#include "plugins/foxglove/internal/found_structure.h"
+#include "plugins/foxglove_schemas/foxglove_channel.h"
+
+namespace runnel::internal {
+
+/// A channel as it is advertised.
+struct DirectoryChannel {
+  std::uint32_t id;
+  std::string topic;
+  std::string port;  ///< path
+  const TypeInfo* type;
+  std::shared_ptr<const FoxgloveChannel> form;  ///< of its type, without the topic
+};
+
+/// An input that clients may publish to.
+struct DirectoryInput {
+  std::string path;
+  const TypeInfo* type;
+};
+
+struct DirectoryParameter {
+  std::string path;
+  const TypeInfo* type;
+  const Configurable* element;  ///< as long as the structure is the same
+};
+
+/// Who is at the two ends of a topic, by paths.
+struct GraphTopic {
+  std::vector<std::string> publishers;
+  std::vector<std::string> subscribers;
+  friend bool operator==(const GraphTopic&, const GraphTopic&) = default;
+};
+
+/// What there is in an application at one moment, by the names that clients know.
+struct DirectoryContent {
+  std::uint64_t revision = 0;  ///< of the structure
+  std::map<std::uint32_t, DirectoryChannel> channels;
+  /// By path, and by topic where that means one only.
+  std::map<std::string, DirectoryInput, std::less<>> inputs;
+  std::map<std::string, DirectoryParameter, std::less<>> parameters;
+  std::map<std::string, GraphTopic> graph;
+};
+
+/// Keeps what clients can ask for in step with the structure, for all of them together.
+///
+/// Threads:  the server's. Waits for no lock.
+class Directory {
+ public:
+  using MachineTime = std::chrono::steady_clock::time_point;
+
+  explicit Directory(Runtime& runtime) : runtime_(runtime) {}
+
+  /// Looks whether the structure has changed, unless that has just been done or somebody has it
+  /// locked.
+  void Look(MachineTime now);
+  /// Never nullptr; another object whenever something has changed.
+  [[nodiscard]] std::shared_ptr<const DirectoryContent> content() const { return content_; }
+
+  /// The texts of parameters by name; those that do not exist are left out. Nothing if that cannot be said
+  /// at the moment: the structure is locked, or has just changed.
+  using ParameterTexts = std::map<std::string, std::string>;
+  [[nodiscard]] std::optional<ParameterTexts> ReadParameters(
+      const std::vector<std::string>& names) const;
+
+ private:
+  using Form = std::shared_ptr<const FoxgloveChannel>;
+
+  void AddChannels(const FoundStructure& found, DirectoryContent& content);
+  void AddChannel(std::string topic, const FoundPort& port, const Form& form,
+                  DirectoryContent& content);
+  [[nodiscard]] const std::vector<Form>& FormsOf(const TypeInfo& type);
+  [[nodiscard]] const Form& TransformOf(const TypeInfo& type);
+
+  Runtime& runtime_;
+  MachineTime look_at_{};
+  bool has_looked_ = false;
+  std::shared_ptr<const DirectoryContent> content_ = std::make_shared<DirectoryContent>();
+  std::unordered_map<const TypeInfo*, std::vector<Form>> forms_;
+  std::unordered_map<const TypeInfo*, Form> transforms_;
+  // Numbers that have been given: a topic that comes back in the same form has its old one.
+  std::map<std::pair<std::string, const FoxgloveChannel*>, std::uint32_t> ids_;
+};
+
+}  // namespace runnel::internal

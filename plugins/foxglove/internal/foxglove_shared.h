@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "plugins/control/change_worker.h"
+#include "plugins/foxglove/foxglove.h"
+#include "plugins/foxglove/internal/directory.h"
+
+namespace runnel::internal {
+
+/// What the conversations with all clients share.
+///
+/// Threads:  the server's.
+struct FoxgloveShared {
+  explicit FoxgloveShared(FoxgloveApplication given);
+  ~FoxgloveShared();
+  FoxgloveShared(const FoxgloveShared&) = delete;
+  FoxgloveShared& operator=(const FoxgloveShared&) = delete;
+
+  const FoxgloveApplication application;
+  const std::string session;  ///< another one with each start
+  Directory directory;
+  std::set<std::string> places;  ///< paths of what clients have brought; the worker's
+  std::unique_ptr<ChangeWorker> worker;
+};
+
+/// Deletes what a client has brought, if it is still there. Waits.
+void DeletePlace(Runtime& runtime, const std::string& path);
+
+}  // namespace runnel::internal

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "plugins/control/change_worker.h"
+#include "plugins/foxglove/internal/client_message.h"
+#include "plugins/foxglove/internal/directory.h"
+
+namespace runnel::internal {
+
+struct FoxgloveShared;
+class Outbox;
+
+/// What one client asks and is told about parameters.
+class ParameterTalk {
+ public:
+  using MachineTime = std::chrono::steady_clock::time_point;
+
+  ParameterTalk(FoxgloveShared& shared, Outbox& outbox) : shared_(shared), outbox_(outbox) {}
+
+  void Get(const GetParametersMessage& message);
+  void Set(const SetParametersMessage& message);
+  void Subscribe(const SubscribeParametersMessage& message);
+
+  /// Answers what can be answered now. When it wants to be called again.
+  MachineTime Continue(MachineTime now);
+
+ private:
+  struct Setting;  // a request to set, from its coming to its answer
+
+  [[nodiscard]] std::vector<std::string> AllNames() const;
+  void Complain(const Error& error);
+  void SendValues(const Directory::ParameterTexts& texts, const std::optional<std::string>& id);
+  bool AnswerGets();
+  bool ContinueSetting();
+  bool BeginSetting(Setting& setting);
+  void TellChanges();
+
+  FoxgloveShared& shared_;
+  Outbox& outbox_;
+  std::deque<GetParametersMessage> gets_;
+  std::deque<std::shared_ptr<Setting>> settings_;
+  std::set<std::string> subscribed_;
+  Directory::ParameterTexts told_;  // of those that are subscribed to
+  MachineTime look_at_{};
+};
+
+}  // namespace runnel::internal

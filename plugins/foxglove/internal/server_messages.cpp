@@ -1,0 +1,138 @@
+#include "plugins/foxglove/internal/server_messages.h"
+
+#include <algorithm>
+
+#include "plugins/foxglove/internal/foxglove_shared.h"
+#include "plugins/json_values/json_writer.h"
+
+namespace runnel::internal {
+
+namespace {
+
+template <typename N>
+void AppendLittleEndian(N number, std::string& bytes) {
+  for (std::size_t i = 0; i < sizeof(N); ++i) bytes += static_cast<char>(number >> (8 * i) & 0xff);
+}
+
+std::uint64_t Nanoseconds(Time time) {
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(0, time.time_since_epoch().count()));
+}
+
+void AddTopics(JsonObject& message, const char* field, const char* ids,
+               const std::map<std::string, const std::vector<std::string>*>& topics) {
+  JsonArray list(message.Key(field));
+  for (const auto& [name, paths] : topics) {
+    JsonObject topic(list.Next());
+    topic.Add("name", name);
+    JsonArray path_list(topic.Key(ids));
+    for (const std::string& path : *paths) path_list.Add(path);
+  }
+}
+
+}  // namespace
+
+std::string ServerInfoMessage(const FoxgloveShared& shared) {
+  const bool is_read_only = shared.application.is_read_only;
+  std::string json;
+  {
+    JsonObject message(json);
+    message.Add("op", "serverInfo");
+    message.Add("name", shared.application.name);
+    {
+      JsonArray capabilities(message.Key("capabilities"));
+      for (const char* each : {"time", "parameters", "parametersSubscribe", "connectionGraph"}) {
+        capabilities.Add(each);
+      }
+      if (!is_read_only) capabilities.Add("clientPublish");
+    }
+    if (!is_read_only) message.AddJson("supportedEncodings", R"(["json"])");
+    {
+      JsonObject metadata(message.Key("metadata"));
+      metadata.Add("runnel", shared.application.version);
+    }
+    message.Add("sessionId", shared.session);
+  }
+  return json;
+}
+
+std::string StatusMessage(StatusLevel level, std::string_view text) {
+  std::string json;
+  {
+    JsonObject message(json);
+    message.Add("op", "status");
+    message.Add("level", static_cast<int>(level));
+    message.Add("message", text);
+  }
+  return json;
+}
+
+std::string AdvertiseMessageFor(std::span<const DirectoryChannel* const> channels) {
+  std::string json;
+  {
+    JsonObject message(json);
+    message.Add("op", "advertise");
+    JsonArray list(message.Key("channels"));
+    for (const DirectoryChannel* each : channels) {
+      JsonObject channel(list.Next());
+      channel.Add("id", each->id);
+      channel.Add("topic", each->topic);
+      channel.Add("encoding", "json");
+      channel.Add("schemaName", each->form->schema_name);
+      channel.Add("schema", each->form->schema);
+      channel.Add("schemaEncoding", "jsonschema");
+    }
+  }
+  return json;
+}
+
+std::string UnadvertiseMessageFor(std::span<const std::uint32_t> ids) {
+  std::string json;
+  {
+    JsonObject message(json);
+    message.Add("op", "unadvertise");
+    JsonArray list(message.Key("channelIds"));
+    for (const std::uint32_t id : ids) AppendJsonNumber(std::uint64_t{id}, list.Next());
+  }
+  return json;
+}
+
+std::string GraphMessage(const std::map<std::string, GraphTopic>& before,
+                         const std::map<std::string, GraphTopic>& now) {
+  std::map<std::string, const std::vector<std::string>*> published, subscribed;
+  for (const auto& [name, topic] : now) {
+    const auto old = before.find(name);
+    if (old != before.end() && old->second == topic) continue;
+    published[name] = &topic.publishers;
+    subscribed[name] = &topic.subscribers;
+  }
+  std::string json;
+  {
+    JsonObject message(json);
+    message.Add("op", "connectionGraphUpdate");
+    AddTopics(message, "publishedTopics", "publisherIds", published);
+    AddTopics(message, "subscribedTopics", "subscriberIds", subscribed);
+    message.AddJson("advertisedServices", "[]");
+    {
+      JsonArray removed(message.Key("removedTopics"));
+      for (const auto& [name, topic] : before) {
+        if (!now.contains(name)) removed.Add(name);
+      }
+    }
+    message.AddJson("removedServices", "[]");
+  }
+  return json;
+}
+
+void AppendMessageHead(std::uint32_t subscription, Time stamp, std::string& bytes) {
+  bytes += '\x01';
+  AppendLittleEndian(subscription, bytes);
+  AppendLittleEndian(Nanoseconds(stamp), bytes);
+}
+
+std::string TimeMessage(Time now) {
+  std::string bytes = "\x02";
+  AppendLittleEndian(Nanoseconds(now), bytes);
+  return bytes;
+}
+
+}  // namespace runnel::internal

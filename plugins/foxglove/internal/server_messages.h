@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/base/clock.h"
+#include "plugins/foxglove/internal/directory.h"
+
+/// What the server says, as the protocol has it.
+namespace runnel::internal {
+
+struct FoxgloveShared;
+
+enum class StatusLevel { kInformation = 0, kWarning = 1, kError = 2 };
+
+[[nodiscard]] std::string ServerInfoMessage(const FoxgloveShared& shared);
+[[nodiscard]] std::string StatusMessage(StatusLevel level, std::string_view text);
+[[nodiscard]] std::string AdvertiseMessageFor(std::span<const DirectoryChannel* const> channels);
+[[nodiscard]] std::string UnadvertiseMessageFor(std::span<const std::uint32_t> ids);
+/// What has changed between two moments.
+[[nodiscard]] std::string GraphMessage(const std::map<std::string, GraphTopic>& before,
+                                       const std::map<std::string, GraphTopic>& now);
+
+/// The head of a binary message with a value; the value follows.
+void AppendMessageHead(std::uint32_t subscription, Time stamp, std::string& bytes);
+[[nodiscard]] std::string TimeMessage(Time now);
+
+}  // namespace runnel::internal

@@ -1,0 +1,101 @@
+#include "plugins/foxglove/internal/subscriptions.h"
+
+#include <algorithm>
+#include <mutex>
+
+#include "core/lockfree/thread_epoch.h"
+#include "plugins/foxglove/internal/server_messages.h"
+
+namespace runnel::internal {
+
+namespace {
+
+// So much may wait for a client before values are skipped: half a second of a slow network.
+constexpr std::size_t kMuchWaiting = 1 << 20;
+
+}  // namespace
+
+std::vector<Error> Subscriptions::Add(const SubscribeMessage& message,
+                                      const DirectoryContent& content) {
+  std::vector<Error> errors;
+  for (const auto& [id, channel_id] : message.subscriptions) {
+    const auto channel = content.channels.find(channel_id);
+    if (channel == content.channels.end()) {
+      errors.push_back({.message = "subscribe: there is no channel " + std::to_string(channel_id) +
+                                   " (any more)"});
+      continue;
+    }
+    const bool is_subscribed = std::ranges::any_of(
+        by_id_, [&](const auto& each) { return each.second.channel.id == channel->first; });
+    if (by_id_.contains(id) || is_subscribed) {
+      errors.push_back(
+          {.message = is_subscribed
+                          ? "subscribe: " + channel->second.topic + " is subscribed to already"
+                          : "subscribe: the id " + std::to_string(id) + " is in use"});
+      continue;
+    }
+    by_id_[id] = {channel->second, std::make_unique<WatchedPort>(channel->second.port)};
+    is_any_lost_ = true;
+  }
+  return errors;
+}
+
+std::vector<Error> Subscriptions::Remove(const UnsubscribeMessage& message) {
+  std::vector<Error> errors;
+  for (const std::uint32_t id : message.ids) {
+    if (by_id_.erase(id) > 0) continue;
+    errors.push_back({.message = "unsubscribe: there is no subscription " + std::to_string(id)});
+  }
+  return errors;
+}
+
+void Subscriptions::Retain(const DirectoryContent& content) {
+  std::erase_if(
+      by_id_, [&](const auto& each) { return !content.channels.contains(each.second.channel.id); });
+  for (auto& [id, subscription] : by_id_) {
+    const DirectoryChannel& now = content.channels.at(subscription.channel.id);
+    if (now.port == subscription.channel.port) continue;
+    // The same topic of another port: the robot's pose, for example.
+    subscription = {now, std::make_unique<WatchedPort>(now.port)};
+    is_any_lost_ = true;
+  }
+}
+
+bool Subscriptions::Sample() {
+  if (by_id_.empty() || client_.waiting_bytes() > kMuchWaiting) return true;
+  const EpochGuard guard;  // what is found stays in memory so long
+  {
+    const std::unique_lock lock(runtime_.structure_mutex(), std::try_to_lock);
+    if (!lock) return false;
+    // What has been found in this structure is still there.
+    if (is_any_lost_ || found_at_ != runtime_.revision()) {
+      is_any_lost_ = false;
+      for (auto& [id, each] : by_id_) {
+        each.is_found = each.port->Find(runtime_) && &each.port->type() == each.channel.type;
+      }
+      found_at_ = runtime_.revision();
+    }
+  }
+  for (auto& [id, subscription] : by_id_) {
+    if (subscription.is_found) Show(id, subscription);
+  }
+  return true;
+}
+
+void Subscriptions::Show(std::uint32_t id, Subscription& subscription) {
+  std::string bytes;
+  const bool is_new = subscription.port
+                          ->LookIfNew([&](const void* value, Time stamp) {
+                            bytes.clear();
+                            AppendMessageHead(id, stamp, bytes);
+                            subscription.channel.form->Append(value, stamp, bytes);
+                          })
+                          .has_value();
+  if (!is_new || client_.SendBinary(std::move(bytes))) return;
+  // Not taken: to be shown again, since it may be the last one for a long time.
+  subscription.port = std::make_unique<WatchedPort>(subscription.channel.port);
+  subscription.is_found = false;
+  is_any_lost_ = true;
+}
+
+}  // namespace runnel::internal

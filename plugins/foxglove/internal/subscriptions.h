@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "plugins/foxglove/internal/client_message.h"
+#include "plugins/foxglove/internal/directory.h"
+#include "plugins/watching/watched_port.h"
+#include "plugins/web_server/web_conversation.h"
+
+namespace runnel::internal {
+
+/// The channels that one client wants values of, and how it gets them: what is new, at most once each
+/// Sample(), and nothing while much is waiting for a client that is slow.
+class Subscriptions {
+ public:
+  Subscriptions(Runtime& runtime, WebClient& client) : runtime_(runtime), client_(client) {}
+
+  /// Returns what is wrong with it; the rest is done.
+  std::vector<Error> Add(const SubscribeMessage& message, const DirectoryContent& content);
+  std::vector<Error> Remove(const UnsubscribeMessage& message);
+  /// Lets go of those whose channels are gone.
+  void Retain(const DirectoryContent& content);
+
+  /// Sends what is new. False if the structure was locked: to be tried again soon.
+  bool Sample();
+  [[nodiscard]] bool is_empty() const noexcept { return by_id_.empty(); }
+
+ private:
+  struct Subscription {
+    DirectoryChannel channel;
+    std::unique_ptr<WatchedPort> port;
+    bool is_found = false;
+  };
+
+  void Show(std::uint32_t id, Subscription& subscription);
+
+  Runtime& runtime_;
+  WebClient& client_;
+  std::map<std::uint32_t, Subscription> by_id_;
+  std::uint64_t found_at_ = 0;  // the structure's revision when the ports were found
+  bool is_any_lost_ = true;     // not all ports have been found
+};
+
+}  // namespace runnel::internal

@@ -1,0 +1,123 @@
+// Changing an application: create, connect, undo, move, delete, save, and run what was saved.
+
+import assert from 'node:assert/strict';
+import { readFile } from 'node:fs/promises';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { OpenPage } from '../support/browser.mjs';
+import { DemoFile, Replaced, RunApplication } from '../support/runnel.mjs';
+
+const kSlow = (text) => Replaced(Replaced(text, 'speed="10"', 'speed="0.2"'),
+  '<thread name="control" period="50ms"/>', '<thread name="control" period="50ms"/> <thread name="slow" period="100ms"/>');
+
+async function Demo(t, options) {
+  const { file, folder } = await DemoFile(t, kSlow);
+  const application = await RunApplication(t, file);
+  const inspector = await OpenPage(t, application.url, { width: 1920, height: 1080, ...options });
+  return { file, folder, application, inspector, page: inspector.page };
+}
+
+async function Create(inspector, type, name) {
+  await inspector.page.locator('#add').click();
+  await inspector.page.locator('.choice-search').fill(type);
+  await inspector.page.locator(`[data-choice="${type}"]`).hover();
+  await inspector.page.locator('#new-name').fill(name);
+  await inspector.page.locator('#create').click();
+}
+
+test('a module is made, connected by dragging, undone, made again, saved, and is there after a restart', async (t) => {
+  const { folder, application, inspector, page } = await Demo(t, { lost: true });
+  await Create(inspector, 'simulation/localisation', 'second');
+  await inspector.node('/bug_demo/second').waitFor();
+  const [from, to] = ['/bug_demo/world/sensor_output/pose', '/bug_demo/second/input/truth'];
+  const key = `${from} → ${to}`;
+  const edge = page.locator(`[data-edge="${key}"]`);
+
+  await t.test('only ports that suit light up while one drags, and the drop connects', async () => {
+    const { drop } = await inspector.dragPort(from, to);
+    await page.locator(`[data-port="${to}"].target`).waitFor();
+    const lit = await page.locator('.port.candidate, .port.target').evaluateAll((ports) => ports.map((port) => port.dataset.port));
+    assert.ok(lit.includes('/bug_demo/robot/pose'), 'an input of the same type, although it has a source');
+    assert.ok(!lit.includes('/bug_demo/laser/input/scene'), 'of another type');
+    assert.ok(!lit.includes('/bug_demo/localisation/output/pose'), 'an output');
+    await drop();
+    await edge.waitFor({ state: 'attached' });
+    assert.equal(await page.locator('.port.candidate').count(), 0);
+  });
+
+  await t.test('undo takes it back, by the keyboard, and redo makes it again', async () => {
+    await page.locator('#graph').focus();
+    await page.keyboard.press('Control+z');
+    await edge.waitFor({ state: 'detached' });
+    await page.locator('#redo:not([disabled])').waitFor();
+    await page.keyboard.press('Control+Shift+Z');
+    await edge.waitFor({ state: 'attached' });
+  });
+
+  await t.test('another thread runs it', async () => {
+    await inspector.select('/bug_demo/second');
+    await page.locator('#move').click();
+    await page.locator('[data-choice="slow"]').click();
+    await inspector.details.locator('.thread-name', { hasText: 'slow' }).waitFor();
+  });
+
+  await t.test('saved under another name, and run from there, it is the same', async () => {
+    await page.locator('#save-as').click();
+    await page.locator('#save-file').fill(join(folder, 'changed.xml'));
+    await page.locator('#save-now').click();
+    await page.locator('.toast.done').waitFor();
+    const text = await readFile(join(folder, 'changed.xml'), 'utf8');
+    assert.match(text, /name="second" type="simulation\/localisation"/);
+    await application.stop();
+    const again = await RunApplication(t, join(folder, 'changed.xml'));
+    const other = await OpenPage(t, again.url, { width: 1920, height: 1080 });
+    await other.page.locator(`[data-edge="${key}"]`).waitFor({ state: 'attached' });
+    await other.select('/bug_demo/second');
+    await other.details.locator('.thread-name', { hasText: 'slow' }).waitFor();
+  });
+}, { timeout: 120000 });
+
+test('connecting and disconnecting by the keyboard', async (t) => {
+  const { inspector, page } = await Demo(t);
+  await Create(inspector, 'motion/differential_drive', 'spare');
+  await inspector.node('/bug_demo/spare').waitFor();
+  const edge = page.locator('[data-edge="/bug_demo/robot/planner/output/twist → /bug_demo/spare/input/twist"]');
+  await inspector.select('/bug_demo/spare/input/twist');
+  await page.locator('#graph').focus();
+  await page.keyboard.press('c');
+  await page.locator('.choice-search').fill('planner twist');
+  await page.keyboard.press('Enter');
+  await edge.waitFor({ state: 'attached' });
+  await page.locator('#details .connections .remove').click();
+  await edge.waitFor({ state: 'detached' });
+});
+
+test('a module is deleted by a key, and an undo brings it back with its connections', async (t) => {
+  const { inspector, page } = await Demo(t);
+  const before = await inspector.edges();
+  await inspector.select('/bug_demo/referee');
+  await page.locator('#graph').focus();
+  await page.keyboard.press('Delete');
+  await inspector.node('/bug_demo/referee').waitFor({ state: 'detached' });
+  await page.locator('#undo').click();
+  await inspector.node('/bug_demo/referee').waitFor();
+  await inspector.until('all connections', (count) => document.querySelectorAll('path[data-edge]').length === count, before.length);
+  assert.deepEqual(await inspector.edges(), before);
+});
+
+test('what the application refuses comes up with its reason, and changes nothing', async (t) => {
+  const { inspector, page } = await Demo(t);
+  await page.locator('#add').click();
+  await page.locator('.choice-search').fill('simulation/laser');
+  await page.locator('#new-name').fill('laser');
+  await page.locator('#create').click();
+  await page.locator('dialog .problem', { hasText: "there is a 'laser'" }).waitFor();
+  await page.keyboard.press('Escape');
+  await page.locator('#save-as').click();
+  await page.locator('#save-file').fill('/nowhere/at/all.xml');
+  await page.locator('#save-now').click();
+  await page.locator('dialog .problem', { hasText: '/nowhere' }).waitFor();
+  await page.keyboard.press('Escape');
+  await page.locator('dialog').waitFor({ state: 'detached' });
+  assert.equal((await inspector.edges()).length, 24);
+});

@@ -1,0 +1,58 @@
+// An application that ends and begins anew, and one that must only be watched.
+
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { OpenPage } from '../support/browser.mjs';
+import { DemoFile, Replaced, RunApplication } from '../support/runnel.mjs';
+
+const kSlow = (text) => Replaced(text, 'speed="10"', 'speed="1"');
+
+test('a page lives on when its application begins anew: selection, folded groups and plots stay', async (t) => {
+  const { file } = await DemoFile(t, kSlow);
+  const first = await RunApplication(t, file);
+  const inspector = await OpenPage(t, first.url, { lost: true });
+  const { page } = inspector;
+  await page.locator('[data-fold="/bug_demo/robot"]').click();
+  await inspector.node('/bug_demo/robot/planner').waitFor({ state: 'detached' });
+  await inspector.select('/bug_demo/world/sensor_output/pose');
+  await page.locator('[data-field="x"] .plot-this').click();
+  await page.locator('.legend output', { hasText: /\d/ }).waitFor();
+
+  await first.stop();
+  await page.locator('#connection-state', { hasText: 'disconnected' }).waitFor();
+  await page.locator('#lost').waitFor();
+  assert.equal(await page.locator('#pause').isDisabled(), true);
+  assert.equal(await inspector.node('/bug_demo/world').count(), 1, 'what was last seen stays');
+
+  await RunApplication(t, file, { port: first.port });
+  await page.locator('#connection-state', { hasText: /^connected/ }).waitFor();
+  await page.locator('#lost').waitFor({ state: 'detached' });
+  assert.equal(await inspector.node('/bug_demo/robot/planner').count(), 0, 'still folded');
+  assert.equal(await page.locator('#details h2').textContent(), 'pose');
+  const value = page.locator('#value [data-field="x"] td').first();
+  const before = await value.textContent();
+  await inspector.until('values from the new one', (text) =>
+    document.querySelector('#value [data-field="x"] td').textContent !== text, before);
+  assert.equal(await page.locator('.plot').count(), 1);
+});
+
+test('an application that must only be watched shows everything and offers no change', async (t) => {
+  const { file } = await DemoFile(t, kSlow);
+  const application = await RunApplication(t, file, { options: ['--inspect-read-only'] });
+  const inspector = await OpenPage(t, application.url);
+  const { page } = inspector;
+  await page.locator('.state.read-only').waitFor();
+  for (const id of ['pause', 'step', 'speed', 'add', 'undo', 'save']) {
+    assert.equal(await page.locator(`#${id}`).isDisabled(), true, id);
+  }
+  await inspector.select('/bug_demo/robot/planner');
+  for (const id of ['swap', 'move', 'delete']) assert.equal(await page.locator(`#${id}`).isDisabled(), true, id);
+  assert.equal(await inspector.parameter('cruise_speed').isDisabled(), true);
+  await inspector.until('values all the same', () =>
+    /forward/.test(document.querySelector('[data-port-row$="/twist"] .value')?.textContent));
+  await page.locator('#graph').focus();
+  await page.keyboard.press('Delete');
+  await page.keyboard.press('s');
+  assert.equal(await page.locator('dialog').count(), 0);
+  assert.equal(await inspector.node('/bug_demo/robot/planner').count(), 1);
+});
