@@ -100,6 +100,7 @@ Candidates Propose(ControlClient& client, const std::string& command, std::size_
   }
   if ((command == "create" || command == "swap") && place == 1) return Types(client);
   if (command == "record") return Paths(client, Sends);
+  if (command == "speed" && is_first) return {"0", "0.5", "1", "2", "10"};
   if (command == "move") return is_first ? Paths(client, IsPart) : Threads(client);
   return {};
 }

@@ -1,5 +1,6 @@
 #include "apps/runnel/control_command.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -126,10 +127,24 @@ ExitCode ListApplications() {
   return ExitCode::kDone;
 }
 
-Result<int> Ask(const ControlArguments& arguments, const Request& request) {
+// "record bug_demo …" as well as "record --app bug_demo …": patterns of ports are no names of applications.
+std::string TakeApplication(const std::vector<RunningApplication>& running, Request& request) {
+  if (request.command != "record" || request.words.empty()) return {};
+  const std::string first = request.words.front();
+  const bool is_one = std::ranges::any_of(running, [&](const RunningApplication& each) {
+    return each.hello.application == first || std::to_string(each.hello.process) == first;
+  });
+  if (!is_one) return {};
+  request.words.erase(request.words.begin());
+  return first;
+}
+
+Result<int> Ask(const ControlArguments& arguments, Request request) {
   const auto applications = FindThem();
   if (!applications) return applications.error();
-  const auto chosen = ChooseApplication(*applications, arguments.application);
+  std::string wanted = arguments.application;
+  if (wanted.empty()) wanted = TakeApplication(*applications, request);
+  const auto chosen = ChooseApplication(*applications, wanted);
   if (!chosen) return chosen.error();
   auto client = ControlClient::Connect(chosen->socket);
   if (!client) return client.error();

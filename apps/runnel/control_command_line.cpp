@@ -15,9 +15,9 @@ constexpr std::size_t kMostWords = 2;  // of those that are parsed one by one
 
 const std::vector<std::string>& ControlCommandLine::Names() {
   static const std::vector<std::string> names{
-      "ps",     "ls",    "echo",   "hz",   "set",   "connect", "disconnect", "create",
-      "delete", "swap",  "move",   "undo", "redo",  "save",    "reload",     "change",
-      "log",    "pause", "resume", "step", "speed", "complete"};
+      "ps",     "ls",     "echo",  "hz",     "set",  "connect", "disconnect", "create",
+      "delete", "swap",   "move",  "undo",   "redo", "save",    "reload",     "change",
+      "log",    "record", "pause", "resume", "step", "speed",   "complete"};
   return names;
 }
 
@@ -118,10 +118,10 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   Entry& record =
       add("record", "records what ports of a running application publish, until Ctrl-C");
   record.command
-      ->add_option(
-          "patterns", record.arguments.words,
-          "which ports: /robot/pose, */pose, /robot/**; '!' in front: not those; without, all")
-      ->type_name("PATTERN");
+      ->add_option("patterns", record.arguments.words,
+                   "the application, if several are running, and which ports: /robot/pose, */pose, "
+                   "/robot/**; '!' in front: not those; without, all")
+      ->type_name("[NAME|PROCESS] PATTERN");
   record.command->add_option("-o,--output", record.arguments.file, "the file (MCAP)")
       ->required()
       ->type_name("FILE.mcap");

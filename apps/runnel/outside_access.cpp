@@ -104,9 +104,9 @@ FoxgloveApplication FoxgloveOf(const ControlledApplication& controlled, const st
           .name = name,
           .version = RUNNEL_VERSION,
           .is_read_only = is_read_only,
-          .change = [&editor = controlled.editor,
+          .change = [&history = *controlled.history,
                      &log = controlled.log](const ChangeSet& changes) -> Result<void> {
-            const ChangeOutcome outcome = editor.Apply(changes);
+            const ChangeOutcome outcome = history.Apply(changes);
             std::string text = outcome ? "" : "refused: ";
             for (const Change& change : changes) text += ChangeText(change) + "; ";
             log.Add(ControlLog::Kind::kChange, text.substr(0, text.size() - 2));
