@@ -45,6 +45,7 @@ test('bounds are told as far as there are any', () => {
   assert.equal(FormatBounds({ minimum: 0, maximum: 2, unit: 'm' }), '0 … 2 m');
   assert.equal(FormatBounds({ minimum: 0, maximum: null, unit: '' }), '≥ 0');
   assert.equal(FormatBounds({ minimum: null, maximum: null }), '');
+  assert.equal(FormatBounds({ minimum: -Infinity, maximum: 2 * Math.PI, unit: 'rad' }), '≤ 6.2832 rad');
 });
 
 test('a value has a row for each field, with its unit', () => {
