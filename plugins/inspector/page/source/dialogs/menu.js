@@ -66,6 +66,7 @@ function GroupItems({ path }, open) {
       { text: 'Fit', action: Fit },
     ] : [
       { text: IsOpen(path) ? 'Fold' : 'Open', action: () => ToggleGroup(path) },
+      { text: 'Add a port …', changes: true, action: open('port') },
       { text: 'Move to thread …', changes: true, action: open('move') },
       { text: 'Delete', changes: true, danger: true, action: () => Delete(path) },
     ]),

@@ -31,7 +31,8 @@ export function ModuleDetails({ element }) {
     ${element.stopped && html`<p class="trouble" role="alert"><strong>Stopped:</strong> ${element.stopped}</p>`}
     <div class="actions">
       ${!isGroup && html`<${ActionButton} id="swap" icon="swap" text="Swap" disabled=${locked} onClick=${open('swap')} title="Put a module of another type in its place (S)" />`}
-      ${isGroup && html`<${ActionButton} id="fold" icon="layers" text=${IsOpen(path) ? 'Fold' : 'Open'} onClick=${() => ToggleGroup(path)} />`}
+      ${isGroup && html`<${ActionButton} id="fold" icon="layers" text=${IsOpen(path) ? 'Fold' : 'Open'} onClick=${() => ToggleGroup(path)} />
+        <${ActionButton} id="add-port" icon="add" text="Port" disabled=${locked} onClick=${open('port')} title="Give it a port for others" />`}
       <${ActionButton} id="move" icon="follow" text="Thread" disabled=${locked} onClick=${open('move')} title="Have another thread run it (M)" />
       ${plugin && html`<${ActionButton} id="reload" icon="reset" text="Reload" disabled=${locked} onClick=${() => Reload(plugin)}
         title=${`Load the plugin ${plugin} anew, with all its modules`} />`}

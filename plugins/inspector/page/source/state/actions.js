@@ -47,6 +47,10 @@ export function CreateModule(type, group, name) {
   return Apply([Change.create(`${group}/${name}`, type)], `create ${name}`, { quiet: true });
 }
 
+export function CreatePort(group, name, direction, type) {
+  return Apply([Change.createPort(`${group}/${name}`, direction, type)], `create the ${direction} ${name}`, { quiet: true });
+}
+
 export function CreateGroup(group) {
   const path = `${group}/${FreeName(structure, group, 'group')}`;
   return Apply([Change.createGroup(path)], `create ${NameOf(path)}`);
