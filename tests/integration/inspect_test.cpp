@@ -34,10 +34,8 @@ class Inspect : public testing::Test {
     std::ifstream demo(RUNNEL_XML "/apps/bug_demo.xml");
     std::string text{std::istreambuf_iterator<char>(demo), {}};
     text.insert(text.find("  <clock"), "  " + inspector + "\n");
-    const std::size_t world = text.find("../worlds/");
-    text.replace(world, 10, RUNNEL_XML "/worlds/");
     std::ofstream(file_) << text;
-    return file_.string() + " picture= ";
+    return file_.string() + " picture= world=" RUNNEL_XML "/worlds/rooms.xml";
   }
   void TearDown() override { std::filesystem::remove(file_); }
 
