@@ -106,6 +106,20 @@ test('a module is deleted by a key, and an undo brings it back with its connecti
   assert.deepEqual(await inspector.edges(), before);
 });
 
+test('a key saves into the file that was loaded, which keeps its comments', async (t) => {
+  const { file, inspector, page } = await Demo(t);
+  await inspector.select('/bug_demo/robot/planner');
+  await inspector.parameter('cruise_speed').fill('0.33');
+  await inspector.parameter('cruise_speed').press('Enter');
+  await page.locator('#undo:not([disabled])').waitFor();
+  await page.locator('#graph').focus();
+  await page.keyboard.press('Control+s');
+  await page.locator('.toast.done, .toast.error').first().waitFor();
+  const text = await readFile(file, 'utf8');
+  assert.match(text, /cruise_speed" value="0.33"/);
+  assert.match(text, /Another planner is one word away/);
+});
+
 test('a plugin is loaded anew while its modules run', async (t) => {
   const { inspector, page } = await Demo(t);
   await inspector.select('/bug_demo/robot/planner');

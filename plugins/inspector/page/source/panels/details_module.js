@@ -11,6 +11,7 @@ import { ToggleGroup } from '../graph/graph_state.js';
 import { ParameterRow } from './parameter_row.js';
 import { ActionButton, Facts, Link, Section, Title } from './parts.js';
 import { PortRow } from './port_row.js';
+import { Troubles } from './troubles.js';
 
 export function ModuleDetails({ element }) {
   revision.value;
@@ -42,6 +43,7 @@ export function ModuleDetails({ element }) {
       ['plugin', plugin],
       ['update takes', DurationOf(path).value === null ? '' : FormatMilliseconds(DurationOf(path).value / 1000)],
     ]} />
+    <${Troubles} path=${path} />
     ${parameters.length > 0 && html`<${Section} title="Parameters" count=${parameters.length} id="parameters">
       ${parameters.map((parameter) => html`<${ParameterRow} key=${parameter.path} parameter=${parameter} />`)}<//>`}
     ${['input', 'output'].map((direction) => {

@@ -39,7 +39,7 @@ export function Disconnect(from, to) {
 
 export async function Delete(path) {
   const reply = await Apply([Change.delete(path)], `delete ${NameOf(path)}`);
-  if (reply.ok && selected.value === path) selected.value = ParentOf(path);
+  if (reply.ok && selected.value === path) selected.value = structure.get(path)?.owner ?? ParentOf(path);
   return reply;
 }
 
