@@ -99,6 +99,7 @@ Candidates Propose(ControlClient& client, const std::string& command, std::size_
     return groups;
   }
   if ((command == "create" || command == "swap") && place == 1) return Types(client);
+  if (command == "speed" && is_first) return {"0", "0.5", "1", "2", "10"};
   if (command == "move") return is_first ? Paths(client, IsPart) : Threads(client);
   return {};
 }

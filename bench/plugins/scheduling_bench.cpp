@@ -17,6 +17,7 @@
 #include "core/port/cycle.h"
 #include "core/port/input.h"
 #include "core/port/output.h"
+#include "plugins/scheduling/cycle_tracer.h"
 #include "plugins/scheduling/scheduler.h"
 
 namespace runnel {
@@ -67,7 +68,8 @@ void Connect(std::array<Stage*, kModules>& ring) {
 
 template <typename T>
 struct Application {
-  explicit Application(SchedulerOptions::ClockKind clock) : scheduler(runtime, {.clock = clock}) {
+  explicit Application(SchedulerOptions::ClockKind clock, CycleTracer* tracer = nullptr)
+      : scheduler(runtime, {.clock = clock, .tracer = tracer}) {
     for (int i = 0; i < kModules; ++i) {
       modules[i] = &runtime.Create<T>(runtime.root(), "module" + std::to_string(i));
     }
@@ -118,6 +120,37 @@ void SimulatedRun(benchmark::State& state) {
   }
 }
 
+// Notes what cycles do, and lets it go at once.
+class Discarding final : public CycleTracer {
+ public:
+  TraceTrack& TrackOf(std::uint64_t, const std::string&) override { return track_; }
+  std::unique_ptr<TracedElement> Watch(FrameworkElement& element) override {
+    auto traced = std::make_unique<TracedElement>();
+    if (auto* const stage = dynamic_cast<Stage*>(&element)) traced->ports = {{&stage->out, 1, 0}};
+    return traced;
+  }
+  void OnHold(const std::string&, Time, Time) noexcept override {}
+  void Empty() {
+    while (track_.events().Front() != nullptr) track_.events().PopFront();
+  }
+
+ private:
+  TraceTrack track_{65'536};
+};
+
+template <typename T>
+void TracedRun(benchmark::State& state) {
+  Discarding tracer;
+  Application<T> application(SchedulerOptions::ClockKind::kSimulated, &tracer);
+  constexpr int kCycles = 1000;
+  Time end{};
+  while (state.KeepRunningBatch(kCycles)) {
+    end += kCycles * 1ms;
+    application.scheduler.RunUntil(end);
+    tracer.Empty();
+  }
+}
+
 double ProcessorTime() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
@@ -145,10 +178,12 @@ BENCHMARK(ByHand<Idle>)->Name("idle/by_hand");
 BENCHMARK(FreeRunning<Idle>)->Name("idle/free_running")->UseManualTime()->Iterations(10);
 BENCHMARK(SimulatedSteps<Idle>)->Name("idle/simulated_steps");
 BENCHMARK(SimulatedRun<Idle>)->Name("idle/simulated_run");
+BENCHMARK(TracedRun<Idle>)->Name("idle/simulated_run_traced");
 BENCHMARK(ByHand<Stage>)->Name("ring/by_hand");
 BENCHMARK(FreeRunning<Stage>)->Name("ring/free_running")->UseManualTime()->Iterations(10);
 BENCHMARK(SimulatedSteps<Stage>)->Name("ring/simulated_steps");
 BENCHMARK(SimulatedRun<Stage>)->Name("ring/simulated_run");
+BENCHMARK(TracedRun<Stage>)->Name("ring/simulated_run_traced");
 
 }  // namespace
 }  // namespace runnel

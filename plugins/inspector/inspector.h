@@ -10,10 +10,10 @@
 namespace runnel {
 
 struct InspectorOptions {
-  std::string application;    ///< its name
-  std::string file = {};      ///< that it came from
-  std::string version = {};   ///< of the program
-  bool is_read_only = false;  ///< viewers look, and change nothing
+  std::string application = {};  ///< its name
+  std::string file = {};         ///< that it came from
+  std::string version = {};      ///< of the program
+  bool is_read_only = false;     ///< viewers look, and change nothing
 };
 
 /// Shows a running application to viewers, and lets them change it: the other end of the protocol in

@@ -12,9 +12,10 @@ foreach(file package.json package-lock.json)
 endforeach()
 if(NOT installed STREQUAL wanted)
   execute_process(
-    COMMAND "${NPM}" ci --ignore-scripts --no-audit --no-fund --fetch-retries=1 --loglevel=error
+    COMMAND "${NPM}" ci --ignore-scripts --no-audit --no-fund --fetch-retries=1 --fetch-retry-mintimeout=2000 --loglevel=error
     WORKING_DIRECTORY "${BUILD}" RESULT_VARIABLE status OUTPUT_VARIABLE said ERROR_VARIABLE said)
   if(NOT status EQUAL 0)
+    string(REGEX MATCH "^[^\n]*\n[^\n]*\n[^\n]*\n[^\n]*" said "${said}")
     message("The browser tests will be skipped: npm could not get their packages:\n${said}")
     return()
   endif()

@@ -190,7 +190,11 @@ Result<std::string> CompatibleTypes(Runtime& runtime, const Catalogue& catalogue
   {
     const std::lock_guard lock(runtime.structure_mutex());
     const auto found = runtime.root().Find(path);
-    if (!found) return found.error();
+    if (!found) {
+      Error error = found.error();
+      error.path = path;
+      return error;
+    }
     if (!IsModule(**found)) return Error{.message = "this is not a module", .path = path};
     connected = ConnectedPorts(**found);
     own_type = FindModuleType(**found);

@@ -57,6 +57,7 @@ bool StructureMirror::Look() {
   }
   if (walked_ != runtime_.revision()) BeginWalk();
   if (!Walk(restarts_ > kMostRestarts ? MachineTime::max() : until)) return false;
+  lock.unlock();  // the rest is our own
   FinishWalk();
   return true;
 }
@@ -163,19 +164,21 @@ StructureMirror::Entry StructureMirror::Describe(const FrameworkElement& element
   return entry;
 }
 
-void StructureMirror::FinishWalk() {
+StructureMirror::Difference StructureMirror::TakeNews() {
   Difference difference;
-  const auto add = [](std::vector<std::string>& to, const std::vector<std::string>& more) {
-    to.insert(to.end(), more.begin(), more.end());
+  // What comes first is told as a whole.
+  const bool is_told = revision_ > 0;
+  const auto add = [is_told](std::vector<std::string>& to, const std::vector<std::string>& more) {
+    if (is_told) to.insert(to.end(), more.begin(), more.end());
   };
   std::unordered_set<std::string_view> made_anew;
   for (auto& [serial, entry] : found_.news) {
     Entry& before = entries_[serial];
-    if (before.json != entry.json) difference.elements.push_back(entry.json);
+    if (before.json != entry.json) add(difference.elements, {entry.json});
     add(difference.disconnected, before.connections);
     add(difference.connected, entry.connections);
     before = std::move(entry);
-    made_anew.insert(before.path);
+    if (is_told) made_anew.insert(before.path);
   }
   std::erase_if(entries_, [&](const auto& each) {
     const Entry& entry = each.second;
@@ -188,8 +191,14 @@ void StructureMirror::FinishWalk() {
   // A connection to another element of the same path is the same to a viewer.
   Cancel(difference.connected, difference.disconnected);
   std::sort(difference.gone.begin(), difference.gone.end());
+  return difference;
+}
 
-  order_ = std::move(found_.order);
+void StructureMirror::FinishWalk() {
+  Difference difference = TakeNews();
+  order_.clear();
+  order_.reserve(found_.order.size());
+  for (const std::uint64_t serial : found_.order) order_.push_back(&entries_.at(serial));
   ports_ = std::move(found_.ports);
   threads_ = std::move(found_.threads);
   parameters_ = std::move(found_.parameters);
@@ -238,17 +247,16 @@ void StructureMirror::Tell(Difference difference) {
 
 std::string StructureMirror::Whole() const {
   std::string message;
-  std::vector<std::string> connections;
   {
     JsonObject json(message);
     json.Add("op", "structure");
     json.Add("revision", revision_);
-    AppendList(order_, json.Key("elements"), [&](std::uint64_t serial, std::string& text) {
-      const Entry& entry = entries_.at(serial);
-      text += entry.json;
-      connections.insert(connections.end(), entry.connections.begin(), entry.connections.end());
-    });
-    AppendList(connections, json.Key("connections"), AppendRaw);
+    AppendList(order_, json.Key("elements"),
+               [](const Entry* entry, std::string& text) { text += entry->json; });
+    JsonArray connections(json.Key("connections"));
+    for (const Entry* entry : order_) {
+      for (const std::string& each : entry->connections) connections.Next() += each;
+    }
   }
   return message;
 }

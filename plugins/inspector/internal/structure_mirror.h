@@ -86,11 +86,13 @@ class StructureMirror {
   void Visit(FrameworkElement& element);
   [[nodiscard]] Entry Describe(const FrameworkElement& element, std::uint64_t fingerprint) const;
   [[nodiscard]] std::uint64_t Fingerprint(const FrameworkElement& element) const;
-  void FinishWalk();
   void SweepParameters(std::chrono::steady_clock::time_point until);
   void NoteFaults();
   void NoteThreads();
 
+  // Not under the lock.
+  void FinishWalk();
+  [[nodiscard]] Difference TakeNews();
   void Tell(Difference difference);
 
   Runtime& runtime_;
@@ -101,7 +103,7 @@ class StructureMirror {
   std::deque<std::string> changes_;  // the newest leads to revision_
 
   std::unordered_map<std::uint64_t, Entry> entries_;  // by serial number
-  std::vector<std::uint64_t> order_;                  // of the tree
+  std::vector<const Entry*> order_;                   // of the tree; of the entries above
   std::optional<std::uint64_t> seen_;                 // the runtime's revision that has been seen
   std::uint64_t walk_ = 0;
   std::optional<std::uint64_t> walked_;  // the runtime's revision in which a walk is under way

@@ -30,9 +30,10 @@ if(NOT installed STREQUAL wanted)
     file(COPY_FILE "${SOURCE}/${file}" "${BUILD}/${file}")
   endforeach()
   execute_process(
-    COMMAND "${NPM}" ci --ignore-scripts --no-audit --no-fund --fetch-retries=1 --loglevel=error
+    COMMAND "${NPM}" ci --ignore-scripts --no-audit --no-fund --fetch-retries=1 --fetch-retry-mintimeout=2000 --loglevel=error
     WORKING_DIRECTORY "${BUILD}" RESULT_VARIABLE status OUTPUT_VARIABLE said ERROR_VARIABLE said)
   if(NOT status EQUAL 0)
+    string(REGEX MATCH "^[^\n]*\n[^\n]*\n[^\n]*\n[^\n]*" said "${said}")
     give_up("npm could not get its packages (is there a network?):\n${said}")
     return()
   endif()

@@ -132,7 +132,8 @@ class WebSocketConnection final : public WebConnection,
   }
 
   void OnRead(beast::error_code error) {
-    if (error) return Remove();
+    // What was read before may be handed over after a failed write has removed this.
+    if (error || is_removed_) return Remove();
     if (is_closing_) {  // only the client's end of it is of interest
       buffer_.clear();
       return Read();

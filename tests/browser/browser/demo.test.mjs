@@ -70,10 +70,11 @@ test('the graph is seen, a value changes, a parameter is set, the planner is swa
       return minutes * 60 + seconds > time;
     }, plotted + 20);
     await page.locator('.toast').waitFor({ state: 'detached' });
-    await inspector.picture('demo_light');
+    await page.setViewportSize({ width: 1500, height: 860 });
+    await inspector.picture('inspector_light');
     await page.emulateMedia({ colorScheme: 'dark' });
     await inspector.until('dark', () => getComputedStyle(document.body).backgroundColor === 'rgb(16, 20, 26)');
-    await inspector.picture('demo_dark');
+    await inspector.picture('inspector_dark');
     await page.locator('#speed').selectOption('0');
     await page.locator('#connection-state', { hasText: 'reached' }).waitFor();
     assert.equal(await application.stop(), 0, application.output());

@@ -65,7 +65,8 @@ test('a module is made, connected by dragging, undone, made again, saved, and is
     await page.locator('#save-as').click();
     await page.locator('#save-file').fill(join(folder, 'changed.xml'));
     await page.locator('#save-now').click();
-    await page.locator('.toast.done').waitFor();
+    await page.locator('.toast.done, dialog .problem').first().waitFor();
+    assert.deepEqual(await page.locator('dialog .problem').allTextContents(), []);
     const text = await readFile(join(folder, 'changed.xml'), 'utf8');
     assert.match(text, /name="second" type="simulation\/localisation"/);
     await application.stop();
@@ -103,6 +104,14 @@ test('a module is deleted by a key, and an undo brings it back with its connecti
   await inspector.node('/bug_demo/referee').waitFor();
   await inspector.until('all connections', (count) => document.querySelectorAll('path[data-edge]').length === count, before.length);
   assert.deepEqual(await inspector.edges(), before);
+});
+
+test('a plugin is loaded anew while its modules run', async (t) => {
+  const { inspector, page } = await Demo(t);
+  await inspector.select('/bug_demo/robot/planner');
+  await page.locator('#reload').click();
+  await page.locator('.toast.done', { hasText: 'planning' }).waitFor();
+  assert.equal((await inspector.edges()).length, 24);
 });
 
 test('what the application refuses comes up with its reason, and changes nothing', async (t) => {

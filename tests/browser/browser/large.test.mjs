@@ -37,6 +37,7 @@ test('all open, from far away and near, the document stays small and answers', a
   await page.locator('[role="menuitem"]', { hasText: 'Open all groups' }).click();
   await page.locator('.boxes-far').first().waitFor();
   assert.ok(await CountNodes(page) < kMostNodes, `${await CountNodes(page)} nodes from far away`);
+  await inspector.picture('thousand_modules');
   await inspector.select('/large/group_20/filter_3');
   await inspector.node('/large/group_20/filter_3').waitFor();
   assert.ok(await CountNodes(page) < kMostNodes, `${await CountNodes(page)} nodes from near`);

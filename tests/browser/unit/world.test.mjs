@@ -22,6 +22,19 @@ test('layers are the outputs of modules whose types have a meaning, the map at t
   assert.equal(pose, '/mock/world/pose');
 });
 
+test('of hundreds of scans only a few are shown at first', () => {
+  const structure = Robot();
+  for (let i = 0; i < 20; ++i) {
+    const owner = `/mock/laser_${i}`;
+    structure.change({ revision: 2 + i, elements: [{ path: owner, kind: 'module' }, { path: `${owner}/scan`, kind: 'port',
+      name: 'scan', direction: 'output', data_type: 'RangeScan', owner }] });
+  }
+  const { layers } = FindLayers(structure, catalogue);
+  const scans = layers.filter(({ meaning }) => meaning === 'range_scan');
+  assert.equal(scans.length, 21);
+  assert.deepEqual(scans.filter(({ atFirst }) => atFirst).map(({ port }) => port), ['/mock/laser/scan', '/mock/laser_0/scan', '/mock/laser_1/scan']);
+});
+
 test('a scan is seen from the pose that its module is told', () => {
   const { layers } = FindLayers(Robot(), catalogue);
   assert.equal(layers.find(({ meaning }) => meaning === 'range_scan').pose, '/mock/world/pose');

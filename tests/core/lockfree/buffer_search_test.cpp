@@ -71,6 +71,30 @@ struct CopyingSuite : rl::test_suite<CopyingSuite, 2>, Rig<SearchedPlain, 1> {
 
 TEST(BufferSearch, CopyOfALeaseHoldsWithoutAGap) { EXPECT_TRUE(Search<CopyingSuite>(kIterations)); }
 
+// The same while the publisher looks for a free buffer, and the leased one is no longer the newest: a
+// schedule that begins there, since hardly any gets there if each step is drawn.
+struct CopyingLateSuite : rl::test_suite<CopyingLateSuite, 2>, Rig<SearchedPlain, 1> {
+  CopyingLateSuite() : Rig({.buffers = 2, .may_grow = false}) {}
+
+  void before() {
+    Publish(1);
+    lease = latest.Lease(readers[0]);
+    Publish(2);
+  }
+  void thread(unsigned index) {
+    if (index == 1) return Publish(3);
+    const Lease copy = lease;
+    lease = {};
+    LookAt(copy);
+  }
+
+  Lease lease;
+};
+
+TEST(BufferSearch, CopyOfAnOldLeaseHoldsWithoutAGap) {
+  EXPECT_TRUE(Search<CopyingLateSuite>(kIterations));
+}
+
 // A lease is handed to another thread, which drops it, while the first uses the slot again.
 struct HandingOnSuite : rl::test_suite<HandingOnSuite, 3>, Rig<SearchedPlain, 1> {
   HandingOnSuite() : Rig({.buffers = 3, .may_grow = false}) {}

@@ -134,6 +134,17 @@ TEST_F(ChangeHistoryTest, LeavesAloneWhatOthersHaveReplaced) {
   EXPECT_TRUE(Exists("/app/a"));
 }
 
+TEST_F(ChangeHistoryTest, LeavesAloneWhatHasComeBackByItself) {
+  MustDo({CreateModule{"/app/a", "test/counter", {{"step", "3"}}}});
+  MustDo({ReplaceModule{"/app/a", "test/faulty"}});
+  Steps(3);  // its probation ends with the old one back
+  ASSERT_EQ(TextOf("/app/a/parameter/step"), "3");
+  EXPECT_THAT(history.Undo().diagnostics.ToString(),
+              HasSubstr("is not what it was any more: test/counter instead of test/faulty"));
+  MustBe(history.Undo());
+  EXPECT_FALSE(Exists("/app/a"));
+}
+
 TEST_F(ChangeHistoryTest, SaysWhatNoChangeCanMakeAgain) {
   runtime.Create<Counter>(At<Group>("/app"), "code");
   MustReady();

@@ -43,8 +43,8 @@ export function LevelLayout(structure, { boxes, connections, closing, ports, gro
   PlaceBorder(outputs, ranks.places.get(kOutside), width, 'right', { connections, placed, top, end: 'to' }, border);
 
   const near = connections.filter((connection) => !IsDistant(structure, connection));
-  const { edges, lanes } = Edges(near, closing, { placed, border, bends: ranks.bends, side, top, contentBottom });
-  const height = contentBottom + (lanes > 0 ? lanes * kLane + 12 : 0) + (isRoot ? 0 : kPadding);
+  const { edges, lowest } = Edges(near, closing, { placed, border, bends: ranks.bends, side, top });
+  const height = Math.max(contentBottom, lowest + 6) + (isRoot ? 0 : kPadding);
   const ordered = boxes.map((box) => placed.get(box.path));
   return { boxes: ordered, edges, border, width, height: Math.max(height, top + 24) };
 }
@@ -112,8 +112,9 @@ function PlaceBorder(ports, place, x, side, { connections, placed, top, end }, b
     border.set(port.path, { x, y: place.y + top + kRow * index + kRow / 2, side }));
 }
 
-function Edges(connections, closing, { placed, border, bends, side, top, contentBottom }) {
+function Edges(connections, closing, { placed, border, bends, side, top }) {
   const edges = [];
+  let lowest = 0; // what runs back below the boxes
   const lanes = new Map(); // port that data flows back from -> number of its lane
   const shares = new Map(); // bent edges between the same boxes run beside each other
   for (const connection of connections) {
@@ -128,8 +129,9 @@ function Edges(connections, closing, { placed, border, bends, side, top, content
       const way = {
         right: ColumnEdge(placed, connection.source, 'right') + 14 + number * 5,
         left: ColumnEdge(placed, connection.target, 'left') - 14 - number * 5,
-        lane: contentBottom + 14 + number * kLane,
       };
+      way.lane = BottomBetween(placed, way.left, way.right, start.y, end.y) + 14 + number * kLane;
+      lowest = Math.max(lowest, way.lane);
       edges.push({ ...edge, path: LanePath(start, end, way), left: way.left, right: way.right,
         top: Math.min(start.y, end.y), bottom: way.lane });
       continue;
@@ -142,7 +144,7 @@ function Edges(connections, closing, { placed, border, bends, side, top, content
     edges.push({ ...edge, path, left: Math.min(...all.map((p) => p.x)), right: Math.max(...all.map((p) => p.x)),
       top: Math.min(...all.map((p) => p.y)), bottom: Math.max(...all.map((p) => p.y)) });
   }
-  return { edges, lanes: lanes.size };
+  return { edges, lowest };
 }
 
 function End(port, box, list, border, name) {
@@ -160,6 +162,15 @@ function End(port, box, list, border, name) {
   const index = box[list].findIndex((candidate) => candidate.path === port);
   if (index < 0) return null;
   return { x: list === 'outputs' ? box.x + box.width : box.x, y: box.y + PortHeight(index) };
+}
+
+/** The lowest point of the boxes that a lane from `right` to `left` passes, and of its ends. */
+function BottomBetween(placed, left, right, ...ends) {
+  let bottom = Math.max(...ends);
+  for (const box of placed.values()) {
+    if (box.x < right && box.x + box.width > left) bottom = Math.max(bottom, box.y + box.height);
+  }
+  return bottom;
 }
 
 /** How far the boxes of the same column reach. */

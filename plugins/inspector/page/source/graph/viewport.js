@@ -1,7 +1,7 @@
 // Where the graph is on the screen: a view {x, y, scale} maps a place of the graph to
 // (x + scale * place). Plain functions; the page's current view is in graph_state.js.
 
-const kSmallest = 0.03;
+const kSmallest = 0.01;
 const kLargest = 2.5;
 
 export function ToGraph(view, point) {

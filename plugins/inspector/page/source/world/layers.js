@@ -4,10 +4,15 @@
 import { OriginsOf } from '../model/origin.js';
 import { IsGroup, NameOf } from '../model/structure.js';
 
+const kAtFirst = 3; // of a kind that are shown until the user chooses others; an application may have hundreds
+
 // From the bottom to the top of the drawing.
 export const kDrawable = ['world_map', 'path', 'hit_and_leave_points', 'range_scan', 'point', 'pose', 'contact'];
 
-/** Layers {port, meaning, label, pose, goal}; pose: the port that says where it is seen from. */
+/**
+ * Layers {port, meaning, label, pose, goal, atFirst}; pose: the port that says where it is seen from;
+ * atFirst: shown unless the user wants it otherwise.
+ */
 export function FindLayers(structure, catalogue) {
   const layers = [];
   for (const port of structure.ofKind('port')) {
@@ -24,6 +29,11 @@ export function FindLayers(structure, catalogue) {
       layer.pose = PoseSeenBy(structure, catalogue, layer.owner) ?? pose;
     }
     if (layer.meaning === 'point') layer.goal = GoalParameters(structure, layer);
+  }
+  const counts = {};
+  for (const layer of layers) {
+    counts[layer.meaning] = (counts[layer.meaning] ?? 0) + 1;
+    layer.atFirst = counts[layer.meaning] <= kAtFirst;
   }
   layers.sort((a, b) => kDrawable.indexOf(a.meaning) - kDrawable.indexOf(b.meaning));
   return { layers, pose, key: layers.map((layer) => `${layer.port} ${layer.pose} ${layer.goal?.x}`).join('\n') };

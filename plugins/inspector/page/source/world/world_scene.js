@@ -12,7 +12,7 @@ const kElements = 5000; // of lists: scans and paths are wanted whole
 const kTrail = 4000;
 
 // What a user has chosen stays while layers come and go.
-const kept = { camera: null, hidden: new Set(), following: false };
+const kept = { camera: null, chosen: new Map(), following: false }; // chosen: port -> whether it is shown
 
 export class WorldScene {
   constructor({ layers, pose }) {
@@ -24,7 +24,8 @@ export class WorldScene {
     this.size = signal({ width: 0, height: 0 });
     this.following = signal(kept.following);
     this.goals = signal([]); // {layer, place} of points that can be dragged
-    this.hidden = kept.hidden;
+    this.choices = signal(0); // counts what the user has chosen of the layers
+    this.watched = new Map(); // port -> the end of its watch
     this.fitted = kept.camera !== null;
     this.frame = 0;
   }
@@ -32,8 +33,7 @@ export class WorldScene {
   attach(host, canvas) {
     this.host = host;
     this.canvas = canvas;
-    const ends = this.layers.map((layer) => watches.watch(layer.port, {
-      rate: kRate, elements: kElements, onValue: (item) => this.receive(layer, item.value) }).end);
+    this.watchShown();
     const observer = new ResizeObserver(() => this.resize());
     observer.observe(host);
     const detach = this.attachPointer();
@@ -44,7 +44,8 @@ export class WorldScene {
       run = hello.value?.run;
     });
     return () => {
-      for (const end of [...ends, detach, stop, stopRun]) end();
+      for (const end of [...this.watched.values(), detach, stop, stopRun]) end();
+      this.watched.clear();
       observer.disconnect();
       cancelAnimationFrame(this.frame);
     };
@@ -58,10 +59,34 @@ export class WorldScene {
     this.askForFrame();
   }
 
-  setHidden(hidden) {
-    kept.hidden = this.hidden = hidden;
+  isShown(layer) {
+    return kept.chosen.get(layer.port) ?? layer.atFirst;
+  }
+
+  show(layer, isShown) {
+    kept.chosen.set(layer.port, isShown);
+    this.choices.value += 1;
+    this.watchShown();
     this.tellGoals();
     this.askForFrame();
+  }
+
+  /** Only what is drawn is watched, and the poses that it is seen from. */
+  watchShown() {
+    const shown = this.layers.filter((layer) => this.isShown(layer));
+    const wanted = new Set([this.pose, ...shown.flatMap((layer) => [layer.port, layer.pose])].filter(Boolean));
+    for (const [port, end] of this.watched) {
+      if (wanted.has(port)) continue;
+      end();
+      this.watched.delete(port);
+      this.values.delete(port);
+    }
+    for (const port of wanted) {
+      if (this.watched.has(port)) continue;
+      const layer = this.layers.find((each) => each.port === port) ?? { port };
+      this.watched.set(port, watches.watch(port, {
+        rate: kRate, elements: kElements, onValue: (item) => this.receive(layer, item.value) }).end);
+    }
   }
 
   follow(following) {
@@ -113,7 +138,7 @@ export class WorldScene {
   tellGoals() {
     const isPlace = (value) => value && Number.isFinite(value.x) && Number.isFinite(value.y);
     this.goals.value = this.layers
-      .filter((layer) => layer.goal && !this.hidden.has(layer.port) && isPlace(this.values.get(layer.port)))
+      .filter((layer) => layer.goal && this.isShown(layer) && isPlace(this.values.get(layer.port)))
       .map((layer) => ({ layer, place: this.values.get(layer.port) }));
   }
 
@@ -181,7 +206,7 @@ export class WorldScene {
     const ratio = devicePixelRatio || 1;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     this.colours ??= Colours(this.host);
-    const layers = this.layers.filter((layer) => !this.hidden.has(layer.port));
+    const layers = this.layers.filter((layer) => this.isShown(layer));
     const hasPath = layers.some((layer) => layer.meaning === 'path' && this.values.get(layer.port)?.points?.length > 0);
     DrawWorld({ context, colours: this.colours, camera: this.camera.value, size: this.size.value,
       radius: RobotRadius(structure, this.pose) }, layers, this.values, hasPath ? [] : this.trail);

@@ -11,6 +11,8 @@ import { GoalHandle } from './goal_handle.js';
 import { FindLayers } from './layers.js';
 import { WorldScene } from './world_scene.js';
 
+const kListed = 100;
+
 const found = computed(() => {
   revision.value;
   return FindLayers(structure, catalogue.value);
@@ -28,16 +30,10 @@ function World({ found }) {
   const canvas = useRef(null);
   const scene = useRef(null);
   scene.current ??= new WorldScene(found);
-  const hidden = useSignal(new Set());
   const showsLayers = useSignal(false);
   useEffect(() => scene.current.attach(host.current, canvas.current), []);
-  const toggle = (port) => {
-    const next = new Set(hidden.value);
-    if (!next.delete(port)) next.add(port);
-    hidden.value = next;
-    scene.current.setHidden(next);
-  };
-  const { camera, size, following, goals } = scene.current;
+  const { camera, size, following, goals, choices } = scene.current;
+  choices.value;
   return html`
     <section class="world" aria-label="World" id="world">
       <div class="world-canvas" ref=${host} tabindex="0" aria-label="Map: drag to move, wheel to zoom" role="img"
@@ -56,8 +52,10 @@ function World({ found }) {
           <${Icon} name=${panels.value.worldLarge ? 'small' : 'large'} size=${16} /></button>
       </div>
       ${showsLayers.value && html`<fieldset class="layers"><legend>Layers</legend>
-        ${found.layers.map((layer) => html`<label key=${layer.port} title=${layer.port}>
-          <input type="checkbox" checked=${!hidden.value.has(layer.port)} onChange=${() => toggle(layer.port)} />
-          ${layer.label} <small>${layer.meaning.replaceAll('_', ' ')}</small></label>`)}</fieldset>`}
+        ${found.layers.slice(0, kListed).map((layer) => html`<label key=${layer.port} title=${layer.port}>
+          <input type="checkbox" checked=${scene.current.isShown(layer)}
+            onChange=${(event) => scene.current.show(layer, event.target.checked)} />
+          ${layer.label} <small>${layer.meaning.replaceAll('_', ' ')}</small></label>`)}
+        ${found.layers.length > kListed && html`<p class="none">… and ${found.layers.length - kListed} more</p>`}</fieldset>`}
     </section>`;
 }

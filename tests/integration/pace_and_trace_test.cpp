@@ -1,0 +1,118 @@
+// The program's time while it runs: paused, stepped, sped up; and what it writes down of it.
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/integration/program.h"
+
+namespace runnel::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+constexpr int kDone = 0, kBadInput = 2;
+
+const std::string kDemo = std::string(RUNNEL_XML) + "/apps/bug_demo.xml picture= ";
+
+/// Its sockets are in a folder of its own, and so is its trace.
+class RunningTime : public testing::Test {
+ protected:
+  RunningTime() {
+    std::string name = std::filesystem::temp_directory_path() / "runnel_time_XXXXXX";
+    folder_ = mkdtemp(name.data());
+    setenv("XDG_RUNTIME_DIR", folder_.c_str(), 1);
+  }
+  ~RunningTime() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] std::string trace() const { return folder_ / "trace.json"; }
+  std::string TraceText() {
+    std::ifstream stream(trace());
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  static std::size_t Count(const json& events, const std::string& name) {
+    return static_cast<std::size_t>(std::count_if(
+        events.begin(), events.end(), [&](const json& each) { return each["name"] == name; }));
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(RunningTime, IsSteppedResumedAndPausedFromOutside) {
+  Program program("run --paused --fast " + kDemo);
+  EXPECT_TRUE(program.WaitFor("paused"));
+  EXPECT_EQ(Runnel("step").text, "stands at 0.000 s\n");
+  EXPECT_EQ(Runnel("step 20").text, "stands at 1.000 s\n");
+  EXPECT_THAT(Runnel("speed").text, HasSubstr("as fast as it can, but paused"));
+  // Nothing need run for the structure to be changed, and changed back.
+  EXPECT_EQ(Runnel("set /robot/planner/cruise_speed 0.25").code, kDone);
+  EXPECT_THAT(Runnel("undo").text, HasSubstr("undone: set /robot/planner/cruise_speed 0.25"));
+  EXPECT_THAT(Runnel("redo").text, HasSubstr("redone: set /robot/planner/cruise_speed 0.25"));
+  EXPECT_THAT(Runnel("ls /robot/planner -l").text, HasSubstr("= 0.25 m/s"));
+  EXPECT_EQ(Runnel("resume").code, kDone);
+  const Ended ended = program.Wait();
+  EXPECT_EQ(ended.code, kDone) << ended.text;
+  EXPECT_THAT(ended.text, HasSubstr("reached"));
+}
+
+TEST_F(RunningTime, EndsInOrderByASignalInAPause) {
+  Program program("run --paused " + kDemo);
+  EXPECT_TRUE(program.WaitFor("paused"));
+  program.Send(SIGINT);
+  const Ended ended = program.Wait();
+  EXPECT_EQ(ended.code, kDone);
+  EXPECT_THAT(ended.text, HasSubstr("stopped by the user\nsimulated 0.00 s"));
+}
+
+TEST_F(RunningTime, OfTheMachineCannotBePaused) {
+  const std::filesystem::path file = folder_ / "real.xml";
+  std::ofstream(file) << "<application name=\"app\"><load plugin=\"faulty\"/>\n"
+                         "<module name=\"a\" type=\"faulty/worker\"/></application>\n";
+  const Ended ended = Runnel("run --paused " + file.string());
+  EXPECT_EQ(ended.code, kBadInput);
+  EXPECT_THAT(ended.text, HasSubstr("real time cannot be paused; leave out --paused"));
+}
+
+TEST_F(RunningTime, IsTracedCycleByCycle) {
+  const Ended ended = Runnel("run --fast --duration 2 --trace " + trace() + " " + kDemo);
+  EXPECT_EQ(ended.code, kDone) << ended.text;
+  const json events = json::parse(TraceText());
+  EXPECT_THAT(ended.text, HasSubstr("traced " + std::to_string(events.size()) + " events to "));
+  EXPECT_EQ(Count(events, "cycle"), 40U);
+  EXPECT_EQ(Count(events, "/bug_demo/robot/planner"), 40U);
+  EXPECT_EQ(Count(events, "publish /bug_demo/robot/planner/output/twist"), 40U);
+}
+
+TEST_F(RunningTime, IsTracedUntilTheProgramIsKilled) {
+  Program program("run --speed 50 --trace " + trace() + " " + kDemo);
+  EXPECT_TRUE(program.WaitFor("m to the goal"));
+  const Ended stepped = Runnel("swap /robot/planner planning/bug1");
+  EXPECT_EQ(stepped.code, kDone) << stepped.text;
+  program.Send(SIGKILL);
+  EXPECT_EQ(program.Wait().signal, SIGKILL);
+  const json events = json::parse(TraceText() + "]");
+  EXPECT_GT(Count(events, "cycle"), 40U);
+  EXPECT_EQ(Count(events, "put in /bug_demo/robot/planner (planning/bug1)"), 1U);
+  EXPECT_GE(Count(events, "hold"), 1U);
+}
+
+TEST_F(RunningTime, IsNotTracedToWhereNothingCanBeWritten) {
+  const Ended ended = Runnel("run --fast --trace /nowhere/trace.json " + kDemo);
+  EXPECT_EQ(ended.code, kBadInput);
+  EXPECT_THAT(ended.text, HasSubstr("/nowhere/trace.json: error: "));
+  EXPECT_THAT(ended.text, HasSubstr("cannot be written: No such file or directory"));
+  const Ended full = Runnel("run --fast --duration 2 --trace /dev/full " + kDemo);
+  EXPECT_EQ(full.code, 1);
+  EXPECT_THAT(full.text, HasSubstr("/dev/full: error: the trace could not be written: No space"));
+}
+
+}  // namespace
+}  // namespace runnel::test

@@ -1,0 +1,181 @@
+#include "tests/plugins/inspector/inspector_fixture.h"
+
+namespace runnel::test {
+
+namespace {
+
+using Changing = RunningInspectorTest;
+using SimulatedChanging = SimulatedInspectorTest;
+
+TEST_F(Changing, IsAnsweredAndToldToAllViewers) {
+  Start();
+  Viewer viewer = View();
+  Viewer other = View();
+  other.Next("structure");
+  const Json reply =
+      viewer.Change({"create /app/c test/sink", "connect /app/a/out /app/c/in queue=3"});
+  EXPECT_EQ(reply["ok"], true) << reply.dump();
+  EXPECT_THAT(reply["text"], HasSubstr("done; threads stood still for"));
+  const Json told = other.Next("structure_change");
+  EXPECT_EQ(told["elements"][0]["path"], "/app/c");
+  ASSERT_EQ(told["connected"].size(), 1U);
+  EXPECT_EQ(told["connected"][0]["to"], "/app/c/input/in");
+  EXPECT_EQ(told["connected"][0]["queue"], 3);
+  EXPECT_THAT(told["gone"], IsEmpty());
+  EXPECT_EQ(viewer.Change({"delete /app/c"})["ok"], true);
+  const Json gone = other.Next("structure_change");
+  EXPECT_EQ(gone["gone"], Json({"/app/c", "/app/c/input", "/app/c/input/in"}));
+  EXPECT_EQ(gone["disconnected"].size(), 1U);
+}
+
+TEST_F(Changing, IsAllOrNothingAndSaysWhichChangeIsWrong) {
+  Start();
+  Viewer viewer = View();
+  const Json reply =
+      viewer.Change({"set /app/a/speed 2", "set /app/a/sped 3", "set /app/a/speed 99"});
+  EXPECT_EQ(reply["ok"], false);
+  ASSERT_EQ(reply["errors"].size(), 2U) << reply.dump();
+  EXPECT_EQ(reply["errors"][0]["change"], 1);
+  EXPECT_EQ(reply["errors"][0]["hint"], "did you mean 'speed'?");
+  EXPECT_EQ(reply["errors"][1]["change"], 2);
+  EXPECT_THAT(reply["errors"][1]["hint"], HasSubstr("0 .. 9"));
+  EXPECT_EQ(View().Element("/app/a/parameter/speed")["value"], "1");
+}
+
+TEST_F(Changing, WordsThatAreNoneAreToldWithTheNearest) {
+  Start();
+  const Json reply = View().Change({"set /app/a/speed 2", "craete /app/c test/sink"});
+  EXPECT_EQ(reply["errors"][0]["change"], 1);
+  EXPECT_THAT(reply["errors"][0]["hint"], HasSubstr("create"));
+  EXPECT_EQ(View().Change({})["ok"], false);
+  EXPECT_EQ(View().Change({""})["ok"], false);
+  EXPECT_EQ(View().Change({"delete /app/a; delete /app/b"})["ok"], false);  // one each
+}
+
+TEST_F(Changing, ASwapKeepsThePathsAndIsNoLoss) {
+  Start();
+  Viewer viewer = View();
+  viewer.Next("structure");
+  EXPECT_EQ(viewer.Change({"replace /app/a with test/fast_counter"})["ok"], true);
+  Viewer late = View();
+  EXPECT_EQ(late.Element("/app/a")["type"], "test/fast_counter");
+  EXPECT_EQ(viewer.Ask({{"op", "undo"}})["ok"], true);
+  const Json told = viewer.Next("structure_change");
+  EXPECT_EQ(told["elements"][0]["path"], "/app/a");
+  EXPECT_EQ(told["elements"][0]["type"], "test/counter");
+  EXPECT_EQ(told["gone"], Json({"/app/a/output/further"}));
+  EXPECT_THAT(told["connected"], IsEmpty());  // the same ends as before
+  EXPECT_THAT(told["disconnected"], IsEmpty());
+}
+
+TEST_F(Changing, ASwapThatFailsIsRefusedAfterItsProbation) {
+  Start();
+  const Json reply = View().Change({"replace /app/a with test/failing"});
+  EXPECT_EQ(reply["ok"], false) << reply.dump();
+  EXPECT_EQ(reply["errors"][0]["path"], "/app/a");
+  EXPECT_THAT(reply["errors"][0]["message"], HasSubstr("the old one is back"));
+}
+
+TEST_F(Changing, IsUndoneAndDoneAgain) {
+  Start();
+  Viewer viewer = View();
+  EXPECT_EQ(viewer.Ask({{"op", "undo"}})["ok"], false);
+  viewer.Ask({{"op", "change"}, {"label", "faster"}, {"changes", {"set /app/a/speed 3"}}});
+  EXPECT_EQ(viewer.Ask({{"op", "undo"}})["text"], "undone: faster");
+  EXPECT_EQ(View().Element("/app/a/parameter/speed")["value"], "1");
+  EXPECT_EQ(viewer.Ask({{"op", "redo"}})["text"], "redone: faster");
+  EXPECT_EQ(View().Element("/app/a/parameter/speed")["value"], "3");
+}
+
+TEST_F(Changing, WhatOthersSetIsSeen) {
+  Start();
+  Viewer viewer = View();
+  viewer.Next("structure");
+  Set("/app/a/parameter/speed", "4.5");
+  EXPECT_EQ(viewer.Element("/app/a/parameter/speed")["value"], "4.5");
+}
+
+TEST_F(Changing, NamesTheTypesThatCouldStandIn) {
+  Start();
+  Viewer viewer = View();
+  viewer.Next("catalogue");
+  const Json reply = viewer.Ask({{"op", "compatible"}, {"path", "/app/a"}});
+  ASSERT_EQ(reply["ok"], true) << reply.dump();
+  std::vector<std::string> types;
+  for (const Json& each : reply["types"]) types.push_back(each["type"]);
+  EXPECT_THAT(types, ElementsAre("test/failing", "test/fast_counter"));
+  EXPECT_THAT(reply["types"][0]["lost"], IsEmpty());
+  EXPECT_EQ(
+      viewer.Change({"replace /app/a with test/fast_counter", "create /app/s test/sink"})["ok"],
+      true);
+  const Json none = viewer.Ask({{"op", "compatible"}, {"path", "/app/none"}});
+  EXPECT_EQ(none["ok"], false);
+  EXPECT_EQ(none["errors"][0]["path"], "/app/none");
+}
+
+TEST_F(Changing, SavesAndReloadsByTheProgramsMeans) {
+  hooks.save = [](const std::string& file) -> Result<std::string> { return "saved to " + file; };
+  hooks.reload = [](const std::string& plugin) -> Result<std::string> {
+    return Error{.message = "no plugin " + plugin};
+  };
+  Start();
+  Viewer viewer = View();
+  EXPECT_EQ(viewer.Ask({{"op", "save"}, {"file", "x.xml"}})["text"], "saved to x.xml");
+  const Json reply = viewer.Ask({{"op", "reload"}, {"plugin", "test"}});
+  EXPECT_EQ(reply["ok"], false);
+  EXPECT_EQ(reply["errors"][0]["message"], "no plugin test");
+}
+
+TEST_F(Changing, WhatTheProgramCannotIsSaid) {
+  Start();
+  const Json reply = View().Ask({{"op", "save"}});
+  EXPECT_EQ(reply["ok"], false);
+  EXPECT_THAT(reply["errors"][0]["message"], HasSubstr("cannot save"));
+}
+
+TEST_F(Changing, IsRefusedToViewersThatOnlyLook) {
+  bool has_saved = false;
+  hooks.save = [&](const std::string&) -> Result<std::string> {
+    has_saved = true;
+    return std::string("saved");
+  };
+  Start({.is_read_only = true});
+  Viewer viewer = View();
+  viewer.Next("catalogue");
+  EXPECT_EQ(viewer.Change({"set /app/a/speed 2"})["ok"], false);
+  for (const char* op : {"undo", "redo", "save", "pause", "resume", "step", "speed", "reload"}) {
+    const Json reply = viewer.Ask({{"op", op}, {"speed", 1}});
+    EXPECT_EQ(reply["ok"], false) << op;
+    EXPECT_THAT(reply["errors"][0]["message"], HasSubstr("read-only")) << op;
+  }
+  EXPECT_EQ(viewer.Ask({{"op", "compatible"}, {"path", "/app/a"}})["ok"], true);
+  EXPECT_FALSE(has_saved);
+  EXPECT_EQ(View().Element("/app/a/parameter/speed")["value"], "1");
+}
+
+TEST_F(SimulatedChanging, PausesStepsAndSetsTheSpeed) {
+  Start();
+  Viewer viewer = View();
+  EXPECT_EQ(viewer.Ask({{"op", "pause"}})["ok"], true);
+  EXPECT_TRUE(scheduler.pace().is_paused());
+  EXPECT_EQ(viewer.Ask({{"op", "step"}, {"cycles", 3}})["ok"], true);
+  EXPECT_EQ(scheduler.pace().cycles_to_step(), 3U);
+  EXPECT_EQ(viewer.Ask({{"op", "resume"}})["ok"], true);
+  EXPECT_FALSE(scheduler.pace().is_paused());
+  EXPECT_EQ(viewer.Ask({{"op", "speed"}, {"speed", 2.5}})["ok"], true);
+  EXPECT_EQ(scheduler.pace().speed(), 2.5);
+  EXPECT_EQ(viewer.Ask({{"op", "speed"}})["ok"], false);
+  EXPECT_EQ(viewer.Ask({{"op", "speed"}, {"speed", 1e9}})["ok"], false);
+  EXPECT_EQ(viewer.Ask({{"op", "step"}, {"cycles", 0}})["ok"], false);
+}
+
+TEST_F(Changing, ARealClockCannotBePaused) {
+  Start();
+  const Json reply = View().Ask({{"op", "pause"}});
+  EXPECT_EQ(reply["ok"], false);
+  EXPECT_THAT(reply["errors"][0]["message"], HasSubstr("real"));
+}
+
+}  // namespace
+
+}  // namespace runnel::test

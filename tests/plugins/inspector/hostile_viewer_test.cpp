@@ -1,0 +1,138 @@
+#include <random>
+#include <thread>
+
+#include "tests/plugins/inspector/inspector_fixture.h"
+
+namespace runnel::test {
+
+namespace {
+
+class HostileViewer : public RunningInspectorTest {
+ protected:
+  /// That cycles run, and viewers are served.
+  void ExpectThatAllIsWell() {
+    const auto cycles = [this] { return scheduler.ProgressOf("/app/a")->cycles; };
+    const std::uint64_t before = cycles();
+    for (int i = 0; i < 20'000 && cycles() < before + 20; ++i) std::this_thread::sleep_for(1ms);
+    EXPECT_GE(cycles(), before + 20);
+    Viewer viewer = View();
+    viewer.Send({{"op", "watch"}, {"path", "/app/a/output/out"}});
+    EXPECT_GT(viewer.Value("/app/a/output/out")["value"], 0);
+  }
+};
+
+TEST_F(HostileViewer, WhatIsNoMessageIsAnsweredAndDoesNothing) {
+  Start();
+  Viewer viewer = View();
+  for (const char* text : {"", "hello", "[]", "{\"op\":7}", "{\"op\":\"nothing\",\"request\":1}"}) {
+    viewer.raw().SendText(text);
+    const Json reply = viewer.Next("reply");
+    EXPECT_EQ(reply["ok"], false) << text;
+    EXPECT_NE(reply["errors"][0]["message"], "") << text;
+  }
+  viewer.raw().SendText(R"({"op":"wacth","request":3})");
+  const Json reply = viewer.Next("reply");
+  EXPECT_EQ(reply["request"], 3);
+  EXPECT_EQ(reply["errors"][0]["hint"], "did you mean 'watch'?");
+  ExpectThatAllIsWell();
+}
+
+TEST_F(HostileViewer, BytesEndTheConversation) {
+  Start();
+  Viewer viewer = View();
+  viewer.raw().Send(RawClient::Frame(2, "bytes"));
+  const auto closing = viewer.raw().Receive(8);
+  ASSERT_TRUE(closing);
+  EXPECT_THAT(closing->reason(), HasSubstr("text"));
+  ExpectThatAllIsWell();
+}
+
+TEST_F(HostileViewer, WatchesAreLimited) {
+  Start({}, {.limits = {.messages_per_second = 100'000}});
+  Viewer viewer = View();
+  for (int i = 0; i < 500; ++i) {
+    viewer.Send({{"op", "watch"}, {"path", "/app/" + std::to_string(i)}, {"request", i}});
+  }
+  viewer.Send({{"op", "watch"}, {"path", "/app/one/more"}, {"request", 1000}});
+  const Json reply = viewer.Next("reply");
+  EXPECT_EQ(reply["request"], 1000);
+  EXPECT_THAT(reply["errors"][0]["message"], HasSubstr("500"));
+  ExpectThatAllIsWell();
+}
+
+TEST_F(HostileViewer, RequestsUnderWayAreLimited) {
+  std::atomic<bool> may_go_on{false};
+  hooks.save = [&](const std::string&) -> Result<std::string> {
+    while (!may_go_on) std::this_thread::sleep_for(1ms);
+    return std::string("saved");
+  };
+  Start({}, {.limits = {.messages_per_second = 100'000}});
+  Viewer viewer = View();
+  viewer.Next("catalogue");
+  for (int i = 0; i < 200; ++i) viewer.Send({{"op", "save"}, {"request", i}});
+  const Json refused = viewer.Next("reply");
+  EXPECT_EQ(refused["ok"], false);
+  EXPECT_THAT(refused["errors"][0]["message"], HasSubstr("too many requests"));
+  may_go_on = true;
+  ExpectThatAllIsWell();
+}
+
+TEST_F(HostileViewer, OneThatDoesNotReadMissesValuesAndIsLetGo) {
+  Start({}, {.limits = {.waiting_bytes = 4'000'000, .idle_time = 1s}});
+  Apply("create /app/lists test/lists");
+  Viewer viewer = View();
+  for (int i = 0; i < 400; ++i) {
+    viewer.Send(
+        {{"op", "watch"}, {"path", "/app/lists/output/list"}, {"rate", 60}, {"elements", 1000}});
+  }
+  for (int i = 0; i < 20'000 && server->clients() > 0; ++i) std::this_thread::sleep_for(1ms);
+  EXPECT_EQ(server->clients(), 0U);
+  ExpectThatAllIsWell();
+}
+
+TEST_F(HostileViewer, RandomMessagesDoNoHarm) {
+  hooks.save = [](const std::string&) -> Result<std::string> { return std::string("saved"); };
+  Start({}, {.limits = {.messages_per_second = 100'000}});
+  Viewer viewer = View();
+  std::mt19937 random(3);
+  const auto any = [&](const std::vector<Json>& of) {
+    return of[std::uniform_int_distribution<std::size_t>(0, of.size() - 1)(random)];
+  };
+  const std::vector<Json> values{nullptr,
+                                 true,
+                                 -1,
+                                 0,
+                                 1,
+                                 1e18,
+                                 "",
+                                 "/app/a",
+                                 "/app/a/output/out",
+                                 "/",
+                                 "//",
+                                 "/../..",
+                                 "test/sink",
+                                 "\n\t\"",
+                                 Json::array(),
+                                 Json({"set /app/a/speed 2"}),
+                                 Json({"delete /app/zzz"}),
+                                 Json({1, 2}),
+                                 Json::object()};
+  const std::vector<Json> members{"path",  "rate", "changes", "elements", "cycles",
+                                  "speed", "file", "plugin",  "request",  "label"};
+  const std::vector<Json> ops{"watch", "unwatch",    "watch_rates", "change", "undo",
+                              "redo",  "compatible", "save",        "pause",  "resume",
+                              "step",  "speed",      "reload",      "x"};
+  for (int i = 0; i < 2000; ++i) {
+    Json message{{"op", any(ops)}};
+    for (int j = 0; j < 3; ++j) message[any(members).get<std::string>()] = any(values);
+    viewer.Send(message);
+    if (i % 50 == 0) viewer.Ask({{"op", "compatible"}, {"path", "/app/a"}});  // reads what has come
+  }
+  ExpectThatAllIsWell();
+  Viewer late = View();
+  EXPECT_EQ(late.Element("/app/b")["type"], "test/sink");
+}
+
+}  // namespace
+
+}  // namespace runnel::test

@@ -1,0 +1,92 @@
+#include "plugins/inspector/internal/viewer_message.h"
+
+#include <random>
+
+#include <gmock/gmock.h>
+
+namespace runnel::internal {
+
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+TEST(ViewerMessage, IsReadMemberByMember) {
+  const auto message = ParseViewerMessage(
+      R"({"op":"change","request":7,"label":"l","changes":["a","b"],"rate":2.5,"elements":3,"more":[1]})");
+  ASSERT_TRUE(message) << message.error().ToString();
+  EXPECT_EQ(message->op, "change");
+  EXPECT_EQ(message->request, 7U);
+  EXPECT_THAT(message->changes, ElementsAre("a", "b"));
+  EXPECT_EQ(message->rate, 2.5);
+  EXPECT_EQ(message->elements, 3U);
+  EXPECT_EQ(message->cycles, 1U);
+  EXPECT_EQ(message->speed, std::nullopt);
+}
+
+TEST(ViewerMessage, WhatIsNoneIsRefused) {
+  for (const char* text : {"",
+                           "{",
+                           "null",
+                           "[]",
+                           "7",
+                           "\"op\"",
+                           "{}",
+                           R"({"op":7})",
+                           R"({"op":""})",
+                           R"({"op":"a"} x)",
+                           R"({"op":"a","request":-1})",
+                           R"({"op":"a","request":1.5})",
+                           R"({"op":"a","request":1e300})",
+                           R"({"op":"a","request":"1"})",
+                           R"({"op":"a","changes":"b"})",
+                           R"({"op":"a","changes":[1]})",
+                           R"({"op":"a","rate":"fast"})",
+                           R"({"op":"a","rate":-1})",
+                           R"({"op":"a","path":["b"]})",
+                           "{\"op\":\"a\x80\"}",
+                           R"({"op":"a","rate":1e999})"}) {
+    EXPECT_FALSE(ParseViewerMessage(text)) << text;
+  }
+}
+
+TEST(ViewerMessage, SaysWhichMemberIsWrong) {
+  const auto message = ParseViewerMessage(R"({"op":"watch","rate":"fast"})");
+  ASSERT_FALSE(message);
+  EXPECT_EQ(message.error().message, "of 'watch', \"rate\" must be a number, not below 0");
+}
+
+TEST(ViewerMessage, IsNotReadIntoDepths) {
+  for (const char* bracket : {"[", "{\"a\":"}) {
+    std::string text = R"({"op":"a","x":)";
+    for (int i = 0; i < 200'000; ++i) text += bracket;
+    const auto message = ParseViewerMessage(text);
+    ASSERT_FALSE(message);
+    EXPECT_THAT(message.error().message, HasSubstr("nested too deeply"));
+  }
+}
+
+TEST(ViewerMessage, SurvivesWhateverComes) {
+  std::mt19937 random(5);
+  const std::string letters = R"({}[]",:0123456789.eE+-truefalsn \u"op""watch""path")";
+  const std::string good = R"({"op":"change","request":7,"changes":["set /a/b 3"],"rate":2.5})";
+  const auto below = [&](std::size_t end) {
+    return std::uniform_int_distribution<std::size_t>(0, end - 1)(random);
+  };
+  int read = 0;
+  for (int i = 0; i < 50'000; ++i) {
+    std::string text = good;
+    for (std::size_t changes = below(6); changes > 0; --changes) {
+      text[below(text.size())] =
+          below(10) == 0 ? static_cast<char>(below(256)) : letters[below(letters.size())];
+    }
+    if (below(4) == 0) text.resize(below(text.size()));
+    if (ParseViewerMessage(text)) ++read;
+  }
+  EXPECT_GT(read, 1000);  // that it is not all refused at the first letter
+  EXPECT_LT(read, 49'000);
+}
+
+}  // namespace
+
+}  // namespace runnel::internal
