@@ -171,6 +171,21 @@ TEST(FoxgloveDrawings, OfAnImageHaveItsBytes) {
   EXPECT_EQ(Drawn(Image{})["data"], "");
 }
 
+// The schemas that a robot in the tests uses are compared with Foxglove's package; this one is not used.
+TEST(FoxgloveDrawings, OfAnImageHaveFoxglovesSchema) {
+  EXPECT_EQ(Json::parse(ChannelsFor(TypeOf<Image>(), "/a").at(1).schema), Json::parse(R"({
+      "title": "foxglove.RawImage", "type": "object", "properties": {
+        "timestamp": {"type": "object", "title": "time", "properties": {
+          "sec": {"type": "integer", "minimum": 0},
+          "nsec": {"type": "integer", "minimum": 0, "maximum": 999999999}}},
+        "frame_id": {"type": "string"},
+        "width": {"type": "integer", "minimum": 0},
+        "height": {"type": "integer", "minimum": 0},
+        "encoding": {"type": "string"},
+        "step": {"type": "integer", "minimum": 0},
+        "data": {"type": "string", "contentEncoding": "base64"}}})"));
+}
+
 TEST(FoxgloveDrawings, OfHitAndLeavePointsAreNumbered) {
   const Json message = Drawn(HitAndLeavePoints{{{1, 2}, {3, 4}}, {{5, 6}}});
   const Json& hits = message["entities"][0];
