@@ -149,7 +149,7 @@ function PortAt(x, y) {
 }
 
 /** Lights up the ports that `port` can be connected with. */
-export function BeginConnecting(port) {
+function BeginConnecting(port) {
   candidates.value = new Map(Partners(structure, port).map(({ port: other, ends }) => [other.path, ends]));
   connecting.value = { port, pointer: null, target: null };
 }
