@@ -139,6 +139,11 @@ export function IsGroup(element) {
   return element.kind === 'group' || element.kind === 'application';
 }
 
+/** Modules, groups, and the ports that groups have for others. */
+export function CanBeDeleted(element) {
+  return element.kind === 'module' || element.kind === 'group' || (element.kind === 'port' && element.interface);
+}
+
 /** The thread that runs an element: its own, or that of the nearest group around it. */
 export function ThreadOf(structure, path) {
   for (let at = path; at; at = ParentOf(at)) {

@@ -36,7 +36,7 @@ export function PortDetails({ element }) {
       ['rate', rates.length > 0 && FormatRate(rates.reduce((a, b) => a + b, 0))],
       ['values', item?.count !== undefined && item?.count !== null && String(item.count)],
       ['last at', item && `${FormatNumber(item.stamp)} s`],
-      ['lost from queues', item?.drops ? String(item.drops) : ''],
+      ['lost from its queue', item?.drops ? String(item.drops) : ''],
       ['required', element.required ? 'yes' : ''],
     ]} />
     <${Section} title="Value" id="value">

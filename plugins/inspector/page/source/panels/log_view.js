@@ -33,7 +33,7 @@ export function LogView() {
           onInput=${(event) => { text.value = event.target.value; }} />
         ${all.map((kind) => html`<button key=${kind} class=${`chip ${kind}`} aria-pressed=${kinds.value.has(kind)} onClick=${() => toggle(kind)}>
           ${kind} <small>${log.value.filter((entry) => entry.kind === kind).length}</small></button>`)}
-        <span class="count">${found.length === log.value.length ? `${found.length} entries` : `${found.length} of ${log.value.length}`}</span>
+        <span class="count">${found.length === log.value.length ? `${found.length} ${found.length === 1 ? 'entry' : 'entries'}` : `${found.length} of ${log.value.length}`}</span>
       </div>
       <ol ref=${list} class="entries" id="log" role="log" aria-label="Log" tabindex="0" onScroll=${onScroll}>
         ${shown.map((entry) => html`<li key=${entry.number} class=${entry.kind}>

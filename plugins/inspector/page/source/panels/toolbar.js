@@ -4,9 +4,8 @@ import { useEffect, useState } from 'preact/hooks';
 import { html } from 'htm/preact';
 import { FormatTime } from '../model/value_format.js';
 import { Pause, Redo, Resume, Save, SetSpeed, Step, Undo } from '../state/actions.js';
-import { SetPanels, openDialog, panels, selected, theme } from '../state/choices.js';
-import { canChange, connection, hello, isConnected, isReadOnly, run, structure } from '../state/store.js';
-import { IsGroup, ParentOf } from '../model/structure.js';
+import { GroupForNew, SetPanels, openDialog, panels, theme } from '../state/choices.js';
+import { canChange, connection, hello, isConnected, isReadOnly, run } from '../state/store.js';
 import { hasWorld } from '../world/world_view.js';
 import { Icon } from './icon.js';
 import { SearchBox } from './search_box.js';
@@ -70,13 +69,9 @@ function Speed({ speed, locked }) {
 function Changes() {
   const { undo, redo } = run.value;
   const locked = !canChange.value;
-  const group = () => {
-    const element = structure.get(selected.value);
-    return element === undefined ? structure.root : IsGroup(element) ? element.path : ParentOf(element.owner ?? element.path);
-  };
   return html`
     <div class="cluster" role="group" aria-label="Changes">
-      <button id="add" disabled=${locked} onClick=${() => { openDialog.value = { kind: 'create', group: group() }; }}
+      <button id="add" disabled=${locked} onClick=${() => { openDialog.value = { kind: 'create', group: GroupForNew() }; }}
         title="Add a module (A)" aria-label="Add a module"><${Icon} name="add" /></button>
       <button id="undo" disabled=${locked || !undo} onClick=${Undo} title=${undo ? `Undo “${undo}” (Ctrl+Z)` : 'Nothing to undo'}
         aria-label=${undo ? `Undo ${undo}` : 'Undo'}><${Icon} name="undo" /></button>
