@@ -97,7 +97,7 @@ std::string CheckInspectToken(const std::string& text) {
 
 void AddInspect(CLI::App& run, InspectArguments& arguments) {
   // A flag that may have a value, so that the word after it is not taken for one.
-  run.add_flag("--inspect{" + std::string(InspectArguments::kUsualPlace) + "}", arguments.place,
+  run.add_flag("--inspect", arguments.place,
                "shows the application in a browser: --inspect, --inspect=PORT or "
                "--inspect=ADDRESS:PORT")
       ->check(CheckPlace);

@@ -22,9 +22,9 @@ struct ApplicationArguments {
 struct InspectArguments {
   /// Stands for what the application file says, or else port 8765 of this machine; if another program
   /// has it, any that is free.
-  static constexpr const char* kUsualPlace = "usual";
+  static constexpr const char* kUsualPlace = "true";  // what CLI11 makes of an option without a value
 
-  std::string place = {};  ///< "": only if the file says so; "usual"; "[ADDRESS:]PORT"
+  std::string place = {};  ///< "": only if the file says so; kUsualPlace; "[ADDRESS:]PORT"
   std::string token = {};
   std::vector<std::string> origins = {};  ///< of pages of other places that may connect
   bool is_read_only = false;

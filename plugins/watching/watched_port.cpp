@@ -2,10 +2,13 @@
 
 #include <algorithm>
 
+#include "core/port/input_base.h"
+
 namespace runnel {
 
 Result<void> WatchedPort::Find(Runtime& runtime) {
   sources_.clear();
+  input_ = nullptr;
   const auto found = runtime.root().Find(path_);
   if (!found) return found.error();
   const auto* const port = dynamic_cast<const Port*>(*found);
@@ -13,6 +16,7 @@ Result<void> WatchedPort::Find(Runtime& runtime) {
   if (port->serial() != serial_) shown_.reset();  // made anew: it counts from 0 again
   serial_ = port->serial();
   type_ = &port->type();
+  input_ = dynamic_cast<const InputBase*>(port);
   if (port->is_proxy()) {
     const auto ends = port->Sources();
     sources_.assign(ends.begin(), ends.end());
@@ -32,6 +36,10 @@ std::optional<std::uint64_t> WatchedPort::LookIfNew(const Port::Look& look) {
   if (!has_value) return {};
   shown_ = count;
   return count;
+}
+
+std::uint64_t WatchedPort::dropped() const noexcept {
+  return input_ == nullptr ? 0 : input_->dropped();
 }
 
 }  // namespace runnel

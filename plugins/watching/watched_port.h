@@ -11,6 +11,8 @@
 
 namespace runnel {
 
+class InputBase;
+
 /// A port that somebody looks at now and then, by its path: modules may come and go meanwhile.
 /// Publishers do not notice; nothing is subscribed or copied.
 ///
@@ -38,10 +40,14 @@ class WatchedPort {
   /// far. Of a group's interface port: the first that there is among its sources'. Not under the
   /// structure lock.
   std::optional<std::uint64_t> LookIfNew(const Port::Look& look);
+  /// How many values the queue of the port that was found has lost, if it is an input with one; else 0.
+  /// Where LookIfNew() may be called.
+  [[nodiscard]] std::uint64_t dropped() const noexcept;
 
  private:
   const std::string path_;
   std::vector<const Port*> sources_;
+  const InputBase* input_ = nullptr;  // the port that was found, if it is one
   const TypeInfo* type_ = nullptr;
   std::uint64_t serial_ = 0;  // of the port that was found last
   std::optional<std::uint64_t> shown_;

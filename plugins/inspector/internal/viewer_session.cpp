@@ -208,6 +208,8 @@ void ViewerSession::SendValues(MachineTime now) {
       if (!AppendJson(watch->port.type(), value, item, limits)) item += ",\"cut\":true";
     });
     if (!count) continue;
+    const std::uint64_t dropped = watch->port.dropped();
+    if (dropped > 0) item += ",\"drops\":" + std::to_string(dropped);
     items += (items.empty() ? "" : ",") + item + ",\"count\":" + std::to_string(*count) + "}";
   }
   if (items.empty()) return;

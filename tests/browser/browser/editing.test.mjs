@@ -106,6 +106,57 @@ test('a module is deleted by a key, and an undo brings it back with its connecti
   assert.deepEqual(await inspector.edges(), before);
 });
 
+test('a key saves into the file that was loaded, which keeps its comments', async (t) => {
+  const { file, inspector, page } = await Demo(t);
+  await inspector.select('/bug_demo/robot/planner');
+  await inspector.parameter('cruise_speed').fill('0.33');
+  await inspector.parameter('cruise_speed').press('Enter');
+  await page.locator('#undo:not([disabled])').waitFor();
+  await page.locator('#graph').focus();
+  await page.keyboard.press('Control+s');
+  await page.locator('.toast.done, .toast.error').first().waitFor();
+  const text = await readFile(file, 'utf8');
+  assert.match(text, /cruise_speed" value="0.33"/);
+  assert.match(text, /Another planner is one word away/);
+});
+
+test('a group is made, given ports, filled, and connected through its border', async (t) => {
+  const { inspector, page } = await Demo(t);
+  await page.locator('#graph').click({ button: 'right', position: { x: 10, y: 10 } });
+  await page.locator('[role="menuitem"]', { hasText: 'New group' }).click();
+  await inspector.node('/bug_demo/group').waitFor();
+  await inspector.select('/bug_demo/group');
+  await page.locator('#add-port').click();
+  await page.locator('#port-name').fill('place');
+  await page.locator('#port-type').selectOption('Pose2');
+  await page.locator('#create-port').click();
+  await inspector.port('/bug_demo/group/place').waitFor();
+  await page.keyboard.press('a');
+  await page.locator('.choice-search').fill('simulation/localisation');
+  await page.locator('#new-name').fill('inner');
+  await page.locator('#create').click();
+  await inspector.node('/bug_demo/group/inner').waitFor();
+  for (const [from, to] of [['/bug_demo/world/sensor_output/pose', '/bug_demo/group/place'], ['/bug_demo/group/place', '/bug_demo/group/inner/input/truth']]) {
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('f');
+    const { drop } = await inspector.dragPort(from, to);
+    await drop();
+    await page.locator(`[data-edge="${from} → ${to}"]`).waitFor({ state: 'attached' });
+  }
+  await inspector.select('/bug_demo/group/inner/output/pose');
+  await page.locator('#value [data-field="heading"]').waitFor();
+});
+
+test('what a full queue loses is counted', async (t) => {
+  const { file } = await DemoFile(t, (text) => Replaced(kSlow(text), '<connect from="world/pose" to="laser/pose localisation/truth referee/pose"/>',
+    '<connect from="world/pose" to="laser/pose referee/pose"/> <connect from="world/pose" to="localisation/truth" queue="2"/>'));
+  const application = await RunApplication(t, file);
+  const inspector = await OpenPage(t, application.url);
+  await inspector.select('/bug_demo/localisation/input/truth');
+  await inspector.details.locator('.facts dt', { hasText: 'lost from its queue' }).waitFor();
+  await inspector.details.locator('.connections', { hasText: 'queue of 2' }).waitFor();
+});
+
 test('a plugin is loaded anew while its modules run', async (t) => {
   const { inspector, page } = await Demo(t);
   await inspector.select('/bug_demo/robot/planner');

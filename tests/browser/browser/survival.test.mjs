@@ -56,3 +56,27 @@ test('an application that must only be watched shows everything and offers no ch
   assert.equal(await page.locator('dialog').count(), 0);
   assert.equal(await inspector.node('/bug_demo/robot/planner').count(), 1);
 });
+
+test('a module that throws is marked, counted, and told with its reason', async (t) => {
+  const { file } = await DemoFile(t, (text) => Replaced(Replaced(kSlow(text), '<parameter name="seed" value="1" command_line="seed"/>',
+    '<parameter name="fails_at" value="1"/> <parameter name="fails_loudly" value="true"/>'), '<on_fault of="." action="stop_application"/>', ''));
+  const application = await RunApplication(t, file);
+  const inspector = await OpenPage(t, application.url);
+  const { page } = inspector;
+  await inspector.node('/bug_demo/laser').locator('.fault').waitFor();
+  await page.locator('#faults', { hasText: '1 fault' }).click();
+  await page.locator('#log li.fault', { hasText: '/bug_demo/laser' }).waitFor();
+  await inspector.select('/bug_demo/laser');
+  await page.locator('.trouble', { hasText: 'Stopped' }).waitFor();
+  await page.locator('#troubles li.fault').waitFor();
+});
+
+test('with a token the address that is printed opens the page, and another does not', async (t) => {
+  const { file } = await DemoFile(t, kSlow);
+  const application = await RunApplication(t, file, { options: ['--inspect-token', 'open_sesame_42'] });
+  const inspector = await OpenPage(t, application.url);
+  await inspector.node('/bug_demo/world').waitFor();
+  assert.match(application.url, /token=open_sesame_42/);
+  assert.equal((await fetch(new URL('/', application.url))).status, 401);
+  assert.equal((await fetch(new URL('/?token=open_sesame_43', application.url))).status, 401);
+});

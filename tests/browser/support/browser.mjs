@@ -32,7 +32,7 @@ export async function OpenPage(t, url, { width = 1280, height = 800, colours = '
 }
 
 /** What a user does with the page, in words. */
-export class InspectorPage {
+class InspectorPage {
   constructor(page) {
     this.page = page;
     this.details = page.locator('#details');
@@ -93,6 +93,8 @@ export class InspectorPage {
   }
 
   async dragPort(from, to) {
+    await this.port(from).waitFor();
+    await this.port(to).waitFor();
     const [a, b] = [this.port(from).locator('circle'), this.port(to).locator('circle')];
     const [start, end] = [await a.boundingBox(), await b.boundingBox()];
     const middle = ({ x, y, width, height }) => [x + width / 2, y + height / 2];

@@ -5,7 +5,7 @@ import { FieldText, IsPlottable, NumberAt, ValueRows } from '../../../plugins/in
 import { Catalogue } from '../../../plugins/inspector/page/source/model/catalogue.js';
 import { CheckValue } from '../../../plugins/inspector/page/source/model/parameter_check.js';
 import { Change, FreeName, NameProblem, Word } from '../../../plugins/inspector/page/source/model/change_text.js';
-import { AddLogEntries, FilterLog } from '../../../plugins/inspector/page/source/state/log.js';
+import { AddLogEntries, FilterLog, TroublesOf } from '../../../plugins/inspector/page/source/state/log.js';
 import { Series } from '../../../plugins/inspector/page/source/plots/series.js';
 import { kCatalogue } from '../mock/mock_structures.mjs';
 
@@ -45,6 +45,7 @@ test('bounds are told as far as there are any', () => {
   assert.equal(FormatBounds({ minimum: 0, maximum: 2, unit: 'm' }), '0 … 2 m');
   assert.equal(FormatBounds({ minimum: 0, maximum: null, unit: '' }), '≥ 0');
   assert.equal(FormatBounds({ minimum: null, maximum: null }), '');
+  assert.equal(FormatBounds({ minimum: -Infinity, maximum: 2 * Math.PI, unit: 'rad' }), '≤ 6.2832 rad');
 });
 
 test('a value has a row for each field, with its unit', () => {
@@ -130,6 +131,12 @@ test('the log keeps each entry once, the newest of them, and is filtered by kind
   const many = AddLogEntries(log, Array.from({ length: 1500 }, (_, index) => entry(index + 4)));
   assert.equal(many.length, 1000);
   assert.equal(many.at(-1).number, 1503);
+});
+
+test('what went wrong with an element is found by its path, not by one that begins like it', () => {
+  const entries = [['fault', '/a/laser: it broke'], ['fault', '/a/laser_2: it broke'], ['change', 'set /a/laser/x 1'],
+    ['warning', 'late: /a/laser/scan'], ['fault', 'all of /a/laser']].map(([kind, text], number) => ({ number, kind, text, time: 0 }));
+  assert.deepEqual(TroublesOf(entries, '/a/laser').map(({ number }) => number), [0, 3, 4]);
 });
 
 test('a curve gives its part of the time, with one point beyond', () => {

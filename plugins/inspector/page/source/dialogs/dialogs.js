@@ -5,11 +5,12 @@ import { openDialog } from '../state/choices.js';
 import { ConnectDialog } from './connect_dialog.js';
 import { CreateDialog } from './create_dialog.js';
 import { Menu } from './menu.js';
+import { PortDialog } from './port_dialog.js';
 import { HelpDialog, MoveDialog, SaveDialog } from './small_dialogs.js';
 import { SwapDialog } from './swap_dialog.js';
 
 const kDialogs = {
-  create: CreateDialog, connect: ConnectDialog, swap: SwapDialog, move: MoveDialog,
+  create: CreateDialog, connect: ConnectDialog, swap: SwapDialog, move: MoveDialog, port: PortDialog,
   save: SaveDialog, help: HelpDialog, menu: Menu,
 };
 

@@ -1,7 +1,7 @@
 // The menu of an element: what can be done with it.
 
 import { html } from 'htm/preact';
-import { IsGroup } from '../model/structure.js';
+import { CanBeDeleted, IsGroup } from '../model/structure.js';
 import { CreateGroup, Delete, Disconnect, Reload } from '../state/actions.js';
 import { IsOpen, SetAllOpen, openDialog } from '../state/choices.js';
 import { canChange, catalogue, structure } from '../state/store.js';
@@ -37,7 +37,10 @@ function MenuItems(path) {
   const element = structure.get(path);
   const open = (kind) => () => { openDialog.value = { kind, path }; };
   if (!element) return [];
-  if (element.kind === 'port') return [{ text: 'Connect …', changes: true, action: open('connect') }];
+  if (element.kind === 'port') {
+    return [{ text: 'Connect …', changes: true, action: open('connect') },
+      ...(CanBeDeleted(element) ? [{ text: 'Delete', changes: true, danger: true, action: () => Delete(path) }] : [])];
+  }
   if (element.kind === 'module') return ModuleItems(element, open);
   return IsGroup(element) ? GroupItems(element, open) : [];
 }
@@ -63,6 +66,7 @@ function GroupItems({ path }, open) {
       { text: 'Fit', action: Fit },
     ] : [
       { text: IsOpen(path) ? 'Fold' : 'Open', action: () => ToggleGroup(path) },
+      { text: 'Add a port …', changes: true, action: open('port') },
       { text: 'Move to thread …', changes: true, action: open('move') },
       { text: 'Delete', changes: true, danger: true, action: () => Delete(path) },
     ]),

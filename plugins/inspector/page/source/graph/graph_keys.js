@@ -3,7 +3,7 @@
 import { Delete, Disconnect } from '../state/actions.js';
 import { announcement, openDialog, selected } from '../state/choices.js';
 import { canChange, structure } from '../state/store.js';
-import { IsGroup, ParentOf } from '../model/structure.js';
+import { CanBeDeleted, IsGroup, ParentOf } from '../model/structure.js';
 import { DescribeBox } from './box_view.js';
 import { Fit, MoveView, ShowElement, ToggleGroup, connecting, layout, size, view } from './graph_state.js';
 import { StopConnecting } from './pointer.js';
@@ -60,12 +60,12 @@ function OpenMenu() {
     y: host.top + (box ? y + scale * (box.y + 20) : host.height / 2) };
 }
 
-export function DeleteSelected() {
+function DeleteSelected() {
   if (!canChange.value || !selected.value) return;
   const connection = structure.connections.get(selected.value);
   const element = structure.get(selected.value);
   if (connection) Disconnect(connection.from, connection.to).then((reply) => { if (reply.ok) selected.value = null; });
-  else if (element?.kind === 'module' || element?.kind === 'group') Delete(element.path);
+  else if (element && CanBeDeleted(element)) Delete(element.path);
 }
 
 function Go(key, alongPorts) {

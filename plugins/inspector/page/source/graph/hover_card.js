@@ -7,11 +7,11 @@ import { FormatNumber, FormatValue } from '../model/value_format.js';
 import { structure, watches } from '../state/store.js';
 import { size } from './graph_state.js';
 
-export const hovered = signal(null); // {path, x, y, isPort}
+export const hovered = signal(null); // the port under the pointer: {path, x, y}
 
 export function HoverCard() {
   const at = hovered.value;
-  const element = at?.isPort ? structure.get(at.path) : null;
+  const element = at ? structure.get(at.path) : null;
   if (!element) return null;
   const right = at.x > size.value.width - 300;
   const below = at.y > size.value.height - 130;

@@ -118,8 +118,8 @@ class Pointer {
   #hit(event) {
     const at = (x, y, what) => document.elementFromPoint(x, y)?.closest?.(what);
     const { clientX: x, clientY: y } = event;
-    const target = at(x, y, '[data-fold], [data-port], [data-node], [data-edge]');
-    const { fold, port } = target?.dataset ?? {};
+    const { fold, port } = PortAt(x, y)?.dataset ?? {};
+    const target = at(x, y, '[data-node], [data-edge]');
     const place = ToGraph(view.value, this.#point(event));
     if (shown.value.far) return { node: BoxAt(place)?.path };
     let { node, edge } = target?.dataset ?? {};
@@ -133,14 +133,23 @@ class Pointer {
   }
 
   #hover(event, point) {
-    const target = event.target.closest?.('[data-port], [data-node]');
-    const path = target?.dataset.port ?? target?.dataset.node;
-    return path ? { path, x: point.x, y: point.y, isPort: Boolean(target.dataset.port) } : null;
+    const path = PortAt(event.clientX, event.clientY)?.dataset.port;
+    return path ? { path, x: point.x, y: point.y } : null;
   }
 }
 
+/** The port, or the handle of a group, at a place of the screen, even if an edge ends on top of it. */
+function PortAt(x, y) {
+  for (const element of document.elementsFromPoint(x, y)) {
+    const found = element.closest('[data-port], [data-fold]');
+    if (found) return found;
+    if (!element.closest('[data-edge]')) return null;
+  }
+  return null;
+}
+
 /** Lights up the ports that `port` can be connected with. */
-export function BeginConnecting(port) {
+function BeginConnecting(port) {
   candidates.value = new Map(Partners(structure, port).map(({ port: other, ends }) => [other.path, ends]));
   connecting.value = { port, pointer: null, target: null };
 }

@@ -11,6 +11,7 @@ export function Word(text) {
 export const Change = {
   create: (path, type) => `create ${Word(path)} ${Word(type)}`,
   createGroup: (path) => `create group ${Word(path)}`,
+  createPort: (path, direction, type) => `create port ${Word(path)} ${direction} ${Word(type)}`,
   delete: (path) => `delete ${Word(path)}`,
   connect: (from, to) => `connect ${Word(from)} ${Word(to)}`,
   disconnect: (from, to) => `disconnect ${Word(from)} ${Word(to)}`,

@@ -123,7 +123,7 @@ export class Structure {
 }
 
 /** Connections have no path of their own: both ends name one. */
-export function ConnectionKey(connection) {
+function ConnectionKey(connection) {
   return `${connection.from} → ${connection.to}`;
 }
 
@@ -137,6 +137,11 @@ export function NameOf(path) {
 
 export function IsGroup(element) {
   return element.kind === 'group' || element.kind === 'application';
+}
+
+/** Modules, groups, and the ports that groups have for others. */
+export function CanBeDeleted(element) {
+  return element.kind === 'module' || element.kind === 'group' || (element.kind === 'port' && element.interface);
 }
 
 /** The thread that runs an element: its own, or that of the nearest group around it. */

@@ -48,11 +48,12 @@ export function FormatValue(value, limit = 60) {
 
 /** The bounds of a parameter: "0.02 … 2 m", "≥ 0", or "". */
 export function FormatBounds({ minimum, maximum, unit }) {
-  const has = (bound) => bound !== null && bound !== undefined;
+  const has = (bound) => Number.isFinite(bound);
+  const short = (bound) => Minus(String(Number(bound.toPrecision(5))));
   const suffix = unit ? ` ${unit}` : '';
-  if (has(minimum) && has(maximum)) return `${minimum} … ${maximum}${suffix}`;
-  if (has(minimum)) return `≥ ${minimum}${suffix}`;
-  return has(maximum) ? `≤ ${maximum}${suffix}` : '';
+  if (has(minimum) && has(maximum)) return `${short(minimum)} … ${short(maximum)}${suffix}`;
+  if (has(minimum)) return `≥ ${short(minimum)}${suffix}`;
+  return has(maximum) ? `≤ ${short(maximum)}${suffix}` : '';
 }
 
 /** Times and durations come as {sec, nsec}. */

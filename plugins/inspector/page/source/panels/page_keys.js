@@ -1,7 +1,7 @@
 // Keys that work wherever one is, but in a field that takes text.
 
 import { Pause, Redo, Resume, Save, Step, Undo } from '../state/actions.js';
-import { openDialog } from '../state/choices.js';
+import { GroupForNew, openDialog } from '../state/choices.js';
 import { canChange, hello, run, structure } from '../state/store.js';
 
 export function AttachKeys() {
@@ -27,7 +27,7 @@ function WithControl(key, shift, isField) {
 const kPlain = {
   '/': () => document.getElementById('search')?.focus(),
   '?': () => { openDialog.value = { kind: 'help' }; },
-  a: () => { if (canChange.value && structure.root) openDialog.value = { kind: 'create', group: structure.root }; },
+  a: () => { if (canChange.value && structure.root) openDialog.value = { kind: 'create', group: GroupForNew() }; },
   g: () => document.getElementById('graph')?.focus(),
   d: () => document.getElementById('details')?.focus(),
   p: () => { if (CanPace()) (run.value.paused ? Resume() : Pause()); },

@@ -39,12 +39,16 @@ export function Disconnect(from, to) {
 
 export async function Delete(path) {
   const reply = await Apply([Change.delete(path)], `delete ${NameOf(path)}`);
-  if (reply.ok && selected.value === path) selected.value = ParentOf(path);
+  if (reply.ok && selected.value === path) selected.value = structure.get(path)?.owner ?? ParentOf(path);
   return reply;
 }
 
 export function CreateModule(type, group, name) {
   return Apply([Change.create(`${group}/${name}`, type)], `create ${name}`, { quiet: true });
+}
+
+export function CreatePort(group, name, direction, type) {
+  return Apply([Change.createPort(`${group}/${name}`, direction, type)], `create the ${direction} ${name}`, { quiet: true });
 }
 
 export function CreateGroup(group) {

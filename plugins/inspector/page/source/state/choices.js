@@ -2,7 +2,7 @@
 
 import { computed, effect, signal } from '@preact/signals';
 import { IsGroup, ParentOf } from '../model/structure.js';
-import { hello, revision, structure } from './store.js';
+import { hello, isConnected, revision, structure } from './store.js';
 
 const kOpenBelow = 60; // applications with fewer modules show all of them at first
 
@@ -45,6 +45,13 @@ export function SetAllOpen(open) {
   openGroups.value = all;
 }
 
+/** Where something new is put: into the group that is selected, or that what is selected is in. */
+export function GroupForNew() {
+  const element = structure.get(selected.value);
+  if (!element || element.kind === 'thread') return structure.root;
+  return IsGroup(element) ? element.path : ParentOf(element.owner ?? element.path);
+}
+
 /** Opens the groups around an element, so that it can be seen. */
 export function Reveal(path) {
   const open = { ...openGroups.value };
@@ -83,6 +90,10 @@ export function StartKeeping() {
   effect(() => {
     if (theme.value === 'system') delete document.documentElement.dataset.theme;
     else document.documentElement.dataset.theme = theme.value;
+  });
+  effect(() => {
+    const name = hello.value?.application;
+    document.title = name ? `${isConnected.value ? '' : '(away) '}${name} – Runnel` : 'Runnel inspector';
   });
   let application = null;
   effect(() => {

@@ -8,6 +8,15 @@ export function AddLogEntries(entries, added) {
   return fresh.length === 0 ? entries : [...entries, ...fresh].slice(-kKept);
 }
 
+/** Faults and warnings in which the path of an element, or of something in it, occurs. */
+export function TroublesOf(entries, path) {
+  return entries.filter(({ kind, text }) => {
+    if (kind !== 'fault' && kind !== 'warning') return false;
+    const at = text.indexOf(path);
+    return at >= 0 && !/[A-Za-z0-9_]/.test(text[at + path.length] ?? '');
+  });
+}
+
 /** Entries of the kinds wanted (all if there are none) in which the text occurs. */
 export function FilterLog(entries, { text, kinds }) {
   const wanted = text.trim().toLowerCase();

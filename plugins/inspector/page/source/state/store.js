@@ -73,12 +73,13 @@ function OnHello(message) {
     log.value = [];
     threadStatistics.value = {};
   }
+  // A new connection is told all rates anew.
+  for (const map of [rates, moduleTimes]) for (const rate of map.values()) rate.value = null;
   hello.value = message;
 }
 
 function OnStructure(message) {
   structure.replaceAll(message);
-  for (const map of [rates, moduleTimes]) for (const rate of map.values()) rate.value = null;
   revision.value += 1;
   shapeRevision.value += 1;
   watches.askAgain();
