@@ -22,9 +22,9 @@ struct ApplicationArguments {
 struct InspectArguments {
   /// Stands for what the application file says, or else port 8765 of this machine; if another program
   /// has it, any that is free.
-  static constexpr const char* kUsualPlace = "usual";
+  static constexpr const char* kUsualPlace = "true";  // what CLI11 makes of an option without a value
 
-  std::string place = {};  ///< "": only if the file says so; "usual"; "[ADDRESS:]PORT"
+  std::string place = {};  ///< "": only if the file says so; kUsualPlace; "[ADDRESS:]PORT"
   std::string token = {};
   std::vector<std::string> origins = {};  ///< of pages of other places that may connect
   bool is_read_only = false;
@@ -34,6 +34,24 @@ struct InspectArguments {
   [[nodiscard]] bool is_wanted() const noexcept {
     return !place.empty() || !token.empty() || !origins.empty() || is_read_only || hold;
   }
+};
+
+/// What is recorded, if anything.
+struct RecordArguments {
+  std::string file = {};  ///< "": nothing
+  std::vector<std::string> ports = {};
+  std::string compression = {};  ///< "": the best there is
+};
+
+/// What is played into the application instead of what its modules publish.
+struct ReplayArguments {
+  std::string file = {};
+  std::vector<std::string> ports = {};
+  std::optional<double> rate = {};  ///< 1 if nothing is said, on a simulated clock
+  std::optional<double> from = {};  ///< s after the recording's start
+  std::optional<double> to = {};
+  bool loops = false;
+  bool steps = false;  ///< a cycle for each line of standard input
 };
 
 struct RunArguments {
@@ -46,6 +64,14 @@ struct RunArguments {
   std::string trace = {};   ///< a file for what the threads do; "": none
   bool has_control = true;  ///< other processes of the user can reach it
   InspectArguments inspect = {};
+  RecordArguments record = {};
+  /// Then `application` may have no file.
+  std::optional<ReplayArguments> replay = {};
+};
+
+struct InfoArguments {
+  std::string file = {};  ///< a recording
+  bool is_json = false;
 };
 
 struct CheckArguments {
@@ -71,8 +97,9 @@ struct VersionArguments {};
 
 /// What to do; or, if there is nothing (left) to do, the exit code: help has been printed, or what
 /// is wrong with the arguments.
-using CommandLine = std::variant<RunArguments, CheckArguments, ModulesArguments, SchemaArguments,
-                                 GraphArguments, ControlArguments, VersionArguments, ExitCode>;
+using CommandLine =
+    std::variant<RunArguments, CheckArguments, ModulesArguments, SchemaArguments, GraphArguments,
+                 ControlArguments, InfoArguments, VersionArguments, ExitCode>;
 
 [[nodiscard]] CommandLine ParseCommandLine(int count, const char* const* words);
 

@@ -57,11 +57,14 @@ void RunInTurn(std::span<const Schedule::Entry> entries, CycleMoment now,
   }
 }
 
-void Run(std::span<const Schedule::Entry> entries, CycleMoment now, FaultDesk& desk,
-         TraceTrack* track) noexcept {
-  if (track != nullptr) [[unlikely]]
-    return RunTraced(entries, now, desk, *track);
-  RunInTurn(entries, now, desk);
+template <bool kIsTraced>
+void Run(std::span<const Schedule::Entry> entries, const Schedule& schedule, CycleMoment now,
+         FaultDesk& desk) noexcept {
+  if constexpr (kIsTraced) {
+    RunTraced(entries, now, desk, *schedule.track);
+  } else {
+    RunInTurn(entries, now, desk);
+  }
 }
 
 }  // namespace
@@ -89,20 +92,32 @@ bool CycleRunner::RunCycle(Cycle cycle, FaultDesk& desk) noexcept {
   const std::uint64_t number = cycles_begun_.load(std::memory_order_relaxed) + 1;
   cycles_begun_.store(number, std::memory_order_relaxed);
   const CycleMoment now{cycle.now, number};
-  TraceTrack* const track = schedule->track;
-  const Time began = track != nullptr ? track->Now() : Time{};
-  if (waits_for_data()) {
-    RunActivated(*schedule, now, desk);
+  if (schedule->track != nullptr) [[unlikely]] {
+    RunNoted(*schedule, now, desk);
   } else {
-    RunAll(*schedule, now, desk);
+    RunTasks<false>(*schedule, now, desk);
   }
   in_cycle_of = nullptr;
   for (CycleRunner* const waiting : *schedule->waiting) {
     if (waiting->is_activated()) waiting->event_.Notify();
   }
-  if (track != nullptr) [[unlikely]]
-    track->NoteCycle(began, cycle.now, number);
   return true;
+}
+
+template <bool kIsTraced>
+void CycleRunner::RunTasks(const Schedule& schedule, CycleMoment now, FaultDesk& desk) noexcept {
+  if (waits_for_data()) {
+    RunActivated<kIsTraced>(schedule, now, desk);
+  } else {
+    RunAll<kIsTraced>(schedule, now, desk);
+  }
+}
+
+// Apart, so that cycles that nobody traces have nothing of it but the question.
+void CycleRunner::RunNoted(const Schedule& schedule, CycleMoment now, FaultDesk& desk) noexcept {
+  const Time began = schedule.track->Now();
+  RunTasks<true>(schedule, now, desk);
+  schedule.track->NoteCycle(began, now.time, now.number);
 }
 
 // Whether nothing need be asked of its elements any more.
@@ -117,28 +132,30 @@ bool CycleRunner::IsSettled(const Schedule& schedule) noexcept {
 }
 
 // An element that another thread may still be running is left out of this cycle.
+template <bool kIsTraced>
 void CycleRunner::RunAll(const Schedule& schedule, CycleMoment now, FaultDesk& desk) noexcept {
   const bool is_settled = IsSettled(schedule);
   for (const Schedule::Chunk* chunk : schedule.chunks) {
     if (is_settled || !chunk->has_arrivals) {
-      Run(chunk->entries, now, desk, schedule.track);
+      Run<kIsTraced>(chunk->entries, schedule, now, desk);
       continue;
     }
     for (const Schedule::Entry& entry : chunk->entries) {
-      if (entry.HasArrived()) Run({&entry, 1}, now, desk, schedule.track);
+      if (entry.HasArrived()) Run<kIsTraced>({&entry, 1}, schedule, now, desk);
     }
   }
 }
 
 // The entries of one element follow one another only by chance, so what has come for it is taken
 // once, by its first task, and holds for the others.
+template <bool kIsTraced>
 void CycleRunner::RunActivated(const Schedule& schedule, CycleMoment now,
                                FaultDesk& desk) noexcept {
   const bool is_settled = IsSettled(schedule);
   is_held_up_ = false;
   for (const Schedule::Chunk* chunk : schedule.chunks) {
     for (const Schedule::Entry& entry : chunk->entries) {
-      RunIfActivated(entry, is_settled, now, desk, schedule.track);
+      RunIfActivated<kIsTraced>(entry, schedule, is_settled, now, desk);
     }
   }
   // What came during the pass for those further down has been used in it; what came for those
@@ -151,8 +168,9 @@ void CycleRunner::RunActivated(const Schedule& schedule, CycleMoment now,
   if (more) activated_.store(true, std::memory_order_release);
 }
 
-void CycleRunner::RunIfActivated(const Schedule::Entry& entry, bool is_settled, CycleMoment now,
-                                 FaultDesk& desk, TraceTrack* track) noexcept {
+template <bool kIsTraced>
+void CycleRunner::RunIfActivated(const Schedule::Entry& entry, const Schedule& schedule,
+                                 bool is_settled, CycleMoment now, FaultDesk& desk) noexcept {
   ScheduledElement& element = *entry.element;
   // What has come for an element that another thread may still be running is not forgotten.
   if (!is_settled && !entry.HasArrived()) {
@@ -160,7 +178,7 @@ void CycleRunner::RunIfActivated(const Schedule::Entry& entry, bool is_settled, 
     return;
   }
   if (entry.is_first && element.TakeActivation()) element.set_in_pass(true);
-  if (element.in_pass()) Run({&entry, 1}, now, desk, track);
+  if (element.in_pass()) Run<kIsTraced>({&entry, 1}, schedule, now, desk);
   if (entry.is_last) element.set_in_pass(false);
 }
 

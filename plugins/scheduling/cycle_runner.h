@@ -84,10 +84,23 @@ class CycleRunner {
 
  private:
   [[nodiscard]] bool IsSettled(const Schedule& schedule) noexcept;
-  void RunAll(const Schedule& schedule, CycleMoment now, FaultDesk& desk) noexcept;
-  void RunActivated(const Schedule& schedule, CycleMoment now, FaultDesk& desk) noexcept;
-  void RunIfActivated(const Schedule::Entry& entry, bool is_settled, CycleMoment now,
-                      FaultDesk& desk, TraceTrack* track) noexcept;
+  // The same with and without a track on which it is noted. Hidden, as calls of templates would else go
+  // through the library's table of symbols.
+  template <bool kIsTraced>
+  [[gnu::visibility("hidden")]] void RunTasks(const Schedule& schedule, CycleMoment now,
+                                              FaultDesk& desk) noexcept;
+  template <bool kIsTraced>
+  [[gnu::visibility("hidden")]] void RunAll(const Schedule& schedule, CycleMoment now,
+                                            FaultDesk& desk) noexcept;
+  template <bool kIsTraced>
+  [[gnu::visibility("hidden")]] void RunActivated(const Schedule& schedule, CycleMoment now,
+                                                  FaultDesk& desk) noexcept;
+  template <bool kIsTraced>
+  [[gnu::visibility("hidden")]] void RunIfActivated(const Schedule::Entry& entry,
+                                                    const Schedule& schedule, bool is_settled,
+                                                    CycleMoment now, FaultDesk& desk) noexcept;
+  [[gnu::cold, gnu::noinline]] void RunNoted(const Schedule& schedule, CycleMoment now,
+                                             FaultDesk& desk) noexcept;
 
   const std::string path_;
   const ThreadOptions options_;

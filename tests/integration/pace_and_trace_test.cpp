@@ -63,6 +63,24 @@ TEST_F(RunningTime, IsSteppedResumedAndPausedFromOutside) {
   EXPECT_THAT(ended.text, HasSubstr("reached"));
 }
 
+TEST_F(RunningTime, DoesNotChangeWhereTheRobotGoes) {
+  const auto verdict = [](const Ended& ended) {
+    const std::size_t begin = ended.text.find("reached");
+    EXPECT_NE(begin, std::string::npos) << ended.text;
+    return ended.text.substr(begin, ended.text.find('\n', begin) - begin);
+  };
+  const Ended plain = Runnel("run --fast " + kDemo);
+  Program program("run --paused --trace " + trace() + " " + kDemo);
+  EXPECT_TRUE(program.WaitFor("paused"));
+  EXPECT_EQ(Runnel("step 7").code, kDone);
+  EXPECT_EQ(Runnel("speed 30").code, kDone);
+  EXPECT_EQ(Runnel("resume").code, kDone);
+  EXPECT_EQ(Runnel("pause").code, kDone);
+  EXPECT_EQ(Runnel("speed 0").code, kDone);
+  EXPECT_EQ(Runnel("resume").code, kDone);
+  EXPECT_EQ(verdict(program.Wait()), verdict(plain));  // to the last digit
+}
+
 TEST_F(RunningTime, EndsInOrderByASignalInAPause) {
   Program program("run --paused " + kDemo);
   EXPECT_TRUE(program.WaitFor("paused"));

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <utility>
 
+#include "core/lockfree/thread_epoch.h"
 #include "core/types/type_info.h"
 #include "plugins/json_values/json_values.h"
 
@@ -21,6 +22,7 @@ class ClientPublication::Place final : public FrameworkElement {
 
 struct ClientPublication::Making {
   Place* place = nullptr;  // the runtime's
+  std::string path;        // of the place
   std::optional<Error> error;
 };
 
@@ -75,6 +77,7 @@ Result<void> ClientPublication::Make(FoxgloveShared& shared, const DirectoryInpu
       runtime.Create<Place>(runtime.root(), "foxglove_client_" + std::to_string(++number));
   shared.places.insert(place.path());
   making.place = &place;
+  making.path = place.path();
   place.output = maker.MakeOutput(place, port->name(), {});
   if (!place.output) {
     return Error{.message = maker.is_proxy()
@@ -89,36 +92,48 @@ Result<void> ClientPublication::Make(FoxgloveShared& shared, const DirectoryInpu
 ClientPublication::~ClientPublication() {
   shared_.worker->Post([&shared = shared_, making = making_] {
     if (making->place == nullptr) return;
-    const std::string path = making->place->path();
-    DeletePlace(shared.application.runtime, path);
-    shared.places.erase(path);
+    DeletePlace(shared.application.runtime, making->path);
+    shared.places.erase(making->path);
   });
 }
 
 std::optional<Error> ClientPublication::TakeError() { return std::exchange(error_, std::nullopt); }
 
 bool ClientPublication::Continue() {
-  if (!job_) return false;
-  if (!job_->is_done()) return true;
-  job_ = nullptr;
-  error_ = making_->error;
-  is_made_ = !error_;
-  if (is_made_ && waiting_) {
-    if (auto published = PublishNow(*waiting_); !published) error_ = published.error();
+  if (job_) {
+    if (!job_->is_done()) return true;
+    job_ = nullptr;
+    error_ = making_->error;
+    is_made_ = !error_;
   }
-  waiting_ = std::nullopt;
-  return false;
+  if (waiting_ && is_made_) {
+    if (auto published = PublishWaiting(); !published) error_ = published.error();
+  }
+  return waiting_ && is_made_;
 }
 
 Result<void> ClientPublication::Publish(std::string_view json) {
-  if (job_) {
-    waiting_ = json;
-    return {};
-  }
-  return PublishNow(json);
+  waiting_ = json;
+  if (job_) return {};
+  return PublishWaiting();
 }
 
-Result<void> ClientPublication::PublishNow(std::string_view json) {
+Result<void> ClientPublication::PublishWaiting() {
+  const EpochGuard guard;  // what is found stays in memory so long
+  {
+    // Somebody may have deleted it, as any other element.
+    Runtime& runtime = shared_.application.runtime;
+    const std::unique_lock lock(runtime.structure_mutex(), std::try_to_lock);
+    if (!lock) return {};  // it goes on waiting
+    const auto found = runtime.root().Find(making_->path);
+    if (!found || *found != making_->place) {
+      waiting_ = std::nullopt;
+      return Error{.message = "the output of this channel has been deleted",
+                   .path = making_->path,
+                   .hint = "advertise it anew"};
+    }
+  }
+  const std::string json = *std::exchange(waiting_, std::nullopt);
   const auto fill = [&](void* value) -> Result<void> {
     if (auto usual = SetFromJson(type_, usual_, value); !usual) return usual;
     return SetFromJson(type_, Unwrapped(type_, json), value);

@@ -23,7 +23,8 @@ class ClientPublication {
   ClientPublication& operator=(const ClientPublication&) = delete;
 
   /// Publishes a value that is told in JSON as its channel would tell it; fields that are left out have
-  /// their usual values. One that comes before the output is there waits, and only the last one does.
+  /// their usual values. One that comes before the output is there, or while the structure is locked,
+  /// waits, and only the last one does.
   /// Errors: the JSON is none of the type; the input cannot be had (any more).
   Result<void> Publish(std::string_view json);
   /// What has come of making the output, once; nothing if that is not known yet, or all is well.
@@ -38,7 +39,7 @@ class ClientPublication {
   struct Making;  // with the worker
 
   static Result<void> Make(FoxgloveShared& shared, const DirectoryInput& input, Making& making);
-  Result<void> PublishNow(std::string_view json);
+  Result<void> PublishWaiting();
 
   FoxgloveShared& shared_;
   const TypeInfo& type_;

@@ -1,6 +1,7 @@
 #include "plugins/foxglove/internal/conversation.h"
 
 #include <algorithm>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -88,10 +89,11 @@ void FoxgloveConversation::Handle(const AdvertiseMessage& message) {
   if (shared_->application.is_read_only) {
     return Complain({.message = "advertise: viewers may look, and publish nothing"});
   }
-  for (const AdvertiseMessage::Channel& channel : message.channels) Advertise(channel);
+  bool may_search = true;
+  for (const AdvertiseMessage::Channel& channel : message.channels) Advertise(channel, may_search);
 }
 
-void FoxgloveConversation::Advertise(const AdvertiseMessage::Channel& channel) {
+void FoxgloveConversation::Advertise(const AdvertiseMessage::Channel& channel, bool& may_search) {
   if (channel.encoding != "json") {
     return Complain(
         {.message = "advertise: values come as 'json' here, not as '" + channel.encoding + "'"});
@@ -106,8 +108,11 @@ void FoxgloveConversation::Advertise(const AdvertiseMessage::Channel& channel) {
   const auto content = shared_->directory.content();
   const auto input = content->inputs.find(channel.topic);
   if (input == content->inputs.end()) {
-    return Complain({.message = "advertise: '" + channel.topic + "' is no input, or means several",
-                     .hint = NearestNameHint(channel.topic, TopicsOf(*content))});
+    Error error{.message = "advertise: '" + channel.topic + "' is no input, or means several"};
+    if (std::exchange(may_search, false)) {
+      error.hint = NearestNameHint(channel.topic, TopicsOf(*content));
+    }
+    return Complain(error);
   }
   publications_[channel.id] = {input->second.path, input->second.type,
                                std::make_unique<ClientPublication>(*shared_, input->second)};

@@ -33,7 +33,8 @@ class FoxgloveConversation final : public WebConversation {
   void Handle(const SetParametersMessage& message) { parameters_.Set(message); }
   void Handle(const SubscribeParametersMessage& message) { parameters_.Subscribe(message); }
   void Handle(const SubscribeGraphMessage& message);
-  void Advertise(const AdvertiseMessage::Channel& channel);
+  /// `may_search`: for the nearest name, which takes time; once in a message.
+  void Advertise(const AdvertiseMessage::Channel& channel, bool& may_search);
 
   void Tell(StatusLevel level, const Error& error);
   void Complain(const Error& error) { Tell(StatusLevel::kError, error); }

@@ -1,6 +1,7 @@
 #include "plugins/foxglove/internal/parameter_talk.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/base/nearest_name.h"
 #include "plugins/foxglove/internal/foxglove_shared.h"
@@ -17,6 +18,7 @@ constexpr auto kBetweenLooks = std::chrono::milliseconds(250);
 constexpr auto kSoon = std::chrono::milliseconds(5);
 constexpr auto kLongTime = std::chrono::hours(1);
 constexpr std::size_t kMostWaiting = 100;  // requests of one client
+constexpr std::size_t kMostAtOnce = 1000;
 
 }  // namespace
 
@@ -38,6 +40,12 @@ void ParameterTalk::Complain(const Error& error) {
   outbox_.Send(StatusMessage(StatusLevel::kError, error.ToString()));
 }
 
+Error ParameterTalk::NoSuchParameter(const std::string& name, bool& may_search) const {
+  Error error{.message = "there is no parameter '" + name + "'"};
+  if (std::exchange(may_search, false)) error.hint = NearestNameHint(name, AllNames());
+  return error;
+}
+
 void ParameterTalk::Get(const GetParametersMessage& message) {
   if (gets_.size() >= kMostWaiting) {
     return Complain({.message = "getParameters: too many requests are waiting"});
@@ -52,6 +60,10 @@ void ParameterTalk::Set(const SetParametersMessage& message) {
   if (settings_.size() >= kMostWaiting) {
     return Complain({.message = "setParameters: too many requests are waiting"});
   }
+  if (message.parameters.size() > kMostAtOnce) {
+    return Complain({.message = "setParameters: more than " + std::to_string(kMostAtOnce) +
+                                " parameters at once"});
+  }
   settings_.push_back(std::make_shared<Setting>(Setting{message, nullptr, {}}));
 }
 
@@ -61,14 +73,14 @@ void ParameterTalk::Subscribe(const SubscribeParametersMessage& message) {
     subscribed_.clear();
     if (message.is_wanted) subscribed_.insert(known.begin(), known.end());
   }
+  bool may_search = true;
   for (const std::string& name : message.names) {
     if (!message.is_wanted) {
       subscribed_.erase(name);
     } else if (std::ranges::binary_search(known, name)) {
       subscribed_.insert(name);
-    } else {
-      Complain({.message = "there is no parameter '" + name + "'",
-                .hint = NearestNameHint(name, known)});
+    } else if (!outbox_.is_long()) {
+      Complain(NoSuchParameter(name, may_search));
     }
   }
   std::erase_if(told_, [&](const auto& each) { return !subscribed_.contains(each.first); });
@@ -111,10 +123,9 @@ bool ParameterTalk::AnswerGets() {
     const GetParametersMessage& get = gets_.front();
     const auto texts = shared_.directory.ReadParameters(get.names.empty() ? AllNames() : get.names);
     if (!texts) return false;
+    bool may_search = true;
     for (const std::string& name : get.names) {
-      if (texts->contains(name)) continue;
-      Complain({.message = "there is no parameter '" + name + "'",
-                .hint = NearestNameHint(name, AllNames())});
+      if (!texts->contains(name) && !outbox_.is_long()) Complain(NoSuchParameter(name, may_search));
     }
     SendValues(*texts, get.id);
     gets_.pop_front();
@@ -135,7 +146,9 @@ bool ParameterTalk::ContinueSetting() {
       if (!texts) return false;
       SendValues(*texts, setting.message.id);
     }
-    for (const Error& error : setting.errors) Complain(error);
+    for (const Error& error : setting.errors) {
+      if (!outbox_.is_long()) Complain(error);
+    }
     settings_.pop_front();
     look_at_ = {};
   }
@@ -150,11 +163,11 @@ bool ParameterTalk::BeginSetting(Setting& setting) {
   const auto texts = shared_.directory.ReadParameters(names);
   if (!texts) return false;
   std::vector<SetParameter> changes;
+  bool may_search = true;
   for (const auto& item : setting.message.parameters) {
     const auto found = content->parameters.find(item.name);
     if (found == content->parameters.end()) {
-      setting.errors.push_back({.message = "there is no parameter '" + item.name + "'",
-                                .hint = NearestNameHint(item.name, AllNames())});
+      setting.errors.push_back(NoSuchParameter(item.name, may_search));
       continue;
     }
     auto text = TextOfSetting(item, *found->second.type, texts->at(item.name));

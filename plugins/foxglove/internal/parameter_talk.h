@@ -36,6 +36,8 @@ class ParameterTalk {
 
   [[nodiscard]] std::vector<std::string> AllNames() const;
   void Complain(const Error& error);
+  /// `may_search`: for the nearest name, which takes time; once in a message.
+  [[nodiscard]] Error NoSuchParameter(const std::string& name, bool& may_search) const;
   void SendValues(const Directory::ParameterTexts& texts, const std::optional<std::string>& id);
   bool AnswerGets();
   bool ContinueSetting();

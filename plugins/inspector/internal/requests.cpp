@@ -10,6 +10,7 @@
 #include "plugins/control/client_change.h"
 #include "plugins/control/history_step.h"
 #include "plugins/inspector/internal/json_parts.h"
+#include "plugins/inspector/internal/save_place.h"
 #include "plugins/structure/change_text.h"
 
 namespace runnel::internal {
@@ -170,6 +171,14 @@ std::string Call(const Hook& hook, const std::string& word, const char* what,
   return Reply(message.request, *done);
 }
 
+std::string Save(Inspection& inspection, const ViewerMessage& message) {
+  const Hook& hook = inspection.application().hooks.save;
+  if (message.file.empty()) return Call(hook, "", "save it", message);
+  const auto place = SavePlace(inspection.options().file, message.file);
+  if (!place) return Refusal(message.request, {{place.error()}});
+  return Call(hook, *place, "save it", message);
+}
+
 std::string FindCompatible(Inspection& inspection, const ViewerMessage& message) {
   const auto catalogue = inspection.catalogue();
   if (catalogue == nullptr) {
@@ -209,7 +218,7 @@ std::string Do(Inspection& inspection, const ViewerMessage& message) {
   const ControlHooks& hooks = inspection.application().hooks;
   if (IsOneOf(message.op, {"undo", "redo"})) return TakeStep(inspection, message);
   if (message.op == "compatible") return FindCompatible(inspection, message);
-  if (message.op == "save") return Call(hooks.save, message.file, "save it", message);
+  if (message.op == "save") return Save(inspection, message);
   return Call(hooks.reload, message.plugin, "load plugins anew", message);
 }
 

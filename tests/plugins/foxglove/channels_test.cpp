@@ -1,3 +1,4 @@
+#include <atomic>
 #include <mutex>
 
 #include "tests/plugins/foxglove/foxglove_fixture.h"

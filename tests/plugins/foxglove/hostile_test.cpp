@@ -58,6 +58,37 @@ TEST_F(FoxgloveHostileTest, BinaryGarbageIsRefused) {
   EXPECT_EQ(Complaint(), "channel 4294967295 is not advertised");
 }
 
+// Looking for the nearest of many names takes time that all clients would wait.
+TEST_F(FoxgloveHostileTest, ManyWrongNamesInOneMessageAreNotAllSearchedFor) {
+  Begin();
+  Json names = Json::array(), channels_ = Json::array(), settings = Json::array();
+  for (std::uint32_t i = 0; i < 50; ++i) {
+    names.push_back("/robot/gian" + std::to_string(i));
+    channels_.push_back({{"id", i}, {"topic", "/robot/gaol"}, {"encoding", "json"}});
+    settings.push_back({{"name", "/robot/gian"}, {"value", 1}});
+  }
+  const auto count_hints = [this](const Json& message) {
+    Say(message);
+    std::size_t complaints = 0;
+    int hints = 0;
+    EXPECT_TRUE(Wait([&] {
+      for (const Json& status : Take("status")) {
+        ++complaints;
+        if (status["message"].get<std::string>().find("did you mean") != std::string::npos) ++hints;
+      }
+      return complaints == 50;
+    }));
+    return hints;
+  };
+  EXPECT_EQ(count_hints({{"op", "getParameters"}, {"parameterNames", names}}), 1);
+  EXPECT_EQ(count_hints({{"op", "subscribeParameterUpdates"}, {"parameterNames", names}}), 1);
+  EXPECT_EQ(count_hints({{"op", "advertise"}, {"channels", channels_}}), 1);
+  EXPECT_EQ(count_hints({{"op", "setParameters"}, {"parameters", settings}}), 1);
+  for (int i = 0; i < 1000; ++i) settings.push_back(settings[0]);
+  Say({{"op", "setParameters"}, {"parameters", settings}});
+  EXPECT_EQ(Complaint(), "setParameters: more than 1000 parameters at once");
+}
+
 // Whatever comes, the conversation goes on, and the application is as it was.
 TEST_F(FoxgloveHostileTest, GoesOnWhateverComes) {
   Begin(/*is_read_only=*/true);

@@ -1,3 +1,6 @@
+#include <atomic>
+#include <mutex>
+
 #include "tests/plugins/foxglove/foxglove_fixture.h"
 
 namespace runnel::test {
@@ -144,6 +147,44 @@ TEST_F(FoxglovePublishingTest, EndsWithTheInput) {
   EXPECT_TRUE(Wait([&] { return !(complaint = Complaint()).empty(); }));
   EXPECT_THAT(complaint, HasSubstr("channel 1 is closed: its input is gone"));
   EXPECT_TRUE(Wait([this] { return Brought().empty(); }));
+}
+
+TEST_F(FoxglovePublishingTest, EndsWithItsOutputThatAnybodyMayDelete) {
+  Begin();
+  Advertise(1, "/robot/goal");
+  Publish(1, R"({"x":1})");
+  ASSERT_TRUE(WaitForGoal({1, 0}));
+  ASSERT_TRUE(runtime.Delete(*runtime.root().FindChild(Brought().at(0))));
+  Publish(1, R"({"x":2})");
+  EXPECT_THAT(Complaint(), HasSubstr("the output of this channel has been deleted"));
+  EXPECT_FALSE(robot.goal.Read().has_value());
+  Say({{"op", "unadvertise"}, {"channelIds", {1}}});
+  Advertise(1, "/robot/goal");
+  Publish(1, R"({"x":3})");
+  EXPECT_TRUE(WaitForGoal({3, 0}));
+  EXPECT_EQ(Complaint(), "");
+}
+
+TEST_F(FoxglovePublishingTest, WaitsForTheStructureWithoutStandingStill) {
+  Begin();
+  Advertise(1, "/robot/goal");
+  Publish(1, R"({"x":1})");
+  ASSERT_TRUE(WaitForGoal({1, 0}));
+  std::mutex held;
+  held.lock();
+  std::atomic<bool> is_locked{false};
+  std::thread other([&] {
+    const std::lock_guard structure(runtime.structure_mutex());
+    is_locked = true;
+    const std::lock_guard wait(held);
+  });
+  while (!is_locked) std::this_thread::yield();
+  Publish(1, R"({"x":2})");
+  Publish(1, R"({"x":3})");
+  EXPECT_EQ(*robot.goal.Read(), (Point2{1, 0}));
+  held.unlock();
+  other.join();
+  EXPECT_TRUE(WaitForGoal({3, 0}));
 }
 
 TEST_F(FoxglovePublishingTest, IsNotForThoseWhoMayOnlyLook) {

@@ -126,6 +126,19 @@ TEST_F(Changing, SavesAndReloadsByTheProgramsMeans) {
   EXPECT_EQ(reply["errors"][0]["message"], "no plugin test");
 }
 
+TEST_F(Changing, SavesNowhereElseThanBesideTheApplication) {
+  bool has_saved = false;
+  hooks.save = [&](const std::string&) -> Result<std::string> {
+    has_saved = true;
+    return std::string("saved");
+  };
+  Start({.file = "/here/app.xml"});
+  const Json reply = View().Ask({{"op", "save"}, {"file", "../etc/app.xml"}});
+  EXPECT_EQ(reply["ok"], false);
+  EXPECT_THAT(reply["errors"][0]["hint"], HasSubstr("/here"));
+  EXPECT_FALSE(has_saved);
+}
+
 TEST_F(Changing, WhatTheProgramCannotIsSaid) {
   Start();
   const Json reply = View().Ask({{"op", "save"}});
