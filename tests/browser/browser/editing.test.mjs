@@ -65,7 +65,7 @@ test('a module is made, connected by dragging, undone, made again, saved, and is
     await page.locator('#save-as').click();
     await page.locator('#save-file').fill(join(folder, 'changed.xml'));
     await page.locator('#save-now').click();
-    await page.locator('.toast.done, dialog .problem').first().waitFor();
+    await inspector.until('an answer', () => !document.querySelector('dialog') || document.querySelector('dialog .problem'));
     assert.deepEqual(await page.locator('dialog .problem').allTextContents(), []);
     const text = await readFile(join(folder, 'changed.xml'), 'utf8');
     assert.match(text, /name="second" type="simulation\/localisation"/);

@@ -11,22 +11,25 @@ import { canChange, catalogue } from '../state/store.js';
 export function ParameterRow({ parameter }) {
   const [draft, setDraft] = useState(null);   // what is being typed, or null
   const [problem, setProblem] = useState('');
-  const sending = useRef(false); // a field that is sent is left, too: that must not send it again
+  const sent = useRef(null); // until it has become the value: leaving the field must not send it again
   const id = `parameter:${parameter.path}`;
   const locked = !parameter.settable || !canChange.value;
-  useEffect(() => { setProblem(''); }, [parameter.value]);
+  useEffect(() => {
+    setProblem('');
+    sent.current = null;
+  }, [parameter.value]);
 
   const send = async (text) => {
-    if (sending.current) return;
+    if (text !== null && text === sent.current) return;
     if (text === null || text === parameter.value) return setDraft(null);
     const wrong = CheckValue(parameter, text, catalogue.value);
     setProblem(wrong);
     if (wrong) return;
-    sending.current = true;
+    sent.current = text;
     const reply = await SetParameter(parameter.path, text, { quiet: true });
-    sending.current = false;
-    if (reply.ok) setDraft(null);
-    else setProblem((reply.errors ?? []).map(ErrorText).join('\n') || 'it was refused');
+    if (reply.ok) return setDraft(null);
+    sent.current = null;
+    setProblem((reply.errors ?? []).map(ErrorText).join('\n') || 'it was refused');
   };
   const drop = () => { setDraft(null); setProblem(''); };
   const bounds = FormatBounds(parameter);
