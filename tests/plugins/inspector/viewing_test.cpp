@@ -89,6 +89,16 @@ TEST_F(Viewing, ShowsNewValuesOfWatchedPorts) {
   EXPECT_FALSE(first.contains("cut"));
 }
 
+TEST_F(Viewing, TimesOfValuesCountFromTheStart) {
+  Start();
+  Viewer viewer = View();
+  viewer.Send({{"op", "watch"}, {"path", "/app/a/output/out"}, {"rate", 60}});
+  const Json values = viewer.Next("values");
+  EXPECT_LE(values["items"][0]["stamp"], values["time"]);
+  EXPECT_GT(values["items"][0]["stamp"], -1);  // it may have been published before the inspector
+  EXPECT_LT(values["time"], 3600);
+}
+
 TEST_F(Viewing, ShowsWhatAnInputGets) {
   Start();
   Viewer viewer = View();
