@@ -7,6 +7,7 @@
 
 #include "apps/runnel/control_command_line.h"
 #include "apps/runnel/other_programs.h"
+#include "apps/runnel/recording_command_line.h"
 #include "core/base/nearest_name.h"
 #include "core/xml/xml_reading.h"
 #include "plugins/inspector/inspector_place.h"
@@ -27,6 +28,7 @@ ExitCode Refuse(const std::string& message, const std::string& hint) {
 std::vector<std::string> AllCommands() {
   std::vector<std::string> commands = kCommands;
   for (const std::string& command : ControlCommandLine::Names()) commands.push_back(command);
+  for (const std::string& command : RecordingCommandLine::Names()) commands.push_back(command);
   for (const std::string& command : OtherCommands()) commands.push_back(command);
   return commands;
 }
@@ -115,17 +117,8 @@ void AddInspect(CLI::App& run, InspectArguments& arguments) {
       ->excludes(none);
 }
 
-CLI::App& AddRun(CLI::App& program, RunArguments& arguments) {
-  CLI::App& run = *program.add_subcommand("run", "runs an application until it ends, or Ctrl-C");
-  AddApplicationArguments(run, arguments.application);
-  const auto fast = run.add_flag_callback(
-      "--fast", [&arguments] { arguments.speed = 0; }, "simulated time passes as fast as it can");
-  run.add_option("--speed", arguments.speed, "of simulated time; 1 is real time")
-      ->type_name("FACTOR")
-      ->check(CheckSpeed)
-      ->excludes(fast);
-  run.add_flag("--paused", arguments.is_paused,
-               "simulated time stands still until 'runnel resume' or 'runnel step'");
+// The same for whatever is run.
+void AddWhatAccompaniesARun(CLI::App& run, RunArguments& arguments) {
   run.add_option("--duration", arguments.duration, "ends the run after so long, simulated or real")
       ->type_name("SECONDS")
       ->check(CheckDuration);
@@ -140,6 +133,21 @@ CLI::App& AddRun(CLI::App& program, RunArguments& arguments) {
       "--no-control", [&arguments] { arguments.has_control = false; },
       "no other process can look at it or change it");
   AddInspect(run, arguments.inspect);
+  AddRecordOptions(run, arguments.record);
+}
+
+CLI::App& AddRun(CLI::App& program, RunArguments& arguments) {
+  CLI::App& run = *program.add_subcommand("run", "runs an application until it ends, or Ctrl-C");
+  AddApplicationArguments(run, arguments.application);
+  const auto fast = run.add_flag_callback(
+      "--fast", [&arguments] { arguments.speed = 0; }, "simulated time passes as fast as it can");
+  run.add_option("--speed", arguments.speed, "of simulated time; 1 is real time")
+      ->type_name("FACTOR")
+      ->check(CheckSpeed)
+      ->excludes(fast);
+  run.add_flag("--paused", arguments.is_paused,
+               "simulated time stands still until 'runnel resume' or 'runnel step'");
+  AddWhatAccompaniesARun(run, arguments);
   return run;
 }
 
@@ -178,6 +186,8 @@ CommandLine ParseCommandLine(int count, const char* const* words) {
       ->check(CheckFile);
   program.add_subcommand("version", "says which version this is");
   const ControlCommandLine control(program);
+  RecordingCommandLine recording(program);
+  AddWhatAccompaniesARun(recording.replay(), recording.replay_arguments());
 
   if (count > 1 && IsUnknownCommand(words[1])) {
     return Refuse("there is no command '" + std::string(words[1]) + "'",
@@ -198,6 +208,7 @@ CommandLine ParseCommandLine(int count, const char* const* words) {
   if (schema.parsed()) return schema_arguments;
   if (graph.parsed()) return graph_arguments;
   if (auto arguments = control.Parsed()) return *arguments;
+  if (auto arguments = recording.Parsed()) return *arguments;
   return VersionArguments{};
 }
 

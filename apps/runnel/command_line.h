@@ -36,6 +36,24 @@ struct InspectArguments {
   }
 };
 
+/// What is recorded, if anything.
+struct RecordArguments {
+  std::string file = {};  ///< "": nothing
+  std::vector<std::string> ports = {};
+  std::string compression = {};  ///< "": the best there is
+};
+
+/// What is played into the application instead of what its modules publish.
+struct ReplayArguments {
+  std::string file = {};
+  std::vector<std::string> ports = {};
+  std::optional<double> rate = {};  ///< 1 if nothing is said, on a simulated clock
+  std::optional<double> from = {};  ///< s after the recording's start
+  std::optional<double> to = {};
+  bool loops = false;
+  bool steps = false;  ///< a cycle for each line of standard input
+};
+
 struct RunArguments {
   ApplicationArguments application;
   std::optional<double> speed = {};     ///< instead of the file's; 0: as fast as it can
@@ -46,6 +64,14 @@ struct RunArguments {
   std::string trace = {};   ///< a file for what the threads do; "": none
   bool has_control = true;  ///< other processes of the user can reach it
   InspectArguments inspect = {};
+  RecordArguments record = {};
+  /// Then `application` may have no file.
+  std::optional<ReplayArguments> replay = {};
+};
+
+struct InfoArguments {
+  std::string file = {};  ///< a recording
+  bool is_json = false;
 };
 
 struct CheckArguments {
@@ -71,8 +97,9 @@ struct VersionArguments {};
 
 /// What to do; or, if there is nothing (left) to do, the exit code: help has been printed, or what
 /// is wrong with the arguments.
-using CommandLine = std::variant<RunArguments, CheckArguments, ModulesArguments, SchemaArguments,
-                                 GraphArguments, ControlArguments, VersionArguments, ExitCode>;
+using CommandLine =
+    std::variant<RunArguments, CheckArguments, ModulesArguments, SchemaArguments, GraphArguments,
+                 ControlArguments, InfoArguments, VersionArguments, ExitCode>;
 
 [[nodiscard]] CommandLine ParseCommandLine(int count, const char* const* words);
 

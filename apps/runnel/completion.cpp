@@ -99,6 +99,7 @@ Candidates Propose(ControlClient& client, const std::string& command, std::size_
     return groups;
   }
   if ((command == "create" || command == "swap") && place == 1) return Types(client);
+  if (command == "record") return Paths(client, Sends);
   if (command == "speed" && is_first) return {"0", "0.5", "1", "2", "10"};
   if (command == "move") return is_first ? Paths(client, IsPart) : Threads(client);
   return {};
@@ -106,7 +107,8 @@ Candidates Propose(ControlClient& client, const std::string& command, std::size_
 
 // The words that are no options; what follows an option that has a value is left out.
 Candidates WithoutOptions(const Candidates& words, std::string& application) {
-  static const Candidates kWithValue{"--app", "-n", "--queue", "--on-full", "--probation"};
+  static const Candidates kWithValue{"--app",       "-n", "--queue",  "--on-full",
+                                     "--probation", "-o", "--output", "--compression"};
   Candidates plain;
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (std::ranges::count(kWithValue, words[i]) > 0 && i + 1 < words.size()) {

@@ -1,5 +1,6 @@
 #include "apps/runnel/control_command.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -8,6 +9,7 @@
 
 #include "apps/runnel/completion.h"
 #include "apps/runnel/print_error.h"
+#include "apps/runnel/remote_recording.h"
 #include "plugins/control/control_client.h"
 #include "plugins/control/control_folder.h"
 #include "plugins/control/request.h"
@@ -91,6 +93,10 @@ Result<Request> RequestOf(const ControlArguments& arguments) {
   if (arguments.command == "save" && !request.words.empty()) {
     request.words[0] = std::filesystem::absolute(request.words[0]).string();
   }
+  if (!arguments.file.empty()) {
+    request.options["file"] = std::filesystem::absolute(arguments.file).string();
+  }
+  if (!arguments.compression.empty()) request.options["compression"] = arguments.compression;
   if (arguments.count) request.options["count"] = std::to_string(*arguments.count);
   if (arguments.is_long) request.options["long"] = "yes";
   if (arguments.is_full) request.options["full"] = "yes";
@@ -121,13 +127,28 @@ ExitCode ListApplications() {
   return ExitCode::kDone;
 }
 
-Result<int> Ask(const ControlArguments& arguments, const Request& request) {
+// "record bug_demo …" as well as "record --app bug_demo …": patterns of ports are no names of applications.
+std::string TakeApplication(const std::vector<RunningApplication>& running, Request& request) {
+  if (request.command != "record" || request.words.empty()) return {};
+  const std::string first = request.words.front();
+  const bool is_one = std::ranges::any_of(running, [&](const RunningApplication& each) {
+    return each.hello.application == first || std::to_string(each.hello.process) == first;
+  });
+  if (!is_one) return {};
+  request.words.erase(request.words.begin());
+  return first;
+}
+
+Result<int> Ask(const ControlArguments& arguments, Request request) {
   const auto applications = FindThem();
   if (!applications) return applications.error();
-  const auto chosen = ChooseApplication(*applications, arguments.application);
+  std::string wanted = arguments.application;
+  if (wanted.empty()) wanted = TakeApplication(*applications, request);
+  const auto chosen = ChooseApplication(*applications, wanted);
   if (!chosen) return chosen.error();
   auto client = ControlClient::Connect(chosen->socket);
   if (!client) return client.error();
+  if (arguments.command == "record") return AskToRecord(*client, request, arguments.file);
   const auto show = [](std::ostream& stream) {
     return [&stream](std::string_view text) {
       stream << text << std::flush;

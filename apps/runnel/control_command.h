@@ -20,6 +20,8 @@ struct ControlArguments {
   std::optional<std::string> queue = {};
   std::optional<std::string> on_full = {};
   std::optional<std::string> probation = {};
+  std::string file = {};         ///< of a recording
+  std::string compression = {};  ///< likewise
 };
 
 /// Asks it and shows the answer: on stdout what was asked for, on stderr what is wrong.

@@ -15,9 +15,9 @@ constexpr std::size_t kMostWords = 2;  // of those that are parsed one by one
 
 const std::vector<std::string>& ControlCommandLine::Names() {
   static const std::vector<std::string> names{
-      "ps",     "ls",    "echo",   "hz",   "set",   "connect", "disconnect", "create",
-      "delete", "swap",  "move",   "undo", "redo",  "save",    "reload",     "change",
-      "log",    "pause", "resume", "step", "speed", "complete"};
+      "ps",     "ls",     "echo",  "hz",     "set",  "connect", "disconnect", "create",
+      "delete", "swap",   "move",  "undo",   "redo", "save",    "reload",     "change",
+      "log",    "record", "pause", "resume", "step", "speed",   "complete"};
   return names;
 }
 
@@ -114,6 +114,22 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
 
   Entry& reload = add("reload", "loads a plugin anew and makes its modules anew by it");
   word(reload, "plugin", "its name, as in <load>; build its library first")->type_name("PLUGIN");
+
+  Entry& record =
+      add("record", "records what ports of a running application publish, until Ctrl-C");
+  record.command
+      ->add_option("patterns", record.arguments.words,
+                   "the application, if several are running, and which ports: /robot/pose, */pose, "
+                   "/robot/**; '!' in front: not those; without, all")
+      ->type_name("[NAME|PROCESS] PATTERN");
+  record.command->add_option("-o,--output", record.arguments.file, "the file (MCAP)")
+      ->required()
+      ->type_name("FILE.mcap");
+  count(record, "ends after so many seconds");
+  record.command
+      ->add_option("--compression", record.arguments.compression,
+                   "zstd, lz4 or none; without, the first that is there")
+      ->type_name("WORD");
 
   add("pause", "lets simulated time stand still");
   add("resume", "lets simulated time go on");

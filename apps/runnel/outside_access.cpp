@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "apps/runnel/recording.h"
+#include "apps/runnel/remote_recording.h"
 #include "core/base/diagnostics.h"
 #include "plugins/application_files/application_saver.h"
 #include "plugins/foxglove/foxglove.h"
@@ -26,7 +28,8 @@ void Warn(Error warning) {
   std::cerr << diagnostics.ToString();
 }
 
-ControlHooks HooksOf(Workplace& workplace, const FrameworkElement& application,
+ControlHooks HooksOf(const RunArguments& arguments, Workplace& workplace,
+                     const FrameworkElement& application, Scheduler& scheduler,
                      StructureEditor& editor) {
   ControlHooks hooks;
   hooks.load_plugin = [&workplace](const std::string& plugin) {
@@ -49,6 +52,8 @@ ControlHooks HooksOf(Workplace& workplace, const FrameworkElement& application,
     if (!outcome) return outcome.diagnostics.errors().front();
     return "loaded " + plugin + " anew";
   };
+  hooks.record = RecordingHookOf(AboutApplication(arguments.application, application.name()),
+                                 workplace.runtime(), scheduler);
   return hooks;
 }
 
@@ -116,14 +121,16 @@ Result<std::unique_ptr<OutsideAccess>> OutsideAccess::Start(
     const RunArguments& arguments, Workplace& workplace, FrameworkElement& application,
     Scheduler& scheduler, StructureEditor& editor, ChangeHistory& history, ControlLog& log) {
   std::unique_ptr<OutsideAccess> access(new OutsideAccess);
-  const ControlledApplication controlled{workplace.runtime(),
-                                         workplace.plugins().modules(),
-                                         editor,
-                                         log,
-                                         HooksOf(workplace, application, editor),
-                                         &history,
-                                         &scheduler.pace()};
-  const std::string file = std::filesystem::absolute(arguments.application.file).string();
+  const ControlledApplication controlled{
+      workplace.runtime(),
+      workplace.plugins().modules(),
+      editor,
+      log,
+      HooksOf(arguments, workplace, application, scheduler, editor),
+      &history,
+      &scheduler.pace()};
+  const std::string& built_from = arguments.application.file;
+  const std::string file = built_from.empty() ? "" : std::filesystem::absolute(built_from).string();
   if (arguments.has_control) {
     auto control =
         ControlServer::Start(controlled, {.application = application.name(), .file = file});

@@ -1,5 +1,6 @@
 #include "apps/runnel/run_command.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -13,6 +14,9 @@
 #include "apps/runnel/outside_access.h"
 #include "apps/runnel/print_error.h"
 #include "apps/runnel/progress_display.h"
+#include "apps/runnel/recorded_application.h"
+#include "apps/runnel/recording.h"
+#include "apps/runnel/replay.h"
 #include "apps/runnel/run_report.h"
 #include "apps/runnel/running.h"
 #include "apps/runnel/statistics_table.h"
@@ -33,9 +37,15 @@ using ClockKind = SchedulerOptions::ClockKind;
 
 constexpr auto kLookForSignal = std::chrono::milliseconds(50);
 
+// A recording that is replayed for viewers alone.
+bool IsWithoutApplication(const RunArguments& arguments) {
+  return arguments.replay && arguments.application.file.empty();
+}
+
 Result<SchedulerOptions> ChooseOptions(const RunArguments& arguments,
                                        const FrameworkElement& application) {
   SchedulerOptions options = SchedulerOptionsOf(application);
+  if (IsWithoutApplication(arguments)) options.clock = ClockKind::kSimulated;
   const auto refuse = [&](const char* message, const std::string& words) {
     return Error{
         .message = message,
@@ -47,6 +57,7 @@ Result<SchedulerOptions> ChooseOptions(const RunArguments& arguments,
     return refuse("the speed of real time cannot be chosen", "--fast and --speed");
   }
   if (arguments.is_paused && is_real) return refuse("real time cannot be paused", "--paused");
+  if (arguments.replay && !is_real) options.speed = 1;
   if (arguments.speed) options.speed = *arguments.speed;
   if (arguments.is_paused) options.is_paused = true;
   return options;
@@ -110,12 +121,15 @@ void PrintTimes(Duration so_far, std::chrono::steady_clock::duration real, Clock
 class Session {
  public:
   Session(const RunArguments& arguments, FrameworkElement& application, Scheduler& scheduler,
-          Supervisor& supervisor, ControlLog& log, OutsideAccess& access)
+          Supervisor& supervisor, ControlLog& log, OutsideAccess& access, Recorder* recorder,
+          Replay* replay)
       : arguments_(arguments),
         scheduler_(scheduler),
         supervisor_(supervisor),
         log_(log),
         access_(access),
+        recorder_(recorder),
+        replay_(replay),
         root_(application.runtime().root()),
         start_(application.runtime().clock().Now()),
         report_(application.runtime()),
@@ -124,7 +138,13 @@ class Session {
   ExitCode Run(Runtime& runtime) {
     const StopSignal stop_signal(scheduler_);
     std::optional<Duration> limit;
-    if (arguments_.duration) limit = FromSeconds(*arguments_.duration);
+    if (replay_ != nullptr) {
+      limit = replay_->limit();
+      replay_->Start();
+    }
+    if (arguments_.duration) {
+      limit = std::min(limit.value_or(Duration::max()), FromSeconds(*arguments_.duration));
+    }
     const auto real_start = std::chrono::steady_clock::now();
     const auto ran = program::Run(
         {scheduler_, runtime, limit, [this](Duration so_far) { return LookAround(so_far); }});
@@ -157,7 +177,7 @@ class Session {
     if (display_.IsDue()) {
       display_.Show(so_far, scheduler_.pace().is_paused(), report_.Progress());
     }
-    return report_.IsOver();
+    return replay_ != nullptr ? replay_->LookAround() : report_.IsOver();
   }
 
   // Not before the start, which only shows what the system refuses to real-time threads.
@@ -174,6 +194,13 @@ class Session {
       log_.Add(ControlLog::Kind::kFault, text);
       access_.Hear(fault);
     }
+    if (recorder_ != nullptr) {
+      if (const auto failure = recorder_->TakeFailure()) {
+        display_.Clear();
+        PrintError(*failure);
+        log_.Add(ControlLog::Kind::kWarning, failure->ToString());
+      }
+    }
     for (const Notice& notice : supervisor_.TakeNotices()) {
       display_.Clear();
       const std::string text = NoticeText(notice, start_, root_);
@@ -185,6 +212,7 @@ class Session {
   std::string WhyItEnded(bool was_stopped, bool was_asked) {
     if (was_stopped) return "the run was stopped because of a fault\n";
     if (was_asked) return "stopped by the user\n";
+    if (replay_ != nullptr) return replay_->Text();
     return report_.IsOver() ? "" : "the time is up\n";
   }
 
@@ -194,14 +222,27 @@ class Session {
     Diagnostics failures;
     std::cout << verdicts << report_.Finish(failures);
     std::cout << std::flush;
+    const bool is_recorded = FinishRecording();
+    if (replay_ != nullptr && replay_->failure()) failures.Add(*replay_->failure());
     const std::string why = WhyItEnded(was_stopped, was_asked);
     access_.NoteEnd(verdicts + why);
     std::cerr << failures.ToString();
     (was_stopped ? std::cerr : std::cout) << why;
     if (!arguments_.quiet) PrintTimes(so_far, real, scheduler_.options().clock);
     if (arguments_.statistics) std::cout << StatisticsTable(root_);
-    return was_stopped || !report_.IsGood() || !failures.ok() ? ExitCode::kRunFailed
-                                                              : ExitCode::kDone;
+    // What monitors say of a replay, they say of another run.
+    const bool is_well_judged = replay_ != nullptr || report_.IsGood();
+    const bool is_good = !was_stopped && is_well_judged && failures.ok() && is_recorded;
+    return is_good ? ExitCode::kDone : ExitCode::kRunFailed;
+  }
+
+  // Whether the user has the recording that was asked for.
+  bool FinishRecording() {
+    if (recorder_ == nullptr) return true;
+    const auto finished = recorder_->Finish();
+    if (const auto failure = recorder_->TakeFailure()) PrintError(*failure);
+    std::cout << RecordingText(recorder_->file(), recorder_->status());
+    return finished.has_value();
   }
 
   const RunArguments& arguments_;
@@ -209,12 +250,26 @@ class Session {
   Supervisor& supervisor_;
   ControlLog& log_;
   OutsideAccess& access_;
+  Recorder* const recorder_;  // nullptr: nothing is recorded
+  Replay* const replay_;      // nullptr: nothing is replayed
   FrameworkElement& root_;
   const Time start_;
   RunReport report_;
   ProgressDisplay display_;
   bool has_warned_ = false;
 };
+
+// nullptr: it has been said what is wrong.
+FrameworkElement* BuildWhatRuns(const RunArguments& arguments, Workplace& workplace,
+                                const Workplace::BeforeReady& before_ready) {
+  if (!IsWithoutApplication(arguments)) {
+    return workplace.Build(arguments.application, BuildMode::kRun, before_ready).application;
+  }
+  const auto made = MakeRecordedApplication(arguments.replay->file, workplace, before_ready);
+  if (made) return *made;
+  PrintError(made.error());
+  return nullptr;
+}
 
 }  // namespace
 
@@ -235,19 +290,35 @@ ExitCode Run(const RunArguments& arguments) {
     if (auto added = AddFaultRules(application, *scheduler); !added) return added;
     return AddSupervisionRules(application, supervision->supervisor);
   };
-  const BuildOutcome outcome = workplace.Build(arguments.application, BuildMode::kRun, schedule);
-  if (outcome.application == nullptr) return ExitCode::kBadInput;
+  FrameworkElement* const application = BuildWhatRuns(arguments, workplace, schedule);
+  if (application == nullptr) return ExitCode::kBadInput;
   if (trace) trace->FollowStructure();
+  std::unique_ptr<Replay> replay;
+  if (arguments.replay) {
+    auto prepared = Replay::Prepare(*arguments.replay, workplace.runtime(), *scheduler);
+    if (!prepared) {
+      PrintError(prepared.error());
+      return ExitCode::kBadInput;
+    }
+    replay = std::move(*prepared);
+  }
   ControlLog log(workplace.runtime().clock());
-  auto access = OutsideAccess::Start(arguments, workplace, *outcome.application, *scheduler,
+  auto access = OutsideAccess::Start(arguments, workplace, *application, *scheduler,
                                      supervision->editor, supervision->history, log);
   if (!access) {
     PrintError(access.error());
     return ExitCode::kBadInput;
   }
-  const ExitCode code =
-      Session(arguments, *outcome.application, *scheduler, supervision->supervisor, log, **access)
-          .Run(workplace.runtime());
+  const auto recorder =
+      StartRecording(arguments.record, AboutApplication(arguments.application, application->name()),
+                     workplace.runtime(), *scheduler);
+  if (!recorder) {
+    PrintError(recorder.error());
+    return ExitCode::kBadInput;
+  }
+  const ExitCode code = Session(arguments, *application, *scheduler, supervision->supervisor, log,
+                                **access, recorder->get(), replay.get())
+                            .Run(workplace.runtime());
   return trace ? FinishTrace(*trace, arguments, code) : code;
 }
 

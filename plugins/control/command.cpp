@@ -25,6 +25,8 @@ auto Alone(CommandResult (*make)(const Request&, const ControlledApplication&)) 
   };
 }
 
+constexpr std::size_t kMostPatterns = 1000;
+
 const std::vector<CommandKind>& Kinds() {
   static const std::vector<CommandKind> kinds{
       {"ls", 0, 1, {"long"}, Alone(MakeListCommand)},
@@ -42,6 +44,7 @@ const std::vector<CommandKind>& Kinds() {
       {"step", 0, 1, {}, Alone(MakeStepCommand)},
       {"speed", 0, 1, {}, Alone(MakeSpeedCommand)},
       {"reload", 1, 1, {}, MakeReloadCommand},
+      {"record", 0, kMostPatterns, {"file", "count", "compression"}, MakeRecordCommand},
   };
   return kinds;
 }

@@ -11,6 +11,7 @@
 #include "core/plugin/module_registry.h"
 #include "plugins/control/change_worker.h"
 #include "plugins/control/control_log.h"
+#include "plugins/control/recording_hook.h"
 #include "plugins/control/request.h"
 #include "plugins/structure/structure_editor.h"
 
@@ -30,6 +31,8 @@ struct ControlHooks {
   /// Loads a plugin anew, makes its modules anew, and says what was done. Optional. Called by a thread of
   /// the server.
   std::function<Result<std::string>(const std::string& plugin)> reload = {};
+  /// Records ports until the client goes. Optional. Called by a thread of the server.
+  RecordingHook record = {};
 };
 
 /// What commands work on. All of it outlives the server.
@@ -105,6 +108,8 @@ using CommandResult = Result<std::unique_ptr<Command>>;
                                             ChangeWorker&);
 [[nodiscard]] CommandResult MakeRedoCommand(const Request&, const ControlledApplication&,
                                             ChangeWorker&);
+[[nodiscard]] CommandResult MakeRecordCommand(const Request&, const ControlledApplication&,
+                                              ChangeWorker&);
 [[nodiscard]] CommandResult MakePauseCommand(const Request&, const ControlledApplication&);
 [[nodiscard]] CommandResult MakeResumeCommand(const Request&, const ControlledApplication&);
 [[nodiscard]] CommandResult MakeStepCommand(const Request&, const ControlledApplication&);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/element/configurable.h"
+#include "core/port/tap.h"
 #include "plugins/inspector/internal/json_parts.h"
 
 namespace runnel::internal {
@@ -37,6 +38,9 @@ void Cancel(std::vector<std::string>& a, std::vector<std::string>& b) {
 }
 
 void AppendRaw(const std::string& item, std::string& json) { json += item; }
+
+// A recorder is no part of the application.
+bool IsObserver(const Port& port) { return dynamic_cast<const Tap*>(&port) != nullptr; }
 
 }  // namespace
 
@@ -143,6 +147,7 @@ std::uint64_t StructureMirror::Fingerprint(const FrameworkElement& element) cons
   std::uint64_t hash = ElementFingerprint(element, around_);
   if (element.kind() != ElementKind::kPort) return hash;
   for (const Connection& each : dynamic_cast<const Port&>(element).outgoing()) {
+    if (IsObserver(*each.to)) continue;
     hash = hash * 31 + each.to->serial();
     hash = hash * 31 + each.options.queue * 4 + static_cast<std::uint64_t>(each.options.on_full);
   }
@@ -158,6 +163,7 @@ StructureMirror::Entry StructureMirror::Describe(const FrameworkElement& element
               .walk = walk_};
   if (const auto* const port = dynamic_cast<const Port*>(&element)) {
     for (const Connection& each : port->outgoing()) {
+      if (IsObserver(*each.to)) continue;
       entry.connections.push_back(ConnectionJson(each));
     }
   }

@@ -207,6 +207,7 @@ Scheduler::Went Scheduler::GoOn(std::optional<Time> end, Duration patience) {
       simulation_.Step();
       pace_.CountCycle();
       LookOut();
+      brakes_.HoldBack();
       return Went::kOneCycle;
     }
     if (!latest) latest = machine_.Now() + patience;

@@ -12,6 +12,7 @@
 #include "core/base/ordered_mutex.h"
 #include "core/element/element_listener.h"
 #include "core/element/runtime.h"
+#include "plugins/scheduling/brakes.h"
 #include "plugins/scheduling/cycle_hold.h"
 #include "plugins/scheduling/fault.h"
 #include "plugins/scheduling/fault_desk.h"
@@ -150,6 +151,8 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   /// cycle that ends then or later. Set it while nothing runs.
   using Lookout = std::function<Time(Time now)>;
   void SetLookout(Lookout lookout);
+  /// kSimulated: what may hold simulated time back between cycles; on a real clock it is never asked.
+  [[nodiscard]] Brakes& brakes() noexcept { return brakes_; }
   /// As a fault rule does: stop_requested() and stopped_by_fault() become true.
   void StopForFault() noexcept { desk_.StopForFault(); }
 
@@ -191,6 +194,7 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   SimulatedExecutor simulation_{desk_};
   SteadyClock machine_;
   Pace pace_;
+  Brakes brakes_;
 
   OrderedMutex start_mutex_{LockLevel::kScheduler};
   // Guarded by the structure lock, down to the next comment:

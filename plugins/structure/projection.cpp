@@ -4,6 +4,7 @@
 
 #include "core/base/nearest_name.h"
 #include "core/element/element_path.h"
+#include "core/port/tap.h"
 
 namespace runnel::internal {
 
@@ -219,6 +220,12 @@ std::vector<Port*> Projection::Targets(const Port& from) const {
     if (edge.first == &from) targets.push_back(edge.second);
   }
   return targets;
+}
+
+bool Projection::IsConnected(const Port& port) const {
+  return HasSource(port) || std::ranges::any_of(Targets(port), [](const Port* to) {
+           return dynamic_cast<const Tap*>(to) == nullptr;
+         });
 }
 
 bool Projection::Reaches(const Port& from, const Port& to) const {

@@ -42,9 +42,8 @@ class Projection {
   Result<void> Disconnect(Port& from, Port& to);
 
   [[nodiscard]] bool HasSource(const Port& port) const;
-  [[nodiscard]] bool IsConnected(const Port& port) const {
-    return HasSource(port) || !Targets(port).empty();
-  }
+  /// Who only taps the port does not count: a recorder can do without.
+  [[nodiscard]] bool IsConnected(const Port& port) const;
 
  private:
   using Edge = std::pair<Port*, Port*>;

@@ -53,6 +53,10 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
       {"plugins/control", "plugins/control", {"core", "plugins/scheduling", "plugins/structure"}});
   rules.push_back({"plugins/watching", "plugins/watching", {"core"}});
   rules.push_back({"plugins/mcap", "plugins/mcap", {"core"}});
+  rules.push_back({"plugins/recording",
+                   "plugins/recording",
+                   {"core", "plugins/foxglove_schemas", "plugins/json_values", "plugins/mcap",
+                    "plugins/parameters", "plugins/runtime_construction", "plugins/scheduling"}});
   rules.push_back({"plugins/web_server", "plugins/web_server", {"core"}});
   rules.push_back({"the tags of the inspector",
                    "plugins/inspector/xml_",

@@ -45,6 +45,12 @@ TEST(Completion, KnowsTheCommands) {
   EXPECT_THAT(Completed("\"\""), AllOf(Contains("run"), Contains("schema"), Contains("version")));
 }
 
+TEST(Completion, OfAReplayFirstTheRecordingAndThenTheApplication) {
+  EXPECT_THAT(Completed("replay apps/bug_d"), testing::IsEmpty());
+  EXPECT_THAT(Completed("replay run.mcap apps/bug_d"), ElementsAre("apps/bug_demo.xml"));
+  EXPECT_THAT(Completed("replay run.mcap apps/bug_demo.xml go"), ElementsAre("goal_x=", "goal_y="));
+}
+
 TEST(Completion, KnowsTheOptionsOfEachCommand) {
   EXPECT_THAT(Completed("run --st"), ElementsAre("--statistics"));
   EXPECT_THAT(Completed("check --"), Not(Contains("--statistics")));

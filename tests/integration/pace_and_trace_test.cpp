@@ -116,7 +116,10 @@ TEST_F(RunningTime, IsTracedUntilTheProgramIsKilled) {
   EXPECT_EQ(stepped.code, kDone) << stepped.text;
   program.Send(SIGKILL);
   EXPECT_EQ(program.Wait().signal, SIGKILL);
-  const json events = json::parse(TraceText() + "]");
+  std::string text = TraceText();
+  // It may have been killed in the midst of writing.
+  if (!json::accept(text + "]")) text.resize(text.rfind(",\n"));
+  const json events = json::parse(text + "]");
   EXPECT_GT(Count(events, "cycle"), 40U);
   EXPECT_EQ(Count(events, "put in /bug_demo/robot/planner (planning/bug1)"), 1U);
   EXPECT_GE(Count(events, "hold"), 1U);

@@ -1,11 +1,13 @@
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "core/types/type_of.h"
 #include "plugins/foxglove_schemas/internal/drawing.h"
 #include "plugins/foxglove_schemas/internal/fields.h"
 #include "plugins/foxglove_schemas/internal/message_parts.h"
 #include "plugins/foxglove_schemas/internal/schema_texts.h"
+#include "plugins/foxglove_schemas/internal/triangulation.h"
 
 namespace runnel::internal {
 
@@ -95,6 +97,7 @@ struct MapFields {
   std::optional<ListField> outlines;
   std::optional<PlacesField> points;  // of an outline
   std::optional<NumberField> height;  // of an outline
+  const FieldInfo* is_hole;           // of an outline; nullptr if none is
   const FieldInfo* start_field;
   std::optional<PoseReader> start;
   const FieldInfo* goal_field;
@@ -109,6 +112,10 @@ std::optional<MapFields> FindMap(const TypeInfo& type) {
   fields.points = PlacesField::Find(fields.outlines->element_type(), "points");
   if (!fields.points) return std::nullopt;
   fields.height = NumberField::Find(fields.outlines->element_type(), "height");
+  fields.is_hole = fields.outlines->element_type().FindField("is_hole");
+  if (fields.is_hole != nullptr && fields.is_hole->type != &TypeOf<bool>()) {
+    fields.is_hole = nullptr;
+  }
   fields.start_field = type.FindField("start");
   if (fields.start_field != nullptr) fields.start = PoseReader::For(*fields.start_field->type);
   fields.goal_field = type.FindField("goal");
@@ -134,7 +141,20 @@ void AppendLines(const MapFields& fields, const void* value, std::string& json) 
   }
 }
 
-// The upright sides of all outlines as one list of triangles: each point of an outline has one on the
+bool IsHole(const MapFields& fields, const void* outline) {
+  return fields.is_hole != nullptr &&
+         *static_cast<const bool*>(fields.is_hole->address(ForLooking(outline)));
+}
+
+// What has holes is left open at its top.
+bool HasTop(const MapFields& fields, const void* value, std::size_t outline) {
+  const auto is_hole = [&](std::size_t at) {
+    return at < fields.outlines->Size(value) && IsHole(fields, fields.outlines->At(value, at));
+  };
+  return !is_hole(outline) && !is_hole(outline + 1);
+}
+
+// The upright sides of all outlines, and their tops, as one list of triangles: each point of an outline has one on the
 // ground and one at the top, and two triangles join it to the next.
 void AppendSides(const MapFields& fields, const void* value, std::string& json) {
   JsonArray lists(json);
@@ -149,14 +169,22 @@ void AppendSides(const MapFields& fields, const void* value, std::string& json) 
       const void* const outline = fields.outlines->At(value, i);
       const double height = HeightOf(fields, outline);
       const std::size_t count = fields.points->Size(outline);
+      std::vector<Place> ring;
       for (std::size_t k = 0; k < count; ++k) {
         Place place = fields.points->At(outline, k);
+        ring.push_back(place);
         AppendVector(place, points.Next());
         place.z += height;
         AppendVector(place, points.Next());
         const std::size_t here = first + 2 * k, next = first + 2 * ((k + 1) % count);
         for (const std::size_t index : {here, next, here + 1, here + 1, next, next + 1}) {
           AppendJsonNumber(std::uint64_t{index}, indices.Next());
+        }
+      }
+      if (!HasTop(fields, value, i)) ring.clear();
+      for (const auto& triangle : TrianglesOf(ring)) {
+        for (const std::size_t corner : triangle) {
+          AppendJsonNumber(std::uint64_t{first + 2 * corner + 1}, indices.Next());
         }
       }
       first += 2 * count;

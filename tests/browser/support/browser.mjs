@@ -32,7 +32,7 @@ export async function OpenPage(t, url, { width = 1280, height = 800, colours = '
 }
 
 /** What a user does with the page, in words. */
-export class InspectorPage {
+class InspectorPage {
   constructor(page) {
     this.page = page;
     this.details = page.locator('#details');

@@ -26,7 +26,10 @@ export async function RunApplication(t, file, { port = 0, options = [] } = {}) {
     process_.kill('SIGINT');
     return ended;
   };
-  Cleanup(t, stop);
+  Cleanup(t, () => {
+    process_.kill('SIGKILL'); // one that is held for viewers would wait for them
+    return ended;
+  });
   return { url, port: Number(new URL(url).port), ended, stop, output: () => output };
 }
 

@@ -209,12 +209,23 @@ TEST(FoxgloveDrawings, OfAMapHaveSidesForEachOutline) {
   EXPECT_EQ(obstacles["lines"][3]["points"][0], Xyz(5, 5, 1));
   const Json& sides = obstacles["triangles"][0];
   EXPECT_EQ(sides["points"].size(), 2u * (3 + 4));
-  EXPECT_EQ(sides["indices"].size(), 6u * (3 + 4));
+  EXPECT_EQ(sides["indices"].size(), 6u * (3 + 4) + 3u * (1 + 2)) << "sides and tops";
   for (const Json& index : sides["indices"]) EXPECT_LT(index, sides["points"].size());
-  // The last side of the second obstacle closes it.
-  EXPECT_EQ(sides["indices"].back(), 7);
+  // The last side of the first obstacle closes it; then comes its top.
+  EXPECT_EQ(sides["indices"][17], 1);
+  for (std::size_t i = 18; i < 21; ++i) {
+    EXPECT_EQ(sides["points"][sides["indices"][i].get<std::size_t>()]["z"], 0.5);
+  }
   EXPECT_EQ(entities[1]["id"], "start");
   EXPECT_EQ(entities[2]["spheres"][0]["pose"]["position"], Xyz(7, 8, 0));
+}
+
+TEST(FoxgloveDrawings, OfAMapLeaveOpenWhatHasHoles) {
+  WorldMap map;
+  map.outlines.push_back({{{0, 0}, {9, 0}, {9, 9}, {0, 9}}, 1.0, false});
+  map.outlines.push_back({{{1, 1}, {2, 1}, {2, 2}}, 1.0, true});
+  const Json entities = Drawn(map)["entities"];
+  EXPECT_EQ(entities[0]["triangles"][0]["indices"].size(), 6u * (4 + 3));
 }
 
 TEST(FoxgloveDrawings, HaveNoTimeBeforeTheBegin) {

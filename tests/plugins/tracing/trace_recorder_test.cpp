@@ -170,9 +170,9 @@ TEST_F(Traced, IsInTheFileSoonAfterItHasHappened) {
     std::this_thread::sleep_for(1ms);
     std::ifstream stream(path);
     const std::string text(std::istreambuf_iterator<char>(stream), {});
+    // Nothing may have been written yet, or half of what is just being written.
     found = json::parse(text + "]", nullptr, false);
-    ASSERT_FALSE(found.is_discarded()) << text;
-    events = found;
+    events = found.is_discarded() ? json::array() : found;
   } while (EventsOf("update", "/ticker").size() < 20);
 }
 

@@ -18,7 +18,8 @@ function Page() {
   const { side, dock, world, worldShown, worldLarge } = panels.value;
   const showsWorld = worldShown && hasWorld.value;
   return html`
-    <div class=${`page ${isConnected.value ? '' : 'stale'}`} style=${{ '--side': `${side}px`, '--dock': `${dock}px`, '--world': `${world}px` }}>
+    <div class=${`page ${isConnected.value ? '' : 'stale'}`}
+        style=${{ '--side': `${side}px`, '--dock': `${dock}px`, '--world': `${world}px` }}>
       <${Toolbar} />
       <${LostBanner} />
       <main class="main" aria-label="Data flow">

@@ -30,18 +30,22 @@ export function ChoiceList({ label, placeholder, find, onChoose, onCurrent, empt
     event.preventDefault();
   };
   return html`
-    <input ref=${field} type="text" class="choice-search" role="combobox" aria-label=${label} placeholder=${placeholder} value=${text.value}
+    <input ref=${field} type="text" class="choice-search" role="combobox" aria-label=${label}
+        placeholder=${placeholder} value=${text.value}
       autocomplete="off" spellcheck="false" aria-controls="choices" aria-expanded="true"
       aria-activedescendant=${current ? `choice-${entries.indexOf(current)}` : undefined}
       onInput=${(event) => { text.value = event.target.value; at.value = 0; }} onKeyDown=${onKey} />
     <ul ref=${list} id="choices" class="choices" role="listbox" aria-label=${label}>
       ${entries.map((entry, index) => html`
-        <li key=${entry.key} id=${`choice-${index}`} role="option" aria-selected=${entry === current} data-choice=${entry.key}
+        <li key=${entry.key} id=${`choice-${index}`} role="option" aria-selected=${entry === current}
+            data-choice=${entry.key}
             aria-disabled=${entry.disabled ?? false} onPointerMove=${() => { at.value = index; }}
             onClick=${() => { if (!entry.disabled) onChoose(entry); }}>
           <span class="choice-title">${entry.title}</span>${entry.note && html` <small>${entry.note}</small>`}
           ${entry.detail && html`<p>${entry.detail}</p>`}</li>`)}
-      ${entries.length === 0 && html`<li class="none" role="option" aria-selected="false">${empty ?? 'nothing suits'}</li>`}
-      ${all.length > kShown && html`<li class="none" role="option" aria-selected="false">… and ${all.length - kShown} more</li>`}
+      ${entries.length === 0 && html`<li class="none" role="option"
+          aria-selected="false">${empty ?? 'nothing suits'}</li>`}
+      ${all.length > kShown && html`<li class="none" role="option"
+          aria-selected="false">… and ${all.length - kShown} more</li>`}
     </ul>`;
 }

@@ -22,7 +22,8 @@ export function ConnectDialog({ path }) {
   return html`
     <${Dialog} title=${`Connect ${port?.name}`}>
       <h2>Connect ${port?.name} <small>${port?.data_type}</small></h2>
-      <${ChoiceList} label=${`Ports that ${port?.name} can be connected with`} placeholder="With which port?" find=${find} onChoose=${choose}
+      <${ChoiceList} label=${`Ports that ${port?.name} can be connected with`} placeholder="With which port?"
+          find=${find} onChoose=${choose}
         empty=${`no other port of type ${port?.data_type} is left`} />
     <//>`;
 }

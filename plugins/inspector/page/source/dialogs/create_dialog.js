@@ -32,8 +32,10 @@ export function CreateDialog({ group }) {
   return html`
     <${Dialog} title="Add a module" className="wide">
       <h2>Add a module <small>to ${group}</small></h2>
-      <${ChoiceList} label="Module types" placeholder="What shall it do?" find=${find} onChoose=${(entry) => create(entry.key)}
-        onCurrent=${(entry) => { setType(entry?.key ?? null); setProblem(''); }} empty="no module type is like that" />
+      <${ChoiceList} label="Module types" placeholder="What shall it do?" find=${find}
+          onChoose=${(entry) => create(entry.key)}
+        onCurrent=${(entry) => { setType(entry?.key ?? null); setProblem(''); }}
+        empty="no module type is like that" />
       <div class="dialog-foot">
         <label>Name <input id="new-name" value=${name} spellcheck="false" autocomplete="off"
           onInput=${(event) => { setTyped(event.target.value); setProblem(''); }}

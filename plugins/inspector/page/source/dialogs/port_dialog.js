@@ -37,7 +37,8 @@ export function PortDialog({ path }) {
       </div>
       ${problem && html`<p class="problem" role="alert">${problem}</p>`}
       <div class="dialog-foot"><button onClick=${CloseDialog}>Cancel</button>
-        <button class="primary" id="create-port" disabled=${name === '' || types.length === 0} onClick=${create}>Add</button></div>
+        <button class="primary" id="create-port" disabled=${name === '' || types.length === 0}
+            onClick=${create}>Add</button></div>
     <//>`;
 }
 

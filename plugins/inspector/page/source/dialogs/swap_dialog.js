@@ -26,6 +26,7 @@ export function SwapDialog({ path }) {
     <${Dialog} title=${`Swap ${module?.name}`}>
       <h2>Swap ${module?.name} <small>now ${module?.type}</small></h2>
       ${types === null ? html`<p class="none">asking the application …</p>`
-        : html`<${ChoiceList} label="Module types" placeholder="For which type?" find=${find} onChoose=${choose} empty="no type suits" />`}
+        : html`<${ChoiceList} label="Module types" placeholder="For which type?" find=${find} onChoose=${choose}
+            empty="no type suits" />`}
     <//>`;
 }

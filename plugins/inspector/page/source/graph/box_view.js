@@ -32,7 +32,8 @@ export const BoxView = memo(({ box }) => {
         html`<path class="rule" d=${`M8,${kHeader - 3}H${box.width - 8}`} />`}
       <text class="name" x="14" y="18" style=${{ '--most': `${MostSize(box)}px` }}>${Cut(element.name, (box.width - 44) / 7.4)}</text>
       <text class="type" x="14" y="32">${Cut(Detail(box), (box.width - 26) / 6)}</text>
-      ${isGroup && html`<g class="fold" data-fold=${path}><rect x=${box.width - 28} y="5" width="22" height="22" rx="4" />
+      ${isGroup && html`<g class="fold" data-fold=${path}><rect x=${box.width - 28} y="5" width="22" height="22"
+          rx="4" />
         <path d=${`M${box.width - 20},${11}l5,5l-5,5`} /></g>`}
       ${element.stopped && html`<g class="fault" transform=${`translate(${box.width - 18},16)`}>
         <circle r="8" /><text y="4" text-anchor="middle">!</text><title>${element.stopped}</title></g>`}

@@ -60,7 +60,7 @@ function OpenMenu() {
     y: host.top + (box ? y + scale * (box.y + 20) : host.height / 2) };
 }
 
-export function DeleteSelected() {
+function DeleteSelected() {
   if (!canChange.value || !selected.value) return;
   const connection = structure.connections.get(selected.value);
   const element = structure.get(selected.value);

@@ -45,7 +45,8 @@ export function GraphView() {
 function Drawing() {
   const { x, y, scale } = view.value;
   return html`
-    <g class=${`scene ${scale < 0.5 ? 'coarse' : ''}`} style=${{ '--name': `${NameSize(scale)}px` }} transform=${`translate(${x},${y}) scale(${scale})`}>
+    <g class=${`scene ${scale < 0.5 ? 'coarse' : ''}`} style=${{ '--name': `${NameSize(scale)}px` }}
+        transform=${`translate(${x},${y}) scale(${scale})`}>
       <${Contents} />
     </g>`;
 }

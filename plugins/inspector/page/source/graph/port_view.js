@@ -25,7 +25,8 @@ export const PortView = memo(({ port, x, y, side, inside }) => {
        role="treeitem" aria-label=${DescribePort(port)} aria-selected=${isSelected.value}>
       <rect class="grip" x=${label ? -9 : -(port.name.length * 6.3 + 12)} y="-10" height="20"
         width=${port.name.length * 6.3 + 21} />
-      ${inside && html`<path class="lead" d=${isLeft ? `M4,0H${port.name.length * 6.2 + 14}` : `M-4,0H${-port.name.length * 6.2 - 14}`} />`}
+      ${inside && html`<path class="lead" 
+        d=${`M0,0H${(port.name.length * 6.2 + 14) * (isLeft ? 1 : -1)}`} />`}
       <circle r="4" class=${port.required ? 'required' : ''} />
       <text x=${label ? 10 : -10} y="3.8" text-anchor=${label ? 'start' : 'end'}>${port.name}</text>
       ${!isLeft && html`<${Rate} path=${port.path} />`}

@@ -8,7 +8,7 @@ export function ToGraph(view, point) {
   return { x: (point.x - view.x) / view.scale, y: (point.y - view.y) / view.scale };
 }
 
-export function ToScreen(view, place) {
+function ToScreen(view, place) {
   return { x: view.x + view.scale * place.x, y: view.y + view.scale * place.y };
 }
 

@@ -123,7 +123,7 @@ export class Structure {
 }
 
 /** Connections have no path of their own: both ends name one. */
-export function ConnectionKey(connection) {
+function ConnectionKey(connection) {
   return `${connection.from} → ${connection.to}`;
 }
 

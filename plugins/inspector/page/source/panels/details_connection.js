@@ -18,7 +18,8 @@ export function ConnectionDetails({ connection }) {
     <div class="actions"><${ActionButton} id="disconnect" icon="trash" text="Disconnect" disabled=${!canChange.value}
       onClick=${() => Disconnect(from, to)} /></div>
     <${Facts} facts=${[
-      ['from', html`<${Link} path=${from} text=${name(from)} />`], ['to', html`<${Link} path=${to} text=${name(to)} />`],
+      ['from', html`<${Link} path=${from} text=${name(from)} />`], ['to', html`<${Link} path=${to}
+          text=${name(to)} />`],
       ['type', type], ['queue', connection.queue > 0 ? `${connection.queue} values` : 'the newest value only'],
       ['if it is full', connection.queue > 0 ? (connection.on_full ?? '').replace('_', ' ') : ''],
       ['lost', drops ? String(drops) : ''],

@@ -30,16 +30,22 @@ export function ModuleDetails({ element }) {
     <//>
     ${element.stopped && html`<p class="trouble" role="alert"><strong>Stopped:</strong> ${element.stopped}</p>`}
     <div class="actions">
-      ${!isGroup && html`<${ActionButton} id="swap" icon="swap" text="Swap" disabled=${locked} onClick=${open('swap')} title="Put a module of another type in its place (S)" />`}
-      ${isGroup && html`<${ActionButton} id="fold" icon="layers" text=${IsOpen(path) ? 'Fold' : 'Open'} onClick=${() => ToggleGroup(path)} />
-        <${ActionButton} id="add-port" icon="add" text="Port" disabled=${locked} onClick=${open('port')} title="Give it a port for others" />`}
-      <${ActionButton} id="move" icon="follow" text="Thread" disabled=${locked} onClick=${open('move')} title="Have another thread run it (M)" />
-      ${plugin && html`<${ActionButton} id="reload" icon="reset" text="Reload" disabled=${locked} onClick=${() => Reload(plugin)}
+      ${!isGroup && html`<${ActionButton} id="swap" icon="swap" text="Swap" disabled=${locked}
+          onClick=${open('swap')} title="Put a module of another type in its place (S)" />`}
+      ${isGroup && html`<${ActionButton} id="fold" icon="layers" text=${IsOpen(path) ? 'Fold' : 'Open'}
+          onClick=${() => ToggleGroup(path)} />
+        <${ActionButton} id="add-port" icon="add" text="Port" disabled=${locked} onClick=${open('port')}
+            title="Give it a port for others" />`}
+      <${ActionButton} id="move" icon="follow" text="Thread" disabled=${locked} onClick=${open('move')}
+          title="Have another thread run it (M)" />
+      ${plugin && html`<${ActionButton} id="reload" icon="reset" text="Reload" disabled=${locked}
+          onClick=${() => Reload(plugin)}
         title=${`Load the plugin ${plugin} anew, with all its modules`} />`}
       <${ActionButton} id="delete" icon="trash" text="Delete" disabled=${locked} onClick=${() => Delete(path)} />
     </div>
     <${Facts} facts=${[
-      ['thread', thread && html`<span class="thread-name"><i style=${{ background: ThreadColour(thread) }}></i>${thread}${
+      ['thread', thread && html`<span class="thread-name"><i
+          style=${{ background: ThreadColour(thread) }}></i>${thread}${
         element.thread ? '' : html` <small>of its group</small>`}</span>`],
       ['plugin', plugin],
       ['update takes', DurationOf(path).value === null ? '' : FormatMilliseconds(DurationOf(path).value / 1000)],
@@ -49,7 +55,8 @@ export function ModuleDetails({ element }) {
       ${parameters.map((parameter) => html`<${ParameterRow} key=${parameter.path} parameter=${parameter} />`)}<//>`}
     ${['input', 'output'].map((direction) => {
       const some = ports.filter((port) => port.direction === direction);
-      return some.length > 0 && html`<${Section} title=${`${direction === 'input' ? 'Inputs' : 'Outputs'}`} count=${some.length} key=${direction}>
+      return some.length > 0 && html`<${Section} title=${`${direction === 'input' ? 'Inputs' : 'Outputs'}`}
+          count=${some.length} key=${direction}>
         <ul class="ports">${some.map((port) => html`<${PortRow} key=${port.path} port=${port} />`)}</ul><//>`;
     })}
     ${members.length > 0 && html`<${Section} title="Contains" count=${members.length}>

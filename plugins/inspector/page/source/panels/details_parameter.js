@@ -10,6 +10,7 @@ export function ParameterDetails({ element }) {
     <${Title} kind="parameter" name=${element.name} path=${element.path}>
       ${element.description && html`<p class="summary">${element.description}</p>`}<//>
     <${ParameterRow} parameter=${element} />
-    <${Facts} facts=${[['of', element.owner && structure.get(element.owner) && html`<${Link} path=${element.owner} />`],
+    <${Facts} facts=${[['of', element.owner && structure.get(element.owner) && html`<${Link}
+        path=${element.owner} />`],
       ['type', element.data_type], ['default', element.default]]} />`;
 }

@@ -42,12 +42,14 @@ export function PortDetails({ element }) {
     <${Section} title="Value" id="value">
       ${item ? html`<${ValueTable} port=${path} type=${element.data_type} value=${item.value} />`
         : html`<p class="none">${type?.kind === 'opaque' ? 'values of this type cannot be shown' : 'nothing has come yet'}</p>`}
-      ${item?.cut && elements === kFew && html`<button class="link" onClick=${() => setElements(kMany)}>show up to ${kMany} elements of lists</button>`}
+      ${item?.cut && elements === kFew && html`<button class="link"
+          onClick=${() => setElements(kMany)}>show up to ${kMany} elements of lists</button>`}
       ${item?.cut && elements === kMany && html`<p class="note">longer lists are cut</p>`}
     <//>
     <${Section} title="Connections" count=${connections.length}>
       ${connections.length === 0 && html`<p class="none">none</p>`}
-      <ul class="connections">${connections.map((connection) => html`<${ConnectionRow} key=${connection.from + connection.to} port=${path} connection=${connection} />`)}</ul>
+      <ul class="connections">${connections.map((connection) => html`<${ConnectionRow}
+          key=${connection.from + connection.to} port=${path} connection=${connection} />`)}</ul>
     <//>`;
 }
 

@@ -9,13 +9,14 @@ import { Facts, Link, Section, Title } from './parts.js';
 export function ThreadDetails({ element }) {
   revision.value;
   const statistics = threadStatistics.value[element.path];
+  const duration = statistics?.duration_ms;
   const modules = [...structure.ofKind('module')].filter((module) => ThreadOf(structure, module.path) === element.name);
   return html`
     <${Title} kind="thread" name=${element.name} path=${element.path} />
     <${Facts} facts=${[
       ['period', element.period ? FormatMilliseconds(element.period * 1000) : 'by data, or free-running'],
       ['cycles', statistics && String(statistics.cycles)],
-      ['cycle takes', statistics?.duration_ms && `${FormatMilliseconds(statistics.duration_ms.mean)}, at most ${FormatMilliseconds(statistics.duration_ms.max)}`],
+      ['cycle takes', duration && `${FormatMilliseconds(duration.mean)}, at most ${FormatMilliseconds(duration.max)}`],
       ['measured period', statistics && FormatMilliseconds(statistics.period_ms)],
       ['jitter', statistics && FormatMilliseconds(statistics.jitter_ms)],
       ['overruns', statistics && String(statistics.overruns)],

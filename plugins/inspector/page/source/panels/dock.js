@@ -24,10 +24,12 @@ export function Dock() {
   return html`
     <section class="dock" aria-label="Plots, log and threads">
       <div class="tabs" role="tablist" onKeyDown=${onKey}>
-        ${kTabs.map(([tab, title]) => html`<button key=${tab} role="tab" id=${`tab-${tab}`} aria-selected=${tab === id}
+        ${kTabs.map(([tab, title]) => html`<button key=${tab} role="tab" id=${`tab-${tab}`}
+            aria-selected=${tab === id}
           aria-controls="tab-panel" tabindex=${tab === id ? 0 : -1} onClick=${() => SetPanels({ tab })}>${title}
           ${counts[tab] > 0 && html`<small>${counts[tab]}</small>`}</button>`)}
       </div>
-      <div role="tabpanel" id="tab-panel" aria-labelledby=${`tab-${id}`} class=${`tab-panel ${id}`}><${View} key=${id} /></div>
+      <div role="tabpanel" id="tab-panel" aria-labelledby=${`tab-${id}`} class=${`tab-panel ${id}`}><${View}
+          key=${id} /></div>
     </section>`;
 }

@@ -31,14 +31,21 @@ export function LogView() {
       <div class="log-tools" role="group" aria-label="Filter">
         <input type="search" id="log-filter" placeholder="Filter …" aria-label="Filter the log" value=${text.value}
           onInput=${(event) => { text.value = event.target.value; }} />
-        ${all.map((kind) => html`<button key=${kind} class=${`chip ${kind}`} aria-pressed=${kinds.value.has(kind)} onClick=${() => toggle(kind)}>
+        ${all.map((kind) => html`<button key=${kind} class=${`chip ${kind}`}
+            aria-pressed=${kinds.value.has(kind)} onClick=${() => toggle(kind)}>
           ${kind} <small>${log.value.filter((entry) => entry.kind === kind).length}</small></button>`)}
-        <span class="count">${found.length === log.value.length ? `${found.length} ${found.length === 1 ? 'entry' : 'entries'}` : `${found.length} of ${log.value.length}`}</span>
+        <span class="count">${CountText(found.length, log.value.length)}</span>
       </div>
       <ol ref=${list} class="entries" id="log" role="log" aria-label="Log" tabindex="0" onScroll=${onScroll}>
         ${shown.map((entry) => html`<li key=${entry.number} class=${entry.kind}>
-          <time>${FormatTime(entry.time)}</time> <span class="kind">${entry.kind}</span> <span class="text">${entry.text}</span></li>`)}
+          <time>${FormatTime(entry.time)}</time> <span class="kind">${entry.kind}</span> <span
+              class="text">${entry.text}</span></li>`)}
         ${shown.length === 0 && html`<li class="none">${log.value.length === 0 ? 'Nothing has happened yet.' : 'No entry suits the filter.'}</li>`}
       </ol>
     </div>`;
+}
+
+function CountText(found, all) {
+  if (found < all) return `${found} of ${all}`;
+  return all === 1 ? '1 entry' : `${all} entries`;
 }

@@ -30,16 +30,19 @@ export function ParameterRow({ parameter }) {
   };
   const drop = () => { setDraft(null); setProblem(''); };
   const bounds = FormatBounds(parameter);
-  const isChanged = parameter.default !== undefined && parameter.default !== null && parameter.value !== parameter.default;
+  const isChanged = (parameter.default ?? null) !== null && parameter.value !== parameter.default;
+  const isEdited = draft !== null && draft !== parameter.value;
   return html`
-    <div class=${`parameter ${problem ? 'wrong' : ''} ${draft !== null && draft !== parameter.value ? 'edited' : ''}`} data-parameter=${parameter.path}>
+    <div class=${`parameter ${problem ? 'wrong' : ''} ${isEdited ? 'edited' : ''}`} data-parameter=${parameter.path}>
       <label for=${id} title=${parameter.description}>${parameter.name}</label>
       <div class="field">
         <${Field} id=${id} parameter=${parameter} text=${draft ?? parameter.value ?? ''} locked=${locked}
           wrong=${problem !== ''} onDraft=${setDraft} onSend=${send} onDrop=${drop} />
         ${parameter.unit && html`<span class="unit">${parameter.unit}</span>`}
-        ${isChanged && parameter.settable && html`<button class="reset" disabled=${locked} title=${`Back to ${parameter.default}`}
-          aria-label=${`Set ${parameter.name} back to ${parameter.default}`} onClick=${() => send(parameter.default)}>↺</button>`}
+        ${isChanged && parameter.settable && html`<button class="reset" disabled=${locked}
+            title=${`Back to ${parameter.default}`}
+          aria-label=${`Set ${parameter.name} back to ${parameter.default}`}
+          onClick=${() => send(parameter.default)}>↺</button>`}
       </div>
       <p class="note" id=${`${id}:note`}>
         ${[bounds, !parameter.settable && 'fixed while it runs'].filter(Boolean).join(' · ')}</p>
@@ -58,7 +61,8 @@ function Field({ id, parameter, text, locked, wrong, onDraft, onSend, onDrop }) 
   }
   if (values?.length > 0) {
     return html`<select ...${common} value=${text} onChange=${(event) => onSend(event.target.value)}>
-      ${values.map((value) => html`<option key=${value} value=${value} selected=${value === text}>${value}</option>`)}</select>`;
+      ${values.map((value) => html`<option key=${value} value=${value}
+          selected=${value === text}>${value}</option>`)}</select>`;
   }
   const onKey = (event) => {
     if (event.key === 'Enter') onSend(event.target.value);

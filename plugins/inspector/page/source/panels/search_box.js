@@ -36,8 +36,10 @@ export function SearchBox() {
   };
   return html`
     <div class="search">
-      <input id="search" ref=${field} type="search" role="combobox" placeholder="Find …  /" autocomplete="off" spellcheck="false"
-        aria-label="Find modules, ports, parameters" aria-expanded=${found.value.length > 0} aria-controls="search-found"
+      <input id="search" ref=${field} type="search" role="combobox" placeholder="Find …  /" autocomplete="off"
+          spellcheck="false"
+        aria-label="Find modules, ports, parameters" aria-expanded=${found.value.length > 0}
+        aria-controls="search-found"
         aria-activedescendant=${found.value.length > 0 ? `found-${at.value}` : undefined} value=${text.value}
         onInput=${(event) => { text.value = event.target.value; at.value = 0; }} onKeyDown=${onKey}
         onBlur=${() => setTimeout(close, 150)} />
@@ -48,7 +50,8 @@ export function SearchBox() {
                 onPointerDown=${(event) => { event.preventDefault(); go(element); }}>
               <span>${element.name}</span> <small>${element.kind} ${element.type ?? element.data_type ?? ''}</small>
               <small class="path">${element.path}</small></li>`)}
-          ${found.value.length === 0 && html`<li class="none" role="option" aria-selected="false">nothing is called like that</li>`}
+          ${found.value.length === 0 && html`<li class="none" role="option"
+              aria-selected="false">nothing is called like that</li>`}
         </ul>`}
     </div>`;
 }

@@ -19,9 +19,12 @@ export function ThreadTable({ brief }) {
   }
   if (threads.length === 0) return html`<p class="none">The application has no threads.</p>`;
   return html`<div class="scroll"><table class="threads">
-    <thead><tr><th scope="col">thread</th><th scope="col">period</th><th scope="col">cycle takes</th><th scope="col">at most</th>
-      ${!brief && html`<th scope="col">jitter</th><th scope="col">cycles</th><th scope="col">overruns</th><th scope="col">modules</th>`}</tr></thead>
-    <tbody>${threads.map((thread) => html`<${Row} key=${thread.path} thread=${thread} brief=${brief} modules=${counts.get(thread.name) ?? 0} />`)}</tbody>
+    <thead><tr><th scope="col">thread</th><th scope="col">period</th><th scope="col">cycle takes</th><th
+        scope="col">at most</th>
+      ${!brief && html`<th scope="col">jitter</th><th scope="col">cycles</th><th scope="col">overruns</th><th
+          scope="col">modules</th>`}</tr></thead>
+    <tbody>${threads.map((thread) => html`<${Row} key=${thread.path} thread=${thread} brief=${brief}
+        modules=${counts.get(thread.name) ?? 0} />`)}</tbody>
   </table></div>`;
 }
 
@@ -30,11 +33,13 @@ function Row({ thread, brief, modules }) {
   const isSelected = selected.value === thread.path;
   const load = statistics?.duration_ms && thread.period ? statistics.duration_ms.mean / (thread.period * 10) : null;
   return html`<tr class=${isSelected ? 'selected' : ''} data-thread=${thread.name}>
-    <th scope="row"><button class="link" aria-pressed=${isSelected} onClick=${() => { selected.value = isSelected ? null : thread.path; }}>
+    <th scope="row"><button class="link" aria-pressed=${isSelected}
+        onClick=${() => { selected.value = isSelected ? null : thread.path; }}>
       <i style=${{ background: ThreadColour(thread.name) }}></i>${thread.name}</button></th>
     <td>${thread.period ? FormatMilliseconds(thread.period * 1000) : 'by data'}</td>
     <td>${FormatMilliseconds(statistics?.duration_ms?.mean)}${load !== null && !brief && html`
-      <span class="load" title=${`${load.toFixed(1)} % of the period`}><i style=${{ width: `${Math.min(100, load)}%` }}></i></span>`}</td>
+      <span class="load" title=${`${load.toFixed(1)} % of the period`}><i
+          style=${{ width: `${Math.min(100, load)}%` }}></i></span>`}</td>
     <td>${FormatMilliseconds(statistics?.duration_ms?.max)}</td>
     ${!brief && html`<td>${FormatMilliseconds(statistics?.jitter_ms)}</td><td>${statistics?.cycles ?? '–'}</td>
       <td class=${statistics?.overruns > 0 ? 'bad' : ''}>${statistics?.overruns ?? '–'}</td><td>${modules}</td>`}

@@ -6,7 +6,8 @@ export function Toasts() {
     ${toasts.value.map((toast) => html`
       <div key=${toast.number} class=${`toast ${toast.kind}`} role=${toast.kind === 'error' ? 'alert' : 'status'}>
         <p>${toast.text}</p>
-        ${toast.details.length > 0 && html`<ul>${toast.details.map((detail) => html`<li key=${detail}>${detail}</li>`)}</ul>`}
+        ${toast.details.length > 0 && html`<ul>${toast.details.map((detail) => html`<li
+            key=${detail}>${detail}</li>`)}</ul>`}
         <button class="remove" aria-label="Close" onClick=${() => CloseToast(toast.number)}>✕</button>
       </div>`)}
   </div>`;

@@ -32,7 +32,8 @@ function ConnectionState() {
     : state === 'connecting' && !hello.value ? ['wait', 'connecting'] : ['bad', 'disconnected'];
   return html`<span class=${`state ${kind}`} role="status" id="connection-state"
       title=${hello.value ? `${hello.value.file}, Runnel ${hello.value.runnel}` : ''}>${text}</span>
-    ${isReadOnly.value && html`<span class="state read-only" title="The application was started so that it can be watched only">read-only</span>`}`;
+    ${isReadOnly.value && html`<span class="state read-only"
+        title="The application was started so that it can be watched only">read-only</span>`}`;
 }
 
 function Pace() {
@@ -49,9 +50,11 @@ function Pace() {
           onClick=${() => (paused ? Resume() : Pause())}
           title=${paused ? 'Go on (Space outside the graph)' : 'Pause'} aria-label=${paused ? 'Go on' : 'Pause'}>
           <${Icon} name=${paused ? 'play' : 'pause'} /></button>
-        <span class="joined"><button id="step" disabled=${locked} onClick=${() => Step(cycles)} title="Run some cycles, then pause"
+        <span class="joined"><button id="step" disabled=${locked} onClick=${() => Step(cycles)}
+            title="Run some cycles, then pause"
           aria-label=${`Step ${cycles} cycles`}><${Icon} name="step" /></button>
-          <input type="number" id="step-cycles" min="1" max="100000" value=${cycles} disabled=${locked} aria-label="Cycles of a step"
+          <input type="number" id="step-cycles" min="1" max="100000" value=${cycles} disabled=${locked}
+              aria-label="Cycles of a step"
             onInput=${(event) => setCycles(Math.max(1, Math.round(event.target.valueAsNumber) || 1))} /></span>
         <${Speed} speed=${speed} locked=${locked} />`}
     </div>`;
@@ -59,7 +62,8 @@ function Pace() {
 
 function Speed({ speed, locked }) {
   const known = speed === null || kSpeeds.includes(speed) ? kSpeeds : [...kSpeeds.slice(0, -1), speed, 0];
-  return html`<select id="speed" disabled=${locked || speed === null} value=${speed ?? ''} aria-label="Speed of the simulation"
+  return html`<select id="speed" disabled=${locked || speed === null} value=${speed ?? ''}
+      aria-label="Speed of the simulation"
       title="Speed of the simulation" onChange=${(event) => SetSpeed(Number(event.target.value))}>
     ${known.map((value) => html`<option key=${value} value=${value} selected=${value === speed}>
       ${value === 0 ? 'as fast as it can' : `× ${value}`}</option>`)}
@@ -73,14 +77,17 @@ function Changes() {
     <div class="cluster" role="group" aria-label="Changes">
       <button id="add" disabled=${locked} onClick=${() => { openDialog.value = { kind: 'create', group: GroupForNew() }; }}
         title="Add a module (A)" aria-label="Add a module"><${Icon} name="add" /></button>
-      <button id="undo" disabled=${locked || !undo} onClick=${Undo} title=${undo ? `Undo “${undo}” (Ctrl+Z)` : 'Nothing to undo'}
+      <button id="undo" disabled=${locked || !undo} onClick=${Undo}
+          title=${undo ? `Undo “${undo}” (Ctrl+Z)` : 'Nothing to undo'}
         aria-label=${undo ? `Undo ${undo}` : 'Undo'}><${Icon} name="undo" /></button>
-      <button id="redo" disabled=${locked || !redo} onClick=${Redo} title=${redo ? `Redo “${redo}” (Ctrl+Shift+Z)` : 'Nothing to redo'}
+      <button id="redo" disabled=${locked || !redo} onClick=${Redo}
+          title=${redo ? `Redo “${redo}” (Ctrl+Shift+Z)` : 'Nothing to redo'}
         aria-label=${redo ? `Redo ${redo}` : 'Redo'}><${Icon} name="redo" /></button>
       <span class="joined">
         <button id="save" disabled=${locked} onClick=${() => Save()} title="Save into the application's file (Ctrl+S)"
           aria-label="Save"><${Icon} name="save" /></button>
-        <button id="save-as" class="narrow" disabled=${locked} onClick=${() => { openDialog.value = { kind: 'save' }; }}
+        <button id="save-as" class="narrow" disabled=${locked}
+            onClick=${() => { openDialog.value = { kind: 'save' }; }}
           title="Save as …" aria-label="Save as"><${Icon} name="more" /></button>
       </span>
     </div>`;
@@ -94,10 +101,12 @@ function Looks() {
       ${faults > 0 && html`<button id="faults" class="faults" onClick=${() => SetPanels({ tab: 'log' })}
         title="Faults since the start: see the log">${faults} fault${faults === 1 ? '' : 's'}</button>`}
       <button disabled=${!hasWorld.value} onClick=${() => SetPanels({ worldShown: !panels.value.worldShown, worldLarge: false })} id="show-world"
-        aria-pressed=${panels.value.worldShown} title="World view" aria-label="World view"><${Icon} name="world" /></button>
+        aria-pressed=${panels.value.worldShown} title="World view" aria-label="World view"><${Icon}
+        name="world" /></button>
       <button id="theme" onClick=${() => { theme.value = next; }} title=${`Colours: ${theme.value}; next: ${next}`}
         aria-label=${`Colours: ${theme.value}`}><${Icon} name=${theme.value} /></button>
-      <button id="help" onClick=${() => { openDialog.value = { kind: 'help' }; }} title="Keys (?)" aria-label="Keys">?</button>
+      <button id="help" onClick=${() => { openDialog.value = { kind: 'help' }; }} title="Keys (?)"
+          aria-label="Keys">?</button>
     </div>`;
 }
 

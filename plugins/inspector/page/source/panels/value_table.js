@@ -27,7 +27,8 @@ function Row({ row, port, toggle }) {
     ? html`<button class="link" aria-expanded=${row.open} onClick=${() => toggle(row.field)}>${row.open ? '▾' : '▸'} ${label}</button>` : label;
   const text = row.leaf ? FormatValue(row.value, 300) : row.length !== undefined ? `${row.length} elements` : '';
   return html`<tr data-field=${FieldText(row.field)}>
-    <th scope="row" style=${{ paddingLeft: `${Math.max(0, row.depth - 1) * 14}px` }} title=${row.description}>${name}</th>
+    <th scope="row" style=${{ paddingLeft: `${Math.max(0, row.depth - 1) * 14}px` }}
+        title=${row.description}>${name}</th>
     <td class=${typeof row.value === 'number' ? 'number' : ''}>${text}</td>
     <td class="unit">${row.leaf ? row.unit : ''}</td>
     <td class="tools">${IsPlottable(row) && html`<button class="plot-this" aria-pressed=${IsPlotted(port, row.field)}

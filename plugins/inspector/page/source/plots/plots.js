@@ -17,9 +17,12 @@ export function Plots() {
     <div class="plots" id="plots">
       <div class="plot-tools" role="group" aria-label="Plots">
         <button id="plot-pause" aria-pressed=${isPaused.value} onClick=${() => { isPaused.value = !isPaused.value; }}>
-          <${Icon} name=${isPaused.value ? 'play' : 'pause'} size=${14} />${isPaused.value ? 'Go on' : 'Pause'}</button>
-        <label>show <select id="plot-window" value=${plotWindow.value} onChange=${(event) => { plotWindow.value = Number(event.target.value); }}>
-          ${kWindows.map((seconds) => html`<option key=${seconds} value=${seconds} selected=${seconds === plotWindow.value}>
+          <${Icon} name=${isPaused.value ? 'play' : 'pause'}
+              size=${14} />${isPaused.value ? 'Go on' : 'Pause'}</button>
+        <label>show <select id="plot-window" value=${plotWindow.value}
+            onChange=${(event) => { plotWindow.value = Number(event.target.value); }}>
+          ${kWindows.map((seconds) => html`<option key=${seconds} value=${seconds}
+              selected=${seconds === plotWindow.value}>
             ${seconds < 60 ? `${seconds} s` : `${seconds / 60} min`}</option>`)}</select></label>
       </div>
       <div class="plot-list">${plots.value.map((plot) => html`<${PlotView} key=${plot.id} plot=${plot} />`)}</div>
@@ -32,7 +35,8 @@ function PlotView({ plot }) {
       <figcaption>
         ${plot.curves.map((curve) => html`<${Legend} key=${curve.id} plot=${plot} curve=${curve} />`)}
         <span class="unit">${plot.unit}</span>
-        <button class="remove" aria-label="Close the plot" title="Close the plot" onClick=${() => RemovePlot(plot.id)}>✕</button>
+        <button class="remove" aria-label="Close the plot" title="Close the plot"
+            onClick=${() => RemovePlot(plot.id)}>✕</button>
       </figcaption>
       <${Chart} plot=${plot} />
     </figure>`;
@@ -43,5 +47,6 @@ function Legend({ plot, curve }) {
   const { values } = curve.series;
   return html`<span class="legend"><i style=${{ background: CurveColour(curve) }}></i>${curve.label}
     <output>${values.length > 0 ? FormatNumber(values[values.length - 1]) : '–'}</output>
-    <button class="remove" aria-label=${`Remove ${curve.label}`} onClick=${() => RemoveCurve(plot.id, curve.id)}>✕</button></span>`;
+    <button class="remove" aria-label=${`Remove ${curve.label}`}
+        onClick=${() => RemoveCurve(plot.id, curve.id)}>✕</button></span>`;
 }

@@ -42,13 +42,17 @@ function World({ found }) {
       ${goals.value.map(({ layer, place }) => html`<${GoalHandle} key=${layer.port} layer=${layer}
         point=${ToCanvas(camera.value, size.value, place)} place=${place} scene=${scene.current} />`)}
       <div class="world-tools" role="group" aria-label="Map">
-        <button aria-pressed=${following.value} onClick=${() => scene.current.follow(!following.value)} title="Follow the robot"
+        <button aria-pressed=${following.value} onClick=${() => scene.current.follow(!following.value)}
+            title="Follow the robot"
           aria-label="Follow the robot" id="follow"><${Icon} name="follow" size=${16} /></button>
-        <button onClick=${() => scene.current.fit()} title="Show all" aria-label="Show all of the world"><${Icon} name="fit" size=${16} /></button>
-        <button aria-pressed=${showsLayers.value} onClick=${() => { showsLayers.value = !showsLayers.value; }} title="Layers"
+        <button onClick=${() => scene.current.fit()} title="Show all"
+            aria-label="Show all of the world"><${Icon} name="fit" size=${16} /></button>
+        <button aria-pressed=${showsLayers.value} onClick=${() => { showsLayers.value = !showsLayers.value; }}
+            title="Layers"
           aria-label="Layers"><${Icon} name="layers" size=${16} /></button>
         <button aria-pressed=${panels.value.worldLarge} onClick=${() => SetPanels({ worldLarge: !panels.value.worldLarge })}
-          title=${panels.value.worldLarge ? 'Small' : 'Large'} aria-label=${panels.value.worldLarge ? 'Small map' : 'Large map'}>
+          title=${panels.value.worldLarge ? 'Small' : 'Large'}
+          aria-label=${panels.value.worldLarge ? 'Small map' : 'Large map'}>
           <${Icon} name=${panels.value.worldLarge ? 'small' : 'large'} size=${16} /></button>
       </div>
       ${showsLayers.value && html`<fieldset class="layers"><legend>Layers</legend>

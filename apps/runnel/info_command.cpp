@@ -1,0 +1,85 @@
+#include "apps/runnel/info_command.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+
+#include "apps/runnel/print_error.h"
+#include "apps/runnel/recording.h"
+#include "plugins/mcap/mcap_reader.h"
+#include "plugins/recording/recording_info.h"
+
+namespace runnel::program {
+
+namespace {
+
+void PrintLine(const char* name, const std::string& text) {
+  if (!text.empty()) std::printf("%-12s %s\n", name, text.c_str());
+}
+
+std::string PackingText(const RecordingInfo& info) {
+  std::string text = std::to_string(info.chunks) + (info.chunks == 1 ? " chunk, " : " chunks, ");
+  if (info.compression == "none") return text + "not compressed";
+  return text + info.compression + ", " + SizeText(info.packed_bytes) + " of " +
+         SizeText(info.unpacked_bytes);
+}
+
+void PrintChannels(const RecordingInfo& info) {
+  std::size_t path_width = 4;
+  std::size_t type_width = 4;
+  for (const auto& each : info.channels) {
+    path_width = std::max(path_width, each.path.size());
+    type_width = std::max(type_width, each.type.size());
+  }
+  std::printf("\n%-*s  %-*s  %10s  %10s  %10s\n", static_cast<int>(path_width), "port",
+              static_cast<int>(type_width), "type", "values", "rate", "dropped");
+  for (const auto& each : info.channels) {
+    std::printf("%-*s  %-*s  %10llu  %7.2f Hz  %10llu\n", static_cast<int>(path_width),
+                each.path.c_str(), static_cast<int>(type_width), each.type.c_str(),
+                static_cast<unsigned long long>(each.values), each.rate,
+                static_cast<unsigned long long>(each.dropped));
+  }
+}
+
+void Print(const RecordingInfo& info) {
+  char times[96];
+  std::snprintf(times, sizeof times, "%.3f s, from %.3f s to %.3f s", info.duration(), info.start,
+                info.end);
+  PrintLine("file", info.file + ", " + SizeText(info.bytes));
+  PrintLine("duration", times);
+  PrintLine("values", std::to_string(info.values) + " of " + std::to_string(info.ports) +
+                          " ports, " + std::to_string(info.dropped) + " more came too fast");
+  PrintLine("chunks", PackingText(info));
+  for (const auto& [key, text] : info.about) PrintLine(key.c_str(), text);
+  if (info.about.empty()) PrintLine("library", info.library);
+  std::string attachments;
+  for (const std::string& each : info.attachments) {
+    attachments += (attachments.empty() ? "" : ", ") + each;
+  }
+  PrintLine("attached", attachments);
+  PrintLine("end", info.ended_properly ? "as its writer wanted it"
+                                       : "missing: its writer was stopped, or is still at work");
+  if (!info.channels.empty()) PrintChannels(info);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+ExitCode ShowRecording(const InfoArguments& arguments) {
+  const auto reader = McapReader::Open(arguments.file);
+  if (!reader) {
+    PrintError(reader.error());
+    return ExitCode::kBadInput;
+  }
+  const RecordingInfo info = InfoOf(**reader);
+  if (arguments.is_json) {
+    std::cout << RecordingInfoJson(info) << '\n' << std::flush;
+  } else {
+    Print(info);
+  }
+  if (!info.damage) return ExitCode::kDone;
+  PrintError(*info.damage);
+  return ExitCode::kRunFailed;
+}
+
+}  // namespace runnel::program

@@ -1,0 +1,66 @@
+#include "apps/runnel/recording.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <utility>
+
+#include "core/xml/xml_document.h"
+#include "plugins/scheduling/scheduler.h"
+
+namespace runnel::program {
+
+RecordedApplication AboutApplication(const ApplicationArguments& arguments,
+                                     const std::string& name) {
+  RecordedApplication about{.name = name, .version = RUNNEL_VERSION};
+  if (arguments.file.empty()) return about;
+  about.file = std::filesystem::absolute(arguments.file).lexically_normal().string();
+  // It has been read a moment ago; if it is gone by now, the recording does without.
+  if (auto text = XmlDocument::ReadText(arguments.file)) about.text = std::move(*text);
+  for (const std::string& file : arguments.configurations) {
+    about.settings += (about.settings.empty() ? "--config " : " --config ") + file;
+  }
+  for (const std::string& each : arguments.settings) {
+    about.settings += (about.settings.empty() ? "" : " ") + each;
+  }
+  return about;
+}
+
+Result<std::unique_ptr<Recorder>> StartRecording(const RecordArguments& wish,
+                                                 const RecordedApplication& about, Runtime& runtime,
+                                                 Scheduler& scheduler) {
+  if (wish.file.empty()) return std::unique_ptr<Recorder>();
+  return Recorder::Start(
+      runtime, &scheduler,
+      {.file = wish.file, .ports = wish.ports, .compression = wish.compression, .about = about});
+}
+
+std::string SizeText(std::uint64_t bytes) {
+  char text[32];
+  const auto size = static_cast<double>(bytes);
+  if (bytes < 1000) {
+    std::snprintf(text, sizeof text, "%.0f B", size);
+  } else if (bytes < 1'000'000) {
+    std::snprintf(text, sizeof text, "%.1f kB", size / 1e3);
+  } else if (bytes < 1'000'000'000) {
+    std::snprintf(text, sizeof text, "%.1f MB", size / 1e6);
+  } else {
+    std::snprintf(text, sizeof text, "%.2f GB", size / 1e9);
+  }
+  return text;
+}
+
+std::string RecordingText(const std::string& file, const RecordingStatus& status) {
+  std::string text = "recorded " + std::to_string(status.values) + " values of " +
+                     std::to_string(status.ports) + (status.ports == 1 ? " port, " : " ports, ") +
+                     SizeText(status.bytes) + ", to " + file;
+  if (status.dropped > 0) {
+    text += "; " + std::to_string(status.dropped) + " came too fast and are not in it";
+  }
+  if (!status.left_out.empty()) {
+    text += "; not recorded, because their values have no form to be written in:";
+    for (const std::string& path : status.left_out) text += " " + ShortPortPath(path);
+  }
+  return text + "\n";
+}
+
+}  // namespace runnel::program

@@ -1,0 +1,120 @@
+#include "apps/runnel/remote_recording.h"
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <iostream>
+#include <thread>
+#include <utility>
+
+#include <unistd.h>
+
+#include "apps/runnel/recording.h"
+#include "plugins/mcap/mcap_reader.h"
+#include "plugins/recording/recording_info.h"
+#include "plugins/scheduling/scheduler.h"
+
+namespace runnel::program {
+
+namespace {
+
+class Recording final : public ClientRecording {
+ public:
+  explicit Recording(std::unique_ptr<Recorder> recorder) : recorder_(std::move(recorder)) {}
+
+  std::string Progress() override { return Line(); }
+  std::optional<Error> Failure() override { return recorder_->TakeFailure(); }
+  Result<std::string> Finish() override {
+    if (auto finished = recorder_->Finish(); !finished) return finished.error();
+    return Line();
+  }
+
+ private:
+  // Without its end, which the command adds.
+  std::string Line() const {
+    std::string text = RecordingText(recorder_->file(), recorder_->status());
+    text.pop_back();
+    return text;
+  }
+
+  const std::unique_ptr<Recorder> recorder_;
+};
+
+std::atomic<bool> interrupted{false};
+
+// The first Ctrl-C ends the recording, a second the program.
+class Interruptions {
+ public:
+  Interruptions() {
+    struct sigaction action {};
+    action.sa_handler = [](int) { interrupted = true; };
+    action.sa_flags = SA_RESETHAND | SA_RESTART;
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
+  }
+};
+
+// The application ends the file when it sees that we have gone.
+int ReportWhenEnded(const std::string& file) {
+  constexpr auto kPatience = std::chrono::seconds(10);
+  const auto latest = std::chrono::steady_clock::now() + kPatience;
+  for (;;) {
+    const auto reader = McapReader::Open(file);
+    if (reader && (*reader)->contents().ended_properly) {
+      const RecordingInfo info = InfoOf(**reader);
+      std::cout << RecordingText(file, {.values = info.values,
+                                        .dropped = info.dropped,
+                                        .ports = info.ports,
+                                        .bytes = info.bytes})
+                << std::flush;
+      return 0;
+    }
+    if (std::chrono::steady_clock::now() > latest) {
+      std::cerr << file << ": error: the application has not ended the recording within 10 s\n";
+      return 1;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
+}  // namespace
+
+RecordingHook RecordingHookOf(const RecordedApplication& about, Runtime& runtime,
+                              Scheduler& scheduler) {
+  return [about, &runtime,
+          &scheduler](const RecordingWish& wish) -> Result<std::unique_ptr<ClientRecording>> {
+    auto recorder = Recorder::Start(
+        runtime, &scheduler,
+        {.file = wish.file, .ports = wish.ports, .compression = wish.compression, .about = about});
+    if (!recorder) return recorder.error();
+    return std::unique_ptr<ClientRecording>(std::make_unique<Recording>(std::move(*recorder)));
+  };
+}
+
+Result<int> AskToRecord(ControlClient& client, const Request& request, const std::string& file) {
+  const Interruptions interruptions;
+  const bool is_terminal = isatty(STDOUT_FILENO) == 1;
+  std::string last;
+  const auto code = client.Ask(
+      request.ToText(),
+      [&](std::string_view text) {
+        last = text;
+        if (is_terminal) {
+          std::cout << "\r\x1b[K" << text.substr(0, text.find('\n')) << std::flush;
+        }
+        return !interrupted.load();
+      },
+      [&](std::string_view text) {
+        std::cerr << (is_terminal ? "\n" : "") << text << std::flush;
+        return !interrupted.load();
+      });
+  if (is_terminal) std::cout << "\r\x1b[K";
+  if (interrupted) {
+    { const ControlClient gone(std::move(client)); }
+    return ReportWhenEnded(file);
+  }
+  if (!code) return code;
+  if (*code == 0) std::cout << last << std::flush;
+  return code;
+}
+
+}  // namespace runnel::program

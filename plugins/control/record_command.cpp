@@ -1,0 +1,115 @@
+#include <chrono>
+#include <exception>
+#include <utility>
+
+#include "plugins/control/command.h"
+
+namespace runnel {
+
+namespace {
+
+constexpr Duration kLookWhetherDone = std::chrono::milliseconds(20);
+constexpr Duration kTellProgress = std::chrono::milliseconds(250);
+
+/// Records until its client goes, or so long as that has said. What waits for the disk or for the structure
+/// does so in the worker's thread.
+class RecordCommand final : public Command {
+ public:
+  RecordCommand(const RecordingHook& hook, RecordingWish wish, std::optional<std::uint64_t> seconds,
+                ChangeWorker& worker)
+      : worker_(worker), seconds_(seconds), shared_(std::make_shared<Shared>()) {
+    job_ = worker_.Post([hook, wish = std::move(wish), shared = shared_] {
+      shared->Do([&]() -> Result<std::string> {
+        auto started = hook(wish);
+        if (!started) return started.error();
+        shared->recording = std::move(*started);
+        return std::string();
+      });
+    });
+  }
+  // The client has gone: the worker brings the file to its end.
+  ~RecordCommand() override {
+    if (!job_->is_done()) job_->Cancel();
+    if (!has_ended_) {
+      worker_.Post([shared = shared_] { shared->recording.reset(); });
+    }
+  }
+
+  std::optional<ControlCode> Continue(Answer& answer) override {
+    ContinueIn(kLookWhetherDone);
+    if (!job_->is_done()) return {};
+    if (!shared_->outcome) {
+      has_ended_ = true;
+      answer.Complain(ErrorLine(shared_->outcome.error()));
+      return has_begun_ ? ControlCode::kFailed : ControlCode::kBadInput;
+    }
+    if (is_ending_) {
+      has_ended_ = true;
+      answer.Write(*shared_->outcome + "\n");
+      return ControlCode::kDone;
+    }
+    if (!std::exchange(has_begun_, true)) began_ = std::chrono::steady_clock::now();
+    if (const auto failure = shared_->recording->Failure()) {
+      answer.Complain(ErrorLine(*failure));
+      return ControlCode::kFailed;
+    }
+    if (seconds_ && std::chrono::steady_clock::now() - began_ >= std::chrono::seconds(*seconds_)) {
+      End();
+      return {};
+    }
+    ContinueIn(kTellProgress);
+    answer.Write(shared_->recording->Progress() + "\n");
+    return {};
+  }
+
+ private:
+  struct Shared {
+    template <typename Work>
+    void Do(const Work& work) {
+      try {
+        outcome = work();
+      } catch (const std::exception& exception) {
+        outcome = Error{.message = exception.what()};
+      }
+    }
+    Result<std::string> outcome = std::string();
+    std::unique_ptr<ClientRecording> recording;
+  };
+
+  void End() {
+    is_ending_ = true;
+    job_ = worker_.Post([shared = shared_] {
+      shared->Do([&] { return shared->recording->Finish(); });
+      shared->recording.reset();
+    });
+  }
+
+  ChangeWorker& worker_;
+  const std::optional<std::uint64_t> seconds_;
+  const std::shared_ptr<Shared> shared_;
+  std::shared_ptr<ChangeWorker::Job> job_;
+  std::chrono::steady_clock::time_point began_{};
+  bool has_begun_ = false;
+  bool is_ending_ = false;
+  bool has_ended_ = false;
+};
+
+}  // namespace
+
+CommandResult MakeRecordCommand(const Request& request, const ControlledApplication& application,
+                                ChangeWorker& worker) {
+  if (!application.hooks.record) {
+    return Error{.message = "the program that runs this application cannot record it"};
+  }
+  const auto seconds = ReadCountOption(request);
+  if (!seconds) return seconds.error();
+  if (request.Option("file").empty()) {
+    return Error{.message = "'record' needs the file to record to, as file=…"};
+  }
+  return std::unique_ptr<Command>(std::make_unique<RecordCommand>(
+      application.hooks.record,
+      RecordingWish{request.Option("file"), request.words, request.Option("compression")}, *seconds,
+      worker));
+}
+
+}  // namespace runnel

@@ -1,0 +1,125 @@
+#include "plugins/recording/port_patterns.h"
+
+#include <algorithm>
+#include <span>
+
+namespace runnel {
+
+namespace {
+
+using Parts = std::vector<std::string>;
+
+Parts Split(std::string_view path) {
+  Parts parts;
+  while (!path.empty()) {
+    const std::size_t slash = path.find('/');
+    const std::string_view part = path.substr(0, slash);
+    if (!part.empty()) parts.emplace_back(part);
+    path = slash == std::string_view::npos ? std::string_view() : path.substr(slash + 1);
+  }
+  return parts;
+}
+
+bool IsPortGroup(const std::string& name) {
+  constexpr const char* kGroups[] = {"input",         "output",           "sensor_input",
+                                     "sensor_output", "controller_input", "controller_output"};
+  return std::ranges::count(kGroups, name) > 0;
+}
+
+// One part of a path, of whose pattern each * stands for any letters.
+bool FitsPart(std::string_view pattern, std::string_view part) {
+  if (pattern.empty()) return part.empty();
+  if (pattern.front() == '*') {
+    for (std::size_t skip = 0; skip <= part.size(); ++skip) {
+      if (FitsPart(pattern.substr(1), part.substr(skip))) return true;
+    }
+    return false;
+  }
+  return !part.empty() && pattern.front() == part.front() &&
+         FitsPart(pattern.substr(1), part.substr(1));
+}
+
+bool FitsParts(std::span<const std::string> pattern, std::span<const std::string> path) {
+  if (pattern.empty()) return path.empty();
+  if (pattern.front() == "**") {
+    for (std::size_t skip = 0; skip <= path.size(); ++skip) {
+      if (FitsParts(pattern.subspan(1), path.subspan(skip))) return true;
+    }
+    return false;
+  }
+  return !path.empty() && FitsPart(pattern.front(), path.front()) &&
+         FitsParts(pattern.subspan(1), path.subspan(1));
+}
+
+// The path as it stands, and without its port group.
+std::vector<Parts> Forms(std::string_view path) {
+  std::vector<Parts> forms{Split(path)};
+  Parts& whole = forms.front();
+  if (whole.size() >= 2 && IsPortGroup(whole[whole.size() - 2])) {
+    Parts without = whole;
+    without.erase(without.end() - 2);
+    forms.push_back(std::move(without));
+  }
+  return forms;
+}
+
+std::string Join(std::span<const std::string> parts) {
+  std::string text;
+  for (const std::string& part : parts) text += "/" + part;
+  return text;
+}
+
+}  // namespace
+
+Result<PortPatterns> PortPatterns::Make(const std::vector<std::string>& patterns) {
+  PortPatterns made;
+  made.texts_ = patterns;
+  for (const std::string& text : patterns) {
+    const bool is_excluded = text.starts_with('!');
+    const std::string_view path = std::string_view(text).substr(is_excluded ? 1 : 0);
+    Parts parts = Split(path);
+    if (parts.empty()) {
+      return Error{.message = "'" + text + "' is no pattern of ports",
+                   .hint = "for example /robot/pose, */pose, /robot/**, or !**/scan"};
+    }
+    if (!path.starts_with('/')) parts.insert(parts.begin(), "**");
+    (is_excluded ? made.excluded_ : made.wanted_).push_back(std::move(parts));
+  }
+  return made;
+}
+
+bool PortPatterns::FitOne(const Parts& pattern, std::string_view path) {
+  return std::ranges::any_of(Forms(path), [&](const Parts& form) {
+    const std::span<const std::string> whole = form;
+    return FitsParts(pattern, whole) || (!whole.empty() && FitsParts(pattern, whole.subspan(1)));
+  });
+}
+
+bool PortPatterns::Fit(std::string_view path) const {
+  const auto fits = [&](const Parts& pattern) { return FitOne(pattern, path); };
+  return (wanted_.empty() || std::ranges::any_of(wanted_, fits)) &&
+         std::ranges::none_of(excluded_, fits);
+}
+
+std::vector<std::string> PortPatterns::Names() const {
+  std::vector<std::string> names;
+  for (const std::string& text : texts_) {
+    if (!text.starts_with('!') && text.find('*') == std::string::npos) names.push_back(text);
+  }
+  return names;
+}
+
+bool PortPatterns::Name(std::string_view path) const {
+  return Fit(path) && std::ranges::any_of(Names(), [&](const std::string& name) {
+           return FitOne(Split(name), path);
+         });
+}
+
+std::string PlainPortPath(std::string_view path) { return Join(Forms(path).back()); }
+
+std::string ShortPortPath(std::string_view path) {
+  const Parts parts = Forms(path).back();
+  return Join(std::span(parts).subspan(parts.size() > 1 ? 1 : 0));
+}
+
+}  // namespace runnel

@@ -1,0 +1,278 @@
+#include "plugins/recording/recorder.h"
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <exception>
+#include <utility>
+
+#include "core/base/nearest_name.h"
+#include "core/types/type_info.h"
+#include "plugins/foxglove_schemas/foxglove_topics.h"
+#include "plugins/mcap/compression.h"
+#include "plugins/mcap/mcap_writer.h"
+#include "plugins/recording/recording_names.h"
+#include "plugins/runtime_construction/not_saved.h"
+#include "plugins/scheduling/scheduler.h"
+
+namespace runnel {
+
+namespace {
+
+/// Below which the taps of a recorder are. Beside the tree: no part of the application, so that nobody
+/// finds or saves it, and modules need not be held back when it goes.
+class RecorderElement final : public FrameworkElement {
+ public:
+  explicit RecorderElement(FrameworkElement& root)
+      : FrameworkElement(Placement{root, "recorder", false}) {
+    Annotate(std::make_unique<NotSaved>());
+  }
+};
+
+bool Feeds(const Port& port, const FrameworkElement& below) {
+  return std::ranges::any_of(port.outgoing(),
+                             [&](const Connection& each) { return each.to->IsAtOrBelow(below); });
+}
+
+std::string NowText() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[32];
+  return {text, std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts)};
+}
+
+Result<std::string> ChooseCompression(const std::string& wish) {
+  if (wish.empty()) return Compressions().front();
+  const std::string chosen = wish == "none" ? "" : wish;
+  if (auto known = CheckCompression(chosen); !known) return known.error();
+  return chosen;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Recorder>> Recorder::Start(Runtime& runtime, Scheduler* scheduler,
+                                                  RecorderOptions options) {
+  auto patterns = PortPatterns::Make(options.ports);
+  if (!patterns) return patterns.error();
+  const auto compression = ChooseCompression(options.compression);
+  if (!compression) return compression.error();
+  options.compression = *compression;
+  std::unique_ptr<Recorder> recorder(
+      new Recorder(runtime, scheduler, std::move(options), std::move(*patterns)));
+  if (auto begun = recorder->Begin(); !begun) return begun.error();
+  return recorder;
+}
+
+Recorder::Recorder(Runtime& runtime, Scheduler* scheduler, RecorderOptions options,
+                   PortPatterns patterns)
+    : runtime_(runtime),
+      scheduler_(scheduler),
+      options_(std::move(options)),
+      patterns_(std::move(patterns)) {}
+
+Recorder::~Recorder() { (void)Finish(); }
+
+Result<void> Recorder::Begin() {
+  {
+    const std::lock_guard lock(runtime_.structure_mutex());
+    if (auto checked = CheckNames(); !checked) return checked;
+  }
+  auto writer = McapWriter::Create(
+      options_.file,
+      {.header = {"", "runnel " + options_.about.version}, .compression = options_.compression});
+  if (!writer) return writer.error();
+  writer_ = std::move(*writer);
+  if (auto written = WriteAbout(); !written) return written;
+  last_flush_ = std::chrono::steady_clock::now();
+  {
+    // One change: nobody publishes to some of the taps only.
+    const ChangeScope changes(runtime_);
+    element_ = std::make_unique<RecorderElement>(runtime_.root());
+    runtime_.root().Visit([this](FrameworkElement& element) {
+      if (auto* const port = dynamic_cast<Port*>(&element)) Follow(*port);
+    });
+    ShowWhereTheRobotIs();
+    runtime_.AddListener(*this);
+  }
+  if (scheduler_ != nullptr) scheduler_->brakes().Add(*this);
+  thread_ = std::thread([this] { Write(); });
+  return {};
+}
+
+// A port that is named is meant; one that only fits a pattern is taken as it is.
+Result<void> Recorder::CheckNames() {
+  std::vector<std::string> paths;
+  std::vector<const Port*> ports;
+  runtime_.root().Visit([&](FrameworkElement& element) {
+    const auto* const port = dynamic_cast<const Port*>(&element);
+    if (port == nullptr) return;
+    ports.push_back(port);
+    if (port->is_proxy() || port->direction() == Port::Direction::kOutput) {
+      paths.push_back(PlainPortPath(port->path()));
+      paths.push_back(ShortPortPath(port->path()));
+    }
+  });
+  for (const std::string& name : patterns_.Names()) {
+    const auto one = PortPatterns::Make({name});
+    const auto meant =
+        std::ranges::find_if(ports, [&](const Port* port) { return one->Fit(port->path()); });
+    if (meant == ports.end()) {
+      return Error{.message = "there is no port '" + name + "' to record",
+                   .hint = NearestNameHint(name, paths)};
+    }
+    const auto sender = std::ranges::find_if(ports, [&](const Port* port) {
+      return one->Fit(port->path()) &&
+             (port->is_proxy() || port->direction() == Port::Direction::kOutput);
+    });
+    if (sender == ports.end()) {
+      const auto sources = (*meant)->Sources();
+      return Error{.message = "is an input; recorded is what outputs publish",
+                   .path = (*meant)->path(),
+                   .hint = sources.empty() ? "nothing is connected to it"
+                                           : "record " + PlainPortPath(sources.front()->path())};
+    }
+    if (!(*sender)->type().is_transparent()) {
+      return Error{.message = "values of type " + (*sender)->type().name() +
+                              " have no form in which they could be recorded",
+                   .path = (*sender)->path()};
+    }
+  }
+  return {};
+}
+
+Result<void> Recorder::WriteAbout() {
+  const RecordedApplication& about = options_.about;
+  const bool is_simulated = scheduler_ != nullptr &&
+                            scheduler_->options().clock == SchedulerOptions::ClockKind::kSimulated;
+  std::string ports;
+  for (const std::string& each : patterns_.texts()) ports += (ports.empty() ? "" : " ") + each;
+  const McapMetadata metadata{kAboutMetadata,
+                              {{"application", about.name},
+                               {"file", about.file},
+                               {"settings", about.settings},
+                               {"clock", is_simulated ? "simulated" : "real"},
+                               {"version", about.version},
+                               {"ports", ports},
+                               {"started", NowText()}}};
+  if (auto written = writer_->AddMetadata(metadata); !written) return written;
+  if (about.text.empty()) return {};
+  return writer_->AddAttachment({0, 0, kApplicationAttachment, "application/xml", about.text});
+}
+
+Result<void> Recorder::Finish() {
+  if (!thread_.joinable()) {
+    const std::lock_guard lock(mutex_);
+    return status_.failure ? Result<void>(*status_.failure) : Result<void>();
+  }
+  if (scheduler_ != nullptr) scheduler_->brakes().Remove(*this);
+  runtime_.RemoveListener(*this);
+  for (const auto& each : All()) each->tap->DisconnectAll();
+  is_ending_ = true;
+  {
+    const std::lock_guard lock(wake_mutex_);
+    is_woken_ = true;
+  }
+  wake_.notify_one();
+  thread_.join();
+  {
+    // Destroyed after the mutex is free: cutting their connections takes the structure lock.
+    std::vector<std::shared_ptr<Recorded>> ended;
+    const std::lock_guard lock(mutex_);
+    for (const auto& each : recorded_) status_.dropped += each->tap->dropped();
+    ended.swap(recorded_);
+  }
+  const std::lock_guard lock(mutex_);
+  return status_.failure ? Result<void>(*status_.failure) : Result<void>();
+}
+
+RecordingStatus Recorder::status() const {
+  const std::lock_guard lock(mutex_);
+  RecordingStatus status = status_;
+  for (const auto& each : recorded_) status.dropped += each->tap->dropped();
+  return status;
+}
+
+std::optional<Error> Recorder::TakeFailure() {
+  const std::lock_guard lock(mutex_);
+  if (!status_.failure || std::exchange(failure_is_told_, true)) return {};
+  return status_.failure;
+}
+
+std::vector<std::shared_ptr<Recorder::Recorded>> Recorder::All() const {
+  const std::lock_guard lock(mutex_);
+  return recorded_;
+}
+
+bool Recorder::IsRecorded(const Port& port) {
+  // Interface ports only pass on: only who names one wants it.
+  if (port.is_proxy()) return patterns_.Name(port.path());
+  return port.direction() == Port::Direction::kOutput && patterns_.Fit(port.path());
+}
+
+void Recorder::Follow(Port& port) {
+  if (!IsRecorded(port) || port.IsAtOrBelow(*element_) || Feeds(port, *element_)) return;
+  if (!port.type().is_transparent()) {
+    const std::lock_guard lock(mutex_);
+    if (std::ranges::count(status_.left_out, port.path()) == 0) {
+      status_.left_out.push_back(port.path());
+    }
+    return;
+  }
+  auto recorded = std::make_shared<Recorded>();
+  recorded->path = port.path();
+  recorded->type = &port.type();
+  recorded->tap = std::make_unique<Tap>(*element_, "tap_" + std::to_string(++made_taps_),
+                                        port.type(), options_.room);
+  recorded->forms = ChannelsFor(port.type(), TopicOf(port), WholeValues());
+  // Refused only to a port that is being deleted.
+  if (!Port::Connect(port, *recorded->tap)) return;
+  const std::lock_guard lock(mutex_);
+  recorded_.push_back(std::move(recorded));
+  ++status_.ports;
+}
+
+// The poses of the port that says it, as the transform that scans are drawn by.
+void Recorder::ShowWhereTheRobotIs() {
+  std::vector<const Port*> outputs;
+  runtime_.root().Visit([&](FrameworkElement& element) {
+    const auto* const port = dynamic_cast<const Port*>(&element);
+    if (port != nullptr && !port->is_proxy() && port->direction() == Port::Direction::kOutput) {
+      outputs.push_back(port);
+    }
+  });
+  const Port* const pose = RobotPose(outputs);
+  if (pose == nullptr) return;
+  const auto transform = TransformChannelFor(pose->type());
+  for (const auto& each : All()) {
+    if (transform && each->path == pose->path()) each->forms.push_back(*transform);
+  }
+}
+
+void Recorder::OnReady(FrameworkElement& element) {
+  if (has_failed_) return;
+  element.Visit([this](FrameworkElement& each) {
+    if (auto* const port = dynamic_cast<Port*>(&each)) Follow(*port);
+  });
+}
+
+// Whether another module takes over its connections, as one that replaces it does, is seen later.
+void Recorder::OnDeleted(FrameworkElement&) { has_gone_ = true; }
+
+void Recorder::HoldBack() noexcept {
+  const auto is_behind = [this] {
+    const std::lock_guard lock(mutex_);
+    return std::ranges::any_of(
+        recorded_, [](const auto& each) { return each->tap->waiting() * 2 > each->tap->room(); });
+  };
+  while (!has_failed_ && is_behind()) {
+    {
+      const std::lock_guard lock(wake_mutex_);
+      is_woken_ = true;
+    }
+    wake_.notify_one();
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+  }
+}
+
+}  // namespace runnel

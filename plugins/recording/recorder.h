@@ -1,0 +1,155 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/element/element_listener.h"
+#include "core/element/runtime.h"
+#include "core/port/tap.h"
+#include "plugins/foxglove_schemas/foxglove_channel.h"
+#include "plugins/mcap/mcap_records.h"
+#include "plugins/recording/port_patterns.h"
+#include "plugins/scheduling/brakes.h"
+
+namespace runnel {
+
+class McapWriter;
+class Scheduler;
+
+/// What a recording says about where it comes from, for `runnel info` and for who replays it.
+struct RecordedApplication {
+  std::string name = {};
+  std::string file = {};      ///< that it was built from
+  std::string text = {};      ///< of that file; kept as an attachment
+  std::string settings = {};  ///< "world=maze.xml seed=3"
+  std::string version = {};   ///< of Runnel
+};
+
+struct RecorderOptions {
+  std::string file;
+  std::vector<std::string> ports = {};  ///< see PortPatterns; none: all outputs
+  /// "zstd", "lz4", "none"; "": the best there is.
+  std::string compression = {};
+  std::size_t room = Tap::kRoom;  ///< values of one port that may wait to be written
+  RecordedApplication about = {};
+};
+
+/// How a recording is going.
+struct RecordingStatus {
+  std::uint64_t values = 0;
+  std::uint64_t dropped = 0;  ///< had no room to wait
+  std::size_t ports = 0;      ///< all that were there while it ran
+  std::uint64_t bytes = 0;    ///< of the file
+  /// Ports that fit, but whose values have no form that can be written.
+  std::vector<std::string> left_out = {};
+  std::optional<Error> failure = {};  ///< nothing more is written
+};
+
+/// Records the values of outputs into an MCAP file: as JSON, with the time that each value bears, with
+/// JSON schemas, and with what the application was; what Foxglove can draw also in its own schemas. Ports that come later are recorded from their first
+/// value on, as soon as they fit; those that go just end.
+///
+/// Publishers pay what a queue costs (Tap). A thread of the recorder takes the values, makes text of them
+/// and writes. On a real clock, what comes while a port's queue is full is lost, and counted; simulated
+/// time waits instead, between two cycles, so that a recording of it is complete unless one cycle
+/// publishes more than half a queue at one port.
+///
+/// Ownership:  of the file. The runtime and the scheduler must outlive it.
+/// Threads:    Start() and Finish() outside of cycles and without the structure lock; status() any.
+/// Errors:     of the file: at the start, told by Start(); later, the recording ends and the application
+///             goes on, see RecordingStatus::failure.
+class Recorder final : public ElementListener, public Brake {
+ public:
+  /// `scheduler` is told to hold simulated time back; nullptr: nobody is. Errors: of the file; a pattern
+  /// that names one port which is not there or cannot be recorded, with the nearest name.
+  static Result<std::unique_ptr<Recorder>> Start(Runtime& runtime, Scheduler* scheduler,
+                                                 RecorderOptions options);
+  /// Finishes.
+  ~Recorder() override;
+
+  /// Writes what waits and ends the file. Idempotent. Errors: as RecordingStatus::failure.
+  Result<void> Finish();
+  [[nodiscard]] RecordingStatus status() const;
+  [[nodiscard]] const std::string& file() const noexcept { return options_.file; }
+  /// The failure, once.
+  [[nodiscard]] std::optional<Error> TakeFailure();
+
+  void OnReady(FrameworkElement& element) override;
+  void OnDeleted(FrameworkElement& element) override;
+  void HoldBack() noexcept override;
+
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+ private:
+  /// One port, as it is recorded.
+  struct Recorded {
+    std::string path;
+    const TypeInfo* type;
+    std::unique_ptr<Tap> tap;
+    std::vector<FoxgloveChannel> forms;  // in which its values are written, the whole one first
+    // The writing thread's own:
+    std::vector<std::uint16_t> channels;  // one for each form, once there is a value
+    std::vector<std::string> messages;    // likewise: the newest
+    std::uint32_t sequence = 0;
+  };
+
+  Recorder(Runtime& runtime, Scheduler* scheduler, RecorderOptions options, PortPatterns patterns);
+  Result<void> Begin();
+  Result<void> CheckNames();
+  Result<void> WriteAbout();
+
+  // Under the structure lock.
+  void Follow(Port& port);
+  void ShowWhereTheRobotIs();
+  [[nodiscard]] bool IsRecorded(const Port& port);
+  void DropGone();
+
+  // By the writing thread, or by Finish() when that has ended.
+  void Write();
+  bool WriteWaiting();
+  std::uint64_t WriteWaitingOf(Recorded& recorded);
+  Result<void> WriteValue(Recorded& recorded, Time stamp);
+  Result<void> AddChannels(Recorded& recorded);
+  Result<void> WriteDrops();
+  void Note(const Result<void>& done);
+  [[nodiscard]] std::vector<std::shared_ptr<Recorded>> All() const;
+
+  Runtime& runtime_;
+  Scheduler* const scheduler_;
+  RecorderOptions options_;
+  const PortPatterns patterns_;
+  std::unique_ptr<FrameworkElement> element_;  // below which the taps are
+
+  mutable OrderedMutex mutex_{LockLevel::kLeaf};
+  std::vector<std::shared_ptr<Recorded>> recorded_;  // guarded by mutex_
+  RecordingStatus status_;                           // likewise
+  std::vector<std::pair<std::string, std::uint64_t>> drops_of_gone_;
+  bool failure_is_told_ = false;
+  std::uint64_t made_taps_ = 0;  // under the structure lock
+
+  std::unique_ptr<McapWriter> writer_;
+  std::vector<std::pair<std::string, std::uint16_t>> schemas_;
+  std::vector<std::pair<std::string, std::uint16_t>> channels_;
+  std::uint64_t written_drops_ = 0;
+  std::chrono::steady_clock::time_point last_flush_{};
+
+  std::atomic<bool> has_failed_{false};
+  std::atomic<bool> is_ending_{false};
+  std::atomic<bool> has_gone_{false};
+  std::atomic<bool> is_waited_for_{false};  // by simulated time
+  std::mutex wake_mutex_;
+  std::condition_variable wake_;
+  bool is_woken_ = false;  // guarded by wake_mutex_
+  std::thread thread_;
+};
+
+}  // namespace runnel

@@ -1,0 +1,174 @@
+// What the thread of a recorder does.
+#include <algorithm>
+#include <chrono>
+
+#include "core/types/type_info.h"
+#include "plugins/mcap/mcap_writer.h"
+#include "plugins/recording/recorder.h"
+#include "plugins/recording/recording_names.h"
+
+namespace runnel {
+
+namespace {
+
+// So long a value waits at most before it is taken; a queue of 128 keeps up with 25 kHz then.
+constexpr auto kLookAgain = std::chrono::milliseconds(5);
+// What a killed process loses is not older than this.
+constexpr auto kLongestChunk = std::chrono::seconds(1);
+
+template <typename Id, typename Make>
+Result<std::uint16_t> FindOrMake(std::vector<std::pair<std::string, Id>>& known,
+                                 const std::string& name, const Make& make) {
+  const auto found = std::ranges::find(
+      known, name, [](const auto& each) -> const auto& { return each.first; });
+  if (found != known.end()) return found->second;
+  const Result<std::uint16_t> made = make();
+  if (made) known.emplace_back(name, *made);
+  return made;
+}
+
+}  // namespace
+
+void Recorder::Write() {
+  while (!has_failed_) {
+    const bool is_last = is_ending_;  // what was published before the end is waiting by now
+    const bool found = WriteWaiting();
+    if (has_gone_.exchange(false)) DropGone();
+    if (std::chrono::steady_clock::now() - last_flush_ >= kLongestChunk) {
+      last_flush_ = std::chrono::steady_clock::now();
+      Note(WriteDrops());
+      Note(writer_->Flush());
+    }
+    if (is_last && !found) break;
+    if (found) continue;
+    std::unique_lock lock(wake_mutex_);
+    wake_.wait_for(lock, kLookAgain, [this] { return is_woken_; });
+    is_woken_ = false;
+  }
+  if (has_failed_) return;
+  Note(WriteDrops());
+  Note(writer_->Finish());
+  const std::lock_guard lock(mutex_);
+  status_.bytes = writer_->written_bytes();
+}
+
+bool Recorder::WriteWaiting() {
+  std::uint64_t count = 0;
+  for (const auto& each : All()) {
+    if (has_failed_) break;
+    count += WriteWaitingOf(*each);
+  }
+  const std::lock_guard lock(mutex_);
+  status_.values += count;
+  status_.bytes = writer_->written_bytes();
+  return count > 0;
+}
+
+// No more than a queue full, so that all ports have their turn.
+std::uint64_t Recorder::WriteWaitingOf(Recorded& recorded) {
+  std::uint64_t count = 0;
+  while (count < recorded.tap->room() && !has_failed_) {
+    Time stamp;
+    const bool taken = recorded.tap->Take([&](const void* value, Time of) {
+      stamp = of;
+      recorded.messages.resize(recorded.forms.size());
+      for (std::size_t i = 0; i < recorded.forms.size(); ++i) {
+        recorded.messages[i].clear();
+        recorded.forms[i].Append(value, of, recorded.messages[i]);
+      }
+    });
+    if (!taken) break;
+    if (auto written = WriteValue(recorded, stamp); !written) {
+      Note(written);
+      break;
+    }
+    ++count;
+  }
+  return count;
+}
+
+Result<void> Recorder::WriteValue(Recorded& recorded, Time stamp) {
+  if (recorded.channels.empty()) {
+    if (auto added = AddChannels(recorded); !added) return added;
+  }
+  const auto time =
+      static_cast<std::uint64_t>(std::max<std::int64_t>(stamp.time_since_epoch().count(), 0));
+  ++recorded.sequence;
+  for (std::size_t i = 0; i < recorded.channels.size(); ++i) {
+    auto added = writer_->AddMessage(
+        {recorded.channels[i], recorded.sequence, time, time, recorded.messages[i]});
+    if (!added) return added;
+  }
+  return {};
+}
+
+// A port that has come back goes on in its channels, if it has its type.
+Result<void> Recorder::AddChannels(Recorded& recorded) {
+  for (std::size_t i = 0; i < recorded.forms.size(); ++i) {
+    const FoxgloveChannel& form = recorded.forms[i];
+    const auto schema = FindOrMake(schemas_, form.schema_name, [&] {
+      return writer_->AddSchema(form.schema_name, kSchemaEncoding, form.schema);
+    });
+    if (!schema) return schema.error();
+    const std::string of = recorded.path + " " + form.topic + " " + form.schema_name;
+    const auto channel = FindOrMake(channels_, of, [&] {
+      return writer_->AddChannel(*schema, form.topic, kMessageEncoding,
+                                 {{i == 0 ? kPortKey : kViewOfKey, recorded.path}});
+    });
+    if (!channel) return channel.error();
+    recorded.channels.push_back(*channel);
+  }
+  return {};
+}
+
+// Written anew whenever there are more, so that the file of a killed process knows of them.
+Result<void> Recorder::WriteDrops() {
+  McapMetadata drops{kDropsMetadata, {}};
+  std::uint64_t sum = 0;
+  const auto add = [&](const std::string& path, std::uint64_t count) {
+    sum += count;
+    if (count > 0) drops.texts.emplace_back(path, std::to_string(count));
+  };
+  for (const auto& [path, count] : drops_of_gone_) add(path, count);
+  for (const auto& each : All()) add(each->path, each->tap->dropped());
+  if (sum == written_drops_) return {};
+  written_drops_ = sum;
+  return writer_->AddMetadata(drops);
+}
+
+// Taps to which nothing is connected any more, once they are empty.
+void Recorder::DropGone() {
+  std::vector<std::shared_ptr<Recorded>> gone;
+  {
+    const std::unique_lock structure(runtime_.structure_mutex(), std::try_to_lock);
+    if (!structure) {
+      has_gone_ = true;
+      return;
+    }
+    for (const auto& each : All()) {
+      const bool is_fed = std::ranges::any_of(each->tap->incoming(), [](const Port* port) {
+        return port->life_cycle() != LifeCycle::kDeleted;
+      });
+      if (!is_fed) gone.push_back(each);
+    }
+  }
+  for (const auto& each : gone) {
+    if (each->tap->waiting() > 0) {
+      has_gone_ = true;
+      continue;
+    }
+    const std::lock_guard lock(mutex_);
+    std::erase(recorded_, each);
+    status_.dropped += each->tap->dropped();
+    drops_of_gone_.emplace_back(each->path, each->tap->dropped());
+  }
+}
+
+void Recorder::Note(const Result<void>& done) {
+  if (done) return;
+  has_failed_ = true;
+  const std::lock_guard lock(mutex_);
+  if (!status_.failure) status_.failure = done.error();
+}
+
+}  // namespace runnel

@@ -1,0 +1,299 @@
+#include "plugins/recording/recording_player.h"
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <utility>
+
+#include "core/base/nearest_name.h"
+#include "core/element/runtime.h"
+#include "core/module/run_monitor.h"
+#include "core/port/tap.h"
+#include "core/types/type_info.h"
+#include "plugins/json_values/json_values.h"
+#include "plugins/recording/recording_names.h"
+#include "plugins/runtime_construction/not_saved.h"
+
+namespace runnel {
+
+namespace {
+
+/// Below which the outputs of a player are; no part of the application.
+class PlayerElement final : public FrameworkElement {
+ public:
+  explicit PlayerElement(const Placement& placement) : FrameworkElement(placement) {
+    Annotate(std::make_unique<NotSaved>());
+  }
+};
+
+std::string FreeName(const FrameworkElement& parent, const std::string& name) {
+  std::string free = name;
+  for (int i = 2; parent.FindChild(free) != nullptr; ++i) free = name + "_" + std::to_string(i);
+  return free;
+}
+
+// The module that publishes there; nullptr if nothing with tasks does.
+FrameworkElement* PublisherOf(const Port& port) {
+  FrameworkElement* at = port.parent();
+  while (at != nullptr && at->FindAnnotation<Executable>() == nullptr) at = at->parent();
+  return at;
+}
+
+bool Writes(const Task& task, const Port& port) {
+  return std::ranges::any_of(task.writes, [&](const FrameworkElement* group) {
+    return group != nullptr && port.IsAtOrBelow(*group);
+  });
+}
+
+// The port at a recorded path; or, if the application is called otherwise now, in its place.
+Port* FindPort(Runtime& runtime, const std::string& path) {
+  if (const auto found = runtime.root().Find(path)) return dynamic_cast<Port*>(*found);
+  const std::string wanted = ShortPortPath(path);
+  Port* match = nullptr;
+  runtime.root().Visit([&](FrameworkElement& each) {
+    auto* const port = dynamic_cast<Port*>(&each);
+    if (port == nullptr || match != nullptr || ShortPortPath(port->path()) != wanted) return;
+    if (port->is_proxy() || port->direction() == Port::Direction::kOutput) match = port;
+  });
+  return match;
+}
+
+// What is no structure stands in an object of its own, as messages have to be objects.
+Result<void> SetFromMessage(const TypeInfo& type, std::string_view json, void* value) {
+  constexpr std::string_view kBefore = "{\"value\":";
+  if (type.kind() == TypeKind::kStructure) return SetFromJson(type, json, value);
+  if (!json.starts_with(kBefore) || !json.ends_with('}')) {
+    return Error{.message = "expected {\"value\":…}"};
+  }
+  json.remove_prefix(kBefore.size());
+  json.remove_suffix(1);
+  return SetFromJson(type, json, value);
+}
+
+}  // namespace
+
+/// One recorded port, with the output that plays it: an own one, where the module goes on publishing at
+/// the original.
+struct Player::PlayedPort {
+  Port* original;
+  std::uint16_t channel;
+  std::unique_ptr<Port> output;
+
+  [[nodiscard]] Port& publisher() const noexcept { return output ? *output : *original; }
+};
+
+/// What runs in the place of a module's task.
+class Player::PlayedTask {
+ public:
+  PlayedTask(Player& player, std::optional<BoundCall> original, std::vector<PlayedPort*> ports)
+      : player_(player), original_(original), ports_(std::move(ports)) {}
+  void Run() {
+    if (original_) (*original_)();
+    player_.Publish(ports_);
+  }
+
+ private:
+  Player& player_;
+  const std::optional<BoundCall> original_;
+  const std::vector<PlayedPort*> ports_;
+};
+
+Result<std::unique_ptr<Player>> Player::Prepare(Runtime& runtime,
+                                                std::unique_ptr<McapReader> reader,
+                                                const PlayerOptions& options) {
+  const auto patterns = PortPatterns::Make(options.ports);
+  if (!patterns) return patterns.error();
+  const std::string file = reader->file();
+  if (reader->contents().statistics.messages == 0) {
+    return Error{.message = "there are no values in this recording", .position = {.file = file}};
+  }
+  const McapStatistics& all = reader->contents().statistics;
+  const Duration whole(static_cast<std::int64_t>(all.end - all.start));
+  if (options.from && *options.from > whole) {
+    return Error{.message = "the recording ends before that: it has " +
+                            std::to_string(ToSeconds(whole)) + " s",
+                 .position = {.file = file}};
+  }
+  if (options.from && options.to && *options.to < *options.from) {
+    return Error{.message = "the end of what is to be played is before its beginning",
+                 .position = {.file = file}};
+  }
+  std::unique_ptr<Player> player(new Player(
+      runtime,
+      std::make_unique<PlayedValues>(std::move(reader), options.from, options.to, options.loops)));
+  const ChangeScope changes(runtime);
+  if (auto found = player->FindPorts(*patterns); !found) {
+    Error error = found.error();
+    if (error.position.file.empty()) error.position.file = file;
+    return error;
+  }
+  player->WrapTasks();
+  if (auto ready = runtime.MakeReady(*player->element_); !ready) return ready.error();
+  return player;
+}
+
+Player::Player(Runtime& runtime, std::unique_ptr<PlayedValues> values)
+    : runtime_(runtime), values_(std::move(values)) {}
+
+Player::~Player() {
+  played_.clear();
+  if (element_ != nullptr) (void)runtime_.Delete(*element_);
+}
+
+Result<void> Player::FindPorts(const PortPatterns& patterns) {
+  element_ = &runtime_.Create<PlayerElement>(runtime_.root(), FreeName(runtime_.root(), "player"));
+  std::vector<std::string> recorded;
+  for (const auto& [id, channel] : values_->reader().contents().channels) {
+    if (IsView(channel)) continue;
+    const std::string path = PortOf(channel);
+    recorded.push_back(PlainPortPath(path));
+    recorded.push_back(ShortPortPath(path));
+    if (!patterns.Fit(path)) continue;
+    Port* const port = FindPort(runtime_, path);
+    if (port == nullptr) {
+      missing_.push_back(path);
+      continue;
+    }
+    if (auto good = CheckType(*port, channel); !good) return good;
+    played_.push_back(std::make_unique<PlayedPort>(PlayedPort{port, id, nullptr}));
+    values_->Want(id);
+  }
+  for (const std::string& name : patterns.Names()) {
+    const auto one = PortPatterns::Make({name});
+    const auto fits = [&](const auto& each) { return one->Fit(each); };
+    if (std::ranges::any_of(missing_, fits)) {
+      return Error{.message = "the application has no port '" + name + "' to play"};
+    }
+    if (std::ranges::none_of(played_, [&](const auto& each) {
+          return one->Fit(PortOf(values_->reader().contents().channels.at(each->channel)));
+        })) {
+      return Error{.message = "the recording has no port '" + name + "'",
+                   .hint = NearestNameHint(name, recorded)};
+    }
+  }
+  if (!played_.empty()) return {};
+  return Error{.message = missing_.empty()
+                              ? "the recording has no port that fits"
+                              : "the application has none of the ports that were recorded",
+               .hint = missing_.empty() ? "" : "recorded is, for example, " + missing_.front()};
+}
+
+Result<void> Player::CheckType(const Port& port, const McapChannel& channel) const {
+  const auto& schemas = values_->reader().contents().schemas;
+  const auto schema = schemas.find(channel.schema);
+  const auto refuse = [&](const std::string& why) {
+    return Error{.message = "what was recorded cannot be played here: " + why, .path = port.path()};
+  };
+  if (channel.message_encoding != kMessageEncoding || schema == schemas.end() ||
+      schema->second.encoding != kSchemaEncoding) {
+    return refuse("it is not JSON with a JSON schema");
+  }
+  if (schema->second.name != port.type().name()) {
+    return refuse("it is of type " + schema->second.name + ", the port takes " +
+                  port.type().name());
+  }
+  if (port.type().Make() == nullptr) return refuse("only its module can make such values");
+  if (schema->second.data != ChannelsFor(port.type(), "", WholeValues()).front().schema) {
+    return refuse("the type " + port.type().name() + " was another one when it was recorded");
+  }
+  return {};
+}
+
+// Takes the place of ports, and tasks the place of tasks: first those of each module, then the player's
+// own for what no task publishes.
+void Player::WrapTasks() {
+  std::vector<std::pair<FrameworkElement*, std::vector<PlayedPort*>>> by_module;
+  for (const auto& each : played_) {
+    const bool is_output =
+        !each->original->is_proxy() && each->original->direction() == Port::Direction::kOutput;
+    FrameworkElement* const module = is_output ? PublisherOf(*each->original) : nullptr;
+    const auto known =
+        std::ranges::find(by_module, module, [](const auto& it) { return it.first; });
+    auto& ports = known != by_module.end()
+                      ? known->second
+                      : by_module.emplace_back(module, std::vector<PlayedPort*>()).second;
+    ports.push_back(each.get());
+  }
+  for (auto& [module, ports] : by_module) {
+    WrapTasksOf(module != nullptr ? *module : *element_, ports);
+  }
+}
+
+FrameworkElement& Player::TakePlaces(const std::vector<PlayedPort*>& ports) {
+  auto& group = runtime_.Create<PlayerElement>(*element_, FreeName(*element_, "played"));
+  for (PlayedPort* each : ports) {
+    Port& port = *each->original;
+    each->output = port.MakeOutput(group, FreeName(group, port.name()), {});
+    if (!port.is_proxy() && port.direction() == Port::Direction::kOutput) {
+      each->output->TakeOver(port);
+      continue;
+    }
+    const std::vector<Port*> sources = port.incoming();
+    for (Port* source : sources) (void)Port::Disconnect(*source, port);
+    (void)Port::Connect(*each->output, port);
+  }
+  return group;
+}
+
+// Whether somebody, recorders aside, reads what the task publishes and is not played.
+bool Player::IsReadUnplayed(const Task& task) const {
+  bool is_read = false;
+  for (const FrameworkElement* group : task.writes) {
+    if (group == nullptr) continue;
+    const_cast<FrameworkElement*>(group)->Visit([&](FrameworkElement& each) {
+      const auto* const port = dynamic_cast<const Port*>(&each);
+      const auto plays = [&](const auto& played) { return played->original == port; };
+      if (port == nullptr || std::ranges::any_of(played_, plays)) return;
+      for (const Port* sink : port->Sinks()) {
+        if (dynamic_cast<const Tap*>(sink) == nullptr) is_read = true;
+      }
+    });
+  }
+  return is_read;
+}
+
+void Player::WrapTasksOf(FrameworkElement& module, const std::vector<PlayedPort*>& ports) {
+  const auto* const executable = module.FindAnnotation<Executable>();
+  std::vector<Task> tasks = executable != nullptr ? executable->tasks() : std::vector<Task>();
+  if (&module == element_)
+    tasks = {{element_, Phase::kSense, BoundCall::To<&Player::DoNothing>(*this), {}, {}}};
+  for (Task& task : tasks) {
+    std::vector<PlayedPort*> of_task;
+    for (PlayedPort* each : ports) {
+      if (&module == element_ || Writes(task, *each->original)) of_task.push_back(each);
+    }
+    if (of_task.empty()) continue;
+    const bool is_own = &module == element_;
+    const bool runs =
+        !is_own && (module.FindAnnotation<RunMonitor>() != nullptr || IsReadUnplayed(task));
+    if (runs || is_own) task.writes.push_back(&TakePlaces(of_task));
+    tasks_.push_back(std::make_unique<PlayedTask>(
+        *this, runs ? std::optional(task.run) : std::nullopt, std::move(of_task)));
+    task.run = BoundCall::To<&PlayedTask::Run>(*tasks_.back());
+  }
+  module.Annotate(std::make_unique<Executable>([tasks] { return tasks; }));
+}
+
+void Player::Publish(const std::vector<PlayedPort*>& ports) {
+  const Cycle* const cycle = CurrentCycle();
+  const Time now = cycle != nullptr ? cycle->now : runtime_.clock().Now();
+  for (PlayedPort* each : ports) {
+    while (auto value = values_->Take(each->channel, now)) {
+      const CycleScope at({value->time, cycle != nullptr ? cycle->period : Duration::zero()});
+      const auto published = each->publisher().PublishFilled([&](void* filled) {
+        return SetFromMessage(each->original->type(), value->json, filled);
+      });
+      if (published) {
+        published_.fetch_add(1, std::memory_order_relaxed);
+        continue;
+      }
+      Error error = published.error();
+      error.path = each->original->path();
+      error.message = "the value recorded at " + std::to_string(ToSeconds(value->time)) +
+                      " s cannot be played: " + error.message;
+      return values_->Fail(std::move(error));
+    }
+  }
+}
+
+}  // namespace runnel

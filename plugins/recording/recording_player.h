@@ -1,0 +1,99 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/clock.h"
+#include "core/base/result.h"
+#include "core/element/framework_element.h"
+#include "core/module/executable.h"
+#include "core/port/port.h"
+#include "plugins/mcap/mcap_reader.h"
+#include "plugins/recording/played_values.h"
+#include "plugins/recording/port_patterns.h"
+
+namespace runnel {
+
+struct PlayerOptions {
+  std::vector<std::string> ports = {};  ///< see PortPatterns; none: all that are recorded
+  std::optional<Duration> from = {};    ///< since the recording's start
+  std::optional<Duration> to = {};
+  bool loops = false;
+};
+
+/// Publishes what was recorded, in the place of what was recorded: in the place of the task of the module
+/// that used to publish there, in its place in the cycle, the player publishes the recorded values. So everything
+/// that reads them runs as it did: on a simulated clock, replaying what a module read into the same
+/// application gives what it published, bit for bit.
+///
+/// A task of which all that anybody reads is played does not run itself. Others run on: an output of the
+/// player takes over the connections of each played port, and what the module publishes there nobody reads.
+/// Modules that judge the run always run.
+///
+///     auto player = Player::Prepare(runtime, std::move(reader), {.ports = {"laser/scan"}});
+///     (*player)->Start(clock.Now());   // before the first cycle
+///
+/// Values bear the time that they were recorded with, moved by the time between the start of the recording
+/// and Start(): on a clock that starts as the recording's did, the very same. A value is published in the
+/// first cycle at or after its time.
+///
+/// Ownership:  of the file. Outlives the scheduler's running; the runtime outlives it.
+/// Threads:    Prepare() and Start() while nothing runs. Played values are read from the file by the cycle
+///             that needs them.
+/// Errors:     Prepare(): nothing that fits is there, types that differ. Later: a value that cannot be read
+///             ends the playing, see failure().
+class Player {
+ public:
+  static Result<std::unique_ptr<Player>> Prepare(Runtime& runtime,
+                                                 std::unique_ptr<McapReader> reader,
+                                                 const PlayerOptions& options);
+  ~Player();
+  Player(const Player&) = delete;
+  Player& operator=(const Player&) = delete;
+
+  /// The values begin at `now` of the application's clock.
+  void Start(Time now) { values_->Start(now); }
+  /// Where the recording begins on its own clock, at `from`; for clocks that can be set.
+  [[nodiscard]] Time start() const noexcept { return values_->start(); }
+  /// From the first to the last value that is played, once.
+  [[nodiscard]] Duration length() const noexcept { return values_->end() - values_->start(); }
+
+  [[nodiscard]] std::size_t ports() const noexcept { return played_.size(); }
+  /// Recorded ports that fit but are not in the application.
+  [[nodiscard]] const std::vector<std::string>& missing() const noexcept { return missing_; }
+  [[nodiscard]] std::uint64_t published() const noexcept {
+    return published_.load(std::memory_order_relaxed);
+  }
+  /// All has been published, and it does not loop; or it has failed.
+  [[nodiscard]] bool is_over() const noexcept { return values_->is_over(); }
+  [[nodiscard]] std::optional<Error> failure() const { return values_->failure(); }
+
+ private:
+  class PlayedTask;
+  struct PlayedPort;
+
+  Player(Runtime& runtime, std::unique_ptr<PlayedValues> values);
+  Result<void> FindPorts(const PortPatterns& patterns);
+  Result<void> CheckType(const Port& port, const McapChannel& channel) const;
+  // A group of outputs that stand where those of `ports` stood.
+  FrameworkElement& TakePlaces(const std::vector<PlayedPort*>& ports);
+  void WrapTasks();
+  [[nodiscard]] bool IsReadUnplayed(const Task& task) const;
+  void WrapTasksOf(FrameworkElement& module, const std::vector<PlayedPort*>& ports);
+  void Publish(const std::vector<PlayedPort*>& ports);
+  void DoNothing() {}
+
+  Runtime& runtime_;
+  std::unique_ptr<PlayedValues> values_;
+  FrameworkElement* element_ = nullptr;
+  std::vector<std::unique_ptr<PlayedPort>> played_;
+  std::vector<std::unique_ptr<PlayedTask>> tasks_;
+  std::vector<std::string> missing_;
+  std::atomic<std::uint64_t> published_{0};
+};
+
+}  // namespace runnel

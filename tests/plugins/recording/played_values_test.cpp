@@ -1,0 +1,97 @@
+#include "plugins/recording/played_values.h"
+
+#include "tests/plugins/mcap/mcap_fixture.h"
+
+namespace runnel::test {
+namespace {
+
+using testing::ElementsAre;
+
+// The file has values at 0, 1000, … ns; every fifth is of channel 1.
+class PlayedValuesTest : public McapTest {
+ protected:
+  std::unique_ptr<PlayedValues> Play(int messages, std::optional<Duration> from = {},
+                                     std::optional<Duration> to = {}, bool loops = false) {
+    auto values = std::make_unique<PlayedValues>(
+        Must(McapReader::Open(WriteFile("a.mcap", "", messages))), from, to, loops);
+    values->Want(0);
+    values->Want(1);
+    return values;
+  }
+  static std::vector<std::string> TakeAll(PlayedValues& values, std::uint16_t channel,
+                                          std::int64_t now) {
+    std::vector<std::string> all;
+    while (auto value = values.Take(channel, Time(Duration(now)))) {
+      all.push_back(std::to_string(value->time.time_since_epoch().count()) + value->json);
+    }
+    return all;
+  }
+};
+
+TEST_F(PlayedValuesTest, GivesWhatIsDueAndNoMore) {
+  const auto values = Play(60);
+  values->Start(Time(Duration(0)));
+  EXPECT_THAT(TakeAll(*values, 0, 1999), ElementsAre("0{\"x\":0}", "1000{\"x\":1}"));
+  EXPECT_THAT(TakeAll(*values, 0, 1999), ElementsAre());
+  EXPECT_THAT(TakeAll(*values, 0, 2000), ElementsAre("2000{\"x\":2}"));
+  EXPECT_THAT(TakeAll(*values, 1, 9000), ElementsAre("4000{\"x\":4}", "9000{\"x\":9}"));
+  EXPECT_EQ(TakeAll(*values, 0, 59'000).size(), 45u);
+  EXPECT_FALSE(values->is_over());
+  EXPECT_EQ(TakeAll(*values, 1, 59'000).size(), 10u);
+  EXPECT_TRUE(values->is_over());
+}
+
+TEST_F(PlayedValuesTest, AreMovedOntoTheClockOfWhoPlays) {
+  const auto values = Play(10);
+  values->Start(Time(Duration(500'000)));
+  EXPECT_THAT(TakeAll(*values, 0, 499'999), ElementsAre());
+  EXPECT_THAT(TakeAll(*values, 0, 501'500), ElementsAre("500000{\"x\":0}", "501000{\"x\":1}"));
+}
+
+TEST_F(PlayedValuesTest, FromLaterOnBeginsWithWhatWasNewestThen) {
+  const auto values = Play(60, Duration(42'500), Duration(47'000));
+  EXPECT_EQ(values->start(), Time(Duration(42'500)));
+  values->Start(values->start());
+  EXPECT_THAT(TakeAll(*values, 0, 42'500), ElementsAre("42000{\"x\":42}"));
+  EXPECT_THAT(TakeAll(*values, 1, 42'500), ElementsAre("39000{\"x\":39}"));
+  EXPECT_THAT(TakeAll(*values, 0, 99'000), ElementsAre("43000{\"x\":43}", "45000{\"x\":45}",
+                                                       "46000{\"x\":46}", "47000{\"x\":47}"));
+  EXPECT_THAT(TakeAll(*values, 1, 99'000), ElementsAre("44000{\"x\":44}"));
+  EXPECT_TRUE(values->is_over());
+}
+
+TEST_F(PlayedValuesTest, BeginsAnewIfItLoopsAndTimeNeverGoesBack) {
+  const auto values = Play(3, {}, {}, true);
+  values->Start(Time(Duration(0)));
+  std::int64_t last = -1;
+  int count = 0;
+  for (std::int64_t now = 0; now < 20'000; now += 100) {
+    while (auto value = values->Take(0, Time(Duration(now)))) {
+      EXPECT_GT(value->time.time_since_epoch().count(), last);
+      EXPECT_LE(value->time.time_since_epoch().count(), now);
+      last = value->time.time_since_epoch().count();
+      ++count;
+    }
+  }
+  EXPECT_GE(count, 28);
+  EXPECT_FALSE(values->is_over());
+}
+
+TEST_F(PlayedValuesTest, ABrokenChunkEndsThePlaying) {
+  const std::string file = WriteFile("a.mcap", "", 60);
+  std::string bytes = ReadBytes(file);
+  bytes[bytes.find("{\"x\":40}") + 1] = 'y';
+  WriteBytes(file, bytes);
+  PlayedValues values(Must(McapReader::Open(file)), {}, {}, false);
+  values.Want(0);
+  values.Start(Time{});
+  EXPECT_GT(TakeAll(values, 0, 30'000).size(), 10u);
+  EXPECT_FALSE(values.failure());
+  (void)TakeAll(values, 0, 60'000);
+  ASSERT_TRUE(values.failure());
+  EXPECT_THAT(values.failure()->message, testing::HasSubstr("checksum"));
+  EXPECT_TRUE(values.is_over());
+}
+
+}  // namespace
+}  // namespace runnel::test

@@ -1,0 +1,190 @@
+#include "plugins/recording/recorder.h"
+
+#include <csignal>
+#include <filesystem>
+#include <thread>
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "plugins/json_values/json_values.h"
+#include "plugins/recording/recording_names.h"
+#include "tests/plugins/recording/recording_fixture.h"
+
+namespace runnel::test {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::SizeIs;
+using RecorderTest = RecordingTest;
+
+TEST_F(RecorderTest, RecordsEachValueWithItsTimeAndWhatItIs) {
+  Application application;
+  const std::string file = Record("a.mcap", application, milliseconds(30));
+  EXPECT_THAT(ValuesOf(file, "/sink/output/sum"), SizeIs(3));
+  const auto samples = ValuesOf(file, "/source/output/sample");
+  ASSERT_THAT(samples, SizeIs(3));
+  EXPECT_THAT(samples[1], testing::StartsWith("10000000 {\"values\":["));
+  EXPECT_THAT(samples[2], HasSubstr("\"name\":\"n3\"}"));
+  const auto reader = Must(McapReader::Open(file));
+  EXPECT_TRUE(reader->contents().ended_properly);
+  for (const auto& [id, channel] : reader->contents().channels) {
+    if (PortOf(channel) != "/source/output/sample") continue;
+    EXPECT_EQ(channel.topic, "/sample");
+    EXPECT_EQ(channel.message_encoding, "json");
+    const McapSchema& schema = reader->contents().schemas.at(channel.schema);
+    EXPECT_EQ(schema.name, "test::Sample");
+    EXPECT_EQ(schema.encoding, "jsonschema");
+    EXPECT_EQ(schema.data, JsonSchemaOf(TypeOf<Sample>()));
+  }
+}
+
+TEST_F(RecorderTest, OfASimulatedRunNothingIsMissingHoweverFastItGoes) {
+  Application application;
+  const std::string file = Record("fast.mcap", application, seconds(200));
+  const auto sums = ValuesOf(file, "/sink/output/sum");
+  ASSERT_THAT(sums, SizeIs(20'000));
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const std::string time = std::to_string(i * 10'000'000) + " ";
+    ASSERT_THAT(sums[i], testing::StartsWith(time));
+  }
+}
+
+TEST_F(RecorderTest, WhatTheApplicationComputesDoesNotDependOnIt) {
+  Application alone, recorded;
+  alone.Run(seconds(2));
+  (void)Record("a.mcap", recorded, seconds(2));
+  const auto last = [](Application& application) {
+    double sum = 0;
+    application.sink->sum.LookAtValue(
+        [&](const void* value, Time) { sum = *static_cast<const double*>(value); });
+    return sum;
+  };
+  EXPECT_EQ(last(alone), last(recorded));
+  EXPECT_TRUE(recorded.source->number.outgoing().size() == 1) << "nothing is left of the recorder";
+}
+
+TEST_F(RecorderTest, RecordsWhatFitsAndSaysWhatCannotBeWritten) {
+  Application application;
+  auto recorder =
+      Must(Recorder::Start(application.runtime, &application.scheduler,
+                           {.file = Path("a.mcap"), .ports = {"/source/*", "!sample"}}));
+  application.Run(milliseconds(20));
+  Must(recorder->Finish());
+  EXPECT_THAT(recorder->status().left_out, ElementsAre("/source/output/secret"));
+  EXPECT_EQ(recorder->status().values, 2u);
+  EXPECT_EQ(recorder->status().ports, 1u);
+  EXPECT_THAT(ValuesOf(Path("a.mcap"), "/source/output/number"), SizeIs(2));
+}
+
+TEST_F(RecorderTest, ANameThatIsNotThereIsAnErrorAndNoFileIsMade) {
+  Application application;
+  const auto start = [&](const std::string& port) {
+    const auto started =
+        Recorder::Start(application.runtime, nullptr, {.file = Path("a.mcap"), .ports = {port}});
+    EXPECT_FALSE(std::filesystem::exists(Path("a.mcap")));
+    return started ? std::string("started") : started.error().ToString();
+  };
+  EXPECT_THAT(start("/source/numbr"), HasSubstr("did you mean '/source/number'?"));
+  EXPECT_THAT(start("/sink/sample"), HasSubstr("is an input; recorded is what outputs publish; "
+                                               "record /source/sample"));
+  EXPECT_THAT(start("/source/secret"), HasSubstr("values of type test::Secret have no form"));
+}
+
+TEST_F(RecorderTest, FollowsModulesThatComeAndGo) {
+  Application application;
+  auto recorder = Must(Recorder::Start(application.runtime, &application.scheduler,
+                                       {.file = Path("a.mcap"), .ports = {"**/number"}}));
+  application.Run(milliseconds(20));
+  auto& late = application.runtime.Create<Source>(application.runtime.root(), "late");
+  Must(application.runtime.MakeReady(late));
+  application.Run(milliseconds(30));
+  Must(application.runtime.Delete(late));
+  application.Run(milliseconds(10));
+  auto& again = application.runtime.Create<Source>(application.runtime.root(), "late");
+  Must(application.runtime.MakeReady(again));
+  application.Run(milliseconds(20));
+  Must(recorder->Finish());
+  EXPECT_THAT(ValuesOf(Path("a.mcap"), "/source/output/number"), SizeIs(8));
+  EXPECT_THAT(ValuesOf(Path("a.mcap"), "/late/output/number"), SizeIs(5));
+  EXPECT_THAT(Must(McapReader::Open(Path("a.mcap")))->contents().channels, SizeIs(2))
+      << "what comes back goes on in its channel";
+}
+
+TEST_F(RecorderTest, CountsWhatComesTooFastOnARealClock) {
+  Runtime runtime;
+  auto& source = runtime.Create<Source>(runtime.root(), "source");
+  Must(runtime.MakeReady(runtime.root()));
+  auto recorder = Must(
+      Recorder::Start(runtime, nullptr, {.file = Path("a.mcap"), .ports = {"number"}, .room = 4}));
+  constexpr int kValues = 50'000;
+  for (int i = 0; i < kValues; ++i) source.number.Publish(i);
+  Must(recorder->Finish());
+  const RecordingStatus status = recorder->status();
+  EXPECT_EQ(status.values + status.dropped, static_cast<std::uint64_t>(kValues));
+  EXPECT_GT(status.dropped, 0u);
+  const auto reader = Must(McapReader::Open(Path("a.mcap")));
+  std::string told;
+  for (const auto& metadata : reader->contents().metadata) {
+    if (metadata.name == kDropsMetadata) told = metadata.texts.at(0).second;
+  }
+  EXPECT_EQ(told, std::to_string(status.dropped));
+}
+
+// A limit on the size of files stands for a full disk.
+TEST_F(RecorderTest, AFullDiskEndsTheRecordingAndNotTheApplication) {
+  Application application;
+  auto recorder =
+      Must(Recorder::Start(application.runtime, &application.scheduler, {.file = Path("a.mcap")}));
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  rlimit small = before;
+  small.rlim_cur = 10'000;
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  application.Run(seconds(2000));
+  const auto finished = recorder->Finish();
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, old_handler);
+  ASSERT_FALSE(finished);
+  EXPECT_THAT(finished.error().ToString(), HasSubstr("a.mcap: cannot be written on"));
+  EXPECT_TRUE(recorder->TakeFailure());
+  EXPECT_FALSE(recorder->TakeFailure()) << "told once";
+  EXPECT_EQ(application.runtime.clock().Now(), Time(seconds(2000)));
+  EXPECT_FALSE(Must(McapReader::Open(Path("a.mcap")))->contents().ended_properly);
+}
+
+TEST_F(RecorderTest, OfAKilledProcessAllButTheLastSecondIsThere) {
+  int ready[2];
+  ASSERT_EQ(pipe(ready), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    Runtime runtime;
+    auto& source = runtime.Create<Source>(runtime.root(), "source");
+    (void)runtime.MakeReady(runtime.root());
+    auto recorder =
+        Recorder::Start(runtime, nullptr, {.file = Path("a.mcap"), .ports = {"number"}});
+    for (int i = 0; i < 100; ++i) source.number.Publish(i);
+    // The chunk is written within a second and a little.
+    while (recorder && !Must(McapReader::Open(Path("a.mcap")))->contents().statistics.messages) {
+      std::this_thread::sleep_for(milliseconds(20));
+    }
+    source.number.Publish(100);
+    (void)!write(ready[1], "x", 1);
+    for (;;) pause();
+  }
+  char byte = 0;
+  ASSERT_EQ(read(ready[0], &byte, 1), 1);
+  ASSERT_EQ(kill(child, SIGKILL), 0);
+  ASSERT_EQ(waitpid(child, nullptr, 0), child);
+  const auto reader = Must(McapReader::Open(Path("a.mcap")));
+  EXPECT_FALSE(reader->contents().ended_properly);
+  EXPECT_EQ(reader->contents().statistics.messages, 100u);
+}
+
+}  // namespace
+}  // namespace runnel::test
