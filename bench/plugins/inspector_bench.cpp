@@ -27,7 +27,7 @@
 #include "core/port/input.h"
 #include "core/port/output.h"
 #include "plugins/inspector/inspector.h"
-#include "plugins/inspector/internal/structure_mirror.h"
+#include "plugins/inspector/structure_mirror.h"
 #include "plugins/parameters/parameter.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/web_server/web_server.h"

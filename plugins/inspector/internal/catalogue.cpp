@@ -9,7 +9,7 @@
 #include "core/plugin/module_type_name.h"
 #include "core/port/port.h"
 #include "core/types/type_info.h"
-#include "plugins/inspector/internal/element_json.h"
+#include "plugins/inspector/element_json.h"
 #include "plugins/inspector/internal/json_parts.h"
 
 namespace runnel::internal {

@@ -8,10 +8,10 @@
 
 #include "plugins/control/change_worker.h"
 #include "plugins/control/command.h"
+#include "plugins/inspector/fault_book.h"
 #include "plugins/inspector/inspector.h"
 #include "plugins/inspector/internal/catalogue.h"
-#include "plugins/inspector/internal/fault_book.h"
-#include "plugins/inspector/internal/structure_mirror.h"
+#include "plugins/inspector/structure_mirror.h"
 
 namespace runnel::internal {
 
@@ -29,6 +29,8 @@ class Inspection {
   [[nodiscard]] const InspectorOptions& options() const noexcept { return options_; }
   /// Another one with each start.
   [[nodiscard]] const std::string& run() const noexcept { return run_; }
+  /// On the application's clock; viewers count from here.
+  [[nodiscard]] Time start() const noexcept { return start_; }
   [[nodiscard]] Duration running_for() const { return application_.runtime.clock().Now() - start_; }
   [[nodiscard]] StructureMirror& mirror() noexcept { return mirror_; }
   [[nodiscard]] ChangeWorker& worker() noexcept { return worker_; }

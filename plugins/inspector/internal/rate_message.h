@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "plugins/inspector/internal/structure_mirror.h"
+#include "plugins/inspector/structure_mirror.h"
 
 namespace runnel::internal {
 

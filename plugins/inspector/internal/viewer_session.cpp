@@ -202,7 +202,7 @@ void ViewerSession::SendValues(MachineTime now) {
       item = "{\"path\":";
       AppendJsonString(watch->port.path(), item);
       item += ",\"stamp\":";
-      AppendJsonNumber(ToSeconds(stamp), item);
+      AppendJsonNumber(ToSeconds(stamp - inspection_.start()), item);
       item += ",\"value\":";
       const JsonLimits limits{watch->elements, kLongestText, kLargestValue};
       if (!AppendJson(watch->port.type(), value, item, limits)) item += ",\"cut\":true";

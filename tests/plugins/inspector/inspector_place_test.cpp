@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "plugins/inspector/internal/element_json.h"
+#include "plugins/inspector/element_json.h"
 
 namespace runnel::test {
 

@@ -1,5 +1,6 @@
 #include "plugins/inspector/internal/save_place.h"
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -15,14 +16,18 @@ using ::testing::HasSubstr;
 class SavePlaceTest : public ::testing::Test {
  protected:
   SavePlaceTest() {
-    fs::remove_all(root);
     fs::create_directories(root / "apps" / "below");
     fs::create_directories(root / "other");
     std::ofstream(file) << "x";
   }
   ~SavePlaceTest() override { fs::remove_all(root); }
 
-  const fs::path root = fs::canonical(fs::path(::testing::TempDir())) / "runnel_save_place";
+  static fs::path NewFolder() {
+    std::string name = fs::canonical(fs::path(::testing::TempDir())) / "runnel_save_place_XXXXXX";
+    return mkdtemp(name.data());
+  }
+
+  const fs::path root = NewFolder();
   const fs::path file = root / "apps" / "app.xml";
 };
 

@@ -1,4 +1,4 @@
-#include "plugins/inspector/internal/structure_mirror.h"
+#include "plugins/inspector/structure_mirror.h"
 
 #include <random>
 

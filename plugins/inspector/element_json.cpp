@@ -1,4 +1,4 @@
-#include "plugins/inspector/internal/element_json.h"
+#include "plugins/inspector/element_json.h"
 
 #include <functional>
 

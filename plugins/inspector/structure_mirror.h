@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/element/runtime.h"
-#include "plugins/inspector/internal/element_json.h"
-#include "plugins/inspector/internal/fault_book.h"
+#include "plugins/inspector/element_json.h"
+#include "plugins/inspector/fault_book.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/scheduling/thread_container.h"
 
