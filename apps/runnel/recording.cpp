@@ -60,6 +60,10 @@ std::string RecordingText(const std::string& file, const RecordingStatus& status
     text += "; not recorded, because their values have no form to be written in:";
     for (const std::string& path : status.left_out) text += " " + ShortPortPath(path);
   }
+  if (!status.idle_patterns.empty()) {
+    text += "; no port has fitted";
+    for (const std::string& pattern : status.idle_patterns) text += " '" + pattern + "'";
+  }
   return text + "\n";
 }
 

@@ -69,7 +69,11 @@ Recorder::Recorder(Runtime& runtime, Scheduler* scheduler, RecorderOptions optio
     : runtime_(runtime),
       scheduler_(scheduler),
       options_(std::move(options)),
-      patterns_(std::move(patterns)) {}
+      patterns_(std::move(patterns)) {
+  for (const std::string& pattern : patterns_.texts()) {
+    if (!pattern.starts_with('!')) status_.idle_patterns.push_back(pattern);
+  }
+}
 
 Recorder::~Recorder() { (void)Finish(); }
 
@@ -212,6 +216,7 @@ bool Recorder::IsRecorded(const Port& port) {
 
 void Recorder::Follow(Port& port) {
   if (!IsRecorded(port) || port.IsAtOrBelow(*element_) || Feeds(port, *element_)) return;
+  NoteUse(port);
   if (!port.type().is_transparent()) {
     const std::lock_guard lock(mutex_);
     if (std::ranges::count(status_.left_out, port.path()) == 0) {
@@ -230,6 +235,14 @@ void Recorder::Follow(Port& port) {
   const std::lock_guard lock(mutex_);
   recorded_.push_back(std::move(recorded));
   ++status_.ports;
+}
+
+void Recorder::NoteUse(const Port& port) {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(status_.idle_patterns, [&](const std::string& pattern) {
+    const auto one = PortPatterns::Make({pattern});
+    return one && one->Fit(port.path());
+  });
 }
 
 // The poses of the port that says it, as the transform that scans are drawn by.

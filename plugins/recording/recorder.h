@@ -50,6 +50,8 @@ struct RecordingStatus {
   std::uint64_t bytes = 0;    ///< of the file
   /// Ports that fit, but whose values have no form that can be written.
   std::vector<std::string> left_out = {};
+  /// Patterns that no port has fitted so far.
+  std::vector<std::string> idle_patterns = {};
   std::optional<Error> failure = {};  ///< nothing more is written
 };
 
@@ -109,6 +111,7 @@ class Recorder final : public ElementListener, public Brake {
 
   // Under the structure lock.
   void Follow(Port& port);
+  void NoteUse(const Port& port);
   void ShowWhereTheRobotIs();
   [[nodiscard]] bool IsRecorded(const Port& port);
   void DropGone();

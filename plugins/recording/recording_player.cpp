@@ -172,10 +172,15 @@ Result<void> Player::FindPorts(const PortPatterns& patterns) {
     }
   }
   if (!played_.empty()) return {};
-  return Error{.message = missing_.empty()
-                              ? "the recording has no port that fits"
-                              : "the application has none of the ports that were recorded",
-               .hint = missing_.empty() ? "" : "recorded is, for example, " + missing_.front()};
+  if (!missing_.empty()) {
+    return Error{.message = "the application has none of the ports that were recorded",
+                 .hint = "recorded is, for example, " + missing_.front()};
+  }
+  std::string wanted;
+  for (const std::string& pattern : patterns.texts()) wanted += " '" + pattern + "'";
+  return Error{
+      .message = "the recording has no port that fits" + wanted,
+      .hint = NearestNameHint(patterns.texts().empty() ? "" : patterns.texts().front(), recorded)};
 }
 
 Result<void> Player::CheckType(const Port& port, const McapChannel& channel) const {

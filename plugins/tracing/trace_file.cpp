@@ -27,8 +27,10 @@ Result<TraceFile> TraceFile::Create(const std::string& file, std::uint64_t most_
   const int descriptor =
       open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);  // less the user's mask
   if (descriptor < 0) {
+    const bool lacks_folder = errno == ENOENT;
     return Error{.message = std::string("cannot be written: ") + std::strerror(errno),
-                 .position = {.file = file}};
+                 .position = {.file = file},
+                 .hint = lacks_folder ? "make its folder first" : ""};
   }
   return TraceFile(file, descriptor, most_bytes);
 }

@@ -70,12 +70,13 @@ TEST_F(RecorderTest, WhatTheApplicationComputesDoesNotDependOnIt) {
 
 TEST_F(RecorderTest, RecordsWhatFitsAndSaysWhatCannotBeWritten) {
   Application application;
-  auto recorder =
-      Must(Recorder::Start(application.runtime, &application.scheduler,
-                           {.file = Path("a.mcap"), .ports = {"/source/*", "!sample"}}));
+  auto recorder = Must(
+      Recorder::Start(application.runtime, &application.scheduler,
+                      {.file = Path("a.mcap"), .ports = {"/source/*", "/sorce/*", "!sample"}}));
   application.Run(milliseconds(20));
   Must(recorder->Finish());
   EXPECT_THAT(recorder->status().left_out, ElementsAre("/source/output/secret"));
+  EXPECT_THAT(recorder->status().idle_patterns, ElementsAre("/sorce/*"));
   EXPECT_EQ(recorder->status().values, 2u);
   EXPECT_EQ(recorder->status().ports, 1u);
   EXPECT_THAT(ValuesOf(Path("a.mcap"), "/source/output/number"), SizeIs(2));

@@ -88,7 +88,8 @@ TEST_F(RecordingPlayerTest, PlaysIntoAnInputAsIfItsSourcesWereDisconnected) {
   const std::string file = Record("b.mcap", other, milliseconds(100), {"**/sum"});
   const auto sums = ValuesOf(file, "/sink/output/sum");
   ASSERT_EQ(sums.size(), 10u);
-  EXPECT_THAT(sums[0], testing::MatchesRegex("0 .\"value\":1\\.00.*"));  // 7 / 7 and the size of a sample
+  EXPECT_THAT(sums[0],
+              testing::MatchesRegex("0 .\"value\":1\\.00.*"));  // 7 / 7 and the size of a sample
   EXPECT_THAT(sums[9], testing::MatchesRegex("90000000 .\"value\":3\\.0.*"));
 }
 
@@ -103,7 +104,9 @@ TEST_F(RecordingPlayerTest, SaysWhatCannotBePlayed) {
   EXPECT_THAT(
       refusal("/source/numbr"),
       HasSubstr("the recording has no port '/source/numbr'; did you mean '/source/number'?"));
-  EXPECT_THAT(refusal("/nothing/**"), HasSubstr("the recording has no port that fits"));
+  EXPECT_THAT(refusal("/nothing/**"),
+              HasSubstr("the recording has no port that fits '/nothing/**'"));
+  EXPECT_THAT(refusal("/sourc/*"), HasSubstr("there is '/source/number'"));
   Runtime empty;
   const auto player = Player::Prepare(empty, Must(McapReader::Open(file)), {});
   ASSERT_FALSE(player);
