@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include "tests/integration/program.h"
 
@@ -38,7 +39,8 @@ class CommandLine : public testing::Test {
 };
 
 TEST_F(CommandLine, RunEndsWithVerdictPathAndTime) {
-  const std::string picture = testing::TempDir() + "command_line_test.svg";
+  const std::string picture =
+      testing::TempDir() + "command_line_test_" + std::to_string(getpid()) + ".svg";
   std::filesystem::remove(picture);
   const Ended ended =
       Runnel("run --fast " + kDemo + "world=" RUNNEL_XML "/worlds/open.xml picture=" + picture);

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include "tests/integration/program.h"
 
@@ -29,7 +30,8 @@ int Validate(const std::string& file) {
 bool HasXmllint() { return std::system("xmllint --version >/dev/null 2>&1") == 0; }
 
 TEST(Schema, IsTheCommittedOne) {
-  const std::string written = testing::TempDir() + "schema_test.xsd";
+  const std::string written =
+      testing::TempDir() + "schema_test_" + std::to_string(getpid()) + ".xsd";
   // Without the plugins of the tests.
   const std::string command = "env -u RUNNEL_PLUGIN_PATH " RUNNEL_PROGRAM " schema -o " + written;
   ASSERT_EQ(std::system(command.c_str()), 0);
@@ -54,7 +56,7 @@ TEST(Schema, AcceptsTheApplicationsThatComeWithIt) {
 
 TEST(Schema, RefusesMistakes) {
   if (!HasXmllint()) GTEST_SKIP() << "needs xmllint, of the package libxml2-utils";
-  const std::string file = testing::TempDir() + "schema_test.xml";
+  const std::string file = testing::TempDir() + "schema_test_" + std::to_string(getpid()) + ".xml";
   const auto is_refused = [&](const std::string& inside) {
     std::ofstream(file) << "<application name=\"a\">" << inside << "</application>";
     return Validate(file) != 0;
@@ -77,7 +79,7 @@ TEST(Schema, RefusesMistakes) {
 }
 
 TEST(Graph, IsDrawnWithGroupsThreadsAndQueues) {
-  const std::string file = testing::TempDir() + "graph_test.dot";
+  const std::string file = testing::TempDir() + "graph_test_" + std::to_string(getpid()) + ".dot";
   const Ended ended = Runnel("graph " RUNNEL_XML "/apps/bug_demo.xml -o " + file);
   ASSERT_EQ(ended.code, 0) << ended.text;
   const std::string text = ReadAll(file);
@@ -92,7 +94,8 @@ TEST(Graph, IsDrawnWithGroupsThreadsAndQueues) {
 TEST(Graph, SaysWhatIsMissing) {
   EXPECT_THAT(Runnel("graph " RUNNEL_XML "/apps/bug_demo.xml -o x.jpg").text,
               testing::HasSubstr("its name ends in .svg"));
-  const std::string picture = testing::TempDir() + "graph_test.svg";
+  const std::string picture =
+      testing::TempDir() + "graph_test_" + std::to_string(getpid()) + ".svg";
   const std::string command = "env PATH=/nowhere " RUNNEL_PROGRAM " graph " RUNNEL_XML
                               "/apps/bug_demo.xml -o " +
                               picture + " 2>" + picture + ".said";
@@ -104,7 +107,8 @@ TEST(Graph, SaysWhatIsMissing) {
 
 TEST(Graph, IsAPicture) {
   if (std::system("dot -V >/dev/null 2>&1") != 0) GTEST_SKIP() << "needs dot, of package graphviz";
-  const std::string picture = testing::TempDir() + "graph_test.svg";
+  const std::string picture =
+      testing::TempDir() + "graph_test_" + std::to_string(getpid()) + ".svg";
   const Ended ended = Runnel("graph " RUNNEL_XML "/apps/bug_demo.xml -o " + picture);
   ASSERT_EQ(ended.code, 0) << ended.text;
   EXPECT_THAT(ReadAll(picture), testing::HasSubstr("</svg>"));

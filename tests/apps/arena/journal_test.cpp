@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "apps/arena/application_text.h"
 
@@ -35,7 +36,9 @@ PlannedRun PlannedFor(const RunRecord& record, const std::string& made_of = "abc
 
 class JournalTest : public testing::Test {
  protected:
-  JournalTest() : file_(std::filesystem::path(testing::TempDir()) / "arena_journal_test") {
+  JournalTest()
+      : file_(std::filesystem::path(testing::TempDir()) /
+              ("arena_journal_test_" + std::to_string(getpid()))) {
     std::filesystem::remove(file_);
   }
   ~JournalTest() override { std::filesystem::remove(file_); }

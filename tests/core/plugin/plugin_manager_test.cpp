@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include "core/element/runtime.h"
 #include "core/plugin/abi.h"
@@ -143,7 +144,8 @@ TEST_F(PluginManagerTest, OneFileMayBeNamedInManyWays) {
 
 TEST_F(PluginManagerTest, OtherFileOfALoadedNameIsRefused) {
   ASSERT_TRUE(manager.Load("good"));
-  const fs::path folder = fs::path(testing::TempDir()) / "runnel_other_good";
+  const fs::path folder =
+      fs::path(testing::TempDir()) / ("runnel_other_good_" + std::to_string(getpid()));
   fs::create_directories(folder);
   fs::copy_file(kFolder / "throws.so", folder / "good.so", fs::copy_options::overwrite_existing);
   const auto result = manager.Load((folder / "good.so").string());
@@ -191,7 +193,8 @@ TEST_F(PluginManagerTest, AvailableListsThePluginsOfAllFoldersSorted) {
 }
 
 TEST_F(PluginManagerTest, FirstFolderOfTheSearchPathWins) {
-  const fs::path folder = fs::path(testing::TempDir()) / "runnel_first_folder";
+  const fs::path folder =
+      fs::path(testing::TempDir()) / ("runnel_first_folder_" + std::to_string(getpid()));
   fs::create_directories(folder);
   std::ofstream(folder / "good.so") << "text";
   manager.AddSearchFolder(folder);
@@ -230,7 +233,8 @@ TEST(PluginSearchPathTest, FoldersThatDoNotExistAreLeftOut) {
 }
 
 TEST(PluginSearchPathTest, FilesThatAreNoPluginsAreNotListed) {
-  const fs::path folder = fs::path(testing::TempDir()) / "runnel_some_files";
+  const fs::path folder =
+      fs::path(testing::TempDir()) / ("runnel_some_files_" + std::to_string(getpid()));
   fs::create_directories(folder / "directory.so");
   std::ofstream(folder / "plugin.so");
   std::ofstream(folder / "README.md");

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "modules/simulation/world_file/world_reader.h"
 
@@ -42,7 +43,8 @@ TEST(WriteWorld, LeavesOutWhatIsUsual) {
 }
 
 TEST(WriteWorldFile, ReplacesTheFile) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "runnel_world_writer_test.xml";
+  const auto path = std::filesystem::path(testing::TempDir()) /
+                    ("runnel_world_writer_" + std::to_string(getpid()) + ".xml");
   std::ofstream(path) << std::string(100000, 'x');
   ASSERT_TRUE(WriteWorldFile(path, EveryPart()).has_value());
   Diagnostics diagnostics;
