@@ -48,6 +48,7 @@ TEST_F(CommandLine, RunEndsWithVerdictPathAndTime) {
   EXPECT_THAT(ended.text, HasSubstr("reached: path "));
   EXPECT_THAT(ended.text, HasSubstr("times real time"));
   EXPECT_GT(std::filesystem::file_size(picture), 1000u);
+  std::filesystem::remove(picture);
 }
 
 TEST_F(CommandLine, RunThatFailsEndsWithOne) {
