@@ -66,6 +66,8 @@ function(runnel_test name)
     set(arg_LABELS unit)
   endif()
   add_executable(test_${name} ${arg_SOURCES})
+  # Three quarters of the time to compile. Libraries that are tested stay as they are.
+  target_compile_options(test_${name} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1>)
   target_include_directories(test_${name} PRIVATE "${RUNNEL_ROOT}")
   target_link_libraries(test_${name} PRIVATE
     runnel_warnings ${arg_DEPENDS} GTest::gmock GTest::gtest_main)
