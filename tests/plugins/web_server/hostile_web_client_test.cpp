@@ -177,8 +177,7 @@ TEST_F(HostileWebClient, OneThatDoesNotReadIsNotWrittenForAndLetGo) {
   Start({.limits = {.waiting_bytes = 1'000'000, .idle_time = 500ms}});
   RawClient client = Talker();
   client.SendText("much");  // 10 MB
-  EXPECT_TRUE(Eventually([&] { return met.refused > 0; }));
-  EXPECT_GE(met.refused, 50);  // the system's buffers have taken some
+  EXPECT_TRUE(Eventually([&] { return met.refused >= 50; }));  // the system's buffers have taken some
   ExpectThatOthersAreServed();
   EXPECT_TRUE(Eventually([&] { return met.ended >= 1; }));
 }
