@@ -247,14 +247,11 @@ void Recorder::NoteUse(const Port& port) {
 
 // The poses of the port that says it, as the transform that scans are drawn by.
 void Recorder::ShowWhereTheRobotIs() {
-  std::vector<const Port*> outputs;
+  std::vector<const Port*> ports;
   runtime_.root().Visit([&](FrameworkElement& element) {
-    const auto* const port = dynamic_cast<const Port*>(&element);
-    if (port != nullptr && !port->is_proxy() && port->direction() == Port::Direction::kOutput) {
-      outputs.push_back(port);
-    }
+    if (const auto* const port = dynamic_cast<const Port*>(&element)) ports.push_back(port);
   });
-  const Port* const pose = RobotPose(outputs);
+  const Port* const pose = RobotPose(ports);
   if (pose == nullptr) return;
   const auto transform = TransformChannelFor(pose->type());
   for (const auto& each : All()) {
