@@ -87,10 +87,7 @@ export function StartKeeping() {
   dark.addEventListener('change', () => { systemIsDark.value = dark.matches; });
   effect(() => Keep('theme', theme.value));
   effect(() => Keep('panels', panels.value));
-  effect(() => {
-    if (theme.value === 'system') delete document.documentElement.dataset.theme;
-    else document.documentElement.dataset.theme = theme.value;
-  });
+  effect(() => { document.documentElement.dataset.theme = isDark.value ? 'dark' : 'light'; });
   effect(() => {
     const name = hello.value?.application;
     document.title = name ? `${isConnected.value ? '' : '(away) '}${name} – Runnel` : 'Runnel inspector';
