@@ -2,24 +2,12 @@
 # BUILD. Without a network nothing is lost but these tests, which are then skipped.
 #   cmake -D NPM= -D NODE= -D SOURCE= -D BUILD= -D PAGE= -D STAMP= -P prepare.cmake
 
-file(READ "${SOURCE}/package-lock.json" wanted)
-set(installed "")
-if(EXISTS "${BUILD}/installed.json")
-  file(READ "${BUILD}/installed.json" installed)
-endif()
-foreach(file package.json package-lock.json)
-  file(COPY_FILE "${SOURCE}/${file}" "${BUILD}/${file}")
-endforeach()
-if(NOT installed STREQUAL wanted)
-  execute_process(
-    COMMAND "${NPM}" ci --ignore-scripts --no-audit --no-fund --fetch-retries=1 --fetch-retry-mintimeout=2000 --loglevel=error
-    WORKING_DIRECTORY "${BUILD}" RESULT_VARIABLE status OUTPUT_VARIABLE said ERROR_VARIABLE said)
-  if(NOT status EQUAL 0)
-    string(REGEX MATCH "^[^\n]*\n[^\n]*\n[^\n]*\n[^\n]*" said "${said}")
-    message("The browser tests will be skipped: npm could not get their packages:\n${said}")
-    return()
-  endif()
-  file(WRITE "${BUILD}/installed.json" "${wanted}")
+include("${CMAKE_CURRENT_LIST_DIR}/../../core/cmake/NpmPackages.cmake")
+
+install_npm_packages("${NPM}" "${SOURCE}" "${BUILD}" problem)
+if(problem)
+  message("The browser tests will be skipped: ${problem}")
+  return()
 endif()
 
 file(REMOVE_RECURSE "${BUILD}/browser" "${BUILD}/mock" "${BUILD}/support" "${BUILD}/unit")

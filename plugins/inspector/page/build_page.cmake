@@ -2,6 +2,8 @@
 # source that has its files as bytes. Without a network there is no page, the rest is built.
 #   cmake -D NPM= -D NODE= -D SOURCE= -D BUILD= -D OUTPUT= -D STAMP= -P build_page.cmake
 
+include("${CMAKE_CURRENT_LIST_DIR}/../../../core/cmake/NpmPackages.cmake")
+
 function(write_source text)
   file(WRITE "${OUTPUT}.new" "// Made by build_page.cmake.\n${text}")
   file(COPY_FILE "${OUTPUT}.new" "${OUTPUT}" ONLY_IF_DIFFERENT)
@@ -19,25 +21,10 @@ const std::vector<runnel::WebResource>& runnel::InspectorPage() {
 ")
 endfunction()
 
-file(MAKE_DIRECTORY "${BUILD}")
-file(READ "${SOURCE}/package-lock.json" wanted)
-set(installed "")
-if(EXISTS "${BUILD}/installed.json")
-  file(READ "${BUILD}/installed.json" installed)
-endif()
-if(NOT installed STREQUAL wanted)
-  foreach(file package.json package-lock.json)
-    file(COPY_FILE "${SOURCE}/${file}" "${BUILD}/${file}")
-  endforeach()
-  execute_process(
-    COMMAND "${NPM}" ci --ignore-scripts --no-audit --no-fund --fetch-retries=1 --fetch-retry-mintimeout=2000 --loglevel=error
-    WORKING_DIRECTORY "${BUILD}" RESULT_VARIABLE status OUTPUT_VARIABLE said ERROR_VARIABLE said)
-  if(NOT status EQUAL 0)
-    string(REGEX MATCH "^[^\n]*\n[^\n]*\n[^\n]*\n[^\n]*" said "${said}")
-    give_up("npm could not get its packages (is there a network?):\n${said}")
-    return()
-  endif()
-  file(WRITE "${BUILD}/installed.json" "${wanted}")
+install_npm_packages("${NPM}" "${SOURCE}" "${BUILD}" problem)
+if(problem)
+  give_up("${problem}")
+  return()
 endif()
 
 execute_process(COMMAND "${NODE}" "${SOURCE}/bundle.mjs" "${BUILD}/page" "${BUILD}/node_modules"
