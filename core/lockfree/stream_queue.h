@@ -57,7 +57,7 @@ class StreamQueue {
   [[nodiscard]] bool TryPush(T&& value) noexcept { return TryEmplace(std::move(value)); }
   /// Makes a T of `parts` in the queue; leaves them untouched and returns false if it is full.
   template <typename... Parts>
-  [[nodiscard]] bool TryEmplace(Parts&&... parts) noexcept {
+  [[nodiscard, gnu::always_inline]] bool TryEmplace(Parts&&... parts) noexcept {
     static_assert(std::is_nothrow_constructible_v<T, Parts&&...>);
     if (!HasRoom()) return false;
     const std::uint64_t position = tail_.load(std::memory_order_relaxed);
@@ -119,15 +119,16 @@ class StreamQueue {
 
  private:
   // Begins on a line of its own: else the reader that waits for it would take from the writer the
-  // line in which the value before ends.
+  // line in which the value before ends. The turn lies behind the value, where the writer ends: else
+  // the reader that asks for it would take the first line away while the writer is at the others.
   struct alignas(kCacheLineSize) Cell {
     Cell() noexcept {}
     ~Cell() {}
 
-    Atomic<std::uint64_t> turn{0};
     union {
       T value;  // there while turn is that of a position between head and tail
     };
+    Atomic<std::uint64_t> turn{0};
   };
 
   // A division would cost as much as all the rest.

@@ -35,7 +35,7 @@ class EpochGuard {
 /// Calls `use()` inside a guard: the one that the thread holds already, as in a cycle, or one made
 /// for the call.
 template <typename Use>
-decltype(auto) Guarded(Use&& use) {
+[[gnu::always_inline]] inline decltype(auto) Guarded(Use&& use) {
   if (EpochGuard::HeldByThisThread()) [[likely]]
     return std::forward<Use>(use)();
   const EpochGuard guard;

@@ -21,6 +21,9 @@ ChannelBase::ChannelBase(bool pullable)
 ChannelBase::~ChannelBase() { delete subscribers_.load(std::memory_order_relaxed); }
 
 void ChannelBase::SetSubscribers(Subscribers subscribers) {
+  const bool has_others = !subscribers.taps.empty() || !subscribers.wakers.empty();
+  subscribers.only_queue =
+      subscribers.queues.size() == 1 && !has_others ? subscribers.queues.front() : nullptr;
   const Subscribers* next = subscribers.empty() ? nullptr : new Subscribers(std::move(subscribers));
   // acq_rel: release, pairs with the acquire in subscribers(); acquire for the next line.
   const Subscribers* previous = subscribers_.exchange(next, std::memory_order_acq_rel);

@@ -11,6 +11,7 @@
 #include "core/lockfree/latest_buffer.h"
 #include "core/lockfree/latest_value.h"
 #include "core/lockfree/thread_epoch.h"
+#include "core/port/distribution.h"
 #include "core/port/input_queue.h"
 #include "core/port/lease.h"
 #include "core/port/loan.h"
@@ -60,6 +61,10 @@ class ChannelBase {
     }
     // acquire: pairs with the release in SetSubscribers().
     return subscribers_.load(std::memory_order_acquire);
+  }
+  // For who has passed that fence already. Inside an EpochGuard.
+  [[nodiscard]] const Subscribers* subscribers_in_guard() const noexcept {
+    return subscribers_.load(std::memory_order_acquire);  // as above
   }
   /// What makes publishing more than it usually is; bits, so that one look is enough.
   enum Special : std::uint8_t { kOrdered = 1, kPullable = 2, kPassesFullFences = 4 };
@@ -173,8 +178,10 @@ class Channel final : public ChannelBase {
   [[nodiscard]] bool WouldRefuse() const noexcept {
     if (subscribers() == nullptr) return false;
     return Guarded([this] {
-      const Subscribers* list = subscribers();
-      return list != nullptr && std::ranges::any_of(list->queues, &QueueSink::WouldRefuse);
+      const Subscribers* list = subscribers_in_guard();
+      return list != nullptr && std::ranges::any_of(list->queues, [](QueueSink* sink) {
+               return internal::QueueOf<T>(*sink).WouldRefuse();
+             });
     });
   }
 
@@ -223,10 +230,11 @@ class Channel final : public ChannelBase {
   void DeliverNewest(TapQueue& tap) override {
     if constexpr (kIsCheap<T>) {
       const internal::HeldValue<T> held = Read();
-      if (held.has_value()) PushTo(tap, held.value(), held.publication(), nullptr);
+      if (!held.has_value()) return;
+      internal::PushTo<T>(tap, held.value(), held.publication(), nullptr, number());
     } else if (const auto lease = storage_.newest.Lease(ThisThread().hazards); lease.get()) {
       Buffer<T>& buffer = *lease.get();
-      PushTo(tap, buffer.value(), buffer.publication, &buffer);
+      internal::PushTo<T>(tap, buffer.value(), buffer.publication, &buffer, number());
     }
   }
   /// How many buffers there are for Loan().
@@ -293,54 +301,37 @@ class Channel final : public ChannelBase {
     storage_.Publish(value, stamp, order);
     if (subscribers(kWay) == nullptr) [[likely]]
       return PublishStatus::kPublished;
-    return Distribute(value, {stamp, storage_.sequence(), order}, nullptr);
+    return Distribute(value, stamp, storage_.sequence(), order, nullptr);
   }
   template <Way kWay>
   [[gnu::always_inline]] PublishStatus PublishNow(Buffer<T>& buffer, Time now) noexcept
       requires(!kIsCheap<T>) {
     const std::uint64_t sequence = storage_.published.load(std::memory_order_relaxed) + 1;
     storage_.published.store(sequence, std::memory_order_relaxed);
-    buffer.publication = {now.time_since_epoch().count(), sequence,
-                          kWay == Way::kUsual ? 0 : NextOrder()};
+    const std::int64_t stamp = now.time_since_epoch().count();
+    const std::uint64_t order = kWay == Way::kUsual ? 0 : NextOrder();
+    buffer.publication = {stamp, sequence, order};
     storage_.newest.Publish(buffer);
     if (subscribers(kWay) == nullptr) [[likely]]
       return PublishStatus::kPublished;
     // The buffer stays the newest while this goes on, which keeps it.
-    return Distribute(std::as_const(buffer).value(), buffer.publication, &buffer);
+    return Distribute(std::as_const(buffer).value(), stamp, sequence, order, &buffer);
   }
 
   // Gives the value to each queue. Apart, so that publishing to readers of the newest value alone
-  // stays short.
-  [[gnu::noinline]] PublishStatus Distribute(const T& value, const Publication& publication,
-                                             [[maybe_unused]] Buffer<T>* buffer) noexcept {
-    return Guarded([&] {
-      const Subscribers* list = subscribers();
-      PublishStatus status = PublishStatus::kPublished;
-      if (list == nullptr) return status;
-      for (QueueSink* sink : list->queues) {
-        // The types are equal: connecting has checked it.
-        auto* queue = static_cast<InputQueue<T>*>(sink);
-        bool taken;
-        if constexpr (kLiesInQueuesAsCopy<T>) {
-          taken = queue->Push(value, publication, number());
-        } else {
-          buffer->AddHolders(1);
-          taken = queue->Push(internal::HeldValue<T>(BufferLease<T>(buffer)), number());
-        }
-        if (!taken) status = PublishStatus::kRefused;
-      }
-      for (TapQueue* tap : list->taps) PushTo(*tap, value, publication, buffer);
-      for (Waker* waker : list->wakers) waker->Wake();
-      return status;
+  // stays short. What is told about the value comes in registers: to load it in one piece from where
+  // it has just been stored in three would have to wait for all stores before.
+  [[gnu::noinline]] PublishStatus Distribute(const T& value, std::int64_t stamp,
+                                             std::uint64_t sequence, std::uint64_t order,
+                                             Buffer<T>* buffer) noexcept {
+    return Guarded([&]() __attribute__((always_inline)) {
+      const Subscribers* const list = subscribers_in_guard();
+      if (list == nullptr) return PublishStatus::kPublished;
+      const Publication publication{stamp, sequence, order};
+      if (list->only_queue == nullptr)
+        return internal::PushToAll(*list, value, Publication(publication), buffer, number());
+      return internal::PushTo(*list->only_queue, value, publication, buffer, number());
     });
-  }
-
-  void PushTo(TapQueue& tap, const T& value, const Publication& of, Buffer<T>* buffer) noexcept {
-    if constexpr (kLiesInQueuesAsCopy<T>) {
-      tap.PushCopy(value, of, number());
-    } else {
-      tap.PushLease(*buffer, number());
-    }
   }
 
   const std::unique_ptr<PullPoint<T>> pull_point_;  // nullptr if the output is not pullable

@@ -107,6 +107,8 @@ struct InputBinding {
     return nullptr;
   }
   [[nodiscard]] Link* FindLink(std::uint64_t number) const noexcept {
+    if (only != nullptr && only->number == number) [[likely]]
+      return only;
     for (const auto& link : links) {
       if (link->number == number) return link.get();
     }

@@ -86,13 +86,19 @@ class InputQueue final : public QueueSink {
   }
 
   /// Returns false if the queue was full and refuses.
-  bool Push(const T& value, const Publication& publication, std::uint64_t source) noexcept
-      requires(kLiesInQueuesAsCopy<T>) {
-    return Emplace(value, publication, source);
+  [[gnu::always_inline]] bool Push(const T& value, const Publication& publication,
+                                   std::uint64_t source) noexcept requires(kLiesInQueuesAsCopy<T>) {
+    if (IsCrowdedOut()) [[unlikely]]
+      return Drop();
+    if (stream_ == nullptr) return PushShared(value, publication, source);
+    return stream_->TryEmplace(value, publication, source) || Drop();
   }
   bool Push(internal::HeldValue<T>&& held, std::uint64_t source) noexcept
       requires(!kLiesInQueuesAsCopy<T>) {
-    return Emplace(std::move(held), source);
+    if (IsCrowdedOut()) [[unlikely]]
+      return Drop();
+    if (stream_ == nullptr) return EmplaceShared(std::move(held), source);
+    return stream_->TryEmplace(std::move(held), source) || Drop();
   }
   bool Push(Entry entry) noexcept {
     if constexpr (kLiesInQueuesAsCopy<T>) {
@@ -140,7 +146,8 @@ class InputQueue final : public QueueSink {
   }
 
   [[nodiscard]] std::size_t room() const noexcept override { return capacity_; }
-  [[nodiscard]] bool WouldRefuse() noexcept override {
+  /// Whether the queue would refuse a value now. For publishers.
+  [[nodiscard]] bool WouldRefuse() noexcept {
     if (on_full_ != OnFull::kRefuse) return false;
     return stream_ != nullptr ? !stream_->HasRoom() : shared_->size() >= capacity_;
   }
@@ -175,21 +182,16 @@ class InputQueue final : public QueueSink {
 
  private:
   static constexpr int kAttempts = 16;
-  template <typename... Parts>
-  bool Emplace(Parts&&... parts) noexcept {
+  // Whether what waits in older queues leaves no room in this one.
+  [[nodiscard]] bool IsCrowdedOut() const noexcept {
     const std::size_t before = waiting_before_.load(std::memory_order_relaxed);
-    if (before > 0 && on_full_ != OnFull::kDropOldest && before + size() >= capacity_)
-        [[unlikely]] {
-      CountDropped();
-      return on_full_ != OnFull::kRefuse;
-    }
-    if (stream_ != nullptr) {
-      if (stream_->TryEmplace(std::forward<Parts>(parts)...)) [[likely]]
-        return true;
-      CountDropped();
-      return on_full_ != OnFull::kRefuse;
-    }
-    return EmplaceShared(std::forward<Parts>(parts)...);
+    return before > 0 && on_full_ != OnFull::kDropOldest && before + size() >= capacity_;
+  }
+  // The publication by value: its publisher has it in registers, and leaves it there as long as nobody
+  // asks where it lies.
+  [[gnu::noinline]] bool PushShared(const T& value, Publication publication,
+                                    std::uint64_t source) noexcept {
+    return EmplaceShared(value, publication, source);
   }
   // Ends after a few attempts in any case: if a reader was stopped while it emptied the very cell
   // that is needed, the new value is dropped, whatever the policy.
@@ -203,6 +205,10 @@ class InputQueue final : public QueueSink {
       if (queue.size() < queue.capacity()) continue;
       (void)DropOldest();
     }
+    return Drop();
+  }
+  // Counts a value that is not taken in; false if its publisher is to know.
+  [[gnu::noinline]] bool Drop() noexcept {
     CountDropped();
     return on_full_ != OnFull::kRefuse;
   }

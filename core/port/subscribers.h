@@ -15,8 +15,6 @@ class QueueSink {
   virtual ~QueueSink() = default;
   /// How many values can wait.
   [[nodiscard]] virtual std::size_t room() const noexcept = 0;
-  /// Whether the queue would refuse a value now. For publishers.
-  [[nodiscard]] virtual bool WouldRefuse() noexcept = 0;
   /// Itself, if it takes values of any type; else it takes those of its channel's.
   [[nodiscard]] virtual TapQueue* tap() noexcept { return nullptr; }
 };
@@ -27,6 +25,8 @@ struct Subscribers {
   std::vector<QueueSink*> queues;  // of the channel's type
   std::vector<TapQueue*> taps;
   std::vector<Waker*> wakers;
+  /// The only one of them, if that is a queue; set by the channel.
+  QueueSink* only_queue = nullptr;
 
   [[nodiscard]] bool empty() const noexcept {
     return queues.empty() && taps.empty() && wakers.empty();

@@ -48,7 +48,6 @@ class TapQueue final : public QueueSink {
   }
 
   [[nodiscard]] std::size_t room() const noexcept override { return values_.capacity(); }
-  [[nodiscard]] bool WouldRefuse() noexcept override { return false; }
   [[nodiscard]] TapQueue* tap() noexcept override { return this; }
   [[nodiscard]] std::size_t size() const noexcept { return values_.size(); }
   [[nodiscard]] bool HasNext() const noexcept { return values_.HasOldest(); }

@@ -40,6 +40,7 @@ ImageCost CostOf(double seconds, int readers, const Audience& audience,
 
 // The subjects.
 ImageCost MeasureImagePorts(double seconds, int readers);
+ImageCost MeasureBareWakeUp(double seconds, int readers);
 ImageCost MeasureImagePool(double seconds, int readers);
 
 }  // namespace runnel::bench

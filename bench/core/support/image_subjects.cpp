@@ -58,6 +58,9 @@ ImageCost CostOf(double seconds, int readers, const Audience& audience,
 
 std::optional<ImageCost> MeasureImageSubject(const ImageTransport& transport) {
   if (transport.subject == kFillingSubject) return MeasureFilling(transport.seconds);
+  if (transport.subject == kWakeUpSubject) {
+    return MeasureBareWakeUp(transport.seconds, transport.readers);
+  }
   if (transport.subject == kPortsSubject) {
     return MeasureImagePorts(transport.seconds, transport.readers);
   }

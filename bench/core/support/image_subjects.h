@@ -8,6 +8,7 @@ namespace runnel::bench {
 
 inline constexpr const char* kFillingSubject = "filling alone";
 inline constexpr const char* kPortsSubject = "triggered modules";
+inline constexpr const char* kWakeUpSubject = "filling + one wake-up";
 inline constexpr const char* kPoolSubject = "mutex + cv + pool";
 
 struct ImageCost {
