@@ -3,6 +3,7 @@
 
 #include <array>
 #include <chrono>
+#include <cstring>
 #include <memory>
 #include <thread>
 
@@ -26,8 +27,15 @@ namespace {
 
 constexpr std::size_t kStages = 5;
 
+// In place, too. By pairs, as the compiler makes of it what it likes else, now this and now that.
 void AddOne(const Matrix4& from, Matrix4& to) {
-  for (std::size_t i = 0; i < from.elements.size(); ++i) to.elements[i] = from.elements[i] + 1;
+  using Pair [[gnu::vector_size(16)]] = double;
+  for (std::size_t i = 0; i < from.elements.size(); i += 2) {
+    Pair pair;
+    std::memcpy(&pair, &from.elements[i], sizeof(pair));
+    pair += 1;
+    std::memcpy(&to.elements[i], &pair, sizeof(pair));
+  }
 }
 
 class Stage final : public Module {
@@ -35,7 +43,7 @@ class Stage final : public Module {
   using Module::Module;
   Input<Matrix4> in{this, "in"};
   Output<Matrix4> out{this, "out"};
-  void Step() {
+  [[gnu::always_inline]] void Step() {
     auto loan = out.Loan();
     const auto read = in.Read();
     AddOne(read ? *read : kNothing, *loan);
@@ -67,6 +75,7 @@ void RunRawPorts(benchmark::State& state) {
   Ring ring;
   for (auto _ : state) {
     const InACycle cycle;
+#pragma GCC unroll 5  // as for the rivals below
     for (Stage* stage : ring.stages) stage->Step();
   }
 }
