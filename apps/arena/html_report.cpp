@@ -4,6 +4,7 @@
 
 #include "apps/arena/html_page.h"
 #include "apps/arena/html_world.h"
+#include "core/base/markup.h"
 
 namespace runnel::arena {
 
@@ -23,7 +24,7 @@ std::string Head(const std::vector<Column>& columns) {
   return text + "</tr></thead>";
 }
 
-std::string Cell(const std::string& text) { return "<td>" + EscapedHtml(text) + "</td>"; }
+std::string Cell(const std::string& text) { return "<td>" + EscapedMarkup(text) + "</td>"; }
 std::string NumberCell(const std::string& text) { return "<td class=\"number\">" + text + "</td>"; }
 std::string NumberCell(const std::optional<double>& number, int digits) {
   return NumberCell(number ? Fixed(*number, digits) : "–");
@@ -31,7 +32,7 @@ std::string NumberCell(const std::optional<double>& number, int digits) {
 
 std::string OutcomeText(const Row& row) {
   return std::string("<span class=\"") + (row.is_right ? "good" : "bad") + "\">" +
-         EscapedHtml(row.record->result.outcome) + (row.is_right ? "" : " (wrong)") + "</span>";
+         EscapedMarkup(row.record->result.outcome) + (row.is_right ? "" : " (wrong)") + "</span>";
 }
 
 std::string SummaryTable(const std::vector<Row>& rows) {
@@ -82,8 +83,8 @@ std::string RunTable(const std::vector<Row>& rows) {
 
 std::string Figure(const Row& row, const std::string& world_id, const ViewBox& view) {
   const RunKey& key = row.record->key;
-  std::string caption = "<b>" + EscapedHtml(key.variant) + "</b> " + EscapedHtml(key.sensor) +
-                        ", " + EscapedHtml(key.direction) + ", seed " + std::to_string(key.seed) +
+  std::string caption = "<b>" + EscapedMarkup(key.variant) + "</b> " + EscapedMarkup(key.sensor) +
+                        ", " + EscapedMarkup(key.direction) + ", seed " + std::to_string(key.seed) +
                         "<br>" + OutcomeText(row) + ", " +
                         Fixed(row.record->result.path_length, 2) + " m";
   if (row.ratio) caption += ", " + Fixed(*row.ratio, 2) + " × shortest";
@@ -99,7 +100,7 @@ std::string WorldSection(const Course& course, std::size_t number, const std::ve
     if (row.course != &course) continue;
     for (const PathSample& sample : row.record->result.path) view.Include(sample.position, 0.3);
   }
-  std::string text = "<h2>" + EscapedHtml(course.name) + "</h2>\n<p>" +
+  std::string text = "<h2>" + EscapedMarkup(course.name) + "</h2>\n<p>" +
                      (course.shortest ? "Shortest path " + Fixed(course.shortest->length, 2) + " m."
                                       : "The goal cannot be reached.") +
                      "</p>\n<svg style=\"display:none\">" + WorldSymbol(id, course, view) +

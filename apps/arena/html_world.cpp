@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "apps/arena/table.h"
+#include "core/base/markup.h"
 #include "modules/simulation/algorithm/outline.h"
 #include "modules/simulation/algorithm/world_geometry.h"
 
@@ -89,24 +90,6 @@ std::string PathOf(const std::vector<PathSample>& path) {
 
 }  // namespace
 
-std::string EscapedHtml(std::string_view text) {
-  std::string escaped;
-  for (const char letter : text) {
-    if (letter == '&') {
-      escaped += "&amp;";
-    } else if (letter == '<') {
-      escaped += "&lt;";
-    } else if (letter == '>') {
-      escaped += "&gt;";
-    } else if (letter == '"') {
-      escaped += "&quot;";
-    } else {
-      escaped += letter;
-    }
-  }
-  return escaped;
-}
-
 void ViewBox::Include(Point2 point, double reach) {
   low = {std::min(low.x, point.x - reach), std::min(low.y, point.y - reach)};
   high = {std::max(high.x, point.x + reach), std::max(high.y, point.y + reach)};
@@ -138,7 +121,7 @@ std::string WorldSymbol(const std::string& id, const Course& course, const ViewB
 std::string RunDrawing(const std::string& world_id, const RunRecord& record, const ViewBox& view) {
   const double mark = 0.009 * Norm(view.high - view.low);
   const Point2 size = view.high - view.low;
-  std::string text = "<svg role=\"img\" aria-label=\"" + EscapedHtml(TextOf(record.key)) + "\" " +
+  std::string text = "<svg role=\"img\" aria-label=\"" + EscapedMarkup(TextOf(record.key)) + "\" " +
                      ViewBoxText(view) + "><use href=\"#" + world_id + "\"" +
                      Attribute("x", view.low.x) + Attribute("y", -view.high.y) +
                      Attribute("width", size.x) + Attribute("height", size.y) + "/>";

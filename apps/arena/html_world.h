@@ -1,15 +1,11 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "apps/arena/course.h"
 #include "apps/arena/run_record.h"
 
 namespace runnel::arena {
-
-/// As it may stand between HTML tags and in attributes.
-[[nodiscard]] std::string EscapedHtml(std::string_view text);
 
 /// Where all paths and the world are, in m.
 struct ViewBox {

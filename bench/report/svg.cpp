@@ -1,30 +1,8 @@
 #include "bench/report/svg.h"
 
+#include "core/base/markup.h"
+
 namespace runnel::bench {
-
-namespace {
-
-std::string Escaped(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '&':
-        escaped += "&amp;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
-
-}  // namespace
 
 Svg::Svg(double width, double height) {
   content_ << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << width << "\" height=\""
@@ -60,7 +38,7 @@ void Svg::Text(Point at, const std::string& text, Anchor anchor, int size,
                      : anchor == Anchor::kMiddle ? "middle"
                                                  : "end";
   content_ << "<text x=\"" << at.x << "\" y=\"" << at.y << "\" text-anchor=\"" << name
-           << "\" font-size=\"" << size << "\" fill=\"" << colour << "\">" << Escaped(text)
+           << "\" font-size=\"" << size << "\" fill=\"" << colour << "\">" << EscapedMarkup(text)
            << "</text>\n";
 }
 

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <vector>
 
+#include "core/base/markup.h"
 #include "core/element/runtime.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/port.h"
@@ -21,24 +22,6 @@ namespace {
 constexpr std::array<const char*, 8> kColours{"#cfe3f7", "#fde2b3", "#d6efd0", "#f6d0e0",
                                               "#e3dcf4", "#f3eea0", "#c5ecea", "#e6d5c5"};
 constexpr const char* kNoThread = "#f2f2f2";
-
-std::string Escaped(const std::string& text) {
-  std::string escaped;
-  for (const char letter : text) {
-    if (letter == '&') {
-      escaped += "&amp;";
-    } else if (letter == '<') {
-      escaped += "&lt;";
-    } else if (letter == '>') {
-      escaped += "&gt;";
-    } else if (letter == '"') {
-      escaped += "&quot;";
-    } else {
-      escaped += letter;
-    }
-  }
-  return escaped;
-}
 
 std::string Quoted(const std::string& text) {
   std::string quoted = "\"";
@@ -159,10 +142,10 @@ class DotWriter {
     });
     std::string label =
         R"(<table border="1" cellborder="0" cellspacing="0" cellpadding="3" color="#606060" bgcolor=")" +
-        ColourOf(module) + R"(" style="rounded"><tr><td colspan="2"><b>)" + Escaped(module.name()) +
+        ColourOf(module) + R"(" style="rounded"><tr><td colspan="2"><b>)" + EscapedMarkup(module.name()) +
         "</b>";
     const std::string type = FindModuleType(module);
-    if (!type.empty()) label += R"(<br/><font point-size="9">)" + Escaped(type) + "</font>";
+    if (!type.empty()) label += R"(<br/><font point-size="9">)" + EscapedMarkup(type) + "</font>";
     label += "</td></tr>";
     for (std::size_t i = 0; i < std::max(inputs.size(), outputs.size()); ++i) {
       label += "<tr>" + Cell(inputs, i, "left") + Cell(outputs, i, "right") + "</tr>";
@@ -177,7 +160,7 @@ class DotWriter {
     if (place >= ports.size()) return "<td></td>";
     const Port& port = *ports[place];
     return "<td port=\"p" + std::to_string(port.serial()) + "\" align=\"" + side +
-           "\"><font point-size=\"10\">" + Escaped(port.name()) + "</font></td>";
+           "\"><font point-size=\"10\">" + EscapedMarkup(port.name()) + "</font></td>";
   }
 
   std::string End(const Port& port, bool is_source) {
@@ -220,7 +203,7 @@ class DotWriter {
     for (const auto& [serial, colour] : colours_) {
       if (!colour.is_used) continue;
       rows += "<tr><td bgcolor=\"" + colour.colour + "\" border=\"1\" width=\"22\"></td>" +
-              "<td align=\"left\">" + Escaped(ThreadText(*colour.thread)) + "</td></tr>";
+              "<td align=\"left\">" + EscapedMarkup(ThreadText(*colour.thread)) + "</td></tr>";
     }
     if (rows.empty()) return;
     Line(1,

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/integration/program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace runnel::test {
 namespace {
@@ -26,12 +27,7 @@ const std::string kDemo = std::string(RUNNEL_XML) + "/apps/bug_demo.xml picture=
 /// Its sockets are in a folder of its own, and so is its trace.
 class RunningTime : public testing::Test {
  protected:
-  RunningTime() {
-    std::string name = std::filesystem::temp_directory_path() / "runnel_time_XXXXXX";
-    folder_ = mkdtemp(name.data());
-    setenv("XDG_RUNTIME_DIR", folder_.c_str(), 1);
-  }
-  ~RunningTime() override { std::filesystem::remove_all(folder_); }
+  RunningTime() { setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1); }
 
   [[nodiscard]] std::string trace() const { return folder_ / "trace.json"; }
   std::string TraceText() {
@@ -43,7 +39,7 @@ class RunningTime : public testing::Test {
         events.begin(), events.end(), [&](const json& each) { return each["name"] == name; }));
   }
 
-  std::filesystem::path folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(RunningTime, IsSteppedResumedAndPausedFromOutside) {

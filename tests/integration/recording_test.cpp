@@ -13,6 +13,7 @@
 
 #include "plugins/mcap/mcap_reader.h"
 #include "tests/integration/program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace runnel::test {
 namespace {
@@ -31,13 +32,7 @@ constexpr const char* kSensors =
 
 class Recording : public testing::Test {
  protected:
-  Recording() {
-    std::string name =
-        (std::filesystem::temp_directory_path() / "runnel_recording_XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-  }
-  ~Recording() override { std::filesystem::remove_all(folder_); }
-  [[nodiscard]] std::string Path(const std::string& name) const { return folder_ + "/" + name; }
+  [[nodiscard]] std::string Path(const std::string& name) const { return folder_ / name; }
 
   /// The demo in the world with one obstacle, from start to goal.
   void RecordTheDemo() {
@@ -69,7 +64,7 @@ class Recording : public testing::Test {
   }
 
  private:
-  std::string folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(Recording, TheSensorsOfARunGiveTheSameCommandsAlsoInAnotherWorld) {

@@ -4,38 +4,11 @@
 #include <fstream>
 #include <string_view>
 
+#include "core/xml/xml_writing.h"
+
 namespace runnel {
 
 namespace {
-
-std::string Escaped(std::string_view text) {
-  std::string escaped;
-  for (const char letter : text) {
-    switch (letter) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      case '\n':
-        escaped += "&#10;";
-        break;
-      case '\r':
-        escaped += "&#13;";
-        break;
-      case '\t':
-        escaped += "&#9;";
-        break;
-      default:
-        escaped += letter;
-    }
-  }
-  return escaped;
-}
 
 std::string Attribute(std::string_view name, double value) {
   char digits[32];
@@ -97,7 +70,7 @@ std::string WriteAll(const std::vector<Obstacle>& obstacles) {
 }  // namespace
 
 std::string WriteWorld(const World& world) {
-  std::string text = "<world name=\"" + Escaped(world.name) + "\">\n";
+  std::string text = "<world name=\"" + EscapedAttribute(world.name) + "\">\n";
   text += "  <start" + Place(world.start) + "/>\n  <goal" + Place(world.goal) + "/>\n";
   text += WriteAll(world.polygons) + WriteAll(world.boxes);
   text += WriteAll(world.cylinders) + WriteAll(world.walls);

@@ -26,6 +26,7 @@
 #include "plugins/parameters/parameter.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/structure/change_history.h"
+#include "tests/support/temporary_folder.h"
 
 namespace runnel::test {
 
@@ -33,22 +34,6 @@ using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
-
-/// A folder that only its owner can enter, for the length of a test.
-class PrivateFolder {
- public:
-  PrivateFolder() {
-    std::string name = std::filesystem::temp_directory_path() / "runnel_control_XXXXXX";
-    path_ = mkdtemp(name.data());
-  }
-  ~PrivateFolder() { std::filesystem::remove_all(path_); }
-  PrivateFolder(const PrivateFolder&) = delete;
-  PrivateFolder& operator=(const PrivateFolder&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Publishes 1, 2, 3 …
 class Counter : public Module {
@@ -202,7 +187,7 @@ class ControlTest : public ::testing::Test {
     }
   }
 
-  PrivateFolder folder;
+  test::TemporaryFolder folder;
   Runtime runtime;
   ModuleRegistry modules;
   Scheduler scheduler{runtime};

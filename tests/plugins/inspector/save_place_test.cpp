@@ -1,10 +1,11 @@
 #include "plugins/inspector/internal/save_place.h"
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include <gmock/gmock.h>
+
+#include "tests/support/temporary_folder.h"
 
 namespace runnel::internal {
 
@@ -20,14 +21,9 @@ class SavePlaceTest : public ::testing::Test {
     fs::create_directories(root / "other");
     std::ofstream(file) << "x";
   }
-  ~SavePlaceTest() override { fs::remove_all(root); }
 
-  static fs::path NewFolder() {
-    std::string name = fs::canonical(fs::path(::testing::TempDir())) / "runnel_save_place_XXXXXX";
-    return mkdtemp(name.data());
-  }
-
-  const fs::path root = NewFolder();
+  const test::TemporaryFolder folder;
+  const fs::path root = fs::canonical(folder.path());
   const fs::path file = root / "apps" / "app.xml";
 };
 

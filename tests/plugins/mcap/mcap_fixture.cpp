@@ -1,18 +1,9 @@
 #include "tests/plugins/mcap/mcap_fixture.h"
 
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 
 namespace runnel::test {
-
-McapTest::McapTest() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "runnel_mcap_XXXXXX").string();
-  folder_ = mkdtemp(pattern.data());
-}
-
-McapTest::~McapTest() { std::filesystem::remove_all(folder_); }
 
 std::string McapTest::WriteFile(const std::string& name, const std::string& compression,
                                 int messages, bool finish, std::size_t chunk_bytes) {

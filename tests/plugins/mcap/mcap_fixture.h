@@ -8,6 +8,7 @@
 
 #include "plugins/mcap/mcap_reader.h"
 #include "plugins/mcap/mcap_writer.h"
+#include "tests/support/temporary_folder.h"
 
 namespace runnel::test {
 
@@ -23,10 +24,7 @@ struct ReadMessage {
 /// Files in a folder of the test's own.
 class McapTest : public testing::Test {
  protected:
-  McapTest();
-  ~McapTest() override;
-
-  [[nodiscard]] std::string Path(const std::string& name) const { return folder_ + "/" + name; }
+  [[nodiscard]] std::string Path(const std::string& name) const { return folder_ / name; }
   /// A file with two channels, `messages` messages and all that a file can have; chunks of about
   /// `chunk_bytes`. Without `finish`, as a killed process leaves it.
   std::string WriteFile(const std::string& name, const std::string& compression, int messages,
@@ -37,7 +35,7 @@ class McapTest : public testing::Test {
   [[nodiscard]] static std::vector<ReadMessage> ReadAll(McapReader& reader);
 
  private:
-  std::string folder_;
+  TemporaryFolder folder_;
 };
 
 /// Fails the test if `result` is an error.

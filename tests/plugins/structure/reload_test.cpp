@@ -3,9 +3,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include <stdlib.h>
-
 #include "tests/plugins/structure/editor_fixture.h"
+#include "tests/support/temporary_folder.h"
 
 namespace runnel::test {
 namespace {
@@ -15,15 +14,8 @@ namespace fs = std::filesystem;
 /// A folder with the plugin in one of its versions, and an application that runs it.
 class ReloadTest : public ::testing::Test {
  protected:
-  ReloadTest() {
-    std::string folder = (fs::temp_directory_path() / "reload-XXXXXX").string();
-    folder_ = mkdtemp(folder.data());
-    plugins.AddSearchFolder(folder_);
-  }
-  ~ReloadTest() override {
-    scheduler.Stop();
-    fs::remove_all(folder_);
-  }
+  ReloadTest() { plugins.AddSearchFolder(folder_.path()); }
+  ~ReloadTest() override { scheduler.Stop(); }
 
   /// What a linker does when it builds the library anew: another file in the place of the old one, which
   /// lives on for those who have it mapped.
@@ -59,7 +51,7 @@ class ReloadTest : public ::testing::Test {
     return value;
   }
 
-  fs::path folder_;
+  test::TemporaryFolder folder_;
   PluginManager plugins;
   Runtime runtime;
   Scheduler scheduler{runtime, {.clock = SchedulerOptions::ClockKind::kSimulated}};

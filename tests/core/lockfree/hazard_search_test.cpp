@@ -1,0 +1,47 @@
+#include "tests/core/lockfree/searched_atomic.h"
+// The search must come first: it renames what the standard headers below use.
+
+#include <array>
+
+#include "core/lockfree/hazard.h"
+
+namespace runnel::test {
+namespace {
+
+constexpr unsigned kIterations = 20000;
+
+// Two threads that are added at once when all bits of their own are gone: each is looked at, once,
+// by whoever comes later, and by itself from the start.
+struct SharedBitSuite : rl::test_suite<SharedBitSuite, 2> {
+  using Domain = HazardDomain<SearchedAtomic, 1>;
+  using Record = Domain::Record;
+  static constexpr int kOwnBits = 9;
+
+  SharedBitSuite() {
+    for (Record& record : with_own_bits) domain.Add(record);
+  }
+  void thread(unsigned index) {
+    domain.Add(added[index]);
+    RL_ASSERT(TimesSeen(&added[index]) == 1);
+  }
+  void after() {
+    for (const Record& record : with_own_bits) RL_ASSERT(TimesSeen(&record) == 1);
+    for (const Record& record : added) RL_ASSERT(TimesSeen(&record) == 1);
+  }
+  [[nodiscard]] int TimesSeen(const Record* wanted) const {
+    int times = 0;
+    domain.ForEach(Domain::kAll, [&](const Record& record) { times += &record == wanted; });
+    return times;
+  }
+
+  Domain domain;
+  std::array<Record, kOwnBits> with_own_bits;
+  std::array<Record, 2> added;
+};
+
+TEST(HazardSearch, RecordsThatAreAddedAtOnceAreAllLookedAt) {
+  EXPECT_TRUE(Search<SharedBitSuite>(kIterations));
+}
+
+}  // namespace
+}  // namespace runnel::test
