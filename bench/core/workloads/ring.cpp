@@ -20,6 +20,7 @@
 #include "bench/core/workloads/workloads.h"
 #include "core/module/module.h"
 #include "plugins/scheduling/scheduler.h"
+#include "plugins/scheduling/tick_clock.h"
 
 namespace runnel::bench {
 
@@ -146,6 +147,40 @@ void RunCells(benchmark::State& state) {
   }
 }
 
+// The least that interchangeable modules with the time of their cycle can cost: objects that know each
+// other by a pointer, one virtual call each, and one look at the scheduler's clock for all.
+class BareModule {
+ public:
+  virtual ~BareModule() = default;
+  virtual void Update() = 0;
+};
+class BareStage final : public BareModule {
+ public:
+  void Update() override { AddOne(*source, value); }
+  const Matrix4* source = nullptr;
+  Matrix4 value{};
+};
+
+void RunBareModules(benchmark::State& state) {
+  std::array<std::unique_ptr<BareModule>, kStages> modules;
+  std::array<BareStage*, kStages> stages{};
+  for (std::size_t i = 0; i < kStages; ++i) {
+    auto stage = std::make_unique<BareStage>();
+    stages[i] = stage.get();
+    modules[i] = std::move(stage);
+  }
+  for (std::size_t i = 0; i < kStages; ++i) stages[(i + 1) % kStages]->source = &stages[i]->value;
+  TickClock clock;
+  for (auto _ : state) {
+    auto now = clock.Now();
+    benchmark::DoNotOptimize(now);
+    for (const auto& module : modules) {
+      module->Update();
+      benchmark::ClobberMemory();
+    }
+  }
+}
+
 template <typename T>
 using SpscCell = BoostSpscQueue<T, 4>;
 #ifdef RUNNEL_BENCH_HAS_MOODYCAMEL
@@ -177,6 +212,7 @@ void AddRing(Suite& suite) {
   AddCells<MoodycamelCell>(suite);
 #endif
   AddCells<BareCopy>(suite, Role::kFloor);
+  suite.Add(Role::kFloor, "virtual calls and a clock (one thread only)", RunBareModules);
 }
 
 }  // namespace runnel::bench

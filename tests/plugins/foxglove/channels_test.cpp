@@ -1,6 +1,3 @@
-#include <atomic>
-#include <mutex>
-
 #include "tests/plugins/foxglove/foxglove_fixture.h"
 
 namespace runnel::test {
@@ -213,20 +210,12 @@ TEST_F(FoxgloveTest, NeverWaitsForTheStructure) {
   robot.speed.Publish(1);
   Say(Subscribe(7, IdOf("/robot/speed")));
   Say({{"op", "getParameters"}, {"parameterNames", {"/robot/gain"}}});
-  std::mutex held;
-  held.lock();
-  std::atomic<bool> is_locked{false};
-  std::thread other([&] {
-    const std::lock_guard structure(runtime.structure_mutex());
-    is_locked = true;
-    const std::lock_guard wait(held);
-  });
-  while (!is_locked) std::this_thread::yield();
-  for (int i = 0; i < 5; ++i) Turn();
-  EXPECT_EQ(TakeValues().size(), 0u);
-  EXPECT_THAT(Take("parameterValues"), IsEmpty());
-  held.unlock();
-  other.join();
+  {
+    const HeldStructure held(runtime);
+    for (int i = 0; i < 5; ++i) Turn();
+    EXPECT_EQ(TakeValues().size(), 0u);
+    EXPECT_THAT(Take("parameterValues"), IsEmpty());
+  }
   EXPECT_TRUE(Wait([this] { return !Take("parameterValues").empty(); }));
   EXPECT_TRUE(Wait([this] { return TakeValues().size() == 1; }));
 }

@@ -4,6 +4,8 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <semaphore>
 #include <string>
 #include <thread>
 #include <vector>
@@ -32,6 +34,31 @@ namespace runnel::test {
 using Json = nlohmann::json;
 using testing::HasSubstr;
 using testing::IsEmpty;
+
+/// Another thread that has the structure lock, for as long as this lives.
+class HeldStructure {
+ public:
+  explicit HeldStructure(Runtime& runtime) : other_([this, &runtime] { HoldIn(runtime); }) {
+    is_held_.acquire();
+  }
+  ~HeldStructure() {
+    is_over_.release();
+    other_.join();
+  }
+  HeldStructure(const HeldStructure&) = delete;
+  HeldStructure& operator=(const HeldStructure&) = delete;
+
+ private:
+  void HoldIn(Runtime& runtime) {
+    const std::lock_guard structure(runtime.structure_mutex());
+    is_held_.release();
+    is_over_.acquire();
+  }
+
+  std::binary_semaphore is_held_{0};
+  std::binary_semaphore is_over_{0};
+  std::thread other_;
+};
 
 /// The other end of a conversation: keeps what is sent.
 class FakeWebClient final : public WebClient {

@@ -1,4 +1,3 @@
-#include <atomic>
 #include <mutex>
 
 #include "tests/plugins/foxglove/foxglove_fixture.h"
@@ -18,6 +17,10 @@ class FoxglovePublishingTest : public FoxgloveTest {
       const auto goal = robot.goal.Read();
       return goal && *goal == wanted;
     });
+  }
+  std::size_t SourcesOf(const Port& input) {
+    const std::lock_guard lock(runtime.structure_mutex());
+    return input.incoming().size();
   }
   /// The names of what clients have brought.
   std::vector<std::string> Brought() {
@@ -115,23 +118,23 @@ TEST_F(FoxglovePublishingTest, LeavesNothingBehind) {
   Advertise(1, "/robot/goal");
   Advertise(2, "/robot/limit");
   ASSERT_TRUE(Wait([this] { return Brought().size() == 2; }));
-  ASSERT_TRUE(Wait([this] { return robot.goal.incoming().size() == 1; }));
+  ASSERT_TRUE(Wait([this] { return SourcesOf(robot.goal) == 1; }));
   Say({{"op", "unadvertise"}, {"channelIds", {1}}});
   EXPECT_TRUE(Wait([this] { return Brought().size() == 1; }));
-  EXPECT_EQ(robot.goal.incoming().size(), 0u);
+  EXPECT_EQ(SourcesOf(robot.goal), 0u);
   Say({{"op", "unadvertise"}, {"channelIds", {1}}});
   EXPECT_EQ(Complaint(), "unadvertise: channel 1 is not advertised");
   conversation = nullptr;
   protocol = {};
   EXPECT_THAT(Brought(), IsEmpty());
-  EXPECT_EQ(robot.limit.incoming().size(), 0u);
+  EXPECT_EQ(SourcesOf(robot.limit), 0u);
 }
 
 TEST_F(FoxglovePublishingTest, IsNotShownAsAChannel) {
   Begin();
   Channels();
   Advertise(1, "/robot/goal");
-  ASSERT_TRUE(Wait([this] { return robot.goal.incoming().size() == 1; }));
+  ASSERT_TRUE(Wait([this] { return SourcesOf(robot.goal) == 1; }));
   Turn();
   EXPECT_THAT(Take("advertise"), IsEmpty());
 }
@@ -141,7 +144,7 @@ TEST_F(FoxglovePublishingTest, EndsWithTheInput) {
   ASSERT_TRUE(runtime.MakeReady(other));
   Begin();
   Advertise(1, "/other/goal");
-  ASSERT_TRUE(Wait([&] { return other.goal.incoming().size() == 1; }));
+  ASSERT_TRUE(Wait([&] { return SourcesOf(other.goal) == 1; }));
   ASSERT_TRUE(runtime.Delete(other));
   std::string complaint;
   EXPECT_TRUE(Wait([&] { return !(complaint = Complaint()).empty(); }));
@@ -170,20 +173,12 @@ TEST_F(FoxglovePublishingTest, WaitsForTheStructureWithoutStandingStill) {
   Advertise(1, "/robot/goal");
   Publish(1, R"({"x":1})");
   ASSERT_TRUE(WaitForGoal({1, 0}));
-  std::mutex held;
-  held.lock();
-  std::atomic<bool> is_locked{false};
-  std::thread other([&] {
-    const std::lock_guard structure(runtime.structure_mutex());
-    is_locked = true;
-    const std::lock_guard wait(held);
-  });
-  while (!is_locked) std::this_thread::yield();
-  Publish(1, R"({"x":2})");
-  Publish(1, R"({"x":3})");
-  EXPECT_EQ(*robot.goal.Read(), (Point2{1, 0}));
-  held.unlock();
-  other.join();
+  {
+    const HeldStructure held(runtime);
+    Publish(1, R"({"x":2})");
+    Publish(1, R"({"x":3})");
+    EXPECT_EQ(*robot.goal.Read(), (Point2{1, 0}));
+  }
   EXPECT_TRUE(WaitForGoal({3, 0}));
 }
 
