@@ -328,7 +328,7 @@ class Channel final : public ChannelBase {
       const Subscribers* const list = subscribers_in_guard();
       if (list == nullptr) return PublishStatus::kPublished;
       const Publication publication{stamp, sequence, order};
-      if (list->only_queue == nullptr)
+      if (list->only_queue == nullptr)  // a copy for it, as it asks where that lies
         return internal::PushToAll(*list, value, Publication(publication), buffer, number());
       return internal::PushTo(*list->only_queue, value, publication, buffer, number());
     });
