@@ -34,8 +34,8 @@ struct CycleMeasurement {
 
 /// Sums up measurements, and lets others look at the sum meanwhile.
 ///
-/// What a cycle pays for is adding up; who looks does the dividing. Two cells are written in turn,
-/// as in LatestValue, so that a reader never waits for a writer that has been interrupted.
+/// What a cycle pays for is adding up; who looks does the dividing. Two cells are written in turn, each
+/// from what the other one has, so that a reader never waits for a writer that has been interrupted.
 ///
 /// Threads:   Add() by one thread at a time; statistics() by any. Progress: wait-free / lock-free
 ///            (repeated only if a whole cycle has gone by meanwhile).
@@ -48,7 +48,6 @@ class CycleMeter {
  private:
   // All are sums and extremes of counts, or of nanoseconds, in words that are copied one by one.
   enum Word {
-    kCycles,
     kOverruns,
     kFirstStart,
     kLastStart,
@@ -64,14 +63,13 @@ class CycleMeter {
   static constexpr std::int64_t kBeingWritten = 0;
 
   struct alignas(kCacheLineSize) Cell {
-    std::atomic<std::int64_t> number{kBeingWritten};
+    std::atomic<std::int64_t> number{kBeingWritten};  // of the cycle that it was written after
     std::array<std::atomic<std::int64_t>, kWords> words{};
   };
 
-  void Publish() noexcept;
-  [[nodiscard]] Sums Read() const noexcept;
+  // Returns the number of cycles in them; 0: none yet.
+  std::int64_t Read(Sums& sums) const noexcept;
 
-  Sums sums_{};  // the writer's own
   std::array<Cell, 2> cells_;
   alignas(kCacheLineSize) std::atomic<std::int64_t> published_{0};  // the number of cycles
 };
