@@ -39,7 +39,7 @@ class RunningTime : public testing::Test {
         events.begin(), events.end(), [&](const json& each) { return each["name"] == name; }));
   }
 
-  test::TemporaryFolder folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(RunningTime, IsSteppedResumedAndPausedFromOutside) {

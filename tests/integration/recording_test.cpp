@@ -64,7 +64,7 @@ class Recording : public testing::Test {
   }
 
  private:
-  test::TemporaryFolder folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(Recording, TheSensorsOfARunGiveTheSameCommandsAlsoInAnotherWorld) {

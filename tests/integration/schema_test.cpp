@@ -7,9 +7,9 @@
 #include <iterator>
 
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include "tests/integration/program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace runnel::test {
 namespace {
@@ -30,15 +30,14 @@ int Validate(const std::string& file) {
 bool HasXmllint() { return std::system("xmllint --version >/dev/null 2>&1") == 0; }
 
 TEST(Schema, IsTheCommittedOne) {
-  const std::string written =
-      testing::TempDir() + "schema_test_" + std::to_string(getpid()) + ".xsd";
+  const TemporaryFolder folder;
+  const std::string written = folder / "schema.xsd";
   // Without the plugins of the tests.
   const std::string command = "env -u RUNNEL_PLUGIN_PATH " RUNNEL_PROGRAM " schema -o " + written;
   ASSERT_EQ(std::system(command.c_str()), 0);
   EXPECT_EQ(ReadAll(written), ReadAll(kSchema))
       << "the words or types of application files have changed: write the schema anew by\n"
          "  runnel schema -o xml/runnel.xsd";
-  std::filesystem::remove(written);
 }
 
 TEST(Schema, AcceptsTheApplicationsThatComeWithIt) {
@@ -56,7 +55,8 @@ TEST(Schema, AcceptsTheApplicationsThatComeWithIt) {
 
 TEST(Schema, RefusesMistakes) {
   if (!HasXmllint()) GTEST_SKIP() << "needs xmllint, of the package libxml2-utils";
-  const std::string file = testing::TempDir() + "schema_test_" + std::to_string(getpid()) + ".xml";
+  const TemporaryFolder folder;
+  const std::string file = folder / "schema.xml";
   const auto is_refused = [&](const std::string& inside) {
     std::ofstream(file) << "<application name=\"a\">" << inside << "</application>";
     return Validate(file) != 0;
@@ -75,11 +75,11 @@ TEST(Schema, RefusesMistakes) {
   EXPECT_TRUE(is_refused("<thread name=\"t\" activation=\"now\"/>"));
   EXPECT_TRUE(is_refused("<conect from=\"a\" to=\"b\"/>"));
   EXPECT_TRUE(is_refused("<connect from=\"a\" to=\"b\" queue=\"-1\"/>"));
-  std::filesystem::remove(file);
 }
 
 TEST(Graph, IsDrawnWithGroupsThreadsAndQueues) {
-  const std::string file = testing::TempDir() + "graph_test_" + std::to_string(getpid()) + ".dot";
+  const TemporaryFolder folder;
+  const std::string file = folder / "graph.dot";
   const Ended ended = Runnel("graph " RUNNEL_XML "/apps/bug_demo.xml -o " + file);
   ASSERT_EQ(ended.code, 0) << ended.text;
   const std::string text = ReadAll(file);
@@ -88,31 +88,28 @@ TEST(Graph, IsDrawnWithGroupsThreadsAndQueues) {
   EXPECT_THAT(text, HasSubstr("planning/bug2"));
   EXPECT_THAT(text, HasSubstr("control (every 50ms)"));
   EXPECT_THAT(text, HasSubstr("/bug_demo/robot/planner/output/twist"));
-  std::filesystem::remove(file);
 }
 
 TEST(Graph, SaysWhatIsMissing) {
   EXPECT_THAT(Runnel("graph " RUNNEL_XML "/apps/bug_demo.xml -o x.jpg").text,
               testing::HasSubstr("its name ends in .svg"));
-  const std::string picture =
-      testing::TempDir() + "graph_test_" + std::to_string(getpid()) + ".svg";
+  const TemporaryFolder folder;
+  const std::string picture = folder / "graph.svg";
   const std::string command = "env PATH=/nowhere " RUNNEL_PROGRAM " graph " RUNNEL_XML
                               "/apps/bug_demo.xml -o " +
                               picture + " 2>" + picture + ".said";
   EXPECT_NE(std::system(command.c_str()), 0);
   EXPECT_THAT(ReadAll(picture + ".said"), testing::HasSubstr("install the package graphviz"));
   EXPECT_FALSE(std::filesystem::exists(picture));
-  std::filesystem::remove(picture + ".said");
 }
 
 TEST(Graph, IsAPicture) {
   if (std::system("dot -V >/dev/null 2>&1") != 0) GTEST_SKIP() << "needs dot, of package graphviz";
-  const std::string picture =
-      testing::TempDir() + "graph_test_" + std::to_string(getpid()) + ".svg";
+  const TemporaryFolder folder;
+  const std::string picture = folder / "graph.svg";
   const Ended ended = Runnel("graph " RUNNEL_XML "/apps/bug_demo.xml -o " + picture);
   ASSERT_EQ(ended.code, 0) << ended.text;
   EXPECT_THAT(ReadAll(picture), testing::HasSubstr("</svg>"));
-  std::filesystem::remove(picture);
 }
 
 }  // namespace

@@ -75,11 +75,7 @@ void AddImageTransport(Suite& suite) {
          .position = static_cast<double>(readers)});
     AddProcess(suite, Role::kRunnel, kPortsSubject, readers);
     AddProcess(suite, Role::kRival, kPoolSubject, readers);
-    if (readers == 0) {
-      AddProcess(suite, Role::kFloor, kFillingSubject, readers);
-    } else {
-      AddProcess(suite, Role::kFloor, kWakeUpSubject, readers);
-    }
+    AddProcess(suite, Role::kFloor, readers == 0 ? kFillingSubject : kWakeUpSubject, readers);
   }
 }
 

@@ -5,9 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "apps/arena/application_text.h"
+#include "tests/support/temporary_folder.h"
 
 namespace runnel::arena {
 namespace {
@@ -36,13 +36,6 @@ PlannedRun PlannedFor(const RunRecord& record, const std::string& made_of = "abc
 
 class JournalTest : public testing::Test {
  protected:
-  JournalTest()
-      : file_(std::filesystem::path(testing::TempDir()) /
-              ("arena_journal_test_" + std::to_string(getpid()))) {
-    std::filesystem::remove(file_);
-  }
-  ~JournalTest() override { std::filesystem::remove(file_); }
-
   void Fill(const std::vector<RunRecord>& records) {
     auto journal = Journal::Begin(file_, {});
     ASSERT_TRUE(journal);
@@ -50,7 +43,8 @@ class JournalTest : public testing::Test {
   }
   std::string Text() { return *ReadFile(file_); }
 
-  std::filesystem::path file_;
+  const test::TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_ / "journal";
 };
 
 TEST_F(JournalTest, KeepsAllOfARun) {

@@ -4,11 +4,11 @@
 #include <fstream>
 
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include "core/element/runtime.h"
 #include "core/plugin/abi.h"
 #include "tests/core/plugin/tag_registry.h"
+#include "tests/support/temporary_folder.h"
 
 namespace runnel::test {
 namespace {
@@ -144,9 +144,7 @@ TEST_F(PluginManagerTest, OneFileMayBeNamedInManyWays) {
 
 TEST_F(PluginManagerTest, OtherFileOfALoadedNameIsRefused) {
   ASSERT_TRUE(manager.Load("good"));
-  const fs::path folder =
-      fs::path(testing::TempDir()) / ("runnel_other_good_" + std::to_string(getpid()));
-  fs::create_directories(folder);
+  const TemporaryFolder folder;
   fs::copy_file(kFolder / "throws.so", folder / "good.so", fs::copy_options::overwrite_existing);
   const auto result = manager.Load((folder / "good.so").string());
   ASSERT_FALSE(result);
@@ -154,7 +152,6 @@ TEST_F(PluginManagerTest, OtherFileOfALoadedNameIsRefused) {
               HasSubstr("is refused: a plugin 'good' is loaded already from " +
                         fs::canonical(kFolder / "good.so").string()));
   EXPECT_THAT(manager.loaded(), ElementsAre("good"));
-  fs::remove_all(folder);
 }
 
 TEST_F(PluginManagerTest, RegistrationThatThrowsLeavesNothingBehind) {
@@ -193,13 +190,10 @@ TEST_F(PluginManagerTest, AvailableListsThePluginsOfAllFoldersSorted) {
 }
 
 TEST_F(PluginManagerTest, FirstFolderOfTheSearchPathWins) {
-  const fs::path folder =
-      fs::path(testing::TempDir()) / ("runnel_first_folder_" + std::to_string(getpid()));
-  fs::create_directories(folder);
+  const TemporaryFolder folder;
   std::ofstream(folder / "good.so") << "text";
-  manager.AddSearchFolder(folder);
+  manager.AddSearchFolder(folder.path());
   EXPECT_THAT(RefusalOf("good").message, HasSubstr((folder / "good.so").string()));
-  fs::remove_all(folder);
 }
 
 // Sets RUNNEL_PLUGIN_PATH for as long as it lives.
@@ -233,17 +227,15 @@ TEST(PluginSearchPathTest, FoldersThatDoNotExistAreLeftOut) {
 }
 
 TEST(PluginSearchPathTest, FilesThatAreNoPluginsAreNotListed) {
-  const fs::path folder =
-      fs::path(testing::TempDir()) / ("runnel_some_files_" + std::to_string(getpid()));
+  const TemporaryFolder folder;
   fs::create_directories(folder / "directory.so");
   std::ofstream(folder / "plugin.so");
   std::ofstream(folder / "README.md");
-  const PluginPath path(folder.string());
+  const PluginPath path(folder.path().string());
   const PluginManager manager;
   EXPECT_THAT(manager.Available(), Contains("plugin"));
   EXPECT_THAT(manager.Available(), Not(Contains("README")));
   EXPECT_THAT(manager.Available(), Not(Contains("directory")));
-  fs::remove_all(folder);
 }
 
 }  // namespace

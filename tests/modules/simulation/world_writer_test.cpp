@@ -5,9 +5,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "modules/simulation/world_file/world_reader.h"
+#include "tests/support/temporary_folder.h"
 
 namespace runnel {
 namespace {
@@ -43,13 +43,12 @@ TEST(WriteWorld, LeavesOutWhatIsUsual) {
 }
 
 TEST(WriteWorldFile, ReplacesTheFile) {
-  const auto path = std::filesystem::path(testing::TempDir()) /
-                    ("runnel_world_writer_" + std::to_string(getpid()) + ".xml");
+  const test::TemporaryFolder folder;
+  const auto path = folder / "world.xml";
   std::ofstream(path) << std::string(100000, 'x');
   ASSERT_TRUE(WriteWorldFile(path, EveryPart()).has_value());
   Diagnostics diagnostics;
   EXPECT_EQ(ReadWorldFile(path, diagnostics), EveryPart()) << diagnostics.ToString();
-  std::filesystem::remove(path);
 }
 
 TEST(WriteWorldFile, TellsWhereItCannotWrite) {

@@ -210,7 +210,7 @@ TEST_F(ControlTest, AnswersSeveralRequestsOneAfterTheOther) {
 
 // The simulated clock runs as fast as it can in a thread of the test's.
 TEST(SimulatedControl, IsReachedWhileTimeRunsAsFastAsItCan) {
-  test::TemporaryFolder folder;
+  TemporaryFolder folder;
   Runtime runtime;
   ModuleRegistry modules;
   ASSERT_TRUE(modules.Add({"test/counter", "", "test", [](const Placement& placement) {

@@ -187,7 +187,7 @@ class ControlTest : public ::testing::Test {
     }
   }
 
-  test::TemporaryFolder folder;
+  TemporaryFolder folder;
   Runtime runtime;
   ModuleRegistry modules;
   Scheduler scheduler{runtime};

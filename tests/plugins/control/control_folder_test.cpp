@@ -41,7 +41,7 @@ TEST(ControlFolder, FollowsTheEnvironment) {
 
 TEST(ControlFolder, IsMadeForItsOwnerOnlyAndSoIsTheSocket) {
   const mode_t mask = umask(0);
-  test::TemporaryFolder folder;
+  TemporaryFolder folder;
   const auto listening = ListenInFolder(folder.path() / "runnel");
   umask(mask);
   ASSERT_TRUE(listening) << listening.error().ToString();
@@ -51,7 +51,7 @@ TEST(ControlFolder, IsMadeForItsOwnerOnlyAndSoIsTheSocket) {
 }
 
 TEST(ControlFolder, IsRefusedIfOthersCouldGetIn) {
-  test::TemporaryFolder folder;
+  TemporaryFolder folder;
   const auto open = folder.path() / "open";
   ASSERT_EQ(mkdir(open.c_str(), 0700), 0);
   ASSERT_EQ(chmod(open.c_str(), 0750), 0);
@@ -68,7 +68,7 @@ TEST(ControlFolder, IsRefusedIfOthersCouldGetIn) {
 
 TEST(ControlFolder, OfAnotherUserIsRefused) {
   if (geteuid() != 0) GTEST_SKIP() << "only the superuser can give a folder away";
-  test::TemporaryFolder folder;
+  TemporaryFolder folder;
   const auto other = folder.path() / "other";
   ASSERT_EQ(mkdir(other.c_str(), 0700), 0);
   ASSERT_EQ(chown(other.c_str(), 12345, 12345), 0);
@@ -76,7 +76,7 @@ TEST(ControlFolder, OfAnotherUserIsRefused) {
 }
 
 TEST(ControlFolder, LosesTheSocketsOfTheDead) {
-  test::TemporaryFolder folder;
+  TemporaryFolder folder;
   const auto listening = ListenInFolder(folder.path());
   ASSERT_TRUE(listening);
   LeaveStaleSocket(folder.path() / "1.sock");
@@ -90,7 +90,7 @@ TEST(ControlFolder, LosesTheSocketsOfTheDead) {
 }
 
 TEST(ControlFolder, LetsAProcessHaveSeveralSocketsAndTakeOverAStaleOne) {
-  test::TemporaryFolder folder;
+  TemporaryFolder folder;
   const auto name = folder.path() / (std::to_string(getpid()) + ".sock");
   LeaveStaleSocket(name);
   const auto first = ListenInFolder(folder.path());
@@ -104,7 +104,7 @@ TEST(ControlFolder, LetsAProcessHaveSeveralSocketsAndTakeOverAStaleOne) {
 }
 
 TEST(ControlFolder, SaysThatAPathIsTooLong) {
-  test::TemporaryFolder folder;
+  TemporaryFolder folder;
   const auto deep = folder.path() / std::string(120, 'x');
   EXPECT_THAT(ListenInFolder(deep).error().message, HasSubstr("107 bytes at most"));
   EXPECT_THAT(ConnectToSocket(deep / "1.sock").error().message, HasSubstr("107 bytes at most"));

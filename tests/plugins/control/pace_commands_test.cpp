@@ -47,7 +47,7 @@ class PacedControlTest : public ::testing::Test {
     return test::Ask(*client, request);
   }
 
-  test::TemporaryFolder folder;
+  TemporaryFolder folder;
   Runtime runtime;
   ModuleRegistry modules;
   Scheduler scheduler{runtime,
