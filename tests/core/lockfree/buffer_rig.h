@@ -13,7 +13,8 @@ struct Rig {
   using Pool = BufferPool<T, SearchedAtomic, kSlots>;
   using Lease = BufferLease<T, SearchedAtomic, kSlots>;
 
-  explicit Rig(const PoolOptions& options) : pool(Pool::Make(domain, options, {})), latest(*pool) {
+  explicit Rig(const PoolOptions& options, typename Pool::Factory factory = {})
+      : pool(Pool::Make(domain, options, std::move(factory))), latest(*pool) {
     for (auto& each : readers) domain.Add(each);
   }
   // Publishes `value` if there is a buffer.
@@ -41,6 +42,14 @@ int LookAt(const Lease& lease) {
   RL_ASSERT(lease.get()->value().Get() == value);
   return value;
 }
+
+// A small, trivially copyable value, of which a publisher finds several free buffers at once: what is
+// searched for races lies elsewhere.
+struct Elsewhere {
+  void Set(int value) const { plain->Set(value); }
+  [[nodiscard]] int Get() const { return plain->Get(); }
+  SearchedPlain* plain = nullptr;
+};
 
 // Counts how many of it there are; its death is a race if anybody still looks.
 struct Mortal : SearchedPlain {

@@ -196,8 +196,11 @@ TEST(BufferSearch, PublisherMayReadItself) { EXPECT_TRUE(Search<OwnReaderSuite>(
 
 // The publisher's thread reads, too, and spares itself its fences as a reader, until another thread
 // takes over and publishes.
-struct TakingOverSuite : rl::test_suite<TakingOverSuite, 2>, Rig<SearchedPlain, 2> {
-  TakingOverSuite() : Rig({.buffers = 2, .may_grow = false}) {}
+template <typename T>
+struct TakingOverRig : Rig<T, 2> {
+  using Rig<T, 2>::Rig;
+  using Rig<T, 2>::latest;
+  using Rig<T, 2>::readers;
 
   bool PublishAs(std::size_t index, int value) {
     auto* const buffer = latest.Loan(readers[index]);
@@ -207,13 +210,19 @@ struct TakingOverSuite : rl::test_suite<TakingOverSuite, 2>, Rig<SearchedPlain, 
     latest.Publish(*buffer);
     return true;
   }
-  void before() {
+  // By the first thread: the values from 1 to `last`.
+  void PublishAndLook(int last) {
     PublishAs(0, 1);
-    for (int i = 2; i <= 5; ++i) {
+    for (int i = 2; i <= last; ++i) {
       LookAt(latest.Lease(readers[0]));  // the first sets the bit, and the next search sees it
       RL_ASSERT(PublishAs(0, i));
     }
   }
+};
+struct TakingOverSuite : rl::test_suite<TakingOverSuite, 2>, TakingOverRig<SearchedPlain> {
+  TakingOverSuite() : TakingOverRig({.buffers = 2, .may_grow = false}) {}
+
+  void before() { PublishAndLook(5); }
   void thread(unsigned index) {
     if (index == 0) {
       for (int i = 0; i < 2; ++i) LookAt(latest.Lease(readers[0]));
@@ -225,6 +234,34 @@ struct TakingOverSuite : rl::test_suite<TakingOverSuite, 2>, Rig<SearchedPlain, 
 
 TEST(BufferSearch, WhoTakesOverPublishingIsSeenByWhoDidSoBefore) {
   EXPECT_TRUE(Search<TakingOverSuite>(kIterations));
+}
+
+// The other thread finds a buffer that is free already, and so publishes before it has looked for one:
+// who published before still leases without a second look.
+struct ThreeValues {
+  SearchedPlain values[3];
+  std::size_t made = 0;
+};
+struct TakingOverAtOnceSuite : rl::test_suite<TakingOverAtOnceSuite, 2>,
+                               ThreeValues,
+                               TakingOverRig<Elsewhere> {
+  TakingOverAtOnceSuite()
+      : TakingOverRig({.buffers = 3, .may_grow = false}, [this] {
+          return Elsewhere{&values[made++]};
+        }) {}
+
+  void before() { PublishAndLook(4); }
+  void thread(unsigned index) {
+    if (index == 0) {
+      LookAt(latest.Lease(readers[0]));
+    } else {
+      RL_ASSERT(PublishAs(1, 5));
+    }
+  }
+};
+
+TEST(BufferSearch, ValueOfWhoTakesOverIsCompleteForWhoPublishedBefore) {
+  EXPECT_TRUE(Search<TakingOverAtOnceSuite>(kIterations));
 }
 
 // A record is added while the publisher looks for free buffers.
