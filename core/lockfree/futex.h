@@ -11,24 +11,29 @@ namespace runnel {
 /// Threads: any, of one process. Source: U. Drepper, "Futexes are tricky" (2011).
 struct KernelFutex {
   using Deadline = std::chrono::steady_clock::time_point;  ///< on CLOCK_MONOTONIC
+  static constexpr Deadline kNever = Deadline::max();
+  using Sleepers = std::uint32_t;  ///< a set of those who sleep on one word, who say which they are
+  static constexpr Sleepers kAll = ~Sleepers{0};
 
-  /// Sleeps if `word` is still `expected`, until Wake(), or until the deadline; may also return
-  /// for no reason. False if the deadline has passed.
+  /// Sleeps as `sleeper` if `word` is still `expected`, until it is woken, or until the deadline; may
+  /// also return for no reason. False if the deadline has passed.
   template <typename Word>
-  static bool Sleep(Word& word, std::uint32_t expected, Deadline deadline) noexcept {
+  static bool Sleep(Word& word, std::uint32_t expected, Deadline deadline,
+                    Sleepers sleeper = kAll) noexcept {
     static_assert(sizeof(Word) == sizeof(std::uint32_t));
-    return SleepOn(&word, expected, deadline);
+    return SleepOn(&word, expected, deadline, sleeper);
   }
-  /// Wakes who sleeps on `word`; a system call.
+  /// Wakes those of `sleepers` who sleep on `word`; a system call.
   template <typename Word>
-  static void Wake(Word& word) noexcept {
+  static void Wake(Word& word, Sleepers sleepers = kAll) noexcept {
     static_assert(sizeof(Word) == sizeof(std::uint32_t));
-    WakeOn(&word);
+    WakeOn(&word, sleepers);
   }
 
  private:
-  static bool SleepOn(const void* word, std::uint32_t expected, Deadline deadline) noexcept;
-  static void WakeOn(const void* word) noexcept;
+  static bool SleepOn(const void* word, std::uint32_t expected, Deadline deadline,
+                      Sleepers sleeper) noexcept;
+  static void WakeOn(const void* word, Sleepers sleepers) noexcept;
 };
 
 }  // namespace runnel

@@ -98,8 +98,9 @@ bool CycleRunner::RunCycle(Cycle cycle, FaultDesk& desk) noexcept {
     RunTasks<false>(*schedule, now, desk);
   }
   in_cycle_of = nullptr;
+  WakeUps wake_ups;
   for (CycleRunner* const waiting : *schedule->waiting) {
-    if (waiting->is_activated()) waiting->event_.Notify();
+    if (waiting->is_activated()) wake_ups.Add(waiting->event_);
   }
   return true;
 }

@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "core/base/clock.h"
+#include "core/lockfree/wake_event.h"
 #include "core/port/cycle.h"
 #include "plugins/scheduling/cycle_gate.h"
 #include "plugins/scheduling/cycle_statistics.h"
 #include "plugins/scheduling/schedule.h"
 #include "plugins/scheduling/thread_options.h"
-#include "plugins/scheduling/wake_event.h"
 
 namespace runnel {
 

@@ -11,8 +11,8 @@
 
 #include "core/base/ordered_mutex.h"
 #include "core/base/result.h"
+#include "core/lockfree/wake_event.h"
 #include "plugins/scheduling/fault.h"
-#include "plugins/scheduling/wake_event.h"
 
 namespace runnel {
 

@@ -6,8 +6,8 @@
 #include "core/base/clock.h"
 #include "core/base/ordered_mutex.h"
 #include "core/base/result.h"
+#include "core/lockfree/wake_event.h"
 #include "plugins/scheduling/pacing.h"
-#include "plugins/scheduling/wake_event.h"
 
 namespace runnel {
 
