@@ -14,6 +14,7 @@
 #include "bench/report/comparison.h"
 #include "bench/report/json_report.h"
 #include "bench/report/peers.h"
+#include "bench/report/quietness.h"
 #include "bench/report/table.h"
 #include "bench/report/text.h"
 
@@ -83,12 +84,13 @@ void WriteFile(const std::string& file, const std::string& text) {
   if (!stream.flush()) throw std::runtime_error("cannot write " + file);
 }
 
-void Report(const Options& options, const Machine& machine, const Results& results) {
+void Report(const Options& options, const Machine& machine, const Results& results,
+            const Quietness& quietness) {
   if (options.all) std::cout << CaseTable(results) << '\n';
   std::cout << BaselineTable(results) << '\n' << MainTable(results) << Failures(results);
   const std::string peers = PeerTable(results);
   if (!peers.empty()) std::cout << '\n' << peers << '\n';
-  std::cout << "load now: " << Rounded(LoadAverage()) << '\n';
+  std::cout << quietness.ToString() << "load now: " << Rounded(LoadAverage()) << '\n';
   if (!options.json.empty()) WriteFile(options.json, ToJson(machine, results));
   if (!options.charts.empty()) WriteCharts(options.charts, results);
 }
@@ -113,7 +115,8 @@ int Run(int argc, char** argv) {
   RunAllGroups(suite);
   if (!suite.has_run()) throw std::runtime_error("--filter finds no case: see --list");
   if (options.settings.list) return 0;
-  Report(options, machine, results);
+  const Quietness quietness = KeepQuiet(results);
+  Report(options, machine, results, quietness);
   if (earlier) std::cout << '\n' << earlier->CompareWith(results);
   return Failures(results).empty() ? 0 : 1;
 }

@@ -1,10 +1,13 @@
 #include "bench/core/suite.h"
 
+#include <algorithm>
 #include <iostream>
 #include <regex>
 #include <utility>
 
+#include "bench/core/support/core_probe.h"
 #include "bench/core/workloads/workloads.h"
+#include "bench/report/quietness.h"
 
 namespace runnel::bench {
 
@@ -24,6 +27,22 @@ void InitializeLibrary(const Settings& settings) {
 
 std::string NameOf(const Workload& workload, const std::string& subject) {
   return workload.name + "/" + subject;
+}
+
+// How often the cases of a group are repeated again, as long as the machine is not quiet.
+constexpr int kMostRounds = 3;
+
+constexpr const char* kProbe = "core probe";
+
+// Runs a repetition between two looks at the core: what happens to it in the midst seldom begins and ends
+// there. With several threads, one looks.
+Suite::Run Probed(Suite::Run run) {
+  return [run = std::move(run)](benchmark::State& state) {
+    const bool looks = state.thread_index() == 0;
+    const double before = looks ? ProbeCore() : 0;
+    run(state);
+    if (looks) state.counters[kProbe] = std::max(before, ProbeCore());
+  };
 }
 
 double ValueOf(const benchmark::BenchmarkReporter::Run& run, const Quantity& quantity) {
@@ -73,10 +92,24 @@ void Suite::RunGroup(const std::string& group, AddCases add) {
 
 void Suite::RunCases() {
   Collector collector(*this);
-  benchmark::RunSpecifiedBenchmarks(&collector, "(" + kFetchAdd + ")|" + settings_.filter);
+  const int rounds = settings_.quick ? 1 : kMostRounds;
+  for (int round = 0; round < rounds && !IsQuietEnough(); ++round) {
+    benchmark::RunSpecifiedBenchmarks(&collector, "(" + kFetchAdd + ")|" + settings_.filter);
+  }
   for (Case& each : cases_) {
     for (Measurement& measurement : each.measurements) results_.Add(std::move(measurement));
   }
+}
+
+bool Suite::IsQuietEnough() const {
+  bool has_run = false;
+  for (const Case& each : cases_) {
+    for (const Measurement& measurement : each.measurements) {
+      has_run = true;
+      if (!bench::IsQuietEnough(measurement, quickest_probe_)) return false;
+    }
+  }
+  return has_run;
 }
 
 void Suite::Start(Workload workload) { workload_ = std::move(workload); }
@@ -93,7 +126,7 @@ benchmark::internal::Benchmark* Suite::Register(Role role, const std::string& su
   const std::string name = NameOf(workload_, subject);
   numbers_[name] = cases_.size();
   cases_.push_back({workload_, {role, subject}});
-  return benchmark::RegisterBenchmark(name.c_str(), std::move(run));
+  return benchmark::RegisterBenchmark(name.c_str(), Probed(std::move(run)));
 }
 
 std::vector<std::string> Suite::WantedNames() const {
@@ -112,14 +145,21 @@ void Suite::Collect(const std::string& name,
   // The library hands in its own sums as well, after the repetitions.
   if (found == numbers_.end() || runs.front().run_type != runs.front().RT_Iteration) return;
   Case& which = cases_[found->second];
-  for (const Quantity& quantity : which.workload.quantities) {
-    Measurement measurement{group_, which.workload, which.subject, quantity, {}};
+  const bool is_first = which.measurements.empty();
+  for (std::size_t i = 0; i < which.workload.quantities.size(); ++i) {
+    const Quantity& quantity = which.workload.quantities[i];
+    if (is_first) {
+      which.measurements.push_back({group_, which.workload, which.subject, quantity, {}});
+    }
+    Measurement& measurement = which.measurements[i];
     measurement.best_counts = settings_.best;
     for (const auto& run : runs) {
       if (run.error_occurred) measurement.error = run.error_message;
-      if (!run.error_occurred) measurement.samples.push_back(ValueOf(run, quantity));
+      if (run.error_occurred) continue;
+      measurement.samples.push_back(ValueOf(run, quantity));
+      measurement.probes.push_back(run.counters.at(kProbe).value);
     }
-    which.measurements.push_back(std::move(measurement));
+    quickest_probe_ = std::min(quickest_probe_, QuickestProbe({measurement}));
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -59,6 +60,8 @@ class Suite {
   benchmark::internal::Benchmark* Register(Role role, const std::string& subject, Run run);
   [[nodiscard]] std::vector<std::string> WantedNames() const;
   void RunCases();
+  // Whether all cases of the group have been measured often enough while the core was left alone.
+  [[nodiscard]] bool IsQuietEnough() const;
   void Collect(const std::string& name, const std::vector<benchmark::BenchmarkReporter::Run>& runs);
 
   const Settings settings_;
@@ -68,6 +71,7 @@ class Suite {
   Workload workload_;
   std::vector<Case> cases_;                     // of the group, in the order of their making
   std::map<std::string, std::size_t> numbers_;  // of the cases, by name
+  double quickest_probe_ = std::numeric_limits<double>::max();
 };
 
 }  // namespace runnel::bench

@@ -68,6 +68,8 @@ std::string CaseToJson(const Measurement& measurement, const Results& results) {
          Member("minimum", Number(measurement.Minimum())) + ", " +
          Member("maximum", Number(measurement.Maximum())) + ", " +
          Member("f", Number(results.FetchAdd(measurement.group))) + ", " +
+         Member("quiet", std::to_string(measurement.quiet)) + ", " +
+         Member("disturbed", measurement.is_disturbed ? "true" : "false") + ", " +
          Member("error", Quoted(measurement.error)) + ", " +
          Member("samples", "[" + samples + "]") + "}";
 }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace runnel::bench {
@@ -47,6 +49,12 @@ struct Measurement {
 
   bool best_counts = false;  ///< see Typical()
 
+  /// For each sample how slow the core was, before or after (ProbeCore()); empty if not probed.
+  std::vector<double> probes = {};
+  /// Set by KeepQuiet(): how many samples were quiet, and whether these were too few.
+  std::size_t quiet = 0;
+  bool is_disturbed = false;
+
   /// The median; the best of all, if that is what counts: on a machine that others use. All four: 0
   /// without samples.
   [[nodiscard]] double Typical() const;
@@ -60,6 +68,7 @@ class Results {
  public:
   void Add(Measurement measurement) { all_.push_back(std::move(measurement)); }
   [[nodiscard]] const std::vector<Measurement>& all() const noexcept { return all_; }
+  [[nodiscard]] std::vector<Measurement>& all() noexcept { return all_; }
   /// nullptr if it was not measured, or failed.
   [[nodiscard]] const Measurement* Find(const std::string& workload, const std::string& subject,
                                         const std::string& quantity) const;

@@ -17,6 +17,11 @@ std::string NameOf(const Measurement& measurement) {
          (is_time ? "" : ", " + measurement.quantity.name);
 }
 
+std::string TypicalOf(const Measurement& measurement) {
+  return (measurement.is_disturbed ? "~" : "") +
+         WithUnit(measurement.Typical(), measurement.quantity.unit);
+}
+
 std::vector<std::string> Cells(const Row& row) {
   std::string bars;
   std::string met;
@@ -26,15 +31,14 @@ std::vector<std::string> Cells(const Row& row) {
     met += separator + (!verdict.is_known ? "?" : verdict.is_met ? "yes" : "NO");
   }
   const Measurement& mine = *row.runnel;
-  const std::string& unit = mine.quantity.unit;
   return {NameOf(mine),
-          mine.samples.empty() ? "failed" : WithUnit(mine.Typical(), unit),
+          mine.samples.empty() ? "failed" : TypicalOf(mine),
           Multiple(row.in_f),
           bars,
           met,
           row.best_rival == nullptr
               ? ""
-              : row.best_rival->subject.name + " " + WithUnit(row.best_rival->Typical(), unit),
+              : row.best_rival->subject.name + " " + TypicalOf(*row.best_rival),
           Multiple(row.ratio),
           row.winner};
 }
@@ -67,7 +71,7 @@ std::string BaselineTable(const Results& results) {
   for (const Measurement& each : results.all()) {
     if (each.subject.role != Role::kBaseline || !seen.insert(each.subject.name).second) continue;
     const double f = results.FetchAdd(each.group);
-    table.Add({each.subject.name, WithUnit(each.Typical(), each.quantity.unit),
+    table.Add({each.subject.name, TypicalOf(each),
                Multiple(f > 0 ? each.Typical() / f : 0)});
   }
   return table.ToString();
@@ -85,11 +89,11 @@ std::string MainTable(const Results& results) {
 }
 
 std::string CaseTable(const Results& results) {
-  TextTable table({"case", "median", "from", "to"});
+  TextTable table({"case", "median", "from", "to", "quiet"});
   for (const Measurement& each : results.all()) {
     const std::string& unit = each.quantity.unit;
     table.Add({NameOf(each), WithUnit(each.Median(), unit), WithUnit(each.Minimum(), unit),
-               WithUnit(each.Maximum(), unit)});
+               WithUnit(each.Maximum(), unit), std::to_string(each.quiet)});
   }
   return table.ToString();
 }

@@ -8,6 +8,7 @@
 #include "bench/report/comparison.h"
 #include "bench/report/json_report.h"
 #include "bench/report/peers.h"
+#include "bench/report/quietness.h"
 #include "bench/report/row.h"
 #include "bench/report/table.h"
 #include "bench/report/text.h"
@@ -15,6 +16,7 @@
 namespace runnel::bench {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
@@ -53,6 +55,36 @@ TEST(Measurement, CountsTheMedianOrTheBest) {
   EXPECT_EQ(times.Typical(), 9);
   times.samples.clear();
   EXPECT_EQ(times.Typical(), 0);
+}
+
+Measurement Probed(std::vector<double> samples, std::vector<double> probes) {
+  Measurement measurement = Time("work", Role::kRunnel, "ports", std::move(samples));
+  measurement.probes = std::move(probes);
+  return measurement;
+}
+
+TEST(Quietness, LeavesOutWhatTheProbeSaysAndNothingElse) {
+  Results results;
+  results.Add(Probed({5, 1, 6, 7}, {100, 150, 109, 111}));
+  EXPECT_THAT(KeepQuiet(results).ToString(), HasSubstr("50 % of 4 repetitions"));
+  EXPECT_THAT(results.all()[0].samples, ElementsAre(5, 6));
+  EXPECT_FALSE(results.all()[0].is_disturbed);
+}
+
+TEST(Quietness, TakesAllOfACaseThatHasTooFewAndSaysSo) {
+  Results results;
+  results.Add(Probed({5, 6}, {100, 101}));
+  results.Add(Probed({9, 8, 1, 7}, {150, 150, 100, 150}));
+  const Quietness quietness = KeepQuiet(results);
+  EXPECT_THAT(results.all()[1].samples, SizeIs(4));
+  EXPECT_THAT(quietness.ToString(), HasSubstr("1 of 2 cases"));
+  EXPECT_THAT(MainTable(results), HasSubstr("| ~7.50 ns "));
+}
+
+TEST(Quietness, SaysNothingWhereNothingWasProbed) {
+  Results results = Example();
+  EXPECT_THAT(KeepQuiet(results).ToString(), IsEmpty());
+  EXPECT_THAT(results.all()[1].samples, SizeIs(3));
 }
 
 TEST(Row, NamesTheBestRivalOfTheSameWork) {
