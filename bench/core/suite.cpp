@@ -122,11 +122,16 @@ benchmark::internal::Benchmark* Suite::AddTimed(Role role, const std::string& su
   return Register(role, subject, std::move(run))->UseManualTime()->Iterations(1);
 }
 
-benchmark::internal::Benchmark* Suite::Register(Role role, const std::string& subject, Run run) {
+void Suite::AddProcess(Role role, const std::string& subject, Run run) {
+  Register(role, subject, std::move(run), false)->UseRealTime()->Iterations(1);
+}
+
+benchmark::internal::Benchmark* Suite::Register(Role role, const std::string& subject, Run run,
+                                                bool is_probed) {
   const std::string name = NameOf(workload_, subject);
   numbers_[name] = cases_.size();
   cases_.push_back({workload_, {role, subject}});
-  return benchmark::RegisterBenchmark(name.c_str(), Probed(std::move(run)));
+  return benchmark::RegisterBenchmark(name.c_str(), is_probed ? Probed(std::move(run)) : std::move(run));
 }
 
 std::vector<std::string> Suite::WantedNames() const {
@@ -157,7 +162,8 @@ void Suite::Collect(const std::string& name,
       if (run.error_occurred) measurement.error = run.error_message;
       if (run.error_occurred) continue;
       measurement.samples.push_back(ValueOf(run, quantity));
-      measurement.probes.push_back(run.counters.at(kProbe).value);
+      const auto probe = run.counters.find(kProbe);
+      if (probe != run.counters.end()) measurement.probes.push_back(probe->second.value);
     }
     quickest_probe_ = std::min(quickest_probe_, QuickestProbe({measurement}));
   }

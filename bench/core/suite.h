@@ -46,6 +46,8 @@ class Suite {
   /// Time is what an iteration takes on the clock; other quantities are the state's counters. With
   /// several threads, time is that of one thread's iteration.
   benchmark::internal::Benchmark* Add(Role role, const std::string& subject, Run run);
+  /// `run` has other processes do the work, once: what goes on on this core meanwhile says nothing.
+  void AddProcess(Role role, const std::string& subject, Run run);
   /// `run` says itself how long each iteration took.
   benchmark::internal::Benchmark* AddTimed(Role role, const std::string& subject, Run run);
 
@@ -57,7 +59,8 @@ class Suite {
     std::vector<Measurement> measurements = {};
   };
 
-  benchmark::internal::Benchmark* Register(Role role, const std::string& subject, Run run);
+  benchmark::internal::Benchmark* Register(Role role, const std::string& subject, Run run,
+                                           bool is_probed = true);
   [[nodiscard]] std::vector<std::string> WantedNames() const;
   void RunCases();
   // Whether all cases of the group have been measured often enough while the core was left alone.

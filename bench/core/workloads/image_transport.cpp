@@ -51,9 +51,8 @@ void RunInAProcess(benchmark::State& state, const ImageTransport& transport) {
 
 void AddProcess(Suite& suite, Role role, const std::string& subject, int readers) {
   const ImageTransport transport{subject, readers, suite.settings().seconds_per_image_case};
-  suite
-      .Add(role, subject, [transport](benchmark::State& state) { RunInAProcess(state, transport); })
-      ->Iterations(1);
+  suite.AddProcess(role, subject,
+                   [transport](benchmark::State& state) { RunInAProcess(state, transport); });
 }
 
 }  // namespace
