@@ -93,7 +93,7 @@ std::string CaseTable(const Results& results) {
   for (const Measurement& each : results.all()) {
     const std::string& unit = each.quantity.unit;
     table.Add({NameOf(each), WithUnit(each.Median(), unit), WithUnit(each.Minimum(), unit),
-               WithUnit(each.Maximum(), unit), std::to_string(each.quiet)});
+               WithUnit(each.Maximum(), unit), each.probes.empty() ? "" : std::to_string(each.quiet)});
   }
   return table.ToString();
 }
