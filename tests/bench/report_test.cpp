@@ -66,7 +66,7 @@ Measurement Probed(std::vector<double> samples, std::vector<double> probes) {
 TEST(Quietness, LeavesOutWhatTheProbeSaysAndNothingElse) {
   Results results;
   results.Add(Probed({5, 1, 6, 7}, {100, 150, 109, 111}));
-  EXPECT_THAT(KeepQuiet(results).ToString(), HasSubstr("50 % of 4 repetitions"));
+  EXPECT_THAT(KeepQuiet(results).ToString(), HasSubstr("50.0 % of 4 repetitions"));
   EXPECT_THAT(results.all()[0].samples, ElementsAre(5, 6));
   EXPECT_FALSE(results.all()[0].is_disturbed);
 }
