@@ -163,9 +163,10 @@ void Suite::Collect(const std::string& name,
       if (run.error_occurred) continue;
       measurement.samples.push_back(ValueOf(run, quantity));
       const auto probe = run.counters.find(kProbe);
-      if (probe != run.counters.end()) measurement.probes.push_back(probe->second.value);
+      if (probe == run.counters.end()) continue;
+      measurement.probes.push_back(probe->second.value);
+      quickest_probe_ = std::min(quickest_probe_, measurement.probes.back());
     }
-    quickest_probe_ = std::min(quickest_probe_, QuickestProbe({measurement}));
   }
 }
 

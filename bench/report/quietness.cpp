@@ -11,6 +11,14 @@ namespace runnel::bench {
 
 namespace {
 
+double QuickestProbe(const Results& results) {
+  double quickest = std::numeric_limits<double>::max();
+  for (const Measurement& each : results.all()) {
+    for (const double probe : each.probes) quickest = std::min(quickest, probe);
+  }
+  return quickest;
+}
+
 // A core that is shared is a third slower or more; one that is not, a hundredth.
 constexpr double kMostSlowness = 1.1;
 
@@ -38,21 +46,13 @@ void KeepQuiet(Measurement& measurement, double quickest) {
 
 }  // namespace
 
-double QuickestProbe(const std::vector<Measurement>& measurements) {
-  double quickest = std::numeric_limits<double>::max();
-  for (const Measurement& each : measurements) {
-    for (const double probe : each.probes) quickest = std::min(quickest, probe);
-  }
-  return quickest;
-}
-
 bool IsQuietEnough(const Measurement& measurement, double quickest) {
   const std::size_t enough = std::min(kEnough, (measurement.probes.size() + 2) / 3);
   return CountQuiet(measurement, quickest) >= enough;
 }
 
 Quietness KeepQuiet(Results& results) {
-  const double quickest = QuickestProbe(results.all());
+  const double quickest = QuickestProbe(results);
   Quietness quietness;
   for (Measurement& each : results.all()) {
     if (each.samples.empty() || each.probes.size() != each.samples.size()) continue;

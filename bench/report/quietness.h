@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <string>
-#include <vector>
 
 #include "bench/report/measurement.h"
 
@@ -19,9 +18,8 @@ struct Quietness {
   [[nodiscard]] std::string ToString() const;
 };
 
-/// The quickest of the probes, as the core is when it is left alone; the largest number if there is none.
-[[nodiscard]] double QuickestProbe(const std::vector<Measurement>& measurements);
-/// Whether `measurement` has enough samples at which the core was about as quick as `quickest`.
+/// Whether `measurement` has enough samples at which the core was about as quick as at `quickest`, the
+/// shortest of all probes.
 [[nodiscard]] bool IsQuietEnough(const Measurement& measurement, double quickest);
 
 /// Leaves out the repetitions before or after which the core was slower than it can be, where enough

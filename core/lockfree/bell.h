@@ -28,8 +28,8 @@ class Bell {
     Futex::Wake(rings_, seats);
   }
 
-  /// Sleeps in `seat` as long as `is_asleep()`; false if the deadline has passed before. If it is not
-  /// told apart from another seat's ring, it looks once more than it need.
+  /// Sleeps in `seat` as long as `is_asleep()`; false if the deadline has passed before. A ring for other
+  /// seats may make it look once more than it need.
   template <typename IsAsleep>
   bool SleepWhile(Seats seat, Deadline deadline, const IsAsleep& is_asleep) noexcept {
     for (;;) {
@@ -70,6 +70,11 @@ class Sleeper {
     // release: pairs with the acquire at the end of Wait(); what was put there is visible, also by
     // notifiers that came before another, since each reads what the one before has written.
     return word_.exchange(kNoticed, std::memory_order_release) == kAsleep;
+  }
+
+  /// Gives notice, and rings if it has to.
+  void Notify() noexcept {
+    if (Notice()) bell_.Ring(seat_);
   }
 
   /// Sleeps until there is a notice, or until the deadline; returns whether there is one, and takes it.

@@ -19,9 +19,7 @@ class WakeEvent {
   WakeEvent(const WakeEvent&) = delete;
   WakeEvent& operator=(const WakeEvent&) = delete;
 
-  void Notify() noexcept {
-    if (sleeper_.Notice()) sleeper_.bell().Ring(sleeper_.seat());
-  }
+  void Notify() noexcept { sleeper_.Notify(); }
   void Wait() noexcept { (void)sleeper_.Wait(KernelFutex::kNever); }
   /// Until `deadline` by the steady clock, if nothing comes before.
   void WaitUntil(Time deadline) noexcept;

@@ -25,7 +25,7 @@ struct NoticingSuite : rl::test_suite<NoticingSuite<kNotifiers>, kNotifiers + 1>
   void thread(unsigned index) {
     if (index < kNotifiers) {
       there[index].store(1, std::memory_order_relaxed);
-      if (sleeper.Notice()) bell.Ring(sleeper.seat());
+      sleeper.Notify();
       return;
     }
     for (auto& each : there) {
@@ -51,7 +51,7 @@ struct HandingOverSuite : rl::test_suite<HandingOverSuite, 2> {
   void thread(unsigned index) {
     if (index == 0) {
       value.Set(1);
-      if (sleeper.Notice()) bell.Ring(sleeper.seat());
+      sleeper.Notify();
     } else {
       RL_ASSERT(sleeper.Wait(SearchedFutex::kNever));
       RL_ASSERT(value.Get() == 1);
@@ -94,7 +94,7 @@ struct TimeOutSuite : rl::test_suite<TimeOutSuite, 2> {
   void before() { SearchedFutex::Reset(); }
   void thread(unsigned index) {
     if (index == 0) {
-      if (sleeper.Notice()) bell.Ring(sleeper.seat());
+      sleeper.Notify();
     } else if (!sleeper.Wait(SearchedFutex::kAtOnce)) {
       RL_ASSERT(sleeper.Wait(SearchedFutex::kNever));
     }

@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/core/lockfree/told_by_many.h"
 #include "tests/support/system_call_probe.h"
 #include "tests/support/threads.h"
 #include "tests/support/yielding_atomic.h"
@@ -15,9 +16,6 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
-
-// Only against hanging for ever: a lost wake-up shows as a wait that ran out of this time.
-steady_clock::time_point Late() { return steady_clock::now() + std::chrono::seconds(30); }
 
 TEST(Event, DoesNotSleepIfItIsThereAlready) {
   Event<> event;
@@ -77,21 +75,9 @@ TEST(Event, LosesNoWakeUp) { PlayPingPong<std::atomic>(10000); }
 TEST(Event, LosesNoWakeUpWhenOthersComeBetweenAnyTwoSteps) { PlayPingPong<YieldingAtomic>(5000); }
 
 TEST(Event, IsToldByManyAtOnce) {
-  constexpr int kEach = 3000;
   Event<> event;
-  std::atomic<int> put{0};
-  RunTogether(4, [&](unsigned index) {
-    if (index > 0) {
-      for (int i = 0; i < kEach; ++i) {
-        put.fetch_add(1, std::memory_order_relaxed);
-        event.Notify();
-      }
-      return;
-    }
-    for (int seen = 0; seen < 3 * kEach;) {
-      ASSERT_TRUE(event.Wait(Late(), [&] { return put.load(std::memory_order_relaxed) > seen; }));
-      seen = put.load(std::memory_order_relaxed);
-    }
+  TellByMany(event, [&](const std::atomic<int>& put, int seen) {
+    return event.Wait(Late(), [&] { return put.load(std::memory_order_relaxed) > seen; });
   });
 }
 

@@ -8,6 +8,7 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/core/lockfree/told_by_many.h"
 #include "tests/support/system_call_probe.h"
 #include "tests/support/threads.h"
 #include "tests/support/yielding_atomic.h"
@@ -16,9 +17,6 @@ namespace runnel::test {
 namespace {
 
 using std::chrono::milliseconds;
-
-// Only against hanging for ever: a lost wake-up shows as a wait that ran out of this time.
-KernelFutex::Deadline Late() { return std::chrono::steady_clock::now() + std::chrono::seconds(30); }
 
 Time In(Duration duration) { return SteadyClock().Now() + duration; }
 
@@ -58,7 +56,7 @@ void PlayPingPong(int rounds) {
     Sleeper<Atomic>& other = sleepers[1 - index];
     for (int round = 0; round < rounds; ++round) {
       ASSERT_TRUE(sleepers[index].Wait(Late()));
-      if (other.Notice()) bell.Ring(other.seat());
+      other.Notify();
     }
   });
 }
@@ -67,18 +65,10 @@ TEST(Bell, LosesNoNotice) { PlayPingPong<std::atomic>(10000); }
 TEST(Bell, LosesNoNoticeWhenOthersComeBetweenAnyTwoSteps) { PlayPingPong<YieldingAtomic>(5000); }
 
 TEST(WakeEvent, IsToldByManyAtOnce) {
-  constexpr int kEach = 3000;
   WakeEvent event;
-  std::atomic<int> put{0};
-  RunTogether(4, [&](unsigned index) {
-    if (index > 0) {
-      for (int i = 0; i < kEach; ++i) {
-        put.fetch_add(1, std::memory_order_relaxed);
-        event.Notify();
-      }
-      return;
-    }
-    while (put.load(std::memory_order_relaxed) < 3 * kEach) event.Wait();
+  TellByMany(event, [&](const std::atomic<int>&, int) {
+    event.Wait();
+    return true;
   });
 }
 
