@@ -132,6 +132,18 @@ test('the log is filtered, and faults of changes come up as toasts', async (t) =
   assert.equal(await page.locator('.toast').count(), 0);
 });
 
+test('what is found stays for whoever comes back to the search at once', async (t) => {
+  const { page } = await Robot(t);
+  await page.locator('[data-node]').first().waitFor();
+  await page.clock.install();
+  await page.locator('#search').fill('laser');
+  await page.evaluate(() => { document.getElementById('graph').focus(); document.getElementById('search').focus(); });
+  await page.clock.runFor(300); // twice as long as what is found outlives the focus
+  assert.equal(await page.locator('#search-found .path', { hasText: '/mock/laser' }).count() > 0, true);
+  await page.locator('#graph').focus();
+  await page.locator('#search-found').waitFor({ state: 'detached' });
+});
+
 test('plots pause, and take away what is not wanted any more', async (t) => {
   const { inspector, page } = await Robot(t);
   await inspector.select('/mock/world/pose');

@@ -18,7 +18,9 @@ export function SearchBox() {
     revision.value;
     return text.value.trim() === '' ? [] : FindElements(structure, text.value, kShown);
   });
-  const close = () => { text.value = ''; at.value = 0; };
+  const closing = useRef(0);
+  const stay = () => clearTimeout(closing.current);
+  const close = () => { stay(); text.value = ''; at.value = 0; };
   const go = (element) => {
     if (!element) return;
     close();
@@ -42,7 +44,7 @@ export function SearchBox() {
         aria-controls="search-found"
         aria-activedescendant=${found.value.length > 0 ? `found-${at.value}` : undefined} value=${text.value}
         onInput=${(event) => { text.value = event.target.value; at.value = 0; }} onKeyDown=${onKey}
-        onBlur=${() => setTimeout(close, 150)} />
+        onFocus=${stay} onBlur=${() => { closing.current = setTimeout(close, 150); }} />
       ${text.value.trim() !== '' && html`
         <ul id="search-found" role="listbox" aria-label="Found">
           ${found.value.map((element, index) => html`
