@@ -100,11 +100,11 @@ int Measure() {
   Runtime runtime;
   ModuleRegistry modules;
   StructureEditor editor(runtime, modules, nullptr);
-  ControlLog log(runtime.clock());
+  ApplicationLog log(runtime.clock());
+  CommandService service({runtime, modules, editor, log});
   Camera& camera = runtime.Create<Camera>(runtime.root(), "camera");
   if (!runtime.MakeReady(runtime.root())) return 1;
-  const auto server = ControlServer::Start({runtime, modules, editor, log, {}},
-                                           {.application = "bench", .folder = folder});
+  const auto server = ControlServer::Start(service, {.application = "bench", .folder = folder});
   if (!server) return 1;
   std::vector<Case> cases{{"nobody watches", "", false},
                           {"echo", "echo /camera/image", true},

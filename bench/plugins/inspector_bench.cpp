@@ -146,11 +146,12 @@ int MeasurePublishing() {
   ModuleRegistry modules;
   Scheduler scheduler(runtime);
   StructureEditor editor(runtime, modules, &scheduler);
-  ControlLog log(runtime.clock());
+  ApplicationLog log(runtime.clock());
   Publisher& publisher = runtime.Create<Publisher>(runtime.root(), "publisher");
   publisher.MakePorts();
   if (!runtime.MakeReady(runtime.root())) return 1;
-  Inspector inspector({runtime, modules, editor, log, {}}, scheduler, {.application = "bench"});
+  CommandService service({runtime, modules, editor, log});
+  Inspector inspector(service, scheduler, {.application = "bench"});
   const auto server = WebServer::Start({.port = 0}, {}, {inspector.Protocol()});
   if (!server) return 1;
   std::vector<Case> cases{{"nobody watches", false, false, false},
@@ -236,7 +237,7 @@ bool MeasureStructure(int count) {
     }
     if (!runtime.MakeReady(runtime.root())) return false;
   }
-  internal::FaultBook faults;
+  internal::FaultLog faults;
   internal::StructureMirror mirror(runtime, modules, scheduler, faults);
   const Looking first = LookUntilSeen(mirror);
   const auto before = MachineClock::now();

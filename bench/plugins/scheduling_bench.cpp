@@ -131,7 +131,7 @@ class Discarding final : public CycleTracer {
   }
   void OnHold(const std::string&, Time, Time) noexcept override {}
   void Empty() {
-    while (track_.events().Front() != nullptr) track_.events().PopFront();
+    track_.events().consume_all([](const TraceEvent&) {});
   }
 
  private:

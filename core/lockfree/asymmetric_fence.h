@@ -19,7 +19,8 @@ extern bool heavy_fence_is_heavy;
 ///
 /// LightFence() keeps the compiler from reordering and costs nothing; HeavyFence() has the kernel
 /// pass a fence through every running thread of the process (membarrier). On a kernel without it
-/// both are full fences: slower, and as right.
+/// both are full fences: slower, and as right. If it is refused later, the calling thread visits each
+/// processor instead, which takes milliseconds.
 ///
 /// Threads:   any. HeavyFence() is a system call of about a microsecond: never in a cycle.
 /// Source:    the pair was proposed for C++ as P1202 (D. Goldblatt, "Asymmetric fences").

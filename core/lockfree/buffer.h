@@ -17,14 +17,15 @@ class BufferPool;
 
 /// One buffer of a pool: a value and what is kept with it. Who holds a buffer:
 ///
-///   the publisher     from Loan() on, until it is published or the loan dropped  (loan_)
+///   the publisher     from Loan() on, until it is published or the loan dropped  (is_loaned_)
 ///   the newest value  until the next one is published                           (LatestBuffer)
 ///   a reader's slot   from a lease until the lease is dropped                    (HazardRecord)
 ///   counted holders   queue entries, copies of leases, leases without a slot     (count_)
 ///
 /// It is free for its publisher when none of them does. Counted holders are made only by holders of
 /// any kind, so of a free buffer no new one comes up (LatestBuffer has the one exception, which
-/// looks again). Only the publisher asks, so no two can find the same buffer free.
+/// looks again). Only the publisher asks, or who has the pool once it is closed, so no two can find the
+/// same buffer free.
 template <typename T, template <typename> class Atomic = std::atomic, std::size_t kSlots = 7>
 class alignas(kCacheLineSize) Buffer {
  public:
@@ -50,8 +51,7 @@ class alignas(kCacheLineSize) Buffer {
   void AddHolders(std::uint32_t more) noexcept {
     // relaxed: the caller's own hold keeps the buffer from being reused meanwhile; that is given up
     // with a release, which carries this along to who asks whether the buffer is free.
-    const std::uint64_t before = count_.fetch_add(more, std::memory_order_relaxed);
-    if (before == kClosed) pool_->ExpectOne();
+    count_.fetch_add(more, std::memory_order_relaxed);
   }
   /// A counted holder that does not know yet whether it holds; see LatestBuffer::Lease().
   void CountForASecondLook() noexcept {
@@ -60,26 +60,22 @@ class alignas(kCacheLineSize) Buffer {
   }
   /// One counted holder less.
   void DropHolder() noexcept {
-    // acq_rel: release, so that this holder's reads are over for who finds the buffer free
-    // (acquire in IsHeld()); acquire, so that the last one of a closed pool may destroy it.
-    const std::uint64_t before = count_.fetch_sub(1, std::memory_order_acq_rel);
-    if (before == kClosed + 1) pool_->ComeHome();
+    // release: pairs with the acquire in IsHeld(); this holder's reads are over for who finds the
+    // buffer free, or deletes it.
+    count_.fetch_sub(1, std::memory_order_release);
   }
   /// A loan that is not published. Any thread.
   void DropLoan() noexcept {
-    // acq_rel: as in DropHolder().
-    if (loan_.exchange(kNotLoaned, std::memory_order_acq_rel) == kOrphanedLoan) pool_->ComeHome();
+    // release: as in DropHolder().
+    is_loaned_.store(false, std::memory_order_release);
   }
   /// By the publisher, before others can reach the buffer.
-  void EndLoan() noexcept { loan_.store(kNotLoaned, std::memory_order_relaxed); }
+  void EndLoan() noexcept { is_loaned_.store(false, std::memory_order_relaxed); }
 
   [[nodiscard]] Pool& pool() const noexcept { return *pool_; }
 
  private:
   friend Pool;
-
-  static constexpr std::uint64_t kClosed = std::uint64_t{1} << 63;
-  enum Loan : std::uint32_t { kNotLoaned, kLoaned, kOrphanedLoan };
 
   void Fill(Pool& pool, const Factory& factory) {
     if (factory) {
@@ -93,12 +89,12 @@ class alignas(kCacheLineSize) Buffer {
   }
   // By loan or count. acquire: pairs with the releases of those who gave it up.
   [[nodiscard]] bool IsHeld() const noexcept {
-    return loan_.load(std::memory_order_acquire) != kNotLoaned ||
+    return is_loaned_.load(std::memory_order_acquire) ||
            count_.load(std::memory_order_acquire) != 0;
   }
 
-  Atomic<std::uint64_t> count_{0};  // counted holders; kClosed is added when the pool is closed
-  Atomic<std::uint32_t> loan_{kNotLoaned};
+  Atomic<std::uint64_t> count_{0};  // counted holders
+  Atomic<bool> is_loaned_{false};
   std::uint32_t seen_in_ = 0;  // the publisher's own: the search that last saw it in a slot
   Pool* pool_ = nullptr;
   alignas(T) std::byte storage_[sizeof(T)];

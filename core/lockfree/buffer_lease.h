@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <utility>
 
-#include "core/lockfree/asymmetric_fence.h"
 #include "core/lockfree/buffer.h"
 #include "core/lockfree/hazard.h"
 
@@ -11,13 +10,13 @@ namespace runnel {
 
 /// Keeps one buffer from being reused, by a slot of a reader's record or, without one, counted.
 ///
-/// Ownership:   of the hold alone; the buffer belongs to its pool, or to its holders once the pool
-///              is closed.
+/// Ownership:   of the hold alone; the buffer belongs to its pool, which lives as long as it is held.
 /// Threads:     one lease belongs to one thread at a time, and may be handed on; copies are
 ///              independent.
 /// Progress:    wait-free. Copying and dropping a copy write to the buffer's count, which readers
 ///              share; moving, and dropping a lease with a slot, do not.
-/// Allocation:  none; the last lease of a closed pool frees its memory.
+/// Allocation:  none, and nothing is freed: what the last lease of a closed pool leaves is deleted by
+///              HazardDomain::Reclaim().
 template <typename T, template <typename> class Atomic = std::atomic, std::size_t kSlots = 7>
 class BufferLease {
  public:
@@ -53,23 +52,8 @@ class BufferLease {
     }
     // release: pairs with the acquire in BufferPool::FindFree(); this reader's reads are over.
     slot_->held.store(nullptr, std::memory_order_release);
-    // Pairs with the heavy fence in BufferPool::Close(): either the request is seen here, or the
-    // empty slot there.
-    Fences<Atomic>::Light();
-    // relaxed: the exchange in Answer() orders.
-    if (slot_->request.load(std::memory_order_relaxed) == buffer_) [[unlikely]]
-      Answer(*buffer_, *slot_);
   }
   [[gnu::noinline]] static void DropCounted(Buffer& buffer) noexcept { buffer.DropHolder(); }
-  [[gnu::noinline]] static void Answer(Buffer& buffer, Slot& slot) noexcept {
-    void* request = &buffer;
-    // acq_rel: acquire, pairs with the release in BufferPool::Ask(): the pool expects this return,
-    // so it still is there; one of the two takes the request back.
-    if (slot.request.compare_exchange_strong(request, nullptr, std::memory_order_acq_rel,
-                                             std::memory_order_relaxed)) {
-      buffer.pool().ComeHome();
-    }
-  }
 
   Buffer* buffer_ = nullptr;
   Slot* slot_ = nullptr;

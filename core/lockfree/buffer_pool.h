@@ -31,11 +31,12 @@ struct PoolOptions {
 /// to a list that the other uses, and no buffer can be given back twice or under another's name (no
 /// ABA).
 ///
-/// Ownership:   the pool belongs to its maker until Close(); from then on to those who still hold
-///              buffers, and the last one deletes it. So a lease may outlive the port, the module
-///              and the connection it came from.
+/// Ownership:   the pool belongs to its maker until that closes it (Closer); from then on to the
+///              domain, which deletes it when nobody holds a buffer any more: at once, or when it
+///              looks again (HazardDomain::Reclaim()). So a lease may outlive the port, the module and
+///              the connection it came from, and whoever drops the last one deletes nothing.
 /// Threads:     Loan() by one thread at a time, the publisher; Reserve(), capacity() and growths()
-///              by any; Close() when nobody loans, publishes, or reads the newest value any more.
+///              by any; it is closed when nobody loans, publishes, or reads the newest value any more.
 /// Progress:    Loan() is wait-free: it looks at each buffer and each slot of readers once.
 /// Allocation:  in Make() and Reserve(); in Loan() only if the pool may grow and all buffers are in
 ///              use, which growths() counts.
@@ -43,7 +44,7 @@ struct PoolOptions {
 ///
 /// @tparam Atomic  replaced in tests. @tparam kSlots  fewer in tests.
 template <typename T, template <typename> class Atomic = std::atomic, std::size_t kSlots = 7>
-class BufferPool {
+class BufferPool final : public Retirable<Atomic> {
  public:
   using Buffer = runnel::Buffer<T, Atomic, kSlots>;
   using Domain = HazardDomain<Atomic, kSlots>;
@@ -51,22 +52,23 @@ class BufferPool {
   using Factory = std::function<T()>;
 
   struct Closer {
-    void operator()(BufferPool* pool) const noexcept { pool->Close(); }
+    void operator()(BufferPool* pool) const noexcept { pool->domain_.Retire(*pool); }
   };
   using Owner = std::unique_ptr<BufferPool, Closer>;
 
   /// Makes a pool whose buffers `factory` fills first; without one, T is default-constructed. It is
   /// called by whoever makes buffers, Loan() and Reserve(), and so perhaps by two threads at once.
   /// `domain` has the records of all who may read, and outlives the pool.
-  static Owner Make(const Domain& domain, const PoolOptions& options, Factory factory) {
+  static Owner Make(Domain& domain, const PoolOptions& options, Factory factory) {
     std::unique_ptr<BufferPool> pool(new BufferPool(domain, options, std::move(factory)));
     pool->Add(pool->MakeChunk(options.buffers > 0 ? options.buffers : 1));
     return Owner(pool.release());
   }
-  // Public for std::unique_ptr; a pool is deleted by Close() or by its last holder.
-  ~BufferPool() {
+  // Public for std::unique_ptr; a pool is deleted by its domain.
+  ~BufferPool() override {
     DeleteAll(chunks_);
-    DeleteAll(arriving_.load(std::memory_order_acquire));
+    // relaxed: who reserves has ended before the pool is closed.
+    DeleteAll(arriving_.load(std::memory_order_relaxed));
   }
 
   /// A free buffer, or nullptr if there is none and none may be made. `newest` is the one that has
@@ -106,17 +108,6 @@ class BufferPool {
     return growths_.load(std::memory_order_relaxed);
   }
 
-  /// One more holder will come home to the closed pool. By a holder.
-  void ExpectOne() noexcept {
-    // relaxed: the caller's own return, which releases, comes later.
-    expected_.fetch_add(1, std::memory_order_relaxed);
-  }
-  /// A holder of the closed pool has gone; the last one deletes it.
-  void ComeHome() noexcept {
-    // acq_rel: all accesses of those who came before are over for who deletes.
-    if (expected_.fetch_sub(1, std::memory_order_acq_rel) == 1) delete this;
-  }
-
  private:
   // Big values, and those with memory elsewhere, are better written where the last ones have been:
   // in the cache. For small ones it is cheaper to look for free buffers only when there are none.
@@ -133,7 +124,7 @@ class BufferPool {
     Chunk* next = nullptr;
   };
 
-  BufferPool(const Domain& domain, const PoolOptions& options, Factory factory)
+  BufferPool(Domain& domain, const PoolOptions& options, Factory factory)
       : domain_(domain), may_grow_(options.may_grow), factory_(std::move(factory)) {}
 
   std::unique_ptr<Chunk> MakeChunk(std::uint32_t size) {
@@ -169,7 +160,7 @@ class BufferPool {
     Buffer* const buffer = buffers_[--free_count_];
     if (buffer == nullptr) __builtin_unreachable();  // so that no caller looks again
     // relaxed: nobody else can reach the buffer.
-    buffer->loan_.store(Buffer::kLoaned, std::memory_order_relaxed);
+    buffer->is_loaned_.store(true, std::memory_order_relaxed);
     return buffer;
   }
   bool TakeArriving() noexcept {
@@ -227,64 +218,14 @@ class BufferPool {
     free_count_ = free;
   }
 
-  // Whoever still holds a buffer is counted, and told to come home; the closer counts as one, too,
-  // so that none is the last before all have been counted.
-  void Close() noexcept {
-    (void)TakeArriving();
-    domain_.ForEach(Domain::kAll, [this](Record& record) { Ask(record); });
-    Fences<Atomic>::Heavy();
-    domain_.ForEach(Domain::kAll, [this](Record& record) { TakeBack(record); });
-    for (Chunk* chunk = chunks_; chunk != nullptr; chunk = chunk->next) {
-      for (std::uint32_t i = 0; i < chunk->size; ++i) CloseBuffer(chunk->buffers[i]);
-    }
-    ComeHome();
-  }
-  void CloseBuffer(Buffer& buffer) noexcept {
-    std::uint32_t expected = Buffer::kLoaned;
-    ExpectOne();
-    // acq_rel: as in Buffer::DropLoan(), whose partner it is.
-    if (!buffer.loan_.compare_exchange_strong(expected, Buffer::kOrphanedLoan,
-                                              std::memory_order_acq_rel,
-                                              std::memory_order_acquire)) {
-      ComeHome();
-    }
-    ExpectOne();
-    // acq_rel: as in Buffer::DropHolder(); who comes from zero later says so (AddHolders()).
-    if (buffer.count_.fetch_add(Buffer::kClosed, std::memory_order_acq_rel) == 0) ComeHome();
-  }
-  // The slots that hold our buffers are asked to say when they are emptied. One that is emptied
-  // just now has seen the request, or is seen empty after the heavy fence; if both, one of the two
-  // takes the request back.
-  void Ask(Record& record) noexcept {
-    for (auto& slot : record.slots) {
-      // acquire: an empty slot says that its reads are over.
-      void* const held = slot.held.load(std::memory_order_acquire);
-      if (held == nullptr || Own(held) == nullptr) continue;
-      ExpectOne();
-      void* nothing = nullptr;
-      // Another pool's request is answered by who has emptied the slot just now, at any moment.
-      // release: pairs with the acquire in BufferLease::Answer(); the pool expects it.
-      while (!slot.request.compare_exchange_weak(nothing, held, std::memory_order_release,
-                                                 std::memory_order_relaxed)) {
-        nothing = nullptr;
-      }
-    }
-  }
-  void TakeBack(Record& record) noexcept {
-    for (auto& slot : record.slots) {
-      void* request = slot.request.load(std::memory_order_relaxed);
-      if (request == nullptr || Own(request) == nullptr) continue;
-      // acquire: as above.
-      if (slot.held.load(std::memory_order_acquire) == request) continue;
-      // relaxed: only which of the two has it matters; who comes home releases and acquires.
-      if (slot.request.compare_exchange_strong(request, nullptr, std::memory_order_relaxed,
-                                               std::memory_order_relaxed)) {
-        ComeHome();
-      }
-    }
+  // A closed pool has no newest buffer, and all who may have leased have passed their fences: they are
+  // ordered before its closing. From then on this thread is in the publisher's place.
+  [[nodiscard]] bool IsHeld() noexcept override {
+    FindFree(nullptr, [] { return Domain::kAll; });
+    return free_count_ < count_;
   }
 
-  const Domain& domain_;
+  Domain& domain_;
   const bool may_grow_;
   const Factory factory_;
   // These are the publisher's own.
@@ -299,7 +240,6 @@ class BufferPool {
   alignas(kCacheLineSize) Atomic<Chunk*> arriving_{nullptr};  // reserved, not yet taken over
   Atomic<std::uint32_t> capacity_{0};
   Atomic<std::uint64_t> growths_{0};
-  Atomic<std::uint32_t> expected_{1};
 };
 
 }  // namespace runnel

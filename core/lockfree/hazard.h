@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/lockfree/asymmetric_fence.h"
 #include "core/lockfree/cache_line.h"
 
 namespace runnel {
@@ -14,9 +13,7 @@ namespace runnel {
 /// Where a reader says which buffer it holds.
 template <template <typename> class Atomic = std::atomic>
 struct HazardSlot {
-  Atomic<void*> held{nullptr};     ///< nullptr: the slot is free
-  Atomic<void*> request{nullptr};  ///< the buffer of a closed pool that wants to be told when
-                                   ///< this slot ceases to hold it (BufferPool::Close())
+  Atomic<void*> held{nullptr};  ///< nullptr: the slot is free
 };
 
 /// Which buffers one thread protects from reuse: it writes a buffer's address into a free slot of
@@ -47,9 +44,27 @@ struct alignas(kCacheLineSize) HazardRecord {
   HazardRecord* next = nullptr;  ///< constant once added
 };
 
-/// The records of a process, each with a bit, so that a set of records is one word.
+/// What is deleted when no reader holds any part of it (HazardDomain::Retire()): a closed pool.
+template <template <typename> class Atomic = std::atomic>
+class Retirable {
+ public:
+  virtual ~Retirable() = default;
+
+ private:
+  template <template <typename> class, std::size_t>
+  friend class HazardDomain;
+
+  /// Called by one thread at a time. Once false, for ever.
+  [[nodiscard]] virtual bool IsHeld() noexcept = 0;
+
+  Retirable* next_retired_ = nullptr;
+};
+
+/// The records of a process, each with a bit, so that a set of records is one word; and what waits for
+/// those who have left to be deleted.
 ///
-/// Threads:     any. Progress: Add() is lock-free, the rest wait-free. Allocation: none.
+/// Threads:     any. Progress: Add(), Retire() and Reclaim() are lock-free, the rest wait-free.
+/// Allocation:  none; Retire() and Reclaim() free memory, and are not for a cycle.
 /// Limits:      none; but records beyond the 63rd share one bit, and are then looked at together.
 template <template <typename> class Atomic = std::atomic, std::size_t kSlots = 7>
 class HazardDomain {
@@ -92,7 +107,44 @@ class HazardDomain {
   }
   static constexpr std::uint64_t kAll = ~std::uint64_t{0};
 
+  /// Takes over `part`, and deletes it as soon as a Reclaim() finds that nobody holds it: at once, if
+  /// so it is. Precondition: nobody begins to hold it, but by copying a hold.
+  void Retire(Retirable<Atomic>& part) noexcept {
+    PushRetired(part);
+    (void)Reclaim();
+  }
+  /// Deletes what has been retired and is not held any more. Returns how many parts are left, but for
+  /// those that another thread is looking at just now.
+  [[gnu::noinline]] std::size_t Reclaim() noexcept {
+    // Nobody takes single parts off the list, so no address in it can come back to life (no ABA).
+    // relaxed: only whether there is something.
+    if (retired_.load(std::memory_order_relaxed) == nullptr) return 0;
+    // acquire: pairs with the release in PushRetired(): the part is complete, and whoever looked at it
+    // before has ended.
+    Retirable<Atomic>* part = retired_.exchange(nullptr, std::memory_order_acquire);
+    std::size_t left = 0;
+    while (part != nullptr) {
+      Retirable<Atomic>* const next = part->next_retired_;
+      if (part->IsHeld()) {
+        PushRetired(*part);
+        ++left;
+      } else {
+        delete part;
+      }
+      part = next;
+    }
+    return left;
+  }
+
  private:
+  void PushRetired(Retirable<Atomic>& part) noexcept {
+    part.next_retired_ = retired_.load(std::memory_order_relaxed);
+    // release: pairs with the acquire in Reclaim().
+    while (!retired_.compare_exchange_weak(part.next_retired_, &part, std::memory_order_release,
+                                           std::memory_order_relaxed)) {
+    }
+  }
+
   static constexpr std::size_t kOwnBits = 9 * kSlots;  // 63; fewer in tests
   static_assert(kOwnBits < 64);
   static constexpr std::uint64_t kOthers = std::uint64_t{1} << kOwnBits;
@@ -100,6 +152,7 @@ class HazardDomain {
   std::array<Atomic<Record*>, kOwnBits> records_{};
   Atomic<Record*> others_{nullptr};
   Atomic<std::uint64_t> added_{0};
+  Atomic<Retirable<Atomic>*> retired_{nullptr};
 };
 
 }  // namespace runnel

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 
+#include "core/lockfree/asymmetric_fence.h"
 #include "core/lockfree/buffer_lease.h"
 #include "core/lockfree/buffer_pool.h"
 

@@ -1,11 +1,11 @@
 #include "core/lockfree/thread_epoch.h"
 
-#include <deque>
+#include <list>
 #include <mutex>
 #include <utility>
-#include <vector>
 
 #include "core/base/check.h"
+#include "core/base/retry.h"
 #include "core/lockfree/patience.h"
 
 namespace runnel {
@@ -13,13 +13,13 @@ namespace runnel {
 namespace {
 
 struct Retired {
-  std::uint64_t epoch;
+  std::uint64_t epoch = 0;
   std::function<void()> destroy;
 };
 
 struct RetiredList {
   std::mutex mutex;
-  std::deque<Retired> entries;  // by their epochs, the oldest first
+  std::list<Retired> entries;  // by their epochs, the oldest first
 };
 
 // Never destroyed: ports of static lifetime may retire parts while the process ends.
@@ -31,28 +31,35 @@ RetiredList& TheRetired() {
 }  // namespace
 
 void Retire(std::function<void()> destroy) {
+  // All that may fail comes first: what is in the list is destroyed, and nobody retires it again.
+  std::list<Retired> entry;
+  // Destructors retire, too. What there is no memory for after all is never destroyed.
+  if (!Retry([&] { entry.emplace_back(); })) return;
+  entry.front().destroy = std::move(destroy);
   {
+    std::list<Retired>& entries = TheRetired().entries;
     const std::lock_guard lock(TheRetired().mutex);
-    TheRetired().entries.push_back({ProcessEpochs().Advance(), std::move(destroy)});
+    entry.front().epoch = ProcessEpochs().Advance();
+    entries.splice(entries.end(), entry);
   }
   CollectRetired();
 }
 
 std::size_t CollectRetired() {
-  std::vector<Retired> due;
+  std::list<Retired> due;  // moved without memory
   std::size_t left = 0;
   {
     const std::lock_guard lock(TheRetired().mutex);
-    std::deque<Retired>& entries = TheRetired().entries;
+    std::list<Retired>& entries = TheRetired().entries;
     // Who is in the way of one is in the way of all later ones, which need not be looked at.
     while (!entries.empty() && ProcessEpochs().HasPassed(entries.front().epoch)) {
-      due.push_back(std::move(entries.front()));
-      entries.pop_front();
+      due.splice(due.end(), entries, entries.begin());
     }
     left = entries.size();
   }
   // Outside the lock: a destructor may retire further parts.
   for (const Retired& entry : due) entry.destroy();
+  (void)ProcessHazards().Reclaim();
   return left;
 }
 

@@ -48,7 +48,8 @@ template <typename Use>
 /// Threads: any; takes a lock and may allocate, so never from a cycle.
 void Retire(std::function<void()> destroy);
 
-/// Runs what is due of the retired. Returns how many are left.
+/// Runs what is due of the retired, and deletes the closed pools of which nobody holds a buffer any
+/// more. Returns how many of the retired are left.
 std::size_t CollectRetired();
 
 /// Waits until every guard that exists now is gone. Precondition: this thread holds none.

@@ -6,6 +6,8 @@
 
 namespace runnel {
 
+template class HazardDomain<>;
+
 namespace internal {
 constinit ThreadRecord no_record;
 thread_local constinit ThreadRecord* thread_record = &no_record;

@@ -20,6 +20,8 @@ struct ThreadRecord {
   ThreadRecord* next = nullptr;   ///< constant once added
 };
 
+extern template class HazardDomain<>;
+
 namespace internal {
 extern constinit EpochDomain<> process_epochs;
 extern constinit HazardDomain<> process_hazards;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/saturating_sum.h"
+
 namespace runnel {
 namespace {
 
@@ -28,6 +30,14 @@ TEST(SteadyClockTest, DoesNotGoBackwards) {
 TEST(FromSecondsTest, RoundsToTheNearestNanosecond) {
   EXPECT_EQ(FromSeconds(0.1).count(), 100'000'000);
   EXPECT_EQ(FromSeconds(-0.1).count(), -100'000'000);
+}
+
+TEST(SaturatingSum, EndsAtTheLastTime) {
+  using std::chrono::seconds;
+  EXPECT_EQ(SaturatingSum(Time(seconds(1)), seconds(2)), Time(seconds(3)));
+  EXPECT_EQ(SaturatingSum(Time(seconds(-1)), Duration::max()), Time::max() - seconds(1));
+  EXPECT_EQ(SaturatingSum(Time(seconds(1)), Duration::max()), Time::max());
+  EXPECT_EQ(SaturatingSum(Time::max(), Duration(1)), Time::max());
 }
 
 }  // namespace

@@ -37,8 +37,8 @@ struct NoticingSuite : rl::test_suite<NoticingSuite<kNotifiers>, kNotifiers + 1>
 };
 
 TEST(BellSearch, NoNoticeIsLost) {
-  EXPECT_TRUE(Search<NoticingSuite<1>>(kIterations));
-  EXPECT_TRUE(Search<NoticingSuite<2>>(kIterations));
+  EXPECT_TRUE(Search<NoticingSuite<1>>(kIterations, 4));
+  EXPECT_TRUE(Search<NoticingSuite<2>>(kIterations, 4));
 }
 
 // What was done before a notice is done for who has taken it.
@@ -60,7 +60,7 @@ struct HandingOverSuite : rl::test_suite<HandingOverSuite, 2> {
 };
 
 TEST(BellSearch, NoticeHandsOverWhatWasDoneBefore) {
-  EXPECT_TRUE(Search<HandingOverSuite>(kIterations));
+  EXPECT_TRUE(Search<HandingOverSuite>(kIterations, 4));
 }
 
 // Two sleep on one bell, and a single ring wakes those of them who sleep.
@@ -83,7 +83,7 @@ struct SharingSuite : rl::test_suite<SharingSuite, 3> {
   }
 };
 
-TEST(BellSearch, OneRingWakesAllWhoSleep) { EXPECT_TRUE(Search<SharingSuite>(kIterations)); }
+TEST(BellSearch, OneRingWakesAllWhoSleep) { EXPECT_TRUE(Search<SharingSuite>(kIterations, 4)); }
 
 // After a wait that has run out of time, a notice wakes the next one all the same; and one that came
 // in the last moment is taken.
@@ -102,7 +102,7 @@ struct TimeOutSuite : rl::test_suite<TimeOutSuite, 2> {
 };
 
 TEST(BellSearch, AWaitThatRanOutOfTimeTakesNothingFromTheNext) {
-  EXPECT_TRUE(Search<TimeOutSuite>(kIterations));
+  EXPECT_TRUE(Search<TimeOutSuite>(kIterations, 4));
 }
 
 }  // namespace

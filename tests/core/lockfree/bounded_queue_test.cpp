@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/core/lockfree/pop_all.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/threads.h"
 #include "tests/support/yielding_atomic.h"
@@ -14,13 +15,6 @@ namespace runnel {
 namespace {
 
 using testing::ElementsAre;
-
-template <typename Queue>
-std::vector<int> PopAll(Queue& queue) {
-  std::vector<int> values;
-  for (int value = 0; queue.TryPop(value);) values.push_back(value);
-  return values;
-}
 
 TEST(BoundedQueueTest, GivesWhatItTookInOrder) {
   BoundedQueue<int> queue(3);

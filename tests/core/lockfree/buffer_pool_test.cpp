@@ -174,11 +174,28 @@ TEST(BufferPoolTest, LoansAndCountedHoldersKeepAClosedPool) {
   EXPECT_EQ(Counted::alive(), 4);
   EXPECT_EQ(held->value().number, 7u);
   loaned->DropLoan();
-  EXPECT_EQ(Counted::alive(), 4);
+  EXPECT_EQ(pool.domain.Reclaim(), 1u);
   held->AddHolders(1);
   held->DropHolder();
+  EXPECT_EQ(pool.domain.Reclaim(), 1u);
   EXPECT_EQ(Counted::alive(), 4);
   held->DropHolder();
+  EXPECT_EQ(Counted::alive(), 4);
+  EXPECT_EQ(pool.domain.Reclaim(), 0u);
+  EXPECT_EQ(Counted::alive(), 0);
+}
+
+TEST(BufferPoolTest, ClosedPoolGoesWhenAnotherIsClosedAndNobodyHoldsItAnyMore) {
+  Counted::alive() = 0;
+  Pool<Counted> pool({.buffers = 4});
+  auto* const loaned = pool.Loan();
+  auto other = BufferPool<int>::Make(pool.domain, {}, {});
+  auto another = BufferPool<int>::Make(pool.domain, {}, {});
+  pool.owner.reset();
+  other.reset();
+  EXPECT_EQ(Counted::alive(), 4);
+  loaned->DropLoan();
+  another.reset();
   EXPECT_EQ(Counted::alive(), 0);
 }
 

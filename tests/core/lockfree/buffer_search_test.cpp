@@ -30,7 +30,7 @@ struct LeasingSuite : rl::test_suite<LeasingSuite, 3>, Rig<SearchedPlain, 2> {
   }
 };
 
-TEST(BufferSearch, LeasedValueDoesNotChange) { EXPECT_TRUE(Search<LeasingSuite>(kIterations)); }
+TEST(BufferSearch, LeasedValueDoesNotChange) { EXPECT_TRUE(Search<LeasingSuite>(kIterations, 1)); }
 
 // One slot and two leases: the second is counted.
 struct CountedSuite : rl::test_suite<CountedSuite, 2>, Rig<SearchedPlain, 1> {
@@ -49,7 +49,7 @@ struct CountedSuite : rl::test_suite<CountedSuite, 2>, Rig<SearchedPlain, 1> {
 };
 
 TEST(BufferSearch, LeasedValueDoesNotChangeWithoutASlot) {
-  EXPECT_TRUE(Search<CountedSuite>(kIterations));
+  EXPECT_TRUE(Search<CountedSuite>(kIterations, 2));
 }
 
 // A lease is copied, and the copy outlasts it: there is no moment at which neither is seen.
@@ -69,7 +69,9 @@ struct CopyingSuite : rl::test_suite<CopyingSuite, 2>, Rig<SearchedPlain, 1> {
   }
 };
 
-TEST(BufferSearch, CopyOfALeaseHoldsWithoutAGap) { EXPECT_TRUE(Search<CopyingSuite>(kIterations)); }
+TEST(BufferSearch, CopyOfALeaseHoldsWithoutAGap) {
+  EXPECT_TRUE(Search<CopyingSuite>(kIterations, 3));
+}
 
 // The same while the publisher looks for a free buffer, and the leased one is no longer the newest: a
 // schedule that begins there, since hardly any gets there if each step is drawn.
@@ -92,7 +94,7 @@ struct CopyingLateSuite : rl::test_suite<CopyingLateSuite, 2>, Rig<SearchedPlain
 };
 
 TEST(BufferSearch, CopyOfAnOldLeaseHoldsWithoutAGap) {
-  EXPECT_TRUE(Search<CopyingLateSuite>(kIterations));
+  EXPECT_TRUE(Search<CopyingLateSuite>(kIterations, 4));
 }
 
 // A lease is handed to another thread, which drops it, while the first uses the slot again.
@@ -118,7 +120,7 @@ struct HandingOnSuite : rl::test_suite<HandingOnSuite, 3>, Rig<SearchedPlain, 1>
 };
 
 TEST(BufferSearch, LeaseMayBeDroppedByAnotherThread) {
-  EXPECT_TRUE(Search<HandingOnSuite>(kIterations));
+  EXPECT_TRUE(Search<HandingOnSuite>(kIterations, 1));
 }
 
 // Another thread empties a slot, which is then filled anew: a publisher that sees only the latter
@@ -145,7 +147,7 @@ struct RefillingSuite : rl::test_suite<RefillingSuite, 3>, Rig<SearchedPlain, 1>
 };
 
 TEST(BufferSearch, SlotThatIsFilledAnewSaysThatTheOldBufferIsFree) {
-  EXPECT_TRUE(Search<RefillingSuite>(5 * kIterations));
+  EXPECT_TRUE(Search<RefillingSuite>(5 * kIterations, 3));
 }
 
 // The buffers that a counted lease meets are made while it looks.
@@ -165,7 +167,7 @@ struct GrowingSuite : rl::test_suite<GrowingSuite, 2>, Rig<SearchedPlain, 1> {
 };
 
 TEST(BufferSearch, BuffersThatAreNewAreCompleteForWhoCounts) {
-  EXPECT_TRUE(Search<GrowingSuite>(kIterations));
+  EXPECT_TRUE(Search<GrowingSuite>(kIterations, 3));
 }
 
 // The publisher reads what it has published, and spares itself the fence, while another reads too.
@@ -192,7 +194,7 @@ struct OwnReaderSuite : rl::test_suite<OwnReaderSuite, 2>, Rig<SearchedPlain, 2>
   }
 };
 
-TEST(BufferSearch, PublisherMayReadItself) { EXPECT_TRUE(Search<OwnReaderSuite>(kIterations)); }
+TEST(BufferSearch, PublisherMayReadItself) { EXPECT_TRUE(Search<OwnReaderSuite>(kIterations, 2)); }
 
 // The publisher's thread reads, too, and spares itself its fences as a reader, until another thread
 // takes over and publishes.
@@ -233,7 +235,7 @@ struct TakingOverSuite : rl::test_suite<TakingOverSuite, 2>, TakingOverRig<Searc
 };
 
 TEST(BufferSearch, WhoTakesOverPublishingIsSeenByWhoDidSoBefore) {
-  EXPECT_TRUE(Search<TakingOverSuite>(kIterations));
+  EXPECT_TRUE(Search<TakingOverSuite>(kIterations, 2));
 }
 
 // The other thread finds a buffer that is free already, and so publishes before it has looked for one:
@@ -246,9 +248,8 @@ struct TakingOverAtOnceSuite : rl::test_suite<TakingOverAtOnceSuite, 2>,
                                ThreeValues,
                                TakingOverRig<Elsewhere> {
   TakingOverAtOnceSuite()
-      : TakingOverRig({.buffers = 3, .may_grow = false}, [this] {
-          return Elsewhere{&values[made++]};
-        }) {}
+      : TakingOverRig({.buffers = 3, .may_grow = false},
+                      [this] { return Elsewhere{&values[made++]}; }) {}
 
   void before() { PublishAndLook(4); }
   void thread(unsigned index) {
@@ -261,7 +262,7 @@ struct TakingOverAtOnceSuite : rl::test_suite<TakingOverAtOnceSuite, 2>,
 };
 
 TEST(BufferSearch, ValueOfWhoTakesOverIsCompleteForWhoPublishedBefore) {
-  EXPECT_TRUE(Search<TakingOverAtOnceSuite>(kIterations));
+  EXPECT_TRUE(Search<TakingOverAtOnceSuite>(kIterations, 4));
 }
 
 // A record is added while the publisher looks for free buffers.
@@ -284,8 +285,8 @@ struct AddingSuite : rl::test_suite<AddingSuite<kBefore>, 2>, Rig<SearchedPlain,
 };
 
 TEST(BufferSearch, ThreadThatIsNewIsSeen) {
-  EXPECT_TRUE(Search<AddingSuite<1>>(kIterations));
-  EXPECT_TRUE(Search<AddingSuite<9>>(kIterations));
+  EXPECT_TRUE(Search<AddingSuite<1>>(kIterations, 3));
+  EXPECT_TRUE(Search<AddingSuite<9>>(kIterations, 2));
 }
 
 // Two readers share a bit, and one of them finds it set by the other just now.
@@ -303,7 +304,7 @@ struct SharedBitSuite : rl::test_suite<SharedBitSuite, 3>, Rig<SearchedPlain, 11
 };
 
 TEST(BufferSearch, ReadersThatShareABitAreSeenEach) {
-  EXPECT_TRUE(Search<SharedBitSuite>(5 * kIterations));
+  EXPECT_TRUE(Search<SharedBitSuite>(5 * kIterations, 1));
 }
 
 }  // namespace

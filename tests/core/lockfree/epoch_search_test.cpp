@@ -54,7 +54,7 @@ struct EpochSuite : rl::test_suite<EpochSuite, 3>, Parts {
 };
 
 TEST(EpochSearch, PartIsDestroyedOnlyWhenNobodyLooks) {
-  EXPECT_TRUE(Search<EpochSuite>(kIterations));
+  EXPECT_TRUE(Search<EpochSuite>(kIterations, 1));
 }
 
 // Entering and leaving once more inside changes nothing.
@@ -74,7 +74,7 @@ struct NestedSuite : rl::test_suite<NestedSuite, 2>, Parts {
   }
 };
 
-TEST(EpochSearch, InnerGuardChangesNothing) { EXPECT_TRUE(Search<NestedSuite>(kIterations)); }
+TEST(EpochSearch, InnerGuardChangesNothing) { EXPECT_TRUE(Search<NestedSuite>(kIterations, 4)); }
 
 // A thread that ends hands its participant to the next one: who sees that one inside, in a new
 // epoch, sees as done what the first one did.
@@ -94,7 +94,7 @@ struct HandedOverSuite : rl::test_suite<HandedOverSuite, 3>, Parts {
 };
 
 TEST(EpochSearch, ParticipantMayBeHandedToAnotherThread) {
-  EXPECT_TRUE(Search<HandedOverSuite>(kIterations));
+  EXPECT_TRUE(Search<HandedOverSuite>(kIterations, 3));
 }
 
 }  // namespace

@@ -33,8 +33,8 @@ struct WaitingSuite : rl::test_suite<WaitingSuite<kNotifiers>, kNotifiers + 1> {
 };
 
 TEST(EventSearch, NoWakeIsLost) {
-  EXPECT_TRUE(Search<WaitingSuite<1>>(kIterations));
-  EXPECT_TRUE(Search<WaitingSuite<2>>(kIterations));
+  EXPECT_TRUE(Search<WaitingSuite<1>>(kIterations, 4));
+  EXPECT_TRUE(Search<WaitingSuite<2>>(kIterations, 4));
 }
 
 // After a wait that has run out of time, a notification wakes the next one all the same.
@@ -56,7 +56,7 @@ struct TimeOutSuite : rl::test_suite<TimeOutSuite, 2> {
 };
 
 TEST(EventSearch, AWaitThatRanOutOfTimeTakesNothingFromTheNext) {
-  EXPECT_TRUE(Search<TimeOutSuite>(kIterations));
+  EXPECT_TRUE(Search<TimeOutSuite>(kIterations, 4));
 }
 
 }  // namespace

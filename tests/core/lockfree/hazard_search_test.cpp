@@ -40,7 +40,7 @@ struct SharedBitSuite : rl::test_suite<SharedBitSuite, 2> {
 };
 
 TEST(HazardSearch, RecordsThatAreAddedAtOnceAreAllLookedAt) {
-  EXPECT_TRUE(Search<SharedBitSuite>(kIterations));
+  EXPECT_TRUE(Search<SharedBitSuite>(kIterations, 4));
 }
 
 }  // namespace

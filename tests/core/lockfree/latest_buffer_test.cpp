@@ -177,7 +177,7 @@ TEST(LatestBufferTest, LeasingAllocatesNothing) {
   EXPECT_EQ(guard.allocations(), 0u);
 }
 
-TEST(LatestBufferTest, LeasesOfAnyKindOutliveThePoolAndTheLastOneDestroysIt) {
+TEST(LatestBufferTest, LeasesOfAnyKindKeepAClosedPoolUntilTheLastOneHasGone) {
   Counted::alive() = 0;
   Rig<Counted, 1, std::atomic, 1> rig({.buffers = 3});
   rig.Publish().value().number = 7;
@@ -190,10 +190,16 @@ TEST(LatestBufferTest, LeasesOfAnyKindOutliveThePoolAndTheLastOneDestroysIt) {
   auto copy = in_slot;
   in_slot = {};
   counted = {};
+  EXPECT_EQ(rig.domain.Reclaim(), 1u);
   EXPECT_EQ(Counted::alive(), 3);
   EXPECT_EQ(copy.get()->value().number, 7u);
   auto late = std::move(copy);
-  late = {};
+  {
+    const test::AllocationGuard guard;
+    late = {};
+    EXPECT_EQ(guard.releases(), 0u) << "who reads in a cycle frees no memory";
+  }
+  EXPECT_EQ(rig.domain.Reclaim(), 0u);
   EXPECT_EQ(Counted::alive(), 0);
 }
 
@@ -243,7 +249,7 @@ TEST(LatestBufferStressTest, LeasedValueDoesNotChangeAtAnyInterleaving) {
   LeasedValueDoesNotChange<test::YieldingAtomic, 1>(2000);
 }
 
-TEST(LatestBufferStressTest, ClosedPoolIsDestroyedOnceByWhoeverComesLast) {
+TEST(LatestBufferStressTest, ClosedPoolIsDestroyedOnceWhenAllHaveGone) {
   for (int round = 0; round < 300; ++round) {
     Counted::alive() = 0;
     Rig<Counted, 3, test::YieldingAtomic, 1> rig({.buffers = 4, .may_grow = false});
@@ -261,13 +267,15 @@ TEST(LatestBufferStressTest, ClosedPoolIsDestroyedOnceByWhoeverComesLast) {
         const auto copy = leases[index];
         leases[index] = {};
       }
+      (void)rig.domain.Reclaim();
     });
+    ASSERT_EQ(rig.domain.Reclaim(), 0u);
     ASSERT_EQ(Counted::alive(), 0);
   }
 }
 
 // Two pools are closed while one slot goes from a buffer of the first to one of the second.
-TEST(LatestBufferStressTest, PoolsThatAreClosedAtOnceAskOneSlotInTurn) {
+TEST(LatestBufferStressTest, PoolsThatAreClosedAtOnceLookAtOneSlot) {
   for (int round = 0; round < 300; ++round) {
     Counted::alive() = 0;
     Rig<Counted, 1, test::YieldingAtomic, 1> first({.buffers = 1});
@@ -290,6 +298,7 @@ TEST(LatestBufferStressTest, PoolsThatAreClosedAtOnceAskOneSlotInTurn) {
         second_pool.reset();
       }
     });
+    ASSERT_EQ(first.domain.Reclaim(), 0u);
     ASSERT_EQ(Counted::alive(), 0);
   }
 }

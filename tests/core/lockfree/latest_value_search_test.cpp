@@ -42,9 +42,10 @@ struct LatestValueSuite : rl::test_suite<LatestValueSuite<kCells>, 2> {
 };
 
 TEST(LatestValueSearch, ReaderSeesWholeValuesInOrder) {
-  EXPECT_TRUE(Search<LatestValueSuite<1>>(kIterations));
-  EXPECT_TRUE(Search<LatestValueSuite<2>>(kIterations));
-  EXPECT_TRUE(Search<LatestValueSuite<4>>(kIterations));
+  // With so few cells a reader repeats as long as a writer stands still, so not all schedules end.
+  EXPECT_TRUE(SearchAtRandom<LatestValueSuite<1>>(kIterations));
+  EXPECT_TRUE(SearchAtRandom<LatestValueSuite<2>>(kIterations));
+  EXPECT_TRUE(Search<LatestValueSuite<4>>(kIterations, 3));
 }
 
 }  // namespace

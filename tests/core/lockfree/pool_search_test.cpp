@@ -40,7 +40,7 @@ struct LoanSuite : rl::test_suite<LoanSuite, 2>, Rig<SearchedPlain, 1> {
 };
 
 TEST(PoolSearch, LoanGivenBackIsWrittenAgainOnlyThen) {
-  EXPECT_TRUE(Search<LoanSuite>(kIterations));
+  EXPECT_TRUE(Search<LoanSuite>(kIterations, 4));
 }
 
 // Buffers are reserved while the publisher loans: they are complete when it comes upon them.
@@ -68,7 +68,7 @@ struct ReservingSuite : rl::test_suite<ReservingSuite, 2>, Rig<SearchedPlain, 1>
 };
 
 TEST(PoolSearch, ReservedBuffersAreCompleteWhenTheyArrive) {
-  EXPECT_TRUE(Search<ReservingSuite>(kIterations));
+  EXPECT_TRUE(Search<ReservingSuite>(kIterations, 2));
 }
 
 // The owner closes the pool while there are a lease in a slot, its copy, and a loan, each given up
@@ -97,11 +97,14 @@ struct ClosingSuite : rl::test_suite<ClosingSuite, 3>, Rig<Mortal, 1> {
       loan->DropLoan();
     }
   }
-  void after() { RL_ASSERT(Mortal::alive() == 0); }
+  void after() {
+    (void)domain.Reclaim();
+    RL_ASSERT(Mortal::alive() == 0);
+  }
 };
 
 TEST(PoolSearch, ClosedPoolGoesWithItsLastHolder) {
-  EXPECT_TRUE(Search<ClosingSuite>(kIterations));
+  EXPECT_TRUE(Search<ClosingSuite>(kIterations, 3));
 }
 
 // The same with nothing but a lease in a slot, so that the closer and the reader meet there alone.
@@ -121,11 +124,14 @@ struct ClosingSlotSuite : rl::test_suite<ClosingSlotSuite, 2>, Rig<Mortal, 1> {
       in_slot = {};
     }
   }
-  void after() { RL_ASSERT(Mortal::alive() == 0); }
+  void after() {
+    (void)domain.Reclaim();
+    RL_ASSERT(Mortal::alive() == 0);
+  }
 };
 
 TEST(PoolSearch, ClosedPoolGoesWithTheLastSlot) {
-  EXPECT_TRUE(Search<ClosingSlotSuite>(kIterations));
+  EXPECT_TRUE(Search<ClosingSlotSuite>(kIterations, 4));
 }
 
 // The pool is closed already, and its holders make further ones before they go.
@@ -158,11 +164,14 @@ struct ClosedSuite : rl::test_suite<ClosedSuite, 3>, Rig<Mortal, 1> {
       loan->DropLoan();
     }
   }
-  void after() { RL_ASSERT(Mortal::alive() == 0); }
+  void after() {
+    (void)domain.Reclaim();
+    RL_ASSERT(Mortal::alive() == 0);
+  }
 };
 
 TEST(PoolSearch, HoldersOfAClosedPoolMayMakeFurtherOnes) {
-  EXPECT_TRUE(Search<ClosedSuite>(kIterations));
+  EXPECT_TRUE(Search<ClosedSuite>(kIterations, 4));
 }
 
 // Two counted holders, of which either may be the last, and its closer.
@@ -180,11 +189,50 @@ struct ClosingCountedSuite : rl::test_suite<ClosingCountedSuite, 3>, Rig<Mortal,
     RL_ASSERT(counted[index].get()->value().Get() == 7);
     counted[index] = {};
   }
-  void after() { RL_ASSERT(Mortal::alive() == 0); }
+  void after() {
+    (void)domain.Reclaim();
+    RL_ASSERT(Mortal::alive() == 0);
+  }
 };
 
 TEST(PoolSearch, ClosedPoolGoesWithTheLastOfTwoCounted) {
-  EXPECT_TRUE(Search<ClosingCountedSuite>(kIterations));
+  EXPECT_TRUE(Search<ClosingCountedSuite>(kIterations, 4));
+}
+
+// A lease in a slot is dropped by another thread, while the slot's own thread leases the same newest
+// buffer anew, and then the pool is closed: it is the second lease that counts.
+struct ForeignDropSuite : rl::test_suite<ForeignDropSuite, 3>, Rig<Mortal, 1> {
+  ForeignDropSuite() : Rig({.buffers = 1, .may_grow = false}) {}
+  Lease first;
+  Lease second;
+  SearchedAtomic<int> is_leased_anew{0};
+
+  void before() {
+    Publish(7);
+    first = latest.Lease(readers[0]);
+  }
+  void thread(unsigned index) {
+    if (index == 0) {
+      second = latest.Lease(readers[0]);
+      is_leased_anew.store(1, std::memory_order_release);
+    } else if (index == 1) {
+      RL_ASSERT(first.get()->value().Get() == 7);
+      first = {};
+    } else if (is_leased_anew.load(std::memory_order_acquire) == 1) {
+      pool.reset();
+    }
+  }
+  void after() {
+    RL_ASSERT(second.get()->value().Get() == 7);
+    second = {};
+    pool.reset();
+    (void)domain.Reclaim();
+    RL_ASSERT(Mortal::alive() == 0);
+  }
+};
+
+TEST(PoolSearch, LeaseThatAnotherThreadDropsLeavesTheNextOneInItsSlotAlone) {
+  EXPECT_TRUE(Search<ForeignDropSuite>(kIterations, 4));
 }
 
 // Two pools are closed while the one slot of a reader passes from a buffer of the first to one of
@@ -218,12 +266,13 @@ struct ClosingTwoSuite : rl::test_suite<ClosingTwoSuite, 3>, Rig<Mortal, 1> {
   }
   void after() {
     other.reset();
+    (void)domain.Reclaim();
     RL_ASSERT(Mortal::alive() == 0);
   }
 };
 
 TEST(PoolSearch, EachOfTwoClosedPoolsGetsItsAnswer) {
-  EXPECT_TRUE(Search<ClosingTwoSuite>(kIterations));
+  EXPECT_TRUE(Search<ClosingTwoSuite>(kIterations, 1));
 }
 
 }  // namespace

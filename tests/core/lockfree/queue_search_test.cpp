@@ -104,9 +104,9 @@ struct StreamSuite : rl::test_suite<StreamSuite<kCapacity>, 2> {
 };
 
 TEST(StreamQueueSearch, EachValueIsTakenOnceWholeAndInOrder) {
-  EXPECT_TRUE(Search<StreamSuite<1>>(kIterations));
-  EXPECT_TRUE(Search<StreamSuite<2>>(kIterations));
-  EXPECT_TRUE(Search<StreamSuite<3>>(kIterations));
+  EXPECT_TRUE(Search<StreamSuite<1>>(kIterations, 3));
+  EXPECT_TRUE(Search<StreamSuite<2>>(kIterations, 2));
+  EXPECT_TRUE(Search<StreamSuite<3>>(kIterations, 2));
 }
 
 // The reader works in the cell, which its writer must not touch before it is given back.
@@ -132,7 +132,7 @@ struct ReadingInPlaceSuite : rl::test_suite<ReadingInPlaceSuite, 2> {
 };
 
 TEST(StreamQueueSearch, WriterLeavesTheFrontToTheReader) {
-  EXPECT_TRUE(Search<ReadingInPlaceSuite>(kIterations));
+  EXPECT_TRUE(Search<ReadingInPlaceSuite>(kIterations, 3));
 }
 
 // Either side may pass to another thread, if that is ordered; a third one may ask for the size.
@@ -163,7 +163,9 @@ struct HandingOverSuite : rl::test_suite<HandingOverSuite, 4> {
   }
 };
 
-TEST(StreamQueueSearch, WritersMayTakeTurns) { EXPECT_TRUE(Search<HandingOverSuite>(kIterations)); }
+TEST(StreamQueueSearch, WritersMayTakeTurns) {
+  EXPECT_TRUE(Search<HandingOverSuite>(kIterations, 2));
+}
 
 // The queue for many, with a capacity that two laps need.
 struct SharedQueueSuite : rl::test_suite<SharedQueueSuite, 4> {
@@ -186,7 +188,7 @@ struct SharedQueueSuite : rl::test_suite<SharedQueueSuite, 4> {
 };
 
 TEST(BoundedQueueSearch, EachCellBelongsToOneAtATime) {
-  EXPECT_TRUE(Search<SharedQueueSuite>(kIterations));
+  EXPECT_TRUE(Search<SharedQueueSuite>(kIterations, 1));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/core/lockfree/pop_all.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/threads.h"
 #include "tests/support/yielding_atomic.h"
@@ -15,13 +16,6 @@ namespace runnel {
 namespace {
 
 using testing::ElementsAre;
-
-template <typename Queue>
-std::vector<int> PopAll(Queue& queue) {
-  std::vector<int> values;
-  for (int value = 0; queue.TryPop(value);) values.push_back(value);
-  return values;
-}
 
 TEST(StreamQueueTest, GivesWhatItTookInOrder) {
   StreamQueue<int> queue(3);

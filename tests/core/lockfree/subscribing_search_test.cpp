@@ -54,8 +54,8 @@ struct SomeBuffer {
 };
 
 TEST(SubscribingSearch, NoValueFallsBetweenPublisherAndSubscriber) {
-  EXPECT_TRUE(Search<SubscribingSuite<SomeValue>>(kIterations));
-  EXPECT_TRUE(Search<SubscribingSuite<SomeBuffer>>(kIterations));
+  EXPECT_TRUE(Search<SubscribingSuite<SomeValue>>(kIterations, 4));
+  EXPECT_TRUE(Search<SubscribingSuite<SomeBuffer>>(kIterations, 4));
 }
 
 }  // namespace

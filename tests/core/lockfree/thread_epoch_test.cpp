@@ -10,6 +10,7 @@
 #include "tests/support/allocation_guard.h"
 #include "tests/support/lock_probe.h"
 #include "tests/support/threads.h"
+#include "tests/support/wait_until.h"
 #include "tests/support/yielding_atomic.h"
 
 namespace runnel {
@@ -125,11 +126,11 @@ TEST(WaitForReadersTest, ReturnsWhenTheGuardsOfBeforeAreGoneAndDestroysWhatIsDue
   std::thread reader([&] {
     const EpochGuard guard;
     entered = true;
-    while (!retired) std::this_thread::yield();
+    test::WaitUntil("something is retired", [&] { return retired.load(); });
     EXPECT_FALSE(destroyed);
     leaving = true;
   });
-  while (!entered) std::this_thread::yield();
+  test::WaitUntil("the reader has entered", [&] { return entered.load(); });
   Retire([&] { destroyed = true; });
   EXPECT_FALSE(destroyed);
   retired = true;

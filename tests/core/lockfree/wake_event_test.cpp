@@ -11,6 +11,7 @@
 #include "tests/core/lockfree/told_by_many.h"
 #include "tests/support/system_call_probe.h"
 #include "tests/support/threads.h"
+#include "tests/support/wait_until.h"
 #include "tests/support/yielding_atomic.h"
 
 namespace runnel::test {
@@ -48,7 +49,7 @@ TEST(WakeEvent, NotifyingWhoIsAwakeIsNoSystemCall) {
 
 // Two threads play ping-pong: each round sleeps twice if both are quick enough.
 template <template <typename> class Atomic>
-void PlayPingPong(int rounds) {
+void PassNoticesOn(int rounds) {
   Bell<Atomic> bell;
   Sleeper<Atomic> sleepers[] = {{bell, 1}, {bell, 2}};
   (void)sleepers[0].Notice();
@@ -61,8 +62,8 @@ void PlayPingPong(int rounds) {
   });
 }
 
-TEST(Bell, LosesNoNotice) { PlayPingPong<std::atomic>(10000); }
-TEST(Bell, LosesNoNoticeWhenOthersComeBetweenAnyTwoSteps) { PlayPingPong<YieldingAtomic>(5000); }
+TEST(Bell, LosesNoNotice) { PassNoticesOn<std::atomic>(10000); }
+TEST(Bell, LosesNoNoticeWhenOthersComeBetweenAnyTwoSteps) { PassNoticesOn<YieldingAtomic>(5000); }
 
 TEST(WakeEvent, IsToldByManyAtOnce) {
   WakeEvent event;
@@ -108,7 +109,7 @@ TEST(WakeUps, CallTheSystemOnceForThoseOnOneBell) {
       events[index].Wait();
       return;
     }
-    while (about_to_sleep < kSleepers) std::this_thread::yield();
+    WaitUntil("all are about to sleep", [&] { return about_to_sleep >= kSleepers; });
     std::this_thread::sleep_for(milliseconds(20));  // for the better: so that they are asleep
     WakeUps wake_ups;
     SystemCallProbe calls;

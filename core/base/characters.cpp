@@ -1,0 +1,74 @@
+#include "core/base/characters.h"
+
+namespace runnel {
+
+std::size_t CharacterLength(std::string_view text) noexcept {
+  const auto byte = [&](std::size_t i) -> unsigned {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0;
+  };
+  const auto is_inner = [&](std::size_t i) { return (byte(i) & 0xc0) == 0x80; };
+  const unsigned first = byte(0);
+  if (text.empty()) return 0;
+  if (first < 0x80) return 1;
+  if (first >= 0xc2 && first <= 0xdf) return is_inner(1) ? 2 : 0;
+  if ((first & 0xf0) == 0xe0) {
+    const bool is_longer_form = first == 0xe0 && byte(1) < 0xa0;
+    const bool is_surrogate = first == 0xed && byte(1) >= 0xa0;
+    return is_inner(1) && is_inner(2) && !is_longer_form && !is_surrogate ? 3 : 0;
+  }
+  if (first >= 0xf0 && first <= 0xf4) {
+    const bool is_longer_form = first == 0xf0 && byte(1) < 0x90;
+    const bool is_beyond = first == 0xf4 && byte(1) >= 0x90;
+    return is_inner(1) && is_inner(2) && is_inner(3) && !is_longer_form && !is_beyond ? 4 : 0;
+  }
+  return 0;
+}
+
+std::size_t FileCharacterLength(std::string_view text) noexcept {
+  const std::size_t length = CharacterLength(text);
+  if (length == 1) {
+    const char letter = text.front();
+    const bool is_control = static_cast<unsigned char>(letter) < 0x20;
+    return is_control && letter != '\t' && letter != '\n' && letter != '\r' ? 0 : 1;
+  }
+  const bool is_no_character = text.starts_with("\xef\xbf\xbe") || text.starts_with("\xef\xbf\xbf");
+  return is_no_character ? 0 : length;
+}
+
+std::string UnwritableCharacter(std::string_view text) {
+  for (std::size_t length = 0; !text.empty(); text.remove_prefix(length)) {
+    length = FileCharacterLength(text);
+    if (length > 0) continue;
+    constexpr std::string_view kDigits = "0123456789abcdef";
+    const auto byte = static_cast<unsigned char>(text.front());
+    const std::string number{'0', 'x', kDigits[byte / 16U], kDigits[byte % 16U]};
+    if (byte < 0x80) return "control character " + number;
+    if (CharacterLength(text) == 0) return "byte " + number + ", which is no UTF-8";
+    return text.starts_with("\xef\xbf\xbe") ? "U+FFFE, which is no character"
+                                            : "U+FFFF, which is no character";
+  }
+  return "";
+}
+
+void AppendUtf8(unsigned code_point, std::string& text) {
+  const auto inner = [&](unsigned shift) {
+    text += static_cast<char>(0x80 | (code_point >> shift & 0x3f));
+  };
+  if (code_point < 0x80) {
+    text += static_cast<char>(code_point);
+  } else if (code_point < 0x800) {
+    text += static_cast<char>(0xc0 | code_point >> 6);
+    inner(0);
+  } else if (code_point < 0x10000) {
+    text += static_cast<char>(0xe0 | code_point >> 12);
+    inner(6);
+    inner(0);
+  } else {
+    text += static_cast<char>(0xf0 | code_point >> 18);
+    inner(12);
+    inner(6);
+    inner(0);
+  }
+}
+
+}  // namespace runnel
