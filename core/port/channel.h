@@ -7,86 +7,17 @@
 #include <utility>
 
 #include "core/base/check.h"
-#include "core/lockfree/asymmetric_fence.h"
 #include "core/lockfree/latest_buffer.h"
 #include "core/lockfree/latest_value.h"
 #include "core/lockfree/thread_epoch.h"
+#include "core/port/channel_base.h"
 #include "core/port/distribution.h"
 #include "core/port/input_queue.h"
 #include "core/port/lease.h"
 #include "core/port/loan.h"
-#include "core/port/pull_point.h"
-#include "core/port/subscribers.h"
 #include "core/port/tap_queue.h"
 
 namespace runnel {
-
-/// What an output and the inputs connected to it share, apart from the type of the values: the
-/// output publishes into its channel, and the inputs read from it.
-///
-/// Threads:  SetSubscribers() and SetOrdered() under the structure lock; the rest as stated.
-class ChannelBase {
- public:
-  virtual ~ChannelBase();
-  ChannelBase(const ChannelBase&) = delete;
-  ChannelBase& operator=(const ChannelBase&) = delete;
-
-  /// Different for each channel of the process, never 0, ascending with time.
-  [[nodiscard]] std::uint64_t number() const noexcept { return number_; }
-  [[nodiscard]] virtual std::uint64_t publications() const noexcept = 0;
-
-  /// Swaps the list that publishers visit; the old one goes when nobody can still look at it. A value
-  /// whose publisher does not find the new list is seen by who reads the newest value from now on.
-  void SetSubscribers(Subscribers subscribers);
-  /// A channel that shares an input with others numbers its values in one order with theirs.
-  void SetOrdered(bool ordered) noexcept { Set(kOrdered, ordered); }
-  /// Sees to it that `leases` values can wait in queues besides those that the pool's options plan
-  /// for. Allocates.
-  virtual void ReserveFor(std::size_t leases) = 0;
-  /// Pushes the newest value, if there is one. Call inside an EpochGuard.
-  virtual void DeliverNewest(TapQueue& tap) = 0;
-
- protected:
-  enum class Way { kUsual, kSpecial };
-  /// Whom to visit after publishing; nullptr if nobody, and to be called again inside an
-  /// EpochGuard if somebody.
-  [[nodiscard, gnu::always_inline]] const Subscribers* subscribers(
-      Way way = Way::kSpecial) const noexcept {
-    // Between publishing and looking for subscribers; pairs with the heavy fence in
-    // SetSubscribers(): the publisher sees the subscriber, or that one sees the value.
-    if (way == Way::kUsual) {
-      Fences<std::atomic>::LightIfHeavyIsHeavy();
-    } else {
-      LightFence();
-    }
-    // acquire: pairs with the release in SetSubscribers().
-    return subscribers_.load(std::memory_order_acquire);
-  }
-  // For who has passed that fence already. Inside an EpochGuard.
-  [[nodiscard]] const Subscribers* subscribers_in_guard() const noexcept {
-    return subscribers_.load(std::memory_order_acquire);  // as above
-  }
-  /// What makes publishing more than it usually is; bits, so that one look is enough.
-  enum Special : std::uint8_t { kOrdered = 1, kPullable = 2, kPassesFullFences = 4 };
-  explicit ChannelBase(bool pullable);
-  // relaxed, as all of it: a publisher that sees a change late numbers one value less, which then
-  // counts as older than all numbered ones.
-  [[nodiscard]] bool Has(Special special) const noexcept {
-    return (special_.load(std::memory_order_relaxed) & special) != 0;
-  }
-  [[nodiscard, gnu::always_inline]] bool IsSpecial() const noexcept {
-    return special_.load(std::memory_order_relaxed) != 0;
-  }
-  [[nodiscard]] std::uint64_t NextOrder() const noexcept { return Has(kOrdered) ? DrawOrder() : 0; }
-
- private:
-  static std::uint64_t DrawOrder() noexcept;
-  void Set(Special special, bool is) noexcept;
-
-  const std::uint64_t number_;
-  std::atomic<const Subscribers*> subscribers_{nullptr};
-  std::atomic<std::uint8_t> special_;
-};
 
 /// A channel for values of type T.
 ///
@@ -97,12 +28,8 @@ class ChannelBase {
 template <typename T>
 class Channel final : public ChannelBase {
  public:
-  using Provider = typename PullPoint<T>::Provider;
-
   Channel(const PoolOptions& pool, typename BufferPool<T>::Factory factory, bool pullable = false)
-      : ChannelBase(pullable),
-        pull_point_(pullable ? std::make_unique<PullPoint<T>>() : nullptr),
-        storage_(pool, std::move(factory), pullable) {}
+      : ChannelBase(pullable), storage_(pool, std::move(factory), pullable) {}
 
   [[nodiscard, gnu::always_inline]] Loan<T> MakeLoan() {
     if constexpr (kIsCheap<T>) {
@@ -142,52 +69,14 @@ class Channel final : public ChannelBase {
     return PublishNow<Way::kUsual>(value, now);
   }
 
-  /// May have a provider.
-  [[nodiscard]] bool is_pullable() const noexcept { return pull_point_ != nullptr; }
-  /// See Output::SetProvider(). Precondition: is_pullable().
-  void SetProvider(Provider provider) { pull_point_->SetProvider(std::move(provider)); }
-  /// Each of the two has the other's from then on. Precondition: both are pullable.
-  void ExchangeProviders(Channel& other) { pull_point_->ExchangeProviders(*other.pull_point_); }
-  [[nodiscard]] std::uint64_t pull_failures() const noexcept {
-    return pull_point_ != nullptr ? pull_point_->failures() : 0;
-  }
-  /// Has the provider, if there is one and nobody is publishing just now, make a value in this
-  /// thread and publishes it with the time that `now()` returns then. Any thread, inside a guard.
-  template <typename Now>
-  void Pull(const Now& now) noexcept {
-    if constexpr (kCanPull) {
-      if (pull_point_ == nullptr || !pull_point_->has_provider()) return;
-      const typename PullPoint<T>::Turn turn(*pull_point_);
-      if (!turn.held()) return;
-      try {
-        Loan<T> loan = LoanForPull();
-        if (!loan) return pull_point_->CountFailure();
-        if (!pull_point_->Run(*loan)) return;
-        if constexpr (kIsCheap<T>) {
-          (void)PublishNow<Way::kSpecial>(*loan, now());
-        } else {
-          (void)PublishNow<Way::kSpecial>(*std::exchange(loan.slot_, nullptr), now());
-        }
-      } catch (...) {
-        pull_point_->CountFailure();
-      }
-    }
-  }
-
-  /// Whether a queue that refuses is full.
-  [[nodiscard]] bool WouldRefuse() const noexcept {
-    if (subscribers() == nullptr) return false;
-    return Guarded([this] {
-      const Subscribers* list = subscribers_in_guard();
-      return list != nullptr && std::ranges::any_of(list->queues, [](QueueSink* sink) {
-               return internal::QueueOf<T>(*sink).WouldRefuse();
-             });
-    });
-  }
-
   /// The newest value, or none. Call inside an EpochGuard.
   [[nodiscard]] internal::HeldValue<T> Read() noexcept {
     return Read(internal::thread_record->hazards);
+  }
+  /// The same outside of guards too, not so fast.
+  [[nodiscard, gnu::noinline]] internal::HeldValue<T> ReadForViewer() noexcept {
+    const EpochGuard guard;
+    return Read();
   }
   /// The same by who has the calling thread's record at hand.
   [[nodiscard, gnu::always_inline]] internal::HeldValue<T> Read(
@@ -237,6 +126,10 @@ class Channel final : public ChannelBase {
       internal::PushTo<T>(tap, buffer.value(), buffer.publication, &buffer, number());
     }
   }
+  void DeliverNewest(InputQueueBase& queue) override {
+    auto held = ReadForViewer();
+    if (held.has_value()) internal::QueueOf<T>(queue).PutFirst(std::move(held), number());
+  }
   /// How many buffers there are for Loan().
   [[nodiscard]] std::size_t buffers() const noexcept requires(!kIsCheap<T>) {
     return storage_.pool->capacity();
@@ -283,8 +176,20 @@ class Channel final : public ChannelBase {
   template <typename ValueOrBuffer>
   [[gnu::noinline]] PublishStatus PublishSpecially(ValueOrBuffer& what, Time now) {
     if (!Has(kPullable)) return PublishNow<Way::kSpecial>(what, now);
-    const typename PullPoint<T>::Turn turn(*pull_point_);
+    const PullPoint::Turn turn(*pull_point());
     return turn.held() ? PublishNow<Way::kSpecial>(what, now) : PublishStatus::kBusy;
+  }
+  void PublishPulled(Time (*now)(const Port& reader), const Port& reader) override {
+    if constexpr (kCanPull) {
+      Loan<T> loan = LoanForPull();
+      if (!loan) return pull_point()->CountFailure();
+      if (!pull_point()->Run(&*loan)) return;
+      if constexpr (kIsCheap<T>) {
+        (void)PublishNow<Way::kSpecial>(*loan, now(reader));
+      } else {
+        (void)PublishNow<Way::kSpecial>(*std::exchange(loan.slot_, nullptr), now(reader));
+      }
+    }
   }
   [[nodiscard]] Loan<T> LoanForPull() requires(kCanPull) {
     if constexpr (kIsCheap<T>) {
@@ -334,7 +239,6 @@ class Channel final : public ChannelBase {
     });
   }
 
-  const std::unique_ptr<PullPoint<T>> pull_point_;  // nullptr if the output is not pullable
   std::conditional_t<kIsCheap<T>, CheapStorage, BufferStorage> storage_;
 };
 

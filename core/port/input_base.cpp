@@ -3,11 +3,27 @@
 #include <algorithm>
 #include <chrono>
 #include <mutex>
+#include <span>
 
 #include "core/element/runtime.h"
-#include "core/port/channel.h"
+#include "core/lockfree/thread_epoch.h"
+#include "core/port/channel_base.h"
 
 namespace runnel {
+
+namespace {
+
+bool HasValue(const Port& port) {
+  return port.LookAtValue([](const void*, Time) {});
+}
+
+// As a publisher does: what the waker refers to lives as long as the guard.
+void Tell(Waker& waker) noexcept {
+  const EpochGuard guard;
+  waker.Wake();
+}
+
+}  // namespace
 
 InputBase::InputBase(const Placement& placement, const TypeInfo& type, InputOptions options)
     : Port(placement, Direction::kInput, type, options.description),
@@ -23,8 +39,14 @@ InputBase::~InputBase() {
 void InputBase::SetWaker(Waker* waker) {
   const std::lock_guard lock(runtime().structure_mutex());
   if (waker_ == waker) return;
-  waker_ = waker;
-  for (const Source& source : sources_) UpdateChannel(*source.output);
+  Waker* const before = std::exchange(waker_, waker);
+  try {
+    for (const Source& source : sources_) UpdateChannel(*source.output);
+  } catch (...) {
+    waker_ = before;  // so that the same call does the rest
+    throw;
+  }
+  if (waker_ != nullptr && HasValue(*this)) Tell(*waker_);
 }
 
 void InputBase::SetStrategy(Strategy strategy) {
@@ -58,6 +80,7 @@ ArrivalEvent& InputBase::PrepareToWait() {
 void InputBase::Rebind(const std::vector<Source>& sources) {
   std::vector<Port*> outputs;
   for (const Source& source : sources_) outputs.push_back(source.output);
+  const std::size_t known = outputs.size();
   for (const Source& source : sources) {
     if (std::ranges::find(outputs, source.output) == outputs.end()) {
       outputs.push_back(source.output);
@@ -73,6 +96,9 @@ void InputBase::Rebind(const std::vector<Source>& sources) {
   Bound();
   // What a new connection brings is there already, and no publisher tells of it.
   if (arrival_) arrival_->Wake();
+  const auto added = std::span(outputs).subspan(known);
+  const auto brings_data = [](const Port* output) { return HasValue(*output); };
+  if (waker_ != nullptr && std::ranges::any_of(added, brings_data)) Tell(*waker_);
 }
 
 void InputBase::ReplaceSource(const Port& from, Port& to) noexcept {
@@ -96,6 +122,7 @@ void InputBase::TakeOverFlow(Port& from) {
     for (const Source& source : sources_) UpdateChannel(*source.output);
   }
   if (arrival_) arrival_->Wake();
+  if (waker_ != nullptr && HasValue(*this)) Tell(*waker_);
 }
 
 // Whether publishers have to do anything for this input.

@@ -20,7 +20,7 @@ class InputBase : public Port {
 
   ~InputBase() override;
 
-  /// Has `waker` told of new data; nullptr for nobody. Locks.
+  /// Has `waker` told of new data, and at once of what is there; nullptr for nobody. Locks.
   void SetWaker(Waker* waker);
 
   /// Sleeps until there is a value that the last Read() has not returned or, if a connection has a
@@ -57,8 +57,8 @@ class InputBase : public Port {
   /// Typed inputs: bind to the channels of `sources`; the queue that publishers shall fill, or
   /// nullptr.
   virtual QueueSink* Bind(const std::vector<Source>& sources) = 0;
-  /// Typed inputs: what Bind() has made goes over from `from`, which has nothing then.
-  virtual void TakeOverBinding(InputBase& from) = 0;
+  /// Typed inputs: what Bind() has made goes over from `from`, and the other way round.
+  virtual void TakeOverBinding(InputBase& from) noexcept = 0;
   /// Typed inputs: Bind() has taken effect everywhere; put first values into a new queue.
   virtual void Bound() = 0;
   /// Typed inputs: what Wait() waits for. By the reader.

@@ -9,9 +9,8 @@
 #include "core/lockfree/bounded_queue.h"
 #include "core/lockfree/publication.h"
 #include "core/lockfree/stream_queue.h"
+#include "core/port/input_queue_base.h"
 #include "core/port/lease.h"
-#include "core/port/port_options.h"
-#include "core/port/subscribers.h"
 
 namespace runnel {
 
@@ -52,9 +51,6 @@ struct QueuedLease {
 
 }  // namespace internal
 
-/// How many publishers fill a queue: those of one source take turns, and count as one.
-enum class Writers { kOne, kSeveral };
-
 /// The values that wait at one input, from all its sources, in the order of their coming.
 ///
 /// Threads:     Push() by any publisher, or by that of the one source; Pop() by one reader at a
@@ -63,7 +59,7 @@ enum class Writers { kOne, kSeveral };
 ///              waits for a reader that has been stopped.
 /// Allocation:  in the constructor only.
 template <typename T>
-class InputQueue final : public QueueSink {
+class InputQueue final : public InputQueueBase {
   using Queued =
       std::conditional_t<kLiesInQueuesAsCopy<T>, internal::QueuedCopy<T>, internal::QueuedLease<T>>;
   using Stream = StreamQueue<Queued>;
@@ -76,7 +72,7 @@ class InputQueue final : public QueueSink {
   };
 
   InputQueue(std::size_t capacity, OnFull on_full, Writers writers = Writers::kSeveral)
-      : capacity_(capacity), on_full_(on_full), writers_(writers) {
+      : InputQueueBase(capacity, on_full, writers) {
     // Who makes room has to take something out, and then is a reader beside the input's.
     if (writers == Writers::kOne && on_full != OnFull::kDropOldest) {
       stream_ = std::make_unique<Stream>(capacity);
@@ -139,54 +135,28 @@ class InputQueue final : public QueueSink {
     });
   }
 
-  /// Whether Pop() would find something. By the reader.
-  [[nodiscard]] bool HasNext() const noexcept {
+  [[nodiscard]] bool HasNext() const noexcept override {
     if (stream_ == nullptr) return shared_->HasOldest();
     return first_waits_.load(std::memory_order_acquire) || stream_->Front() != nullptr;
   }
 
-  [[nodiscard]] std::size_t room() const noexcept override { return capacity_; }
-  /// Whether the queue would refuse a value now. For publishers.
-  [[nodiscard]] bool WouldRefuse() noexcept {
+  [[nodiscard]] bool WouldRefuse() noexcept override {
     if (on_full_ != OnFull::kRefuse) return false;
+    if (IsCrowdedOut()) return true;
     return stream_ != nullptr ? !stream_->HasRoom() : shared_->size() >= capacity_;
   }
-  [[nodiscard]] std::size_t size() const noexcept {
+  [[nodiscard]] std::size_t size() const noexcept override {
     const std::size_t first = first_waits_.load(std::memory_order_relaxed) ? 1 : 0;
     return first + (stream_ != nullptr ? stream_->size() : shared_->size());
   }
-  [[nodiscard]] OnFull on_full() const noexcept { return on_full_; }
-  [[nodiscard]] Writers writers() const noexcept { return writers_; }
-  [[nodiscard]] std::uint64_t dropped() const noexcept {
-    return dropped_.load(std::memory_order_relaxed);
-  }
-
-  /// Takes the oldest value out and counts it as dropped, if the queue drops the oldest. Any thread.
-  bool DropOldest() noexcept {
+  bool DropOldest() noexcept override {
     if (on_full_ != OnFull::kDropOldest || !shared_->TryConsume([](Queued&) {})) return false;
     CountDropped();
     return true;
   }
-  /// How many values wait in queues that this one has replaced: they take their share of its room,
-  /// else much might wait after some changes. Told before publishers find the queue, then by the
-  /// reader.
-  void SetWaitingBefore(std::size_t count) noexcept {
-    // relaxed, both: a little more or less room for a moment does not matter.
-    if (waiting_before_.load(std::memory_order_relaxed) == count) return;
-    waiting_before_.store(count, std::memory_order_relaxed);
-  }
-
-  /// The epoch since which no publisher that enters finds the queue; 0 while they can. Under the
-  /// structure lock.
-  std::uint64_t left_in_epoch = 0;
 
  private:
   static constexpr int kAttempts = 16;
-  // Whether what waits in older queues leaves no room in this one.
-  [[nodiscard]] bool IsCrowdedOut() const noexcept {
-    const std::size_t before = waiting_before_.load(std::memory_order_relaxed);
-    return before > 0 && on_full_ != OnFull::kDropOldest && before + size() >= capacity_;
-  }
   // The publication by value: its publisher has it in registers, and leaves it there as long as nobody
   // asks where it lies.
   [[gnu::noinline]] bool PushShared(const T& value, Publication publication,
@@ -207,14 +177,6 @@ class InputQueue final : public QueueSink {
     }
     return Drop();
   }
-  // Counts a value that is not taken in; false if its publisher is to know.
-  [[gnu::noinline]] bool Drop() noexcept {
-    CountDropped();
-    return on_full_ != OnFull::kRefuse;
-  }
-  // relaxed: a statistic.
-  void CountDropped() noexcept { dropped_.fetch_add(1, std::memory_order_relaxed); }
-
   template <typename May>
   bool PopStream(May&& may, internal::HeldValue<T>& held, std::uint64_t& source) noexcept {
     // acquire: pairs with the release in PutFirst().
@@ -240,15 +202,10 @@ class InputQueue final : public QueueSink {
     return true;
   }
 
-  const std::size_t capacity_;
-  const OnFull on_full_;
-  const Writers writers_;
   std::unique_ptr<Stream> stream_;  // one of the two, constant from the constructor on
   std::unique_ptr<Shared> shared_;
-  std::atomic<std::size_t> waiting_before_{0};
   std::atomic<bool> first_waits_{false};
   Entry first_;  // the connecting thread's, then the reader's
-  alignas(kCacheLineSize) std::atomic<std::uint64_t> dropped_{0};
 };
 
 }  // namespace runnel

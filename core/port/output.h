@@ -1,15 +1,14 @@
 #pragma once
 
-#include <atomic>
+#include <functional>
 #include <memory>
 #include <string>
 #include <type_traits>
 #include <utility>
 
-#include "core/base/check.h"
 #include "core/port/channel.h"
 #include "core/port/loan.h"
-#include "core/port/port.h"
+#include "core/port/output_base.h"
 #include "core/port/port_owner.h"
 #include "core/types/type_of.h"
 
@@ -18,7 +17,8 @@ namespace runnel {
 namespace internal {
 /// Port::MakeOutput() of inputs and outputs.
 template <typename T>
-std::unique_ptr<Port> MakeOutput(FrameworkElement& group, std::string name, OutputOptions options);
+std::unique_ptr<Port> MakeOutput(FrameworkElement& group, std::string&& name,
+                                 OutputOptions&& options);
 }  // namespace internal
 
 /// Where a module publishes values of type T.
@@ -36,7 +36,7 @@ std::unique_ptr<Port> MakeOutput(FrameworkElement& group, std::string name, Outp
 /// Allocation:  none, unless a growing pool has run out of buffers (growths() counts it).
 /// Time:        values bear the time of the cycle; outside of a cycle, that of the runtime's clock.
 template <typename T>
-class Output final : public Port {
+class Output final : public OutputBase {
  public:
   using Factory = typename BufferPool<T>::Factory;
 
@@ -46,14 +46,9 @@ class Output final : public Port {
   /// Into a certain group.
   Output(FrameworkElement& group, std::string name, OutputOptions options = {},
          Factory factory = {})
-      : Port({group, std::move(name)}, Direction::kOutput, TypeOf<T>(), options.description),
-        channel_(new Channel<T>(options.pool, std::move(factory), options.pullable)) {}
-  ~Output() override {
-    DisconnectAll();
-    EndPulls();
-    // Readers that found the channel before it was disconnected may still be looking at it.
-    Retire([channel = &own()] { delete channel; });
-  }
+      : OutputBase(
+            {group, std::move(name)}, TypeOf<T>(), std::move(options.description),
+            std::make_unique<Channel<T>>(options.pool, std::move(factory), options.pullable)) {}
 
   /// A buffer to fill; empty if a pool of fixed size is exhausted.
   [[nodiscard, gnu::always_inline]] runnel::Loan<T> Loan() { return own().MakeLoan(); }
@@ -89,15 +84,9 @@ class Output final : public Port {
     return Publish(std::move(loan));
   }
 
-  /// Whether a queue that refuses when it is full would refuse the next value, as things are. A
-  /// publisher that must not lose anything waits until it would not: publishing again what a queue
-  /// has refused makes a new value for all others. For the publisher's thread; if the queue has no
-  /// other sources, what is not refused now will not be.
-  [[nodiscard]] bool WouldRefuse() const noexcept { return own().WouldRefuse(); }
-
   /// Fills `value` (T{}, or what an earlier use left in a buffer) and returns true, or returns
   /// false if there is nothing new.
-  using Provider = typename Channel<T>::Provider;
+  using Provider = std::function<bool(T& value)>;
   /// Lets inputs pull: when one with Strategy::kPull is read, its thread calls `provider` and
   /// publishes what it has made, for all inputs alike; then it reads. An empty provider ends that.
   ///
@@ -111,22 +100,16 @@ class Output final : public Port {
   ///            the value of before, and pull_failures() counts it.
   /// Errors:    throws ProgrammingError if the output was not made with OutputOptions::pullable.
   void SetProvider(Provider provider) requires(Channel<T>::kCanPull) {
-    RUNNEL_CHECK(own().is_pullable(),
-                 "an output without OutputOptions::pullable is given a "
-                 "provider");
-    own().SetProvider(std::move(provider));
-  }
-  /// How many pulls have come to nothing because the provider threw or had no buffer.
-  [[nodiscard]] std::uint64_t pull_failures() const noexcept { return own().pull_failures(); }
-
-  [[nodiscard]] std::uint64_t publications() const noexcept override {
-    return own().publications();
+    if (!provider) return SetPullProvider({});
+    SetPullProvider([provider = std::move(provider)](void* value) {
+      return provider(*static_cast<T*>(value));
+    });
   }
   /// How often the pool had to allocate since the start.
   [[nodiscard]] std::uint64_t growths() const noexcept { return own().growths(); }
 
   bool LookAtValue(const Look& look) const override {
-    const auto held = Guarded([this] { return own().Read(); });
+    const auto held = own().ReadForViewer();
     if (!held.has_value()) return false;
     look(&held.value(), Time(Duration(held.publication().stamp)));
     return true;
@@ -134,9 +117,10 @@ class Output final : public Port {
   Result<PublishStatus> PublishFilled(const Fill& fill) override {
     if constexpr (Channel<T>::kCanPull) {
       auto loan = Loan();
-      if (!loan) return CannotPublish("its pool has no free buffer");
-      if (auto filled = fill(&*loan); !filled) return filled.error();
-      return Publish(std::move(loan));
+      return FillAndPublish(loan ? &*loan : nullptr, fill, &loan, [](Port& self, void* filled) {
+        return static_cast<Output&>(self).Publish(
+            std::move(*static_cast<runnel::Loan<T>*>(filled)));
+      });
     } else {
       return CannotPublish("only its module can make values of its type");
     }
@@ -147,38 +131,16 @@ class Output final : public Port {
   }
 
  private:
-  // acquire: pairs with the release in TakeOverFlow(), for viewers; publishers are at rest then.
-  [[nodiscard]] Channel<T>& own() const noexcept {
-    return *channel_.load(std::memory_order_acquire);
+  // The channel that the constructor has made, or another output's of this class.
+  [[nodiscard, gnu::always_inline]] Channel<T>& own() const noexcept {
+    return static_cast<Channel<T>&>(own_channel());
   }
-  [[nodiscard]] ChannelBase* channel() noexcept override { return &own(); }
-  void Detach() noexcept override {
-    Port::Detach();
-    EndPulls();
-  }
-  void EndPulls() {
-    if (own().is_pullable()) own().SetProvider({});
-  }
-
-  // The channels are exchanged, so that readers stay where they are, and each output keeps its
-  // provider. Where one can be pulled and the other cannot, the readers come over, and find nothing
-  // until something is published.
-  void TakeOverFlow(Port& from) override {
-    auto& other = static_cast<Output&>(from);
-    Channel<T>& taken = other.own();
-    Channel<T>& left = own();
-    if (taken.is_pullable() != left.is_pullable()) return RebindSinks();
-    if (taken.is_pullable()) taken.ExchangeProviders(left);
-    channel_.store(&taken, std::memory_order_release);
-    other.channel_.store(&left, std::memory_order_release);
-  }
-
-  std::atomic<Channel<T>*> channel_;  // owned
 };
 
 template <typename T>
-std::unique_ptr<Port> internal::MakeOutput(FrameworkElement& group, std::string name,
-                                           OutputOptions options) {
+[[gnu::noinline]] std::unique_ptr<Port> internal::MakeOutput(FrameworkElement& group,
+                                                             std::string&& name,
+                                                             OutputOptions&& options) {
   if constexpr (std::is_default_constructible_v<T>) {
     return std::make_unique<Output<T>>(group, std::move(name), std::move(options));
   } else {

@@ -1,11 +1,13 @@
 #include "core/port/port.h"
 
 #include <algorithm>
-#include <exception>
+#include <chrono>
 #include <iterator>
+#include <thread>
 #include <unordered_set>
 
 #include "core/base/check.h"
+#include "core/base/exception_text.h"
 #include "core/element/runtime.h"
 #include "core/types/type_info.h"
 
@@ -57,6 +59,16 @@ void CollectSinks(const Port& port, std::vector<Port*>& sinks) {
       sinks.push_back(each.to);
     }
   }
+}
+
+// A connection that is to be cut since one end goes must not stay for lack of memory, so it waits until there is
+// some.
+void CutOrWait(Port& from, Port& to) noexcept {
+  try {
+    if (Port::Disconnect(from, to)) return;
+  } catch (...) {
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 // Keeps the first of each.
@@ -117,13 +129,13 @@ Result<void> Port::Connect(Port& from, Port& to, const ConnectOptions& options) 
   const std::lock_guard lock(from.runtime().structure_mutex());
   if (auto possible = CheckConnection(from, to); !possible) return possible;
   from.outgoing_.push_back({&from, &to, options});
-  to.incoming_.push_back(&from);
   try {
+    to.incoming_.push_back(&from);
     to.RebindSinks();
-  } catch (const std::exception& exception) {  // no memory for the queue
+  } catch (...) {  // no memory for the queue
     RemoveEdge(from, to);
     to.RebindSinks();
-    return Refusal(from, "cannot be connected to " + to.path() + ": " + exception.what());
+    return Refusal(from, "cannot be connected to " + to.path() + ": " + DescribeException());
   }
   from.runtime().ForEachListener(
       [&](ElementListener& listener) { listener.OnConnected(from, to); });
@@ -140,8 +152,21 @@ bool Port::RemoveEdge(Port& from, Port& to) {
 
 Result<void> Port::Disconnect(Port& from, Port& to) {
   const std::lock_guard lock(from.runtime().structure_mutex());
-  if (!RemoveEdge(from, to)) return Refusal(from, "is not connected to " + to.path());
-  to.RebindSinks();
+  const auto edge = FindConnection(from.outgoing_, to);
+  if (edge == from.outgoing_.end()) return Refusal(from, "is not connected to " + to.path());
+  const auto outgoing_place = edge - from.outgoing_.begin();
+  const auto incoming_place = std::ranges::find(to.incoming_, &from) - to.incoming_.begin();
+  const Connection removed = *edge;
+  RemoveEdge(from, to);
+  try {
+    to.RebindSinks();
+  } catch (...) {
+    // Both lists have the room that it has just left.
+    from.outgoing_.insert(from.outgoing_.begin() + outgoing_place, removed);
+    to.incoming_.insert(to.incoming_.begin() + incoming_place, &from);
+    to.RebindSinks();
+    return Refusal(from, "cannot be disconnected from " + to.path() + ": " + DescribeException());
+  }
   from.runtime().ForEachListener(
       [&](ElementListener& listener) { listener.OnDisconnected(from, to); });
   return {};
@@ -171,6 +196,18 @@ void Port::TakeOver(Port& from) {
   const auto possible = CheckTakeOver(*this, from);
   RUNNEL_CHECK(possible, "a port cannot take over from another one");
   const std::vector<Port*> sinks = from.Sinks();
+  ExchangeConnections(from, sinks);
+  try {
+    TakeOverFlow(from);
+  } catch (...) {
+    // Each as it was, and what has been exchanged by then is exchanged again.
+    from.ExchangeConnections(*this, sinks);
+    from.TakeOverFlow(*this);
+    throw;
+  }
+}
+
+void Port::ExchangeConnections(Port& from, const std::vector<Port*>& sinks) noexcept {
   for (Connection& each : from.outgoing_) {
     each.from = this;
     std::ranges::replace(each.to->incoming_, &from, this);
@@ -183,15 +220,14 @@ void Port::TakeOver(Port& from) {
   outgoing_.swap(from.outgoing_);
   incoming_.swap(from.incoming_);
   for (Port* sink : sinks) {
-    if (sink != &from) sink->ReplaceSource(from, *this);
+    if (sink != &from && sink != this) sink->ReplaceSource(from, *this);
   }
-  TakeOverFlow(from);
 }
 
 void Port::DisconnectAll() {
   const std::lock_guard lock(runtime().structure_mutex());
-  while (!outgoing_.empty()) (void)Disconnect(*this, *outgoing_.back().to);
-  while (!incoming_.empty()) (void)Disconnect(*incoming_.back(), *this);
+  while (!outgoing_.empty()) CutOrWait(*this, *outgoing_.back().to);
+  while (!incoming_.empty()) CutOrWait(*incoming_.back(), *this);
 }
 
 void Port::Detach() noexcept { DisconnectAll(); }
@@ -242,6 +278,13 @@ std::vector<Port*> Port::Sinks() const {
 
 Result<PublishStatus> Port::PublishFilled(const Fill&) {
   return CannotPublish(is_proxy() ? "is an interface port" : "is an input");
+}
+
+Result<PublishStatus> Port::FillAndPublish(void* value, const Fill& fill, void* loan,
+                                           PublishStatus (*publish)(Port& self, void* loan)) {
+  if (value == nullptr) return CannotPublish("its pool has no free buffer");
+  if (auto filled = fill(value); !filled) return filled.error();
+  return publish(*this, loan);
 }
 
 Error Port::CannotPublish(const char* why) const {

@@ -66,7 +66,7 @@ class Port : public FrameworkElement {
   /// that the readers of the other are bound to. `from` has no connection then; it can take over again.
   /// Preconditions, by CheckTakeOver(): one type and one direction, both or neither interface ports,
   /// and this port is not connected. Nobody reads or publishes through either of them meanwhile;
-  /// those at the other ends may.
+  /// those at the other ends may. Throws for lack of memory, and has changed nothing then.
   static Result<void> CheckTakeOver(const Port& port, const Port& from);
   void TakeOver(Port& from);
 
@@ -101,12 +101,16 @@ class Port : public FrameworkElement {
   /// Inputs: take `sources` for the outputs to read from, from now on.
   virtual void Rebind(const std::vector<Source>& sources);
   /// What the port has for its connections goes from `from`, of the same class, to this one, and the
-  /// other way round. Edges have been exchanged already.
+  /// other way round. Edges have been exchanged already. If it throws it is called the other way round.
   virtual void TakeOverFlow(Port& /*from*/) {}
   /// Inputs: `to` stands now where `from` stood.
   virtual void ReplaceSource(const Port& /*from*/, Port& /*to*/) noexcept {}
   /// Binds all inputs at the far end anew.
   void RebindSinks();
+  /// PublishFilled() of an output: fills `value`, unless it is nullptr for want of a buffer, and has
+  /// `publish(*this, loan)` publish it.
+  Result<PublishStatus> FillAndPublish(void* value, const Fill& fill, void* loan,
+                                       PublishStatus (*publish)(Port& self, void* loan));
   /// What PublishFilled() says when it cannot.
   [[nodiscard]] Error CannotPublish(const char* why) const;
   /// Outputs: the channel that inputs are bound to; nullptr for other ports.
@@ -124,6 +128,7 @@ class Port : public FrameworkElement {
   static Result<void> CheckConnection(const Port& from, const Port& to);
   void CollectSources(const ConnectOptions& options, std::vector<Source>& sources) const;
   static bool RemoveEdge(Port& from, Port& to);
+  void ExchangeConnections(Port& from, const std::vector<Port*>& sinks) noexcept;
 
   const Direction direction_;
   const TypeInfo& type_;

@@ -4,7 +4,8 @@
 #include <mutex>
 
 #include "core/element/runtime.h"
-#include "core/port/channel.h"
+#include "core/lockfree/thread_epoch.h"
+#include "core/port/channel_base.h"
 #include "core/port/tap_queue.h"
 
 namespace runnel {
@@ -71,7 +72,7 @@ void Tap::Bound() {
   fresh_.clear();
 }
 
-void Tap::TakeOverBinding(InputBase& from) {
+void Tap::TakeOverBinding(InputBase& from) noexcept {
   auto& other = static_cast<Tap&>(from);
   queue_.swap(other.queue_);
   bound_.swap(other.bound_);

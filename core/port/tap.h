@@ -43,7 +43,7 @@ class Tap final : public InputBase {
 
  private:
   QueueSink* Bind(const std::vector<Source>& sources) override;
-  void TakeOverBinding(InputBase& from) override;
+  void TakeOverBinding(InputBase& from) noexcept override;
   void Bound() override;
   [[nodiscard]] bool HasNew() const override;
 

@@ -167,12 +167,6 @@ TEST_F(ConnectingTest, OptionsOfAPortCanBeAskedFor) {
   EXPECT_EQ(&receiver.in.type(), &TypeOf<int>());
 }
 
-class CountingWaker final : public Waker {
- public:
-  void Wake() noexcept override { ++wakes; }
-  int wakes = 0;
-};
-
 TEST_F(ConnectingTest, WakerIsToldOfEachPublicationUntilItIsTakenOff) {
   CountingWaker waker;
   auto& sender = MakeSender<int>();
@@ -193,6 +187,48 @@ TEST_F(ConnectingTest, WakerIsToldOfEachPublicationUntilItIsTakenOff) {
   ASSERT_TRUE(runtime.Delete(scan_receiver));
   scans.out.Publish(Scan{});
   EXPECT_EQ(waker.wakes, 2);
+}
+
+TEST_F(ConnectingTest, WakerIsToldOfAValueThatIsThere) {
+  CountingWaker waker;
+  auto& sender = MakeSender<int>();
+  auto& receiver = MakeReceiver<int>();
+  Connect(sender.out, receiver.in);
+  sender.out.Publish(1);
+  receiver.in.SetWaker(&waker);
+  EXPECT_EQ(waker.wakes, 1);
+  receiver.in.SetWaker(&waker);
+  EXPECT_EQ(waker.wakes, 1);
+  receiver.in.SetWaker(nullptr);
+}
+
+TEST_F(ConnectingTest, WakerIsToldOfAValueThatANewConnectionBrings) {
+  CountingWaker waker;
+  auto& silent = MakeSender<int>("silent");
+  auto& sender = MakeSender<int>();
+  auto& receiver = MakeReceiver<int>();
+  receiver.in.SetWaker(&waker);
+  sender.out.Publish(1);
+  Connect(silent.out, receiver.in);
+  EXPECT_EQ(waker.wakes, 0);
+  Connect(sender.out, receiver.in);
+  EXPECT_EQ(waker.wakes, 1);
+  ASSERT_TRUE(Port::Disconnect(silent.out, receiver.in));
+  EXPECT_EQ(waker.wakes, 1);
+  receiver.in.SetWaker(nullptr);
+}
+
+TEST_F(ConnectingTest, WakerIsToldOfAValueThatComesWithTheConnectionsOfAnother) {
+  CountingWaker waker;
+  auto& sender = MakeSender<int>();
+  auto& before = MakeReceiver<int>("before");
+  auto& receiver = MakeReceiver<int>();
+  receiver.in.SetWaker(&waker);
+  Connect(sender.out, before.in);
+  sender.out.Publish(1);
+  receiver.in.TakeOver(before.in);
+  EXPECT_EQ(waker.wakes, 1);
+  receiver.in.SetWaker(nullptr);
 }
 
 TEST_F(ConnectingTest, WakerFindsTheValueInPlace) {

@@ -55,6 +55,13 @@ inline constexpr bool runnel::kIsCheap<runnel::test::Stubborn> = false;
 
 namespace runnel::test {
 
+/// How often an executor would have been told.
+class CountingWaker final : public Waker {
+ public:
+  void Wake() noexcept override { ++wakes; }
+  int wakes = 0;
+};
+
 /// An element to hang ports below.
 class Box : public FrameworkElement {
  public:

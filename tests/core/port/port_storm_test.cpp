@@ -16,7 +16,7 @@
 namespace runnel::test {
 namespace {
 
-constexpr int kRounds = RUNNEL_UNDER_SANITIZER ? 1000 : 10000;
+constexpr int kStormRounds = RUNNEL_UNDER_SANITIZER ? 1000 : 10000;
 
 // A value says who published it and as how manyth, several times over.
 struct SmallStormValue {
@@ -118,7 +118,7 @@ class Storm {
     }
     EXPECT_GT(wandering_reads_, 0);
     // A reader that the machine stops inside a guard holds up some; all of them would be many more.
-    EXPECT_LT(replaced_, kRounds / 2u) << "queues that have been replaced and are still there";
+    EXPECT_LT(replaced_, kStormRounds / 2u) << "queues that have been replaced and are still there";
   }
 
   /// What leases kept beyond the storm and its ports hold.
@@ -226,7 +226,7 @@ class Storm {
     std::mt19937 random(6);
     auto& passing = runtime_.Create<Sender<T>>(runtime_.root(), "passing").out;
     std::uint32_t number = 0;
-    for (int i = 0; i < kRounds; ++i) {
+    for (int i = 0; i < kStormRounds; ++i) {
       const auto room = 1 + random() % 12;
       Connect(passing, refusing_, Refusing(room));
       Connect(passing, dropping_, {.queue = room});
@@ -244,7 +244,7 @@ class Storm {
   }
   void LetPortsComeAndGo() {
     std::mt19937 random(7);
-    for (int i = 0; i < kRounds / 2; ++i) {
+    for (int i = 0; i < kStormRounds / 2; ++i) {
       const auto source = static_cast<std::uint32_t>(4 + i);
       auto& sender = runtime_.Create<Sender<T>>(runtime_.root(), "sender",
                                                 OutputOptions{.pool = {.buffers = 1 + source % 4}});

@@ -13,7 +13,7 @@ namespace {
 
 using PortThreadsTest = PortTest;
 
-constexpr int kRounds = RUNNEL_UNDER_SANITIZER ? 500 : 2000;
+constexpr int kThreadRounds = RUNNEL_UNDER_SANITIZER ? 500 : 2000;
 
 TEST_F(PortThreadsTest, ConnectingAndDisconnectingWhileOthersPublishAndRead) {
   auto& sender = MakeSender<Scan>();
@@ -48,7 +48,7 @@ TEST_F(PortThreadsTest, ConnectingAndDisconnectingWhileOthersPublishAndRead) {
         (void)receiver.in.publications();
       }
     } else {
-      for (int i = 0; i < kRounds || read == 0; ++i) {
+      for (int i = 0; i < kThreadRounds || read == 0; ++i) {
         const std::size_t queue = static_cast<std::size_t>(i) % 4;
         EXPECT_TRUE(Port::Connect(sender.out, receiver.in, {.queue = queue}));
         std::this_thread::yield();
@@ -85,7 +85,7 @@ TEST_F(PortThreadsTest, SmallTypesToo) {
         (void)receiver.in.Take();
       }
     } else {
-      for (int i = 0; i < kRounds || read == 0; ++i) {
+      for (int i = 0; i < kThreadRounds || read == 0; ++i) {
         EXPECT_TRUE(
             Port::Connect(sender.out, receiver.in, {.queue = static_cast<std::size_t>(i) % 3}));
         std::this_thread::yield();
@@ -125,7 +125,7 @@ TEST_F(PortThreadsTest, InterfacePortsAreConnectedAnewWhileTwoSourcesPublish) {
       }
     } else {
       auto& sender = index == 3 ? a : b;
-      for (int i = 0; i < kRounds / 2 || read == 0; ++i) {
+      for (int i = 0; i < kThreadRounds / 2 || read == 0; ++i) {
         EXPECT_TRUE(Port::Connect(sender.out, proxy, {.queue = static_cast<std::size_t>(i) % 5}));
         MaybeYield();
         EXPECT_TRUE(Port::Disconnect(sender.out, proxy));
@@ -154,7 +154,7 @@ TEST_F(PortThreadsTest, SendersAreDeletedWhileAReaderHoldsTheirValues) {
       }
       return;
     }
-    for (int i = 0; i < kRounds / 2 || read == 0; ++i) {
+    for (int i = 0; i < kThreadRounds / 2 || read == 0; ++i) {
       auto& sender = MakeSender<Scan>("sender", {.pool = {.buffers = 2}});
       sender.out.Publish(Scan{std::vector<float>(10, 1.0F), i});
       Connect(sender.out, receiver.in, {.queue = 2});
@@ -179,7 +179,7 @@ TEST_F(PortThreadsTest, ReceiversAreDeletedWhileASenderPublishes) {
       }
       return;
     }
-    for (int i = 0; i < kRounds / 2 || published < 100; ++i) {
+    for (int i = 0; i < kThreadRounds / 2 || published < 100; ++i) {
       auto& receiver = MakeReceiver<Scan>();
       Connect(sender.out, receiver.in, {.queue = 1 + static_cast<std::size_t>(i) % 3});
       (void)receiver.in.Take();
@@ -203,14 +203,14 @@ TEST_F(PortThreadsTest, NoValueIsLostUncounted) {
       std::uint64_t taken = 0;
       RunTogether(3, [&](unsigned index) {
         if (index < 2) {
-          for (int i = 0; i < kRounds; ++i) (void)(index == 0 ? a : b).out.Publish(i);
+          for (int i = 0; i < kThreadRounds; ++i) (void)(index == 0 ? a : b).out.Publish(i);
           --sending;
           return;
         }
         while (sending > 0) taken += receiver.in.Drain([](const Lease<int>&) {});
       });
       taken += receiver.in.Drain([](const Lease<int>&) {});
-      EXPECT_EQ(taken + receiver.in.dropped(), 2u * kRounds);
+      EXPECT_EQ(taken + receiver.in.dropped(), 2u * kThreadRounds);
     }
   }
 }
@@ -237,7 +237,7 @@ TEST_F(PortThreadsTest, WakerIsNotCalledAfterReadersHaveBeenWaitedFor) {
       }
       return;
     }
-    for (int i = 0; i < kRounds; ++i) {
+    for (int i = 0; i < kThreadRounds; ++i) {
       Mortal waker;
       receiver.in.SetWaker(&waker);
       std::this_thread::yield();

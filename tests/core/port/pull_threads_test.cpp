@@ -12,7 +12,7 @@
 namespace runnel::test {
 namespace {
 
-constexpr int kRounds = RUNNEL_UNDER_SANITIZER ? 1000 : 5000;
+constexpr int kPullRounds = RUNNEL_UNDER_SANITIZER ? 1000 : 5000;
 using PullThreadsTest = PullTest;
 
 // Two readers pull, a third one reads what is pushed, the publisher publishes, and somebody changes
@@ -46,7 +46,7 @@ void ChangeUnderFire(Sender<T>& sender, const std::vector<Receiver<T>*>& receive
         }
       }
     } else {
-      for (int round = 0; round < kRounds / 5 || pulled == 0; ++round) {
+      for (int round = 0; round < kPullRounds / 5 || pulled == 0; ++round) {
         const auto alive = std::make_unique<std::atomic<bool>>(true);
         sender.out.SetProvider([&, alive = alive.get()](T& value) {
           if (++running != 1) ++together;
@@ -130,7 +130,7 @@ TEST_F(PullThreadsTest, AnOutputGoesWhileOthersPullFromIt) {
       while (!stop) (void)receiver.in.Read();
       return;
     }
-    for (int round = 0; round < kRounds / 10; ++round) {
+    for (int round = 0; round < kPullRounds / 10; ++round) {
       auto& sender = MakeSender<int>("passing", kPullable);
       std::atomic<bool> alive{true};
       sender.out.SetProvider([&](int& value) {

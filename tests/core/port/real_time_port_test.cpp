@@ -9,12 +9,6 @@
 namespace runnel::test {
 namespace {
 
-class CountingWaker final : public Waker {
- public:
-  void Wake() noexcept override { ++wakes; }
-  int wakes = 0;
-};
-
 // Within a cycle, as a module's Update() is; the clock of the machine is not asked then.
 class RealTimePortTest : public PortTest {
  protected:

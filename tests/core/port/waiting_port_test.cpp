@@ -139,12 +139,6 @@ TEST_F(WaitingPortTest, MustNotSleepInACycleOrAGuard) {
   EXPECT_FALSE(receiver.in.Wait(Duration(0)));
 }
 
-class CountingWaker final : public Waker {
- public:
-  void Wake() noexcept override { ++wakes; }
-  int wakes = 0;
-};
-
 TEST_F(WaitingPortTest, AnExecutorsWakerIsToldBesides) {
   auto& sender = MakeSender<int>();
   auto& receiver = MakeReceiver<int>();

@@ -1,4 +1,10 @@
-#include "core/port/channel.h"
+#include "core/port/channel_base.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/lockfree/thread_epoch.h"
+#include "core/port/input_queue_base.h"
 
 namespace runnel {
 
@@ -14,9 +20,10 @@ std::uint64_t NextChannelNumber() noexcept {
 
 ChannelBase::ChannelBase(bool pullable)
     : number_(NextChannelNumber()),
-      special_(static_cast<std::uint8_t>(
-          (pullable ? kPullable : 0) |
-          (Fences<std::atomic>::HeavyIsHeavy() ? 0 : kPassesFullFences))) {}
+      special_(
+          static_cast<std::uint8_t>((pullable ? kPullable : 0) |
+                                    (Fences<std::atomic>::HeavyIsHeavy() ? 0 : kPassesFullFences))),
+      pull_point_(pullable ? std::make_unique<PullPoint>() : nullptr) {}
 
 ChannelBase::~ChannelBase() { delete subscribers_.load(std::memory_order_relaxed); }
 
@@ -30,6 +37,32 @@ void ChannelBase::SetSubscribers(Subscribers subscribers) {
   if (previous != nullptr) Retire([previous] { delete previous; });
   // Between saying who subscribes and reading the newest value; pairs with subscribers().
   if (next != nullptr) HeavyFence();
+}
+
+bool ChannelBase::WouldRefuse() const noexcept {
+  if (subscribers() == nullptr) return false;
+  return Guarded([this] {
+    const Subscribers* const list = subscribers_in_guard();
+    return list != nullptr && std::ranges::any_of(list->queues, [](QueueSink* sink) {
+             // What is no tap is the queue of an input.
+             return static_cast<InputQueueBase&>(*sink).WouldRefuse();
+           });
+  });
+}
+
+void ChannelBase::Pull(Time (*now)(const Port& reader), const Port& reader) noexcept {
+  if (pull_point_ == nullptr || !pull_point_->has_provider()) return;
+  const PullPoint::Turn turn(*pull_point_);
+  if (!turn.held()) return;
+  try {
+    PublishPulled(now, reader);
+  } catch (...) {
+    pull_point_->CountFailure();
+  }
+}
+
+void ChannelBase::DeleteLater(ChannelBase* channel) {
+  Retire([channel] { delete channel; });
 }
 
 void ChannelBase::Set(Special special, bool is) noexcept {

@@ -1,0 +1,161 @@
+#include "core/port/bound_input.h"
+
+#include <utility>
+
+#include "core/lockfree/thread_epoch.h"
+
+namespace runnel {
+
+constinit const internal::InputBinding BoundInput::kUnbound{};
+
+BoundInput::~BoundInput() = default;
+
+std::uint64_t BoundInput::dropped() const noexcept {
+  const EpochGuard guard;
+  return binding()->dropped();
+}
+
+std::size_t BoundInput::replaced_queues() const noexcept {
+  const EpochGuard guard;
+  return binding()->older_queues.size();
+}
+
+std::uint64_t BoundInput::publications() const noexcept {
+  const EpochGuard guard;
+  std::uint64_t sum = 0;
+  for (const auto& link : binding()->links) sum += link->channel->publications();
+  return sum;
+}
+
+void BoundInput::DisconnectForEver() {
+  SetWaker(nullptr);
+  DisconnectAll();
+}
+
+void BoundInput::PullInto(const Binding& binding) const noexcept {
+  if (!binding.pulls) return;
+  for (const auto& link : binding.links) {
+    link->channel->Pull(
+        [](const Port& reader) { return static_cast<const BoundInput&>(reader).PublicationTime(); },
+        *this);
+  }
+}
+
+QueueSink* BoundInput::Bind(const std::vector<Source>& sources) {
+  const Binding* before = binding_.load(std::memory_order_relaxed);
+  replaced_.reserve(replaced_.size() + 1);  // what fails has replaced nothing
+  if (!before->links.empty()) last_links_ = before->links;
+  if (sources.empty()) {
+    Replace(&kUnbound);
+    return nullptr;
+  }
+  auto next = std::make_unique<Binding>();
+  next->pulls = strategy() == Strategy::kPull;
+  ConnectOptions options;
+  fresh_.clear();
+  for (const Source& source : sources) {
+    ChannelBase* const channel = ChannelOf(*source.output);
+    next->links.push_back(KeepOrMakeLink(*before, *channel));
+    if (sources.size() == 1) {
+      if (!next->pulls) next->channel = channel;
+      next->only = next->links.back().get();
+    }
+    if (source.options.queue > options.queue) options = source.options;
+  }
+  if (options.queue > 0) next->queue = KeepOrMakeQueue(*before, *next, options);
+  KeepWaitingValues(*before, *next);
+  InputQueueBase* const queue = next->queue.get();
+  Replace(next.release());
+  return queue;
+}
+
+std::shared_ptr<internal::InputLink> BoundInput::KeepOrMakeLink(const Binding& before,
+                                                                ChannelBase& channel) {
+  if (const auto kept = before.LinkOf(channel)) return kept;
+  fresh_.push_back(&channel);
+  auto link = std::make_shared<Link>(&channel);
+  // A source that comes back at once does not bring what has been read already as new.
+  for (const auto& last : last_links_) {
+    if (last->number == channel.number()) link->read.exchange_relaxed(last->read.load_relaxed());
+  }
+  return link;
+}
+
+std::shared_ptr<InputQueueBase> BoundInput::KeepOrMakeQueue(const Binding& before,
+                                                            const Binding& next,
+                                                            const ConnectOptions& options) const {
+  const Writers writers = next.only != nullptr ? Writers::kOne : Writers::kSeveral;
+  // A queue for one writer serves the source it was made for: another might begin before that
+  // one has ended.
+  if (before.queue && before.queue->room() == options.queue &&
+      before.queue->on_full() == options.on_full && before.queue->writers() == writers &&
+      (writers == Writers::kSeveral || before.only == next.only)) {
+    return before.queue;
+  }
+  return MakeQueue(options.queue, options.on_full, writers);
+}
+
+void BoundInput::KeepWaitingValues(const Binding& before, Binding& next) {
+  next.dropped_before = before.dropped_before;
+  for (const auto& older : before.older_queues) {
+    // A publisher that found the queue before it was replaced may still put a value in. Its
+    // leaving comes before the look at the size.
+    const bool settled =
+        older->left_in_epoch != 0 && ProcessEpochs().HasPassed(older->left_in_epoch);
+    if (!settled || older->size() > 0) {
+      next.older_queues.push_back(older);
+    } else {
+      next.dropped_before += older->dropped();
+    }
+  }
+  if (before.queue && before.queue != next.queue) next.older_queues.push_back(before.queue);
+  if (next.older_queues.empty()) return;
+  for (const auto& older : next.older_queues) next.all_queues.push_back(older.get());
+  if (!next.queue) return;
+  next.all_queues.push_back(next.queue.get());
+  // However often queues change, no more than twice the room can wait.
+  for (const auto& older : next.older_queues) {
+    while (next.WaitingInOlder() > next.queue->room() && older->DropOldest()) {
+    }
+  }
+  next.queue->SetWaitingBefore(next.WaitingInOlder());
+}
+
+// A new connection delivers the last value at once. It is read after publishers have begun to fill
+// the queue, so that none is lost; Take() leaves out one that is there twice for that reason.
+void BoundInput::Bound() {
+  for (auto& each : replaced_) Retire([replaced = each.release()] { delete replaced; });
+  replaced_.clear();
+  const Binding* binding = binding_.load(std::memory_order_relaxed);
+  for (const auto& older : binding->older_queues) {
+    if (older->left_in_epoch == 0) older->left_in_epoch = ProcessEpochs().Advance();
+  }
+  if (!binding->queue) return;
+  const EpochGuard guard;
+  for (ChannelBase* channel : fresh_) channel->DeliverNewest(*binding->queue);
+  fresh_.clear();
+}
+
+// One of the two is not connected, so that nothing is replaced.
+void BoundInput::TakeOverBinding(InputBase& from) noexcept {
+  auto& other = static_cast<BoundInput&>(from);
+  // acq_rel, release: as in Replace().
+  const Binding* const taken = other.binding_.exchange(binding_.load(std::memory_order_relaxed),
+                                                       std::memory_order_acq_rel);
+  binding_.store(taken, std::memory_order_release);
+  last_links_.swap(other.last_links_);
+}
+
+// The previous binding owns the queue that publishers may still find; it goes in Bound().
+void BoundInput::Replace(const Binding* next) {
+  replaced_.emplace_back();
+  // acq_rel: release, pairs with the acquire of readers; acquire for who destroys the old one.
+  const Binding* const before = binding_.exchange(next, std::memory_order_acq_rel);
+  if (before->links.empty()) {  // kUnbound
+    replaced_.pop_back();
+  } else {
+    replaced_.back().reset(before);
+  }
+}
+
+}  // namespace runnel

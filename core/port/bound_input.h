@@ -1,0 +1,69 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <vector>
+
+#include "core/port/channel_base.h"
+#include "core/port/input_base.h"
+#include "core/port/input_binding.h"
+
+namespace runnel {
+
+/// How an input that reads values of one type is bound to its sources: all of
+/// it that does not depend on the type.
+///
+/// A binding is never changed; connecting replaces it as a whole, and readers
+/// that still use the one before keep it by their guard.
+class BoundInput : public InputBase {
+ public:
+  [[nodiscard]] std::uint64_t dropped() const noexcept override;
+  [[nodiscard]] std::uint64_t publications() const noexcept override;
+  /// How many queues that others have replaced still hold values, or may still get some. Any thread.
+  [[nodiscard]] std::size_t replaced_queues() const noexcept;
+
+ protected:
+  using Link = internal::InputLink;
+  using Binding = internal::InputBinding;
+
+  using InputBase::InputBase;
+  ~BoundInput() override;
+  /// By the destructor of typed inputs: they make queues while they are
+  /// disconnected.
+  void DisconnectForEver();
+
+  /// An empty queue for values of the input's type.
+  [[nodiscard]] virtual std::unique_ptr<InputQueueBase> MakeQueue(std::size_t capacity,
+                                                                  OnFull on_full,
+                                                                  Writers writers) const = 0;
+  /// acquire: pairs with the release in Replace().
+  [[nodiscard, gnu::always_inline]] const Binding* binding() const noexcept {
+    return binding_.load(std::memory_order_acquire);
+  }
+  /// Has the sources' providers make values, if the binding pulls. Inside a
+  /// guard.
+  void PullInto(const Binding& binding) const noexcept;
+
+ private:
+  QueueSink* Bind(const std::vector<Source>& sources) override;
+  void TakeOverBinding(InputBase& from) noexcept override;
+  void Bound() override;
+
+  std::shared_ptr<Link> KeepOrMakeLink(const Binding& before, ChannelBase& channel);
+  [[nodiscard]] std::shared_ptr<InputQueueBase> KeepOrMakeQueue(
+      const Binding& before, const Binding& next, const ConnectOptions& options) const;
+  static void KeepWaitingValues(const Binding& before, Binding& next);
+  void Replace(const Binding* next);
+
+  // Of an input that is not connected: there always is one, so that readers need not ask.
+  static const Binding kUnbound;
+
+  std::atomic<const Binding*> binding_{&kUnbound};
+  // All three under the structure lock: bindings between Bind() and Bound(), sources that have just
+  // been connected, and the links of the binding before, also while nothing is connected.
+  std::vector<std::unique_ptr<const Binding>> replaced_;
+  std::vector<ChannelBase*> fresh_;
+  std::vector<std::shared_ptr<Link>> last_links_;
+};
+
+}  // namespace runnel

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "core/base/clock.h"
+#include "core/lockfree/asymmetric_fence.h"
+#include "core/port/pull_point.h"
+#include "core/port/subscribers.h"
+
+namespace runnel {
+
+class InputQueueBase;
+class Port;
+
+/// What an output and the inputs connected to it share, apart from the type of the values: the
+/// output publishes into its channel, and the inputs read from it.
+///
+/// Threads:  SetSubscribers() and SetOrdered() under the structure lock; the rest as stated.
+class ChannelBase {
+ public:
+  virtual ~ChannelBase();
+  ChannelBase(const ChannelBase&) = delete;
+  ChannelBase& operator=(const ChannelBase&) = delete;
+
+  /// Different for each channel of the process, never 0, ascending with time.
+  [[nodiscard]] std::uint64_t number() const noexcept { return number_; }
+  [[nodiscard]] virtual std::uint64_t publications() const noexcept = 0;
+
+  /// Swaps the list that publishers visit; the old one goes when nobody can still look at it. A value
+  /// whose publisher does not find the new list is seen by who reads the newest value from now on.
+  void SetSubscribers(Subscribers subscribers);
+  /// A channel that shares an input with others numbers its values in one order with theirs.
+  void SetOrdered(bool ordered) noexcept { Set(kOrdered, ordered); }
+  /// Sees to it that `leases` values can wait in queues besides those that the pool's options plan
+  /// for. Allocates.
+  virtual void ReserveFor(std::size_t leases) = 0;
+  /// Pushes the newest value, if there is one. Call inside an EpochGuard.
+  virtual void DeliverNewest(TapQueue& tap) = 0;
+  /// The same into the queue of an input of this channel's type, see
+  /// InputQueue::PutFirst().
+  virtual void DeliverNewest(InputQueueBase& queue) = 0;
+  /// Whether a queue that refuses is full.
+  [[nodiscard]] bool WouldRefuse() const noexcept;
+  /// Has the provider, if there is one and nobody is publishing just now, make
+  /// a value in this thread and publishes it with the time that `now(reader)`
+  /// returns then. Any thread, inside a guard.
+  void Pull(Time (*now)(const Port& reader), const Port& reader) noexcept;
+
+  /// What readers pull by; nullptr if the output is not pullable.
+  [[nodiscard]] PullPoint* pull_point() const noexcept { return pull_point_.get(); }
+
+  /// Deletes `channel` when no reader can still be looking at it.
+  static void DeleteLater(ChannelBase* channel);
+
+ protected:
+  enum class Way { kUsual, kSpecial };
+  /// Whom to visit after publishing; nullptr if nobody, and to be called again inside an
+  /// EpochGuard if somebody.
+  [[nodiscard, gnu::always_inline]] const Subscribers* subscribers(
+      Way way = Way::kSpecial) const noexcept {
+    // Between publishing and looking for subscribers; pairs with the heavy fence in
+    // SetSubscribers(): the publisher sees the subscriber, or that one sees the value.
+    if (way == Way::kUsual) {
+      Fences<std::atomic>::LightIfHeavyIsHeavy();
+    } else {
+      LightFence();
+    }
+    // acquire: pairs with the release in SetSubscribers().
+    return subscribers_.load(std::memory_order_acquire);
+  }
+  // For who has passed that fence already. Inside an EpochGuard.
+  [[nodiscard]] const Subscribers* subscribers_in_guard() const noexcept {
+    return subscribers_.load(std::memory_order_acquire);  // as above
+  }
+  /// What makes publishing more than it usually is; bits, so that one look is enough.
+  enum Special : std::uint8_t { kOrdered = 1, kPullable = 2, kPassesFullFences = 4 };
+  explicit ChannelBase(bool pullable);
+  /// Has the provider fill a free buffer, and publishes that. By who has the turn. Throws what the
+  /// provider throws.
+  virtual void PublishPulled(Time (*now)(const Port& reader), const Port& reader) = 0;
+  // relaxed, as all of it: a publisher that sees a change late numbers one value less, which then
+  // counts as older than all numbered ones.
+  [[nodiscard]] bool Has(Special special) const noexcept {
+    return (special_.load(std::memory_order_relaxed) & special) != 0;
+  }
+  [[nodiscard, gnu::always_inline]] bool IsSpecial() const noexcept {
+    return special_.load(std::memory_order_relaxed) != 0;
+  }
+  [[nodiscard]] std::uint64_t NextOrder() const noexcept { return Has(kOrdered) ? DrawOrder() : 0; }
+
+ private:
+  static std::uint64_t DrawOrder() noexcept;
+  void Set(Special special, bool is) noexcept;
+
+  const std::uint64_t number_;
+  std::atomic<const Subscribers*> subscribers_{nullptr};
+  std::atomic<std::uint8_t> special_;
+  const std::unique_ptr<PullPoint> pull_point_;
+};
+
+}  // namespace runnel

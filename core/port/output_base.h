@@ -1,0 +1,47 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "core/port/channel_base.h"
+#include "core/port/port.h"
+
+namespace runnel {
+
+/// The part of an output that does not depend on the type of its values.
+class OutputBase : public Port {
+ public:
+  ~OutputBase() override;
+
+  /// Whether a queue that refuses when it is full would refuse the next value, as things are. A
+  /// publisher that must not lose anything waits until it would not: publishing again what a queue
+  /// has refused makes a new value for all others. For the publisher's thread; if the queue has no
+  /// other sources, what is not refused now will not be.
+  [[nodiscard]] bool WouldRefuse() const noexcept { return own_channel().WouldRefuse(); }
+  /// How many pulls have come to nothing because the provider threw or had no buffer.
+  [[nodiscard]] std::uint64_t pull_failures() const noexcept;
+  [[nodiscard]] std::uint64_t publications() const noexcept override;
+
+ protected:
+  OutputBase(const Placement& placement, const TypeInfo& type, std::string description,
+             std::unique_ptr<ChannelBase> channel);
+
+  // acquire: pairs with the release in TakeOverFlow(), for viewers; publishers are at rest then.
+  [[nodiscard, gnu::always_inline]] ChannelBase& own_channel() const noexcept {
+    return *channel_.load(std::memory_order_acquire);
+  }
+  /// Errors: throws ProgrammingError if the output is not pullable.
+  void SetPullProvider(PullPoint::Provider provider);
+
+ private:
+  [[nodiscard]] ChannelBase* channel() noexcept override { return &own_channel(); }
+  void Detach() noexcept override;
+  void TakeOverFlow(Port& from) override;
+  void EndPulls();
+
+  std::atomic<ChannelBase*> channel_;  // owned
+};
+
+}  // namespace runnel
