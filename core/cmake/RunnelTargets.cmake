@@ -5,15 +5,27 @@ include(GNUInstallDirs)  # outside of this tree nobody else has
 
 get_filename_component(RUNNEL_ROOT "${CMAKE_CURRENT_LIST_DIR}/../.." ABSOLUTE)
 
-# runnel_library(<name> [SOURCES ...] HEADERS ... [DEPENDS ...] [PRIVATE_DEPENDS ...])
+# runnel_compile_together(<target> <count> [<source of its own> ...])
+# Compiles <count> sources of the target at a time, as one, so that the headers they share are read once;
+# those named are compiled each for itself. Two that are compiled together cannot have the same name in
+# their anonymous namespaces.
+function(runnel_compile_together target count)
+  set_target_properties(${target} PROPERTIES
+    UNITY_BUILD "${RUNNEL_COMPILE_TOGETHER}" UNITY_BUILD_BATCH_SIZE ${count})
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
+# runnel_library(<name> [SOURCES ...] [APART ...] HEADERS ... [DEPENDS ...] [PRIVATE_DEPENDS ...])
 # A library runnel_<name>, known to others as runnel::<name>. Without SOURCES it is header-only.
+# APART are sources, too, that cannot be compiled together with the others.
 # Its headers are installed under their path from the root of the tree, and each must compile alone
 # (target all_verify_interface_header_sets).
 function(runnel_library name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;HEADERS;DEPENDS;PRIVATE_DEPENDS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;APART;HEADERS;DEPENDS;PRIVATE_DEPENDS")
   if(arg_SOURCES)
     add_library(runnel_${name})
-    target_sources(runnel_${name} PRIVATE ${arg_SOURCES})
+    target_sources(runnel_${name} PRIVATE ${arg_SOURCES} ${arg_APART})
+    runnel_compile_together(runnel_${name} 6 ${arg_APART})
     set(scope PUBLIC)
     target_link_libraries(runnel_${name} PRIVATE $<BUILD_INTERFACE:runnel_warnings> ${arg_PRIVATE_DEPENDS})
   else()
@@ -37,6 +49,7 @@ endfunction()
 function(runnel_plugin name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS")
   add_library(runnel_plugin_${name} MODULE ${arg_SOURCES})
+  runnel_compile_together(runnel_plugin_${name} 6)
   target_compile_features(runnel_plugin_${name} PRIVATE cxx_std_20)
   target_link_libraries(runnel_plugin_${name} PRIVATE ${arg_DEPENDS})
   if(TARGET runnel_warnings)
@@ -55,22 +68,24 @@ function(runnel_plugin name)
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/runnel/plugins)
 endfunction()
 
-# runnel_test(<name> SOURCES ... [DEPENDS ...] [LABELS ...] [TIMEOUT seconds])
+# runnel_test(<name> SOURCES ... [DEPENDS ...] [LABELS ...] [TIMEOUT seconds] [APART ...])
 # A GoogleTest program; each of its test cases becomes a CTest test called <name>/<Suite>.<Case>.
 function(runnel_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "SOURCES;DEPENDS;LABELS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "SOURCES;DEPENDS;LABELS;APART")
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 120)
   endif()
   if(NOT arg_LABELS)
     set(arg_LABELS unit)
   endif()
-  add_executable(test_${name} ${arg_SOURCES})
+  add_executable(test_${name} ${arg_SOURCES} ${arg_APART})
+  runnel_compile_together(test_${name} 8 ${arg_APART})
   # Three quarters of the time to compile. Libraries that are tested stay as they are.
   target_compile_options(test_${name} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1>)
   target_include_directories(test_${name} PRIVATE "${RUNNEL_ROOT}")
   target_link_libraries(test_${name} PRIVATE
-    runnel_warnings ${arg_DEPENDS} GTest::gmock GTest::gtest_main)
+    runnel_warnings runnel_test_warnings ${arg_DEPENDS} GTest::gmock GTest::gtest_main)
+  target_precompile_headers(test_${name} REUSE_FROM runnel_test_headers)
   gtest_discover_tests(test_${name} TEST_PREFIX "${name}/" DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT})
 endfunction()

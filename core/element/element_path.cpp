@@ -1,22 +1,39 @@
 #include "core/element/element_path.h"
 
 #include <algorithm>
-#include <cctype>
+
+#include "core/base/characters.h"
 
 namespace runnel {
 
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r\n";
+
+}  // namespace
+
 Result<void> CheckElementName(std::string_view name) {
-  const auto is_control = [](char letter) { return static_cast<unsigned char>(letter) < 0x20; };
-  const std::string quoted = "'" + std::string(name) + "'";
   if (name.empty()) return Error{.message = "a name must not be empty"};
+  const std::string quoted = "'" + std::string(name) + "'";
   if (name == "." || name == "..") return Error{.message = "the name " + quoted + " is reserved"};
-  if (name.find('/') != std::string_view::npos) {
-    return Error{.message =
-                     "the name " + quoted + " contains a '/', which separates names in paths"};
+  // Not quoted: terminals would do what it says.
+  if (const std::string fault = UnwritableCharacter(name); !fault.empty()) {
+    return Error{.message = "a name contains " + fault};
   }
-  if (name.front() == ' ' || name.back() == ' ' || std::ranges::any_of(name, is_control)) {
-    return Error{.message = "the name " + quoted +
-                            " begins or ends with a blank or contains a control character"};
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(name[i]);
+    if (byte == '/') {
+      return Error{.message =
+                       "the name " + quoted + " contains a '/', which separates names in paths"};
+    }
+    if (byte == ',' || kBlanks.find(name[i]) != std::string_view::npos) {
+      return Error{.message = "the name " + quoted + " contains a " +
+                              (byte == ',' ? "comma" : "blank") + ", which separates paths",
+                   .hint = "write '_' instead"};
+    }
+    const bool is_late_control = byte == 0xc2 && static_cast<unsigned char>(name[i + 1]) < 0xa0;
+    if (byte == 0x7f || is_late_control)
+      return Error{.message = "a name contains a control character"};
   }
   return {};
 }

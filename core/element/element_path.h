@@ -8,8 +8,11 @@
 
 namespace runnel {
 
-/// Whether `name` can name an element: not empty, no '/', no white space or control characters at
-/// its ends or of other kinds than the blank, not "." or "..". The error says which rule it breaks.
+/// Whether `name` can name an element, wherever it comes from: a file, a change at run time, a page,
+/// C++ code. The rule is such that paths and lists of paths can be read again, and that every file can
+/// carry every name: UTF-8 without control characters, not empty, no '/', no comma, no blank,
+/// tabulator or line end, not "." or "..". All else is good: letters of any language, '?', '"', '&'.
+/// The error says what it breaks.
 Result<void> CheckElementName(std::string_view name);
 
 /// The names in a path: "robot/guard" and "/robot//guard/" both give {"robot", "guard"}. Whether it

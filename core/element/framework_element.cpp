@@ -37,19 +37,33 @@ void FrameworkElement::JoinParent(const FrameworkElement* place) {
         {.message = "cannot create '" + name_ + "' in an element that is being deleted",
          .path = parent_->path()});
   }
-  if (!parent_->children_by_name_.emplace(name_, this).second) {
+  if (parent_->children_by_name_.contains(name_)) {
     throw ElementError({.message = "there is already an element called '" + name_ + "'",
                         .path = parent_->path(),
                         .hint = "choose another name"});
   }
   auto& siblings = parent_->children_;
-  siblings.insert(place == nullptr ? siblings.end() : std::ranges::find(siblings, place), this);
+  const auto at =
+      siblings.insert(place == nullptr ? siblings.end() : std::ranges::find(siblings, place), this);
+  try {
+    parent_->children_by_name_.emplace(name_, this);
+  } catch (...) {
+    siblings.erase(at);
+    throw;
+  }
   is_listed_ = true;
+}
+
+bool FrameworkElement::IsInTree() const noexcept {
+  const FrameworkElement* element = this;
+  while (element->parent_ != nullptr && element->is_listed_) element = element->parent_;
+  return element == &runtime_->root();
 }
 
 FrameworkElement::~FrameworkElement() {
   if (!is_listed_) return;
   const std::lock_guard lock(runtime_->structure_mutex());
+  if (life_cycle_ != LifeCycle::kDeleted && IsInTree()) ++runtime_->revision_;
   DestroyOwned();
   // Members of an object above, which outlive this group: a module's parameters.
   for (FrameworkElement* child : children_) {

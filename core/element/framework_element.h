@@ -120,6 +120,7 @@ class FrameworkElement {
 
   // Into the parent's list, before `place` (nullptr: at the end); throws ElementError.
   void JoinParent(const FrameworkElement* place);
+  [[nodiscard]] bool IsInTree() const noexcept;
   // Out of the parent's list: from then on nobody finds the element from the root.
   void LeaveParent() noexcept;
   // The children before this element, so that none sees its parent half destroyed.

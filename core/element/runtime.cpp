@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/exception_text.h"
 #include "core/lockfree/thread_epoch.h"
 
 namespace runnel {
@@ -54,10 +55,8 @@ Result<void> Runtime::PrepareAll(FrameworkElement& element) {
     if (!result || each.life_cycle_ != LifeCycle::kConstructed) return;
     try {
       result = each.Prepare();
-    } catch (const std::exception& exception) {
-      result = Error{.message = exception.what()};
     } catch (...) {
-      result = Error{.message = "failed with an exception of unknown type"};
+      result = Error{.message = DescribeException()};
     }
     prepared.push_back(&each);
   });
@@ -73,12 +72,18 @@ Result<void> Runtime::PrepareAll(FrameworkElement& element) {
 Result<FrameworkElement*> Runtime::List(UnlistedElement&& element, const FrameworkElement* place) {
   const std::lock_guard lock(structure_mutex_);
   FrameworkElement* const listed = element.get();
+  auto& owned = listed->parent_->owned_;
+  owned.emplace_back();  // a place for it, so that what fails has changed nothing
   try {
     listed->JoinParent(place);
   } catch (const ElementError& error) {
+    owned.pop_back();
     return error.error();
+  } catch (...) {
+    owned.pop_back();
+    throw;
   }
-  Adopt(std::move(element.element_));
+  owned.back() = std::move(element.element_);
   listed->Visit([](FrameworkElement& each) {
     if (each.life_cycle_ == LifeCycle::kDeleted) each.life_cycle_ = LifeCycle::kReady;
   });
@@ -112,25 +117,25 @@ Result<UnlistedElement> Runtime::Unlist(FrameworkElement& element) {
   return taken;
 }
 
-void Runtime::Destroy(UnlistedElement element) {
-  if (!element) return;
-  std::vector<UnlistedElement> elements;
-  elements.push_back(std::move(element));
-  Destroy(std::move(elements));
-}
+void Runtime::Destroy(UnlistedElement element) { DestroyAll(&element, element ? 1 : 0); }
 
 void Runtime::Destroy(std::vector<UnlistedElement> elements) {
-  if (elements.empty()) return;
+  DestroyAll(elements.data(), elements.size());
+}
+
+// Without allocating: what fails between leaving the tree and being destroyed could be told to nobody.
+void Runtime::DestroyAll(UnlistedElement* elements, std::size_t count) {
+  if (count == 0) return;
   {
     const std::lock_guard lock(structure_mutex_);
-    for (const UnlistedElement& each : elements) {
-      each->Visit([](FrameworkElement& below) { below.Detach(); });
+    for (std::size_t i = 0; i < count; ++i) {
+      elements[i]->Visit([](FrameworkElement& below) { below.Detach(); });
     }
   }
   // No thread finds the element anew; wait for those that have found it before. The lock is free
   // meanwhile, so that a cycle that needs it can come to its end.
   WaitForReaders();
-  while (!elements.empty()) elements.pop_back();
+  while (count > 0) elements[--count] = {};
 }
 
 Result<void> Runtime::Delete(FrameworkElement& element) {

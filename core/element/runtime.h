@@ -59,7 +59,8 @@ class Runtime {
   static Result<void> Prepare(UnlistedElement& element);
   /// Puts the element where it belongs, before the child `place` of its parent (nullptr: after all).
   /// If it has been prepared, or has been in the tree before, it is ready then, and the listeners are
-  /// told. Errors: its name is taken, its parent is being deleted; the caller keeps the element.
+  /// told. Errors: its name is taken, its parent is being deleted. The caller keeps the element then, and
+  /// also if this throws for lack of memory.
   Result<FrameworkElement*> List(UnlistedElement&& element,
                                  const FrameworkElement* place = nullptr);
   /// Takes the element and all below it out of the tree as they are, for Destroy() or for List()
@@ -88,7 +89,9 @@ class Runtime {
   /// the structure lock.
   [[nodiscard]] bool is_in_change_scope() const noexcept { return change_scopes_ > 0; }
 
-  /// Grows with each change that listeners are told of. Under the structure lock.
+  /// Grows with each change that listeners are told of, and where an element goes out of the tree without
+  /// anybody having been told: a port that was destroyed with the object that it is a member of. Under the
+  /// structure lock.
   [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
 
   /// The time outside of cycles. The steady clock unless another is set before anything runs; the
@@ -99,6 +102,7 @@ class Runtime {
  private:
   friend class FrameworkElement;
   static Result<void> PrepareAll(FrameworkElement& element);
+  void DestroyAll(UnlistedElement* elements, std::size_t count);
   friend class ChangeScope;
   std::uint64_t NextSerial() noexcept { return next_serial_++; }
 

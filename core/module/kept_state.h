@@ -1,60 +1,85 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
-#include <string_view>
+#include <optional>
 #include <typeinfo>
 #include <vector>
 
+#include "core/base/error.h"
+#include "core/base/result.h"
 #include "core/element/annotation.h"
+#include "core/types/type_of.h"
 
 namespace runnel {
 
+namespace internal {
+
+/// One in each library: by its address they are told apart.
+[[gnu::visibility("hidden")]] inline constinit char this_library = 0;
+
+/// Whether there is a description of T, also of the elements of lists, which all lists seem to have.
+template <typename T>
+inline constexpr bool kIsDescribed = Described<T>;
+template <typename E>
+inline constexpr bool kIsDescribed<std::vector<E>> = kIsDescribed<E>;
+template <typename E, std::size_t count>
+inline constexpr bool kIsDescribed<std::array<E, count>> = kIsDescribed<E>;
+template <typename E>
+inline constexpr bool kIsDescribed<std::optional<E>> = kIsDescribed<E>;
+
+/// One state of a module, and how the library that the module comes from copies it and describes it.
+struct KeptPart {
+  const std::type_info* type;
+  const char* library;
+  void* state;
+  void (*copy)(void* to, const void* from);
+  const TypeInfo& (*description)();  // nullptr if it has none; throws what TypeOf() throws
+};
+
+}  // namespace internal
+
 /// What a module remembers from cycle to cycle and leaves to a module that takes its place, if that
 /// remembers something of the same type. Filled by Module::KeepState().
+///
+/// Between modules of one library a state is copied. A library that was built anew, or another one, may mean
+/// something else by the same name, down to the bytes: to it a state goes by its description, field by field,
+/// if both libraries have the same one.
 ///
 /// Ownership:  of nothing; the states are members of the module.
 /// Threads:    handed over while neither of the two modules runs.
 class KeptState final : public Annotation {
  public:
+  // Hidden, so that each library has its own.
   template <typename State>
-  void Add(State& state) {
-    parts_.push_back({typeid(State).name(), sizeof(State), alignof(State), &state,
+  [[gnu::visibility("hidden")]] void Add(State& state) {
+    const TypeInfo& (*description)() = nullptr;
+    if constexpr (internal::kIsDescribed<State>) description = &TypeOf<State>;
+    parts_.push_back({&typeid(State), &internal::this_library, &state,
                       [](void* to, const void* from) {
                         *static_cast<State*>(to) = *static_cast<const State*>(from);
-                      }});
+                      },
+                      description});
   }
 
-  /// Copies each part of `from` to the part of the same type here, the first to the first. Returns how
-  /// many there were. Types are the same if name, size and alignment are: a library that was built anew
-  /// may bring another type of the same name. Throws what copying throws.
-  std::size_t TakeOver(const KeptState& from) {
-    std::size_t taken = 0;
-    std::vector<bool> used(from.parts_.size());
-    for (const Part& part : parts_) {
-      for (std::size_t i = 0; i < used.size(); ++i) {
-        if (used[i] || !part.IsLike(from.parts_[i])) continue;
-        part.copy(part.state, from.parts_[i].state);
-        used[i] = true;
-        ++taken;
-        break;
-      }
-    }
-    return taken;
-  }
+  /// Which parts of `from` cannot be handed over to the part of the same type here, and why: they come from
+  /// another library and have no description, one that leaves something open, or not the same. Throws for
+  /// lack of memory.
+  [[nodiscard]] std::vector<Error> Refusals(const KeptState& from) const;
+
+  /// Hands each part of `from` over to the part of the same type here, the first to the first, but for those
+  /// that are refused. Returns how many there were. Throws what copying throws, and an ElementError if a value
+  /// cannot be described; parts may have been handed over by then.
+  std::size_t TakeOver(const KeptState& from);
 
  private:
-  struct Part {
-    std::string_view type;
-    std::size_t size;
-    std::size_t alignment;
-    void* state;
-    void (*copy)(void* to, const void* from);
-
-    [[nodiscard]] bool IsLike(const Part& other) const noexcept {
-      return type == other.type && size == other.size && alignment == other.alignment;
-    }
+  struct Pair {
+    const internal::KeptPart* from;
+    const internal::KeptPart* to;
   };
-  std::vector<Part> parts_;
+  [[nodiscard]] std::vector<Pair> Match(const KeptState& from) const;
+
+  std::vector<internal::KeptPart> parts_;
 };
 
 }  // namespace runnel

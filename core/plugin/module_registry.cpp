@@ -1,5 +1,6 @@
 #include "core/plugin/module_registry.h"
 
+#include "core/base/exception_text.h"
 #include "core/base/nearest_name.h"
 #include "core/element/runtime.h"
 #include "core/plugin/module_type_name.h"
@@ -20,15 +21,18 @@ Result<void> ModuleRegistry::Add(ModuleType type) {
 }
 
 std::function<void()> ModuleRegistry::SetAside(std::string_view plugin) {
-  std::vector<ModuleType> types;
-  std::erase_if(types_, [&](const auto& entry) {
-    if (entry.second.plugin != plugin) return false;
-    types.push_back(entry.second);
-    return true;
-  });
-  return [this, types] {
-    for (const ModuleType& type : types) types_.insert_or_assign(type.name, type);
+  // All memory comes before the first type is taken out, and putting them back needs none.
+  const auto aside = std::make_shared<std::vector<Types::node_type>>();
+  aside->reserve(types_.size());
+  std::function<void()> back = [this, aside] {
+    for (Types::node_type& type : *aside) types_.insert(std::move(type));
+    aside->clear();
   };
+  for (auto each = types_.begin(); each != types_.end();) {
+    const auto at = each++;
+    if (at->second.plugin == plugin) aside->push_back(types_.extract(at));
+  }
+  return back;
 }
 
 const ModuleType* ModuleRegistry::Find(std::string_view name) const {
@@ -66,10 +70,8 @@ Result<UnlistedElement> ModuleRegistry::Make(std::string_view type,
     return element;
   } catch (const ElementError& error) {
     return error.error();
-  } catch (const std::exception& exception) {
-    return failed(exception.what());
   } catch (...) {
-    return failed("an exception of unknown type");
+    return failed(DescribeException());
   }
 }
 

@@ -34,7 +34,8 @@ class ModuleRegistry {
  public:
   /// Errors: the name is taken (the message names the plugin that has it) or malformed.
   Result<void> Add(ModuleType type);
-  /// Takes out the types of `plugin`. Calling what is returned puts them back.
+  /// Takes out the types of `plugin`. Calling what is returned puts them back, but for those whose name is
+  /// taken by then; that needs no memory.
   std::function<void()> SetAside(std::string_view plugin);
 
   [[nodiscard]] const ModuleType* Find(std::string_view name) const;
@@ -52,7 +53,8 @@ class ModuleRegistry {
                                    std::string name) const;
 
  private:
-  std::map<std::string, ModuleType, std::less<>> types_;
+  using Types = std::map<std::string, ModuleType, std::less<>>;
+  Types types_;
 };
 
 }  // namespace runnel

@@ -7,7 +7,9 @@
 
 #include <dlfcn.h>
 
+#include "core/base/exception_text.h"
 #include "core/base/nearest_name.h"
+#include "core/base/retry.h"
 #include "core/plugin/plugin_entry.h"
 #include "core/plugin/shared_library.h"
 #include "core/plugin/temporary_copy.h"
@@ -81,6 +83,15 @@ void PluginManager::AddSearchFolder(fs::path folder) {
 }
 
 Result<void> PluginManager::Load(std::string_view name) {
+  try {
+    return LoadUnlessKnown(name);
+  } catch (...) {
+    return Error{.message = "the plugin '" + std::string(name) +
+                            "' cannot be loaded: " + DescribeException()};
+  }
+}
+
+Result<void> PluginManager::LoadUnlessKnown(std::string_view name) {
   const auto file = FindFile(name);
   if (!file) return file.error();
   const std::string plugin = file->stem().string();
@@ -88,10 +99,15 @@ Result<void> PluginManager::Load(std::string_view name) {
   const fs::path canonical = fs::weakly_canonical(*file, ignored);
   const auto known = files_.find(plugin);
   if (known == files_.end()) {
+    // All memory comes before the plugin's own code.
+    Files of_it;
+    of_it.emplace(plugin, canonical);
+    loaded_.reserve(loaded_.size() + 1);
+    std::string own_name = plugin;
     auto registered = Register(plugin, *file);
     if (!registered) return registered;
-    files_.emplace(plugin, canonical);
-    loaded_.push_back(plugin);
+    files_.merge(of_it);
+    loaded_.push_back(std::move(own_name));
     return {};
   }
   if (known->second == canonical) return {};
@@ -105,23 +121,35 @@ Result<void> PluginManager::Register(const std::string& name, const fs::path& fi
   if (!library) return library.error();
   const auto entry = Handshake(*library);
   if (!entry) return entry.error();
-  registry_.plugin_ = name;
+  struct Reset {  // whatever comes of it: what others add later is not this plugin's
+    ~Reset() { registry.set_plugin(""); }
+    PluginRegistry& registry;
+  } const reset{registry_};
+  registry_.set_plugin(name);
+  const auto refused = [&](std::string why) {
+    Retry([&] { (void)registry_.SetAside(name); });
+    return Refusal(file, std::move(why));
+  };
   try {
     (*entry)->register_plugin(registry_);
   } catch (const ElementError& error) {
-    (void)registry_.SetAside(name);
-    return Refusal(file, error.error().message);
-  } catch (const std::exception& exception) {
-    (void)registry_.SetAside(name);
-    return Refusal(file, std::string("its registration failed: ") + exception.what());
+    return refused(error.error().message);
   } catch (...) {
-    (void)registry_.SetAside(name);
-    return Refusal(file, "its registration failed with an exception of unknown type");
+    return refused("its registration failed: " + DescribeException());
   }
   return {};
 }
 
 Result<PluginReload> PluginManager::Reload(std::string_view name) {
+  try {
+    return ReloadKnown(name);
+  } catch (...) {
+    return Error{.message = "the plugin '" + std::string(name) +
+                            "' cannot be loaded anew: " + DescribeException()};
+  }
+}
+
+Result<PluginReload> PluginManager::ReloadKnown(std::string_view name) {
   const auto known = files_.find(name);
   if (known == files_.end()) {
     return Error{.message = "no plugin '" + std::string(name) + "' is loaded",

@@ -52,14 +52,17 @@ class PluginManager {
 
  private:
   [[nodiscard]] Result<std::filesystem::path> FindFile(std::string_view name) const;
+  using Files = std::map<std::string, std::filesystem::path, std::less<>>;
+
+  Result<void> LoadUnlessKnown(std::string_view name);
+  Result<PluginReload> ReloadKnown(std::string_view name);
   Result<void> Register(const std::string& name, const std::filesystem::path& file);
 
   ModuleRegistry modules_;
   PluginRegistry registry_{modules_};
   std::vector<std::filesystem::path> search_path_;
   std::vector<std::string> loaded_;
-  std::map<std::string, std::filesystem::path, std::less<>>
-      files_;  // of those in loaded_, canonical
+  Files files_;  // of those in loaded_, canonical
 };
 
 }  // namespace runnel

@@ -19,8 +19,10 @@ class OfferedRegistry {
  public:
   virtual ~OfferedRegistry() = default;
   /// Takes out all that `plugin` has added: its registration has failed halfway, or it is to be loaded
-  /// anew. Calling what is returned puts it back.
+  /// anew. Calling what is returned puts it back. If it throws, for lack of memory, nothing has been taken out.
   virtual std::function<void()> SetAside(std::string_view plugin) = 0;
+  /// What is added from now on counts as of this plugin; "": of none.
+  virtual void set_plugin(const std::string& plugin) = 0;
 };
 
 /// What a plugin is handed to register itself with: the module types, and whatever other registries
@@ -64,12 +66,24 @@ class PluginRegistry {
   void AddType(ModuleType type) {
     if (auto added = modules_->Add(std::move(type)); !added) throw ElementError(added.error());
   }
+  void set_plugin(const std::string& plugin) {
+    plugin_ = plugin;
+    for (const auto& [type, registry] : offered_) registry->set_plugin(plugin);
+  }
   std::function<void()> SetAside(std::string_view plugin) {
-    std::vector<std::function<void()>> back{modules_->SetAside(plugin)};
-    for (const auto& [type, registry] : offered_) back.push_back(registry->SetAside(plugin));
-    return [back] {
-      for (const auto& each : back) each();
+    const auto back = std::make_shared<std::vector<std::function<void()>>>();
+    back->reserve(offered_.size() + 1);
+    std::function<void()> all_back = [back] {
+      for (const auto& each : *back) each();
     };
+    try {
+      back->push_back(modules_->SetAside(plugin));
+      for (const auto& [type, registry] : offered_) back->push_back(registry->SetAside(plugin));
+    } catch (...) {
+      all_back();
+      throw;
+    }
+    return all_back;
   }
 
   ModuleRegistry* modules_;

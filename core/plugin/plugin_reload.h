@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "core/base/retry.h"
 #include "core/plugin/plugin_registry.h"
 
 namespace runnel {
@@ -23,10 +24,10 @@ class PluginReload {
   /// It does: what the library of before had registered is forgotten.
   void Keep() noexcept { back_ = nullptr; }
   /// Everything is registered as before.
-  void PutBack() {
+  void PutBack() noexcept {
     if (!back_) return;
-    (void)registry_->SetAside(plugin_);
-    std::exchange(back_, nullptr)();
+    Retry([this] { (void)registry_->SetAside(plugin_); });
+    Retry(std::exchange(back_, nullptr));
   }
 
  private:

@@ -6,6 +6,8 @@
 
 #include <stdlib.h>
 
+#include "core/base/retry.h"
+
 namespace runnel {
 
 namespace fs = std::filesystem;
@@ -29,7 +31,7 @@ Result<TemporaryCopy> TemporaryCopy::Make(const fs::path& file) {
 TemporaryCopy::~TemporaryCopy() {
   if (file_.empty()) return;
   std::error_code ignored;  // a copy that stays harms nobody
-  fs::remove_all(file_.parent_path(), ignored);
+  Retry([&] { fs::remove_all(file_.parent_path(), ignored); });
 }
 
 }  // namespace runnel

@@ -1,6 +1,7 @@
 #include "core/types/binary_form.h"
 
 #include "core/types/internal/parts.h"
+#include "core/types/internal/reading_limits.h"
 #include "core/types/type_info.h"
 
 namespace runnel {
@@ -46,25 +47,26 @@ void Write(const TypeInfo& type, const void* value, BinaryWriter& writer) {
   }
 }
 
-bool Read(const TypeInfo& type, BinaryReader& reader, void* value);
+bool Read(const TypeInfo& type, BinaryReader& reader, ReadingLimits& limits, void* value);
 
 // Each element takes a byte at least, so a count beyond what is left is a lie that must not make
-// anybody allocate.
-bool ReadShape(const TypeInfo& type, BinaryReader& reader, void* value) {
+// anybody allocate; nor must many large ones that take a byte each.
+bool ReadShape(const TypeInfo& type, BinaryReader& reader, ReadingLimits& limits, void* value) {
   const ElementOperations& elements = type.elements();
   if (elements.is_fixed) return true;
   std::uint32_t rows = 1, columns = 0;
   if (type.kind() == TypeKind::kMatrix && !reader.ReadUnsigned(rows)) return false;
   if (!reader.ReadUnsigned(columns)) return false;
   if (std::uint64_t{rows} * columns > reader.remaining()) return false;
+  if (!limits.Take(std::size_t{rows} * columns, elements.type->size())) return false;
   return elements.resize(value, rows, columns);
 }
 
-bool ReadElements(const TypeInfo& type, BinaryReader& reader, void* value) {
-  if (!ReadShape(type, reader, value)) return false;
+bool ReadElements(const TypeInfo& type, BinaryReader& reader, ReadingLimits& limits, void* value) {
+  if (!ReadShape(type, reader, limits, value)) return false;
   const ElementOperations& elements = type.elements();
   for (std::size_t i = 0; i < CountOf(elements, value); ++i) {
-    if (!Read(*elements.type, reader, elements.element(value, i))) return false;
+    if (!Read(*elements.type, reader, limits, elements.element(value, i))) return false;
   }
   return true;
 }
@@ -80,7 +82,9 @@ bool ReadEnumeration(const TypeInfo& type, BinaryReader& reader, void* value) {
   return false;
 }
 
-bool Read(const TypeInfo& type, BinaryReader& reader, void* value) {
+bool Read(const TypeInfo& type, BinaryReader& reader, ReadingLimits& limits, void* value) {
+  const ReadingLimits::Level level(limits);
+  if (level.is_too_deep()) return false;
   switch (type.kind()) {
     case TypeKind::kOpaque:
       return false;
@@ -90,12 +94,12 @@ bool Read(const TypeInfo& type, BinaryReader& reader, void* value) {
       return ReadEnumeration(type, reader, value);
     case TypeKind::kStructure:
       for (const FieldInfo& field : type.fields()) {
-        if (!Read(*field.type, reader, field.address(value))) return false;
+        if (!Read(*field.type, reader, limits, field.address(value))) return false;
       }
       return true;
     case TypeKind::kSequence:
     case TypeKind::kMatrix:
-      return ReadElements(type, reader, value);
+      return ReadElements(type, reader, limits, value);
   }
   return false;
 }
@@ -115,7 +119,8 @@ Result<void> ToBinary(const TypeInfo& type, const void* value, std::vector<std::
 
 Result<void> FromBinary(const TypeInfo& type, BinaryReader& reader, void* value) {
   if (!type.is_transparent()) return NoBinaryForm(type);
-  if (!Read(type, reader, value)) {
+  ReadingLimits limits;
+  if (!Read(type, reader, limits, value)) {
     return Error{.message = "these bytes are no " + type.name()};
   }
   return {};

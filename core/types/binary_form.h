@@ -71,9 +71,9 @@ class BinaryReader {
 /// opaque.
 Result<void> ToBinary(const TypeInfo& type, const void* value, std::vector<std::byte>& bytes);
 
-/// Takes one value off `reader`. Never reads past its end or allocates more than the bytes that are
-/// there call for. Errors: too short, or not what ToBinary() writes; the value may then be half
-/// set.
+/// Takes one value off `reader`. Never reads past its end, and makes no room for more elements than
+/// there are bytes, nor for more than 256 MiB of them. Errors: too short, not what ToBinary() writes,
+/// nested deeper than 100 levels; the value may then be half set.
 Result<void> FromBinary(const TypeInfo& type, BinaryReader& reader, void* value);
 
 }  // namespace runnel

@@ -3,6 +3,7 @@
 #include <array>
 #include <concepts>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace runnel {
 
 /// The types that need no description by anybody else. Duration reads and writes "20ms", a Time is
 /// the duration since its clock's start. Lists are called after their elements: "double[]",
-/// "Pose2[3]".
+/// "Pose2[3]", "Point2?".
 void Describe(TypeBuilder<bool>& type);
 void Describe(TypeBuilder<std::int8_t>& type);
 void Describe(TypeBuilder<std::int16_t>& type);
@@ -66,6 +67,30 @@ void Describe(TypeBuilder<std::array<E, count>>& type) {
                  .element = [](void* at, std::size_t index) -> void* {
                    return &(*static_cast<List*>(at))[index];
                  }});
+}
+
+/// As a list of one element or none: "[]", "[{x: 1, y: 2}]".
+template <typename E>
+void Describe(TypeBuilder<std::optional<E>>& type) {
+  using Optional = std::optional<E>;
+  type.Name(TypeOf<E>().name() + "?")
+      .Elements(TypeKind::kSequence, {.type = &TypeOf<E>(),
+                                      .is_fixed = false,
+                                      .rows = [](const void*) -> std::size_t { return 1; },
+                                      .columns = [](const void* at) -> std::size_t {
+                                        return static_cast<const Optional*>(at)->has_value() ? 1
+                                                                                             : 0;
+                                      },
+                                      .resize =
+                                          [](void* at, std::size_t, std::size_t columns) {
+                                            auto& optional = *static_cast<Optional*>(at);
+                                            if (columns == 0) optional.reset();
+                                            if (columns == 1 && !optional) optional.emplace();
+                                            return columns <= 1;
+                                          },
+                                      .element = [](void* at, std::size_t) -> void* {
+                                        return &**static_cast<Optional*>(at);
+                                      }});
 }
 
 }  // namespace runnel

@@ -2,6 +2,7 @@
 
 #include "core/base/nearest_name.h"
 #include "core/types/internal/parts.h"
+#include "core/types/internal/reading_limits.h"
 #include "core/types/internal/text_cursor.h"
 #include "core/types/type_info.h"
 
@@ -82,9 +83,16 @@ Result<void> ReadEnumeration(const TypeInfo& type, std::string_view text, void* 
                .hint = NearestNameHint(text, names)};
 }
 
-Result<void> Read(const TypeInfo& type, TextCursor& cursor, void* value);
+Error TooLarge(const TypeInfo& type) {
+  return {.message =
+              "a " + type.name() + " has too many elements: together with what it is part of, " +
+              "they take more than " + std::to_string(ReadingLimits::kMostBytes >> 20) + " MiB"};
+}
 
-Result<void> ReadField(const TypeInfo& type, TextCursor& cursor, void* value) {
+Result<void> Read(const TypeInfo& type, TextCursor& cursor, ReadingLimits& limits, void* value);
+
+Result<void> ReadField(const TypeInfo& type, TextCursor& cursor, ReadingLimits& limits,
+                       void* value) {
   const std::string_view name = cursor.TakeWord();
   const FieldInfo* field = type.FindField(name);
   if (field == nullptr) {
@@ -94,38 +102,42 @@ Result<void> ReadField(const TypeInfo& type, TextCursor& cursor, void* value) {
                  .hint = NearestNameHint(name, names)};
   }
   if (!cursor.Skip(':')) return cursor.Expected("':' after '" + field->name + "'");
-  return Read(*field->type, cursor, field->address(value));
+  return Read(*field->type, cursor, limits, field->address(value));
 }
 
-Result<void> ReadStructure(const TypeInfo& type, TextCursor& cursor, void* value) {
+Result<void> ReadStructure(const TypeInfo& type, TextCursor& cursor, ReadingLimits& limits,
+                           void* value) {
   if (!cursor.Skip('{')) return cursor.Expected("'{' before a " + type.name());
   if (cursor.Skip('}')) return {};
   do {
-    if (auto read = ReadField(type, cursor, value); !read) return read;
+    if (auto read = ReadField(type, cursor, limits, value); !read) return read;
   } while (cursor.Skip(','));
   if (!cursor.Skip('}')) return cursor.Expected("',' or '}' in a " + type.name());
   return {};
 }
 
 // Makes room one by one, since nobody has counted the elements before.
-Result<void> ReadElement(const TypeInfo& type, TextCursor& cursor, void* value, std::size_t rows,
-                         std::size_t columns, std::size_t index) {
+Result<void> ReadElement(const TypeInfo& type, TextCursor& cursor, ReadingLimits& limits,
+                         void* value, std::size_t rows, std::size_t columns, std::size_t index) {
   const ElementOperations& elements = type.elements();
+  if (!limits.Take(1, elements.type->size())) return TooLarge(type);
   if (!elements.is_fixed && !elements.resize(value, rows, columns)) {
     return Error{.message = "a " + type.name() + " cannot have that many elements"};
   }
   if (index >= elements.rows(value) * elements.columns(value)) {
     return Error{.message = "too many elements for a " + type.name()};
   }
-  return Read(*elements.type, cursor, elements.element(value, index));
+  return Read(*elements.type, cursor, limits, elements.element(value, index));
 }
 
-Result<void> ReadSequence(const TypeInfo& type, TextCursor& cursor, void* value) {
+Result<void> ReadSequence(const TypeInfo& type, TextCursor& cursor, ReadingLimits& limits,
+                          void* value) {
   if (!cursor.Skip('[')) return cursor.Expected("'[' before a " + type.name());
   std::size_t count = 0;
   if (!cursor.Skip(']')) {
     do {
-      if (auto read = ReadElement(type, cursor, value, 1, count + 1, count); !read) return read;
+      if (auto read = ReadElement(type, cursor, limits, value, 1, count + 1, count); !read)
+        return read;
       ++count;
     } while (cursor.Skip(','));
     if (!cursor.Skip(']')) return cursor.Expected("',' or ']' in a " + type.name());
@@ -158,11 +170,13 @@ Result<std::pair<std::size_t, std::size_t>> ShapeOfMatrix(TextCursor cursor) {
   return std::pair{rows, columns};
 }
 
-Result<void> ReadMatrix(const TypeInfo& type, TextCursor& cursor, void* value) {
+Result<void> ReadMatrix(const TypeInfo& type, TextCursor& cursor, ReadingLimits& limits,
+                        void* value) {
   const ElementOperations& elements = type.elements();
   const auto shape = ShapeOfMatrix(cursor);
   if (!shape) return shape.error();
   const auto [rows, columns] = *shape;
+  if (!limits.Take(rows * columns, elements.type->size())) return TooLarge(type);
   if (!elements.resize(value, rows, columns)) {
     return Error{.message = std::to_string(rows) + " rows of " + std::to_string(columns) +
                             " are no " + type.name()};
@@ -170,7 +184,7 @@ Result<void> ReadMatrix(const TypeInfo& type, TextCursor& cursor, void* value) {
   cursor.Skip('[');
   for (std::size_t index = 0; index < rows * columns; ++index) {
     if (index % columns == 0) cursor.Skip('[');
-    if (auto read = Read(*elements.type, cursor, elements.element(value, index)); !read) {
+    if (auto read = Read(*elements.type, cursor, limits, elements.element(value, index)); !read) {
       return read;
     }
     if (!cursor.Skip(',')) {
@@ -186,7 +200,12 @@ Result<void> ReadMatrix(const TypeInfo& type, TextCursor& cursor, void* value) {
   return {};
 }
 
-Result<void> Read(const TypeInfo& type, TextCursor& cursor, void* value) {
+Result<void> Read(const TypeInfo& type, TextCursor& cursor, ReadingLimits& limits, void* value) {
+  const ReadingLimits::Level level(limits);
+  if (level.is_too_deep()) {
+    return Error{.message = "a " + type.name() + " is nested deeper than " +
+                            std::to_string(ReadingLimits::kMostNested) + " levels"};
+  }
   switch (type.kind()) {
     case TypeKind::kOpaque:
       return Error{.message = "a " + type.name() + " has no text form"};
@@ -201,11 +220,11 @@ Result<void> Read(const TypeInfo& type, TextCursor& cursor, void* value) {
     case TypeKind::kEnumeration:
       return ReadEnumeration(type, cursor.TakeToken(), value);
     case TypeKind::kStructure:
-      return ReadStructure(type, cursor, value);
+      return ReadStructure(type, cursor, limits, value);
     case TypeKind::kSequence:
-      return ReadSequence(type, cursor, value);
+      return ReadSequence(type, cursor, limits, value);
     case TypeKind::kMatrix:
-      return ReadMatrix(type, cursor, value);
+      return ReadMatrix(type, cursor, limits, value);
   }
   return Error{.message = "a " + type.name() + " has no text form"};
 }
@@ -219,7 +238,8 @@ Result<void> SetFromText(const TypeInfo& type, std::string_view text, void* valu
     return type.leaf().from_text(type.leaf().needs_quotes ? text : WithoutBlanks(text), value);
   }
   TextCursor cursor(text);
-  if (auto read = Read(type, cursor, value); !read) return read;
+  ReadingLimits limits;
+  if (auto read = Read(type, cursor, limits, value); !read) return read;
   if (!cursor.AtEnd()) return cursor.Expected("the end");
   return {};
 }

@@ -10,7 +10,7 @@
 namespace runnel {
 
 template <typename T>
-const TypeInfo& TypeOf();
+[[gnu::visibility("hidden")]] const TypeInfo& TypeOf();
 
 /// What is to be said about a field beside its name.
 struct FieldOptions {
@@ -55,11 +55,9 @@ class TypeBuilder {
   template <typename Member, typename Owner>
   requires std::derived_from<T, Owner> TypeBuilder& Field(std::string name, Member Owner::*member,
                                                           FieldOptions options = {}) {
-    type_.kind_ = TypeKind::kStructure;
-    type_.fields_.push_back({std::move(name), &TypeOf<Member>(), std::move(options.unit),
-                             std::move(options.description), [member](void* structure) -> void* {
-                               return &(static_cast<T*>(structure)->*member);
-                             }});
+    type_.AddField(
+        std::move(name), TypeOf<Member>(), std::move(options),
+        [member](void* structure) -> void* { return &(static_cast<T*>(structure)->*member); });
     return *this;
   }
 

@@ -1,6 +1,9 @@
 #include "core/types/type_info.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "core/types/type_builder.h"
 
 namespace runnel {
 
@@ -31,6 +34,13 @@ bool TypeInfo::is_transparent() const {
 const FieldInfo* TypeInfo::FindField(std::string_view name) const {
   const auto found = std::ranges::find(fields_, name, &FieldInfo::name);
   return found == fields_.end() ? nullptr : &*found;
+}
+
+void TypeInfo::AddField(std::string&& name, const TypeInfo& type, FieldOptions&& options,
+                        std::function<void*(void* structure)>&& address) {
+  kind_ = TypeKind::kStructure;
+  fields_.push_back({std::move(name), &type, std::move(options.unit),
+                     std::move(options.description), std::move(address)});
 }
 
 }  // namespace runnel

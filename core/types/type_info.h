@@ -17,6 +17,7 @@ namespace runnel {
 class BinaryReader;
 class BinaryWriter;
 class TypeInfo;
+struct FieldOptions;
 
 enum class TypeKind {
   kOpaque,       ///< has a name, and nothing inside that anybody may look at
@@ -83,6 +84,8 @@ class TypeInfo {
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] TypeKind kind() const noexcept { return kind_; }
   [[nodiscard]] std::type_index cpp_type() const noexcept { return cpp_type_; }
+  /// Of one value, in bytes, without what it has elsewhere.
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
   /// What a value stands for, for viewers that know no module: "pose", "range_scan"; "" if nobody
   /// said. The words and the fields that go with them: core/types/README.md.
   [[nodiscard]] const std::string& meaning() const noexcept { return meaning_; }
@@ -110,6 +113,9 @@ class TypeInfo {
   template <typename T>
   friend class TypeBuilder;
   friend class TypeRegistry;
+
+  void AddField(std::string&& name, const TypeInfo& type, FieldOptions&& options,
+                std::function<void*(void* structure)>&& address);
 
   const std::type_index cpp_type_;
   std::size_t size_ = 0;  // of a value, and how it is aligned, where it was described first

@@ -35,7 +35,7 @@ const TypeInfo& GetType(std::type_index cpp_type, const TypeLayout& layout,
 /// Errors:      throws ProgrammingError if two types claim one name, or if a library knows another
 ///              layout or description of T than the one that asked first.
 template <typename T>
-const TypeInfo& TypeOf() {
+[[gnu::visibility("hidden")]] const TypeInfo& TypeOf() {
   static_assert(internal::Described<T>,
                 "this type has no description here: include the header that has it, or write "
                 "`inline void Describe(runnel::TypeBuilder<T>& type) { type.Name(\"T\"); }` "

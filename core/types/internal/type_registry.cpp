@@ -45,8 +45,11 @@ void TypeRegistry::CheckSame(const TypeInfo& known, const internal::TypeLayout& 
     throw;
   }
   being_compared_.pop_back();
-  const auto is_same_field = [](const FieldInfo& a, const FieldInfo& b) {
-    return a.name == b.name && a.type == b.type;
+  // Fields of the same names may lie elsewhere, beside others that are not described.
+  const std::shared_ptr<void> value = known.Make();
+  const auto is_same_field = [&](const FieldInfo& a, const FieldInfo& b) {
+    return a.name == b.name && a.type == b.type &&
+           (value == nullptr || a.address(value.get()) == b.address(value.get()));
   };
   const auto is_same_value = [](const EnumeratorInfo& a, const EnumeratorInfo& b) {
     return a.name == b.name && a.value == b.value;

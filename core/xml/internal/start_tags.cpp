@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/characters.h"
 #include "core/xml/internal/text_checks.h"
 #include "core/xml/internal/text_cursor.h"
 
@@ -150,7 +151,7 @@ class Scanner {
     TextCursor letters = cursor_;
     name = cursor_.TakeName();
     for (std::size_t done = 0; done < name.size();) {
-      const std::size_t length = CharacterLength(letters.rest());
+      const std::size_t length = FileCharacterLength(letters.rest());
       if (length == 0) {
         cursor_ = letters;
         return FailAtLetter();
@@ -211,7 +212,7 @@ class Scanner {
   template <typename Predicate>
   bool TakeLetters(Predicate at_stop, bool check_entities = false) {
     while (!cursor_.at_end() && !at_stop()) {
-      const std::size_t length = CharacterLength(cursor_.rest());
+      const std::size_t length = FileCharacterLength(cursor_.rest());
       if (length == 0) return FailAtLetter();
       if (check_entities && cursor_.next() == '&') {
         const std::string fault = EntityFault(cursor_.rest());
@@ -225,12 +226,8 @@ class Scanner {
   }
 
   bool FailAtLetter() {
-    constexpr std::string_view kDigits = "0123456789abcdef";
-    const auto byte = static_cast<unsigned char>(cursor_.next());
-    const std::string number{'0', 'x', kDigits[byte / 16U], kDigits[byte % 16U]};
-    return byte < 0x80
-               ? Fail(cursor_.place(), "control character " + number, "")
-               : Fail(cursor_.place(), "byte " + number + " is no UTF-8", "save the file as UTF-8");
+    const std::string fault = UnwritableCharacter(cursor_.rest().substr(0, 4));
+    return Fail(cursor_.place(), fault, fault.starts_with("byte") ? "save the file as UTF-8" : "");
   }
 
   Error Failure(TextPlace place, std::string message, std::string hint) const {

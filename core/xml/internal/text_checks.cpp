@@ -29,20 +29,6 @@ bool IsNumericEntity(std::string_view name) {
 
 }  // namespace
 
-std::size_t CharacterLength(std::string_view text) {
-  const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  if (byte(0) < 0x80) return IsXmlCharacter(byte(0)) ? 1 : 0;
-  const std::size_t length = byte(0) >= 0xF0 ? 4 : byte(0) >= 0xE0 ? 3 : 2;
-  if (byte(0) < 0xC2 || byte(0) > 0xF4 || text.size() < length) return 0;
-  std::uint32_t code = byte(0) & (0xFFU >> (length + 1));
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xC0U) != 0x80U) return 0;
-    code = (code << 6U) | (byte(i) & 0x3FU);
-  }
-  constexpr std::array<std::uint32_t, 5> kLeastCode{0, 0, 0x80, 0x800, 0x10000};
-  return code >= kLeastCode[length] && IsXmlCharacter(code) ? length : 0;
-}
-
 std::string EntityFault(std::string_view text) {
   text = text.substr(0, kLongestEntity);
   const auto is_of_name = [](char letter) {

@@ -5,10 +5,6 @@
 
 namespace runnel::internal {
 
-/// How many bytes the UTF-8 character takes that `text` begins with; 0 if it is none, or one that
-/// XML forbids. Precondition: not empty.
-[[nodiscard]] std::size_t CharacterLength(std::string_view text);
-
 /// What is wrong with the entity that `text` begins with ("&lt;…"), "" if nothing is.
 [[nodiscard]] std::string EntityFault(std::string_view text);
 

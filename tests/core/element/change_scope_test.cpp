@@ -5,9 +5,9 @@
 namespace runnel {
 namespace {
 
-class Node : public FrameworkElement {
+class ScopedNode : public FrameworkElement {
  public:
-  explicit Node(const Placement& placement) : FrameworkElement(placement) {}
+  explicit ScopedNode(const Placement& placement) : FrameworkElement(placement) {}
 };
 
 TEST(ChangeScopeTest, ListenersAreToldWhenAllIsDoneThatBelongsTogether) {
@@ -35,10 +35,10 @@ TEST(ChangeScopeTest, ListenersAreToldWhenAllIsDoneThatBelongsTogether) {
   runtime.AddListener(counter);
   {
     const ChangeScope changes(runtime);
-    ASSERT_TRUE(runtime.MakeReady(runtime.Create<Node>(runtime.root(), "a")));
+    ASSERT_TRUE(runtime.MakeReady(runtime.Create<ScopedNode>(runtime.root(), "a")));
     {
       const ChangeScope inner(runtime);
-      ASSERT_TRUE(runtime.MakeReady(runtime.Create<Node>(runtime.root(), "b")));
+      ASSERT_TRUE(runtime.MakeReady(runtime.Create<ScopedNode>(runtime.root(), "b")));
     }
     EXPECT_EQ(counter.ends, 0);
     EXPECT_TRUE(counter.was_in_scope);
@@ -46,9 +46,10 @@ TEST(ChangeScopeTest, ListenersAreToldWhenAllIsDoneThatBelongsTogether) {
   EXPECT_EQ(counter.ends, 1);
   EXPECT_EQ(counter.ready_when_told, 2);
   EXPECT_FALSE(runtime.is_in_change_scope());
-  ASSERT_TRUE(runtime.MakeReady(runtime.Create<Node>(runtime.root(), "c")));
+  ASSERT_TRUE(runtime.MakeReady(runtime.Create<ScopedNode>(runtime.root(), "c")));
   EXPECT_FALSE(counter.was_in_scope);
   EXPECT_EQ(counter.ends, 1);
+  runtime.RemoveListener(counter);
 }
 
 }  // namespace

@@ -9,16 +9,16 @@ namespace {
 
 using testing::HasSubstr;
 
-class Node final : public FrameworkElement {
+class PlainNode final : public FrameworkElement {
  public:
-  explicit Node(const Placement& placement) : FrameworkElement(placement) {}
+  explicit PlainNode(const Placement& placement) : FrameworkElement(placement) {}
 };
 
 class FrameworkElementTest : public testing::Test {
  protected:
   Runtime runtime;
-  Node& robot = runtime.Create<Node>(runtime.root(), "robot");
-  Node& guard = runtime.Create<Node>(robot, "guard");
+  PlainNode& robot = runtime.Create<PlainNode>(runtime.root(), "robot");
+  PlainNode& guard = runtime.Create<PlainNode>(robot, "guard");
 };
 
 TEST_F(FrameworkElementTest, PathNamesAllParents) {
@@ -43,13 +43,13 @@ TEST_F(FrameworkElementTest, FindNamesThePartThatIsMissingAndTheNearestName) {
 TEST_F(FrameworkElementTest, FindAboveTheRootIsAnError) { EXPECT_FALSE(runtime.root().Find("..")); }
 
 TEST_F(FrameworkElementTest, DuplicateAndBadNamesAreRefusedAndLeaveNothingBehind) {
-  EXPECT_THROW(runtime.Create<Node>(robot, "guard"), ElementError);
-  EXPECT_THROW(runtime.Create<Node>(robot, "a/b"), ElementError);
+  EXPECT_THROW(runtime.Create<PlainNode>(robot, "guard"), ElementError);
+  EXPECT_THROW(runtime.Create<PlainNode>(robot, "a/b"), ElementError);
   EXPECT_EQ(robot.children().size(), 1u);
 }
 
 TEST_F(FrameworkElementTest, VisitComesToParentsBeforeChildrenInOrderOfCreation) {
-  runtime.Create<Node>(robot, "planner");
+  runtime.Create<PlainNode>(robot, "planner");
   std::string names;
   runtime.root().Visit([&](FrameworkElement& element) { names += element.name() + " "; });
   EXPECT_EQ(names, " robot guard planner ");

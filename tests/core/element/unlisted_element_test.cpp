@@ -10,11 +10,11 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-class Node : public FrameworkElement {
+class UnlistedNode : public FrameworkElement {
  public:
-  explicit Node(const Placement& placement, std::vector<std::string>* journal = nullptr)
+  explicit UnlistedNode(const Placement& placement, std::vector<std::string>* journal = nullptr)
       : FrameworkElement(placement), journal_(journal) {}
-  ~Node() override { Note("destroyed"); }
+  ~UnlistedNode() override { Note("destroyed"); }
   bool fails = false;
 
  private:
@@ -30,7 +30,7 @@ class Node : public FrameworkElement {
   std::vector<std::string>* journal_;
 };
 
-class Journal final : public ElementListener {
+class EventJournal final : public ElementListener {
  public:
   std::vector<std::string> events;
   void OnReady(FrameworkElement& element) override { events.push_back("ready " + element.path()); }
@@ -45,7 +45,7 @@ class UnlistedElementTest : public testing::Test {
   ~UnlistedElementTest() override { runtime.RemoveListener(listener); }
   UnlistedElement Make(const std::string& name) {
     return UnlistedElement(
-        std::make_unique<Node>(Placement{runtime.root(), name, false}, &journal));
+        std::make_unique<UnlistedNode>(Placement{runtime.root(), name, false}, &journal));
   }
   std::vector<std::string> Names() {
     std::vector<std::string> names;
@@ -54,13 +54,13 @@ class UnlistedElementTest : public testing::Test {
   }
 
   std::vector<std::string> journal;
-  Journal listener;
+  EventJournal listener;
   Runtime runtime;
 };
 
 TEST_F(UnlistedElementTest, IsFoundOnlyWhenItIsListed) {
   UnlistedElement made = Make("a");
-  runtime.Create<Node>(*made, "b", &journal);
+  runtime.Create<UnlistedNode>(*made, "b", &journal);
   EXPECT_EQ(made->path(), "/a");
   EXPECT_EQ(runtime.root().FindChild("a"), nullptr);
   ASSERT_TRUE(Runtime::Prepare(made));
@@ -74,8 +74,8 @@ TEST_F(UnlistedElementTest, IsFoundOnlyWhenItIsListed) {
 TEST_F(UnlistedElementTest, GoesWithoutATraceIfItIsNeverListed) {
   {
     UnlistedElement made = Make("a");
-    runtime.Create<Node>(*made, "b", &journal);
-    runtime.Create<Node>(*made, "c", &journal);
+    runtime.Create<UnlistedNode>(*made, "b", &journal);
+    runtime.Create<UnlistedNode>(*made, "c", &journal);
   }
   EXPECT_THAT(journal, ElementsAre("c destroyed", "b destroyed", "a destroyed"));
   EXPECT_THAT(Names(), ElementsAre());
@@ -83,15 +83,15 @@ TEST_F(UnlistedElementTest, GoesWithoutATraceIfItIsNeverListed) {
 }
 
 TEST_F(UnlistedElementTest, TakesThePlaceItIsGivenAmongItsSiblings) {
-  runtime.Create<Node>(runtime.root(), "a");
-  auto& c = runtime.Create<Node>(runtime.root(), "c");
+  runtime.Create<UnlistedNode>(runtime.root(), "a");
+  auto& c = runtime.Create<UnlistedNode>(runtime.root(), "c");
   ASSERT_TRUE(runtime.List(Make("b"), &c));
   ASSERT_TRUE(runtime.List(Make("d")));
   EXPECT_THAT(Names(), ElementsAre("a", "b", "c", "d"));
 }
 
 TEST_F(UnlistedElementTest, StaysWithItsOwnerIfItsNameIsTaken) {
-  runtime.Create<Node>(runtime.root(), "a");
+  runtime.Create<UnlistedNode>(runtime.root(), "a");
   UnlistedElement made = Make("a");
   const auto listed = runtime.List(std::move(made));
   ASSERT_FALSE(listed);
@@ -102,16 +102,16 @@ TEST_F(UnlistedElementTest, StaysWithItsOwnerIfItsNameIsTaken) {
 
 TEST_F(UnlistedElementTest, IsNotReadyIfItCouldNotBePrepared) {
   UnlistedElement made = Make("a");
-  static_cast<Node&>(*made).fails = true;
+  static_cast<UnlistedNode&>(*made).fails = true;
   EXPECT_EQ(Runtime::Prepare(made).error().path, "/a");
   EXPECT_EQ(made->life_cycle(), LifeCycle::kConstructed);
-  static_cast<Node&>(*made).fails = false;
+  static_cast<UnlistedNode&>(*made).fails = false;
   EXPECT_TRUE(Runtime::Prepare(made));
 }
 
 TEST_F(UnlistedElementTest, ComesBackAsItWentAway) {
-  auto& a = runtime.Create<Node>(runtime.root(), "a", &journal);
-  runtime.Create<Node>(a, "b", &journal);
+  auto& a = runtime.Create<UnlistedNode>(runtime.root(), "a", &journal);
+  runtime.Create<UnlistedNode>(a, "b", &journal);
   ASSERT_TRUE(runtime.MakeReady(runtime.root()));
   journal.clear();
   listener.events.clear();
@@ -128,8 +128,8 @@ TEST_F(UnlistedElementTest, ComesBackAsItWentAway) {
 }
 
 TEST_F(UnlistedElementTest, IsDetachedAndDestroyedInOneGo) {
-  auto& a = runtime.Create<Node>(runtime.root(), "a", &journal);
-  auto& b = runtime.Create<Node>(runtime.root(), "b", &journal);
+  auto& a = runtime.Create<UnlistedNode>(runtime.root(), "a", &journal);
+  auto& b = runtime.Create<UnlistedNode>(runtime.root(), "b", &journal);
   std::vector<UnlistedElement> taken;
   taken.push_back(std::move(*runtime.Unlist(a)));
   taken.push_back(std::move(*runtime.Unlist(b)));
@@ -139,9 +139,9 @@ TEST_F(UnlistedElementTest, IsDetachedAndDestroyedInOneGo) {
 
 TEST_F(UnlistedElementTest, TheRootAndPartsOfOthersStayWhereTheyAre) {
   EXPECT_FALSE(runtime.Unlist(runtime.root()));
-  struct Whole final : Node {
-    using Node::Node;
-    Node part{{*this, "part"}};
+  struct Whole final : UnlistedNode {
+    using UnlistedNode::UnlistedNode;
+    UnlistedNode part{{*this, "part"}};
   };
   auto& whole = runtime.Create<Whole>(runtime.root(), "whole");
   EXPECT_THAT(runtime.Unlist(whole.part).error().hint, HasSubstr("delete /whole"));

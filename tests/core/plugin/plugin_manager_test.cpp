@@ -157,9 +157,16 @@ TEST_F(PluginManagerTest, OtherFileOfALoadedNameIsRefused) {
 TEST_F(PluginManagerTest, RegistrationThatThrowsLeavesNothingBehind) {
   EXPECT_EQ(RefusalOf("throws").message, Refused("throws", "its registration failed: no driver"));
   EXPECT_EQ(RefusalOf("throws_int").message,
-            Refused("throws_int", "its registration failed with an exception of unknown type"));
+            Refused("throws_int", "its registration failed: exception of type int"));
   EXPECT_EQ(RefusalOf("throws").message,  // and it may be tried again
             Refused("throws", "its registration failed: no driver"));
+}
+
+TEST_F(PluginManagerTest, OfferedRegistriesKnowWhosePluginRegistersAndWhenItIsOver) {
+  EXPECT_TRUE(manager.Load("good"));
+  EXPECT_FALSE(manager.Load("throws_int"));
+  EXPECT_TRUE(manager.Reload("good"));
+  EXPECT_THAT(tags.plugins_told, ElementsAre("good", "", "throws_int", "", "good", ""));
 }
 
 TEST_F(PluginManagerTest, TypeOfAnotherPluginCannotBeTakenOver) {

@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "core/plugin/plugin_registry.h"
 
@@ -19,7 +20,10 @@ class TagRegistry final : public OfferedRegistry {
     });
     return [this, removed] { plugin_of.insert(removed.begin(), removed.end()); };
   }
+  void set_plugin(const std::string& plugin) override { plugins_told.push_back(plugin); }
+
   std::map<std::string, std::string> plugin_of;
+  std::vector<std::string> plugins_told;
 };
 
 }  // namespace runnel::test

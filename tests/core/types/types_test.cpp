@@ -1,6 +1,10 @@
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 
@@ -227,6 +231,78 @@ TEST(BinaryForm, DoesNotBelieveACountBeyondTheBytes) {
   std::vector<double> list;
   EXPECT_FALSE(FromBinary(TypeOf<std::vector<double>>(), reader, &list));
   EXPECT_EQ(list.capacity(), 0u);
+}
+
+// A list of itself, of any depth.
+struct Nest {
+  std::vector<Nest> nests;
+};
+void Describe(TypeBuilder<Nest>& type) { type.Name("test::Nest").Field("nests", &Nest::nests); }
+
+Nest NestOf(int levels) {
+  Nest nest;
+  for (int i = 1; i < levels; ++i) {
+    Nest outer;
+    outer.nests.push_back(std::move(nest));
+    nest = std::move(outer);
+  }
+  return nest;
+}
+
+TEST(BinaryForm, RefusesWhatIsNestedTooDeep) {
+  for (const auto& [levels, is_read] :
+       {std::pair(20, true), std::pair(50, true), std::pair(60, false)}) {
+    const auto bytes = Bytes(NestOf(levels));
+    BinaryReader reader(bytes);
+    Nest read;
+    EXPECT_EQ(bool(FromBinary(TypeOf<Nest>(), reader, &read)), is_read) << levels;
+  }
+  // Each level takes four bytes: these would take a stack of gigabytes.
+  std::vector<std::byte> bytes;
+  BinaryWriter writer(bytes);
+  for (int i = 0; i < 10'000'000; ++i) writer.WriteUnsigned(std::uint32_t{1});
+  BinaryReader reader(bytes);
+  Nest read;
+  EXPECT_FALSE(FromBinary(TypeOf<Nest>(), reader, &read));
+}
+
+TEST(TextForm, RefusesWhatIsNestedTooDeep) {
+  const auto text = [](int levels) {
+    std::string opening, closing;
+    for (int i = 1; i < levels; ++i) {
+      opening += "{nests: [";
+      closing += "]}";
+    }
+    return opening + "{nests: []}" + closing;
+  };
+  EXPECT_TRUE(FromText<Nest>(text(50)));
+  const auto deep = FromText<Nest>(text(1'000'000));
+  ASSERT_FALSE(deep);
+  EXPECT_THAT(deep.error().message, testing::HasSubstr("nested deeper than 100 levels"));
+}
+
+// Described by one of its parts, of one byte; too large for a list of even one.
+struct Huge {
+  bool is_on = false;
+  std::array<char, 1 << 29> more{};  // 512 MiB
+};
+void Describe(TypeBuilder<Huge>& type) { type.Name("test::Huge").Field("is_on", &Huge::is_on); }
+
+TEST(BinaryForm, MakesNoRoomForMoreThanItsLimitHoweverFewTheBytes) {
+  std::vector<std::byte> bytes;
+  BinaryWriter writer(bytes);
+  writer.WriteUnsigned(std::uint32_t{100});
+  bytes.resize(bytes.size() + 100);
+  BinaryReader reader(bytes);
+  std::vector<Huge> list;
+  EXPECT_FALSE(FromBinary(TypeOf<std::vector<Huge>>(), reader, &list));
+  EXPECT_EQ(list.capacity(), 0u);
+}
+
+TEST(TextForm, MakesNoRoomForMoreThanItsLimit) {
+  const auto list = FromText<std::vector<Huge>>("[{is_on: true}]");
+  ASSERT_FALSE(list);
+  EXPECT_THAT(list.error().message, testing::HasSubstr("more than 256 MiB"));
 }
 
 TEST(BinaryForm, RefusesValuesThatDoNotExist) {

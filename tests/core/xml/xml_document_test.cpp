@@ -136,15 +136,17 @@ TEST(XmlDocumentErrorTest, ControlCharactersAreRefusedWithTheirPlace) {
 }
 
 TEST(XmlDocumentErrorTest, OtherEncodingsAreRefused) {
-  EXPECT_THAT(ErrorOf("<a b='\xE4'/>"), StartsWith("a.xml:1:7: byte 0xe4 is no UTF-8"));
+  EXPECT_THAT(ErrorOf("<a b='\xE4'/>"), StartsWith("a.xml:1:7: byte 0xe4, which is no UTF-8"));
   EXPECT_THAT(ErrorOf(std::string_view("\xFF\xFE<\0", 4)),
               StartsWith("a.xml:1:1: the file is UTF-16"));
 }
 
 TEST(XmlDocumentErrorTest, NamesAreUtf8Too) {
-  EXPECT_THAT(ErrorOf("<a>\n<n\xE4me/></a>"), StartsWith("a.xml:2:3: byte 0xe4 is no UTF-8"));
-  EXPECT_THAT(ErrorOf("<a n\xC3\xA4=''\xFF=''/>"), StartsWith("a.xml:1:9: byte 0xff is no UTF-8"));
-  EXPECT_THAT(ErrorOf("<a></a\xE4>"), StartsWith("a.xml:1:7: byte 0xe4 is no UTF-8"));
+  EXPECT_THAT(ErrorOf("<a>\n<n\xE4me/></a>"),
+              StartsWith("a.xml:2:3: byte 0xe4, which is no UTF-8"));
+  EXPECT_THAT(ErrorOf("<a n\xC3\xA4=''\xFF=''/>"),
+              StartsWith("a.xml:1:9: byte 0xff, which is no UTF-8"));
+  EXPECT_THAT(ErrorOf("<a></a\xE4>"), StartsWith("a.xml:1:7: byte 0xe4, which is no UTF-8"));
   EXPECT_TRUE(XmlDocument::Parse("<\xC3\xA4 \xC3\xB6=''></\xC3\xA4>", "a.xml"));
 }
 

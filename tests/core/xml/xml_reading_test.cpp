@@ -8,7 +8,7 @@
 namespace runnel {
 namespace {
 
-XmlDocument Parsed(std::string_view text) {
+XmlDocument DocumentOf(std::string_view text) {
   return std::move(XmlDocument::Parse(text, "a.xml").value());
 }
 
@@ -23,14 +23,14 @@ TEST(ParseNumberTest, TakesFiniteDecimalNumbersOnly) {
 }
 
 TEST(ReadNumberTest, MissingAttributeIsAnErrorAtTheElement) {
-  const XmlDocument document = Parsed("<box>\n</box>");
+  const XmlDocument document = DocumentOf("<box>\n</box>");
   Diagnostics diagnostics;
   EXPECT_EQ(ReadNumber(document.root(), "x", diagnostics), std::nullopt);
   EXPECT_EQ(diagnostics.ToString(), "a.xml:1:1: error: <box> has no 'x'; add x=\"…\"\n");
 }
 
 TEST(ReadNumberTest, WrongNumberIsAnErrorAtItsValue) {
-  const XmlDocument document = Parsed("<box x='1,5'/>");
+  const XmlDocument document = DocumentOf("<box x='1,5'/>");
   Diagnostics diagnostics;
   EXPECT_EQ(ReadNumber(document.root(), "x", diagnostics), std::nullopt);
   ASSERT_EQ(diagnostics.errors().size(), 1U);
@@ -39,7 +39,7 @@ TEST(ReadNumberTest, WrongNumberIsAnErrorAtItsValue) {
 }
 
 TEST(ReadNumberOrTest, MissingIsTheFallbackAndWrongIsStillAnError) {
-  const XmlDocument document = Parsed("<box x='1' y='one'/>");
+  const XmlDocument document = DocumentOf("<box x='1' y='one'/>");
   Diagnostics diagnostics;
   EXPECT_EQ(ReadNumberOr(document.root(), "height", 2.5, diagnostics), 2.5);
   EXPECT_EQ(ReadNumberOr(document.root(), "x", 2.5, diagnostics), 1.0);
@@ -49,7 +49,7 @@ TEST(ReadNumberOrTest, MissingIsTheFallbackAndWrongIsStillAnError) {
 }
 
 TEST(ReadTextTest, MissingIsAnErrorAndEmptyIsNot) {
-  const XmlDocument document = Parsed("<box name=''/>");
+  const XmlDocument document = DocumentOf("<box name=''/>");
   Diagnostics diagnostics;
   ASSERT_NE(ReadText(document.root(), "name", diagnostics), nullptr);
   EXPECT_TRUE(diagnostics.ok());
@@ -58,7 +58,7 @@ TEST(ReadTextTest, MissingIsAnErrorAndEmptyIsNot) {
 }
 
 TEST(CheckAttributesTest, UnknownOneIsNamedWithTheNearestNotYetGiven) {
-  const XmlDocument document = Parsed("<cylinder x='1' y='2' raduis='1'/>");
+  const XmlDocument document = DocumentOf("<cylinder x='1' y='2' raduis='1'/>");
   Diagnostics diagnostics;
   const std::vector<std::string> known{"x", "y", "radius"};
   CheckAttributes(document.root(), known, diagnostics);
@@ -67,7 +67,7 @@ TEST(CheckAttributesTest, UnknownOneIsNamedWithTheNearestNotYetGiven) {
 }
 
 TEST(CheckAttributesTest, HintsToLeaveItOutIfAllKnownOnesAreGiven) {
-  const XmlDocument document = Parsed("<a x='1' z='2'/>");
+  const XmlDocument document = DocumentOf("<a x='1' z='2'/>");
   Diagnostics diagnostics;
   const std::vector<std::string> known{"x"};
   CheckAttributes(document.root(), known, diagnostics);
@@ -75,7 +75,7 @@ TEST(CheckAttributesTest, HintsToLeaveItOutIfAllKnownOnesAreGiven) {
 }
 
 TEST(CheckChildrenTest, TellsAllUnknownOnesAtOnceAndText) {
-  const XmlDocument document = Parsed("<world>\n<bxo/>\nhello<wall/>\n<xyzzy/></world>");
+  const XmlDocument document = DocumentOf("<world>\n<bxo/>\nhello<wall/>\n<xyzzy/></world>");
   Diagnostics diagnostics;
   const std::vector<std::string> known{"box", "wall"};
   CheckChildren(document.root(), known, diagnostics);
@@ -87,7 +87,7 @@ TEST(CheckChildrenTest, TellsAllUnknownOnesAtOnceAndText) {
 
 TEST(CheckChildrenTest, CutsALongTextBetweenLetters) {
   const std::string before(39, 'x');
-  const XmlDocument document = Parsed("<world>" + before + "\xC3\xA9 and more</world>");
+  const XmlDocument document = DocumentOf("<world>" + before + "\xC3\xA9 and more</world>");
   Diagnostics diagnostics;
   CheckChildren(document.root(), {}, diagnostics);
   EXPECT_EQ(diagnostics.errors().front().hint, "leave out '" + before + "'");
