@@ -8,9 +8,9 @@ namespace runnel {
 /// By which others keep a runner between two of its cycles for a moment. Cycles pay one load of a line
 /// that hardly ever changes.
 ///
-/// Who closes the gate and then finds, by the runner's CyclePresence, that no cycle is under way that
+/// Who closes the gate and then finds, by the runner's CycleQuiescence, that no cycle is under way that
 /// began before, knows that none begins until it opens the gate: closing, heavy fence, looking at the
-/// presence on one side; entering the guard, light fence, looking at the gate on the other.
+/// quiescence on one side; entering the guard, light fence, looking at the gate on the other.
 ///
 /// Threads:  Close() and Open() in pairs, by any number of threads; the rest by the runner's.
 class CycleGate {

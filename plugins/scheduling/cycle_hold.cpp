@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/check.h"
+#include "core/base/saturating_sum.h"
 #include "core/lockfree/patience.h"
 #include "core/lockfree/thread_epoch.h"
 #include "plugins/scheduling/cycle_runner.h"
@@ -11,26 +12,28 @@
 namespace runnel {
 
 Result<CycleHold> CycleHold::Take(std::vector<std::shared_ptr<CycleRunner>> runners,
-                                  Duration patience, CycleTracer* tracer) {
+                                  Duration timeout, CycleTracer* tracer) {
   RUNNEL_CHECK(!EpochGuard::HeldByThisThread(),
                "threads cannot be kept between cycles from within a cycle");
   const SteadyClock clock;
-  const Time deadline = clock.Now() + patience;
+  const Time deadline = SaturatingSum(clock.Now(), timeout);
   std::ranges::stable_sort(runners, std::ranges::greater{},
                            [](const auto& runner) { return runner->statistics().execution_mean; });
   CycleHold hold;
   hold.tracer_ = tracer;
   hold.began_ = clock.Now();
+  hold.runners_.reserve(
+      runners.size());  // whose gate is closed is known by the hold, whatever fails
   for (auto& runner : runners) {
     runner->gate().Close();
     hold.runners_.push_back(std::move(runner));
     const CycleRunner& closed = *hold.runners_.back();
     // Passes a heavy fence; see CycleGate.
     const std::uint64_t epoch = ProcessEpochs().Advance();
-    for (int round = 0; !closed.presence()->HasLeft(epoch); ++round) {
+    for (int round = 0; !closed.quiescence()->HasLeft(epoch); ++round) {
       if (clock.Now() > deadline) {
         return Error{.message = "has not come to the end of its cycle in " +
-                                std::to_string(ToSeconds(patience)) + " s",
+                                std::to_string(ToSeconds(timeout)) + " s",
                      .path = closed.path(),
                      .hint = "one of its modules does not return from its Update()"};
       }

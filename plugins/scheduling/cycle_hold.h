@@ -34,10 +34,10 @@ class CycleHold {
 
   /// Waits until all `runners` have come to the end of a cycle, those whose cycles take long first:
   /// so the others are kept for a moment only.
-  /// Errors: one that has not after `patience`, of the machine's clock; all go on then.
+  /// Errors: one that has not after `timeout`, of the machine's clock; all go on then.
   /// `tracer`, if there is one, is told when it is over.
-  static Result<CycleHold> Take(std::vector<std::shared_ptr<CycleRunner>> runners,
-                                Duration patience, CycleTracer* tracer = nullptr);
+  static Result<CycleHold> Take(std::vector<std::shared_ptr<CycleRunner>> runners, Duration timeout,
+                                CycleTracer* tracer = nullptr);
   /// Lets them go on.
   void Release() noexcept;
 

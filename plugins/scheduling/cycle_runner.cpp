@@ -4,6 +4,7 @@
 #include <exception>
 #include <span>
 
+#include "core/base/exception_text.h"
 #include "core/lockfree/thread_epoch.h"
 #include "plugins/scheduling/trace_track.h"
 
@@ -21,12 +22,17 @@ bool IsToldAtTheEnd(const CycleRunner& runner) noexcept {
          std::ranges::find(*in_cycle_of->waiting, &runner) != in_cycle_of->waiting->end();
 }
 
+bool HasActivated(const Schedule& schedule) noexcept {
+  return std::ranges::any_of(schedule.entries,
+                             [](const auto& entry) { return entry.element->is_activated(); });
+}
+
 // One that throws is stopped, and the others go on. The try block is around the loop and not within
 // it: a task costs no more than its call.
 void RunInTurn(std::span<const Schedule::Entry> entries, CycleMoment now,
-               FaultDesk& desk) noexcept {
+               FaultDispatcher& faults) noexcept {
   auto entry = entries.begin();
-  const auto fail = [&](const char* what) { (entry++)->element->Fail(what, now, desk); };
+  const auto fail = [&](const char* what) { (entry++)->element->Fail(what, now, faults); };
   while (entry != entries.end()) {
     try {
       for (; entry != entries.end(); ++entry) {
@@ -35,35 +41,35 @@ void RunInTurn(std::span<const Schedule::Entry> entries, CycleMoment now,
     } catch (const std::exception& exception) {
       fail(exception.what());
     } catch (...) {
-      fail("unknown exception");
+      fail(DescribeException().c_str());
     }
   }
 }
 
 // The same, of one element after the other, with what is written down of it.
 [[gnu::cold, gnu::noinline]] void RunTraced(std::span<const Schedule::Entry> entries,
-                                            CycleMoment now, FaultDesk& desk,
+                                            CycleMoment now, FaultDispatcher& faults,
                                             TraceTrack& track) noexcept {
   for (const Schedule::Entry& entry : entries) {
     TracedElement* const traced = entry.element->traced();
     if (traced == nullptr || entry.element->is_stopped()) {
-      RunInTurn({&entry, 1}, now, desk);
+      RunInTurn({&entry, 1}, now, faults);
       continue;
     }
     traced->track = &track;
     const Time began = track.Now();
-    RunInTurn({&entry, 1}, now, desk);
+    RunInTurn({&entry, 1}, now, faults);
     track.NoteUpdate(began, entry.phase, traced->number, traced->ports);
   }
 }
 
 template <bool kIsTraced>
 void Run(std::span<const Schedule::Entry> entries, const Schedule& schedule, CycleMoment now,
-         FaultDesk& desk) noexcept {
+         FaultDispatcher& faults) noexcept {
   if constexpr (kIsTraced) {
-    RunTraced(entries, now, desk, *schedule.track);
+    RunTraced(entries, now, faults, *schedule.track);
   } else {
-    RunInTurn(entries, now, desk);
+    RunInTurn(entries, now, faults);
   }
 }
 
@@ -71,16 +77,20 @@ void Run(std::span<const Schedule::Entry> entries, const Schedule& schedule, Cyc
 
 CycleRunner::~CycleRunner() { delete schedule_.load(std::memory_order_seq_cst); }
 
-void CycleRunner::Install(std::unique_ptr<const Schedule> schedule,
-                          std::shared_ptr<const void> old_chunks) {
+void CycleRunner::Install(std::unique_ptr<const Schedule> schedule) {
+  const Schedule* const next = schedule.release();
   // seq_cst: one order with the epoch's operations; see core/lockfree/epoch.h.
-  const Schedule* const previous =
-      schedule_.exchange(schedule.release(), std::memory_order_seq_cst);
+  const Schedule* const previous = schedule_.exchange(next, std::memory_order_seq_cst);
+  // What came for an element while no schedule had it has woken nobody, or a cycle that did not know
+  // it. The exchange, this look and ScheduledElement::Wake() are in one order (seq_cst): either it is
+  // found here, or it comes after the exchange, and then whoever takes the activation of this runner
+  // finds `next`.
+  if (next != nullptr && waits_for_data() && HasActivated(*next)) Activate();
   if (previous == nullptr) return;
-  Retire([previous, with_it = std::move(old_chunks)] { delete previous; });
+  Retire([previous] { delete previous; });
 }
 
-bool CycleRunner::RunCycle(Cycle cycle, FaultDesk& desk) noexcept {
+bool CycleRunner::RunCycle(Cycle cycle, FaultDispatcher& faults) noexcept {
   const EpochGuard guard;
   if (gate_.is_closed()) [[unlikely]]
     return false;
@@ -93,9 +103,9 @@ bool CycleRunner::RunCycle(Cycle cycle, FaultDesk& desk) noexcept {
   cycles_begun_.store(number, std::memory_order_relaxed);
   const CycleMoment now{cycle.now, number};
   if (schedule->track != nullptr) [[unlikely]] {
-    RunNoted(*schedule, now, desk);
+    RunNoted(*schedule, now, faults);
   } else {
-    RunTasks<false>(*schedule, now, desk);
+    RunTasks<false>(*schedule, now, faults);
   }
   in_cycle_of = nullptr;
   WakeUps wake_ups;
@@ -106,44 +116,38 @@ bool CycleRunner::RunCycle(Cycle cycle, FaultDesk& desk) noexcept {
 }
 
 template <bool kIsTraced>
-void CycleRunner::RunTasks(const Schedule& schedule, CycleMoment now, FaultDesk& desk) noexcept {
+void CycleRunner::RunTasks(const Schedule& schedule, CycleMoment now,
+                           FaultDispatcher& faults) noexcept {
   if (waits_for_data()) {
-    RunActivated<kIsTraced>(schedule, now, desk);
+    RunActivated<kIsTraced>(schedule, now, faults);
   } else {
-    RunAll<kIsTraced>(schedule, now, desk);
+    RunAll<kIsTraced>(schedule, now, faults);
   }
 }
 
 // Apart, so that cycles that nobody traces have nothing of it but the question.
-void CycleRunner::RunNoted(const Schedule& schedule, CycleMoment now, FaultDesk& desk) noexcept {
+void CycleRunner::RunNoted(const Schedule& schedule, CycleMoment now,
+                           FaultDispatcher& faults) noexcept {
   const Time began = schedule.track->Now();
-  RunTasks<true>(schedule, now, desk);
+  RunTasks<true>(schedule, now, faults);
   schedule.track->NoteCycle(began, now.time, now.number);
 }
 
 // Whether nothing need be asked of its elements any more.
 bool CycleRunner::IsSettled(const Schedule& schedule) noexcept {
   if (!schedule.has_arrivals || settled_ == schedule.number) return true;
-  const bool have_arrived = std::ranges::all_of(schedule.chunks, [](const Schedule::Chunk* chunk) {
-    return !chunk->has_arrivals ||
-           std::ranges::all_of(chunk->entries, &Schedule::Entry::HasArrived);
-  });
+  const bool have_arrived = std::ranges::all_of(schedule.entries, &Schedule::Entry::HasArrived);
   if (have_arrived) settled_ = schedule.number;
   return have_arrived;
 }
 
 // An element that another thread may still be running is left out of this cycle.
 template <bool kIsTraced>
-void CycleRunner::RunAll(const Schedule& schedule, CycleMoment now, FaultDesk& desk) noexcept {
-  const bool is_settled = IsSettled(schedule);
-  for (const Schedule::Chunk* chunk : schedule.chunks) {
-    if (is_settled || !chunk->has_arrivals) {
-      Run<kIsTraced>(chunk->entries, schedule, now, desk);
-      continue;
-    }
-    for (const Schedule::Entry& entry : chunk->entries) {
-      if (entry.HasArrived()) Run<kIsTraced>({&entry, 1}, schedule, now, desk);
-    }
+void CycleRunner::RunAll(const Schedule& schedule, CycleMoment now,
+                         FaultDispatcher& faults) noexcept {
+  if (IsSettled(schedule)) return Run<kIsTraced>(schedule.entries, schedule, now, faults);
+  for (const Schedule::Entry& entry : schedule.entries) {
+    if (entry.HasArrived()) Run<kIsTraced>({&entry, 1}, schedule, now, faults);
   }
 }
 
@@ -151,27 +155,26 @@ void CycleRunner::RunAll(const Schedule& schedule, CycleMoment now, FaultDesk& d
 // once, by its first task, and holds for the others.
 template <bool kIsTraced>
 void CycleRunner::RunActivated(const Schedule& schedule, CycleMoment now,
-                               FaultDesk& desk) noexcept {
+                               FaultDispatcher& faults) noexcept {
   const bool is_settled = IsSettled(schedule);
   is_held_up_ = false;
-  for (const Schedule::Chunk* chunk : schedule.chunks) {
-    for (const Schedule::Entry& entry : chunk->entries) {
-      RunIfActivated<kIsTraced>(entry, schedule, is_settled, now, desk);
-    }
+  for (const Schedule::Entry& entry : schedule.entries) {
+    RunIfActivated<kIsTraced>(entry, schedule, is_settled, now, faults);
   }
   // What came during the pass for those further down has been used in it; what came for those
-  // further up, or from other threads, is for the next one.
+  // further up, or from other threads, is for the next one. So is what came for those that only a
+  // schedule of meanwhile has: whoever has activated this runner for them did so after the exchange,
+  // which the load of the schedule finds then.
   (void)TakeActivation();
-  const bool more = std::ranges::any_of(schedule.chunks, [](const Schedule::Chunk* chunk) {
-    return std::ranges::any_of(chunk->entries,
-                               [](const auto& entry) { return entry.element->is_activated(); });
-  });
-  if (more) activated_.store(true, std::memory_order_release);
+  if (this->schedule() != &schedule || HasActivated(schedule)) {
+    activated_.store(true, std::memory_order_release);
+  }
 }
 
 template <bool kIsTraced>
 void CycleRunner::RunIfActivated(const Schedule::Entry& entry, const Schedule& schedule,
-                                 bool is_settled, CycleMoment now, FaultDesk& desk) noexcept {
+                                 bool is_settled, CycleMoment now,
+                                 FaultDispatcher& faults) noexcept {
   ScheduledElement& element = *entry.element;
   // What has come for an element that another thread may still be running is not forgotten.
   if (!is_settled && !entry.HasArrived()) {
@@ -179,7 +182,7 @@ void CycleRunner::RunIfActivated(const Schedule::Entry& entry, const Schedule& s
     return;
   }
   if (entry.is_first && element.TakeActivation()) element.set_in_pass(true);
-  if (element.in_pass()) Run<kIsTraced>({&entry, 1}, schedule, now, desk);
+  if (element.in_pass()) Run<kIsTraced>({&entry, 1}, schedule, now, faults);
   if (entry.is_last) element.set_in_pass(false);
 }
 

@@ -38,18 +38,17 @@ class CycleRunner {
     return options_.activation == ThreadOptions::Activation::kTrigger;
   }
 
-  /// Takes effect from the next cycle on. The chunks of a schedule belong to whoever has made them;
-  /// `old_chunks` are those that only the schedule before has: they go when it goes.
-  void Install(std::unique_ptr<const Schedule> schedule,
-               std::shared_ptr<const void> old_chunks = nullptr);
+  /// Takes effect from the next cycle on; a runner that waits for data has one at once if data have
+  /// come for any element of the schedule.
+  void Install(std::unique_ptr<const Schedule> schedule);
   /// Under the structure lock; nullptr before the first Install().
   [[nodiscard]] const Schedule* schedule() const noexcept {
     return schedule_.load(std::memory_order_seq_cst);
   }
 
   /// For the threads that others' schedules may have to wait for.
-  [[nodiscard]] const std::shared_ptr<CyclePresence>& presence() const noexcept {
-    return presence_;
+  [[nodiscard]] const std::shared_ptr<CycleQuiescence>& quiescence() const noexcept {
+    return quiescence_;
   }
 
   /// By which others keep this runner between two cycles (CycleHold).
@@ -57,7 +56,7 @@ class CycleRunner {
 
   /// One cycle: every task in turn (of those that data has come for, if the thread waits for data).
   /// Returns false, with nothing run, if the gate is closed: wait until it is open, and try again.
-  [[nodiscard]] bool RunCycle(Cycle cycle, FaultDesk& desk) noexcept;
+  [[nodiscard]] bool RunCycle(Cycle cycle, FaultDispatcher& faults) noexcept;
   /// Counts a cycle that has ended.
   void Record(const CycleMeasurement& cycle) noexcept { meter_.Add(cycle); }
   /// How many cycles have begun.
@@ -88,23 +87,24 @@ class CycleRunner {
   // through the library's table of symbols.
   template <bool kIsTraced>
   [[gnu::visibility("hidden")]] void RunTasks(const Schedule& schedule, CycleMoment now,
-                                              FaultDesk& desk) noexcept;
+                                              FaultDispatcher& faults) noexcept;
   template <bool kIsTraced>
   [[gnu::visibility("hidden")]] void RunAll(const Schedule& schedule, CycleMoment now,
-                                            FaultDesk& desk) noexcept;
+                                            FaultDispatcher& faults) noexcept;
   template <bool kIsTraced>
   [[gnu::visibility("hidden")]] void RunActivated(const Schedule& schedule, CycleMoment now,
-                                                  FaultDesk& desk) noexcept;
+                                                  FaultDispatcher& faults) noexcept;
   template <bool kIsTraced>
   [[gnu::visibility("hidden")]] void RunIfActivated(const Schedule::Entry& entry,
                                                     const Schedule& schedule, bool is_settled,
-                                                    CycleMoment now, FaultDesk& desk) noexcept;
+                                                    CycleMoment now,
+                                                    FaultDispatcher& faults) noexcept;
   [[gnu::cold, gnu::noinline]] void RunNoted(const Schedule& schedule, CycleMoment now,
-                                             FaultDesk& desk) noexcept;
+                                             FaultDispatcher& faults) noexcept;
 
   const std::string path_;
   const ThreadOptions options_;
-  const std::shared_ptr<CyclePresence> presence_ = std::make_shared<CyclePresence>();
+  const std::shared_ptr<CycleQuiescence> quiescence_ = std::make_shared<CycleQuiescence>();
   CycleGate gate_;
   std::atomic<const Schedule*> schedule_{nullptr};
   std::uint64_t settled_ = 0;  // the number of the schedule whose elements have all arrived

@@ -1,12 +1,13 @@
 #pragma once
 
 #include "core/base/clock.h"
+#include "core/base/saturating_sum.h"
 #include "plugins/scheduling/thread_options.h"
 
 namespace runnel {
 
 /// When the next cycle of a periodic thread is due. Due times are multiples of the period from the
-/// first one, so that no error adds up.
+/// first one, so that no error adds up; where a Time can hold no more, they end.
 ///
 /// Precondition: period > 0. Threads: a value.
 class DueTime {
@@ -19,11 +20,11 @@ class DueTime {
   /// The cycle that was due has ended at `ended`: goes on to the next one. Returns true for an
   /// overrun, that is if the next one had been due before.
   bool Advance(Time ended) noexcept {
-    next_ += period_;
+    next_ = SaturatingSum(next_, period_);
     if (ended <= next_) return false;
     if (on_overrun_ == ThreadOptions::OnOverrun::kSkip) {
-      const auto missed = (ended - next_ + period_ - Duration(1)) / period_;
-      next_ += missed * period_;
+      const auto missed_whole = (ended - next_ - Duration(1)) / period_;
+      next_ = SaturatingSum(next_ + missed_whole * period_, period_);
     }
     return true;
   }

@@ -46,10 +46,8 @@ ExecutionOrder OrderTasks(std::vector<Task> tasks) {
   }
   order.Sort();
   ExecutionOrder result;
-  for (const auto& block : order.tasks().blocks()) {
-    for (auto* each : block->items) {
-      result.tasks.push_back(std::move(static_cast<InputTask*>(each)->task));
-    }
+  for (internal::OrderedTask* each : order.tasks()) {
+    result.tasks.push_back(std::move(static_cast<InputTask*>(each)->task));
   }
   internal::ReportCuts(order, result.cuts);
   return result;

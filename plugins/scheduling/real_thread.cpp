@@ -18,8 +18,8 @@ constexpr Duration kLookAgain = std::chrono::microseconds(100);
 
 }  // namespace
 
-RealThread::RealThread(std::shared_ptr<CycleRunner> runner, FaultDesk& desk, Time first)
-    : runner_(std::move(runner)), desk_(desk), thread_([this, first] { Run(first); }) {}
+RealThread::RealThread(std::shared_ptr<CycleRunner> runner, FaultDispatcher& faults, Time first)
+    : runner_(std::move(runner)), faults_(faults), thread_([this, first] { Run(first); }) {}
 
 RealThread::~RealThread() {
   RequestStop();
@@ -40,7 +40,7 @@ void RealThread::RequestStop() noexcept {
 }
 
 void RealThread::Run(Time first) {
-  runner_->presence()->Take();
+  runner_->quiescence()->Take();
   PrefaultStack();
   RunCycles(first);
   ended_.store(true, std::memory_order_release);
@@ -64,7 +64,7 @@ void RealThread::RunPeriodically(Time first) {
   while (SleepUntil(due.next(), [this] { return stopping(); })) {
     const Time planned = due.next();
     Time now = clock.Now();
-    for (; !runner_->RunCycle({now, options.period}, desk_); now = clock.Now()) {
+    for (; !runner_->RunCycle({now, options.period}, faults_); now = clock.Now()) {
       runner_->gate().WaitUntilOpen();
     }
     const Time ended = clock.Now();
@@ -78,7 +78,7 @@ void RealThread::RunFreely() {
   TickClock clock;
   Time now = clock.Now();
   while (!stopping()) {
-    if (!runner_->RunCycle({now, Duration::zero()}, desk_)) {
+    if (!runner_->RunCycle({now, Duration::zero()}, faults_)) {
       runner_->gate().WaitUntilOpen();
       now = clock.Now();
       continue;
@@ -97,7 +97,7 @@ void RealThread::RunOnData() {
     if (stopping()) return;
     if (!runner_->TakeActivation()) continue;
     Time now = clock.Now();
-    for (; !runner_->RunCycle({now, Duration::zero()}, desk_); now = clock.Now()) {
+    for (; !runner_->RunCycle({now, Duration::zero()}, faults_); now = clock.Now()) {
       runner_->gate().WaitUntilOpen();
     }
     runner_->Record({now, now, clock.Now() - now, false});

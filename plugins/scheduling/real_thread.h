@@ -15,9 +15,9 @@ namespace runnel {
 /// Threads:  made, asked to stop and joined by one thread. Allocation: none in the loop.
 class RealThread {
  public:
-  /// Starts at once; the first cycle of a periodic thread is due at `first`. `desk` must outlive
+  /// Starts at once; the first cycle of a periodic thread is due at `first`. `faults` must outlive
   /// this.
-  RealThread(std::shared_ptr<CycleRunner> runner, FaultDesk& desk, Time first);
+  RealThread(std::shared_ptr<CycleRunner> runner, FaultDispatcher& faults, Time first);
   /// Stops and joins.
   ~RealThread();
   RealThread(const RealThread&) = delete;
@@ -40,7 +40,7 @@ class RealThread {
   [[nodiscard]] bool stopping() const noexcept { return stopping_.load(std::memory_order_acquire); }
 
   const std::shared_ptr<CycleRunner> runner_;
-  FaultDesk& desk_;
+  FaultDispatcher& faults_;
   std::atomic<bool> stopping_{false};
   std::atomic<bool> ended_{false};
   std::thread thread_;  // last: everything is there when it starts

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/module/executable.h"
-#include "plugins/scheduling/handover.h"
+#include "plugins/scheduling/quiescence.h"
 #include "plugins/scheduling/scheduled_element.h"
 
 namespace runnel {
@@ -13,16 +13,14 @@ namespace runnel {
 class TraceTrack;
 
 /// What one thread does in a cycle, ready to be run through. Never changed once made: a change of
-/// the structure makes a new one, and the old one goes when no cycle can be using it. Its entries
-/// lie in chunks, which a new schedule shares with the one before as far as nothing has changed in
-/// them; so making one costs a pointer for each chunk.
+/// the structure makes a new one, and the old one goes when no cycle can be using it.
 struct Schedule {
   /// A runner that may still be running an element, since an installation that took it away.
   struct Before {
-    std::shared_ptr<const CyclePresence> presence;
+    std::shared_ptr<const CycleQuiescence> quiescence;
     std::shared_ptr<const Installation> installation;
     [[nodiscard]] bool HasLeft() const noexcept {
-      return installation->HasBeenReachedBy(*presence);
+      return installation->HasBeenReachedBy(*quiescence);
     }
   };
 
@@ -45,15 +43,10 @@ struct Schedule {
     }
   };
 
-  struct Chunk {
-    std::vector<Entry> entries;
-    bool has_arrivals = false;  ///< elements that others have had before
-  };
-
-  std::uint64_t number = 0;          ///< later ones of the same runner have higher numbers
-  std::vector<const Chunk*> chunks;  ///< in the order of running; see CycleRunner::Install()
-  bool has_arrivals = false;         ///< in any of them
-  TraceTrack* track = nullptr;       ///< where its cycles are noted; nullptr: nowhere
+  std::uint64_t number = 0;     ///< later ones of the same runner have higher numbers
+  std::vector<Entry> entries;   ///< in the order of running
+  bool has_arrivals = false;    ///< elements that others have had before
+  TraceTrack* track = nullptr;  ///< where its cycles are noted; nullptr: nowhere
   /// The runners that wait for data; they are told at the end of the cycle, not in the midst of it.
   std::shared_ptr<const std::vector<CycleRunner*>> waiting;
 };

@@ -3,20 +3,21 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/retry.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/port/port.h"
 #include "plugins/scheduling/cycle_runner.h"
 #include "plugins/scheduling/cycle_tracer.h"
 #include "plugins/scheduling/internal/data_flow.h"
-#include "plugins/scheduling/internal/trigger_ties.h"
+#include "plugins/scheduling/internal/trigger_binding.h"
 
 namespace runnel {
 
 namespace {
 
-using internal::Lane;
 using internal::PlannedElement;
 using internal::PlannedTask;
+using internal::ThreadSchedule;
 
 struct Found {
   std::vector<ThreadContainer*> containers;
@@ -75,43 +76,35 @@ void ScheduleCompiler::CompileAll(FrameworkElement& root) {
   const Found found = Search(root);
   for (auto& [serial, planned] : elements_) {
     planned.tasks.clear();
-    planned.lane = nullptr;
+    planned.thread = nullptr;
   }
   tasks_of_groups_.Clear();
-  MakeLanes(found.containers);
-  has_unassigned_tasks_ = lanes_.empty() && !found.executables.empty();
+  MakeThreadSchedules(found.containers);
+  has_unassigned_tasks_ = threads_.empty() && !found.executables.empty();
   if (!has_unassigned_tasks_) {
     for (FrameworkElement* element : found.executables) Plan(*element);
     for (FrameworkElement* element : found.executables) ConnectTasks(elements_[element->serial()]);
   }
-  for (auto& [serial, lane] : lanes_) lane->order.Sort();
   needs_all_ = false;
 }
 
-void ScheduleCompiler::MakeLanes(const std::vector<ThreadContainer*>& containers) {
-  Lanes before = std::exchange(lanes_, {});
-  changed_lanes_.clear();
+void ScheduleCompiler::MakeThreadSchedules(const std::vector<ThreadContainer*>& containers) {
+  ThreadSchedules before = std::exchange(threads_, {});
+  changed_threads_.clear();
   auto waiting = std::make_shared<std::vector<CycleRunner*>>();
   for (const ThreadContainer* container : containers) {
-    auto& lane = lanes_[container->serial()] = std::make_unique<Lane>(container->runner());
-    lane->name = container->name();
+    auto& thread = threads_[container->serial()] =
+        std::make_unique<ThreadSchedule>(container->runner());
+    thread->name = container->name();
     if (tracer_ != nullptr) {
-      lane->track = &tracer_->TrackOf(container->serial(), container->path());
+      thread->track = &tracer_->TrackOf(container->serial(), container->path());
     }
-    if (lane->runner->waits_for_data()) waiting->push_back(lane->runner.get());
-    Touch(*lane);
+    if (thread->runner->waits_for_data()) waiting->push_back(thread->runner.get());
+    NoteChange(*thread);
   }
   waiting_ = std::move(waiting);
-  // Chunks of before are kept until no schedule has them.
-  for (auto& [serial, lane] : before) {
-    const std::shared_ptr<CycleRunner> runner = lane->runner;
-    const std::shared_ptr<Lane::Chunks> chunks = lane->old_chunks;
-    lane.reset();
-    if (const auto now = lanes_.find(serial); now != lanes_.end()) {
-      std::ranges::move(*chunks, std::back_inserter(*now->second->old_chunks));
-    } else {
-      gone_runners_.push_back({runner, chunks});
-    }
+  for (const auto& [serial, thread] : before) {
+    if (!threads_.contains(serial)) gone_runners_.push_back(thread->runner);
   }
 }
 
@@ -129,13 +122,13 @@ void ScheduleCompiler::Follow(const Change& change) noexcept {
 void ScheduleCompiler::Add(FrameworkElement& element) noexcept {
   Follow([&] {
     const Found found = Search(element);
-    const auto is_new = [&](const auto* each) { return !lanes_.contains(each->serial()); };
-    const bool lacks_a_lane = lanes_.empty() && !found.executables.empty();
-    if (lacks_a_lane || std::ranges::any_of(found.containers, is_new)) return NeedAll();
+    const auto is_new = [&](const auto* each) { return !threads_.contains(each->serial()); };
+    const bool lacks_a_thread = threads_.empty() && !found.executables.empty();
+    if (lacks_a_thread || std::ranges::any_of(found.containers, is_new)) return NeedAll();
     std::vector<PlannedElement*> added;
     for (FrameworkElement* each : found.executables) {
       if (const auto known = elements_.find(each->serial()); known != elements_.end()) {
-        if (known->second.lane != nullptr) continue;
+        if (known->second.thread != nullptr) continue;
       }
       Plan(*each);
       added.push_back(&elements_[each->serial()]);
@@ -149,7 +142,7 @@ void ScheduleCompiler::Add(FrameworkElement& element) noexcept {
 // Its trigger inputs stay tied meanwhile, so that no data are missed.
 void ScheduleCompiler::Refresh(FrameworkElement& element) {
   const auto known = elements_.find(element.serial());
-  if (known == elements_.end() || known->second.lane == nullptr) return;
+  if (known == elements_.end() || known->second.thread == nullptr) return;
   RemoveTasks(known->second);
   Plan(element);
   ConnectTasks(known->second);
@@ -158,12 +151,12 @@ void ScheduleCompiler::Refresh(FrameworkElement& element) {
 void ScheduleCompiler::Reassign(FrameworkElement& element) noexcept {
   Follow([&] {
     const std::uint64_t assigned = AssignedThread(element);
-    if (assigned != 0 && !lanes_.contains(assigned)) return NeedAll();
+    if (assigned != 0 && !threads_.contains(assigned)) return NeedAll();
     std::vector<PlannedElement*> moved;
     for (FrameworkElement* each : Search(element).executables) {
       const auto known = elements_.find(each->serial());
-      Lane* const lane = ChooseLane(*each);
-      if (known == elements_.end() || known->second.lane == lane) continue;
+      ThreadSchedule* const thread = ChooseThread(*each);
+      if (known == elements_.end() || known->second.thread == thread) continue;
       RemoveTasks(known->second);
       Plan(*each);
       moved.push_back(&known->second);
@@ -185,9 +178,9 @@ void ScheduleCompiler::Disconnect(const Port& from, const Port& to) noexcept {
       if (StillFeeds(output, input)) return;
       tasks_of_groups_.ForEachWriter(output, [&](PlannedTask& writer) {
         tasks_of_groups_.ForEachReader(input, [&](PlannedTask& reader) {
-          if (writer.element->lane != reader.element->lane) return;
-          writer.element->lane->order.Disconnect(writer, reader, {&output, &input});
-          Touch(*writer.element->lane);
+          if (writer.element->thread != reader.element->thread) return;
+          writer.element->thread->order.Disconnect(writer, reader, {&output, &input});
+          Touch(*writer.element->thread);
         });
       });
     });
@@ -201,9 +194,9 @@ void ScheduleCompiler::Plan(FrameworkElement& element) {
     planned.state = std::make_shared<ScheduledElement>(
         element.path(), element.serial(), tracer_ != nullptr ? tracer_->Watch(element) : nullptr);
   }
-  HandOver(planned, *ChooseLane(element));
+  HandOver(planned, *ChooseThread(element));
   AddTasks(planned);
-  TieToLane(planned);
+  BindTriggersOf(planned);
 }
 
 void ScheduleCompiler::AddTasks(PlannedElement& planned) {
@@ -211,7 +204,7 @@ void ScheduleCompiler::AddTasks(PlannedElement& planned) {
     planned.tasks.push_back(std::make_unique<PlannedTask>(std::move(task)));
   }
   std::ranges::stable_sort(planned.tasks, {}, [](const auto& each) { return each->phase; });
-  internal::RunningOrder& order = planned.lane->order;
+  internal::RunningOrder& order = planned.thread->order;
   for (std::size_t i = 0; i < planned.tasks.size(); ++i) {
     PlannedTask& task = *planned.tasks[i];
     task.element = &planned;
@@ -223,17 +216,17 @@ void ScheduleCompiler::AddTasks(PlannedElement& planned) {
     if (i > 0) order.KeepPhases(*planned.tasks[i - 1], task);
     tasks_of_groups_.Add(task);
   }
-  Touch(*planned.lane);
+  Touch(*planned.thread);
 }
 
 void ScheduleCompiler::RemoveTasks(PlannedElement& planned) {
-  Lane* const lane = std::exchange(planned.lane, nullptr);
-  if (lane != nullptr && !needs_all_) {  // else plans are made anew in any case
+  ThreadSchedule* const thread = std::exchange(planned.thread, nullptr);
+  if (thread != nullptr && !needs_all_) {  // else plans are made anew in any case
     for (const auto& task : planned.tasks) {
       tasks_of_groups_.Remove(*task);
-      lane->order.Remove(*task);
+      thread->order.Remove(*task);
     }
-    Touch(*lane);
+    Touch(*thread);
   }
   planned.tasks.clear();
 }
@@ -261,20 +254,20 @@ void ScheduleCompiler::ConnectTasks(PlannedElement& planned) {
 void ScheduleCompiler::ConnectPair(const Port& output, const Port& input) {
   tasks_of_groups_.ForEachWriter(output, [&](PlannedTask& writer) {
     tasks_of_groups_.ForEachReader(input, [&](PlannedTask& reader) {
-      if (writer.element->lane != reader.element->lane) return;
-      writer.element->lane->order.Connect(writer, reader, {&output, &input});
-      Touch(*writer.element->lane);
+      if (writer.element->thread != reader.element->thread) return;
+      writer.element->thread->order.Connect(writer, reader, {&output, &input});
+      Touch(*writer.element->thread);
     });
   });
 }
 
 // The runner that has had the element until now may be in a cycle with it, and so may those before.
-void ScheduleCompiler::HandOver(PlannedElement& planned, Lane& lane) {
-  planned.lane = &lane;
-  const std::shared_ptr<const CyclePresence> next = lane.runner->presence();
+void ScheduleCompiler::HandOver(PlannedElement& planned, ThreadSchedule& thread) {
+  planned.thread = &thread;
+  const std::shared_ptr<const CycleQuiescence> next = thread.runner->quiescence();
   if (planned.current == next) return;
   std::erase_if(planned.before,
-                [&](const auto& each) { return each.presence == next || each.HasLeft(); });
+                [&](const auto& each) { return each.quiescence == next || each.HasLeft(); });
   if (planned.current) {
     planned.before.push_back({planned.current, installation_});
     has_handovers_ = true;
@@ -282,42 +275,57 @@ void ScheduleCompiler::HandOver(PlannedElement& planned, Lane& lane) {
   planned.current = next;
 }
 
-void ScheduleCompiler::TieToLane(PlannedElement& planned) {
+void ScheduleCompiler::BindTriggersOf(PlannedElement& planned) {
   const std::vector<InputBase*> inputs = internal::TriggerInputs(TasksOf(planned));
-  if (planned.lane->runner->waits_for_data()) {
-    internal::Tie(inputs, *planned.state, *planned.lane->runner);
+  if (planned.thread->runner->waits_for_data()) {
+    internal::BindTriggers(inputs, *planned.state, *planned.thread->runner);
   } else {
-    internal::Untie(inputs);
+    internal::UnbindTriggers(inputs);
     planned.state->set_runner(nullptr);
   }
 }
 
-void ScheduleCompiler::Release(FrameworkElement& element) {
+// What fails on the way is made good by compiling everything, but what is about to go is let go of.
+void ScheduleCompiler::Release(FrameworkElement& element) noexcept {
+  Retry([&] {
+    try {
+      ReleaseAll(element);
+    } catch (...) {
+      NeedAll();
+      throw;
+    }
+  });
+}
+
+void ScheduleCompiler::ReleaseAll(FrameworkElement& element) {
   element.Visit([this](FrameworkElement& each) {
-    if (lanes_.contains(each.serial())) NeedAll();
+    if (threads_.contains(each.serial())) NeedAll();
     const auto known = elements_.find(each.serial());
     if (known == elements_.end()) return;
-    internal::Untie(internal::TriggerInputs(each.FindAnnotation<Executable>()->tasks()));
+    internal::UnbindTriggers(internal::TriggerInputs(each.FindAnnotation<Executable>()->tasks()));
     RemoveTasks(known->second);
     // A publisher may still be about to wake it.
-    Retire([state = std::move(known->second.state)] {});
+    Retire([state = known->second.state] {});
     elements_.erase(known);
   });
 }
 
 // A new connection that agrees with the order has changed nothing that a schedule says.
-void ScheduleCompiler::Touch(Lane& lane) {
-  if (lane.changes == lane.order.tasks().changes()) return;
-  if (!std::exchange(lane.is_changed, true)) changed_lanes_.push_back(&lane);
+void ScheduleCompiler::Touch(ThreadSchedule& thread) {
+  if (!thread.order.is_sorted()) NoteChange(thread);
 }
 
-Lane* ScheduleCompiler::ChooseLane(const FrameworkElement& element) const {
-  const auto assigned = lanes_.find(AssignedThread(element));
-  if (assigned != lanes_.end()) return assigned->second.get();
-  for (const auto& [serial, lane] : lanes_) {
-    if (lane->name == default_thread_) return lane.get();
+void ScheduleCompiler::NoteChange(ThreadSchedule& thread) {
+  if (!std::exchange(thread.is_changed, true)) changed_threads_.push_back(&thread);
+}
+
+ThreadSchedule* ScheduleCompiler::ChooseThread(const FrameworkElement& element) const {
+  const auto assigned = threads_.find(AssignedThread(element));
+  if (assigned != threads_.end()) return assigned->second.get();
+  for (const auto& [serial, thread] : threads_) {
+    if (thread->name == default_thread_) return thread.get();
   }
-  return lanes_.empty() ? nullptr : lanes_.begin()->second.get();
+  return threads_.empty() ? nullptr : threads_.begin()->second.get();
 }
 
 }  // namespace runnel

@@ -20,8 +20,8 @@ class CycleTracer;
 /// containers come or go, then only what a change touches. Nothing takes effect before Install().
 ///
 /// Threads:  all under the structure lock.
-/// Effort:   of CompileAll(), the size of the application; of a change, that of what has changed (see
-///           RunningOrder), and of Install() besides a pointer for each 64 tasks of the thread.
+/// Effort:   of CompileAll(), the size of the application; of a change, that of what has changed; of
+///           Install(), that of the threads whose order has changed: each is sorted anew, as a whole.
 class ScheduleCompiler {
  public:
   using Runners = std::vector<std::shared_ptr<CycleRunner>>;
@@ -50,11 +50,11 @@ class ScheduleCompiler {
   void Reassign(FrameworkElement& element) noexcept;
   /// All at or below `element` is about to go: unties their trigger inputs and forgets them; the next
   /// schedules do not contain them.
-  void Release(FrameworkElement& element);
+  void Release(FrameworkElement& element) noexcept;
 
   /// Whether Install() has something to do.
   [[nodiscard]] bool has_changes() const noexcept {
-    return !changed_lanes_.empty() || !gone_runners_.empty();
+    return !changed_threads_.empty() || !gone_runners_.empty();
   }
   /// Puts what has changed into place, for all threads together.
   void Install();
@@ -70,28 +70,26 @@ class ScheduleCompiler {
   [[nodiscard]] std::vector<Error> Warnings() const;
 
  private:
-  using Lanes = std::map<std::uint64_t, std::unique_ptr<internal::Lane>>;  // by their containers
-
-  struct GoneRunner {
-    std::shared_ptr<CycleRunner> runner;
-    std::shared_ptr<internal::Lane::Chunks> old_chunks;
-  };
+  using ThreadSchedules =
+      std::map<std::uint64_t, std::unique_ptr<internal::ThreadSchedule>>;  // by their containers
 
   template <typename Change>
   void Follow(const Change& change) noexcept;
-  void MakeLanes(const std::vector<ThreadContainer*>& containers);
+  void ReleaseAll(FrameworkElement& element);
+  void MakeThreadSchedules(const std::vector<ThreadContainer*>& containers);
   void Plan(FrameworkElement& element);
   void AddTasks(internal::PlannedElement& planned);
   void RemoveTasks(internal::PlannedElement& planned);
   void Refresh(FrameworkElement& element);
   void ConnectTasks(internal::PlannedElement& planned);
   void ConnectPair(const Port& output, const Port& input);
-  void HandOver(internal::PlannedElement& planned, internal::Lane& lane);
-  void TieToLane(internal::PlannedElement& planned);
-  void Touch(internal::Lane& lane);
-  [[nodiscard]] internal::Lane* ChooseLane(const FrameworkElement& element) const;
+  void HandOver(internal::PlannedElement& planned, internal::ThreadSchedule& thread);
+  void BindTriggersOf(internal::PlannedElement& planned);
+  void Touch(internal::ThreadSchedule& thread);
+  void NoteChange(internal::ThreadSchedule& thread);
+  [[nodiscard]] internal::ThreadSchedule* ChooseThread(const FrameworkElement& element) const;
   [[nodiscard]] bool IsAChoiceMissing(const FrameworkElement& element) const;
-  std::unique_ptr<Schedule> MakeSchedule(internal::Lane& lane);
+  std::unique_ptr<Schedule> MakeSchedule(internal::ThreadSchedule& thread);
 
   const std::string default_thread_;
   CycleTracer* const tracer_;
@@ -99,9 +97,9 @@ class ScheduleCompiler {
   bool has_handovers_ = false;
   bool has_unassigned_tasks_ = false;
   std::map<std::uint64_t, internal::PlannedElement> elements_;  // by serial
-  Lanes lanes_;
-  std::vector<internal::Lane*> changed_lanes_;
-  std::vector<GoneRunner> gone_runners_;  // until the next Install()
+  ThreadSchedules threads_;
+  std::vector<internal::ThreadSchedule*> changed_threads_;
+  Runners gone_runners_;  // until the next Install()
   internal::TasksOfGroups tasks_of_groups_;
   std::shared_ptr<const std::vector<CycleRunner*>> waiting_;
   std::shared_ptr<Installation> installation_ = std::make_shared<Installation>();  // the next one

@@ -16,16 +16,17 @@ ScheduledElement::ScheduledElement(std::string path, std::uint64_t serial,
 
 ScheduledElement::~ScheduledElement() = default;
 
-void ScheduledElement::Fail(std::string_view message, CycleMoment now, FaultDesk& desk) noexcept {
+void ScheduledElement::Fail(std::string_view message, CycleMoment now,
+                            FaultDispatcher& faults) noexcept {
   stopped_.store(true, std::memory_order_relaxed);
   if (!record_) return;
   if (traced_ && traced_->track != nullptr) traced_->track->NoteFault(traced_->number, message);
   record_->Fill(message, now.time, now.number);
-  desk.Raise(std::move(record_));
+  faults.Raise(std::move(record_));
 }
 
 void ScheduledElement::Wake() noexcept {
-  // seq_cst, as in Tie(): either the runner is the new one, or who sets it sees the activation.
+  // seq_cst, as in BindTriggers(): either the runner is the new one, or who sets it sees the activation.
   activated_.store(true, std::memory_order_seq_cst);
   // The caller is inside an EpochGuard, and runners are retired: it cannot go away meanwhile.
   if (CycleRunner* const waiting = runner()) waiting->Activate();

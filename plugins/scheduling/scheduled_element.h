@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "core/port/waker.h"
-#include "plugins/scheduling/fault_desk.h"
+#include "plugins/scheduling/fault_dispatcher.h"
 
 namespace runnel {
 
@@ -24,7 +24,7 @@ struct CycleMoment {
 /// has come for it. Outlives changes of the schedule.
 ///
 /// Threads:  Fail(), is_stopped() and the note of the pass by the thread whose cycle has it (see
-///           handover.h for how it changes); Wake() by any publisher; set_runner() under the
+///           quiescence.h for how it changes); Wake() by any publisher; set_runner() under the
 ///           structure lock.
 /// Progress: wait-free. Allocation: in the constructor only.
 class ScheduledElement final : public Waker {
@@ -38,7 +38,7 @@ class ScheduledElement final : public Waker {
   [[nodiscard]] std::uint64_t serial() const noexcept { return serial_; }
 
   /// Stops the element for good and hands the fault in.
-  void Fail(std::string_view message, CycleMoment now, FaultDesk& desk) noexcept;
+  void Fail(std::string_view message, CycleMoment now, FaultDispatcher& faults) noexcept;
   [[nodiscard]] bool is_stopped() const noexcept {
     // relaxed: the hand-over from thread to thread orders it; elsewhere it only informs.
     return stopped_.load(std::memory_order_relaxed);

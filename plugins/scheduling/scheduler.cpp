@@ -4,6 +4,7 @@
 #include <mutex>
 #include <utility>
 
+#include "core/base/saturating_sum.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/port/port.h"
 #include "plugins/scheduling/realtime_setup.h"
@@ -22,7 +23,7 @@ Scheduler::Scheduler(Runtime& runtime, SchedulerOptions options)
     : runtime_(runtime),
       options_(std::move(options)),
       clock_before_(runtime.clock()),
-      desk_(runtime),
+      faults_(runtime),
       pace_(IsSimulated(options_), options_.speed, options_.is_paused, machine_),
       compiler_(options_.default_thread, options_.tracer) {
   if (IsSimulated(options_)) runtime_.set_clock(simulation_.clock());
@@ -36,7 +37,7 @@ Scheduler::~Scheduler() {
     runtime_.RemoveListener(*this);
     compiler_.NeedAll();  // not one change for each element
     compiler_.Release(runtime_.root());
-    for (const auto& runner : runners_) runner->Install(nullptr);
+    for (const auto& runner : runners_) runner->Install({});
   }
   if (IsSimulated(options_)) runtime_.set_clock(clock_before_);
   // Publishers may still look at what they have found before; they must not outlive it.
@@ -76,17 +77,21 @@ void Scheduler::Changed() {
   if (is_up_to_date()) return;
   // relaxed: who finds it set takes the lock before looking at what has changed.
   has_changes_.store(true, std::memory_order_relaxed);
-  if (is_live() && !runtime_.is_in_change_scope()) BringUpToDate();
+  if (!runtime_.is_in_change_scope()) OnChangesEnd();
 }
 
-// What fails here, the supervising thread tries again, and reports.
+// What fails here for lack of memory is tried once more, with everything compiled anew; then the supervising
+// thread tries it, and reports.
 void Scheduler::OnChangesEnd() {
   if (!is_live()) return;
-  try {
-    BringUpToDate();
-  } catch (...) {
-    desk_.event().Notify();
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    try {
+      return BringUpToDate();
+    } catch (...) {
+      compiler_.NeedAll();
+    }
   }
+  faults_.event().Notify();
 }
 
 void Scheduler::BringUpToDate() {
@@ -121,7 +126,7 @@ void Scheduler::StartThreads(Time first) {
     const bool has_thread = std::ranges::any_of(
         threads_, [&](const auto& thread) { return thread->runner() == runner; });
     if (has_thread) continue;
-    threads_.push_back(std::make_unique<RealThread>(runner, desk_, first));
+    threads_.push_back(std::make_unique<RealThread>(runner, faults_, first));
     if (auto warning = threads_.back()->Prioritize()) {
       realtime_warnings_.push_back(std::move(*warning));
     }
@@ -136,7 +141,7 @@ Result<void> Scheduler::Start() {
   const std::lock_guard start_lock(start_mutex_);
   const std::lock_guard lock(runtime_.structure_mutex());
   if (is_running_) return {};
-  if (std::exchange(has_run_, false)) desk_.ClearStop();
+  if (std::exchange(has_run_, false)) faults_.ClearStop();
   realtime_warnings_.clear();
   compiler_.NeedAll();
   BringUpToDate();
@@ -192,55 +197,56 @@ std::optional<Time> Scheduler::NextDue() {
 
 // What is due next is asked anew each time, as the structure may change while the pace lets nothing
 // run.
-Scheduler::Went Scheduler::GoOn(std::optional<Time> end, Duration patience) {
+Scheduler::StepResult Scheduler::Advance(std::optional<Time> end, Duration timeout) {
   std::optional<Time> latest;
   while (!stop_requested()) {
     const auto due = NextDue();
     const bool is_cycle = due && (!end || *due < *end);
-    if (!is_cycle && !end) return Went::kToTheEnd;
+    if (!is_cycle && !end) return StepResult::kEnd;
     if (pace_.MayGoOnTo(is_cycle ? *due : *end)) {
       if (stop_requested()) break;
       if (!is_cycle) {
         simulation_.clock().Set(*end);
-        return Went::kToTheEnd;
+        return StepResult::kEnd;
       }
       simulation_.Step();
       pace_.CountCycle();
-      LookOut();
-      brakes_.HoldBack();
-      return Went::kOneCycle;
+      RunWatchdog();
+      backpressure_.WaitForRoom();
+      return StepResult::kCycle;
     }
-    if (!latest) latest = machine_.Now() + patience;
-    if (machine_.Now() >= *latest) return Went::kNowhere;
+    if (!latest) latest = SaturatingSum(machine_.Now(), timeout);
+    if (machine_.Now() >= *latest) return StepResult::kTimeout;
     pace_.Wait(*latest);
   }
-  return Went::kStopped;
+  return StepResult::kStopped;
 }
 
 bool Scheduler::Step() {
-  Went went = Went::kNowhere;
-  while (went == Went::kNowhere) went = GoOn({}, Pace::kLongestSleep);
-  return went == Went::kOneCycle;
+  StepResult result = StepResult::kTimeout;
+  while (result == StepResult::kTimeout) result = Advance({}, Pace::kLongestSleep);
+  return result == StepResult::kCycle;
 }
 
 bool Scheduler::RunUntil(Time end) {
-  Went went = Went::kNowhere;
-  while (went == Went::kNowhere || went == Went::kOneCycle) went = GoOn(end, Pace::kLongestSleep);
-  return went == Went::kToTheEnd;
+  StepResult result = StepResult::kTimeout;
+  while (result == StepResult::kTimeout || result == StepResult::kCycle)
+    result = Advance(end, Pace::kLongestSleep);
+  return result == StepResult::kEnd;
 }
 
 std::vector<Fault> Scheduler::TakeFaults() {
   // Two at once would apply the rules in parallel, and out of order.
-  if (!supervises_.load(std::memory_order_acquire)) desk_.Attend();
-  return desk_.Take();
+  if (!supervises_.load(std::memory_order_acquire)) faults_.Dispatch();
+  return faults_.Take();
 }
 
-Result<CycleHold> Scheduler::HoldCycles(const std::vector<std::string>& paths, Duration patience) {
+Result<CycleHold> Scheduler::HoldCycles(const std::vector<std::string>& paths, Duration timeout) {
   RUNNEL_CHECK(
       !runtime_.structure_mutex().HeldByThisThread(),
       "threads cannot be kept between cycles under the structure lock, which a cycle might "
       "be waiting for");
-  return CycleHold::Take(RunnersOf(paths), patience, options_.tracer);
+  return CycleHold::Take(RunnersOf(paths), timeout, options_.tracer);
 }
 
 Scheduler::Runners Scheduler::RunnersOf(const std::vector<std::string>& paths) {
@@ -281,8 +287,8 @@ std::vector<Scheduler::ScheduledTask> Scheduler::Order(const ThreadContainer& th
   std::vector<ScheduledTask> order;
   const Schedule* const schedule = thread.runner()->schedule();
   if (schedule == nullptr) return order;
-  for (const Schedule::Chunk* chunk : schedule->chunks) {
-    for (const auto& entry : chunk->entries) order.push_back({entry.element->path(), entry.phase});
+  for (const auto& entry : schedule->entries) {
+    order.push_back({entry.element->path(), entry.phase});
   }
   return order;
 }

@@ -12,10 +12,10 @@
 #include "core/base/ordered_mutex.h"
 #include "core/element/element_listener.h"
 #include "core/element/runtime.h"
-#include "plugins/scheduling/brakes.h"
+#include "plugins/scheduling/backpressure.h"
 #include "plugins/scheduling/cycle_hold.h"
 #include "plugins/scheduling/fault.h"
-#include "plugins/scheduling/fault_desk.h"
+#include "plugins/scheduling/fault_dispatcher.h"
 #include "plugins/scheduling/pace.h"
 #include "plugins/scheduling/real_thread.h"
 #include "plugins/scheduling/schedule_compiler.h"
@@ -84,16 +84,16 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   /// than the pace allows. False if a stop was requested: the clock then stays at the cycle that
   /// was the last.
   bool RunUntil(Time end);
-  /// What has come of GoOn().
-  enum class Went {
-    kOneCycle,  ///< one has run, and what its data set off
-    kToTheEnd,  ///< the clock shows `end`, or there is nothing to run and no end
-    kNowhere,   ///< the pace has not allowed it in time; ask again
-    kStopped,   ///< a stop has been requested
+  /// What has come of Advance().
+  enum class StepResult {
+    kCycle,    ///< one has run, and what its data set off
+    kEnd,      ///< the clock shows `end`, or there is nothing to run and no end
+    kTimeout,  ///< the pace has not allowed it in time; ask again
+    kStopped,  ///< a stop has been requested
   };
   /// kSimulated: one Step() of a RunUntil(end), for those who have other things to do meanwhile: waits
-  /// for the pace no longer than `patience` of the machine's clock.
-  Went GoOn(std::optional<Time> end, Duration patience);
+  /// for the pace no longer than `timeout` of the machine's clock.
+  StepResult Advance(std::optional<Time> end, Duration timeout);
   /// kSimulated: tests may move it between cycles, and inside of them to let a cycle take time.
   [[nodiscard]] ManualClock& simulated_clock() noexcept { return simulation_.clock(); }
 
@@ -101,17 +101,17 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   /// calls Stop(); until then real threads run on, so that what else is there can bring the robot
   /// to rest. A request that comes before Start() holds; only when started again after a Stop()
   /// does the scheduler forget that of the run before.
-  [[nodiscard]] bool stop_requested() const noexcept { return desk_.stop_requested(); }
+  [[nodiscard]] bool stop_requested() const noexcept { return faults_.stop_requested(); }
   /// A fault rule has requested it, whoever else has, too.
-  [[nodiscard]] bool stopped_by_fault() const noexcept { return desk_.stopped_by_fault(); }
+  [[nodiscard]] bool stopped_by_fault() const noexcept { return faults_.stopped_by_fault(); }
   /// Any thread, also from a signal handler.
-  void RequestStop() noexcept { desk_.RequestStop(); }
+  void RequestStop() noexcept { faults_.RequestStop(); }
 
   /// The faults since the last call, oldest first. While real threads run, those that the
   /// supervising thread has not attended to yet come with a later call.
   [[nodiscard]] std::vector<Fault> TakeFaults();
   /// Errors: a rule whose target is not there, or cannot take the value.
-  Result<void> AddFaultRule(FaultRule rule) { return desk_.AddRule(std::move(rule)); }
+  Result<void> AddFaultRule(FaultRule rule) { return faults_.AddRule(std::move(rule)); }
 
   /// Whether any thread has anything to run. Brings the schedules up to date.
   [[nodiscard]] bool HasTasks();
@@ -133,7 +133,7 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   /// Keeps the threads that run anything at or below one of `paths` between two of their cycles, so
   /// that what is changed until the hold goes takes effect as a whole. Errors, threads: see CycleHold;
   /// not under the structure lock.
-  Result<CycleHold> HoldCycles(const std::vector<std::string>& paths, Duration patience);
+  Result<CycleHold> HoldCycles(const std::vector<std::string>& paths, Duration timeout);
   /// Of the thread that runs the element; nullopt if none does.
   struct Progress {
     std::uint64_t cycles = 0;  ///< that have begun
@@ -144,17 +144,17 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   /// Is asked first about each fault, outside of cycles and without locks. What it says it has done
   /// about it is added to the fault's message, and no rule is applied then; nullopt: not its business.
   using FaultHandler = std::function<std::optional<std::string>(const Fault&)>;
-  void SetFaultHandler(FaultHandler handler) { desk_.SetHandler(std::move(handler)); }
+  void SetFaultHandler(FaultHandler handler) { faults_.SetHandler(std::move(handler)); }
 
   /// Is called between cycles, without locks, and returns the time, by the runtime's clock, before
   /// which it need not be called again: kReal by the supervising thread, kSimulated after the first
   /// cycle that ends then or later. Set it while nothing runs.
-  using Lookout = std::function<Time(Time now)>;
-  void SetLookout(Lookout lookout);
+  using Watchdog = std::function<Time(Time now)>;
+  void SetWatchdog(Watchdog watchdog);
   /// kSimulated: what may hold simulated time back between cycles; on a real clock it is never asked.
-  [[nodiscard]] Brakes& brakes() noexcept { return brakes_; }
+  [[nodiscard]] Backpressure& backpressure() noexcept { return backpressure_; }
   /// As a fault rule does: stop_requested() and stopped_by_fault() become true.
-  void StopForFault() noexcept { desk_.StopForFault(); }
+  void StopForFault() noexcept { faults_.StopForFault(); }
 
   void OnReady(FrameworkElement& element) override;
   void OnDeleted(FrameworkElement& element) override;
@@ -183,18 +183,18 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   void StartThreads(Time first);
 
   void Supervise();
-  void LookAfter() noexcept;
-  void LookOut() noexcept;
+  void Maintain() noexcept;
+  void RunWatchdog() noexcept;
   void EndSupervision();
 
   Runtime& runtime_;
   const SchedulerOptions options_;
   const Clock& clock_before_;  // the runtime's, before ours
-  FaultDesk desk_;
-  SimulatedExecutor simulation_{desk_};
+  FaultDispatcher faults_;
+  SimulatedExecutor simulation_{faults_};
   SteadyClock machine_;
   Pace pace_;
-  Brakes brakes_;
+  Backpressure backpressure_;
 
   OrderedMutex start_mutex_{LockLevel::kScheduler};
   // Guarded by the structure lock, down to the next comment:
@@ -212,8 +212,8 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   // it by the thread that steps, which need not lock where nothing has.
   std::atomic<bool> has_changes_{true};
 
-  Lookout lookout_;
-  Time next_look_{};  // by it
+  Watchdog watchdog_;
+  Time next_watch_{};  // by it
   std::atomic<bool> supervises_{false};
   std::thread supervisor_;
 };

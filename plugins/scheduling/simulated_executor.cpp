@@ -7,24 +7,24 @@
 namespace runnel {
 
 void SimulatedExecutor::SetRunners(const std::vector<std::shared_ptr<CycleRunner>>& runners) {
-  const std::vector<Lane> before = std::exchange(periodic_, {});
+  const std::vector<PeriodicThread> before = std::exchange(periodic_, {});
   waiting_.clear();
   for (const auto& runner : runners) {
     if (runner->waits_for_data()) {
       waiting_.push_back(runner);
       continue;
     }
-    const auto known = std::ranges::find(before, runner, &Lane::runner);
+    const auto known = std::ranges::find(before, runner, &PeriodicThread::runner);
     const ThreadOptions& options = runner->options();
     const DueTime at_once(clock_.Now(), options.period, options.on_overrun);
     periodic_.push_back({runner, known == before.end() ? at_once : known->due});
   }
 }
 
-SimulatedExecutor::Lane* SimulatedExecutor::NextPeriodic() {
+SimulatedExecutor::PeriodicThread* SimulatedExecutor::NextPeriodic() {
   // The first of several smallest: that of the container that was made first.
-  const auto next =
-      std::ranges::min_element(periodic_, {}, [](const Lane& lane) { return lane.due.next(); });
+  const auto next = std::ranges::min_element(
+      periodic_, {}, [](const PeriodicThread& thread) { return thread.due.next(); });
   return next == periodic_.end() ? nullptr : &*next;
 }
 
@@ -37,14 +37,14 @@ CycleRunner* SimulatedExecutor::NextActivated() const {
 
 std::optional<Time> SimulatedExecutor::NextDue() {
   if (NextActivated() != nullptr) return clock_.Now();
-  const Lane* const next = NextPeriodic();
+  const PeriodicThread* const next = NextPeriodic();
   if (next == nullptr) return {};
   return std::max(next->due.next(), clock_.Now());
 }
 
 bool SimulatedExecutor::Step() {
   if (NextActivated() == nullptr) {
-    Lane* const next = NextPeriodic();
+    PeriodicThread* const next = NextPeriodic();
     if (next == nullptr) return false;
     RunPeriodic(*next);
     is_time_stuck_ = false;
@@ -55,26 +55,26 @@ bool SimulatedExecutor::Step() {
 
 // Others may keep the runner between cycles; simulated time stands still meanwhile.
 void SimulatedExecutor::RunCycle(CycleRunner& runner, const Cycle& cycle) {
-  runner.presence()->Take();
-  while (!runner.RunCycle(cycle, desk_)) runner.gate().WaitUntilOpen();
+  runner.quiescence()->Take();
+  while (!runner.RunCycle(cycle, faults_)) runner.gate().WaitUntilOpen();
 }
 
-void SimulatedExecutor::RunPeriodic(Lane& lane) {
-  const bool is_planned = lane.runner->options().activation == ThreadOptions::Activation::kPeriod;
-  const Time due = lane.due.next();
+void SimulatedExecutor::RunPeriodic(PeriodicThread& thread) {
+  const bool is_planned = thread.runner->options().activation == ThreadOptions::Activation::kPeriod;
+  const Time due = thread.due.next();
   clock_.Set(due);
   const Time start = clock_.Now();  // later, if a module has let time pass in its cycle
-  const Duration period = is_planned ? lane.runner->options().period : Duration::zero();
+  const Duration period = is_planned ? thread.runner->options().period : Duration::zero();
   const Time began = machine_.Now();
-  RunCycle(*lane.runner, {start, period});
+  RunCycle(*thread.runner, {start, period});
   const Duration execution = machine_.Now() - began;
-  const bool overrun = lane.due.Advance(clock_.Now());
-  lane.runner->Record({is_planned ? due : start, start, execution, is_planned && overrun});
-  desk_.Attend();
+  const bool overrun = thread.due.Advance(clock_.Now());
+  thread.runner->Record({is_planned ? due : start, start, execution, is_planned && overrun});
+  faults_.Dispatch();
 }
 
 void SimulatedExecutor::RunActivated() {
-  for (int cycles = 0; !desk_.stop_requested(); ++cycles) {
+  for (int cycles = 0; !faults_.stop_requested(); ++cycles) {
     CycleRunner* const next = NextActivated();
     if (next == nullptr) return;
     if (cycles == kMostTriggeredCycles) return ReportEndlessLoop(*next);
@@ -83,17 +83,17 @@ void SimulatedExecutor::RunActivated() {
     const Time began = machine_.Now();
     RunCycle(*next, {now, Duration::zero()});
     next->Record({now, now, machine_.Now() - began, false});
-    desk_.Attend();
+    faults_.Dispatch();
   }
 }
 
 void SimulatedExecutor::ReportEndlessLoop(const CycleRunner& runner) {
   is_time_stuck_ = true;
   if (std::exchange(endless_loop_is_reported_, true)) return;
-  desk_.Report({runner.path(),
-                "modules set each other off without end while no time passes, " +
-                    std::to_string(kMostTriggeredCycles) + " cycles until now",
-                clock_.Now()});
+  faults_.Report({runner.path(),
+                  "modules set each other off without end while no time passes, " +
+                      std::to_string(kMostTriggeredCycles) + " cycles until now",
+                  clock_.Now()});
 }
 
 }  // namespace runnel

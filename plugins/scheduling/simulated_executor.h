@@ -19,7 +19,7 @@ namespace runnel {
 /// Threads:  one at a time.
 class SimulatedExecutor {
  public:
-  explicit SimulatedExecutor(FaultDesk& desk) : desk_(desk) {}
+  explicit SimulatedExecutor(FaultDispatcher& faults) : faults_(faults) {}
 
   [[nodiscard]] const ManualClock& clock() const noexcept { return clock_; }
   [[nodiscard]] ManualClock& clock() noexcept { return clock_; }
@@ -38,22 +38,22 @@ class SimulatedExecutor {
   static constexpr int kMostTriggeredCycles = 1000;
 
  private:
-  struct Lane {
+  struct PeriodicThread {
     std::shared_ptr<CycleRunner> runner;
     DueTime due;
   };
 
-  [[nodiscard]] Lane* NextPeriodic();
+  [[nodiscard]] PeriodicThread* NextPeriodic();
   [[nodiscard]] CycleRunner* NextActivated() const;
   void RunCycle(CycleRunner& runner, const Cycle& cycle);
-  void RunPeriodic(Lane& lane);
+  void RunPeriodic(PeriodicThread& thread);
   void RunActivated();
   void ReportEndlessLoop(const CycleRunner& runner);
 
-  FaultDesk& desk_;
+  FaultDispatcher& faults_;
   ManualClock clock_;
   TickClock machine_;  // for the execution times alone
-  std::vector<Lane> periodic_;
+  std::vector<PeriodicThread> periodic_;
   std::vector<std::shared_ptr<CycleRunner>> waiting_;
   bool is_time_stuck_ = false;  // what data set off did not come to an end
   bool endless_loop_is_reported_ = false;

@@ -4,63 +4,70 @@
 #include <mutex>
 #include <utility>
 
+#include "core/base/exception_text.h"
 #include "plugins/scheduling/scheduler.h"
 
 namespace runnel {
 
+namespace {
+
+// In a handler. Without memory even for this there is nothing to tell it with; what has failed is tried
+// again.
+void ReportException(const char* what, FaultDispatcher& faults, Runtime& runtime) noexcept {
+  try {
+    faults.Report({runtime.root().path(), what + DescribeException(), runtime.clock().Now()});
+  } catch (...) {
+  }
+}
+
+}  // namespace
+
 void Scheduler::Supervise() {
   while (supervises_.load(std::memory_order_acquire)) {
-    if (lookout_) {
-      desk_.event().WaitUntil(next_look_);
+    if (watchdog_) {
+      faults_.event().WaitUntil(next_watch_);
     } else {
-      desk_.event().Wait();
+      faults_.event().Wait();
     }
-    LookAfter();
-    LookOut();
+    Maintain();
+    RunWatchdog();
   }
 }
 
 // Nobody is above the supervising thread to catch what it throws.
-void Scheduler::LookAfter() noexcept {
-  const auto report = [this](const std::string& why) {
-    desk_.Report({runtime_.root().path(), "the schedules could not be brought up to date: " + why,
-                  runtime_.clock().Now()});
-  };
+void Scheduler::Maintain() noexcept {
   try {
-    desk_.Attend();
+    faults_.Dispatch();
     const std::lock_guard lock(runtime_.structure_mutex());
     if (is_running_) BringUpToDate();
-  } catch (const std::exception& exception) {
-    report(exception.what());
   } catch (...) {
-    report("unknown exception");
+    ReportException("the schedules could not be brought up to date: ", faults_, runtime_);
   }
 }
 
 void Scheduler::EndSupervision() {
   if (!supervisor_.joinable()) return;
   supervises_.store(false, std::memory_order_release);
-  desk_.event().Notify();
+  faults_.event().Notify();
   supervisor_.join();
   supervisor_ = std::thread();
 }
 
-void Scheduler::SetLookout(Lookout lookout) {
+void Scheduler::SetWatchdog(Watchdog watchdog) {
   RUNNEL_CHECK(!is_running(), "what looks out is chosen while nothing runs");
-  lookout_ = std::move(lookout);
-  next_look_ = {};
+  watchdog_ = std::move(watchdog);
+  next_watch_ = {};
 }
 
-void Scheduler::LookOut() noexcept {
-  if (!lookout_) return;
+void Scheduler::RunWatchdog() noexcept {
+  if (!watchdog_) return;
   const Time now = runtime_.clock().Now();
-  if (now < next_look_) return;
+  if (now < next_watch_) return;
   try {
-    next_look_ = lookout_(now);
-  } catch (const std::exception& exception) {
-    desk_.Report(
-        {runtime_.root().path(), std::string("looking out failed: ") + exception.what(), now});
-    next_look_ = now + std::chrono::seconds(1);
+    next_watch_ = watchdog_(now);
+  } catch (...) {
+    ReportException("the watchdog failed: ", faults_, runtime_);
+    next_watch_ = now + std::chrono::seconds(1);
   }
 }
 

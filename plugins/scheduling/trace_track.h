@@ -9,7 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/lockfree/stream_queue.h"
+#include <boost/lockfree/spsc_queue.hpp>
+
 #include "core/module/executable.h"
 #include "core/port/port.h"
 #include "plugins/scheduling/tick_clock.h"
@@ -85,7 +86,9 @@ class TraceTrack {
     }
   }
 
-  [[nodiscard]] StreamQueue<TraceEvent>& events() noexcept { return events_; }
+  /// One writer, the thread of the cycles, and one reader.
+  using Events = boost::lockfree::spsc_queue<TraceEvent>;
+  [[nodiscard]] Events& events() noexcept { return events_; }
   /// How many have been lost since the last call.
   [[nodiscard]] std::uint64_t TakeLost() noexcept {
     const std::uint64_t lost = lost_.load(std::memory_order_relaxed);
@@ -96,13 +99,13 @@ class TraceTrack {
   static constexpr std::size_t kPart = TraceEvent::kTextBytes;
   static std::int64_t Count(Time time) noexcept { return time.time_since_epoch().count(); }
 
-  void Add(TraceEvent event) noexcept {
-    if (events_.TryPush(std::move(event))) return;
+  void Add(const TraceEvent& event) noexcept {
+    if (events_.push(event)) return;
     // relaxed: a count, which one thread writes.
     lost_.store(lost_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   }
 
-  StreamQueue<TraceEvent> events_;
+  Events events_;
   TickClock clock_;
   std::atomic<std::uint64_t> lost_{0};
   std::uint64_t lost_taken_ = 0;  // the reader's

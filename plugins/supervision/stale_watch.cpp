@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/saturating_sum.h"
 #include "core/port/port.h"
 
 namespace runnel::internal {
@@ -18,7 +19,7 @@ StaleWatch::Turn StaleWatch::Look(Runtime& runtime, Time now) {
   const Turn turn = Judge(now);
   next_look_ = is_stale_
                    ? now + std::max(std::min(rule_.after, rule_.fresh_after) / 4, kShortestWait)
-                   : *heard_ + rule_.after + Duration(1);
+                   : SaturatingSum(SaturatingSum(*heard_, rule_.after), Duration(1));
   return turn;
 }
 

@@ -21,7 +21,7 @@ struct Supervisor::Shared {
     notices.push_back(std::move(notice));
   }
   void React(const Reaction& reaction, const std::string& path, const std::string& why, Time now);
-  Time LookOut(Time now);
+  Time Watch(Time now);
 
   Runtime& runtime;
   Scheduler& scheduler;
@@ -49,7 +49,7 @@ void Supervisor::Shared::React(const Reaction& reaction, const std::string& path
   Note(std::move(notice));
 }
 
-Time Supervisor::Shared::LookOut(Time now) {
+Time Supervisor::Shared::Watch(Time now) {
   std::vector<std::pair<const StaleWatch*, StaleWatch::Turn>> turns;
   Time next = Time::max();
   {
@@ -79,10 +79,10 @@ Time Supervisor::Shared::LookOut(Time now) {
 Supervisor::Supervisor(Runtime& runtime, Scheduler& scheduler, Perform perform)
     : scheduler_(scheduler),
       shared_(std::make_shared<Shared>(runtime, scheduler, std::move(perform))) {
-  scheduler_.SetLookout([shared = shared_](Time now) { return shared->LookOut(now); });
+  scheduler_.SetWatchdog([shared = shared_](Time now) { return shared->Watch(now); });
 }
 
-Supervisor::~Supervisor() { scheduler_.SetLookout({}); }
+Supervisor::~Supervisor() { scheduler_.SetWatchdog({}); }
 
 Result<void> Supervisor::Add(StaleRule rule) {
   const std::lock_guard lock(shared_->runtime.structure_mutex());

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/saturating_sum.h"
 #include "core/types/duration_text.h"
 #include "plugins/runtime_construction/build_context.h"
 #include "plugins/runtime_construction/path_walk.h"
@@ -38,7 +39,8 @@ void AddStaleRule(const TagUse& use) {
   const XmlAttribute* const fresh_after = use.Find("fresh_after");
   StaleRule rule;
   rule.after = ParseDuration(use.Get("after").value).value();
-  rule.fresh_after = fresh_after ? ParseDuration(fresh_after->value).value() : 2 * rule.after;
+  rule.fresh_after = fresh_after ? ParseDuration(fresh_after->value).value()
+                                 : SaturatingSum(Time(rule.after), rule.after).time_since_epoch();
   rule.on_stale = internal::ReadReaction(use.xml, use.parent, use.context);
   for (const XmlElement child : use.xml.children()) {
     if (child.name() != "otherwise") continue;

@@ -1,8 +1,8 @@
 #include "plugins/tracing/trace_recorder.h"
 
-#include <new>
 #include <utility>
 
+#include "core/base/exception_text.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/port.h"
 #include "plugins/json_values/json_writer.h"
@@ -12,7 +12,7 @@ namespace runnel {
 
 namespace {
 
-constexpr std::size_t kMostRemarks = 100'000;
+constexpr std::size_t kMostSpans = 100'000;
 
 std::string JsonText(std::string_view text) {
   std::string json;
@@ -23,7 +23,7 @@ std::string JsonText(std::string_view text) {
 }  // namespace
 
 using internal::TracedThread;
-using internal::TraceRemark;
+using internal::TraceSpan;
 using internal::TraceWriter;
 
 Result<std::unique_ptr<TraceRecorder>> TraceRecorder::Start(Runtime& runtime,
@@ -60,24 +60,36 @@ Result<TraceSummary> TraceRecorder::Finish() {
   }
   end_.notify_one();
   if (thread_.joinable()) thread_.join();
-  return writer_->Finish();
+  auto finished = writer_->Finish();
+  if (failure_ == nullptr) return finished;
+  return Error{.message = "the trace '" + options_.file +
+                          "' came to an early end: " + DescribeException(failure_)};
 }
 
-void TraceRecorder::Work() {
+// Whatever goes wrong with the writing ends the trace and not the application.
+void TraceRecorder::Work() noexcept {
+  try {
+    WriteUntilTheEnd();
+  } catch (...) {
+    failure_ = std::current_exception();
+  }
+}
+
+void TraceRecorder::WriteUntilTheEnd() {
   std::unique_lock lock(mutex_);
   while (!end_.wait_for(lock, options_.interval, [this] { return ends_; })) {
     lock.unlock();
-    writer_->Write(TakeNews());
+    writer_->Write(TakePending());
     lock.lock();
   }
   lock.unlock();
-  writer_->Write(TakeNews());
+  writer_->Write(TakePending());
 }
 
-internal::TraceNews TraceRecorder::TakeNews() {
+internal::PendingTrace TraceRecorder::TakePending() {
   const std::lock_guard lock(mutex_);
-  return {std::exchange(new_threads_, {}), std::exchange(new_names_, {}),
-          std::exchange(remarks_, {}), std::exchange(lost_remarks_, 0)};
+  return {std::exchange(new_threads_, {}), std::exchange(new_names_, {}), std::exchange(spans_, {}),
+          std::exchange(lost_spans_, 0)};
 }
 
 TraceTrack& TraceRecorder::TrackOf(std::uint64_t serial, const std::string& path) {
@@ -85,7 +97,7 @@ TraceTrack& TraceRecorder::TrackOf(std::uint64_t serial, const std::string& path
   for (const auto& each : threads_) {
     if (each->serial == serial) return each->track;
   }
-  threads_.push_back(std::make_unique<TracedThread>(serial, JsonText(path), options_.room));
+  threads_.push_back(std::make_unique<TracedThread>(serial, JsonText(path), options_.capacity));
   new_threads_.push_back(threads_.back().get());
   return threads_.back()->track;
 }
@@ -114,23 +126,23 @@ std::unique_ptr<TracedElement> TraceRecorder::Watch(FrameworkElement& element) {
 void TraceRecorder::OnHold(const std::string& path, Time began, Time ended) noexcept {
   try {
     Add({"\"hold\"", "hold", began, ended, "\"thread\":" + JsonText(path)});
-  } catch (const std::bad_alloc&) {
+  } catch (...) {  // no memory
     const std::lock_guard lock(mutex_);
-    ++lost_remarks_;
+    ++lost_spans_;
   }
 }
 
-void TraceRecorder::Add(TraceRemark remark) {
+void TraceRecorder::Add(TraceSpan span) {
   if (options_.is_simulated) {
-    if (!remark.arguments.empty()) remark.arguments += ',';
-    internal::AppendSimulatedTime(runtime_.clock().Now(), remark.arguments);
+    if (!span.arguments.empty()) span.arguments += ',';
+    internal::AppendSimulatedTime(runtime_.clock().Now(), span.arguments);
   }
   const std::lock_guard lock(mutex_);
   if (ends_) return;
-  if (remarks_.size() < kMostRemarks) {
-    remarks_.push_back(std::move(remark));
+  if (spans_.size() < kMostSpans) {
+    spans_.push_back(std::move(span));
   } else {
-    ++lost_remarks_;
+    ++lost_spans_;
   }
 }
 

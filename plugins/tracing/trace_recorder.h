@@ -2,6 +2,7 @@
 
 #include <condition_variable>
 #include <cstdint>
+#include <exception>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -18,8 +19,8 @@ namespace runnel {
 
 namespace internal {
 struct TracedThread;
-struct TraceNews;
-struct TraceRemark;
+struct PendingTrace;
+struct TraceSpan;
 class TraceWriter;
 }  // namespace internal
 
@@ -28,7 +29,7 @@ struct TraceOptions {
   std::string application;    ///< its name
   bool is_simulated = false;  ///< cycles bear the time of the simulated clock
   /// How many events of one thread may wait to be written down.
-  std::size_t room = 65'536;
+  std::size_t capacity = 65'536;
   /// How long the file may become; what comes then is left out. Viewers hold all of it in memory.
   std::uint64_t most_bytes = 1'000'000'000;
   Duration interval = std::chrono::milliseconds(5);  ///< from one writing to the next
@@ -53,7 +54,8 @@ class TraceRecorder final : public CycleTracer, private ElementListener {
 
   /// What is put in, taken out and connected from now on is written down; not what is built before.
   void FollowStructure();
-  /// Writes the rest and closes the file. Errors: what could not be written.
+  /// Writes the rest and closes the file. Errors: what could not be written, or why the writing came to
+  /// an early end.
   Result<TraceSummary> Finish();
 
   TraceTrack& TrackOf(std::uint64_t serial, const std::string& path) override;
@@ -68,10 +70,11 @@ class TraceRecorder final : public CycleTracer, private ElementListener {
   void OnConnected(FrameworkElement& from, FrameworkElement& to) override;
   void OnDisconnected(FrameworkElement& from, FrameworkElement& to) override;
 
-  void Add(internal::TraceRemark remark);
+  void Add(internal::TraceSpan span);
   void AddChange(const std::string& what);
-  [[nodiscard]] internal::TraceNews TakeNews();
-  void Work();
+  [[nodiscard]] internal::PendingTrace TakePending();
+  void Work() noexcept;
+  void WriteUntilTheEnd();
 
   Runtime& runtime_;
   const TraceOptions options_;
@@ -82,13 +85,14 @@ class TraceRecorder final : public CycleTracer, private ElementListener {
   // That the writer does not know yet:
   std::vector<internal::TracedThread*> new_threads_;
   std::vector<std::string> new_names_;
-  std::vector<internal::TraceRemark> remarks_;
-  std::uint64_t lost_remarks_ = 0;
+  std::vector<internal::TraceSpan> spans_;
+  std::uint64_t lost_spans_ = 0;
   bool follows_structure_ = false;
   bool ends_ = false;
 
   std::condition_variable end_;
   const std::unique_ptr<internal::TraceWriter> writer_;
+  std::exception_ptr failure_;  // of the writing thread, once it has ended
   std::thread thread_;
 };
 

@@ -13,14 +13,21 @@ std::uint64_t NextSet() noexcept {
   return last.fetch_add(1, std::memory_order_relaxed) + 1;
 }
 
+}  // namespace
+
+std::uint64_t MarkAsSet(const Tasks& tasks) noexcept {
+  const std::uint64_t set = NextSet();
+  for (OrderedTask* task : tasks) task->set = set;
+  return set;
+}
+
+namespace {
+
 // Without recursion: a chain may be as long as the application is large.
 class LoopFinder {
  public:
-  explicit LoopFinder(const Tasks& tasks) : set_(NextSet()) {
-    for (OrderedTask* task : tasks) {
-      task->set = set_;
-      task->index = kUnseen;
-    }
+  explicit LoopFinder(const Tasks& tasks) : set_(MarkAsSet(tasks)) {
+    for (OrderedTask* task : tasks) task->index = kUnseen;
     for (OrderedTask* task : tasks) {
       if (task->index == kUnseen) SearchFrom(*task);
     }
@@ -85,8 +92,7 @@ bool WaitsForItsElement(const OrderedTask& task) {
 }
 
 LoopCut CutOnce(Tasks loop) {
-  const std::uint64_t set = NextSet();
-  for (OrderedTask* task : loop) task->set = set;
+  const std::uint64_t set = MarkAsSet(loop);
   OrderedTask* head = nullptr;
   for (OrderedTask* task : loop) {
     const bool is_earlier = head == nullptr || task->key() < head->key();
@@ -101,8 +107,7 @@ LoopCut CutOnce(Tasks loop) {
 
 // All that leads backwards in the order of rule 3. Phases of one element never do.
 LoopCut CutEverywhere(Tasks loop) {
-  const std::uint64_t set = NextSet();
-  for (OrderedTask* task : loop) task->set = set;
+  const std::uint64_t set = MarkAsSet(loop);
   std::ranges::sort(loop, {}, [](const OrderedTask* task) { return task->key(); });
   std::vector<Dependency*> cuts;
   for (OrderedTask* task : loop) {

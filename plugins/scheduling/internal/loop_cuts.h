@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "plugins/scheduling/internal/running_order.h"
@@ -7,6 +8,10 @@
 namespace runnel::internal {
 
 using Tasks = std::vector<OrderedTask*>;
+
+/// Writes a number that nobody had before into the `set` of each, by which they can be told from all
+/// others.
+std::uint64_t MarkAsSet(const Tasks& tasks) noexcept;
 
 /// The loops among `tasks`, by the dependencies between them alone: none of a loop feeds one of a
 /// loop that comes earlier. O(tasks + dependencies).

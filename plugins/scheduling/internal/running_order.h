@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/module/executable.h"
-#include "plugins/scheduling/internal/block_list.h"
 
 namespace runnel {
 class Port;
@@ -34,15 +33,6 @@ struct Dependency {
   bool is_followed = false;  ///< else it is cut, as part of a loop
   std::size_t place_in_from = 0;
   std::size_t place_in_to = 0;
-  std::uint64_t mark = 0;  // of the algorithms
-};
-
-/// Tasks each of which feeds all the others, and most often one task alone.
-struct Loop {
-  BlockPlace<Loop> place;
-  std::vector<OrderedTask*> members;
-  std::uint64_t mark = 0;
-  [[nodiscard]] static std::size_t rank() noexcept { return 0; }
 };
 
 /// A task in a RunningOrder; whoever orders tasks derives from it.
@@ -50,43 +40,35 @@ struct OrderedTask {
   Phase phase = Phase::kUpdate;
   std::uint64_t serial = 0;  ///< of its element
   std::size_t number = 0;    ///< among the tasks of its element
-  BlockPlace<OrderedTask> place;
+  std::size_t place = 0;     ///< in the order
   std::size_t place_in_all = 0;
   std::vector<std::unique_ptr<Dependency>> outgoing;
   std::vector<Dependency*> incoming;
-  std::shared_ptr<Loop> loop;
 
-  [[nodiscard]] std::size_t rank() const noexcept { return static_cast<std::size_t>(phase); }
   /// What comes first where data flow does not decide.
   [[nodiscard]] auto key() const noexcept { return std::tuple(phase, serial, number); }
 
   // Notes of the algorithms.
-  std::uint64_t mark = 0;
   std::uint64_t set = 0;
   std::size_t index = 0;
   std::size_t low = 0;
   std::size_t waits_for = 0;
+  std::size_t loop_waits_for = 0;   // of the loop whose head it is: tasks outside that feed it
   std::vector<OrderedTask*> heads;  // of loops that wait for this task
   bool is_head = false;
 };
 
-/// Keeps the tasks of one thread in the order of the data flow while tasks and connections come and
-/// go. The rules are those of OrderTasks() (execution_order.h); what is cut is always a function of
-/// the tasks and connections alone. A change that agrees with the order moves nothing; one that does
-/// not moves the fewer of the tasks that have to go up and those that have to go down.
+/// The tasks of one thread in the order of the data flow, by the rules of OrderTasks()
+/// (execution_order.h). Sorting makes all of it anew: order and cuts are then a function of the tasks
+/// and connections alone.
 ///
 /// Threads:  one at a time. Ownership: tasks belong to the caller and stay where they are until they
 ///           are removed.
-/// Effort:   Sort() O(n log n), for n tasks and connections without loops; a change, the tasks that
-///           can be reached from its ends without leaving the stretch of the order between them, and
-///           the tasks of the loops that it opens or closes.
-/// Source:   Pearce, Kelly, "A dynamic topological sort algorithm for directed acyclic graphs"
-///           (2006), with the two-way search of Alpern et al., "Incremental evaluation of
-///           computational circuits" (1990).
+/// Effort:   Sort() O(n log n), for n tasks and connections without loops; more where many lie in one
+///           loop. A change, O(1), or the number of a task's connections.
 class RunningOrder {
  public:
   RunningOrder() = default;
-  ~RunningOrder();
   RunningOrder(const RunningOrder&) = delete;
   RunningOrder& operator=(const RunningOrder&) = delete;
 
@@ -100,30 +82,31 @@ class RunningOrder {
   /// Both are tasks of one element.
   void KeepPhases(OrderedTask& earlier, OrderedTask& later);
 
-  /// Until this is called there is no order; then it is that of the rules.
+  /// Whether Sort() has nothing to do. A connection that comes or goes while nothing is cut, and agrees
+  /// with the order, changes nothing.
+  [[nodiscard]] bool is_sorted() const noexcept { return is_sorted_; }
   void Sort();
 
-  [[nodiscard]] const BlockList<OrderedTask>& tasks() const noexcept { return tasks_; }
+  /// As of the last Sort().
+  [[nodiscard]] const std::vector<OrderedTask*>& tasks() const noexcept { return tasks_; }
+  /// As of now.
   [[nodiscard]] std::size_t size() const noexcept { return all_.size(); }
-  /// In the order of the tasks that are fed late.
+  /// In the order of the tasks that are fed late. Precondition: is_sorted().
   [[nodiscard]] std::vector<const Dependency*> Cuts() const;
 
  private:
   Dependency* Find(const OrderedTask& from, const OrderedTask& to) const;
   Dependency& Add(OrderedTask& from, OrderedTask& to);
   static void Remove(Dependency& dependency);
-  void PutInOrder(Dependency& added);
-  void Follow(Dependency& dependency);
-  void Merge(Loop& from, Loop& to);
-  void Resolve(const std::shared_ptr<Loop>& loop);
+  void Follow(Dependency& added) noexcept;
+  [[nodiscard]] bool PlaceAll();
+  void CutLoops();
   void EnterLoopAt(const LoopCut& cut);
-  void PlaceAll();
 
-  std::vector<OrderedTask*> all_;  // in no order
-  BlockList<OrderedTask> tasks_;
-  BlockList<Loop> loops_;  // so that no dependency leads backwards, but those within one
-  bool is_sorted_ = false;
-  std::uint64_t last_mark_ = 0;
+  std::vector<OrderedTask*> all_;    // in no order
+  std::vector<OrderedTask*> tasks_;  // in order
+  bool is_sorted_ = true;
+  bool has_cuts_ = false;
 };
 
 }  // namespace runnel::internal

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <string>
 #include <unordered_map>
@@ -13,7 +12,7 @@
 
 namespace runnel::internal {
 
-struct Lane;
+struct ThreadSchedule;
 
 /// One task of an element, in the order of its thread.
 struct PlannedTask : OrderedTask {
@@ -28,26 +27,21 @@ struct PlannedTask : OrderedTask {
 struct PlannedElement {
   FrameworkElement* element = nullptr;
   std::shared_ptr<ScheduledElement> state;
-  std::shared_ptr<const CyclePresence> current;  ///< of the runner that has it
-  std::vector<Schedule::Before> before;          ///< runners that may still be running it
-  Lane* lane = nullptr;                          ///< nullptr: in no plan
+  std::shared_ptr<const CycleQuiescence> current;  ///< of the runner that has it
+  std::vector<Schedule::Before> before;            ///< runners that may still be running it
+  ThreadSchedule* thread = nullptr;                ///< nullptr: in no plan
   std::vector<std::unique_ptr<PlannedTask>> tasks;
 };
 
-/// One thread: what it runs, in which order, and the chunks that have been made of that.
-struct Lane {
-  explicit Lane(std::shared_ptr<CycleRunner> cycle_runner)
-      : runner(std::move(cycle_runner)), old_chunks(std::make_shared<Chunks>()) {}
-
-  using Chunks = std::vector<std::unique_ptr<const Schedule::Chunk>>;
+/// One thread: what it runs, and in which order.
+struct ThreadSchedule {
+  explicit ThreadSchedule(std::shared_ptr<CycleRunner> cycle_runner)
+      : runner(std::move(cycle_runner)) {}
 
   const std::shared_ptr<CycleRunner> runner;
   std::string name;             ///< of the container
   TraceTrack* track = nullptr;  ///< nullptr: nothing is written down
-  bool is_changed = false;      ///< since the last schedule, which was made after
-  std::uint64_t changes = std::numeric_limits<std::uint64_t>::max();  ///< of the order
-  /// Those of blocks that have changed or gone, while the installed schedule still has them.
-  const std::shared_ptr<Chunks> old_chunks;
+  bool is_changed = false;      ///< since the last schedule
   RunningOrder order;
 };
 

@@ -59,29 +59,29 @@ void TraceWriter::Introduce(TracedThread& thread) {
   file_.AddName(track, "\"thread_sort_index\"", "\"sort_index\":" + std::to_string(track));
 }
 
-void TraceWriter::Write(TraceNews news) {
-  for (TracedThread* thread : news.threads) Introduce(*thread);
-  for (std::string& name : news.names) names_.push_back(std::move(name));
-  for (const TraceRemark& each : news.remarks) {
+void TraceWriter::Write(PendingTrace pending) {
+  for (TracedThread* thread : pending.threads) Introduce(*thread);
+  for (std::string& name : pending.names) names_.push_back(std::move(name));
+  for (const TraceSpan& each : pending.spans) {
     if (each.ended) {
       file_.AddSlice(kChanges, each.name, each.category, each.began, *each.ended, each.arguments);
     } else {
       file_.AddInstant(kChanges, each.name, each.category, each.began, each.arguments);
     }
   }
-  TellOfLost(kChanges, news.lost_remarks);
-  for (Known& each : threads_) WriteEvents(each);
+  TellOfLost(kChanges, pending.lost_spans);
+  for (KnownThread& each : threads_) WriteEvents(each);
   file_.Flush();
 }
 
 // No more than a queue can hold, so that a thread that never rests does not keep the others waiting.
-void TraceWriter::WriteEvents(Known& known) {
+void TraceWriter::WriteEvents(KnownThread& known) {
   auto& events = known.thread->track.events();
-  for (std::size_t left = events.size(); left > 0; --left) {
-    const TraceEvent* const event = events.Front();
-    if (event == nullptr || (HasName(*event) && event->number >= names_.size())) break;
-    WriteEvent(known, *event);
-    events.PopFront();
+  for (std::size_t left = events.read_available(); left > 0; --left) {
+    const TraceEvent& event = events.front();
+    if (HasName(event) && event.number >= names_.size()) break;
+    WriteEvent(known, event);
+    events.pop();
   }
   TellOfLost(known.track, known.thread->track.TakeLost());
 }
@@ -91,7 +91,7 @@ bool TraceWriter::HasName(const TraceEvent& event) {
          event.kind == TraceEvent::Kind::kFault;
 }
 
-void TraceWriter::WriteEvent(Known& known, const TraceEvent& event) {
+void TraceWriter::WriteEvent(KnownThread& known, const TraceEvent& event) {
   using Kind = TraceEvent::Kind;
   if (event.kind == Kind::kText) {
     const auto* const bytes = reinterpret_cast<const char*>(event.words.data());
@@ -120,7 +120,7 @@ void TraceWriter::WriteEvent(Known& known, const TraceEvent& event) {
   }
 }
 
-void TraceWriter::WriteCycle(const Known& known, const TraceEvent& event) {
+void TraceWriter::WriteCycle(const KnownThread& known, const TraceEvent& event) {
   arguments_ = "\"number\":";
   AppendJsonNumber(event.number, arguments_);
   if (is_simulated_) {
@@ -131,7 +131,7 @@ void TraceWriter::WriteCycle(const Known& known, const TraceEvent& event) {
                  arguments_);
 }
 
-void TraceWriter::CloseFault(Known& known) {
+void TraceWriter::CloseFault(KnownThread& known) {
   if (!known.fault) return;
   arguments_ = "\"module\":" + known.fault->element + ",\"message\":";
   AppendJsonString(known.fault->message, arguments_);
@@ -147,7 +147,7 @@ void TraceWriter::TellOfLost(int track, std::uint64_t lost) {
 }
 
 Result<TraceSummary> TraceWriter::Finish() {
-  for (Known& each : threads_) CloseFault(each);
+  for (KnownThread& each : threads_) CloseFault(each);
   file_.UseReserve();
   file_.AddInstant(kChanges, "\"end of the trace\"", "tracing", SteadyClock().Now(),
                    CountArgument("lost_events", lost_) + "," +

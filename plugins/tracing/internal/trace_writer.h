@@ -13,8 +13,8 @@ namespace runnel::internal {
 
 /// The thread of one container, as the trace shows it.
 struct TracedThread {
-  TracedThread(std::uint64_t its_serial, std::string its_name, std::size_t room)
-      : serial(its_serial), name(std::move(its_name)), track(room) {}
+  TracedThread(std::uint64_t its_serial, std::string its_name, std::size_t capacity)
+      : serial(its_serial), name(std::move(its_name)), track(capacity) {}
 
   const std::uint64_t serial;
   const std::string name;  ///< JSON
@@ -22,7 +22,7 @@ struct TracedThread {
 };
 
 /// What has not been noted in a cycle. `ended` is nothing for what takes no time.
-struct TraceRemark {
+struct TraceSpan {
   std::string name;  ///< JSON
   const char* category;
   Time began;
@@ -31,11 +31,11 @@ struct TraceRemark {
 };
 
 /// What the writer does not know yet.
-struct TraceNews {
+struct PendingTrace {
   std::vector<TracedThread*> threads;
   std::vector<std::string> names;  ///< JSON; they have the next numbers
-  std::vector<TraceRemark> remarks;
-  std::uint64_t lost_remarks = 0;
+  std::vector<TraceSpan> spans;
+  std::uint64_t lost_spans = 0;
 };
 
 /// "simulated_s":0.050000000
@@ -46,9 +46,9 @@ class TraceWriter {
  public:
   TraceWriter(TraceFile file, const std::string& application, bool is_simulated);
 
-  /// Writes down what has been noted so far. What is noted of something whose name comes with later news
+  /// Writes down what has been noted so far. What is noted of something whose name comes with later pending
   /// waits for them.
-  void Write(TraceNews news);
+  void Write(PendingTrace pending);
   /// The end. Errors: what could not be written.
   Result<TraceSummary> Finish();
 
@@ -59,24 +59,24 @@ class TraceWriter {
     std::string element;  // JSON
     std::string message;
   };
-  struct Known {
+  struct KnownThread {
     TracedThread* thread;
     int track;
     std::optional<OpenFault> fault = {};
   };
 
   void Introduce(TracedThread& thread);
-  void WriteEvents(Known& known);
-  void WriteEvent(Known& known, const TraceEvent& event);
-  void WriteCycle(const Known& known, const TraceEvent& event);
-  void CloseFault(Known& known);
+  void WriteEvents(KnownThread& known);
+  void WriteEvent(KnownThread& known, const TraceEvent& event);
+  void WriteCycle(const KnownThread& known, const TraceEvent& event);
+  void CloseFault(KnownThread& known);
   void TellOfLost(int track, std::uint64_t lost);
   // Whether its number is that of a name.
   [[nodiscard]] static bool HasName(const TraceEvent& event);
 
   TraceFile file_;
   const bool is_simulated_;
-  std::vector<Known> threads_;
+  std::vector<KnownThread> threads_;
   std::vector<std::string> names_;
   std::uint64_t lost_ = 0;
   std::string name_;       // of the event that is being written

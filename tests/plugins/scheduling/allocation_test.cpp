@@ -1,11 +1,11 @@
 #include <atomic>
-#include <thread>
 
 #include <gmock/gmock.h>
 
 #include "plugins/scheduling/scheduler.h"
 #include "tests/plugins/scheduling/counted_allocation.h"
 #include "tests/plugins/scheduling/test_modules.h"
+#include "tests/support/wait_until.h"
 
 namespace runnel {
 namespace {
@@ -16,6 +16,7 @@ using testing::At;
 using testing::Doing;
 using testing::MustSucceed;
 using testing::Relay;
+using test::WaitUntil;
 
 // A periodic thread with a loop and a thread that waits for its data.
 struct Application {
@@ -68,7 +69,7 @@ TEST(Cycles, AllocateNothingInRealThreads) {
     each.out.Publish(1);
   };
   MustSucceed(application.scheduler.Start());
-  while (heard < 20) std::this_thread::sleep_for(1ms);
+  WaitUntil("data have come twenty times", [&] { return heard >= 20; });
   application.scheduler.Stop();
   EXPECT_EQ(allocations, 0);
 }

@@ -45,6 +45,28 @@ TEST(DueTime, CatchesUpIfToldTo) {
   EXPECT_EQ(due.next(), At(30));
 }
 
+TEST(DueTime, OfAPeriodOfCenturiesComesOnce) {
+  for (const auto on_overrun : {OnOverrun::kSkip, OnOverrun::kCatchUp}) {
+    DueTime due(At(5), Duration::max(), on_overrun);
+    EXPECT_FALSE(due.Advance(At(6)));
+    EXPECT_EQ(due.next(), Time::max());
+    EXPECT_FALSE(due.Advance(At(7)));
+    EXPECT_EQ(due.next(), Time::max());
+  }
+  DueTime almost(At(5), Duration::max() - 20ms, OnOverrun::kSkip);
+  EXPECT_TRUE(almost.Advance(Time::max() - 1ms));
+  EXPECT_EQ(almost.next(), Time::max());
+}
+
+// A laptop that was closed for an hour, or a process that stood still.
+TEST(DueTime, AfterAJumpOfTheClockGoesOnWithThePlan) {
+  DueTime due(At(0), 10ms, OnOverrun::kSkip);
+  EXPECT_TRUE(due.Advance(At(3'600'005)));
+  EXPECT_EQ(due.next(), At(3'600'010));
+  EXPECT_FALSE(due.Advance(At(3'600'012)));
+  EXPECT_EQ(due.next(), At(3'600'020));
+}
+
 // The times at which cycles begin if the first of them takes 25 ms.
 std::vector<std::int64_t> StartsAfterALongCycle(OnOverrun on_overrun, CycleStatistics& statistics) {
   Runtime runtime;

@@ -92,7 +92,7 @@ TEST_F(FaultOf, AnElementStopsAllItsTasks) {
   EXPECT_EQ(half.controls, 0);
   const auto faults = scheduler.TakeFaults();
   ASSERT_THAT(faults, SizeIs(1));
-  EXPECT_EQ(faults[0].message, "unknown exception");
+  EXPECT_EQ(faults[0].message, "exception of type int");
 }
 
 TEST_F(FaultOf, AModuleStaysStoppedWhenTheStructureChanges) {
@@ -174,6 +174,38 @@ TEST_F(FaultOf, ARuleIsReportedToo) {
   ASSERT_THAT(faults, SizeIs(3));
   EXPECT_THAT(faults[1].message, HasSubstr("no 'setting' in /robot"));
   EXPECT_THAT(faults[2].message, HasSubstr("the fault rule failed: no"));
+}
+
+TEST_F(FaultOf, ARuleThatThrowsAnythingIsReportedToo) {
+  MustSucceed(scheduler.AddFaultRule(
+      {.of = "/robot", .action = FaultRule::Action::kCall, .call = [](const Fault&) { throw 7; }}));
+  Ready();
+  EXPECT_TRUE(scheduler.RunUntil(At(100)));
+  const auto faults = scheduler.TakeFaults();
+  ASSERT_THAT(faults, SizeIs(2));
+  EXPECT_THAT(faults[1].message, HasSubstr("the fault rule failed: exception of type int"));
+}
+
+TEST_F(FaultOf, AFaultHandlerThatThrowsAnythingIsReportedAndTheFaultIsNotLost) {
+  scheduler.SetFaultHandler([](const Fault&) -> std::optional<std::string> { throw 7; });
+  Ready();
+  EXPECT_TRUE(scheduler.RunUntil(At(100)));
+  const auto faults = scheduler.TakeFaults();
+  ASSERT_THAT(faults, SizeIs(2));
+  EXPECT_EQ(faults[0].message, "the fault handler failed: exception of type int");
+  EXPECT_EQ(faults[1].message, "the sensor is on fire");
+}
+
+TEST_F(FaultOf, AWatchThatThrowsAnythingIsReportedAndTriedAgain) {
+  int looks = 0;
+  scheduler.SetWatchdog([&](Time) -> Time {
+    ++looks;
+    throw 7;
+  });
+  Ready();
+  EXPECT_TRUE(scheduler.RunUntil(At(1500)));
+  EXPECT_EQ(looks, 2);  // a second later
+  EXPECT_EQ(scheduler.TakeFaults().at(0).message, "the watchdog failed: exception of type int");
 }
 
 TEST_F(FaultOf, ARuleWithABadTargetIsRefused) {

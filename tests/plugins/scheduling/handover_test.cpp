@@ -17,7 +17,7 @@ struct Gate {
   std::atomic<bool> open{false};
   void Pass() {
     ++entered;
-    WaitUntil([this] { return open.load(); });
+    WaitUntil("the gate is opened", [this] { return open.load(); });
   }
 };
 
@@ -41,13 +41,14 @@ class Handover : public RealThreads {
   ThreadContainer& MakeThread(const std::string& name, std::atomic<int>& cycles,
                               const ThreadOptions& options = kFree) {
     auto& thread = CreateThread(runtime, name, options);
-    AssignThread(MakeCounter("counter of " + name, cycles), thread);
+    AssignThread(MakeCounter("counter_of_" + name, cycles), thread);
     return thread;
   }
   // Or until two threads stand before the gate, which a test has to find then.
   void WaitForCycles(const std::atomic<int>& cycles, int count = 20) {
     const int before = cycles;
-    WaitUntil([&] { return cycles > before + count || gate.entered > 1; });
+    WaitUntil("the thread has run further cycles",
+              [&] { return cycles > before + count || gate.entered > 1; });
   }
 
   std::atomic<int> cycles_of_a{0};
@@ -64,12 +65,12 @@ TEST_F(Handover, WaitsForTheEndOfTheCycleOfTheOldThread) {
   AssignThread(module, a);
   Ready();
   const Running running(scheduler);
-  WaitUntil([&] { return gate.entered > 0; });
+  WaitUntil("the module is in its cycle", [&] { return gate.entered > 0; });
   AssignThread(module, b);
   WaitForCycles(cycles_of_b);
   EXPECT_EQ(gate.entered, 1);  // the rest of b has gone on without it
   gate.open = true;
-  WaitUntil([&] { return gate.entered > 1; });
+  WaitUntil("the new thread runs the module", [&] { return gate.entered > 1; });
 }
 
 TEST_F(Handover, WaitsForTheFirstOfSeveralThreadsToo) {
@@ -81,7 +82,7 @@ TEST_F(Handover, WaitsForTheFirstOfSeveralThreadsToo) {
   AssignThread(module, a);
   Ready();
   const Running running(scheduler);
-  WaitUntil([&] { return gate.entered > 0; });
+  WaitUntil("the module is in its cycle", [&] { return gate.entered > 0; });
   for (int round = 0; round < 3; ++round) {
     AssignThread(module, b);
     WaitForCycles(cycles_of_b);
@@ -90,7 +91,7 @@ TEST_F(Handover, WaitsForTheFirstOfSeveralThreadsToo) {
   }
   EXPECT_EQ(gate.entered, 1);
   gate.open = true;
-  WaitUntil([&] { return gate.entered > 1; });
+  WaitUntil("the new thread runs the module", [&] { return gate.entered > 1; });
 }
 
 TEST_F(Handover, AndBackAgainWaitsForNobody) {
@@ -101,13 +102,13 @@ TEST_F(Handover, AndBackAgainWaitsForNobody) {
   AssignThread(module, a);
   Ready();
   const Running running(scheduler);
-  WaitUntil([&] { return gate.entered > 0; });
+  WaitUntil("the module is in its cycle", [&] { return gate.entered > 0; });
   AssignThread(module, b);
   AssignThread(module, a);
   WaitForCycles(cycles_of_b);
   EXPECT_EQ(gate.entered, 1);
   gate.open = true;
-  WaitUntil([&] { return gate.entered > 1; });
+  WaitUntil("the new thread runs the module", [&] { return gate.entered > 1; });
 }
 
 TEST_F(Handover, OfAThreadThatIsDeletedWaitsForItsCycle) {
@@ -118,14 +119,14 @@ TEST_F(Handover, OfAThreadThatIsDeletedWaitsForItsCycle) {
   AssignThread(module, a);
   Ready();
   const Running running(scheduler);
-  WaitUntil([&] { return gate.entered > 0; });
+  WaitUntil("the module is in its cycle", [&] { return gate.entered > 0; });
   std::thread deletion([&] { MustSucceed(runtime.Delete(a)); });
   // The module falls to b; a's thread is still in it.
   WaitForCycles(cycles_of_b, 1000);
   EXPECT_EQ(gate.entered, 1);
   gate.open = true;
   deletion.join();
-  WaitUntil([&] { return gate.entered > 1; });
+  WaitUntil("the new thread runs the module", [&] { return gate.entered > 1; });
 }
 
 TEST_F(Handover, DoesNotForgetTheDataThatCameMeanwhile) {
@@ -142,15 +143,16 @@ TEST_F(Handover, DoesNotForgetTheDataThatCameMeanwhile) {
   AssignThread(module, a);
   MustSucceed(runtime.MakeReady(module));
   MustSucceed(
-      runtime.MakeReady(*dynamic_cast<FrameworkElement*>(*runtime.root().Find("/counter of a"))));
+      runtime.MakeReady(*dynamic_cast<FrameworkElement*>(*runtime.root().Find("/counter_of_a"))));
   const Running running(scheduler);
-  WaitUntil([&] { return gate.entered > 0; });
+  WaitUntil("the module is in its cycle", [&] { return gate.entered > 0; });
   AssignThread(module, waiting);
   source.out.Publish(5);
-  WaitUntil([&] { return waiting.statistics().cycles > 3 || gate.entered > 1; });
+  WaitUntil("the new thread has looked a few times",
+            [&] { return waiting.statistics().cycles > 3 || gate.entered > 1; });
   EXPECT_EQ(gate.entered, 1);
   gate.open = true;
-  WaitUntil([&] { return received == 5; });
+  WaitUntil("the value that came meanwhile is received", [&] { return received == 5; });
 }
 
 // Both threads run as fast as they can, and two modules change places between them all the time.
@@ -170,7 +172,7 @@ TEST_F(Handover, ThousandsOfTimesNeverRunsAnElementTwiceAtOnce) {
   }
   for (const Watched& each : watched) {
     const int before = each.runs;
-    WaitUntil([&] { return each.runs > before; });
+    WaitUntil("the module still runs", [&] { return each.runs > before; });
   }
   scheduler.Stop();
   for (const Watched& each : watched) {

@@ -16,7 +16,7 @@ using testing::At;
 using testing::Doing;
 using ::testing::HasSubstr;
 using testing::MustSucceed;
-using Went = Scheduler::Went;
+using StepResult = Scheduler::StepResult;
 
 constexpr auto kSimulated = SchedulerOptions::ClockKind::kSimulated;
 
@@ -40,12 +40,12 @@ TEST_F(Paced, RunsNothingWhilePaused) {
   Make("module");
   MustSucceed(scheduler.pace().Pause());
   EXPECT_TRUE(scheduler.pace().is_paused());
-  EXPECT_EQ(scheduler.GoOn({}, 0ms), Went::kNowhere);
-  EXPECT_EQ(scheduler.GoOn(At(100), 1ms), Went::kNowhere);
+  EXPECT_EQ(scheduler.Advance({}, 0ms), StepResult::kTimeout);
+  EXPECT_EQ(scheduler.Advance(At(100), 1ms), StepResult::kTimeout);
   EXPECT_EQ(runs, 0);
   EXPECT_EQ(runtime.clock().Now(), At(0));
   MustSucceed(scheduler.pace().Resume());
-  EXPECT_EQ(scheduler.GoOn(At(100), 0ms), Went::kOneCycle);
+  EXPECT_EQ(scheduler.Advance(At(100), 0ms), StepResult::kCycle);
   EXPECT_TRUE(scheduler.RunUntil(At(100)));
   EXPECT_EQ(runs, 10);
 }
@@ -56,9 +56,9 @@ TEST_F(Paced, RunsAsManyCyclesAsItIsToStep) {
   EXPECT_TRUE(scheduler.pace().is_paused());
   MustSucceed(scheduler.pace().StepCycles());
   EXPECT_EQ(scheduler.pace().cycles_to_step(), 3U);
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(scheduler.GoOn({}, 0ms), Went::kOneCycle);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(scheduler.Advance({}, 0ms), StepResult::kCycle);
   EXPECT_EQ(scheduler.pace().cycles_to_step(), 0U);
-  EXPECT_EQ(scheduler.GoOn({}, 0ms), Went::kNowhere);
+  EXPECT_EQ(scheduler.Advance({}, 0ms), StepResult::kTimeout);
   EXPECT_EQ(runs, 3);
 }
 
@@ -66,11 +66,11 @@ TEST_F(Paced, ForgetsWhatItWasToStepWhenItIsPausedOrResumed) {
   Make("module");
   MustSucceed(scheduler.pace().StepCycles(5));
   MustSucceed(scheduler.pace().Pause());
-  EXPECT_EQ(scheduler.GoOn({}, 0ms), Went::kNowhere);
+  EXPECT_EQ(scheduler.Advance({}, 0ms), StepResult::kTimeout);
   MustSucceed(scheduler.pace().StepCycles(5));
   MustSucceed(scheduler.pace().Resume());
   EXPECT_EQ(scheduler.pace().cycles_to_step(), 0U);
-  EXPECT_EQ(scheduler.GoOn({}, 0ms), Went::kOneCycle);
+  EXPECT_EQ(scheduler.Advance({}, 0ms), StepResult::kCycle);
 }
 
 TEST_F(Paced, MayBeginWithAPause) {
@@ -80,7 +80,7 @@ TEST_F(Paced, MayBeginWithAPause) {
   CreateThread(other, "main");
   other.Create<Doing>(other.root(), "module");
   MustSucceed(other.MakeReady(other.root()));
-  EXPECT_EQ(waiting.GoOn({}, 0ms), Went::kNowhere);
+  EXPECT_EQ(waiting.Advance({}, 0ms), StepResult::kTimeout);
 }
 
 TEST_F(Paced, EndsWhatWaitsForItWhenAStopIsRequested) {
@@ -90,7 +90,7 @@ TEST_F(Paced, EndsWhatWaitsForItWhenAStopIsRequested) {
   EXPECT_FALSE(scheduler.RunUntil(At(100)));
   EXPECT_FALSE(scheduler.Step());
   stopping.join();
-  EXPECT_EQ(scheduler.GoOn({}, 1h), Went::kStopped);
+  EXPECT_EQ(scheduler.Advance({}, 1h), StepResult::kStopped);
   EXPECT_EQ(runs, 0);
 }
 
@@ -101,8 +101,8 @@ TEST_F(Paced, WakesWhatWaitsForItWhenItIsResumedOrMadeFaster) {
   EXPECT_TRUE(scheduler.RunUntil(At(100)));
   resuming.join();
   MustSucceed(scheduler.pace().SetSpeed(Pacing::kSlowest));
-  EXPECT_EQ(scheduler.GoOn({}, 0ms), Went::kOneCycle);  // which the clocks are tied at
-  EXPECT_EQ(scheduler.GoOn({}, 1ms), Went::kNowhere);   // the next is hours away
+  EXPECT_EQ(scheduler.Advance({}, 0ms), StepResult::kCycle);    // which the clocks are tied at
+  EXPECT_EQ(scheduler.Advance({}, 1ms), StepResult::kTimeout);  // the next is hours away
   std::thread faster([this] { MustSucceed(scheduler.pace().SetSpeed(0)); });
   EXPECT_TRUE(scheduler.RunUntil(At(200)));
   faster.join();
@@ -114,7 +114,7 @@ TEST_F(Paced, LetsModulesPauseTheirOwnTime) {
   module.action = [this](Doing&) {
     if (++runs == 3) MustSucceed(scheduler.pace().Pause());
   };
-  while (scheduler.GoOn({}, 0ms) == Went::kOneCycle) {
+  while (scheduler.Advance({}, 0ms) == StepResult::kCycle) {
   }
   EXPECT_EQ(runs, 3);
 }

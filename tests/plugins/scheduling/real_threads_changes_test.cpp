@@ -18,7 +18,7 @@ TEST_F(RealThreadsAndChanges, TakeInModulesAddedWhileTheyRun) {
   const Running running(scheduler);
   auto& module = MakeCounter("module", runs);
   MustSucceed(runtime.MakeReady(module));
-  WaitUntil([&] { return runs > 0; });
+  WaitUntil("the module that was added runs", [&] { return runs > 0; });
 }
 
 TEST_F(RealThreadsAndChanges, TakeInContainersAddedWhileTheyRunAndLetThemGo) {
@@ -31,10 +31,11 @@ TEST_F(RealThreadsAndChanges, TakeInContainersAddedWhileTheyRunAndLetThemGo) {
     auto& added = CreateThread(runtime, "added", {.period = 1ms});
     AssignThread(module, added);
     const int before = runs;
-    WaitUntil([&] { return runs > before && added.statistics().cycles > 0; });
+    WaitUntil("the added thread runs the module",
+              [&] { return runs > before && added.statistics().cycles > 0; });
     MustSucceed(runtime.Delete(added));
     const int after = runs;
-    WaitUntil([&] { return runs > after; });
+    WaitUntil("another thread runs the module", [&] { return runs > after; });
   }
 }
 
@@ -67,7 +68,7 @@ TEST_F(RealThreadsAndChanges, BearEveryChangeOfTheStructure) {
     MustSucceed(runtime.MakeReady(group));
     MustSucceed(Port::Connect(relay.out, listener.in, {.queue = 4}));
     MustSucceed(Port::Connect(relay.out, last.in));
-    WaitUntil([&] { return *runs > 0; });
+    WaitUntil("the listener runs", [&] { return *runs > 0; });
     AssignThread(group, *threads[round % 3]);
     AssignThread(listener, *threads[(round + 1) % 3]);
     if (round % 2 == 0) MustSucceed(Port::Disconnect(relay.out, last.in));
@@ -101,7 +102,7 @@ TEST_F(RealThreadsAndChanges, HandOverAModuleFromThreadToThread) {
   for (int round = 0; round < 200; ++round) {
     const int before = runs;
     AssignThread(module, round % 2 == 0 ? b : a);
-    WaitUntil([&] { return runs > before; });
+    WaitUntil("the module runs in its new thread", [&] { return runs > before; });
   }
   scheduler.Stop();
   EXPECT_FALSE(overlap);

@@ -1,26 +1,22 @@
 #pragma once
 
-#include <functional>
-#include <thread>
+#include <atomic>
 
 #include <gmock/gmock.h>
 
 #include "plugins/scheduling/scheduler.h"
 #include "tests/plugins/scheduling/test_modules.h"
+#include "tests/support/wait_until.h"
 
 namespace runnel {
 
 using namespace std::chrono_literals;
+using test::WaitUntil;
 using testing::Doing;
 using ::testing::IsEmpty;
 using testing::MustSucceed;
 using testing::Relay;
 using ::testing::SizeIs;
-
-// No test says how long something takes; a thread that never comes is the timeout's to find.
-inline void WaitUntil(const std::function<bool()>& condition) {
-  while (!condition()) std::this_thread::sleep_for(100us);
-}
 
 /// Runs the threads as long as it lives: shorter than what the modules refer to.
 class Running {

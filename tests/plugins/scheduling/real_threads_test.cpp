@@ -27,7 +27,7 @@ TEST_F(RealThreads, RunPeriodically) {
   Ready();
   const Running running(scheduler);
   EXPECT_TRUE(scheduler.is_running());
-  WaitUntil([&] { return runs >= 5; });
+  WaitUntil("there have been five cycles", [&] { return runs >= 5; });
   scheduler.Stop();
   EXPECT_FALSE(scheduler.is_running());
   EXPECT_TRUE(is_planned);
@@ -41,14 +41,14 @@ TEST_F(RealThreads, StandStillAfterStopAndGoOnAfterStart) {
   CreateThread(runtime, "main", {.period = 1ms});
   Ready();
   const Running running(scheduler);
-  WaitUntil([&] { return runs >= 2; });
+  WaitUntil("there have been two cycles", [&] { return runs >= 2; });
   scheduler.Stop();
   scheduler.Stop();
   const int stopped_at = runs;
   std::this_thread::sleep_for(5ms);
   EXPECT_EQ(runs, stopped_at);
   const Running again(scheduler);
-  WaitUntil([&] { return runs > stopped_at; });
+  WaitUntil("cycles go on after the second start", [&] { return runs > stopped_at; });
 }
 
 TEST_F(RealThreads, RunFreely) {
@@ -57,7 +57,7 @@ TEST_F(RealThreads, RunFreely) {
   CreateThread(runtime, "free", {.activation = ThreadOptions::Activation::kFreeRunning});
   Ready();
   const Running running(scheduler);
-  WaitUntil([&] { return runs >= 100; });
+  WaitUntil("there have been a hundred cycles", [&] { return runs >= 100; });
 }
 
 TEST_F(RealThreads, RunOnData) {
@@ -72,7 +72,7 @@ TEST_F(RealThreads, RunOnData) {
       sink, CreateThread(runtime, "waiting", {.activation = ThreadOptions::Activation::kTrigger}));
   Ready();
   const Running running(scheduler);
-  WaitUntil([&] { return received >= 5; });
+  WaitUntil("five values have set the module off", [&] { return received >= 5; });
 }
 
 TEST_F(RealThreads, RunOnDataFromOutsideOfCycles) {
@@ -86,7 +86,7 @@ TEST_F(RealThreads, RunOnDataFromOutsideOfCycles) {
   const Running running(scheduler);
   for (const double value : {1.0, 2.0, 3.0}) {
     source.out.Publish(value);
-    WaitUntil([&] { return received == value; });
+    WaitUntil("the published value is received", [&] { return received == value; });
   }
 }
 
@@ -98,7 +98,7 @@ TEST_F(RealThreads, WakeAThreadThatWasAddedDuringTheCycleThatPublishes) {
   auto& source = runtime.Create<Doing>(runtime.root(), "source");
   source.action = [&](Doing& module) {
     is_inside = true;
-    WaitUntil([&] { return is_there.load(); });
+    WaitUntil("the new thread is there", [&] { return is_there.load(); });
     module.out.Publish(1);
   };
   MustSucceed(Port::Connect(feeder.out, source.in));
@@ -107,14 +107,14 @@ TEST_F(RealThreads, WakeAThreadThatWasAddedDuringTheCycleThatPublishes) {
   Ready();
   const Running running(scheduler);
   feeder.out.Publish(1);  // one cycle, and no other that would make up for it
-  WaitUntil([&] { return is_inside.load(); });
+  WaitUntil("the source is in its cycle", [&] { return is_inside.load(); });
   auto& waiting = CreateThread(runtime, "waiting", trigger);
   auto& sink = MakeCounter("sink", received);
   AssignThread(sink, waiting);
   MustSucceed(runtime.MakeReady(sink));
   MustSucceed(Port::Connect(source.out, sink.in));
   is_there = true;
-  WaitUntil([&] { return received > 0; });
+  WaitUntil("the new thread is woken", [&] { return received > 0; });
 }
 
 TEST_F(RealThreads, StopWhileTheyWaitForData) {
@@ -140,9 +140,10 @@ TEST_F(RealThreads, RunOnWhenAModuleThrows) {
   MustSucceed(scheduler.AddFaultRule({.of = "/failing"}));
   Ready();
   const Running running(scheduler);
-  WaitUntil([&] { return scheduler.stop_requested(); });
+  WaitUntil("the fault rule requests a stop", [&] { return scheduler.stop_requested(); });
   const int runs_then = runs;
-  WaitUntil([&] { return runs > runs_then + 3; });  // until somebody calls Stop()
+  WaitUntil("the healthy module goes on",
+            [&] { return runs > runs_then + 3; });  // until somebody calls Stop()
   scheduler.Stop();
   EXPECT_EQ(calls, 1);
   const auto faults = scheduler.TakeFaults();
@@ -171,29 +172,48 @@ TEST_F(RealThreads, ApplyFaultRulesInOneThreadOnly) {
   const auto test_thread = std::this_thread::get_id();
   runtime.Create<Doing>(runtime.root(), "first").action = [](Doing&) { throw 1; };
   runtime.Create<Doing>(runtime.root(), "second").action = [&](Doing&) {
-    WaitUntil([&] { return is_inside.load(); });
+    WaitUntil("the rule attends to the first fault", [&] { return is_inside.load(); });
     throw 2;
   };
   std::atomic<int> runs{0};
   MakeCounter("healthy", runs);  // made after them, so run after them
   CreateThread(runtime, "main", {.period = 1ms});
-  MustSucceed(
-      scheduler.AddFaultRule({.action = FaultRule::Action::kCall, .call = [&](const Fault&) {
-                                ++calls;
-                                if (std::this_thread::get_id() == test_thread) {
-                                  ++calls_by_others;
-                                  return;
-                                }
-                                is_inside = true;
-                                WaitUntil([&] { return may_go_on.load(); });
-                              }}));
+  MustSucceed(scheduler.AddFaultRule(
+      {.action = FaultRule::Action::kCall, .call = [&](const Fault&) {
+         ++calls;
+         if (std::this_thread::get_id() == test_thread) {
+           ++calls_by_others;
+           return;
+         }
+         is_inside = true;
+         WaitUntil("the fault rule may go on", [&] { return may_go_on.load(); });
+       }}));
   Ready();
   const Running running(scheduler);
-  WaitUntil([&] { return runs > 0; });  // the second fault is there, the first is being attended
+  WaitUntil("the first cycle is over",
+            [&] { return runs > 0; });  // the second fault is there, the first is being attended
   EXPECT_THAT(scheduler.TakeFaults(), SizeIs(1));
   may_go_on = true;
-  WaitUntil([&] { return calls == 2; });
+  WaitUntil("the rule is applied to both faults", [&] { return calls == 2; });
   EXPECT_EQ(calls_by_others, 0);
+}
+
+TEST_F(RealThreads, RunOnWhenWhatSupervisesThemThrowsAnything) {
+  std::atomic<int> runs{0};
+  std::atomic<int> handled{0};
+  MakeCounter("healthy", runs);
+  runtime.Create<Doing>(runtime.root(), "failing").action = [](Doing&) { throw 1; };
+  CreateThread(runtime, "main", {.period = 1ms});
+  scheduler.SetWatchdog([](Time) -> Time { throw 2; });
+  scheduler.SetFaultHandler([&](const Fault&) -> std::optional<std::string> {
+    ++handled;
+    throw 3;
+  });
+  Ready();
+  const Running running(scheduler);
+  WaitUntil("the fault and the watch that failed are handled", [&] { return handled >= 2; });
+  const int runs_then = runs;
+  WaitUntil("the healthy module goes on", [&] { return runs > runs_then + 3; });
 }
 
 TEST_F(RealThreads, AskForPrioritiesAndRunWithoutThem) {
@@ -211,7 +231,7 @@ TEST_F(RealThreads, AskForPrioritiesAndRunWithoutThem) {
   const Running running(scheduler);
   // The first cycle may come before the thread has its priority.
   const int runs_then = runs;
-  WaitUntil([&] { return runs > runs_then + 1; });
+  WaitUntil("there has been a cycle with the priority", [&] { return runs > runs_then + 1; });
   const auto warnings = scheduler.Warnings();
   const bool is_told = std::ranges::any_of(warnings, [&](const Error& warning) {
     return warning.path == thread.path() && warning.message.starts_with("SCHED_FIFO");

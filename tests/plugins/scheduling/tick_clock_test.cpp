@@ -92,6 +92,23 @@ TEST_F(TickClocks, AreMisledByAJumpOfTheCounterForAMillisecondAtMost) {
   EXPECT_LE(FurthestOff(clock, 10ms), 2ns);
 }
 
+// The steady clock stands still while a laptop sleeps, or goes on, as the system has it; the counter is
+// set to anything.
+TEST_F(TickClocks, GoOnFromTheSteadyClockAfterASuspension) {
+  for (const Duration steady_clock : {Duration(0), Duration(1h)}) {
+    for (const std::uint64_t counter : {std::uint64_t{0}, std::uint64_t{1} << 60}) {
+      FakeMachine::count = 123'456'789;
+      BasicTickClock<FakeMachine> clock;
+      last_ = {};
+      FurthestOff(clock, 5ms);
+      FakeMachine::now += steady_clock.count();
+      FakeMachine::count = counter;
+      EXPECT_EQ(FurthestOff(clock, 500us), 0ns);
+      EXPECT_LE(FurthestOff(clock, 10ms), 2ns);
+    }
+  }
+}
+
 TEST_F(TickClocks, AskEveryTimeWithoutASteadyCounter) {
   FakeMachine::are_steady = false;
   BasicTickClock<FakeMachine> clock;

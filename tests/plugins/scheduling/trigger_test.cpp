@@ -79,6 +79,33 @@ TEST_F(Triggered, FindsDataThatCameBeforeItWasReady) {
   EXPECT_THAT(diary, ElementsAre("listener 0"));
 }
 
+TEST_F(Triggered, RunsForDataThatANewConnectionBrings) {
+  publishes = false;
+  auto& other = runtime.Create<Relay>(runtime.root(), "other");
+  other.out.Publish(5);
+  Ready();
+  scheduler.RunUntil(At(15));
+  diary.clear();
+  MustSucceed(Port::Connect(other.out, listener.in));
+  EXPECT_TRUE(scheduler.Step());
+  EXPECT_THAT(diary, ElementsAre("listener 15"));
+}
+
+TEST_F(Triggered, RunsOnceForDataThatCameBeforeItWasAdded) {
+  Ready();
+  scheduler.Step();
+  auto& added = runtime.Create<Doing>(runtime.root(), "added");
+  added.action = [&](Doing&) { diary.push_back("added"); };
+  AssignThread(added, waiting);
+  MustSucceed(Port::Connect(source.out, added.in));
+  MustSucceed(runtime.MakeReady(added));
+  diary.clear();
+  const auto cycles = waiting.statistics().cycles;
+  EXPECT_TRUE(scheduler.Step());
+  EXPECT_THAT(diary, ElementsAre("added"));
+  EXPECT_EQ(waiting.statistics().cycles, cycles + 1);
+}
+
 TEST_F(Triggered, RunsAChainInOnePassAlongTheData) {
   auto& second = runtime.Create<Doing>(runtime.root(), "second");
   second.action = [&](Doing&) { diary.push_back("second"); };

@@ -3,17 +3,18 @@
 #include "plugins/supervision/supervisor.h"
 
 #include <atomic>
-#include <thread>
 
 #include <gmock/gmock.h>
 
 #include "plugins/structure/structure_editor.h"
 #include "tests/plugins/scheduling/test_modules.h"
+#include "tests/support/wait_until.h"
 
 namespace runnel {
 namespace {
 
 using namespace std::chrono_literals;
+using test::WaitUntil;
 using testing::At;
 using testing::Doing;
 using ::testing::ElementsAre;
@@ -74,6 +75,10 @@ struct Robot {
 
 class Supervised : public ::testing::Test {
  protected:
+  // A thread in which nothing runs of itself.
+  ThreadContainer& OnlyOnData() {
+    return CreateThread(robot.runtime, "idle", {.activation = ThreadOptions::Activation::kTrigger});
+  }
   Robot robot{SchedulerOptions::ClockKind::kSimulated};
 };
 
@@ -162,6 +167,46 @@ TEST_F(Supervised, RulesForWhatIsNotThereAreRefused) {
   EXPECT_FALSE(robot.supervisor.Add(rule));
 }
 
+TEST_F(Supervised, ATimeOutOfCenturiesNeverComes) {
+  StaleRule rule = robot.SwitchingRule();
+  rule.after = Duration::max();
+  MustSucceed(robot.supervisor.Add(rule));
+  robot.scheduler.RunUntil(At(100));
+  robot.laser_works = false;
+  robot.scheduler.RunUntil(At(100'000));
+  EXPECT_THAT(robot.Messages(), IsEmpty());
+  EXPECT_EQ(robot.seen, 1);
+}
+
+// What is latched, such as a goal, sets off the module that is fed by it from now on.
+TEST_F(Supervised, AModuleThatRunsOnDataIsSetOffByTheSourceThatItIsSwitchedTo) {
+  int runs = 0;
+  double value = 0;
+  auto& latched = robot.runtime.Create<Relay>(robot.runtime.root(), "latched");
+  auto& listener = robot.runtime.Create<Doing>(robot.runtime.root(), "listener");
+  listener.action = [&](Doing& module) {
+    ++runs;
+    value = module.in.Get();
+  };
+  AssignThread(listener, CreateThread(robot.runtime, "waiting",
+                                      {.activation = ThreadOptions::Activation::kTrigger}));
+  AssignThread(latched, OnlyOnData());
+  MustSucceed(Port::Connect(robot.laser.out, listener.in));
+  MustSucceed(robot.runtime.MakeReady(robot.runtime.root()));
+  latched.out.Publish(3);
+  MustSucceed(robot.supervisor.Add(
+      {.input = listener.in.path(),
+       .after = 30ms,
+       .fresh_after = 50ms,
+       .on_stale = {.changes = Switch(listener.in, robot.laser.out, latched.out)}}));
+  robot.scheduler.RunUntil(At(95));
+  robot.laser_works = false;
+  const int runs_then = runs;
+  robot.scheduler.RunUntil(At(1000));
+  EXPECT_EQ(runs, runs_then + 1);
+  EXPECT_EQ(value, 3);
+}
+
 TEST_F(Supervised, TheSameHappensInEveryRun) {
   const auto run = [] {
     Robot another(SchedulerOptions::ClockKind::kSimulated);
@@ -183,14 +228,11 @@ TEST(SupervisedInRealTime, InputsAreSwitchedWhileThreadsRun) {
   Robot robot(SchedulerOptions::ClockKind::kReal);
   MustSucceed(robot.supervisor.Add(robot.SwitchingRule()));
   MustSucceed(robot.scheduler.Start());
-  const auto wait_until_seen = [&](double what) {
-    while (robot.seen != what) std::this_thread::sleep_for(1ms);
-  };
-  wait_until_seen(1);
+  WaitUntil("the laser is seen", [&] { return robot.seen == 1; });
   robot.laser_works = false;
-  wait_until_seen(2);
+  WaitUntil("the infrared sensor is seen", [&] { return robot.seen == 2; });
   robot.laser_works = true;
-  wait_until_seen(1);
+  WaitUntil("the laser is seen again", [&] { return robot.seen == 1; });
   robot.scheduler.Stop();
 }
 

@@ -77,11 +77,11 @@ class Traced : public ::testing::Test {
     std::filesystem::remove(path);
   }
 
-  void Begin(ClockKind clock, std::size_t room = 65'536, Duration interval = 1ms) {
+  void Begin(ClockKind clock, std::size_t capacity = 65'536, Duration interval = 1ms) {
     auto started = TraceRecorder::Start(runtime, {.file = path,
                                                   .application = "test",
                                                   .is_simulated = clock == ClockKind::kSimulated,
-                                                  .room = room,
+                                                  .capacity = capacity,
                                                   .interval = interval});
     ASSERT_TRUE(started) << started.error().ToString();
     recorder = std::move(*started);

@@ -3,6 +3,7 @@
 #include "plugins/structure/structure_editor.h"
 #include "tests/plugins/tracing/trace_fixture.h"
 #include "tests/support/allocation_guard.h"
+#include "tests/support/wait_until.h"
 
 namespace runnel::test {
 namespace {
@@ -62,7 +63,7 @@ TEST_F(Traced, ShowsRealThreads) {
                                       {.activation = ThreadOptions::Activation::kTrigger}));
   Ready();
   ASSERT_TRUE(scheduler->Start());
-  while (ticker.out.publications() < 100) std::this_thread::sleep_for(1ms);
+  WaitUntil("there are a hundred publications", [&] { return ticker.out.publications() >= 100; });
   Finish();
   EXPECT_EQ(summary.lost, 0U);
   EXPECT_EQ(EventsOf("update", "/ticker").size(), static_cast<std::size_t>(ticker.updates));
@@ -81,7 +82,7 @@ TEST_F(Traced, CountsWhatIsLost) {
       CreateThread(runtime, "main", {.activation = ThreadOptions::Activation::kFreeRunning});
   Ready();
   ASSERT_TRUE(scheduler->Start());
-  while (thread.statistics().cycles < 10'000) std::this_thread::sleep_for(1ms);
+  WaitUntil("there are ten thousand cycles", [&] { return thread.statistics().cycles >= 10'000; });
   Finish();
   EXPECT_GT(summary.lost, 1000U);
   const std::size_t noted = EventsOf("update").size() + EventsOf("cycle").size();
@@ -165,15 +166,14 @@ TEST_F(Traced, IsInTheFileSoonAfterItHasHappened) {
   Ready();
   ASSERT_TRUE(scheduler->RunUntil(Time(1s)));
   // Nothing is closed, as if the program had been killed.
-  json found;
-  do {
-    std::this_thread::sleep_for(1ms);
+  WaitUntil("the updates are in the file", [&] {
     std::ifstream stream(path);
     const std::string text(std::istreambuf_iterator<char>(stream), {});
     // Nothing may have been written yet, or half of what is just being written.
-    found = json::parse(text + "]", nullptr, false);
+    const json found = json::parse(text + "]", nullptr, false);
     events = found.is_discarded() ? json::array() : found;
-  } while (EventsOf("update", "/ticker").size() < 20);
+    return EventsOf("update", "/ticker").size() >= 20;
+  });
 }
 
 TEST_F(Traced, AllocatesNothingInItsCycles) {

@@ -1,4 +1,4 @@
-#include "plugins/scheduling/internal/trigger_ties.h"
+#include "plugins/scheduling/internal/trigger_binding.h"
 
 #include "core/port/input.h"
 #include "plugins/scheduling/internal/data_flow.h"
@@ -19,18 +19,15 @@ std::vector<InputBase*> TriggerInputs(const std::vector<Task>& tasks) {
   return inputs;
 }
 
-void Tie(const std::vector<InputBase*>& inputs, ScheduledElement& state, CycleRunner& runner) {
-  const bool was_tied = state.runner() != nullptr;
+// The runner comes last: what is there already is noted with the element alone until a schedule that
+// has it is installed.
+void BindTriggers(const std::vector<InputBase*>& inputs, ScheduledElement& state,
+                  CycleRunner& runner) {
+  for (InputBase* input : inputs) input->SetWaker(&state);
   state.set_runner(&runner);
-  bool has_data = false;
-  for (InputBase* input : inputs) {
-    input->SetWaker(&state);
-    has_data = input->LookAtValue([](const void*, Time) {}) || has_data;
-  }
-  if ((has_data && !was_tied) || state.is_activated()) state.Wake();
 }
 
-void Untie(const std::vector<InputBase*>& inputs) {
+void UnbindTriggers(const std::vector<InputBase*>& inputs) {
   for (InputBase* input : inputs) input->SetWaker(nullptr);
 }
 

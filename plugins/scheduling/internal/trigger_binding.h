@@ -16,10 +16,11 @@ namespace runnel::internal {
 [[nodiscard]] std::vector<InputBase*> TriggerInputs(const std::vector<Task>& tasks);
 
 /// New data at `inputs` set off the element, in `runner`'s thread. Data that came before it was tied
-/// count as new. What another runner has been told of and not run yet, this one is told of again.
-void Tie(const std::vector<InputBase*>& inputs, ScheduledElement& state, CycleRunner& runner);
+/// count as new. What has come by then, the runner finds when a schedule with the element is installed.
+void BindTriggers(const std::vector<InputBase*>& inputs, ScheduledElement& state,
+                  CycleRunner& runner);
 
 /// New data set off nobody any more.
-void Untie(const std::vector<InputBase*>& inputs);
+void UnbindTriggers(const std::vector<InputBase*>& inputs);
 
 }  // namespace runnel::internal

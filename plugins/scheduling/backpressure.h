@@ -11,41 +11,41 @@ namespace runnel {
 
 /// Keeps simulated time from going on where something beside the application must not fall behind, such
 /// as a recorder. What cycles compute does not depend on it.
-class Brake {
+class BackpressureSource {
  public:
   /// Is called after each simulated cycle, by the thread that runs them, without locks; returns when the
   /// next may begin.
-  virtual void HoldBack() noexcept = 0;
+  virtual void WaitForRoom() noexcept = 0;
 
  protected:
-  ~Brake() = default;
+  ~BackpressureSource() = default;
 };
 
-/// Those of one scheduler. Threads: any; HoldBack() by the one that steps. While there are none, that
+/// Those of one scheduler. Threads: any; WaitForRoom() by the one that steps. While there are none, that
 /// takes no lock.
-class Brakes {
+class Backpressure {
  public:
-  void Add(Brake& brake) {
+  void Add(BackpressureSource& source) {
     const std::lock_guard lock(mutex_);
-    all_.push_back(&brake);
+    all_.push_back(&source);
     any_.store(true, std::memory_order_release);
   }
-  /// Waits for a HoldBack() that is under way.
-  void Remove(Brake& brake) {
+  /// Waits for a WaitForRoom() that is under way.
+  void Remove(BackpressureSource& source) {
     const std::lock_guard lock(mutex_);
-    std::erase(all_, &brake);
+    std::erase(all_, &source);
     any_.store(!all_.empty(), std::memory_order_release);
   }
-  void HoldBack() {
+  void WaitForRoom() {
     if (!any_.load(std::memory_order_acquire)) return;
     const std::lock_guard lock(mutex_);
-    for (Brake* brake : all_) brake->HoldBack();
+    for (BackpressureSource* source : all_) source->WaitForRoom();
   }
 
  private:
   OrderedMutex mutex_{LockLevel::kScheduler};
   std::atomic<bool> any_{false};
-  std::vector<Brake*> all_;
+  std::vector<BackpressureSource*> all_;
 };
 
 }  // namespace runnel

@@ -27,7 +27,7 @@ class FaultRecord {
   [[nodiscard]] const Fault& fault() const noexcept { return fault_; }
 
  private:
-  friend class FaultDesk;
+  friend class FaultDispatcher;
   Fault fault_;
   FaultRecord* next_ = nullptr;
 };
@@ -37,17 +37,17 @@ class FaultRecord {
 /// Threads:    Raise() from any cycle: lock-free, allocates nothing; wakes the supervising thread,
 ///             if one sleeps. The rest from any thread outside of cycles.
 /// Ownership:  of records that have been raised.
-class FaultDesk {
+class FaultDispatcher {
  public:
-  explicit FaultDesk(Runtime& runtime) : runtime_(runtime) {}
-  ~FaultDesk();
-  FaultDesk(const FaultDesk&) = delete;
-  FaultDesk& operator=(const FaultDesk&) = delete;
+  explicit FaultDispatcher(Runtime& runtime) : runtime_(runtime) {}
+  ~FaultDispatcher();
+  FaultDispatcher(const FaultDispatcher&) = delete;
+  FaultDispatcher& operator=(const FaultDispatcher&) = delete;
 
   void Raise(std::unique_ptr<FaultRecord> record) noexcept;
 
   /// Applies the rules to what has been raised, in the order of raising, and logs it.
-  void Attend();
+  void Dispatch();
   /// Logs the fault and applies the rules to it, at once. Outside of cycles.
   void Report(const Fault& fault);
   /// What has been logged since the last call, oldest first.

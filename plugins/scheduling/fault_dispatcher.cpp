@@ -1,10 +1,10 @@
-#include "plugins/scheduling/fault_desk.h"
+#include "plugins/scheduling/fault_dispatcher.h"
 
 #include <algorithm>
-#include <exception>
 #include <mutex>
 #include <utility>
 
+#include "core/base/exception_text.h"
 #include "core/element/configurable.h"
 #include "core/element/runtime.h"
 
@@ -40,23 +40,23 @@ void FaultRecord::Fill(std::string_view message, Time time, std::uint64_t cycle)
   fault_.cycle = cycle;
 }
 
-FaultDesk::~FaultDesk() {
+FaultDispatcher::~FaultDispatcher() {
   FaultRecord* record = raised_.load(std::memory_order_acquire);
   while (record != nullptr) delete std::exchange(record, record->next_);
 }
 
-void FaultDesk::Raise(std::unique_ptr<FaultRecord> record) noexcept {
+void FaultDispatcher::Raise(std::unique_ptr<FaultRecord> record) noexcept {
   FaultRecord* const added = record.release();
   FaultRecord* head = raised_.load(std::memory_order_relaxed);
   do {
     added->next_ = head;
-    // release: pairs with the acquire in Attend(): the record is filled.
+    // release: pairs with the acquire in Dispatch(): the record is filled.
   } while (!raised_.compare_exchange_weak(head, added, std::memory_order_release,
                                           std::memory_order_relaxed));
   event_.Notify();
 }
 
-void FaultDesk::Attend() {
+void FaultDispatcher::Dispatch() {
   if (raised_.load(std::memory_order_relaxed) == nullptr) return;
   std::vector<std::unique_ptr<FaultRecord>> records;
   // acquire: pairs with the release in Raise().
@@ -66,7 +66,7 @@ void FaultDesk::Attend() {
   for (const auto& each : records) Report(each->fault());
 }
 
-void FaultDesk::Report(const Fault& fault) {
+void FaultDispatcher::Report(const Fault& fault) {
   if (const auto done = Handle(fault)) {
     return Log({fault.path, fault.message + "; " + *done, fault.time, fault.cycle, true});
   }
@@ -81,12 +81,12 @@ void FaultDesk::Report(const Fault& fault) {
   }
 }
 
-void FaultDesk::SetHandler(Handler handler) {
+void FaultDispatcher::SetHandler(Handler handler) {
   const std::lock_guard lock(mutex_);
   handler_ = std::move(handler);
 }
 
-std::optional<std::string> FaultDesk::Handle(const Fault& fault) {
+std::optional<std::string> FaultDispatcher::Handle(const Fault& fault) {
   Handler handler;
   {
     const std::lock_guard lock(mutex_);
@@ -95,13 +95,13 @@ std::optional<std::string> FaultDesk::Handle(const Fault& fault) {
   if (!handler) return {};
   try {
     return handler(fault);
-  } catch (const std::exception& exception) {
-    Log({fault.path, std::string("the fault handler failed: ") + exception.what(), fault.time});
+  } catch (...) {
+    Log({fault.path, "the fault handler failed: " + DescribeException(), fault.time});
   }
   return {};
 }
 
-void FaultDesk::Apply(const FaultRule& rule, const Fault& fault) {
+void FaultDispatcher::Apply(const FaultRule& rule, const Fault& fault) {
   try {
     if (rule.action == FaultRule::Action::kStopApplication) {
       stopped_by_fault_.store(true, std::memory_order_release);
@@ -112,21 +112,19 @@ void FaultDesk::Apply(const FaultRule& rule, const Fault& fault) {
       const auto set = Set(rule);
       if (!set) Log({rule.of, "the fault rule failed: " + set.error().ToString(), fault.time});
     }
-  } catch (const std::exception& exception) {
-    Log({rule.of, std::string("the fault rule failed: ") + exception.what(), fault.time});
   } catch (...) {
-    Log({rule.of, "the fault rule failed with an unknown exception", fault.time});
+    Log({rule.of, "the fault rule failed: " + DescribeException(), fault.time});
   }
 }
 
-Result<void> FaultDesk::Set(const FaultRule& rule) {
+Result<void> FaultDispatcher::Set(const FaultRule& rule) {
   const std::lock_guard lock(runtime_.structure_mutex());
   const auto target = FindTarget(runtime_, rule);
   if (!target) return target.error();
   return (*target)->SetFromText(rule.value);
 }
 
-Result<void> FaultDesk::AddRule(FaultRule rule) {
+Result<void> FaultDispatcher::AddRule(FaultRule rule) {
   if (rule.action == FaultRule::Action::kSet) {
     const std::lock_guard lock(runtime_.structure_mutex());
     const auto target = FindTarget(runtime_, rule);
@@ -142,12 +140,12 @@ Result<void> FaultDesk::AddRule(FaultRule rule) {
   return {};
 }
 
-void FaultDesk::Log(Fault fault) {
+void FaultDispatcher::Log(Fault fault) {
   const std::lock_guard lock(mutex_);
   log_.push_back(std::move(fault));
 }
 
-std::vector<Fault> FaultDesk::Take() {
+std::vector<Fault> FaultDispatcher::Take() {
   const std::lock_guard lock(mutex_);
   return std::exchange(log_, {});
 }

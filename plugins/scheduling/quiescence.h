@@ -12,7 +12,7 @@ namespace runnel {
 ///
 /// Threads:   Take() by the thread that runs the cycles, before its first; the rest from any.
 /// Progress:  wait-free. It costs the cycles nothing: what is looked at is the thread's EpochGuard.
-class CyclePresence {
+class CycleQuiescence {
  public:
   /// The calling thread runs all cycles from now on. Precondition: what another has run is over,
   /// and this thread knows (it was started after the other was joined).
@@ -54,11 +54,11 @@ class Installation {
     return epoch;
   }
 
-  /// Whether the runner of `presence` can no longer be in a cycle with an older schedule.
-  [[nodiscard]] bool HasBeenReachedBy(const CyclePresence& presence) const noexcept {
+  /// Whether the runner of `quiescence` can no longer be in a cycle with an older schedule.
+  [[nodiscard]] bool HasBeenReachedBy(const CycleQuiescence& quiescence) const noexcept {
     // acquire: pairs with the release in Begin().
     const std::uint64_t epoch = epoch_.load(std::memory_order_acquire);
-    return epoch != kNotBegun && presence.HasLeft(epoch);
+    return epoch != kNotBegun && quiescence.HasLeft(epoch);
   }
 
  private:
