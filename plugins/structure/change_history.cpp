@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/base/exception_text.h"
 #include "plugins/structure/change_text.h"
 
 namespace runnel {
@@ -25,17 +26,28 @@ ChangeOutcome Refused(Error error) {
   return outcome;
 }
 
+ChangeOutcome Failed(std::string why) {
+  ChangeOutcome outcome;
+  outcome.diagnostics.Add({.message = std::move(why)});
+  return outcome;
+}
+
 }  // namespace
 
 ChangeOutcome ChangeHistory::Apply(const ChangeSet& changes,
                                    const std::vector<SourcePosition>& places, std::string label) {
   const std::lock_guard one_after_the_other(applying_);
-  Entry entry{label.empty() ? LabelOf(changes) : std::move(label), {}};
-  ChangeOutcome outcome = editor_.Apply({changes, places, nullptr, &entry.taking});
-  if (!outcome || changes.empty()) return outcome;
+  Entries entry;
+  try {
+    entry.push_back({label.empty() ? LabelOf(changes) : std::move(label), {}});
+  } catch (...) {
+    return Failed(DescribeException());
+  }
+  ChangeOutcome outcome = editor_.Apply({changes, places, nullptr, &entry.back().taking});
+  if (!outcome.is_done || changes.empty()) return outcome;
   const std::lock_guard lock(entries_);
   undone_.clear();
-  Add(done_, std::move(entry));
+  Add(done_, entry);
   return outcome;
 }
 
@@ -46,30 +58,35 @@ ChangeOutcome ChangeHistory::Redo() { return Take(undone_, done_, "redone"); }
 // What takes back what took back is what was done.
 ChangeOutcome ChangeHistory::Take(Entries& from, Entries& to, const char* what) {
   const std::lock_guard one_after_the_other(applying_);
-  Entry entry;
-  {
+  try {
+    Entries back;
+    Entry entry;
+    {
+      const std::lock_guard lock(entries_);
+      if (from.empty()) return Refused({.message = "there is nothing to be " + std::string(what)});
+      entry = from.back();
+    }
+    back.push_back({entry.label, {}});
+    ChangeOutcome outcome =
+        entry.taking.why_not
+            ? Refused(*entry.taking.why_not)
+            : editor_.Apply({entry.taking.changes, {}, &entry.taking, &back.back().taking});
+    if (!outcome.is_done && outcome.is_refused) {
+      outcome.diagnostics.Add(
+          {.message = "'" + entry.label + "' can no longer be " + what + ", and is forgotten"});
+    }
     const std::lock_guard lock(entries_);
-    if (from.empty()) return Refused({.message = "there is nothing to be " + std::string(what)});
-    entry = from.back();
+    if (outcome.is_done || outcome.is_refused) from.pop_back();
+    if (outcome.is_done) Add(to, back);
+    return outcome;
+  } catch (...) {
+    return Failed(DescribeException());
   }
-  Entry back{entry.label, {}};
-  ChangeOutcome outcome =
-      entry.taking.why_not ? Refused(*entry.taking.why_not)
-                           : editor_.Apply({entry.taking.changes, {}, &entry.taking, &back.taking});
-  const std::lock_guard lock(entries_);
-  if (outcome) {
-    from.pop_back();
-    Add(to, std::move(back));
-  } else if (outcome.is_refused) {
-    from.pop_back();
-    outcome.diagnostics.Add(
-        {.message = "'" + entry.label + "' can no longer be " + what + ", and is forgotten"});
-  }
-  return outcome;
 }
 
-void ChangeHistory::Add(Entries& to, Entry entry) {
-  to.push_back(std::move(entry));
+// `entry` is one.
+void ChangeHistory::Add(Entries& to, Entries& entry) {
+  to.splice(to.end(), entry);
   if (to.size() > most_entries_) to.pop_front();
 }
 

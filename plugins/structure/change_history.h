@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstddef>
-#include <deque>
+#include <list>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -51,10 +51,10 @@ class ChangeHistory {
     std::string label;
     internal::Taking taking;  // back
   };
-  using Entries = std::deque<Entry>;
+  using Entries = std::list<Entry>;  // whose entries go from one to the other without memory
 
   ChangeOutcome Take(Entries& from, Entries& to, const char* what);
-  void Add(Entries& to, Entry entry);
+  void Add(Entries& to, Entries& entry);
 
   StructureEditor& editor_;
   const std::size_t most_entries_;

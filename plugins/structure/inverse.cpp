@@ -147,6 +147,12 @@ Expected WhatIsThere(const ChangeSet& changes, FrameworkElement& root) {
   return expected;
 }
 
+Taking TakingOf(Inverse inverse, FrameworkElement& root) {
+  Taking taking{inverse.All(), {}, std::move(inverse.why_not)};
+  taking.expected = WhatIsThere(taking.changes, root);
+  return taking;
+}
+
 Result<void> CheckExpected(const ChangeSet& changes, const Expected& expected,
                            FrameworkElement& root) {
   std::set<std::string> deleted;

@@ -53,4 +53,7 @@ struct Taking {
   std::optional<Error> why_not;  ///< it cannot be taken back
 };
 
+/// Right after the change set that `inverse` is of has been carried out. Under the structure lock.
+[[nodiscard]] Taking TakingOf(Inverse inverse, FrameworkElement& root);
+
 }  // namespace runnel::internal

@@ -1,9 +1,12 @@
 #include "plugins/structure/plan.h"
 
 #include <algorithm>
-#include <exception>
+#include <optional>
 #include <utility>
 
+#include "core/base/exception_text.h"
+#include "core/base/retry.h"
+#include "core/lockfree/thread_epoch.h"
 #include "plugins/structure/replacement.h"
 
 namespace runnel::internal {
@@ -20,6 +23,12 @@ const FrameworkElement* NextSibling(const FrameworkElement& element) {
   const auto& siblings = element.parent()->children();
   const auto next = std::next(std::ranges::find(siblings, &element));
   return next == siblings.end() ? nullptr : *next;
+}
+
+// What takes a step back succeeds, but for lack of memory; then it is tried again.
+template <typename Outcome>
+void Must(const Outcome& outcome) {
+  if (!outcome) throw ElementError(outcome.error());
 }
 
 }  // namespace
@@ -49,31 +58,49 @@ void Plan::Make(const ChangeSet& changes, const std::vector<SourcePosition>& pla
     try {
       const auto check = [this](const auto& change) { return Check(change); };
       if (const auto possible = std::visit(check, changes[i]); !possible) tell(possible.error());
-    } catch (const std::exception& exception) {
-      tell({.message = exception.what()});
+    } catch (...) {
+      tell({.message = DescribeException()});
     }
     for (Error& each : further_errors_) tell(std::move(each));
     further_errors_.clear();
   }
+  for (Error& each : warnings_) diagnostics.AddWarning(std::move(each));
   if (diagnostics.ok()) WarnOfMissingSources(diagnostics);
 }
 
-Result<void> Plan::Carry(Inverse* inverse) {
+Plan::~Plan() {
+  const auto is_left = [](const Replaced& each) { return bool(each.before); };
+  if (has_failed_ || !removed_.empty() || std::ranges::any_of(replaced_, is_left)) WaitForReaders();
+}
+
+Result<void> Plan::Carry(Taking* back) {
   const ChangeScope all_at_once(runtime_);
-  for (std::size_t done = 0; done < steps_.size(); ++done) {
-    Result<void> result;
-    try {
-      if (inverse != nullptr) {
-        inverse->of_steps.push_back(steps_[done].inverse(inverse->why_not));
-      }
-      result = steps_[done].apply();
-    } catch (const std::exception& exception) {
-      result = Error{.message = exception.what()};
-    }
-    if (result) continue;
-    while (done > 0) steps_[--done].undo();
-    return result;
+  has_failed_ = true;  // until it has not
+  std::size_t begun = 0;
+  Result<void> result;
+  try {
+    result = Apply(back, begun);
+  } catch (...) {
+    result = Error{.message = DescribeException()};
   }
+  has_failed_ = !result;
+  if (result) return result;
+  bool is_undone = true;
+  while (begun > 0) is_undone = Retry(steps_[--begun].undo) && is_undone;
+  if (is_undone) return result;
+  Error error = result.error();
+  error.message += "; and what had been done before could not be taken back for lack of memory";
+  return error;
+}
+
+Result<void> Plan::Apply(Taking* back, std::size_t& begun) {
+  Inverse inverse;
+  for (const Step& step : steps_) {
+    if (back != nullptr) inverse.of_steps.push_back(step.inverse(inverse.why_not));
+    ++begun;
+    if (auto applied = step.apply(); !applied) return applied;
+  }
+  if (back != nullptr) *back = TakingOf(std::move(inverse), runtime_.root());
   return {};
 }
 
@@ -114,15 +141,25 @@ void Plan::AddCreation(UnlistedElement element) {
                       const auto listed = runtime_.List(std::move(*kept));
                       return listed ? Result<void>() : listed.error();
                     },
-                    [this, kept, &made] { *kept = *runtime_.Unlist(made); },
+                    [this, kept, &made] {
+                      if (!*kept) *kept = runtime_.Unlist(made).value();
+                    },
                     [&made](auto&) -> ChangeSet { return {DeleteElement{made.path()}}; }});
 }
 
 void Plan::AddConnection(Port& from, Port& to, const ConnectOptions& options) {
   Concern(from);
   Concern(to);
-  steps_.push_back({[&from, &to, options] { return Port::Connect(from, to, options); },
-                    [&from, &to] { (void)Port::Disconnect(from, to); },
+  auto is_made = std::make_shared<bool>(false);
+  steps_.push_back({[&from, &to, options, is_made] {
+                      auto connected = Port::Connect(from, to, options);
+                      *is_made = connected.has_value();
+                      return connected;
+                    },
+                    [&from, &to, is_made] {
+                      if (*is_made) Must(Port::Disconnect(from, to));
+                      *is_made = false;
+                    },
                     [&from, &to](auto&) -> ChangeSet {
                       return {DisconnectPorts{from.path(), to.path()}};
                     }});
@@ -131,12 +168,17 @@ void Plan::AddConnection(Port& from, Port& to, const ConnectOptions& options) {
 void Plan::AddDisconnection(Port& from, Port& to) {
   Concern(from);
   Concern(to);
-  auto options = std::make_shared<ConnectOptions>();
-  steps_.push_back({[&from, &to, options] {
-                      *options = OptionsOf(from, to);
-                      return Port::Disconnect(from, to);
+  auto cut = std::make_shared<std::optional<ConnectOptions>>();
+  steps_.push_back({[&from, &to, cut] {
+                      const ConnectOptions options = OptionsOf(from, to);
+                      auto disconnected = Port::Disconnect(from, to);
+                      if (disconnected) *cut = options;
+                      return disconnected;
                     },
-                    [&from, &to, options] { (void)Port::Connect(from, to, *options); },
+                    [&from, &to, cut] {
+                      if (*cut) Must(Port::Connect(from, to, **cut));
+                      cut->reset();
+                    },
                     [&from, &to](auto&) -> ChangeSet {
                       return {ConnectPorts{from.path(), to.path(), OptionsOf(from, to)}};
                     }});
@@ -144,26 +186,36 @@ void Plan::AddDisconnection(Port& from, Port& to) {
 
 // What goes with it stays as it is among itself; what ties it to others is cut.
 void Plan::AddRemoval(FrameworkElement& element) {
-  struct Undo {
+  struct Done {
     std::vector<Connection> ties;
+    std::size_t cut = 0;  // of the ties
     const FrameworkElement* place = nullptr;
+    bool is_removed = false;
   };
-  auto undo = std::make_shared<Undo>();
+  auto done = std::make_shared<Done>();
   steps_.push_back({[=, this, &element]() -> Result<void> {
-                      *undo = {TiesOf(element), NextSibling(element)};
-                      for (const Connection& tie : undo->ties) {
-                        (void)Port::Disconnect(*tie.from, *tie.to);
+                      done->ties = TiesOf(element);
+                      removed_.reserve(removed_.size() + 1);
+                      for (const Connection& tie : done->ties) {
+                        if (auto cut = Port::Disconnect(*tie.from, *tie.to); !cut) return cut;
+                        ++done->cut;
                       }
+                      done->place = NextSibling(element);
                       auto taken = runtime_.Unlist(element);
                       if (!taken) return taken.error();
                       removed_.push_back(std::move(*taken));
+                      done->is_removed = true;
                       return {};
                     },
                     [=, this] {
-                      (void)runtime_.List(std::move(removed_.back()), undo->place);
-                      removed_.pop_back();
-                      for (const Connection& tie : undo->ties) {
-                        (void)Port::Connect(*tie.from, *tie.to, tie.options);
+                      if (done->is_removed) {
+                        Must(runtime_.List(std::move(removed_.back()), done->place));
+                        removed_.pop_back();
+                        done->is_removed = false;
+                      }
+                      for (; done->cut > 0; --done->cut) {
+                        const Connection& tie = done->ties[done->cut - 1];
+                        Must(Port::Connect(*tie.from, *tie.to, tie.options));
                       }
                     },
                     [&element](auto& why_not) { return MakeAgain(element, why_not); }});
@@ -171,30 +223,58 @@ void Plan::AddRemoval(FrameworkElement& element) {
 
 void Plan::AddReplacement(FrameworkElement& before, UnlistedElement after,
                           std::vector<std::pair<Port*, Port*>> ports, const ReplaceModule& change) {
+  struct Done {
+    UnlistedElement after;   // until it is listed
+    UnlistedElement before;  // once it is not
+    const FrameworkElement* place = nullptr;
+    std::size_t moved = 0;  // of the ports
+    bool is_noted = false;
+  };
   Concern(before);
   FrameworkElement& next = *after;
-  auto kept = std::make_shared<UnlistedElement>(std::move(after));
+  auto done = std::make_shared<Done>();
+  done->after = std::move(after);
   steps_.push_back({[=, this, &before, &next, values = ValuesOf(before)]() -> Result<void> {
                       // What has been set or assigned since the new module was made, by this change set or others.
                       if (auto set = CopyLateSettings(before, values, change.settings, next); !set)
                         return set;
                       next.InheritAnnotations(before);
                       if (auto copied = CopyState(before, next); !copied) return copied;
-                      const FrameworkElement* const place = NextSibling(before);
+                      Replaced replaced{{}, next.path(), next.serial(), change.probation_cycles};
+                      replaced_.reserve(replaced_.size() + 1);
+                      done->place = NextSibling(before);
                       auto taken = runtime_.Unlist(before);
                       if (!taken) return taken.error();
-                      for (const auto& [from, to] : ports) to->TakeOver(*from);
-                      (void)runtime_.List(std::move(*kept), place);
-                      replaced_.push_back(
-                          {std::move(*taken), next.path(), next.serial(), change.probation_cycles});
+                      done->before = std::move(*taken);
+                      for (const auto& [from, to] : ports) {
+                        to->TakeOver(*from);
+                        ++done->moved;
+                      }
+                      if (auto listed = runtime_.List(std::move(done->after), done->place);
+                          !listed) {
+                        return listed.error();
+                      }
+                      replaced.before = std::move(done->before);
+                      replaced_.push_back(std::move(replaced));
+                      done->is_noted = true;
                       return {};
                     },
                     [=, this, &next] {
-                      const FrameworkElement* const place = NextSibling(next);
-                      *kept = *runtime_.Unlist(next);
-                      for (const auto& [from, to] : ports) from->TakeOver(*to);
-                      (void)runtime_.List(std::move(replaced_.back().before), place);
-                      replaced_.pop_back();
+                      if (done->is_noted) {
+                        done->before = std::move(replaced_.back().before);
+                        replaced_.pop_back();
+                        done->is_noted = false;
+                      }
+                      if (!done->before) return;
+                      if (!done->after) {
+                        done->place = NextSibling(next);
+                        done->after = runtime_.Unlist(next).value();
+                      }
+                      for (; done->moved > 0; --done->moved) {
+                        const auto& [from, to] = ports[done->moved - 1];
+                        from->TakeOver(*to);
+                      }
+                      Must(runtime_.List(std::move(done->before), done->place));
                     },
                     [&before, &next, cycles = change.probation_cycles](auto& why_not) {
                       return ReplaceBack(before, next, cycles, why_not);

@@ -35,15 +35,18 @@ class Plan {
  public:
   Plan(Runtime& runtime, const ModuleRegistry& modules)
       : runtime_(runtime), modules_(modules), projection_(runtime) {}
+  /// Outside of cycles and without the structure lock: waits until no thread can see any more what has been in
+  /// the tree and is destroyed now.
+  ~Plan();
 
   /// Checks the changes one after the other, each as if those before had been made, and makes what is
   /// new, beside the tree. All that is wrong goes to `diagnostics`, at `places`, if there are any.
   void Make(const ChangeSet& changes, const std::vector<SourcePosition>& places,
             Diagnostics& diagnostics);
 
-  /// Carries it out. Errors: what could not be foreseen; nothing has changed then. `inverse`, if there
-  /// is one, gets what would take it back.
-  Result<void> Carry(Inverse* inverse);
+  /// Carries it out. `back`, if there is one, gets what would take it back. Errors: what could not be foreseen,
+  /// whatever was thrown; nothing has changed then.
+  Result<void> Carry(Taking* back);
 
   /// The elements whose threads shall stand between two cycles meanwhile.
   [[nodiscard]] const std::vector<std::string>& concerned() const noexcept { return concerned_; }
@@ -52,7 +55,8 @@ class Plan {
   [[nodiscard]] std::vector<Replaced>& replaced() noexcept { return replaced_; }
 
  private:
-  // Undo is called only if Do succeeded and a later step did not. None of them waits for anything.
+  // Undo is called if this step or a later one has failed, and again if it throws itself; it finds out how far
+  // apply, or an earlier undo, has come. None of them waits for anything.
   struct Step {
     std::function<Result<void>()> apply;
     std::function<void()> undo;
@@ -70,6 +74,7 @@ class Plan {
   Result<void> Check(const ReplaceModule& change);
   Result<void> Check(const AssignToThread& change);
 
+  Result<void> Apply(Taking* back, std::size_t& begun);
   Result<UnlistedElement> MakeModule(const std::string& type, const Placement& placement);
   void WarnOfMissingSources(Diagnostics& diagnostics) const;
 
@@ -86,9 +91,11 @@ class Plan {
   const ModuleRegistry& modules_;
   Projection projection_;
   std::vector<Step> steps_;
+  bool has_failed_ = false;  // in carrying it out, so that others may have seen what is new
   std::vector<std::string> concerned_;
   std::vector<FrameworkElement*> made_;
   std::vector<Error> further_errors_;  // of a change that has more than one
+  std::vector<Error> warnings_;
   std::vector<UnlistedElement> removed_;
   std::vector<Replaced> replaced_;
 };

@@ -1,9 +1,12 @@
 #include <memory>
+#include <optional>
 #include <utility>
 
+#include "core/base/characters.h"
 #include "core/base/nearest_name.h"
 #include "core/element/configurable.h"
 #include "core/module/group.h"
+#include "core/plugin/module_type_name.h"
 #include "core/port/proxy_port.h"
 #include "core/types/type_info.h"
 #include "plugins/scheduling/thread_container.h"
@@ -52,6 +55,9 @@ Result<void> Plan::Check(const CreatePort& change) {
     return Error{.message = "there is no data type '" + change.type + "'",
                  .path = change.path,
                  .hint = NearestNameHint(change.type, names)};
+  }
+  if (const std::string fault = UnwritableCharacter(change.description); !fault.empty()) {
+    return Error{.message = "the description contains " + fault, .path = change.path};
   }
   UnlistedElement made(
       std::make_unique<ProxyPort>(*place, change.direction, *type, change.description));
@@ -123,12 +129,14 @@ Result<void> Plan::Check(const SetParameter& change) {
     return error;
   }
   Concern(**found);
-  auto before = std::make_shared<std::string>();
+  auto before = std::make_shared<std::optional<std::string>>();
   steps_.push_back({[parameter, before, value = change.value] {
                       *before = parameter->ToText();
                       return parameter->SetFromText(value);
                     },
-                    [parameter, before] { (void)parameter->SetFromText(*before); },
+                    [parameter, before] {
+                      if (*before) (void)parameter->SetFromText(**before);
+                    },
                     [parameter, path = (*found)->path()](auto&) -> ChangeSet {
                       // The module has been made by this change set, and goes as a whole.
                       if (parameter->info().is_static) return {};
@@ -159,6 +167,11 @@ Result<void> Plan::Check(const ReplaceModule& change) {
       further_errors_.push_back(match.errors[i]);
     return match.errors.front();
   }
+  // Made anew by its own type it is to go on where it was. Another type takes over what it can.
+  const bool is_made_anew = FindModuleType(before) == change.type;
+  for (Error& each : StateRefusals(before, **made)) {
+    (is_made_anew ? further_errors_ : warnings_).push_back(std::move(each));
+  }
   projection_.Replace(before, **made, match.ports);
   made_.push_back(made->get());
   AddReplacement(before, std::move(*made), std::move(match.ports), change);
@@ -188,13 +201,15 @@ Result<void> Plan::Check(const AssignToThread& change) {
   const auto assign = [&element](ThreadContainer* to) {
     to != nullptr ? AssignThread(element, *to) : UnassignThread(element);
   };
-  auto before = std::make_shared<ThreadContainer*>(nullptr);
+  auto before = std::make_shared<std::optional<ThreadContainer*>>();
   steps_.push_back({[=, &element]() -> Result<void> {
                       *before = OwnThread(element);
                       assign(thread);
                       return {};
                     },
-                    [=] { assign(*before); },
+                    [=] {
+                      if (*before) assign(**before);
+                    },
                     [&element](auto&) -> ChangeSet {
                       return {AssignToThread{element.path(), OwnThreadPath(element)}};
                     }});

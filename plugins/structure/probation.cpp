@@ -4,25 +4,26 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/base/exception_text.h"
+#include "core/base/retry.h"
 #include "core/plugin/module_type_name.h"
 #include "plugins/structure/replacement.h"
 
 namespace runnel::internal {
 
-std::vector<UnlistedElement> Probation::Add(std::vector<Replaced> replaced) {
-  std::vector<UnlistedElement> not_kept;
-  for (Replaced& each : replaced) {
-    const auto progress = scheduler_.ProgressOf(each.path);
-    if (each.probation_cycles == 0 || !progress) {
-      not_kept.push_back(std::move(each.before));
-      continue;
+void Probation::Add(std::vector<Replaced>& replaced) {
+  std::vector<std::uint64_t> until(replaced.size(), 0);
+  for (std::size_t i = 0; i < replaced.size(); ++i) {
+    const auto progress = scheduler_.ProgressOf(replaced[i].path);
+    if (progress && replaced[i].probation_cycles > 0) {
+      until[i] = progress->cycles + replaced[i].probation_cycles;
     }
-    Waiting waiting;
-    waiting.until_cycle = progress->cycles + each.probation_cycles;
-    waiting.replaced = std::move(each);
-    waiting_.push_back(std::move(waiting));
   }
-  return not_kept;
+  waiting_.reserve(waiting_.size() + replaced.size());
+  for (std::size_t i = 0; i < replaced.size(); ++i) {
+    if (until[i] > 0) waiting_.push_back({std::move(replaced[i]), until[i]});
+  }
+  std::erase_if(replaced, [](const Replaced& each) { return !each.before; });
 }
 
 FrameworkElement* Probation::Successor(const Waiting& waiting) {
@@ -39,66 +40,82 @@ bool Probation::HasProved(const Waiting& waiting) {
   return !progress || (!progress->is_stopped && progress->cycles > waiting.until_cycle);
 }
 
+// Memory comes before anything is taken out: what is lost on the way would be destroyed while others look at it.
 std::vector<UnlistedElement> Probation::TakeProved() {
-  std::vector<UnlistedElement> proved = std::exchange(proved_, {});
+  proved_.reserve(proved_.size() + waiting_.size());
   for (Waiting& each : waiting_) {
-    if (HasProved(each)) proved.push_back(std::move(each.replaced.before));
+    if (HasProved(each)) proved_.push_back(std::move(each.replaced.before));
   }
   std::erase_if(waiting_, [](const Waiting& each) { return !each.replaced.before; });
-  return proved;
+  return std::exchange(proved_, {});
 }
 
 std::vector<UnlistedElement> Probation::TakeAll() {
-  std::vector<UnlistedElement> all = std::exchange(proved_, {});
-  for (Waiting& each : waiting_) all.push_back(std::move(each.replaced.before));
+  proved_.reserve(proved_.size() + waiting_.size());
+  for (Waiting& each : waiting_) proved_.push_back(std::move(each.replaced.before));
   waiting_.clear();
-  return all;
+  return std::exchange(proved_, {});
 }
 
 std::optional<std::string> Probation::Answer(const Fault& fault) {
   const auto found = std::ranges::find_if(
       waiting_, [&](const Waiting& each) { return each.replaced.path == fault.path; });
   if (found == waiting_.end() || Successor(*found) == nullptr) return {};
-  Waiting waiting = std::move(*found);
-  waiting_.erase(found);
-  if (fault.cycle > waiting.until_cycle) {
-    proved_.push_back(std::move(waiting.replaced.before));
+  if (fault.cycle > found->until_cycle) {
+    proved_.reserve(proved_.size() + 1);
+    proved_.push_back(std::move(found->replaced.before));
+    waiting_.erase(found);
     return {};
   }
-  const std::string before = FindModuleType(*waiting.replaced.before);
-  auto gone = PutBack(std::move(waiting));
+  const std::string before = FindModuleType(*found->replaced.before);
+  std::string done =
+      "the module before (" + (before.empty() ? "made by code" : before) + ") is back in its place";
+  auto gone = PutBack(*found);
   if (!gone) {
     throw std::runtime_error("the module before could not be put back: " + gone.error().ToString());
   }
+  waiting_.erase(found);
   runtime_.Destroy(std::move(*gone));
-  return "the module before (" + (before.empty() ? "made by code" : before) +
-         ") is back in its place";
+  return done;
 }
 
-Result<UnlistedElement> Probation::PutBack(Waiting waiting) {
+// Leaves `waiting` as it is if it fails.
+Result<UnlistedElement> Probation::PutBack(Waiting& waiting) {
   const std::string& path = waiting.replaced.path;
   auto hold = scheduler_.HoldCycles({path}, patience_);
-  if (!hold) {
-    waiting_.push_back(std::move(waiting));
-    return hold.error();
-  }
+  if (!hold) return hold.error();
   const ChangeScope all_at_once(runtime_);
   FrameworkElement* const after = Successor(waiting);
   if (after == nullptr) return std::move(waiting.replaced.before);
   const auto& siblings = after->parent()->children();
   const auto next = std::next(std::ranges::find(siblings, after));
   const FrameworkElement* const place = next == siblings.end() ? nullptr : *next;
-  FrameworkElement& before = *waiting.replaced.before;
   // Connections may have changed meanwhile: what the old module has no port for goes with the new one.
-  const PortMatch match = MatchPorts(*after, before, [](const Port&) { return false; });
+  const PortMatch match =
+      MatchPorts(*after, *waiting.replaced.before, [](const Port&) { return false; });
   auto gone = runtime_.Unlist(*after);
-  if (!gone) {
-    waiting_.push_back(std::move(waiting));
-    return gone.error();
+  if (!gone) return gone.error();
+  std::size_t moved = 0;
+  try {
+    for (const auto& [from, to] : match.ports) {
+      to->TakeOver(*from);
+      ++moved;
+    }
+    if (auto listed = runtime_.List(std::move(waiting.replaced.before), place); !listed) {
+      throw ElementError(listed.error());
+    }
+    return gone;
+  } catch (...) {
+    Error error{.message = DescribeException(), .path = path};
+    Retry([&] {
+      for (; moved > 0; --moved) {
+        const auto& [from, to] = match.ports[moved - 1];
+        from->TakeOver(*to);
+      }
+      (void)runtime_.List(std::move(*gone), place);
+    });
+    return error;
   }
-  for (const auto& [from, to] : match.ports) to->TakeOver(*from);
-  (void)runtime_.List(std::move(waiting.replaced.before), place);
-  return gone;
 }
 
 }  // namespace runnel::internal

@@ -20,8 +20,9 @@ class Probation {
   Probation(Runtime& runtime, Scheduler& scheduler, Duration patience)
       : runtime_(runtime), scheduler_(scheduler), patience_(patience) {}
 
-  /// Returns what need not be kept.
-  [[nodiscard]] std::vector<UnlistedElement> Add(std::vector<Replaced> replaced);
+  /// Takes those that are to be kept; the rest stays in `replaced`. Throws for lack of memory, and has taken
+  /// nothing then.
+  void Add(std::vector<Replaced>& replaced);
   /// Takes out those whose successors have proved themselves, or are gone.
   [[nodiscard]] std::vector<UnlistedElement> TakeProved();
   [[nodiscard]] std::vector<UnlistedElement> TakeAll();
@@ -38,7 +39,7 @@ class Probation {
 
   [[nodiscard]] FrameworkElement* Successor(const Waiting& waiting);
   [[nodiscard]] bool HasProved(const Waiting& waiting);
-  Result<UnlistedElement> PutBack(Waiting waiting);
+  Result<UnlistedElement> PutBack(Waiting& waiting);
 
   Runtime& runtime_;
   Scheduler& scheduler_;

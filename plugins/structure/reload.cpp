@@ -3,6 +3,7 @@
 #include <mutex>
 #include <optional>
 
+#include "core/base/exception_text.h"
 #include "core/plugin/module_type_name.h"
 
 namespace runnel {
@@ -23,26 +24,27 @@ ChangeSet AllAnew(const ModuleRegistry& modules, FrameworkElement& root, std::st
 
 ChangeOutcome ReloadPlugin(PluginManager& plugins, StructureEditor& editor, Runtime& runtime,
                            std::string_view plugin) {
-  ChangeSet changes;
   std::optional<PluginReload> reload;
-  {
-    const std::lock_guard lock(runtime.structure_mutex());
-    changes = AllAnew(plugins.modules(), runtime.root(), plugin);
-    auto loaded = plugins.Reload(plugin);
-    if (!loaded) {
-      ChangeOutcome outcome;
-      outcome.diagnostics.Add(loaded.error());
-      return outcome;
+  ChangeOutcome outcome;
+  try {
+    ChangeSet changes;
+    {
+      const std::lock_guard lock(runtime.structure_mutex());
+      changes = AllAnew(plugins.modules(), runtime.root(), plugin);
+      auto loaded = plugins.Reload(plugin);
+      if (!loaded) {
+        outcome.diagnostics.Add(loaded.error());
+        return outcome;
+      }
+      reload.emplace(std::move(*loaded));
     }
-    reload.emplace(std::move(*loaded));
+    outcome = editor.Apply(changes);
+  } catch (...) {
+    outcome.diagnostics.Add({.message = DescribeException()});
   }
-  ChangeOutcome outcome = editor.Apply(changes);
   const std::lock_guard lock(runtime.structure_mutex());
-  if (outcome) {
-    reload->Keep();
-  } else {
-    reload->PutBack();
-  }
+  if (reload && outcome.is_done) reload->Keep();
+  reload.reset();
   return outcome;
 }
 

@@ -1,9 +1,9 @@
 #include "plugins/structure/replacement.h"
 
 #include <algorithm>
-#include <exception>
 #include <string>
 
+#include "core/base/exception_text.h"
 #include "core/base/nearest_name.h"
 #include "core/element/configurable.h"
 #include "core/module/kept_state.h"
@@ -116,14 +116,23 @@ PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after,
   return result;
 }
 
+std::vector<Error> StateRefusals(const FrameworkElement& before, const FrameworkElement& after) {
+  const auto* const from = before.FindAnnotation<KeptState>();
+  const auto* const to = after.FindAnnotation<KeptState>();
+  if (from == nullptr || to == nullptr) return {};
+  std::vector<Error> refusals = to->Refusals(*from);
+  for (Error& each : refusals) each.path = after.path();
+  return refusals;
+}
+
 Result<void> CopyState(const FrameworkElement& before, FrameworkElement& after) {
   const auto* const from = before.FindAnnotation<KeptState>();
   auto* const to = after.FindAnnotation<KeptState>();
   if (from == nullptr || to == nullptr) return {};
   try {
     to->TakeOver(*from);
-  } catch (const std::exception& exception) {
-    return Error{.message = std::string("its state could not be handed over: ") + exception.what(),
+  } catch (...) {
+    return Error{.message = "its state could not be handed over: " + DescribeException(),
                  .path = after.path()};
   }
   return {};

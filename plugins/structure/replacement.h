@@ -39,7 +39,11 @@ struct PortMatch {
 [[nodiscard]] PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after,
                                    const std::function<bool(const Port&)>& is_connected);
 
-/// Copies the kept states. Neither module runs. Errors: what copying throws.
+/// Which kept states of `before` cannot be handed over to `after`, and why.
+[[nodiscard]] std::vector<Error> StateRefusals(const FrameworkElement& before,
+                                               const FrameworkElement& after);
+
+/// Hands over the kept states that can be. Neither module runs. Errors: what copying throws.
 Result<void> CopyState(const FrameworkElement& before, FrameworkElement& after);
 
 }  // namespace runnel::internal

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "core/base/check.h"
+#include "core/base/exception_text.h"
 #include "core/lockfree/thread_epoch.h"
-#include "plugins/structure/inverse.h"
 #include "plugins/structure/plan.h"
 #include "plugins/structure/probation.h"
 
@@ -17,19 +17,9 @@ namespace {
 // How often others may change the structure between checking and carrying out before it is given up.
 constexpr int kAttempts = 100;
 
-void Append(std::vector<UnlistedElement>& to, std::vector<UnlistedElement> from) {
-  for (UnlistedElement& each : from) to.push_back(std::move(each));
-}
-
 void CheckTaking(const internal::Taking& taking, Runtime& runtime, Diagnostics& diagnostics) {
   const auto possible = internal::CheckExpected(taking.changes, taking.expected, runtime.root());
   if (!possible) diagnostics.Add(possible.error());
-}
-
-internal::Taking TakingOf(internal::Inverse inverse, Runtime& runtime) {
-  internal::Taking taking{inverse.All(), {}, std::move(inverse.why_not)};
-  taking.expected = internal::WhatIsThere(taking.changes, runtime.root());
-  return taking;
 }
 
 }  // namespace
@@ -84,12 +74,22 @@ ChangeOutcome StructureEditor::Apply(const Order& order) {
                "structure lock");
   const std::lock_guard lock(shared_->mutex);
   ChangeOutcome outcome;
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    outcome = {};
-    if (Try(order, outcome) != Attempt::kOvertaken) return outcome;
+  try {
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+      outcome = {};
+      if (Try(order, outcome) != Attempt::kOvertaken) return outcome;
+    }
+    outcome.diagnostics.Add({.message = "others change the structure all the time; gave up after " +
+                                        std::to_string(kAttempts) + " attempts"});
+  } catch (...) {
+    // What has been done by then is done as a whole, and stays.
+    Error error{.message = DescribeException()};
+    if (outcome.is_done) {
+      outcome.diagnostics.AddWarning(std::move(error));
+    } else {
+      outcome.diagnostics.Add(std::move(error));
+    }
   }
-  outcome.diagnostics.Add({.message = "others change the structure all the time; gave up after " +
-                                      std::to_string(kAttempts) + " attempts"});
   return outcome;
 }
 
@@ -122,27 +122,23 @@ StructureEditor::Attempt StructureEditor::Try(const Order& order, ChangeOutcome&
       return Attempt::kOvertaken;
     }
     if (runtime_.revision() != revision) return Attempt::kOvertaken;
-    internal::Inverse inverse;
-    if (auto carried = plan.Carry(order.back != nullptr ? &inverse : nullptr); !carried) {
+    if (auto carried = plan.Carry(order.back); !carried) {
       outcome.diagnostics.Add(carried.error());
       outcome.is_refused = true;
       return Attempt::kFailed;
     }
-    if (order.back != nullptr) *order.back = TakingOf(std::move(inverse), runtime_);
   }
   outcome.is_done = true;
   if (hold) {
     outcome.stood_still = SteadyClock().Now() - hold->began();
     hold->Release();
   }
-  std::vector<UnlistedElement> gone = std::move(plan.removed());
+  runtime_.Destroy(std::move(plan.removed()));
   if (shared_->probation) {
-    Append(gone, shared_->probation->TakeProved());
-    Append(gone, shared_->probation->Add(std::move(plan.replaced())));
-  } else {
-    for (auto& each : plan.replaced()) gone.push_back(std::move(each.before));
+    runtime_.Destroy(shared_->probation->TakeProved());
+    shared_->probation->Add(plan.replaced());
   }
-  runtime_.Destroy(std::move(gone));
+  for (internal::Replaced& each : plan.replaced()) runtime_.Destroy(std::move(each.before));
   return Attempt::kDone;
 }
 

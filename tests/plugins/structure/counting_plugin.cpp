@@ -1,7 +1,9 @@
 // One plugin in several versions, for being loaded anew. VERSION 1 counts by one, 2 by ten; the others are
 // wrong in one way each.
 
+#include <optional>
 #include <stdexcept>
+#include <vector>
 
 #include "core/module/module.h"
 #include "core/plugin/plugin_entry.h"
@@ -24,16 +26,41 @@ inline void Describe(TypeBuilder<Tally>& type) {
   type.Name("test::Tally").Field(Tally::kField, &Tally::value);
 }
 
-/// Publishes how far it has counted; what it keeps is of the same type in all versions.
+/// A kept state.
+struct Count {
+  int value = 0;
+};
+inline void Describe(TypeBuilder<Count>& type) {
+  type.Name("test::Count").Field("value", &Count::value);
+}
+
+/// What a kept list consists of.
+struct Mark {
+  int number = 0;
+  int squared = 0;
+#if VERSION == 7
+  int another_field = 0;
+#endif
+};
+#if VERSION != 8
+inline void Describe(TypeBuilder<Mark>& type) {
+  type.Name("test::Mark").Field("number", &Mark::number).Field("squared", &Mark::squared);
+}
+#endif
+
+/// Publishes how far it has counted, and how many marks it has made, one a cycle; both are kept.
 class Counting final : public Module {
  public:
-  explicit Counting(const Placement& placement) : Module(placement) { KeepState(count_); }
+  explicit Counting(const Placement& placement) : Module(placement) {
+    KeepState(count_);
+    KeepState(marks_);
+    KeepState(last_mark_);
+  }
   Output<Tally> out{this, "out"};
+  Output<int> marks{this, "marks"};
+  Output<int> sum_of_marks{this, "sum_of_marks"};
 
  private:
-  struct Count {
-    int value = 0;
-  };
   void Update() override {
 #if VERSION == 2
     count_.value += 10;
@@ -43,8 +70,17 @@ class Counting final : public Module {
     Tally tally;
     tally.value = count_.value;
     out.Publish(tally);
+    const int number = static_cast<int>(marks_.size()) + 1;
+    last_mark_ = {number, number * number};
+    marks_.push_back(*last_mark_);
+    int sum = 0;
+    for (const Mark& each : marks_) sum += each.squared;
+    marks.Publish(number);
+    sum_of_marks.Publish(sum);
   }
   Count count_;
+  std::vector<Mark> marks_;
+  std::optional<Mark> last_mark_;
 };
 
 }  // namespace runnel::test

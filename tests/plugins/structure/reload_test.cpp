@@ -43,10 +43,10 @@ class ReloadTest : public ::testing::Test {
   }
   void Steps(int count) { scheduler.RunUntil(runtime.clock().Now() + count * 10ms); }
   /// What the module has published last.
-  int Value(const std::string& module) {
+  int Value(const std::string& module, const std::string& output = "out") {
     int value = -1;
     const std::lock_guard lock(runtime.structure_mutex());
-    auto& port = dynamic_cast<Port&>(**runtime.root().Find(module + "/output/out"));
+    auto& port = dynamic_cast<Port&>(**runtime.root().Find(module + "/output/" + output));
     // The first member, in all versions.
     port.LookAtValue([&](const void* at, Time) { value = *static_cast<const int*>(at); });
     return value;
@@ -96,6 +96,41 @@ TEST_F(ReloadTest, WhatIsRefusedLeavesTheOldCodeRunning) {
   EXPECT_EQ(Value("/app/a"), 2);
   ASSERT_TRUE(editor.Apply({CreateModule{"/app/c", "counting/counting"}}));
   EXPECT_EQ(plugins.modules().Find("counting/renamed"), nullptr);
+}
+
+TEST_F(ReloadTest, AListThatIsKeptGoesOverWithItsElements) {
+  Start();
+  Steps(100);
+  Build("2");
+  const auto outcome = ReloadPlugin(plugins, editor, runtime, "counting");
+  ASSERT_TRUE(outcome) << outcome.diagnostics.ToString();
+  EXPECT_THAT(outcome.diagnostics.warnings(), IsEmpty());
+  Steps(1);
+  EXPECT_EQ(Value("/app/a", "marks"), 101);
+  EXPECT_EQ(Value("/app/a", "sum_of_marks"), 101 * 102 * 203 / 6);
+}
+
+TEST_F(ReloadTest, AStateWhoseElementsHaveGotAFieldIsRefused) {
+  Start();
+  Steps(100);
+  const std::string refusal = Refusal("7");
+  EXPECT_THAT(refusal, HasSubstr("/app/a: the kept state 'std::vector<runnel::test::Mark"));
+  EXPECT_THAT(refusal,
+              HasSubstr("a library knows the type 'test::Mark' otherwise (its values have 12 bytes "
+                        "there, and 8 elsewhere"));
+  Steps(1);
+  EXPECT_EQ(Value("/app/a", "marks"), 101) << "the old code runs on";
+  ASSERT_TRUE(editor.Apply({DeleteElement{"/app/a"}, DeleteElement{"/app/b"}}));
+  EXPECT_TRUE(ReloadPlugin(plugins, editor, runtime, "counting")) << "nobody has such a state";
+}
+
+TEST_F(ReloadTest, AStateWithoutADescriptionIsRefused) {
+  Start();
+  Steps(3);
+  EXPECT_THAT(Refusal("8"), HasSubstr("cannot be handed over to another library: its type has no "
+                                      "description; write a Describe("));
+  Steps(1);
+  EXPECT_EQ(Value("/app/a", "marks"), 4);
 }
 
 TEST_F(ReloadTest, NoCopyOfTheLibraryIsLeftBehind) {

@@ -1,0 +1,118 @@
+// A plugin is loaded, and loaded anew, or everything is as it was, wherever memory runs out.
+
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+
+#include "plugins/structure/reload.h"
+#include "tests/plugins/structure/editor_fixture.h"
+#include "tests/support/fault_injection.h"
+#include "tests/support/temporary_folder.h"
+
+namespace runnel::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// An application with two modules of a plugin, the library of which has been built anew meanwhile: from now on it
+/// counts by ten.
+class ReloadWorld {
+ public:
+  ReloadWorld() {
+    Put("1");
+    plugins.AddSearchFolder(folder_.path());
+    Must(plugins.Load("counting"));
+    CreateThread(runtime, "main", {.period = 10ms});
+    Must(runtime.MakeReady(runtime.root()));
+    Must(editor.Apply({CreateGroup{"/app"}, CreateModule{"/app/a", "counting/counting"},
+                       CreateModule{"/app/b", "counting/counting"}}));
+    Run();
+    Put("2");
+  }
+  template <typename Outcome>
+  static void Must(const Outcome& outcome) {
+    if (!outcome) throw std::runtime_error("the world of the test cannot be made");
+  }
+  void Run() { Must(scheduler.RunUntil(runtime.clock().Now() + 20ms)); }
+  int Value(const std::string& module) {
+    int value = -1;
+    const std::lock_guard lock(runtime.structure_mutex());
+    auto& port = dynamic_cast<Port&>(**runtime.root().Find(module + "/output/out"));
+    // The first member, in all versions.
+    port.LookAtValue([&](const void* at, Time) { value = *static_cast<const int*>(at); });
+    return value;
+  }
+  std::string Dump() {
+    const std::lock_guard lock(runtime.structure_mutex());
+    std::string text;
+    runtime.root().Visit([&](FrameworkElement& each) {
+      text +=
+          each.path() + " #" + std::to_string(each.serial()) + " " + FindModuleType(each) + "\n";
+    });
+    for (const ModuleType* type : plugins.modules().All())
+      text += type->name + " of " + type->plugin + "\n";
+    return text + std::to_string(plugins.loaded().size()) + " plugins";
+  }
+
+  PluginManager plugins;
+  Runtime runtime;
+  Scheduler scheduler{runtime, {.clock = SchedulerOptions::ClockKind::kSimulated}};
+  StructureEditor editor{runtime, plugins.modules(), &scheduler};
+
+ private:
+  void Put(const std::string& version) {
+    fs::copy_file(fs::path(RUNNEL_TEST_PLUGINS) / ("counting_" + version + ".so"), folder_ / "new");
+    fs::rename(folder_ / "new", folder_ / "counting.so");
+  }
+  TemporaryFolder folder_;
+};
+
+TEST(ReloadFaultsTest, APluginIsLoadedAnewOrNot) {
+  auto world = std::make_unique<ReloadWorld>();
+  std::string dump = world->Dump();
+  ChangeOutcome outcome;
+  AtEachPoint(
+      InjectedFault::kAllocation,
+      [&] { outcome = ReloadPlugin(world->plugins, world->editor, world->runtime, "counting"); },
+      [&](bool has_struck) {
+        if (!has_struck) {
+          ASSERT_TRUE(outcome) << outcome.diagnostics.ToString();
+        }
+        const int before = world->Value("/app/a");
+        if (!outcome) {
+          ASSERT_EQ(world->Dump(), dump) << outcome.diagnostics.ToString();
+        }
+        world->Run();
+        ASSERT_EQ(world->Value("/app/a"), before + (outcome ? 20 : 2))
+            << outcome.diagnostics.ToString();
+        ASSERT_EQ(world->Value("/app/b"), world->Value("/app/a"));
+        if (!outcome) return;
+        world = std::make_unique<ReloadWorld>();
+        dump = world->Dump();
+      });
+}
+
+TEST(ReloadFaultsTest, APluginIsLoadedOrNot) {
+  TemporaryFolder folder;
+  fs::copy_file(fs::path(RUNNEL_TEST_PLUGINS) / "counting_1.so", folder / "counting.so");
+  Result<void> loaded;
+  std::unique_ptr<PluginManager> plugins;
+  const auto make = [&] {
+    plugins = std::make_unique<PluginManager>();
+    plugins->AddSearchFolder(folder.path());
+  };
+  make();
+  AtEachPoint(
+      InjectedFault::kAllocation, [&] { loaded = plugins->Load("counting"); },
+      [&](bool has_struck) {
+        if (!has_struck) {
+          ASSERT_TRUE(loaded) << loaded.error().ToString();
+        }
+        ASSERT_EQ(plugins->loaded().size(), loaded ? 1u : 0u);
+        ASSERT_EQ(plugins->modules().All().size(), loaded ? 1u : 0u);
+        if (loaded) make();
+      });
+}
+
+}  // namespace
+}  // namespace runnel::test
