@@ -2,11 +2,12 @@
 
 #include <array>
 #include <cerrno>
-#include <exception>
 
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
+
+#include "plugins/command_service/caught_error.h"
 
 namespace runnel {
 
@@ -94,7 +95,7 @@ void ClientConnection::Flush() {
   sent_ = 0;
 }
 
-void ClientConnection::Begin(const ControlledApplication& application, ChangeWorker& worker) {
+void ClientConnection::Begin(CommandService& service, TaskGroup& tasks) {
   const auto frame = reader_.Take();
   if (!frame) return Refuse(frame.error());
   may_have_request_ = frame->has_value();
@@ -102,7 +103,7 @@ void ClientConnection::Begin(const ControlledApplication& application, ChangeWor
   if ((*frame)->kind != "request") {
     return Refuse({.message = "a frame '" + (*frame)->kind + "' where a 'request' should be"});
   }
-  auto command = MakeCommand((*frame)->payload, application, worker);
+  auto command = MakeCommand((*frame)->payload, service, tasks);
   if (command) {
     command_ = std::move(*command);
   } else {
@@ -111,17 +112,17 @@ void ClientConnection::Begin(const ControlledApplication& application, ChangeWor
   }
 }
 
-void ClientConnection::Work(const ControlledApplication& application, ChangeWorker& worker) {
+void ClientConnection::Work(CommandService& service, TaskGroup& tasks) {
   if (is_broken_ || is_refused_ || backlog() >= kBacklog) return;
   try {
-    if (command_ == nullptr) Begin(application, worker);
+    if (command_ == nullptr) Begin(service, tasks);
     if (command_ == nullptr || command_->due() > std::chrono::steady_clock::now()) return Flush();
     if (const auto code = command_->Continue(*this)) {
       command_.reset();
       SendEnd(*code);
     }
-  } catch (const std::exception& exception) {  // of a type's text form, or for want of memory
-    Refuse({.message = exception.what()});
+  } catch (...) {  // of a type's text form, or for want of memory
+    Refuse(CaughtError());
   }
   Flush();
 }

@@ -44,7 +44,7 @@ class ClientConnection final : private Answer {
   /// Poll has told that there is something to do.
   void OnEvents(short events);
   /// Begins and continues what can be.
-  void Work(const ControlledApplication& application, ChangeWorker& worker);
+  void Work(CommandService& service, TaskGroup& tasks);
   /// The application ends: tells the client if it waits for an answer.
   void Finish();
 
@@ -54,7 +54,7 @@ class ClientConnection final : private Answer {
 
   void Read();
   void Flush();
-  void Begin(const ControlledApplication& application, ChangeWorker& worker);
+  void Begin(CommandService& service, TaskGroup& tasks);
   [[nodiscard]] std::size_t backlog() const noexcept { return out_.size() - sent_; }
 
   const int descriptor_;

@@ -15,14 +15,18 @@ struct CommandKind {
   std::size_t least_words;
   std::size_t most_words;
   std::vector<std::string> options;
-  std::function<CommandResult(const Request&, const ControlledApplication&, ChangeWorker&)> make;
+  std::function<CommandResult(const Request&, CommandService&, TaskGroup&)> make;
 };
 
 // For those that need no worker.
-auto Alone(CommandResult (*make)(const Request&, const ControlledApplication&)) {
-  return [make](const Request& request, const ControlledApplication& application, ChangeWorker&) {
-    return make(request, application);
+auto Alone(CommandResult (*make)(const Request&, const ServedApplication&)) {
+  return [make](const Request& request, CommandService& service, TaskGroup&) {
+    return make(request, service.application());
   };
+}
+
+CommandResult MakeRecord(const Request& request, CommandService& service, TaskGroup& tasks) {
+  return MakeRecordCommand(request, service.application(), tasks);
 }
 
 constexpr std::size_t kMostPatterns = 1000;
@@ -35,16 +39,16 @@ const std::vector<CommandKind>& Kinds() {
       {"echo", 1, 1, {"count", "full"}, Alone(MakeEchoCommand)},
       {"hz", 1, 1, {"count"}, Alone(MakeRateCommand)},
       {"log", 0, 0, {"follow"}, Alone(MakeLogCommand)},
-      {"change", 0, 0, {"file"}, MakeChangeCommand},
-      {"undo", 0, 0, {}, MakeUndoCommand},
-      {"redo", 0, 0, {}, MakeRedoCommand},
-      {"save", 0, 1, {}, MakeSaveCommand},
+      {"change", 0, 0, {"file"}, MakeServiceCommand},
+      {"undo", 0, 0, {}, MakeServiceCommand},
+      {"redo", 0, 0, {}, MakeServiceCommand},
+      {"save", 0, 1, {}, MakeServiceCommand},
       {"pause", 0, 0, {}, Alone(MakePauseCommand)},
       {"resume", 0, 0, {}, Alone(MakeResumeCommand)},
       {"step", 0, 1, {}, Alone(MakeStepCommand)},
       {"speed", 0, 1, {}, Alone(MakeSpeedCommand)},
-      {"reload", 1, 1, {}, MakeReloadCommand},
-      {"record", 0, kMostPatterns, {"file", "count", "compression"}, MakeRecordCommand},
+      {"reload", 1, 1, {}, MakeServiceCommand},
+      {"record", 0, kMostPatterns, {"file", "count", "compression"}, MakeRecord},
   };
   return kinds;
 }
@@ -67,8 +71,7 @@ Result<void> CheckWords(const Request& request, const CommandKind& kind) {
 
 }  // namespace
 
-CommandResult MakeCommand(const std::string& text, const ControlledApplication& application,
-                          ChangeWorker& worker) {
+CommandResult MakeCommand(const std::string& text, CommandService& service, TaskGroup& tasks) {
   const auto request = Request::Parse(text);
   if (!request) return request.error();
   const auto kind = std::ranges::find(Kinds(), request->command, &CommandKind::name);
@@ -79,7 +82,7 @@ CommandResult MakeCommand(const std::string& text, const ControlledApplication& 
                  .hint = NearestNameHint(request->command, names)};
   }
   if (auto good = CheckWords(*request, *kind); !good) return good.error();
-  return kind->make(*request, application, worker);
+  return kind->make(*request, service, tasks);
 }
 
 std::string ErrorLine(const Error& error) {

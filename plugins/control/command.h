@@ -7,46 +7,10 @@
 #include <string>
 #include <string_view>
 
-#include "core/element/runtime.h"
-#include "core/plugin/module_registry.h"
-#include "plugins/control/change_worker.h"
-#include "plugins/control/control_log.h"
-#include "plugins/control/recording_hook.h"
+#include "plugins/command_service/command_service.h"
 #include "plugins/control/request.h"
-#include "plugins/structure/structure_editor.h"
 
 namespace runnel {
-
-class ChangeHistory;
-class Pace;
-
-/// What a program may give to clients besides looking at the structure and changing it.
-struct ControlHooks {
-  /// Loads a plugin, under the structure lock: change sets may name types of plugins that are not
-  /// loaded yet. Optional.
-  std::function<Result<void>(const std::string& plugin)> load_plugin = {};
-  /// Saves the structure into the file ("": the one that it came from) and says what was done.
-  /// Optional. Called by a thread of the server.
-  std::function<Result<std::string>(const std::string& file)> save = {};
-  /// Loads a plugin anew, makes its modules anew, and says what was done. Optional. Called by a thread of
-  /// the server.
-  std::function<Result<std::string>(const std::string& plugin)> reload = {};
-  /// Records ports until the client goes. Optional. Called by a thread of the server.
-  RecordingHook record = {};
-};
-
-/// What commands work on. All of it outlives the server.
-struct ControlledApplication {
-  Runtime& runtime;
-  const ModuleRegistry& modules;
-  StructureEditor& editor;
-  ControlLog& log;
-  ControlHooks hooks = {};
-  /// Changes go through it, so that they can be undone. Optional.
-  ChangeHistory* history = nullptr;
-  /// Of the scheduler that runs the application. Optional.
-  Pace* pace = nullptr;
-};
 
 /// How a command ended: the exit codes of the program.
 enum class ControlCode : int {
@@ -73,48 +37,50 @@ class Command {
   using MachineTime = std::chrono::steady_clock::time_point;
 
   virtual ~Command() = default;
-  /// Does what can be done now. How it ended; nothing: call it again when due() has come, or the
-  /// worker has done something, and what it has written is on its way.
+  /// Does what can be done now. How it ended; nothing: call it again when due() has come, and what it
+  /// has written is on its way.
   virtual std::optional<ControlCode> Continue(Answer& answer) = 0;
-  [[nodiscard]] MachineTime due() const noexcept { return due_; }
+  /// The past if it waits for a task that is done by now: the task group tells when that may be.
+  [[nodiscard]] MachineTime due() const noexcept {
+    if (task_ == nullptr) return due_;
+    return task_->is_done() ? MachineTime::min() : MachineTime::max();
+  }
 
  protected:
-  void ContinueIn(Duration duration) { due_ = std::chrono::steady_clock::now() + duration; }
+  void ContinueIn(Duration duration) {
+    due_ = std::chrono::steady_clock::now() + duration;
+    task_ = nullptr;
+  }
+  void ContinueAfter(std::shared_ptr<const WorkerTask> task) { task_ = std::move(task); }
 
  private:
   MachineTime due_{};
+  std::shared_ptr<const WorkerTask> task_;
 };
 
 /// The command that the request names. Errors: there is none, or its words are wrong.
 [[nodiscard]] Result<std::unique_ptr<Command>> MakeCommand(const std::string& request,
-                                                           const ControlledApplication& application,
-                                                           ChangeWorker& worker);
+                                                           CommandService& service,
+                                                           TaskGroup& tasks);
 
 // Their makers.
 using CommandResult = Result<std::unique_ptr<Command>>;
-[[nodiscard]] CommandResult MakeListCommand(const Request&, const ControlledApplication&);
-[[nodiscard]] CommandResult MakePathsCommand(const Request&, const ControlledApplication&);
-[[nodiscard]] CommandResult MakeTypesCommand(const Request&, const ControlledApplication&);
-[[nodiscard]] CommandResult MakeEchoCommand(const Request&, const ControlledApplication&);
-[[nodiscard]] CommandResult MakeRateCommand(const Request&, const ControlledApplication&);
-[[nodiscard]] CommandResult MakeLogCommand(const Request&, const ControlledApplication&);
-[[nodiscard]] CommandResult MakeChangeCommand(const Request&, const ControlledApplication&,
-                                              ChangeWorker&);
-[[nodiscard]] CommandResult MakeSaveCommand(const Request&, const ControlledApplication&,
-                                            ChangeWorker&);
-[[nodiscard]] CommandResult MakeReloadCommand(const Request&, const ControlledApplication&,
-                                              ChangeWorker&);
-[[nodiscard]] CommandResult MakeUndoCommand(const Request&, const ControlledApplication&,
-                                            ChangeWorker&);
-[[nodiscard]] CommandResult MakeRedoCommand(const Request&, const ControlledApplication&,
-                                            ChangeWorker&);
-[[nodiscard]] CommandResult MakeRecordCommand(const Request&, const ControlledApplication&,
-                                              ChangeWorker&);
-[[nodiscard]] CommandResult MakePauseCommand(const Request&, const ControlledApplication&);
-[[nodiscard]] CommandResult MakeResumeCommand(const Request&, const ControlledApplication&);
-[[nodiscard]] CommandResult MakeStepCommand(const Request&, const ControlledApplication&);
-[[nodiscard]] CommandResult MakeSpeedCommand(const Request&, const ControlledApplication&);
+[[nodiscard]] CommandResult MakeListCommand(const Request&, const ServedApplication&);
+[[nodiscard]] CommandResult MakePathsCommand(const Request&, const ServedApplication&);
+[[nodiscard]] CommandResult MakeTypesCommand(const Request&, const ServedApplication&);
+[[nodiscard]] CommandResult MakeEchoCommand(const Request&, const ServedApplication&);
+[[nodiscard]] CommandResult MakeRateCommand(const Request&, const ServedApplication&);
+[[nodiscard]] CommandResult MakeLogCommand(const Request&, const ServedApplication&);
+[[nodiscard]] CommandResult MakePauseCommand(const Request&, const ServedApplication&);
+[[nodiscard]] CommandResult MakeResumeCommand(const Request&, const ServedApplication&);
+[[nodiscard]] CommandResult MakeStepCommand(const Request&, const ServedApplication&);
+[[nodiscard]] CommandResult MakeSpeedCommand(const Request&, const ServedApplication&);
+[[nodiscard]] CommandResult MakeRecordCommand(const Request&, const ServedApplication&, TaskGroup&);
+/// Of those that the service carries out. Errors: the changes cannot be read.
+[[nodiscard]] CommandResult MakeServiceCommand(const Request&, CommandService&, TaskGroup&);
 
+/// The errors and warnings as lines, the first hundred of each.
+[[nodiscard]] std::string DiagnosticsText(const Diagnostics& all);
 /// "path: error: message; hint" with an end of line.
 [[nodiscard]] std::string ErrorLine(const Error& error);
 

@@ -1,9 +1,12 @@
 #include "plugins/control/control_folder.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <charconv>
 #include <chrono>
+#include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <string>
@@ -24,6 +27,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kEnding = ".sock";
+// Of a socket that is bound and to which nobody listens yet: not to be taken for one that was left.
+constexpr const char* kStartingEnding = ".starting";
 constexpr int kMostSocketsOfAProcess = 100;
 constexpr int kWaitingConnections = 64;
 constexpr int kMostTries = 2'000;
@@ -78,6 +83,8 @@ std::pair<long, std::string> OrderOf(const fs::path& path) {
   return {process, name};
 }
 
+bool IsAlive(long process) { return kill(static_cast<pid_t>(process), 0) == 0 || errno != ESRCH; }
+
 Result<void> CheckStatus(const fs::path& folder, const struct stat& status) {
   if (!S_ISDIR(status.st_mode)) return Untrusted(folder, "is not a folder");
   if (status.st_uid != geteuid()) return Untrusted(folder, "belongs to another user");
@@ -85,11 +92,18 @@ Result<void> CheckStatus(const fs::path& folder, const struct stat& status) {
   return {};
 }
 
+// A name that no other socket has, not even of another thread of this process.
+fs::path StartingPath(const fs::path& folder) {
+  static std::atomic<std::uint64_t> number{0};
+  return folder / (std::to_string(getpid()) + "-" + std::to_string(++number) + kStartingEnding);
+}
+
 // The socket is its owner's from the first moment on.
 Result<void> BindForOwner(int descriptor, const fs::path& path) {
   const auto address = AddressOf(path);
   if (!address) return address.error();
   if (fchmod(descriptor, 0600) != 0) return SystemError("its mode cannot be set", path);
+  unlink(path.c_str());  // a process that had the same number may have left one
   if (bind(descriptor, reinterpret_cast<const sockaddr*>(&*address), sizeof *address) != 0) {
     return SystemError("no socket can be made there", path);
   }
@@ -128,6 +142,9 @@ Result<std::vector<fs::path>> FindControlSockets(const fs::path& folder) {
   std::vector<fs::path> sockets;
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(folder, none)) {
+    if (entry.path().extension() == kStartingEnding && !IsAlive(OrderOf(entry.path()).first)) {
+      unlink(entry.path().c_str());
+    }
     if (entry.path().extension() != kEnding || !entry.is_socket(none)) continue;
     if (IsStale(entry.path())) {
       unlink(entry.path().c_str());
@@ -170,11 +187,20 @@ Result<ListeningSocket> ListenInFolder(const fs::path& folder) {
       continue;
     const int descriptor = OpenSocket();
     if (descriptor < 0) return SystemError("no socket can be made", path);
-    if (auto bound = BindForOwner(descriptor, path); !bound) {
+    const fs::path starting = StartingPath(folder);
+    if (auto bound = BindForOwner(descriptor, starting); !bound) {
       close(descriptor);
       return bound.error();
     }
-    return ListeningSocket{descriptor, path};
+    // Under its own name it listens from the first moment on: who looks there never takes it for dead.
+    // Another thread of this process may have taken the name meanwhile, and keeps it.
+    const bool is_named = link(starting.c_str(), path.c_str()) == 0;
+    const bool is_taken = errno == EEXIST;
+    const Error error = SystemError("the socket cannot be named", path);
+    unlink(starting.c_str());
+    if (is_named) return ListeningSocket{descriptor, path};
+    close(descriptor);
+    if (!is_taken) return error;
   }
   return Error{.message = "this process has too many sockets there already",
                .position = {.file = folder.string()}};

@@ -19,7 +19,6 @@
 #include "plugins/control/client_connection.h"
 #include "plugins/control/control_folder.h"
 #include "plugins/control/protocol.h"
-#include "plugins/control/structure_recorder.h"
 
 namespace runnel {
 
@@ -41,14 +40,12 @@ bool IsOwner(int descriptor) {
 
 class ControlServer::Loop {
  public:
-  Loop(ControlledApplication application, ControlOptions options, ListeningSocket listening,
-       int wake)
-      : application_(std::move(application)),
+  Loop(CommandService& service, ControlOptions options, ListeningSocket listening, int wake)
+      : service_(service),
         options_(std::move(options)),
         listening_(std::move(listening)),
         wake_(wake),
-        recorder_(application_.runtime, application_.log),
-        worker_([this] { Wake(); }),
+        tasks_(std::in_place, service_.worker(), [this] { Wake(); }),
         thread_([this] { Run(); }) {}
 
   ~Loop() {
@@ -57,8 +54,8 @@ class ControlServer::Loop {
     thread_.join();
     unlink(listening_.path.c_str());
     close(listening_.descriptor);
-    clients_.clear();  // their commands use the worker
-    worker_.reset();   // it wakes this
+    clients_.clear();  // their commands use the tasks
+    tasks_.reset();    // they wake this
     close(wake_);
   }
 
@@ -75,7 +72,7 @@ class ControlServer::Loop {
   void Run() {
     while (!ends_.load()) {
       WaitForEvents();
-      for (const auto& client : clients_) client->Work(application_, *worker_);
+      for (const auto& client : clients_) client->Work(service_, *tasks_);
       std::erase_if(clients_, [](const auto& client) { return client->is_over(); });
     }
     for (const auto& client : clients_) client->Finish();
@@ -149,25 +146,24 @@ class ControlServer::Loop {
     hello.process = getpid();
     hello.application = options_.application;
     hello.file = options_.file;
-    hello.time = application_.runtime.clock().Now() - start_;
+    hello.time = service_.application().runtime.clock().Now() - start_;
     return hello.ToText();
   }
 
-  ControlledApplication application_;
+  CommandService& service_;
   const ControlOptions options_;
   const ListeningSocket listening_;
   const int wake_;
-  const Time start_ = application_.runtime.clock().Now();
+  const Time start_ = service_.application().runtime.clock().Now();
   std::vector<std::unique_ptr<ClientConnection>> clients_;
   std::vector<pollfd> polled_;
   bool must_pause_ = false;
   std::atomic<bool> ends_{false};
-  StructureRecorder recorder_;
-  std::optional<ChangeWorker> worker_;
+  std::optional<TaskGroup> tasks_;
   std::thread thread_;
 };
 
-Result<std::unique_ptr<ControlServer>> ControlServer::Start(ControlledApplication application,
+Result<std::unique_ptr<ControlServer>> ControlServer::Start(CommandService& service,
                                                             ControlOptions options) {
   if (options.folder.empty()) options.folder = ControlFolder();
   auto listening = ListenInFolder(options.folder);
@@ -178,8 +174,8 @@ Result<std::unique_ptr<ControlServer>> ControlServer::Start(ControlledApplicatio
     unlink(listening->path.c_str());
     return Error{.message = std::string("no event can be made: ") + std::strerror(errno)};
   }
-  return std::unique_ptr<ControlServer>(new ControlServer(std::make_unique<Loop>(
-      std::move(application), std::move(options), std::move(*listening), wake)));
+  return std::unique_ptr<ControlServer>(new ControlServer(
+      std::make_unique<Loop>(service, std::move(options), std::move(*listening), wake)));
 }
 
 ControlServer::ControlServer(std::unique_ptr<Loop> loop) : loop_(std::move(loop)) {}

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "plugins/control/command.h"
+#include "plugins/command_service/command_service.h"
 
 namespace runnel {
 
@@ -21,13 +21,13 @@ struct ControlOptions {
 /// Makes a running application reachable by other processes of the same user, through a Unix socket:
 /// looking, measuring, changing. See README.md for what goes over it.
 ///
-/// Ownership:  what is controlled must outlive it.
-/// Threads:    has two of its own, one for clients and one for changes; neither ever takes part in a
-///             cycle. Start and destroy outside of cycles and without the structure lock.
+/// Ownership:  the service must outlive it.
+/// Threads:    has one of its own, which serves all clients and never takes part in a cycle; what may wait
+///             is left to the service's worker. Start and destroy outside of cycles and without the structure lock.
 /// Errors:     no folder, no socket. Clients' mistakes are answered, and never reach the application.
 class ControlServer {
  public:
-  static Result<std::unique_ptr<ControlServer>> Start(ControlledApplication application,
+  static Result<std::unique_ptr<ControlServer>> Start(CommandService& service,
                                                       ControlOptions options);
   /// Ends all connections, removes the socket, and waits for a change that is being carried out.
   ~ControlServer();

@@ -4,8 +4,8 @@
 
 #include "core/lockfree/thread_epoch.h"
 #include "core/types/type_info.h"
+#include "plugins/command_service/element_search.h"
 #include "plugins/control/command.h"
-#include "plugins/control/element_search.h"
 #include "plugins/control/value_text.h"
 
 namespace runnel {
@@ -105,7 +105,7 @@ class EchoCommand final : public Command {
 
 }  // namespace
 
-CommandResult MakeEchoCommand(const Request& request, const ControlledApplication& application) {
+CommandResult MakeEchoCommand(const Request& request, const ServedApplication& application) {
   const auto count = ReadCountOption(request);
   if (!count) return count.error();
   return std::unique_ptr<Command>(std::make_unique<EchoCommand>(

@@ -8,6 +8,7 @@
 #include "core/plugin/module_type_name.h"
 #include "core/types/duration_text.h"
 #include "core/types/type_info.h"
+#include "plugins/command_service/parameter_text.h"
 #include "plugins/scheduling/thread_container.h"
 
 namespace runnel {
@@ -47,10 +48,10 @@ std::string Milliseconds(Duration duration) {
   return text;
 }
 
-std::string ParameterText(const Configurable& parameter) {
+std::string ParameterLine(const Configurable& parameter) {
   const ConfigurableInfo& info = parameter.info();
   const std::string unit = info.unit.empty() ? "" : " " + info.unit;
-  std::string value = parameter.ToText();
+  std::string value = ParameterText(parameter);
   if (value.size() > kLongestValue) value = value.substr(0, kLongestValue) + "…";
   std::string text = parameter.type().name() + " = " + (value.empty() ? "\"\"" : value) + unit;
   if (!info.bounds.empty()) text += ", in " + info.bounds + unit;
@@ -108,7 +109,7 @@ std::string PortText(const Port& port, const ListingOptions& options) {
 std::string About(const FrameworkElement& element, const ListingOptions& options) {
   if (const auto* const port = dynamic_cast<const Port*>(&element)) return PortText(*port, options);
   if (const auto* const parameter = dynamic_cast<const Configurable*>(&element)) {
-    return ParameterText(*parameter);
+    return ParameterLine(*parameter);
   }
   if (const auto* const thread = dynamic_cast<const ThreadContainer*>(&element)) {
     return ThreadText(*thread, options.is_long);

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/base/clock.h"
-#include "plugins/control/element_search.h"
+#include "plugins/command_service/element_search.h"
 
 namespace runnel {
 

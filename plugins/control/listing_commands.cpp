@@ -70,7 +70,7 @@ class PathsCommand final : public Command {
 
 class TypesCommand final : public Command {
  public:
-  explicit TypesCommand(const ControlledApplication& application) : application_(application) {}
+  explicit TypesCommand(const ServedApplication& application) : application_(application) {}
 
   std::optional<ControlCode> Continue(Answer& answer) override {
     // Plugins are loaded under it.
@@ -88,22 +88,22 @@ class TypesCommand final : public Command {
   }
 
  private:
-  const ControlledApplication& application_;
+  const ServedApplication& application_;
 };
 
 }  // namespace
 
-CommandResult MakeListCommand(const Request& request, const ControlledApplication& application) {
+CommandResult MakeListCommand(const Request& request, const ServedApplication& application) {
   const std::string path = request.words.empty() ? "" : request.words[0];
   return std::unique_ptr<Command>(
       std::make_unique<ListCommand>(application.runtime, path, request.Has("long")));
 }
 
-CommandResult MakePathsCommand(const Request&, const ControlledApplication& application) {
+CommandResult MakePathsCommand(const Request&, const ServedApplication& application) {
   return std::unique_ptr<Command>(std::make_unique<PathsCommand>(application.runtime));
 }
 
-CommandResult MakeTypesCommand(const Request&, const ControlledApplication& application) {
+CommandResult MakeTypesCommand(const Request&, const ServedApplication& application) {
   return std::unique_ptr<Command>(std::make_unique<TypesCommand>(application));
 }
 

@@ -19,7 +19,7 @@ std::optional<Number> ReadAll(const std::string& text) {
   return number;
 }
 
-std::string TimeText(const ControlledApplication& application) {
+std::string TimeText(const ServedApplication& application) {
   char text[48];
   std::snprintf(text, sizeof text, "%.3f s", ToSeconds(application.runtime.clock().Now()));
   return text;
@@ -53,7 +53,7 @@ CommandResult Say(std::string text) {
 // Waits until the cycles have run.
 class StepCommand final : public Command {
  public:
-  explicit StepCommand(const ControlledApplication& application) : application_(application) {}
+  explicit StepCommand(const ServedApplication& application) : application_(application) {}
 
   std::optional<ControlCode> Continue(Answer& answer) override {
     const Pace& pace = *application_.pace;
@@ -70,14 +70,14 @@ class StepCommand final : public Command {
   }
 
  private:
-  const ControlledApplication& application_;
+  const ServedApplication& application_;
 };
 
 // What it wants, done and logged. Errors: of the pace.
-CommandResult Do(const ControlledApplication& application, const Result<void>& done,
+CommandResult Do(const ServedApplication& application, const Result<void>& done,
                  const std::string& what) {
   if (!done) return done.error();
-  application.log.Add(ControlLog::Kind::kChange, what);
+  application.log.Add(ApplicationLog::Kind::kChange, what);
   return Say(what + " at " + TimeText(application));
 }
 
@@ -87,17 +87,17 @@ Error NoPace() {
 
 }  // namespace
 
-CommandResult MakePauseCommand(const Request&, const ControlledApplication& application) {
+CommandResult MakePauseCommand(const Request&, const ServedApplication& application) {
   if (application.pace == nullptr) return NoPace();
   return Do(application, application.pace->Pause(), "paused");
 }
 
-CommandResult MakeResumeCommand(const Request&, const ControlledApplication& application) {
+CommandResult MakeResumeCommand(const Request&, const ServedApplication& application) {
   if (application.pace == nullptr) return NoPace();
   return Do(application, application.pace->Resume(), "resumed");
 }
 
-CommandResult MakeStepCommand(const Request& request, const ControlledApplication& application) {
+CommandResult MakeStepCommand(const Request& request, const ServedApplication& application) {
   if (application.pace == nullptr) return NoPace();
   const std::string word = request.words.empty() ? "1" : request.words[0];
   const auto count = ReadAll<std::uint64_t>(word);
@@ -109,7 +109,7 @@ CommandResult MakeStepCommand(const Request& request, const ControlledApplicatio
   return std::unique_ptr<Command>(std::make_unique<StepCommand>(application));
 }
 
-CommandResult MakeSpeedCommand(const Request& request, const ControlledApplication& application) {
+CommandResult MakeSpeedCommand(const Request& request, const ServedApplication& application) {
   if (application.pace == nullptr) return NoPace();
   Pace& pace = *application.pace;
   if (request.words.empty()) {

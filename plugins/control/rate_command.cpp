@@ -1,9 +1,9 @@
 #include <cmath>
 #include <mutex>
 
+#include "plugins/command_service/element_search.h"
 #include "plugins/control/command.h"
 #include "plugins/control/element_listing.h"
-#include "plugins/control/element_search.h"
 
 namespace runnel {
 
@@ -69,7 +69,7 @@ class RateCommand final : public Command {
 
 }  // namespace
 
-CommandResult MakeRateCommand(const Request& request, const ControlledApplication& application) {
+CommandResult MakeRateCommand(const Request& request, const ServedApplication& application) {
   const auto count = ReadCountOption(request);
   if (!count) return count.error();
   return std::unique_ptr<Command>(

@@ -1,14 +1,13 @@
 #include <chrono>
-#include <exception>
 #include <utility>
 
+#include "plugins/command_service/caught_error.h"
 #include "plugins/control/command.h"
 
 namespace runnel {
 
 namespace {
 
-constexpr Duration kLookWhetherDone = std::chrono::milliseconds(20);
 constexpr Duration kTellProgress = std::chrono::milliseconds(250);
 
 /// Records until its client goes, or so long as that has said. What waits for the disk or for the structure
@@ -16,9 +15,9 @@ constexpr Duration kTellProgress = std::chrono::milliseconds(250);
 class RecordCommand final : public Command {
  public:
   RecordCommand(const RecordingHook& hook, RecordingWish wish, std::optional<std::uint64_t> seconds,
-                ChangeWorker& worker)
-      : worker_(worker), seconds_(seconds), shared_(std::make_shared<Shared>()) {
-    job_ = worker_.Post([hook, wish = std::move(wish), shared = shared_] {
+                TaskGroup& tasks)
+      : tasks_(tasks), seconds_(seconds), shared_(std::make_shared<Shared>()) {
+    task_ = tasks_.Post([hook, wish = std::move(wish), shared = shared_] {
       shared->Do([&]() -> Result<std::string> {
         auto started = hook(wish);
         if (!started) return started.error();
@@ -29,15 +28,15 @@ class RecordCommand final : public Command {
   }
   // The client has gone: the worker brings the file to its end.
   ~RecordCommand() override {
-    if (!job_->is_done()) job_->Cancel();
+    if (!task_->is_done()) task_->Cancel();
     if (!has_ended_) {
-      worker_.Post([shared = shared_] { shared->recording.reset(); });
+      tasks_.Post([shared = shared_] { shared->recording.reset(); });
     }
   }
 
   std::optional<ControlCode> Continue(Answer& answer) override {
-    ContinueIn(kLookWhetherDone);
-    if (!job_->is_done()) return {};
+    ContinueAfter(task_);
+    if (!task_->is_done()) return {};
     if (!shared_->outcome) {
       has_ended_ = true;
       answer.Complain(ErrorLine(shared_->outcome.error()));
@@ -68,8 +67,8 @@ class RecordCommand final : public Command {
     void Do(const Work& work) {
       try {
         outcome = work();
-      } catch (const std::exception& exception) {
-        outcome = Error{.message = exception.what()};
+      } catch (...) {
+        outcome = CaughtError();
       }
     }
     Result<std::string> outcome = std::string();
@@ -78,16 +77,16 @@ class RecordCommand final : public Command {
 
   void End() {
     is_ending_ = true;
-    job_ = worker_.Post([shared = shared_] {
+    task_ = tasks_.Post([shared = shared_] {
       shared->Do([&] { return shared->recording->Finish(); });
       shared->recording.reset();
     });
   }
 
-  ChangeWorker& worker_;
+  TaskGroup& tasks_;
   const std::optional<std::uint64_t> seconds_;
   const std::shared_ptr<Shared> shared_;
-  std::shared_ptr<ChangeWorker::Job> job_;
+  std::shared_ptr<WorkerTask> task_;
   std::chrono::steady_clock::time_point began_{};
   bool has_begun_ = false;
   bool is_ending_ = false;
@@ -96,8 +95,8 @@ class RecordCommand final : public Command {
 
 }  // namespace
 
-CommandResult MakeRecordCommand(const Request& request, const ControlledApplication& application,
-                                ChangeWorker& worker) {
+CommandResult MakeRecordCommand(const Request& request, const ServedApplication& application,
+                                TaskGroup& tasks) {
   if (!application.hooks.record) {
     return Error{.message = "the program that runs this application cannot record it"};
   }
@@ -109,7 +108,7 @@ CommandResult MakeRecordCommand(const Request& request, const ControlledApplicat
   return std::unique_ptr<Command>(std::make_unique<RecordCommand>(
       application.hooks.record,
       RecordingWish{request.Option("file"), request.words, request.Option("compression")}, *seconds,
-      worker));
+      tasks));
 }
 
 }  // namespace runnel

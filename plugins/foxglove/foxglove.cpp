@@ -3,7 +3,7 @@
 #include <chrono>
 #include <utility>
 
-#include "plugins/foxglove/internal/conversation.h"
+#include "plugins/foxglove/internal/foxglove_session.h"
 #include "plugins/foxglove/internal/foxglove_shared.h"
 
 namespace runnel {
@@ -21,19 +21,19 @@ std::string NewSession() {
 internal::FoxgloveShared::FoxgloveShared(FoxgloveApplication given)
     : application(std::move(given)),
       session(NewSession()),
-      directory(application.runtime),
-      worker(std::make_unique<ChangeWorker>([] {})) {}
+      directory(application.service.application().runtime),
+      tasks(std::make_unique<TaskGroup>(application.service.worker())) {}
 
 internal::FoxgloveShared::~FoxgloveShared() {
-  worker = nullptr;  // its jobs use the rest
-  for (const std::string& path : places) DeletePlace(application.runtime, path);
+  tasks = nullptr;  // they use the rest
+  for (const std::string& path : places) DeletePlace(runtime(), path);
 }
 
 WebProtocol FoxgloveProtocol(FoxgloveApplication application) {
   return {.names = {"foxglove.websocket.v1", "foxglove.sdk.v1"},
           .start = [shared = std::make_shared<internal::FoxgloveShared>(std::move(application))](
                        WebClient& client) -> std::unique_ptr<WebConversation> {
-            return std::make_unique<internal::FoxgloveConversation>(shared, client);
+            return std::make_unique<internal::FoxgloveSession>(shared, client);
           }};
 }
 

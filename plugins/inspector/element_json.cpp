@@ -6,6 +6,7 @@
 #include "core/plugin/module_type_name.h"
 #include "core/types/type_info.h"
 #include "core/xml/xml_reading.h"
+#include "plugins/command_service/parameter_text.h"
 #include "plugins/inspector/internal/json_parts.h"
 #include "plugins/scheduling/thread_container.h"
 
@@ -76,7 +77,7 @@ void AddParameter(const FrameworkElement& element, const Configurable& parameter
   AddNumberOrNull("minimum", bounds.minimum, json);
   AddNumberOrNull("maximum", bounds.maximum, json);
   json.Add("description", info.description);
-  json.Add("value", parameter.ToText());
+  json.Add("value", ParameterText(parameter));
   json.Add("default", info.default_value);
   json.Add("settable", !info.is_static);
   json.Add("owner", owner != nullptr ? owner->path() : "");
@@ -154,7 +155,7 @@ std::uint64_t ElementFingerprint(const FrameworkElement& element,
   if (element.kind() == ElementKind::kPort || element.kind() == ElementKind::kThread) return hash;
   if (element.kind() == ElementKind::kParameter) {
     if (const auto* const parameter = dynamic_cast<const Configurable*>(&element)) {
-      Mix(parameter->ToText(), hash);
+      Mix(ParameterText(*parameter), hash);
     }
     return hash;
   }

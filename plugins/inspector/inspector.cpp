@@ -12,9 +12,8 @@ class Inspector::Shared final : public internal::Inspection {
   using Inspection::Inspection;
 };
 
-Inspector::Inspector(ControlledApplication application, Scheduler& scheduler,
-                     InspectorOptions options)
-    : shared_(std::make_unique<Shared>(std::move(application), scheduler, std::move(options))) {}
+Inspector::Inspector(CommandService& service, Scheduler& scheduler, InspectorOptions options)
+    : shared_(std::make_unique<Shared>(service, scheduler, std::move(options))) {}
 Inspector::~Inspector() = default;
 
 WebProtocol Inspector::Protocol() {

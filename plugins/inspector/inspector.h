@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "plugins/control/command.h"
+#include "plugins/command_service/command_service.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/web_server/web_conversation.h"
 
@@ -20,12 +20,12 @@ struct InspectorOptions {
 /// PROTOCOL.md. As many viewers as the server lets in share what is found out about the structure.
 ///
 /// Ownership:  what is inspected must outlive it, and it the server that it gives its protocol to.
-/// Threads:    conversations on the server's; changes, saving and reloading on one of its own, neither
-///             of which ever takes part in a cycle. The rest from any.
+/// Threads:    conversations on the server's; what may wait is left to the service's worker. The rest
+///             from any.
 /// Errors:     what viewers get wrong is answered, and never reaches the application.
 class Inspector {
  public:
-  Inspector(ControlledApplication application, Scheduler& scheduler, InspectorOptions options);
+  Inspector(CommandService& service, Scheduler& scheduler, InspectorOptions options);
   ~Inspector();
   Inspector(const Inspector&) = delete;
   Inspector& operator=(const Inspector&) = delete;

@@ -45,12 +45,36 @@ bool IsObserver(const Port& port) { return dynamic_cast<const Tap*>(&port) != nu
 }  // namespace
 
 StructureMirror::StructureMirror(Runtime& runtime, const ModuleRegistry& modules,
-                                 const Scheduler& scheduler, FaultBook& faults)
+                                 const Scheduler& scheduler, FaultLog& faults)
     : runtime_(runtime), scheduler_(scheduler), faults_(faults) {
   around_.modules = &modules;
 }
 
 bool StructureMirror::Look() {
+  try {
+    return LookOn();
+  } catch (...) {
+    Forget();
+    throw;
+  }
+}
+
+void StructureMirror::Forget() noexcept {
+  ++revision_;  // which no change leads to: viewers are told the whole
+  changes_.clear();
+  entries_.clear();
+  order_.clear();
+  seen_.reset();
+  walked_.reset();
+  found_ = {};
+  ports_.clear();
+  threads_.clear();
+  parameters_.clear();
+  next_parameter_ = 0;
+  metered_ = nullptr;
+}
+
+bool StructureMirror::LookOn() {
   std::unique_lock lock(runtime_.structure_mutex(), std::try_to_lock);
   if (!lock) return false;
   NoteFaults();
@@ -67,7 +91,7 @@ bool StructureMirror::Look() {
 }
 
 void StructureMirror::NoteFaults() {
-  for (const FaultBook::Entry& fault : faults_.Take()) {
+  for (const FaultLog::Entry& fault : faults_.Take()) {
     const auto found = runtime_.root().Find(fault.path);
     if (!found) continue;  // it has been deleted since
     around_.stopped[(*found)->serial()] = fault.message;

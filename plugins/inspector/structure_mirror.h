@@ -11,7 +11,7 @@
 
 #include "core/element/runtime.h"
 #include "plugins/inspector/element_json.h"
-#include "plugins/inspector/fault_book.h"
+#include "plugins/inspector/fault_log.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/scheduling/thread_container.h"
 
@@ -39,9 +39,10 @@ struct CountSample {
 class StructureMirror {
  public:
   StructureMirror(Runtime& runtime, const ModuleRegistry& modules, const Scheduler& scheduler,
-                  FaultBook& faults);
+                  FaultLog& faults);
 
   /// Looks on for a moment. True: what there is to see has been seen; false: come again soon.
+  /// Throws what a type or the lack of memory throws; then everything is looked at and told anew.
   bool Look();
   /// Grows with each difference that Look() finds; 0: nothing has been seen yet.
   [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
@@ -81,6 +82,7 @@ class StructureMirror {
   };
 
   // All of the following under the structure lock.
+  bool LookOn();
   void BeginWalk();
   bool Walk(std::chrono::steady_clock::time_point until);
   void Visit(FrameworkElement& element);
@@ -92,12 +94,13 @@ class StructureMirror {
 
   // Not under the lock.
   void FinishWalk();
+  void Forget() noexcept;
   [[nodiscard]] Difference TakeNews();
   void Tell(Difference difference);
 
   Runtime& runtime_;
   const Scheduler& scheduler_;
-  FaultBook& faults_;
+  FaultLog& faults_;
   ElementSurroundings around_;
   std::uint64_t revision_ = 0;
   std::deque<std::string> changes_;  // the newest leads to revision_

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "plugins/json_values/internal/utf8.h"
+#include "core/base/characters.h"
 
 namespace runnel {
 
@@ -65,14 +65,13 @@ void AppendFloating(N number, std::string& json) {
 void AppendJsonString(std::string_view text, std::string& json) {
   json += '"';
   while (!text.empty()) {
-    const std::size_t length = LengthOfLetter(text);
-    if (length == 1 && static_cast<unsigned char>(text.front()) < 0x80) {
+    if (static_cast<unsigned char>(text.front()) < 0x80) {
       AppendAscii(text.front(), json);
-    } else if (length > 0) {
-      json += text.substr(0, length);
-    } else {
-      json += kReplacement;
+      text.remove_prefix(1);
+      continue;
     }
+    const std::size_t length = CharacterLength(text);
+    json += length > 0 ? text.substr(0, length) : kReplacement;
     text.remove_prefix(length > 0 ? length : 1);
   }
   json += '"';

@@ -3,6 +3,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -23,18 +24,38 @@ void AppendJsonNumber(std::uint64_t number, std::string& json);
 /// Bytes as text (RFC 4648), which JSON has no other way for. Without quotation marks.
 void AppendBase64(std::string_view bytes, std::string& text);
 
+namespace internal {
+
+// A bracket now, and the other one at the end of life, which throws what appending throws. While another
+// exception passes, the text is lost anyway and stays open: a second one would end the process.
+class JsonBrackets {
+ public:
+  JsonBrackets(std::string& json, char opening, char closing) : json_(json), closing_(closing) {
+    json_ += opening;
+  }
+  ~JsonBrackets() noexcept(false) {
+    if (std::uncaught_exceptions() == exceptions_) json_ += closing_;
+  }
+  JsonBrackets(const JsonBrackets&) = delete;
+  JsonBrackets& operator=(const JsonBrackets&) = delete;
+
+ private:
+  std::string& json_;
+  const char closing_;
+  const int exceptions_ = std::uncaught_exceptions();
+};
+
+}  // namespace internal
+
 /// Writes one JSON object behind what is in `json`, which must not be written to otherwise but where
-/// Key() says so. Closed by its end of life.
+/// Key() says so. Closed by its end of life, which throws if there is no memory for it.
 ///
 ///     JsonObject object(json);
 ///     object.Add("op", "advertise");
 ///     JsonArray channels(object.Key("channels"));
 class JsonObject {
  public:
-  explicit JsonObject(std::string& json) : json_(json) { json_ += '{'; }
-  ~JsonObject() { json_ += '}'; }
-  JsonObject(const JsonObject&) = delete;
-  JsonObject& operator=(const JsonObject&) = delete;
+  explicit JsonObject(std::string& json) : json_(json), brackets_(json, '{', '}') {}
 
   /// Whoever calls it writes the value next, whole.
   std::string& Key(std::string_view name) {
@@ -64,16 +85,14 @@ class JsonObject {
 
  private:
   std::string& json_;
+  const internal::JsonBrackets brackets_;
   bool is_empty_ = true;
 };
 
 /// The same for a list.
 class JsonArray {
  public:
-  explicit JsonArray(std::string& json) : json_(json) { json_ += '['; }
-  ~JsonArray() { json_ += ']'; }
-  JsonArray(const JsonArray&) = delete;
-  JsonArray& operator=(const JsonArray&) = delete;
+  explicit JsonArray(std::string& json) : json_(json), brackets_(json, '[', ']') {}
 
   /// Whoever calls it writes the element next, whole.
   std::string& Next() {
@@ -85,6 +104,7 @@ class JsonArray {
 
  private:
   std::string& json_;
+  const internal::JsonBrackets brackets_;
   bool is_empty_ = true;
 };
 

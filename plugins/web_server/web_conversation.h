@@ -12,7 +12,7 @@ namespace runnel {
 
 /// One peer at the other end of a WebSocket, as a conversation sees it.
 ///
-/// Threads:  the server's only.
+/// Threads:  the server's only, but for what Waker() returns.
 class WebClient {
  public:
   /// Sends one message. False: too much is waiting for a client that is slow, and this is not sent;
@@ -23,6 +23,9 @@ class WebClient {
   [[nodiscard]] virtual std::size_t waiting_bytes() const = 0;
   /// Says why, and ends the conversation; nothing is sent or received any more.
   virtual void Close(std::string reason) = 0;
+  /// Gives the conversation a turn. May be kept and called by any thread, and does nothing once the
+  /// client or the server has gone.
+  [[nodiscard]] virtual std::function<void()> Waker() = 0;
   /// The subprotocol that was agreed on.
   [[nodiscard]] virtual const std::string& protocol() const = 0;
 

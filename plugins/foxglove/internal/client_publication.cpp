@@ -7,6 +7,7 @@
 
 #include "core/lockfree/thread_epoch.h"
 #include "core/types/type_info.h"
+#include "plugins/command_service/caught_error.h"
 #include "plugins/json_values/json_values.h"
 
 namespace runnel::internal {
@@ -20,7 +21,7 @@ class ClientPublication::Place final : public FrameworkElement {
   std::unique_ptr<Port> output;
 };
 
-struct ClientPublication::Making {
+struct ClientPublication::PendingOutput {
   Place* place = nullptr;  // the runtime's
   std::string path;        // of the place
   std::optional<Error> error;
@@ -47,22 +48,21 @@ std::string_view Unwrapped(const TypeInfo& type, std::string_view json) {
 
 }  // namespace
 
-ClientPublication::ClientPublication(FoxgloveShared& shared, const DirectoryInput& input)
-    : shared_(shared), type_(*input.type), making_(std::make_shared<Making>()) {
+ClientPublication::ClientPublication(FoxgloveShared& shared, const DirectoryInput& input,
+                                     std::function<void()> wake)
+    : shared_(shared), type_(*input.type), pending_(std::make_shared<PendingOutput>()) {
   if (const auto usual = type_.Make()) AppendJson(type_, usual.get(), usual_);
-  job_ = shared_.worker->Post([&shared, input, making = making_] {
-    try {
-      if (auto made = Make(shared, input, *making); !made) making->error = made.error();
-    } catch (const ElementError& error) {
-      making->error = error.error();
-    }
-  });
+  task_ = shared_.tasks->Post(
+      [&shared, input, pending = pending_] {
+        if (auto made = Make(shared, input, *pending); !made) pending->error = made.error();
+      },
+      std::move(wake));
 }
 
 Result<void> ClientPublication::Make(FoxgloveShared& shared, const DirectoryInput& input,
-                                     Making& making) {
+                                     PendingOutput& pending) {
   static std::atomic<std::uint64_t> number{0};
-  Runtime& runtime = shared.application.runtime;
+  Runtime& runtime = shared.runtime();
   const std::lock_guard lock(runtime.structure_mutex());
   const auto found = runtime.root().Find(input.path);
   if (!found) return found.error();
@@ -76,8 +76,8 @@ Result<void> ClientPublication::Make(FoxgloveShared& shared, const DirectoryInpu
   auto& place =
       runtime.Create<Place>(runtime.root(), "foxglove_client_" + std::to_string(++number));
   shared.places.insert(place.path());
-  making.place = &place;
-  making.path = place.path();
+  pending.place = &place;
+  pending.path = place.path();
   place.output = maker.MakeOutput(place, port->name(), {});
   if (!place.output) {
     return Error{.message = maker.is_proxy()
@@ -90,20 +90,20 @@ Result<void> ClientPublication::Make(FoxgloveShared& shared, const DirectoryInpu
 }
 
 ClientPublication::~ClientPublication() {
-  shared_.worker->Post([&shared = shared_, making = making_] {
-    if (making->place == nullptr) return;
-    DeletePlace(shared.application.runtime, making->path);
-    shared.places.erase(making->path);
+  shared_.tasks->Post([&shared = shared_, pending = pending_] {
+    if (pending->place == nullptr) return;
+    DeletePlace(shared.runtime(), pending->path);
+    shared.places.erase(pending->path);
   });
 }
 
 std::optional<Error> ClientPublication::TakeError() { return std::exchange(error_, std::nullopt); }
 
 bool ClientPublication::Continue() {
-  if (job_) {
-    if (!job_->is_done()) return true;
-    job_ = nullptr;
-    error_ = making_->error;
+  if (task_) {
+    if (!task_->is_done()) return false;  // the worker tells when it is
+    error_ = task_->failure() ? task_->failure() : pending_->error;
+    task_ = nullptr;
     is_made_ = !error_;
   }
   if (waiting_ && is_made_) {
@@ -114,7 +114,7 @@ bool ClientPublication::Continue() {
 
 Result<void> ClientPublication::Publish(std::string_view json) {
   waiting_ = json;
-  if (job_) return {};
+  if (task_) return {};
   return PublishWaiting();
 }
 
@@ -122,14 +122,14 @@ Result<void> ClientPublication::PublishWaiting() {
   const EpochGuard guard;  // what is found stays in memory so long
   {
     // Somebody may have deleted it, as any other element.
-    Runtime& runtime = shared_.application.runtime;
+    Runtime& runtime = shared_.runtime();
     const std::unique_lock lock(runtime.structure_mutex(), std::try_to_lock);
     if (!lock) return {};  // it goes on waiting
-    const auto found = runtime.root().Find(making_->path);
-    if (!found || *found != making_->place) {
+    const auto found = runtime.root().Find(pending_->path);
+    if (!found || *found != pending_->place) {
       waiting_ = std::nullopt;
       return Error{.message = "the output of this channel has been deleted",
-                   .path = making_->path,
+                   .path = pending_->path,
                    .hint = "advertise it anew"};
     }
   }
@@ -138,8 +138,12 @@ Result<void> ClientPublication::PublishWaiting() {
     if (auto usual = SetFromJson(type_, usual_, value); !usual) return usual;
     return SetFromJson(type_, Unwrapped(type_, json), value);
   };
-  const auto published = making_->place->output->PublishFilled(fill);
-  if (!published) return published.error();
+  try {
+    const auto published = pending_->place->output->PublishFilled(fill);
+    if (!published) return published.error();
+  } catch (...) {  // of a type that throws when it is read
+    return CaughtError();
+  }
   return {};
 }
 

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "core/port/port.h"
-#include "plugins/control/change_worker.h"
 #include "plugins/foxglove/internal/foxglove_shared.h"
 
 namespace runnel::internal {
@@ -17,7 +17,9 @@ namespace runnel::internal {
 /// Ownership:  what is shared outlives it, and sees to what it has left to do.
 class ClientPublication {
  public:
-  ClientPublication(FoxgloveShared& shared, const DirectoryInput& input);
+  /// `wake` has the conversation take a turn, from any thread.
+  ClientPublication(FoxgloveShared& shared, const DirectoryInput& input,
+                    std::function<void()> wake);
   ~ClientPublication();
   ClientPublication(const ClientPublication&) = delete;
   ClientPublication& operator=(const ClientPublication&) = delete;
@@ -35,16 +37,17 @@ class ClientPublication {
   bool Continue();
 
  private:
-  class Place;    // the output's, in the tree
-  struct Making;  // with the worker
+  class Place;           // the output's, in the tree
+  struct PendingOutput;  // with the worker
 
-  static Result<void> Make(FoxgloveShared& shared, const DirectoryInput& input, Making& making);
+  static Result<void> Make(FoxgloveShared& shared, const DirectoryInput& input,
+                           PendingOutput& pending);
   Result<void> PublishWaiting();
 
   FoxgloveShared& shared_;
   const TypeInfo& type_;
-  const std::shared_ptr<Making> making_;
-  std::shared_ptr<ChangeWorker::Job> job_;  // until it is done
+  const std::shared_ptr<PendingOutput> pending_;
+  std::shared_ptr<WorkerTask> task_;  // until it is done
   bool is_made_ = false;
   std::optional<std::string> waiting_;
   std::optional<Error> error_;

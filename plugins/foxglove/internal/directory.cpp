@@ -4,6 +4,7 @@
 
 #include "core/lockfree/thread_epoch.h"
 #include "core/types/type_info.h"
+#include "plugins/command_service/parameter_text.h"
 
 namespace runnel::internal {
 
@@ -123,7 +124,7 @@ std::optional<Directory::ParameterTexts> Directory::ReadParameters(
   ParameterTexts texts;
   for (const std::string& name : names) {
     const auto found = content_->parameters.find(name);
-    if (found != content_->parameters.end()) texts[name] = found->second.element->ToText();
+    if (found != content_->parameters.end()) texts[name] = ParameterText(*found->second.element);
   }
   return texts;
 }

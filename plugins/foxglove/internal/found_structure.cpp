@@ -28,8 +28,7 @@ FoundPort FoundOf(const Port& port) {
   if (!found.is_shown) return found;
   for (const Port* sink : port.Sinks()) found.readers.push_back(OwnerOf(*sink).path());
   std::ranges::sort(found.readers);
-  const auto repeated = std::ranges::unique(found.readers);
-  found.readers.erase(repeated.begin(), repeated.end());
+  found.readers.erase(std::unique(found.readers.begin(), found.readers.end()), found.readers.end());
   return found;
 }
 

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <set>
 #include <string>
 #include <utility>
 
-#include "plugins/control/change_worker.h"
 #include "plugins/foxglove/foxglove.h"
 #include "plugins/foxglove/internal/directory.h"
 
@@ -20,11 +20,21 @@ struct FoxgloveShared {
   FoxgloveShared(const FoxgloveShared&) = delete;
   FoxgloveShared& operator=(const FoxgloveShared&) = delete;
 
+  [[nodiscard]] Runtime& runtime() const noexcept {
+    return application.service.application().runtime;
+  }
+
+  [[nodiscard]] WebConversation::MachineTime Now() const {
+    const Clock* const clock = application.machine_clock;
+    return clock != nullptr ? WebConversation::MachineTime(clock->Now().time_since_epoch())
+                            : std::chrono::steady_clock::now();
+  }
+
   const FoxgloveApplication application;
   const std::string session;  ///< another one with each start
   Directory directory;
   std::set<std::string> places;  ///< paths of what clients have brought; the worker's
-  std::unique_ptr<ChangeWorker> worker;
+  std::unique_ptr<TaskGroup> tasks;
 };
 
 /// Deletes what a client has brought, if it is still there. Waits.

@@ -4,6 +4,7 @@
 #include <mutex>
 
 #include "core/lockfree/thread_epoch.h"
+#include "plugins/command_service/caught_error.h"
 #include "plugins/foxglove/internal/server_messages.h"
 
 namespace runnel::internal {
@@ -76,26 +77,37 @@ bool Subscriptions::Sample() {
       found_at_ = runtime_.revision();
     }
   }
-  for (auto& [id, subscription] : by_id_) {
-    if (subscription.is_found) Show(id, subscription);
+  for (auto each = by_id_.begin(); each != by_id_.end();) {
+    const auto subscription = each++;
+    if (!subscription->second.is_found || Show(subscription->first, subscription->second)) continue;
+    by_id_.erase(subscription);
   }
   return true;
 }
 
-void Subscriptions::Show(std::uint32_t id, Subscription& subscription) {
+bool Subscriptions::Show(std::uint32_t id, Subscription& subscription) {
   std::string bytes;
-  const bool is_new = subscription.port
-                          ->LookIfNew([&](const void* value, Time stamp) {
-                            bytes.clear();
-                            AppendMessageHead(id, stamp, bytes);
-                            subscription.channel.form->Append(value, stamp, bytes);
-                          })
-                          .has_value();
-  if (!is_new || client_.SendBinary(std::move(bytes))) return;
+  bool is_new = false;
+  try {
+    is_new = subscription.port
+                 ->LookIfNew([&](const void* value, Time stamp) {
+                   bytes.clear();
+                   AppendMessageHead(id, stamp, bytes);
+                   subscription.channel.form->Append(value, stamp, bytes);
+                 })
+                 .has_value();
+  } catch (...) {
+    Error error = CaughtError();
+    error.path = subscription.channel.port;
+    failures_.push_back(std::move(error));
+    return false;
+  }
+  if (!is_new || client_.SendBinary(std::move(bytes))) return true;
   // Not taken: to be shown again, since it may be the last one for a long time.
   subscription.port = std::make_unique<WatchedPort>(subscription.channel.port);
   subscription.is_found = false;
   is_any_lost_ = true;
+  return true;
 }
 
 }  // namespace runnel::internal

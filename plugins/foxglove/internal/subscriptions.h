@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "plugins/foxglove/internal/client_message.h"
@@ -27,6 +28,9 @@ class Subscriptions {
 
   /// Sends what is new. False if the structure was locked: to be tried again soon.
   bool Sample();
+  /// What has become of values whose types throw when they are written: nobody is subscribed to them any
+  /// more.
+  [[nodiscard]] std::vector<Error> TakeFailures() { return std::exchange(failures_, {}); }
   [[nodiscard]] bool is_empty() const noexcept { return by_id_.empty(); }
 
  private:
@@ -36,11 +40,13 @@ class Subscriptions {
     bool is_found = false;
   };
 
-  void Show(std::uint32_t id, Subscription& subscription);
+  // False if its type has thrown.
+  bool Show(std::uint32_t id, Subscription& subscription);
 
   Runtime& runtime_;
   WebClient& client_;
   std::map<std::uint32_t, Subscription> by_id_;
+  std::vector<Error> failures_;
   std::uint64_t found_at_ = 0;  // the structure's revision when the ports were found
   bool is_any_lost_ = true;     // not all ports have been found
 };

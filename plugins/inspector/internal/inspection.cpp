@@ -24,15 +24,15 @@ std::string RunName() {
 
 }  // namespace
 
-Inspection::Inspection(ControlledApplication application, Scheduler& scheduler,
-                       InspectorOptions options)
-    : application_(std::move(application)),
+Inspection::Inspection(CommandService& service, Scheduler& scheduler, InspectorOptions options)
+    : service_(service),
+      application_(service.application()),
       scheduler_(scheduler),
       options_(std::move(options)),
       run_(RunName()),
       start_(application_.runtime.clock().Now()),
       mirror_(application_.runtime, application_.modules, scheduler, faults),
-      worker_([] {}) {}
+      tasks_(service.worker()) {}
 
 std::shared_ptr<const Catalogue> Inspection::catalogue() const {
   const std::lock_guard lock(mutex_);
@@ -59,6 +59,7 @@ Inspection::MachineTime Inspection::Look() {
 
 void Inspection::LookAtRegistry(MachineTime now) {
   if (now < look_at_registry_ || (cataloguing_ && !cataloguing_->is_done())) return;
+  if (cataloguing_ && cataloguing_->failure()) registry_ = 0;  // once more
   std::unique_lock lock(application_.runtime.structure_mutex(), std::try_to_lock);
   if (!lock) return;
   const std::uint64_t registry = RegistryFingerprint(application_.modules);
@@ -67,7 +68,7 @@ void Inspection::LookAtRegistry(MachineTime now) {
   if (registry == registry_) return;
   registry_ = registry;
   // Modules are made for it, some of which take their time.
-  cataloguing_ = worker_.Post([this] {
+  cataloguing_ = tasks_.Post([this] {
     auto made = std::make_shared<const Catalogue>(
         MakeCatalogue(application_.runtime, application_.modules));
     const std::lock_guard guard(mutex_);

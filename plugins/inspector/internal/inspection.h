@@ -6,9 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "plugins/control/change_worker.h"
-#include "plugins/control/command.h"
-#include "plugins/inspector/fault_book.h"
+#include "plugins/command_service/command_service.h"
+#include "plugins/inspector/fault_log.h"
 #include "plugins/inspector/inspector.h"
 #include "plugins/inspector/internal/catalogue.h"
 #include "plugins/inspector/structure_mirror.h"
@@ -22,9 +21,10 @@ class Inspection {
  public:
   using MachineTime = std::chrono::steady_clock::time_point;
 
-  Inspection(ControlledApplication application, Scheduler& scheduler, InspectorOptions options);
+  Inspection(CommandService& service, Scheduler& scheduler, InspectorOptions options);
 
-  [[nodiscard]] const ControlledApplication& application() const noexcept { return application_; }
+  [[nodiscard]] CommandService& service() noexcept { return service_; }
+  [[nodiscard]] const ServedApplication& application() const noexcept { return application_; }
   [[nodiscard]] Scheduler& scheduler() const noexcept { return scheduler_; }
   [[nodiscard]] const InspectorOptions& options() const noexcept { return options_; }
   /// Another one with each start.
@@ -33,7 +33,7 @@ class Inspection {
   [[nodiscard]] Time start() const noexcept { return start_; }
   [[nodiscard]] Duration running_for() const { return application_.runtime.clock().Now() - start_; }
   [[nodiscard]] StructureMirror& mirror() noexcept { return mirror_; }
-  [[nodiscard]] ChangeWorker& worker() noexcept { return worker_; }
+  [[nodiscard]] TaskGroup& tasks() noexcept { return tasks_; }
   /// nullptr until it has been made. Any thread.
   [[nodiscard]] std::shared_ptr<const Catalogue> catalogue() const;
 
@@ -42,7 +42,7 @@ class Inspection {
   /// Something has just been changed: to be looked at at once.
   void LookSoon() noexcept { look_at_ = {}; }
 
-  FaultBook faults;  // any thread
+  FaultLog faults;  // any thread
   /// Any thread.
   void NoteEnd(std::string verdict);
   [[nodiscard]] std::optional<std::string> verdict() const;
@@ -50,7 +50,8 @@ class Inspection {
  private:
   void LookAtRegistry(MachineTime now);
 
-  const ControlledApplication application_;
+  CommandService& service_;
+  const ServedApplication& application_;  // the service's
   Scheduler& scheduler_;
   const InspectorOptions options_;
   const std::string run_;
@@ -62,8 +63,8 @@ class Inspection {
   mutable std::mutex mutex_;    // a leaf; of the two below
   std::shared_ptr<const Catalogue> catalogue_;
   std::optional<std::string> verdict_;
-  std::shared_ptr<ChangeWorker::Job> cataloguing_;
-  ChangeWorker worker_;  // first to go: its jobs use the rest
+  std::shared_ptr<WorkerTask> cataloguing_;
+  TaskGroup tasks_;  // first to go: they use the rest
 };
 
 }  // namespace runnel::internal

@@ -1,17 +1,12 @@
 #include "plugins/inspector/internal/requests.h"
 
 #include <algorithm>
-#include <exception>
-#include <functional>
 #include <initializer_list>
 #include <memory>
 #include <utility>
+#include <variant>
 
-#include "plugins/control/client_change.h"
-#include "plugins/control/history_step.h"
 #include "plugins/inspector/internal/json_parts.h"
-#include "plugins/inspector/internal/save_place.h"
-#include "plugins/structure/change_text.h"
 
 namespace runnel::internal {
 
@@ -57,68 +52,24 @@ std::vector<RequestError> ErrorsOf(const Diagnostics& diagnostics) {
   return errors;
 }
 
-PlacedChanges ParseAll(const std::vector<std::string>& texts, Diagnostics& diagnostics) {
-  PlacedChanges all;
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    const SourcePosition place{.file = "changes", .line = static_cast<int>(i + 1), .column = 1};
-    PlacedChanges one = ParseChanges(texts[i], place, diagnostics);
-    if (diagnostics.ok() && one.changes.size() != 1) {
-      diagnostics.Add({.message = one.changes.empty() ? "there is no change in it"
-                                                      : "this is more than one change",
-                       .position = place});
-    }
-    for (Change& change : one.changes) {
-      all.changes.push_back(std::move(change));
-      all.positions.push_back(place);
-    }
-  }
-  return all;
-}
-
-// What others do in a thread that may wait.
-class WorkerRequest final : public ViewerRequest {
+// What the service carries out.
+class ServiceRequest final : public ViewerRequest {
  public:
-  WorkerRequest(ChangeWorker& worker, std::function<std::string()> work)
-      : reply_(std::make_shared<std::string>()),
-        job_(worker.Post([reply = reply_, work = std::move(work)] { *reply = work(); })) {}
-  ~WorkerRequest() override { job_->Cancel(); }
+  ServiceRequest(std::optional<std::uint64_t> request, std::unique_ptr<PendingCommand> pending)
+      : request_(request), pending_(std::move(pending)) {}
 
   std::optional<std::string> Continue() override {
-    if (!job_->is_done()) return {};
-    return std::move(*reply_);
-  }
-
- private:
-  const std::shared_ptr<std::string> reply_;
-  const std::shared_ptr<ChangeWorker::Job> job_;
-};
-
-class ChangeRequest final : public ViewerRequest {
- public:
-  ChangeRequest(std::optional<std::uint64_t> request, PlacedChanges placed, std::string label,
-                Inspection& inspection)
-      : request_(request),
-        change_(std::move(placed), std::move(label), inspection.application(),
-                inspection.worker()) {}
-
-  std::optional<std::string> Continue() override {
-    if (!change_.Continue()) return {};
-    const ChangeOutcome& outcome = change_.outcome();
-    if (!outcome) return Refusal(request_, ErrorsOf(outcome.diagnostics));
-    std::vector<RequestError> errors;
-    for (Error& error : change_.SwappedBack()) errors.push_back({std::move(error)});
-    if (!errors.empty()) return Refusal(request_, errors);
-    std::string text = change_.DoneText();
-    if (change_.is_on_probation()) {
-      text += "\nthe new module has not run all the cycles of its probation yet";
-    }
-    for (const Error& warning : outcome.diagnostics.warnings()) text += "\n" + warning.ToString();
+    if (!pending_->is_done()) return {};
+    const CommandAnswer answer = pending_->Take();
+    if (!answer) return Refusal(request_, ErrorsOf(answer.diagnostics));
+    std::string text = answer.text;
+    for (const Error& warning : answer.diagnostics.warnings()) text += "\n" + warning.ToString();
     return Reply(request_, text);
   }
 
  private:
   const std::optional<std::uint64_t> request_;
-  ClientChange change_;
+  const std::unique_ptr<PendingCommand> pending_;
 };
 
 // One that has been answered before it began.
@@ -131,52 +82,36 @@ class AnsweredRequest final : public ViewerRequest {
   const std::string reply_;
 };
 
-std::unique_ptr<ViewerRequest> BeginChange(Inspection& inspection, ViewerMessage message) {
-  Diagnostics diagnostics;
-  if (message.changes.empty()) diagnostics.Add({.message = "there are no changes in it"});
-  if (message.changes.size() > ClientChange::kMostChanges) {
-    diagnostics.Add({.message = "more than " + std::to_string(ClientChange::kMostChanges) +
-                                " changes at once"});
+using CommandOrErrors = std::variant<CommandRequest, std::vector<RequestError>>;
+
+CommandOrErrors ReadChanges(ViewerMessage& message) {
+  using Errors = std::vector<RequestError>;
+  if (!message.wrong_changes.empty()) {
+    message.wrong_changes.resize(std::min(message.wrong_changes.size(), kMostErrors));
+    return std::move(message.wrong_changes);
   }
-  PlacedChanges placed;
-  if (diagnostics.ok()) placed = ParseAll(message.changes, diagnostics);
-  if (!diagnostics.ok()) {
-    return std::make_unique<AnsweredRequest>(Refusal(message.request, ErrorsOf(diagnostics)));
+  if (message.changes.empty()) return Errors{{Error{.message = "there are no changes in it"}}};
+  if (message.changes.size() > ChangeRequest::kMostChanges) {
+    return Errors{{Error{.message = "more than " + std::to_string(ChangeRequest::kMostChanges) +
+                                    " changes at once"}}};
   }
-  return std::make_unique<ChangeRequest>(message.request, std::move(placed),
-                                         std::move(message.label), inspection);
+  ChangeRequest request{{.changes = std::move(message.changes), .positions = {}},
+                        std::move(message.label)};
+  for (std::size_t i = 0; i < request.placed.changes.size(); ++i) {
+    request.placed.positions.push_back(
+        {.file = "changes", .line = static_cast<int>(i + 1), .column = 1});
+  }
+  return CommandRequest(std::move(request));
 }
 
-std::string TakeStep(Inspection& inspection, const ViewerMessage& message) {
-  if (inspection.application().history == nullptr) {
-    return Refusal(message.request, {{Error{.message = "the program that runs this application "
-                                                       "remembers no changes"}}});
-  }
-  const HistoryStep step = TakeHistoryStep(inspection.application(), message.op == "undo");
-  if (!step.outcome) return Refusal(message.request, ErrorsOf(step.outcome.diagnostics));
-  return Reply(message.request, step.what);
-}
-
-using Hook = std::function<Result<std::string>(const std::string&)>;
-
-std::string Call(const Hook& hook, const std::string& word, const char* what,
-                 const ViewerMessage& message) {
-  if (!hook) {
-    const Error error{.message =
-                          std::string("the program that runs this application cannot ") + what};
-    return Refusal(message.request, {{error}});
-  }
-  const auto done = hook(word);
-  if (!done) return Refusal(message.request, {{done.error()}});
-  return Reply(message.request, *done);
-}
-
-std::string Save(Inspection& inspection, const ViewerMessage& message) {
-  const Hook& hook = inspection.application().hooks.save;
-  if (message.file.empty()) return Call(hook, "", "save it", message);
-  const auto place = SavePlace(inspection.options().file, message.file);
-  if (!place) return Refusal(message.request, {{place.error()}});
-  return Call(hook, *place, "save it", message);
+// What the service is to be asked for.
+CommandOrErrors CommandOf(const Inspection& inspection, ViewerMessage& message) {
+  if (message.op == "change") return ReadChanges(message);
+  if (message.op == "undo") return CommandRequest(UndoRequest{});
+  if (message.op == "redo") return CommandRequest(RedoRequest{});
+  if (message.op == "reload") return CommandRequest(ReloadRequest{message.plugin});
+  return CommandRequest(SaveRequest{
+      .file = message.file, .is_confined = true, .application_file = inspection.options().file});
 }
 
 std::string FindCompatible(Inspection& inspection, const ViewerMessage& message) {
@@ -196,6 +131,31 @@ std::string FindCompatible(Inspection& inspection, const ViewerMessage& message)
   return text;
 }
 
+// Waits for the structure, in the worker's thread.
+class CompatibleRequest final : public ViewerRequest {
+ public:
+  CompatibleRequest(Inspection& inspection, ViewerMessage message, std::function<void()> on_done)
+      : request_(message.request),
+        reply_(std::make_shared<std::string>()),
+        task_(inspection.tasks().Post(
+            [&inspection, reply = reply_, message = std::move(message)] {
+              *reply = FindCompatible(inspection, message);
+            },
+            std::move(on_done))) {}
+  ~CompatibleRequest() override { task_->Cancel(); }
+
+  std::optional<std::string> Continue() override {
+    if (!task_->is_done()) return {};
+    if (task_->failure()) return Refusal(request_, {{*task_->failure()}});
+    return std::move(*reply_);
+  }
+
+ private:
+  const std::optional<std::uint64_t> request_;
+  const std::shared_ptr<std::string> reply_;
+  const std::shared_ptr<WorkerTask> task_;
+};
+
 std::string SetPace(Inspection& inspection, const ViewerMessage& message) {
   Pace& pace = inspection.scheduler().pace();
   Result<void> done;
@@ -212,14 +172,6 @@ std::string SetPace(Inspection& inspection, const ViewerMessage& message) {
     done = pace.SetSpeed(*message.speed);
   }
   return done ? Reply(message.request, "done") : Refusal(message.request, {{done.error()}});
-}
-
-std::string Do(Inspection& inspection, const ViewerMessage& message) {
-  const ControlHooks& hooks = inspection.application().hooks;
-  if (IsOneOf(message.op, {"undo", "redo"})) return TakeStep(inspection, message);
-  if (message.op == "compatible") return FindCompatible(inspection, message);
-  if (message.op == "save") return Save(inspection, message);
-  return Call(hooks.reload, message.plugin, "load plugins anew", message);
 }
 
 }  // namespace
@@ -258,20 +210,22 @@ bool IsRequest(const std::string& op) {
 
 bool OnlyLooks(const std::string& op) { return op == "compatible"; }
 
-std::unique_ptr<ViewerRequest> BeginRequest(Inspection& inspection, ViewerMessage message) {
-  if (message.op == "change") return BeginChange(inspection, std::move(message));
+std::unique_ptr<ViewerRequest> BeginRequest(Inspection& inspection, ViewerMessage message,
+                                            std::function<void()> on_done) {
   // At once, whatever the worker is waiting for.
   if (IsOneOf(message.op, {"pause", "resume", "step", "speed"})) {
     return std::make_unique<AnsweredRequest>(SetPace(inspection, message));
   }
-  return std::make_unique<WorkerRequest>(
-      inspection.worker(), [&inspection, message = std::move(message)] {
-        try {
-          return Do(inspection, message);
-        } catch (const std::exception& exception) {
-          return Refusal(message.request, {{Error{.message = exception.what()}}});
-        }
-      });
+  if (message.op == "compatible") {
+    return std::make_unique<CompatibleRequest>(inspection, std::move(message), std::move(on_done));
+  }
+  auto command = CommandOf(inspection, message);
+  if (const auto* const errors = std::get_if<std::vector<RequestError>>(&command)) {
+    return std::make_unique<AnsweredRequest>(Refusal(message.request, *errors));
+  }
+  return std::make_unique<ServiceRequest>(
+      message.request, inspection.service().Begin(std::move(std::get<CommandRequest>(command)),
+                                                  inspection.tasks(), std::move(on_done)));
 }
 
 }  // namespace runnel::internal

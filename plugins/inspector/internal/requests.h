@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,11 +15,6 @@ namespace runnel::internal {
 /// {"op":"reply","request":…,"ok":true,"text":…}
 [[nodiscard]] std::string Reply(std::optional<std::uint64_t> request, const std::string& text);
 
-/// What is wrong with a request; `change`: with which of its changes, from 0.
-struct RequestError {
-  Error error;
-  std::optional<std::size_t> change = {};
-};
 [[nodiscard]] std::string Refusal(std::optional<std::uint64_t> request,
                                   const std::vector<RequestError>& errors);
 
@@ -38,7 +34,9 @@ class ViewerRequest {
   /// The reply, once there is one.
   virtual std::optional<std::string> Continue() = 0;
 };
+/// `on_done` is called by the worker when Continue() has a reply, unless it has one at once.
 [[nodiscard]] std::unique_ptr<ViewerRequest> BeginRequest(Inspection& inspection,
-                                                          ViewerMessage message);
+                                                          ViewerMessage message,
+                                                          std::function<void()> on_done);
 
 }  // namespace runnel::internal

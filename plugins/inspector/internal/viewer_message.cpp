@@ -2,8 +2,11 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <nlohmann/json.hpp>
+
+#include "plugins/inspector/internal/change_message.h"
 
 namespace runnel::internal {
 
@@ -26,13 +29,17 @@ class Reader {
       to = found->get<std::string>();
     }
   }
-  void Texts(const char* key, std::vector<std::string>& to) {
+  void Changes(const char* key, ViewerMessage& message) {
     const Json* const found = Find(key);
     if (found == nullptr) return;
-    if (!found->is_array()) return Complain(key, "a list of texts");
-    for (const Json& each : *found) {
-      if (!each.is_string()) return Complain(key, "a list of texts");
-      to.push_back(each.get<std::string>());
+    if (!found->is_array()) return Complain(key, "a list of changes");
+    for (std::size_t i = 0; i < found->size(); ++i) {
+      auto change = ParseChange((*found)[i]);
+      if (change) {
+        message.changes.push_back(std::move(*change));
+      } else {
+        message.wrong_changes.push_back({change.error(), i});
+      }
     }
   }
   void Number(const char* key, std::optional<double>& to) {
@@ -85,7 +92,7 @@ Result<ViewerMessage> ParseViewerMessage(std::string_view text) {
   reader.Text("op", message.op);
   reader.Text("path", message.path);
   reader.Text("label", message.label);
-  reader.Texts("changes", message.changes);
+  reader.Changes("changes", message);
   reader.Text("file", message.file);
   reader.Text("plugin", message.plugin);
   reader.Number("rate", message.rate);

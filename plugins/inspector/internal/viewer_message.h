@@ -8,8 +8,15 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "plugins/structure/change.h"
 
 namespace runnel::internal {
+
+/// What is wrong with a request; `change`: with which of its changes, from 0.
+struct RequestError {
+  Error error;
+  std::optional<std::size_t> change = {};
+};
 
 /// What a viewer says, as the protocol has it; what is not said is as here.
 struct ViewerMessage {
@@ -17,7 +24,8 @@ struct ViewerMessage {
   std::optional<std::uint64_t> request;
   std::string path;
   std::string label;
-  std::vector<std::string> changes;
+  ChangeSet changes;
+  std::vector<RequestError> wrong_changes;  ///< of what is no change; then `changes` has not all
   std::string file;
   std::string plugin;
   std::optional<double> rate;

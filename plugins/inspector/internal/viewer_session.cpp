@@ -8,6 +8,7 @@
 #include "core/base/nearest_name.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/types/type_info.h"
+#include "plugins/command_service/caught_error.h"
 #include "plugins/inspector/internal/json_parts.h"
 #include "plugins/inspector/internal/rate_message.h"
 #include "plugins/json_values/json_values.h"
@@ -26,7 +27,6 @@ constexpr std::size_t kMostLogEntries = 500;
 constexpr std::size_t kSlow = 1 << 20;
 constexpr auto kState = milliseconds(100);
 constexpr auto kTimeAlone = milliseconds(200);
-constexpr auto kLookForReply = milliseconds(5);
 constexpr double kFastestWatch = 60;
 constexpr double kFastestRates = 10;
 constexpr std::size_t kMostElements = 1'000'000;
@@ -79,7 +79,6 @@ WebConversation::MachineTime ViewerSession::OnTurn() {
     if (now >= rates_due_) SendRates(now);
     next = std::min(next, rates_due_);
   }
-  if (!pending_.empty()) next = std::min(next, now + kLookForReply);
   return next;
 }
 
@@ -149,23 +148,23 @@ void ViewerSession::SendReplies() {
 
 void ViewerSession::SendLog() {
   if (IsSlow()) return;
-  const ControlLog& log = inspection_.application().log;
+  const ApplicationLog& log = inspection_.application().log;
   if (!log_) {
     const std::uint64_t end = log.end();
     log_ = end > kMostLogEntries ? end - kMostLogEntries : 0;
   }
   if (log.end() <= *log_) return;
-  const ControlLog::Entries read = log.ReadEntries(*log_, kMostLogEntries);
+  const ApplicationLog::Entries read = log.ReadEntries(*log_, kMostLogEntries);
   std::string text;
   {
     JsonObject json(text);
     json.Add("op", "log");
     AppendList(read.entries, json.Key("entries"),
-               [](const ControlLog::Entry& each, std::string& to) {
+               [](const ApplicationLog::Entry& each, std::string& to) {
                  JsonObject object(to);
                  object.Add("number", each.number);
                  object.Add("time", ToSeconds(each.time));
-                 object.Add("kind", ControlLog::KindName(each.kind));
+                 object.Add("kind", ApplicationLog::KindName(each.kind));
                  object.Add("text", each.text);
                });
   }
@@ -198,15 +197,16 @@ void ViewerSession::SendValues(MachineTime now) {
   std::string items;
   for (Watch* watch : found) {
     std::string item;
-    const auto count = watch->port.LookIfNew([&](const void* value, Time stamp) {
-      item = "{\"path\":";
-      AppendJsonString(watch->port.path(), item);
-      item += ",\"stamp\":";
-      AppendJsonNumber(ToSeconds(stamp - inspection_.start()), item);
-      item += ",\"value\":";
-      const JsonLimits limits{watch->elements, kLongestText, kLargestValue};
-      if (!AppendJson(watch->port.type(), value, item, limits)) item += ",\"cut\":true";
-    });
+    std::optional<std::uint64_t> count;
+    try {
+      count = LookAt(*watch, item);
+    } catch (...) {  // of a type that throws when it is written
+      Error error = CaughtError();
+      const std::string path = watch->port.path();
+      error.path = path;
+      Refuse({}, std::move(error));
+      watches_.erase(path);
+    }
     if (!count) continue;
     const std::uint64_t dropped = watch->port.dropped();
     if (dropped > 0) item += ",\"drops\":" + std::to_string(dropped);
@@ -216,6 +216,18 @@ void ViewerSession::SendValues(MachineTime now) {
   std::string text = "{\"op\":\"values\",\"time\":";
   AppendJsonNumber(ToSeconds(inspection_.running_for()), text);
   client_.SendText(text + ",\"items\":[" + items + "]}");
+}
+
+std::optional<std::uint64_t> ViewerSession::LookAt(Watch& watch, std::string& item) const {
+  return watch.port.LookIfNew([&](const void* value, Time stamp) {
+    item = "{\"path\":";
+    AppendJsonString(watch.port.path(), item);
+    item += ",\"stamp\":";
+    AppendJsonNumber(ToSeconds(stamp - inspection_.start()), item);
+    item += ",\"value\":";
+    const JsonLimits limits{watch.elements, kLongestText, kLargestValue};
+    if (!AppendJson(watch.port.type(), value, item, limits)) item += ",\"cut\":true";
+  });
 }
 
 void ViewerSession::SendRates(MachineTime now) {
@@ -292,7 +304,7 @@ void ViewerSession::BeginRequest(ViewerMessage message) {
   if (pending_.size() + replies_.size() >= kMostPending) {
     return Refuse(message, {.message = "too many requests are waiting already"});
   }
-  pending_.push_back(internal::BeginRequest(inspection_, std::move(message)));
+  pending_.push_back(internal::BeginRequest(inspection_, std::move(message), client_.Waker()));
 }
 
 }  // namespace runnel::internal

@@ -41,6 +41,8 @@ class ViewerSession final : public WebConversation {
                                          const) const;
   void SendReplies();
   void SendValues(MachineTime now);
+  // How many values there have been, and the newest as JSON; nothing if there is no new one.
+  std::optional<std::uint64_t> LookAt(Watch& watch, std::string& item) const;
   void SendRates(MachineTime now);
   void BeginWatching(const ViewerMessage& message);
   void BeginRequest(ViewerMessage message);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "plugins/json_values/internal/utf8.h"
+#include "core/base/characters.h"
 #include "plugins/json_values/json_writer.h"
 
 namespace runnel {
@@ -140,7 +140,7 @@ Result<void> JsonCursor::TakeString(std::string& text) {
     if (static_cast<unsigned char>(character) < 0x20) {
       return ErrorHere("a control character in a text must be escaped");
     }
-    const std::size_t length = LengthOfLetter(text_.substr(next_));
+    const std::size_t length = CharacterLength(text_.substr(next_));
     if (length == 0) return ErrorHere("this is no UTF-8");
     text += text_.substr(next_, length);
     next_ += length;

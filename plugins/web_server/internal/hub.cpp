@@ -70,6 +70,7 @@ void WebHub::ForEach(const std::function<void(WebConnection&)>& use) {
 }
 
 void WebHub::Clear() noexcept {
+  for (const auto& each : connections_) each->Detach();
   connections_.clear();
   conversations_.store(0);
 }

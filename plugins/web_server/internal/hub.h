@@ -30,6 +30,8 @@ class WebConnection {
   virtual void End(std::string_view reason) = 0;
   /// Ends it at once.
   virtual void Cut() noexcept = 0;
+  /// No other thread reaches it any more: the server ends.
+  virtual void Detach() noexcept {}
 
   [[nodiscard]] bool is_conversation() const noexcept { return is_conversation_; }
   [[nodiscard]] MachineTime since() const noexcept { return since_; }

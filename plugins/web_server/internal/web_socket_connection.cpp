@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <atomic>
 #include <deque>
-#include <exception>
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <utility>
 
 #include <boost/asio/post.hpp>
@@ -12,6 +14,7 @@
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/websocket/stream.hpp>
 
+#include "core/base/exception_text.h"
 #include "plugins/web_server/internal/beast_connections.h"
 #include "plugins/web_server/internal/message_budget.h"
 
@@ -38,6 +41,34 @@ std::string CutAtLetter(std::string_view text, std::size_t longest) {
   while (longest > 0 && (static_cast<unsigned char>(text[longest]) & 0xc0U) == 0x80U) --longest;
   return std::string(text.substr(0, longest));
 }
+
+/// By which other threads reach a connection for as long as it is there.
+class WakeHandle : public std::enable_shared_from_this<WakeHandle> {
+ public:
+  WakeHandle(boost::asio::io_context& context, std::weak_ptr<WebConnection> connection)
+      : context_(&context), connection_(std::move(connection)) {}
+
+  void Wake() {
+    if (is_woken_.exchange(true)) return;
+    const std::lock_guard lock(mutex_);
+    if (context_ == nullptr) return;
+    boost::asio::post(*context_, [handle = shared_from_this()] {
+      handle->is_woken_.store(false);
+      if (const auto alive = handle->connection_.lock()) alive->TakeTurn();
+    });
+  }
+  /// The connection goes, and the server may go after it.
+  void Forget() {
+    const std::lock_guard lock(mutex_);
+    context_ = nullptr;
+  }
+
+ private:
+  std::mutex mutex_;
+  boost::asio::io_context* context_;  // guarded by mutex_; nullptr when the connection has gone
+  const std::weak_ptr<WebConnection> connection_;
+  std::atomic<bool> is_woken_{false};  // a turn has been asked for and has not come yet
+};
 
 /// One WebSocket with its conversation.
 class WebSocketConnection final : public WebConnection,
@@ -96,6 +127,15 @@ class WebSocketConnection final : public WebConnection,
     });
   }
   void End(std::string_view reason) override { Close(websocket::close_code::going_away, reason); }
+  [[nodiscard]] std::function<void()> Waker() override {
+    if (!wake_handle_) {
+      wake_handle_ = std::make_shared<WakeHandle>(hub_.context(), weak_from_this());
+    }
+    return [handle = wake_handle_] { handle->Wake(); };
+  }
+  void Detach() noexcept override {
+    if (wake_handle_) wake_handle_->Forget();
+  }
   void Cut() noexcept override {
     beast::error_code ignored;
     beast::get_lowest_layer(socket_).socket().close(ignored);
@@ -111,8 +151,8 @@ class WebSocketConnection final : public WebConnection,
   void Attempt(const Do& attempt) {
     try {
       attempt();
-    } catch (const std::exception& exception) {
-      Close(websocket::close_code::internal_error, exception.what());
+    } catch (...) {
+      Close(websocket::close_code::internal_error, DescribeException());
     }
   }
 
@@ -224,6 +264,7 @@ class WebSocketConnection final : public WebConnection,
     read_timer_.cancel();
     write_timer_.cancel();
     Cut();
+    Detach();
     conversation_.reset();
     hub_.Remove(shared_from_this());
   }
@@ -243,6 +284,7 @@ class WebSocketConnection final : public WebConnection,
   bool is_accepted_ = false;
   bool is_closing_ = false;
   bool is_removed_ = false;
+  std::shared_ptr<WakeHandle> wake_handle_;        // nullptr until somebody has asked for it
   std::unique_ptr<WebConversation> conversation_;  // first to go: it uses the rest
 };
 

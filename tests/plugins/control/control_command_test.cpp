@@ -134,7 +134,7 @@ TEST_F(ControlTest, NamesWhatIsNearestToWhatIsWrong) {
 }
 
 TEST_F(ControlTest, KeepsALogOfFaultsAndChanges) {
-  log.Add(ControlLog::Kind::kFault, "/app/a: has been stopped: boom\n");
+  log.Add(ApplicationLog::Kind::kFault, "/app/a: has been stopped: boom\n");
   ASSERT_EQ(Change("set /a/parameter/speed 4").code, 0);
   ASSERT_EQ(Change("set /a/parameter/speed 44").code, 2);
   const auto other = modules.Create("test/counter", **runtime.root().Find("/app"), "other");
@@ -149,7 +149,7 @@ TEST_F(ControlTest, KeepsALogOfFaultsAndChanges) {
 }
 
 TEST_F(ControlTest, FollowsTheLog) {
-  log.Add(ControlLog::Kind::kWarning, "first");
+  log.Add(ApplicationLog::Kind::kWarning, "first");
   auto client = Client();
   std::string output;
   (void)client.Ask(
@@ -157,7 +157,7 @@ TEST_F(ControlTest, FollowsTheLog) {
       [&](std::string_view text) {
         output += text;
         if (output.find("second") != std::string::npos) return false;
-        log.Add(ControlLog::Kind::kWarning, "second");
+        log.Add(ApplicationLog::Kind::kWarning, "second");
         return true;
       },
       [](std::string_view) { return true; });
@@ -222,9 +222,10 @@ TEST(SimulatedControl, IsReachedWhileTimeRunsAsFastAsItCan) {
   ASSERT_TRUE(modules.Create("test/counter", app, "a"));
   ASSERT_TRUE(runtime.MakeReady(runtime.root()));
   StructureEditor editor(runtime, modules, &scheduler);
-  ControlLog log(runtime.clock());
-  auto server = ControlServer::Start({runtime, modules, editor, log, {}},
-                                     {.application = "app", .folder = folder.path() / "runnel"});
+  ApplicationLog log(runtime.clock());
+  CommandService service({runtime, modules, editor, log});
+  auto server =
+      ControlServer::Start(service, {.application = "app", .folder = folder.path() / "runnel"});
   ASSERT_TRUE(server);
   std::atomic<bool> ends{false};
   std::thread runner([&] {

@@ -136,8 +136,9 @@ class ControlTest : public ::testing::Test {
   }
   void StartServer(ControlOptions options) {
     server.reset();
-    auto started = ControlServer::Start(
-        {runtime, modules, editor, log, hooks, &history, &scheduler.pace()}, std::move(options));
+    service = std::make_unique<CommandService>(
+        ServedApplication{runtime, modules, editor, log, hooks, &history, &scheduler.pace()});
+    auto started = ControlServer::Start(*service, std::move(options));
     ASSERT_TRUE(started) << started.error().ToString();
     server = std::move(*started);
   }
@@ -193,8 +194,9 @@ class ControlTest : public ::testing::Test {
   Scheduler scheduler{runtime};
   StructureEditor editor{runtime, modules, &scheduler};
   ChangeHistory history{editor};
-  ControlLog log{runtime.clock()};
-  ControlHooks hooks;
+  ApplicationLog log{runtime.clock()};
+  ServiceHooks hooks;
+  std::unique_ptr<CommandService> service;
   std::unique_ptr<ControlServer> server;
 };
 

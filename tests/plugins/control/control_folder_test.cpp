@@ -1,6 +1,8 @@
 #include "plugins/control/control_folder.h"
 
+#include <atomic>
 #include <fstream>
+#include <thread>
 
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -101,6 +103,36 @@ TEST(ControlFolder, LetsAProcessHaveSeveralSocketsAndTakeOverAStaleOne) {
   EXPECT_THAT(*FindControlSockets(folder.path()), SizeIs(2));
   close(first->descriptor);
   close(second->descriptor);
+}
+
+TEST(ControlFolder, KeepsTheSocketOfAnApplicationThatIsJustStarting) {
+  const TemporaryFolder temporary;
+  const auto folder = temporary.path() / "runnel";
+  std::atomic<bool> is_over{false};
+  std::thread client([&] {
+    while (!is_over) (void)FindControlSockets(folder);
+  });
+  int lost = 0;
+  for (int i = 0; i < 2'000; ++i) {
+    const auto socket = ListenInFolder(folder);
+    ASSERT_TRUE(socket) << socket.error().ToString();
+    if (!std::filesystem::exists(socket->path)) ++lost;
+    unlink(socket->path.c_str());
+    close(socket->descriptor);
+  }
+  is_over = true;
+  client.join();
+  EXPECT_EQ(lost, 0);
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
+}
+
+TEST(ControlFolder, LosesWhatAProcessThatDiedWhileItStartedHasLeft) {
+  const TemporaryFolder folder;
+  LeaveStaleSocket(folder.path() / "999999999-1.starting");
+  LeaveStaleSocket(folder.path() / (std::to_string(getpid()) + "-0.starting"));
+  EXPECT_THAT(FindControlSockets(folder.path()).value(), IsEmpty());
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "999999999-1.starting"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / (std::to_string(getpid()) + "-0.starting")));
 }
 
 TEST(ControlFolder, SaysThatAPathIsTooLong) {

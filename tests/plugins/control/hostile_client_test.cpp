@@ -1,6 +1,7 @@
 #include <sys/resource.h>
 
 #include "tests/plugins/control/control_fixture.h"
+#include "tests/support/wait_until.h"
 
 namespace runnel::test {
 
@@ -34,9 +35,8 @@ TEST_F(ControlTest, AnswersOthersWhileOneNeverReads) {
   (void)!send(flood, requests.data(), requests.size(), MSG_NOSIGNAL);
   const std::uint64_t before = PublicationsOf(runtime, "/app/image/output/image");
   for (int i = 0; i < 20; ++i) EXPECT_EQ(Ask("ls").code, 0);
-  while (PublicationsOf(runtime, "/app/image/output/image") < before + 20) {
-    std::this_thread::sleep_for(1ms);
-  }
+  WaitUntil("the image is published for 20 more times",
+            [&] { return PublicationsOf(runtime, "/app/image/output/image") >= before + 20; });
   close(deaf);
   close(flood);
 }
@@ -50,7 +50,10 @@ TEST_F(ControlTest, CountsWhatASlowReaderMisses) {
       "echo /image/image full=yes",
       [&](std::string_view text) {
         all += text.substr(text.size() > 60 ? text.size() - 60 : 0);
-        std::this_thread::sleep_for(30ms);
+        // What the server sends meanwhile does not fit into the socket: it waits for this.
+        const std::uint64_t count = PublicationsOf(runtime, "/app/image/output/image");
+        WaitUntil("ten more images are published",
+                  [&] { return PublicationsOf(runtime, "/app/image/output/image") >= count + 10; });
         return ++values < 8;
       },
       [](std::string_view) { return true; });
@@ -175,9 +178,9 @@ TEST_F(ControlTest, DoesNotWaitForWhoHoldsTheStructureLock) {
   holder = std::thread([&] {
     const std::lock_guard lock(runtime.structure_mutex());
     is_held.store(true);
-    while (!may_go.load()) std::this_thread::sleep_for(1ms);
+    WaitUntil("the structure lock may be let go of", [&] { return may_go.load(); });
   });
-  while (!is_held.load()) std::this_thread::sleep_for(1ms);
+  WaitUntil("the structure lock is held", [&] { return is_held.load(); });
   const int waiting = RawClient();
   SendAll(waiting, FrameBytes("request", "ls"));
   EXPECT_EQ(Ask("log").code, 0);  // needs no lock

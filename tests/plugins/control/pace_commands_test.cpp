@@ -22,12 +22,8 @@ class PacedControlTest : public ::testing::Test {
     CreateThread(runtime, "main", {.period = 10ms});
     counter = &runtime.Create<Counter>(runtime.root(), "counter");
     EXPECT_TRUE(runtime.MakeReady(runtime.root()));
-    auto started = ControlServer::Start({.runtime = runtime,
-                                         .modules = modules,
-                                         .editor = editor,
-                                         .log = log,
-                                         .pace = &scheduler.pace()},
-                                        {.application = "app", .folder = folder.path() / "runnel"});
+    auto started =
+        ControlServer::Start(service, {.application = "app", .folder = folder.path() / "runnel"});
     EXPECT_TRUE(started) << started.error().ToString();
     server = std::move(*started);
     running = std::thread([this] {
@@ -53,7 +49,12 @@ class PacedControlTest : public ::testing::Test {
   Scheduler scheduler{runtime,
                       {.clock = SchedulerOptions::ClockKind::kSimulated, .is_paused = true}};
   StructureEditor editor{runtime, modules, &scheduler};
-  ControlLog log{runtime.clock()};
+  ApplicationLog log{runtime.clock()};
+  CommandService service{{.runtime = runtime,
+                          .modules = modules,
+                          .editor = editor,
+                          .log = log,
+                          .pace = &scheduler.pace()}};
   Counter* counter = nullptr;
   std::unique_ptr<ControlServer> server;
   std::thread running;

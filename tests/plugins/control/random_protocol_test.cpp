@@ -2,6 +2,7 @@
 
 #include "core/element/configurable.h"
 #include "core/plugin/module_type_name.h"
+#include "plugins/control/command.h"
 #include "tests/plugins/control/control_fixture.h"
 #include "tests/plugins/control/random_requests.h"
 
@@ -45,8 +46,8 @@ class RandomProtocol : public ControlTest {
  protected:
   // How the command ended; nothing if it would go on for ever, or waits for time to pass.
   std::optional<ControlCode> Carry(const std::string& request, Answer& answer,
-                                   const ControlledApplication& application, ChangeWorker& worker) {
-    auto command = MakeCommand(request, application, worker);
+                                   CommandService& commands, TaskGroup& tasks) {
+    auto command = MakeCommand(request, commands, tasks);
     if (!command) {
       answer.Complain(ErrorLine(command.error()));
       return ControlCode::kBadInput;
@@ -70,8 +71,8 @@ class RandomProtocol : public ControlTest {
 };
 
 TEST_F(RandomProtocol, NeitherBreaksNorHalfChangesTheApplication) {
-  const ControlledApplication application{runtime, modules, editor, log, hooks};
-  ChangeWorker worker([] {});
+  CommandService commands({runtime, modules, editor, log, hooks});
+  TaskGroup tasks(commands.worker());
   RandomRequests requests(1, RUNNEL_CORPUS);
   const std::size_t count = InputCount(20'000);
   std::size_t done = 0;
@@ -80,7 +81,7 @@ TEST_F(RandomProtocol, NeitherBreaksNorHalfChangesTheApplication) {
     const std::string request = requests.Next();
     const std::string before = StructureOf(runtime);
     Heard heard;
-    const auto code = Carry(request, heard, application, worker);
+    const auto code = Carry(request, heard, commands, tasks);
     if (code == ControlCode::kBadInput) {
       ++refused;
       ASSERT_FALSE(heard.errors.empty()) << request;

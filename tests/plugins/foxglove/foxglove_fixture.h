@@ -28,6 +28,7 @@
 #include "plugins/parameters/parameter.h"
 #include "plugins/parameters/static_parameter.h"
 #include "plugins/structure/structure_editor.h"
+#include "tests/support/wait_until.h"
 
 namespace runnel::test {
 
@@ -75,8 +76,12 @@ class FakeWebClient final : public WebClient {
   }
   [[nodiscard]] std::size_t waiting_bytes() const override { return waiting; }
   void Close(std::string reason) override { closed = std::move(reason); }
+  [[nodiscard]] std::function<void()> Waker() override {
+    return [this] { wakes.release(); };
+  }
   [[nodiscard]] const std::string& protocol() const override { return name; }
 
+  std::counting_semaphore<> wakes{0};
   bool is_slow = false;
   std::size_t waiting = 0;
   std::vector<Json> texts;
@@ -127,15 +132,11 @@ class FoxgloveTest : public testing::Test {
   ~FoxgloveTest() override { conversation = nullptr; }
 
   void Begin(bool is_read_only = false) {
-    FoxgloveApplication shown{.runtime = runtime,
+    FoxgloveApplication shown{.service = service,
                               .name = "demo",
                               .version = "1.2",
                               .is_read_only = is_read_only,
-                              .change = [this](const ChangeSet& changes) -> Result<void> {
-                                const auto outcome = editor.Apply(changes);
-                                if (outcome) return {};
-                                return outcome.diagnostics.errors().front();
-                              }};
+                              .machine_clock = &machine_clock};
     protocol = FoxgloveProtocol(std::move(shown));
     conversation = protocol.start(client);
     conversation->OnTurn();
@@ -145,15 +146,17 @@ class FoxgloveTest : public testing::Test {
   void SayRaw(std::string_view text) { conversation->OnText(text); }
   /// Turns until `is_done` says so, or too long.
   bool Wait(const std::function<bool()>& is_done) {
-    for (int i = 0; i < 2000; ++i) {
+    const auto latest = std::chrono::steady_clock::now() + kLongestWait;
+    do {
+      machine_clock.Advance(std::chrono::milliseconds(2));
       conversation->OnTurn();
       if (is_done()) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
+      std::this_thread::yield();
+    } while (std::chrono::steady_clock::now() < latest);
     return false;
   }
   void Turn() {
-    std::this_thread::sleep_for(std::chrono::milliseconds(120));  // until it looks at everything
+    machine_clock.Advance(std::chrono::milliseconds(120));  // until it looks at everything
     conversation->OnTurn();
   }
 
@@ -214,10 +217,13 @@ class FoxgloveTest : public testing::Test {
 
   Runtime runtime;
   ManualClock clock;
+  ManualClock machine_clock;
   ModuleRegistry modules;
   Group& application = runtime.Create<Group>(runtime.root(), "application");
   Robot& robot = runtime.Create<Robot>(application, "robot");
   StructureEditor editor{runtime, modules, nullptr};
+  ApplicationLog log{runtime.clock()};
+  CommandService service{{runtime, modules, editor, log}};
   FakeWebClient client;
   WebProtocol protocol;
   std::unique_ptr<WebConversation> conversation;

@@ -44,12 +44,63 @@ TEST_F(Changing, IsAllOrNothingAndSaysWhichChangeIsWrong) {
 
 TEST_F(Changing, WordsThatAreNoneAreToldWithTheNearest) {
   Start();
-  const Json reply = View().Change({"set /app/a/speed 2", "craete /app/c test/sink"});
+  const Json reply = View().ChangeAsTold(
+      {ChangeMessage("set /app/a/speed 2"), {{"change", "craete"}, {"path", "/app/c"}}});
   EXPECT_EQ(reply["errors"][0]["change"], 1);
   EXPECT_THAT(reply["errors"][0]["hint"], HasSubstr("create"));
-  EXPECT_EQ(View().Change({})["ok"], false);
-  EXPECT_EQ(View().Change({""})["ok"], false);
-  EXPECT_EQ(View().Change({"delete /app/a; delete /app/b"})["ok"], false);  // one each
+  const Json member = View().ChangeAsTold(
+      Json::array({{{"change", "set"}, {"path", "/app/a/speed"}, {"value", "2"}, {"vale", "3"}}}));
+  EXPECT_EQ(member["errors"][0]["message"], "of 'set', has no \"vale\"");
+  EXPECT_EQ(member["errors"][0]["hint"], "did you mean 'value'?");
+  EXPECT_EQ(View().ChangeAsTold(Json::array())["ok"], false);
+  EXPECT_EQ(View().ChangeAsTold(Json::array({"delete /app/a"}))["ok"], false);
+  EXPECT_EQ(View().ChangeAsTold(Json::array({{{"change", "delete"}}}))["ok"], false);
+}
+
+TEST_F(Changing, TakesNamesAndValuesAsTheyAreWhateverIsInThem) {
+  Start();
+  Viewer viewer = View();
+  const std::string title = "a \"b\"; delete /app/a # \\ \n\t}{";
+  const Json done = viewer.ChangeAsTold(Json::array({{{"change", "create"},
+                                                      {"path", "/app/c"},
+                                                      {"type", "test/counter"},
+                                                      {"settings", {{"title", title}}}}}));
+  EXPECT_EQ(done["ok"], true) << done.dump();
+  EXPECT_EQ(View().Element("/app/c/parameter/title")["value"], title);
+}
+
+TEST_F(Changing, EachKindOfChangeIsReadAndADetailThatIsWrongIsNamed) {
+  Start();
+  Viewer viewer = View();
+  const auto told = [&](Json change) {
+    const Json reply = viewer.ChangeAsTold(Json::array({std::move(change)}));
+    return reply["ok"] == true ? "done" : reply["errors"][0]["message"].get<std::string>();
+  };
+  EXPECT_EQ(told({{"change", "create_group"}, {"path", "/app/g"}}), "done");
+  EXPECT_EQ(told({{"change", "create_port"},
+                  {"path", "/app/g/n"},
+                  {"direction", "output"},
+                  {"type", "int32"}}),
+            "done");
+  EXPECT_EQ(told({{"change", "disconnect"}, {"from", "/app/a/out"}, {"to", "/app/b/in"}}), "done");
+  EXPECT_EQ(told({{"change", "connect"},
+                  {"from", "/app/a/out"},
+                  {"to", "/app/b/in"},
+                  {"queue", 4},
+                  {"on_full", "refuse"}}),
+            "done");
+  EXPECT_EQ(told({{"change", "move"}, {"path", "/app/g"}, {"thread", "main"}}), "done");
+  EXPECT_EQ(told({{"change", "connect"},
+                  {"from", "/app/a/out"},
+                  {"to", "/app/b/in"},
+                  {"on_full", "refus"}}),
+            "of 'connect', \"on_full\" cannot be 'refus'");
+  EXPECT_EQ(told({{"change", "connect"}, {"from", "/a"}, {"to", "/b"}, {"queue", -1}}),
+            "of 'connect', \"queue\" must be a count, at most 1000000000");
+  EXPECT_EQ(told({{"change", "create"}, {"path", "/x"}, {"type", "t"}, {"settings", {{"a", 1}}}}),
+            "of 'create', the setting 'a' must be a text");
+  EXPECT_EQ(told({{"change", "set"}, {"path", 3}, {"value", "2"}}),
+            "of 'set', \"path\" must be a text");
 }
 
 TEST_F(Changing, ASwapKeepsThePathsAndIsNoLoss) {
@@ -84,7 +135,9 @@ TEST_F(Changing, IsUndoneAndDoneAgain) {
   Start();
   Viewer viewer = View();
   EXPECT_EQ(viewer.Ask({{"op", "undo"}})["ok"], false);
-  viewer.Ask({{"op", "change"}, {"label", "faster"}, {"changes", {"set /app/a/speed 3"}}});
+  viewer.Ask({{"op", "change"},
+              {"label", "faster"},
+              {"changes", Json::array({ChangeMessage("set /app/a/speed 3")})}});
   EXPECT_EQ(viewer.Ask({{"op", "undo"}})["text"], "undone: faster");
   EXPECT_EQ(View().Element("/app/a/parameter/speed")["value"], "1");
   EXPECT_EQ(viewer.Ask({{"op", "redo"}})["text"], "redone: faster");

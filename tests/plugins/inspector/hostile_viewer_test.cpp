@@ -2,6 +2,7 @@
 #include <thread>
 
 #include "tests/plugins/inspector/inspector_fixture.h"
+#include "tests/support/wait_until.h"
 
 namespace runnel::test {
 
@@ -13,8 +14,7 @@ class HostileViewer : public RunningInspectorTest {
   void ExpectThatAllIsWell() {
     const auto cycles = [this] { return scheduler.ProgressOf("/app/a")->cycles; };
     const std::uint64_t before = cycles();
-    for (int i = 0; i < 20'000 && cycles() < before + 20; ++i) std::this_thread::sleep_for(1ms);
-    EXPECT_GE(cycles(), before + 20);
+    WaitUntil("20 more cycles have run", [&] { return cycles() >= before + 20; });
     Viewer viewer = View();
     viewer.Send({{"op", "watch"}, {"path", "/app/a/output/out"}});
     EXPECT_GT(viewer.Value("/app/a/output/out")["value"], 0);
@@ -63,7 +63,7 @@ TEST_F(HostileViewer, WatchesAreLimited) {
 TEST_F(HostileViewer, RequestsUnderWayAreLimited) {
   std::atomic<bool> may_go_on{false};
   hooks.save = [&](const std::string&) -> Result<std::string> {
-    while (!may_go_on) std::this_thread::sleep_for(1ms);
+    WaitUntil("the saving may go on", [&] { return may_go_on.load(); });
     return std::string("saved");
   };
   Start({}, {.limits = {.messages_per_second = 100'000}});
@@ -85,8 +85,7 @@ TEST_F(HostileViewer, OneThatDoesNotReadMissesValuesAndIsLetGo) {
     viewer.Send(
         {{"op", "watch"}, {"path", "/app/lists/output/list"}, {"rate", 60}, {"elements", 1000}});
   }
-  for (int i = 0; i < 20'000 && server->clients() > 0; ++i) std::this_thread::sleep_for(1ms);
-  EXPECT_EQ(server->clients(), 0U);
+  WaitUntil("the client that does not read is gone", [&] { return server->clients() == 0; });
   ExpectThatAllIsWell();
 }
 

@@ -92,6 +92,58 @@ class Lists final : public Module {
   }
 };
 
+/// A change in its text form, which is shorter to write, as the protocol has it.
+inline Json ChangeMessage(const std::string& text) {
+  Diagnostics diagnostics;
+  const PlacedChanges placed = ParseChanges(text, {}, diagnostics);
+  if (!diagnostics.ok() || placed.changes.size() != 1) {
+    ADD_FAILURE() << "no change: " << text;
+    return {};
+  }
+  struct Writer {
+    Json operator()(const CreateModule& change) const {
+      Json json{{"change", "create"}, {"path", change.path}, {"type", change.type}};
+      for (const auto& [name, value] : change.settings) json["settings"][name] = value;
+      return json;
+    }
+    Json operator()(const CreateGroup& change) const {
+      return {{"change", "create_group"}, {"path", change.path}};
+    }
+    Json operator()(const CreatePort& change) const {
+      const bool is_input = change.direction == Port::Direction::kInput;
+      return {{"change", "create_port"},
+              {"path", change.path},
+              {"direction", is_input ? "input" : "output"},
+              {"type", change.type}};
+    }
+    Json operator()(const DeleteElement& change) const {
+      return {{"change", "delete"}, {"path", change.path}};
+    }
+    Json operator()(const ConnectPorts& change) const {
+      return {{"change", "connect"},
+              {"from", change.from},
+              {"to", change.to},
+              {"queue", change.options.queue}};
+    }
+    Json operator()(const DisconnectPorts& change) const {
+      return {{"change", "disconnect"}, {"from", change.from}, {"to", change.to}};
+    }
+    Json operator()(const SetParameter& change) const {
+      return {{"change", "set"}, {"path", change.path}, {"value", change.value}};
+    }
+    Json operator()(const ReplaceModule& change) const {
+      return {{"change", "replace"},
+              {"path", change.path},
+              {"type", change.type},
+              {"probation", change.probation_cycles}};
+    }
+    Json operator()(const AssignToThread& change) const {
+      return {{"change", "move"}, {"path", change.path}, {"thread", change.thread}};
+    }
+  };
+  return std::visit(Writer{}, placed.changes.front());
+}
+
 /// A viewer as the protocol has it.
 class Viewer {
  public:
@@ -128,9 +180,12 @@ class Viewer {
         [&](const Json& reply) { return reply["op"] == "reply" && reply["request"] == request; },
         "reply to " + message.dump());
   }
-  Json Change(const std::vector<std::string>& changes) {
-    return Ask({{"op", "change"}, {"changes", changes}});
+  Json Change(const std::vector<std::string>& texts) {
+    Json changes = Json::array();
+    for (const std::string& text : texts) changes.push_back(ChangeMessage(text));
+    return ChangeAsTold(changes);
   }
+  Json ChangeAsTold(const Json& changes) { return Ask({{"op", "change"}, {"changes", changes}}); }
   /// The next value of a watched port.
   Json Value(const std::string& path) {
     for (;;) {
@@ -187,9 +242,11 @@ class InspectorTest : public ::testing::Test {
   /// `options`: what a test wants otherwise.
   void Start(InspectorOptions options = {}, WebServerOptions web = {}) {
     options.application = "app";
-    inspector = std::make_unique<Inspector>(
-        ControlledApplication{runtime, modules, editor, log, hooks, &history, &scheduler.pace()},
-        scheduler, options);
+    server.reset();
+    inspector.reset();
+    service = std::make_unique<CommandService>(
+        ServedApplication{runtime, modules, editor, log, hooks, &history, &scheduler.pace()});
+    inspector = std::make_unique<Inspector>(*service, scheduler, options);
     web.port = 0;
     auto started = WebServer::Start(web, {}, {inspector->Protocol()});
     ASSERT_TRUE(started) << started.error().ToString();
@@ -227,8 +284,9 @@ class InspectorTest : public ::testing::Test {
   Scheduler scheduler;
   StructureEditor editor{runtime, modules, &scheduler};
   ChangeHistory history{editor};
-  ControlLog log{runtime.clock()};
-  ControlHooks hooks;
+  ApplicationLog log{runtime.clock()};
+  ServiceHooks hooks;
+  std::unique_ptr<CommandService> service;
   std::unique_ptr<Inspector> inspector;
   std::unique_ptr<WebServer> server;
 };

@@ -1,14 +1,17 @@
 #include "plugins/inspector/structure_mirror.h"
 
+#include <new>
 #include <random>
+#include <set>
 
 #include "tests/plugins/inspector/inspector_fixture.h"
+#include "tests/support/fault_injection.h"
 
 namespace runnel::test {
 
 namespace {
 
-using internal::FaultBook;
+using internal::FaultLog;
 using internal::StructureMirror;
 
 /// What a viewer knows that follows the messages.
@@ -48,7 +51,7 @@ class StructureMirrorTest : public InspectorTest {
     for (int i = 0; i < 10'000 && !mirror.Look(); ++i) {
     }
   }
-  FaultBook faults;
+  FaultLog faults;
   StructureMirror mirror{runtime, modules, scheduler, faults};
 };
 
@@ -150,6 +153,46 @@ TEST_F(StructureMirrorTest, WhoFollowsTheChangesKnowsTheWhole) {
     ASSERT_EQ(viewer.connections, whole.connections) << "after " << i;
   }
   EXPECT_GT(done, 300);
+}
+
+TEST_F(StructureMirrorTest, WhereverMemoryEndsItKnowsTheWholeAfterwards) {
+  LookUntilDone();
+  Followed viewer;
+  viewer.Follow(mirror.Whole());
+  // Something to look at: new, gone, connected.
+  int number = 0;
+  const auto change = [&] {
+    const std::string last = "/app/n" + std::to_string((number + 1) % 2);
+    const std::string next = "/app/n" + std::to_string(number % 2);
+    Apply((number++ > 0 ? "delete " + last + "; " : "") + "create " + next +
+          " test/sink; connect /app/a/out " + next + "/in");
+  };
+  change();
+  const auto points = AtEachPoint(
+      InjectedFault::kAllocation,
+      [&] {
+        try {
+          LookUntilDone();
+        } catch (const std::bad_alloc&) {
+        }
+      },
+      [&](bool) {
+        LookUntilDone();
+        while (viewer.revision < mirror.revision()) {
+          const std::string* const news = mirror.ChangeTo(viewer.revision + 1);
+          viewer.Follow(news != nullptr ? *news : mirror.Whole());
+        }
+        std::set<std::string> there;
+        runtime.root().Visit([&](FrameworkElement& each) {
+          if (each.parent() != nullptr) there.insert(each.path());
+        });
+        std::set<std::string> told;
+        for (const auto& [path, element] : viewer.elements) told.insert(path);
+        ASSERT_EQ(told, there);
+        ASSERT_TRUE(mirror.Count());
+        change();
+      });
+  EXPECT_GT(points, 50u);
 }
 
 }  // namespace

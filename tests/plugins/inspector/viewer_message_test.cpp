@@ -8,16 +8,18 @@ namespace runnel::internal {
 
 namespace {
 
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 TEST(ViewerMessage, IsReadMemberByMember) {
   const auto message = ParseViewerMessage(
-      R"({"op":"change","request":7,"label":"l","changes":["a","b"],"rate":2.5,"elements":3,"more":[1]})");
+      R"({"op":"change","request":7,"label":"l","changes":[{"change":"delete","path":"/a"},{"change":"tidy"}],"rate":2.5,"elements":3,"more":[1]})");
   ASSERT_TRUE(message) << message.error().ToString();
   EXPECT_EQ(message->op, "change");
   EXPECT_EQ(message->request, 7U);
-  EXPECT_THAT(message->changes, ElementsAre("a", "b"));
+  ASSERT_EQ(message->changes.size(), 1U);
+  EXPECT_EQ(std::get<DeleteElement>(message->changes[0]).path, "/a");
+  ASSERT_EQ(message->wrong_changes.size(), 1U);
+  EXPECT_EQ(message->wrong_changes[0].change, 1U);
   EXPECT_EQ(message->rate, 2.5);
   EXPECT_EQ(message->elements, 3U);
   EXPECT_EQ(message->cycles, 1U);
@@ -40,7 +42,6 @@ TEST(ViewerMessage, WhatIsNoneIsRefused) {
                            R"({"op":"a","request":1e300})",
                            R"({"op":"a","request":"1"})",
                            R"({"op":"a","changes":"b"})",
-                           R"({"op":"a","changes":[1]})",
                            R"({"op":"a","rate":"fast"})",
                            R"({"op":"a","rate":-1})",
                            R"({"op":"a","path":["b"]})",
@@ -69,7 +70,8 @@ TEST(ViewerMessage, IsNotReadIntoDepths) {
 TEST(ViewerMessage, SurvivesWhateverComes) {
   std::mt19937 random(5);
   const std::string letters = R"({}[]",:0123456789.eE+-truefalsn \u"op""watch""path")";
-  const std::string good = R"({"op":"change","request":7,"changes":["set /a/b 3"],"rate":2.5})";
+  const std::string good =
+      R"({"op":"change","changes":[{"change":"set","path":"/a","value":"3"}],"rate":2})";
   const auto below = [&](std::size_t end) {
     return std::uniform_int_distribution<std::size_t>(0, end - 1)(random);
   };

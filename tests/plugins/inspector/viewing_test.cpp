@@ -198,13 +198,13 @@ TEST_F(SimulatedViewing, TellsTheEndAndItsVerdict) {
 
 TEST_F(Viewing, TellsTheLogFromItsNewestEntriesOn) {
   Start();
-  for (int i = 0; i < 600; ++i) log.Add(ControlLog::Kind::kWarning, "old " + std::to_string(i));
+  for (int i = 0; i < 600; ++i) log.Add(ApplicationLog::Kind::kWarning, "old " + std::to_string(i));
   Viewer viewer = View();
   const Json before = viewer.Next("log");
   ASSERT_EQ(before["entries"].size(), 500U);
   EXPECT_EQ(before["entries"][0]["text"], "old 100");
   EXPECT_EQ(before["entries"][0]["number"], 100);
-  log.Add(ControlLog::Kind::kFault, "\"new\"\nand \xff");
+  log.Add(ApplicationLog::Kind::kFault, "\"new\"\nand \xff");
   const Json after = viewer.Next("log");
   ASSERT_EQ(after["entries"].size(), 1U);
   EXPECT_EQ(after["entries"][0]["kind"], "fault");

@@ -1,9 +1,12 @@
 #include "plugins/json_values/json_writer.h"
 
+#include <new>
 #include <random>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
+
+#include "tests/support/fault_injection.h"
 
 namespace runnel {
 namespace {
@@ -48,6 +51,28 @@ TEST(JsonWriter, WritesObjectsWithinObjects) {
   }
   EXPECT_EQ(json, R"({"name":"a\"b","is_open":true,"count":18446744073709551615,"offset":-3,)"
                   R"("size":0.5,"list":["x",{}],"raw":[1]})");
+}
+
+// Objects within objects, so that some allocation is that of a closing bracket.
+void WriteNested(std::string& json, int levels) {
+  JsonObject object(json);
+  if (levels > 0) WriteNested(object.Key(""), levels - 1);
+}
+
+TEST(JsonWriter, ThrowsWhereThereIsNoMemoryForABracket) {
+  std::string json;
+  const auto write = [&] {
+    json = std::string();
+    try {
+      WriteNested(json, 100);
+    } catch (const std::bad_alloc&) {
+      json = "{}";
+    }
+  };
+  const std::size_t points =
+      test::AtEachPoint(test::InjectedFault::kAllocation, write,
+                        [&](bool has_struck) { EXPECT_EQ(json.size(), has_struck ? 2 : 502); });
+  EXPECT_GT(points, 2U);
 }
 
 TEST(JsonWriter, CutsBetweenLetters) {

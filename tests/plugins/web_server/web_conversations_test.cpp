@@ -55,6 +55,50 @@ TEST_F(WebConversations, PutMessagesTogetherThatComeInParts) {
   EXPECT_EQ(text->payload, "one two");
 }
 
+TEST_F(WebConversations, EndByWhateverTheyThrowAndOthersGoOn) {
+  Start();
+  RawClient other = Talker();
+  RawClient client = Talker();
+  client.SendText("throw a number");
+  const auto closing = client.Receive(8);
+  ASSERT_TRUE(closing);
+  EXPECT_EQ(closing->reason(), "exception of type int");
+  other.SendText("still there");
+  EXPECT_EQ(other.Receive().value().payload, "still there");
+}
+
+TEST_F(WebConversations, HaveATurnWhenAnotherThreadWakesThem) {
+  Start();
+  RawClient client = Talker();
+  client.SendText("keep the waker");
+  EXPECT_TRUE(client.Receive());
+  const int before = met.turns;  // the next one would come in an hour
+  met.WakeAll();
+  WaitUntil("a conversation that is woken has a turn", [&] { return met.turns > before; });
+}
+
+TEST_F(WebConversations, AreWokenInVainWhenTheyHaveGoneOrTheServerHas) {
+  Start();
+  {
+    RawClient gone = Talker();
+    gone.SendText("keep the waker");
+    EXPECT_TRUE(gone.Receive());
+  }
+  WaitUntil("the conversation has ended", [&] { return met.ended == 1; });
+  met.WakeAll();
+  RawClient client = Talker();
+  client.SendText("keep the waker");
+  EXPECT_TRUE(client.Receive());
+  std::atomic<bool> is_over{false};
+  std::thread waking([&] {
+    while (!is_over) met.WakeAll();
+  });
+  server.reset();
+  is_over = true;
+  waking.join();
+  met.WakeAll();
+}
+
 TEST_F(WebConversations, CarryLargeMessages) {
   Start();
   RawClient client = Talker();

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
@@ -14,6 +15,7 @@
 
 #include "plugins/web_server/web_server.h"
 #include "tests/plugins/web_server/raw_client.h"
+#include "tests/support/wait_until.h"
 
 namespace runnel::test {
 
@@ -29,6 +31,17 @@ struct Met {
   std::atomic<int> turns{0};
   std::atomic<int> messages{0};
   std::atomic<int> refused{0};  // by SendText()
+
+  void Keep(std::function<void()> waker) {
+    const std::lock_guard lock(mutex);
+    wakers.push_back(std::move(waker));
+  }
+  void WakeAll() {
+    const std::lock_guard lock(mutex);
+    for (const auto& wake : wakers) wake();
+  }
+  std::mutex mutex;
+  std::vector<std::function<void()>> wakers;  // guarded by mutex
 };
 
 /// Says what it is told. Some words have a meaning: "throw", "close", "much", "soon".
@@ -39,6 +52,8 @@ class Echo final : public WebConversation {
 
   void OnText(std::string_view message) override {
     ++met_.messages;
+    if (message == "throw a number") throw 1;
+    if (message == "keep the waker") met_.Keep(client_.Waker());
     if (message == "throw") throw std::runtime_error("the conversation has thrown");
     if (message == "close") return client_.Close("as you wish");
     if (message == "much") {
@@ -96,7 +111,10 @@ class WebServerTest : public ::testing::Test {
   }
   template <typename Condition>
   static bool Eventually(const Condition& condition) {
-    for (int i = 0; i < 20'000 && !condition(); ++i) std::this_thread::sleep_for(1ms);
+    const auto latest = std::chrono::steady_clock::now() + kLongestWait;
+    while (!condition() && std::chrono::steady_clock::now() < latest) {
+      std::this_thread::sleep_for(1ms);
+    }
     return condition();
   }
 

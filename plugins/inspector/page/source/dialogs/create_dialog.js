@@ -2,7 +2,7 @@
 
 import { useState } from 'preact/hooks';
 import { html } from 'htm/preact';
-import { FreeName, NameProblem } from '../model/change_text.js';
+import { FreeName, NameProblem } from '../model/changes.js';
 import { CreateGroup, CreateModule, ErrorText } from '../state/actions.js';
 import { Reveal } from '../state/choices.js';
 import { catalogue, revision, structure } from '../state/store.js';

@@ -2,7 +2,7 @@
 
 import { useState } from 'preact/hooks';
 import { html } from 'htm/preact';
-import { NameProblem } from '../model/change_text.js';
+import { NameProblem } from '../model/changes.js';
 import { CreatePort, ErrorText } from '../state/actions.js';
 import { catalogue, structure } from '../state/store.js';
 import { CloseDialog, Dialog } from './dialog.js';

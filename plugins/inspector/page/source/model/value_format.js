@@ -32,11 +32,12 @@ export function FormatMilliseconds(milliseconds) {
 /** Seconds as a clock: "12.35 s", "1:02:03.4". */
 export function FormatTime(seconds) {
   if (seconds === null || seconds === undefined) return '–';
-  if (seconds < 60) return `${seconds.toFixed(2)} s`;
-  const whole = Math.floor(seconds);
-  const rest = (seconds - Math.floor(seconds / 60) * 60).toFixed(1).padStart(4, '0');
-  const minutes = Math.floor(whole / 60) % 60;
-  const hours = Math.floor(whole / 3600);
+  // Rounded before it is divided, lest 119.97 s become "1:60.0".
+  const tenths = Math.round(seconds * 10);
+  if (tenths < 600) return `${seconds.toFixed(2)} s`;
+  const rest = ((tenths % 600) / 10).toFixed(1).padStart(4, '0');
+  const minutes = Math.floor(tenths / 600) % 60;
+  const hours = Math.floor(tenths / 36000);
   return hours > 0 ? `${hours}:${String(minutes).padStart(2, '0')}:${rest}` : `${minutes}:${rest}`;
 }
 

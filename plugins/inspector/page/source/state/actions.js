@@ -1,7 +1,7 @@
 // What the user can ask of the application. Each returns the server's reply; what went wrong comes
 // up as a toast, unless the caller shows it where it belongs.
 
-import { Change, FreeName } from '../model/change_text.js';
+import { Change, FreeName } from '../model/changes.js';
 import { NameOf, ParentOf } from '../model/structure.js';
 import { selected } from './choices.js';
 import { Request, run, structure } from './store.js';

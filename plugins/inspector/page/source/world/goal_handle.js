@@ -2,7 +2,7 @@
 
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { html } from 'htm/preact';
-import { Change } from '../model/change_text.js';
+import { Change } from '../model/changes.js';
 import { FormatNumber } from '../model/value_format.js';
 import { Apply } from '../state/actions.js';
 import { canChange } from '../state/store.js';

@@ -1,14 +1,14 @@
-#include "plugins/control/structure_recorder.h"
+#include "plugins/command_service/structure_recorder.h"
 
 #include <utility>
 
 #include "core/plugin/module_type_name.h"
-#include "plugins/control/change_worker.h"
+#include "plugins/command_service/command_worker.h"
 
 namespace runnel {
 
 void StructureRecorder::Add(std::string text) {
-  if (!ChangeWorker::IsThisThread()) log_.Add(ControlLog::Kind::kChange, std::move(text));
+  if (!CommandWorker::IsThisThread()) log_.Add(ApplicationLog::Kind::kChange, std::move(text));
 }
 
 void StructureRecorder::OnReady(FrameworkElement& element) {

@@ -2,13 +2,13 @@
 
 #include <chrono>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "plugins/control/change_worker.h"
 #include "plugins/foxglove/internal/client_message.h"
 #include "plugins/foxglove/internal/directory.h"
 
@@ -18,11 +18,13 @@ struct FoxgloveShared;
 class Outbox;
 
 /// What one client asks and is told about parameters.
-class ParameterTalk {
+class ParameterHandler {
  public:
   using MachineTime = std::chrono::steady_clock::time_point;
 
-  ParameterTalk(FoxgloveShared& shared, Outbox& outbox) : shared_(shared), outbox_(outbox) {}
+  /// `wake` has the conversation take a turn, from any thread.
+  ParameterHandler(FoxgloveShared& shared, Outbox& outbox, std::function<void()> wake)
+      : shared_(shared), outbox_(outbox), wake_(std::move(wake)) {}
 
   void Get(const GetParametersMessage& message);
   void Set(const SetParametersMessage& message);
@@ -32,22 +34,23 @@ class ParameterTalk {
   MachineTime Continue(MachineTime now);
 
  private:
-  struct Setting;  // a request to set, from its coming to its answer
+  struct PendingSet;  // a request to set, from its coming to its answer
 
   [[nodiscard]] std::vector<std::string> AllNames() const;
-  void Complain(const Error& error);
+  void SendError(const Error& error);
   /// `may_search`: for the nearest name, which takes time; once in a message.
   [[nodiscard]] Error NoSuchParameter(const std::string& name, bool& may_search) const;
   void SendValues(const Directory::ParameterTexts& texts, const std::optional<std::string>& id);
   bool AnswerGets();
-  bool ContinueSetting();
-  bool BeginSetting(Setting& setting);
-  void TellChanges();
+  bool ContinueSets();
+  bool BeginSet(PendingSet& set);
+  void SendChanges();
 
   FoxgloveShared& shared_;
   Outbox& outbox_;
+  const std::function<void()> wake_;
   std::deque<GetParametersMessage> gets_;
-  std::deque<std::shared_ptr<Setting>> settings_;
+  std::deque<std::shared_ptr<PendingSet>> sets_;
   std::set<std::string> subscribed_;
   Directory::ParameterTexts told_;  // of those that are subscribed to
   MachineTime look_at_{};

@@ -1,4 +1,4 @@
-#include "plugins/foxglove/internal/conversation.h"
+#include "plugins/foxglove/internal/foxglove_session.h"
 
 #include <algorithm>
 #include <utility>
@@ -34,75 +34,75 @@ std::uint32_t ReadNumber(std::string_view bytes) {
 
 }  // namespace
 
-FoxgloveConversation::FoxgloveConversation(std::shared_ptr<FoxgloveShared> shared,
-                                           WebClient& client)
+FoxgloveSession::FoxgloveSession(std::shared_ptr<FoxgloveShared> shared, WebClient& client)
     : shared_(std::move(shared)),
       client_(client),
       outbox_(client),
-      subscriptions_(shared_->application.runtime, client),
-      parameters_(*shared_, outbox_) {
+      subscriptions_(shared_->runtime(), client),
+      parameters_(*shared_, outbox_, client.Waker()) {
   outbox_.Send(ServerInfoMessage(*shared_));
 }
 
-void FoxgloveConversation::Tell(StatusLevel level, const Error& error) {
+void FoxgloveSession::SendStatus(StatusLevel level, const Error& error) {
   // A client that makes mistakes and does not listen need not hear of all of them.
   if (!outbox_.is_long()) outbox_.Send(StatusMessage(level, error.ToString()));
 }
 
-void FoxgloveConversation::OnText(std::string_view message) {
+void FoxgloveSession::OnText(std::string_view message) {
   const auto parsed = ParseClientMessage(message);
-  if (!parsed) return Complain(parsed.error());
+  if (!parsed) return SendError(parsed.error());
   std::visit([this](const auto& each) { Handle(each); }, *parsed);
 }
 
-void FoxgloveConversation::OnBinary(std::string_view message) {
+void FoxgloveSession::OnBinary(std::string_view message) {
   constexpr std::size_t kHead = 5;
   constexpr char kMessageData = 1;
   if (message.size() < kHead || message[0] != kMessageData) {
-    return Complain({.message = "there is no binary message of this kind here",
-                     .hint = "byte 1: the value of a client's channel, then the channel's id"});
+    return SendError({.message = "there is no binary message of this kind here",
+                      .hint = "byte 1: the value of a client's channel, then the channel's id"});
   }
   const std::uint32_t id = ReadNumber(message.substr(1));
   const auto found = publications_.find(id);
   if (found == publications_.end()) {
-    return Complain({.message = "channel " + std::to_string(id) + " is not advertised"});
+    return SendError({.message = "channel " + std::to_string(id) + " is not advertised"});
   }
   const auto published = found->second.channel->Publish(message.substr(kHead));
   if (published) return;
   Error error = published.error();
   if (error.path.empty()) error.path = found->second.path;
-  Complain(error);
+  SendError(error);
 }
 
-void FoxgloveConversation::Handle(const SubscribeMessage& message) {
-  shared_->directory.Look(std::chrono::steady_clock::now());
+void FoxgloveSession::Handle(const SubscribeMessage& message) {
+  shared_->directory.Look(shared_->Now());
   const auto content = shared_->directory.content();
-  for (const Error& error : subscriptions_.Add(message, *content)) Complain(error);
+  for (const Error& error : subscriptions_.Add(message, *content)) SendError(error);
   sample_at_ = {};
 }
 
-void FoxgloveConversation::Handle(const UnsubscribeMessage& message) {
-  for (const Error& error : subscriptions_.Remove(message)) Complain(error);
+void FoxgloveSession::Handle(const UnsubscribeMessage& message) {
+  for (const Error& error : subscriptions_.Remove(message)) SendError(error);
 }
 
-void FoxgloveConversation::Handle(const AdvertiseMessage& message) {
+void FoxgloveSession::Handle(const AdvertiseMessage& message) {
   if (shared_->application.is_read_only) {
-    return Complain({.message = "advertise: viewers may look, and publish nothing"});
+    return SendError({.message = "advertise: viewers may look, and publish nothing"});
   }
   bool may_search = true;
   for (const AdvertiseMessage::Channel& channel : message.channels) Advertise(channel, may_search);
 }
 
-void FoxgloveConversation::Advertise(const AdvertiseMessage::Channel& channel, bool& may_search) {
+void FoxgloveSession::Advertise(const AdvertiseMessage::Channel& channel, bool& may_search) {
   if (channel.encoding != "json") {
-    return Complain(
+    return SendError(
         {.message = "advertise: values come as 'json' here, not as '" + channel.encoding + "'"});
   }
   if (publications_.contains(channel.id)) {
-    return Complain({.message = "advertise: channel " + std::to_string(channel.id) + " is in use"});
+    return SendError(
+        {.message = "advertise: channel " + std::to_string(channel.id) + " is in use"});
   }
   if (publications_.size() >= kMostPublications) {
-    return Complain(
+    return SendError(
         {.message = "advertise: more than " + std::to_string(kMostPublications) + " channels"});
   }
   const auto content = shared_->directory.content();
@@ -112,20 +112,21 @@ void FoxgloveConversation::Advertise(const AdvertiseMessage::Channel& channel, b
     if (std::exchange(may_search, false)) {
       error.hint = NearestNameHint(channel.topic, TopicsOf(*content));
     }
-    return Complain(error);
+    return SendError(error);
   }
-  publications_[channel.id] = {input->second.path, input->second.type,
-                               std::make_unique<ClientPublication>(*shared_, input->second)};
+  publications_[channel.id] = {
+      input->second.path, input->second.type,
+      std::make_unique<ClientPublication>(*shared_, input->second, client_.Waker())};
 }
 
-void FoxgloveConversation::Handle(const UnadvertiseMessage& message) {
+void FoxgloveSession::Handle(const UnadvertiseMessage& message) {
   for (const std::uint32_t id : message.ids) {
     if (publications_.erase(id) > 0) continue;
-    Complain({.message = "unadvertise: channel " + std::to_string(id) + " is not advertised"});
+    SendError({.message = "unadvertise: channel " + std::to_string(id) + " is not advertised"});
   }
 }
 
-void FoxgloveConversation::Handle(const SubscribeGraphMessage& message) {
+void FoxgloveSession::Handle(const SubscribeGraphMessage& message) {
   has_graph_ = message.is_wanted;
   graph_.clear();
   if (!has_graph_) return;
@@ -133,8 +134,8 @@ void FoxgloveConversation::Handle(const SubscribeGraphMessage& message) {
   outbox_.Send(GraphMessage({}, graph_));
 }
 
-FoxgloveConversation::MachineTime FoxgloveConversation::OnTurn() {
-  const auto now = std::chrono::steady_clock::now();
+FoxgloveSession::MachineTime FoxgloveSession::OnTurn() {
+  const auto now = shared_->Now();
   shared_->directory.Look(now);
   if (!outbox_.Continue()) return now + kSoon;
   FollowStructure();
@@ -142,12 +143,13 @@ FoxgloveConversation::MachineTime FoxgloveConversation::OnTurn() {
   MachineTime next = std::min(now + kBetweenTurns, parameters_.Continue(now));
   SendTime(now);
   if (now >= sample_at_) sample_at_ = now + (subscriptions_.Sample() ? kBetweenSamples : kSoon);
+  for (const Error& error : subscriptions_.TakeFailures()) SendError(error);
   if (!subscriptions_.is_empty()) next = std::min(next, sample_at_);
   if (is_publishing || !outbox_.is_empty()) next = std::min<MachineTime>(next, now + kSoon);
   return std::min(next, time_at_);
 }
 
-void FoxgloveConversation::FollowStructure() {
+void FoxgloveSession::FollowStructure() {
   const auto content = shared_->directory.content();
   if (content != content_) {
     content_ = content;
@@ -168,7 +170,7 @@ void FoxgloveConversation::FollowStructure() {
 }
 
 // In pieces, since there may be thousands.
-void FoxgloveConversation::AdvertiseNew() {
+void FoxgloveSession::AdvertiseNew() {
   auto channel = content_->channels.begin();
   while (advertised_.size() < content_->channels.size() && outbox_.is_empty()) {
     std::vector<const DirectoryChannel*> fresh;
@@ -179,34 +181,34 @@ void FoxgloveConversation::AdvertiseNew() {
   }
 }
 
-void FoxgloveConversation::DropPublications(const DirectoryContent& content) {
+void FoxgloveSession::DropPublications(const DirectoryContent& content) {
   std::erase_if(publications_, [&](const auto& each) {
     const auto& [id, publication] = each;
     const auto input = content.inputs.find(publication.path);
     if (input != content.inputs.end() && input->second.type == publication.type) return false;
-    Tell(StatusLevel::kWarning,
-         {.message = "channel " + std::to_string(id) + " is closed: its input is gone",
-          .path = publication.path});
+    SendStatus(StatusLevel::kWarning,
+               {.message = "channel " + std::to_string(id) + " is closed: its input is gone",
+                .path = publication.path});
     return true;
   });
 }
 
 // Whether outputs are still being made.
-bool FoxgloveConversation::ContinuePublications() {
+bool FoxgloveSession::ContinuePublications() {
   bool is_any_making = false;
   std::erase_if(publications_, [&](const auto& each) {
     if (each.second.channel->Continue()) is_any_making = true;
     const auto error = each.second.channel->TakeError();
-    if (error) Complain(*error);
+    if (error) SendError(*error);
     return error.has_value() && !each.second.channel->is_made();
   });
   return is_any_making;
 }
 
-void FoxgloveConversation::SendTime(MachineTime now) {
+void FoxgloveSession::SendTime(MachineTime now) {
   if (now < time_at_) return;
   time_at_ = now + kBetweenTimes;
-  const Time time = shared_->application.runtime.clock().Now();
+  const Time time = shared_->runtime().clock().Now();
   if (time == time_) return;
   if (client_.SendBinary(TimeMessage(time))) time_ = time;
 }

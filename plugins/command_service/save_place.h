@@ -4,7 +4,7 @@
 
 #include "core/base/result.h"
 
-namespace runnel::internal {
+namespace runnel {
 
 /// Where a viewer may have the application saved: into files called *.xml in the folder of the file that it
 /// came from, and in folders below that. `wanted` may be seen from there; links are followed before they are
@@ -13,4 +13,4 @@ namespace runnel::internal {
 [[nodiscard]] Result<std::string> SavePlace(const std::string& application_file,
                                             const std::string& wanted);
 
-}  // namespace runnel::internal
+}  // namespace runnel

@@ -1,4 +1,4 @@
-#include "plugins/control/control_log.h"
+#include "plugins/command_service/application_log.h"
 
 #include <gmock/gmock.h>
 
@@ -9,12 +9,12 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-TEST(ControlLog, TellsWhenWhatHappened) {
+TEST(ApplicationLog, TellsWhenWhatHappened) {
   ManualClock clock;
   clock.Advance(std::chrono::seconds(7));
-  ControlLog log(clock);
+  ApplicationLog log(clock);
   clock.Advance(std::chrono::milliseconds(1500));
-  log.Add(ControlLog::Kind::kFault, "boom\n");
+  log.Add(ApplicationLog::Kind::kFault, "boom\n");
   const auto read = log.Read(0, 10);
   ASSERT_THAT(read.lines, SizeIs(1));
   EXPECT_THAT(read.lines[0], EndsWith("      1.500 s  fault    boom"));
@@ -22,11 +22,11 @@ TEST(ControlLog, TellsWhenWhatHappened) {
   EXPECT_THAT(log.Read(read.next, 10).lines, IsEmpty());
 }
 
-TEST(ControlLog, KeepsTheNewestAndCountsWhatIsGone) {
+TEST(ApplicationLog, KeepsTheNewestAndCountsWhatIsGone) {
   ManualClock clock;
-  ControlLog log(clock);
-  for (std::size_t i = 0; i < ControlLog::kMostEntries + 5; ++i) {
-    log.Add(ControlLog::Kind::kChange, "entry " + std::to_string(i));
+  ApplicationLog log(clock);
+  for (std::size_t i = 0; i < ApplicationLog::kMostEntries + 5; ++i) {
+    log.Add(ApplicationLog::Kind::kChange, "entry " + std::to_string(i));
   }
   const auto read = log.Read(2, 3);
   EXPECT_EQ(read.lost, 3U);
@@ -35,13 +35,13 @@ TEST(ControlLog, KeepsTheNewestAndCountsWhatIsGone) {
   EXPECT_THAT(read.lines[0], EndsWith("entry 5"));
 }
 
-TEST(ControlLog, CutsLongTextsAndIndentsFurtherLines) {
+TEST(ApplicationLog, CutsLongTextsAndIndentsFurtherLines) {
   ManualClock clock;
-  ControlLog log(clock);
-  log.Add(ControlLog::Kind::kWarning, std::string(100'000, 'x'));
-  log.Add(ControlLog::Kind::kWarning, "a\nb");
+  ApplicationLog log(clock);
+  log.Add(ApplicationLog::Kind::kWarning, std::string(100'000, 'x'));
+  log.Add(ApplicationLog::Kind::kWarning, "a\nb");
   const auto read = log.Read(0, 2);
-  EXPECT_LT(read.lines[0].size(), ControlLog::kLongestText + 100);
+  EXPECT_LT(read.lines[0].size(), ApplicationLog::kLongestText + 100);
   EXPECT_THAT(read.lines[1], HasSubstr("a\n    b"));
 }
 

@@ -1,4 +1,4 @@
-#include "plugins/foxglove/internal/parameter_talk.h"
+#include "plugins/foxglove/internal/parameter_handler.h"
 
 #include <algorithm>
 #include <utility>
@@ -22,13 +22,15 @@ constexpr std::size_t kMostAtOnce = 1000;
 
 }  // namespace
 
-struct ParameterTalk::Setting {
+struct ParameterHandler::PendingSet {
   SetParametersMessage message;
-  std::shared_ptr<ChangeWorker::Job> job;
-  std::vector<Error> errors;  // the worker's until the job is done
+  bool has_begun = false;
+  // One for each parameter: what is wrong with one is no reason to leave out the others.
+  std::vector<std::unique_ptr<PendingCommand>> changes = {};
+  std::vector<Error> errors = {};
 };
 
-std::vector<std::string> ParameterTalk::AllNames() const {
+std::vector<std::string> ParameterHandler::AllNames() const {
   std::vector<std::string> names;
   for (const auto& [name, parameter] : shared_.directory.content()->parameters) {
     names.push_back(name);
@@ -36,38 +38,38 @@ std::vector<std::string> ParameterTalk::AllNames() const {
   return names;
 }
 
-void ParameterTalk::Complain(const Error& error) {
+void ParameterHandler::SendError(const Error& error) {
   outbox_.Send(StatusMessage(StatusLevel::kError, error.ToString()));
 }
 
-Error ParameterTalk::NoSuchParameter(const std::string& name, bool& may_search) const {
+Error ParameterHandler::NoSuchParameter(const std::string& name, bool& may_search) const {
   Error error{.message = "there is no parameter '" + name + "'"};
   if (std::exchange(may_search, false)) error.hint = NearestNameHint(name, AllNames());
   return error;
 }
 
-void ParameterTalk::Get(const GetParametersMessage& message) {
+void ParameterHandler::Get(const GetParametersMessage& message) {
   if (gets_.size() >= kMostWaiting) {
-    return Complain({.message = "getParameters: too many requests are waiting"});
+    return SendError({.message = "getParameters: too many requests are waiting"});
   }
   gets_.push_back(message);
 }
 
-void ParameterTalk::Set(const SetParametersMessage& message) {
-  if (shared_.application.is_read_only || !shared_.application.change) {
-    return Complain({.message = "setParameters: viewers may look, and change nothing"});
+void ParameterHandler::Set(const SetParametersMessage& message) {
+  if (shared_.application.is_read_only) {
+    return SendError({.message = "setParameters: viewers may look, and change nothing"});
   }
-  if (settings_.size() >= kMostWaiting) {
-    return Complain({.message = "setParameters: too many requests are waiting"});
+  if (sets_.size() >= kMostWaiting) {
+    return SendError({.message = "setParameters: too many requests are waiting"});
   }
   if (message.parameters.size() > kMostAtOnce) {
-    return Complain({.message = "setParameters: more than " + std::to_string(kMostAtOnce) +
-                                " parameters at once"});
+    return SendError({.message = "setParameters: more than " + std::to_string(kMostAtOnce) +
+                                 " parameters at once"});
   }
-  settings_.push_back(std::make_shared<Setting>(Setting{message, nullptr, {}}));
+  sets_.push_back(std::make_shared<PendingSet>(PendingSet{message}));
 }
 
-void ParameterTalk::Subscribe(const SubscribeParametersMessage& message) {
+void ParameterHandler::Subscribe(const SubscribeParametersMessage& message) {
   const auto known = AllNames();
   if (message.names.empty()) {
     subscribed_.clear();
@@ -80,27 +82,27 @@ void ParameterTalk::Subscribe(const SubscribeParametersMessage& message) {
     } else if (std::ranges::binary_search(known, name)) {
       subscribed_.insert(name);
     } else if (!outbox_.is_long()) {
-      Complain(NoSuchParameter(name, may_search));
+      SendError(NoSuchParameter(name, may_search));
     }
   }
   std::erase_if(told_, [&](const auto& each) { return !subscribed_.contains(each.first); });
   look_at_ = {};
 }
 
-ParameterTalk::MachineTime ParameterTalk::Continue(MachineTime now) {
+ParameterHandler::MachineTime ParameterHandler::Continue(MachineTime now) {
   if (outbox_.is_long()) return now + kSoon;
   const bool has_answered = AnswerGets();
-  const bool has_set = ContinueSetting();
+  const bool has_set = ContinueSets();
   if (!subscribed_.empty() && now >= look_at_) {
     look_at_ = now + kBetweenLooks;
-    TellChanges();
+    SendChanges();
   }
   if (!has_answered || !has_set) return now + kSoon;
   return subscribed_.empty() ? now + kLongTime : look_at_;
 }
 
-void ParameterTalk::SendValues(const Directory::ParameterTexts& texts,
-                               const std::optional<std::string>& id) {
+void ParameterHandler::SendValues(const Directory::ParameterTexts& texts,
+                                  const std::optional<std::string>& id) {
   const auto content = shared_.directory.content();
   std::string json;
   {
@@ -118,14 +120,15 @@ void ParameterTalk::SendValues(const Directory::ParameterTexts& texts,
 }
 
 // False if something is still to be answered.
-bool ParameterTalk::AnswerGets() {
+bool ParameterHandler::AnswerGets() {
   while (!gets_.empty()) {
     const GetParametersMessage& get = gets_.front();
     const auto texts = shared_.directory.ReadParameters(get.names.empty() ? AllNames() : get.names);
     if (!texts) return false;
     bool may_search = true;
     for (const std::string& name : get.names) {
-      if (!texts->contains(name) && !outbox_.is_long()) Complain(NoSuchParameter(name, may_search));
+      if (!texts->contains(name) && !outbox_.is_long())
+        SendError(NoSuchParameter(name, may_search));
     }
     SendValues(*texts, get.id);
     gets_.pop_front();
@@ -133,64 +136,67 @@ bool ParameterTalk::AnswerGets() {
   return true;
 }
 
-bool ParameterTalk::ContinueSetting() {
-  while (!settings_.empty()) {
-    Setting& setting = *settings_.front();
-    if (!setting.job && !BeginSetting(setting)) return false;
-    if (!setting.job->is_done()) return false;
+bool ParameterHandler::ContinueSets() {
+  while (!sets_.empty()) {
+    PendingSet& set = *sets_.front();
+    if (!set.has_begun && !BeginSet(set)) return false;
+    // The worker tells when it is.
+    if (!std::ranges::all_of(set.changes, [](const auto& each) { return each->is_done(); })) {
+      return true;
+    }
     std::vector<std::string> names;
-    for (const auto& item : setting.message.parameters) names.push_back(item.name);
+    for (const auto& item : set.message.parameters) names.push_back(item.name);
     // What they are now, whatever has come of it.
-    if (setting.message.id) {
+    if (set.message.id) {
       const auto texts = shared_.directory.ReadParameters(names);
       if (!texts) return false;
-      SendValues(*texts, setting.message.id);
+      SendValues(*texts, set.message.id);
     }
-    for (const Error& error : setting.errors) {
-      if (!outbox_.is_long()) Complain(error);
+    for (const auto& change : set.changes) {
+      const CommandAnswer answer = change->Take();
+      const auto& errors = answer.diagnostics.errors();
+      if (!answer && !errors.empty()) set.errors.push_back(errors.front());
     }
-    settings_.pop_front();
+    for (const Error& error : set.errors) {
+      if (!outbox_.is_long()) SendError(error);
+    }
+    sets_.pop_front();
     look_at_ = {};
   }
   return true;
 }
 
 // False if the structure is locked.
-bool ParameterTalk::BeginSetting(Setting& setting) {
+bool ParameterHandler::BeginSet(PendingSet& set) {
   const auto content = shared_.directory.content();
   std::vector<std::string> names;
-  for (const auto& item : setting.message.parameters) names.push_back(item.name);
+  for (const auto& item : set.message.parameters) names.push_back(item.name);
   const auto texts = shared_.directory.ReadParameters(names);
   if (!texts) return false;
-  std::vector<SetParameter> changes;
+  set.has_begun = true;
   bool may_search = true;
-  for (const auto& item : setting.message.parameters) {
+  for (const auto& item : set.message.parameters) {
     const auto found = content->parameters.find(item.name);
     if (found == content->parameters.end()) {
-      setting.errors.push_back(NoSuchParameter(item.name, may_search));
+      set.errors.push_back(NoSuchParameter(item.name, may_search));
       continue;
     }
     auto text = TextOfSetting(item, *found->second.type, texts->at(item.name));
     if (text) {
-      changes.push_back({found->second.path, std::move(*text)});
+      ChangeRequest change{
+          {.changes = {SetParameter{found->second.path, std::move(*text)}}, .positions = {}}};
+      set.changes.push_back(
+          shared_.application.service.Begin(std::move(change), *shared_.tasks, wake_));
     } else {
       Error error = text.error();
       error.path = found->second.path;
-      setting.errors.push_back(std::move(error));
+      set.errors.push_back(std::move(error));
     }
   }
-  setting.job = shared_.worker->Post([changes = std::move(changes), owner = settings_.front(),
-                                      &application = shared_.application] {
-    // Each for itself: what is wrong with one is no reason to leave out the others.
-    for (const SetParameter& change : changes) {
-      const auto done = application.change({change});
-      if (!done) owner->errors.push_back(done.error());
-    }
-  });
   return true;
 }
 
-void ParameterTalk::TellChanges() {
+void ParameterHandler::SendChanges() {
   const auto texts = shared_.directory.ReadParameters({subscribed_.begin(), subscribed_.end()});
   if (!texts) {
     look_at_ = {};

@@ -8,7 +8,7 @@
 #include "plugins/foxglove/internal/client_publication.h"
 #include "plugins/foxglove/internal/foxglove_shared.h"
 #include "plugins/foxglove/internal/outbox.h"
-#include "plugins/foxglove/internal/parameter_talk.h"
+#include "plugins/foxglove/internal/parameter_handler.h"
 #include "plugins/foxglove/internal/server_messages.h"
 #include "plugins/foxglove/internal/subscriptions.h"
 #include "plugins/web_server/web_conversation.h"
@@ -16,9 +16,9 @@
 namespace runnel::internal {
 
 /// The protocol with one client.
-class FoxgloveConversation final : public WebConversation {
+class FoxgloveSession final : public WebConversation {
  public:
-  FoxgloveConversation(std::shared_ptr<FoxgloveShared> shared, WebClient& client);
+  FoxgloveSession(std::shared_ptr<FoxgloveShared> shared, WebClient& client);
 
   void OnText(std::string_view message) override;
   void OnBinary(std::string_view message) override;
@@ -36,8 +36,8 @@ class FoxgloveConversation final : public WebConversation {
   /// `may_search`: for the nearest name, which takes time; once in a message.
   void Advertise(const AdvertiseMessage::Channel& channel, bool& may_search);
 
-  void Tell(StatusLevel level, const Error& error);
-  void Complain(const Error& error) { Tell(StatusLevel::kError, error); }
+  void SendStatus(StatusLevel level, const Error& error);
+  void SendError(const Error& error) { SendStatus(StatusLevel::kError, error); }
   void FollowStructure();
   void AdvertiseNew();
   void DropPublications(const DirectoryContent& content);
@@ -54,7 +54,7 @@ class FoxgloveConversation final : public WebConversation {
   WebClient& client_;
   Outbox outbox_;
   Subscriptions subscriptions_;
-  ParameterTalk parameters_;
+  ParameterHandler parameters_;
   std::map<std::uint32_t, Publication> publications_;  // by the client's numbers
   std::shared_ptr<const DirectoryContent> content_;    // that the client has been told of
   std::set<std::uint32_t> advertised_;

@@ -2,7 +2,7 @@
 
 #include "core/element/element_listener.h"
 #include "core/element/runtime.h"
-#include "plugins/control/control_log.h"
+#include "plugins/command_service/application_log.h"
 
 namespace runnel {
 
@@ -10,7 +10,7 @@ namespace runnel {
 /// them.
 class StructureRecorder final : public ElementListener {
  public:
-  StructureRecorder(Runtime& runtime, ControlLog& log) : runtime_(runtime), log_(log) {
+  StructureRecorder(Runtime& runtime, ApplicationLog& log) : runtime_(runtime), log_(log) {
     runtime_.AddListener(*this);
   }
   ~StructureRecorder() { runtime_.RemoveListener(*this); }
@@ -24,7 +24,7 @@ class StructureRecorder final : public ElementListener {
   void Add(std::string text);
 
   Runtime& runtime_;
-  ControlLog& log_;
+  ApplicationLog& log_;
 };
 
 }  // namespace runnel

@@ -1,4 +1,4 @@
-#include "plugins/inspector/internal/save_place.h"
+#include "plugins/command_service/save_place.h"
 
 #include <filesystem>
 #include <fstream>
@@ -7,7 +7,7 @@
 
 #include "tests/support/temporary_folder.h"
 
-namespace runnel::internal {
+namespace runnel {
 
 namespace {
 
@@ -53,6 +53,17 @@ TEST_F(SavePlaceTest, IsNowhereElse) {
   }
 }
 
+// As an application is named that lies where the program was started.
+TEST_F(SavePlaceTest, IsBesideAFileThatIsNamedWithoutAFolder) {
+  const fs::path here = fs::canonical(fs::current_path());
+  for (const char* wanted : {"/etc/new.xml", "../new.xml", "below/../../new.xml"}) {
+    const auto place = SavePlace("robot.xml", wanted);
+    ASSERT_FALSE(place) << wanted << " -> " << *place;
+    EXPECT_THAT(place.error().hint, HasSubstr(here.string()));
+  }
+  EXPECT_EQ(*SavePlace("robot.xml", "new.xml"), (here / "new.xml").string());
+}
+
 TEST_F(SavePlaceTest, IsAnXmlFile) {
   for (const char* wanted : {"", ".", "..", ".xml", "new", "new.xml/", "new.sh", "new.xml.sh"}) {
     EXPECT_FALSE(SavePlace(file.string(), wanted)) << wanted;
@@ -67,4 +78,4 @@ TEST_F(SavePlaceTest, IsANameForWhatCameFromNoFile) {
 
 }  // namespace
 
-}  // namespace runnel::internal
+}  // namespace runnel

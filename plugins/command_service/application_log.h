@@ -15,7 +15,7 @@ namespace runnel {
 /// warnings, changes. The newest are kept.
 ///
 /// Threads:  any, but not from within a cycle: locks and allocates.
-class ControlLog {
+class ApplicationLog {
  public:
   static constexpr std::size_t kMostEntries = 10'000;
   static constexpr std::size_t kLongestText = 4'000;  ///< bytes; the rest is cut off
@@ -23,7 +23,7 @@ class ControlLog {
   enum class Kind { kFault, kWarning, kChange };
 
   /// `clock` is the application's and must outlive this; times count from now.
-  explicit ControlLog(const Clock& clock) : clock_(clock), start_(clock.Now()) {}
+  explicit ApplicationLog(const Clock& clock) : clock_(clock), start_(clock.Now()) {}
 
   void Add(Kind kind, std::string text);
 

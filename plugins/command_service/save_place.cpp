@@ -1,10 +1,10 @@
-#include "plugins/inspector/internal/save_place.h"
+#include "plugins/command_service/save_place.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <system_error>
 
-namespace runnel::internal {
+namespace runnel {
 
 namespace {
 
@@ -29,7 +29,9 @@ Result<std::string> SavePlace(const std::string& application_file, const std::st
                  .hint = "give a name without a folder"};
   }
   std::error_code error;
-  const fs::path folder = fs::weakly_canonical(fs::path(application_file).parent_path(), error);
+  // Whole first: the folder of a mere name is "", and everything is below that.
+  const fs::path whole = fs::absolute(application_file, error);
+  const fs::path folder = error ? fs::path() : fs::weakly_canonical(whole.parent_path(), error);
   const fs::path place = error ? fs::path() : fs::weakly_canonical(folder / asked, error);
   // What is still a link leads to something that is not there yet.
   const bool is_link = !error && fs::is_symlink(fs::symlink_status(place, error));
@@ -38,4 +40,4 @@ Result<std::string> SavePlace(const std::string& application_file, const std::st
                .hint = "they may in " + folder.string() + ", and below"};
 }
 
-}  // namespace runnel::internal
+}  // namespace runnel

@@ -1,4 +1,4 @@
-#include "plugins/control/element_search.h"
+#include "plugins/command_service/element_search.h"
 
 #include "plugins/structure/projection.h"
 

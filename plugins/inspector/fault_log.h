@@ -10,7 +10,7 @@ namespace runnel::internal {
 /// Faults on their way from the thread that runs the application to the server's.
 ///
 /// Threads:  any.
-class FaultBook {
+class FaultLog {
  public:
   struct Entry {
     std::string path;  ///< of a module

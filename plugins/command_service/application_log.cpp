@@ -1,4 +1,4 @@
-#include "plugins/control/control_log.h"
+#include "plugins/command_service/application_log.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace runnel {
 
-void ControlLog::Add(Kind kind, std::string text) {
+void ApplicationLog::Add(Kind kind, std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
   if (text.size() > kLongestText) text = text.substr(0, kLongestText) + " …";
   Entry entry{0, std::chrono::system_clock::now(), clock_.Now() - start_, kind, std::move(text)};
@@ -20,7 +20,7 @@ void ControlLog::Add(Kind kind, std::string text) {
   ++first_;
 }
 
-ControlLog::Entries ControlLog::ReadEntries(std::uint64_t from, std::size_t most) const {
+ApplicationLog::Entries ApplicationLog::ReadEntries(std::uint64_t from, std::size_t most) const {
   Entries read;
   const std::lock_guard lock(mutex_);
   read.lost = from < first_ ? first_ - from : 0;
@@ -32,24 +32,24 @@ ControlLog::Entries ControlLog::ReadEntries(std::uint64_t from, std::size_t most
   return read;
 }
 
-std::uint64_t ControlLog::end() const {
+std::uint64_t ApplicationLog::end() const {
   const std::lock_guard lock(mutex_);
   return first_ + entries_.size();
 }
 
-ControlLog::Lines ControlLog::Read(std::uint64_t from, std::size_t most) const {
+ApplicationLog::Lines ApplicationLog::Read(std::uint64_t from, std::size_t most) const {
   const Entries read = ReadEntries(from, most);
   Lines lines{.lines = {}, .lost = read.lost, .next = read.next};
   for (const Entry& entry : read.entries) lines.lines.push_back(LineOf(entry));
   return lines;
 }
 
-const char* ControlLog::KindName(Kind kind) noexcept {
+const char* ApplicationLog::KindName(Kind kind) noexcept {
   static constexpr std::array kNames{"fault", "warning", "change"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
-std::string ControlLog::LineOf(const Entry& entry) {
+std::string ApplicationLog::LineOf(const Entry& entry) {
   const std::time_t wall = std::chrono::system_clock::to_time_t(entry.wall);
   std::tm parts{};
   localtime_r(&wall, &parts);

@@ -1,0 +1,18 @@
+#include "plugins/command_service/caught_error.h"
+
+#include "core/base/exception_text.h"
+#include "core/element/framework_element.h"
+
+namespace runnel {
+
+Error CaughtError() {
+  try {
+    throw;
+  } catch (const ElementError& error) {
+    return error.error();
+  } catch (...) {
+    return {.message = DescribeException()};
+  }
+}
+
+}  // namespace runnel

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "core/base/error.h"
+
+namespace runnel {
+
+/// The exception that is being handled as an error: that of an ElementError, else what
+/// DescribeException() says. Precondition: within a catch block.
+[[nodiscard]] Error CaughtError();
+
+}  // namespace runnel

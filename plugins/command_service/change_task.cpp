@@ -1,0 +1,161 @@
+#include "plugins/command_service/change_task.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <mutex>
+#include <utility>
+
+#include "plugins/command_service/caught_error.h"
+#include "plugins/command_service/element_search.h"
+#include "plugins/scheduling/pace.h"
+#include "plugins/structure/change_history.h"
+#include "plugins/structure/change_text.h"
+
+namespace runnel {
+
+namespace {
+
+// A module whose thread runs no cycles never proves itself.
+constexpr Duration kLongestProbation = std::chrono::seconds(3);
+// How long after one look at the new modules the next one comes: each time twice as long, since a module
+// of a fast thread proves itself soon.
+constexpr Duration kFirstLook = std::chrono::milliseconds(1);
+constexpr Duration kLastLook = std::chrono::milliseconds(20);
+
+std::uint64_t SerialOf(Runtime& runtime, const std::string& path) {
+  const std::lock_guard lock(runtime.structure_mutex());
+  const auto found = FindMeant(runtime, path);
+  return found ? (*found)->serial() : 0;
+}
+
+std::string TypeIn(const Change& change) {
+  if (const auto* const create = std::get_if<CreateModule>(&change)) return create->type;
+  if (const auto* const replace = std::get_if<ReplaceModule>(&change)) return replace->type;
+  return {};
+}
+
+// The plugin of type "planning/bug1" is called planning.
+void LoadMissingPlugins(const ChangeSet& changes, const ServedApplication& application) {
+  if (!application.hooks.load_plugin) return;
+  const std::lock_guard lock(application.runtime.structure_mutex());
+  for (const Change& change : changes) {
+    const std::string type = TypeIn(change);
+    const std::size_t slash = type.find('/');
+    if (slash == std::string::npos || application.modules.Find(type) != nullptr) continue;
+    // If it cannot be loaded, the error that there is no such type names the nearest.
+    (void)application.hooks.load_plugin(type.substr(0, slash));
+  }
+}
+
+std::string DoneText(Duration stood_still) {
+  std::array<char, 80> text{};
+  std::snprintf(text.data(), text.size(), "done; threads stood still for %.3f ms",
+                ToSeconds(stood_still) * 1e3);
+  return text.data();
+}
+
+}  // namespace
+
+ChangeTask::ChangeTask(ChangeRequest request, const ServedApplication& application,
+                       std::shared_ptr<CommandAnswer> answer)
+    : state_(std::make_shared<State>(State{std::move(request), application, std::move(answer)})) {}
+
+std::optional<Duration> ChangeTask::State::Step() {
+  if (!std::exchange(has_begun, true)) {
+    Apply();
+    if (!is_on_probation) return {};
+    until = std::chrono::steady_clock::now() + kLongestProbation;
+    look_again = kFirstLook;
+    return look_again;
+  }
+  // Once more after the end: a fault in the last cycle may just be being answered.
+  has_proved = !is_on_probation;
+  LookAfterProbation();
+  if (!IsOver()) {
+    look_again = std::min(2 * look_again, kLastLook);
+    return look_again;
+  }
+  Conclude();
+  return {};
+}
+
+void ChangeTask::State::Apply() {
+  const PlacedChanges& placed = request.placed;
+  ChangeOutcome outcome;
+  try {
+    LoadMissingPlugins(placed.changes, application);
+    FindSwaps();
+    outcome = application.history != nullptr
+                  ? application.history->Apply(placed.changes, placed.positions, request.label)
+                  : application.editor.Apply(placed.changes, placed.positions);
+    answer->outcome = outcome ? CommandAnswer::Outcome::kDone : CommandAnswer::Outcome::kRefused;
+    answer->diagnostics = std::move(outcome.diagnostics);
+  } catch (...) {
+    *answer = CommandAnswer::Failed(CaughtError());
+  }
+  Log();
+  is_on_probation = *answer && !swaps.empty();
+  if (*answer) TellWhatWasDone(outcome.stood_still);
+}
+
+void ChangeTask::State::TellWhatWasDone(Duration stood_still) noexcept {
+  try {
+    answer->text = DoneText(stood_still);
+  } catch (...) {
+    // Out of memory for the text: that it has been done is said all the same.
+  }
+}
+
+void ChangeTask::State::Log() const noexcept {
+  try {
+    std::string text = *answer ? "" : "refused: ";
+    for (std::size_t i = 0; i < request.placed.changes.size(); ++i) {
+      text += (i > 0 ? "; " : "") + ChangeText(request.placed.changes[i]);
+      if (text.size() > ApplicationLog::kLongestText) break;
+    }
+    application.log.Add(ApplicationLog::Kind::kChange, std::move(text));
+  } catch (...) {
+    // Out of memory for the log. The answer must say what has been done, whatever the log does.
+  }
+}
+
+void ChangeTask::State::FindSwaps() {
+  for (const Change& each : request.placed.changes) {
+    const auto* const replace = std::get_if<ReplaceModule>(&each);
+    if (replace == nullptr || replace->probation_cycles == 0) continue;
+    swaps.push_back({replace->path, SerialOf(application.runtime, replace->path)});
+  }
+}
+
+void ChangeTask::State::LookAfterProbation() {
+  application.editor.Tend();
+  is_on_probation = application.editor.on_probation() > 0;
+  for (Swap& swap : swaps) {
+    swap.is_back = SerialOf(application.runtime, swap.path) == swap.before;
+  }
+}
+
+bool ChangeTask::State::IsOver() const {
+  if (std::ranges::any_of(swaps, &Swap::is_back)) return true;
+  if (!is_on_probation) return has_proved;
+  // Nothing proves itself while time stands still.
+  if (application.pace != nullptr && application.pace->is_paused()) return true;
+  return std::chrono::steady_clock::now() > until;
+}
+
+void ChangeTask::State::Conclude() {
+  for (const Swap& swap : swaps) {
+    if (!swap.is_back) continue;
+    answer->outcome = CommandAnswer::Outcome::kFailed;
+    answer->diagnostics.Add(
+        {.message = "the new module failed in one of its first cycles; the old one is back",
+         .path = swap.path,
+         .hint = "'runnel log' tells what it threw"});
+  }
+  if (*answer && is_on_probation) {
+    answer->text += "\nthe new module has not run all the cycles of its probation yet";
+  }
+}
+
+}  // namespace runnel

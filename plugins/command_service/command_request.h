@@ -1,0 +1,57 @@
+#pragma once
+
+#include <string>
+#include <variant>
+
+#include "core/base/diagnostics.h"
+#include "plugins/structure/change_text.h"
+
+namespace runnel {
+
+/// All of the changes or none. Plugins that their types need are loaded. A module that takes the place of
+/// another one has to prove itself before the answer comes (3 s at the latest).
+struct ChangeRequest {
+  /// Changes in one set at most.
+  static constexpr std::size_t kMostChanges = 20'000;
+
+  PlacedChanges placed;
+  std::string label = {};  ///< for the history; "": the changes in their text form
+};
+/// Takes back what was changed last.
+struct UndoRequest {};
+/// Does again what was taken back last.
+struct RedoRequest {};
+struct SaveRequest {
+  std::string file = {};  ///< "": the one that the application came from
+  /// Whether the file must be one that SavePlace() allows: for clients that are not this user's own.
+  bool is_confined = false;
+  std::string application_file = {};  ///< for SavePlace(): that the application came from
+};
+/// Loads a plugin as it is now on disk, and makes its modules anew.
+struct ReloadRequest {
+  std::string plugin;
+};
+
+/// What a client may ask a CommandService for.
+using CommandRequest =
+    std::variant<ChangeRequest, UndoRequest, RedoRequest, SaveRequest, ReloadRequest>;
+
+/// What has come of a request.
+struct CommandAnswer {
+  enum class Outcome {
+    kDone,
+    kFailed,   ///< it could have worked, and has not
+    kRefused,  ///< what was asked for cannot be done; nothing has been
+  };
+  Outcome outcome = Outcome::kDone;
+  std::string text;         ///< what was done, for people: "done; threads stood still for 0.110 ms"
+  Diagnostics diagnostics;  ///< errors if it was not done; warnings of what was
+
+  explicit operator bool() const noexcept { return outcome == Outcome::kDone; }
+
+  [[nodiscard]] static CommandAnswer Done(std::string text);
+  [[nodiscard]] static CommandAnswer Failed(Error error);
+  [[nodiscard]] static CommandAnswer Refused(Error error);
+};
+
+}  // namespace runnel

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "core/element/runtime.h"
+#include "core/plugin/module_registry.h"
+#include "plugins/command_service/application_log.h"
+#include "plugins/command_service/command_request.h"
+#include "plugins/command_service/command_worker.h"
+#include "plugins/command_service/recording_hook.h"
+#include "plugins/command_service/structure_recorder.h"
+#include "plugins/structure/structure_editor.h"
+
+namespace runnel {
+
+class ChangeHistory;
+class Pace;
+
+/// What a program may give to clients besides looking at the structure and changing it. All optional;
+/// called by the worker.
+struct ServiceHooks {
+  /// Loads a plugin, under the structure lock: change sets may name types of plugins that are not
+  /// loaded yet.
+  std::function<Result<void>(const std::string& plugin)> load_plugin = {};
+  /// Saves the structure into the file ("": the one that it came from) and says what was done.
+  std::function<Result<std::string>(const std::string& file)> save = {};
+  /// Loads a plugin anew, makes its modules anew, and says what was done.
+  std::function<Result<std::string>(const std::string& plugin)> reload = {};
+  /// Records ports until the client goes.
+  RecordingHook record = {};
+};
+
+/// What requests work on. All of it outlives the service.
+struct ServedApplication {
+  Runtime& runtime;
+  const ModuleRegistry& modules;
+  StructureEditor& editor;
+  ApplicationLog& log;
+  ServiceHooks hooks = {};
+  /// Changes go through it, so that they can be undone. Optional.
+  ChangeHistory* history = nullptr;
+  /// Of the scheduler that runs the application. Optional.
+  Pace* pace = nullptr;
+};
+
+/// A request while it is carried out. Destroyed before it has begun, it is not done.
+///
+/// Threads:  one; its task group outlives it.
+class PendingCommand {
+ public:
+  PendingCommand(std::shared_ptr<WorkerTask> task, std::shared_ptr<CommandAnswer> answer)
+      : task_(std::move(task)), answer_(std::move(answer)) {}
+  ~PendingCommand() { task_->Cancel(); }
+  PendingCommand(const PendingCommand&) = delete;
+  PendingCommand& operator=(const PendingCommand&) = delete;
+
+  [[nodiscard]] const std::shared_ptr<WorkerTask>& task() const noexcept { return task_; }
+  [[nodiscard]] bool is_done() const noexcept { return task_->is_done(); }
+  /// Precondition: is_done().
+  [[nodiscard]] CommandAnswer Take();
+
+ private:
+  const std::shared_ptr<WorkerTask> task_;
+  const std::shared_ptr<CommandAnswer> answer_;  // the worker's until the task is done
+};
+
+/// The one place that carries out what clients of a running application ask for, whatever they are
+/// connected by: the control socket, the inspector and Foxglove are transports of it. One for an
+/// application.
+///
+/// Ownership:  what is served outlives it, and it outlives its transports.
+/// Threads:    any; has one of its own, the worker, which never takes part in a cycle.
+/// Errors:     in the answers. Whatever a plugin throws becomes one.
+class CommandService {
+ public:
+  explicit CommandService(ServedApplication application)
+      : application_(std::move(application)), recorder_(application_.runtime, application_.log) {}
+
+  [[nodiscard]] const ServedApplication& application() const noexcept { return application_; }
+  /// For what else a transport has to do that may wait.
+  [[nodiscard]] CommandWorker& worker() noexcept { return worker_; }
+
+  /// Carries it out behind what was asked for before. `on_done` is called by the worker when the answer is
+  /// there; without it, that of the tasks.
+  [[nodiscard]] std::unique_ptr<PendingCommand> Begin(CommandRequest request, TaskGroup& tasks,
+                                                      std::function<void()> on_done = {});
+
+ private:
+  [[nodiscard]] CommandAnswer Do(const UndoRequest& request) const;
+  [[nodiscard]] CommandAnswer Do(const RedoRequest& request) const;
+  [[nodiscard]] CommandAnswer Do(const SaveRequest& request) const;
+  [[nodiscard]] CommandAnswer Do(const ReloadRequest& request) const;
+  [[nodiscard]] CommandAnswer TakeHistoryStep(bool goes_back) const;
+
+  const ServedApplication application_;
+  StructureRecorder recorder_;
+  CommandWorker worker_;  // first to go: its tasks use the rest
+};
+
+}  // namespace runnel

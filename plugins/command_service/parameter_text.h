@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "core/element/configurable.h"
+
+namespace runnel {
+
+/// The text form of a parameter's value, for people. A type whose text form throws does not end the whole
+/// of what is shown: what it has thrown stands in the place of the value, in brackets.
+[[nodiscard]] std::string ParameterText(const Configurable& parameter);
+
+}  // namespace runnel

@@ -1,0 +1,103 @@
+#include <algorithm>
+#include <utility>
+
+#include "plugins/control/command.h"
+#include "plugins/structure/change_text.h"
+
+namespace runnel {
+
+namespace {
+
+constexpr std::size_t kMostErrors = 100;
+
+// Has the service carry out a request, and tells what has come of it.
+class ServiceCommand final : public Command {
+ public:
+  ServiceCommand(CommandRequest request, CommandService& service, TaskGroup& tasks)
+      : pending_(service.Begin(std::move(request), tasks)) {}
+
+  std::optional<ControlCode> Continue(Answer& answer) override {
+    ContinueAfter(pending_->task());
+    if (!pending_->is_done()) return {};
+    const CommandAnswer done = pending_->Take();
+    const std::string diagnostics = DiagnosticsText(done.diagnostics);
+    if (!diagnostics.empty()) answer.Complain(diagnostics);
+    if (done.outcome == CommandAnswer::Outcome::kRefused) return ControlCode::kBadInput;
+    if (done.outcome == CommandAnswer::Outcome::kFailed) return ControlCode::kFailed;
+    answer.Write(done.text + "\n");
+    return ControlCode::kDone;
+  }
+
+ private:
+  const std::unique_ptr<PendingCommand> pending_;
+};
+
+// Refuses what cannot be read; an answer with all that is wrong.
+class RefusedCommand final : public Command {
+ public:
+  explicit RefusedCommand(std::string text) : text_(std::move(text)) {}
+  std::optional<ControlCode> Continue(Answer& answer) override {
+    answer.Complain(text_);
+    return ControlCode::kBadInput;
+  }
+
+ private:
+  const std::string text_;
+};
+
+PlacedChanges ReadChanges(const Request& request, Diagnostics& diagnostics) {
+  const SourcePosition begins{.file = request.Option("file"), .line = 1, .column = 1};
+  PlacedChanges placed = ParseChanges(request.body, begins, diagnostics);
+  if (diagnostics.ok() && placed.changes.empty()) {
+    diagnostics.Add({.message = "there are no changes in it", .position = begins});
+  }
+  if (placed.changes.size() > ChangeRequest::kMostChanges) {
+    diagnostics.Add(
+        {.message = "more than " + std::to_string(ChangeRequest::kMostChanges) + " changes at once",
+         .position = begins});
+  }
+  return placed;
+}
+
+CommandRequest RequestOf(const Request& request, PlacedChanges placed) {
+  const std::string argument = request.words.empty() ? "" : request.words[0];
+  if (request.command == "undo") return UndoRequest{};
+  if (request.command == "redo") return RedoRequest{};
+  if (request.command == "save") return SaveRequest{argument};
+  if (request.command == "reload") return ReloadRequest{argument};
+  return ChangeRequest{std::move(placed)};
+}
+
+}  // namespace
+
+CommandResult MakeServiceCommand(const Request& request, CommandService& service,
+                                 TaskGroup& tasks) {
+  PlacedChanges placed;
+  if (request.command == "change") {
+    Diagnostics diagnostics;
+    placed = ReadChanges(request, diagnostics);
+    if (!diagnostics.ok()) {
+      return std::unique_ptr<Command>(
+          std::make_unique<RefusedCommand>(DiagnosticsText(diagnostics)));
+    }
+  }
+  return std::unique_ptr<Command>(
+      std::make_unique<ServiceCommand>(RequestOf(request, std::move(placed)), service, tasks));
+}
+
+std::string DiagnosticsText(const Diagnostics& all) {
+  Diagnostics shown;
+  for (std::size_t i = 0; i < std::min(kMostErrors, all.errors().size()); ++i) {
+    shown.Add(all.errors()[i]);
+  }
+  for (std::size_t i = 0; i < std::min(kMostErrors, all.warnings().size()); ++i) {
+    shown.AddWarning(all.warnings()[i]);
+  }
+  std::string text = shown.ToString();
+  if (all.errors().size() > kMostErrors) {
+    text += "and " + std::to_string(all.errors().size() - kMostErrors) + " more errors\n";
+  }
+  return text;
+}
+
+}  // namespace runnel

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "core/base/result.h"
+#include "plugins/structure/change.h"
+
+namespace runnel::internal {
+
+/// One change as PROTOCOL.md has it: {"change":"connect","from":"/a/out","to":"/b/in","queue":10}.
+/// Errors: it is no object, there is no such change (with the nearest name), a member is missing, unknown
+/// or of another kind.
+[[nodiscard]] Result<Change> ParseChange(const nlohmann::json& json);
+
+}  // namespace runnel::internal

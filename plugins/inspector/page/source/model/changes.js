@@ -1,0 +1,37 @@
+// Changes as the server reads them (PROTOCOL.md).
+
+export const Change = {
+  create: (path, type) => ({ change: 'create', path, type }),
+  createGroup: (path) => ({ change: 'create_group', path }),
+  createPort: (path, direction, type) => ({ change: 'create_port', path, direction, type }),
+  delete: (path) => ({ change: 'delete', path }),
+  connect: (from, to) => ({ change: 'connect', from, to }),
+  disconnect: (from, to) => ({ change: 'disconnect', from, to }),
+  set: (path, value) => ({ change: 'set', path, value }),
+  replace: (path, type) => ({ change: 'replace', path, type }),
+  move: (path, thread) => ({ change: 'move', path, thread }),
+};
+
+/** A name for a new element that no sibling has: bug2, bug2_2, bug2_3 … */
+export function FreeName(structure, group, wanted) {
+  const clean = wanted.replace(/.*\//, '').replace(/[^A-Za-z0-9_]/g, '_') || 'module';
+  let name = clean;
+  for (let number = 2; structure.get(`${group}/${name}`); ++number) name = `${clean}_${number}`;
+  return name;
+}
+
+/**
+ * What is wrong with a name of a new element, or "": the rule of core/element/element_path.h, told while
+ * it is typed. The server asks again.
+ */
+export function NameProblem(structure, group, name) {
+  if (name === '') return 'a name is needed';
+  if (name === '.' || name === '..') return `the name '${name}' is reserved`;
+  if (/[ \t\r\n/,]/.test(name)) return 'a name has no blanks, slashes, commas';
+  // A lone half of a surrogate pair has no UTF-8.
+  if (/[\u0000-\u001f\u007f-\u009f\ufffe\uffff]|\p{Surrogate}/u.test(name)) {
+    return 'a name has no control characters';
+  }
+  if (structure.get(`${group}/${name}`)) return `there is a '${name}' in ${group} already`;
+  return '';
+}

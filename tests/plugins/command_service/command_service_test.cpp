@@ -1,0 +1,162 @@
+#include "plugins/command_service/command_service.h"
+
+#include <atomic>
+#include <mutex>
+#include <new>
+#include <semaphore>
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include "core/module/module.h"
+#include "core/plugin/module_registry.h"
+#include "plugins/structure/change_history.h"
+
+namespace runnel::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using Outcome = CommandAnswer::Outcome;
+
+class Idle final : public Module {
+ public:
+  using Module::Module;
+
+ private:
+  void Update() override {}
+};
+
+/// An application that nobody runs.
+class CommandServiceTest : public ::testing::Test {
+ protected:
+  CommandServiceTest() {
+    EXPECT_TRUE(modules.Add({"test/idle", "", "test", [](const Placement& placement) {
+                               return std::unique_ptr<FrameworkElement>(
+                                   std::make_unique<Idle>(placement));
+                             }}));
+    EXPECT_TRUE(runtime.MakeReady(runtime.root()));
+  }
+
+  static CommandAnswer Ask(CommandService& service, CommandRequest request) {
+    std::binary_semaphore done(0);
+    TaskGroup tasks(service.worker());
+    const auto pending = service.Begin(std::move(request), tasks, [&] { done.release(); });
+    done.acquire();
+    EXPECT_TRUE(pending->is_done());
+    return pending->Take();
+  }
+  CommandAnswer Ask(CommandRequest request) {
+    CommandService service(application);
+    return Ask(service, std::move(request));
+  }
+  static ChangeRequest Create(const std::string& path) {
+    return {{.changes = {CreateModule{path, "test/idle"}}, .positions = {}}};
+  }
+  static std::string ErrorOf(const CommandAnswer& answer) {
+    return answer.diagnostics.errors().empty() ? "" : answer.diagnostics.errors()[0].message;
+  }
+  std::vector<std::string> Logged() const {
+    std::vector<std::string> texts;
+    for (const auto& entry : log.ReadEntries(0, 1000).entries) texts.push_back(entry.text);
+    return texts;
+  }
+  bool Has(const std::string& path) {
+    const std::lock_guard lock(runtime.structure_mutex());
+    return runtime.root().Find(path).has_value();
+  }
+
+  Runtime runtime;
+  ModuleRegistry modules;
+  StructureEditor editor{runtime, modules, nullptr};
+  ChangeHistory history{editor};
+  ApplicationLog log{runtime.clock()};
+  ServedApplication application{runtime, modules, editor, log, {}, &history};
+};
+
+TEST_F(CommandServiceTest, CarriesOutChangesAndTakesThemBack) {
+  CommandService service(application);
+  EXPECT_EQ(Ask(service, Create("/a")).outcome, Outcome::kDone);
+  EXPECT_TRUE(Has("/a"));
+  EXPECT_EQ(Ask(service, Create("/a")).outcome, Outcome::kRefused);
+  EXPECT_EQ(Ask(service, UndoRequest{}).text, "undone: create /a test/idle");
+  EXPECT_FALSE(Has("/a"));
+  EXPECT_EQ(Ask(service, RedoRequest{}).text, "redone: create /a test/idle");
+  EXPECT_EQ(Ask(service, RedoRequest{}).outcome, Outcome::kRefused);
+  EXPECT_THAT(Logged(),
+              ElementsAre("create /a test/idle", HasSubstr("refused: create /a test/idle"),
+                          "undone: create /a test/idle", "redone: create /a test/idle"));
+}
+
+TEST_F(CommandServiceTest, SaysWhatTheProgramCannotDo) {
+  application.history = nullptr;
+  EXPECT_THAT(ErrorOf(Ask(SaveRequest{})), HasSubstr("cannot save it"));
+  EXPECT_THAT(ErrorOf(Ask(ReloadRequest{"planning"})), HasSubstr("cannot load plugins anew"));
+  EXPECT_THAT(ErrorOf(Ask(UndoRequest{})), HasSubstr("remembers no changes"));
+  EXPECT_EQ(Ask(SaveRequest{}).outcome, Outcome::kRefused);
+}
+
+TEST_F(CommandServiceTest, EndsARequestByWhateverAPluginThrowsAndServesTheNext) {
+  application.hooks.reload = [](const std::string& plugin) -> Result<std::string> {
+    if (plugin == "number") throw 1;
+    if (plugin == "memory") throw std::bad_alloc();
+    return "loaded " + plugin;
+  };
+  application.hooks.load_plugin = [](const std::string&) -> Result<void> { throw 1; };
+  CommandService service(application);
+  const CommandAnswer number = Ask(service, ReloadRequest{"number"});
+  EXPECT_EQ(number.outcome, Outcome::kFailed);
+  EXPECT_EQ(ErrorOf(number), "exception of type int");
+  EXPECT_EQ(ErrorOf(Ask(service, ReloadRequest{"memory"})), "std::bad_alloc");
+  ChangeRequest unknown{{.changes = {CreateModule{"/a", "other/type"}}, .positions = {}}};
+  EXPECT_EQ(ErrorOf(Ask(service, std::move(unknown))), "exception of type int");
+  EXPECT_EQ(Ask(service, ReloadRequest{"good"}).text, "loaded good");
+}
+
+TEST_F(CommandServiceTest, ConfinesWhereClientsOfOthersMaySave) {
+  std::string saved;
+  application.hooks.save = [&](const std::string& file) -> Result<std::string> {
+    saved = file;
+    return std::string("saved");
+  };
+  const CommandAnswer refused =
+      Ask(SaveRequest{.file = "/etc/passwd.xml", .is_confined = true, .application_file = ""});
+  EXPECT_EQ(refused.outcome, Outcome::kRefused);
+  EXPECT_THAT(saved, IsEmpty());
+  EXPECT_TRUE(Ask(SaveRequest{.file = "/etc/passwd.xml"}));
+  EXPECT_EQ(saved, "/etc/passwd.xml");
+}
+
+TEST_F(CommandServiceTest, ReloadsOfTwoTransportsNeverRunAtOnce) {
+  std::atomic<int> at_once{0};
+  std::atomic<bool> have_met{false};
+  application.hooks.reload = [&](const std::string&) -> Result<std::string> {
+    if (at_once.fetch_add(1) > 0) have_met = true;
+    std::this_thread::yield();
+    at_once.fetch_sub(1);
+    return std::string();
+  };
+  CommandService service(application);
+  const auto transport = [&] {
+    for (int i = 0; i < 50; ++i) EXPECT_TRUE(Ask(service, ReloadRequest{"x"}));
+  };
+  std::thread other(transport);
+  transport();
+  other.join();
+  EXPECT_FALSE(have_met);
+}
+
+TEST_F(CommandServiceTest, ARequestThatIsGivenUpBeforeItBeganIsNotDone) {
+  CommandService service(application);
+  TaskGroup tasks(service.worker());
+  std::binary_semaphore may_go(0);
+  tasks.Post([&] { may_go.acquire(); });
+  (void)service.Begin(Create("/given_up"), tasks);
+  may_go.release();
+  EXPECT_TRUE(Ask(service, Create("/b")));
+  EXPECT_FALSE(Has("/given_up"));
+}
+
+}  // namespace
+}  // namespace runnel::test
