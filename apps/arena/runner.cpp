@@ -109,7 +109,7 @@ class Pool {
     const RunSettings& settings = arguments_.settings;
     auto process = ChildProcess::Start(
         {product_.program.string(), "run", application.string(), "--fast", "--quiet",
-         "world=" + matrix_.courses[run.course].file.string(),
+         "--no-control", "world=" + matrix_.courses[run.course].file.string(),
          "first_direction=" + run.key.direction, "seed=" + std::to_string(run.key.seed),
          "noise=" + NumberText(settings.noise), "path_step=" + NumberText(settings.path_step),
          "time_limit=" + NumberText(settings.time_limit),

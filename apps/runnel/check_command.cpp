@@ -2,14 +2,16 @@
 
 #include <iostream>
 
-#include "apps/runnel/workplace.h"
+#include "apps/runnel/chosen_application.h"
+#include "plugins/application/application_description.h"
 
 namespace runnel::program {
 
 ExitCode Check(const CheckArguments& arguments) {
-  Workplace workplace;
-  const BuildOutcome outcome = workplace.Build(arguments.application, BuildMode::kCheck);
-  const std::size_t errors = outcome.diagnostics.errors().size();
+  ApplicationDescription description(OptionsOf(arguments.application));
+  (void)description.Read(arguments.application.file);
+  std::cerr << description.diagnostics().ToString();
+  const std::size_t errors = description.diagnostics().errors().size();
   if (errors > 0) {
     std::cerr << errors << (errors == 1 ? " error\n" : " errors\n");
     return ExitCode::kBadInput;

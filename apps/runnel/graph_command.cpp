@@ -10,9 +10,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "apps/runnel/chosen_application.h"
 #include "apps/runnel/print_error.h"
-#include "apps/runnel/workplace.h"
 #include "core/base/nearest_name.h"
+#include "plugins/application/application_description.h"
 #include "plugins/application_files/replace_file.h"
 #include "plugins/application_graph/dot_text.h"
 
@@ -87,10 +88,11 @@ ExitCode DrawGraph(const GraphArguments& arguments) {
                 .hint = "its name ends in .svg, .png, .pdf or .dot"});
     return ExitCode::kBadInput;
   }
-  Workplace workplace;
-  const BuildOutcome outcome = workplace.Build(arguments.application, BuildMode::kConstruct);
-  if (outcome.application == nullptr) return ExitCode::kBadInput;
-  const auto drawn = Draw(DotText(*outcome.application), arguments.output, kind);
+  ApplicationDescription description(OptionsOf(arguments.application));
+  const bool is_right = description.Read(arguments.application.file);
+  std::cerr << description.diagnostics().ToString();
+  if (!is_right) return ExitCode::kBadInput;
+  const auto drawn = Draw(DotText(*description.element()), arguments.output, kind);
   if (drawn) return ExitCode::kDone;
   PrintError(drawn.error());
   return ExitCode::kRunFailed;

@@ -5,9 +5,9 @@
 #include <iostream>
 
 #include "apps/runnel/print_error.h"
-#include "apps/runnel/recording.h"
 #include "plugins/mcap/mcap_reader.h"
 #include "plugins/recording/recording_info.h"
+#include "plugins/recording/recording_text.h"
 
 namespace runnel::program {
 

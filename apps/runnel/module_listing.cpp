@@ -82,9 +82,10 @@ std::vector<Row> Parameters(const FrameworkElement& module) {
 
 }  // namespace
 
-Result<void> ListModule(const ModuleType& type, Workplace& workplace, std::ostream& stream) {
-  Runtime& runtime = workplace.runtime();
-  const auto module = workplace.plugins().modules().Create(type.name, runtime.root(), "module");
+Result<void> ListModule(const ModuleType& type, ApplicationDescription& surroundings,
+                        std::ostream& stream) {
+  Runtime& runtime = surroundings.runtime();
+  const auto module = surroundings.plugins().modules().Create(type.name, runtime.root(), "module");
   if (!module) return module.error();
   stream << type.name << (type.summary.empty() ? "" : "  " + type.summary) << '\n';
   WriteTable("inputs", Ports(**module, Port::Direction::kInput), stream);

@@ -2,21 +2,22 @@
 
 #include <iostream>
 
+#include "apps/runnel/chosen_application.h"
 #include "apps/runnel/module_listing.h"
 #include "apps/runnel/plugin_choice.h"
 #include "apps/runnel/print_error.h"
-#include "apps/runnel/workplace.h"
+#include "plugins/application/application_description.h"
 
 namespace runnel::program {
 
 ExitCode ListModules(const ModulesArguments& arguments) {
-  Workplace workplace;
+  ApplicationDescription surroundings(OptionsOf(ApplicationArguments{}));
   ExitCode code =
-      LoadChosenPlugins(arguments.plugins, workplace) ? ExitCode::kDone : ExitCode::kBadInput;
-  for (const ModuleType* type : workplace.plugins().modules().All()) {
+      LoadChosenPlugins(arguments.plugins, surroundings) ? ExitCode::kDone : ExitCode::kBadInput;
+  for (const ModuleType* type : surroundings.plugins().modules().All()) {
     if (arguments.names_only) {
       std::cout << type->name << '\n';
-    } else if (auto listed = ListModule(*type, workplace, std::cout); !listed) {
+    } else if (auto listed = ListModule(*type, surroundings, std::cout); !listed) {
       PrintError(listed.error());
       code = ExitCode::kBadInput;
     }

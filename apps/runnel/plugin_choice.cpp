@@ -5,10 +5,11 @@
 
 namespace runnel::program {
 
-bool LoadChosenPlugins(const std::vector<std::string>& chosen, Workplace& workplace) {
+bool LoadChosenPlugins(const std::vector<std::string>& chosen,
+                       ApplicationDescription& surroundings) {
   bool all_are_there = true;
-  for (const std::string& plugin : chosen.empty() ? workplace.plugins().Available() : chosen) {
-    const auto loaded = LoadPlugin(plugin, workplace.plugins(), workplace.tags());
+  for (const std::string& plugin : chosen.empty() ? surroundings.plugins().Available() : chosen) {
+    const auto loaded = LoadPlugin(plugin, surroundings.plugins(), surroundings.tags());
     if (loaded) continue;
     PrintError(loaded.error());
     all_are_there = false;

@@ -3,12 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "apps/runnel/workplace.h"
+#include "plugins/application/application_description.h"
 
 namespace runnel::program {
 
 /// Loads the plugins, or all that can be found if none is named. False after saying which could not
 /// be loaded, and why; the others have been.
-[[nodiscard]] bool LoadChosenPlugins(const std::vector<std::string>& chosen, Workplace& workplace);
+[[nodiscard]] bool LoadChosenPlugins(const std::vector<std::string>& chosen,
+                                     ApplicationDescription& surroundings);
 
 }  // namespace runnel::program

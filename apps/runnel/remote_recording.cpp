@@ -9,36 +9,13 @@
 
 #include <unistd.h>
 
-#include "apps/runnel/recording.h"
 #include "plugins/mcap/mcap_reader.h"
 #include "plugins/recording/recording_info.h"
-#include "plugins/scheduling/scheduler.h"
+#include "plugins/recording/recording_text.h"
 
 namespace runnel::program {
 
 namespace {
-
-class Recording final : public ClientRecording {
- public:
-  explicit Recording(std::unique_ptr<Recorder> recorder) : recorder_(std::move(recorder)) {}
-
-  std::string Progress() override { return Line(); }
-  std::optional<Error> Failure() override { return recorder_->TakeFailure(); }
-  Result<std::string> Finish() override {
-    if (auto finished = recorder_->Finish(); !finished) return finished.error();
-    return Line();
-  }
-
- private:
-  // Without its end, which the command adds.
-  std::string Line() const {
-    std::string text = RecordingText(recorder_->file(), recorder_->status());
-    text.pop_back();
-    return text;
-  }
-
-  const std::unique_ptr<Recorder> recorder_;
-};
 
 std::atomic<bool> interrupted{false};
 
@@ -77,18 +54,6 @@ int ReportWhenEnded(const std::string& file) {
 }
 
 }  // namespace
-
-RecordingHook RecordingHookOf(const RecordedApplication& about, Runtime& runtime,
-                              Scheduler& scheduler) {
-  return [about, &runtime,
-          &scheduler](const RecordingWish& wish) -> Result<std::unique_ptr<ClientRecording>> {
-    auto recorder = Recorder::Start(
-        runtime, &scheduler,
-        {.file = wish.file, .ports = wish.ports, .compression = wish.compression, .about = about});
-    if (!recorder) return recorder.error();
-    return std::unique_ptr<ClientRecording>(std::make_unique<Recording>(std::move(*recorder)));
-  };
-}
 
 Result<int> AskToRecord(ControlClient& client, const Request& request, const std::string& file) {
   const Interruptions interruptions;

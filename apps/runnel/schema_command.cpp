@@ -2,19 +2,21 @@
 
 #include <iostream>
 
+#include "apps/runnel/chosen_application.h"
 #include "apps/runnel/plugin_choice.h"
 #include "apps/runnel/print_error.h"
-#include "apps/runnel/workplace.h"
+#include "plugins/application/application_description.h"
 #include "plugins/application_files/replace_file.h"
 #include "plugins/application_files/schema.h"
 
 namespace runnel::program {
 
 ExitCode WriteSchema(const SchemaArguments& arguments) {
-  Workplace workplace;
-  if (!LoadChosenPlugins(arguments.plugins, workplace)) return ExitCode::kBadInput;
+  ApplicationDescription surroundings(OptionsOf(ApplicationArguments{}));
+  if (!LoadChosenPlugins(arguments.plugins, surroundings)) return ExitCode::kBadInput;
   Diagnostics diagnostics;
-  const std::string text = SchemaText(workplace.tags(), workplace.plugins().modules(), diagnostics);
+  const std::string text =
+      SchemaText(surroundings.tags(), surroundings.plugins().modules(), diagnostics);
   std::cerr << diagnostics.ToString();
   if (!diagnostics.ok()) return ExitCode::kBadInput;
   if (arguments.output.empty()) {

@@ -1,12 +1,14 @@
 #include "apps/runnel/stop_signal.h"
 
 #include <atomic>
+#include <thread>
 
 namespace runnel::program {
 
 namespace {
 
 std::atomic<Scheduler*> to_be_stopped{nullptr};
+std::atomic<int> handlers{0};  // that are under way, in whichever thread
 std::atomic<bool> signal_has_come{false};
 static_assert(std::atomic<Scheduler*>::is_always_lock_free, "a signal handler must not lock");
 
@@ -18,7 +20,11 @@ void Handle(int) {
     sigaction(signal, nullptr, &current);
     if (current.sa_handler == Handle) std::signal(signal, SIG_DFL);
   }
+  // All of them seq_cst: either the destructor sees this handler, or this sees that there is nothing to
+  // stop any more.
+  handlers.fetch_add(1);
   if (Scheduler* scheduler = to_be_stopped.load()) scheduler->RequestStop();
+  handlers.fetch_sub(1);
 }
 
 }  // namespace
@@ -37,6 +43,8 @@ StopSignal::StopSignal(Scheduler& scheduler) {
 StopSignal::~StopSignal() {
   for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
   to_be_stopped.store(nullptr);
+  // The scheduler may go after this; a handler that has found it is about to end.
+  while (handlers.load() != 0) std::this_thread::yield();
 }
 
 bool StopSignal::has_come() const noexcept { return signal_has_come.load(); }

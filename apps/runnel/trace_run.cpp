@@ -7,21 +7,8 @@
 
 namespace runnel::program {
 
-Result<std::unique_ptr<TraceRecorder>> StartTrace(const RunArguments& arguments,
-                                                  FrameworkElement& application,
-                                                  SchedulerOptions& options) {
-  if (arguments.trace.empty()) return std::unique_ptr<TraceRecorder>();
-  auto recorder = TraceRecorder::Start(
-      application.runtime(),
-      {.file = arguments.trace,
-       .application = application.name(),
-       .is_simulated = options.clock == SchedulerOptions::ClockKind::kSimulated});
-  if (recorder) options.tracer = recorder->get();
-  return recorder;
-}
-
-ExitCode FinishTrace(TraceRecorder& recorder, const RunArguments& arguments, ExitCode code) {
-  const auto finished = recorder.Finish();
+ExitCode FinishTrace(ApplicationTrace& trace, const RunArguments& arguments, ExitCode code) {
+  const auto finished = trace.Finish();
   if (!finished) {
     PrintError(finished.error());
     return code == ExitCode::kDone ? ExitCode::kRunFailed : code;

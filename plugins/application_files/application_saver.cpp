@@ -9,6 +9,7 @@
 #include "plugins/application_files/file_update.h"
 #include "plugins/application_files/new_elements.h"
 #include "plugins/application_files/replace_file.h"
+#include "plugins/application_files/saved_text_check.h"
 #include "plugins/runtime_construction/application_source.h"
 
 namespace runnel {
@@ -118,6 +119,8 @@ Result<void> SaveApplication(FrameworkElement& application, const SaveTools& too
   const bool is_on_disk =
       source != nullptr && is_its_own && saved->text == source->text && fs::exists(source->file);
   if (!is_on_disk) {
+    auto good = CheckSavedText(application, saved->text, file, tools);
+    if (!good) return good;
     if (auto written = ReplaceFile(file, saved->text); !written) return written;
   }
   if (!is_its_own) return {};

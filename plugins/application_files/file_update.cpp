@@ -133,6 +133,7 @@ void FileUpdate::AddParameters(XmlElement tag, FrameworkElement& module,
 void FileUpdate::WriteValue(XmlElement module_tag, const XmlElement* tag,
                             const ConfigurableElement& parameter) {
   const std::string value = SavedValue(*parameter.configurable, saving_);
+  saving_.CheckText(value, *parameter.element);
   const std::string& name = parameter.element->name();
   if (part_ != nullptr) {
     const FrameworkElement* module = parameter.element->parent();
@@ -218,7 +219,7 @@ void FileUpdate::AppendNew(XmlElement tag, FrameworkElement& group) {
   for (FrameworkElement* child : group.children()) {
     if (has_tag_.contains(child)) continue;
     if (const auto* port = dynamic_cast<const ProxyPort*>(child)) {
-      editor_.Append(tag, PortElement(*port));
+      editor_.Append(tag, PortElement(*port, saving_));
     } else if (IsSaved(*child)) {
       editor_.Append(tag, IsSavedModule(*child) ? ModuleElement(*child, saving_)
                                                 : GroupElement("group", *child, saving_));

@@ -92,6 +92,7 @@ NewElement ModuleElement(FrameworkElement& module, Saving& saving) {
     const std::string text = configurable->ToText();
     if (text == configurable->info().default_value) continue;
     saving.values[element->path()] = text;
+    saving.CheckText(text, *element);
     made.children.push_back(
         {.name = "parameter",
          .attributes = {{"name", element->name()}, {"value", SavedValue(*configurable, saving)}}});
@@ -99,7 +100,8 @@ NewElement ModuleElement(FrameworkElement& module, Saving& saving) {
   return made;
 }
 
-NewElement PortElement(const ProxyPort& port) {
+NewElement PortElement(const ProxyPort& port, Saving& saving) {
+  saving.CheckText(port.description(), port);
   const bool is_input = port.direction() == Port::Direction::kInput;
   NewElement made{.name = "port",
                   .attributes = {{"name", port.name()},
@@ -157,7 +159,7 @@ NewElement GroupElement(std::string_view tag, FrameworkElement& group, Saving& s
   std::vector<NewElement> groups;
   for (FrameworkElement* child : group.children()) {
     if (const auto* port = dynamic_cast<const ProxyPort*>(child)) {
-      ports.push_back(PortElement(*port));
+      ports.push_back(PortElement(*port, saving));
       if (tag == "application") {
         saving.Fail({.message = "a file cannot give an application an interface",
                      .path = port->path(),

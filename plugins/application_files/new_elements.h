@@ -14,7 +14,7 @@ namespace runnel::internal {
 /// The tags that give again what is in the tree, as if no file had been there before.
 
 [[nodiscard]] NewElement ModuleElement(FrameworkElement& module, Saving& saving);
-[[nodiscard]] NewElement PortElement(const ProxyPort& port);
+[[nodiscard]] NewElement PortElement(const ProxyPort& port, Saving& saving);
 /// With all that is in it. `tag` is "group", or "application".
 [[nodiscard]] NewElement GroupElement(std::string_view tag, FrameworkElement& group,
                                       Saving& saving);

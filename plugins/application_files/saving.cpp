@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/characters.h"
 #include "plugins/parameters/file_path.h"
 
 namespace runnel::internal {
@@ -21,6 +22,13 @@ std::string SavedValue(const Configurable& configurable, const Saving& saving) {
   const std::string text = configurable.ToText();
   if (&configurable.type() != &TypeOf<FilePath>()) return text;
   return MovedFileName(text, "", saving.folder);
+}
+
+void Saving::CheckText(std::string_view text, const FrameworkElement& element) {
+  const std::string fault = UnwritableCharacter(text);
+  if (fault.empty()) return;
+  Fail({.message = "what is to be saved of it contains " + fault + ": no file can carry that",
+        .path = element.path()});
 }
 
 void UseModuleType(const std::string& type, Saving& saving) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 
 #include "core/element/configurable.h"
 #include "plugins/application_files/application_saver.h"
@@ -29,6 +30,8 @@ struct Saving {
   void Fail(Error reason) {
     if (!error) error = std::move(reason);
   }
+  /// That a file can carry what is to be said of `element`.
+  void CheckText(std::string_view text, const FrameworkElement& element);
 };
 
 /// The value as text that gives it again when it stands in the file: names of files start there.

@@ -19,17 +19,6 @@ std::string NameOf(XmlElement root, const std::filesystem::path& file) {
   return SnakeCase(name != nullptr ? name->value : file.stem().string());
 }
 
-void MakeReady(FrameworkElement& application, const BuildTools& tools, BuildContext& context) {
-  const auto report = [&](const Result<void>& result) {
-    if (result) return;
-    const auto culprit = tools.runtime.root().Find(result.error().path);
-    const FrameworkElement& at = culprit ? **culprit : application;
-    context.Report(result.error(), FindSourcePlace(at), at);
-  };
-  if (tools.before_ready) report(tools.before_ready(application));
-  if (context.ok()) report(tools.runtime.MakeReady(application));
-}
-
 // What would have fed them may have had no counterpart, which has been told; the rest is built.
 void WarnOfRequiredInputs(FrameworkElement& application, const BuildTools& tools,
                           const std::filesystem::path& file, BuildContext& context) {
@@ -40,7 +29,7 @@ void WarnOfRequiredInputs(FrameworkElement& application, const BuildTools& tools
 }
 
 FrameworkElement* Build(XmlElement root, const std::filesystem::path& file, const BuildTools& tools,
-                        BuildMode mode, BuildContext& context) {
+                        BuildContext& context) {
   FrameworkElement* application = nullptr;
   const FrameworkElement& top = tools.runtime.root();
   context.Attempt({"reading the file", root.position(), &top}, [&] {
@@ -55,7 +44,6 @@ FrameworkElement* Build(XmlElement root, const std::filesystem::path& file, cons
                     .position = {.file = "command line"}},
                    {}, *application);
   }
-  if (context.ok() && mode == BuildMode::kRun) MakeReady(*application, tools, context);
   return application;
 }
 
@@ -71,13 +59,9 @@ BuildOutcome BuildFinrocApplication(const XmlDocument& document, const std::file
   BuildContext context(tools, file.parent_path(), outcome.diagnostics);
   {
     const std::lock_guard lock(tools.runtime.structure_mutex());
-    outcome.application = Build(document.root(), file, tools, mode, context);
+    outcome.application = Build(document.root(), file, tools, context);
   }
-  if (outcome.application == nullptr) return outcome;
-  if (!outcome.diagnostics.ok() || mode == BuildMode::kCheck) {
-    const auto deleted = tools.runtime.Delete(*std::exchange(outcome.application, nullptr));
-    if (!deleted) outcome.diagnostics.Add(deleted.error());
-  }
+  FinishBuild(outcome, mode);
   return outcome;
 }
 

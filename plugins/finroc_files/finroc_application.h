@@ -21,7 +21,8 @@ namespace runnel {
 ///     element type="ThreadContainer"                  group, and a thread for all in it
 ///     edge src dest                                   connection
 ///     interface of a group                            interface ports
-///     parameter link config cmdline default           value of the parameter
+///     parameter link config cmdline default           value of the parameter, flat or in nested
+///                                                     <parameter_links>
 ///
 /// Without a thread container all modules are run by one thread, every 40 ms as FINROC's are.
 ///

@@ -63,6 +63,17 @@ std::string SnakeCasePath(std::string_view path) {
   return result;
 }
 
+std::string WithoutLast(const std::string& path, int count) {
+  std::string rest = path;
+  for (int i = 0; i < count; ++i) {
+    const std::size_t end = rest.rfind('/');
+    rest.erase(end == std::string::npos ? 0 : end);
+  }
+  return rest;
+}
+
+std::string LastName(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+
 std::string LibraryName(std::string_view library) {
   constexpr std::array<std::string_view, 5> kPrefixes{"finroc_projects_", "finroc_plugins_",
                                                       "finroc_libraries_", "finroc_", "rrlib_"};

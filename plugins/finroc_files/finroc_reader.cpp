@@ -12,7 +12,6 @@
 #include "core/types/duration_text.h"
 #include "core/types/type_info.h"
 #include "plugins/finroc_files/finroc_names.h"
-#include "plugins/parameters/file_path.h"
 #include "plugins/runtime_construction/configurable_search.h"
 #include "plugins/runtime_construction/interface_direction.h"
 #include "plugins/runtime_construction/plugin_loading.h"
@@ -29,11 +28,6 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMostFiles = 10'000;
 constexpr auto kUsualPeriod = std::chrono::milliseconds(40);
 
-std::string TextOfAttribute(XmlElement element, std::string_view name) {
-  const XmlAttribute* const found = element.Attribute(name);
-  return found != nullptr ? found->value : "";
-}
-
 // Of `<parameters><parameter name="XML file">…`; "" if it is not there.
 std::string StaticParameter(XmlElement element, std::string_view name) {
   for (const XmlElement list : element.children()) {
@@ -45,35 +39,14 @@ std::string StaticParameter(XmlElement element, std::string_view name) {
   return "";
 }
 
-const ConfigurableElement* FindByName(const std::vector<ConfigurableElement>& all,
-                                      const std::string& name) {
-  const auto found = std::ranges::find_if(
-      all, [&](const ConfigurableElement& each) { return each.element->name() == name; });
-  return found == all.end() ? nullptr : &*found;
-}
-
-std::vector<std::string> NamesOf(const std::vector<ConfigurableElement>& all) {
-  std::vector<std::string> names;
-  for (const ConfigurableElement& each : all) names.push_back(each.element->name());
-  return names;
-}
-
-std::string WithoutLast(const std::string& path, int count) {
-  std::string rest = path;
-  for (int i = 0; i < count; ++i) {
-    const std::size_t end = rest.rfind('/');
-    rest.erase(end == std::string::npos ? 0 : end);
-  }
-  return rest;
-}
-
-std::string Last(const std::string& path) { return path.substr(path.rfind('/') + 1); }
-
-// As everywhere, names of files start in the folder of the file that they stand in.
-std::string TextFor(const Configurable& configurable, const std::string& text,
-                    const fs::path& folder) {
-  if (&configurable.type() != &TypeOf<FilePath>()) return text;
-  return ResolvedAgainst(folder, {text}).text;
+// Whether a path is a URI, "tcp:host/path": names of elements may hold a ':' further on.
+bool HasScheme(std::string_view path) {
+  const auto is_of_scheme = [](char letter) {
+    return (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9') || letter == '+' ||
+           letter == '-' || letter == '.';
+  };
+  const auto end = std::ranges::find_if_not(path, is_of_scheme);
+  return end != path.begin() && end != path.end() && *end == ':';
 }
 
 }  // namespace
@@ -102,7 +75,10 @@ void FinrocReader::ReadContents(XmlElement root, FrameworkElement& group, const 
     if (child.name() == "edge") {
       ReadEdge(child, group);
     } else if (child.name() == "parameter") {
-      ReadParameter(child, group);
+      const std::string link = SnakeCasePath(TextOfAttribute(child, "link"));
+      ReadParameter(child, WithoutLast(link, 2), LastName(link), group);
+    } else if (child.name() == "parameter_links") {
+      ReadParameterLinks(child, "", group);
     } else if (child.name() != "element" && child.name() != "interface") {
       Warn("<" + child.name() + "> has no counterpart", "", child.position(), group);
     }
@@ -219,26 +195,6 @@ void FinrocReader::ReadModule(XmlElement element, FrameworkElement& parent) {
   ReadStaticParameters(element, **made);
 }
 
-void FinrocReader::ReadStaticParameters(XmlElement element, FrameworkElement& module) {
-  const std::vector<ConfigurableElement> all = ConfigurablesOf(module);
-  for (const XmlElement list : element.children()) {
-    if (list.name() == "element" || list.name() == "constructor") {
-      Warn("<" + list.name() + "> in a module has no counterpart", "", list.position(), module);
-    }
-    if (list.name() != "parameters") continue;
-    for (const XmlElement each : list.children()) {
-      const std::string name = SnakeCase(TextOfAttribute(each, "name"));
-      const ConfigurableElement* const parameter = FindByName(all, name);
-      const auto set = parameter != nullptr
-                           ? parameter->configurable->SetFromText(TextFor(
-                                 *parameter->configurable, each.text(), open_.back().parent_path()))
-                           : Result<void>(Error{.message = "there is no parameter '" + name + "'",
-                                                .hint = NearestNameHint(name, NamesOf(all))});
-      if (!set) Warn(set.error().message, set.error().hint, each.position(), module);
-    }
-  }
-}
-
 // A port passes on, so that it needs no more than a direction, which the interface is called after,
 // and the type of what it is connected to.
 void FinrocReader::MakeInterfacePorts(XmlElement root, FrameworkElement& group) {
@@ -261,7 +217,8 @@ void FinrocReader::ReadInterface(XmlElement interface, FrameworkElement& group) 
       if (type != nullptr || edge.name() != "edge") continue;
       const XmlAttribute* const inner = edge.Attribute(is_output ? "src" : "dest");
       const XmlAttribute* const own = edge.Attribute(is_output ? "dest" : "src");
-      if (inner == nullptr || own == nullptr || Last(SnakeCasePath(own->value)) != name) continue;
+      if (inner == nullptr || own == nullptr || LastName(SnakeCasePath(own->value)) != name)
+        continue;
       const Port* const end =
           FindEnd(*inner, group, is_output ? ConnectionEnd::kFrom : ConnectionEnd::kTo);
       if (end != nullptr) type = &end->type();
@@ -284,7 +241,7 @@ Port* FinrocReader::FindEnd(const XmlAttribute& path, FrameworkElement& group, C
   const auto whole = SnakeCasePath(path.value);
   if (auto* port = FindPort({group, whole, path.value_position}, end)) return port;
   const std::string module = WithoutLast(whole, 2);
-  const std::string shorter = (module.empty() ? "" : module + "/") + Last(whole);
+  const std::string shorter = (module.empty() ? "" : module + "/") + LastName(whole);
   return FindPort({group, shorter, path.value_position}, end);
 }
 
@@ -294,6 +251,13 @@ void FinrocReader::ReadEdge(XmlElement edge, FrameworkElement& group) {
   if (source == nullptr || target == nullptr) {
     return Warn("<edge> without src or dest", "", edge.position(), group);
   }
+  for (const XmlAttribute* end : {source, target}) {
+    if (!HasScheme(end->value)) continue;
+    return Warn("'" + end->value + "' is a port of another process: the connection is left out",
+                "record there and play here, or run both in one application", end->value_position,
+                group);
+  }
+  WarnOfFlags(edge, group);
   Port* const from = FindEnd(*source, group, ConnectionEnd::kFrom);
   Port* const to = FindEnd(*target, group, ConnectionEnd::kTo);
   if (from == nullptr || to == nullptr) {
@@ -313,37 +277,12 @@ void FinrocReader::ReadEdge(XmlElement edge, FrameworkElement& group) {
   }
 }
 
-void FinrocReader::ReadParameter(XmlElement parameter, FrameworkElement& group) {
-  const std::string link = SnakeCasePath(TextOfAttribute(parameter, "link"));
-  const auto module = group.Find(WithoutLast(link, 2));
-  const std::vector<ConfigurableElement> all =
-      module ? ConfigurablesOf(**module) : std::vector<ConfigurableElement>();
-  const ConfigurableElement* const found = FindByName(all, Last(link));
-  const auto from_file = [&](const std::string& text, const fs::path& file) {
-    return found != nullptr ? TextFor(*found->configurable, text, file.parent_path()) : text;
-  };
-  std::vector<std::pair<std::string, SourcePosition>> candidates;
-  if (const XmlAttribute* value = parameter.Attribute("default")) {
-    candidates.emplace_back(from_file(value->value, open_.back()), value->value_position);
-  }
-  if (const auto* entry =
-          context_.configuration().FindEntry(TextOfAttribute(parameter, "config"))) {
-    candidates.emplace_back(from_file(entry->text, entry->position.file), entry->position);
-  }
-  if (const auto* entry =
-          context_.configuration().FindArgument(TextOfAttribute(parameter, "cmdline"))) {
-    candidates.emplace_back(entry->text, entry->position);
-  }
-  if (found == nullptr) {
-    return Warn("there is no parameter '" + link + "'", NearestNameHint(Last(link), NamesOf(all)),
-                parameter.position(), group);
-  }
-  if (candidates.empty()) return;
-  const auto& [text, position] = candidates.back();
-  if (auto set = found->configurable->SetFromText(text); !set) {
-    Error error = set.error();
-    error.position = position;
-    context_.Report(std::move(error), position, *found->element);
+// "Optional", "Reconnect" and the like.
+void FinrocReader::WarnOfFlags(XmlElement edge, FrameworkElement& group) {
+  for (const XmlAttribute& each : edge.attributes()) {
+    if (each.name == "src" || each.name == "dest") continue;
+    Warn("'" + each.name + "' of an edge has no counterpart: '" + each.value + "' is left out", "",
+         each.position, group);
   }
 }
 

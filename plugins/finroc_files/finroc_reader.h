@@ -12,6 +12,12 @@
 
 namespace runnel::internal {
 
+/// "" if there is none.
+[[nodiscard]] inline std::string TextOfAttribute(XmlElement element, std::string_view name) {
+  const XmlAttribute* const found = element.Attribute(name);
+  return found != nullptr ? found->value : "";
+}
+
 /// Makes what a FINROC file describes below an application, and warns of the rest.
 ///
 /// Threads: under the structure lock.
@@ -37,7 +43,11 @@ class FinrocReader {
   void MakeInterfacePorts(XmlElement root, FrameworkElement& group);
   void ReadEdge(XmlElement edge, FrameworkElement& group);
   Port* FindEnd(const XmlAttribute& path, FrameworkElement& group, ConnectionEnd end);
-  void ReadParameter(XmlElement parameter, FrameworkElement& group);
+  void WarnOfFlags(XmlElement edge, FrameworkElement& group);
+  void ReadParameterLinks(XmlElement links, const std::string& path, FrameworkElement& group);
+  // `module` and `name` seen from the group.
+  void ReadParameter(XmlElement parameter, const std::string& module, const std::string& name,
+                     FrameworkElement& group);
 
   void Warn(std::string message, std::string hint, const SourcePosition& position,
             const FrameworkElement& element);

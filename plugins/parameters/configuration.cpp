@@ -14,8 +14,10 @@ namespace {
 
 using Entries = std::map<std::string, Configuration::Entry, std::less<>>;
 
-const std::array<std::string, 2> kContents{"section", "value"};
 const std::array<std::string, 1> kName{"name"};
+
+// What FINROC calls sections, it calls nodes; its files begin with <root> or <node>.
+bool IsOfFinroc(XmlElement root) { return root.name() == "root" || root.name() == "node"; }
 
 std::string Normalized(std::string_view path) {
   std::string normalized;
@@ -29,10 +31,14 @@ class FileReader {
   explicit FileReader(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
   void ReadRoot(XmlElement root) {
-    if (root.name() != "configuration") {
+    if (IsOfFinroc(root)) {
+      contents_.front() = "node";
+    } else if (root.name() != "configuration") {
       diagnostics_.Add({.message = "<" + root.name() + "> is not a configuration",
                         .position = root.position(),
-                        .hint = "a configuration file begins with <configuration>"});
+                        .hint =
+                            "a configuration file begins with <configuration>, or, if it is one "
+                            "of FINROC, with <root>"});
       return;
     }
     CheckAttributes(root, {}, diagnostics_);
@@ -42,9 +48,9 @@ class FileReader {
 
  private:
   void ReadContents(XmlElement element, const std::string& path) {
-    CheckChildren(element, kContents, diagnostics_);
+    CheckChildren(element, contents_, diagnostics_);
     for (const XmlElement child : element.children()) {
-      if (child.name() == "section") ReadSection(child, path);
+      if (child.name() == contents_.front()) ReadSection(child, path);
       if (child.name() == "value") ReadValue(child, path);
     }
   }
@@ -74,21 +80,25 @@ class FileReader {
     entries_[full] = {value.text(), value.position()};
   }
 
+  // Entries are no elements: blanks, as FINROC's have, are good names.
   const std::string* ReadName(XmlElement element) {
     CheckAttributes(element, kName, diagnostics_);
     const std::string* const name = ReadText(element, "name", diagnostics_);
     if (name == nullptr) return nullptr;
-    if (const auto good = CheckElementName(*name); !good) {
-      Error error = good.error();
-      error.position = element.Attribute("name")->value_position;
-      diagnostics_.Add(std::move(error));
-      return nullptr;
-    }
-    return name;
+    if (!name->empty() && name->find('/') == std::string::npos) return name;
+    diagnostics_.Add({.message = name->empty() ? "a name must not be empty"
+                                               : "the name '" + *name + "' contains a '/'",
+                      .position = element.Attribute("name")->value_position,
+                      .hint = name->empty() ? ""
+                                            : "a <" + contents_.front() +
+                                                  "> stands for each name "
+                                                  "before the last"});
+    return nullptr;
   }
 
   Diagnostics& diagnostics_;
   Entries entries_;
+  std::array<std::string, 2> contents_{"section", "value"};
 };
 
 }  // namespace
@@ -102,8 +112,12 @@ void Configuration::Load(const std::string& file, Diagnostics& diagnostics) {
   Diagnostics problems;
   FileReader reader(problems);
   reader.ReadRoot(document->root());
-  for (const Error& error : problems.errors()) diagnostics.Add(error);
-  if (!problems.ok()) return;
+  // FINROC overlooks what it does not understand; here that is told, and the rest is taken.
+  const bool is_warning = IsOfFinroc(document->root());
+  for (const Error& error : problems.errors()) {
+    is_warning ? diagnostics.AddWarning(error) : diagnostics.Add(error);
+  }
+  if (!problems.ok() && !is_warning) return;
   for (const auto& [path, entry] : reader.entries()) entries_[path] = entry;
 }
 

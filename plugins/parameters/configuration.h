@@ -19,6 +19,9 @@ namespace runnel {
 ///       </section>
 ///     </configuration>
 ///
+/// A configuration file of FINROC, `<root>` with `<node name="…">` for sections, is read as well; what
+/// is not understood in it is a warning.
+///
 /// A parameter takes its value from the command line if it is named there, else from the
 /// configuration file, else from the application file, else its default.
 ///

@@ -2,8 +2,10 @@
 
 #include <mutex>
 
+#include "core/base/characters.h"
 #include "core/element/runtime.h"
 #include "core/module/port_group.h"
+#include "plugins/parameters/units.h"
 
 namespace runnel {
 
@@ -19,6 +21,15 @@ FrameworkElement& ParameterGroup(FrameworkElement& module) {
 }
 
 }  // namespace
+
+Result<std::string> internal::ReadableText(std::string_view text, bool is_number,
+                                           const std::string& unit) {
+  if (const std::string fault = UnwritableCharacter(text); !fault.empty()) {
+    return Error{.message = "the value contains " + fault};
+  }
+  if (is_number) return NumberInUnit(text, unit);
+  return std::string(text);
+}
 
 ParameterBase::ParameterBase(FrameworkElement* module, std::string name, ConfigurableInfo info)
     : FrameworkElement({ParameterGroup(*module), std::move(name)}, ElementKind::kParameter),

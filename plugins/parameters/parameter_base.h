@@ -61,22 +61,28 @@ ConfigurableInfo InfoOf(const ParameterOptions<T>& options, bool is_static) {
           is_static};
 }
 
+/// `text` without the unit of a number, which is then in `unit` (units.h). Errors: a character that
+/// no file can carry, so that the value could not be saved; a unit of something else.
+Result<std::string> ReadableText(std::string_view text, bool is_number, const std::string& unit);
+
 /// The value in `text`, or what is wrong with it.
 template <typename T>
 Result<T> Accept(std::string_view text, const ParameterOptions<T>& options,
                  const ConfigurableInfo& info) {
-  auto value = FromText<T>(text);
+  const auto readable = ReadableText(text, Bounded<T>, info.unit);
+  if (!readable) return readable.error();
+  auto value = FromText<T>(*readable);
   if (!value) {
     Error error = value.error();
     if (Bounded<T> && error.hint.empty() && !info.unit.empty()) {
-      error.hint = "write the number only; it is in " + info.unit;
+      error.hint = "write a number; without a unit it is in " + info.unit;
     }
     return error;
   }
   if constexpr (Bounded<T>) {
     if (!options.bounds.Contain(*value)) {
       const std::string unit = info.unit.empty() ? "" : " " + info.unit;
-      return Error{.message = std::string(text) + unit + " is out of bounds",
+      return Error{.message = *readable + unit + " is out of bounds",
                    .hint = "allowed is " + info.bounds + unit};
     }
   }

@@ -75,7 +75,13 @@ Recorder::Recorder(Runtime& runtime, Scheduler* scheduler, RecorderOptions optio
   }
 }
 
-Recorder::~Recorder() { (void)Finish(); }
+Recorder::~Recorder() {
+  try {
+    (void)Finish();
+  } catch (...) {  // memory is short: nothing may be left that knows this
+    EndWriting();
+  }
+}
 
 Result<void> Recorder::Begin() {
   {
@@ -99,7 +105,7 @@ Result<void> Recorder::Begin() {
     ShowWhereTheRobotIs();
     runtime_.AddListener(*this);
   }
-  if (scheduler_ != nullptr) scheduler_->brakes().Add(*this);
+  if (scheduler_ != nullptr) scheduler_->backpressure().Add(*this);
   thread_ = std::thread([this] { Write(); });
   return {};
 }
@@ -165,20 +171,14 @@ Result<void> Recorder::WriteAbout() {
 }
 
 Result<void> Recorder::Finish() {
-  if (!thread_.joinable()) {
+  if (std::exchange(has_finished_, true)) {
     const std::lock_guard lock(mutex_);
     return status_.failure ? Result<void>(*status_.failure) : Result<void>();
   }
-  if (scheduler_ != nullptr) scheduler_->brakes().Remove(*this);
+  if (scheduler_ != nullptr) scheduler_->backpressure().Remove(*this);
   runtime_.RemoveListener(*this);
-  for (const auto& each : All()) each->tap->DisconnectAll();
-  is_ending_ = true;
-  {
-    const std::lock_guard lock(wake_mutex_);
-    is_woken_ = true;
-  }
-  wake_.notify_one();
-  thread_.join();
+  DisconnectTaps();
+  EndWriting();
   {
     // Destroyed after the mutex is free: cutting their connections takes the structure lock.
     std::vector<std::shared_ptr<Recorded>> ended;
@@ -188,6 +188,29 @@ Result<void> Recorder::Finish() {
   }
   const std::lock_guard lock(mutex_);
   return status_.failure ? Result<void>(*status_.failure) : Result<void>();
+}
+
+void Recorder::DisconnectTaps() {
+  for (std::size_t i = 0;; ++i) {
+    std::shared_ptr<Recorded> recorded;
+    {
+      const std::lock_guard lock(mutex_);
+      is_finishing_ = true;
+      if (i >= recorded_.size()) return;
+      recorded = recorded_[i];
+    }
+    recorded->tap->DisconnectAll();
+  }
+}
+
+void Recorder::EndWriting() noexcept {
+  is_ending_ = true;
+  {
+    const std::lock_guard lock(wake_mutex_);
+    is_woken_ = true;
+  }
+  wake_.notify_one();
+  if (thread_.joinable()) thread_.join();
 }
 
 RecordingStatus Recorder::status() const {
@@ -269,7 +292,7 @@ void Recorder::OnReady(FrameworkElement& element) {
 // Whether another module takes over its connections, as one that replaces it does, is seen later.
 void Recorder::OnDeleted(FrameworkElement&) { has_gone_ = true; }
 
-void Recorder::HoldBack() noexcept {
+void Recorder::WaitForRoom() noexcept {
   const auto is_behind = [this] {
     const std::lock_guard lock(mutex_);
     return std::ranges::any_of(

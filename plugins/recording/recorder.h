@@ -17,7 +17,7 @@
 #include "plugins/foxglove_schemas/foxglove_channel.h"
 #include "plugins/mcap/mcap_records.h"
 #include "plugins/recording/port_patterns.h"
-#include "plugins/scheduling/brakes.h"
+#include "plugins/scheduling/backpressure.h"
 
 namespace runnel {
 
@@ -68,7 +68,7 @@ struct RecordingStatus {
 /// Threads:    Start() and Finish() outside of cycles and without the structure lock; status() any.
 /// Errors:     of the file: at the start, told by Start(); later, the recording ends and the application
 ///             goes on, see RecordingStatus::failure.
-class Recorder final : public ElementListener, public Brake {
+class Recorder final : public ElementListener, public BackpressureSource {
  public:
   /// `scheduler` is told to hold simulated time back; nullptr: nobody is. Errors: of the file; a pattern
   /// that names one port which is not there or cannot be recorded, with the nearest name.
@@ -86,7 +86,7 @@ class Recorder final : public ElementListener, public Brake {
 
   void OnReady(FrameworkElement& element) override;
   void OnDeleted(FrameworkElement& element) override;
-  void HoldBack() noexcept override;
+  void WaitForRoom() noexcept override;
 
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
@@ -115,15 +115,20 @@ class Recorder final : public ElementListener, public Brake {
   void ShowWhereTheRobotIs();
   [[nodiscard]] bool IsRecorded(const Port& port);
   void DropGone();
+  // By Finish().
+  void DisconnectTaps();
+  void EndWriting() noexcept;
 
   // By the writing thread, or by Finish() when that has ended.
-  void Write();
+  void Write() noexcept;
+  void WriteUntilEnd();
   bool WriteWaiting();
   std::uint64_t WriteWaitingOf(Recorded& recorded);
   Result<void> WriteValue(Recorded& recorded, Time stamp);
   Result<void> AddChannels(Recorded& recorded);
   Result<void> WriteDrops();
   void Note(const Result<void>& done);
+  void NoteException() noexcept;
   [[nodiscard]] std::vector<std::shared_ptr<Recorded>> All() const;
 
   Runtime& runtime_;
@@ -137,11 +142,13 @@ class Recorder final : public ElementListener, public Brake {
   RecordingStatus status_;                           // likewise
   std::vector<std::pair<std::string, std::uint64_t>> drops_of_gone_;
   bool failure_is_told_ = false;
+  bool is_finishing_ = false;    // guarded by mutex_: nothing is taken out of recorded_ any more
   std::uint64_t made_taps_ = 0;  // under the structure lock
 
   std::unique_ptr<McapWriter> writer_;
   std::vector<std::pair<std::string, std::uint16_t>> schemas_;
   std::vector<std::pair<std::string, std::uint16_t>> channels_;
+  bool has_finished_ = false;
   std::uint64_t written_drops_ = 0;
   std::chrono::steady_clock::time_point last_flush_{};
 

@@ -50,7 +50,7 @@ Result<void> RecorderModule::Prepare() {
 }
 
 void RecorderModule::Update() {
-  if (is_simulated_) recorder_->HoldBack();
+  if (is_simulated_) recorder_->WaitForRoom();
   if (const auto failure = recorder_->TakeFailure()) {
     throw std::runtime_error("the recording has ended: " + failure->ToString());
   }

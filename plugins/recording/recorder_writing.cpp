@@ -1,7 +1,10 @@
 // What the thread of a recorder does.
 #include <algorithm>
 #include <chrono>
+#include <exception>
+#include <utility>
 
+#include "core/base/exception_text.h"
 #include "core/types/type_info.h"
 #include "plugins/mcap/mcap_writer.h"
 #include "plugins/recording/recorder.h"
@@ -29,7 +32,16 @@ Result<std::uint16_t> FindOrMake(std::vector<std::pair<std::string, Id>>& known,
 
 }  // namespace
 
-void Recorder::Write() {
+// Whatever a type's description throws ends the recording, and nothing else.
+void Recorder::Write() noexcept {
+  try {
+    WriteUntilEnd();
+  } catch (...) {
+    NoteException();
+  }
+}
+
+void Recorder::WriteUntilEnd() {
   while (!has_failed_) {
     const bool is_last = is_ending_;  // what was published before the end is waiting by now
     const bool found = WriteWaiting();
@@ -69,15 +81,25 @@ std::uint64_t Recorder::WriteWaitingOf(Recorded& recorded) {
   std::uint64_t count = 0;
   while (count < recorded.tap->room() && !has_failed_) {
     Time stamp;
+    std::exception_ptr failure;  // the value must be let go of first
     const bool taken = recorded.tap->Take([&](const void* value, Time of) {
       stamp = of;
-      recorded.messages.resize(recorded.forms.size());
-      for (std::size_t i = 0; i < recorded.forms.size(); ++i) {
-        recorded.messages[i].clear();
-        recorded.forms[i].Append(value, of, recorded.messages[i]);
+      try {
+        recorded.messages.resize(recorded.forms.size());
+        for (std::size_t i = 0; i < recorded.forms.size(); ++i) {
+          recorded.messages[i].clear();
+          recorded.forms[i].Append(value, of, recorded.messages[i]);
+        }
+      } catch (...) {
+        failure = std::current_exception();
       }
     });
     if (!taken) break;
+    if (failure) {
+      Note(Error{.message = "the value cannot be written: " + DescribeException(failure),
+                 .path = recorded.path});
+      break;
+    }
     if (auto written = WriteValue(recorded, stamp); !written) {
       Note(written);
       break;
@@ -158,6 +180,7 @@ void Recorder::DropGone() {
       continue;
     }
     const std::lock_guard lock(mutex_);
+    if (is_finishing_) return;
     std::erase(recorded_, each);
     status_.dropped += each->tap->dropped();
     drops_of_gone_.emplace_back(each->path, each->tap->dropped());
@@ -169,6 +192,13 @@ void Recorder::Note(const Result<void>& done) {
   has_failed_ = true;
   const std::lock_guard lock(mutex_);
   if (!status_.failure) status_.failure = done.error();
+}
+
+void Recorder::NoteException() noexcept {
+  has_failed_ = true;
+  std::string what = DescribeException();
+  const std::lock_guard lock(mutex_);
+  if (!status_.failure) status_.failure.emplace().message = std::move(what);
 }
 
 }  // namespace runnel

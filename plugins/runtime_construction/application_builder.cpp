@@ -10,6 +10,7 @@
 #include "core/base/nearest_name.h"
 #include "plugins/runtime_construction/application_reader.h"
 #include "plugins/runtime_construction/application_source.h"
+#include "plugins/runtime_construction/part_files.h"
 #include "plugins/runtime_construction/required_inputs.h"
 #include "plugins/runtime_construction/source_place.h"
 
@@ -38,23 +39,6 @@ void ReportUnknownArguments(XmlElement root, const PartFiles& parts,
   }
 }
 
-void MakeReady(FrameworkElement& application, const BuildTools& tools, BuildContext& context) {
-  if (tools.before_ready) {
-    const SourcePosition position = FindSourcePlace(application);
-    context.Attempt({"preparing the run", position, &application}, [&] {
-      const auto prepared = tools.before_ready(application);
-      if (!prepared) context.Report(prepared.error(), position, application);
-    });
-    if (!context.ok()) return;
-  }
-  Runtime& runtime = context.runtime();
-  const auto ready = runtime.MakeReady(application);
-  if (ready) return;
-  const auto culprit = runtime.root().Find(ready.error().path);
-  const FrameworkElement& at = culprit ? **culprit : application;
-  context.Report(ready.error(), FindSourcePlace(at), at);
-}
-
 // The text that the application came from, if it came from a file.
 struct SourceText {
   std::filesystem::path file;
@@ -62,13 +46,12 @@ struct SourceText {
 };
 
 FrameworkElement* Build(XmlElement root, const BuildTools& tools, BuildContext& context,
-                        BuildMode mode, Diagnostics& diagnostics) {
+                        Diagnostics& diagnostics) {
   ApplicationReader reader(context);  // what it defers needs it still
   FrameworkElement* const application = reader.Read(root);
   context.RunDeferred();
   if (application != nullptr) CheckRequiredInputs(*application, context);
   ReportUnknownArguments(root, context.parts(), tools.configuration, diagnostics);
-  if (diagnostics.ok() && mode == BuildMode::kRun) MakeReady(*application, tools, context);
   return application;
 }
 
@@ -87,41 +70,84 @@ BuildOutcome BuildFrom(const XmlDocument& document, const std::filesystem::path&
   BuildContext context(tools, folder, outcome.diagnostics);
   {
     const std::lock_guard lock(tools.runtime.structure_mutex());
-    outcome.application = Build(document.root(), tools, context, mode, outcome.diagnostics);
+    outcome.application = Build(document.root(), tools, context, outcome.diagnostics);
     if (outcome.application != nullptr && text) {
       KeepSource(*outcome.application, std::move(*text), context);
     }
   }
-  if (outcome.application == nullptr) return outcome;
-  if (!outcome.diagnostics.ok() || mode == BuildMode::kCheck) {
-    // Outside of the lock, for deleting waits for cycles, which may be waiting for the lock.
-    const auto deleted = tools.runtime.Delete(*std::exchange(outcome.application, nullptr));
-    if (!deleted) outcome.diagnostics.Add(deleted.error());
-  }
+  FinishBuild(outcome, mode);
   return outcome;
 }
 
+// Where the groups stand that other files describe, from the one of `file` outwards.
+std::string UseChain(const FrameworkElement& element, const std::string& file) {
+  std::string chain;
+  for (const FrameworkElement* at = &element; at != nullptr; at = at->parent()) {
+    const auto* const part = at->FindAnnotation<PartInstance>();
+    if (part == nullptr || (chain.empty() && part->file != file)) continue;
+    chain += (chain.empty() ? "instantiated at " : ", which is instantiated at ") +
+             PlaceText(FindSourcePlace(*at));
+  }
+  return chain;
+}
+
 }  // namespace
+
+Result<void> MakeApplicationReady(FrameworkElement& application) {
+  Runtime& runtime = application.runtime();
+  const std::lock_guard lock(runtime.structure_mutex());
+  const auto ready = runtime.MakeReady(application);
+  if (ready) return {};
+  Error error = ready.error();
+  const auto culprit = runtime.root().Find(error.path);
+  const FrameworkElement& at = culprit ? **culprit : application;
+  if (error.path.empty()) error.path = at.path();
+  if (error.position.file.empty()) error.position = FindSourcePlace(at);
+  const std::string chain = UseChain(at, error.position.file);
+  if (!chain.empty()) error.hint += (error.hint.empty() ? "" : "; ") + chain;
+  return error;
+}
+
+void FinishBuild(BuildOutcome& outcome, BuildMode mode) {
+  if (outcome.application == nullptr) return;
+  if (outcome.diagnostics.ok() && mode == BuildMode::kRun) {
+    if (auto ready = MakeApplicationReady(*outcome.application); !ready) {
+      outcome.diagnostics.Add(ready.error());
+    }
+  }
+  if (outcome.diagnostics.ok() && mode != BuildMode::kCheck) return;
+  // Outside of the lock, for deleting waits for cycles, which may be waiting for the lock.
+  FrameworkElement& application = *std::exchange(outcome.application, nullptr);
+  const auto deleted = application.runtime().Delete(application);
+  if (!deleted) outcome.diagnostics.Add(deleted.error());
+}
 
 BuildOutcome BuildApplication(const XmlDocument& document, const std::filesystem::path& folder,
                               const BuildTools& tools, BuildMode mode) {
   return BuildFrom(document, folder, std::nullopt, tools, mode);
 }
 
+BuildOutcome BuildApplication(const ApplicationFile& file, const BuildTools& tools,
+                              BuildMode mode) {
+  return BuildFrom(file.document, file.file.parent_path(), SourceText{file.file, file.text}, tools,
+                   mode);
+}
+
 BuildOutcome BuildApplication(const std::filesystem::path& file, const BuildTools& tools,
                               BuildMode mode) {
+  auto read = ApplicationFile::Read(file);
+  if (read) return BuildApplication(*read, tools, mode);
   BuildOutcome failed;
+  failed.diagnostics.Add(read.error());
+  return failed;
+}
+
+Result<ApplicationFile> ApplicationFile::Read(const std::filesystem::path& file) {
   auto text = XmlDocument::ReadText(file);
-  if (!text) {
-    failed.diagnostics.Add(text.error());
-    return failed;
-  }
-  const auto document = XmlDocument::Parse(*text, file.string());
-  if (!document) {
-    failed.diagnostics.Add(document.error());
-    return failed;
-  }
-  return BuildFrom(*document, file.parent_path(), SourceText{file, std::move(*text)}, tools, mode);
+  if (!text) return text.error();
+  auto document = XmlDocument::Parse(*text, file.string());
+  if (!document) return document.error();
+  return ApplicationFile{file, std::move(*text), std::move(*document)};
 }
 
 }  // namespace runnel

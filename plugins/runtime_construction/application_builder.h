@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "core/base/diagnostics.h"
+#include "core/base/result.h"
 #include "core/xml/xml_document.h"
 #include "plugins/runtime_construction/build_context.h"
 
@@ -20,6 +22,16 @@ struct BuildOutcome {
   Diagnostics diagnostics = {};
 };
 
+/// An application file that has been read and parsed, once for all who look at it.
+struct ApplicationFile {
+  std::filesystem::path file;
+  std::string text;  ///< byte for byte
+  XmlDocument document;
+
+  /// Errors: it cannot be read; it is no XML.
+  static Result<ApplicationFile> Read(const std::filesystem::path& file);
+};
+
 /// Builds what an application file describes below one new group of the runtime's root, and makes
 /// it ready. All or nothing: with one error or more, the tree is afterwards what it was before.
 /// Plugins that were loaded stay loaded.
@@ -30,9 +42,23 @@ struct BuildOutcome {
 [[nodiscard]] BuildOutcome BuildApplication(const std::filesystem::path& file,
                                             const BuildTools& tools, BuildMode mode);
 
+[[nodiscard]] BuildOutcome BuildApplication(const ApplicationFile& file, const BuildTools& tools,
+                                            BuildMode mode);
+
 /// The same for a document that has been read already. Relative file names in it start in `folder`.
 [[nodiscard]] BuildOutcome BuildApplication(const XmlDocument& document,
                                             const std::filesystem::path& folder,
                                             const BuildTools& tools, BuildMode mode);
+
+/// Makes an application ready that was built with kConstruct, as kRun does at once: a program that
+/// runs it makes its scheduler in between, from what the file says.
+///
+/// Threads: as BuildApplication(). Errors: what an element says that could not be prepared, with its
+/// place in the file; nothing is ready then.
+[[nodiscard]] Result<void> MakeApplicationReady(FrameworkElement& application);
+
+/// For builders: what is left to be done in `mode` with an application that has been read. Not under
+/// the structure lock.
+void FinishBuild(BuildOutcome& outcome, BuildMode mode);
 
 }  // namespace runnel

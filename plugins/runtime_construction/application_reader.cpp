@@ -233,7 +233,7 @@ bool ApplicationReader::CheckAttribute(const AttributeRule& rule, TagUse& use) {
 void ApplicationReader::GiveStandInName(TagUse& use) {
   context_.MarkIncomplete(use.parent);
   const SourcePosition position = use.xml.position();
-  use.stand_ins.push_back(&context_.Keep({"name", kStandInName, position, position}));
+  use.stand_ins.push_back(&context_.Keep({"name", "", position, position}));
 }
 
 FrameworkElement* ApplicationReader::Salvage(const XmlTag& tag, const TagUse& use) {
@@ -249,8 +249,9 @@ FrameworkElement* ApplicationReader::Handle(const XmlTag& tag, const TagUse& use
   context_.Attempt({"<" + tag.name + ">", use.xml.position(), &use.parent},
                    [&] { made = tag.handle(use); });
   if (made == nullptr) return nullptr;
+  MarkIfStandIn(*made, use);
   // Connections that were meant for it will not find it.
-  if (made != &use.parent && IsStandIn(made->name())) context_.Excuse(*made);
+  if (IsStandIn(*made)) context_.Excuse(*made);
   if (made != &use.parent && made->FindAnnotation<SourcePlace>() == nullptr) {
     made->Annotate(std::make_unique<SourcePlace>(use.xml.position()));
   }

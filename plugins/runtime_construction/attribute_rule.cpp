@@ -23,15 +23,6 @@ Result<void> WithoutValue(const Result<T>& result) {
   return {};
 }
 
-Result<void> CheckName(std::string_view value) {
-  if (auto good = CheckElementName(value); !good) return good;
-  const std::size_t separator = value.find_first_of(kSeparators);
-  if (separator == std::string_view::npos) return {};
-  return Error{.message = "the name " + Quoted(value) + " contains a " +
-                          (value[separator] == ',' ? "comma" : "blank") + ", which separates paths",
-               .hint = "write '_' instead"};
-}
-
 Result<void> CheckNotEmpty(std::string_view value) {
   if (SplitPaths(value).empty()) return Error{.message = "a path must not be empty"};
   return {};
@@ -78,7 +69,7 @@ Result<void> CheckAttributeValue(const AttributeRule& rule, std::string_view val
       return {};
     case AttributeKind::kName:
     case AttributeKind::kNewName:
-      return CheckName(value);
+      return CheckElementName(value);
     case AttributeKind::kPath:
       return CheckSinglePath(value);
     case AttributeKind::kPathList:

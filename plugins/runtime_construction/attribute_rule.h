@@ -12,7 +12,7 @@ namespace runnel {
 /// What may stand in an attribute of an application file.
 enum class AttributeKind {
   kText,      ///< anything
-  kName,      ///< what can name an element in lists of paths: not empty, no '/', ',' nor blanks
+  kName,      ///< what can name an element (core/element/element_path.h)
   kNewName,   ///< the same, of the element that the tag makes
   kPath,      ///< one path, not empty
   kPathList,  ///< paths separated by blanks, at least one

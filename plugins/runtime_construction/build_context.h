@@ -27,10 +27,6 @@ struct BuildTools {
   PluginManager& plugins;
   XmlTagRegistry& tags;
   Configuration& configuration;
-  /// Called when the application is complete and right, before it is made ready (never in a check),
-  /// under the structure lock: here a program gives the runtime its clock and its scheduler. An
-  /// error makes the build fail.
-  std::function<Result<void>(FrameworkElement& application)> before_ready = {};
 };
 
 /// What is done once all tags have been handled, in this order. Within a stage the order is that of

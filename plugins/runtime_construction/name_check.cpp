@@ -1,5 +1,7 @@
 #include "plugins/runtime_construction/name_check.h"
 
+#include <memory>
+
 #include "plugins/runtime_construction/build_context.h"
 #include "plugins/runtime_construction/source_place.h"
 
@@ -9,6 +11,7 @@ bool CheckNameIsFree(const TagUse& use, const FrameworkElement& where) {
   const XmlAttribute& name = use.Get("name");
   FrameworkElement* const known = where.FindChild(name.value);
   if (known == nullptr) return true;
+  if (IsStandIn(*known)) return false;  // which has been reported itself
   const auto* const place = known->FindAnnotation<SourcePlace>();
   use.context.Report(
       {.message = "there is already an element called '" + name.value + "' in " + where.path(),
@@ -26,14 +29,20 @@ bool CheckNameIsFree(const TagUse& use, const FrameworkElement& where) {
 
 std::string FreeName(const TagUse& use, const FrameworkElement& where) {
   const std::string& name = use.Get("name").value;
-  if (!IsStandIn(name) && CheckNameIsFree(use, where)) return name;
-  std::string stand_in = kStandInName;
-  for (int i = 2; where.FindChild(stand_in) != nullptr; ++i) {
-    stand_in = kStandInName + std::to_string(i);
-  }
+  if (!name.empty() && CheckNameIsFree(use, where)) return name;
+  std::string stand_in = "?";
+  for (int i = 2; where.FindChild(stand_in) != nullptr; ++i) stand_in = "?" + std::to_string(i);
   return stand_in;
 }
 
-bool IsStandIn(std::string_view name) { return name.starts_with(kStandInName); }
+bool IsStandIn(const FrameworkElement& element) {
+  return element.FindAnnotation<StandIn>() != nullptr;
+}
+
+void MarkIfStandIn(FrameworkElement& made, const TagUse& use) {
+  const XmlAttribute* const name = use.Find("name");
+  const bool is_own = &made != &use.parent && name != nullptr && made.name() != name->value;
+  if (is_own) made.Annotate(std::make_unique<StandIn>());
+}
 
 }  // namespace runnel

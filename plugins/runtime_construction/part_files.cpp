@@ -11,16 +11,16 @@ namespace fs = std::filesystem;
 // A file of ten groups of ten groups … is short, and would never come to an end.
 constexpr std::size_t kMostUses = 100'000;
 
-std::string PlaceText(const SourcePosition& place) {
-  return place.file + ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
-}
-
 bool IsSameFile(const std::string& one, const std::string& other) {
   std::error_code ignored;
   return one == other || fs::equivalent(one, other, ignored);
 }
 
 }  // namespace
+
+std::string PlaceText(const SourcePosition& place) {
+  return place.file + ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
+}
 
 fs::path PartFiles::FolderOf(const std::string& file) const {
   return Knows(file) ? fs::path(file).parent_path() : folder_;

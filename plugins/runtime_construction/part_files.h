@@ -21,6 +21,9 @@ struct PartInstance final : Annotation {
   std::string file;  ///< as errors call it
 };
 
+/// "wheel.xml:5:22".
+[[nodiscard]] std::string PlaceText(const SourcePosition& place);
+
 /// One use of such a file while the application is built.
 struct PartUse {
   FrameworkElement& group;

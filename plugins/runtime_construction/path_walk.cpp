@@ -46,7 +46,7 @@ FrameworkElement* SearchElement(const PathUse& use, BuildContext& context) {
 std::vector<std::string> ChildNames(const FrameworkElement& element) {
   std::vector<std::string> names;
   for (const FrameworkElement* child : element.children()) {
-    if (!IsStandIn(child->name())) names.push_back(child->name());
+    if (!IsStandIn(*child)) names.push_back(child->name());
   }
   return names;
 }

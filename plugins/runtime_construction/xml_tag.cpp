@@ -4,7 +4,6 @@
 
 #include "core/base/check.h"
 #include "core/element/element_path.h"
-#include "plugins/runtime_construction/name_check.h"
 #include "plugins/runtime_construction/tags/built_in_tags.h"
 
 namespace runnel {
@@ -24,7 +23,7 @@ bool TagUse::Says(std::string_view attribute) const {
 std::string TagUse::path() const {
   const XmlAttribute* const name = Find("name");
   const std::string parent_path = parent.path();
-  const bool is_name = name != nullptr && CheckElementName(name->value) && !IsStandIn(name->value);
+  const bool is_name = name != nullptr && CheckElementName(name->value);
   if (!is_name) return parent_path;
   return (parent_path == "/" ? "" : parent_path) + "/" + name->value;
 }
@@ -66,20 +65,26 @@ void XmlTagRegistry::AddAttribute(AddedAttribute attribute) {
 }
 
 std::function<void()> XmlTagRegistry::SetAside(std::string_view plugin) {
-  std::map<std::string, XmlTag, std::less<>> tags;
-  std::vector<AddedAttribute> attributes;
-  std::erase_if(tags_, [&](const auto& entry) {
-    return entry.second.plugin == plugin && tags.insert(entry).second;
-  });
-  std::erase_if(added_attributes_, [&](const AddedAttribute& each) {
-    if (each.plugin != plugin) return false;
-    attributes.push_back(each);
-    return true;
-  });
-  return [this, tags, attributes] {
-    for (const auto& [name, tag] : tags) tags_.insert_or_assign(name, tag);
-    added_attributes_.insert(added_attributes_.end(), attributes.begin(), attributes.end());
+  struct Aside {
+    decltype(tags_) tags;
+    std::vector<AddedAttribute> attributes;
   };
+  // All memory comes before the first is taken out; putting them back needs none.
+  const auto aside = std::make_shared<Aside>();
+  const auto is_of_it = [&](const AddedAttribute& each) { return each.plugin == plugin; };
+  std::ranges::copy_if(added_attributes_, std::back_inserter(aside->attributes), is_of_it);
+  std::function<void()> back = [this, aside] {
+    tags_.merge(aside->tags);
+    added_attributes_.insert(added_attributes_.end(), aside->attributes.begin(),
+                             aside->attributes.end());
+    aside->attributes.clear();
+  };
+  for (auto each = tags_.begin(); each != tags_.end();) {
+    const auto at = each++;
+    if (at->second.plugin == plugin) aside->tags.insert(tags_.extract(at));
+  }
+  std::erase_if(added_attributes_, is_of_it);
+  return back;
 }
 
 const XmlTag* XmlTagRegistry::FindTag(std::string_view name) const {

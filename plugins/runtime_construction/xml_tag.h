@@ -101,8 +101,7 @@ class XmlTagRegistry final : public OfferedRegistry {
   void AddTag(XmlTag tag);
   void AddAttribute(AddedAttribute attribute);
   std::function<void()> SetAside(std::string_view plugin) override;
-  /// What is added from now on counts as of this plugin.
-  void set_plugin(std::string plugin) { plugin_ = std::move(plugin); }
+  void set_plugin(const std::string& plugin) override { plugin_ = plugin; }
 
   [[nodiscard]] const XmlTag* FindTag(std::string_view name) const;
   [[nodiscard]] std::vector<const AddedAttribute*> AddedAttributes(std::string_view tag) const;

@@ -82,8 +82,11 @@ ApplicationRun RunApplication(const ApplicationChoice& choice) {
     return AddSupervisionRules(application, *supervisor);
   };
   const BuildOutcome built = BuildApplication(
-      *document, folder, {runtime, plugins, tags, configuration, schedule}, BuildMode::kRun);
+      *document, folder, {runtime, plugins, tags, configuration}, BuildMode::kConstruct);
   if (built.application == nullptr) throw std::runtime_error(built.diagnostics.ToString());
+  auto ready = schedule(*built.application);
+  if (ready) ready = MakeApplicationReady(*built.application);
+  if (!ready) throw std::runtime_error(ready.error().ToString());
 
   RunMonitor* const monitor = FindMonitor(*built.application);
   const auto pose = built.application->Find("world/sensor_output/pose");

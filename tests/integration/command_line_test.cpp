@@ -20,10 +20,6 @@ using testing::HasSubstr;
 using testing::MatchesRegex;
 using testing::Not;
 
-constexpr int kDone = 0, kRunFailed = 1, kBadInput = 2;
-
-const std::string kDemo = std::string(RUNNEL_XML) + "/apps/bug_demo.xml ";
-
 /// An application file of the test's own.
 class CommandLine : public testing::Test {
  protected:

@@ -18,7 +18,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-const std::string kDemo = std::string(RUNNEL_XML) + "/apps/bug_demo.xml picture=";
+const std::string kUndrawnDemo = std::string(RUNNEL_XML) + "/apps/bug_demo.xml picture=";
 
 // The one in what the program has printed.
 std::uint16_t PortIn(const std::string& text) {
@@ -46,7 +46,7 @@ class Inspect : public testing::Test {
 };
 
 TEST_F(Inspect, ShowsThePageAndTalksWhileItRuns) {
-  Program program("run --speed 1 --inspect=0 " + kDemo);
+  Program program("run --speed 1 --inspect=0 " + kUndrawnDemo);
   ASSERT_TRUE(program.WaitFor("inspector: http://127.0.0.1:"));
   ASSERT_TRUE(program.WaitFor("to the goal"));
   program.Send(SIGINT);
@@ -56,7 +56,7 @@ TEST_F(Inspect, ShowsThePageAndTalksWhileItRuns) {
 }
 
 TEST_F(Inspect, TheEndCanStillBeSeenIfTheProgramIsHeld) {
-  Program program("run --fast --hold --inspect=0 " + kDemo);
+  Program program("run --fast --hold --inspect=0 " + kUndrawnDemo);
   ASSERT_TRUE(program.WaitFor("held for viewers; Ctrl-C ends it"));
   program.WaitUntilHandles(SIGINT, true);
   program.Send(SIGINT);
@@ -73,7 +73,7 @@ TEST_F(Inspect, AVerdictIsSentToViewers) {
     ASSERT_TRUE(probe);
     port = (*probe)->port();
   }
-  Program program("run --fast --hold --inspect=" + std::to_string(port) + " " + kDemo);
+  Program program("run --fast --hold --inspect=" + std::to_string(port) + " " + kUndrawnDemo);
   ASSERT_TRUE(program.WaitFor("held for viewers"));
   RawClient page(port);
   EXPECT_THAT(page.Get("/"), AllOf(HasSubstr("200 OK"), HasSubstr("<html")));
@@ -97,7 +97,7 @@ TEST_F(Inspect, APortThatIsNamedAndTakenIsAnErrorWithACure) {
   const auto other = WebServer::Start({.port = 0}, {}, {});
   ASSERT_TRUE(other);
   const std::string port = std::to_string((*other)->port());
-  const Ended ended = Runnel("run --fast --inspect=" + port + " " + kDemo);
+  const Ended ended = Runnel("run --fast --inspect=" + port + " " + kUndrawnDemo);
   EXPECT_EQ(ended.code, 2) << ended.text;
   EXPECT_THAT(ended.text, HasSubstr("port " + port + " of 127.0.0.1 is taken"));
   EXPECT_THAT(ended.text, HasSubstr("0 for any that is free"));
@@ -142,13 +142,13 @@ TEST_F(Inspect, PlacesThatAreNoneAreRefused) {
   for (const char* option :
        {"--inspect=x", "--inspect=1.2.3:80", "--inspect=99999", "--inspect --inspect-token=short",
         "--inspect=0 --no-inspect --hold"}) {
-    const Ended ended = Runnel("run --fast " + std::string(option) + " " + kDemo);
+    const Ended ended = Runnel("run --fast " + std::string(option) + " " + kUndrawnDemo);
     EXPECT_EQ(ended.code, 2) << option << ended.text;
   }
 }
 
 TEST_F(Inspect, ATokenIsPartOfTheAddressThatIsPrinted) {
-  const Ended ended = Runnel("run --fast --inspect=0 --inspect-token=open-sesame " + kDemo);
+  const Ended ended = Runnel("run --fast --inspect=0 --inspect-token=open-sesame " + kUndrawnDemo);
   EXPECT_EQ(ended.code, 0);
   EXPECT_THAT(ended.text, HasSubstr("/?token=open-sesame\n"));
 }

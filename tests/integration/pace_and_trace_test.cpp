@@ -20,9 +20,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-constexpr int kDone = 0, kBadInput = 2;
-
-const std::string kDemo = std::string(RUNNEL_XML) + "/apps/bug_demo.xml picture= ";
+const std::string kPacedDemo = std::string(RUNNEL_XML) + "/apps/bug_demo.xml picture= ";
 
 /// Its sockets are in a folder of its own, and so is its trace.
 class RunningTime : public testing::Test {
@@ -43,7 +41,7 @@ class RunningTime : public testing::Test {
 };
 
 TEST_F(RunningTime, IsSteppedResumedAndPausedFromOutside) {
-  Program program("run --paused --fast " + kDemo);
+  Program program("run --paused --fast " + kPacedDemo);
   EXPECT_TRUE(program.WaitFor("paused"));
   EXPECT_EQ(Runnel("step").text, "stands at 0.000 s\n");
   EXPECT_EQ(Runnel("step 20").text, "stands at 1.000 s\n");
@@ -65,8 +63,8 @@ TEST_F(RunningTime, DoesNotChangeWhereTheRobotGoes) {
     EXPECT_NE(begin, std::string::npos) << ended.text;
     return ended.text.substr(begin, ended.text.find('\n', begin) - begin);
   };
-  const Ended plain = Runnel("run --fast " + kDemo);
-  Program program("run --paused --trace " + trace() + " " + kDemo);
+  const Ended plain = Runnel("run --fast " + kPacedDemo);
+  Program program("run --paused --trace " + trace() + " " + kPacedDemo);
   EXPECT_TRUE(program.WaitFor("paused"));
   EXPECT_EQ(Runnel("step 7").code, kDone);
   EXPECT_EQ(Runnel("speed 30").code, kDone);
@@ -78,7 +76,7 @@ TEST_F(RunningTime, DoesNotChangeWhereTheRobotGoes) {
 }
 
 TEST_F(RunningTime, EndsInOrderByASignalInAPause) {
-  Program program("run --paused " + kDemo);
+  Program program("run --paused " + kPacedDemo);
   EXPECT_TRUE(program.WaitFor("paused"));
   program.Send(SIGINT);
   const Ended ended = program.Wait();
@@ -96,7 +94,7 @@ TEST_F(RunningTime, OfTheMachineCannotBePaused) {
 }
 
 TEST_F(RunningTime, IsTracedCycleByCycle) {
-  const Ended ended = Runnel("run --fast --duration 2 --trace " + trace() + " " + kDemo);
+  const Ended ended = Runnel("run --fast --duration 2 --trace " + trace() + " " + kPacedDemo);
   EXPECT_EQ(ended.code, kDone) << ended.text;
   const json events = json::parse(TraceText());
   EXPECT_THAT(ended.text, HasSubstr("traced " + std::to_string(events.size()) + " events to "));
@@ -106,7 +104,7 @@ TEST_F(RunningTime, IsTracedCycleByCycle) {
 }
 
 TEST_F(RunningTime, IsTracedUntilTheProgramIsKilled) {
-  Program program("run --speed 50 --trace " + trace() + " " + kDemo);
+  Program program("run --speed 50 --trace " + trace() + " " + kPacedDemo);
   EXPECT_TRUE(program.WaitFor("m to the goal"));
   const Ended stepped = Runnel("swap /robot/planner planning/bug1");
   EXPECT_EQ(stepped.code, kDone) << stepped.text;
@@ -122,11 +120,11 @@ TEST_F(RunningTime, IsTracedUntilTheProgramIsKilled) {
 }
 
 TEST_F(RunningTime, IsNotTracedToWhereNothingCanBeWritten) {
-  const Ended ended = Runnel("run --fast --trace /nowhere/trace.json " + kDemo);
+  const Ended ended = Runnel("run --fast --trace /nowhere/trace.json " + kPacedDemo);
   EXPECT_EQ(ended.code, kBadInput);
   EXPECT_THAT(ended.text, HasSubstr("/nowhere/trace.json: error: "));
   EXPECT_THAT(ended.text, HasSubstr("cannot be written: No such file or directory"));
-  const Ended full = Runnel("run --fast --duration 2 --trace /dev/full " + kDemo);
+  const Ended full = Runnel("run --fast --duration 2 --trace /dev/full " + kPacedDemo);
   EXPECT_EQ(full.code, 1);
   EXPECT_THAT(full.text, HasSubstr("/dev/full: error: the trace could not be written: No space"));
 }

@@ -1,18 +1,18 @@
 #include "tests/integration/program.h"
 
 #include <array>
-#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <stdexcept>
-#include <thread>
 
 #include <linux/capability.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include "tests/support/wait_until.h"
 
 namespace runnel::test {
 
@@ -84,7 +84,8 @@ bool Program::Handles(int signal) const {
 }
 
 void Program::WaitUntilHandles(int signal, bool handles) const {
-  while (Handles(signal) != handles) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  WaitUntil("the program handles signal " + std::to_string(signal) + (handles ? "" : " no more"),
+            [&] { return Handles(signal) == handles; });
 }
 
 void Program::Send(int signal) const { kill(process_, signal); }

@@ -6,6 +6,12 @@
 
 namespace runnel::test {
 
+/// How it ends.
+inline constexpr int kDone = 0, kRunFailed = 1, kBadInput = 2;
+
+/// The first of its arguments for the shipped application.
+inline const std::string kDemo = std::string(RUNNEL_XML) + "/apps/bug_demo.xml ";
+
 /// How the program ended, and all that it wrote to standard output and errors.
 struct Ended {
   int code = -1;   ///< -1: it did not end by itself

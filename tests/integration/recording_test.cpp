@@ -14,6 +14,7 @@
 #include "plugins/mcap/mcap_reader.h"
 #include "tests/integration/program.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/wait_until.h"
 
 namespace runnel::test {
 namespace {
@@ -22,9 +23,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::SizeIs;
 
-constexpr int kDone = 0, kRunFailed = 1, kBadInput = 2;
-
-const std::string kDemo = std::string(RUNNEL_XML) + "/apps/bug_demo.xml ";
 const std::string kWorlds = std::string(RUNNEL_XML) + "/worlds/";
 constexpr const char* kTwist = "/bug_demo/robot/planner/output/twist";
 constexpr const char* kSensors =
@@ -128,13 +126,10 @@ TEST_F(Recording, OfARunningApplicationEndsWithCtrlCInOrder) {
   EXPECT_FALSE(std::filesystem::exists(Path("no.mcap")));
 
   Program recording("record" + app + "-o " + Path("live.mcap") + " laser/scan '*/pose'");
-  // The first chunk is written after a second; a minute is for slow machines.
-  const auto is_written = [&] {
+  WaitUntil("the first chunk is written", [&] {
     return std::filesystem::exists(Path("live.mcap")) &&
            std::filesystem::file_size(Path("live.mcap")) > 10'000;
-  };
-  for (int i = 0; i < 3000 && !is_written(); ++i) usleep(20'000);
-  ASSERT_TRUE(is_written());
+  });
   recording.Send(SIGINT);
   const Ended ended = recording.Wait();
   EXPECT_EQ(ended.code, kDone) << ended.text;

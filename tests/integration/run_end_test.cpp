@@ -17,10 +17,6 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-constexpr int kDone = 0, kRunFailed = 1, kBadInput = 2;
-
-const std::string kDemo = std::string(RUNNEL_XML) + "/apps/bug_demo.xml ";
-
 /// What each test's own files are called.
 std::filesystem::path TestFile(const std::string& extension) {
   return std::filesystem::path(testing::TempDir()) /

@@ -258,7 +258,9 @@ XmlTag ParameterTag() {
                          {.name = "from",
                           .kind = AttributeKind::kName,
                           .summary = "the parameter of the <group_type> whose value it takes"},
-                         {.name = "value", .summary = "in text form, without unit"},
+                         {.name = "value",
+                          .summary = "in text form; a number may have another unit of the same "
+                                     "kind, as in 15 cm"},
                          {.name = "config",
                           .kind = AttributeKind::kPath,
                           .summary = "the entry of the configuration file that beats the value"},

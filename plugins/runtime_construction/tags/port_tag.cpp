@@ -86,7 +86,7 @@ void MakePort(const TagUse& use) {
   const TypeInfo* type = nullptr;
   if (named != nullptr) {
     type = NamedType(*named, use);
-  } else if (!IsStandIn(name)) {
+  } else if (name == use.Get("name").value) {
     type = ConnectedType(use);
   }
   if (type == nullptr) {
@@ -99,6 +99,7 @@ void MakePort(const TagUse& use) {
   auto& port = use.context.runtime().Create<ProxyPort>(
       use.parent, name, direction, *type, description != nullptr ? description->value : "");
   port.Annotate(std::make_unique<SourcePlace>(use.xml.position()));
+  MarkIfStandIn(port, use);
 }
 
 }  // namespace

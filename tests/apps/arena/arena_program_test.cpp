@@ -1,4 +1,5 @@
 #include <csignal>
+#include <cstdlib>
 #include <set>
 
 #include <gmock/gmock.h>
@@ -66,6 +67,22 @@ TEST_F(ArenaTest, WritesTheRunsExactlyAsPublished) {
   }
   EXPECT_EQ(runs[0]["sensor"], "laser");
   EXPECT_EQ(runs[1]["sensor"], "infrared");
+}
+
+TEST_F(ArenaTest, ItsRunsAreNotAmongTheRunningApplicationsThatAreOfferedToOthers) {
+  const char* const before = std::getenv("XDG_RUNTIME_DIR");
+  const std::string kept = before != nullptr ? before : "";
+  setenv("XDG_RUNTIME_DIR", folder_.c_str(), 1);
+  const Ended ended =
+      Arena("--world one_obstacle --variant bug2 --quiet --json " + File("runs.json"));
+  if (before != nullptr) {
+    setenv("XDG_RUNTIME_DIR", kept.c_str(), 1);
+  } else {
+    unsetenv("XDG_RUNTIME_DIR");
+  }
+  EXPECT_EQ(ended.code, 0) << ended.text;
+  // Whoever offers a socket makes the folder for it, which stays.
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "runnel"));
 }
 
 TEST_F(ArenaTest, TellsOutcomeLengthRatioAndBoundOnTheTerminal) {

@@ -30,3 +30,9 @@ run(COMMAND "${program}" modules simulation EXPECT "simulation/world")
 set(world "world=${WORK}/prefix/share/runnel/xml/worlds/rooms.xml")
 run(COMMAND "${program}" check "${SOURCE}/wander.xml" "${world}")
 run(COMMAND "${program}" run --fast --duration 5 "${SOURCE}/wander.xml" "${world}")
+
+# A program that has the application as an object.
+run(COMMAND "${WORK}/outside/embedding" "${WORK}/prefix/share/runnel/xml/apps/bug_demo.xml"
+  EXPECT "swapped at .*the robot is at ")
+# It needs nothing of browsers and recordings.
+run(COMMAND sh -c "if ldd '${WORK}/outside/embedding' | grep -E 'inspector|foxglove|web_server|recording|mcap|tracing'; then exit 1; fi")

@@ -162,18 +162,6 @@ class Changer {
   std::mt19937 random_;
 };
 
-// Loaded again, it is the same.
-void ExpectSame(FrameworkElement& application, const std::filesystem::path& file, unsigned seed) {
-  SavingWorkshop second;
-  second.Add<Optional>("test/optional");
-  FrameworkElement* const again = second.Load(file);
-  ASSERT_NE(again, nullptr) << "seed " << seed << '\n' << ReadAll(file);
-  ASSERT_EQ(StructureText(*again), StructureText(application)) << "seed " << seed << '\n'
-                                                               << ReadAll(file);
-  // And saved again it is the same text.
-  ASSERT_EQ(second.Text(*again, file.parent_path()), ReadAll(file)) << "seed " << seed;
-}
-
 TEST(RandomChanges, AreTheSameAfterSavingAndLoading) {
   const TestFolder folder;
   std::string start = kStart;

@@ -68,7 +68,7 @@ struct SavingWorkshop : Workshop {
     EXPECT_TRUE(diagnostics.ok()) << diagnostics.ToString();
     return outcome.application;
   }
-  [[nodiscard]] SaveTools tools() const { return {plugins, tags}; }
+  [[nodiscard]] SaveTools tools() { return {plugins, tags}; }
   std::string Text(FrameworkElement& application, const std::filesystem::path& folder) {
     const auto text = ApplicationText(application, tools(), folder);
     return text ? *text : "error: " + text.error().ToString();
@@ -77,5 +77,8 @@ struct SavingWorkshop : Workshop {
 
 /// All that a file can say of an application, as text: two that have the same are the same.
 std::string StructureText(FrameworkElement& application);
+
+/// That loading the file gives the same application, and saving that one the same text.
+void ExpectSame(FrameworkElement& application, const std::filesystem::path& file, unsigned seed);
 
 }  // namespace runnel::testing

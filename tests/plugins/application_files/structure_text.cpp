@@ -59,4 +59,15 @@ std::string StructureText(FrameworkElement& application) {
   return text;
 }
 
+void ExpectSame(FrameworkElement& application, const std::filesystem::path& file, unsigned seed) {
+  SavingWorkshop second;
+  second.Add<Optional>("test/optional");
+  FrameworkElement* const again = second.Load(file);
+  ASSERT_NE(again, nullptr) << "seed " << seed << '\n' << ReadAll(file);
+  ASSERT_EQ(StructureText(*again), StructureText(application)) << "seed " << seed << '\n'
+                                                               << ReadAll(file);
+  // And saved again it is the same text.
+  ASSERT_EQ(second.Text(*again, file.parent_path()), ReadAll(file)) << "seed " << seed;
+}
+
 }  // namespace runnel::testing

@@ -134,7 +134,7 @@ TEST_F(FinrocApplication, TellsOfEachThatHasNoCounterpart) {
            "robot.finroc:9:36: warning: /robot: there is no port 'b/input/value'",
            "robot.finroc:10:51: warning: /robot: <conversion> of an edge has no counterpart",
            "robot.finroc:11:3: warning",
-           "robot.finroc:12:3: warning: /robot: there is no parameter 'a/parameters/gian'; did you "
+           "robot.finroc:12:3: warning: /robot: there is no parameter 'a/gian'; did you "
            "mean 'gain'?",
            "robot.finroc:13:3: warning: /robot: <unknown> has no counterpart",
        }) {
@@ -143,6 +143,63 @@ TEST_F(FinrocApplication, TellsOfEachThatHasNoCounterpart) {
   EXPECT_EQ(shop_.Get<Port>("/robot/c/input/value").Sources().size(), 1u);
   EXPECT_EQ(shop_.Get<ThreadContainer>("/robot/threads/main").options().period,
             std::chrono::milliseconds(40));
+}
+
+TEST_F(FinrocApplication, TakesValuesAsNewerVersionsNestThem) {
+  const std::filesystem::path configuration = folder_ / "robot.xml";
+  std::ofstream(configuration) << R"(<?xml version="1.0" encoding="UTF-8"?>
+<root>
+  <value name="noiselevel">15 cm</value>
+  <node name="some element"><value name="count">7</value></node>
+</root>)";
+  Diagnostics read;
+  shop_.configuration.Load(configuration, read);
+  ASSERT_TRUE(read.ok()) << read.ToString();
+  FrameworkElement* const application = Build(R"(<Finstructable defaultname="robot">
+  <element name="Outer" group="finroc_plugins_structure" type="Group">
+    <element name="A Source" group="finroc_projects_test" type="Source"/>
+  </element>
+  <element name="B" group="finroc_projects_test" type="Source"/>
+  <parameter_links>
+    <element name="Outer">
+      <element name="A Source">
+        <parameter name="Gain" config="/noiselevel" default="2"/>
+        <parameter name="Count" config="/some element/count"/>
+      </element>
+    </element>
+    <element name="B"><parameter name="Gain" default="300 mm"/></element>
+    <element name="Gone"><parameter name="Gain" default="1"/></element>
+    <other/>
+  </parameter_links>
+</Finstructable>)");
+  ASSERT_NE(application, nullptr) << said_;
+  auto& source = shop_.Get<Source>("/robot/outer/a_source");
+  EXPECT_EQ(source.gain.Get(), 0.15);
+  EXPECT_EQ(source.count.Get(), 7);
+  EXPECT_EQ(shop_.Get<Source>("/robot/b").gain.Get(), 0.3);
+  EXPECT_THAT(said_, HasSubstr("robot.finroc:14:26: warning: /robot: there is no parameter "
+                               "'gone/gain'"));
+  EXPECT_THAT(said_, HasSubstr("robot.finroc:15:5: warning: /robot: <other> has no counterpart"));
+}
+
+TEST_F(FinrocApplication, TellsOfEdgesToOtherProcessesAndOfFlags) {
+  FrameworkElement* const application = Build(R"(<Finstructable defaultname="robot">
+  <element name="A" group="finroc_projects_test" type="Source"/>
+  <element name="B" group="finroc_projects_test" type="Sink"/>
+  <edge src="tcp:other-host:4444/Robot/X" dest="B/Input/Value"/>
+  <edge src="A/Output/Value" dest="tcp:/Robot/Y" flags="Reconnect"/>
+  <edge src="A/Output/Value" dest="B/Input/Second" flags="Optional"/>
+</Finstructable>)");
+  ASSERT_NE(application, nullptr) << said_;
+  for (const char* expected :
+       {"robot.finroc:4:14: warning: /robot: 'tcp:other-host:4444/Robot/X' is a port of another "
+        "process",
+        "robot.finroc:5:36: warning: /robot: 'tcp:/Robot/Y' is a port of another process",
+        "robot.finroc:6:52: warning: /robot: 'flags' of an edge has no counterpart: 'Optional'"}) {
+    EXPECT_THAT(said_, HasSubstr(expected));
+  }
+  EXPECT_EQ(shop_.Get<Port>("/robot/b/input/second").Sources().size(), 1u);
+  EXPECT_TRUE(shop_.Get<Port>("/robot/b/input/value").Sources().empty());
 }
 
 TEST_F(FinrocApplication, WarnsOfInputsThatNothingFeedsAnyMore) {

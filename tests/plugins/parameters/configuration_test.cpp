@@ -22,6 +22,9 @@ class ConfigurationFile : public ::testing::Test {
     Diagnostics diagnostics;
     configuration_.Load(file_, diagnostics);
     std::string said;
+    for (const Error& warning : diagnostics.warnings()) {
+      said += "warning " + std::to_string(warning.position.line) + ": " + warning.message + "\n";
+    }
     for (const Error& error : diagnostics.errors()) {
       EXPECT_EQ(error.position.file, file_);
       said += std::to_string(error.position.line) + ":" + std::to_string(error.position.column) +
@@ -71,7 +74,8 @@ TEST_F(ConfigurationFile, TellsAllThatIsWrongAndAddsNothing) {
             "5:3: no <vlaue> may stand in <configuration>; did you mean 'value'?\n"
             "9:3: no text may stand in <configuration>; leave out 'text'\n"
             "2:3: <section> has no 'name'; add name=\"…\"\n"
-            "3:18: the name 'a/b' contains a '/', which separates names in paths; \n"
+            "3:18: the name 'a/b' contains a '/'; a <section> stands for each name "
+            "before the last\n"
             "6:20: no <z> may stand in <value>; a value is a text\n"
             "7:3: there are two values called '/y'; the first is in line 6\n"
             "8:10: <value> knows no 'nam'; did you mean 'name'?\n"
@@ -79,10 +83,37 @@ TEST_F(ConfigurationFile, TellsAllThatIsWrongAndAddsNothing) {
   EXPECT_THAT(configuration_.EntryPaths(), IsEmpty());
 }
 
+TEST_F(ConfigurationFile, MayBeOneOfFinroc) {
+  ASSERT_EQ(Load(R"(<?xml version="1.0" encoding="UTF-8"?>
+<root>
+  <value name="noiselevel">15 cm</value>
+  <node name="some structural element">
+    <value name="destructive_collision_speed">0.1</value>
+    <node name="inner"><value name="x">2</value></node>
+  </node>
+</root>)"),
+            "");
+  EXPECT_EQ(configuration_.FindEntry("/noiselevel")->text, "15 cm");
+  EXPECT_EQ(configuration_.FindEntry("/some structural element/destructive_collision_speed")->text,
+            "0.1");
+  EXPECT_EQ(configuration_.FindEntry("/some structural element/inner/x")->text, "2");
+  // As FINROC itself saves one.
+  ASSERT_EQ(Load("<node><value name='noiselevel'>20 cm</value></node>"), "");
+  EXPECT_EQ(configuration_.FindEntry("/noiselevel")->text, "20 cm");
+}
+
+TEST_F(ConfigurationFile, OfFinrocIsTakenAsFarAsItIsUnderstood) {
+  EXPECT_EQ(Load("<root>\n<value name='a'><x/></value>\n<section name='b'/>\n"
+                 "<value name='c'>1</value></root>"),
+            "warning 3: no <section> may stand in <root>\n"
+            "warning 2: no <x> may stand in <value>\n");
+  EXPECT_EQ(configuration_.FindEntry("c")->text, "1");
+}
+
 TEST_F(ConfigurationFile, MustBeOne) {
   EXPECT_EQ(Load("<application name='x'/>"),
             "1:1: <application> is not a configuration; a configuration file begins with "
-            "<configuration>\n");
+            "<configuration>, or, if it is one of FINROC, with <root>\n");
   Diagnostics diagnostics;
   configuration_.Load("/no/such/file.xml", diagnostics);
   ASSERT_EQ(diagnostics.errors().size(), 1u);

@@ -92,6 +92,24 @@ TEST(ApplicationErrors, ComeAllAtOnce) {
       << workshop.diagnostics.ToString();
 }
 
+// Elements without a name of their own are called so while a wrong file is looked at.
+TEST(ApplicationErrors, DoNotTakeANameForThatOfAnElementWithout) {
+  Workshop workshop;
+  ASSERT_TRUE(workshop.Build(R"(<application name="?demo">
+  <module name="?" type="test/source"/>
+  <group name="?2"><module name="?loc" type="test/sink"/></group>
+  <connect from="?/value" to="?2/?loc/value"/>
+</application>)"))
+      << workshop.diagnostics.ToString();
+  EXPECT_EQ(workshop.Get<Source>("/?demo/?").value.outgoing().size(), 1u);
+  EXPECT_EQ(workshop.Errors(R"(<application name="demo">
+  <module type="test/source"/>
+  <module name="?" type="test/sink"/>
+  <connect from="gone/value" to="?/value"/>
+</application>)"),
+            "app.xml:2:3: error: /demo: <module> has no 'name'; add name=\"…\"\n");
+}
+
 TEST(ApplicationErrors, LeaveNothingHalfBuilt) {
   Workshop workshop;
   workshop.Build(

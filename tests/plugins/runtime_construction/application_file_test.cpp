@@ -188,37 +188,19 @@ TEST(ApplicationFile, CanBeBuiltTwiceUnderTwoNames) {
   EXPECT_EQ(workshop.runtime.root().children().size(), 2u);
 }
 
-TEST(ApplicationFile, IsShownToTheProgramBeforeItIsReady) {
+TEST(ApplicationFile, CanBeLookedAtBeforeItIsMadeReady) {
   Workshop workshop;
-  LifeCycle seen = LifeCycle::kDeleted;
-  Result<void> answer;
-  bool throws = false;
-  const auto build = [&](BuildMode mode) {
-    const auto document =
-        XmlDocument::Parse("<application name='demo'><group name='g'/></application>", "app.xml");
-    return BuildApplication(
-        *document, "/apps",
-        {workshop.runtime, workshop.plugins, workshop.tags, workshop.configuration,
-         [&](FrameworkElement& application) {
-           seen = application.FindChild("g")->life_cycle();
-           if (throws) throw std::runtime_error("no time");
-           return answer;
-         }},
-        mode);
-  };
-  (void)build(BuildMode::kCheck);
-  EXPECT_EQ(seen, LifeCycle::kDeleted) << "not asked in a check";
-  answer = Error{.message = "no room"};
-  EXPECT_EQ(build(BuildMode::kRun).diagnostics.ToString(), "app.xml:1:1: error: /demo: no room\n");
-  EXPECT_TRUE(workshop.runtime.root().children().empty());
-  answer = {};
-  throws = true;
-  EXPECT_EQ(build(BuildMode::kRun).diagnostics.ToString(),
-            "app.xml:1:1: error: /demo: preparing the run failed: no time\n");
-  EXPECT_TRUE(workshop.runtime.root().children().empty());
-  throws = false;
-  EXPECT_TRUE(build(BuildMode::kRun).application);
-  EXPECT_EQ(seen, LifeCycle::kConstructed);
+  const auto document =
+      XmlDocument::Parse("<application name='demo'><group name='g'/></application>", "app.xml");
+  const BuildOutcome outcome =
+      BuildApplication(*document, "/apps",
+                       {workshop.runtime, workshop.plugins, workshop.tags, workshop.configuration},
+                       BuildMode::kConstruct);
+  ASSERT_TRUE(outcome.application);
+  const FrameworkElement& group = *outcome.application->FindChild("g");
+  EXPECT_EQ(group.life_cycle(), LifeCycle::kConstructed);
+  EXPECT_TRUE(MakeApplicationReady(*outcome.application));
+  EXPECT_EQ(group.life_cycle(), LifeCycle::kReady);
 }
 
 TEST(ApplicationFile, IsOnlyLookedAtInACheck) {

@@ -6,8 +6,8 @@
 #include <sstream>
 #include <utility>
 
+#include "core/base/characters.h"
 #include "core/types/type_info.h"
-#include "core/xml/internal/text_checks.h"
 #include "plugins/finroc_files/finroc_application.h"
 #include "plugins/runtime_construction/application_source.h"
 #include "plugins/runtime_construction/port_types.h"
@@ -42,15 +42,6 @@ const char* const kOldItself = R"(<FinstructableGroup>
   <element name="Again" group="finroc_plugins_structure" type="Group">
     <parameters><parameter name="XML file">old_itself.xml</parameter></parameters></element>
 </FinstructableGroup>)";
-
-bool IsReadable(std::string_view text) {
-  while (!text.empty()) {
-    const std::size_t length = internal::CharacterLength(text);
-    if (length == 0) return false;
-    text.remove_prefix(length);
-  }
-  return true;
-}
 
 // "" if the place is one of the text.
 std::string PlaceFault(const SourcePosition& place, std::string_view text) {
@@ -136,25 +127,32 @@ struct FileTrial::World : Workshop {
     return text + std::to_string(RegisteredTypes().size()) + " types\n";
   }
 
-  // What a program makes of an application before it runs.
-  [[nodiscard]] BuildTools tools(bool with_scheduler) {
+  // What programs build it with.
+  [[nodiscard]] BuildTools tools() {
     configuration = outside;
     if (with_argument) RUNNEL_CHECK(configuration.AddArgument("gain=3").has_value(), "twice");
-    BuildTools made{runtime, plugins, tags, configuration};
-    if (!with_scheduler) return made;
-    made.before_ready = [this](FrameworkElement& application) -> Result<void> {
-      scheduler.emplace(runtime, SchedulerOptionsOf(application));
-      supervisor.emplace(runtime, *scheduler, [](const ChangeSet&) -> Result<void> { return {}; });
-      for (const PlacedFaultRule& placed : FaultRulesOf(application)) {
-        if (auto added = scheduler->AddFaultRule(placed.rule); !added) {
-          Error error = added.error();
-          error.position = placed.position;
-          return error;
-        }
+    return {runtime, plugins, tags, configuration};
+  }
+  // What a program makes of an application before it is ready.
+  Result<void> Schedule(FrameworkElement& application) {
+    scheduler.emplace(runtime, SchedulerOptionsOf(application));
+    supervisor.emplace(runtime, *scheduler, [](const ChangeSet&) -> Result<void> { return {}; });
+    for (const PlacedFaultRule& placed : FaultRulesOf(application)) {
+      if (auto added = scheduler->AddFaultRule(placed.rule); !added) {
+        Error error = added.error();
+        error.position = placed.position;
+        return error;
       }
-      return AddSupervisionRules(application, *supervisor);
-    };
-    return made;
+    }
+    return AddSupervisionRules(application, *supervisor);
+  }
+  // Schedules what was constructed and makes it ready, or deletes it.
+  void Run(BuildOutcome& outcome) {
+    if (outcome.application == nullptr) return;
+    if (auto scheduled = Schedule(*outcome.application); !scheduled) {
+      outcome.diagnostics.Add(scheduled.error());
+    }
+    FinishBuild(outcome, BuildMode::kRun);
   }
   void StopScheduling() {
     supervisor.reset();
@@ -206,7 +204,7 @@ std::string FileTrial::TryFile(World& world, const std::string& text, std::uint6
   WriteNew(file, text);
   const std::string before = world.Snapshot();
   const BuildMode mode = number % 8 == 0 ? BuildMode::kConstruct : BuildMode::kRun;
-  const BuildOutcome outcome = BuildApplication(file, world.tools(false), mode);
+  const BuildOutcome outcome = BuildApplication(file, world.tools(), mode);
   if (std::string fault = JudgePlaces(outcome.diagnostics, text); !fault.empty()) return fault;
   if (outcome.application != nullptr) {
     std::string fault = TrySaving(world, *outcome.application, &text);
@@ -227,9 +225,14 @@ std::string FileTrial::TryDocument(World& world, const std::string& text, std::u
   const std::string before = world.Snapshot();
   const bool is_old = IsFinrocFile(document->root());
   const auto build = [&](BuildMode mode, bool with_scheduler) {
-    const BuildTools tools = world.tools(with_scheduler);
-    return is_old ? BuildFinrocApplication(*document, folder_ / "app.xml", tools, mode)
-                  : BuildApplication(*document, folder_, tools, mode);
+    const BuildTools tools = world.tools();
+    const bool in_two_steps = with_scheduler && mode == BuildMode::kRun;
+    const BuildMode first = in_two_steps ? BuildMode::kConstruct : mode;
+    BuildOutcome outcome =
+        is_old ? BuildFinrocApplication(*document, folder_ / "app.xml", tools, first)
+               : BuildApplication(*document, folder_, tools, first);
+    if (in_two_steps) world.Run(outcome);
+    return outcome;
   };
   const BuildMode mode = number % 4 == 3 ? BuildMode::kConstruct : BuildMode::kRun;
   const BuildOutcome outcome = build(mode, number % 8 == 6);
@@ -258,15 +261,14 @@ std::string FileTrial::TryAsPart(World& world, const std::string& text) {
       "<application name='a'><group name='g' type='part.xml'/><group name='h' type='part.xml'>"
       "<parameter name='gain' value='2'/></group></application>",
       "app.xml");
-  const BuildOutcome outcome =
-      BuildApplication(*document, folder_, world.tools(false), BuildMode::kRun);
+  const BuildOutcome outcome = BuildApplication(*document, folder_, world.tools(), BuildMode::kRun);
   return Judge(world, outcome, before, BuildMode::kRun);
 }
 
 std::string FileTrial::Judge(World& world, const BuildOutcome& outcome, const std::string& before,
                              BuildMode mode) {
   const std::string said = outcome.diagnostics.ToString();
-  if (!IsReadable(said)) return "it is told in letters that are none:\n" + said;
+  if (!UnwritableCharacter(said).empty()) return "it is told in letters that are none:\n" + said;
   if (!outcome.diagnostics.ok()) {
     if (outcome.application != nullptr) return "an application in spite of\n" + said;
     ++counts_.refused;
@@ -323,7 +325,7 @@ std::string FileTrial::TryAgain(const std::string& saved, const std::string& str
   const auto document = XmlDocument::Parse(saved, "saved.xml");
   if (!document) return "saved, it is no XML: " + document.error().ToString() + "\n" + saved;
   const BuildOutcome outcome =
-      BuildApplication(*document, folder_, world.tools(false), BuildMode::kConstruct);
+      BuildApplication(*document, folder_, world.tools(), BuildMode::kConstruct);
   if (outcome.application == nullptr) {
     return "saved, it cannot be loaded:\n" + outcome.diagnostics.ToString() + saved;
   }

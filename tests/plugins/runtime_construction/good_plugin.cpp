@@ -40,6 +40,6 @@ RUNNEL_PLUGIN(good_plugin, registry) {
        .rule = {.name = "height", .kind = runnel::AttributeKind::kCount},
        .handle = [](const runnel::XmlAttribute& attribute, runnel::FrameworkElement& element,
                     runnel::BuildContext& context) {
-         context.runtime().Create<runnel::Group>(element, "height " + attribute.value);
+         context.runtime().Create<runnel::Group>(element, "height_" + attribute.value);
        }});
 }

@@ -25,7 +25,7 @@ TEST_F(Loading, BringsModuleTypesTagsAndAttributesWhereverItStands) {
       << diagnostics.ToString();
   EXPECT_TRUE(runtime.root().Find("/demo/tower"));
   EXPECT_TRUE(runtime.root().Find("/demo/a"));
-  EXPECT_TRUE(runtime.root().Find("/demo/height 3"));
+  EXPECT_TRUE(runtime.root().Find("/demo/height_3"));
   EXPECT_EQ(tags.FindTag("tower")->plugin, "good_plugin");
 }
 

@@ -50,6 +50,27 @@ TEST_F(ParameterValues, ComeFromTheAuthorIfNobodySaysOtherwise) {
 
 TEST_F(ParameterValues, InTheFileBeatTheDefault) { EXPECT_EQ(BuiltGain(), 2.0); }
 
+TEST_F(ParameterValues, MayHaveUnitsWhereverTheyStand) {
+  const auto gain_of = [&](const std::string& value) {
+    return Said(
+        "<application name='demo'>\n<module name='a' type='test/source'>\n"
+        "<parameter name='gain' value='" +
+        value + "' config='/a/gain' command_line='gain'/></module></application>");
+  };
+  EXPECT_EQ(
+      gain_of("15 s"),
+      "app.xml:3:31: error: /demo/a/parameter/gain: '15 s' is no value in m; write it in m\n");
+  LoadConfiguration(
+      R"(<configuration><section name="a"><value name="gain">15 cm</value></section></configuration>)");
+  EXPECT_EQ(gain_of("2 m"), "");
+  EXPECT_EQ(workshop_.Get<Source>("/demo/a").gain.Get(), 0.15);
+}
+
+TEST_F(ParameterValues, OnTheCommandLineMayHaveUnits) {
+  ASSERT_TRUE(workshop_.configuration.AddArgument("gain=70mm"));
+  EXPECT_EQ(BuiltGain(), 0.07);
+}
+
 TEST_F(ParameterValues, OfTheConfigurationBeatTheFile) {
   LoadConfiguration(
       R"(<configuration><section name="a"><value name="gain">3</value></section></configuration>)");
@@ -185,16 +206,22 @@ TEST_F(ParameterValues, ThatNameFilesStartWhereTheyAreWritten) {
   EXPECT_EQ(workshop_.Get<Source>("/demo/text").text.Get(), "a.txt");
 }
 
-TEST_F(ParameterValues, WithTheUnitAreToldToLeaveItOut) {
+TEST_F(ParameterValues, WithAUnitWhereNoneIsWantedAreToldToLeaveItOut) {
   EXPECT_EQ(Said(R"(<application name="demo">
   <module name="a" type="test/source">
     <parameter name="gain" value="4m"/>
     <parameter name="count" value="4m"/>
   </module>
+  <module name="b" type="test/source">
+    <parameter name="gain" value="4,5"/>
+    <parameter name="count" value="4,5"/>
+  </module>
 </application>)"),
-            "app.xml:3:35: error: /demo/a/parameter/gain: '4m' is no number; write the number "
-            "only; it is in m\n"
-            "app.xml:4:36: error: /demo/a/parameter/count: '4m' is no whole number\n");
+            "app.xml:4:36: error: /demo/a/parameter/count: '4m' has a unit where none is wanted; "
+            "write the number only\n"
+            "app.xml:7:35: error: /demo/b/parameter/gain: '4,5' is no number with a unit; write it "
+            "in m\n"
+            "app.xml:8:36: error: /demo/b/parameter/count: '4,5' is no whole number\n");
 }
 
 }  // namespace

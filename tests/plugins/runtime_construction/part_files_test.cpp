@@ -146,6 +146,18 @@ TEST_F(PartFilesTest, NameTheLineWithinAndWhereItIsUsedOnce) {
   EXPECT_TRUE(shop_.runtime.root().children().empty());
 }
 
+TEST_F(PartFilesTest, NameTheLineWithinOfWhatCannotBePrepared) {
+  Write("part.xml", R"(<group_type>
+  <module name="a" type="test/unready"/>
+</group_type>)");
+  Write("app.xml", R"(<application name="demo">
+  <group name="one" type="part.xml"/>
+</application>)");
+  EXPECT_EQ(Errors(),
+            "part.xml:2:3: error: /demo/one/a: the file is not there; instantiated at "
+            "app.xml:2:3\n");
+}
+
 TEST_F(PartFilesTest, TellOfABadValueWhereItStands) {
   Write("part.xml", R"(<group_type>
   <parameter name="strength" value="1"/>
@@ -205,8 +217,7 @@ TEST_F(PartFilesTest, HaveNoParametersThatComeFromThemselves) {
     Write("part.xml", "<group_type>\n<parameter name=\"gain\" " + from +
                           R"(="gain" value="1"/>
 <module name="m" type="test/source"><parameter name="gain" from="gain"/></module></group_type>)");
-    Write("app.xml",
-          R"(<application name="demo"><group name="g" type="part.xml"/></application>)");
+    Write("app.xml", R"(<application name="demo"><group name="g" type="part.xml"/></application>)");
     EXPECT_THAT(Errors(), HasSubstr("part.xml:2:24: error: /demo/g"));
   }
 }
@@ -232,15 +243,16 @@ TEST_F(PartFilesTest, ThatAreNotThereOrAreSomethingElse) {
   <module name="sink" type="test/filter"/>
   <connect from="a/out" to="sink/value"/>
 </application>)");
-  EXPECT_EQ(Errors(),
-            "app.xml:2:25: error: /demo/a: prt.xml: there is no such file; did you mean "
-            "'part.xml'?\n"
-            "app.xml:3:25: error: /demo/b: other.xml begins with <world>, and describes no group; a "
-            "file for <group type=\"…\"> begins with <group_type>\n"
-            "app.xml:4:35: error: /demo/c: <module> in a group whose type is a file; write it into "
-            "part.xml, or leave out type\n"
-            "app.xml:5:19: error: /demo/d: a group without a type has no parameters; write it into "
-            "a module\n");
+  EXPECT_EQ(
+      Errors(),
+      "app.xml:2:25: error: /demo/a: prt.xml: there is no such file; did you mean "
+      "'part.xml'?\n"
+      "app.xml:3:25: error: /demo/b: other.xml begins with <world>, and describes no group; a "
+      "file for <group type=\"…\"> begins with <group_type>\n"
+      "app.xml:4:35: error: /demo/c: <module> in a group whose type is a file; write it into "
+      "part.xml, or leave out type\n"
+      "app.xml:5:19: error: /demo/d: a group without a type has no parameters; write it into "
+      "a module\n");
 }
 
 TEST_F(PartFilesTest, AreNoApplications) {

@@ -1,8 +1,7 @@
-#include "apps/runnel/recorded_application.h"
+#include "plugins/recording/recorded_ports.h"
 
 #include <algorithm>
 #include <chrono>
-#include <iostream>
 #include <map>
 #include <memory>
 #include <set>
@@ -21,7 +20,7 @@
 #include "plugins/runtime_construction/plugin_loading.h"
 #include "plugins/scheduling/thread_container.h"
 
-namespace runnel::program {
+namespace runnel {
 
 namespace {
 
@@ -40,15 +39,15 @@ class RecordedModule final : public FrameworkElement {
 // One port of each type that the modules of plugins have, by the name of the type.
 class KnownTypes {
  public:
-  explicit KnownTypes(Workplace& workplace) {
-    for (const std::string& plugin : workplace.plugins().Available()) {
+  explicit KnownTypes(const BuildTools& tools) {
+    for (const std::string& plugin : tools.plugins.Available()) {
       // What cannot be loaded has its say where it is asked for.
-      (void)LoadPlugin(plugin, workplace.plugins(), workplace.tags());
+      (void)LoadPlugin(plugin, tools.plugins, tools.tags);
     }
     int count = 0;
-    for (const ModuleType* type : workplace.plugins().modules().All()) {
-      const auto module = workplace.plugins().modules().Create(type->name, runtime_.root(),
-                                                               "module_" + std::to_string(++count));
+    for (const ModuleType* type : tools.plugins.modules().All()) {
+      const auto module = tools.plugins.modules().Create(type->name, runtime_.root(),
+                                                         "module_" + std::to_string(++count));
       if (!module) continue;
       (*module)->Visit([this](FrameworkElement& element) {
         const auto* const port = dynamic_cast<const Port*>(&element);
@@ -137,16 +136,17 @@ class RecordedTree {
 
 }  // namespace
 
-Result<FrameworkElement*> MakeRecordedApplication(const std::string& file, Workplace& workplace,
-                                                  const Workplace::BeforeReady& before_ready) {
+BuildOutcome BuildRecordedPorts(const std::string& file, const BuildTools& tools) {
+  BuildOutcome outcome;
   const auto reader = McapReader::Open(file);
-  if (!reader) return reader.error();
-  const KnownTypes types(workplace);
-  Runtime& runtime = workplace.runtime();
+  if (!reader) {
+    outcome.diagnostics.Add(reader.error());
+    return outcome;
+  }
+  const KnownTypes types(tools);
+  Runtime& runtime = tools.runtime;
   const McapContents& contents = (*reader)->contents();
   RecordedTree tree(contents, types, runtime);
-  Diagnostics diagnostics;
-  FrameworkElement* application = nullptr;
   std::vector<Error> failures;
   for (const auto& [id, channel] : contents.channels) {
     if (IsView(channel)) continue;
@@ -154,28 +154,26 @@ Result<FrameworkElement*> MakeRecordedApplication(const std::string& file, Workp
     const std::string type = schema != contents.schemas.end() ? schema->second.name : "";
     try {
       if (auto made = tree.Add(PortOf(channel), type); !made) {
-        diagnostics.AddWarning(made.error());
         failures.push_back(made.error());
         continue;
       }
     } catch (const ElementError& error) {
-      diagnostics.AddWarning(error.error());
       failures.push_back(error.error());
       continue;
     }
-    application = runtime.root().FindChild(PartsOf(PortOf(channel)).front());
+    outcome.application = runtime.root().FindChild(PartsOf(PortOf(channel)).front());
   }
-  if (application == nullptr) {
-    return failures.empty() ? Error{.message = "there are no ports in this recording",
-                                    .position = {.file = file}}
-                            : failures.front();
+  if (outcome.application == nullptr) {
+    outcome.diagnostics.Add(
+        failures.empty()
+            ? Error{.message = "there are no ports in this recording", .position = {.file = file}}
+            : failures.front());
+    return outcome;
   }
-  std::cerr << diagnostics.ToString();
+  for (Error& failure : failures) outcome.diagnostics.AddWarning(std::move(failure));
   // As fine as anybody can see.
   CreateThread(runtime, "player", {.period = std::chrono::milliseconds(5)});
-  if (auto prepared = before_ready(*application); !prepared) return prepared.error();
-  if (auto ready = runtime.MakeReady(*application); !ready) return ready.error();
-  return application;
+  return outcome;
 }
 
-}  // namespace runnel::program
+}  // namespace runnel

@@ -1,4 +1,4 @@
-#include "apps/runnel/run_report.h"
+#include "plugins/application/run_report.h"
 
 #include <algorithm>
 #include <exception>
@@ -9,7 +9,7 @@
 #include "core/types/duration_text.h"
 #include "plugins/runtime_construction/source_place.h"
 
-namespace runnel::program {
+namespace runnel {
 
 RunReport::RunReport(Runtime& runtime) : runtime_(runtime) {
   const std::lock_guard lock(runtime_.structure_mutex());
@@ -154,4 +154,4 @@ std::string NoticeText(const Notice& notice, Time start, FrameworkElement& root)
   return diagnostics.ToString();
 }
 
-}  // namespace runnel::program
+}  // namespace runnel

@@ -11,7 +11,7 @@
 #include "plugins/scheduling/fault.h"
 #include "plugins/supervision/supervision_rules.h"
 
-namespace runnel::program {
+namespace runnel {
 
 /// What the modules that judge a run have to say, all of them together. A monitor that throws, or
 /// whose module has been stopped by a fault, has failed: it comes to no verdict any more, and the
@@ -71,4 +71,4 @@ class RunReport final : public ElementListener {
 /// "app.xml:58:3: warning: /demo/x/in: nothing new for 0.3 s; switched …". Takes the structure lock.
 [[nodiscard]] std::string NoticeText(const Notice& notice, Time start, FrameworkElement& root);
 
-}  // namespace runnel::program
+}  // namespace runnel

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "core/base/diagnostics.h"
+#include "core/element/runtime.h"
+#include "core/plugin/plugin_manager.h"
+#include "plugins/application/application_options.h"
+#include "plugins/parameters/configuration.h"
+#include "plugins/runtime_construction/application_builder.h"
+
+namespace runnel {
+
+/// What an application is before any of it runs: elements that are constructed, configured and connected, with what
+/// the file says of the clock, threads and rules kept at them; and all that is wrong with it. Application makes
+/// what runs from it; whoever only looks at a file needs no more than this.
+///
+///     ApplicationDescription description({.settings = {{"goal_x", "4"}}});
+///     if (!description.Read("robot.xml")) Print(description.diagnostics().ToString());
+///
+/// Ownership:  of the elements, and of what describes them: plugins' types, words, configuration.
+/// Threads:    one, until it belongs to an application.
+/// Errors:     in the diagnostics, all of a file at once; nothing is left of it then.
+class ApplicationDescription {
+ public:
+  /// Nothing is described yet; the words and types that are there can be asked for. Throws what extensions throw.
+  explicit ApplicationDescription(ApplicationOptions options = {});
+  virtual ~ApplicationDescription() = default;
+  ApplicationDescription(const ApplicationDescription&) = delete;
+  ApplicationDescription& operator=(const ApplicationDescription&) = delete;
+
+  // One of these, once. False: it is wrong.
+
+  bool Read(const std::filesystem::path& file);
+  /// Errors call the text `name`; relative file names in it start in `folder`.
+  bool ReadText(std::string_view text, const std::filesystem::path& folder,
+                const std::string& name);
+  /// An empty group of this name.
+  bool MakeEmpty(const std::string& name);
+  /// What `describe` constructs, in whichever way.
+  using Describe = std::function<BuildOutcome(const BuildTools& tools)>;
+  bool ReadFrom(const Describe& describe);
+
+  [[nodiscard]] const Diagnostics& diagnostics() const noexcept { return diagnostics_; }
+  /// The group that all is in; nullptr if there are errors.
+  [[nodiscard]] FrameworkElement* element() const noexcept { return element_; }
+  /// Its name and path, also when it has been deleted.
+  [[nodiscard]] const std::string& name() const noexcept { return name_; }
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
+  /// What it came from, absolute, and what that said; "" if from no file.
+  [[nodiscard]] const std::string& file() const noexcept { return file_; }
+  [[nodiscard]] const std::string& text() const noexcept { return text_; }
+
+  [[nodiscard]] const ApplicationOptions& options() const noexcept { return options_; }
+  [[nodiscard]] Runtime& runtime() noexcept { return runtime_; }
+  [[nodiscard]] PluginManager& plugins() noexcept { return plugins_; }
+  [[nodiscard]] XmlTagRegistry& tags() noexcept { return tags_; }
+
+ protected:
+  Diagnostics diagnostics_;
+  FrameworkElement* element_ = nullptr;
+
+ private:
+  BuildOutcome Build(const ApplicationFile& file);
+
+  const ApplicationOptions options_;
+  std::string name_;
+  std::string path_;
+  std::string file_;
+  std::string text_;
+  PluginManager plugins_;
+  XmlTagRegistry tags_;
+  Configuration configuration_;
+  Runtime runtime_;  // last, for modules may still use what plugins gave them
+};
+
+}  // namespace runnel

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/base/diagnostics.h"
+#include "core/base/result.h"
+#include "plugins/command_service/command_service.h"
+#include "plugins/runtime_construction/application_builder.h"
+#include "plugins/scheduling/scheduler.h"
+
+namespace runnel {
+
+class Application;
+
+/// What a library adds to an application that can do without it. Each function is called at its point of the
+/// application's life, in this order; all of them do nothing unless they are overridden.
+///
+/// Ownership:  shared by the application's options and whoever wants to ask it something; what it has of the
+///             application it gives back in End() and Release().
+/// Threads:    up to Begin(), the thread that loads; then the one that runs the application; End() and
+///             Release() by the one that destroys it. Never within a cycle, nor under the structure lock.
+/// Errors:     an error or an exception of AddWords() to Begin() makes loading fail, and leaves nothing.
+class ApplicationExtension {
+ public:
+  virtual ~ApplicationExtension() = default;
+
+  /// Before the file is read: words that it may have.
+  virtual void AddWords(XmlTagRegistry& /*tags*/) {}
+  /// A file of another form than Runnel's: builds it with kConstruct. nullopt: of a form that it does not know.
+  virtual std::optional<BuildOutcome> Build(const ApplicationFile& /*file*/,
+                                            const BuildTools& /*tools*/) {
+    return std::nullopt;
+  }
+  /// The application is described, and nothing of it is ready. `options` make the scheduler next.
+  virtual Result<void> Prepare(FrameworkElement& /*application*/, SchedulerOptions& /*options*/) {
+    return {};
+  }
+  /// What clients of the control socket and viewers may do besides.
+  virtual void AddHooks(Application& /*application*/, ServiceHooks& /*hooks*/) {}
+  /// All is ready, and nothing runs yet. Warnings go to `diagnostics`.
+  virtual Result<void> Begin(Application& /*application*/, Diagnostics& /*diagnostics*/) {
+    return {};
+  }
+
+  /// Just before the first cycle.
+  virtual void OnStart() {}
+  /// How long the application is to run at most, on its clock.
+  [[nodiscard]] virtual std::optional<Duration> limit() const { return std::nullopt; }
+  /// Whether the run is over, asked some fifty times a second; nullopt: its run monitors decide.
+  virtual std::optional<bool> IsOver() { return std::nullopt; }
+  /// A module has been stopped.
+  virtual void OnFault(const Fault& /*fault*/) {}
+  /// What has gone wrong here since the last call, and did not end the run.
+  virtual std::optional<Error> TakeFailure() { return std::nullopt; }
+  /// No cycle will run any more; `verdict` is what has come of it, for people.
+  virtual void OnEnd(const std::string& /*verdict*/) {}
+
+  /// The application goes; no cycle runs any more. Lets go of all that is of it ...
+  virtual void End() noexcept {}
+  /// ... but for what the scheduler uses, which has gone by now.
+  virtual void Release() noexcept {}
+};
+
+}  // namespace runnel

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "plugins/scheduling/scheduler.h"
+
+namespace runnel {
+
+class ApplicationExtension;
+
+/// A value from outside for the parameters that name it (`command_line="goal_x"`).
+struct ApplicationSetting {
+  ApplicationSetting(std::string_view name, std::string_view value)
+      : text(std::string(name) + "=" + std::string(value)) {}
+  /// "goal_x=4", as on a command line; what has no '=' becomes an error of loading.
+  explicit ApplicationSetting(std::string argument) : text(std::move(argument)) {}
+
+  std::string text;
+};
+
+/// What is said of an application from outside of its file.
+struct ApplicationOptions {
+  std::vector<ApplicationSetting> settings = {};
+  /// Configuration files; of two that name a value, the later wins.
+  std::vector<std::string> configurations = {};
+  /// Where plugins are looked for first.
+  std::vector<std::filesystem::path> plugin_folders = {};
+
+  /// Instead of what the file says, or for an application without one.
+  std::optional<SchedulerOptions::ClockKind> clock = {};
+  /// Simulated time: so many times real time; 0: as fast as it can. Errors: on a real clock.
+  std::optional<double> speed = {};
+  /// Simulated time begins with a pause. Errors: on a real clock.
+  bool is_paused = false;
+
+  /// Other processes of the same user reach it: `runnel ls`, `runnel swap`. That they cannot is a warning.
+  bool has_control = false;
+  /// What other libraries add, in the order in which they begin. Each is of one application.
+  std::vector<std::shared_ptr<ApplicationExtension>> extensions = {};
+};
+
+}  // namespace runnel

@@ -1,0 +1,173 @@
+// Changes of an application, by whoever embeds it and by its clients.
+
+#include <filesystem>
+#include <mutex>
+#include <utility>
+
+#include "plugins/application/internal/application_parts.h"
+#include "plugins/application_files/application_saver.h"
+#include "plugins/runtime_construction/plugin_loading.h"
+#include "plugins/scheduling/thread_container.h"
+#include "plugins/structure/change_text.h"
+#include "plugins/structure/projection.h"
+#include "plugins/structure/reload.h"
+
+namespace runnel {
+
+namespace {
+
+Result<void> ResultOf(const ChangeOutcome& outcome) {
+  if (outcome) return {};
+  return outcome.diagnostics.errors().front();
+}
+
+// "planning" of "planning/bug1"; "" if there is none.
+std::string PluginOf(std::string_view type) {
+  const std::size_t slash = type.find('/');
+  return std::string(type.substr(0, slash == std::string_view::npos ? 0 : slash));
+}
+
+}  // namespace
+
+// What cannot be loaded is told by who then misses the type.
+void Application::Parts::LoadPluginOf(std::string_view type) {
+  const std::lock_guard lock(runtime().structure_mutex());
+  const std::string plugin = PluginOf(type);
+  if (plugin.empty() || plugins().modules().Find(type) != nullptr) return;
+  (void)runnel::LoadPlugin(plugin, plugins(), tags());
+}
+
+Result<FrameworkElement*> Application::CreateModule(std::string_view type,
+                                                    const std::string& name) {
+  return CreateModule(type, element(), name);
+}
+
+Result<FrameworkElement*> Application::CreateModule(std::string_view type, FrameworkElement& parent,
+                                                    const std::string& name) {
+  parts_->LoadPluginOf(type);
+  return parts_->plugins().modules().Create(type, parent, name);
+}
+
+Result<void> Application::AddThread(const std::string& name, const ThreadOptions& options) {
+  try {
+    CreateThread(parts_->runtime(), name, options);
+    return {};
+  } catch (const ElementError& error) {
+    return error.error();
+  }
+}
+
+Result<void> Application::Assign(std::string_view path, const std::string& thread) {
+  return ResultOf(Apply({AssignToThread{std::string(path), thread}}));
+}
+
+Result<void> Application::Connect(std::string_view from, std::string_view to,
+                                  const ConnectOptions& options) {
+  using internal::Projection;
+  const std::lock_guard lock(parts_->runtime().structure_mutex());
+  const Projection structure(parts_->runtime());
+  const auto source = structure.FindPort(from, Projection::End::kSends);
+  if (!source) return source.error();
+  const auto sink = structure.FindPort(to, Projection::End::kReceives);
+  if (!sink) return sink.error();
+  return Port::Connect(**source, **sink, options);
+}
+
+ChangeOutcome Application::Apply(const ChangeSet& changes) {
+  const ChangeOutcome outcome = parts_->history->Apply(changes);
+  std::string text = outcome ? "" : "refused: ";
+  for (const Change& change : changes) text += ChangeText(change) + "; ";
+  parts_->log->Add(ApplicationLog::Kind::kChange, text.substr(0, text.size() - 2));
+  return outcome;
+}
+
+ChangeOutcome Application::Apply(std::string_view text) {
+  Diagnostics diagnostics;
+  const PlacedChanges changes = ParseChanges(text, {}, diagnostics);
+  if (diagnostics.ok()) return Apply(changes.changes);
+  ChangeOutcome outcome;
+  outcome.diagnostics = std::move(diagnostics);
+  return outcome;
+}
+
+ChangeOutcome Application::Swap(const std::string& path, const std::string& type,
+                                std::vector<Setting> settings) {
+  parts_->LoadPluginOf(type);
+  return Apply({ReplaceModule{.path = path, .type = type, .settings = std::move(settings)}});
+}
+
+ChangeOutcome Application::Undo() { return parts_->history->Undo(); }
+ChangeOutcome Application::Redo() { return parts_->history->Redo(); }
+
+Result<void> Application::Set(std::string_view path, std::string_view value) {
+  {
+    const std::lock_guard lock(parts_->runtime().structure_mutex());
+    const auto found = internal::Projection(parts_->runtime()).FindParameter(path);
+    if (!found) return found.error();
+    auto* const parameter = dynamic_cast<Configurable*>(*found);
+    if (parameter == nullptr) return IsAnother(**found, "a parameter");
+    // What is not ready yet nobody runs, and static parameters can still be set.
+    if ((*found)->life_cycle() == LifeCycle::kConstructed) {
+      auto set = parameter->SetFromText(value);
+      if (set) return set;
+      Error error = set.error();
+      if (error.path.empty()) error.path = (*found)->path();
+      return error;
+    }
+  }
+  return ResultOf(Apply({SetParameter{std::string(path), std::string(value)}}));
+}
+
+Result<std::string> Application::Get(std::string_view path) {
+  const std::lock_guard lock(parts_->runtime().structure_mutex());
+  const auto found = internal::Projection(parts_->runtime()).FindParameter(path);
+  if (!found) return found.error();
+  const auto* const parameter = dynamic_cast<const Configurable*>(*found);
+  if (parameter == nullptr) return IsAnother(**found, "a parameter");
+  return parameter->ToText();
+}
+
+Result<void> Application::Save() {
+  const std::lock_guard lock(parts_->runtime().structure_mutex());
+  const auto found = parts_->FindAgain();
+  if (!found) return found.error();
+  return SaveApplication(**found, {parts_->plugins(), parts_->tags()});
+}
+
+Result<void> Application::Save(const std::filesystem::path& file) {
+  const std::lock_guard lock(parts_->runtime().structure_mutex());
+  const auto found = parts_->FindAgain();
+  if (!found) return found.error();
+  return SaveApplication(**found, {parts_->plugins(), parts_->tags()}, file);
+}
+
+Result<void> Application::LoadPlugin(std::string_view plugin) {
+  const std::lock_guard lock(parts_->runtime().structure_mutex());
+  return runnel::LoadPlugin(plugin, parts_->plugins(), parts_->tags());
+}
+
+ChangeOutcome Application::Reload(const std::string& plugin) {
+  const std::lock_guard one_at_a_time(parts_->reloading);
+  return ReloadPlugin(parts_->plugins(), *parts_->editor, parts_->runtime(), plugin);
+}
+
+CommandService& Application::service() {
+  if (parts_->service) return *parts_->service;
+  ServiceHooks hooks = parts_->hooks;
+  hooks.load_plugin = [this](const std::string& plugin) { return LoadPlugin(plugin); };
+  hooks.save = [this](const std::string& file) -> Result<std::string> {
+    const auto saved = file.empty() ? Save() : Save(file);
+    if (!saved) return saved.error();
+    return "saved " + parts_->path() + (file.empty() ? "" : " to " + file);
+  };
+  hooks.reload = [this](const std::string& plugin) -> Result<std::string> {
+    const auto outcome = Reload(plugin);
+    if (!outcome) return outcome.diagnostics.errors().front();
+    return "loaded " + plugin + " anew";
+  };
+  return parts_->service.emplace(ServedApplication{parts_->runtime(), parts_->plugins().modules(),
+                                                   *parts_->editor, *parts_->log, std::move(hooks),
+                                                   &*parts_->history, &parts_->scheduler->pace()});
+}
+
+}  // namespace runnel

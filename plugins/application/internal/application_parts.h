@@ -1,0 +1,74 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "plugins/application/application.h"
+#include "plugins/application/application_description.h"
+#include "plugins/application/application_extension.h"
+#include "plugins/application/run_report.h"
+#include "plugins/command_service/application_log.h"
+#include "plugins/command_service/command_service.h"
+#include "plugins/control/control_server.h"
+#include "plugins/structure/change_history.h"
+#include "plugins/supervision/supervisor.h"
+
+namespace runnel {
+
+/// What an application consists of besides its description: each may use what stands before it, so they are
+/// destroyed from the last to the first.
+struct Application::Parts final : ApplicationDescription {
+  using ApplicationDescription::ApplicationDescription;
+  ~Parts() override;
+
+  bool is_composed = false;  // in code: whoever composes it makes it ready
+  std::optional<Scheduler> scheduler;
+  std::optional<StructureEditor> editor;
+  // What people have changed; the supervisor's changes are not theirs.
+  std::optional<ChangeHistory> history;
+  std::optional<Supervisor> supervisor;
+  std::optional<ApplicationLog> log;
+  std::optional<RunReport> report;
+  ServiceHooks hooks;  // of extensions
+  std::optional<CommandService> service;
+  std::mutex reloading;                 // one plugin after the other; before all others
+  std::size_t prepared_extensions = 0;  // that must be ended
+  std::unique_ptr<ControlServer> control;
+
+  Time start{};                         // of the run, on the application's clock
+  bool has_started = false;             // once, at least
+  bool has_warned = false;              // of what the scheduler finds doubtful
+  std::mutex events_mutex;              // a leaf
+  std::deque<ApplicationEvent> events;  // guarded by events_mutex
+  std::atomic<std::uint64_t> ties{0};   // made so far
+
+  // The thread of Start().
+  std::mutex running_mutex;
+  std::condition_variable has_changed;
+  bool ends = false;  // guarded by running_mutex
+  std::atomic<bool> is_running{false};
+  std::thread thread;
+
+  // The steps of loading.
+  Result<void> Schedule();
+  Result<void> Begin(Application& application, Diagnostics& diagnostics);
+
+  void LoadPluginOf(std::string_view type);
+
+  // Ends the thread of Start(), if there is one.
+  void Join();
+  void Add(ApplicationEvent event);
+  // The element of the application, which somebody may have deleted. Under the structure lock.
+  Result<FrameworkElement*> FindAgain();
+  // As an error of this application: with path and place.
+  [[nodiscard]] Error Placed(Error error) const;
+};
+
+}  // namespace runnel

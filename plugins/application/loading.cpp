@@ -1,0 +1,178 @@
+// From a file, a text or code to an application that is ready to run, in the steps of the README.
+
+#include <filesystem>
+#include <mutex>
+#include <utility>
+
+#include "core/base/exception_text.h"
+#include "plugins/application/internal/application_parts.h"
+#include "plugins/runtime_construction/source_place.h"
+#include "plugins/scheduling_tags/xml_scheduling_tags.h"
+#include "plugins/supervision/xml_supervision_tags.h"
+
+namespace runnel {
+
+namespace {
+
+using ClockKind = SchedulerOptions::ClockKind;
+
+Error Refusal(const char* message, const char* option) {
+  return {.message = message,
+          .hint = std::string("leave out ") + option +
+                  ", or add <clock type=\"simulated\"/> to the application"};
+}
+
+Result<void> Choose(const ApplicationOptions& chosen, SchedulerOptions& options) {
+  const bool is_real = options.clock == ClockKind::kReal;
+  if (chosen.speed && is_real) {
+    return Refusal("the speed of real time cannot be chosen", "the speed");
+  }
+  if (chosen.is_paused && is_real) return Refusal("real time cannot be paused", "the pause");
+  if (chosen.speed) options.speed = *chosen.speed;
+  if (chosen.is_paused) options.is_paused = true;
+  return {};
+}
+
+// The error of whatever `step` throws.
+template <typename Step>
+Result<void> Attempt(const Step& step) {
+  try {
+    return step();
+  } catch (const ElementError& error) {
+    return error.error();
+  } catch (...) {
+    return Error{.message = "preparing the run failed: " + DescribeException()};
+  }
+}
+
+}  // namespace
+
+Error Application::Parts::Placed(Error error) const {
+  if (error.path.empty()) error.path = path();
+  if (error.position.file.empty()) error.position = FindSourcePlace(*element_);
+  if (error.position.file.empty()) error.position.file = file();
+  return error;
+}
+
+Result<void> Application::Parts::Schedule() {
+  SchedulerOptions made = SchedulerOptionsOf(*element_);
+  if (options().clock) made.clock = *options().clock;
+  for (const auto& extension : options().extensions) {
+    ++prepared_extensions;
+    if (auto prepared = extension->Prepare(*element_, made); !prepared) return prepared;
+  }
+  if (auto possible = Choose(options(), made); !possible) return possible;
+  scheduler.emplace(runtime(), made);
+  editor.emplace(runtime(), plugins().modules(), &*scheduler);
+  history.emplace(*editor);
+  supervisor.emplace(runtime(), *scheduler, [this](const ChangeSet& changes) -> Result<void> {
+    const ChangeOutcome outcome = editor->Apply(changes);
+    if (!outcome) return outcome.diagnostics.errors().front();
+    return {};
+  });
+  for (const auto& [rule, position] : FaultRulesOf(*element_)) {
+    if (auto added = scheduler->AddFaultRule(rule); !added) {
+      Error error = added.error();
+      error.position = position;
+      return error;
+    }
+  }
+  return AddSupervisionRules(*element_, *supervisor);
+}
+
+Result<void> Application::Parts::Begin(Application& application, Diagnostics& diagnostics) {
+  log.emplace(runtime().clock());
+  report.emplace(runtime());
+  start = runtime().clock().Now();
+  for (const auto& extension : options().extensions) extension->AddHooks(application, hooks);
+  if (options().has_control) {
+    auto server =
+        ControlServer::Start(application.service(), {.application = name(), .file = file()});
+    if (server) {
+      control = std::move(*server);
+    } else {
+      Error warning = server.error();
+      warning.message = "other processes cannot reach this application: " + warning.message;
+      diagnostics.AddWarning(std::move(warning));
+    }
+  }
+  for (const auto& extension : options().extensions) {
+    if (auto begun = extension->Begin(application, diagnostics); !begun) return begun;
+  }
+  return {};
+}
+
+LoadedApplication Application::Load(const std::filesystem::path& file, ApplicationOptions options) {
+  return Make([&](Parts& parts) { return parts.Read(file); }, std::move(options));
+}
+
+LoadedApplication Application::LoadText(std::string_view text, ApplicationOptions options,
+                                        const std::filesystem::path& folder,
+                                        const std::string& name) {
+  return Make([&](Parts& parts) { return parts.ReadText(text, folder, name); }, std::move(options));
+}
+
+LoadedApplication Application::LoadFrom(const ApplicationDescription::Describe& describe,
+                                        ApplicationOptions options) {
+  return Make([&](Parts& parts) { return parts.ReadFrom(describe); }, std::move(options));
+}
+
+LoadedApplication Application::Compose(const std::string& name, ApplicationOptions options) {
+  return Make(
+      [&](Parts& parts) {
+        parts.is_composed = true;
+        return parts.MakeEmpty(name);
+      },
+      std::move(options));
+}
+
+LoadedApplication Application::Make(const std::function<bool(Parts&)>& describe,
+                                    ApplicationOptions options) {
+  LoadedApplication loaded;
+  Diagnostics& diagnostics = loaded.diagnostics_;
+  try {
+    std::unique_ptr<Application> application(new Application(std::move(options)));
+    Parts& parts = *application->parts_;
+    const bool is_right = describe(parts);
+    diagnostics = parts.diagnostics();
+    if (!is_right) return loaded;
+    auto prepared = Attempt([&] { return parts.Schedule(); });
+    if (prepared && !parts.is_composed) prepared = MakeApplicationReady(*parts.element());
+    if (!prepared) {
+      diagnostics.Add(parts.Placed(prepared.error()));
+      return loaded;
+    }
+    if (auto begun = parts.Begin(*application, diagnostics); !begun) {
+      diagnostics.Add(begun.error());
+      return loaded;
+    }
+    loaded.application_ = std::move(application);
+  } catch (const ElementError& error) {
+    diagnostics.Add(error.error());
+  } catch (...) {
+    diagnostics.Add({.message = "loading failed: " + DescribeException()});
+  }
+  return loaded;
+}
+
+Application::Application(ApplicationOptions options)
+    : parts_(std::make_unique<Parts>(std::move(options))) {}
+
+Application::~Application() { Stop(); }
+
+Application::Parts::~Parts() {
+  Join();
+  if (scheduler) scheduler->Stop();
+  control.reset();
+  const auto& extensions = options().extensions;
+  for (std::size_t i = prepared_extensions; i > 0; --i) extensions[i - 1]->End();
+  service.reset();
+  report.reset();
+  supervisor.reset();
+  history.reset();
+  editor.reset();
+  scheduler.reset();
+  for (std::size_t i = prepared_extensions; i > 0; --i) extensions[i - 1]->Release();
+}
+
+}  // namespace runnel

@@ -1,0 +1,127 @@
+// Elements by path, and values in and out from outside of cycles.
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include "core/lockfree/epoch.h"
+#include "plugins/application/internal/application_parts.h"
+#include "plugins/structure/projection.h"
+#include "plugins/watching/watched_port.h"
+
+namespace runnel {
+
+namespace {
+
+using internal::PathKind;
+using internal::Projection;
+
+// What holds a port of whoever embeds the application, beside it.
+class OutsidePort final : public FrameworkElement {
+ public:
+  explicit OutsidePort(const Placement& placement) : FrameworkElement(placement) {}
+  std::unique_ptr<Port> port;
+};
+
+Result<FrameworkElement*> FindAs(const Projection& structure, std::string_view path,
+                                 PathKind kind) {
+  if (kind == PathKind::kElement) return structure.Find(path);
+  if (kind == PathKind::kParameter) return structure.FindParameter(path);
+  const auto found = structure.FindPort(
+      path, kind == PathKind::kOutput ? Projection::End::kSends : Projection::End::kReceives);
+  if (!found) return found.error();
+  return static_cast<FrameworkElement*>(*found);
+}
+
+std::string KindText(const FrameworkElement& element) {
+  if (const auto* const port = dynamic_cast<const Port*>(&element)) {
+    const bool is_input = port->direction() == Port::Direction::kInput;
+    return std::string(port->is_proxy() ? "an interface port"
+                       : is_input       ? "an input"
+                                        : "an output") +
+           " of type " + port->type().name();
+  }
+  if (const auto* const parameter = dynamic_cast<const Configurable*>(&element)) {
+    return std::string(parameter->info().is_static ? "a static parameter" : "a parameter") +
+           " of type " + parameter->type().name();
+  }
+  if (element.kind() == ElementKind::kModule) return "a module";
+  return element.kind() == ElementKind::kGroup ? "a group" : "another element";
+}
+
+}  // namespace
+
+Result<FrameworkElement*> Application::FindElement(std::string_view path, PathKind kind) {
+  const std::lock_guard lock(parts_->runtime().structure_mutex());
+  return FindAs(Projection(parts_->runtime()), path, kind);
+}
+
+Error Application::IsAnother(const FrameworkElement& found, const std::string& wanted) {
+  return {.message = "this is " + KindText(found) + ", not " + wanted, .path = found.path()};
+}
+
+Result<void> Application::LookAt(std::string_view path, const TypeInfo& type,
+                                 const Port::Look& look) {
+  const EpochGuard guard;  // what is found stays in memory so long
+  std::unique_lock lock(parts_->runtime().structure_mutex());
+  const Projection structure(parts_->runtime());
+  auto found = FindAs(structure, path, PathKind::kOutput);
+  if (!found) {
+    auto input = FindAs(structure, path, PathKind::kInput);
+    if (!input) return found.error();
+    found = std::move(input);
+  }
+  const auto& port = dynamic_cast<const Port&>(**found);
+  if (&port.type() != &type) return IsAnother(port, "a port of type " + type.name());
+  WatchedPort watched(port.path());
+  if (auto there = watched.Find(parts_->runtime()); !there) return there;
+  lock.unlock();
+  watched.LookIfNew(look);
+  return {};
+}
+
+Result<void> Application::Tie(
+    std::string_view path, PathKind kind, const ConnectOptions& options,
+    const std::function<std::unique_ptr<Port>(FrameworkElement& group)>& make) {
+  Runtime& runtime = parts_->runtime();
+  OutsidePort* place = nullptr;
+  Result<void> tied;
+  try {
+    const std::lock_guard lock(runtime.structure_mutex());
+    const auto found = FindAs(Projection(runtime), path, kind);
+    if (!found) return found.error();
+    auto& port = dynamic_cast<Port&>(**found);
+    place =
+        &runtime.Create<OutsidePort>(runtime.root(), "outside_" + std::to_string(++parts_->ties));
+    place->port = make(*place);
+    tied = runtime.MakeReady(*place);
+    const bool reads = kind == PathKind::kOutput;
+    if (tied) {
+      tied = reads ? Port::Connect(port, *place->port, options)
+                   : Port::Connect(*place->port, port, options);
+    }
+  } catch (const ElementError& error) {
+    tied = error.error();
+  }
+  // Outside of the lock, for deleting waits for cycles.
+  if (!tied && place != nullptr) (void)runtime.Delete(*place);
+  return tied;
+}
+
+Runtime& Application::runtime() const noexcept { return parts_->runtime(); }
+FrameworkElement& Application::element() const noexcept { return *parts_->element(); }
+const std::string& Application::name() const noexcept { return parts_->name(); }
+const std::string& Application::file() const noexcept { return parts_->file(); }
+const std::string& Application::text() const noexcept { return parts_->text(); }
+const ApplicationOptions& Application::options() const noexcept { return parts_->options(); }
+Scheduler& Application::scheduler() noexcept { return *parts_->scheduler; }
+StructureEditor& Application::editor() noexcept { return *parts_->editor; }
+ChangeHistory& Application::history() noexcept { return *parts_->history; }
+PluginManager& Application::plugins() noexcept { return parts_->plugins(); }
+XmlTagRegistry& Application::tags() noexcept { return parts_->tags(); }
+const char* Application::Version() noexcept { return RUNNEL_VERSION; }
+RunReport& Application::report() noexcept { return *parts_->report; }
+ApplicationLog& Application::log() noexcept { return *parts_->log; }
+
+}  // namespace runnel

@@ -1,0 +1,262 @@
+// Cycles, until something ends them, and what is told of them.
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "core/base/exception_text.h"
+#include "plugins/application/internal/application_parts.h"
+#include "plugins/application/internal/run_loop.h"
+#include "plugins/runtime_construction/source_place.h"
+
+namespace runnel {
+
+namespace {
+
+using ClockKind = SchedulerOptions::ClockKind;
+using MachineClock = std::chrono::steady_clock;
+
+constexpr std::size_t kMostEvents = 10'000;
+
+Error RunsAlready() { return {.message = "the application runs already", .hint = "stop it first"}; }
+
+// One text for all of them.
+std::string WarningsText(std::vector<Error>& warnings, Runtime& runtime) {
+  const std::lock_guard lock(runtime.structure_mutex());
+  Diagnostics diagnostics;
+  for (Error& warning : warnings) {
+    const auto element = runtime.root().Find(warning.path);
+    if (element && warning.position.file.empty()) warning.position = FindSourcePlace(**element);
+    diagnostics.AddWarning(warning);
+  }
+  return diagnostics.ToString();
+}
+
+}  // namespace
+
+void Application::Parts::Add(ApplicationEvent event) {
+  const std::lock_guard lock(events_mutex);
+  if (events.size() == kMostEvents) events.pop_front();
+  events.push_back(std::move(event));
+}
+
+Result<FrameworkElement*> Application::Parts::FindAgain() { return runtime().root().Find(path()); }
+
+void Application::Parts::Join() {
+  if (!thread.joinable()) return;
+  {
+    const std::lock_guard lock(running_mutex);
+    ends = true;
+  }
+  has_changed.notify_all();
+  thread.join();
+}
+
+void Application::Attend() {
+  using Kind = ApplicationEvent::Kind;
+  Parts& parts = *parts_;
+  FrameworkElement& root = parts.runtime().root();
+  // Not before the start, which only shows what the system refuses to real-time threads.
+  if (!std::exchange(parts.has_warned, true)) {
+    std::vector<Error> warnings = parts.scheduler->Warnings();
+    std::string text = WarningsText(warnings, parts.runtime());
+    for (const Error& warning : warnings) {
+      parts.log->Add(ApplicationLog::Kind::kWarning, warning.ToString());
+    }
+    if (!text.empty()) parts.Add({Kind::kWarning, std::move(text)});
+  }
+  for (const Fault& fault : parts.scheduler->TakeFaults()) {
+    parts.report->Hear(fault);
+    std::string text = FaultText(fault, parts.start, root);
+    parts.log->Add(ApplicationLog::Kind::kFault, text);
+    parts.Add({Kind::kFault, std::move(text), fault});
+    for (const auto& extension : parts.options().extensions) extension->OnFault(fault);
+  }
+  for (const auto& extension : parts.options().extensions) {
+    const auto failure = extension->TakeFailure();
+    if (!failure) continue;
+    parts.log->Add(ApplicationLog::Kind::kWarning, failure->ToString());
+    Diagnostics diagnostics;
+    diagnostics.Add(*failure);
+    parts.Add({Kind::kFailure, diagnostics.ToString()});
+  }
+  for (const Notice& notice : parts.supervisor->TakeNotices()) {
+    std::string text = NoticeText(notice, parts.start, root);
+    parts.log->Add(ApplicationLog::Kind::kFault, text);
+    parts.Add({Kind::kNotice, std::move(text)});
+  }
+}
+
+bool Application::IsOver() {
+  for (const auto& extension : parts_->options().extensions) {
+    if (const auto is_over = extension->IsOver()) return *is_over;
+  }
+  return parts_->report->IsOver();
+}
+
+Result<void> Application::MakeReady() {
+  const std::lock_guard lock(parts_->runtime().structure_mutex());
+  const auto found = parts_->FindAgain();
+  if (!found) return found.error();
+  bool is_ready = true;
+  (*found)->Visit([&](const FrameworkElement& each) {
+    is_ready = is_ready && each.life_cycle() != LifeCycle::kConstructed;
+  });
+  return is_ready ? Result<void>() : MakeApplicationReady(**found);
+}
+
+void Application::NoteStart() {
+  if (std::exchange(parts_->has_started, true)) return;
+  for (const auto& extension : parts_->options().extensions) extension->OnStart();
+}
+
+Result<void> Application::Start() {
+  Parts& parts = *parts_;
+  if (parts.is_running.load()) return RunsAlready();
+  Stop();  // the end of a run that ended by itself
+  if (auto ready = MakeReady(); !ready) return ready;
+  const bool is_real = parts.scheduler->options().clock == ClockKind::kReal;
+  NoteStart();
+  if (is_real) {
+    if (auto started = parts.scheduler->Start(); !started) return started;
+  }
+  parts.ends = false;
+  parts.is_running = true;
+  parts.thread = std::thread([this, is_real] {
+    try {
+      is_real ? AttendThreads() : RunCyclesUntilEnd();
+    } catch (...) {
+      parts_->Add({ApplicationEvent::Kind::kFailure,
+                   "error: the run has ended: " + DescribeException() + "\n"});
+    }
+    parts_->is_running = false;
+  });
+  return {};
+}
+
+void Application::AttendThreads() {
+  Parts& parts = *parts_;
+  auto latest = MachineClock::time_point::max();
+  std::unique_lock lock(parts.running_mutex);
+  while (!parts.ends && MachineClock::now() < latest) {
+    parts.has_changed.wait_for(lock, internal::kLookAround);
+    lock.unlock();
+    Attend();
+    if (parts.scheduler->stop_requested()) {
+      latest = std::min(latest, MachineClock::now() + internal::kGraceTime);
+    }
+    lock.lock();
+  }
+  lock.unlock();
+  parts.scheduler->Stop();
+  Attend();
+}
+
+void Application::RunCyclesUntilEnd() {
+  Parts& parts = *parts_;
+  auto next_look = MachineClock::now();
+  for (;;) {
+    const auto result = parts.scheduler->Advance(std::nullopt, internal::kLookAround);
+    if (result == Scheduler::StepResult::kStopped) break;
+    std::unique_lock lock(parts.running_mutex);
+    // Nothing to run, for now.
+    if (result == Scheduler::StepResult::kEnd && !parts.ends) {
+      parts.has_changed.wait_for(lock, internal::kLookAround);
+    }
+    if (parts.ends) break;
+    lock.unlock();
+    if (MachineClock::now() < next_look) continue;
+    next_look = MachineClock::now() + internal::kLookAround;
+    Attend();
+  }
+  Attend();
+}
+
+void Application::Stop() {
+  parts_->Join();
+  if (!parts_->scheduler) return;  // it has not been loaded
+  parts_->scheduler->Stop();
+  parts_->is_running = false;
+}
+
+bool Application::is_running() const noexcept { return parts_->is_running.load(); }
+
+Result<Duration> Application::Run(const RunOptions& options) {
+  Parts& parts = *parts_;
+  if (parts.is_running.load()) return RunsAlready();
+  Stop();
+  if (auto ready = MakeReady(); !ready) return ready.error();
+  std::optional<Duration> limit = options.limit;
+  for (const auto& extension : parts.options().extensions) {
+    const auto longest = extension->limit();
+    if (longest) limit = std::min(limit.value_or(Duration::max()), *longest);
+  }
+  NoteStart();
+  auto ran = internal::Run({*parts.scheduler, parts.runtime(), limit, [&](Duration so_far) {
+                              Attend();
+                              const bool is_over = options.is_over && options.is_over(so_far);
+                              return IsOver() || is_over;
+                            }});
+  Attend();
+  return ran;
+}
+
+Result<void> Application::BeginCycles() {
+  Parts& parts = *parts_;
+  if (parts.is_running.load()) return RunsAlready();
+  if (parts.scheduler->options().clock == ClockKind::kReal) {
+    return Error{.message = "real time passes by itself",
+                 .hint = "call Start() and Stop(), or load it with a simulated clock"};
+  }
+  if (parts.scheduler->pace().is_paused()) {
+    return Error{.message = "the application is paused", .hint = "call Resume() first"};
+  }
+  Stop();
+  if (auto ready = MakeReady(); !ready) return ready;
+  NoteStart();
+  return {};
+}
+
+Result<void> Application::RunUntil(Time end) {
+  if (auto begun = BeginCycles(); !begun) return begun;
+  const bool has_come = parts_->scheduler->RunUntil(end);
+  Attend();
+  if (has_come) return {};
+  return Error{.message = "a stop has been requested"};
+}
+
+Result<void> Application::RunCycles(std::uint64_t count) {
+  if (auto begun = BeginCycles(); !begun) return begun;
+  Result<void> went;
+  for (; count > 0 && went; --count) {
+    if (parts_->scheduler->Step()) continue;
+    went = parts_->scheduler->stop_requested() ? Error{.message = "a stop has been requested"}
+                                               : internal::NothingToRun();
+  }
+  Attend();
+  return went;
+}
+
+Result<void> Application::Pause() { return parts_->scheduler->pace().Pause(); }
+Result<void> Application::Resume() { return parts_->scheduler->pace().Resume(); }
+Result<void> Application::Step(std::uint64_t cycles) {
+  return parts_->scheduler->pace().StepCycles(cycles);
+}
+Result<void> Application::SetSpeed(double speed) {
+  return parts_->scheduler->pace().SetSpeed(speed);
+}
+void Application::RequestStop() noexcept { parts_->scheduler->RequestStop(); }
+
+std::vector<ApplicationEvent> Application::TakeEvents() {
+  const std::lock_guard lock(parts_->events_mutex);
+  std::vector<ApplicationEvent> taken(std::make_move_iterator(parts_->events.begin()),
+                                      std::make_move_iterator(parts_->events.end()));
+  parts_->events.clear();
+  return taken;
+}
+
+void Application::NoteEnd(const std::string& verdict) {
+  for (const auto& extension : parts_->options().extensions) extension->OnEnd(verdict);
+}
+
+}  // namespace runnel
