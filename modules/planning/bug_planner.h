@@ -9,6 +9,7 @@
 #include "modules/planning/algorithm/bug_algorithm.h"
 #include "modules/planning/algorithm/bug_variants.h"
 #include "modules/planning/bug_components.h"
+#include "modules/planning/kept_bug_state.h"
 #include "modules/types/hit_and_leave_points.h"
 #include "modules/types/planner_status.h"
 #include "modules/types/pose.h"

@@ -3,12 +3,27 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace runnel {
 
 namespace {
 
 constexpr double kWidest = DegreesToRadians(89.0);  // of half a cone
+
+// A box with sides along the axes round a sector of a circle: the corners of the triangle round the
+// sector, but no more than the circle.
+std::pair<Point2, Point2> BoxRound(Point2 apex, double heading, double half_width, double radius) {
+  const Point2 left = UnitVector(heading + half_width), right = UnitVector(heading - half_width);
+  const auto range = [=](double a, double b) {
+    const double far = radius / std::cos(half_width);
+    return std::pair(std::max(std::min({0.0, far * a, far * b}), -radius),
+                     std::min(std::max({0.0, far * a, far * b}), radius));
+  };
+  const auto [low_x, high_x] = range(left.x, right.x);
+  const auto [low_y, high_y] = range(left.y, right.y);
+  return {apex + Point2{low_x, low_y}, apex + Point2{high_x, high_y}};
+}
 
 }  // namespace
 
@@ -53,20 +68,9 @@ void InfraredAdaptor::Carve(const Cone& cone, const Pose2& pose) {
   };
   map_.ForgetBoundaries(is_inside);
 
-  // The cells below the cone, found by walking over the square round it.
-  const double heading = pose.heading + cone.bearing;
-  const Point2 middle = Position(pose) + (free / 2) * UnitVector(heading);
-  const int steps = static_cast<int>(std::ceil(free / 2 / LocalMap::kCellSize)) + 1;
-  const auto snapped = [](double coordinate) {
-    return (std::floor(coordinate / LocalMap::kCellSize) + 0.5) * LocalMap::kCellSize;
-  };
-  for (int row = -steps; row <= steps; ++row) {
-    for (int column = -steps; column <= steps; ++column) {
-      const Point2 cell = {snapped(middle.x + column * LocalMap::kCellSize),
-                           snapped(middle.y + row * LocalMap::kCellSize)};
-      if (is_inside(cell) && !map_.IsBoundary(cell)) map_.MarkFree(cell);
-    }
-  }
+  const auto [low, high] =
+      BoxRound(Position(pose), pose.heading + cone.bearing, cone.half_width, free);
+  map_.MarkFree(low, high, is_inside);
 }
 
 void InfraredAdaptor::MarkArc(const Cone& cone, const Pose2& pose) {
@@ -82,8 +86,9 @@ bool InfraredAdaptor::IsExplained(const Cone& cone, const Pose2& pose) const {
   const double widening = std::tan(cone.half_width);
   map_.ForEachBoundary([&](Point2 point) {
     const Point2 local = frame.ToBody(point);
-    is_explained |= std::abs(Norm(local) - cone.echo) < configuration_.refutation_margin &&
-                    local.x > 0.0 && std::abs(local.y) < widening * local.x;
+    is_explained =
+        is_explained || (local.x > 0.0 && std::abs(local.y) < widening * local.x &&
+                         std::abs(Norm(local) - cone.echo) < configuration_.refutation_margin);
   });
   return is_explained;
 }

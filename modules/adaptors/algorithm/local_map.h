@@ -50,6 +50,17 @@ class LocalMap {
     Cell& cell = cells_[Slot(Index(point.x), Index(point.y))];
     cell = {Index(point.x), Index(point.y), State::kFree, cell.is_listed, point};
   }
+  /// There is nothing within those cells of a box that hold no boundary and of which
+  /// `is_inside(centre)` is true.
+  template <typename Predicate>
+  void MarkFree(Point2 low, Point2 high, Predicate is_inside) {
+    for (int row = Index(low.y); row <= Index(high.y); ++row) {
+      for (int column = Index(low.x); column <= Index(high.x); ++column) {
+        const Point2 centre{(column + 0.5) * kCellSize, (row + 0.5) * kCellSize};
+        if (is_inside(centre) && !IsBoundary(centre)) MarkFree(centre);
+      }
+    }
+  }
   [[nodiscard]] bool IsFree(Point2 point) const { return Is(State::kFree, point); }
   [[nodiscard]] bool IsBoundary(Point2 point) const { return Is(State::kBoundary, point); }
 

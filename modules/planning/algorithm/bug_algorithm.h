@@ -14,11 +14,11 @@ struct BugOutput {
   PlannerStatus status;
 };
 
-/// The generic Bug algorithm of "On the variability of Bug algorithms": Step is its algorithm 2, and
-/// the functions bear the names of its hooks. What differs between variants is not overridden but
-/// asked of components, one of each kind. Where the paper asks in each call whether an obstacle is in
-/// front (and would forget the boundary as soon as the robot has turned along it), here the mode is
-/// state.
+/// The generic Bug algorithm of S. Kchir, T. Ziadi, M. Ziane, S. Stinckwich, "A Top-Down Approach to
+/// Managing Variability in Robotics Algorithms" (2013): Step is its algorithm 2, and the functions bear
+/// the names of its hooks. What differs between variants is not overridden but asked of components, one
+/// of each kind. Where the paper asks in each call whether an obstacle is in front (and would forget the
+/// boundary as soon as the robot has turned along it), here the mode is state.
 ///
 /// Objects hold a configuration and the components only; what is remembered is in the BugState that
 /// the caller owns, so variants can be exchanged between two updates. Everything happens in the

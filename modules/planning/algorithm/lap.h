@@ -43,6 +43,7 @@ class Lap {
   static constexpr double kShortestLap = 1.5;
 
  private:
+  friend struct KeptFields;  // names the members for a handover
   struct Gate {
     Pose2 pose;
     double length = 0.0;  // m since Start, there

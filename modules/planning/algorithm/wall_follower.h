@@ -30,6 +30,7 @@ class WallFollower {
   [[nodiscard]] bool is_turning() const { return is_turning_; }
 
  private:
+  friend struct KeptFields;  // names the members for a handover
   BoundaryDirection direction_ = BoundaryDirection::kLeft;
   bool is_turning_ = false;
   double target_heading_ = 0.0;  // rad, in the world, while turning

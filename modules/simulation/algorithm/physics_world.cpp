@@ -213,9 +213,10 @@ void PhysicsWorld::SetWheelSpeeds(const WheelSpeeds& speeds) {
 
 void PhysicsWorld::Advance(double duration) {
   const double step = state_->options.step;
-  state_->contact = {};
-  state_->time_left_over += duration;
-  while (state_->time_left_over > 0.999 * step) {  // durations are rarely whole in binary digits
+  const double least = 0.999 * step;  // durations are rarely whole in binary digits
+  state_->time_left_over += std::min(duration, state_->options.longest_advance);
+  if (state_->time_left_over > least) state_->contact = {};
+  while (state_->time_left_over > least) {
     state_->Step();
     state_->time_left_over -= step;
   }

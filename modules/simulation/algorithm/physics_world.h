@@ -14,6 +14,10 @@ namespace runnel {
 struct PhysicsOptions {
   RobotOptions robot;
   double step = 0.005;  ///< s, of the physics; every call of Advance is made of whole steps
+  /// s, that one call of Advance makes up for at most: 12,000 steps, some 20 ms of computing. Time
+  /// beyond that is lost, as if the world had stood still: a machine that was suspended for an hour
+  /// goes on where it was, and no cycle lasts for minutes.
+  double longest_advance = 60.0;
 };
 
 /// A robot driving in a world, by rigid-body dynamics (Bullet): wheels push it with bounded force,
@@ -40,15 +44,15 @@ class PhysicsWorld {
   /// by the same factor, so that the curve stays the same. What is no finite number counts as 0.
   void SetWheelSpeeds(const WheelSpeeds& speeds);
 
-  /// Lets time pass (s, not negative). What is left over after the last whole step is kept for the
-  /// next call.
+  /// Lets time pass (s, not negative), no more than the longest advance. What is left over after the
+  /// last whole step is kept for the next call.
   void Advance(double duration);
 
   [[nodiscard]] double elapsed() const noexcept;  ///< s, in whole steps
   [[nodiscard]] Pose2 pose() const noexcept;      ///< of the robot's centre, in the world's frame
   [[nodiscard]] Twist2 twist() const noexcept;    ///< how it really moves
   [[nodiscard]] WheelSpeeds wheel_speeds() const noexcept;  ///< how the wheels really turn
-  /// Whether anything was touched during the last Advance, and where last.
+  /// Whether anything was touched during the last Advance that made a step, and where last.
   [[nodiscard]] Contact contact() const noexcept;
 
  private:

@@ -88,8 +88,8 @@ void ConfigurationSpace::CutCircle(Circle& circle) const {
   }
   std::ranges::sort(cuts);
   const auto same =
-      std::ranges::unique(cuts, [](double a, double b) { return b - a < kSameAngle; });
-  cuts.erase(same.begin(), same.end());
+      std::unique(cuts.begin(), cuts.end(), [](double a, double b) { return b - a < kSameAngle; });
+  cuts.erase(same, cuts.end());
   circle.is_free.clear();
   for (std::size_t i = 0; i < cuts.size(); ++i) {
     const double next = i + 1 < cuts.size() ? cuts[i + 1] : cuts.front() + 2 * kPi;

@@ -1,7 +1,12 @@
 #include "modules/planning/bug_planner.h"
 
+#include <cstddef>
+#include <cstring>
+#include <type_traits>
+
 #include <gmock/gmock.h>
 
+#include "core/types/binary_form.h"
 #include "tests/support/module_rig.h"
 
 namespace runnel {
@@ -108,6 +113,30 @@ TEST_F(BugPlannerTest, GoesOnWhereAnotherPlannerWas) {
   other.RunCycle();
   EXPECT_EQ(other.module.state().start, (Point2{0, 0})) << "the same task";
   EXPECT_NEAR(other.Last(other.module.status).path_length, 0.6, 1e-9);
+}
+
+// Each byte is set before. What has not gone over after is padding: less than the alignment, before a multiple
+// of it.
+TEST(BugState, IsDescribedFieldByField) {
+  static_assert(std::is_trivially_copyable_v<BugState>);
+  BugState full;
+  BugState copy;
+  std::memset(static_cast<void*>(&full), 1, sizeof full);
+  std::memset(static_cast<void*>(&copy), 0, sizeof copy);
+  std::vector<std::byte> bytes;
+  ASSERT_TRUE(ToBinary(TypeOf<BugState>(), &full, bytes));
+  BinaryReader reader(bytes);
+  const auto read = FromBinary(TypeOf<BugState>(), reader, &copy);
+  ASSERT_TRUE(read) << read.error().ToString();
+  const auto* const gone_over = reinterpret_cast<const unsigned char*>(&copy);
+  std::size_t missing = 0;
+  for (std::size_t i = 0; i < sizeof copy; ++i) {
+    const bool is_missing = gone_over[i] == 0;
+    EXPECT_TRUE(is_missing || missing == 0 || i % 4 == 0) << "a member ends at byte " << i;
+    missing = is_missing ? missing + 1 : 0;
+    ASSERT_LT(missing, alignof(BugState))
+        << "a member is missing in its description, at byte " << i;
+  }
 }
 
 bool HasStep(const BugPlanner& planner) { return planner.Find("parameter/step").has_value(); }

@@ -260,6 +260,22 @@ TEST(ReverseAtVisited, DoesNotMindTheLastHitPointNorWhatIsBesideIt) {
   EXPECT_FALSE(reverse.ShallReverse(situation.view()));
 }
 
+TEST(PointHistory, DoesNotTakeAPointRemovedForTheOldestOnceItIsFull) {
+  PointHistory history;
+  for (std::size_t i = 0; i < PointHistory::kCapacity + 1; ++i) {
+    history.Add({static_cast<double>(i), 0.0});
+  }
+  history.RemoveLast();
+  EXPECT_EQ(history.total(), PointHistory::kCapacity);
+  ASSERT_EQ(history.size(), PointHistory::kCapacity - 1);
+  EXPECT_EQ(history[0].x, 1.0);
+  EXPECT_EQ(history.back().x, static_cast<double>(PointHistory::kCapacity - 1));
+  history.Add({-1.0, 0.0});
+  EXPECT_EQ(history.size(), PointHistory::kCapacity);
+  EXPECT_EQ(history[0].x, 1.0);
+  EXPECT_EQ(history.back().x, -1.0);
+}
+
 TEST(PointHistory, ForgetsTheOldestOnceItIsFull) {
   PointHistory history;
   for (std::size_t i = 0; i < PointHistory::kCapacity + 3; ++i) {

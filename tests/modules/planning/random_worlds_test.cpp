@@ -12,7 +12,7 @@ namespace {
 
 using namespace testing_world;
 
-constexpr double kHalfArena = 4.0;  // m
+constexpr double kJudgedHalf = 4.0;  // m
 constexpr double kCell = 0.05;      // m
 
 /// Whether the goal can be reached at all, by flooding a grid: an independent judge.
@@ -47,7 +47,7 @@ class Judge {
   [[nodiscard]] double nearest() const { return nearest_; }
 
  private:
-  static constexpr double kReach = kHalfArena + 2.0;
+  static constexpr double kReach = kJudgedHalf + 2.0;
   Point2 goal_;
   double nearest_ = std::numeric_limits<double>::infinity();
 };
@@ -59,8 +59,8 @@ class Dice {
     return low + (high - low) * static_cast<double>(engine_()) / 4294967296.0;
   }
   Point2 Place() {
-    const double x = Between(-kHalfArena, kHalfArena);
-    return {x, Between(-kHalfArena, kHalfArena)};
+    const double x = Between(-kJudgedHalf, kJudgedHalf);
+    return {x, Between(-kJudgedHalf, kJudgedHalf)};
   }
 
  private:
@@ -112,7 +112,7 @@ RandomTask MakeTask(std::uint32_t seed, double sure_radius) {
   return random;
 }
 
-int Worlds() {
+int JudgedWorlds() {
   const char* wanted = std::getenv("RUNNEL_WORLDS");
   return wanted == nullptr ? 6 : std::stoi(wanted);
 }
@@ -123,7 +123,7 @@ TEST_P(RandomWorlds, GiveTheVerdictOfAnIndependentJudge) {
   const auto& [variant, sensor] = GetParam();
   // Other worlds for every variant.
   const int first = 1 + 1000 * static_cast<int>(VariantIndex(variant.name));
-  for (int seed = first; seed < first + Worlds(); ++seed) {
+  for (int seed = first; seed < first + JudgedWorlds(); ++seed) {
     const RandomTask random =
         MakeTask(static_cast<std::uint32_t>(seed),
                  sensor == Sensor::kLaser ? kSurelyWithLaser : kSurelyWithInfrared);
@@ -144,7 +144,7 @@ TEST_P(RandomWorlds, GiveTheVerdictOfAnIndependentJudge) {
   }
 }
 
-std::string NameOf(const testing::TestParamInfo<RandomWorlds::ParamType>& param) {
+std::string NameOfJudged(const testing::TestParamInfo<RandomWorlds::ParamType>& param) {
   const auto [variant, sensor] = param.param;
   return std::string(variant.name) + (sensor == Sensor::kLaser ? "Laser" : "Infrared");
 }
@@ -152,7 +152,7 @@ std::string NameOf(const testing::TestParamInfo<RandomWorlds::ParamType>& param)
 INSTANTIATE_TEST_SUITE_P(All, RandomWorlds,
                          testing::Combine(testing::ValuesIn(VariantsThatEnd()),
                                           testing::Values(Sensor::kLaser, Sensor::kInfrared)),
-                         NameOf);
+                         NameOfJudged);
 
 }  // namespace
 }  // namespace runnel

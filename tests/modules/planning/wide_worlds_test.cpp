@@ -135,7 +135,7 @@ std::optional<double> Bound(std::string_view variant, const WideWorld& wide,
 
 class WideWorlds : public testing::TestWithParam<std::tuple<BugVariant, Sensor>> {};
 
-int Worlds() {
+int WideWorldCount() {
   const char* wanted = std::getenv("RUNNEL_WORLDS");
   return wanted == nullptr ? 10 : std::stoi(wanted);
 }
@@ -143,7 +143,7 @@ int Worlds() {
 TEST_P(WideWorlds, EndRightlyWithinTheBound) {
   const auto& [variant, sensor] = GetParam();
   const double tolerance = sensor == Sensor::kLaser ? kLaserTolerance : kInfraredTolerance;
-  for (int i = 0; i < Worlds(); ++i) {
+  for (int i = 0; i < WideWorldCount(); ++i) {
     // Other worlds for every variant.
     const auto seed =
         static_cast<std::uint32_t>(1 + i + 1000 * static_cast<int>(VariantIndex(variant.name)));
@@ -167,7 +167,7 @@ TEST_P(WideWorlds, EndRightlyWithinTheBound) {
   }
 }
 
-std::string NameOf(const testing::TestParamInfo<WideWorlds::ParamType>& param) {
+std::string NameOfWide(const testing::TestParamInfo<WideWorlds::ParamType>& param) {
   const auto& [variant, sensor] = param.param;
   return std::string(variant.name) + (sensor == Sensor::kLaser ? "Laser" : "Infrared");
 }
@@ -175,7 +175,7 @@ std::string NameOf(const testing::TestParamInfo<WideWorlds::ParamType>& param) {
 INSTANTIATE_TEST_SUITE_P(All, WideWorlds,
                          testing::Combine(testing::ValuesIn(VariantsThatEnd()),
                                           testing::Values(Sensor::kLaser, Sensor::kInfrared)),
-                         NameOf);
+                         NameOfWide);
 
 }  // namespace
 }  // namespace runnel

@@ -49,6 +49,33 @@ TEST(PhysicsWorld, DrivesStraightAlongItsHeading) {
   EXPECT_NEAR(after.heading, 0.5, 1e-9);
 }
 
+TEST(PhysicsWorld, RemembersATouchUntilTheNextStep) {
+  PhysicsWorld world(World{.boxes = {{.pose = {0.25, 0.0, 0.0}, .length = 0.2, .width = 1.0}}});
+  world.SetWheelSpeeds(Drive(0.2, 0.0));
+  world.Advance(1.0);
+  ASSERT_TRUE(world.contact().is_touching);
+  const double elapsed = world.elapsed();
+  world.Advance(0.001);
+  ASSERT_EQ(world.elapsed(), elapsed);
+  EXPECT_TRUE(world.contact().is_touching);
+}
+
+TEST(PhysicsWorld, MakesUpForNoMoreThanTheLongestAdvance) {
+  PhysicsOptions options;
+  options.longest_advance = 2.0;
+  PhysicsWorld world(World{}, options);
+  world.Advance(3600.0);
+  EXPECT_NEAR(world.elapsed(), 2.0, 1e-9);
+  world.Advance(0.05);
+  EXPECT_NEAR(world.elapsed(), 2.05, 1e-9);
+}
+
+TEST(PhysicsWorld, GoesOnAfterAMinuteWhenTheMachineWasSuspendedForAnHour) {
+  PhysicsWorld world(World{});
+  world.Advance(3600.0);
+  EXPECT_NEAR(world.elapsed(), 60.0, 1e-6);
+}
+
 TEST(PhysicsWorld, TurnsOnTheSpot) {
   PhysicsWorld world(World{});
   world.SetWheelSpeeds(Drive(0.0, 1.0));

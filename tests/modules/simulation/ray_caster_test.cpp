@@ -11,14 +11,10 @@
 #include "modules/simulation/algorithm/noise.h"
 #include "modules/simulation/algorithm/world_geometry.h"
 #include "modules/types/algorithm/angle.h"
+#include "tests/modules/simulation/rays.h"
 
 namespace runnel {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kEye = 0.2;
-
-RayCaster Rays(const World& world) { return RayCaster(OutlineOf(world), kEye); }
 
 TEST(RayCaster, SeesNothingInAnEmptyWorld) {
   EXPECT_EQ(Rays(World{}).Cast({0, 0}, 1.0, 100.0), kInfinity);

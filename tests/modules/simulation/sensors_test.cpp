@@ -9,13 +9,10 @@
 #include "modules/simulation/algorithm/laser_scanner.h"
 #include "modules/simulation/algorithm/noise.h"
 #include "modules/simulation/algorithm/noisy_pose.h"
+#include "tests/modules/simulation/rays.h"
 
 namespace runnel {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-RayCaster Rays(const World& world) { return RayCaster(OutlineOf(world), 0.2); }
 
 World WallAhead(double x) {
   return {.boxes = {{.pose = {x + 1, 0, 0}, .length = 2, .width = 100}}};

@@ -1,0 +1,106 @@
+#pragma once
+
+#include "core/types/builtin_types.h"
+#include "core/types/type_of.h"
+#include "modules/planning/algorithm/bug_state.h"
+#include "modules/planning/bug_components.h"
+#include "modules/types/planner_status.h"
+#include "modules/types/pose.h"
+
+// What a planner remembers, field by field, so that it can go on in a library that was built anew. A field that is
+// missing here is lost then.
+
+namespace runnel {
+
+/// Names the parts that only their classes know.
+struct KeptFields {
+  static void Describe(TypeBuilder<PointHistory>& type) {
+    type.Name("PointHistory")
+        .Field("points", &PointHistory::points_)
+        .Field("total", &PointHistory::total_)
+        .Field("size", &PointHistory::size_);
+  }
+  static void Describe(TypeBuilder<WallFollower>& type) {
+    type.Name("WallFollower")
+        .Field("direction", &WallFollower::direction_)
+        .Field("is_turning", &WallFollower::is_turning_)
+        .Field("target_heading", &WallFollower::target_heading_)
+        .Field("is_cautious", &WallFollower::is_cautious_)
+        .Field("turning_place", &WallFollower::turning_place_)
+        .Field("turn_sign", &WallFollower::turn_sign_);
+  }
+  using Gate = Lap::Gate;
+  static void Describe(TypeBuilder<Gate>& type) {
+    type.Name("Lap::Gate")
+        .Field("pose", &Gate::pose)
+        .Field("length", &Gate::length)
+        .Field("turned", &Gate::turned);
+  }
+  static void Describe(TypeBuilder<Lap>& type) {
+    type.Name("Lap")
+        .Field("hit", &Lap::hit_)
+        .Field("last", &Lap::last_)
+        .Field("gate", &Lap::gate_)
+        .Field("second_gate", &Lap::second_gate_)
+        .Field("has_gate", &Lap::has_gate_)
+        .Field("is_complete", &Lap::is_complete_)
+        .Field("is_circling", &Lap::is_circling_)
+        .Field("length", &Lap::length_)
+        .Field("turned", &Lap::turned_);
+  }
+};
+
+inline void Describe(TypeBuilder<PointHistory>& type) { KeptFields::Describe(type); }
+inline void Describe(TypeBuilder<WallFollower>& type) { KeptFields::Describe(type); }
+inline void Describe(TypeBuilder<KeptFields::Gate>& type) { KeptFields::Describe(type); }
+inline void Describe(TypeBuilder<Lap>& type) { KeptFields::Describe(type); }
+
+inline void Describe(TypeBuilder<Approach>& type) {
+  type.Name("Approach")
+      .Value("near", Approach::kNear)
+      .Value("along_boundary", Approach::kAlongBoundary)
+      .Value("across", Approach::kAcross);
+}
+
+inline void Describe(TypeBuilder<BugState>& type) {
+  type.Name("BugState")
+      .Field("status", &BugState::status)
+      .Field("has_task", &BugState::has_task)
+      .Field("start", &BugState::start)
+      .Field("goal", &BugState::goal)
+      .Field("composition", &BugState::composition)
+      .Field("last_pose", &BugState::last_pose)
+      .Field("last_twist", &BugState::last_twist)
+      .Field("hits", &BugState::hits)
+      .Field("leaves", &BugState::leaves)
+      .Field("least_distance_of_all", &BugState::least_distance_of_all)
+      .Field("line_start", &BugState::line_start)
+      .Field("least_distance_on_line", &BugState::least_distance_on_line)
+      .Field("last_leave_distance", &BugState::last_leave_distance)
+      .Field("last_direction", &BugState::last_direction)
+      .Field("node_side", &BugState::node_side)
+      .Field("second_looks", &BugState::second_looks)
+      .Field("progress_point", &BugState::progress_point)
+      .Field("idle_time", &BugState::idle_time)
+      .Field("refused_at", &BugState::refused_at)
+      .Field("follower", &BugState::follower)
+      .Field("hit_distance", &BugState::hit_distance)
+      .Field("least_distance", &BugState::least_distance)
+      .Field("followed_distance", &BugState::followed_distance)
+      .Field("has_reversed", &BugState::has_reversed)
+      .Field("lap", &BugState::lap)
+      .Field("is_other_loop", &BugState::is_other_loop)
+      .Field("closest_point", &BugState::closest_point)
+      .Field("closest_distance", &BugState::closest_distance)
+      .Field("closest_length", &BugState::closest_length)
+      .Field("crossing", &BugState::crossing)
+      .Field("leave_point", &BugState::leave_point)
+      .Field("approach", &BugState::approach)
+      .Field("is_last_chance", &BugState::is_last_chance)
+      .Field("way_to_leave_point", &BugState::way_to_leave_point)
+      .Field("is_on_last_stretch", &BugState::is_on_last_stretch)
+      .Field("set_out_point", &BugState::set_out_point)
+      .Field("set_out_at", &BugState::set_out_at);
+}
+
+}  // namespace runnel
