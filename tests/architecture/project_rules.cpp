@@ -17,16 +17,47 @@ void AddCore(std::vector<IncludeRule>& rules) {
   }
 }
 
+void AddApplication(std::vector<IncludeRule>& rules) {
+  // What runs applications knows all that every application needs, and nothing that it can do without: that
+  // is attached from outside, by files of these names.
+  const std::vector<std::string> application = {"core",
+                                                "plugins/application",
+                                                "plugins/application_files",
+                                                "plugins/command_service",
+                                                "plugins/control",
+                                                "plugins/parameters",
+                                                "plugins/runtime_construction",
+                                                "plugins/scheduling",
+                                                "plugins/scheduling_tags",
+                                                "plugins/structure",
+                                                "plugins/supervision",
+                                                "plugins/watching"};
+  const auto attached = [&](const std::string& name, const std::string& files,
+                            const std::vector<std::string>& neighbours) {
+    std::vector<std::string> may_include = application;
+    may_include.insert(may_include.end(), neighbours.begin(), neighbours.end());
+    rules.push_back({name, files, may_include});
+  };
+  rules.push_back({"plugins/application", "plugins/application", application});
+  attached("the trace of an application", "plugins/tracing/application_", {"plugins/tracing"});
+  attached("FINROC's form of an application", "plugins/finroc_files/application_",
+           {"plugins/finroc_files"});
+  attached("recordings of an application", "plugins/recording/application_",
+           {"plugins/mcap", "plugins/recording"});
+  attached("plugins/viewers", "plugins/viewers",
+           {"plugins/foxglove", "plugins/inspector", "plugins/web_server"});
+}
+
 void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/parameters", "plugins/parameters", {"core"}});
   rules.push_back({"plugins/json_values", "plugins/json_values", {"core/base", "core/types"}});
-  rules.push_back({"plugins/foxglove_schemas",
-                   "plugins/foxglove_schemas",
-                   {"core", "plugins/json_values"}});
-  rules.push_back({"plugins/foxglove",
-                   "plugins/foxglove",
-                   {"core", "plugins/control", "plugins/foxglove_schemas", "plugins/json_values",
-                    "plugins/structure", "plugins/watching", "plugins/web_server"}});
+  rules.push_back(
+      {"plugins/foxglove_schemas", "plugins/foxglove_schemas", {"core", "plugins/json_values"}});
+  rules.push_back(
+      {"plugins/foxglove",
+       "plugins/foxglove",
+       {"core", "plugins/command_service", "plugins/foxglove_schemas", "plugins/json_values",
+        "plugins/structure", "plugins/watching", "plugins/web_server"}});
   rules.push_back({"plugins/runtime_construction",
                    "plugins/runtime_construction",
                    {"core", "plugins/parameters"}});
@@ -49,8 +80,12 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/tracing",
                    "plugins/tracing",
                    {"core", "plugins/json_values", "plugins/scheduling"}});
-  rules.push_back(
-      {"plugins/control", "plugins/control", {"core", "plugins/scheduling", "plugins/structure"}});
+  rules.push_back({"plugins/command_service",
+                   "plugins/command_service",
+                   {"core", "plugins/scheduling", "plugins/structure"}});
+  rules.push_back({"plugins/control",
+                   "plugins/control",
+                   {"core", "plugins/command_service", "plugins/scheduling", "plugins/structure"}});
   rules.push_back({"plugins/watching", "plugins/watching", {"core"}});
   rules.push_back({"plugins/mcap", "plugins/mcap", {"core"}});
   rules.push_back({"plugins/recording",
@@ -58,12 +93,13 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
                    {"core", "plugins/foxglove_schemas", "plugins/json_values", "plugins/mcap",
                     "plugins/parameters", "plugins/runtime_construction", "plugins/scheduling"}});
   rules.push_back({"plugins/web_server", "plugins/web_server", {"core"}});
-  rules.push_back({"the tags of the inspector",
-                   "plugins/inspector/xml_",
-                   {"core", "plugins/inspector", "plugins/runtime_construction", "plugins/web_server"}});
+  rules.push_back(
+      {"the tags of the inspector",
+       "plugins/inspector/xml_",
+       {"core", "plugins/inspector", "plugins/runtime_construction", "plugins/web_server"}});
   rules.push_back({"plugins/inspector",
                    "plugins/inspector",
-                   {"core", "plugins/control", "plugins/json_values", "plugins/scheduling",
+                   {"core", "plugins/command_service", "plugins/json_values", "plugins/scheduling",
                     "plugins/structure", "plugins/watching", "plugins/web_server"}});
   rules.push_back({"the tags of supervision",
                    "plugins/supervision/xml_",
@@ -102,6 +138,7 @@ void AddModules(std::vector<IncludeRule>& rules) {
 std::vector<IncludeRule> MakeProjectRules() {
   std::vector<IncludeRule> rules;
   AddCore(rules);
+  AddApplication(rules);  // first, for its files in other folders
   AddPlugins(rules);
   AddModules(rules);
   // The programs beside the main one that make worlds and compare planners in them. They run

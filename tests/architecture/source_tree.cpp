@@ -1,8 +1,12 @@
 #include "tests/architecture/source_tree.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <memory>
+#include <set>
+#include <utility>
 
 namespace runnel::test {
 
@@ -10,26 +14,48 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void ReadFile(const fs::path& root, const fs::path& file, SourceTree& tree) {
-  std::ifstream stream(file, std::ios::binary);
-  tree[fs::relative(file, root).generic_string()] =
-      std::string(std::istreambuf_iterator<char>(stream), {});
+const std::set<std::string> kTops{"apps",    "bench",   "core",  "docs",
+                                  "modules", "plugins", "tests", "xml"};
+
+bool IsOfTree(const fs::path& name) {
+  // ".git" is a file in a worktree.
+  return name.has_parent_path() ? kTops.contains(name.begin()->string()) : name != ".git";
+}
+
+void ReadFile(const fs::path& root, const fs::path& name, SourceTree& tree) {
+  if (!IsOfTree(name) || !fs::is_regular_file(root / name)) return;
+  std::ifstream stream(root / name, std::ios::binary);
+  tree[name.generic_string()] = std::string(std::istreambuf_iterator<char>(stream), {});
+}
+
+// Empty where git is not there, or does not know the folder.
+std::vector<std::string> TrackedFiles(const fs::path& root) {
+  const std::string command = "git -C '" + root.string() + "' ls-files -z 2>/dev/null";
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
+  std::vector<std::string> names;
+  std::string name;
+  for (int letter = 0; pipe != nullptr && (letter = std::fgetc(pipe.get())) != EOF;) {
+    if (letter != 0) {
+      name += static_cast<char>(letter);
+    } else {
+      names.push_back(std::exchange(name, ""));
+    }
+  }
+  return names;
 }
 
 }  // namespace
 
 SourceTree ReadSourceTree(const fs::path& root) {
   SourceTree tree;
+  for (const std::string& name : TrackedFiles(root)) ReadFile(root, name, tree);
+  if (!tree.empty()) return tree;
   for (const fs::directory_entry& entry : fs::directory_iterator(root)) {
-    // ".git" is a file in a worktree.
-    if (entry.is_regular_file() && entry.path().filename() != ".git") {
-      ReadFile(root, entry.path(), tree);
-    }
-  }
-  for (const char* top : {"apps", "bench", "core", "docs", "modules", "plugins", "tests", "xml"}) {
-    if (!fs::exists(root / top)) continue;
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / top)) {
-      if (entry.is_regular_file()) ReadFile(root, entry.path(), tree);
+    const fs::path name = entry.path().filename();
+    ReadFile(root, name, tree);
+    if (!entry.is_directory() || !kTops.contains(name.string())) continue;
+    for (const fs::directory_entry& inner : fs::recursive_directory_iterator(entry)) {
+      ReadFile(root, fs::relative(inner.path(), root), tree);
     }
   }
   return tree;

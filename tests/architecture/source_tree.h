@@ -11,7 +11,9 @@ namespace runnel::test {
 /// The texts of a source tree by their paths from its root. Tests of the rules make small ones.
 using SourceTree = std::map<std::string, std::string>;
 
-/// Reads all files below the source folders of `root`, and those in `root` itself.
+/// Reads the files below the source folders of `root`, and those in `root` itself: those that git
+/// tracks, for what else lies there (a log, a build) is nobody's source; all where git knows none, as
+/// in an unpacked archive.
 [[nodiscard]] SourceTree ReadSourceTree(const std::filesystem::path& root);
 
 [[nodiscard]] bool IsCode(std::string_view file);

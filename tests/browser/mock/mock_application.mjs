@@ -1,6 +1,5 @@
-// An application that is none: a structure, values that go by a clock of its own, and changes in
-// their text form. For what a real one cannot show on demand: a thousand modules, a server that
-// refuses, one that is gone and comes again.
+// An application that is none: a structure, values that go by a clock of its own, and changes. For
+// what a real one cannot show on demand: a thousand modules, a server that refuses, one that is gone and comes again.
 
 export class MockApplication {
   constructor({ name = 'mock', structure, catalogue, values = {} }) {
@@ -28,10 +27,10 @@ export class MockApplication {
   }
 
   /** All changes or none; returns errors. What is new is told by `difference`. */
-  change(lines, label) {
+  change(changes, label) {
     const before = this.#snapshot();
-    for (const [index, line] of lines.entries()) {
-      const error = this.#apply(line.match(/"(?:[^"\\]|\\.)*"|\S+/g).map(Unquote));
+    for (const [index, change] of changes.entries()) {
+      const error = this.#apply(change);
       if (error) {
         this.#restore(before);
         return [{ ...error, change: index }];
@@ -75,33 +74,33 @@ export class MockApplication {
     this.connections = connections;
   }
 
-  #apply([verb, ...words]) {
-    const missing = words.filter((word) => word.startsWith('/')).find((path) =>
-      !this.elements.has(path) && verb !== 'create');
+  #apply({ change, path, value, from, to, type, thread }) {
+    const missing = [path, from, to].find((each) =>
+      each !== undefined && !this.elements.has(each) && !change.startsWith('create'));
     if (missing) return { message: `there is no '${missing}'`, path: missing, hint: '' };
-    if (verb === 'set') {
-      const parameter = this.elements.get(words[0]);
+    if (change === 'set') {
+      const parameter = this.elements.get(path);
       if (parameter.name === 'stubborn') {
-        return { message: `'${words[1]}' is not to its taste`, path: words[0], hint: 'try 7' };
+        return { message: `'${value}' is not to its taste`, path, hint: 'try 7' };
       }
-      this.elements.set(words[0], { ...parameter, value: words[1] });
-    } else if (verb === 'connect') {
-      this.connections = [...this.connections, { from: words[0], to: words[1], queue: 0, on_full: 'drop_oldest' }];
-    } else if (verb === 'disconnect') {
-      this.connections = this.connections.filter(({ from, to }) => from !== words[0] || to !== words[1]);
-    } else if (verb === 'delete') {
-      const isIn = (path) => path === words[0] || path.startsWith(`${words[0]}/`);
-      this.connections = this.connections.filter(({ from, to }) => !isIn(from) && !isIn(to));
-      for (const path of [...this.elements.keys()]) if (isIn(path)) this.elements.delete(path);
-    } else if (verb === 'create') {
-      for (const element of ModuleElements(this.catalogue, words[1], words[0])) this.elements.set(element.path, element);
-    } else if (verb === 'move') {
-      this.elements.set(words[0], { ...this.elements.get(words[0]), thread: words[2] || null });
-    } else if (verb === 'replace') {
-      const type = this.catalogue.modules.find((module) => module.type === words[2]);
-      this.elements.set(words[0], { ...this.elements.get(words[0]), type: words[2], summary: type.summary });
+      this.elements.set(path, { ...parameter, value });
+    } else if (change === 'connect') {
+      this.connections = [...this.connections, { from, to, queue: 0, on_full: 'drop_oldest' }];
+    } else if (change === 'disconnect') {
+      this.connections = this.connections.filter((each) => each.from !== from || each.to !== to);
+    } else if (change === 'delete') {
+      const isIn = (each) => each === path || each.startsWith(`${path}/`);
+      this.connections = this.connections.filter((each) => !isIn(each.from) && !isIn(each.to));
+      for (const each of [...this.elements.keys()]) if (isIn(each)) this.elements.delete(each);
+    } else if (change === 'create') {
+      for (const element of ModuleElements(this.catalogue, type, path)) this.elements.set(element.path, element);
+    } else if (change === 'move') {
+      this.elements.set(path, { ...this.elements.get(path), thread: thread || null });
+    } else if (change === 'replace') {
+      const { summary } = this.catalogue.modules.find((module) => module.type === type);
+      this.elements.set(path, { ...this.elements.get(path), type, summary });
     } else {
-      return { message: `the mock knows no '${verb}'`, path: '', hint: '' };
+      return { message: `the mock knows no '${change}'`, path: '', hint: '' };
     }
     return null;
   }
@@ -122,8 +121,4 @@ export function ModuleElements(catalogue, type, path, { thread = null } = {}) {
       description: '', value: parameter.default, default: parameter.default, settable: true, owner: path });
   }
   return elements;
-}
-
-function Unquote(word) {
-  return word.startsWith('"') ? word.slice(1, -1).replace(/\\(.)/g, '$1') : word;
 }

@@ -4,7 +4,7 @@ import { FormatBounds, FormatMilliseconds, FormatNumber, FormatRate, FormatTime,
 import { FieldText, IsPlottable, NumberAt, ValueRows } from '../../../plugins/inspector/page/source/model/value_rows.js';
 import { Catalogue } from '../../../plugins/inspector/page/source/model/catalogue.js';
 import { CheckValue } from '../../../plugins/inspector/page/source/model/parameter_check.js';
-import { Change, FreeName, NameProblem, Word } from '../../../plugins/inspector/page/source/model/change_text.js';
+import { Change, FreeName, NameProblem } from '../../../plugins/inspector/page/source/model/changes.js';
 import { AddLogEntries, FilterLog, TroublesOf } from '../../../plugins/inspector/page/source/state/log.js';
 import { Series } from '../../../plugins/inspector/page/source/plots/series.js';
 import { kCatalogue } from '../mock/mock_structures.mjs';
@@ -32,6 +32,9 @@ test('rates, durations and times have units that suit', () => {
   assert.equal(FormatTime(12.345), '12.35 s');
   assert.equal(FormatTime(61.26), '1:01.3');
   assert.equal(FormatTime(3723.4), '1:02:03.4');
+  assert.equal(FormatTime(119.97), '2:00.0');
+  assert.equal(FormatTime(59.97), '1:00.0');
+  assert.equal(FormatTime(3599.96), '1:00:00.0');
 });
 
 test('a value is one line, and long ones are cut', () => {
@@ -95,15 +98,12 @@ test('parameters are checked by type and bounds before the application is asked'
   assert.equal(CheckValue({ data_type: 'Unknown' }, 'anything', catalogue), '', 'the application knows');
 });
 
-test('words of changes are quoted where they have to be', () => {
-  assert.equal(Word('/a/b_2'), '/a/b_2');
-  assert.equal(Word('two words'), '"two words"');
-  assert.equal(Word('say "x" \\ now'), '"say \\"x\\" \\\\ now"');
-  assert.equal(Word(''), '""');
-  assert.equal(Word('{x: 1}'), '"{x: 1}"');
-  assert.equal(Change.create('/a/b', 'p/c'), 'create /a/b p/c');
-  assert.equal(Change.move('/a', ''), 'move /a to ""');
-  assert.equal(Change.replace('/a', 'p/b'), 'replace /a with p/b');
+test('changes are told as the server reads them, with names and values as they are', () => {
+  assert.deepEqual(Change.create('/a/b', 'p/c'), { change: 'create', path: '/a/b', type: 'p/c' });
+  assert.deepEqual(Change.move('/a', ''), { change: 'move', path: '/a', thread: '' });
+  assert.deepEqual(Change.set('/a/b', 'say "x"; \\ now'), { change: 'set', path: '/a/b', value: 'say "x"; \\ now' });
+  assert.deepEqual(Change.createPort('/g/p', 'input', 'int32'),
+    { change: 'create_port', path: '/g/p', direction: 'input', type: 'int32' });
 });
 
 test('new names are free, and wrong ones are told', () => {
@@ -113,6 +113,15 @@ test('new names are free, and wrong ones are told', () => {
   assert.match(NameProblem(structure, '/a', 'filter'), /already/);
   assert.match(NameProblem(structure, '/a', 'a b'), /blanks/);
   assert.match(NameProblem(structure, '/a', ''), /needed/);
+  // The same names as in tests/core/element/element_path_test.cpp.
+  for (const name of ['laser', 'größe_2', '日本', '?loc', 'a?', '"a"', 'a&b<c>', 'a;b#c', '*', '-', '...',
+    'a\\b', '{a=b}', '🤖']) {
+    assert.equal(NameProblem(structure, '/a', name), '', name);
+  }
+  for (const name of ['.', '..', 'a/b', ' a', 'a ', 'front laser', 'a\tb', 'a\nb', 'a,b', '\x01', 'a\x1b[2J',
+    '\x7f', '\x85', '\ufffe', '\ud800']) {
+    assert.notEqual(NameProblem(structure, '/a', name), '', JSON.stringify(name));
+  }
 });
 
 test('module types are found by all words, those named so first', () => {
