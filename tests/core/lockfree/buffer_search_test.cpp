@@ -1,3 +1,4 @@
+#include "tests/core/lockfree/search.h"
 #include "tests/core/lockfree/searched_atomic.h"
 // The search must come first: it renames what the standard headers below use.
 

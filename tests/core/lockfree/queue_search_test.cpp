@@ -1,5 +1,6 @@
 // Searches the schedules and memory orders of queues that make and destroy values in place.
 
+#include "tests/core/lockfree/search.h"
 #include "tests/core/lockfree/searched_atomic.h"
 // The search must come first: it renames what the standard headers below use.
 

@@ -1,6 +1,7 @@
 // Searches the schedules and memory orders of writers that go from one queue to the next while a
 // reader empties both.
 
+#include "tests/core/lockfree/search.h"
 #include "tests/core/lockfree/searched_atomic.h"
 // The search must come first: it renames what the standard headers below use.
 

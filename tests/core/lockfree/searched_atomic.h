@@ -4,15 +4,8 @@
 // each atomic operation who goes on and which of the allowed values a load sees, and checks that
 // plain data is never touched by two threads without a happens-before edge between them.
 
-#include <array>
 #include <atomic>
 #include <cstdint>
-#include <iostream>
-#include <memory>
-#include <ostream>
-#include <streambuf>
-#include <string>
-#include <string_view>
 
 #include <gtest/gtest.h>
 
@@ -153,65 +146,5 @@ class SearchedPlain {
  private:
   mutable rl::var<int> value_;
 };
-
-/// What the search prints, in room of its own: it has an operator new of its own too, and must not
-/// be asked for memory while it reports. What does not fit is left out.
-class SearchOutput : public std::streambuf {
- public:
-  SearchOutput() { setp(room_.data(), room_.data() + room_.size()); }
-  [[nodiscard]] std::string_view text() const {
-    return {pbase(), static_cast<std::size_t>(pptr() - pbase())};
-  }
-
- private:
-  int_type overflow(int_type) override { return 0; }
-  std::array<char, 1 << 16> room_;
-};
-
-/// The suite with fences of its own, which are there before it.
-template <typename Suite>
-struct WithFences : SearchedFencesOf<Suite::params::thread_count>, Suite {};
-
-/// Runs `Suite` through schedules as `parameters` say; how many, or 0 if one failed, which is printed.
-template <typename Suite>
-rl::iteration_t CountPassed(rl::test_params parameters) {
-  parameters.progress_output_period = 1000000000;
-  parameters.execution_depth_limit = 10000;
-  const auto room = std::make_unique<SearchOutput>();
-  std::ostream output(room.get());
-  parameters.output_stream = &output;
-  parameters.progress_stream = &output;
-  if (rl::simulate<WithFences<Suite>>(parameters)) return parameters.stop_iteration;
-  std::cout << room->text() << std::endl;
-  return 0;
-}
-
-/// Runs `Suite` through `iterations` random schedules; true if none failed.
-template <typename Suite>
-bool SearchAtRandom(unsigned iterations) {
-  rl::test_params parameters;
-  parameters.iteration_count = iterations;
-  parameters.search_type = rl::random_scheduler_type;
-  return CountPassed<Suite>(parameters) > 0;
-}
-
-/// Runs `Suite` through each schedule in which threads are interrupted `interruptions` times at most,
-/// besides where they end or wait; true if none failed. What a random schedule comes upon once in
-/// millions, as one thread that stands still while others do much, is among them.
-template <typename Suite>
-bool SearchAll(unsigned interruptions) {
-  rl::test_params parameters;
-  parameters.search_type = rl::fair_context_bound_scheduler_type;
-  parameters.context_bound = interruptions;
-  const rl::iteration_t passed = CountPassed<Suite>(parameters);
-  testing::Test::RecordProperty("schedules", std::to_string(passed));
-  return passed > 0;
-}
-
-/// Both: `iterations` at random, and all with so many interruptions.
-template <typename Suite>
-bool Search(unsigned iterations, unsigned interruptions) {
-  return SearchAll<Suite>(interruptions) && SearchAtRandom<Suite>(iterations);
-}
 
 }  // namespace runnel::test
