@@ -1,8 +1,8 @@
 #include <algorithm>
 
+#include "bench/report/chart.h"
 #include "bench/report/chart_style.h"
 #include "bench/report/charts.h"
-#include "bench/report/svg.h"
 #include "bench/report/text.h"
 
 namespace runnel::bench {
@@ -27,20 +27,20 @@ std::string BarChart(const std::vector<const Measurement*>& measurements) {
   double largest = 0;
   for (const Measurement* each : sorted) largest = std::max(largest, each->Typical());
 
-  Svg svg(kWidth, kHead + kLine * static_cast<double>(sorted.size()) + 10);
-  svg.Text({12, 22}, measurements.front()->workload.name, Svg::Anchor::kStart, 16);
-  svg.Text({12, 40}, TitleOf(quantity), Svg::Anchor::kStart, 12, kQuiet);
+  Chart chart(kWidth, kHead + kLine * static_cast<double>(sorted.size()) + 10);
+  chart.Text({12, 22}, measurements.front()->workload.name, Chart::Anchor::kStart, 16);
+  chart.Text({12, 40}, TitleOf(quantity), Chart::Anchor::kStart, 12, kQuiet);
   double y = kHead;
   for (const Measurement* each : sorted) {
     const double share = largest > 0 ? each->Typical() / largest : 0;
     const double length = share * (kWidth - kLabels - kFigures);
-    svg.Text({kLabels - 8, y + 16}, LabelOf(each->subject), Svg::Anchor::kEnd);
-    svg.Rectangle({kLabels, y + 3}, std::max(length, 1.0), kLine - 6,
-                  BarColour(each->subject.role));
-    svg.Text({kLabels + length + 6, y + 16}, WithUnit(each->Typical(), quantity.unit));
+    chart.Text({kLabels - 8, y + 16}, LabelOf(each->subject), Chart::Anchor::kEnd);
+    chart.Rectangle({kLabels, y + 3}, std::max(length, 1.0), kLine - 6,
+                    BarColour(each->subject.role));
+    chart.Text({kLabels + length + 6, y + 16}, WithUnit(each->Typical(), quantity.unit));
     y += kLine;
   }
-  return svg.ToString();
+  return chart.Close();
 }
 
 }  // namespace runnel::bench

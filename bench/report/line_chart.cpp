@@ -1,9 +1,9 @@
 #include <algorithm>
 
+#include "bench/report/chart.h"
 #include "bench/report/chart_axis.h"
 #include "bench/report/chart_style.h"
 #include "bench/report/charts.h"
-#include "bench/report/svg.h"
 #include "bench/report/text.h"
 
 namespace runnel::bench {
@@ -19,26 +19,27 @@ constexpr double kLegend = 250;
 struct Plot {
   ChartAxis x;
   ChartAxis y;
-  [[nodiscard]] Svg::Point At(double position, double value) const {
+  [[nodiscard]] Point2 At(double position, double value) const {
     return {kLeft + x.Share(position) * kPlotWidth, kTop + (1 - y.Share(value)) * kPlotHeight};
   }
 };
 
-void DrawGrid(Svg& svg, const Plot& plot, const Workload& workload, const Quantity& quantity) {
+void DrawGrid(Chart& chart, const Plot& plot, const Workload& workload, const Quantity& quantity) {
   const double bottom = kTop + kPlotHeight;
   for (const double tick : plot.x.Ticks()) {
     const double x = kLeft + plot.x.Share(tick) * kPlotWidth;
-    svg.Line({x, kTop}, {x, bottom}, kGrid);
-    svg.Text({x, bottom + 18}, Short(tick), Svg::Anchor::kMiddle, 11, kQuiet);
+    chart.Polyline({{x, kTop}, {x, bottom}}, kGrid);
+    chart.Text({x, bottom + 18}, Short(tick), Chart::Anchor::kMiddle, 11, kQuiet);
   }
   for (const double tick : plot.y.Ticks()) {
     const double y = kTop + (1 - plot.y.Share(tick)) * kPlotHeight;
-    svg.Line({kLeft, y}, {kLeft + kPlotWidth, y}, kGrid);
-    svg.Text({kLeft - 6, y + 4}, ShortWithUnit(tick, quantity.unit), Svg::Anchor::kEnd, 11, kQuiet);
+    chart.Polyline({{kLeft, y}, {kLeft + kPlotWidth, y}}, kGrid);
+    chart.Text({kLeft - 6, y + 4}, ShortWithUnit(tick, quantity.unit), Chart::Anchor::kEnd, 11,
+               kQuiet);
   }
-  svg.Text({12, 22}, workload.family, Svg::Anchor::kStart, 16);
-  svg.Text({12, 40}, TitleOf(quantity), Svg::Anchor::kStart, 12, kQuiet);
-  svg.Text({kLeft + kPlotWidth / 2, bottom + 36}, workload.axis, Svg::Anchor::kMiddle);
+  chart.Text({12, 22}, workload.family, Chart::Anchor::kStart, 16);
+  chart.Text({12, 40}, TitleOf(quantity), Chart::Anchor::kStart, 12, kQuiet);
+  chart.Text({kLeft + kPlotWidth / 2, bottom + 36}, workload.axis, Chart::Anchor::kMiddle);
 }
 
 }  // namespace
@@ -56,26 +57,26 @@ std::string LineChart(const std::vector<const Measurement*>& measurements) {
   plot.x.Finish();
   plot.y.Finish();
 
-  Svg svg(kLeft + kPlotWidth + kLegend, kTop + kPlotHeight + 50);
-  DrawGrid(svg, plot, measurements.front()->workload, measurements.front()->quantity);
+  Chart chart(kLeft + kPlotWidth + kLegend, kTop + kPlotHeight + 50);
+  DrawGrid(chart, plot, measurements.front()->workload, measurements.front()->quantity);
   double legend = kTop + 10;
   for (std::size_t number = 0; number < subjects.size(); ++number) {
     const Subject& subject = subjects[number];
     const bool is_own = subject.role == Role::kRunnel;
     const std::string colour = is_own ? kOwnColour : LineColour(number);
-    std::vector<Svg::Point> points;
+    std::vector<Point2> points;
     for (const Measurement* each : measurements) {
       if (each->subject.name != subject.name) continue;
       points.push_back(plot.At(each->workload.position, each->Typical()));
     }
-    svg.Polyline(points, colour, is_own ? 3 : 1.5);
-    for (const Svg::Point& point : points) svg.Dot(point, is_own ? 4 : 2.5, colour);
-    svg.Line({kLeft + kPlotWidth + 14, legend - 4}, {kLeft + kPlotWidth + 34, legend - 4}, colour,
-             is_own ? 3 : 1.5);
-    svg.Text({kLeft + kPlotWidth + 40, legend}, LabelOf(subject));
+    chart.Polyline(points, colour, is_own ? 3 : 1.5);
+    for (const Point2& point : points) chart.Dot(point, is_own ? 4 : 2.5, colour);
+    chart.Polyline({{kLeft + kPlotWidth + 14, legend - 4}, {kLeft + kPlotWidth + 34, legend - 4}},
+                   colour, is_own ? 3 : 1.5);
+    chart.Text({kLeft + kPlotWidth + 40, legend}, LabelOf(subject));
     legend += 20;
   }
-  return svg.ToString();
+  return chart.Close();
 }
 
 }  // namespace runnel::bench

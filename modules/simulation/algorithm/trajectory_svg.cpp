@@ -12,7 +12,6 @@ namespace runnel {
 
 namespace {
 
-using internal::Decimal;
 using internal::IsFinite;
 using internal::kFaintInk;
 using internal::kFooter;
@@ -192,7 +191,7 @@ class Drawing {
   const World& world_;
   const Trajectory& trajectory_;
   internal::Canvas canvas_;
-  internal::SvgWriter& svg_ = canvas_.svg();
+  SvgWriter& svg_ = canvas_.svg();
 };
 
 }  // namespace

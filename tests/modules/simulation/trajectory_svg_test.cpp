@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "modules/simulation/algorithm/internal/svg_writer.h"
+#include "modules/types/algorithm/svg_writer.h"
 
 namespace runnel {
 namespace {
@@ -150,10 +150,10 @@ TEST(TrajectorySvg, DrawsLargeWorldsWithACoarserGrid) {
 }
 
 TEST(SvgDecimal, HasAFixedNumberOfDigits) {
-  EXPECT_EQ(internal::Decimal(1.0), "1.00");
-  EXPECT_EQ(internal::Decimal(-1.255, 1), "-1.3");
-  EXPECT_EQ(internal::Decimal(-0.001), "0.00");
-  EXPECT_EQ(internal::Decimal(1e9, 0), "1000000000");
+  EXPECT_EQ(Decimal(1.0), "1.00");
+  EXPECT_EQ(Decimal(-1.255, 1), "-1.3");
+  EXPECT_EQ(Decimal(-0.001), "0.00");
+  EXPECT_EQ(Decimal(1e9, 0), "1000000000");
 }
 
 TEST(LengthOf, AddsUpTheWay) {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "modules/simulation/algorithm/internal/svg_writer.h"
+#include "modules/types/algorithm/svg_writer.h"
 #include "modules/simulation/algorithm/world.h"
 
 namespace runnel::internal {

@@ -1,9 +1,9 @@
-#include "modules/simulation/algorithm/internal/svg_writer.h"
+#include "modules/types/algorithm/svg_writer.h"
 
 #include <charconv>
 #include <utility>
 
-namespace runnel::internal {
+namespace runnel {
 
 namespace {
 
@@ -100,4 +100,4 @@ std::string SvgWriter::Close() {
   return std::exchange(text_, {});
 }
 
-}  // namespace runnel::internal
+}  // namespace runnel

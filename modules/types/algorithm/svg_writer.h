@@ -6,7 +6,7 @@
 
 #include "modules/types/algorithm/point.h"
 
-namespace runnel::internal {
+namespace runnel {
 
 /// Two digits after the point, whatever the locale, and never "-0.00".
 [[nodiscard]] std::string Decimal(double number, int digits = 2);
@@ -35,4 +35,4 @@ class SvgWriter {
   std::string text_;
 };
 
-}  // namespace runnel::internal
+}  // namespace runnel
