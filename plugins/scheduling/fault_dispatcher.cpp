@@ -57,13 +57,24 @@ void FaultDispatcher::Raise(std::unique_ptr<FaultRecord> record) noexcept {
 }
 
 void FaultDispatcher::Dispatch() {
-  if (raised_.load(std::memory_order_relaxed) == nullptr) return;
-  std::vector<std::unique_ptr<FaultRecord>> records;
   // acquire: pairs with the release in Raise().
-  FaultRecord* record = raised_.exchange(nullptr, std::memory_order_acquire);
-  for (; record != nullptr; record = record->next_) records.emplace_back(record);
-  std::ranges::reverse(records);
-  for (const auto& each : records) Report(each->fault());
+  FaultRecord* newest = raised_.exchange(nullptr, std::memory_order_acquire);
+  FaultRecord* oldest = nullptr;
+  while (newest != nullptr) {
+    FaultRecord* const before = std::exchange(newest->next_, oldest);
+    oldest = std::exchange(newest, before);
+  }
+  while (oldest != nullptr) {
+    std::unique_ptr<FaultRecord> record(std::exchange(oldest, oldest->next_));
+    try {
+      Report(record->fault());
+    } catch (...) {  // what is not told now is told the next time
+      Raise(std::move(record));
+      while (oldest != nullptr)
+        Raise(std::unique_ptr<FaultRecord>(std::exchange(oldest, oldest->next_)));
+      throw;
+    }
+  }
 }
 
 void FaultDispatcher::Report(const Fault& fault) {

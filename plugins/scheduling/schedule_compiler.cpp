@@ -285,8 +285,13 @@ void ScheduleCompiler::BindTriggersOf(PlannedElement& planned) {
   }
 }
 
-// What fails on the way is made good by compiling everything, but what is about to go is let go of.
+// What fails on the way is made good by compiling everything, but what is about to go is let go of: a schedule
+// that has it may stay until there is memory for the next.
 void ScheduleCompiler::Release(FrameworkElement& element) noexcept {
+  element.Visit([this](FrameworkElement& each) {
+    const auto known = elements_.find(each.serial());
+    if (known != elements_.end() && known->second.state) known->second.state->Stop();
+  });
   Retry([&] {
     try {
       ReleaseAll(element);

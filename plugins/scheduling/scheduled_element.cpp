@@ -18,7 +18,7 @@ ScheduledElement::~ScheduledElement() = default;
 
 void ScheduledElement::Fail(std::string_view message, CycleMoment now,
                             FaultDispatcher& faults) noexcept {
-  stopped_.store(true, std::memory_order_relaxed);
+  Stop();
   if (!record_) return;
   if (traced_ && traced_->track != nullptr) traced_->track->NoteFault(traced_->number, message);
   record_->Fill(message, now.time, now.number);

@@ -37,10 +37,13 @@ class ScheduledElement final : public Waker {
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
   [[nodiscard]] std::uint64_t serial() const noexcept { return serial_; }
 
-  /// Stops the element for good and hands the fault in.
+  /// Stops the element for good, whatever schedule has it. Any thread.
+  void Stop() noexcept { stopped_.store(true, std::memory_order_relaxed); }
+  /// Stops it, too, and hands the fault in.
   void Fail(std::string_view message, CycleMoment now, FaultDispatcher& faults) noexcept;
   [[nodiscard]] bool is_stopped() const noexcept {
-    // relaxed: the hand-over from thread to thread orders it; elsewhere it only informs.
+    // relaxed: the hand-over from thread to thread orders a fault, and the epoch that is waited for before
+    // an element is destroyed, Stop(); elsewhere it only informs.
     return stopped_.load(std::memory_order_relaxed);
   }
 

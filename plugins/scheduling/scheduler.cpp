@@ -4,6 +4,7 @@
 #include <mutex>
 #include <utility>
 
+#include "core/base/exception_text.h"
 #include "core/base/saturating_sum.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/port/port.h"
@@ -80,38 +81,47 @@ void Scheduler::Changed() {
   if (!runtime_.is_in_change_scope()) OnChangesEnd();
 }
 
-// What fails here for lack of memory is tried once more, with everything compiled anew; then the supervising
-// thread tries it, and reports.
+// What fails here for lack of memory is tried once more; then the supervising thread tries it, and reports.
+// Until then cycles go on as before, but for what has been released.
 void Scheduler::OnChangesEnd() {
   if (!is_live()) return;
   for (int attempt = 0; attempt < 2; ++attempt) {
     try {
       return BringUpToDate();
     } catch (...) {
-      compiler_.NeedAll();
     }
   }
   faults_.event().Notify();
 }
 
+// If it fails, all of it is still to be done.
 void Scheduler::BringUpToDate() {
-  if (compiler_.needs_all()) {
-    compiler_.CompileAll(runtime_.root());
-    if (compiler_.has_unassigned_tasks()) {
-      CreateThread(runtime_, "main", options_.default_options);
+  try {
+    if (compiler_.needs_all()) {
       compiler_.CompileAll(runtime_.root());
+      if (compiler_.has_unassigned_tasks()) {
+        CreateThread(runtime_, "main", options_.default_options);
+        compiler_.CompileAll(runtime_.root());
+      }
+      runners_ = compiler_.runners();
+      has_other_runners_ = true;
     }
-    runners_ = compiler_.runners();
-    has_other_runners_ = true;
+    if (compiler_.has_changes()) {
+      compiler_.Install();
+      has_changes_.store(true, std::memory_order_relaxed);  // as in Changed()
+    }
+    if (is_running_ && has_other_runners_) StartThreads(machine_.Now());
+  } catch (...) {
+    compiler_.NeedAll();
+    throw;
   }
-  if (!compiler_.has_changes()) return;
-  compiler_.Install();
-  has_changes_.store(true, std::memory_order_relaxed);  // as in Changed()
-  if (is_running_ && has_other_runners_) StartThreads(machine_.Now());
 }
 
+// Room comes first: a thread that could not be kept would be waited for here, under the lock that its cycle
+// may need.
 void Scheduler::StartThreads(Time first) {
-  has_other_runners_ = false;
+  ending_.reserve(ending_.size() + threads_.size());
+  threads_.reserve(threads_.size() + runners_.size());
   const auto is_gone = [this](const auto& thread) {
     return std::ranges::find(runners_, thread->runner()) == runners_.end();
   };
@@ -131,6 +141,7 @@ void Scheduler::StartThreads(Time first) {
       realtime_warnings_.push_back(std::move(*warning));
     }
   }
+  has_other_runners_ = false;
 }
 
 Result<void> Scheduler::Start() {
@@ -139,8 +150,18 @@ Result<void> Scheduler::Start() {
                  .hint = "use Step() or RunUntil()"};
   }
   const std::lock_guard start_lock(start_mutex_);
+  if (is_running()) return {};
+  try {
+    StartAll();
+    return {};
+  } catch (...) {
+    EndAll();
+    return Error{.message = "the threads could not be started: " + DescribeException()};
+  }
+}
+
+void Scheduler::StartAll() {
   const std::lock_guard lock(runtime_.structure_mutex());
-  if (is_running_) return {};
   if (std::exchange(has_run_, false)) faults_.ClearStop();
   realtime_warnings_.clear();
   compiler_.NeedAll();
@@ -152,26 +173,34 @@ Result<void> Scheduler::Start() {
   }
   supervises_.store(true, std::memory_order_release);
   supervisor_ = std::thread([this] { Supervise(); });
-  is_running_ = true;
   StartThreads(machine_.Now());
-  return {};
+  is_running_ = true;
 }
 
 void Scheduler::Stop() {
   RUNNEL_CHECK(std::this_thread::get_id() != supervisor_.get_id(),
                "a fault rule cannot stop the scheduler itself; call RequestStop()");
   const std::lock_guard start_lock(start_mutex_);
-  std::vector<std::unique_ptr<RealThread>> ended;
+  if (EndAll()) has_run_ = true;
+}
+
+// Whether it was running. Without allocating, so that nothing is left half running.
+bool Scheduler::EndAll() noexcept {
+  bool was_running = false;
+  RealThreads ended[2];
   {
     const std::lock_guard lock(runtime_.structure_mutex());
-    if (std::exchange(is_running_, false)) has_run_ = true;
-    ended = std::exchange(threads_, {});
-    std::ranges::move(std::exchange(ending_, {}), std::back_inserter(ended));
+    was_running = std::exchange(is_running_, false);
+    ended[0].swap(threads_);
+    ended[1].swap(ending_);
   }
   // The structure lock is free meanwhile, so that a cycle that needs it can come to its end.
-  for (const auto& thread : ended) thread->RequestStop();
-  ended.clear();
+  for (const RealThreads& threads : ended) {
+    for (const auto& thread : threads) thread->RequestStop();
+  }
+  for (RealThreads& threads : ended) threads.clear();
   EndSupervision();
+  return was_running;
 }
 
 bool Scheduler::is_running() const {

@@ -66,7 +66,7 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   [[nodiscard]] const SchedulerOptions& options() const noexcept { return options_; }
 
   /// kReal: starts a thread for each container. What the system does not permit becomes a warning.
-  /// Errors: a simulated clock.
+  /// Errors: a simulated clock; a thread that the system does not give, and nothing runs then.
   Result<void> Start();
   /// Ends all threads after their current cycle and waits for them. Idempotent.
   void Stop();
@@ -166,6 +166,11 @@ class Scheduler final : public ElementListener, public AssignmentListener {
 
  private:
   using Runners = std::vector<std::shared_ptr<CycleRunner>>;
+  using RealThreads = std::vector<std::unique_ptr<RealThread>>;
+
+  // Under start_mutex_.
+  void StartAll();
+  bool EndAll() noexcept;
 
   [[nodiscard]] Runners RunnersOf(const std::vector<std::string>& paths);
 
@@ -197,16 +202,16 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   Backpressure backpressure_;
 
   OrderedMutex start_mutex_{LockLevel::kScheduler};
+  bool has_run_ = false;  // until started again; guarded by start_mutex_
   // Guarded by the structure lock, down to the next comment:
   ScheduleCompiler compiler_;
   bool has_other_runners_ = true;  // than threads or lanes have been made for
   bool is_running_ = false;
   bool has_stepped_ = false;
-  bool has_run_ = false;  // until started again
   Runners runners_;
   std::vector<Error> realtime_warnings_;
-  std::vector<std::unique_ptr<RealThread>> threads_;
-  std::vector<std::unique_ptr<RealThread>> ending_;  // their containers are gone
+  RealThreads threads_;
+  RealThreads ending_;  // their containers are gone
 
   // Simulated clock: set under the structure lock when something has changed, and taken back under
   // it by the thread that steps, which need not lock where nothing has.

@@ -1,21 +1,23 @@
 // What the Scheduler does between cycles: attends to faults, brings up to date what could not be at
 // once, and looks out.
 
+#include <exception>
 #include <mutex>
 #include <utility>
 
 #include "core/base/exception_text.h"
+#include "core/base/retry.h"
 #include "plugins/scheduling/scheduler.h"
 
 namespace runnel {
 
 namespace {
 
-// In a handler. Without memory even for this there is nothing to tell it with; what has failed is tried
-// again.
-void ReportException(const char* what, FaultDispatcher& faults, Runtime& runtime) noexcept {
+// Without memory even for this there is nothing to tell it with; what has failed is tried again.
+void ReportException(const char* what, const std::exception_ptr& exception, FaultDispatcher& faults,
+                     Runtime& runtime) noexcept {
   try {
-    faults.Report({runtime.root().path(), what + DescribeException(), runtime.clock().Now()});
+    faults.Report({runtime.root().path(), what + DescribeException(exception), runtime.clock().Now()});
   } catch (...) {
   }
 }
@@ -34,20 +36,27 @@ void Scheduler::Supervise() {
   }
 }
 
-// Nobody is above the supervising thread to catch what it throws.
+// Nobody is above the supervising thread to catch what it throws. What memory is too short for is tried for a
+// while, with the lock free in between.
 void Scheduler::Maintain() noexcept {
-  try {
-    faults_.Dispatch();
-    const std::lock_guard lock(runtime_.structure_mutex());
-    if (is_running_) BringUpToDate();
-  } catch (...) {
-    ReportException("the schedules could not be brought up to date: ", faults_, runtime_);
-  }
+  std::exception_ptr failure;
+  const bool is_done = Retry([&] {
+    try {
+      faults_.Dispatch();
+      const std::lock_guard lock(runtime_.structure_mutex());
+      if (is_running_) BringUpToDate();
+    } catch (...) {
+      failure = std::current_exception();
+      throw;
+    }
+  });
+  if (is_done) return;
+  ReportException("the schedules could not be brought up to date: ", failure, faults_, runtime_);
 }
 
 void Scheduler::EndSupervision() {
-  if (!supervisor_.joinable()) return;
   supervises_.store(false, std::memory_order_release);
+  if (!supervisor_.joinable()) return;
   faults_.event().Notify();
   supervisor_.join();
   supervisor_ = std::thread();
@@ -66,7 +75,7 @@ void Scheduler::RunWatchdog() noexcept {
   try {
     next_watch_ = watchdog_(now);
   } catch (...) {
-    ReportException("the watchdog failed: ", faults_, runtime_);
+    ReportException("the watchdog failed: ", std::current_exception(), faults_, runtime_);
     next_watch_ = now + std::chrono::seconds(1);
   }
 }

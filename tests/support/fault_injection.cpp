@@ -9,10 +9,15 @@ namespace {
 // Plain words, which need no initialisation and hence no allocation at first use.
 struct Countdown {
   std::size_t left = 0;  // until it strikes; 0: it does not
+  std::size_t further = 0;
   bool has_struck = false;
 
   bool Strikes() noexcept {
     if (left == 0 || --left > 0) return false;
+    if (further > 0) {
+      --further;
+      left = 1;
+    }
     has_struck = true;
     return true;
   }
@@ -50,11 +55,12 @@ void operator delete(void* block, std::size_t, std::align_val_t) noexcept { std:
 
 namespace runnel::test {
 
-FaultInjection::FaultInjection(InjectedFault fault, std::size_t nth) noexcept {
+FaultInjection::FaultInjection(InjectedFault fault, std::size_t nth,
+                               std::size_t further) noexcept {
   allocations = {};
   calls = {};
   throws_a_number = fault == InjectedFault::kNumber;
-  (fault == InjectedFault::kAllocation ? allocations : calls).left = nth;
+  (fault == InjectedFault::kAllocation ? allocations : calls) = {.left = nth, .further = further};
 }
 
 void FaultInjection::End() noexcept { allocations.left = calls.left = 0; }

@@ -42,6 +42,17 @@ TEST(FaultInjection, TheNthAllocationFailsAndNoOther) {
   EXPECT_TRUE(injection.has_struck());
 }
 
+TEST(FaultInjection, AsManyFurtherOnesFailAsWereAskedFor) {
+  FaultInjection injection(InjectedFault::kAllocation, 2, 1);
+  const bool first = Fails(Allocate);
+  const bool second = Fails(Allocate);
+  const bool third = Fails(Allocate);
+  const bool fourth = Fails(Allocate);
+  injection.End();
+  EXPECT_FALSE(first || fourth);
+  EXPECT_TRUE(second && third);
+}
+
 TEST(FaultInjection, AllocationsOfTheStandardLibraryCount) {
   FaultInjection injection(InjectedFault::kAllocation, 1);
   const bool fails = Fails([] { std::string(1000, 'x'); });

@@ -1,0 +1,128 @@
+// Memory and threads that are not there: nothing is half started, and what is gone runs no more.
+
+#include <limits>
+#include <memory>
+#include <mutex>
+
+#include <pthread.h>
+
+#include "core/lockfree/thread_epoch.h"
+#include "tests/plugins/scheduling/real_threads_fixture.h"
+#include "tests/support/fault_injection.h"
+
+namespace runnel {
+namespace {
+
+using test::AtEachPoint;
+using test::FaultInjection;
+using test::InjectedFault;
+
+/// Two modules with a thread each, one of which runs freely.
+struct TwoThreads {
+  TwoThreads() {
+    for (Doing* each : {&gone, &other}) {
+      auto& runs = each == &gone ? runs_of_gone : runs_of_other;
+      each->action = [&runs](Doing&) { ++runs; };
+    }
+    AssignThread(other, CreateThread(runtime, "slow", {.period = 1ms}));
+    MustSucceed(runtime.MakeReady(runtime.root()));
+  }
+  ~TwoThreads() { scheduler.Stop(); }
+
+  std::atomic<int> runs_of_gone{0};
+  std::atomic<int> runs_of_other{0};
+  Runtime runtime;
+  Doing& gone = runtime.Create<Doing>(runtime.root(), "gone");
+  Doing& other = runtime.Create<Doing>(runtime.root(), "other");
+  ThreadContainer& free =
+      CreateThread(runtime, "free", {.activation = ThreadOptions::Activation::kFreeRunning});
+  Scheduler scheduler{runtime};
+};
+
+class SchedulingFaults : public ::testing::Test {
+ protected:
+  static void ExpectItRuns(TwoThreads& world) {
+    const int gone = world.runs_of_gone;
+    const int other = world.runs_of_other;
+    WaitUntil("both threads run",
+              [&] { return world.runs_of_gone > gone && world.runs_of_other > other; });
+  }
+};
+
+// No thread is left over that would run on: all that were started have been joined.
+TEST_F(SchedulingFaults, AllThreadsAreStartedOrNone) {
+  auto world = std::make_unique<TwoThreads>();
+  Result<void> started;
+  const std::size_t points = AtEachPoint(
+      InjectedFault::kAllocation, [&] { started = world->scheduler.Start(); },
+      [&](bool has_struck) {
+        ASSERT_EQ(world->scheduler.is_running(), started.has_value());
+        if (!started) {
+          ASSERT_TRUE(has_struck);
+          EXPECT_THAT(started.error().message, ::testing::HasSubstr("could not be started"));
+          const int runs = world->runs_of_gone + world->runs_of_other;
+          ASSERT_TRUE(world->scheduler.TakeFaults().empty());
+          ASSERT_EQ(world->runs_of_gone + world->runs_of_other, runs);
+          MustSucceed(world->scheduler.Start());
+        }
+        ExpectItRuns(*world);
+        world = std::make_unique<TwoThreads>();
+      });
+  EXPECT_GT(points, 10u);
+}
+
+TEST_F(SchedulingFaults, AThreadThatTheSystemDoesNotGiveIsAnError) {
+  TwoThreads world;
+  world.scheduler.RequestStop();
+  pthread_attr_t before;
+  ASSERT_EQ(pthread_getattr_default_np(&before), 0);
+  pthread_attr_t huge;
+  ASSERT_EQ(pthread_getattr_default_np(&huge), 0);
+  ASSERT_EQ(pthread_attr_setstacksize(&huge, std::numeric_limits<std::size_t>::max() / 2 + 1), 0);
+  ASSERT_EQ(pthread_setattr_default_np(&huge), 0);
+  const auto started = world.scheduler.Start();
+  ASSERT_EQ(pthread_setattr_default_np(&before), 0);
+  ASSERT_FALSE(started);
+  EXPECT_THAT(started.error().ToString(), ::testing::HasSubstr("could not be started"));
+  EXPECT_FALSE(world.scheduler.is_running());
+  MustSucceed(world.scheduler.Start());
+  EXPECT_TRUE(world.scheduler.stop_requested()) << "a request before the start holds";
+  ExpectItRuns(world);
+}
+
+// The lock is held as long as the test looks, so that the supervising thread cannot make a schedule without it.
+TEST_F(SchedulingFaults, WhatHasLeftTheTreeRunsNoMoreThoughNoScheduleCanBeMade) {
+  constexpr std::size_t kFailures = 20;  // more than anybody tries at once
+  bool has_struck = true;
+  for (std::size_t nth = 1; has_struck; ++nth) {
+    SCOPED_TRACE(nth);
+    TwoThreads world;
+    MustSucceed(world.scheduler.Start());
+    ExpectItRuns(world);
+    UnlistedElement taken;
+    {
+      const std::lock_guard lock(world.runtime.structure_mutex());
+      FaultInjection injection(InjectedFault::kAllocation, nth, kFailures);
+      taken = world.runtime.Unlist(world.gone).value();
+      injection.End();
+      has_struck = injection.has_struck();
+      const auto cycles = [&] { return world.free.runner()->cycles_begun(); };
+      const auto wait_for_two = [&, before = cycles()] {
+        WaitUntil("two cycles have begun", [&] { return cycles() >= before + 2; });
+      };
+      wait_for_two();
+      const int runs = world.runs_of_gone;
+      const auto before = cycles();
+      WaitUntil("further cycles have begun", [&] { return cycles() >= before + 100; });
+      ASSERT_EQ(world.runs_of_gone, runs);
+    }
+    WaitUntil("there is a schedule without it", [&] {
+      const EpochGuard guard;
+      return world.free.runner()->schedule()->entries.empty();
+    });
+    world.runtime.Destroy(std::move(taken));
+  }
+}
+
+}  // namespace
+}  // namespace runnel
