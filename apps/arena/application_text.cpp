@@ -50,7 +50,7 @@ Result<std::string> ReadFile(const std::filesystem::path& file) {
   std::ostringstream text;
   text << stream.rdbuf();
   if (stream) return text.str();
-  return Error{.message = "the file cannot be read", .position = {.file = file.string()}};
+  return Error{.message = "the file cannot be read", .position = {file.string()}};
 }
 
 Result<void> WriteFile(const std::filesystem::path& file, std::string_view text) {
@@ -64,7 +64,7 @@ Result<void> WriteFile(const std::filesystem::path& file, std::string_view text)
   std::error_code ignored;
   std::filesystem::remove(beside, ignored);
   return Error{.message = "the file cannot be written",
-               .position = {.file = file.string()},
+               .position = {file.string()},
                .hint = "is its folder there, and may you write in it?"};
 }
 

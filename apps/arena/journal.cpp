@@ -30,7 +30,7 @@ std::string HeadOf(const RunSettings& settings) {
 
 Error ErrorIn(const std::filesystem::path& file, int line, const std::string& message,
               const std::string& hint) {
-  return {.message = message, .position = {.file = file.string(), .line = line}, .hint = hint};
+  return {.message = message, .position = {file.string(), line}, .hint = hint};
 }
 
 Result<void> CheckHead(const std::string& line, const RunSettings& settings,
@@ -99,7 +99,7 @@ Result<void> Journal::Append(std::string_view line) {
   stream << line;
   stream.close();
   if (stream) return {};
-  return Error{.message = "the journal cannot be written", .position = {.file = file_.string()}};
+  return Error{.message = "the journal cannot be written", .position = {file_.string()}};
 }
 
 }  // namespace runnel::arena

@@ -11,6 +11,7 @@
 #include "apps/arena/pictures.h"
 #include "apps/arena/progress.h"
 #include "apps/arena/runner.h"
+#include "core/base/exception_text.h"
 
 namespace runnel::arena {
 
@@ -48,11 +49,11 @@ Result<void> CheckOutputs(const ArenaArguments& arguments) {
     const auto folder = std::filesystem::absolute(file).parent_path();
     if (std::filesystem::is_directory(file)) {
       return Error{.message = "there is a folder where the file shall be",
-                   .position = {.file = file}};
+                   .position = {file}};
     }
     if (auto written = WriteFile(folder / ".runnel-arena", ""); !written) {
       return Error{.message = "the file cannot be written",
-                   .position = {.file = file},
+                   .position = {file},
                    .hint = "is its folder there, and may you write in it?"};
     }
     std::filesystem::remove(folder / ".runnel-arena");
@@ -61,7 +62,7 @@ Result<void> CheckOutputs(const ArenaArguments& arguments) {
   if (!arguments.svg.empty()) std::filesystem::create_directories(arguments.svg, error);
   if (error) {
     return Error{.message = "the folder cannot be made: " + error.message(),
-                 .position = {.file = arguments.svg}};
+                 .position = {arguments.svg}};
   }
   return {};
 }
@@ -93,7 +94,7 @@ class Session {
         std::filesystem::exists(arguments_.json) && !std::filesystem::exists(file);
     if (arguments_.resume && is_orphan) {
       return Error{.message = "the runs in this file have no journal, " + file,
-                   .position = {.file = arguments_.json},
+                   .position = {arguments_.json},
                    .hint = "give another file, or leave out --resume to make them all again"};
     }
     auto journal = arguments_.resume ? Journal::Resume(file, arguments_.settings)
@@ -207,8 +208,8 @@ ExitCode RunArena(int count, const char* const* words) {
 int main(int count, char** words) {
   try {
     return static_cast<int>(runnel::arena::RunArena(count, words));
-  } catch (const std::exception& exception) {
-    std::cerr << "error: " << exception.what() << '\n';
+  } catch (...) {
+    std::cerr << "error: " << runnel::DescribeException() << '\n';
     return 1;
   }
 }

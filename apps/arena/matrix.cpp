@@ -48,7 +48,7 @@ void ReadCourses(const ArenaArguments& arguments, const Product& product, Matrix
       matrix.courses.push_back(std::move(*course));
     } else {
       diagnostics.Add({.message = "two worlds are called '" + course->name + "'",
-                       .position = {.file = file.string()},
+                       .position = {file.string()},
                        .hint = "the other is " + same->file.string()});
     }
   }

@@ -66,7 +66,7 @@ Result<std::string> ReadChanges(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
   std::string text(std::istreambuf_iterator<char>(stream), {});
   if (!stream.is_open() || stream.bad()) {
-    return Error{.message = "cannot be read", .position = {.file = file}};
+    return Error{.message = "cannot be read", .position = {file}};
   }
   return text;
 }

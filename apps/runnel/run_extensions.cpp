@@ -17,7 +17,7 @@ class ClockWords final : public ApplicationExtension {
     const auto refuse = [&](const char* message, const std::string& words) {
       return Error{
           .message = message,
-          .position = {.file = arguments_.application.file},
+          .position = {arguments_.application.file},
           .hint = "leave out " + words + ", or add <clock type=\"simulated\"/> to the application"};
     };
     if (options.clock != ClockKind::kReal) return {};

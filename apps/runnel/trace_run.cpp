@@ -20,7 +20,7 @@ ExitCode FinishTrace(ApplicationTrace& trace, const RunArguments& arguments, Exi
     if (events == 0) return;
     Diagnostics diagnostics;
     diagnostics.AddWarning({.message = std::to_string(events) + " events are not in it, as " + why,
-                            .position = {.file = arguments.trace}});
+                            .position = {arguments.trace}});
     std::cerr << diagnostics.ToString();
   };
   warn(finished->lost, "they came faster than they could be written down");

@@ -106,7 +106,7 @@ Result<void> WriteGeneratedWorld(const WorldArguments& arguments) {
   file.close();
   if (file) return {};
   return Error{.message = "the world cannot be written",
-               .position = {.file = arguments.file},
+               .position = {arguments.file},
                .hint = "is its folder there, and may you write in it?"};
 }
 

@@ -1,11 +1,19 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 namespace runnel {
 
 /// A place in a text file. Lines and columns count from 1; 0 means unknown.
+///
+/// Has constructors, unlike Error, since GCC 12 destroys a braced aggregate within another one twice if what
+/// comes behind it throws.
 struct SourcePosition {
+  SourcePosition() = default;
+  SourcePosition(std::string in_file, int at_line = 0, int at_column = 0)
+      : file(std::move(in_file)), line(at_line), column(at_column) {}
+
   std::string file;
   int line = 0;
   int column = 0;

@@ -40,7 +40,7 @@ Result<void> SimulatedWorld::Prepare() {
                             " m from an obstacle, and its radius is " + robot_radius.ToText() +
                             " m",
                  .path = path(),
-                 .position = {.file = world.Get().text},
+                 .position = {world.Get().text},
                  .hint = "move <start> or the obstacle"};
   }
   PhysicsOptions options;

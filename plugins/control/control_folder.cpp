@@ -35,12 +35,12 @@ constexpr int kMostTries = 2'000;
 constexpr auto kBetweenTries = std::chrono::milliseconds(1);
 
 Error SystemError(const std::string& what, const fs::path& path) {
-  return {.message = what + ": " + std::strerror(errno), .position = {.file = path.string()}};
+  return {.message = what + ": " + std::strerror(errno), .position = {path.string()}};
 }
 
 Error Untrusted(const fs::path& folder, const std::string& why) {
   return {.message = why,
-          .position = {.file = folder.string()},
+          .position = {folder.string()},
           .hint =
               "running applications are reached through sockets in it, so it must be a folder "
               "that is yours alone (mode 0700); remove it, or set XDG_RUNTIME_DIR"};
@@ -53,7 +53,7 @@ Result<sockaddr_un> AddressOf(const fs::path& path) {
   if (text.size() >= sizeof address.sun_path) {
     return Error{.message = "the path of a socket may have " +
                             std::to_string(sizeof address.sun_path - 1) + " bytes at most",
-                 .position = {.file = text},
+                 .position = {text},
                  .hint = "set XDG_RUNTIME_DIR to a shorter one"};
   }
   std::memcpy(address.sun_path, text.c_str(), text.size());
@@ -203,7 +203,7 @@ Result<ListeningSocket> ListenInFolder(const fs::path& folder) {
     if (!is_taken) return error;
   }
   return Error{.message = "this process has too many sockets there already",
-               .position = {.file = folder.string()}};
+               .position = {folder.string()}};
 }
 
 }  // namespace runnel

@@ -46,7 +46,7 @@ class RefusedCommand final : public Command {
 };
 
 PlacedChanges ReadChanges(const Request& request, Diagnostics& diagnostics) {
-  const SourcePosition begins{.file = request.Option("file"), .line = 1, .column = 1};
+  const SourcePosition begins{request.Option("file"), 1, 1};
   PlacedChanges placed = ParseChanges(request.body, begins, diagnostics);
   if (diagnostics.ok() && placed.changes.empty()) {
     diagnostics.Add({.message = "there are no changes in it", .position = begins});

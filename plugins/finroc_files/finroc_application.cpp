@@ -41,7 +41,7 @@ FrameworkElement* Build(XmlElement root, const std::filesystem::path& file, cons
   WarnOfRequiredInputs(*application, tools, file, context);
   for (const std::string& name : tools.configuration.UnusedArguments()) {
     context.Report({.message = "the application knows no '" + name + "'",
-                    .position = {.file = "command line"}},
+                    .position = {"command line"}},
                    {}, *application);
   }
   return application;

@@ -15,7 +15,7 @@ namespace runnel {
 
 Result<std::unique_ptr<McapFile>> McapFile::Open(const std::string& file) {
   const auto failure = [&](const std::string& why) {
-    return Error{.message = "cannot be read: " + why, .position = {.file = file}};
+    return Error{.message = "cannot be read: " + why, .position = {file}};
   };
   const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return failure(std::strerror(errno));
@@ -36,7 +36,7 @@ McapFile::~McapFile() { close(descriptor_); }
 
 Error McapFile::ErrorAt(std::uint64_t offset, const std::string& message) const {
   return {.message = "at byte " + std::to_string(offset) + ": " + message,
-          .position = {.file = name_}};
+          .position = {name_}};
 }
 
 Result<void> McapFile::Read(std::uint64_t offset, std::uint64_t count, std::string& bytes) {

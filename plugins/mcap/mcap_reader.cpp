@@ -35,7 +35,7 @@ Result<std::unique_ptr<McapReader>> McapReader::Open(const std::string& file) {
                                 ? "this is no MCAP file: it is empty"
                                 : "this is no MCAP file: it begins with " + Hexadecimal(*magic) +
                                       ", expected " + Hexadecimal(kMcapMagic),
-                 .position = {.file = file}};
+                 .position = {file}};
   }
   reader->Scan();
   return reader;

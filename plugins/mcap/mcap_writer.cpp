@@ -42,7 +42,7 @@ Result<std::unique_ptr<McapWriter>> McapWriter::Create(const std::string& file,
   if (descriptor < 0) {
     const int number = errno;
     return Error{.message = std::string("cannot be made: ") + std::strerror(number),
-                 .position = {.file = file},
+                 .position = {file},
                  .hint = number == EEXIST   ? "choose another name, or remove it"
                          : number == ENOENT ? "make its folder first"
                                             : ""};
@@ -66,7 +66,7 @@ McapWriter::~McapWriter() {
 Error McapWriter::Failure(const std::string& what, int number) {
   failure_ = {
       {.message = what + ": " + std::strerror(number),
-       .position = {.file = file_},
+       .position = {file_},
        .hint = "what was recorded until then, " + std::to_string(offset_) + " bytes, can be read"}};
   return failure_.front();
 }
@@ -102,7 +102,7 @@ Result<std::uint16_t> McapWriter::AddSchema(const std::string& name, const std::
                                             const std::string& data) {
   if (statistics_.schemas == kMostIds) {
     return Error{.message = "a file cannot have more than 65535 schemas",
-                 .position = {.file = file_}};
+                 .position = {file_}};
   }
   const auto id = static_cast<std::uint16_t>(statistics_.schemas + 1);
   const std::string content = Content(
@@ -118,7 +118,7 @@ Result<std::uint16_t> McapWriter::AddChannel(std::uint16_t schema, const std::st
                                              const McapTexts& metadata) {
   if (statistics_.channels == kMostIds) {
     return Error{.message = "a file cannot have more than 65535 channels",
-                 .position = {.file = file_},
+                 .position = {file_},
                  .hint = "record fewer ports"};
   }
   const auto id = static_cast<std::uint16_t>(statistics_.channels);

@@ -122,7 +122,7 @@ void Configuration::Load(const std::string& file, Diagnostics& diagnostics) {
 }
 
 Result<void> Configuration::AddArgument(std::string_view argument) {
-  const SourcePosition position{.file = "command line"};
+  const SourcePosition position{"command line"};
   const std::size_t equals = argument.find('=');
   if (equals == std::string_view::npos || equals == 0) {
     return Error{.message = "'" + std::string(argument) + "' sets nothing",

@@ -25,7 +25,7 @@ Result<void> ApplicationReplay::Prepare(FrameworkElement& /*application*/,
 
 Result<void> ApplicationReplay::Begin(Application& application, Diagnostics& diagnostics) {
   const auto warn = [&](std::string message) {
-    diagnostics.AddWarning({.message = std::move(message), .position = {.file = file_}});
+    diagnostics.AddWarning({.message = std::move(message), .position = {file_}});
   };
   runtime_ = &application.runtime();
   scheduler_ = &application.scheduler();

@@ -166,7 +166,7 @@ BuildOutcome BuildRecordedPorts(const std::string& file, const BuildTools& tools
   if (outcome.application == nullptr) {
     outcome.diagnostics.Add(
         failures.empty()
-            ? Error{.message = "there are no ports in this recording", .position = {.file = file}}
+            ? Error{.message = "there are no ports in this recording", .position = {file}}
             : failures.front());
     return outcome;
   }

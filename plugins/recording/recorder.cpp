@@ -90,7 +90,7 @@ Result<void> Recorder::Begin() {
   }
   auto writer = McapWriter::Create(
       options_.file,
-      {.header = {"", "runnel " + options_.about.version}, .compression = options_.compression});
+      {.header = McapHeader{"", "runnel " + options_.about.version}, .compression = options_.compression});
   if (!writer) return writer.error();
   writer_ = std::move(*writer);
   if (auto written = WriteAbout(); !written) return written;

@@ -105,18 +105,18 @@ Result<std::unique_ptr<Player>> Player::Prepare(Runtime& runtime,
   if (!patterns) return patterns.error();
   const std::string file = reader->file();
   if (reader->contents().statistics.messages == 0) {
-    return Error{.message = "there are no values in this recording", .position = {.file = file}};
+    return Error{.message = "there are no values in this recording", .position = {file}};
   }
   const McapStatistics& all = reader->contents().statistics;
   const Duration whole(static_cast<std::int64_t>(all.end - all.start));
   if (options.from && *options.from > whole) {
     return Error{.message = "the recording ends before that: it has " +
                             std::to_string(ToSeconds(whole)) + " s",
-                 .position = {.file = file}};
+                 .position = {file}};
   }
   if (options.from && options.to && *options.to < *options.from) {
     return Error{.message = "the end of what is to be played is before its beginning",
-                 .position = {.file = file}};
+                 .position = {file}};
   }
   std::unique_ptr<Player> player(new Player(
       runtime,

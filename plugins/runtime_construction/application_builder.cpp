@@ -34,7 +34,7 @@ void ReportUnknownArguments(XmlElement root, const PartFiles& parts,
   for (const std::string& name : configuration.UnusedArguments()) {
     if (std::ranges::find(known, name) != known.end()) continue;
     diagnostics.Add({.message = "the application knows no '" + name + "'",
-                     .position = {.file = "command line"},
+                     .position = {"command line"},
                      .hint = NearestNameHint(name, known)});
   }
 }

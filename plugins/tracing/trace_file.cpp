@@ -29,7 +29,7 @@ Result<TraceFile> TraceFile::Create(const std::string& file, std::uint64_t most_
   if (descriptor < 0) {
     const bool lacks_folder = errno == ENOENT;
     return Error{.message = std::string("cannot be written: ") + std::strerror(errno),
-                 .position = {.file = file},
+                 .position = {file},
                  .hint = lacks_folder ? "make its folder first" : ""};
   }
   return TraceFile(file, descriptor, most_bytes);
@@ -140,7 +140,7 @@ void TraceFile::Write(std::string_view bytes) {
     if (count < 0) {
       error_ =
           Error{.message = std::string("the trace could not be written: ") + std::strerror(errno),
-                .position = {.file = file_}};
+                .position = {file_}};
       return;
     }
     written_ += static_cast<std::uint64_t>(count);
@@ -154,7 +154,7 @@ Result<void> TraceFile::Close() {
   if (close(std::exchange(descriptor_, -1)) != 0 && !error_) {
     error_ =
         Error{.message = std::string("the trace could not be written: ") + std::strerror(errno),
-              .position = {.file = file_}};
+              .position = {file_}};
   }
   if (error_) return *error_;
   return {};

@@ -99,7 +99,7 @@ CommandOrErrors ReadChanges(ViewerMessage& message) {
                         std::move(message.label)};
   for (std::size_t i = 0; i < request.placed.changes.size(); ++i) {
     request.placed.positions.push_back(
-        {.file = "changes", .line = static_cast<int>(i + 1), .column = 1});
+        {"changes", static_cast<int>(i + 1), 1});
   }
   return CommandRequest(std::move(request));
 }

@@ -177,9 +177,8 @@ Error JsonCursor::ErrorHere(std::string message) {
   const std::string_view before = text_.substr(0, next_);
   const auto line_begin = before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1;
   return {.message = std::move(message),
-          .position = {.file = "",
-                       .line = 1 + static_cast<int>(std::ranges::count(before, '\n')),
-                       .column = 1 + static_cast<int>(next_ - line_begin)}};
+          .position = {"", 1 + static_cast<int>(std::ranges::count(before, '\n')),
+                       1 + static_cast<int>(next_ - line_begin)}};
 }
 
 Error JsonCursor::Expected(const std::string& what) {

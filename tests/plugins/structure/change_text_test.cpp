@@ -32,7 +32,7 @@ Kind ParseOne(std::string_view text) {
 
 std::string ErrorOf(std::string_view text) {
   Diagnostics diagnostics;
-  const PlacedChanges placed = ParseChanges(text, {.file = "rules"}, diagnostics);
+  const PlacedChanges placed = ParseChanges(text, {"rules"}, diagnostics);
   EXPECT_THAT(diagnostics.errors(), SizeIs(1)) << text;
   return diagnostics.ToString();
 }
