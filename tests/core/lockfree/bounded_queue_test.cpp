@@ -9,6 +9,7 @@
 #include "tests/core/lockfree/pop_all.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/threads.h"
+#include "tests/support/wait_until.h"
 #include "tests/support/yielding_atomic.h"
 
 namespace runnel {
@@ -96,17 +97,19 @@ void EachValueIsTakenOnceAndInOrder(std::size_t capacity, int per_writer) {
     if (index < 2) {
       for (int i = 0; i < per_writer; ++i) {
         Item item{index, i, std::make_unique<int>(i)};
-        while (!queue.TryPush(std::move(item))) std::this_thread::yield();
+        test::YieldUntil("there is room", [&] { return queue.TryPush(std::move(item)); });
       }
       return;
     }
     int last[2] = {-1, -1};
-    while (taken < 2 * per_writer) {
+    for (;;) {
       Item item;
-      if (!queue.TryPop(item)) {
-        std::this_thread::yield();
-        continue;
-      }
+      bool is_there = false;
+      test::YieldUntil("there is a value, or all have been taken", [&] {
+        is_there = queue.TryPop(item);
+        return is_there || taken == 2 * per_writer;
+      });
+      if (!is_there) return;
       ++taken;
       if (item.number <= last[item.writer]) ++disorder;
       last[item.writer] = item.number;

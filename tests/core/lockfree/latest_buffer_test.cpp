@@ -11,6 +11,7 @@
 #include "tests/core/lockfree/counted.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/threads.h"
+#include "tests/support/wait_until.h"
 #include "tests/support/yielding_atomic.h"
 
 namespace runnel {
@@ -294,7 +295,8 @@ TEST(LatestBufferStressTest, PoolsThatAreClosedAtOnceLookAtOneSlot) {
       } else if (index == 1) {
         first.pool.reset();
       } else {
-        while (!has_second) std::this_thread::yield();  // nobody reads a closed pool's newest
+        // Nobody reads a closed pool's newest.
+        test::YieldUntil("the second is leased", [&] { return has_second.load(); });
         second_pool.reset();
       }
     });

@@ -10,6 +10,7 @@
 #include "tests/core/lockfree/pop_all.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/threads.h"
+#include "tests/support/wait_until.h"
 #include "tests/support/yielding_atomic.h"
 
 namespace runnel {
@@ -136,12 +137,12 @@ void EachValueComesOutOnceInOrderAndWhole(std::size_t capacity, int count) {
       for (int i = 0; i < count; ++i) {
         Item item{std::make_unique<int>(i), i, {}};
         for (int& each : item.again) each = i;
-        while (!queue.TryPush(std::move(item))) std::this_thread::yield();
+        test::YieldUntil("there is room", [&] { return queue.TryPush(std::move(item)); });
       }
     } else if (index == 1) {
       for (int i = 0; i < count; ++i) {
         Item item;
-        while (!queue.TryPop(item)) std::this_thread::yield();
+        test::YieldUntil("there is a value", [&] { return queue.TryPop(item); });
         if (item.number != i || item.whole == nullptr || *item.whole != i) ++wrong;
         for (const int each : item.again) wrong += each != i;
       }

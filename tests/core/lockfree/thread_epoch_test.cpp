@@ -186,7 +186,7 @@ TEST(EpochDomainStressTest, PartIsNeverReusedUnderAReaderAtAnyInterleaving) {
         alive[1 - old] = true;
         current.exchange(1 - old, std::memory_order_seq_cst);
         const std::uint64_t epoch = domain.Advance();
-        while (!domain.HasPassed(epoch)) std::this_thread::yield();
+        test::YieldUntil("the epoch has passed", [&] { return domain.HasPassed(epoch); });
         alive[old] = false;
       }
       writing = 0;

@@ -7,6 +7,7 @@
 #include "core/port/input_queue.h"
 #include "tests/core/port/port_fixture.h"
 #include "tests/support/threads.h"
+#include "tests/support/wait_until.h"
 
 namespace runnel::test {
 namespace {
@@ -226,11 +227,13 @@ TEST_F(QueuePortTest, NothingIsLostBetweenTwoThreadsIfThePublisherTriesAgain) {
       if (index == 0) {
         Block block;
         block.words.fill(i);
-        while (sender.out.Publish(block) == PublishStatus::kRefused) std::this_thread::yield();
+        test::YieldUntil("there is room",
+                         [&] { return sender.out.Publish(block) != PublishStatus::kRefused; });
         continue;
       }
       Lease<Block> lease;
-      while (!(lease = receiver.in.Take())) std::this_thread::yield();
+      test::YieldUntil("there is a value",
+                       [&] { return static_cast<bool>(lease = receiver.in.Take()); });
       for (const std::uint64_t word : lease->words) wrong += word != i;
     }
   });

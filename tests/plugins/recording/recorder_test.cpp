@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <thread>
 
+#include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -11,6 +12,7 @@
 #include "plugins/json_values/json_values.h"
 #include "plugins/recording/recording_names.h"
 #include "tests/plugins/recording/recording_fixture.h"
+#include "tests/support/wait_until.h"
 
 namespace runnel::test {
 namespace {
@@ -178,9 +180,11 @@ TEST_F(RecorderTest, OfAKilledProcessAllButTheLastSecondIsThere) {
     (void)!write(ready[1], "x", 1);
     for (;;) pause();
   }
-  char byte = 0;
-  ASSERT_EQ(read(ready[0], &byte, 1), 1);
+  pollfd written{ready[0], POLLIN, 0};
+  const auto longest = std::chrono::milliseconds(kLongestWait).count();
+  const int is_written = poll(&written, 1, static_cast<int>(longest));
   ASSERT_EQ(kill(child, SIGKILL), 0);
+  EXPECT_EQ(is_written, 1) << "waited in vain until the child had written its first second";
   ASSERT_EQ(waitpid(child, nullptr, 0), child);
   const auto reader = Must(McapReader::Open(Path("a.mcap")));
   EXPECT_FALSE(reader->contents().ended_properly);

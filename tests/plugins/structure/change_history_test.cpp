@@ -171,7 +171,7 @@ TEST_F(ChangeHistoryTest, KeepsWhatCouldNotBeUndoneJustNow) {
    private:
     void Update() override {
       in_ = true;
-      while (!end_) std::this_thread::sleep_for(100us);
+      WaitUntil("the cycle may end", [this] { return end_.load(); });
     }
     std::atomic<bool>& in_;
     std::atomic<bool>& end_;
@@ -179,7 +179,7 @@ TEST_F(ChangeHistoryTest, KeepsWhatCouldNotBeUndoneJustNow) {
   runtime.Create<Slow>(At<Group>("/app"), "slow", is_in, may_end);
   MustReady();
   std::thread running([this] { (void)scheduler.Step(); });
-  WaitUntil([&] { return is_in.load(); });
+  WaitUntil("somebody is in a cycle", [&] { return is_in.load(); });
   const ChangeOutcome outcome = kept.Undo();
   EXPECT_FALSE(outcome);
   EXPECT_FALSE(outcome.is_refused);

@@ -20,6 +20,7 @@
 #include "plugins/parameters/static_parameter.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/structure/structure_editor.h"
+#include "tests/support/wait_until.h"
 
 namespace runnel::test {
 
@@ -217,9 +218,5 @@ class RealEditorTest : public EditorTest {
  protected:
   RealEditorTest() : EditorTest(SchedulerOptions::ClockKind::kReal) {}
 };
-
-inline void WaitUntil(const std::function<bool()>& condition) {
-  while (!condition()) std::this_thread::sleep_for(100us);
-}
 
 }  // namespace runnel::test

@@ -40,7 +40,7 @@ TEST_F(RunningTest, SwappingBothEndsUnderLoadNeitherLosesNorRepeatsAnything) {
   });
   for (int i = 0; i < kSwaps; ++i) Must({ReplaceModule{"/app/eager", "test/eager", {}, 1}});
   other.join();
-  WaitUntil([&] {
+  WaitUntil("the sink has taken 300 values", [&] {
     const std::lock_guard lock(runtime.structure_mutex());
     auto& sink = dynamic_cast<Sink&>(**runtime.root().Find("/app/sink"));
     const std::lock_guard lock_of_list(Sink::mutex);
@@ -93,7 +93,7 @@ TEST_F(RunningTest, NoCycleSeesHalfOfAChangeSet) {
         ConnectPorts{"/app/a/left", "/app/judge/left"},
         ConnectPorts{"/app/a/right", "/app/judge/right"}});
   ASSERT_TRUE(scheduler.Start());
-  WaitUntil([&] {
+  WaitUntil("both twins have published", [&] {
     return At<Twin>("/app/a").right.publications() > 0 &&
            At<Twin>("/app/b").right.publications() > 0;
   });
@@ -129,7 +129,7 @@ TEST_F(RunningTest, AModuleThatDoesNotReturnIsNamedAndNothingChanges) {
    private:
     void Update() override {
       is_stuck = true;
-      while (!go_on) std::this_thread::sleep_for(1ms);
+      WaitUntil("it may go on", [] { return go_on.load(); });
     }
   };
   Register<Stuck>("test/stuck");
@@ -137,7 +137,7 @@ TEST_F(RunningTest, AModuleThatDoesNotReturnIsNamedAndNothingChanges) {
   Must({CreateModule{"/app/stuck", "test/stuck"}, CreateModule{"/app/counter", "test/counter"},
         AssignToThread{"/app/stuck", "slow"}});
   ASSERT_TRUE(scheduler.Start());
-  WaitUntil([] { return is_stuck.load(); });
+  WaitUntil("the module is stuck", [] { return is_stuck.load(); });
   const auto outcome = impatient.Apply({ReplaceModule{"/app/stuck", "test/counter"}});
   EXPECT_FALSE(outcome);
   EXPECT_THAT(outcome.diagnostics.ToString(), HasSubstr("/threads/slow: has not come to the end"));
@@ -156,13 +156,14 @@ TEST_F(RunningTest, WhatThrowsIsPutBackWhileAllRuns) {
   ASSERT_TRUE(scheduler.Start());
   for (int i = 0; i < 5; ++i) {
     Must({ReplaceModule{"/app/counter", "test/faulty"}});
-    WaitUntil([&] {
+    WaitUntil("the module before is back", [&] {
       const std::lock_guard lock(runtime.structure_mutex());
       return FindModuleType(**runtime.root().Find("/app/counter")) == "test/counter";
     });
   }
   const std::uint64_t before = At<Counter>("/app/counter").out.publications();
-  WaitUntil([&] { return At<Counter>("/app/counter").out.publications() > before; });
+  WaitUntil("it publishes again",
+            [&] { return At<Counter>("/app/counter").out.publications() > before; });
   scheduler.Stop();
   EXPECT_TRUE(Counts(At<Sink>("/app/sink").taken));
   EXPECT_THAT(scheduler.TakeFaults(), SizeIs(5));

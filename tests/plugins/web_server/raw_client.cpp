@@ -130,7 +130,7 @@ std::string RawClient::Frame(int operation, std::string_view payload, bool is_la
   return frame;
 }
 
-std::optional<RawClient::Message> RawClient::Receive() {
+std::optional<RawClient::Message> RawClient::ReceiveAny() {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes_[i]); };
   const auto have = [&](std::size_t count) {
     while (bytes_.size() < count) {
@@ -138,21 +138,31 @@ std::optional<RawClient::Message> RawClient::Receive() {
     }
     return true;
   };
+  if (!have(2)) return {};
+  std::size_t size = byte(1) & 0x7fU;
+  std::size_t head = 2;
+  if (size >= 126) {
+    head = size == 126 ? 4 : 10;
+    if (!have(head)) return {};
+    size = 0;
+    for (std::size_t i = 2; i < head; ++i) size = size * 256 + byte(i);
+  }
+  if (!have(head + size)) return {};
+  Message message{byte(0) & 0x0f, bytes_.substr(head, size)};
+  bytes_.erase(0, head + size);
+  return message;
+}
+
+bool RawClient::AnswerPing() {
+  const auto message = ReceiveAny();
+  return message && message->operation == 9 && Send(Frame(10, message->payload));
+}
+
+std::optional<RawClient::Message> RawClient::Receive() {
   for (;;) {
-    if (!have(2)) return {};
-    std::size_t size = byte(1) & 0x7fU;
-    std::size_t head = 2;
-    if (size >= 126) {
-      head = size == 126 ? 4 : 10;
-      if (!have(head)) return {};
-      size = 0;
-      for (std::size_t i = 2; i < head; ++i) size = size * 256 + byte(i);
-    }
-    if (!have(head + size)) return {};
-    Message message{byte(0) & 0x0f, bytes_.substr(head, size)};
-    bytes_.erase(0, head + size);
-    if (message.operation != 9) return message;
-    Send(Frame(10, message.payload));
+    auto message = ReceiveAny();
+    if (!message || message->operation != 9) return message;
+    Send(Frame(10, message->payload));
   }
 }
 

@@ -40,6 +40,8 @@ class RawClient {
     [[nodiscard]] int code() const;
     [[nodiscard]] std::string reason() const;
   };
+  /// Waits for a ping and answers it. False: something else has come, or the connection is closed.
+  bool AnswerPing();
   /// The next frame, but for pings, which are answered. Nothing: the connection is closed.
   std::optional<Message> Receive();
   /// Until one of this operation comes.
@@ -50,6 +52,7 @@ class RawClient {
 
  private:
   bool Fill();
+  std::optional<Message> ReceiveAny();
 
   std::uint16_t port_;
   int descriptor_;
