@@ -12,6 +12,7 @@
 #include "apps/runnel/run_command.h"
 #include "apps/runnel/schema_command.h"
 #include "apps/runnel/standard_output.h"
+#include "core/base/exception_text.h"
 
 namespace runnel::program {
 
@@ -44,10 +45,8 @@ ExitCode DoWhatIsAsked(int count, char** words) {
     }
     const CommandLine command = ParseCommandLine(count, words);
     return std::visit([](const auto& what) { return Do(what); }, command);
-  } catch (const std::exception& exception) {
-    std::cerr << "error: " << exception.what() << '\n';
   } catch (...) {  // plugins may throw anything
-    std::cerr << "error: unknown exception\n";
+    std::cerr << "error: " << runnel::DescribeException() << '\n';
   }
   return ExitCode::kRunFailed;
 }

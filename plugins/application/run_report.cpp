@@ -1,10 +1,10 @@
 #include "plugins/application/run_report.h"
 
 #include <algorithm>
-#include <exception>
 #include <mutex>
 #include <utility>
 
+#include "core/base/exception_text.h"
 #include "core/element/runtime.h"
 #include "core/types/duration_text.h"
 #include "plugins/runtime_construction/source_place.h"
@@ -36,10 +36,8 @@ auto RunReport::Attempt(Judge& judge, const Use& use)
     -> std::optional<decltype(use(*judge.monitor))> {
   try {
     return use(*judge.monitor);
-  } catch (const std::exception& exception) {
-    Fail(judge, exception.what());
   } catch (...) {
-    Fail(judge, "unknown exception");
+    Fail(judge, DescribeException());
   }
   return {};
 }

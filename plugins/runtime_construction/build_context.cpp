@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/check.h"
+#include "core/base/exception_text.h"
 #include "core/base/nearest_name.h"
 
 namespace runnel {
@@ -51,10 +52,8 @@ void BuildContext::Attempt(const Cause& cause, const std::function<void()>& acti
     action();
   } catch (const ElementError& error) {
     report(error.error());
-  } catch (const std::exception& exception) {
-    report({.message = cause.what + " failed: " + exception.what()});
   } catch (...) {
-    report({.message = cause.what + " failed with an exception of unknown type"});
+    report({.message = cause.what + " failed: " + DescribeException()});
   }
   cause_ = outer;
 }

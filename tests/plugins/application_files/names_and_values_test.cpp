@@ -60,6 +60,28 @@ Change AnyChange(AnyText& any) {
   }
 }
 
+class SavedText : public ::testing::Test {
+ protected:
+  /// Loads the application from a file with this text.
+  FrameworkElement* Load(const std::string& text) {
+    WriteAll(file, text);
+    FrameworkElement* const application = shop.Load(file);
+    if (application == nullptr) throw std::runtime_error("the application does not load");
+    return application;
+  }
+  /// Why it cannot be saved; the file is as it was.
+  std::string Refusal(FrameworkElement& application) {
+    const auto saved = SaveApplication(application, shop.tools());
+    EXPECT_FALSE(saved);
+    EXPECT_EQ(ReadAll(file), kNamed);
+    return saved ? "" : saved.error().ToString();
+  }
+
+  const TestFolder folder;
+  const std::filesystem::path file = folder / "app.xml";
+  SavingWorkshop shop;
+};
+
 TEST(NamesAndValues, AreRefusedAtOnceOrComeBackFromTheFile) {
   const TestFolder folder;
   int done = 0;
@@ -112,32 +134,19 @@ TEST(NamesAndValues, OfOneBadCharacterAreRefusedWithItsNameAndPlace) {
 }
 
 // What code has put there nobody has looked at.
-TEST(NamesAndValues, OfCodeThatNoFileCanSayLeaveTheFileAsItWas) {
-  const TestFolder folder;
-  const std::filesystem::path file = folder / "app.xml";
-  WriteAll(file, kNamed);
-  SavingWorkshop shop;
-  FrameworkElement* const application = shop.Load(file);
-  ASSERT_NE(application, nullptr);
+TEST_F(SavedText, OfNamesThatNoFileCanSayLeavesTheFileAsItWas) {
+  FrameworkElement* const application = Load(kNamed);
   shop.runtime.Create<ProxyPort>(shop.Get<FrameworkElement>("/demo/g"), "odd",
                                  Port::Direction::kInput, TypeOf<double>(), "\x07");
-  const auto saved = SaveApplication(*application, shop.tools());
-  ASSERT_FALSE(saved);
-  EXPECT_THAT(saved.error().ToString(),
+  EXPECT_THAT(Refusal(*application),
               ::testing::AllOf(::testing::HasSubstr("control character 0x07"),
                                ::testing::HasSubstr("/demo/g/odd")));
-  EXPECT_EQ(ReadAll(file), kNamed);
 }
 
-TEST(Values, StayAsTheyWereWrittenUntilTheyChange) {
-  const TestFolder folder;
-  const std::filesystem::path file = folder / "app.xml";
+TEST_F(SavedText, KeepsValuesAsTheyWereWrittenUntilTheyChange) {
   std::string text = kNamed;
   text.replace(text.find("2.5"), 3, "250 cm");
-  WriteAll(file, text);
-  SavingWorkshop shop;
-  FrameworkElement* const application = shop.Load(file);
-  ASSERT_NE(application, nullptr);
+  FrameworkElement* const application = Load(text);
   auto& gain = shop.Get<Source>("/demo/source").gain;
   EXPECT_EQ(gain.Get(), 2.5);
   ASSERT_TRUE(gain.SetFromText("2500 mm"));
@@ -148,25 +157,16 @@ TEST(Values, StayAsTheyWereWrittenUntilTheyChange) {
 }
 
 // What no rule of the saver knows of, loading the text does.
-TEST(SavedText, ThatWouldNotLoadLeavesTheFileAlone) {
-  const TestFolder folder;
-  const std::filesystem::path file = folder / "app.xml";
-  WriteAll(file, kNamed);
-  SavingWorkshop shop;
-  FrameworkElement* const application = shop.Load(file);
-  ASSERT_NE(application, nullptr);
+TEST_F(SavedText, ThatWouldNotLoadLeavesTheFileAlone) {
+  FrameworkElement* const application = Load(kNamed);
   AddedAttribute colour;
   colour.tag = "module";
   colour.rule = {.name = "colour", .kind = AttributeKind::kCount};
   colour.handle = [](const XmlAttribute&, FrameworkElement&, BuildContext&) {};
   colour.saved = [](FrameworkElement&) { return std::string("red"); };
   shop.tags.AddAttribute(colour);
-  const auto saved = SaveApplication(*application, shop.tools());
-  ASSERT_FALSE(saved);
-  EXPECT_THAT(saved.error().ToString(),
-              ::testing::AllOf(::testing::HasSubstr("would not load"),
-                               ::testing::HasSubstr("'red' is not a count")));
-  EXPECT_EQ(ReadAll(file), kNamed);
+  EXPECT_THAT(Refusal(*application), ::testing::AllOf(::testing::HasSubstr("would not load"),
+                                                      ::testing::HasSubstr("'red' is not a count")));
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ TEST(AddedWords, ThatThrowAreErrorsAtTheTag) {
   <module name="a" type="test/sink" colour="red"/>
 </application>)"),
             "app.xml:2:3: error: /demo: <now> failed: out of paper\n"
-            "app.xml:3:3: error: /demo: <later> failed with an exception of unknown type\n"
+            "app.xml:3:3: error: /demo: <later> failed: exception of type int\n"
             "app.xml:4:37: error: /demo/a: colour=\"red\" failed: no such colour\n");
   EXPECT_TRUE(workshop.runtime.root().children().empty());
 }
