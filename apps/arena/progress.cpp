@@ -1,11 +1,10 @@
 #include "apps/arena/progress.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 namespace runnel::arena {
@@ -16,9 +15,7 @@ constexpr std::size_t kBar = 30;
 
 std::string DurationText(double seconds) {
   const auto whole = static_cast<long>(std::ceil(seconds));
-  std::array<char, 48> text{};
-  std::snprintf(text.data(), text.size(), "%ld:%02ld", whole / 60, whole % 60);
-  return text.data();
+  return fmt::format("{}:{:02}", whole / 60, whole % 60);
 }
 
 }  // namespace
@@ -26,10 +23,8 @@ std::string DurationText(double seconds) {
 std::string ProgressLine(std::size_t done, std::size_t count, double elapsed) {
   const std::size_t filled = count == 0 ? kBar : kBar * done / count;
   const std::size_t percent = count == 0 ? 100 : 100 * done / count;
-  std::array<char, 96> figures{};
-  std::snprintf(figures.data(), figures.size(), "] %3zu %%  %zu of %zu", percent, done, count);
-  std::string line =
-      "[" + std::string(filled, '#') + std::string(kBar - filled, '-') + figures.data();
+  std::string line = fmt::format("[{:#<{}}{:-<{}}] {:3} %  {} of {}", "", filled, "", kBar - filled,
+                                 percent, done, count);
   if (done > 0 && done < count) {
     const double left = elapsed / static_cast<double>(done) * static_cast<double>(count - done);
     line += "  " + DurationText(left) + " left";

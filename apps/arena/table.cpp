@@ -1,8 +1,8 @@
 #include "apps/arena/table.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
+
+#include <fmt/format.h>
 
 #include "apps/arena/bounds.h"
 
@@ -81,11 +81,7 @@ std::string SummaryText(const std::vector<Summary>& summaries) {
 
 }  // namespace
 
-std::string Fixed(double number, int digits) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", digits, number);
-  return text.data();
-}
+std::string Fixed(double number, int digits) { return fmt::format("{:.{}f}", number, digits); }
 
 std::vector<Row> RowsOf(const Matrix& matrix, const std::vector<RunRecord>& records) {
   std::vector<Row> rows;

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <iostream>
 
+#include <fmt/format.h>
+
 #include "apps/runnel/print_error.h"
 #include "plugins/mcap/mcap_reader.h"
 #include "plugins/recording/recording_info.h"
@@ -42,11 +44,9 @@ void PrintChannels(const RecordingInfo& info) {
 }
 
 void Print(const RecordingInfo& info) {
-  char times[96];
-  std::snprintf(times, sizeof times, "%.3f s, from %.3f s to %.3f s", info.duration(), info.start,
-                info.end);
   PrintLine("file", info.file + ", " + SizeText(info.bytes));
-  PrintLine("duration", times);
+  PrintLine("duration", fmt::format("{:.3f} s, from {:.3f} s to {:.3f} s", info.duration(),
+                                    info.start, info.end));
   PrintLine("values", std::to_string(info.values) + " of " + std::to_string(info.ports) +
                           " ports, " + std::to_string(info.dropped) + " more came too fast");
   PrintLine("chunks", PackingText(info));

@@ -1,13 +1,11 @@
 #include "apps/runnel/number_text.h"
 
-#include <cstdio>
+#include <fmt/format.h>
 
 namespace runnel::program {
 
 std::string NumberText(double number) {
-  char text[512];  // the longest double has 309 digits before the point
-  std::snprintf(text, sizeof text, number < 100 ? "%.3g" : "%.0f", number);
-  return text;
+  return number < 100 ? fmt::format("{:.3g}", number) : fmt::format("{:.0f}", number);
 }
 
 }  // namespace runnel::program

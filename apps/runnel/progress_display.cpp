@@ -1,10 +1,10 @@
 #include "apps/runnel/progress_display.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <iostream>
 #include <utility>
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include "apps/runnel/number_text.h"
@@ -16,11 +16,7 @@ namespace {
 constexpr auto kOnTerminal = std::chrono::milliseconds(200);
 constexpr auto kElsewhere = std::chrono::seconds(1);
 
-std::string SecondsText(double seconds) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%8.2f s", seconds);
-  return text;
-}
+std::string SecondsText(double seconds) { return fmt::format("{:8.2f} s", seconds); }
 
 std::string Padded(std::string text, std::size_t width) {
   text.resize(std::max(width, text.size()), ' ');

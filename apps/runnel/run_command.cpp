@@ -1,11 +1,12 @@
 #include "apps/runnel/run_command.h"
 
 #include <chrono>
-#include <cstdio>
 #include <iostream>
 #include <string>
 #include <thread>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "apps/runnel/number_text.h"
 #include "apps/runnel/print_error.h"
@@ -29,15 +30,13 @@ using ClockKind = SchedulerOptions::ClockKind;
 constexpr auto kLookForSignal = std::chrono::milliseconds(50);
 
 void PrintTimes(Duration so_far, std::chrono::steady_clock::duration real, ClockKind clock) {
-  char line[64];
   const double seconds = ToSeconds(so_far);
   const double real_seconds = ToSeconds(Duration(real));
   if (clock == ClockKind::kReal) {
-    std::snprintf(line, sizeof line, "ran for %.2f s\n", seconds);
-    std::cout << line;
+    std::cout << fmt::format("ran for {:.2f} s\n", seconds);
   } else {
-    std::snprintf(line, sizeof line, "simulated %.2f s in %.2f s: ", seconds, real_seconds);
-    std::cout << line << NumberText(seconds / real_seconds) << " times real time\n";
+    std::cout << fmt::format("simulated {:.2f} s in {:.2f} s: {} times real time\n", seconds,
+                             real_seconds, NumberText(seconds / real_seconds));
   }
 }
 

@@ -1,8 +1,9 @@
 #include "apps/runnel/statistics_table.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <mutex>
+
+#include <fmt/format.h>
 
 #include "core/element/runtime.h"
 #include "plugins/scheduling/thread_container.h"
@@ -15,26 +16,20 @@ double Milliseconds(Duration duration) { return ToSeconds(duration) * 1e3; }
 
 std::string Line(const ThreadContainer& thread, int width) {
   const CycleStatistics all = thread.statistics();
-  char line[256];
-  std::snprintf(line, sizeof line,
-                "%-*s %9llu %8llu  %8.3f %8.3f %8.3f  %8.3f %8.3f  %8.3f %8.3f\n", width,
-                thread.path().c_str(), static_cast<unsigned long long>(all.cycles),
-                static_cast<unsigned long long>(all.overruns), Milliseconds(all.period_min),
-                Milliseconds(all.period_mean), Milliseconds(all.period_max),
-                Milliseconds(all.jitter_mean), Milliseconds(all.jitter_max),
-                Milliseconds(all.execution_mean), Milliseconds(all.execution_max));
-  return line;
+  return fmt::format(
+      "{:<{}} {:9} {:8}  {:8.3f} {:8.3f} {:8.3f}  {:8.3f} {:8.3f}  {:8.3f} {:8.3f}\n",
+      thread.path(), width, all.cycles, all.overruns, Milliseconds(all.period_min),
+      Milliseconds(all.period_mean), Milliseconds(all.period_max), Milliseconds(all.jitter_mean),
+      Milliseconds(all.jitter_max), Milliseconds(all.execution_mean),
+      Milliseconds(all.execution_max));
 }
 
 std::string Heading(int width) {
-  char text[512];
-  std::snprintf(text, sizeof text,
-                "%-*s %9s %8s  %26s  %17s  %17s\n%-*s %9s %8s  %8s %8s %8s  %8s "
-                "%8s  %8s %8s\n",
-                width, "thread", "cycles", "overruns", "period / ms", "jitter / ms",
-                "execution / ms", width, "", "", "", "min", "mean", "max", "mean", "max", "mean",
-                "max");
-  return text;
+  return fmt::format(
+      "{:<{}} {:>9} {:>8}  {:>26}  {:>17}  {:>17}\n"
+      "{:<{}} {:>9} {:>8}  {:>8} {:>8} {:>8}  {:>8} {:>8}  {:>8} {:>8}\n",
+      "thread", width, "cycles", "overruns", "period / ms", "jitter / ms", "execution / ms", "",
+      width, "", "", "min", "mean", "max", "mean", "max", "mean", "max");
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 #include "modules/simulation/referee.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <fstream>
 #include <string_view>
+
+#include <fmt/format.h>
 
 #include "modules/simulation/algorithm/run_result.h"
 #include "modules/simulation/algorithm/trajectory_svg.h"
@@ -84,13 +84,6 @@ Ending EndingOf(Verdict verdict) {
   return {Words(verdict)};
 }
 
-template <typename... Values>
-std::string Format(const char* format, Values... values) {
-  std::array<char, 200> text{};
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
-}
-
 }  // namespace
 
 /// What the program that runs the application is told.
@@ -100,14 +93,15 @@ class Referee::Monitor final : public RunMonitor {
 
   std::string Progress() const override {
     const Standing now = referee_.LastStanding();
-    return Format("%6.2f m to the goal, %s", now.distance_to_goal, Words(now.mode).data());
+    return fmt::format("{:6.2f} m to the goal, {}", now.distance_to_goal, Words(now.mode));
   }
   std::optional<RunOutcome> Outcome() const override {
     const Standing end = referee_.LastStanding();
     if (end.verdict == Verdict::kRunning) return std::nullopt;
-    return RunOutcome{.verdict = std::string(Words(end.verdict)),
-                      .summary = Format("path %.2f m, time %.2f s", end.path_length, end.elapsed),
-                      .success = referee_.IsSuccess(end.verdict)};
+    return RunOutcome{
+        .verdict = std::string(Words(end.verdict)),
+        .summary = fmt::format("path {:.2f} m, time {:.2f} s", end.path_length, end.elapsed),
+        .success = referee_.IsSuccess(end.verdict)};
   }
   Result<std::string> Finish() override { return referee_.Finish(); }
 

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <ctime>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace runnel {
 
@@ -53,10 +54,9 @@ std::string ApplicationLog::LineOf(const Entry& entry) {
   const std::time_t wall = std::chrono::system_clock::to_time_t(entry.wall);
   std::tm parts{};
   localtime_r(&wall, &parts);
-  char begin[80];
-  std::snprintf(begin, sizeof begin, "%02d:%02d:%02d %10.3f s  %-7s  ", parts.tm_hour, parts.tm_min,
-                parts.tm_sec, ToSeconds(entry.time), KindName(entry.kind));
-  std::string line = begin + entry.text;
+  std::string line =
+      fmt::format("{:02}:{:02}:{:02} {:10.3f} s  {:<7}  {}", parts.tm_hour, parts.tm_min,
+                  parts.tm_sec, ToSeconds(entry.time), KindName(entry.kind), entry.text);
   // What has more than one line goes on below its beginning.
   for (std::size_t at = line.find('\n'); at != std::string::npos; at = line.find('\n', at + 1)) {
     line.insert(at + 1, "    ");

@@ -1,10 +1,10 @@
 #include "plugins/command_service/change_task.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <mutex>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "plugins/command_service/caught_error.h"
 #include "plugins/command_service/element_search.h"
@@ -49,10 +49,7 @@ void LoadMissingPlugins(const ChangeSet& changes, const ServedApplication& appli
 }
 
 std::string DoneText(Duration stood_still) {
-  std::array<char, 80> text{};
-  std::snprintf(text.data(), text.size(), "done; threads stood still for %.3f ms",
-                ToSeconds(stood_still) * 1e3);
-  return text.data();
+  return fmt::format("done; threads stood still for {:.3f} ms", ToSeconds(stood_still) * 1e3);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
-#include <cstdio>
 #include <mutex>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "core/lockfree/thread_epoch.h"
 #include "core/types/type_info.h"
@@ -85,9 +86,8 @@ class EchoCommand final : public Command {
     std::string text;
     for (const Port* source : sources) {
       const bool has_value = source->LookAtValue([&](const void* value, Time stamp) {
-        char time[48];
-        std::snprintf(time, sizeof time, "%.3f s  ", ToSeconds(stamp));
-        text = time + ValueText(source->type(), value, options_);
+        text = fmt::format("{:.3f} s  {}", ToSeconds(stamp),
+                           ValueText(source->type(), value, options_));
       });
       if (has_value) break;
     }

@@ -1,8 +1,9 @@
 #include "plugins/control/element_listing.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "core/element/configurable.h"
 #include "core/plugin/module_type_name.h"
@@ -43,9 +44,7 @@ const char* KindName(const FrameworkElement& element) {
 }
 
 std::string Milliseconds(Duration duration) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3f", ToSeconds(duration) * 1e3);
-  return text;
+  return fmt::format("{:.3f}", ToSeconds(duration) * 1e3);
 }
 
 std::string ParameterLine(const Configurable& parameter) {
@@ -149,9 +148,7 @@ void AddRows(const FrameworkElement& element, std::size_t depth, const ListingOp
 }  // namespace
 
 std::string RateText(double hertz) {
-  char text[64];
-  std::snprintf(text, sizeof text, hertz >= 10'000 ? "%.0f" : "%.5g", hertz);
-  return text;
+  return hertz >= 10'000 ? fmt::format("{:.0f}", hertz) : fmt::format("{:.5g}", hertz);
 }
 
 std::string ListElements(FrameworkElement& start, const ListingOptions& options) {

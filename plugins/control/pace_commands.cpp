@@ -1,6 +1,7 @@
 #include <charconv>
-#include <cstdio>
 #include <string>
+
+#include <fmt/format.h>
 
 #include "plugins/control/command.h"
 #include "plugins/scheduling/pace.h"
@@ -20,17 +21,13 @@ std::optional<Number> ReadAll(const std::string& text) {
 }
 
 std::string TimeText(const ServedApplication& application) {
-  char text[48];
-  std::snprintf(text, sizeof text, "%.3f s", ToSeconds(application.runtime.clock().Now()));
-  return text;
+  return fmt::format("{:.3f} s", ToSeconds(application.runtime.clock().Now()));
 }
 
 std::string SpeedText(double speed) {
   if (speed == 0) return "as fast as it can";
   if (speed == 1) return "as fast as real time";
-  char text[64];
-  std::snprintf(text, sizeof text, "%.6g times as fast as real time", speed);
-  return text;
+  return fmt::format("{:.6g} times as fast as real time", speed);
 }
 
 // Says what has been done; what could not be is the command's error.

@@ -1,6 +1,6 @@
 #include "plugins/recording/recording_text.h"
 
-#include <cstdio>
+#include <fmt/format.h>
 
 #include "core/port/port.h"
 #include "plugins/recording/recording_names.h"
@@ -8,18 +8,11 @@
 namespace runnel {
 
 std::string SizeText(std::uint64_t bytes) {
-  char text[32];
   const auto size = static_cast<double>(bytes);
-  if (bytes < 1000) {
-    std::snprintf(text, sizeof text, "%.0f B", size);
-  } else if (bytes < 1'000'000) {
-    std::snprintf(text, sizeof text, "%.1f kB", size / 1e3);
-  } else if (bytes < 1'000'000'000) {
-    std::snprintf(text, sizeof text, "%.1f MB", size / 1e6);
-  } else {
-    std::snprintf(text, sizeof text, "%.2f GB", size / 1e9);
-  }
-  return text;
+  if (bytes < 1000) return fmt::format("{} B", bytes);
+  if (bytes < 1'000'000) return fmt::format("{:.1f} kB", size / 1e3);
+  if (bytes < 1'000'000'000) return fmt::format("{:.1f} MB", size / 1e6);
+  return fmt::format("{:.2f} GB", size / 1e9);
 }
 
 std::string RecordingText(const std::string& file, const RecordingStatus& status) {

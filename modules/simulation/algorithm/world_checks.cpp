@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
+
+#include <fmt/format.h>
 
 #include "modules/simulation/algorithm/world_geometry.h"
 #include "modules/types/algorithm/segment.h"
@@ -12,11 +13,7 @@ namespace runnel {
 
 namespace {
 
-std::string Text(Point2 point) {
-  char text[80];
-  std::snprintf(text, sizeof text, "(%g, %g)", point.x, point.y);
-  return text;
-}
+std::string Text(Point2 point) { return fmt::format("({:g}, {:g})", point.x, point.y); }
 
 bool IsFinite(Point2 point) { return std::isfinite(point.x) && std::isfinite(point.y); }
 
@@ -108,9 +105,7 @@ class Checker {
 
   void CheckSize(WorldPart part, std::size_t index, const char* what, double size) {
     if (IsSize(size)) return;
-    char text[120];
-    std::snprintf(text, sizeof text, "the %s must be more than 0 m, not %g", what, size);
-    Add(part, index, text);
+    Add(part, index, fmt::format("the {} must be more than 0 m, not {:g}", what, size));
   }
 
   template <typename Obstacle>

@@ -1,8 +1,8 @@
 #include "modules/worlds/algorithm/world_generator.h"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
+
+#include <fmt/format.h>
 
 #include "modules/worlds/algorithm/internal/generated_worlds.h"
 
@@ -15,10 +15,7 @@ using internal::Rounded;
 constexpr double kEnclosureThickness = 0.1;  // m
 
 std::string OutOfRange(const char* what, double value, double low, double high) {
-  std::array<char, 160> text{};
-  std::snprintf(text.data(), text.size(), "the %s must be between %g and %g, not %g", what, low,
-                high, value);
-  return text.data();
+  return fmt::format("the {} must be between {:g} and {:g}, not {:g}", what, low, high, value);
 }
 
 bool IsWithin(double value, double low, double high) { return value >= low && value <= high; }
