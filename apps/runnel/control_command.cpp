@@ -13,31 +13,31 @@
 #include "plugins/control/control_client.h"
 #include "plugins/control/control_folder.h"
 #include "plugins/control/request.h"
-#include "plugins/structure/change_words.h"
+#include "plugins/structure/change_arguments.h"
 
 namespace runnel::program {
 
 namespace {
 
-using internal::AsWord;
+using internal::AsArgument;
 
 std::string SettingText(const std::string& word) {
   const std::size_t equals = word.find('=');
-  if (equals == std::string::npos) return AsWord(word);
-  return word.substr(0, equals + 1) + AsWord(word.substr(equals + 1));
+  if (equals == std::string::npos) return AsArgument(word);
+  return word.substr(0, equals + 1) + AsArgument(word.substr(equals + 1));
 }
 
 // The first words are paths and types, the others "name=value".
 std::string WordsText(const std::vector<std::string>& words, std::size_t plain) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    text += " " + (i < plain ? AsWord(words[i]) : SettingText(words[i]));
+    text += " " + (i < plain ? AsArgument(words[i]) : SettingText(words[i]));
   }
   return text;
 }
 
 std::string OptionText(const char* name, const std::optional<std::string>& value) {
-  return value ? " " + std::string(name) + "=" + AsWord(*value) : "";
+  return value ? " " + std::string(name) + "=" + AsArgument(*value) : "";
 }
 
 // What the command says in the language of changes; what is wrong with it is for the reader to say.
@@ -49,11 +49,11 @@ std::optional<std::string> ChangeTextOf(const ControlArguments& arguments) {
            OptionText("on_full", arguments.on_full);
   }
   if (command == "swap") {
-    std::string text = "replace " + AsWord(words[0]) + " with";
+    std::string text = "replace " + AsArgument(words[0]) + " with";
     text += WordsText({words.begin() + 1, words.end()}, 1);
     return text + OptionText("probation", arguments.probation);
   }
-  if (command == "move") return "move " + AsWord(words[0]) + " to " + AsWord(words[1]);
+  if (command == "move") return "move " + AsArgument(words[0]) + " to " + AsArgument(words[1]);
   if (command == "create") return command + WordsText(words, words[0] == "port" ? 4 : 2);
   if (command == "set" || command == "disconnect" || command == "delete") {
     return command + WordsText(words, words.size());
@@ -72,7 +72,7 @@ Result<std::string> ReadChanges(const std::string& file) {
 }
 
 Result<Request> RequestOf(const ControlArguments& arguments) {
-  Request request{.command = arguments.command, .words = {}, .options = {}, .body = {}};
+  Request request{.command = arguments.command, .arguments = {}, .options = {}, .body = {}};
   if (const auto change = ChangeTextOf(arguments)) {
     request.command = "change";
     request.body = *change;
@@ -87,11 +87,11 @@ Result<Request> RequestOf(const ControlArguments& arguments) {
     return request;
   }
   for (const std::string& word : arguments.words) {
-    if (!word.empty()) request.words.push_back(word);
+    if (!word.empty()) request.arguments.push_back(word);
   }
   // The application may be at home in another folder.
-  if (arguments.command == "save" && !request.words.empty()) {
-    request.words[0] = std::filesystem::absolute(request.words[0]).string();
+  if (arguments.command == "save" && !request.arguments.empty()) {
+    request.arguments[0] = std::filesystem::absolute(request.arguments[0]).string();
   }
   if (!arguments.file.empty()) {
     request.options["file"] = std::filesystem::absolute(arguments.file).string();
@@ -129,13 +129,13 @@ ExitCode ListApplications() {
 
 // "record bug_demo …" as well as "record --app bug_demo …": patterns of ports are no names of applications.
 std::string TakeApplication(const std::vector<RunningApplication>& running, Request& request) {
-  if (request.command != "record" || request.words.empty()) return {};
-  const std::string first = request.words.front();
+  if (request.command != "record" || request.arguments.empty()) return {};
+  const std::string first = request.arguments.front();
   const bool is_one = std::ranges::any_of(running, [&](const RunningApplication& each) {
     return each.hello.application == first || std::to_string(each.hello.process) == first;
   });
   if (!is_one) return {};
-  request.words.erase(request.words.begin());
+  request.arguments.erase(request.arguments.begin());
   return first;
 }
 

@@ -64,7 +64,7 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
 
   Entry& set = add("set", "gives a parameter another value");
   word(set, "parameter", "its path")->type_name(kElement);
-  word(set, "value", "in its text form")->type_name("VALUE");
+  word(set, "value", "in its text format")->type_name("VALUE");
 
   Entry& connect = add("connect", "connects two ports");
   word(connect, "from", "output")->type_name(kPort);

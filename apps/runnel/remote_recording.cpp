@@ -32,8 +32,8 @@ class Interruptions {
 
 // The application ends the file when it sees that we have gone.
 int ReportWhenEnded(const std::string& file) {
-  constexpr auto kPatience = std::chrono::seconds(10);
-  const auto latest = std::chrono::steady_clock::now() + kPatience;
+  constexpr auto kTimeout = std::chrono::seconds(10);
+  const auto latest = std::chrono::steady_clock::now() + kTimeout;
   for (;;) {
     const auto reader = McapReader::Open(file);
     if (reader && (*reader)->contents().ended_properly) {

@@ -147,7 +147,7 @@ Figures Measure(Duration period, int swaps, Duration pause, Duration alone) {
     const auto before = std::chrono::steady_clock::now();
     const auto outcome = must({ReplaceModule{"/app/worker", "bench/worker", {}, 1}});
     whole.push_back(Microseconds(std::chrono::steady_clock::now() - before).count());
-    still.push_back(Microseconds(outcome.stood_still).count());
+    still.push_back(Microseconds(outcome.hold_time).count());
     if (pause > Duration::zero()) std::this_thread::sleep_for(pause);
   }
   figures.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();

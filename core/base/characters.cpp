@@ -27,9 +27,9 @@ std::size_t CharacterLength(std::string_view text) noexcept {
 std::size_t FileCharacterLength(std::string_view text) noexcept {
   const std::size_t length = CharacterLength(text);
   if (length == 1) {
-    const char letter = text.front();
-    const bool is_control = static_cast<unsigned char>(letter) < 0x20;
-    return is_control && letter != '\t' && letter != '\n' && letter != '\r' ? 0 : 1;
+    const char character = text.front();
+    const bool is_control = static_cast<unsigned char>(character) < 0x20;
+    return is_control && character != '\t' && character != '\n' && character != '\r' ? 0 : 1;
   }
   const bool is_no_character = text.starts_with("\xef\xbf\xbe") || text.starts_with("\xef\xbf\xbf");
   return is_no_character ? 0 : length;

@@ -5,8 +5,8 @@ namespace runnel {
 std::string EscapedMarkup(std::string_view text) {
   std::string escaped;
   escaped.reserve(text.size());
-  for (const char letter : text) {
-    switch (letter) {
+  for (const char character : text) {
+    switch (character) {
       case '&':
         escaped += "&amp;";
         break;
@@ -20,7 +20,7 @@ std::string EscapedMarkup(std::string_view text) {
         escaped += "&quot;";
         break;
       default:
-        escaped += letter;
+        escaped += character;
     }
   }
   return escaped;

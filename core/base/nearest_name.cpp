@@ -10,8 +10,8 @@ namespace {
 
 std::string Lowered(std::string_view text) {
   std::string lowered(text);
-  for (char& letter : lowered) {
-    letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  for (char& character : lowered) {
+    character = static_cast<char>(std::tolower(static_cast<unsigned char>(character)));
   }
   return lowered;
 }

@@ -11,7 +11,7 @@ namespace runnel {
 [[nodiscard]] int EditDistance(std::string_view a, std::string_view b);
 
 /// The candidate that a user who typed `name` most likely meant, or "" if none is near: more than a
-/// third of the letters would have to change. Of equals, the first wins. Case does not count much.
+/// third of the characters would have to change. Of equals, the first wins. Case does not count much.
 [[nodiscard]] std::string NearestName(std::string_view name,
                                       std::span<const std::string> candidates);
 

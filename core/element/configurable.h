@@ -13,7 +13,7 @@ class TypeInfo;
 struct ConfigurableInfo {
   std::string unit;           ///< SI, "" for none
   std::string bounds;         ///< "0.05 .. 5", "" for none
-  std::string default_value;  ///< text form
+  std::string default_value;  ///< text format
   std::string description;
   bool is_static = false;  ///< may be set only until its module is ready
 };

@@ -8,7 +8,7 @@ namespace runnel {
 
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\n";
+constexpr std::string_view kWhitespace = " \t\r\n";
 
 }  // namespace
 
@@ -26,7 +26,7 @@ Result<void> CheckElementName(std::string_view name) {
       return Error{.message =
                        "the name " + quoted + " contains a '/', which separates names in paths"};
     }
-    if (byte == ',' || kBlanks.find(name[i]) != std::string_view::npos) {
+    if (byte == ',' || kWhitespace.find(name[i]) != std::string_view::npos) {
       return Error{.message = "the name " + quoted + " contains a " +
                               (byte == ',' ? "comma" : "blank") + ", which separates paths",
                    .hint = "write '_' instead"};

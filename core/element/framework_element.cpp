@@ -28,7 +28,7 @@ FrameworkElement::FrameworkElement(const Placement& placement, ElementKind kind)
     throw ElementError(std::move(error));
   }
   if (placement.is_listed) JoinParent(nullptr);
-  serial_ = runtime_->NextSerial();
+  id_ = runtime_->NextId();
 }
 
 void FrameworkElement::JoinParent(const FrameworkElement* place) {

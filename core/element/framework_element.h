@@ -76,7 +76,7 @@ class FrameworkElement {
   }
   /// The number of elements that the runtime had made before this one: an order that does not
   /// depend on addresses.
-  [[nodiscard]] std::uint64_t serial() const noexcept { return serial_; }
+  [[nodiscard]] std::uint64_t id() const noexcept { return id_; }
 
   [[nodiscard]] FrameworkElement* FindChild(std::string_view child_name) const;
   /// Follows `path` from here, or from the root if it begins with '/'. ".." is the parent. The
@@ -132,7 +132,7 @@ class FrameworkElement {
   LifeCycle life_cycle_ = LifeCycle::kConstructed;
   FrameworkElement* parent_ = nullptr;
   Runtime* runtime_ = nullptr;
-  std::uint64_t serial_ = 0;
+  std::uint64_t id_ = 0;
   bool is_listed_ = false;  // among the children of its parent
   std::vector<FrameworkElement*> children_;
   std::map<std::string, FrameworkElement*, std::less<>> children_by_name_;

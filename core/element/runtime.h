@@ -104,12 +104,12 @@ class Runtime {
   static Result<void> PrepareAll(FrameworkElement& element);
   void DestroyAll(UnlistedElement* elements, std::size_t count);
   friend class ChangeScope;
-  std::uint64_t NextSerial() noexcept { return next_serial_++; }
+  std::uint64_t NextId() noexcept { return next_id_++; }
 
   OrderedMutex structure_mutex_{LockLevel::kStructure};
   SteadyClock steady_clock_;
   const Clock* clock_ = &steady_clock_;
-  std::uint64_t next_serial_ = 1;
+  std::uint64_t next_id_ = 1;
   std::uint64_t revision_ = 0;
   std::vector<ElementListener*> listeners_;
   int change_scopes_ = 0;

@@ -15,7 +15,7 @@ namespace runnel {
 
 /// A first-in-first-out queue of fixed capacity for any number of writers and readers.
 ///
-/// Each cell counts turns: 2k when it is free for its k-th use, 2k + 1 while it is filled for the
+/// Each cell counts sequence numbers: 2k when it is free for its k-th use, 2k + 1 while it is filled for the
 /// k-th time (after D. Vyukov's bounded queue, with the turns of E. Rigtorp's).
 ///
 /// Ownership:   the queue owns what lies in it, and destroys the rest in its destructor.
@@ -48,23 +48,23 @@ class BoundedQueue {
   template <typename... Parts>
   [[nodiscard]] bool TryEmplace(Parts&&... parts) noexcept {
     static_assert(std::is_nothrow_constructible_v<T, Parts&&...>);
-    // relaxed: the position alone orders nothing; the cell's turn does.
+    // relaxed: the position alone orders nothing; the cell's sequence does.
     std::uint64_t position = tail_.load(std::memory_order_relaxed);
     for (;;) {
       Cell& cell = cells_[position % capacity_];
-      const std::uint64_t free_turn = 2 * (position / capacity_);
+      const std::uint64_t free_sequence = 2 * (position / capacity_);
       // acquire: pairs with the release in TryConsume(): the old value is gone.
-      const std::uint64_t turn = cell.turn.load(std::memory_order_acquire);
-      if (turn == free_turn) {
+      const std::uint64_t sequence = cell.sequence.load(std::memory_order_acquire);
+      if (sequence == free_sequence) {
         // relaxed: claims the position, publishes nothing.
         if (tail_.compare_exchange_weak(position, position + 1, std::memory_order_relaxed,
                                         std::memory_order_relaxed)) {
           std::construct_at(&cell.value, std::forward<Parts>(parts)...);
           // release: pairs with the acquire in TryConsume(): the value is in place.
-          cell.turn.store(free_turn + 1, std::memory_order_release);
+          cell.sequence.store(free_sequence + 1, std::memory_order_release);
           return true;
         }
-      } else if (turn < free_turn) {
+      } else if (sequence < free_sequence) {
         return false;  // filled a lap ago and not yet emptied
       } else {
         position = tail_.load(std::memory_order_relaxed);  // another writer was faster
@@ -90,10 +90,10 @@ class BoundedQueue {
     std::uint64_t position = head_.load(std::memory_order_relaxed);
     for (;;) {
       Cell& cell = cells_[position % capacity_];
-      const std::uint64_t full_turn = 2 * (position / capacity_) + 1;
+      const std::uint64_t full_sequence = 2 * (position / capacity_) + 1;
       // acquire: pairs with the release in TryEmplace().
-      const std::uint64_t turn = cell.turn.load(std::memory_order_acquire);
-      if (turn == full_turn) {
+      const std::uint64_t sequence = cell.sequence.load(std::memory_order_acquire);
+      if (sequence == full_sequence) {
         if (!may()) return false;
         // Fails if another reader took the value meanwhile; the next one needs an answer of its own.
         if (head_.compare_exchange_weak(position, position + 1, std::memory_order_relaxed,
@@ -101,10 +101,10 @@ class BoundedQueue {
           use(cell.value);
           std::destroy_at(&cell.value);  // gives back at once what the value held
           // release: pairs with the acquire in TryEmplace() a lap later.
-          cell.turn.store(full_turn + 1, std::memory_order_release);
+          cell.sequence.store(full_sequence + 1, std::memory_order_release);
           return true;
         }
-      } else if (turn < full_turn) {
+      } else if (sequence < full_sequence) {
         return false;
       } else {
         position = head_.load(std::memory_order_relaxed);
@@ -116,10 +116,11 @@ class BoundedQueue {
   [[nodiscard]] bool HasOldest() const noexcept {
     for (;;) {
       const std::uint64_t position = head_.load(std::memory_order_relaxed);
-      const std::uint64_t full_turn = 2 * (position / capacity_) + 1;
-      // acquire: as in TryConsume(), so that a later turn shows a later head.
-      const std::uint64_t turn = cells_[position % capacity_].turn.load(std::memory_order_acquire);
-      if (turn <= full_turn) return turn == full_turn;
+      const std::uint64_t full_sequence = 2 * (position / capacity_) + 1;
+      // acquire: as in TryConsume(), so that a later sequence shows a later head.
+      const std::uint64_t sequence =
+          cells_[position % capacity_].sequence.load(std::memory_order_acquire);
+      if (sequence <= full_sequence) return sequence == full_sequence;
     }
   }
 
@@ -136,9 +137,9 @@ class BoundedQueue {
     Cell() noexcept {}
     ~Cell() {}
 
-    Atomic<std::uint64_t> turn{0};
+    Atomic<std::uint64_t> sequence{0};
     union {
-      T value;  // there while the turn is odd
+      T value;  // there while the sequence is odd
     };
   };
 

@@ -48,25 +48,25 @@ class alignas(kCacheLineSize) Buffer {
   Publication publication;
 
   /// `more` further counted holders. Precondition: the caller holds the buffer in some way.
-  void AddHolders(std::uint32_t more) noexcept {
+  void AddReferences(std::uint32_t more) noexcept {
     // relaxed: the caller's own hold keeps the buffer from being reused meanwhile; that is given up
     // with a release, which carries this along to who asks whether the buffer is free.
     count_.fetch_add(more, std::memory_order_relaxed);
   }
   /// A counted holder that does not know yet whether it holds; see LatestBuffer::Lease().
-  void CountForASecondLook() noexcept {
+  void AddUnverifiedReference() noexcept {
     // relaxed: a fence comes between this and the second look.
     count_.fetch_add(1, std::memory_order_relaxed);
   }
   /// One counted holder less.
-  void DropHolder() noexcept {
+  void ReleaseReference() noexcept {
     // release: pairs with the acquire in IsHeld(); this holder's reads are over for who finds the
     // buffer free, or deletes it.
     count_.fetch_sub(1, std::memory_order_release);
   }
   /// A loan that is not published. Any thread.
   void DropLoan() noexcept {
-    // release: as in DropHolder().
+    // release: as in ReleaseReference().
     is_loaned_.store(false, std::memory_order_release);
   }
   /// By the publisher, before others can reach the buffer.

@@ -29,7 +29,7 @@ class BufferLease {
   /// Takes over a slot that holds `buffer`.
   BufferLease(Buffer* buffer, Slot& slot) noexcept : buffer_(buffer), slot_(&slot) {}
   BufferLease(const BufferLease& other) noexcept : buffer_(other.buffer_) {
-    if (buffer_ != nullptr) buffer_->AddHolders(1);
+    if (buffer_ != nullptr) buffer_->AddReferences(1);
   }
   BufferLease(BufferLease&& other) noexcept
       : buffer_(std::exchange(other.buffer_, nullptr)),
@@ -47,13 +47,15 @@ class BufferLease {
   // What is seldom is not told where the lease lies, so that it can lie in registers.
   [[gnu::always_inline]] void Drop() noexcept {
     if (slot_ == nullptr) [[unlikely]] {
-      if (buffer_ != nullptr) DropCounted(*buffer_);
+      if (buffer_ != nullptr) ReleaseCounted(*buffer_);
       return;
     }
     // release: pairs with the acquire in BufferPool::FindFree(); this reader's reads are over.
     slot_->held.store(nullptr, std::memory_order_release);
   }
-  [[gnu::noinline]] static void DropCounted(Buffer& buffer) noexcept { buffer.DropHolder(); }
+  [[gnu::noinline]] static void ReleaseCounted(Buffer& buffer) noexcept {
+    buffer.ReleaseReference();
+  }
 
   Buffer* buffer_ = nullptr;
   Slot* slot_ = nullptr;

@@ -119,7 +119,7 @@ class BufferPool final : public Retirable<Atomic> {
   struct Chunk {
     std::unique_ptr<Buffer[]> buffers;
     std::uint32_t size;
-    std::uint32_t room;
+    std::uint32_t list_capacity;
     std::unique_ptr<Buffer*[]> list;
     Chunk* next = nullptr;
   };
@@ -134,9 +134,9 @@ class BufferPool final : public Retirable<Atomic> {
     for (std::uint32_t i = 0; i < size; ++i) chunk->buffers[i].Fill(*this, factory_);
     // relaxed: a count. Each list has room for all buffers counted before, in whatever order the
     // chunks arrive.
-    chunk->room = capacity_.fetch_add(size, std::memory_order_relaxed) + size;
+    chunk->list_capacity = capacity_.fetch_add(size, std::memory_order_relaxed) + size;
     try {
-      chunk->list.reset(new Buffer*[chunk->room]);
+      chunk->list.reset(new Buffer*[chunk->list_capacity]);
     } catch (...) {  // those made meanwhile have room for too many, which is no harm
       capacity_.fetch_sub(size, std::memory_order_relaxed);
       throw;
@@ -144,10 +144,10 @@ class BufferPool final : public Retirable<Atomic> {
     return chunk;
   }
   void Add(std::unique_ptr<Chunk> chunk) noexcept {
-    if (chunk->room > room_) {
+    if (chunk->list_capacity > list_capacity_) {
       std::copy_n(buffers_, count_, chunk->list.get());
       buffers_ = chunk->list.get();
-      room_ = chunk->room;
+      list_capacity_ = chunk->list_capacity;
     }
     for (std::uint32_t i = chunk->size; i > 0; --i) {
       buffers_[count_++] = buffers_[free_count_];
@@ -234,7 +234,7 @@ class BufferPool final : public Retirable<Atomic> {
   Buffer** buffers_ = nullptr;
   std::uint32_t free_count_ = 0;
   std::uint32_t count_ = 0;
-  std::uint32_t room_ = 0;  // in the list
+  std::uint32_t list_capacity_ = 0;  // in the list
   std::uint32_t search_ = 0;
   Chunk* chunks_ = nullptr;
   alignas(kCacheLineSize) Atomic<Chunk*> arriving_{nullptr};  // reserved, not yet taken over

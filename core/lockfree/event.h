@@ -13,14 +13,14 @@ namespace runnel {
 /// of a queue. The event itself carries nothing; whoever wakes looks for himself.
 ///
 ///     others:  put it there ─ LightFence ─ look whether one sleeps ─ (only then) wake it
-///     sleeper: say that it sleeps ─ HeavyFence ─ look whether it is there ─ (only if not) sleep
+///     waiter: say that it sleeps ─ HeavyFence ─ look whether it is there ─ (only if not) sleep
 ///
 /// So of the two at least one sees the other: either the notifier finds the announcement, or the
-/// sleeper what has been put there. And if the notifier takes the announcement back before the
-/// sleeper is asleep, the kernel refuses to let it sleep, since it compares the word under a lock
+/// waiter what has been put there. And if the notifier takes the announcement back before the
+/// waiter is asleep, the kernel refuses to let it sleep, since it compares the word under a lock
 /// that waking takes too.
 ///
-/// Who takes the announcement back wakes; the others that come meanwhile need not: the sleeper looks
+/// Who takes the announcement back wakes; the others that come meanwhile need not: the waiter looks
 /// again before it sleeps again, and announces itself anew for that, with the same fence.
 ///
 /// Threads:     Notify() by any thread; Wait() by one at a time.
@@ -34,9 +34,9 @@ class Event {
  public:
   using Deadline = typename Futex::Deadline;
 
-  /// Call it after what the sleeper looks for is there.
+  /// Call it after what the waiter looks for is there.
   void Notify() noexcept {
-    // Between what has been put there and the look for a sleeper; pairs with Wait().
+    // Between what has been put there and the look for a waiter; pairs with Wait().
     Fences<Atomic>::Light();
     // relaxed, both: the fences order.
     if (asleep_.load(std::memory_order_relaxed) == kAwake) [[likely]]

@@ -12,28 +12,28 @@ namespace runnel {
 struct KernelFutex {
   using Deadline = std::chrono::steady_clock::time_point;  ///< on CLOCK_MONOTONIC
   static constexpr Deadline kNever = Deadline::max();
-  using Sleepers = std::uint32_t;  ///< a set of those who sleep on one word, who say which they are
-  static constexpr Sleepers kAll = ~Sleepers{0};
+  using Waiters = std::uint32_t;  ///< a set of those who sleep on one word, who say which they are
+  static constexpr Waiters kAll = ~Waiters{0};
 
-  /// Sleeps as `sleeper` if `word` is still `expected`, until it is woken, or until the deadline; may
+  /// Sleeps as `waiter` if `word` is still `expected`, until it is woken, or until the deadline; may
   /// also return for no reason. False if the deadline has passed.
   template <typename Word>
   static bool Sleep(Word& word, std::uint32_t expected, Deadline deadline,
-                    Sleepers sleeper = kAll) noexcept {
+                    Waiters waiter = kAll) noexcept {
     static_assert(sizeof(Word) == sizeof(std::uint32_t));
-    return SleepOn(&word, expected, deadline, sleeper);
+    return SleepOn(&word, expected, deadline, waiter);
   }
-  /// Wakes those of `sleepers` who sleep on `word`; a system call.
+  /// Wakes those of `waiters` who sleep on `word`; a system call.
   template <typename Word>
-  static void Wake(Word& word, Sleepers sleepers = kAll) noexcept {
+  static void Wake(Word& word, Waiters waiters = kAll) noexcept {
     static_assert(sizeof(Word) == sizeof(std::uint32_t));
-    WakeOn(&word, sleepers);
+    WakeOn(&word, waiters);
   }
 
  private:
   static bool SleepOn(const void* word, std::uint32_t expected, Deadline deadline,
-                      Sleepers sleeper) noexcept;
-  static void WakeOn(const void* word, Sleepers sleepers) noexcept;
+                      Waiters waiter) noexcept;
+  static void WakeOn(const void* word, Waiters waiters) noexcept;
 };
 
 }  // namespace runnel

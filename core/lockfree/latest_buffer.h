@@ -142,11 +142,11 @@ class LatestBuffer {
     // relaxed: as above.
     if ((readers_.load(std::memory_order_relaxed) & record.own_bit) == 0) Register(record);
     for (;;) {
-      buffer->CountForASecondLook();
+      buffer->AddUnverifiedReference();
       Fences<Atomic>::Full();  // as above
       Buffer* const again = newest_.load(std::memory_order_acquire);
       if (again == buffer) return buffer;
-      buffer->DropHolder();
+      buffer->ReleaseReference();
       buffer = again;
     }
   }

@@ -28,7 +28,7 @@ class LatestValue {
                 "LatestValue copies words: T must be trivially copyable; use LatestBuffer instead");
 
  public:
-  void Publish(const T& value, std::int64_t stamp, std::uint64_t order = 0) noexcept {
+  void Publish(const T& value, std::int64_t timestamp, std::uint64_t order = 0) noexcept {
     const std::uint64_t sequence = ++published_;
     Cell& cell = cells_[sequence % kCells];
     // relaxed: the release stores of the words below carry it to whoever sees one of them.
@@ -40,7 +40,7 @@ class LatestValue {
     for (std::size_t i = 0; i < kWords; ++i) {
       cell.words[i].store(words[i], std::memory_order_release);
     }
-    cell.stamp.store(stamp, std::memory_order_release);
+    cell.timestamp.store(timestamp, std::memory_order_release);
     cell.order.store(order, std::memory_order_release);
     // relaxed: the release store below carries it.
     cell.sequence.store(sequence, std::memory_order_relaxed);
@@ -51,7 +51,7 @@ class LatestValue {
   /// Copies the newest value to `value`. Returns false before the first publication.
   bool Read(T& value, Publication& publication) const noexcept {
     return Copy(value, [&](const Cell& cell, std::uint64_t sequence) {
-      publication.stamp = cell.stamp.load(std::memory_order_acquire);
+      publication.timestamp = cell.timestamp.load(std::memory_order_acquire);
       publication.order = cell.order.load(std::memory_order_acquire);
       publication.sequence = sequence;
     });
@@ -73,7 +73,7 @@ class LatestValue {
 
   struct alignas(kCacheLineSize) Cell {
     Atomic<std::uint64_t> sequence{kBeingWritten};
-    Atomic<std::int64_t> stamp{0};
+    Atomic<std::int64_t> timestamp{0};
     Atomic<std::uint64_t> order{0};
     std::array<Atomic<std::uint64_t>, kWords> words{};
   };

@@ -6,7 +6,7 @@ namespace runnel {
 
 /// Where a value stands among the publications of its source.
 struct Publication {
-  std::int64_t stamp = 0;      ///< ns, the time of the cycle that published it
+  std::int64_t timestamp = 0;  ///< ns, the time of the cycle that published it
   std::uint64_t sequence = 0;  ///< 1 for the first publication of the source
   std::uint64_t order = 0;     ///< among sources that share an input; 0 if this source shares none
 };

@@ -16,7 +16,7 @@ namespace runnel {
 /// A first-in-first-out queue of fixed capacity between one writer and one reader.
 ///
 ///                head (reader) ──▼               ▼── tail (writer)
-///     cells   │ free │ free │ turn 7 │ turn 8 │ turn 9 │ free │ …      turn = position + 1
+///     cells   │ free │ free │ sequence 7 │ sequence 8 │ sequence 9 │ free │ …      sequence = position + 1
 ///
 /// A ring (after L. Lamport, 1977) whose two sides touch each other's lines as seldom as can be: the
 /// reader sees by the cell itself whether it is filled, since it needs that line anyway (after
@@ -59,13 +59,13 @@ class StreamQueue {
   template <typename... Parts>
   [[nodiscard, gnu::always_inline]] bool TryEmplace(Parts&&... parts) noexcept {
     static_assert(std::is_nothrow_constructible_v<T, Parts&&...>);
-    if (!HasRoom()) return false;
+    if (!HasCapacity()) return false;
     const std::uint64_t position = tail_.load(std::memory_order_relaxed);
     const std::size_t index = write_index_;
     Cell& cell = cells_[index];
     std::construct_at(&cell.value, std::forward<Parts>(parts)...);
     // release: pairs with the acquire in Front(): the value is in place.
-    cell.turn.store(position + 1, std::memory_order_release);
+    cell.sequence.store(position + 1, std::memory_order_release);
     // relaxed: for the writer itself and for size().
     tail_.store(position + 1, std::memory_order_relaxed);
     write_index_ = Next(index);
@@ -73,7 +73,7 @@ class StreamQueue {
   }
 
   /// Whether the next value will find room. For the writer, whom nobody else can take it from.
-  [[nodiscard]] bool HasRoom() noexcept {
+  [[nodiscard]] bool HasCapacity() noexcept {
     // relaxed: the writer's own.
     const std::uint64_t position = tail_.load(std::memory_order_relaxed);
     if (position - seen_head_ < capacity_) return true;
@@ -89,7 +89,7 @@ class StreamQueue {
     // relaxed: the reader's own.
     const std::uint64_t position = head_.load(std::memory_order_relaxed);
     // acquire: pairs with the release in TryEmplace().
-    return cell.turn.load(std::memory_order_acquire) == position + 1 ? &cell.value : nullptr;
+    return cell.sequence.load(std::memory_order_acquire) == position + 1 ? &cell.value : nullptr;
   }
   /// Destroys the oldest value. Precondition: Front() is not nullptr.
   void PopFront() noexcept {
@@ -119,16 +119,16 @@ class StreamQueue {
 
  private:
   // Begins on a line of its own: else the reader that waits for it would take from the writer the
-  // line in which the value before ends. The turn lies behind the value, where the writer ends: else
+  // line in which the value before ends. The sequence lies behind the value, where the writer ends: else
   // the reader that asks for it would take the first line away while the writer is at the others.
   struct alignas(kCacheLineSize) Cell {
     Cell() noexcept {}
     ~Cell() {}
 
     union {
-      T value;  // there while turn is that of a position between head and tail
+      T value;  // there while sequence is that of a position between head and tail
     };
-    Atomic<std::uint64_t> turn{0};
+    Atomic<std::uint64_t> sequence{0};
   };
 
   // A division would cost as much as all the rest.

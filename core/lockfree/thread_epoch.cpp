@@ -6,7 +6,7 @@
 
 #include "core/base/check.h"
 #include "core/base/retry.h"
-#include "core/lockfree/patience.h"
+#include "core/lockfree/backoff.h"
 
 namespace runnel {
 
@@ -68,7 +68,7 @@ void WaitForReaders() {
                "a thread cannot wait for readers while it reads itself, as in Update()");
   const std::uint64_t epoch = ProcessEpochs().Advance();
   for (int round = 0; !ProcessEpochs().HasPassed(epoch); ++round) {
-    WaitOneRound(round);
+    BackOff(round);
   }
   CollectRetired();
 }

@@ -8,58 +8,59 @@ namespace runnel {
 
 namespace {
 
-using Seats = Bell<>::Seats;
+using Waiters = EventCount<>::Waiters;
 
-// Bells are only ever added: who rings for a sleeper may still do so when that has gone.
-struct SharedBell : Bell<> {
-  std::atomic<Seats> taken{0};
-  SharedBell* next = nullptr;  // constant once added
+// Bells are only ever added: who rings for a waiter may still do so when that has gone.
+struct SharedEventCount : EventCount<> {
+  std::atomic<Waiters> taken{0};
+  SharedEventCount* next = nullptr;  // constant once added
 };
-constinit std::atomic<SharedBell*> all_bells{nullptr};
+constinit std::atomic<SharedEventCount*> all_event_counts{nullptr};
 
-// A seat of its own, or 0 if all are taken.
-Seats TakeSeat(SharedBell& bell) noexcept {
-  // relaxed, all: a seat hands nothing over. A ring that was meant for who sat there before wakes for
-  // nothing, which sleepers know.
-  Seats taken = bell.taken.load(std::memory_order_relaxed);
+// A waiter bit of its own, or 0 if all are taken.
+Waiters TakeWaiterBit(SharedEventCount& event_count) noexcept {
+  // relaxed, all: a waiter bit hands nothing over. A ring that was meant for who sat there before wakes for
+  // nothing, which waiters know.
+  Waiters taken = event_count.taken.load(std::memory_order_relaxed);
   while (~taken != 0) {
-    const Seats seat = Seats{1} << std::countr_one(taken);
-    if (bell.taken.compare_exchange_weak(taken, taken | seat, std::memory_order_relaxed,
-                                         std::memory_order_relaxed)) {
-      return seat;
+    const Waiters waiter_bit = Waiters{1} << std::countr_one(taken);
+    if (event_count.taken.compare_exchange_weak(
+            taken, taken | waiter_bit, std::memory_order_relaxed, std::memory_order_relaxed)) {
+      return waiter_bit;
     }
   }
   return 0;
 }
 
-Sleeper<> TakeAnySeat() {
-  // acquire: pairs with the release below; the bell is complete.
-  for (SharedBell* bell = all_bells.load(std::memory_order_acquire); bell != nullptr;
-       bell = bell->next) {
-    if (const Seats seat = TakeSeat(*bell); seat != 0) return {*bell, seat};
+Waiter<> MakeWaiter() {
+  // acquire: pairs with the release below; the event count is complete.
+  for (SharedEventCount* event_count = all_event_counts.load(std::memory_order_acquire);
+       event_count != nullptr; event_count = event_count->next) {
+    if (const Waiters waiter_bit = TakeWaiterBit(*event_count); waiter_bit != 0)
+      return {*event_count, waiter_bit};
   }
-  auto* const bell = new SharedBell;
-  const Seats seat = TakeSeat(*bell);
-  bell->next = all_bells.load(std::memory_order_relaxed);
-  while (!all_bells.compare_exchange_weak(bell->next, bell, std::memory_order_release,
-                                          std::memory_order_relaxed)) {
+  auto* const event_count = new SharedEventCount;
+  const Waiters waiter_bit = TakeWaiterBit(*event_count);
+  event_count->next = all_event_counts.load(std::memory_order_relaxed);
+  while (!all_event_counts.compare_exchange_weak(
+      event_count->next, event_count, std::memory_order_release, std::memory_order_relaxed)) {
   }
-  return {*bell, seat};
+  return {*event_count, waiter_bit};
 }
 
 }  // namespace
 
-WakeEvent::WakeEvent() : sleeper_(TakeAnySeat()) {}
+WakeEvent::WakeEvent() : waiter_(MakeWaiter()) {}
 
 WakeEvent::~WakeEvent() {
-  static_cast<SharedBell&>(sleeper_.bell())
-      .taken.fetch_and(~sleeper_.seat(), std::memory_order_relaxed);
+  static_cast<SharedEventCount&>(waiter_.event_count())
+      .taken.fetch_and(~waiter_.waiter_bit(), std::memory_order_relaxed);
 }
 
 void WakeEvent::WaitUntil(Time deadline) noexcept {
   // The steady clock is that of the deadlines, and both count from the machine's start.
   const auto since = std::max(deadline.time_since_epoch(), Duration::zero());
-  (void)sleeper_.Wait(KernelFutex::Deadline(since));
+  (void)waiter_.Wait(KernelFutex::Deadline(since));
 }
 
 }  // namespace runnel

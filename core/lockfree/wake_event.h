@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/base/clock.h"
-#include "core/lockfree/bell.h"
+#include "core/lockfree/event_count.h"
 
 namespace runnel {
 
@@ -10,7 +10,7 @@ namespace runnel {
 ///
 /// Threads:     Notify() from any thread: it never blocks, and calls the system only if the other
 ///              thread sleeps. Wait() and WaitUntil() by one thread at a time.
-/// Allocation:  in the constructor, and only if more of them exist than ever before: the bells that
+/// Allocation:  in the constructor, and only if more of them exist than ever before: the event counts that
 ///              threads sleep on stay, and are used again.
 class WakeEvent {
  public:
@@ -19,42 +19,42 @@ class WakeEvent {
   WakeEvent(const WakeEvent&) = delete;
   WakeEvent& operator=(const WakeEvent&) = delete;
 
-  void Notify() noexcept { sleeper_.Notify(); }
-  void Wait() noexcept { (void)sleeper_.Wait(KernelFutex::kNever); }
+  void Notify() noexcept { waiter_.Notify(); }
+  void Wait() noexcept { (void)waiter_.Wait(KernelFutex::kNever); }
   /// Until `deadline` by the steady clock, if nothing comes before.
   void WaitUntil(Time deadline) noexcept;
 
  private:
-  friend class WakeUps;
-  Sleeper<> sleeper_;
+  friend class NotificationBatch;
+  Waiter<> waiter_;
 };
 
-/// Notifies several, and wakes those who sleep on the same bell by one call of the system: nearly all
+/// Notifies several, and wakes those who sleep on the same event count by one call of the system: nearly all
 /// of them, if they were made one after the other. They wake when it is destroyed, some before.
 ///
 /// Threads: one. Allocation: none.
-class WakeUps {
+class NotificationBatch {
  public:
-  WakeUps() = default;
-  ~WakeUps() { Ring(); }
-  WakeUps(const WakeUps&) = delete;
-  WakeUps& operator=(const WakeUps&) = delete;
+  NotificationBatch() = default;
+  ~NotificationBatch() { Notify(); }
+  NotificationBatch(const NotificationBatch&) = delete;
+  NotificationBatch& operator=(const NotificationBatch&) = delete;
 
   void Add(WakeEvent& event) noexcept {
-    if (!event.sleeper_.Notice()) return;
-    if (bell_ != &event.sleeper_.bell()) Ring();
-    bell_ = &event.sleeper_.bell();
-    seats_ |= event.sleeper_.seat();
+    if (!event.waiter_.MarkNotified()) return;
+    if (event_count_ != &event.waiter_.event_count()) Notify();
+    event_count_ = &event.waiter_.event_count();
+    waiters_ |= event.waiter_.waiter_bit();
   }
 
  private:
-  void Ring() noexcept {
-    if (seats_ != 0) bell_->Ring(seats_);
-    seats_ = 0;
+  void Notify() noexcept {
+    if (waiters_ != 0) event_count_->Notify(waiters_);
+    waiters_ = 0;
   }
 
-  Bell<>* bell_ = nullptr;
-  Bell<>::Seats seats_ = 0;  // on this bell, those who are still to be woken
+  EventCount<>* event_count_ = nullptr;
+  EventCount<>::Waiters waiters_ = 0;  // on this event count, those who are still to be woken
 };
 
 }  // namespace runnel

@@ -10,7 +10,7 @@
 
 #include "core/base/check.h"
 #include "core/element/framework_element.h"
-#include "core/types/binary_form.h"
+#include "core/types/binary_encoding.h"
 #include "core/types/type_info.h"
 
 namespace runnel {

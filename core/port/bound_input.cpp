@@ -87,7 +87,7 @@ std::shared_ptr<InputQueueBase> BoundInput::KeepOrMakeQueue(const Binding& befor
   const Writers writers = next.only != nullptr ? Writers::kOne : Writers::kSeveral;
   // A queue for one writer serves the source it was made for: another might begin before that
   // one has ended.
-  if (before.queue && before.queue->room() == options.queue &&
+  if (before.queue && before.queue->capacity() == options.queue &&
       before.queue->on_full() == options.on_full && before.queue->writers() == writers &&
       (writers == Writers::kSeveral || before.only == next.only)) {
     return before.queue;
@@ -115,7 +115,7 @@ void BoundInput::KeepWaitingValues(const Binding& before, Binding& next) {
   next.all_queues.push_back(next.queue.get());
   // However often queues change, no more than twice the room can wait.
   for (const auto& older : next.older_queues) {
-    while (next.WaitingInOlder() > next.queue->room() && older->DropOldest()) {
+    while (next.WaitingInOlder() > next.queue->capacity() && older->DropOldest()) {
     }
   }
   next.queue->SetWaitingBefore(next.WaitingInOlder());

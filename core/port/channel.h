@@ -15,7 +15,7 @@
 #include "core/port/input_queue.h"
 #include "core/port/lease.h"
 #include "core/port/loan.h"
-#include "core/port/tap_queue.h"
+#include "core/port/probe_queue.h"
 
 namespace runnel {
 
@@ -32,7 +32,7 @@ class Channel final : public ChannelBase {
       : ChannelBase(pullable), storage_(pool, std::move(factory), pullable) {}
 
   [[nodiscard, gnu::always_inline]] Loan<T> MakeLoan() {
-    if constexpr (kIsCheap<T>) {
+    if constexpr (kIsInlined<T>) {
       static_assert(std::is_default_constructible_v<T>,
                     "Loan() of a small type starts with T{}; publish a ready T instead");
       return Loan<T>(T{});
@@ -45,7 +45,7 @@ class Channel final : public ChannelBase {
   [[gnu::always_inline]] PublishStatus Publish(Loan<T>&& loan, Time now) {
     if (!loan) [[unlikely]]
       return PublishStatus::kNoBuffer;
-    if constexpr (kIsCheap<T>) {
+    if constexpr (kIsInlined<T>) {
       const T value = *loan;
       const PublishStatus status = PublishValue(value, now);
       if (status != PublishStatus::kBusy) loan.Drop();
@@ -54,19 +54,19 @@ class Channel final : public ChannelBase {
       Buffer<T>* const buffer = loan.slot_;
       RUNNEL_CHECK(&buffer->pool() == storage_.pool.get(),
                    "a loan can be published only by the output that gave it");
-      if (IsSpecial()) [[unlikely]] {
-        const PublishStatus status = PublishSpecially(*buffer, now);
+      if (HasFlags()) [[unlikely]] {
+        const PublishStatus status = PublishOnSlowPath(*buffer, now);
         if (status != PublishStatus::kBusy) loan.slot_ = nullptr;
         return status;
       }
       loan.slot_ = nullptr;
-      return PublishNow<Way::kUsual>(*buffer, now);
+      return PublishNow<PublishPath::kFast>(*buffer, now);
     }
   }
-  PublishStatus PublishValue(const T& value, Time now) requires(kIsCheap<T>) {
-    if (IsSpecial()) [[unlikely]]
-      return PublishSpecially(value, now);
-    return PublishNow<Way::kUsual>(value, now);
+  PublishStatus PublishValue(const T& value, Time now) requires(kIsInlined<T>) {
+    if (HasFlags()) [[unlikely]]
+      return PublishOnSlowPath(value, now);
+    return PublishNow<PublishPath::kFast>(value, now);
   }
 
   /// The newest value, or none. Call inside an EpochGuard.
@@ -81,7 +81,7 @@ class Channel final : public ChannelBase {
   /// The same by who has the calling thread's record at hand.
   [[nodiscard, gnu::always_inline]] internal::HeldValue<T> Read(
       [[maybe_unused]] HazardRecord<>& record) noexcept {
-    if constexpr (kIsCheap<T>) {
+    if constexpr (kIsInlined<T>) {
       return internal::HeldValue<T>(storage_);
     } else {
       return internal::HeldValue<T>(storage_.newest, record);
@@ -90,7 +90,7 @@ class Channel final : public ChannelBase {
   /// Copies the newest value to `value`; false if there is none. Call inside an EpochGuard.
   [[gnu::always_inline]] bool Copy(T& value, [[maybe_unused]] HazardRecord<>& record) noexcept
       requires(std::is_trivially_copyable_v<T>) {
-    if constexpr (kIsCheap<T>) {
+    if constexpr (kIsInlined<T>) {
       return storage_.Read(value);
     } else {
       const auto lease = storage_.newest.Lease(record);
@@ -101,7 +101,7 @@ class Channel final : public ChannelBase {
   }
 
   [[nodiscard]] std::uint64_t publications() const noexcept override {
-    if constexpr (kIsCheap<T>) {
+    if constexpr (kIsInlined<T>) {
       return storage_.sequence();
     } else {
       return storage_.published.load(std::memory_order_relaxed);
@@ -116,14 +116,14 @@ class Channel final : public ChannelBase {
       if (storage_.pool_for_pulls) storage_.pool_for_pulls->Reserve(buffers);
     }
   }
-  void DeliverNewest(TapQueue& tap) override {
-    if constexpr (kIsCheap<T>) {
+  void DeliverNewest(ProbeQueue& probe) override {
+    if constexpr (kIsInlined<T>) {
       const internal::HeldValue<T> held = Read();
       if (!held.has_value()) return;
-      internal::PushTo<T>(tap, held.value(), held.publication(), nullptr, number());
+      internal::PushTo<T>(probe, held.value(), held.publication(), nullptr, number());
     } else if (const auto lease = storage_.newest.Lease(ThisThread().hazards); lease.get()) {
       Buffer<T>& buffer = *lease.get();
-      internal::PushTo<T>(tap, buffer.value(), buffer.publication, &buffer, number());
+      internal::PushTo<T>(probe, buffer.value(), buffer.publication, &buffer, number());
     }
   }
   void DeliverNewest(InputQueueBase& queue) override {
@@ -131,12 +131,12 @@ class Channel final : public ChannelBase {
     if (held.has_value()) internal::QueueOf<T>(queue).PutFirst(std::move(held), number());
   }
   /// How many buffers there are for Loan().
-  [[nodiscard]] std::size_t buffers() const noexcept requires(!kIsCheap<T>) {
+  [[nodiscard]] std::size_t buffers() const noexcept requires(!kIsInlined<T>) {
     return storage_.pool->capacity();
   }
   /// How often the pool had to allocate while running.
   [[nodiscard]] std::uint64_t growths() const noexcept {
-    if constexpr (kIsCheap<T>) {
+    if constexpr (kIsInlined<T>) {
       return 0;
     } else {
       return storage_.pool->growths() +
@@ -145,11 +145,11 @@ class Channel final : public ChannelBase {
   }
 
   /// A provider begins with T{}, as a loan does, or with what lies in a buffer.
-  static constexpr bool kCanPull = !kIsCheap<T> || std::is_default_constructible_v<T>;
+  static constexpr bool kCanPull = !kIsInlined<T> || std::is_default_constructible_v<T>;
 
  private:
-  struct CheapStorage : LatestValue<T> {
-    CheapStorage(const PoolOptions&, typename BufferPool<T>::Factory&&, bool) {}
+  struct InlinedStorage : LatestValue<T> {
+    InlinedStorage(const PoolOptions&, typename BufferPool<T>::Factory&&, bool) {}
   };
   struct BufferStorage {
     using Pool = BufferPool<T>;
@@ -168,78 +168,79 @@ class Channel final : public ChannelBase {
     std::atomic<std::uint64_t> published{0};
   };
 
-  [[gnu::noinline]] Buffer<T>* LookForBuffer() requires(!kIsCheap<T>) {
+  [[gnu::noinline]] Buffer<T>* LookForBuffer() requires(!kIsInlined<T>) {
     // Who pulls may look for buffers at the same time, in another thread.
     return Has(kPullable) ? storage_.newest.Loan() : storage_.newest.Loan(ThisThread().hazards);
   }
   // In turn, if there are turns, and in order, if there is one.
   template <typename ValueOrBuffer>
-  [[gnu::noinline]] PublishStatus PublishSpecially(ValueOrBuffer& what, Time now) {
-    if (!Has(kPullable)) return PublishNow<Way::kSpecial>(what, now);
-    const PullPoint::Turn turn(*pull_point());
-    return turn.held() ? PublishNow<Way::kSpecial>(what, now) : PublishStatus::kBusy;
+  [[gnu::noinline]] PublishStatus PublishOnSlowPath(ValueOrBuffer& what, Time now) {
+    if (!Has(kPullable)) return PublishNow<PublishPath::kSlow>(what, now);
+    const PullPoint::Lock lock(*pull_point());
+    return lock.held() ? PublishNow<PublishPath::kSlow>(what, now) : PublishStatus::kBusy;
   }
   void PublishPulled(Time (*now)(const Port& reader), const Port& reader) override {
     if constexpr (kCanPull) {
       Loan<T> loan = LoanForPull();
       if (!loan) return pull_point()->CountFailure();
       if (!pull_point()->Run(&*loan)) return;
-      if constexpr (kIsCheap<T>) {
-        (void)PublishNow<Way::kSpecial>(*loan, now(reader));
+      if constexpr (kIsInlined<T>) {
+        (void)PublishNow<PublishPath::kSlow>(*loan, now(reader));
       } else {
-        (void)PublishNow<Way::kSpecial>(*std::exchange(loan.slot_, nullptr), now(reader));
+        (void)PublishNow<PublishPath::kSlow>(*std::exchange(loan.slot_, nullptr), now(reader));
       }
     }
   }
   [[nodiscard]] Loan<T> LoanForPull() requires(kCanPull) {
-    if constexpr (kIsCheap<T>) {
+    if constexpr (kIsInlined<T>) {
       return Loan<T>(T{});
     } else {
       return Loan<T>(storage_.newest.LoanFrom(*storage_.pool_for_pulls));
     }
   }
   // The rest of publishing, by who has the turn, if there are turns.
-  template <Way kWay>
-  [[gnu::always_inline]] PublishStatus PublishNow(const T& value, Time now) requires(kIsCheap<T>) {
-    const std::int64_t stamp = now.time_since_epoch().count();
-    const std::uint64_t order = kWay == Way::kUsual ? 0 : NextOrder();
-    storage_.Publish(value, stamp, order);
-    if (subscribers(kWay) == nullptr) [[likely]]
+  template <PublishPath kPath>
+  [[gnu::always_inline]] PublishStatus PublishNow(const T& value,
+                                                  Time now) requires(kIsInlined<T>) {
+    const std::int64_t timestamp = now.time_since_epoch().count();
+    const std::uint64_t order = kPath == PublishPath::kFast ? 0 : OrderNumber();
+    storage_.Publish(value, timestamp, order);
+    if (subscribers(kPath) == nullptr) [[likely]]
       return PublishStatus::kPublished;
-    return Distribute(value, stamp, storage_.sequence(), order, nullptr);
+    return Distribute(value, timestamp, storage_.sequence(), order, nullptr);
   }
-  template <Way kWay>
+  template <PublishPath kPath>
   [[gnu::always_inline]] PublishStatus PublishNow(Buffer<T>& buffer, Time now) noexcept
-      requires(!kIsCheap<T>) {
+      requires(!kIsInlined<T>) {
     const std::uint64_t sequence = storage_.published.load(std::memory_order_relaxed) + 1;
     storage_.published.store(sequence, std::memory_order_relaxed);
-    const std::int64_t stamp = now.time_since_epoch().count();
-    const std::uint64_t order = kWay == Way::kUsual ? 0 : NextOrder();
-    buffer.publication = {stamp, sequence, order};
+    const std::int64_t timestamp = now.time_since_epoch().count();
+    const std::uint64_t order = kPath == PublishPath::kFast ? 0 : OrderNumber();
+    buffer.publication = {timestamp, sequence, order};
     storage_.newest.Publish(buffer);
-    if (subscribers(kWay) == nullptr) [[likely]]
+    if (subscribers(kPath) == nullptr) [[likely]]
       return PublishStatus::kPublished;
     // The buffer stays the newest while this goes on, which keeps it.
-    return Distribute(std::as_const(buffer).value(), stamp, sequence, order, &buffer);
+    return Distribute(std::as_const(buffer).value(), timestamp, sequence, order, &buffer);
   }
 
   // Gives the value to each queue. Apart, so that publishing to readers of the newest value alone
   // stays short. What is told about the value comes in registers: to load it in one piece from where
   // it has just been stored in three would have to wait for all stores before.
-  [[gnu::noinline]] PublishStatus Distribute(const T& value, std::int64_t stamp,
+  [[gnu::noinline]] PublishStatus Distribute(const T& value, std::int64_t timestamp,
                                              std::uint64_t sequence, std::uint64_t order,
                                              Buffer<T>* buffer) noexcept {
     return Guarded([&]() __attribute__((always_inline)) {
       const Subscribers* const list = subscribers_in_guard();
       if (list == nullptr) return PublishStatus::kPublished;
-      const Publication publication{stamp, sequence, order};
+      const Publication publication{timestamp, sequence, order};
       if (list->only_queue == nullptr)  // a copy for it, as it asks where that lies
         return internal::PushToAll(*list, value, Publication(publication), buffer, number());
       return internal::PushTo(*list->only_queue, value, publication, buffer, number());
     });
   }
 
-  std::conditional_t<kIsCheap<T>, CheapStorage, BufferStorage> storage_;
+  std::conditional_t<kIsInlined<T>, InlinedStorage, BufferStorage> storage_;
 };
 
 }  // namespace runnel

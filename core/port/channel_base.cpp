@@ -20,7 +20,7 @@ std::uint64_t NextChannelNumber() noexcept {
 
 ChannelBase::ChannelBase(bool pullable)
     : number_(NextChannelNumber()),
-      special_(
+      flags_(
           static_cast<std::uint8_t>((pullable ? kPullable : 0) |
                                     (Fences<std::atomic>::HeavyIsHeavy() ? 0 : kPassesFullFences))),
       pull_point_(pullable ? std::make_unique<PullPoint>() : nullptr) {}
@@ -28,7 +28,7 @@ ChannelBase::ChannelBase(bool pullable)
 ChannelBase::~ChannelBase() { delete subscribers_.load(std::memory_order_relaxed); }
 
 void ChannelBase::SetSubscribers(Subscribers subscribers) {
-  const bool has_others = !subscribers.taps.empty() || !subscribers.wakers.empty();
+  const bool has_others = !subscribers.probes.empty() || !subscribers.wakers.empty();
   subscribers.only_queue =
       subscribers.queues.size() == 1 && !has_others ? subscribers.queues.front() : nullptr;
   const Subscribers* next = subscribers.empty() ? nullptr : new Subscribers(std::move(subscribers));
@@ -44,7 +44,7 @@ bool ChannelBase::WouldRefuse() const noexcept {
   return Guarded([this] {
     const Subscribers* const list = subscribers_in_guard();
     return list != nullptr && std::ranges::any_of(list->queues, [](QueueSink* sink) {
-             // What is no tap is the queue of an input.
+             // What is no probe is the queue of an input.
              return static_cast<InputQueueBase&>(*sink).WouldRefuse();
            });
   });
@@ -52,8 +52,8 @@ bool ChannelBase::WouldRefuse() const noexcept {
 
 void ChannelBase::Pull(Time (*now)(const Port& reader), const Port& reader) noexcept {
   if (pull_point_ == nullptr || !pull_point_->has_provider()) return;
-  const PullPoint::Turn turn(*pull_point_);
-  if (!turn.held()) return;
+  const PullPoint::Lock lock(*pull_point_);
+  if (!lock.held()) return;
   try {
     PublishPulled(now, reader);
   } catch (...) {
@@ -65,15 +65,15 @@ void ChannelBase::DeleteLater(ChannelBase* channel) {
   Retire([channel] { delete channel; });
 }
 
-void ChannelBase::Set(Special special, bool is) noexcept {
+void ChannelBase::Set(Flag flag, bool is) noexcept {
   if (is) {
-    special_.fetch_or(special, std::memory_order_relaxed);
+    flags_.fetch_or(flag, std::memory_order_relaxed);
   } else {
-    special_.fetch_and(static_cast<std::uint8_t>(~special), std::memory_order_relaxed);
+    flags_.fetch_and(static_cast<std::uint8_t>(~flag), std::memory_order_relaxed);
   }
 }
 
-std::uint64_t ChannelBase::DrawOrder() noexcept {
+std::uint64_t ChannelBase::TakeOrderNumber() noexcept {
   static std::atomic<std::uint64_t> last{0};
   // relaxed: the number decides which of two values is the later one for all readers alike; it
   // travels with the value and orders no other memory.

@@ -38,7 +38,7 @@ class ChannelBase {
   /// for. Allocates.
   virtual void ReserveFor(std::size_t leases) = 0;
   /// Pushes the newest value, if there is one. Call inside an EpochGuard.
-  virtual void DeliverNewest(TapQueue& tap) = 0;
+  virtual void DeliverNewest(ProbeQueue& probe) = 0;
   /// The same into the queue of an input of this channel's type, see
   /// InputQueue::PutFirst().
   virtual void DeliverNewest(InputQueueBase& queue) = 0;
@@ -56,14 +56,14 @@ class ChannelBase {
   static void DeleteLater(ChannelBase* channel);
 
  protected:
-  enum class Way { kUsual, kSpecial };
+  enum class PublishPath { kFast, kSlow };
   /// Whom to visit after publishing; nullptr if nobody, and to be called again inside an
   /// EpochGuard if somebody.
   [[nodiscard, gnu::always_inline]] const Subscribers* subscribers(
-      Way way = Way::kSpecial) const noexcept {
+      PublishPath path = PublishPath::kSlow) const noexcept {
     // Between publishing and looking for subscribers; pairs with the heavy fence in
     // SetSubscribers(): the publisher sees the subscriber, or that one sees the value.
-    if (way == Way::kUsual) {
+    if (path == PublishPath::kFast) {
       Fences<std::atomic>::LightIfHeavyIsHeavy();
     } else {
       LightFence();
@@ -76,28 +76,30 @@ class ChannelBase {
     return subscribers_.load(std::memory_order_acquire);  // as above
   }
   /// What makes publishing more than it usually is; bits, so that one look is enough.
-  enum Special : std::uint8_t { kOrdered = 1, kPullable = 2, kPassesFullFences = 4 };
+  enum Flag : std::uint8_t { kOrdered = 1, kPullable = 2, kPassesFullFences = 4 };
   explicit ChannelBase(bool pullable);
   /// Has the provider fill a free buffer, and publishes that. By who has the turn. Throws what the
   /// provider throws.
   virtual void PublishPulled(Time (*now)(const Port& reader), const Port& reader) = 0;
   // relaxed, as all of it: a publisher that sees a change late numbers one value less, which then
   // counts as older than all numbered ones.
-  [[nodiscard]] bool Has(Special special) const noexcept {
-    return (special_.load(std::memory_order_relaxed) & special) != 0;
+  [[nodiscard]] bool Has(Flag flag) const noexcept {
+    return (flags_.load(std::memory_order_relaxed) & flag) != 0;
   }
-  [[nodiscard, gnu::always_inline]] bool IsSpecial() const noexcept {
-    return special_.load(std::memory_order_relaxed) != 0;
+  [[nodiscard, gnu::always_inline]] bool HasFlags() const noexcept {
+    return flags_.load(std::memory_order_relaxed) != 0;
   }
-  [[nodiscard]] std::uint64_t NextOrder() const noexcept { return Has(kOrdered) ? DrawOrder() : 0; }
+  [[nodiscard]] std::uint64_t OrderNumber() const noexcept {
+    return Has(kOrdered) ? TakeOrderNumber() : 0;
+  }
 
  private:
-  static std::uint64_t DrawOrder() noexcept;
-  void Set(Special special, bool is) noexcept;
+  static std::uint64_t TakeOrderNumber() noexcept;
+  void Set(Flag flag, bool is) noexcept;
 
   const std::uint64_t number_;
   std::atomic<const Subscribers*> subscribers_{nullptr};
-  std::atomic<std::uint8_t> special_;
+  std::atomic<std::uint8_t> flags_;
   const std::unique_ptr<PullPoint> pull_point_;
 };
 

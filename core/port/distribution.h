@@ -9,8 +9,8 @@
 #include "core/port/input_queue.h"
 #include "core/port/lease.h"
 #include "core/port/port_options.h"
+#include "core/port/probe_queue.h"
 #include "core/port/subscribers.h"
-#include "core/port/tap_queue.h"
 
 namespace runnel::internal {
 
@@ -33,19 +33,19 @@ template <typename T>
   if constexpr (kLiesInQueuesAsCopy<T>) {
     taken = queue.Push(value, publication, source);
   } else {
-    buffer->AddHolders(1);
+    buffer->AddReferences(1);
     taken = queue.Push(HeldValue<T>(BufferLease<T>(buffer)), source);
   }
   return taken ? PublishStatus::kPublished : PublishStatus::kRefused;
 }
 
 template <typename T>
-void PushTo(TapQueue& tap, const T& value, const Publication& publication, Buffer<T>* buffer,
+void PushTo(ProbeQueue& probe, const T& value, const Publication& publication, Buffer<T>* buffer,
             std::uint64_t source) noexcept {
   if constexpr (kLiesInQueuesAsCopy<T>) {
-    tap.PushCopy(value, publication, source);
+    probe.PushCopy(value, publication, source);
   } else {
-    tap.PushLease(*buffer, source);
+    probe.PushLease(*buffer, source);
   }
 }
 
@@ -59,7 +59,7 @@ template <typename T>
     const PublishStatus pushed = PushTo(*queue, value, publication, buffer, source);
     if (pushed == PublishStatus::kRefused) status = pushed;
   }
-  for (TapQueue* tap : list.taps) PushTo(*tap, value, publication, buffer, source);
+  for (ProbeQueue* probe : list.probes) PushTo(*probe, value, publication, buffer, source);
   for (Waker* waker : list.wakers) waker->Wake();
   return status;
 }

@@ -25,7 +25,7 @@ namespace runnel {
 /// the providers of all sources make values; Peek() and the queue's functions never do.
 ///
 /// Threads:     one thread at a time may Read, Take and Drain (a module's Update() does); Peek()
-///              and LookAtValue() from any thread. Connecting and publishing go on meanwhile.
+///              and VisitLatest() from any thread. Connecting and publishing go on meanwhile.
 /// Progress:    lock-free: repeats only if a newer value came. Pulling takes as long as the provider.
 /// Allocation:  none.
 /// Several sources: the value published last counts, the same one for every reader.
@@ -44,7 +44,7 @@ class Input final : public BoundInput {
     ThreadRecord& thread = *internal::thread_record;
     const Binding* const binding = this->binding();
     if (thread.epoch.depth == 0 || binding->channel == nullptr) [[unlikely]] {
-      Lease<T> lease = ReadTheLongWay();
+      Lease<T> lease = ReadOnSlowPath();
       return Lease<T>(std::move(lease), internal::NoCopy{});
     }
     return Lease<T>(Typed(*binding->channel), thread.hazards, *binding->only);
@@ -95,9 +95,9 @@ class Input final : public BoundInput {
     return count;
   }
 
-  bool LookAtValue(const Look& look) const override {
+  bool VisitLatest(const Visitor& visit) const override {
     const Lease<T> lease = PeekForViewer();
-    if (lease) look(&*lease, lease.stamp());
+    if (lease) visit(&*lease, lease.timestamp());
     return lease.has_value();
   }
   [[nodiscard]] std::unique_ptr<Port> MakeOutput(FrameworkElement& group, std::string name,
@@ -116,13 +116,13 @@ class Input final : public BoundInput {
     ThreadRecord& thread = *internal::thread_record;
     const Binding* const binding = this->binding();
     if (thread.epoch.depth == 0 || binding->channel == nullptr) [[unlikely]]
-      return CopyTheLongWay(value);
+      return CopyOnSlowPath(value);
     return Typed(*binding->channel).Copy(value, thread.hazards);
   }
   [[gnu::noinline]] Lease<T> PeekForViewer() const noexcept { return Peek(); }
   // The ways that are seldom taken, outside of a guard, from several sources or none, and with
   // pulling, are kept out of line, so that the usual one stays short.
-  [[gnu::noinline]] Lease<T> ReadTheLongWay() noexcept {
+  [[gnu::noinline]] Lease<T> ReadOnSlowPath() noexcept {
     const EpochGuard guard;
     const Binding& binding = *this->binding();
     PullInto(binding);
@@ -131,7 +131,7 @@ class Input final : public BoundInput {
     if (lease) lease.last_ = const_cast<Link*>(link)->Note(lease.sequence());
     return lease;
   }
-  [[gnu::noinline]] bool CopyTheLongWay(T& value) const noexcept {
+  [[gnu::noinline]] bool CopyOnSlowPath(T& value) const noexcept {
     const EpochGuard guard;
     const Binding& binding = *this->binding();
     PullInto(binding);

@@ -14,11 +14,11 @@ namespace runnel {
 namespace {
 
 bool HasValue(const Port& port) {
-  return port.LookAtValue([](const void*, Time) {});
+  return port.VisitLatest([](const void*, Time) {});
 }
 
 // As a publisher does: what the waker refers to lives as long as the guard.
-void Tell(Waker& waker) noexcept {
+void Wake(Waker& waker) noexcept {
   const EpochGuard guard;
   waker.Wake();
 }
@@ -46,7 +46,7 @@ void InputBase::SetWaker(Waker* waker) {
     waker_ = before;  // so that the same call does the rest
     throw;
   }
-  if (waker_ != nullptr && HasValue(*this)) Tell(*waker_);
+  if (waker_ != nullptr && HasValue(*this)) Wake(*waker_);
 }
 
 void InputBase::SetStrategy(Strategy strategy) {
@@ -98,7 +98,7 @@ void InputBase::Rebind(const std::vector<Source>& sources) {
   if (arrival_) arrival_->Wake();
   const auto added = std::span(outputs).subspan(known);
   const auto brings_data = [](const Port* output) { return HasValue(*output); };
-  if (waker_ != nullptr && std::ranges::any_of(added, brings_data)) Tell(*waker_);
+  if (waker_ != nullptr && std::ranges::any_of(added, brings_data)) Wake(*waker_);
 }
 
 void InputBase::ReplaceSource(const Port& from, Port& to) noexcept {
@@ -122,7 +122,7 @@ void InputBase::TakeOverFlow(Port& from) {
     for (const Source& source : sources_) UpdateChannel(*source.output);
   }
   if (arrival_) arrival_->Wake();
-  if (waker_ != nullptr && HasValue(*this)) Tell(*waker_);
+  if (waker_ != nullptr && HasValue(*this)) Wake(*waker_);
 }
 
 // Whether publishers have to do anything for this input.
@@ -141,12 +141,12 @@ void InputBase::UpdateChannel(Port& output) {
     // A sink is an input that is no interface port, and all of those derive from InputBase.
     auto& input = static_cast<InputBase&>(*port);
     if (input.sink_ != nullptr) {
-      if (TapQueue* const tap = input.sink_->tap()) {
-        subscribers.taps.push_back(tap);
+      if (ProbeQueue* const probe = input.sink_->probe()) {
+        subscribers.probes.push_back(probe);
       } else {
         subscribers.queues.push_back(input.sink_);
       }
-      waiting += input.sink_->room();
+      waiting += input.sink_->capacity();
     }
     if (input.waker_ != nullptr) subscribers.wakers.push_back(input.waker_);
     if (input.arrival_) subscribers.wakers.push_back(input.arrival_.get());

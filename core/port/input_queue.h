@@ -143,7 +143,7 @@ class InputQueue final : public InputQueueBase {
   [[nodiscard]] bool WouldRefuse() noexcept override {
     if (on_full_ != OnFull::kRefuse) return false;
     if (IsCrowdedOut()) return true;
-    return stream_ != nullptr ? !stream_->HasRoom() : shared_->size() >= capacity_;
+    return stream_ != nullptr ? !stream_->HasCapacity() : shared_->size() >= capacity_;
   }
   [[nodiscard]] std::size_t size() const noexcept override {
     const std::size_t first = first_waits_.load(std::memory_order_relaxed) ? 1 : 0;

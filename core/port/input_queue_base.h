@@ -17,7 +17,7 @@ enum class Writers { kOne, kSeveral };
 /// its values.
 class InputQueueBase : public QueueSink {
  public:
-  [[nodiscard]] std::size_t room() const noexcept final { return capacity_; }
+  [[nodiscard]] std::size_t capacity() const noexcept final { return capacity_; }
   [[nodiscard]] OnFull on_full() const noexcept { return on_full_; }
   [[nodiscard]] Writers writers() const noexcept { return writers_; }
   [[nodiscard]] std::uint64_t dropped() const noexcept {

@@ -20,7 +20,7 @@ namespace runnel {
 /// readers hold instead of copying. A few words are copied sooner than a buffer is held. Specialise
 /// it to false for a type that shall always travel in buffers.
 template <typename T>
-inline constexpr bool kIsCheap =
+inline constexpr bool kIsInlined =
     std::is_trivially_copyable_v<T>&& std::is_copy_constructible_v<T> && sizeof(T) <= 32;
 
 /// Whether values of T that travel in buffers lie in queues as copies nevertheless: a short copy
@@ -38,14 +38,15 @@ namespace internal {
 
 /// A value of a cheap type, copied.
 template <typename T>
-class CopiedValue {
+class InlinedValue {
  public:
-  CopiedValue() = default;
+  InlinedValue() = default;
   /// The newest one, or none.
-  [[gnu::always_inline]] explicit CopiedValue(const LatestValue<T>& latest) noexcept {
+  [[gnu::always_inline]] explicit InlinedValue(const LatestValue<T>& latest) noexcept {
     latest.Read(writable(), publication_);
   }
-  CopiedValue(const T& value, const Publication& publication) noexcept : publication_(publication) {
+  InlinedValue(const T& value, const Publication& publication) noexcept
+      : publication_(publication) {
     new (bytes_.data()) T(value);
   }
 
@@ -155,7 +156,7 @@ class LeasedOrCopiedValue {
 
 template <typename T>
 using HeldValue = std::conditional_t<
-    kIsCheap<T>, CopiedValue<T>,
+    kIsInlined<T>, InlinedValue<T>,
     std::conditional_t<kIsCopiedInQueues<T>, LeasedOrCopiedValue<T>, LeasedValue<T>>>;
 
 }  // namespace internal
@@ -163,7 +164,7 @@ using HeldValue = std::conditional_t<
 /// Read access to one published value. The value does not change while the lease is held, and lives
 /// as long as the lease, whatever becomes of the port, the module and the connection meanwhile.
 ///
-///     if (const auto pose = pose_input.Read()) Use(*pose, pose.stamp());
+///     if (const auto pose = pose_input.Read()) Use(*pose, pose.timestamp());
 ///
 /// Ownership:   of one reference to the value's buffer (none for cheap types: a copy).
 /// Threads:     one lease belongs to one thread at a time; copies are independent.
@@ -191,7 +192,7 @@ class Lease {
   }
   [[nodiscard]] bool is_new() const noexcept { return freshness() == Freshness::kNew; }
   /// The time of the cycle that published the value.
-  [[nodiscard]] Time stamp() const { return Time(Duration(Checked().publication().stamp)); }
+  [[nodiscard]] Time timestamp() const { return Time(Duration(Checked().publication().timestamp)); }
   /// 1 for the first value that the source has published, and so on.
   [[nodiscard]] std::uint64_t sequence() const { return Checked().publication().sequence; }
   /// How many values of the same source came and went unseen since the last read of this input.

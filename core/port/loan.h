@@ -33,7 +33,7 @@ class Loan {
   [[gnu::always_inline]] ~Loan() { Drop(); }
 
   [[nodiscard]] bool has_value() const noexcept {
-    if constexpr (kIsCheap<T>) {
+    if constexpr (kIsInlined<T>) {
       return slot_.has_value();
     } else {
       return slot_ != nullptr;
@@ -42,7 +42,7 @@ class Loan {
   explicit operator bool() const noexcept { return has_value(); }
   T& operator*() {
     RUNNEL_CHECK(has_value(), "the loan is empty: the pool had no free buffer");
-    if constexpr (kIsCheap<T>) {
+    if constexpr (kIsInlined<T>) {
       return *slot_;
     } else {
       return slot_->value();
@@ -54,18 +54,18 @@ class Loan {
   friend class Channel<T>;
   using Buffer = runnel::Buffer<T>;
   // A cheap type needs no buffer: its loan is the value itself.
-  using Slot = std::conditional_t<kIsCheap<T>, std::optional<T>, Buffer*>;
+  using Slot = std::conditional_t<kIsInlined<T>, std::optional<T>, Buffer*>;
 
   explicit Loan(Slot slot) noexcept : slot_(std::move(slot)) {}
   // What is seldom is not told where the loan lies, so that it can lie in a register.
   [[gnu::always_inline]] void Drop() noexcept {
-    if constexpr (!kIsCheap<T>) {
+    if constexpr (!kIsInlined<T>) {
       if (slot_ != nullptr) [[unlikely]]
         DropLoan(*slot_);
     }
     slot_ = Slot{};
   }
-  [[gnu::noinline]] static void DropLoan(Buffer& buffer) noexcept requires(!kIsCheap<T>) {
+  [[gnu::noinline]] static void DropLoan(Buffer& buffer) noexcept requires(!kIsInlined<T>) {
     buffer.DropLoan();
   }
 

@@ -56,7 +56,7 @@ class Output final : public OutputBase {
   /// Calls `fill` for each buffer that the pool has now, so that values keep their memory from the
   /// start (a list's capacity). For Prepare(); allocates. None of the buffers may be out.
   template <typename Fill>
-  void PrepareBuffers(Fill&& fill) requires(!kIsCheap<T>) {
+  void PrepareBuffers(Fill&& fill) requires(!kIsInlined<T>) {
     std::vector<runnel::Loan<T>> loans;
     for (std::size_t i = own().buffers(); i > 0; --i) loans.push_back(Loan());
     for (auto& loan : loans) fill(*loan);
@@ -67,8 +67,8 @@ class Output final : public OutputBase {
     return own().Publish(std::move(loan), PublicationTime());
   }
   /// Copies or moves the value into a buffer (cheap types: straight into the slot).
-  PublishStatus Publish(const T& value) requires(kIsCheap<T> || std::is_copy_assignable_v<T>) {
-    if constexpr (kIsCheap<T>) {
+  PublishStatus Publish(const T& value) requires(kIsInlined<T> || std::is_copy_assignable_v<T>) {
+    if constexpr (kIsInlined<T>) {
       return own().PublishValue(value, PublicationTime());
     } else {
       auto loan = Loan();
@@ -77,7 +77,7 @@ class Output final : public OutputBase {
       return Publish(std::move(loan));
     }
   }
-  PublishStatus Publish(T&& value) requires(!kIsCheap<T>) {
+  PublishStatus Publish(T&& value) requires(!kIsInlined<T>) {
     auto loan = Loan();
     if (!loan) return PublishStatus::kNoBuffer;
     *loan = std::move(value);
@@ -108,10 +108,10 @@ class Output final : public OutputBase {
   /// How often the pool had to allocate since the start.
   [[nodiscard]] std::uint64_t growths() const noexcept { return own().growths(); }
 
-  bool LookAtValue(const Look& look) const override {
+  bool VisitLatest(const Visitor& visit) const override {
     const auto held = own().ReadForViewer();
     if (!held.has_value()) return false;
-    look(&held.value(), Time(Duration(held.publication().stamp)));
+    visit(&held.value(), Time(Duration(held.publication().timestamp)));
     return true;
   }
   Result<PublishStatus> PublishFilled(const Fill& fill) override {

@@ -120,7 +120,7 @@ Result<void> Port::CheckConnection(const Port& from, const Port& to) {
   if (auto ends = CheckEnds(from, to); !ends) return ends;
   if (IsConnected(from, to)) return Refusal(from, "is connected to " + to.path() + " already");
   if (from.is_proxy() && to.is_proxy() && Reaches(to, from)) {
-    return Refusal(from, "connecting to " + to.path() + " would close a circle of interface ports");
+    return Refusal(from, "connecting to " + to.path() + " would close a cycle of interface ports");
   }
   return {};
 }

@@ -70,10 +70,10 @@ class Port : public FrameworkElement {
   static Result<void> CheckTakeOver(const Port& port, const Port& from);
   void TakeOver(Port& from);
 
-  /// Shows the newest value to `look`, without marking it as read; false if there is none. For
+  /// Shows the newest value to `visit`, without marking it as read; false if there is none. For
   /// viewers that know the type by its TypeInfo only. Any thread.
-  using Look = std::function<void(const void* value, Time stamp)>;
-  virtual bool LookAtValue(const Look& look) const = 0;
+  using Visitor = std::function<void(const void* value, Time timestamp)>;
+  virtual bool VisitLatest(const Visitor& visit) const = 0;
   /// How many values have passed this port's source. Any thread.
   [[nodiscard]] virtual std::uint64_t publications() const noexcept { return 0; }
 
@@ -85,7 +85,7 @@ class Port : public FrameworkElement {
   virtual Result<PublishStatus> PublishFilled(const Fill& fill);
   /// Another output for values of the type of this one, which the caller owns; nullptr if only a module
   /// can make such values (no default constructor), and for ports that know no C++ type: interface ports
-  /// and taps. Throws what the constructor of an element throws.
+  /// and probes. Throws what the constructor of an element throws.
   [[nodiscard]] virtual std::unique_ptr<Port> MakeOutput(FrameworkElement& group, std::string name,
                                                          OutputOptions options) const;
 

@@ -11,9 +11,9 @@ ProxyPort::ProxyPort(const Placement& placement, Direction direction, const Type
                      std::string description)
     : Port(placement, direction, type, std::move(description)) {}
 
-bool ProxyPort::LookAtValue(const Look& look) const {
+bool ProxyPort::VisitLatest(const Visitor& visit) const {
   const std::lock_guard lock(runtime().structure_mutex());
-  return std::ranges::any_of(Sources(), [&](Port* source) { return source->LookAtValue(look); });
+  return std::ranges::any_of(Sources(), [&](Port* source) { return source->VisitLatest(visit); });
 }
 
 std::uint64_t ProxyPort::publications() const noexcept {

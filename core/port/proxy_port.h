@@ -16,7 +16,7 @@ class ProxyPort final : public Port {
 
   [[nodiscard]] bool is_proxy() const noexcept override { return true; }
   /// Of the first source that has a value. Takes the structure lock.
-  bool LookAtValue(const Look& look) const override;
+  bool VisitLatest(const Visitor& visit) const override;
   /// Of all its sources together. Takes the structure lock.
   [[nodiscard]] std::uint64_t publications() const noexcept override;
 };

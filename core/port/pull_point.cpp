@@ -5,7 +5,7 @@
 
 #include "core/base/check.h"
 #include "core/lockfree/asymmetric_fence.h"
-#include "core/lockfree/patience.h"
+#include "core/lockfree/backoff.h"
 #include "core/lockfree/thread_epoch.h"
 
 namespace runnel {
@@ -68,7 +68,7 @@ void PullPoint::WaitForRun() const {
   const std::uint64_t run = run_.load(std::memory_order_acquire);
   if (run % 2 == 0) return;
   for (int round = 0; run_.load(std::memory_order_acquire) == run; ++round) {
-    WaitOneRound(round);
+    BackOff(round);
   }
 }
 

@@ -24,15 +24,15 @@ class PullPoint {
   using Provider = std::function<bool(void* value)>;
 
   /// The right to publish, if it was free.
-  class Turn {
+  class Lock {
    public:
-    explicit Turn(PullPoint& point) noexcept : point_(point), held_(point.TryTake()) {}
-    ~Turn() {
+    explicit Lock(PullPoint& point) noexcept : point_(point), held_(point.TryTake()) {}
+    ~Lock() {
       // release: pairs with the acquire in TryTake(): what is the publisher's own is handed over.
       if (held_) point_.taken_.store(false, std::memory_order_release);
     }
-    Turn(const Turn&) = delete;
-    Turn& operator=(const Turn&) = delete;
+    Lock(const Lock&) = delete;
+    Lock& operator=(const Lock&) = delete;
     [[nodiscard]] bool held() const noexcept { return held_; }
 
    private:
@@ -71,7 +71,7 @@ class PullPoint {
 
   [[nodiscard]] bool TryTake() noexcept {
     // relaxed look first: who comes while it is taken does not take the line away. acquire: pairs
-    // with the release in ~Turn().
+    // with the release in ~Lock().
     return !taken_.load(std::memory_order_relaxed) &&
            !taken_.exchange(true, std::memory_order_acquire);
   }

@@ -7,29 +7,29 @@
 
 namespace runnel {
 
-class TapQueue;
+class ProbeQueue;
 
 /// The part of an input's queue that a channel keeps without knowing its type.
 class QueueSink {
  public:
   virtual ~QueueSink() = default;
   /// How many values can wait.
-  [[nodiscard]] virtual std::size_t room() const noexcept = 0;
+  [[nodiscard]] virtual std::size_t capacity() const noexcept = 0;
   /// Itself, if it takes values of any type; else it takes those of its channel's.
-  [[nodiscard]] virtual TapQueue* tap() noexcept { return nullptr; }
+  [[nodiscard]] virtual ProbeQueue* probe() noexcept { return nullptr; }
 };
 
 /// Those a publisher has to visit: queues and wakers. Readers of the latest value are not among
 /// them; they look at the publisher's slot. Never changed once made; a channel swaps whole lists.
 struct Subscribers {
   std::vector<QueueSink*> queues;  // of the channel's type
-  std::vector<TapQueue*> taps;
+  std::vector<ProbeQueue*> probes;
   std::vector<Waker*> wakers;
   /// The only one of them, if that is a queue; set by the channel.
   QueueSink* only_queue = nullptr;
 
   [[nodiscard]] bool empty() const noexcept {
-    return queues.empty() && taps.empty() && wakers.empty();
+    return queues.empty() && probes.empty() && wakers.empty();
   }
 };
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "core/types/binary_form.h"
+#include "core/types/binary_encoding.h"
 #include "core/types/duration_text.h"
 #include "core/types/type_of.h"
 

@@ -46,8 +46,8 @@ class TypeBuilder {
 
   /// What a value stands for, so that viewers can draw it: a word of core/types/README.md, whose
   /// fields T then has.
-  TypeBuilder& Meaning(std::string meaning) {
-    type_.meaning_ = std::move(meaning);
+  TypeBuilder& SemanticTag(std::string tag) {
+    type_.semantic_tag_ = std::move(tag);
     return *this;
   }
 
@@ -70,7 +70,7 @@ class TypeBuilder {
     return *this;
   }
 
-  /// For types with a text form of their own.
+  /// For types with a text format of their own.
   TypeBuilder& Leaf(const LeafOperations& operations) {
     type_.kind_ = TypeKind::kLeaf;
     type_.leaf_ = operations;

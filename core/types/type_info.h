@@ -21,7 +21,7 @@ struct FieldOptions;
 
 enum class TypeKind {
   kOpaque,       ///< has a name, and nothing inside that anybody may look at
-  kLeaf,         ///< one value with a text form of its own: bool, numbers, string, duration, time
+  kLeaf,         ///< one value with a text format of its own: bool, numbers, string, duration, time
   kEnumeration,  ///< one of a few names
   kStructure,    ///< named fields
   kSequence,     ///< any or a fixed number of elements of one type
@@ -88,8 +88,8 @@ class TypeInfo {
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
   /// What a value stands for, for viewers that know no module: "pose", "range_scan"; "" if nobody
   /// said. The words and the fields that go with them: core/types/README.md.
-  [[nodiscard]] const std::string& meaning() const noexcept { return meaning_; }
-  /// Whether values have a text and a binary form: nothing in them is opaque.
+  [[nodiscard]] const std::string& semantic_tag() const noexcept { return semantic_tag_; }
+  /// Whether values have a text and a binary encoding: nothing in them is opaque.
   [[nodiscard]] bool is_transparent() const;
 
   /// Of a structure, in the order of their description.
@@ -121,7 +121,7 @@ class TypeInfo {
   std::size_t size_ = 0;  // of a value, and how it is aligned, where it was described first
   std::size_t alignment_ = 0;
   std::string name_;
-  std::string meaning_;
+  std::string semantic_tag_;
   TypeKind kind_ = TypeKind::kOpaque;
   bool is_complete_ = false;
   std::vector<FieldInfo> fields_;

@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "core/types/builtin_types.h"
-#include "core/types/text_form.h"
+#include "core/types/text_format.h"
 #include "core/types/type_builder.h"
 #include "core/types/type_info.h"
 
@@ -52,12 +52,12 @@ template <typename T>
   return type;
 }
 
-/// The text form: "0.25", "left", "{x: 1, y: 2}", "[1, 2, 3]". A string stands for itself.
+/// The text format: "0.25", "left", "{x: 1, y: 2}", "[1, 2, 3]". A string stands for itself.
 template <typename T>
 [[nodiscard]] std::string TextOf(const T& value) {
   return ToText(TypeOf<T>(), &value);
 }
-/// The value of a text form. Fields that a structure's text leaves out are as T{} has them.
+/// The value of a text format. Fields that a structure's text leaves out are as T{} has them.
 template <typename T>
 [[nodiscard]] Result<T> FromText(std::string_view text) {
   T value{};

@@ -26,7 +26,7 @@ struct TextSpan {
 struct XmlAttribute {
   std::string name;
   std::string value;
-  SourcePosition position;        ///< of the first letter of the name
+  SourcePosition position;        ///< of the first character of the name
   SourcePosition value_position;  ///< of what follows the opening quote
   TextSpan span = {};             ///< from the name to the closing quote
   TextSpan value_span = {};       ///< between the quotes
@@ -64,7 +64,7 @@ class XmlElement {
   /// What stands directly between the tags, CDATA included, children and comments left out, without
   /// white space at either end.
   [[nodiscard]] const std::string& text() const noexcept;
-  /// Of the first letter of text(); position() if there is none.
+  /// Of the first character of text(); position() if there is none.
   [[nodiscard]] SourcePosition text_position() const;
 
   /// nullptr if there is none of that name.

@@ -9,7 +9,7 @@ namespace runnel {
 
 namespace {
 
-bool IsBlank(char letter) { return letter == ' ' || letter == '\t'; }
+bool IsWhitespace(char character) { return character == ' ' || character == '\t'; }
 
 std::string LineEndOf(std::string_view text) {
   const std::size_t end = text.find('\n');
@@ -81,8 +81,8 @@ void XmlEditor::RemoveWords(const XmlAttribute& list, const std::set<std::size_t
 
 void XmlEditor::Remove(XmlElement element) {
   const TextSpan whole = element.spans().whole;
-  const std::size_t before = SkipBlanksBack(whole.begin);
-  const std::size_t behind = SkipBlanks(whole.end);
+  const std::size_t before = SkipWhitespaceBack(whole.begin);
+  const std::size_t behind = SkipWhitespace(whole.end);
   const std::size_t next_line = NextLine(whole.end);
   const bool is_last_of_line = next_line != whole.end;
   if (!is_last_of_line) {
@@ -134,7 +134,7 @@ void XmlEditor::WriteAppended(XmlElement parent, const std::vector<NewElement>& 
     edits_.Replace({begin, spans.start_tag.end},
                    ">" + layout_.line_end + text + outer + "</" + parent.name() + ">");
   } else if (BeginsLine(spans.end_tag.begin)) {
-    edits_.Insert(SkipBlanksBack(spans.end_tag.begin), std::move(text));
+    edits_.Insert(SkipWhitespaceBack(spans.end_tag.begin), std::move(text));
   } else {
     edits_.Insert(spans.end_tag.begin, layout_.line_end + text + outer);
   }
@@ -144,7 +144,7 @@ std::string XmlEditor::MarginAt(std::size_t place) const {
   std::size_t begin = place;
   while (begin > 0 && text_[begin - 1] != '\n') --begin;
   if (begin == 0 && text_.starts_with("\xEF\xBB\xBF")) begin = 3;
-  return std::string(text_.substr(begin, SkipBlanks(begin) - begin));
+  return std::string(text_.substr(begin, SkipWhitespace(begin) - begin));
 }
 
 std::string XmlEditor::MarginInside(XmlElement parent) const {
@@ -156,23 +156,23 @@ std::string XmlEditor::MarginInside(XmlElement parent) const {
   return MarginAt(parent.spans().whole.begin) + layout_.indent;
 }
 
-std::size_t XmlEditor::SkipBlanksBack(std::size_t place) const {
-  while (place > 0 && IsBlank(text_[place - 1])) --place;
+std::size_t XmlEditor::SkipWhitespaceBack(std::size_t place) const {
+  while (place > 0 && IsWhitespace(text_[place - 1])) --place;
   return place;
 }
 
-std::size_t XmlEditor::SkipBlanks(std::size_t place) const {
-  while (place < text_.size() && IsBlank(text_[place])) ++place;
+std::size_t XmlEditor::SkipWhitespace(std::size_t place) const {
+  while (place < text_.size() && IsWhitespace(text_[place])) ++place;
   return place;
 }
 
 bool XmlEditor::BeginsLine(std::size_t place) const {
-  const std::size_t before = SkipBlanksBack(place);
+  const std::size_t before = SkipWhitespaceBack(place);
   return before == 0 || text_[before - 1] == '\n';
 }
 
 std::size_t XmlEditor::NextLine(std::size_t place) const {
-  std::size_t end = SkipBlanks(place);
+  std::size_t end = SkipWhitespace(place);
   if (end < text_.size() && text_[end] == '\r') ++end;
   return end < text_.size() && text_[end] == '\n' ? end + 1 : place;
 }

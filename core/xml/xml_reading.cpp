@@ -12,13 +12,13 @@ namespace runnel {
 
 namespace {
 
-// The first bytes of a text in UTF-8, `most` of them, but no half letter.
+// The first bytes of a text in UTF-8, `most` of them, but no half character.
 std::string Beginning(const std::string& text, std::size_t most) {
   std::size_t end = std::min(most, text.size());
-  const auto is_inside_letter = [&] {
+  const auto is_inside_character = [&] {
     return end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U;
   };
-  while (end > 0 && is_inside_letter()) --end;
+  while (end > 0 && is_inside_character()) --end;
   return text.substr(0, end);
 }
 

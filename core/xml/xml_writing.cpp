@@ -30,8 +30,8 @@ void Write(const NewElement& element, const std::string& margin, const XmlLayout
 
 std::string EscapedAttribute(std::string_view value, char quote) {
   std::string text;
-  for (const char letter : value) {
-    switch (letter) {
+  for (const char character : value) {
+    switch (character) {
       case '&':
         text += "&amp;";
         break;
@@ -48,8 +48,8 @@ std::string EscapedAttribute(std::string_view value, char quote) {
         text += "&#9;";
         break;
       default:
-        if (letter != quote) {
-          text += letter;
+        if (character != quote) {
+          text += character;
         } else {
           text += quote == '"' ? "&quot;" : "&apos;";
         }

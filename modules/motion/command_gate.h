@@ -48,8 +48,8 @@ class CommandGate final : public Module {
     const auto command = wanted.Read();
     const Contact touch = contact.Read().value_or(Contact{});
     std::optional<double> age;
-    if (command) age = ToSeconds(now() - command.stamp());
-    const GateState verdict = JudgeCommand(age, timeout.Get(), touch, stop.Get());
+    if (command) age = ToSeconds(now() - command.timestamp());
+    const GateState verdict = CheckCommand(age, timeout.Get(), touch, stop.Get());
     allowed.Publish(verdict == GateState::kOpen ? *command : Twist2{});
     state.Publish(verdict);
   }

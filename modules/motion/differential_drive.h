@@ -62,7 +62,7 @@ class DifferentialDriveModule final : public Module {
  private:
   [[nodiscard]] Twist2 Wanted() {
     const auto command = twist.Read();
-    const bool is_fresh = command && now() - command.stamp() <= FromSeconds(timeout.Get());
+    const bool is_fresh = command && now() - command.timestamp() <= FromSeconds(timeout.Get());
     return is_fresh ? *command : Twist2{};
   }
 

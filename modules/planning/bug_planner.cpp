@@ -59,7 +59,7 @@ void BugPlanner::Update() {
   const auto there = goal.Read();
   if (!view.is_new() || !here || !there) return;
   // Whoever localises has fallen silent: going on would be driving blind.
-  if (view.stamp() - here.stamp() > FromSeconds(pose_timeout.Get())) return;
+  if (view.timestamp() - here.timestamp() > FromSeconds(pose_timeout.Get())) return;
   CheckSensors(*view);
   const bool is_same_task = state_.has_task && state_.goal == *there;
   const BugInput input{.time_step = last_ ? ToSeconds(now() - *last_) : 0.0,

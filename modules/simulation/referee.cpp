@@ -139,12 +139,12 @@ void Referee::Update() {
   if (!begin_) begin_ = now();
   if (standing_.verdict != Verdict::kRunning) return;
   ++cycles_;
-  if (!at.is_new() || !there) return JudgeTime();
+  if (!at.is_new() || !there) return CheckTimeLimit();
   if (const auto said = status.Read()) planner_ = *said;
   if (const auto touch = contact.Read()) touched_ = touched_ || touch->is_touching;
   Record(*at);
   standing_ = {.mode = planner_.mode,
-               .verdict = Judge(*at, *there),
+               .verdict = VerdictAt(*at, *there),
                .distance_to_goal = Distance(Position(*at), *there),
                .path_length = path_.length(),
                .elapsed = ToSeconds(now() - *begin_)};
@@ -152,7 +152,7 @@ void Referee::Update() {
 }
 
 // The world may have fallen silent; the time limit holds all the same.
-void Referee::JudgeTime() {
+void Referee::CheckTimeLimit() {
   if (!IsTimeUp()) return;
   standing_.verdict = Verdict::kTimeout;
   standing_.elapsed = ToSeconds(now() - *begin_);
@@ -197,7 +197,7 @@ void Referee::RecordPoints() {
   }
 }
 
-Verdict Referee::Judge(const Pose2& at, const Point2& there) const {
+Verdict Referee::VerdictAt(const Pose2& at, const Point2& there) const {
   if (touched_ && touch_is_collision.Get()) return Verdict::kCollision;
   if (planner_.mode == PlannerMode::kUnreachable) return Verdict::kUnreachable;
   if (planner_.mode == PlannerMode::kReached) {

@@ -115,12 +115,12 @@ class Referee final : public Module {
 
   Result<void> Prepare() override;
   void Update() override;
-  void JudgeTime();
+  void CheckTimeLimit();
   [[nodiscard]] bool IsTimeUp() const;
   void Record(const Pose2& at);
   void RecordPoints();
   void ShowPath(const PathSample& sample);
-  [[nodiscard]] Verdict Judge(const Pose2& at, const Point2& there) const;
+  [[nodiscard]] Verdict VerdictAt(const Pose2& at, const Point2& there) const;
   [[nodiscard]] Standing LastStanding() const;
   [[nodiscard]] bool IsSuccess(Verdict verdict) const;
   [[nodiscard]] Result<void> CheckFolder(const StaticParameter<FilePath>& file,

@@ -7,7 +7,7 @@ namespace runnel {
 
 inline void Describe(TypeBuilder<Contact>& type) {
   type.Name("Contact")
-      .Meaning("contact")
+      .SemanticTag("contact")
       .Field("is_touching", &Contact::is_touching)
       .Field("bearing", &Contact::bearing, {.unit = "rad"});
 }

@@ -9,7 +9,7 @@ namespace runnel {
 
 inline void Describe(TypeBuilder<HitAndLeavePoints>& type) {
   type.Name("HitAndLeavePoints")
-      .Meaning("hit_and_leave_points")
+      .SemanticTag("hit_and_leave_points")
       .Field("hits", &HitAndLeavePoints::hits)
       .Field("leaves", &HitAndLeavePoints::leaves);
 }

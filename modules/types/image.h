@@ -8,7 +8,7 @@ namespace runnel {
 
 inline void Describe(TypeBuilder<Image>& type) {
   type.Name("Image")
-      .Meaning("image")
+      .SemanticTag("image")
       .Field("width", &Image::width)
       .Field("height", &Image::height)
       .Field("encoding", &Image::encoding)

@@ -8,7 +8,7 @@
 namespace runnel {
 
 inline void Describe(TypeBuilder<Path2>& type) {
-  type.Name("Path2").Meaning("path").Field("points", &Path2::points, {.unit = "m"});
+  type.Name("Path2").SemanticTag("path").Field("points", &Path2::points, {.unit = "m"});
 }
 
 }  // namespace runnel

@@ -7,14 +7,14 @@ namespace runnel {
 
 inline void Describe(TypeBuilder<Point2>& type) {
   type.Name("Point2")
-      .Meaning("point")
+      .SemanticTag("point")
       .Field("x", &Point2::x, {.unit = "m"})
       .Field("y", &Point2::y, {.unit = "m"});
 }
 
 inline void Describe(TypeBuilder<Pose2>& type) {
   type.Name("Pose2")
-      .Meaning("pose")
+      .SemanticTag("pose")
       .Field("x", &Pose2::x, {.unit = "m"})
       .Field("y", &Pose2::y, {.unit = "m"})
       .Field("heading", &Pose2::heading, {.unit = "rad"});
@@ -22,7 +22,7 @@ inline void Describe(TypeBuilder<Pose2>& type) {
 
 inline void Describe(TypeBuilder<Twist2>& type) {
   type.Name("Twist2")
-      .Meaning("twist")
+      .SemanticTag("twist")
       .Field("forward", &Twist2::forward, {.unit = "m/s"})
       .Field("turn", &Twist2::turn, {.unit = "rad/s"});
 }

@@ -7,7 +7,7 @@ namespace runnel {
 
 inline void Describe(TypeBuilder<RangeScan>& type) {
   type.Name("RangeScan")
-      .Meaning("range_scan")
+      .SemanticTag("range_scan")
       .Field("start_angle", &RangeScan::start_angle, {.unit = "rad"})
       .Field("angle_step", &RangeScan::angle_step, {.unit = "rad"})
       .Field("range_minimum", &RangeScan::range_minimum, {.unit = "m"})

@@ -17,7 +17,7 @@ inline void Describe(TypeBuilder<MapOutline>& type) {
 
 inline void Describe(TypeBuilder<WorldMap>& type) {
   type.Name("WorldMap")
-      .Meaning("world_map")
+      .SemanticTag("world_map")
       .Field("name", &WorldMap::name)
       .Field("start", &WorldMap::start)
       .Field("goal", &WorldMap::goal)

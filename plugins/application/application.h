@@ -160,7 +160,7 @@ class Application {
                      std::vector<Setting> settings = {});
   ChangeOutcome Undo();
   ChangeOutcome Redo();
-  /// Parameters in text form. Errors: no such parameter, with the nearest; not a value of it.
+  /// Parameters in text format. Errors: no such parameter, with the nearest; not a value of it.
   Result<void> Set(std::string_view path, std::string_view value);
   [[nodiscard]] Result<std::string> Get(std::string_view path);
   /// Saves what it is now to the file it came from, or to another.
@@ -247,7 +247,7 @@ class Application {
 
   Result<FrameworkElement*> FindElement(std::string_view path, internal::PathKind kind);
   static Error IsAnother(const FrameworkElement& found, const std::string& wanted);
-  Result<void> LookAt(std::string_view path, const TypeInfo& type, const Port::Look& look);
+  Result<void> LookAt(std::string_view path, const TypeInfo& type, const Port::Visitor& look);
   // Makes a port beside the application and ties it to the one at `path`.
   Result<void> Tie(std::string_view path, internal::PathKind kind, const ConnectOptions& options,
                    const std::function<std::unique_ptr<Port>(FrameworkElement& group)>& make);

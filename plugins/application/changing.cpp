@@ -9,8 +9,8 @@
 #include "plugins/runtime_construction/plugin_loading.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/structure/change_text.h"
-#include "plugins/structure/projection.h"
 #include "plugins/structure/reload.h"
+#include "plugins/structure/structure_overlay.h"
 
 namespace runnel {
 
@@ -63,12 +63,12 @@ Result<void> Application::Assign(std::string_view path, const std::string& threa
 
 Result<void> Application::Connect(std::string_view from, std::string_view to,
                                   const ConnectOptions& options) {
-  using internal::Projection;
+  using internal::StructureOverlay;
   const std::lock_guard lock(parts_->runtime().structure_mutex());
-  const Projection structure(parts_->runtime());
-  const auto source = structure.FindPort(from, Projection::End::kSends);
+  const StructureOverlay structure(parts_->runtime());
+  const auto source = structure.FindPort(from, StructureOverlay::End::kSends);
   if (!source) return source.error();
-  const auto sink = structure.FindPort(to, Projection::End::kReceives);
+  const auto sink = structure.FindPort(to, StructureOverlay::End::kReceives);
   if (!sink) return sink.error();
   return Port::Connect(**source, **sink, options);
 }
@@ -102,7 +102,7 @@ ChangeOutcome Application::Redo() { return parts_->history->Redo(); }
 Result<void> Application::Set(std::string_view path, std::string_view value) {
   {
     const std::lock_guard lock(parts_->runtime().structure_mutex());
-    const auto found = internal::Projection(parts_->runtime()).FindParameter(path);
+    const auto found = internal::StructureOverlay(parts_->runtime()).FindParameter(path);
     if (!found) return found.error();
     auto* const parameter = dynamic_cast<Configurable*>(*found);
     if (parameter == nullptr) return IsAnother(**found, "a parameter");
@@ -120,7 +120,7 @@ Result<void> Application::Set(std::string_view path, std::string_view value) {
 
 Result<std::string> Application::Get(std::string_view path) {
   const std::lock_guard lock(parts_->runtime().structure_mutex());
-  const auto found = internal::Projection(parts_->runtime()).FindParameter(path);
+  const auto found = internal::StructureOverlay(parts_->runtime()).FindParameter(path);
   if (!found) return found.error();
   const auto* const parameter = dynamic_cast<const Configurable*>(*found);
   if (parameter == nullptr) return IsAnother(**found, "a parameter");

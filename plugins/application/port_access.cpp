@@ -7,7 +7,7 @@
 
 #include "core/lockfree/epoch.h"
 #include "plugins/application/internal/application_parts.h"
-#include "plugins/structure/projection.h"
+#include "plugins/structure/structure_overlay.h"
 #include "plugins/watching/watched_port.h"
 
 namespace runnel {
@@ -15,7 +15,7 @@ namespace runnel {
 namespace {
 
 using internal::PathKind;
-using internal::Projection;
+using internal::StructureOverlay;
 
 // What holds a port of whoever embeds the application, beside it.
 class OutsidePort final : public FrameworkElement {
@@ -24,12 +24,13 @@ class OutsidePort final : public FrameworkElement {
   std::unique_ptr<Port> port;
 };
 
-Result<FrameworkElement*> FindAs(const Projection& structure, std::string_view path,
+Result<FrameworkElement*> FindAs(const StructureOverlay& structure, std::string_view path,
                                  PathKind kind) {
   if (kind == PathKind::kElement) return structure.Find(path);
   if (kind == PathKind::kParameter) return structure.FindParameter(path);
-  const auto found = structure.FindPort(
-      path, kind == PathKind::kOutput ? Projection::End::kSends : Projection::End::kReceives);
+  const auto found =
+      structure.FindPort(path, kind == PathKind::kOutput ? StructureOverlay::End::kSends
+                                                         : StructureOverlay::End::kReceives);
   if (!found) return found.error();
   return static_cast<FrameworkElement*>(*found);
 }
@@ -54,7 +55,7 @@ std::string KindText(const FrameworkElement& element) {
 
 Result<FrameworkElement*> Application::FindElement(std::string_view path, PathKind kind) {
   const std::lock_guard lock(parts_->runtime().structure_mutex());
-  return FindAs(Projection(parts_->runtime()), path, kind);
+  return FindAs(StructureOverlay(parts_->runtime()), path, kind);
 }
 
 Error Application::IsAnother(const FrameworkElement& found, const std::string& wanted) {
@@ -62,10 +63,10 @@ Error Application::IsAnother(const FrameworkElement& found, const std::string& w
 }
 
 Result<void> Application::LookAt(std::string_view path, const TypeInfo& type,
-                                 const Port::Look& look) {
+                                 const Port::Visitor& look) {
   const EpochGuard guard;  // what is found stays in memory so long
   std::unique_lock lock(parts_->runtime().structure_mutex());
-  const Projection structure(parts_->runtime());
+  const StructureOverlay structure(parts_->runtime());
   auto found = FindAs(structure, path, PathKind::kOutput);
   if (!found) {
     auto input = FindAs(structure, path, PathKind::kInput);
@@ -77,7 +78,7 @@ Result<void> Application::LookAt(std::string_view path, const TypeInfo& type,
   WatchedPort watched(port.path());
   if (auto there = watched.Find(parts_->runtime()); !there) return there;
   lock.unlock();
-  watched.LookIfNew(look);
+  watched.VisitIfNew(look);
   return {};
 }
 
@@ -89,7 +90,7 @@ Result<void> Application::Tie(
   Result<void> tied;
   try {
     const std::lock_guard lock(runtime.structure_mutex());
-    const auto found = FindAs(Projection(runtime), path, kind);
+    const auto found = FindAs(StructureOverlay(runtime), path, kind);
     if (!found) return found.error();
     auto& port = dynamic_cast<Port&>(**found);
     place =

@@ -22,45 +22,45 @@ RunReport::~RunReport() { runtime_.RemoveListener(*this); }
 void RunReport::OnReady(FrameworkElement& ready) {
   ready.Visit([this](FrameworkElement& element) {
     auto* const monitor = element.FindAnnotation<RunMonitor>();
-    if (monitor == nullptr || std::ranges::count(judges_, &element, &Judge::element) > 0) return;
-    judges_.push_back({monitor, &element, element.path(), FindSourcePlace(element)});
+    if (monitor == nullptr || std::ranges::count(sources_, &element, &Source::element) > 0) return;
+    sources_.push_back({monitor, &element, element.path(), FindSourcePlace(element)});
   });
 }
 
 void RunReport::OnDeleted(FrameworkElement& element) {
-  std::erase_if(judges_, [&](const Judge& each) { return each.element->IsAtOrBelow(element); });
+  std::erase_if(sources_, [&](const Source& each) { return each.element->IsAtOrBelow(element); });
 }
 
 template <typename Use>
-auto RunReport::Attempt(Judge& judge, const Use& use)
-    -> std::optional<decltype(use(*judge.monitor))> {
+auto RunReport::Attempt(Source& source, const Use& use)
+    -> std::optional<decltype(use(*source.monitor))> {
   try {
-    return use(*judge.monitor);
+    return use(*source.monitor);
   } catch (...) {
-    Fail(judge, DescribeException());
+    Fail(source, DescribeException());
   }
   return {};
 }
 
-void RunReport::Fail(Judge& judge, const std::string& why) {
-  judge.has_failed = true;
+void RunReport::Fail(Source& source, const std::string& why) {
+  source.has_failed = true;
   failures_.push_back({.message = "its run monitor has failed: " + why,
-                       .path = judge.path,
-                       .position = judge.position});
+                       .path = source.path,
+                       .position = source.position});
 }
 
-std::optional<RunOutcome> RunReport::OutcomeOf(Judge& judge) {
-  if (judge.has_failed) return {};
-  const auto outcome = Attempt(judge, [](RunMonitor& monitor) { return monitor.Outcome(); });
+std::optional<RunOutcome> RunReport::OutcomeOf(Source& source) {
+  if (source.has_failed) return {};
+  const auto outcome = Attempt(source, [](RunMonitor& monitor) { return monitor.Outcome(); });
   return outcome ? *outcome : std::nullopt;
 }
 
 std::string RunReport::Progress() {
   const std::lock_guard lock(runtime_.structure_mutex());
   std::string text;
-  for (Judge& judge : judges_) {
-    if (judge.has_failed) continue;
-    const auto said = Attempt(judge, [](RunMonitor& monitor) { return monitor.Progress(); });
+  for (Source& source : sources_) {
+    if (source.has_failed) continue;
+    const auto said = Attempt(source, [](RunMonitor& monitor) { return monitor.Progress(); });
     if (said) text += (text.empty() ? "" : "; ") + *said;
   }
   return text;
@@ -69,23 +69,23 @@ std::string RunReport::Progress() {
 void RunReport::Hear(const Fault& fault) {
   if (fault.is_mended) return;
   const std::lock_guard lock(runtime_.structure_mutex());
-  for (Judge& judge : judges_) {
-    if (judge.path == fault.path) judge.has_failed = true;
+  for (Source& source : sources_) {
+    if (source.path == fault.path) source.has_failed = true;
   }
 }
 
 bool RunReport::IsOver() {
   const std::lock_guard lock(runtime_.structure_mutex());
-  return !judges_.empty() && std::ranges::all_of(judges_, [this](Judge& judge) {
-    return OutcomeOf(judge).has_value() || judge.has_failed;
+  return !sources_.empty() && std::ranges::all_of(sources_, [this](Source& source) {
+    return OutcomeOf(source).has_value() || source.has_failed;
   });
 }
 
 std::string RunReport::Verdicts() {
   const std::lock_guard lock(runtime_.structure_mutex());
   std::string text;
-  for (Judge& judge : judges_) {
-    const auto outcome = OutcomeOf(judge);
+  for (Source& source : sources_) {
+    const auto outcome = OutcomeOf(source);
     if (!outcome) continue;
     text += outcome->verdict + (outcome->summary.empty() ? "" : ": " + outcome->summary) + "\n";
   }
@@ -94,22 +94,22 @@ std::string RunReport::Verdicts() {
 
 bool RunReport::IsGood() {
   const std::lock_guard lock(runtime_.structure_mutex());
-  return std::ranges::all_of(judges_, [this](Judge& judge) {
-    const auto outcome = OutcomeOf(judge);
-    return !judge.has_failed && (!outcome || outcome->success);
+  return std::ranges::all_of(sources_, [this](Source& source) {
+    const auto outcome = OutcomeOf(source);
+    return !source.has_failed && (!outcome || outcome->success);
   });
 }
 
 std::string RunReport::Finish(Diagnostics& diagnostics) {
   const std::lock_guard lock(runtime_.structure_mutex());
   std::string text;
-  for (Judge& judge : judges_) {
-    const auto said = Attempt(judge, [](RunMonitor& monitor) { return monitor.Finish(); });
+  for (Source& source : sources_) {
+    const auto said = Attempt(source, [](RunMonitor& monitor) { return monitor.Finish(); });
     if (!said) continue;
     if (!*said) {
       Error error = said->error();
-      if (error.path.empty()) error.path = judge.path;
-      if (error.position.file.empty()) error.position = judge.position;
+      if (error.path.empty()) error.path = source.path;
+      if (error.position.file.empty()) error.position = source.position;
       diagnostics.Add(std::move(error));
     } else if (!(*said)->empty()) {
       text += **said + ((*said)->back() == '\n' ? "" : "\n");

@@ -45,7 +45,7 @@ class RunReport final : public ElementListener {
   void OnDeleted(FrameworkElement& element) override;
 
  private:
-  struct Judge {
+  struct Source {
     RunMonitor* monitor;
     const FrameworkElement* element;
     std::string path;
@@ -55,12 +55,12 @@ class RunReport final : public ElementListener {
 
   /// What `use` makes of the monitor; nothing if that throws.
   template <typename Use>
-  auto Attempt(Judge& judge, const Use& use) -> std::optional<decltype(use(*judge.monitor))>;
-  void Fail(Judge& judge, const std::string& why);
-  [[nodiscard]] std::optional<RunOutcome> OutcomeOf(Judge& judge);
+  auto Attempt(Source& source, const Use& use) -> std::optional<decltype(use(*source.monitor))>;
+  void Fail(Source& source, const std::string& why);
+  [[nodiscard]] std::optional<RunOutcome> OutcomeOf(Source& source);
 
   Runtime& runtime_;
-  std::vector<Judge> judges_;  // guarded by the structure lock
+  std::vector<Source> sources_;  // guarded by the structure lock
   std::vector<Error> failures_;
 };
 

@@ -78,19 +78,19 @@ class DotWriter {
 
   void NoteThread(const FrameworkElement& thread) {
     const std::size_t count = colours_.size();
-    colours_[thread.serial()] = {kColours.at(count % kColours.size()), &thread};
+    colours_[thread.id()] = {kColours.at(count % kColours.size()), &thread};
   }
   std::string ColourOf(const FrameworkElement& module) {
-    const std::uint64_t serial = AssignedThread(module);
-    if (serial != 0 && !colours_.contains(serial)) NoteThreadElsewhere(serial);
-    const auto found = colours_.find(serial);
+    const std::uint64_t id = AssignedThread(module);
+    if (id != 0 && !colours_.contains(id)) NoteThreadElsewhere(id);
+    const auto found = colours_.find(id);
     if (found == colours_.end()) return kNoThread;
     found->second.is_used = true;
     return found->second.colour;
   }
-  void NoteThreadElsewhere(std::uint64_t serial) {
+  void NoteThreadElsewhere(std::uint64_t id) {
     application_.runtime().root().Visit([&](FrameworkElement& element) {
-      if (element.serial() == serial) NoteThread(element);
+      if (element.id() == id) NoteThread(element);
     });
   }
 
@@ -159,14 +159,14 @@ class DotWriter {
                           const std::string& side) {
     if (place >= ports.size()) return "<td></td>";
     const Port& port = *ports[place];
-    return "<td port=\"p" + std::to_string(port.serial()) + "\" align=\"" + side +
+    return "<td port=\"p" + std::to_string(port.id()) + "\" align=\"" + side +
            "\"><font point-size=\"10\">" + EscapedMarkup(port.name()) + "</font></td>";
   }
 
   std::string End(const Port& port, bool is_source) {
     const FrameworkElement* const module = ModuleOf(port);
     if (module == nullptr) return Quoted(port.path()) + (is_source ? ":e" : ":w");
-    return Quoted(module->path()) + ":p" + std::to_string(port.serial()) +
+    return Quoted(module->path()) + ":p" + std::to_string(port.id()) +
            (is_source ? ":e" : ":w");
   }
 
@@ -200,7 +200,7 @@ class DotWriter {
 
   void WriteKey() {
     std::string rows;
-    for (const auto& [serial, colour] : colours_) {
+    for (const auto& [id, colour] : colours_) {
       if (!colour.is_used) continue;
       rows += "<tr><td bgcolor=\"" + colour.colour + "\" border=\"1\" width=\"22\"></td>" +
               "<td align=\"left\">" + EscapedMarkup(ThreadText(*colour.thread)) + "</td></tr>";

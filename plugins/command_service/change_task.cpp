@@ -23,10 +23,10 @@ constexpr Duration kLongestProbation = std::chrono::seconds(3);
 constexpr Duration kFirstLook = std::chrono::milliseconds(1);
 constexpr Duration kLastLook = std::chrono::milliseconds(20);
 
-std::uint64_t SerialOf(Runtime& runtime, const std::string& path) {
+std::uint64_t IdOf(Runtime& runtime, const std::string& path) {
   const std::lock_guard lock(runtime.structure_mutex());
   const auto found = FindMeant(runtime, path);
-  return found ? (*found)->serial() : 0;
+  return found ? (*found)->id() : 0;
 }
 
 std::string TypeIn(const Change& change) {
@@ -48,8 +48,8 @@ void LoadMissingPlugins(const ChangeSet& changes, const ServedApplication& appli
   }
 }
 
-std::string DoneText(Duration stood_still) {
-  return fmt::format("done; threads stood still for {:.3f} ms", ToSeconds(stood_still) * 1e3);
+std::string DoneText(Duration hold_time) {
+  return fmt::format("done; threads stood still for {:.3f} ms", ToSeconds(hold_time) * 1e3);
 }
 
 }  // namespace
@@ -93,12 +93,12 @@ void ChangeTask::State::Apply() {
   }
   Log();
   is_on_probation = *answer && !swaps.empty();
-  if (*answer) TellWhatWasDone(outcome.stood_still);
+  if (*answer) TellWhatWasDone(outcome.hold_time);
 }
 
-void ChangeTask::State::TellWhatWasDone(Duration stood_still) noexcept {
+void ChangeTask::State::TellWhatWasDone(Duration hold_time) noexcept {
   try {
-    answer->text = DoneText(stood_still);
+    answer->text = DoneText(hold_time);
   } catch (...) {
     // Out of memory for the text: that it has been done is said all the same.
   }
@@ -121,7 +121,7 @@ void ChangeTask::State::FindSwaps() {
   for (const Change& each : request.placed.changes) {
     const auto* const replace = std::get_if<ReplaceModule>(&each);
     if (replace == nullptr || replace->probation_cycles == 0) continue;
-    swaps.push_back({replace->path, SerialOf(application.runtime, replace->path)});
+    swaps.push_back({replace->path, IdOf(application.runtime, replace->path)});
   }
 }
 
@@ -129,7 +129,7 @@ void ChangeTask::State::LookAfterProbation() {
   application.editor.Tend();
   is_on_probation = application.editor.on_probation() > 0;
   for (Swap& swap : swaps) {
-    swap.is_back = SerialOf(application.runtime, swap.path) == swap.before;
+    swap.is_back = IdOf(application.runtime, swap.path) == swap.before;
   }
 }
 

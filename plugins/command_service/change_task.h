@@ -27,14 +27,14 @@ class ChangeTask {
   // A replaced module, to find out whether the new one is still there a moment later.
   struct Swap {
     std::string path;
-    std::uint64_t before = 0;  // serial of the old one
+    std::uint64_t before = 0;  // id of the old one
     bool is_back = false;
   };
 
   struct State {
     std::optional<Duration> Step();
     void Apply();
-    void TellWhatWasDone(Duration stood_still) noexcept;
+    void TellWhatWasDone(Duration hold_time) noexcept;
     void Log() const noexcept;
     void FindSwaps();
     void LookAfterProbation();

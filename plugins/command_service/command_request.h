@@ -15,7 +15,7 @@ struct ChangeRequest {
   static constexpr std::size_t kMostChanges = 20'000;
 
   PlacedChanges placed;
-  std::string label = {};  ///< for the history; "": the changes in their text form
+  std::string label = {};  ///< for the history; "": the changes in their text format
 };
 /// Takes back what was changed last.
 struct UndoRequest {};

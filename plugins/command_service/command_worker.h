@@ -36,12 +36,12 @@ class WorkerTask {
  private:
   friend class CommandWorker;
   friend class TaskGroup;
-  using MachineTime = std::chrono::steady_clock::time_point;
+  using SteadyTime = std::chrono::steady_clock::time_point;
 
   TaskGroup* group_ = nullptr;
   TaskStep step_;
   std::function<void()> on_done_;
-  MachineTime due_{};  // guarded by the worker's mutex
+  SteadyTime due_{};  // guarded by the worker's mutex
   std::optional<Error> failure_;
   std::atomic<bool> is_cancelled_{false};
   // release when done: who sees it sees what the steps have done.

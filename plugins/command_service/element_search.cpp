@@ -1,25 +1,25 @@
 #include "plugins/command_service/element_search.h"
 
-#include "plugins/structure/projection.h"
+#include "plugins/structure/structure_overlay.h"
 
 namespace runnel {
 
-using internal::Projection;
+using internal::StructureOverlay;
 
 Result<FrameworkElement*> FindMeant(Runtime& runtime, std::string_view path) {
-  const Projection structure(runtime);
+  const StructureOverlay structure(runtime);
   const auto found = structure.Find(path);
   if (found) return found;
-  const auto port = structure.FindPort(path, Projection::End::kSends);
+  const auto port = structure.FindPort(path, StructureOverlay::End::kSends);
   if (port) return static_cast<FrameworkElement*>(*port);
   return found;
 }
 
 Result<Port*> FindMeantPort(Runtime& runtime, std::string_view path) {
-  const Projection structure(runtime);
-  const auto output = structure.FindPort(path, Projection::End::kSends);
+  const StructureOverlay structure(runtime);
+  const auto output = structure.FindPort(path, StructureOverlay::End::kSends);
   if (output) return output;
-  const auto input = structure.FindPort(path, Projection::End::kReceives);
+  const auto input = structure.FindPort(path, StructureOverlay::End::kReceives);
   return input ? input : output;
 }
 

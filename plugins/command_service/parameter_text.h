@@ -6,7 +6,7 @@
 
 namespace runnel {
 
-/// The text form of a parameter's value, for people. A type whose text form throws does not end the whole
+/// The text format of a parameter's value, for people. A type whose text format throws does not end the whole
 /// of what is shown: what it has thrown stands in the place of the value, in brackets.
 [[nodiscard]] std::string ParameterText(const Configurable& parameter);
 

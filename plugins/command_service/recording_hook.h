@@ -11,7 +11,7 @@
 namespace runnel {
 
 /// What a client wants to be recorded.
-struct RecordingWish {
+struct RecordingRequest {
   std::string file;  ///< absolute
   std::vector<std::string> ports = {};
   std::string compression = {};
@@ -30,6 +30,7 @@ class ClientRecording {
 };
 
 /// Begins one. May take a while. Errors: of the file, of the ports; nothing is recorded then.
-using RecordingHook = std::function<Result<std::unique_ptr<ClientRecording>>(const RecordingWish&)>;
+using RecordingHook =
+    std::function<Result<std::unique_ptr<ClientRecording>>(const RecordingRequest&)>;
 
 }  // namespace runnel

@@ -38,10 +38,10 @@ bool ClientConnection::is_over() const noexcept {
   return is_refused_ || (has_ended_ && !may_have_request_);
 }
 
-std::optional<Command::MachineTime> ClientConnection::due() const noexcept {
+std::optional<Command::SteadyTime> ClientConnection::due() const noexcept {
   if (backlog() >= kBacklog || is_refused_) return {};
   if (command_ != nullptr) return command_->due();
-  return may_have_request_ ? std::optional(MachineTime{}) : std::nullopt;
+  return may_have_request_ ? std::optional(SteadyTime{}) : std::nullopt;
 }
 
 void ClientConnection::Send(std::string_view kind, std::string_view payload) {
@@ -53,7 +53,7 @@ void ClientConnection::SendEnd(ControlCode code) {
 }
 
 void ClientConnection::Refuse(const Error& error) {
-  Complain(ErrorLine(error));
+  WriteError(ErrorLine(error));
   SendEnd(ControlCode::kBadInput);
   is_refused_ = true;
   command_.reset();
@@ -107,7 +107,7 @@ void ClientConnection::Begin(CommandService& service, TaskGroup& tasks) {
   if (command) {
     command_ = std::move(*command);
   } else {
-    Complain(ErrorLine(command.error()));
+    WriteError(ErrorLine(command.error()));
     SendEnd(ControlCode::kBadInput);
   }
 }
@@ -121,7 +121,7 @@ void ClientConnection::Work(CommandService& service, TaskGroup& tasks) {
       command_.reset();
       SendEnd(*code);
     }
-  } catch (...) {  // of a type's text form, or for want of memory
+  } catch (...) {  // of a type's text format, or for want of memory
     Refuse(CaughtError());
   }
   Flush();
@@ -130,7 +130,7 @@ void ClientConnection::Work(CommandService& service, TaskGroup& tasks) {
 void ClientConnection::Finish() {
   if (command_ != nullptr) {
     command_.reset();
-    Complain("the application has ended\n");
+    WriteError("the application has ended\n");
     SendEnd(ControlCode::kFailed);
   }
   Flush();

@@ -17,7 +17,7 @@ namespace runnel {
 /// Threads:  the server's.
 class ClientConnection final : private Answer {
  public:
-  using MachineTime = Command::MachineTime;
+  using SteadyTime = Command::SteadyTime;
 
   /// Takes the socket. `longest_request`: in bytes.
   ClientConnection(int descriptor, std::size_t longest_request);
@@ -31,9 +31,9 @@ class ClientConnection final : private Answer {
   /// Gone, or there is nothing left to do for it.
   [[nodiscard]] bool is_over() const noexcept;
   /// Since when nothing has been read from it or written to it.
-  [[nodiscard]] MachineTime quiet_since() const noexcept { return quiet_since_; }
+  [[nodiscard]] SteadyTime quiet_since() const noexcept { return quiet_since_; }
   /// When the command wants to go on; nothing if it has to wait for the client, or there is none.
-  [[nodiscard]] std::optional<MachineTime> due() const noexcept;
+  [[nodiscard]] std::optional<SteadyTime> due() const noexcept;
 
   /// Sends a frame, behind what is still to be sent.
   void Send(std::string_view kind, std::string_view payload);
@@ -50,7 +50,7 @@ class ClientConnection final : private Answer {
 
  private:
   void Write(std::string_view text) override { Send("out", text); }
-  void Complain(std::string_view text) override { Send("err", text); }
+  void WriteError(std::string_view text) override { Send("err", text); }
 
   void Read();
   void Flush();
@@ -66,7 +66,7 @@ class ClientConnection final : private Answer {
   bool is_broken_ = false;  // the client has gone
   bool is_refused_ = false;
   bool may_have_request_ = false;  // among what has been read
-  MachineTime quiet_since_ = std::chrono::steady_clock::now();
+  SteadyTime quiet_since_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace runnel

@@ -12,8 +12,8 @@ namespace {
 
 struct CommandKind {
   std::string name;
-  std::size_t least_words;
-  std::size_t most_words;
+  std::size_t least_arguments;
+  std::size_t most_arguments;
   std::vector<std::string> options;
   std::function<CommandResult(const Request&, CommandService&, TaskGroup&)> make;
 };
@@ -53,13 +53,13 @@ const std::vector<CommandKind>& Kinds() {
   return kinds;
 }
 
-Result<void> CheckWords(const Request& request, const CommandKind& kind) {
-  if (request.words.size() < kind.least_words) {
+Result<void> CheckArguments(const Request& request, const CommandKind& kind) {
+  if (request.arguments.size() < kind.least_arguments) {
     return Error{.message = "'" + kind.name + "' wants a path"};
   }
-  if (request.words.size() > kind.most_words) {
-    return Error{.message = "'" + request.words[kind.most_words] + "' is one word too many for '" +
-                            kind.name + "'"};
+  if (request.arguments.size() > kind.most_arguments) {
+    return Error{.message = "'" + request.arguments[kind.most_arguments] +
+                            "' is one word too many for '" + kind.name + "'"};
   }
   for (const auto& [name, value] : request.options) {
     if (std::ranges::count(kind.options, name) > 0) continue;
@@ -81,7 +81,7 @@ CommandResult MakeCommand(const std::string& text, CommandService& service, Task
     return Error{.message = "there is no command '" + request->command + "'",
                  .hint = NearestNameHint(request->command, names)};
   }
-  if (auto good = CheckWords(*request, *kind); !good) return good.error();
+  if (auto good = CheckArguments(*request, *kind); !good) return good.error();
   return kind->make(*request, service, tasks);
 }
 

@@ -22,8 +22,8 @@ enum class ControlCode : int {
 /// Where the answer to a request goes.
 class Answer {
  public:
-  virtual void Write(std::string_view text) = 0;     ///< for standard output
-  virtual void Complain(std::string_view text) = 0;  ///< for standard errors
+  virtual void Write(std::string_view text) = 0;       ///< for standard output
+  virtual void WriteError(std::string_view text) = 0;  ///< for standard errors
 
  protected:
   ~Answer() = default;
@@ -34,16 +34,16 @@ class Answer {
 /// Threads:  the server's. Continue() does not wait for anything.
 class Command {
  public:
-  using MachineTime = std::chrono::steady_clock::time_point;
+  using SteadyTime = std::chrono::steady_clock::time_point;
 
   virtual ~Command() = default;
   /// Does what can be done now. How it ended; nothing: call it again when due() has come, and what it
   /// has written is on its way.
   virtual std::optional<ControlCode> Continue(Answer& answer) = 0;
   /// The past if it waits for a task that is done by now: the task group tells when that may be.
-  [[nodiscard]] MachineTime due() const noexcept {
+  [[nodiscard]] SteadyTime due() const noexcept {
     if (task_ == nullptr) return due_;
-    return task_->is_done() ? MachineTime::min() : MachineTime::max();
+    return task_->is_done() ? SteadyTime::min() : SteadyTime::max();
   }
 
  protected:
@@ -54,7 +54,7 @@ class Command {
   void ContinueAfter(std::shared_ptr<const WorkerTask> task) { task_ = std::move(task); }
 
  private:
-  MachineTime due_{};
+  SteadyTime due_{};
   std::shared_ptr<const WorkerTask> task_;
 };
 

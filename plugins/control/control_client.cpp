@@ -25,15 +25,15 @@ Error Lost(const std::string& why) {
   return {.message = "the connection to the application is lost: " + why};
 }
 
-int Milliseconds(std::optional<Duration> patience) {
-  if (!patience) return -1;
-  return static_cast<int>(std::chrono::ceil<std::chrono::milliseconds>(*patience).count());
+int Milliseconds(std::optional<Duration> timeout) {
+  if (!timeout) return -1;
+  return static_cast<int>(std::chrono::ceil<std::chrono::milliseconds>(*timeout).count());
 }
 
 // -1: interrupted; 0: the time is over.
-int WaitFor(int descriptor, short events, std::optional<Duration> patience) {
+int WaitFor(int descriptor, short events, std::optional<Duration> timeout) {
   pollfd polled{.fd = descriptor, .events = events, .revents = 0};
-  return poll(&polled, 1, Milliseconds(patience));
+  return poll(&polled, 1, Milliseconds(timeout));
 }
 
 std::string Described(const RunningApplication& application) {
@@ -54,11 +54,11 @@ ControlClient::~ControlClient() {
 }
 
 Result<ControlClient> ControlClient::Connect(const std::filesystem::path& socket,
-                                             Duration patience) {
+                                             Duration timeout) {
   const auto descriptor = ConnectToSocket(socket);
   if (!descriptor) return descriptor.error();
   ControlClient client(*descriptor);
-  const auto frame = client.Receive(patience);
+  const auto frame = client.Receive(timeout);
   if (!frame) return frame.error();
   if (frame->kind == "err") return Error{.message = frame->payload};
   auto hello = frame->kind == "hello" ? Hello::Parse(frame->payload) : Hello::Parse("");
@@ -81,7 +81,7 @@ Result<void> ControlClient::Send(std::string_view bytes) {
   return {};
 }
 
-Result<Frame> ControlClient::Receive(std::optional<Duration> patience) {
+Result<Frame> ControlClient::Receive(std::optional<Duration> timeout) {
   std::array<char, 65'536> bytes;
   for (;;) {
     auto frame = reader_.Take();
@@ -93,7 +93,7 @@ Result<Frame> ControlClient::Receive(std::optional<Duration> patience) {
     } else if (count == 0) {
       return Lost("it has ended");
     } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
-      if (WaitFor(descriptor_, POLLIN, patience) == 0) return Lost("it does not answer");
+      if (WaitFor(descriptor_, POLLIN, timeout) == 0) return Lost("it does not answer");
     } else if (errno != EINTR) {
       return Lost(std::strerror(errno));
     }

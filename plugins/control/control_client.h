@@ -18,9 +18,9 @@ namespace runnel {
 /// Threads:  one at a time; calls wait for the application.
 class ControlClient {
  public:
-  /// Errors: nobody there, no answer within `patience`, another protocol.
+  /// Errors: nobody there, no answer within `timeout`, another protocol.
   static Result<ControlClient> Connect(const std::filesystem::path& socket,
-                                       Duration patience = std::chrono::seconds(5));
+                                       Duration timeout = std::chrono::seconds(5));
   ~ControlClient();
   ControlClient(ControlClient&& other) noexcept;
   ControlClient& operator=(ControlClient&&) = delete;
@@ -36,8 +36,8 @@ class ControlClient {
  private:
   explicit ControlClient(int descriptor);
   Result<void> Send(std::string_view bytes);
-  /// Waits for the next frame; for ever, if there is no patience.
-  Result<Frame> Receive(std::optional<Duration> patience);
+  /// Waits for the next frame; for ever, if there is no timeout.
+  Result<Frame> Receive(std::optional<Duration> timeout);
 
   int descriptor_;
   FrameReader reader_;

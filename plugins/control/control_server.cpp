@@ -97,7 +97,7 @@ class ControlServer::Loop {
   }
 
   [[nodiscard]] int Timeout() const {
-    std::optional<Command::MachineTime> first;
+    std::optional<Command::SteadyTime> first;
     for (const auto& client : clients_) {
       const auto due = client->due();
       if (due && (!first || *due < *first)) first = due;
@@ -121,7 +121,7 @@ class ControlServer::Loop {
     }
     auto client = std::make_unique<ClientConnection>(descriptor, options_.longest_request);
     if (!IsOwner(descriptor)) return;
-    if (clients_.size() >= options_.most_clients && !MakeRoom()) {
+    if (clients_.size() >= options_.most_clients && !EvictQuietClient()) {
       client->Refuse({.message = "there are " + std::to_string(clients_.size()) +
                                  " clients already, and all are busy"});
       client->Finish();
@@ -131,7 +131,7 @@ class ControlServer::Loop {
     clients_.push_back(std::move(client));
   }
 
-  bool MakeRoom() {
+  bool EvictQuietClient() {
     const auto quietest = std::ranges::min_element(
         clients_, {}, [](const auto& client) { return client->quiet_since(); });
     if (quietest == clients_.end()) return false;

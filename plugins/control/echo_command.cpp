@@ -34,13 +34,13 @@ class EchoCommand final : public Command {
     if (!lock) return {};
     const auto found = FindMeantPort(runtime_, path_);
     if (!found) {
-      answer.Complain(ErrorLine(found.error()));
+      answer.WriteError(ErrorLine(found.error()));
       return has_found_ ? ControlCode::kFailed : ControlCode::kBadInput;
     }
     const Port& port = **found;
     if (!port.type().is_transparent()) {
-      answer.Complain(
-          ErrorLine({.message = "values of type " + port.type().name() + " have no text form",
+      answer.WriteError(
+          ErrorLine({.message = "values of type " + port.type().name() + " have no text format",
                      .path = port.path()}));
       return ControlCode::kBadInput;
     }
@@ -85,8 +85,8 @@ class EchoCommand final : public Command {
   [[nodiscard]] std::string TextOf(const std::vector<const Port*>& sources) const {
     std::string text;
     for (const Port* source : sources) {
-      const bool has_value = source->LookAtValue([&](const void* value, Time stamp) {
-        text = fmt::format("{:.3f} s  {}", ToSeconds(stamp),
+      const bool has_value = source->VisitLatest([&](const void* value, Time timestamp) {
+        text = fmt::format("{:.3f} s  {}", ToSeconds(timestamp),
                            ValueText(source->type(), value, options_));
       });
       if (has_value) break;
@@ -109,7 +109,7 @@ CommandResult MakeEchoCommand(const Request& request, const ServedApplication& a
   const auto count = ReadCountOption(request);
   if (!count) return count.error();
   return std::unique_ptr<Command>(std::make_unique<EchoCommand>(
-      application.runtime, request.words[0], *count, request.Has("full")));
+      application.runtime, request.arguments[0], *count, request.Has("full")));
 }
 
 }  // namespace runnel

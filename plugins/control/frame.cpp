@@ -11,7 +11,8 @@ constexpr std::size_t kLongestHeader = FrameReader::kLongestKind + 1 + 20;
 
 bool IsKind(std::string_view text) {
   return !text.empty() && text.size() <= FrameReader::kLongestKind &&
-         std::ranges::all_of(text, [](char letter) { return letter >= 'a' && letter <= 'z'; });
+         std::ranges::all_of(text,
+                             [](char character) { return character >= 'a' && character <= 'z'; });
 }
 
 std::optional<std::size_t> ReadLength(std::string_view text) {

@@ -26,7 +26,7 @@ class ListCommand final : public Command {
     const auto start =
         path_.empty() ? Result<FrameworkElement*>(&runtime_.root()) : FindMeant(runtime_, path_);
     if (!start) {
-      answer.Complain(ErrorLine(start.error()));
+      answer.WriteError(ErrorLine(start.error()));
       return ControlCode::kBadInput;
     }
     const Time now = runtime_.clock().Now();
@@ -94,7 +94,7 @@ class TypesCommand final : public Command {
 }  // namespace
 
 CommandResult MakeListCommand(const Request& request, const ServedApplication& application) {
-  const std::string path = request.words.empty() ? "" : request.words[0];
+  const std::string path = request.arguments.empty() ? "" : request.arguments[0];
   return std::unique_ptr<Command>(
       std::make_unique<ListCommand>(application.runtime, path, request.Has("long")));
 }

@@ -55,7 +55,7 @@ class StepCommand final : public Command {
   std::optional<ControlCode> Continue(Answer& answer) override {
     const Pace& pace = *application_.pace;
     if (!pace.is_paused()) {
-      answer.Complain("somebody else has let it go on meanwhile\n");
+      answer.WriteError("somebody else has let it go on meanwhile\n");
       return ControlCode::kFailed;
     }
     if (pace.cycles_to_step() > 0) {
@@ -96,7 +96,7 @@ CommandResult MakeResumeCommand(const Request&, const ServedApplication& applica
 
 CommandResult MakeStepCommand(const Request& request, const ServedApplication& application) {
   if (application.pace == nullptr) return NoPace();
-  const std::string word = request.words.empty() ? "1" : request.words[0];
+  const std::string word = request.arguments.empty() ? "1" : request.arguments[0];
   const auto count = ReadAll<std::uint64_t>(word);
   if (!count) {
     return Error{.message = "'" + word + "' is not a count of cycles",
@@ -109,11 +109,11 @@ CommandResult MakeStepCommand(const Request& request, const ServedApplication& a
 CommandResult MakeSpeedCommand(const Request& request, const ServedApplication& application) {
   if (application.pace == nullptr) return NoPace();
   Pace& pace = *application.pace;
-  if (request.words.empty()) {
+  if (request.arguments.empty()) {
     return Say(SpeedText(pace.speed()) + (pace.is_paused() ? ", but paused" : ""));
   }
-  const auto speed = ReadAll<double>(request.words[0]);
-  if (!speed) return Error{.message = "'" + request.words[0] + "' is not a number"};
+  const auto speed = ReadAll<double>(request.arguments[0]);
+  if (!speed) return Error{.message = "'" + request.arguments[0] + "' is not a number"};
   return Do(application, pace.SetSpeed(*speed), SpeedText(*speed));
 }
 

@@ -19,7 +19,7 @@ Number ReadNumber(const std::string& text) {
 
 std::string Hello::ToText() const {
   return Request{.command = "runnel",
-                 .words = {},
+                 .arguments = {},
                  .options = {{"protocol", std::to_string(protocol)},
                              {"process", std::to_string(process)},
                              {"application", application},
@@ -30,21 +30,21 @@ std::string Hello::ToText() const {
 }
 
 Result<Hello> Hello::Parse(std::string_view text) {
-  const auto words = Request::Parse(text);
-  if (!words || words->command != "runnel") {
+  const auto arguments = Request::Parse(text);
+  if (!arguments || arguments->command != "runnel") {
     return Error{.message = "who answers there is no application of Runnel's"};
   }
   Hello hello;
-  hello.protocol = ReadNumber<int>(words->Option("protocol"));
+  hello.protocol = ReadNumber<int>(arguments->Option("protocol"));
   if (hello.protocol != kControlProtocol) {
-    return Error{.message = "the application speaks protocol " + words->Option("protocol") +
+    return Error{.message = "the application speaks protocol " + arguments->Option("protocol") +
                             ", this program " + std::to_string(kControlProtocol),
                  .hint = "use the program that started it"};
   }
-  hello.process = ReadNumber<pid_t>(words->Option("process"));
-  hello.application = words->Option("application");
-  hello.file = words->Option("file");
-  hello.time = Duration(ReadNumber<std::int64_t>(words->Option("nanoseconds")));
+  hello.process = ReadNumber<pid_t>(arguments->Option("process"));
+  hello.application = arguments->Option("application");
+  hello.file = arguments->Option("file");
+  hello.time = Duration(ReadNumber<std::int64_t>(arguments->Option("nanoseconds")));
   return hello;
 }
 

@@ -25,7 +25,7 @@ class RateCommand final : public Command {
     }
     const auto found = FindMeantPort(runtime_, path_);
     if (!found) {
-      answer.Complain(ErrorLine(found.error()));
+      answer.WriteError(ErrorLine(found.error()));
       return last_ ? ControlCode::kFailed : ControlCode::kBadInput;
     }
     const Sample now{(*found)->publications(), runtime_.clock().Now(), SteadyClock().Now()};
@@ -73,7 +73,7 @@ CommandResult MakeRateCommand(const Request& request, const ServedApplication& a
   const auto count = ReadCountOption(request);
   if (!count) return count.error();
   return std::unique_ptr<Command>(
-      std::make_unique<RateCommand>(application.runtime, request.words[0], *count));
+      std::make_unique<RateCommand>(application.runtime, request.arguments[0], *count));
 }
 
 }  // namespace runnel

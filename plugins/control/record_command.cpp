@@ -14,12 +14,12 @@ constexpr Duration kTellProgress = std::chrono::milliseconds(250);
 /// does so in the worker's thread.
 class RecordCommand final : public Command {
  public:
-  RecordCommand(const RecordingHook& hook, RecordingWish wish, std::optional<std::uint64_t> seconds,
-                TaskGroup& tasks)
+  RecordCommand(const RecordingHook& hook, RecordingRequest recording,
+                std::optional<std::uint64_t> seconds, TaskGroup& tasks)
       : tasks_(tasks), seconds_(seconds), shared_(std::make_shared<Shared>()) {
-    task_ = tasks_.Post([hook, wish = std::move(wish), shared = shared_] {
+    task_ = tasks_.Post([hook, recording = std::move(recording), shared = shared_] {
       shared->Do([&]() -> Result<std::string> {
-        auto started = hook(wish);
+        auto started = hook(recording);
         if (!started) return started.error();
         shared->recording = std::move(*started);
         return std::string();
@@ -39,7 +39,7 @@ class RecordCommand final : public Command {
     if (!task_->is_done()) return {};
     if (!shared_->outcome) {
       has_ended_ = true;
-      answer.Complain(ErrorLine(shared_->outcome.error()));
+      answer.WriteError(ErrorLine(shared_->outcome.error()));
       return has_begun_ ? ControlCode::kFailed : ControlCode::kBadInput;
     }
     if (is_ending_) {
@@ -49,7 +49,7 @@ class RecordCommand final : public Command {
     }
     if (!std::exchange(has_begun_, true)) began_ = std::chrono::steady_clock::now();
     if (const auto failure = shared_->recording->Failure()) {
-      answer.Complain(ErrorLine(*failure));
+      answer.WriteError(ErrorLine(*failure));
       return ControlCode::kFailed;
     }
     if (seconds_ && std::chrono::steady_clock::now() - began_ >= std::chrono::seconds(*seconds_)) {
@@ -107,8 +107,8 @@ CommandResult MakeRecordCommand(const Request& request, const ServedApplication&
   }
   return std::unique_ptr<Command>(std::make_unique<RecordCommand>(
       application.hooks.record,
-      RecordingWish{request.Option("file"), request.words, request.Option("compression")}, *seconds,
-      tasks));
+      RecordingRequest{request.Option("file"), request.arguments, request.Option("compression")},
+      *seconds, tasks));
 }
 
 }  // namespace runnel

@@ -2,17 +2,17 @@
 
 #include <algorithm>
 
-#include "plugins/structure/change_words.h"
+#include "plugins/structure/change_arguments.h"
 
 namespace runnel {
 
-using internal::AsWord;
+using internal::AsArgument;
 
 namespace {
 
 bool IsName(const std::string& text) {
-  return !text.empty() && std::ranges::all_of(text, [](char letter) {
-    return (letter >= 'a' && letter <= 'z') || letter == '_';
+  return !text.empty() && std::ranges::all_of(text, [](char character) {
+    return (character >= 'a' && character <= 'z') || character == '_';
   });
 }
 
@@ -27,14 +27,14 @@ Result<Request> Request::Parse(std::string_view text) {
     return Error{.message = "a request is one line that begins with a command"};
   }
   Request request;
-  for (const internal::ChangeWord& word : lines.front()) {
+  for (const internal::ChangeArgument& word : lines.front()) {
     if (!IsName(request.command.empty() || word.equals ? word.name() : request.command)) {
       return Error{.message = "'" + word.name() + "' is no name of a command or option"};
     }
     if (request.command.empty()) {
       request.command = word.text;
     } else if (!word.equals) {
-      request.words.push_back(word.text);
+      request.arguments.push_back(word.text);
     } else if (!request.options.emplace(word.name(), word.value()).second) {
       return Error{.message = "the option '" + word.name() + "' is there twice"};
     }
@@ -45,8 +45,8 @@ Result<Request> Request::Parse(std::string_view text) {
 
 std::string Request::ToText() const {
   std::string text = command;
-  for (const std::string& word : words) text += " " + AsWord(word);
-  for (const auto& [name, value] : options) text += " " + name + "=" + AsWord(value);
+  for (const std::string& word : arguments) text += " " + AsArgument(word);
+  for (const auto& [name, value] : options) text += " " + name + "=" + AsArgument(value);
   return body.empty() ? text : text + "\n" + body;
 }
 

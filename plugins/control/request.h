@@ -18,7 +18,7 @@ namespace runnel {
 ///     delete /c
 struct Request {
   std::string command;
-  std::vector<std::string> words;
+  std::vector<std::string> arguments;
   std::map<std::string, std::string> options;
   std::string body;
 

@@ -21,7 +21,7 @@ class ServiceCommand final : public Command {
     if (!pending_->is_done()) return {};
     const CommandAnswer done = pending_->Take();
     const std::string diagnostics = DiagnosticsText(done.diagnostics);
-    if (!diagnostics.empty()) answer.Complain(diagnostics);
+    if (!diagnostics.empty()) answer.WriteError(diagnostics);
     if (done.outcome == CommandAnswer::Outcome::kRefused) return ControlCode::kBadInput;
     if (done.outcome == CommandAnswer::Outcome::kFailed) return ControlCode::kFailed;
     answer.Write(done.text + "\n");
@@ -37,7 +37,7 @@ class RefusedCommand final : public Command {
  public:
   explicit RefusedCommand(std::string text) : text_(std::move(text)) {}
   std::optional<ControlCode> Continue(Answer& answer) override {
-    answer.Complain(text_);
+    answer.WriteError(text_);
     return ControlCode::kBadInput;
   }
 
@@ -60,7 +60,7 @@ PlacedChanges ReadChanges(const Request& request, Diagnostics& diagnostics) {
 }
 
 CommandRequest RequestOf(const Request& request, PlacedChanges placed) {
-  const std::string argument = request.words.empty() ? "" : request.words[0];
+  const std::string argument = request.arguments.empty() ? "" : request.arguments[0];
   if (request.command == "undo") return UndoRequest{};
   if (request.command == "redo") return RedoRequest{};
   if (request.command == "save") return SaveRequest{argument};

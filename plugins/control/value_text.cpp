@@ -3,7 +3,7 @@
 #include <limits>
 #include <string_view>
 
-#include "core/types/text_form.h"
+#include "core/types/text_format.h"
 
 namespace runnel {
 
@@ -11,12 +11,12 @@ namespace {
 
 void AppendQuoted(std::string_view text, std::string& to) {
   to += '"';
-  for (const char letter : text) {
-    if (letter == '"' || letter == '\\') to += '\\';
-    if (letter == '\n') {
+  for (const char character : text) {
+    if (character == '"' || character == '\\') to += '\\';
+    if (character == '\n') {
       to += "\\n";
     } else {
-      to += letter;
+      to += character;
     }
   }
   to += '"';

@@ -16,7 +16,7 @@ struct ValueTextOptions {
 /// Lists and texts are not cut, but the whole is: after 4 MB.
 [[nodiscard]] ValueTextOptions FullValueText();
 
-/// The text form of a value as far as a person wants to see it: "[1, 2, 3, … 640 in all]". Takes time
+/// The text format of a value as far as a person wants to see it: "[1, 2, 3, … 640 in all]". Takes time
 /// and memory for what it shows only, however large the value is.
 ///
 /// Threads:  as for the value. Allocates.

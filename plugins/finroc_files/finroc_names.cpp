@@ -8,9 +8,9 @@ namespace runnel {
 
 namespace {
 
-bool IsUpper(char letter) { return letter >= 'A' && letter <= 'Z'; }
-bool IsLowerOrDigit(char letter) {
-  return (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9');
+bool IsUpper(char character) { return character >= 'A' && character <= 'Z'; }
+bool IsLowerOrDigit(char character) {
+  return (character >= 'a' && character <= 'z') || (character >= '0' && character <= '9');
 }
 
 // "%3C" → "<".
@@ -35,15 +35,15 @@ std::string Decoded(std::string_view text) {
 std::string SnakeCase(std::string_view name) {
   std::string snake;
   for (std::size_t i = 0; i < name.size(); ++i) {
-    const char letter = name[i];
-    if (IsUpper(letter)) {
+    const char character = name[i];
+    if (IsUpper(character)) {
       const bool follows_small = i > 0 && IsLowerOrDigit(name[i - 1]);
       const bool ends_capitals = i > 0 && IsUpper(name[i - 1]) && i + 1 < name.size() &&
                                  name[i + 1] >= 'a' && name[i + 1] <= 'z';
       if (follows_small || ends_capitals) snake += '_';
-      snake += static_cast<char>(letter - 'A' + 'a');
-    } else if (IsLowerOrDigit(letter)) {
-      snake += letter;
+      snake += static_cast<char>(character - 'A' + 'a');
+    } else if (IsLowerOrDigit(character)) {
+      snake += character;
     } else if (!snake.empty() && snake.back() != '_') {
       snake += '_';
     }

@@ -41,9 +41,9 @@ std::string StaticParameter(XmlElement element, std::string_view name) {
 
 // Whether a path is a URI, "tcp:host/path": names of elements may hold a ':' further on.
 bool HasScheme(std::string_view path) {
-  const auto is_of_scheme = [](char letter) {
-    return (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9') || letter == '+' ||
-           letter == '-' || letter == '.';
+  const auto is_of_scheme = [](char character) {
+    return (character >= 'a' && character <= 'z') || (character >= '0' && character <= '9') ||
+           character == '+' || character == '-' || character == '.';
   };
   const auto end = std::ranges::find_if_not(path, is_of_scheme);
   return end != path.begin() && end != path.end() && *end == ':';

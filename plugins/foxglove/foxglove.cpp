@@ -32,7 +32,7 @@ internal::FoxgloveShared::~FoxgloveShared() {
 WebProtocol FoxgloveProtocol(FoxgloveApplication application) {
   return {.names = {"foxglove.websocket.v1", "foxglove.sdk.v1"},
           .start = [shared = std::make_shared<internal::FoxgloveShared>(std::move(application))](
-                       WebClient& client) -> std::unique_ptr<WebConversation> {
+                       WebClient& client) -> std::unique_ptr<WebSession> {
             return std::make_unique<internal::FoxgloveSession>(shared, client);
           }};
 }

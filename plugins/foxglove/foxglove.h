@@ -4,7 +4,7 @@
 
 #include "core/base/clock.h"
 #include "plugins/command_service/command_service.h"
-#include "plugins/web_server/web_conversation.h"
+#include "plugins/web_server/web_session.h"
 
 namespace runnel {
 
@@ -15,14 +15,14 @@ struct FoxgloveApplication {
   std::string version = {};  ///< of the program
   /// Clients look, and change nothing.
   bool is_read_only = false;
-  /// By which conversations know when to look again; nullptr: the machine's. Outlives the server.
-  const Clock* machine_clock = nullptr;
+  /// By which sessions know when to look again; nullptr: the machine's. Outlives the server.
+  const Clock* steady_clock = nullptr;
 };
 
 /// The Foxglove WebSocket protocol: the ports, parameters and connections of an application for Foxglove,
 /// Lichtblick, PlotJuggler and whatever else speaks it. See README.md for topics and limits.
 ///
-/// Threads:  conversations on the server's, changes on the service's worker. Neither ever takes part in a cycle.
+/// Threads:  sessions on the server's, changes on the service's worker. Neither ever takes part in a cycle.
 [[nodiscard]] WebProtocol FoxgloveProtocol(FoxgloveApplication application);
 
 }  // namespace runnel

@@ -15,11 +15,11 @@ namespace {
 using internal::Drawing;
 using Draw = std::optional<Drawing> (*)(const TypeInfo& type, const FoxgloveOptions& options);
 
-struct DrawnMeaning {
-  std::string_view meaning;
+struct DrawnTag {
+  std::string_view tag;
   Draw draw;
 };
-constexpr std::array<DrawnMeaning, 7> kDrawn{{
+constexpr std::array<DrawnTag, 7> kDrawn{{
     {"pose", internal::DrawPose},
     {"path", internal::DrawPath},
     {"range_scan", internal::DrawRangeScan},
@@ -91,7 +91,7 @@ std::vector<FoxgloveChannel> ChannelsFor(const TypeInfo& type, std::string_view 
   std::vector<FoxgloveChannel> channels;
   if (!type.is_transparent()) return channels;
   channels.push_back(PlainChannel(type, topic, options));
-  const auto drawn = std::ranges::find(kDrawn, type.meaning(), &DrawnMeaning::meaning);
+  const auto drawn = std::ranges::find(kDrawn, type.semantic_tag(), &DrawnTag::tag);
   if (drawn == kDrawn.end()) return channels;
   if (auto drawing = drawn->draw(type, options)) {
     channels.push_back(ChannelOf(std::move(*drawing), std::string(topic) + "/foxglove"));

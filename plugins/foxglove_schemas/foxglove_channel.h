@@ -20,10 +20,10 @@ struct FoxgloveChannel {
   std::string schema;       ///< JSON Schema; "" where viewers could not read it (lists of lists)
   /// Appends the message for a value of the type, with the time it was published.
   /// Threads: as for the value. Allocates what the message needs.
-  std::function<void(const void* value, Time stamp, std::string& json)> append;
+  std::function<void(const void* value, Time timestamp, std::string& json)> append;
 
-  void Append(const void* value, Time stamp, std::string& json) const {
-    append(value, stamp, json);
+  void Append(const void* value, Time timestamp, std::string& json) const {
+    append(value, timestamp, json);
   }
 };
 

@@ -22,7 +22,7 @@ const Port* RobotPose(std::span<const Port* const> ports) {
   std::size_t most = 0;
   for (const Port* port : ports) {
     if (port->is_proxy() || port->direction() != Port::Direction::kOutput) continue;
-    if (port->type().meaning() != "pose") continue;
+    if (port->type().semantic_tag() != "pose") continue;
     const std::size_t readers = port->Sinks().size();
     if (best != nullptr && readers <= most) continue;
     best = port;

@@ -27,14 +27,14 @@ const char* OnFullName(OnFull on_full) {
 }
 
 std::string_view ThreadName(const FrameworkElement& element, const ElementSurroundings& around) {
-  std::uint64_t serial = AssignedThread(element);
-  if (serial == 0) serial = around.default_thread;
-  const auto found = around.thread_names.find(serial);
+  std::uint64_t id = AssignedThread(element);
+  if (id == 0) id = around.default_thread;
+  const auto found = around.thread_names.find(id);
   return found == around.thread_names.end() ? std::string_view() : found->second;
 }
 
 std::string_view StoppedBy(const FrameworkElement& element, const ElementSurroundings& around) {
-  const auto found = around.stopped.find(element.serial());
+  const auto found = around.stopped.find(element.id());
   return found == around.stopped.end() ? std::string_view() : found->second;
 }
 
@@ -50,7 +50,7 @@ void AddThread(const ThreadContainer& thread, JsonObject& json) {
                              ? "trigger"
                              : "free_running");
   json.Add("priority", static_cast<std::uint64_t>(options.priority));
-  json.Add("order", thread.serial());
+  json.Add("order", thread.id());
 }
 
 void AddPort(const Port& port, JsonObject& json) {
@@ -151,7 +151,7 @@ std::string ElementJson(const FrameworkElement& element, const ElementSurroundin
 
 std::uint64_t ElementFingerprint(const FrameworkElement& element,
                                  const ElementSurroundings& around) {
-  std::uint64_t hash = element.serial();
+  std::uint64_t hash = element.id();
   if (element.kind() == ElementKind::kPort || element.kind() == ElementKind::kThread) return hash;
   if (element.kind() == ElementKind::kParameter) {
     if (const auto* const parameter = dynamic_cast<const Configurable*>(&element)) {
@@ -162,7 +162,7 @@ std::uint64_t ElementFingerprint(const FrameworkElement& element,
   Mix(ThreadName(element, around), hash);
   Mix(StoppedBy(element, around), hash);
   const ThreadContainer* const own = OwnThread(element);
-  Mix(own != nullptr ? own->serial() : 0, hash);
+  Mix(own != nullptr ? own->id() : 0, hash);
   return hash;
 }
 

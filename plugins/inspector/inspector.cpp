@@ -18,7 +18,7 @@ Inspector::~Inspector() = default;
 
 WebProtocol Inspector::Protocol() {
   return {.names = {"runnel.inspector.v1"},
-          .start = [shared = shared_.get()](WebClient& client) -> std::unique_ptr<WebConversation> {
+          .start = [shared = shared_.get()](WebClient& client) -> std::unique_ptr<WebSession> {
             return std::make_unique<internal::ViewerSession>(*shared, client);
           }};
 }

@@ -5,7 +5,7 @@
 
 #include "plugins/command_service/command_service.h"
 #include "plugins/scheduling/scheduler.h"
-#include "plugins/web_server/web_conversation.h"
+#include "plugins/web_server/web_session.h"
 
 namespace runnel {
 
@@ -20,7 +20,7 @@ struct InspectorOptions {
 /// PROTOCOL.md. As many viewers as the server lets in share what is found out about the structure.
 ///
 /// Ownership:  what is inspected must outlive it, and it the server that it gives its protocol to.
-/// Threads:    conversations on the server's; what may wait is left to the service's worker. The rest
+/// Threads:    sessions on the server's; what may wait is left to the service's worker. The rest
 ///             from any.
 /// Errors:     what viewers get wrong is answered, and never reaches the application.
 class Inspector {

@@ -6,14 +6,14 @@
 #include <utility>
 
 #include "core/element/configurable.h"
-#include "core/port/tap.h"
+#include "core/port/probe_port.h"
 #include "plugins/inspector/internal/json_parts.h"
 
 namespace runnel::internal {
 
 namespace {
 
-using MachineTime = std::chrono::steady_clock::time_point;
+using SteadyTime = std::chrono::steady_clock::time_point;
 
 // For which the structure is locked at a time; whoever changes it waits so long.
 constexpr auto kHold = std::chrono::milliseconds(2);
@@ -23,7 +23,7 @@ constexpr std::size_t kMostChanges = 100;
 // Elements between two looks at the clock.
 constexpr std::size_t kStride = 64;
 
-MachineTime Now() { return std::chrono::steady_clock::now(); }
+SteadyTime Now() { return std::chrono::steady_clock::now(); }
 
 // What is in both lists goes from both.
 void Cancel(std::vector<std::string>& a, std::vector<std::string>& b) {
@@ -40,7 +40,7 @@ void Cancel(std::vector<std::string>& a, std::vector<std::string>& b) {
 void AppendRaw(const std::string& item, std::string& json) { json += item; }
 
 // A recorder is no part of the application.
-bool IsObserver(const Port& port) { return dynamic_cast<const Tap*>(&port) != nullptr; }
+bool IsObserver(const Port& port) { return dynamic_cast<const ProbePort*>(&port) != nullptr; }
 
 }  // namespace
 
@@ -78,13 +78,13 @@ bool StructureMirror::LookOn() {
   std::unique_lock lock(runtime_.structure_mutex(), std::try_to_lock);
   if (!lock) return false;
   NoteFaults();
-  const MachineTime until = Now() + kHold;
+  const SteadyTime until = Now() + kHold;
   if (seen_ == runtime_.revision()) {
     SweepParameters(until);
     return true;
   }
   if (walked_ != runtime_.revision()) BeginWalk();
-  if (!Walk(restarts_ > kMostRestarts ? MachineTime::max() : until)) return false;
+  if (!Walk(restarts_ > kMostRestarts ? SteadyTime::max() : until)) return false;
   lock.unlock();  // the rest is our own
   FinishWalk();
   return true;
@@ -94,7 +94,7 @@ void StructureMirror::NoteFaults() {
   for (const FaultLog::Entry& fault : faults_.Take()) {
     const auto found = runtime_.root().Find(fault.path);
     if (!found) continue;  // it has been deleted since
-    around_.stopped[(*found)->serial()] = fault.message;
+    around_.stopped[(*found)->id()] = fault.message;
     seen_.reset();
   }
 }
@@ -105,9 +105,9 @@ void StructureMirror::NoteThreads() {
   const auto note = [&](const FrameworkElement& folder) {
     for (const FrameworkElement* each : folder.children()) {
       if (each->kind() != ElementKind::kThread) continue;
-      around_.thread_names[each->serial()] = each->name();
+      around_.thread_names[each->id()] = each->name();
       const bool is_default = each->name() == scheduler_.options().default_thread;
-      if (around_.default_thread == 0 || is_default) around_.default_thread = each->serial();
+      if (around_.default_thread == 0 || is_default) around_.default_thread = each->id();
     }
   };
   for (const FrameworkElement* top : runtime_.root().children()) {
@@ -125,7 +125,7 @@ void StructureMirror::BeginWalk() {
   NoteThreads();  // first: modules name theirs
 }
 
-bool StructureMirror::Walk(MachineTime until) {
+bool StructureMirror::Walk(SteadyTime until) {
   for (std::size_t i = 1; !found_.ahead.empty(); ++i) {
     FrameworkElement& element = *found_.ahead.back();
     found_.ahead.pop_back();
@@ -139,12 +139,12 @@ bool StructureMirror::Walk(MachineTime until) {
 
 void StructureMirror::Visit(FrameworkElement& element) {
   const std::uint64_t fingerprint = Fingerprint(element);
-  const auto known = entries_.find(element.serial());
+  const auto known = entries_.find(element.id());
   if (known != entries_.end()) known->second.walk = walk_;
   if (known == entries_.end() || known->second.fingerprint != fingerprint) {
-    found_.news.emplace_back(element.serial(), Describe(element, fingerprint));
+    found_.news.emplace_back(element.id(), Describe(element, fingerprint));
   }
-  found_.order.push_back(element.serial());
+  found_.order.push_back(element.id());
   switch (element.kind()) {
     case ElementKind::kPort: {
       const auto* const port = dynamic_cast<const Port*>(&element);
@@ -172,7 +172,7 @@ std::uint64_t StructureMirror::Fingerprint(const FrameworkElement& element) cons
   if (element.kind() != ElementKind::kPort) return hash;
   for (const Connection& each : dynamic_cast<const Port&>(element).outgoing()) {
     if (IsObserver(*each.to)) continue;
-    hash = hash * 31 + each.to->serial();
+    hash = hash * 31 + each.to->id();
     hash = hash * 31 + each.options.queue * 4 + static_cast<std::uint64_t>(each.options.on_full);
   }
   return hash;
@@ -202,8 +202,8 @@ StructureMirror::Difference StructureMirror::TakeNews() {
     if (is_told) to.insert(to.end(), more.begin(), more.end());
   };
   std::unordered_set<std::string_view> made_anew;
-  for (auto& [serial, entry] : found_.news) {
-    Entry& before = entries_[serial];
+  for (auto& [id, entry] : found_.news) {
+    Entry& before = entries_[id];
     if (before.json != entry.json) add(difference.elements, {entry.json});
     add(difference.disconnected, before.connections);
     add(difference.connected, entry.connections);
@@ -228,7 +228,7 @@ void StructureMirror::FinishWalk() {
   Difference difference = TakeNews();
   order_.clear();
   order_.reserve(found_.order.size());
-  for (const std::uint64_t serial : found_.order) order_.push_back(&entries_.at(serial));
+  for (const std::uint64_t id : found_.order) order_.push_back(&entries_.at(id));
   ports_ = std::move(found_.ports);
   threads_ = std::move(found_.threads);
   parameters_ = std::move(found_.parameters);
@@ -241,13 +241,13 @@ void StructureMirror::FinishWalk() {
 }
 
 // Nobody announces that a parameter has been set.
-void StructureMirror::SweepParameters(MachineTime until) {
+void StructureMirror::SweepParameters(SteadyTime until) {
   Difference difference;
   for (std::size_t i = 0; i < parameters_.size() && (i % kStride != 0 || Now() < until); ++i) {
     const FrameworkElement& parameter = *parameters_[next_parameter_];
     next_parameter_ = (next_parameter_ + 1) % parameters_.size();
     const std::uint64_t fingerprint = Fingerprint(parameter);
-    Entry& entry = entries_[parameter.serial()];
+    Entry& entry = entries_[parameter.id()];
     if (entry.fingerprint == fingerprint) continue;
     entry.fingerprint = fingerprint;
     entry.json = ElementJson(parameter, around_);

@@ -105,7 +105,7 @@ class StructureMirror {
   std::uint64_t revision_ = 0;
   std::deque<std::string> changes_;  // the newest leads to revision_
 
-  std::unordered_map<std::uint64_t, Entry> entries_;  // by serial number
+  std::unordered_map<std::uint64_t, Entry> entries_;  // by id
   std::vector<const Entry*> order_;                   // of the tree; of the entries above
   std::optional<std::uint64_t> seen_;                 // the runtime's revision that has been seen
   std::uint64_t walk_ = 0;

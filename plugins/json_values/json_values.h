@@ -16,8 +16,8 @@ class TypeInfo;
 struct JsonLimits {
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-  std::size_t elements = kNone;  ///< of each list
-  std::size_t letters = kNone;   ///< of each text, in bytes
+  std::size_t elements = kNone;    ///< of each list
+  std::size_t characters = kNone;  ///< of each text, in bytes
   /// Of the whole, roughly: once so many bytes are there, lists end and texts are empty.
   std::size_t bytes = kNone;
   /// Whether infinities are 1e999; else null. Some readers (nlohmann-json, RapidJSON, serde) refuse the

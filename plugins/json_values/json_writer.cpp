@@ -82,7 +82,7 @@ void AppendJsonNumber(float number, std::string& json) { AppendFloating(number, 
 void AppendJsonNumber(std::int64_t number, std::string& json) { AppendDigits(number, json); }
 void AppendJsonNumber(std::uint64_t number, std::string& json) { AppendDigits(number, json); }
 
-std::size_t WholeLetters(std::string_view text, std::size_t most) {
+std::size_t WholeCharacters(std::string_view text, std::size_t most) {
   if (text.size() <= most) return text.size();
   const auto is_inner = [&](std::size_t at) {
     return (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80;
@@ -93,7 +93,7 @@ std::size_t WholeLetters(std::string_view text, std::size_t most) {
 }
 
 void AppendBase64(std::string_view bytes, std::string& text) {
-  constexpr std::string_view kLetters =
+  constexpr std::string_view kCharacters =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   text.reserve(text.size() + (bytes.size() + 2) / 3 * 4);
   const auto byte = [&](std::size_t i) -> unsigned {
@@ -101,10 +101,10 @@ void AppendBase64(std::string_view bytes, std::string& text) {
   };
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     const unsigned three = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
-    text += kLetters[three >> 18 & 63];
-    text += kLetters[three >> 12 & 63];
-    text += i + 1 < bytes.size() ? kLetters[three >> 6 & 63] : '=';
-    text += i + 2 < bytes.size() ? kLetters[three & 63] : '=';
+    text += kCharacters[three >> 18 & 63];
+    text += kCharacters[three >> 12 & 63];
+    text += i + 1 < bytes.size() ? kCharacters[three >> 6 & 63] : '=';
+    text += i + 2 < bytes.size() ? kCharacters[three & 63] : '=';
   }
 }
 

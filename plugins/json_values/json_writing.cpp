@@ -97,10 +97,10 @@ class ValueWriter {
   }
 
   void WriteText(std::string_view text) {
-    const std::size_t most = IsFull() ? 0 : std::min(limits_.letters, end_ - json_.size());
+    const std::size_t most = IsFull() ? 0 : std::min(limits_.characters, end_ - json_.size());
     if (text.size() <= most) return AppendJsonString(text, json_);
     is_whole_ = false;
-    AppendJsonString(std::string(text.substr(0, WholeLetters(text, most))) + "…", json_);
+    AppendJsonString(std::string(text.substr(0, WholeCharacters(text, most))) + "…", json_);
   }
 
   void WriteSeconds(Duration duration) {

@@ -13,25 +13,25 @@ namespace runnel {
 
 namespace {
 
-// A run's worth of JSON is packed to a tenth by the quickest level already.
+// A run's worth of JSON is compressed to a tenth by the quickest level already.
 [[maybe_unused]] constexpr int kLevel = 1;
 
 Error Broken(const std::string& compression, const std::string& why) {
-  return {.message = "what is packed with " + compression + " cannot be unpacked: " + why};
+  return {.message = "what is compressed with " + compression + " cannot be decompressed: " + why};
 }
 
 #ifdef RUNNEL_HAS_ZSTD
-Result<void> CompressZstd(std::string_view bytes, std::string& packed) {
-  packed.resize(ZSTD_compressBound(bytes.size()));
+Result<void> CompressZstd(std::string_view bytes, std::string& compressed) {
+  compressed.resize(ZSTD_compressBound(bytes.size()));
   const std::size_t size =
-      ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), kLevel);
+      ZSTD_compress(compressed.data(), compressed.size(), bytes.data(), bytes.size(), kLevel);
   if (ZSTD_isError(size) != 0) return Error{.message = ZSTD_getErrorName(size)};
-  packed.resize(size);
+  compressed.resize(size);
   return {};
 }
-Result<void> DecompressZstd(std::string_view packed, std::string& bytes) {
+Result<void> DecompressZstd(std::string_view compressed, std::string& bytes) {
   const std::size_t size =
-      ZSTD_decompress(bytes.data(), bytes.size(), packed.data(), packed.size());
+      ZSTD_decompress(bytes.data(), bytes.size(), compressed.data(), compressed.size());
   if (ZSTD_isError(size) != 0) return Broken("zstd", ZSTD_getErrorName(size));
   if (size != bytes.size()) return Broken("zstd", "it is shorter than it says");
   return {};
@@ -39,15 +39,15 @@ Result<void> DecompressZstd(std::string_view packed, std::string& bytes) {
 #endif
 
 #ifdef RUNNEL_HAS_LZ4
-Result<void> CompressLz4(std::string_view bytes, std::string& packed) {
-  packed.resize(LZ4F_compressFrameBound(bytes.size(), nullptr));
+Result<void> CompressLz4(std::string_view bytes, std::string& compressed) {
+  compressed.resize(LZ4F_compressFrameBound(bytes.size(), nullptr));
   const std::size_t size =
-      LZ4F_compressFrame(packed.data(), packed.size(), bytes.data(), bytes.size(), nullptr);
+      LZ4F_compressFrame(compressed.data(), compressed.size(), bytes.data(), bytes.size(), nullptr);
   if (LZ4F_isError(size) != 0) return Error{.message = LZ4F_getErrorName(size)};
-  packed.resize(size);
+  compressed.resize(size);
   return {};
 }
-Result<void> DecompressLz4(std::string_view packed, std::string& bytes) {
+Result<void> DecompressLz4(std::string_view compressed, std::string& bytes) {
   LZ4F_dctx* context = nullptr;
   if (const auto made = LZ4F_createDecompressionContext(&context, LZ4F_VERSION);
       LZ4F_isError(made) != 0) {
@@ -57,10 +57,11 @@ Result<void> DecompressLz4(std::string_view packed, std::string& bytes) {
   std::size_t hint = 1;
   // Ends when the frame does, or when there is nothing left to read or no room left to write.
   while (hint != 0) {
-    std::size_t read = packed.size();
+    std::size_t read = compressed.size();
     std::size_t written = bytes.size() - filled;
-    hint = LZ4F_decompress(context, bytes.data() + filled, &written, packed.data(), &read, nullptr);
-    packed.remove_prefix(read);
+    hint = LZ4F_decompress(context, bytes.data() + filled, &written, compressed.data(), &read,
+                           nullptr);
+    compressed.remove_prefix(read);
     filled += written;
     if (LZ4F_isError(hint) != 0 || (read == 0 && written == 0)) break;
   }
@@ -95,30 +96,31 @@ Result<void> CheckCompression(const std::string& compression) {
                .hint = "this Runnel was built with: " + names};
 }
 
-Result<void> Compress(const std::string& compression, std::string_view bytes, std::string& packed) {
+Result<void> Compress(const std::string& compression, std::string_view bytes,
+                      std::string& compressed) {
 #ifdef RUNNEL_HAS_ZSTD
-  if (compression == "zstd") return CompressZstd(bytes, packed);
+  if (compression == "zstd") return CompressZstd(bytes, compressed);
 #endif
 #ifdef RUNNEL_HAS_LZ4
-  if (compression == "lz4") return CompressLz4(bytes, packed);
+  if (compression == "lz4") return CompressLz4(bytes, compressed);
 #endif
   if (auto known = CheckCompression(compression); !known) return known;
-  packed = bytes;
+  compressed = bytes;
   return {};
 }
 
-Result<void> Decompress(const std::string& compression, std::string_view packed, std::uint64_t size,
-                        std::string& bytes) {
+Result<void> Decompress(const std::string& compression, std::string_view compressed,
+                        std::uint64_t size, std::string& bytes) {
   if (auto known = CheckCompression(compression); !known) return known;
   bytes.resize(size);
 #ifdef RUNNEL_HAS_ZSTD
-  if (compression == "zstd") return DecompressZstd(packed, bytes);
+  if (compression == "zstd") return DecompressZstd(compressed, bytes);
 #endif
 #ifdef RUNNEL_HAS_LZ4
-  if (compression == "lz4") return DecompressLz4(packed, bytes);
+  if (compression == "lz4") return DecompressLz4(compressed, bytes);
 #endif
-  if (packed.size() != size) return Broken("none", "it is not as long as it says");
-  bytes = packed;
+  if (compressed.size() != size) return Broken("none", "it is not as long as it says");
+  bytes = compressed;
   return {};
 }
 

@@ -9,7 +9,7 @@
 
 namespace runnel {
 
-/// How the chunks of a file are packed: "zstd", "lz4", or "" for not at all, as MCAP names them. The
+/// How the chunks of a file are compressed: "zstd", "lz4", or "" for not at all, as MCAP names them. The
 /// first two are there if the libraries were when Runnel was built.
 
 /// Those that are there, the best one first; "" is always among them.
@@ -18,12 +18,13 @@ namespace runnel {
 /// "" or an error that names those that are there.
 [[nodiscard]] Result<void> CheckCompression(const std::string& compression);
 
-/// Replaces `packed`. Precondition: CheckCompression().
-Result<void> Compress(const std::string& compression, std::string_view bytes, std::string& packed);
+/// Replaces `compressed`. Precondition: CheckCompression().
+Result<void> Compress(const std::string& compression, std::string_view bytes,
+                      std::string& compressed);
 
-/// Replaces `bytes` by `size` bytes. Errors: what is packed is broken, or of another size.
+/// Replaces `bytes` by `size` bytes. Errors: what is compressed is broken, or of another size.
 /// Precondition: CheckCompression().
-Result<void> Decompress(const std::string& compression, std::string_view packed, std::uint64_t size,
-                        std::string& bytes);
+Result<void> Decompress(const std::string& compression, std::string_view compressed,
+                        std::uint64_t size, std::string& bytes);
 
 }  // namespace runnel

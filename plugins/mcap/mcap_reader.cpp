@@ -49,27 +49,28 @@ const McapMetadata* McapReader::FindMetadata(std::string_view name) const {
 Error McapReader::ErrorIn(const McapChunk& chunk, std::uint64_t at,
                           const std::string& message) const {
   if (chunk.is_loose) return file_->ErrorAt(chunk.offset + at, message);
-  return file_->ErrorAt(chunk.offset,
-                        "in this chunk, unpacked, at byte " + std::to_string(at) + ": " + message);
+  return file_->ErrorAt(
+      chunk.offset, "in this chunk, uncompressed, at byte " + std::to_string(at) + ": " + message);
 }
 
-Result<std::string_view> McapReader::Unpack(const McapChunk& chunk) {
-  if (auto read = file_->Read(chunk.packed_offset, chunk.packed_size, packed_); !read) {
+Result<std::string_view> McapReader::DecompressChunk(const McapChunk& chunk) {
+  if (auto read = file_->Read(chunk.compressed_offset, chunk.compressed_size, compressed_); !read) {
     return read.error();
   }
-  if (chunk.is_loose) return std::string_view(packed_);
-  if (auto unpacked = Decompress(chunk.compression, packed_, chunk.size, unpacked_); !unpacked) {
-    Error error = file_->ErrorAt(chunk.offset, "in this chunk, " + unpacked.error().message);
-    error.hint = unpacked.error().hint;
+  if (chunk.is_loose) return std::string_view(compressed_);
+  if (auto uncompressed = Decompress(chunk.compression, compressed_, chunk.size, uncompressed_);
+      !uncompressed) {
+    Error error = file_->ErrorAt(chunk.offset, "in this chunk, " + uncompressed.error().message);
+    error.hint = uncompressed.error().hint;
     return error;
   }
-  const std::uint32_t checksum = chunk.checksum == 0 ? 0 : ChecksumOf(unpacked_);
+  const std::uint32_t checksum = chunk.checksum == 0 ? 0 : ChecksumOf(uncompressed_);
   if (checksum != chunk.checksum) {
     return file_->ErrorAt(chunk.offset, "the content of this chunk has the checksum " +
                                             std::to_string(checksum) + ", expected " +
                                             std::to_string(chunk.checksum));
   }
-  return std::string_view(unpacked_);
+  return std::string_view(uncompressed_);
 }
 
 Result<void> McapReader::UseMessage(const McapChunk& chunk, std::string_view content,
@@ -95,11 +96,11 @@ Result<void> McapReader::UseMessage(const McapChunk& chunk, std::string_view con
 }
 
 Result<void> McapReader::ReadMessages(const McapChunk& chunk, const Use& use) {
-  const auto unpacked = Unpack(chunk);
-  if (!unpacked) return unpacked.error();
-  std::string_view rest = *unpacked;
+  const auto uncompressed = DecompressChunk(chunk);
+  if (!uncompressed) return uncompressed.error();
+  std::string_view rest = *uncompressed;
   while (!rest.empty()) {
-    const std::uint64_t at = unpacked->size() - rest.size();
+    const std::uint64_t at = uncompressed->size() - rest.size();
     McapBytesReader bytes(rest);
     std::uint8_t opcode = 0;
     const std::string_view content = bytes.Number(opcode).View<std::uint64_t>();

@@ -21,8 +21,8 @@ struct McapChunk {
   std::uint64_t start = 0;   ///< of the times of its messages; loose ones: of any time
   std::uint64_t end = 0;
   std::string compression = {};
-  std::uint64_t packed_offset = 0;
-  std::uint64_t packed_size = 0;
+  std::uint64_t compressed_offset = 0;
+  std::uint64_t compressed_size = 0;
   std::uint64_t size = 0;
   std::uint32_t checksum = 0;  ///< 0: none
   bool is_loose = false;
@@ -69,7 +69,7 @@ class McapReader {
   [[nodiscard]] const McapMetadata* FindMetadata(std::string_view name) const;
 
   /// Calls `use` for each message of the chunk, in the order of the file. The data are valid until it
-  /// returns; an error of `use` ends it. Errors: what is packed is broken, a wrong checksum, a message
+  /// returns; an error of `use` ends it. Errors: what is compressed is broken, a wrong checksum, a message
   /// of an unknown channel.
   using Use = std::function<Result<void>(const McapMessage& message)>;
   Result<void> ReadMessages(const McapChunk& chunk, const Use& use);
@@ -100,10 +100,10 @@ class McapReader {
   Result<std::string_view> ReadContent(const Head& head, const char* what);
   void CountMessages();
 
-  // Where an error was: in the file, or in the unpacked content of a chunk.
+  // Where an error was: in the file, or in the uncompressed content of a chunk.
   [[nodiscard]] Error ErrorIn(const McapChunk& chunk, std::uint64_t at,
                               const std::string& message) const;
-  Result<std::string_view> Unpack(const McapChunk& chunk);
+  Result<std::string_view> DecompressChunk(const McapChunk& chunk);
   Result<void> UseMessage(const McapChunk& chunk, std::string_view content, std::uint64_t at,
                           const Use& use);
 
@@ -112,8 +112,8 @@ class McapReader {
   bool has_statistics_ = false;
   bool has_data_end_ = false;
   std::string buffer_;
-  std::string packed_;
-  std::string unpacked_;
+  std::string compressed_;
+  std::string uncompressed_;
 };
 
 }  // namespace runnel

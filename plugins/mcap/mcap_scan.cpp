@@ -187,18 +187,18 @@ Result<void> McapReader::TakeChunk(const Head& head) {
       .Number(chunk.size)
       .Number(chunk.checksum)
       .Text(chunk.compression)
-      .Number(chunk.packed_size);
+      .Number(chunk.compressed_size);
   const std::uint64_t before = start->size() - bytes.rest().size();
-  if (bytes.has_failed() || chunk.packed_size > head.length - before) {
+  if (bytes.has_failed() || chunk.compressed_size > head.length - before) {
     return file_->ErrorAt(chunk.offset,
                           "expected a chunk, but what is in this record is longer than the record");
   }
-  if (chunk.size > kLargest || chunk.packed_size > kLargest) {
+  if (chunk.size > kLargest || chunk.compressed_size > kLargest) {
     return file_->ErrorAt(chunk.offset,
-                          "a chunk of " + Number(std::max(chunk.size, chunk.packed_size)) +
+                          "a chunk of " + Number(std::max(chunk.size, chunk.compressed_size)) +
                               " bytes is larger than can be read, " + Number(kLargest));
   }
-  chunk.packed_offset = head.offset + before;
+  chunk.compressed_offset = head.offset + before;
   contents_.chunks.push_back(std::move(chunk));
   return {};
 }
@@ -236,12 +236,12 @@ Result<void> McapReader::TakeLooseMessage(const Head& head) {
       chunks.back().offset + chunks.back().size == offset &&
       chunks.back().size + length <= kStretch) {
     chunks.back().size += length;
-    chunks.back().packed_size += length;
+    chunks.back().compressed_size += length;
     return {};
   }
   McapChunk loose;
-  loose.offset = loose.packed_offset = offset;
-  loose.size = loose.packed_size = length;
+  loose.offset = loose.compressed_offset = offset;
+  loose.size = loose.compressed_size = length;
   loose.end = ~std::uint64_t{0};
   loose.is_loose = true;
   chunks.push_back(std::move(loose));

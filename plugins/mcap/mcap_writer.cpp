@@ -211,20 +211,20 @@ void McapWriter::AppendMessageIndexes(std::string& bytes, std::string& offsets) 
 }
 
 Result<void> McapWriter::WriteChunk() {
-  if (auto packed = Compress(options_.compression, chunk_, packed_); !packed) {
-    failure_ = {packed.error()};
-    return packed;
+  if (auto compressed = Compress(options_.compression, chunk_, compressed_); !compressed) {
+    failure_ = {compressed.error()};
+    return compressed;
   }
   std::string bytes;
-  bytes.reserve(packed_.size() + 64);
+  bytes.reserve(compressed_.size() + 64);
   AppendMcapRecord(McapOpcode::kChunk, bytes, [&](McapBytesWriter& writer) {
     writer.Number(chunk_start_)
         .Number(chunk_end_)
         .Number(static_cast<std::uint64_t>(chunk_.size()))
         .Number(ChecksumOf(chunk_))
         .Text(options_.compression)
-        .Number(static_cast<std::uint64_t>(packed_.size()))
-        .Bytes(packed_);
+        .Number(static_cast<std::uint64_t>(compressed_.size()))
+        .Bytes(compressed_);
   });
   const std::uint64_t chunk_length = bytes.size();
   const std::uint64_t chunk_offset = offset_;
@@ -240,7 +240,7 @@ Result<void> McapWriter::WriteChunk() {
         .Text(offsets)
         .Number(bytes.size() - chunk_length)
         .Text(options_.compression)
-        .Number(static_cast<std::uint64_t>(packed_.size()))
+        .Number(static_cast<std::uint64_t>(compressed_.size()))
         .Number(static_cast<std::uint64_t>(chunk_.size()));
   });
   ++statistics_.chunks;

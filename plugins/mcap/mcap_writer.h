@@ -15,8 +15,9 @@ namespace runnel {
 
 struct McapWriterOptions {
   McapHeader header = {};
-  std::string compression = {};       ///< see compression.h
-  std::size_t chunk_bytes = 1 << 20;  ///< a chunk is written as soon as it has so many, unpacked
+  std::string compression = {};  ///< see compression.h
+  std::size_t chunk_bytes =
+      1 << 20;  ///< a chunk is written as soon as it has so many, uncompressed
 };
 
 /// Writes one MCAP file: chunks with their message indexes, and at the end a summary by which readers
@@ -80,7 +81,7 @@ class McapWriter {
   bool is_finished_ = false;
 
   std::string chunk_;
-  std::string packed_;
+  std::string compressed_;
   std::string record_;
   std::map<std::uint16_t, std::vector<IndexEntry>> index_;
   std::uint64_t chunk_start_ = 0;

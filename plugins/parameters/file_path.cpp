@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/types/binary_form.h"
+#include "core/types/binary_encoding.h"
 
 namespace runnel {
 

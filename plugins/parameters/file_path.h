@@ -18,7 +18,7 @@ struct FilePath {
   friend bool operator==(const FilePath&, const FilePath&) = default;
 };
 
-/// The text form is the name itself.
+/// The text format is the name itself.
 void Describe(TypeBuilder<FilePath>& type);
 
 /// `file` as seen from where the program runs, if it was written in `folder`. Absolute names and

@@ -67,7 +67,7 @@ constexpr std::array<Prefix, 10> kPrefixes{{{"k", 1e3, 1},
                                             {"μ", 1, 1e6},  // the Greek letter
                                             {"n", 1, 1e9}}};
 
-std::string_view WithoutBlanks(std::string_view text) {
+std::string_view WithoutWhitespace(std::string_view text) {
   while (text.starts_with(' ') || text.starts_with('\t')) text.remove_prefix(1);
   while (text.ends_with(' ') || text.ends_with('\t')) text.remove_suffix(1);
   return text;
@@ -121,7 +121,7 @@ std::optional<Unit> ParseUnit(std::string_view text) {
   constexpr std::string_view kSigns = "/* ";
   Unit unit;
   bool divides = false;
-  text = WithoutBlanks(text);
+  text = WithoutWhitespace(text);
   while (true) {
     const std::size_t end = std::min(text.find_first_of(kSigns), text.size());
     std::string_view name = text.substr(0, end);
@@ -149,12 +149,12 @@ std::string NumberText(double number) {
 }  // namespace
 
 Result<std::string> NumberInUnit(std::string_view text, std::string_view unit) {
-  const std::string_view all = WithoutBlanks(text);
+  const std::string_view all = WithoutWhitespace(text);
   const std::string_view digits = all.substr(all.starts_with('+') ? 1 : 0);
   double number = 0;
   const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), number);
   const std::string_view own =
-      WithoutBlanks(digits.substr(static_cast<std::size_t>(read.ptr - digits.data())));
+      WithoutWhitespace(digits.substr(static_cast<std::size_t>(read.ptr - digits.data())));
   if (read.ec != std::errc() || !std::isfinite(number) || own.empty()) return std::string(text);
   if (own == unit)
     return std::string(digits.substr(0, static_cast<std::size_t>(read.ptr - digits.data())));

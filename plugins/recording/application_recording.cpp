@@ -51,10 +51,12 @@ RecordedApplication AboutApplication(Application& application) {
 void ApplicationRecording::AddHooks(Application& application, ServiceHooks& hooks) {
   hooks.record = [&runtime = application.runtime(), &scheduler = application.scheduler(),
                   about = AboutApplication(application)](
-                     const RecordingWish& wish) -> Result<std::unique_ptr<ClientRecording>> {
-    auto recorder = Recorder::Start(
-        runtime, &scheduler,
-        {.file = wish.file, .ports = wish.ports, .compression = wish.compression, .about = about});
+                     const RecordingRequest& request) -> Result<std::unique_ptr<ClientRecording>> {
+    auto recorder = Recorder::Start(runtime, &scheduler,
+                                    {.file = request.file,
+                                     .ports = request.ports,
+                                     .compression = request.compression,
+                                     .about = about});
     if (!recorder) return recorder.error();
     return std::unique_ptr<ClientRecording>(
         std::make_unique<RecordingOfClient>(std::move(*recorder)));

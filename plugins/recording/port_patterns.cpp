@@ -26,7 +26,7 @@ bool IsPortGroup(const std::string& name) {
   return std::ranges::count(kGroups, name) > 0;
 }
 
-// One part of a path, of whose pattern each * stands for any letters.
+// One part of a path, of whose pattern each * stands for any characters.
 bool FitsPart(std::string_view pattern, std::string_view part) {
   if (pattern.empty()) return part.empty();
   if (pattern.front() == '*') {

@@ -19,7 +19,7 @@ namespace runnel {
 
 namespace {
 
-/// Below which the taps of a recorder are. Beside the tree: no part of the application, so that nobody
+/// Below which the probes of a recorder are. Beside the tree: no part of the application, so that nobody
 /// finds or saves it, and modules need not be held back when it goes.
 class RecorderElement final : public FrameworkElement {
  public:
@@ -42,9 +42,9 @@ std::string NowText() {
   return {text, std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts)};
 }
 
-Result<std::string> ChooseCompression(const std::string& wish) {
-  if (wish.empty()) return Compressions().front();
-  const std::string chosen = wish == "none" ? "" : wish;
+Result<std::string> ChooseCompression(const std::string& request) {
+  if (request.empty()) return Compressions().front();
+  const std::string chosen = request == "none" ? "" : request;
   if (auto known = CheckCompression(chosen); !known) return known.error();
   return chosen;
 }
@@ -96,7 +96,7 @@ Result<void> Recorder::Begin() {
   if (auto written = WriteAbout(); !written) return written;
   last_flush_ = std::chrono::steady_clock::now();
   {
-    // One change: nobody publishes to some of the taps only.
+    // One change: nobody publishes to some of the probes only.
     const ChangeScope changes(runtime_);
     element_ = std::make_unique<RecorderElement>(runtime_.root());
     runtime_.root().Visit([this](FrameworkElement& element) {
@@ -177,20 +177,20 @@ Result<void> Recorder::Finish() {
   }
   if (scheduler_ != nullptr) scheduler_->backpressure().Remove(*this);
   runtime_.RemoveListener(*this);
-  DisconnectTaps();
+  DisconnectProbes();
   EndWriting();
   {
     // Destroyed after the mutex is free: cutting their connections takes the structure lock.
     std::vector<std::shared_ptr<Recorded>> ended;
     const std::lock_guard lock(mutex_);
-    for (const auto& each : recorded_) status_.dropped += each->tap->dropped();
+    for (const auto& each : recorded_) status_.dropped += each->probe->dropped();
     ended.swap(recorded_);
   }
   const std::lock_guard lock(mutex_);
   return status_.failure ? Result<void>(*status_.failure) : Result<void>();
 }
 
-void Recorder::DisconnectTaps() {
+void Recorder::DisconnectProbes() {
   for (std::size_t i = 0;; ++i) {
     std::shared_ptr<Recorded> recorded;
     {
@@ -199,7 +199,7 @@ void Recorder::DisconnectTaps() {
       if (i >= recorded_.size()) return;
       recorded = recorded_[i];
     }
-    recorded->tap->DisconnectAll();
+    recorded->probe->DisconnectAll();
   }
 }
 
@@ -216,7 +216,7 @@ void Recorder::EndWriting() noexcept {
 RecordingStatus Recorder::status() const {
   const std::lock_guard lock(mutex_);
   RecordingStatus status = status_;
-  for (const auto& each : recorded_) status.dropped += each->tap->dropped();
+  for (const auto& each : recorded_) status.dropped += each->probe->dropped();
   return status;
 }
 
@@ -250,11 +250,11 @@ void Recorder::Follow(Port& port) {
   auto recorded = std::make_shared<Recorded>();
   recorded->path = port.path();
   recorded->type = &port.type();
-  recorded->tap = std::make_unique<Tap>(*element_, "tap_" + std::to_string(++made_taps_),
-                                        port.type(), options_.room);
+  recorded->probe = std::make_unique<ProbePort>(*element_, "probe_" + std::to_string(++made_probes_),
+                                        port.type(), options_.capacity);
   recorded->forms = ChannelsFor(port.type(), TopicOf(port), WholeValues());
   // Refused only to a port that is being deleted.
-  if (!Port::Connect(port, *recorded->tap)) return;
+  if (!Port::Connect(port, *recorded->probe)) return;
   const std::lock_guard lock(mutex_);
   recorded_.push_back(std::move(recorded));
   ++status_.ports;
@@ -296,7 +296,7 @@ void Recorder::WaitForRoom() noexcept {
   const auto is_behind = [this] {
     const std::lock_guard lock(mutex_);
     return std::ranges::any_of(
-        recorded_, [](const auto& each) { return each->tap->waiting() * 2 > each->tap->room(); });
+        recorded_, [](const auto& each) { return each->probe->waiting() * 2 > each->probe->capacity(); });
   };
   while (!has_failed_ && is_behind()) {
     {

@@ -13,7 +13,7 @@
 #include "core/base/result.h"
 #include "core/element/element_listener.h"
 #include "core/element/runtime.h"
-#include "core/port/tap.h"
+#include "core/port/probe_port.h"
 #include "plugins/foxglove_schemas/foxglove_channel.h"
 #include "plugins/mcap/mcap_records.h"
 #include "plugins/recording/port_patterns.h"
@@ -38,7 +38,7 @@ struct RecorderOptions {
   std::vector<std::string> ports = {};  ///< see PortPatterns; none: all outputs
   /// "zstd", "lz4", "none"; "": the best there is.
   std::string compression = {};
-  std::size_t room = Tap::kRoom;  ///< values of one port that may wait to be written
+  std::size_t capacity = ProbePort::kCapacity;  ///< values of one port that may wait to be written
   RecordedApplication about = {};
 };
 
@@ -59,7 +59,7 @@ struct RecordingStatus {
 /// JSON schemas, and with what the application was; what Foxglove can draw also in its own schemas. Ports that come later are recorded from their first
 /// value on, as soon as they fit; those that go just end.
 ///
-/// Publishers pay what a queue costs (Tap). A thread of the recorder takes the values, makes text of them
+/// Publishers pay what a queue costs (ProbePort). A thread of the recorder takes the values, makes text of them
 /// and writes. On a real clock, what comes while a port's queue is full is lost, and counted; simulated
 /// time waits instead, between two cycles, so that a recording of it is complete unless one cycle
 /// publishes more than half a queue at one port.
@@ -96,7 +96,7 @@ class Recorder final : public ElementListener, public BackpressureSource {
   struct Recorded {
     std::string path;
     const TypeInfo* type;
-    std::unique_ptr<Tap> tap;
+    std::unique_ptr<ProbePort> probe;
     std::vector<FoxgloveChannel> forms;  // in which its values are written, the whole one first
     // The writing thread's own:
     std::vector<std::uint16_t> channels;  // one for each form, once there is a value
@@ -116,7 +116,7 @@ class Recorder final : public ElementListener, public BackpressureSource {
   [[nodiscard]] bool IsRecorded(const Port& port);
   void DropGone();
   // By Finish().
-  void DisconnectTaps();
+  void DisconnectProbes();
   void EndWriting() noexcept;
 
   // By the writing thread, or by Finish() when that has ended.
@@ -124,7 +124,7 @@ class Recorder final : public ElementListener, public BackpressureSource {
   void WriteUntilEnd();
   bool WriteWaiting();
   std::uint64_t WriteWaitingOf(Recorded& recorded);
-  Result<void> WriteValue(Recorded& recorded, Time stamp);
+  Result<void> WriteValue(Recorded& recorded, Time timestamp);
   Result<void> AddChannels(Recorded& recorded);
   Result<void> WriteDrops();
   void Note(const Result<void>& done);
@@ -135,15 +135,15 @@ class Recorder final : public ElementListener, public BackpressureSource {
   Scheduler* const scheduler_;
   RecorderOptions options_;
   const PortPatterns patterns_;
-  std::unique_ptr<FrameworkElement> element_;  // below which the taps are
+  std::unique_ptr<FrameworkElement> element_;  // below which the probes are
 
   mutable OrderedMutex mutex_{LockLevel::kLeaf};
   std::vector<std::shared_ptr<Recorded>> recorded_;  // guarded by mutex_
   RecordingStatus status_;                           // likewise
   std::vector<std::pair<std::string, std::uint64_t>> drops_of_gone_;
   bool failure_is_told_ = false;
-  bool is_finishing_ = false;    // guarded by mutex_: nothing is taken out of recorded_ any more
-  std::uint64_t made_taps_ = 0;  // under the structure lock
+  bool is_finishing_ = false;      // guarded by mutex_: nothing is taken out of recorded_ any more
+  std::uint64_t made_probes_ = 0;  // under the structure lock
 
   std::unique_ptr<McapWriter> writer_;
   std::vector<std::pair<std::string, std::uint16_t>> schemas_;

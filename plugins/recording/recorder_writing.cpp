@@ -79,11 +79,11 @@ bool Recorder::WriteWaiting() {
 // No more than a queue full, so that all ports have their turn.
 std::uint64_t Recorder::WriteWaitingOf(Recorded& recorded) {
   std::uint64_t count = 0;
-  while (count < recorded.tap->room() && !has_failed_) {
-    Time stamp;
+  while (count < recorded.probe->capacity() && !has_failed_) {
+    Time timestamp;
     std::exception_ptr failure;  // the value must be let go of first
-    const bool taken = recorded.tap->Take([&](const void* value, Time of) {
-      stamp = of;
+    const bool taken = recorded.probe->Take([&](const void* value, Time of) {
+      timestamp = of;
       try {
         recorded.messages.resize(recorded.forms.size());
         for (std::size_t i = 0; i < recorded.forms.size(); ++i) {
@@ -100,7 +100,7 @@ std::uint64_t Recorder::WriteWaitingOf(Recorded& recorded) {
                  .path = recorded.path});
       break;
     }
-    if (auto written = WriteValue(recorded, stamp); !written) {
+    if (auto written = WriteValue(recorded, timestamp); !written) {
       Note(written);
       break;
     }
@@ -109,12 +109,12 @@ std::uint64_t Recorder::WriteWaitingOf(Recorded& recorded) {
   return count;
 }
 
-Result<void> Recorder::WriteValue(Recorded& recorded, Time stamp) {
+Result<void> Recorder::WriteValue(Recorded& recorded, Time timestamp) {
   if (recorded.channels.empty()) {
     if (auto added = AddChannels(recorded); !added) return added;
   }
   const auto time =
-      static_cast<std::uint64_t>(std::max<std::int64_t>(stamp.time_since_epoch().count(), 0));
+      static_cast<std::uint64_t>(std::max<std::int64_t>(timestamp.time_since_epoch().count(), 0));
   ++recorded.sequence;
   for (std::size_t i = 0; i < recorded.channels.size(); ++i) {
     auto added = writer_->AddMessage(
@@ -152,13 +152,13 @@ Result<void> Recorder::WriteDrops() {
     if (count > 0) drops.texts.emplace_back(path, std::to_string(count));
   };
   for (const auto& [path, count] : drops_of_gone_) add(path, count);
-  for (const auto& each : All()) add(each->path, each->tap->dropped());
+  for (const auto& each : All()) add(each->path, each->probe->dropped());
   if (sum == written_drops_) return {};
   written_drops_ = sum;
   return writer_->AddMetadata(drops);
 }
 
-// Taps to which nothing is connected any more, once they are empty.
+// Probes to which nothing is connected any more, once they are empty.
 void Recorder::DropGone() {
   std::vector<std::shared_ptr<Recorded>> gone;
   {
@@ -168,22 +168,22 @@ void Recorder::DropGone() {
       return;
     }
     for (const auto& each : All()) {
-      const bool is_fed = std::ranges::any_of(each->tap->incoming(), [](const Port* port) {
+      const bool is_fed = std::ranges::any_of(each->probe->incoming(), [](const Port* port) {
         return port->life_cycle() != LifeCycle::kDeleted;
       });
       if (!is_fed) gone.push_back(each);
     }
   }
   for (const auto& each : gone) {
-    if (each->tap->waiting() > 0) {
+    if (each->probe->waiting() > 0) {
       has_gone_ = true;
       continue;
     }
     const std::lock_guard lock(mutex_);
     if (is_finishing_) return;
     std::erase(recorded_, each);
-    status_.dropped += each->tap->dropped();
-    drops_of_gone_.emplace_back(each->path, each->tap->dropped());
+    status_.dropped += each->probe->dropped();
+    drops_of_gone_.emplace_back(each->path, each->probe->dropped());
   }
 }
 

@@ -63,8 +63,8 @@ RecordingInfo InfoOf(const McapReader& reader) {
   std::set<std::string> compressions;
   for (const McapChunk& chunk : contents.chunks) {
     compressions.insert(chunk.compression);
-    info.packed_bytes += chunk.packed_size;
-    info.unpacked_bytes += chunk.size;
+    info.compressed_bytes += chunk.compressed_size;
+    info.uncompressed_bytes += chunk.size;
   }
   info.chunks = contents.chunks.size();
   info.compression = CompressionText(compressions);
@@ -117,8 +117,8 @@ std::string RecordingInfoJson(const RecordingInfo& info) {
     object.Add("dropped", info.dropped);
     object.Add("chunks", info.chunks);
     object.Add("compression", info.compression);
-    object.Add("packed_bytes", info.packed_bytes);
-    object.Add("unpacked_bytes", info.unpacked_bytes);
+    object.Add("packed_bytes", info.compressed_bytes);
+    object.Add("unpacked_bytes", info.uncompressed_bytes);
     JsonArray channels(object.Key("channels"));
     for (const RecordingInfo::Channel& each : info.channels) {
       JsonObject channel(channels.Next());

@@ -38,8 +38,8 @@ struct RecordingInfo {
   std::uint64_t dropped = 0;
   std::uint64_t chunks = 0;
   std::string compression = {};  ///< "zstd", "none", "lz4, zstd"
-  std::uint64_t packed_bytes = 0;
-  std::uint64_t unpacked_bytes = 0;
+  std::uint64_t compressed_bytes = 0;
+  std::uint64_t uncompressed_bytes = 0;
   std::vector<Channel> channels = {};  ///< by path
 
   [[nodiscard]] double duration() const noexcept { return end - start; }

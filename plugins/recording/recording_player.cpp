@@ -8,7 +8,7 @@
 #include "core/base/nearest_name.h"
 #include "core/element/runtime.h"
 #include "core/module/run_monitor.h"
-#include "core/port/tap.h"
+#include "core/port/probe_port.h"
 #include "core/types/type_info.h"
 #include "plugins/json_values/json_values.h"
 #include "plugins/recording/recording_names.h"
@@ -250,7 +250,7 @@ bool Player::IsReadUnplayed(const Task& task) const {
       const auto plays = [&](const auto& played) { return played->original == port; };
       if (port == nullptr || std::ranges::any_of(played_, plays)) return;
       for (const Port* sink : port->Sinks()) {
-        if (dynamic_cast<const Tap*>(sink) == nullptr) is_read = true;
+        if (dynamic_cast<const ProbePort*>(sink) == nullptr) is_read = true;
       }
     });
   }

@@ -4,7 +4,7 @@
 
 #include "core/base/check.h"
 #include "core/base/saturating_sum.h"
-#include "core/lockfree/patience.h"
+#include "core/lockfree/backoff.h"
 #include "core/lockfree/thread_epoch.h"
 #include "plugins/scheduling/cycle_runner.h"
 #include "plugins/scheduling/cycle_tracer.h"
@@ -37,7 +37,7 @@ Result<CycleHold> CycleHold::Take(std::vector<std::shared_ptr<CycleRunner>> runn
                      .path = closed.path(),
                      .hint = "one of its modules does not return from its Update()"};
       }
-      WaitOneRound(round);
+      BackOff(round);
     }
   }
   return hold;

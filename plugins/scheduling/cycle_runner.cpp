@@ -108,9 +108,9 @@ bool CycleRunner::RunCycle(Cycle cycle, FaultDispatcher& faults) noexcept {
     RunTasks<false>(*schedule, now, faults);
   }
   in_cycle_of = nullptr;
-  WakeUps wake_ups;
+  NotificationBatch notifications;
   for (CycleRunner* const waiting : *schedule->waiting) {
-    if (waiting->is_activated()) wake_ups.Add(waiting->event_);
+    if (waiting->is_activated()) notifications.Add(waiting->event_);
   }
   return true;
 }

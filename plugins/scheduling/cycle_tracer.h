@@ -17,7 +17,7 @@ class CycleTracer {
  public:
   /// Where the cycles of a thread container are noted; the same for the same container. Under the
   /// structure lock.
-  [[nodiscard]] virtual TraceTrack& TrackOf(std::uint64_t serial, const std::string& path) = 0;
+  [[nodiscard]] virtual TraceTrack& TrackOf(std::uint64_t id, const std::string& path) = 0;
   /// An element is going to be run. Under the structure lock.
   [[nodiscard]] virtual std::unique_ptr<TracedElement> Watch(FrameworkElement& element) = 0;
   /// A thread has been kept between two cycles, from about `began` to `ended` of the machine's clock.

@@ -20,8 +20,8 @@ struct InputTask : internal::OrderedTask {
 // From task to task within each element, in the order of their phases.
 void KeepPhases(std::deque<InputTask>& tasks, internal::RunningOrder& order) {
   std::map<std::uint64_t, std::vector<InputTask*>> of_element;
-  for (InputTask& each : tasks) of_element[each.serial].push_back(&each);
-  for (auto& [serial, own] : of_element) {
+  for (InputTask& each : tasks) of_element[each.id].push_back(&each);
+  for (auto& [id, own] : of_element) {
     std::ranges::sort(own, {}, [](const InputTask* each) { return each->key(); });
     for (std::size_t i = 1; i < own.size(); ++i) order.KeepPhases(*own[i - 1], *own[i]);
   }
@@ -36,7 +36,7 @@ ExecutionOrder OrderTasks(std::vector<Task> tasks) {
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     InputTask& input = inputs.emplace_back(InputTask{{}, std::move(tasks[i])});
     input.phase = input.task.phase;
-    input.serial = input.task.element->serial();
+    input.id = input.task.element->id();
     input.number = i;
     order.Add(input);
   }

@@ -26,7 +26,7 @@ struct ExecutionOrder {
 ///      and not reported.
 ///   2. All other edges are followed, as long as they form no loop.
 ///   3. Of the tasks that are free to run, the one with the earlier phase comes first, then the one
-///      whose element was made earlier (serial), then the one named earlier by its element.
+///      whose element was made earlier (id), then the one named earlier by its element.
 ///   4. If none is free, the tasks left contain loops. Of those loops that no other loop feeds, the
 ///      task that rule 3 puts first runs next; the edges into it from tasks that are left are cut,
 ///      and each of their connections is reported. A task that feeds itself is reported likewise.

@@ -38,8 +38,8 @@ Found Search(FrameworkElement& top) {
       found.executables.push_back(&element);
     }
   });
-  std::ranges::sort(found.containers, {}, &FrameworkElement::serial);
-  std::ranges::sort(found.executables, {}, &FrameworkElement::serial);
+  std::ranges::sort(found.containers, {}, &FrameworkElement::id);
+  std::ranges::sort(found.executables, {}, &FrameworkElement::id);
   return found;
 }
 
@@ -74,7 +74,7 @@ ScheduleCompiler::~ScheduleCompiler() = default;
 
 void ScheduleCompiler::CompileAll(FrameworkElement& root) {
   const Found found = Search(root);
-  for (auto& [serial, planned] : elements_) {
+  for (auto& [id, planned] : elements_) {
     planned.tasks.clear();
     planned.thread = nullptr;
   }
@@ -83,7 +83,7 @@ void ScheduleCompiler::CompileAll(FrameworkElement& root) {
   has_unassigned_tasks_ = threads_.empty() && !found.executables.empty();
   if (!has_unassigned_tasks_) {
     for (FrameworkElement* element : found.executables) Plan(*element);
-    for (FrameworkElement* element : found.executables) ConnectTasks(elements_[element->serial()]);
+    for (FrameworkElement* element : found.executables) ConnectTasks(elements_[element->id()]);
   }
   needs_all_ = false;
 }
@@ -93,18 +93,18 @@ void ScheduleCompiler::MakeThreadSchedules(const std::vector<ThreadContainer*>& 
   changed_threads_.clear();
   auto waiting = std::make_shared<std::vector<CycleRunner*>>();
   for (const ThreadContainer* container : containers) {
-    auto& thread = threads_[container->serial()] =
+    auto& thread = threads_[container->id()] =
         std::make_unique<ThreadSchedule>(container->runner());
     thread->name = container->name();
     if (tracer_ != nullptr) {
-      thread->track = &tracer_->TrackOf(container->serial(), container->path());
+      thread->track = &tracer_->TrackOf(container->id(), container->path());
     }
     if (thread->runner->waits_for_data()) waiting->push_back(thread->runner.get());
     NoteChange(*thread);
   }
   waiting_ = std::move(waiting);
-  for (const auto& [serial, thread] : before) {
-    if (!threads_.contains(serial)) gone_runners_.push_back(thread->runner);
+  for (const auto& [id, thread] : before) {
+    if (!threads_.contains(id)) gone_runners_.push_back(thread->runner);
   }
 }
 
@@ -122,16 +122,16 @@ void ScheduleCompiler::Follow(const Change& change) noexcept {
 void ScheduleCompiler::Add(FrameworkElement& element) noexcept {
   Follow([&] {
     const Found found = Search(element);
-    const auto is_new = [&](const auto* each) { return !threads_.contains(each->serial()); };
+    const auto is_new = [&](const auto* each) { return !threads_.contains(each->id()); };
     const bool lacks_a_thread = threads_.empty() && !found.executables.empty();
     if (lacks_a_thread || std::ranges::any_of(found.containers, is_new)) return NeedAll();
     std::vector<PlannedElement*> added;
     for (FrameworkElement* each : found.executables) {
-      if (const auto known = elements_.find(each->serial()); known != elements_.end()) {
+      if (const auto known = elements_.find(each->id()); known != elements_.end()) {
         if (known->second.thread != nullptr) continue;
       }
       Plan(*each);
-      added.push_back(&elements_[each->serial()]);
+      added.push_back(&elements_[each->id()]);
     }
     for (PlannedElement* each : added) ConnectTasks(*each);
     // Ports that come when their module is there already.
@@ -141,7 +141,7 @@ void ScheduleCompiler::Add(FrameworkElement& element) noexcept {
 
 // Its trigger inputs stay tied meanwhile, so that no data are missed.
 void ScheduleCompiler::Refresh(FrameworkElement& element) {
-  const auto known = elements_.find(element.serial());
+  const auto known = elements_.find(element.id());
   if (known == elements_.end() || known->second.thread == nullptr) return;
   RemoveTasks(known->second);
   Plan(element);
@@ -154,7 +154,7 @@ void ScheduleCompiler::Reassign(FrameworkElement& element) noexcept {
     if (assigned != 0 && !threads_.contains(assigned)) return NeedAll();
     std::vector<PlannedElement*> moved;
     for (FrameworkElement* each : Search(element).executables) {
-      const auto known = elements_.find(each->serial());
+      const auto known = elements_.find(each->id());
       ThreadSchedule* const thread = ChooseThread(*each);
       if (known == elements_.end() || known->second.thread == thread) continue;
       RemoveTasks(known->second);
@@ -188,11 +188,11 @@ void ScheduleCompiler::Disconnect(const Port& from, const Port& to) noexcept {
 }
 
 void ScheduleCompiler::Plan(FrameworkElement& element) {
-  PlannedElement& planned = elements_[element.serial()];
+  PlannedElement& planned = elements_[element.id()];
   planned.element = &element;
   if (!planned.state) {
     planned.state = std::make_shared<ScheduledElement>(
-        element.path(), element.serial(), tracer_ != nullptr ? tracer_->Watch(element) : nullptr);
+        element.path(), element.id(), tracer_ != nullptr ? tracer_->Watch(element) : nullptr);
   }
   HandOver(planned, *ChooseThread(element));
   AddTasks(planned);
@@ -208,7 +208,7 @@ void ScheduleCompiler::AddTasks(PlannedElement& planned) {
   for (std::size_t i = 0; i < planned.tasks.size(); ++i) {
     PlannedTask& task = *planned.tasks[i];
     task.element = &planned;
-    task.serial = planned.element->serial();
+    task.id = planned.element->id();
     task.number = i;
     task.is_first = i == 0;
     task.is_last = i + 1 == planned.tasks.size();
@@ -289,7 +289,7 @@ void ScheduleCompiler::BindTriggersOf(PlannedElement& planned) {
 // that has it may stay until there is memory for the next.
 void ScheduleCompiler::Release(FrameworkElement& element) noexcept {
   element.Visit([this](FrameworkElement& each) {
-    const auto known = elements_.find(each.serial());
+    const auto known = elements_.find(each.id());
     if (known != elements_.end() && known->second.state) known->second.state->Stop();
   });
   Retry([&] {
@@ -304,8 +304,8 @@ void ScheduleCompiler::Release(FrameworkElement& element) noexcept {
 
 void ScheduleCompiler::ReleaseAll(FrameworkElement& element) {
   element.Visit([this](FrameworkElement& each) {
-    if (threads_.contains(each.serial())) NeedAll();
-    const auto known = elements_.find(each.serial());
+    if (threads_.contains(each.id())) NeedAll();
+    const auto known = elements_.find(each.id());
     if (known == elements_.end()) return;
     internal::UnbindTriggers(internal::TriggerInputs(each.FindAnnotation<Executable>()->tasks()));
     RemoveTasks(known->second);
@@ -327,7 +327,7 @@ void ScheduleCompiler::NoteChange(ThreadSchedule& thread) {
 ThreadSchedule* ScheduleCompiler::ChooseThread(const FrameworkElement& element) const {
   const auto assigned = threads_.find(AssignedThread(element));
   if (assigned != threads_.end()) return assigned->second.get();
-  for (const auto& [serial, thread] : threads_) {
+  for (const auto& [id, thread] : threads_) {
     if (thread->name == default_thread_) return thread.get();
   }
   return threads_.empty() ? nullptr : threads_.begin()->second.get();

@@ -96,7 +96,7 @@ class ScheduleCompiler {
   bool needs_all_ = true;
   bool has_handovers_ = false;
   bool has_unassigned_tasks_ = false;
-  std::map<std::uint64_t, internal::PlannedElement> elements_;  // by serial
+  std::map<std::uint64_t, internal::PlannedElement> elements_;  // by id
   ThreadSchedules threads_;
   std::vector<internal::ThreadSchedule*> changed_threads_;
   Runners gone_runners_;  // until the next Install()

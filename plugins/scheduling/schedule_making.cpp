@@ -89,18 +89,18 @@ void ScheduleCompiler::Install() {
 
 ScheduleCompiler::Runners ScheduleCompiler::runners() const {
   Runners runners;
-  for (const auto& [serial, thread] : threads_) runners.push_back(thread->runner);
+  for (const auto& [id, thread] : threads_) runners.push_back(thread->runner);
   return runners;
 }
 
 bool ScheduleCompiler::IsStopped(const FrameworkElement& element) const {
-  const auto known = elements_.find(element.serial());
+  const auto known = elements_.find(element.id());
   return known != elements_.end() && known->second.state->is_stopped();
 }
 
 void ScheduleCompiler::AddRunnersOf(FrameworkElement& element, Runners& runners) const {
   element.Visit([&](const FrameworkElement& each) {
-    const auto known = elements_.find(each.serial());
+    const auto known = elements_.find(each.id());
     if (known == elements_.end() || known->second.thread == nullptr) return;
     const auto& runner = known->second.thread->runner;
     if (std::ranges::find(runners, runner) == runners.end()) runners.push_back(runner);
@@ -114,12 +114,12 @@ bool ScheduleCompiler::HasTasks() const {
 
 std::vector<Error> ScheduleCompiler::Warnings() const {
   std::vector<Error> warnings;
-  for (const auto& [serial, planned] : elements_) {
+  for (const auto& [id, planned] : elements_) {
     if (planned.thread == nullptr) continue;
     if (NeverRuns(planned)) warnings.push_back(NeverRun(planned));
     if (IsAChoiceMissing(*planned.element)) warnings.push_back(ChosenForIt(planned));
   }
-  for (const auto& [serial, thread] : threads_) internal::ReportCuts(thread->order, warnings);
+  for (const auto& [id, thread] : threads_) internal::ReportCuts(thread->order, warnings);
   return warnings;
 }
 

@@ -7,10 +7,10 @@
 
 namespace runnel {
 
-ScheduledElement::ScheduledElement(std::string path, std::uint64_t serial,
+ScheduledElement::ScheduledElement(std::string path, std::uint64_t id,
                                    std::unique_ptr<TracedElement> traced)
     : path_(std::move(path)),
-      serial_(serial),
+      id_(id),
       traced_(std::move(traced)),
       record_(std::make_unique<FaultRecord>(path_)) {}
 

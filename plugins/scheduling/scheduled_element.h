@@ -30,12 +30,11 @@ struct CycleMoment {
 class ScheduledElement final : public Waker {
  public:
   /// `traced`: what is written down of it, if anything is.
-  ScheduledElement(std::string path, std::uint64_t serial,
-                   std::unique_ptr<TracedElement> traced = {});
+  ScheduledElement(std::string path, std::uint64_t id, std::unique_ptr<TracedElement> traced = {});
   ~ScheduledElement();
 
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
-  [[nodiscard]] std::uint64_t serial() const noexcept { return serial_; }
+  [[nodiscard]] std::uint64_t id() const noexcept { return id_; }
 
   /// Stops the element for good, whatever schedule has it. Any thread.
   void Stop() noexcept { stopped_.store(true, std::memory_order_relaxed); }
@@ -73,7 +72,7 @@ class ScheduledElement final : public Waker {
 
  private:
   const std::string path_;
-  const std::uint64_t serial_;
+  const std::uint64_t id_;
   const std::unique_ptr<TracedElement> traced_;
   std::unique_ptr<FaultRecord> record_;  // until the element has failed
   std::atomic<bool> stopped_{false};

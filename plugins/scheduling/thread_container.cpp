@@ -14,12 +14,12 @@ constexpr int kHighestPriority = 99;
 constexpr std::uint64_t kNoThread = 0;
 
 struct ThreadAssignment final : Annotation {
-  explicit ThreadAssignment(std::uint64_t thread_serial) : serial(thread_serial) {}
+  explicit ThreadAssignment(std::uint64_t thread_id) : id(thread_id) {}
   std::unique_ptr<Annotation> ForReplacement() const override {
-    return std::make_unique<ThreadAssignment>(serial);
+    return std::make_unique<ThreadAssignment>(id);
   }
   // The number and not the address: that of a container that is gone never comes back.
-  std::uint64_t serial;
+  std::uint64_t id;
 };
 
 void CheckOptions(const FrameworkElement& container, const ThreadOptions& options) {
@@ -66,7 +66,7 @@ void AssignThread(FrameworkElement& element, ThreadContainer& thread) {
   Runtime& runtime = element.runtime();
   RUNNEL_CHECK(&runtime == &thread.runtime(), "a thread runs modules of its own runtime only");
   const std::lock_guard lock(runtime.structure_mutex());
-  element.Annotate(std::make_unique<ThreadAssignment>(thread.serial()));
+  element.Annotate(std::make_unique<ThreadAssignment>(thread.id()));
   runtime.ForEachListener([&](ElementListener& listener) {
     if (auto* const told = dynamic_cast<AssignmentListener*>(&listener)) {
       told->OnAssigned(element, thread);
@@ -74,9 +74,9 @@ void AssignThread(FrameworkElement& element, ThreadContainer& thread) {
   });
 }
 
-std::uint64_t OwnThreadSerial(const FrameworkElement& element) {
+std::uint64_t OwnThreadId(const FrameworkElement& element) {
   const auto* const found = element.FindAnnotation<ThreadAssignment>();
-  return found != nullptr && found->serial != kNoThread ? found->serial : 0;
+  return found != nullptr && found->id != kNoThread ? found->id : 0;
 }
 
 void UnassignThread(FrameworkElement& element) {
@@ -92,13 +92,13 @@ void UnassignThread(FrameworkElement& element) {
 
 // Threads are children of a group "threads", of the root or of an application.
 ThreadContainer* OwnThread(const FrameworkElement& element) {
-  const std::uint64_t own = OwnThreadSerial(element);
+  const std::uint64_t own = OwnThreadId(element);
   if (own == 0) return nullptr;
   for (const FrameworkElement* at = &element; at != nullptr; at = at->parent()) {
     const FrameworkElement* const threads = at->FindChild("threads");
     if (threads == nullptr) continue;
     for (FrameworkElement* each : threads->children()) {
-      if (each->serial() == own) return dynamic_cast<ThreadContainer*>(each);
+      if (each->id() == own) return dynamic_cast<ThreadContainer*>(each);
     }
   }
   return nullptr;
@@ -106,7 +106,7 @@ ThreadContainer* OwnThread(const FrameworkElement& element) {
 
 std::uint64_t AssignedThread(const FrameworkElement& element) {
   for (const FrameworkElement* at = &element; at != nullptr; at = at->parent()) {
-    if (const std::uint64_t own = OwnThreadSerial(*at); own != 0) return own;
+    if (const std::uint64_t own = OwnThreadId(*at); own != 0) return own;
   }
   return 0;
 }

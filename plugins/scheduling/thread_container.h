@@ -50,12 +50,12 @@ void UnassignThread(FrameworkElement& element);
 /// Under the structure lock.
 [[nodiscard]] ThreadContainer* OwnThread(const FrameworkElement& element);
 
-/// The serial number of the container that `element` is assigned to, by itself or by what is above
+/// The id of the container that `element` is assigned to, by itself or by what is above
 /// it; 0 if to none. Under the structure lock.
 [[nodiscard]] std::uint64_t AssignedThread(const FrameworkElement& element);
 
 /// The same, of the element's own assignment only.
-[[nodiscard]] std::uint64_t OwnThreadSerial(const FrameworkElement& element);
+[[nodiscard]] std::uint64_t OwnThreadId(const FrameworkElement& element);
 
 /// Told of assignments; an ElementListener may be one too.
 class AssignmentListener {

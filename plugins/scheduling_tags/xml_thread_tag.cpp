@@ -147,10 +147,10 @@ std::vector<ThreadContainer*> ReachableThreads(const FrameworkElement& applicati
 
 std::vector<SavedTag> SavedThreads(FrameworkElement& application) {
   std::set<std::uint64_t> used;
-  application.Visit([&](FrameworkElement& each) { used.insert(OwnThreadSerial(each)); });
+  application.Visit([&](FrameworkElement& each) { used.insert(OwnThreadId(each)); });
   std::vector<SavedTag> tags;
   for (const ThreadContainer* thread : ReachableThreads(application)) {
-    if (thread->IsAtOrBelow(application) || used.contains(thread->serial())) {
+    if (thread->IsAtOrBelow(application) || used.contains(thread->id())) {
       tags.push_back(SavedThread(*thread));
     }
   }
@@ -159,10 +159,10 @@ std::vector<SavedTag> SavedThreads(FrameworkElement& application) {
 
 // "" also if the thread is gone, for then the assignment means nothing.
 std::string SavedAssignment(FrameworkElement& element) {
-  const std::uint64_t serial = OwnThreadSerial(element);
-  if (serial == 0) return "";
+  const std::uint64_t id = OwnThreadId(element);
+  if (id == 0) return "";
   for (const ThreadContainer* thread : ReachableThreads(internal::ApplicationOf(element))) {
-    if (thread->serial() == serial) return thread->name();
+    if (thread->id() == id) return thread->name();
   }
   return "";
 }

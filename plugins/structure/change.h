@@ -11,7 +11,7 @@
 
 namespace runnel {
 
-/// The value of a parameter in its text form, by the parameter's name: {"stop_distance", "0.3"}.
+/// The value of a parameter in its text format, by the parameter's name: {"stop_distance", "0.3"}.
 struct Setting {
   std::string parameter;
   std::string value;

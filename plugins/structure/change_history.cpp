@@ -43,7 +43,7 @@ ChangeOutcome ChangeHistory::Apply(const ChangeSet& changes,
   } catch (...) {
     return Failed(DescribeException());
   }
-  ChangeOutcome outcome = editor_.Apply({changes, places, nullptr, &entry.back().taking});
+  ChangeOutcome outcome = editor_.Apply({changes, places, nullptr, &entry.back().undo_record});
   if (!outcome.is_done || changes.empty()) return outcome;
   const std::lock_guard lock(entries_);
   undone_.clear();
@@ -68,9 +68,10 @@ ChangeOutcome ChangeHistory::Take(Entries& from, Entries& to, const char* what) 
     }
     back.push_back({entry.label, {}});
     ChangeOutcome outcome =
-        entry.taking.why_not
-            ? Refused(*entry.taking.why_not)
-            : editor_.Apply({entry.taking.changes, {}, &entry.taking, &back.back().taking});
+        entry.undo_record.why_not
+            ? Refused(*entry.undo_record.why_not)
+            : editor_.Apply(
+                  {entry.undo_record.changes, {}, &entry.undo_record, &back.back().undo_record});
     if (!outcome.is_done && outcome.is_refused) {
       outcome.diagnostics.Add(
           {.message = "'" + entry.label + "' can no longer be " + what + ", and is forgotten"});

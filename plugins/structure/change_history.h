@@ -34,7 +34,7 @@ class ChangeHistory {
       : editor_(editor), most_entries_(most_entries) {}
 
   /// As StructureEditor::Apply(); what is done can be undone, and nothing be redone any more. `label` is
-  /// what people read of it; "": the change in its text form, and how many more there are.
+  /// what people read of it; "": the change in its text format, and how many more there are.
   ChangeOutcome Apply(const ChangeSet& changes, const std::vector<SourcePosition>& places = {},
                       std::string label = {});
   /// Takes back what was done last. Errors: nothing to undo; what makes it impossible.
@@ -49,7 +49,7 @@ class ChangeHistory {
  private:
   struct Entry {
     std::string label;
-    internal::Taking taking;  // back
+    internal::UndoRecord undo_record;  // back
   };
   using Entries = std::list<Entry>;  // whose entries go from one to the other without memory
 

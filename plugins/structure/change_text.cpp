@@ -7,15 +7,15 @@
 #include <utility>
 
 #include "core/base/nearest_name.h"
-#include "plugins/structure/change_words.h"
+#include "plugins/structure/change_arguments.h"
 
 namespace runnel {
 
 namespace {
 
-using internal::AsWord;
+using internal::AsArgument;
+using internal::ChangeArgument;
 using internal::ChangeLine;
-using internal::ChangeWord;
 
 constexpr std::size_t kLongestQueue = 1'000'000;
 constexpr std::uint64_t kLongestProbation = 1'000'000'000;
@@ -28,13 +28,13 @@ Error At(const SourcePosition& position, std::string message, std::string hint) 
 
 // The words of one change, taken one after the other. What is missing or wrong is remembered, the first
 // of it, so that readers read straight on.
-class Words {
+class Arguments {
  public:
-  Words(const ChangeLine& line, std::string usage) : line_(line), usage_(std::move(usage)) {}
+  Arguments(const ChangeLine& line, std::string usage) : line_(line), usage_(std::move(usage)) {}
 
   std::string Take(const char* what) {
     if (at_ < line_.size()) return line_[at_++].text;
-    const ChangeWord& last = line_.back();
+    const ChangeArgument& last = line_.back();
     Complain(last.position, std::string(what) + " is missing after '" + last.text + "'",
              "write: " + usage_);
     return {};
@@ -43,56 +43,58 @@ class Words {
     return at_ < line_.size() && line_[at_].text == text;
   }
   void Expect(const std::string& text) {
-    const ChangeWord* word = at_ < line_.size() ? &line_[at_] : nullptr;
+    const ChangeArgument* argument = at_ < line_.size() ? &line_[at_] : nullptr;
     const std::string found = Take(("'" + text + "'").c_str());
-    if (word != nullptr && found != text) {
-      Complain(word->position, "there should be '" + text + "' instead of '" + found + "'",
+    if (argument != nullptr && found != text) {
+      Complain(argument->position, "there should be '" + text + "' instead of '" + found + "'",
                "write: " + usage_);
     }
   }
   std::size_t TakeOneOf(const char* what, const std::vector<std::string>& names) {
-    const ChangeWord* word = at_ < line_.size() ? &line_[at_] : nullptr;
+    const ChangeArgument* argument = at_ < line_.size() ? &line_[at_] : nullptr;
     const std::string found = Take(what);
-    return word != nullptr ? Choose(*word, found, names) : 0;
+    return argument != nullptr ? Choose(*argument, found, names) : 0;
   }
   /// The rest, all "name=value", goes to `take`, which says whether it has been interested.
   template <typename TakeOption>
   void TakeOptions(const std::vector<std::string>& names, const TakeOption& take) {
     std::vector<std::string> seen;
     for (; at_ < line_.size(); ++at_) {
-      const ChangeWord& word = line_[at_];
-      if (!word.equals || *word.equals == 0) {
-        Complain(word.position, "'" + word.text + "' is one word too many", "write: " + usage_);
-      } else if (std::ranges::count(seen, word.name()) > 0) {
-        Complain(NameAt(word), "'" + word.name() + "' is there twice", "leave one of them out");
-      } else if (!take(word)) {
-        Complain(NameAt(word), "there is no option '" + word.name() + "'",
-                 NearestNameHint(word.name(), names));
+      const ChangeArgument& argument = line_[at_];
+      if (!argument.equals || *argument.equals == 0) {
+        Complain(argument.position, "'" + argument.text + "' is one word too many",
+                 "write: " + usage_);
+      } else if (std::ranges::count(seen, argument.name()) > 0) {
+        Complain(NameAt(argument), "'" + argument.name() + "' is there twice",
+                 "leave one of them out");
+      } else if (!take(argument)) {
+        Complain(NameAt(argument), "there is no option '" + argument.name() + "'",
+                 NearestNameHint(argument.name(), names));
       }
-      seen.push_back(word.name());
+      seen.push_back(argument.name());
     }
   }
   void End() {
-    TakeOptions({}, [](const ChangeWord&) { return false; });
+    TakeOptions({}, [](const ChangeArgument&) { return false; });
   }
 
-  std::size_t Choose(const ChangeWord& word, const std::string& value,
+  std::size_t Choose(const ChangeArgument& argument, const std::string& value,
                      const std::vector<std::string>& names) {
     const auto found = std::ranges::find(names, value);
     if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-    Complain(word.position, "'" + value + "' is none of the words that can stand here",
+    Complain(argument.position, "'" + value + "' is none of the words that can stand here",
              NearestNameHint(value, names));
     return 0;
   }
   template <typename Number>
-  Number ReadCount(const ChangeWord& word, Number largest) {
-    const std::string text = word.value();
+  Number ReadCount(const ChangeArgument& argument, Number largest) {
+    const std::string text = argument.value();
     Number number{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (error == std::errc{} && end == text.data() + text.size() && number <= largest) {
       return number;
     }
-    Complain(word.position, "'" + text + "' is not a count for '" + word.name() + "'",
+    Complain(argument.position, "'" + text + "' is not a count for '" + argument.name() + "'",
              "write a whole number from 0 to " + std::to_string(largest));
     return {};
   }
@@ -102,7 +104,7 @@ class Words {
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
  private:
-  static const SourcePosition& NameAt(const ChangeWord& word) { return word.position; }
+  static const SourcePosition& NameAt(const ChangeArgument& argument) { return argument.position; }
 
   const ChangeLine& line_;
   const std::string usage_;
@@ -110,110 +112,111 @@ class Words {
   std::optional<Error> error_;
 };
 
-std::vector<Setting> TakeSettings(Words& words) {
+std::vector<Setting> TakeSettings(Arguments& arguments) {
   std::vector<Setting> settings;
-  words.TakeOptions({}, [&](const ChangeWord& word) {
-    settings.push_back({word.name(), word.value()});
+  arguments.TakeOptions({}, [&](const ChangeArgument& argument) {
+    settings.push_back({argument.name(), argument.value()});
     return true;
   });
   return settings;
 }
 
-Change ReadCreate(Words& words) {
-  if (words.IsNext("group")) {
-    words.Take("group");
-    CreateGroup change{words.Take("a path")};
-    words.End();
+Change ReadCreate(Arguments& arguments) {
+  if (arguments.IsNext("group")) {
+    arguments.Take("group");
+    CreateGroup change{arguments.Take("a path")};
+    arguments.End();
     return change;
   }
-  if (words.IsNext("port")) {
-    words.Take("port");
-    CreatePort change{.path = words.Take("a path"), .type = {}};
-    change.direction = words.TakeOneOf("'input' or 'output'", kDirections) == 0
+  if (arguments.IsNext("port")) {
+    arguments.Take("port");
+    CreatePort change{.path = arguments.Take("a path"), .type = {}};
+    change.direction = arguments.TakeOneOf("'input' or 'output'", kDirections) == 0
                            ? Port::Direction::kInput
                            : Port::Direction::kOutput;
-    change.type = words.Take("a data type");
-    words.TakeOptions({"description"}, [&](const ChangeWord& word) {
-      if (word.name() == "description") change.description = word.value();
-      return word.name() == "description";
+    change.type = arguments.Take("a data type");
+    arguments.TakeOptions({"description"}, [&](const ChangeArgument& argument) {
+      if (argument.name() == "description") change.description = argument.value();
+      return argument.name() == "description";
     });
     return change;
   }
-  CreateModule change{words.Take("a path"), {}};
-  change.type = words.Take("a module type");
-  change.settings = TakeSettings(words);
+  CreateModule change{arguments.Take("a path"), {}};
+  change.type = arguments.Take("a module type");
+  change.settings = TakeSettings(arguments);
   return change;
 }
 
-Change ReadDelete(Words& words) {
-  DeleteElement change{words.Take("a path")};
-  words.End();
+Change ReadDelete(Arguments& arguments) {
+  DeleteElement change{arguments.Take("a path")};
+  arguments.End();
   return change;
 }
 
-Change ReadConnect(Words& words) {
-  ConnectPorts change{words.Take("the output"), {}};
-  change.to = words.Take("the input");
-  const ChangeWord* on_full = nullptr;
-  words.TakeOptions({"queue", "on_full"}, [&](const ChangeWord& word) {
-    if (word.name() == "queue") {
-      change.options.queue = words.ReadCount<std::size_t>(word, kLongestQueue);
-    } else if (word.name() == "on_full") {
-      on_full = &word;
-      change.options.on_full = static_cast<OnFull>(words.Choose(word, word.value(), kOnFullNames));
+Change ReadConnect(Arguments& arguments) {
+  ConnectPorts change{arguments.Take("the output"), {}};
+  change.to = arguments.Take("the input");
+  const ChangeArgument* on_full = nullptr;
+  arguments.TakeOptions({"queue", "on_full"}, [&](const ChangeArgument& argument) {
+    if (argument.name() == "queue") {
+      change.options.queue = arguments.ReadCount<std::size_t>(argument, kLongestQueue);
+    } else if (argument.name() == "on_full") {
+      on_full = &argument;
+      change.options.on_full =
+          static_cast<OnFull>(arguments.Choose(argument, argument.value(), kOnFullNames));
     } else {
       return false;
     }
     return true;
   });
   if (on_full != nullptr && change.options.queue == 0) {
-    words.Complain(on_full->position, "on_full has no meaning without a queue",
-                   "add queue=N with a count above 0, or leave out on_full");
+    arguments.Complain(on_full->position, "on_full has no meaning without a queue",
+                       "add queue=N with a count above 0, or leave out on_full");
   }
   return change;
 }
 
-Change ReadDisconnect(Words& words) {
-  DisconnectPorts change{words.Take("the output"), {}};
-  change.to = words.Take("the input");
-  words.End();
+Change ReadDisconnect(Arguments& arguments) {
+  DisconnectPorts change{arguments.Take("the output"), {}};
+  change.to = arguments.Take("the input");
+  arguments.End();
   return change;
 }
 
-Change ReadSet(Words& words) {
-  SetParameter change{words.Take("the path of a parameter"), {}};
-  change.value = words.Take("a value");
-  words.End();
+Change ReadSet(Arguments& arguments) {
+  SetParameter change{arguments.Take("the path of a parameter"), {}};
+  change.value = arguments.Take("a value");
+  arguments.End();
   return change;
 }
 
-Change ReadReplace(Words& words) {
-  ReplaceModule change{words.Take("the path of a module"), {}};
-  words.Expect("with");
-  change.type = words.Take("a module type");
-  words.TakeOptions({}, [&](const ChangeWord& word) {
-    if (word.name() == "probation") {
-      change.probation_cycles = words.ReadCount<std::uint64_t>(word, kLongestProbation);
+Change ReadReplace(Arguments& arguments) {
+  ReplaceModule change{arguments.Take("the path of a module"), {}};
+  arguments.Expect("with");
+  change.type = arguments.Take("a module type");
+  arguments.TakeOptions({}, [&](const ChangeArgument& argument) {
+    if (argument.name() == "probation") {
+      change.probation_cycles = arguments.ReadCount<std::uint64_t>(argument, kLongestProbation);
     } else {
-      change.settings.push_back({word.name(), word.value()});
+      change.settings.push_back({argument.name(), argument.value()});
     }
     return true;
   });
   return change;
 }
 
-Change ReadMove(Words& words) {
-  AssignToThread change{words.Take("a path"), {}};
-  words.Expect("to");
-  change.thread = words.Take("a thread");
-  words.End();
+Change ReadMove(Arguments& arguments) {
+  AssignToThread change{arguments.Take("a path"), {}};
+  arguments.Expect("to");
+  change.thread = arguments.Take("a thread");
+  arguments.End();
   return change;
 }
 
 struct Verb {
   const char* name;
   const char* usage;
-  Change (*read)(Words& words);
+  Change (*read)(Arguments& arguments);
 };
 constexpr std::array<Verb, 7> kVerbs{{
     {"create",
@@ -229,7 +232,7 @@ constexpr std::array<Verb, 7> kVerbs{{
 }};
 
 Result<Change> ReadChange(const ChangeLine& line) {
-  const ChangeWord& first = line.front();
+  const ChangeArgument& first = line.front();
   const auto verb = std::ranges::find(kVerbs, first.text, &Verb::name);
   if (verb == kVerbs.end()) {
     std::vector<std::string> names;
@@ -237,53 +240,53 @@ Result<Change> ReadChange(const ChangeLine& line) {
     return At(first.position, "there is no change '" + first.text + "'",
               NearestNameHint(first.text, names));
   }
-  Words words(line, verb->usage);
-  Change change = verb->read(words);
-  if (words.error()) return *words.error();
+  Arguments arguments(line, verb->usage);
+  Change change = verb->read(arguments);
+  if (arguments.error()) return *arguments.error();
   return change;
 }
 
 std::string SettingsText(const std::vector<Setting>& settings) {
   std::string text;
-  for (const Setting& each : settings) text += " " + each.parameter + "=" + AsWord(each.value);
+  for (const Setting& each : settings) text += " " + each.parameter + "=" + AsArgument(each.value);
   return text;
 }
 
 std::string Text(const CreateModule& change) {
-  // Relative paths and absolute ones are the same; these two would be taken for the other words.
-  const bool is_word = change.path == "group" || change.path == "port";
-  return std::string("create ") + (is_word ? "/" : "") + AsWord(change.path) + " " +
-         AsWord(change.type) + SettingsText(change.settings);
+  // Relative paths and absolute ones are the same; these two would be taken for the other arguments.
+  const bool is_keyword = change.path == "group" || change.path == "port";
+  return std::string("create ") + (is_keyword ? "/" : "") + AsArgument(change.path) + " " +
+         AsArgument(change.type) + SettingsText(change.settings);
 }
-std::string Text(const CreateGroup& change) { return "create group " + AsWord(change.path); }
+std::string Text(const CreateGroup& change) { return "create group " + AsArgument(change.path); }
 std::string Text(const CreatePort& change) {
   const bool is_input = change.direction == Port::Direction::kInput;
-  return "create port " + AsWord(change.path) + " " + kDirections[is_input ? 0 : 1] + " " +
-         AsWord(change.type) +
-         (change.description.empty() ? "" : " description=" + AsWord(change.description));
+  return "create port " + AsArgument(change.path) + " " + kDirections[is_input ? 0 : 1] + " " +
+         AsArgument(change.type) +
+         (change.description.empty() ? "" : " description=" + AsArgument(change.description));
 }
-std::string Text(const DeleteElement& change) { return "delete " + AsWord(change.path); }
+std::string Text(const DeleteElement& change) { return "delete " + AsArgument(change.path); }
 std::string Text(const ConnectPorts& change) {
-  std::string text = "connect " + AsWord(change.from) + " " + AsWord(change.to);
+  std::string text = "connect " + AsArgument(change.from) + " " + AsArgument(change.to);
   if (change.options.queue == 0) return text;
   text += " queue=" + std::to_string(change.options.queue);
   if (change.options.on_full == OnFull::kDropOldest) return text;
   return text + " on_full=" + kOnFullNames[static_cast<std::size_t>(change.options.on_full)];
 }
 std::string Text(const DisconnectPorts& change) {
-  return "disconnect " + AsWord(change.from) + " " + AsWord(change.to);
+  return "disconnect " + AsArgument(change.from) + " " + AsArgument(change.to);
 }
 std::string Text(const SetParameter& change) {
-  return "set " + AsWord(change.path) + " " + AsWord(change.value);
+  return "set " + AsArgument(change.path) + " " + AsArgument(change.value);
 }
 std::string Text(const ReplaceModule& change) {
-  std::string text = "replace " + AsWord(change.path) + " with " + AsWord(change.type) +
+  std::string text = "replace " + AsArgument(change.path) + " with " + AsArgument(change.type) +
                      SettingsText(change.settings);
   if (change.probation_cycles == ReplaceModule{}.probation_cycles) return text;
   return text + " probation=" + std::to_string(change.probation_cycles);
 }
 std::string Text(const AssignToThread& change) {
-  return "move " + AsWord(change.path) + " to " + AsWord(change.thread);
+  return "move " + AsArgument(change.path) + " to " + AsArgument(change.thread);
 }
 
 }  // namespace

@@ -24,8 +24,8 @@ namespace runnel {
 ///     move /robot/planner to control
 ///     move /robot/planner to ""                     # back to where its group is run
 ///
-/// Words are separated by blanks. What has blanks or a ';' in it stands in quotation marks, in which
-/// the escapes are those of C++ (\" and \\, \n, \t, \r); a value in brackets, as the text form of
+/// Arguments are separated by blanks. What has blanks or a ';' in it stands in quotation marks, in which
+/// the escapes are those of C++ (\" and \\, \n, \t, \r); a value in brackets, as the text format of
 /// types has them, needs none. '#' at the start of a word begins a comment.
 /// `probation` is of the replacement: a parameter of that name is set by a `set` after it.
 

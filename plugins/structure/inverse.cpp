@@ -55,7 +55,8 @@ void AddDefaults(const FrameworkElement& before, const FrameworkElement& after,
 }
 
 // Nothing for what comes with a module.
-void AddMaking(const FrameworkElement& element, ChangeSet& changes, std::optional<Error>& why_not) {
+void AddCreation(const FrameworkElement& element, ChangeSet& changes,
+                 std::optional<Error>& why_not) {
   const std::string type = FindModuleType(element);
   const auto* const port = dynamic_cast<const Port*>(&element);
   if (!type.empty()) {
@@ -72,7 +73,7 @@ void AddMaking(const FrameworkElement& element, ChangeSet& changes, std::optiona
   if (!thread.empty()) changes.push_back(AssignToThread{element.path(), thread});
   const bool is_whole = !type.empty() || element.kind() != ElementKind::kGroup;
   if (is_whole) return;
-  for (const FrameworkElement* each : element.children()) AddMaking(*each, changes, why_not);
+  for (const FrameworkElement* each : element.children()) AddCreation(*each, changes, why_not);
 }
 
 void AddConnections(FrameworkElement& element, ChangeSet& changes) {
@@ -86,7 +87,7 @@ void AddConnections(FrameworkElement& element, ChangeSet& changes) {
       if (edge.to->IsAtOrBelow(element)) add(edge);
     }
   });
-  for (const Connection& tie : TiesOf(element)) add(tie);
+  for (const Connection& tie : ExternalConnectionsOf(element)) add(tie);
 }
 
 // In which it would show if somebody had made something else of it.
@@ -120,7 +121,7 @@ std::string OwnThreadPath(const FrameworkElement& element) {
 
 ChangeSet MakeAgain(FrameworkElement& element, std::optional<Error>& why_not) {
   ChangeSet changes;
-  AddMaking(element, changes, why_not);
+  AddCreation(element, changes, why_not);
   AddConnections(element, changes);
   return changes;
 }
@@ -147,10 +148,10 @@ Expected WhatIsThere(const ChangeSet& changes, FrameworkElement& root) {
   return expected;
 }
 
-Taking TakingOf(Inverse inverse, FrameworkElement& root) {
-  Taking taking{inverse.All(), {}, std::move(inverse.why_not)};
-  taking.expected = WhatIsThere(taking.changes, root);
-  return taking;
+UndoRecord UndoRecordOf(Inverse inverse, FrameworkElement& root) {
+  UndoRecord undo_record{inverse.All(), {}, std::move(inverse.why_not)};
+  undo_record.expected = WhatIsThere(undo_record.changes, root);
+  return undo_record;
 }
 
 Result<void> CheckExpected(const ChangeSet& changes, const Expected& expected,

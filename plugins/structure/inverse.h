@@ -47,13 +47,13 @@ Result<void> CheckExpected(const ChangeSet& changes, const Expected& expected,
                            FrameworkElement& root);
 
 /// A change set that takes another one back.
-struct Taking {
+struct UndoRecord {
   ChangeSet changes;
   Expected expected;
   std::optional<Error> why_not;  ///< it cannot be taken back
 };
 
 /// Right after the change set that `inverse` is of has been carried out. Under the structure lock.
-[[nodiscard]] Taking TakingOf(Inverse inverse, FrameworkElement& root);
+[[nodiscard]] UndoRecord UndoRecordOf(Inverse inverse, FrameworkElement& root);
 
 }  // namespace runnel::internal

@@ -33,7 +33,7 @@ void Must(const Outcome& outcome) {
 
 }  // namespace
 
-std::vector<Connection> TiesOf(FrameworkElement& element) {
+std::vector<Connection> ExternalConnectionsOf(FrameworkElement& element) {
   std::vector<Connection> ties;
   element.Visit([&](FrameworkElement& each) {
     auto* const port = dynamic_cast<Port*>(&each);
@@ -73,7 +73,7 @@ Plan::~Plan() {
   if (has_failed_ || !removed_.empty() || std::ranges::any_of(replaced_, is_left)) WaitForReaders();
 }
 
-Result<void> Plan::Carry(Taking* back) {
+Result<void> Plan::Commit(UndoRecord* back) {
   const ChangeScope all_at_once(runtime_);
   has_failed_ = true;  // until it has not
   std::size_t begun = 0;
@@ -93,14 +93,14 @@ Result<void> Plan::Carry(Taking* back) {
   return error;
 }
 
-Result<void> Plan::Apply(Taking* back, std::size_t& begun) {
+Result<void> Plan::Apply(UndoRecord* back, std::size_t& begun) {
   Inverse inverse;
   for (const Step& step : steps_) {
     if (back != nullptr) inverse.of_steps.push_back(step.inverse(inverse.why_not));
     ++begun;
     if (auto applied = step.apply(); !applied) return applied;
   }
-  if (back != nullptr) *back = TakingOf(std::move(inverse), runtime_.root());
+  if (back != nullptr) *back = UndoRecordOf(std::move(inverse), runtime_.root());
   return {};
 }
 
@@ -125,7 +125,7 @@ void Plan::WarnOfMissingSources(Diagnostics& diagnostics) const {
   for (FrameworkElement* each : made_) {
     each->Visit([&](FrameworkElement& element) {
       const auto* const port = dynamic_cast<const Port*>(&element);
-      if (port == nullptr || !port->is_required() || projection_.HasSource(*port)) return;
+      if (port == nullptr || !port->is_required() || overlay_.HasSource(*port)) return;
       diagnostics.AddWarning(
           {.message = "is required, and nothing is connected to it", .path = port->path()});
     });
@@ -134,7 +134,7 @@ void Plan::WarnOfMissingSources(Diagnostics& diagnostics) const {
 
 void Plan::AddCreation(UnlistedElement element) {
   FrameworkElement& made = *element;
-  projection_.Add(made);
+  overlay_.Add(made);
   made_.push_back(&made);
   auto kept = std::make_shared<UnlistedElement>(std::move(element));
   steps_.push_back({[this, kept]() -> Result<void> {
@@ -194,7 +194,7 @@ void Plan::AddRemoval(FrameworkElement& element) {
   };
   auto done = std::make_shared<Done>();
   steps_.push_back({[=, this, &element]() -> Result<void> {
-                      done->ties = TiesOf(element);
+                      done->ties = ExternalConnectionsOf(element);
                       removed_.reserve(removed_.size() + 1);
                       for (const Connection& tie : done->ties) {
                         if (auto cut = Port::Disconnect(*tie.from, *tie.to); !cut) return cut;
@@ -240,7 +240,7 @@ void Plan::AddReplacement(FrameworkElement& before, UnlistedElement after,
                         return set;
                       next.InheritAnnotations(before);
                       if (auto copied = CopyState(before, next); !copied) return copied;
-                      Replaced replaced{{}, next.path(), next.serial(), change.probation_cycles};
+                      Replaced replaced{{}, next.path(), next.id(), change.probation_cycles};
                       replaced_.reserve(replaced_.size() + 1);
                       done->place = NextSibling(before);
                       auto taken = runtime_.Unlist(before);

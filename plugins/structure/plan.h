@@ -12,7 +12,7 @@
 #include "core/plugin/module_registry.h"
 #include "plugins/structure/change.h"
 #include "plugins/structure/inverse.h"
-#include "plugins/structure/projection.h"
+#include "plugins/structure/structure_overlay.h"
 
 namespace runnel::internal {
 
@@ -20,21 +20,21 @@ namespace runnel::internal {
 struct Replaced {
   UnlistedElement before;
   std::string path;
-  std::uint64_t serial = 0;  // of the new module
+  std::uint64_t id = 0;  // of the new module
   std::uint64_t probation_cycles = 0;
 };
 
 /// The connections between what is at or below `element` and the rest. Under the structure lock.
-[[nodiscard]] std::vector<Connection> TiesOf(FrameworkElement& element);
+[[nodiscard]] std::vector<Connection> ExternalConnectionsOf(FrameworkElement& element);
 
 /// A change set that has been checked against the structure, with everything made that it needs: all that
 /// is left is to carry it out, between two cycles, and quickly.
 ///
-/// Threads:  under the structure lock, from Make() to Carry().
+/// Threads:  under the structure lock, from Make() to Commit().
 class Plan {
  public:
   Plan(Runtime& runtime, const ModuleRegistry& modules)
-      : runtime_(runtime), modules_(modules), projection_(runtime) {}
+      : runtime_(runtime), modules_(modules), overlay_(runtime) {}
   /// Outside of cycles and without the structure lock: waits until no thread can see any more what has been in
   /// the tree and is destroyed now.
   ~Plan();
@@ -46,11 +46,11 @@ class Plan {
 
   /// Carries it out. `back`, if there is one, gets what would take it back. Errors: what could not be foreseen,
   /// whatever was thrown; nothing has changed then.
-  Result<void> Carry(Taking* back);
+  Result<void> Commit(UndoRecord* back);
 
   /// The elements whose threads shall stand between two cycles meanwhile.
   [[nodiscard]] const std::vector<std::string>& concerned() const noexcept { return concerned_; }
-  /// After Carry(): what is out of the tree now, and is to be destroyed.
+  /// After Commit(): what is out of the tree now, and is to be destroyed.
   [[nodiscard]] std::vector<UnlistedElement>& removed() noexcept { return removed_; }
   [[nodiscard]] std::vector<Replaced>& replaced() noexcept { return replaced_; }
 
@@ -74,7 +74,7 @@ class Plan {
   Result<void> Check(const ReplaceModule& change);
   Result<void> Check(const AssignToThread& change);
 
-  Result<void> Apply(Taking* back, std::size_t& begun);
+  Result<void> Apply(UndoRecord* back, std::size_t& begun);
   Result<UnlistedElement> MakeModule(const std::string& type, const Placement& placement);
   void WarnOfMissingSources(Diagnostics& diagnostics) const;
 
@@ -89,7 +89,7 @@ class Plan {
 
   Runtime& runtime_;
   const ModuleRegistry& modules_;
-  Projection projection_;
+  StructureOverlay overlay_;
   std::vector<Step> steps_;
   bool has_failed_ = false;  // in carrying it out, so that others may have seen what is new
   std::vector<std::string> concerned_;

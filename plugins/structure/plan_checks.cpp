@@ -24,7 +24,7 @@ Result<UnlistedElement> Plan::MakeModule(const std::string& type, const Placemen
 }
 
 Result<void> Plan::Check(const CreateModule& change) {
-  const auto place = projection_.PlaceFor(change.path);
+  const auto place = overlay_.PlaceFor(change.path);
   if (!place) return place.error();
   auto made = MakeModule(change.type, *place);
   if (!made) return made.error();
@@ -37,7 +37,7 @@ Result<void> Plan::Check(const CreateModule& change) {
 }
 
 Result<void> Plan::Check(const CreateGroup& change) {
-  const auto place = projection_.PlaceFor(change.path);
+  const auto place = overlay_.PlaceFor(change.path);
   if (!place) return place.error();
   UnlistedElement made(std::make_unique<Group>(*place));
   if (auto prepared = Runtime::Prepare(made); !prepared) return prepared;
@@ -46,7 +46,7 @@ Result<void> Plan::Check(const CreateGroup& change) {
 }
 
 Result<void> Plan::Check(const CreatePort& change) {
-  const auto place = projection_.PlaceFor(change.path);
+  const auto place = overlay_.PlaceFor(change.path);
   if (!place) return place.error();
   const TypeInfo* const type = FindType(change.type);
   if (type == nullptr) {
@@ -67,27 +67,27 @@ Result<void> Plan::Check(const CreatePort& change) {
 }
 
 Result<void> Plan::Check(const ConnectPorts& change) {
-  const auto from = projection_.FindPort(change.from, Projection::End::kSends);
+  const auto from = overlay_.FindPort(change.from, StructureOverlay::End::kSends);
   if (!from) return from.error();
-  const auto to = projection_.FindPort(change.to, Projection::End::kReceives);
+  const auto to = overlay_.FindPort(change.to, StructureOverlay::End::kReceives);
   if (!to) return to.error();
-  if (auto possible = projection_.Connect(**from, **to); !possible) return possible;
+  if (auto possible = overlay_.Connect(**from, **to); !possible) return possible;
   AddConnection(**from, **to, change.options);
   return {};
 }
 
 Result<void> Plan::Check(const DisconnectPorts& change) {
-  const auto from = projection_.FindPort(change.from, Projection::End::kSends);
+  const auto from = overlay_.FindPort(change.from, StructureOverlay::End::kSends);
   if (!from) return from.error();
-  const auto to = projection_.FindPort(change.to, Projection::End::kReceives);
+  const auto to = overlay_.FindPort(change.to, StructureOverlay::End::kReceives);
   if (!to) return to.error();
-  if (auto possible = projection_.Disconnect(**from, **to); !possible) return possible;
+  if (auto possible = overlay_.Disconnect(**from, **to); !possible) return possible;
   AddDisconnection(**from, **to);
   return {};
 }
 
 Result<void> Plan::Check(const DeleteElement& change) {
-  const auto found = projection_.Find(change.path);
+  const auto found = overlay_.Find(change.path);
   if (!found) return found.error();
   FrameworkElement& element = **found;
   if (element.parent() == nullptr) {
@@ -102,17 +102,17 @@ Result<void> Plan::Check(const DeleteElement& change) {
                  .path = element.path()};
   }
   Concern(element);
-  for (const Connection& tie : TiesOf(element)) {
+  for (const Connection& tie : ExternalConnectionsOf(element)) {
     Concern(*tie.from);
     Concern(*tie.to);
   }
-  projection_.Remove(element);
+  overlay_.Remove(element);
   AddRemoval(element);
   return {};
 }
 
 Result<void> Plan::Check(const SetParameter& change) {
-  const auto found = projection_.FindParameter(change.path);
+  const auto found = overlay_.FindParameter(change.path);
   if (!found) return found.error();
   auto* const parameter = dynamic_cast<Configurable*>(*found);
   if (parameter == nullptr) {
@@ -146,7 +146,7 @@ Result<void> Plan::Check(const SetParameter& change) {
 }
 
 Result<void> Plan::Check(const ReplaceModule& change) {
-  const auto found = projection_.Find(change.path);
+  const auto found = overlay_.Find(change.path);
   if (!found) return found.error();
   FrameworkElement& before = **found;
   if (before.kind() != ElementKind::kModule) {
@@ -160,8 +160,8 @@ Result<void> Plan::Check(const ReplaceModule& change) {
   }
   (*made)->InheritAnnotations(before);
   if (auto prepared = Runtime::Prepare(*made); !prepared) return prepared;
-  PortMatch match = MatchPorts(before, **made,
-                               [this](const Port& port) { return projection_.IsConnected(port); });
+  PortMatch match =
+      MatchPorts(before, **made, [this](const Port& port) { return overlay_.IsConnected(port); });
   if (!match.errors.empty()) {
     for (std::size_t i = 1; i < match.errors.size(); ++i)
       further_errors_.push_back(match.errors[i]);
@@ -172,21 +172,21 @@ Result<void> Plan::Check(const ReplaceModule& change) {
   for (Error& each : StateRefusals(before, **made)) {
     (is_made_anew ? further_errors_ : warnings_).push_back(std::move(each));
   }
-  projection_.Replace(before, **made, match.ports);
+  overlay_.Replace(before, **made, match.ports);
   made_.push_back(made->get());
   AddReplacement(before, std::move(*made), std::move(match.ports), change);
   return {};
 }
 
 Result<void> Plan::Check(const AssignToThread& change) {
-  const auto found = projection_.Find(change.path);
+  const auto found = overlay_.Find(change.path);
   if (!found) return found.error();
   FrameworkElement& element = **found;
   ThreadContainer* thread = nullptr;
   if (!change.thread.empty()) {
     const std::string path =
         change.thread.front() == '/' ? change.thread : "/threads/" + change.thread;
-    const auto named = projection_.Find(path);
+    const auto named = overlay_.Find(path);
     if (!named) return named.error();
     thread = dynamic_cast<ThreadContainer*>(*named);
     if (thread == nullptr) {

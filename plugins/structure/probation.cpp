@@ -29,7 +29,7 @@ void Probation::Add(std::vector<Replaced>& replaced) {
 FrameworkElement* Probation::Successor(const Waiting& waiting) {
   const std::lock_guard lock(runtime_.structure_mutex());
   const auto found = runtime_.root().Find(waiting.replaced.path);
-  const bool is_it = found && (*found)->serial() == waiting.replaced.serial;
+  const bool is_it = found && (*found)->id() == waiting.replaced.id;
   return is_it ? *found : nullptr;
 }
 
@@ -82,7 +82,7 @@ std::optional<std::string> Probation::Answer(const Fault& fault) {
 // Leaves `waiting` as it is if it fails.
 Result<UnlistedElement> Probation::PutBack(Waiting& waiting) {
   const std::string& path = waiting.replaced.path;
-  auto hold = scheduler_.HoldCycles({path}, patience_);
+  auto hold = scheduler_.HoldCycles({path}, timeout_);
   if (!hold) return hold.error();
   const ChangeScope all_at_once(runtime_);
   FrameworkElement* const after = Successor(waiting);

@@ -17,8 +17,8 @@ namespace runnel::internal {
 /// Threads:  all under the editor's mutex, and not under the structure lock.
 class Probation {
  public:
-  Probation(Runtime& runtime, Scheduler& scheduler, Duration patience)
-      : runtime_(runtime), scheduler_(scheduler), patience_(patience) {}
+  Probation(Runtime& runtime, Scheduler& scheduler, Duration timeout)
+      : runtime_(runtime), scheduler_(scheduler), timeout_(timeout) {}
 
   /// Takes those that are to be kept; the rest stays in `replaced`. Throws for lack of memory, and has taken
   /// nothing then.
@@ -43,7 +43,7 @@ class Probation {
 
   Runtime& runtime_;
   Scheduler& scheduler_;
-  const Duration patience_;
+  const Duration timeout_;
   std::vector<Waiting> waiting_;
   std::vector<UnlistedElement> proved_;  // that nobody has taken yet
 };

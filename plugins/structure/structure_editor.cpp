@@ -17,8 +17,10 @@ namespace {
 // How often others may change the structure between checking and carrying out before it is given up.
 constexpr int kAttempts = 100;
 
-void CheckTaking(const internal::Taking& taking, Runtime& runtime, Diagnostics& diagnostics) {
-  const auto possible = internal::CheckExpected(taking.changes, taking.expected, runtime.root());
+void CheckUndoRecord(const internal::UndoRecord& undo_record, Runtime& runtime,
+                     Diagnostics& diagnostics) {
+  const auto possible =
+      internal::CheckExpected(undo_record.changes, undo_record.expected, runtime.root());
   if (!possible) diagnostics.Add(possible.error());
 }
 
@@ -39,7 +41,7 @@ StructureEditor::StructureEditor(Runtime& runtime, const ModuleRegistry& modules
       options_(options),
       shared_(std::make_shared<Shared>()) {
   if (scheduler_ == nullptr) return;
-  shared_->probation.emplace(runtime_, *scheduler_, options_.patience);
+  shared_->probation.emplace(runtime_, *scheduler_, options_.timeout);
   scheduler_->SetFaultHandler([shared = shared_](const Fault& fault) {
     const std::lock_guard lock(shared->mutex);
     return shared->probation->Answer(fault);
@@ -65,10 +67,10 @@ void StructureEditor::Tend() {
 
 ChangeOutcome StructureEditor::Apply(const ChangeSet& changes,
                                      const std::vector<SourcePosition>& places) {
-  return Apply(Order{changes, places});
+  return Apply(ChangeRequest{changes, places});
 }
 
-ChangeOutcome StructureEditor::Apply(const Order& order) {
+ChangeOutcome StructureEditor::Apply(const ChangeRequest& request) {
   RUNNEL_CHECK(!EpochGuard::HeldByThisThread() && !runtime_.structure_mutex().HeldByThisThread(),
                "the structure cannot be changed by an editor from within a cycle, nor under the "
                "structure lock");
@@ -77,7 +79,7 @@ ChangeOutcome StructureEditor::Apply(const Order& order) {
   try {
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
       outcome = {};
-      if (Try(order, outcome) != Attempt::kOvertaken) return outcome;
+      if (Try(request, outcome) != Attempt::kOvertaken) return outcome;
     }
     outcome.diagnostics.Add({.message = "others change the structure all the time; gave up after " +
                                         std::to_string(kAttempts) + " attempts"});
@@ -93,20 +95,22 @@ ChangeOutcome StructureEditor::Apply(const Order& order) {
   return outcome;
 }
 
-StructureEditor::Attempt StructureEditor::Try(const Order& order, ChangeOutcome& outcome) {
+StructureEditor::Attempt StructureEditor::Try(const ChangeRequest& request,
+                                              ChangeOutcome& outcome) {
   internal::Plan plan(runtime_, modules_);
   std::uint64_t revision = 0;
   {
     const std::lock_guard lock(runtime_.structure_mutex());
-    if (order.taking != nullptr) CheckTaking(*order.taking, runtime_, outcome.diagnostics);
-    if (outcome.diagnostics.ok()) plan.Make(order.changes, order.places, outcome.diagnostics);
+    if (request.undo_record != nullptr)
+      CheckUndoRecord(*request.undo_record, runtime_, outcome.diagnostics);
+    if (outcome.diagnostics.ok()) plan.Make(request.changes, request.places, outcome.diagnostics);
     revision = runtime_.revision();
   }
   outcome.is_refused = !outcome.diagnostics.ok();
   if (outcome.is_refused) return Attempt::kFailed;
   std::optional<CycleHold> hold;
   if (scheduler_ != nullptr) {
-    auto held = scheduler_->HoldCycles(plan.concerned(), options_.patience);
+    auto held = scheduler_->HoldCycles(plan.concerned(), options_.timeout);
     if (!held) {
       outcome.diagnostics.Add(held.error());
       return Attempt::kFailed;
@@ -122,7 +126,7 @@ StructureEditor::Attempt StructureEditor::Try(const Order& order, ChangeOutcome&
       return Attempt::kOvertaken;
     }
     if (runtime_.revision() != revision) return Attempt::kOvertaken;
-    if (auto carried = plan.Carry(order.back); !carried) {
+    if (auto carried = plan.Commit(request.back); !carried) {
       outcome.diagnostics.Add(carried.error());
       outcome.is_refused = true;
       return Attempt::kFailed;
@@ -130,7 +134,7 @@ StructureEditor::Attempt StructureEditor::Try(const Order& order, ChangeOutcome&
   }
   outcome.is_done = true;
   if (hold) {
-    outcome.stood_still = SteadyClock().Now() - hold->began();
+    outcome.hold_time = SteadyClock().Now() - hold->began();
     hold->Release();
   }
   runtime_.Destroy(std::move(plan.removed()));

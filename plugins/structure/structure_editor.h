@@ -13,7 +13,7 @@
 namespace runnel {
 
 namespace internal {
-struct Taking;
+struct UndoRecord;
 }
 
 /// What has become of a change set.
@@ -21,14 +21,14 @@ struct ChangeOutcome {
   bool is_done = false;     ///< else nothing has changed
   bool is_refused = false;  ///< not done as the structure is not such that it could be
   Diagnostics diagnostics;  ///< why not; warnings also of what has been done
-  Duration stood_still{};   ///< how long the threads concerned have been kept between two cycles
+  Duration hold_time{};     ///< how long the threads concerned have been kept between two cycles
 
   explicit operator bool() const noexcept { return is_done; }
 };
 
 struct EditorOptions {
   /// How long to wait for threads to come to the end of their cycles before giving up.
-  Duration patience = std::chrono::seconds(5);
+  Duration timeout = std::chrono::seconds(5);
 };
 
 /// Changes the structure of a running application. A change set is checked as a whole and what is new is
@@ -65,14 +65,14 @@ class StructureEditor {
   enum class Attempt { kDone, kFailed, kOvertaken };
 
   /// What is to be done, and what is to be known of it besides.
-  struct Order {
+  struct ChangeRequest {
     const ChangeSet& changes;
     const std::vector<SourcePosition>& places;
-    const internal::Taking* taking = nullptr;  // that `changes` are of
-    internal::Taking* back = nullptr;          // is to be filled
+    const internal::UndoRecord* undo_record = nullptr;  // that `changes` are of
+    internal::UndoRecord* back = nullptr;               // is to be filled
   };
-  ChangeOutcome Apply(const Order& order);
-  Attempt Try(const Order& order, ChangeOutcome& outcome);
+  ChangeOutcome Apply(const ChangeRequest& request);
+  Attempt Try(const ChangeRequest& request, ChangeOutcome& outcome);
 
   Runtime& runtime_;
   const ModuleRegistry& modules_;

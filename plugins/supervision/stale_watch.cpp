@@ -29,7 +29,7 @@ void StaleWatch::Hear(Runtime& runtime) {
     const auto found = runtime.root().Find(path);
     const auto* const port = found ? dynamic_cast<const Port*>(*found) : nullptr;
     if (port == nullptr) continue;
-    port->LookAtValue([&](const void*, Time stamp) { heard_ = std::max(*heard_, stamp); });
+    port->VisitLatest([&](const void*, Time timestamp) { heard_ = std::max(*heard_, timestamp); });
   }
 }
 

@@ -34,7 +34,7 @@ class StaleWatch {
 
   const StaleRule rule_;
   const std::vector<std::string> outputs_;  // by path: modules may be replaced meanwhile
-  std::optional<Time> heard_;               // the newest stamp, or the first look
+  std::optional<Time> heard_;               // the newest timestamp, or the first look
   std::optional<Time> well_since_;          // while stale: since when values come again
   bool is_stale_ = false;
   Time next_look_{};

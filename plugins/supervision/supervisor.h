@@ -15,7 +15,7 @@ namespace runnel {
 ///
 /// Threads:    add rules while nothing runs; they are judged between cycles, by the thread that
 ///             supervises (real clock) or steps (simulated clock). TakeNotices() from any thread.
-/// Costs:      publishers and cycles nothing: what is looked at is the stamp of the newest value, a few
+/// Costs:      publishers and cycles nothing: what is looked at is the timestamp of the newest value, a few
 ///             times per time-out.
 /// Time:       the application's clock, so in simulated time the same thing happens in the same cycle
 ///             in every run.

@@ -68,7 +68,7 @@ class TraceFile {
   int descriptor_;
   const std::uint64_t most_bytes_;
   const Time start_;
-  std::string head_;  // of each event, from its second letter on
+  std::string head_;  // of each event, from its second character on
   std::string text_;  // not written yet
   std::size_t events_in_text_ = 0;
   std::uint64_t reserve_ = 4096;

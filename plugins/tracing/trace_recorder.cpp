@@ -92,12 +92,12 @@ internal::PendingTrace TraceRecorder::TakePending() {
           std::exchange(lost_spans_, 0)};
 }
 
-TraceTrack& TraceRecorder::TrackOf(std::uint64_t serial, const std::string& path) {
+TraceTrack& TraceRecorder::TrackOf(std::uint64_t id, const std::string& path) {
   const std::lock_guard lock(mutex_);
   for (const auto& each : threads_) {
-    if (each->serial == serial) return each->track;
+    if (each->id == id) return each->track;
   }
-  threads_.push_back(std::make_unique<TracedThread>(serial, JsonText(path), options_.capacity));
+  threads_.push_back(std::make_unique<TracedThread>(id, JsonText(path), options_.capacity));
   new_threads_.push_back(threads_.back().get());
   return threads_.back()->track;
 }

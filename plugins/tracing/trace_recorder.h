@@ -58,7 +58,7 @@ class TraceRecorder final : public CycleTracer, private ElementListener {
   /// an early end.
   Result<TraceSummary> Finish();
 
-  TraceTrack& TrackOf(std::uint64_t serial, const std::string& path) override;
+  TraceTrack& TrackOf(std::uint64_t id, const std::string& path) override;
   std::unique_ptr<TracedElement> Watch(FrameworkElement& element) override;
   void OnHold(const std::string& path, Time began, Time ended) noexcept override;
 

@@ -13,40 +13,40 @@ namespace runnel {
 
 namespace {
 
-struct Wish {
+struct ViewerRequest {
   InspectorPlace place;
   bool is_exact = false;  // no other port will do
 };
 
 // Where the viewers shall be; nothing if none are wanted. Errors: the place is none.
-Result<std::optional<Wish>> WishOf(const ViewerOptions& options,
-                                   const FrameworkElement& application) {
+Result<std::optional<ViewerRequest>> RequestOf(const ViewerOptions& options,
+                                               const FrameworkElement& application) {
   const auto in_file = InspectorPlaceOf(application);
-  if (options.is_refused || (!in_file && !options.is_wanted)) return std::optional<Wish>();
-  Wish wish{in_file.value_or(InspectorPlace{})};
+  if (options.is_refused || (!in_file && !options.is_wanted)) return std::optional<ViewerRequest>();
+  ViewerRequest request{in_file.value_or(InspectorPlace{})};
   if (!options.place.empty()) {
     const auto place = ParseInspectorPlace(options.place);
     if (!place) return place.error();
-    wish.place.address = place->address;
-    wish.place.port = place->port;
-    wish.is_exact = true;
+    request.place.address = place->address;
+    request.place.port = place->port;
+    request.is_exact = true;
   }
-  if (!options.token.empty()) wish.place.token = options.token;
-  wish.place.is_read_only = wish.place.is_read_only || options.is_read_only;
-  return std::optional(wish);
+  if (!options.token.empty()) request.place.token = options.token;
+  request.place.is_read_only = request.place.is_read_only || options.is_read_only;
+  return std::optional(request);
 }
 
-Result<std::unique_ptr<WebServer>> StartServer(const Wish& wish,
+Result<std::unique_ptr<WebServer>> StartServer(const ViewerRequest& request,
                                                const std::vector<std::string>& origins,
                                                const std::vector<WebProtocol>& protocols,
                                                Diagnostics& diagnostics) {
   const auto resources = InspectorResources();
-  WebServerOptions options{.address = wish.place.address,
-                           .port = wish.place.port,
-                           .token = wish.place.token,
+  WebServerOptions options{.address = request.place.address,
+                           .port = request.place.port,
+                           .token = request.place.token,
                            .origins = origins};
   auto server = WebServer::Start(options, resources, protocols);
-  if (server || wish.is_exact || options.port == 0) return server;
+  if (server || request.is_exact || options.port == 0) return server;
   Error notice = server.error();
   options.port = 0;
   server = WebServer::Start(options, resources, protocols);
@@ -61,17 +61,17 @@ Result<std::unique_ptr<WebServer>> StartServer(const Wish& wish,
 void Viewers::AddWords(XmlTagRegistry& tags) { AddInspectorTag(tags); }
 
 Result<void> Viewers::Begin(Application& application, Diagnostics& diagnostics) {
-  const auto wish = WishOf(options_, application.element());
-  if (!wish) return wish.error();
-  if (!*wish) return {};
-  const bool is_read_only = (*wish)->place.is_read_only;
+  const auto request = RequestOf(options_, application.element());
+  if (!request) return request.error();
+  if (!*request) return {};
+  const bool is_read_only = (*request)->place.is_read_only;
   inspector_ = std::make_unique<Inspector>(application.service(), application.scheduler(),
                                            InspectorOptions{.application = application.name(),
                                                             .file = application.file(),
                                                             .version = Application::Version(),
                                                             .is_read_only = is_read_only});
   auto web =
-      StartServer(**wish, options_.origins,
+      StartServer(**request, options_.origins,
                   {inspector_->Protocol(), FoxgloveProtocol({.service = application.service(),
                                                              .name = application.name(),
                                                              .version = Application::Version(),

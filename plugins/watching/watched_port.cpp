@@ -13,8 +13,8 @@ Result<void> WatchedPort::Find(Runtime& runtime) {
   if (!found) return found.error();
   const auto* const port = dynamic_cast<const Port*>(*found);
   if (port == nullptr) return Error{.message = "this is not a port", .path = path_};
-  if (port->serial() != serial_) shown_.reset();  // made anew: it counts from 0 again
-  serial_ = port->serial();
+  if (port->id() != id_) shown_.reset();  // made anew: it counts from 0 again
+  id_ = port->id();
   type_ = &port->type();
   input_ = dynamic_cast<const InputBase*>(port);
   if (port->is_proxy()) {
@@ -26,13 +26,13 @@ Result<void> WatchedPort::Find(Runtime& runtime) {
   return {};
 }
 
-std::optional<std::uint64_t> WatchedPort::LookIfNew(const Port::Look& look) {
+std::optional<std::uint64_t> WatchedPort::VisitIfNew(const Port::Visitor& look) {
   std::uint64_t count = 0;
   // Before looking: what is published meanwhile may be shown twice, and is never missed.
   for (const Port* source : sources_) count += source->publications();
   if (shown_ == count) return {};
   const bool has_value =
-      std::ranges::any_of(sources_, [&](const Port* source) { return source->LookAtValue(look); });
+      std::ranges::any_of(sources_, [&](const Port* source) { return source->VisitLatest(look); });
   if (!has_value) return {};
   shown_ = count;
   return count;

@@ -21,7 +21,7 @@ class InputBase;
 ///       const std::unique_lock lock(runtime.structure_mutex(), std::try_to_lock);
 ///       if (!lock || !watched.Find(runtime)) return;
 ///     }
-///     watched.LookIfNew([&](const void* value, Time stamp) { … });
+///     watched.VisitIfNew([&](const void* value, Time timestamp) { … });
 ///
 /// Threads:  one at a time.
 class WatchedPort {
@@ -30,7 +30,7 @@ class WatchedPort {
 
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
 
-  /// Under the structure lock, and within an EpochGuard that lasts until after LookIfNew().
+  /// Under the structure lock, and within an EpochGuard that lasts until after VisitIfNew().
   /// Errors: there is no such port (any more), with the nearest name.
   Result<void> Find(Runtime& runtime);
   /// Of the port that was found.
@@ -39,9 +39,9 @@ class WatchedPort {
   /// Shows the newest value, unless it has been shown already; returns how many have been published so
   /// far. Of a group's interface port: the first that there is among its sources'. Not under the
   /// structure lock.
-  std::optional<std::uint64_t> LookIfNew(const Port::Look& look);
+  std::optional<std::uint64_t> VisitIfNew(const Port::Visitor& look);
   /// How many values the queue of the port that was found has lost, if it is an input with one; else 0.
-  /// Where LookIfNew() may be called.
+  /// Where VisitIfNew() may be called.
   [[nodiscard]] std::uint64_t dropped() const noexcept;
 
  private:
@@ -49,7 +49,7 @@ class WatchedPort {
   std::vector<const Port*> sources_;
   const InputBase* input_ = nullptr;  // the port that was found, if it is one
   const TypeInfo* type_ = nullptr;
-  std::uint64_t serial_ = 0;  // of the port that was found last
+  std::uint64_t id_ = 0;  // of the port that was found last
   std::optional<std::uint64_t> shown_;
 };
 

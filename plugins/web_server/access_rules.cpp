@@ -19,8 +19,8 @@ constexpr std::size_t kLongestToken = 128;
 
 std::string Lower(std::string_view text) {
   std::string lower(text);
-  for (char& letter : lower) {
-    letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  for (char& character : lower) {
+    character = static_cast<char>(std::tolower(static_cast<unsigned char>(character)));
   }
   return lower;
 }

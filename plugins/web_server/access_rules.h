@@ -62,7 +62,7 @@ class AccessRules {
 [[nodiscard]] bool AreEqualSecrets(std::string_view a, std::string_view b);
 /// 128 random bits as text. Errors: the system has none.
 [[nodiscard]] Result<std::string> MakeToken();
-/// Errors: it is too short to be one, or has letters that do not go into an address.
+/// Errors: it is too short to be one, or has characters that do not go into an address.
 Result<void> CheckToken(std::string_view token);
 /// Whether the address (of IPv4 or IPv6) is one that only this machine reaches. Errors: it is none.
 [[nodiscard]] Result<bool> IsLoopback(const std::string& address);

@@ -18,8 +18,8 @@ namespace {
 
 namespace asio = boost::asio;
 using asio::ip::tcp;
+using internal::ConnectionRegistry;
 using internal::WebConnection;
-using internal::WebHub;
 
 // After accepting has failed, for want of descriptors.
 constexpr auto kPause = std::chrono::milliseconds(100);
@@ -89,39 +89,39 @@ Result<tcp::acceptor> Listen(asio::io_context& context, const WebServerOptions& 
 
 class WebServer::Running {
  public:
-  Running(std::unique_ptr<WebHub> hub, tcp::acceptor acceptor, std::string url)
-      : hub_(std::move(hub)),
+  Running(std::unique_ptr<ConnectionRegistry> registry, tcp::acceptor acceptor, std::string url)
+      : registry_(std::move(registry)),
         acceptor_(std::move(acceptor)),
-        pause_(hub_->context()),
+        pause_(registry_->context()),
         url_(std::move(url)),
         port_(acceptor_.local_endpoint().port()),
         thread_([this] {
           Accept();
-          hub_->context().run();
+          registry_->context().run();
         }) {}
 
   ~Running() {
-    asio::post(hub_->context(), [this] {
+    asio::post(registry_->context(), [this] {
       boost::system::error_code ignored;
       acceptor_.close(ignored);
       pause_.cancel();
-      hub_->ForEach([](WebConnection& each) { each.End("the application has ended"); });
-      auto timer = std::make_shared<asio::steady_timer>(hub_->context(), kFarewell);
+      registry_->ForEach([](WebConnection& each) { each.End("the application has ended"); });
+      auto timer = std::make_shared<asio::steady_timer>(registry_->context(), kFarewell);
       AwaitEnd(std::move(timer), std::chrono::steady_clock::now() + kFarewell);
     });
     thread_.join();
-    hub_->Clear();
+    registry_->Clear();
   }
 
   [[nodiscard]] const std::string& url() const noexcept { return url_; }
   [[nodiscard]] std::uint16_t port() const noexcept { return port_; }
-  [[nodiscard]] std::size_t clients() const noexcept { return hub_->conversations(); }
+  [[nodiscard]] std::size_t clients() const noexcept { return registry_->sessions(); }
 
   void Wake() {
     if (is_woken_.exchange(true)) return;
-    asio::post(hub_->context(), [this] {
+    asio::post(registry_->context(), [this] {
       is_woken_.store(false);
-      hub_->ForEach([](WebConnection& each) { each.TakeTurn(); });
+      registry_->ForEach([](WebConnection& each) { each.Poll(); });
     });
   }
 
@@ -132,7 +132,7 @@ class WebServer::Running {
       if (!error) {
         boost::system::error_code ignored;
         socket.set_option(tcp::no_delay(true), ignored);
-        internal::ServeHttp(*hub_, std::move(socket));
+        internal::ServeHttp(*registry_, std::move(socket));
         return Accept();
       }
       if (error == asio::error::connection_aborted) return Accept();
@@ -145,14 +145,14 @@ class WebServer::Running {
 
   void AwaitEnd(std::shared_ptr<asio::steady_timer> timer,
                 std::chrono::steady_clock::time_point end) {
-    if (hub_->connections() == 0 || std::chrono::steady_clock::now() >= end) {
-      return hub_->context().stop();
+    if (registry_->connections() == 0 || std::chrono::steady_clock::now() >= end) {
+      return registry_->context().stop();
     }
     timer->expires_after(std::chrono::milliseconds(2));
     timer->async_wait([this, timer, end](boost::system::error_code) { AwaitEnd(timer, end); });
   }
 
-  const std::unique_ptr<WebHub> hub_;
+  const std::unique_ptr<ConnectionRegistry> registry_;
   tcp::acceptor acceptor_;
   asio::steady_timer pause_;
   const std::string url_;
@@ -174,11 +174,11 @@ Result<std::unique_ptr<WebServer>> WebServer::Start(WebServerOptions options,
   const auto protocol = probe->local_endpoint().protocol();
   AccessRules rules(completed->token, completed->host_names, completed->origins, port);
   const std::string url = UrlOf(completed->address, port, completed->token);
-  auto hub = std::make_unique<WebHub>(std::move(*completed), std::move(rules), resources,
-                                      std::move(protocols));
-  tcp::acceptor acceptor(hub->context(), protocol, probe->release());
+  auto registry = std::make_unique<ConnectionRegistry>(std::move(*completed), std::move(rules),
+                                                       resources, std::move(protocols));
+  tcp::acceptor acceptor(registry->context(), protocol, probe->release());
   return std::unique_ptr<WebServer>(
-      new WebServer(std::make_unique<Running>(std::move(hub), std::move(acceptor), url)));
+      new WebServer(std::make_unique<Running>(std::move(registry), std::move(acceptor), url)));
 }
 
 WebServer::WebServer(std::unique_ptr<Running> running) : running_(std::move(running)) {}

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "plugins/web_server/web_conversation.h"
 #include "plugins/web_server/web_resource.h"
 #include "plugins/web_server/web_server_options.h"
+#include "plugins/web_server/web_session.h"
 
 namespace runnel {
 
@@ -35,7 +35,7 @@ class WebServer {
   [[nodiscard]] std::uint16_t port() const noexcept;
   /// WebSockets that are open. Any thread.
   [[nodiscard]] std::size_t clients() const noexcept;
-  /// Gives every conversation a turn.
+  /// Gives every session a turn.
   void Wake();
 
  private:

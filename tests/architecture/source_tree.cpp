@@ -34,9 +34,9 @@ std::vector<std::string> TrackedFiles(const fs::path& root) {
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
   std::vector<std::string> names;
   std::string name;
-  for (int letter = 0; pipe != nullptr && (letter = std::fgetc(pipe.get())) != EOF;) {
-    if (letter != 0) {
-      name += static_cast<char>(letter);
+  for (int character = 0; pipe != nullptr && (character = std::fgetc(pipe.get())) != EOF;) {
+    if (character != 0) {
+      name += static_cast<char>(character);
     } else {
       names.push_back(std::exchange(name, ""));
     }

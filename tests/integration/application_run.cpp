@@ -105,7 +105,7 @@ ApplicationRun RunApplication(const ApplicationChoice& choice) {
       const ChangeOutcome outcome = editor->Apply(change->second);
       if (!outcome) throw std::runtime_error(outcome.diagnostics.ToString());
     }
-    dynamic_cast<Port&>(**pose).LookAtValue(
+    dynamic_cast<Port&>(**pose).VisitLatest(
         [&](const void* value, Time) { run.truth.push_back(*static_cast<const Pose2*>(value)); });
     if (monitor != nullptr) run.outcome = monitor->Outcome();
     run.duration = runtime.clock().Now() - start;

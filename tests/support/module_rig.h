@@ -47,7 +47,7 @@ class ModuleRig {
   template <typename T>
   [[nodiscard]] T Last(const Output<T>& output) const {
     T last{};
-    output.LookAtValue([&](const void* value, Time) { last = *static_cast<const T*>(value); });
+    output.VisitLatest([&](const void* value, Time) { last = *static_cast<const T*>(value); });
     return last;
   }
 

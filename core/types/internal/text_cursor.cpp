@@ -6,7 +6,7 @@ namespace runnel {
 
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\n";
+constexpr std::string_view kWhitespace = " \t\r\n";
 
 bool IsOfWord(char character) {
   return std::isalnum(static_cast<unsigned char>(character)) != 0 || character == '_';
@@ -14,10 +14,10 @@ bool IsOfWord(char character) {
 
 }  // namespace
 
-std::string_view WithoutBlanks(std::string_view text) {
-  const auto begin = text.find_first_not_of(kBlanks);
+std::string_view WithoutWhitespace(std::string_view text) {
+  const auto begin = text.find_first_not_of(kWhitespace);
   if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
+  return text.substr(begin, text.find_last_not_of(kWhitespace) - begin + 1);
 }
 
 std::string Quoted(std::string_view text) {
@@ -35,25 +35,25 @@ std::string Quoted(std::string_view text) {
   return quoted + '"';
 }
 
-void TextCursor::SkipBlanks() {
-  const auto next = rest_.find_first_not_of(kBlanks);
+void TextCursor::SkipWhitespace() {
+  const auto next = rest_.find_first_not_of(kWhitespace);
   rest_.remove_prefix(next == std::string_view::npos ? rest_.size() : next);
 }
 
 bool TextCursor::AtEnd() {
-  SkipBlanks();
+  SkipWhitespace();
   return rest_.empty();
 }
 
 bool TextCursor::Skip(char character) {
-  SkipBlanks();
+  SkipWhitespace();
   if (!rest_.starts_with(character)) return false;
   rest_.remove_prefix(1);
   return true;
 }
 
 std::string_view TextCursor::TakeWord() {
-  SkipBlanks();
+  SkipWhitespace();
   std::size_t length = 0;
   while (length < rest_.size() && IsOfWord(rest_[length])) ++length;
   const std::string_view word = rest_.substr(0, length);
@@ -62,14 +62,14 @@ std::string_view TextCursor::TakeWord() {
 }
 
 std::string_view TextCursor::TakeToken() {
-  SkipBlanks();
+  SkipWhitespace();
   const std::string_view token = rest_.substr(0, rest_.find_first_of(",:]}"));
   rest_.remove_prefix(token.size());
-  return WithoutBlanks(token);
+  return WithoutWhitespace(token);
 }
 
 bool TextCursor::TakeQuoted(std::string& text) {
-  SkipBlanks();
+  SkipWhitespace();
   if (!rest_.starts_with('"')) return false;
   for (std::size_t i = 1; i < rest_.size(); ++i) {
     if (rest_[i] == '"') {
@@ -87,7 +87,7 @@ bool TextCursor::TakeQuoted(std::string& text) {
 }
 
 Error TextCursor::Expected(const std::string& what) {
-  SkipBlanks();
+  SkipWhitespace();
   const std::string where = rest_.empty() ? "at the end" : "before '" + std::string(rest_) + "'";
   return {.message = "expected " + what + " " + where + " of '" + std::string(all_) + "'"};
 }

@@ -7,12 +7,12 @@
 
 namespace runnel {
 
-[[nodiscard]] std::string_view WithoutBlanks(std::string_view text);
+[[nodiscard]] std::string_view WithoutWhitespace(std::string_view text);
 
 /// `text` in quotation marks, as TextCursor::TakeQuoted() reads it.
 [[nodiscard]] std::string Quoted(std::string_view text);
 
-/// Walks through a text form. White space before anything that is taken does not count.
+/// Walks through a text format. White space before anything that is taken does not count.
 class TextCursor {
  public:
   explicit TextCursor(std::string_view text) : all_(text), rest_(text) {}
@@ -31,7 +31,7 @@ class TextCursor {
   [[nodiscard]] Error Expected(const std::string& what);
 
  private:
-  void SkipBlanks();
+  void SkipWhitespace();
 
   std::string_view all_;
   std::string_view rest_;

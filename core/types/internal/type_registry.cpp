@@ -55,7 +55,7 @@ void TypeRegistry::CheckSame(const TypeInfo& known, const internal::TypeLayout& 
     return a.name == b.name && a.value == b.value;
   };
   const bool is_same = here.name() == known.name() && here.kind() == known.kind() &&
-                       here.meaning() == known.meaning() &&
+                       here.semantic_tag() == known.semantic_tag() &&
                        std::ranges::equal(here.fields(), known.fields(), is_same_field) &&
                        std::ranges::equal(here.enumerators(), known.enumerators(), is_same_value);
   if (!is_same) refuse("its description is another one there");

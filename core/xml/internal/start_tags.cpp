@@ -79,7 +79,7 @@ class Scanner {
   bool TakePast(std::string_view opening, std::string_view closing, const std::string& what) {
     const TextPlace start = cursor_.place();
     cursor_.Take(opening.size());
-    return TakeLetters([&] { return cursor_.Sees(closing); }) && !cursor_.at_end()
+    return TakeCharacters([&] { return cursor_.Sees(closing); }) && !cursor_.at_end()
                ? (cursor_.Take(closing.size()), true)
                : Fail(start, "a " + what + " that is never closed", "add " + std::string(closing));
   }
@@ -91,7 +91,7 @@ class Scanner {
     if (outside && !cursor_.at_end() && cursor_.next() != '<') {
       return Fail(cursor_.place(), "text outside of the root element", "");
     }
-    return TakeLetters([&] { return cursor_.Sees("<"); }, /*check_entities=*/true);
+    return TakeCharacters([&] { return cursor_.Sees("<"); }, /*check_entities=*/true);
   }
 
   void NoteText() {
@@ -127,7 +127,7 @@ class Scanner {
     cursor_.Take(1);
     StartTag tag{{}, start, {}, {}};
     if (!TakeName(tag.name)) return false;
-    if (tag.name.empty()) return Fail(start, "'<' without a name", "write &lt; for the letter");
+    if (tag.name.empty()) return Fail(start, "'<' without a name", "write &lt; for the character");
     if (open_.empty() && !tags_.empty()) {
       return Fail(start, "a second root element " + Quoted(tag.name), "a file has one");
     }
@@ -148,15 +148,15 @@ class Scanner {
 
   /// `name` is empty if there is none.
   bool TakeName(std::string_view& name) {
-    TextCursor letters = cursor_;
+    TextCursor characters = cursor_;
     name = cursor_.TakeName();
     for (std::size_t done = 0; done < name.size();) {
-      const std::size_t length = FileCharacterLength(letters.rest());
+      const std::size_t length = FileCharacterLength(characters.rest());
       if (length == 0) {
-        cursor_ = letters;
-        return FailAtLetter();
+        cursor_ = characters;
+        return FailAtCharacter();
       }
-      letters.Take(length);
+      characters.Take(length);
       done += length;
     }
     return true;
@@ -196,7 +196,7 @@ class Scanner {
     attribute.value_place = cursor_.place();
     attribute.value_span.begin = cursor_.offset();
     const auto at_stop = [&] { return cursor_.next() == quote || cursor_.next() == '<'; };
-    if (!TakeLetters(at_stop, /*check_entities=*/true)) return false;
+    if (!TakeCharacters(at_stop, /*check_entities=*/true)) return false;
     if (cursor_.next() != quote) {
       return Fail(attribute.place, "the value of " + quoted + " has no closing quote",
                   cursor_.at_end() ? "" : "or write &lt; for '<' in it");
@@ -210,14 +210,14 @@ class Scanner {
 
   /// Steps on until `at_stop` or the end of the text.
   template <typename Predicate>
-  bool TakeLetters(Predicate at_stop, bool check_entities = false) {
+  bool TakeCharacters(Predicate at_stop, bool check_entities = false) {
     while (!cursor_.at_end() && !at_stop()) {
       const std::size_t length = FileCharacterLength(cursor_.rest());
-      if (length == 0) return FailAtLetter();
+      if (length == 0) return FailAtCharacter();
       if (check_entities && cursor_.next() == '&') {
         const std::string fault = EntityFault(cursor_.rest());
         if (!fault.empty()) {
-          return Fail(cursor_.place(), fault, "write &amp; for the letter '&'");
+          return Fail(cursor_.place(), fault, "write &amp; for the character '&'");
         }
       }
       cursor_.Take(length);
@@ -225,7 +225,7 @@ class Scanner {
     return true;
   }
 
-  bool FailAtLetter() {
+  bool FailAtCharacter() {
     const std::string fault = UnwritableCharacter(cursor_.rest().substr(0, 4));
     return Fail(cursor_.place(), fault, fault.starts_with("byte") ? "save the file as UTF-8" : "");
   }

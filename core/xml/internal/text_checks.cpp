@@ -31,9 +31,9 @@ bool IsNumericEntity(std::string_view name) {
 
 std::string EntityFault(std::string_view text) {
   text = text.substr(0, kLongestEntity);
-  const auto is_of_name = [](char letter) {
-    return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') ||
-           (letter >= '0' && letter <= '9') || letter == '#';
+  const auto is_of_name = [](char character) {
+    return (character >= 'a' && character <= 'z') || (character >= 'A' && character <= 'Z') ||
+           (character >= '0' && character <= '9') || character == '#';
   };
   const auto behind = std::find_if_not(text.begin() + 1, text.end(), is_of_name);
   const auto end = static_cast<std::size_t>(behind - text.begin());
@@ -56,8 +56,8 @@ std::string DeclaredEncoding(std::string_view declaration) {
 
 bool IsReadableEncoding(std::string_view encoding) {
   std::string lower(encoding);
-  for (char& letter : lower) {
-    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  for (char& character : lower) {
+    if (character >= 'A' && character <= 'Z') character = static_cast<char>(character - 'A' + 'a');
   }
   constexpr std::array<std::string_view, 5> kReadable{"", "utf-8", "utf8", "us-ascii", "ascii"};
   return std::ranges::find(kReadable, lower) != kReadable.end();

@@ -6,17 +6,17 @@
 
 namespace runnel::internal {
 
-inline bool IsXmlSpace(char letter) {
-  return letter == ' ' || letter == '\t' || letter == '\n' || letter == '\r';
+inline bool IsXmlSpace(char character) {
+  return character == ' ' || character == '\t' || character == '\n' || character == '\r';
 }
-// The same letters as in tinyxml2, so that both find the same names.
-inline bool IsXmlNameStart(char letter) {
-  return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') || letter == ':' ||
-         letter == '_' || static_cast<unsigned char>(letter) >= 128;
+// The same characters as in tinyxml2, so that both find the same names.
+inline bool IsXmlNameStart(char character) {
+  return (character >= 'a' && character <= 'z') || (character >= 'A' && character <= 'Z') ||
+         character == ':' || character == '_' || static_cast<unsigned char>(character) >= 128;
 }
-inline bool IsXmlNameLetter(char letter) {
-  return IsXmlNameStart(letter) || (letter >= '0' && letter <= '9') || letter == '.' ||
-         letter == '-';
+inline bool IsXmlNameCharacter(char character) {
+  return IsXmlNameStart(character) || (character >= '0' && character <= '9') || character == '.' ||
+         character == '-';
 }
 
 /// Walks through a text and knows at which line and column it is.
@@ -36,11 +36,11 @@ class TextCursor {
   /// Steps over `count` bytes and returns them. Precondition: as many are left.
   std::string_view Take(std::size_t count) {
     const std::string_view taken = rest_.substr(0, count);
-    for (const char letter : taken) {
-      if (letter == '\n') {
+    for (const char character : taken) {
+      if (character == '\n') {
         ++place_.line;
         place_.column = 1;
-      } else if ((static_cast<unsigned char>(letter) & 0xC0U) != 0x80U) {
+      } else if ((static_cast<unsigned char>(character) & 0xC0U) != 0x80U) {
         ++place_.column;  // a byte that continues a UTF-8 character is not counted
       }
     }
@@ -56,7 +56,7 @@ class TextCursor {
   }
 
   std::string_view TakeName() {
-    return IsXmlNameStart(next()) ? TakeWhile(IsXmlNameLetter) : std::string_view();
+    return IsXmlNameStart(next()) ? TakeWhile(IsXmlNameCharacter) : std::string_view();
   }
   /// True if there was any.
   bool SkipSpace() { return !TakeWhile(IsXmlSpace).empty(); }

@@ -18,7 +18,7 @@ enum class GateState {
 
 /// Lets motion commands pass only while they are fresh and nothing is touched. `age` is that of the
 /// last command in s, nothing if none has come; `is_closed` stops all of them.
-[[nodiscard]] inline GateState JudgeCommand(std::optional<double> age, double oldest,
+[[nodiscard]] inline GateState CheckCommand(std::optional<double> age, double oldest,
                                             const Contact& contact, bool is_closed = false) {
   if (is_closed) return GateState::kStopped;
   if (!age) return GateState::kNoCommand;

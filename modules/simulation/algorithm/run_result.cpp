@@ -17,15 +17,15 @@ std::string Number(double value) {
 
 std::string Quoted(std::string_view text) {
   std::string quoted = "\"";
-  for (const char letter : text) {
-    if (letter == '"' || letter == '\\') {
-      quoted += {'\\', letter};
-    } else if (static_cast<unsigned char>(letter) < 0x20) {
+  for (const char character : text) {
+    if (character == '"' || character == '\\') {
+      quoted += {'\\', character};
+    } else if (static_cast<unsigned char>(character) < 0x20) {
       char escape[8];
-      std::snprintf(escape, sizeof escape, "\\u%04x", static_cast<unsigned>(letter));
+      std::snprintf(escape, sizeof escape, "\\u%04x", static_cast<unsigned>(character));
       quoted += escape;
     } else {
-      quoted += letter;
+      quoted += character;
     }
   }
   return quoted + "\"";

@@ -29,8 +29,8 @@ std::string Decimal(double number, int digits) {
 
 std::string EscapedXml(std::string_view text) {
   std::string escaped;
-  for (const char letter : text) {
-    switch (letter) {
+  for (const char character : text) {
+    switch (character) {
       case '&':
         escaped += "&amp;";
         break;
@@ -44,7 +44,7 @@ std::string EscapedXml(std::string_view text) {
         escaped += "&quot;";
         break;
       default:
-        escaped += letter;
+        escaped += character;
     }
   }
   return escaped;

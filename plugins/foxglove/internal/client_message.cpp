@@ -14,12 +14,12 @@ namespace {
 using Json = nlohmann::json;
 
 /// What is wrong with the shape of a message; caught where messages are parsed.
-struct Misshapen {
+struct ParseError {
   Error error;
 };
 
 [[noreturn]] void Refuse(const std::string& op, const std::string& what) {
-  throw Misshapen{{.message = op + ": " + what}};
+  throw ParseError{{.message = op + ": " + what}};
 }
 
 const Json& FieldOf(const std::string& op, const Json& object, const char* name) {
@@ -157,8 +157,8 @@ Result<ClientMessage> ParseClientMessage(std::string_view text) {
     if (each.name != op) continue;
     try {
       return each.parse(op, json);
-    } catch (const Misshapen& misshapen) {
-      return misshapen.error;
+    } catch (const ParseError& parse_error) {
+      return parse_error.error;
     }
   }
   return NoSuchOperation(op);

@@ -32,16 +32,16 @@ namespace {
 // {"value":…} around what is no structure, as its channel has it; else the JSON as it is.
 std::string_view Unwrapped(const TypeInfo& type, std::string_view json) {
   if (type.kind() == TypeKind::kStructure) return json;
-  constexpr std::string_view kBlanks = " \t\r\n";
+  constexpr std::string_view kWhitespace = " \t\r\n";
   const auto skip = [&](std::string_view& rest, std::string_view word) {
-    rest.remove_prefix(std::min(rest.find_first_not_of(kBlanks), rest.size()));
+    rest.remove_prefix(std::min(rest.find_first_not_of(kWhitespace), rest.size()));
     if (!rest.starts_with(word)) return false;
     rest.remove_prefix(word.size());
     return true;
   };
   std::string_view rest = json;
   if (!skip(rest, "{") || !skip(rest, "\"value\"") || !skip(rest, ":")) return json;
-  const auto end = rest.find_last_not_of(kBlanks);
+  const auto end = rest.find_last_not_of(kWhitespace);
   if (end == std::string_view::npos || rest[end] != '}') return json;
   return rest.substr(0, end);
 }

@@ -17,7 +17,7 @@ namespace runnel::internal {
 /// Ownership:  what is shared outlives it, and sees to what it has left to do.
 class ClientPublication {
  public:
-  /// `wake` has the conversation take a turn, from any thread.
+  /// `wake` has the session take a turn, from any thread.
   ClientPublication(FoxgloveShared& shared, const DirectoryInput& input,
                     std::function<void()> wake);
   ~ClientPublication();

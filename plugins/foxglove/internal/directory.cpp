@@ -49,7 +49,7 @@ void AddParameters(const FoundStructure& found, DirectoryContent& content) {
 
 }  // namespace
 
-void Directory::Look(MachineTime now) {
+void Directory::Look(SteadyTime now) {
   if (now < look_at_) return;
   FoundStructure found;
   {
@@ -75,26 +75,29 @@ void Directory::AddChannels(const FoundStructure& found, DirectoryContent& conte
   }
   if (found.robot_pose != FoundStructure::kNone) {
     const FoundPort& port = found.ports[found.robot_pose];
-    if (const Form& form = TransformOf(*port.type)) AddChannel("/tf", port, form, content);
+    if (const Encoding& encoding = TransformOf(*port.type))
+      AddChannel("/tf", port, encoding, content);
   }
   for (const FoundPort& port : found.ports) {
     if (!port.is_shown) continue;
     const std::string& topic = topics.IsOfOne(port.topic) ? port.topic : port.path;
-    const std::vector<Form>& forms = FormsOf(*port.type);
-    for (const Form& form : forms) AddChannel(topic + form->topic, port, form, content);
-    if (!forms.empty()) content.graph[topic] = {{port.owner}, port.readers};
+    const std::vector<Encoding>& encodings = EncodingsOf(*port.type);
+    for (const Encoding& encoding : encodings)
+      AddChannel(topic + encoding->topic, port, encoding, content);
+    if (!encodings.empty()) content.graph[topic] = {{port.owner}, port.readers};
   }
 }
 
-void Directory::AddChannel(std::string topic, const FoundPort& port, const Form& form,
+void Directory::AddChannel(std::string topic, const FoundPort& port, const Encoding& encoding,
                            DirectoryContent& content) {
   const auto next = static_cast<std::uint32_t>(ids_.size() + 1);
-  const auto [place, is_new] = ids_.try_emplace({topic, form.get()}, next);
-  content.channels[place->second] = {place->second, std::move(topic), port.path, port.type, form};
+  const auto [place, is_new] = ids_.try_emplace({topic, encoding.get()}, next);
+  content.channels[place->second] = {place->second, std::move(topic), port.path, port.type,
+                                     encoding};
 }
 
-const std::vector<Directory::Form>& Directory::FormsOf(const TypeInfo& type) {
-  const auto [place, is_new] = forms_.try_emplace(&type);
+const std::vector<Directory::Encoding>& Directory::EncodingsOf(const TypeInfo& type) {
+  const auto [place, is_new] = encodings_.try_emplace(&type);
   if (is_new) {
     for (FoxgloveChannel& channel : ChannelsFor(type, "")) {
       place->second.push_back(std::make_shared<const FoxgloveChannel>(std::move(channel)));
@@ -103,7 +106,7 @@ const std::vector<Directory::Form>& Directory::FormsOf(const TypeInfo& type) {
   return place->second;
 }
 
-const Directory::Form& Directory::TransformOf(const TypeInfo& type) {
+const Directory::Encoding& Directory::TransformOf(const TypeInfo& type) {
   const auto [place, is_new] = transforms_.try_emplace(&type);
   if (is_new) {
     if (auto channel = TransformChannelFor(type)) {

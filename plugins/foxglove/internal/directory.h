@@ -22,7 +22,7 @@ struct DirectoryChannel {
   std::string topic;
   std::string port;  ///< path
   const TypeInfo* type;
-  std::shared_ptr<const FoxgloveChannel> form;  ///< of its type, without the topic
+  std::shared_ptr<const FoxgloveChannel> encoding;  ///< of its type, without the topic
 };
 
 /// An input that clients may publish to.
@@ -59,13 +59,13 @@ struct DirectoryContent {
 /// Threads:  the server's. Waits for no lock.
 class Directory {
  public:
-  using MachineTime = std::chrono::steady_clock::time_point;
+  using SteadyTime = std::chrono::steady_clock::time_point;
 
   explicit Directory(Runtime& runtime) : runtime_(runtime) {}
 
   /// Looks whether the structure has changed, unless that has just been done or somebody has it
   /// locked.
-  void Look(MachineTime now);
+  void Look(SteadyTime now);
   /// Never nullptr; another object whenever something has changed.
   [[nodiscard]] std::shared_ptr<const DirectoryContent> content() const { return content_; }
 
@@ -76,20 +76,20 @@ class Directory {
       const std::vector<std::string>& names) const;
 
  private:
-  using Form = std::shared_ptr<const FoxgloveChannel>;
+  using Encoding = std::shared_ptr<const FoxgloveChannel>;
 
   void AddChannels(const FoundStructure& found, DirectoryContent& content);
-  void AddChannel(std::string topic, const FoundPort& port, const Form& form,
+  void AddChannel(std::string topic, const FoundPort& port, const Encoding& encoding,
                   DirectoryContent& content);
-  [[nodiscard]] const std::vector<Form>& FormsOf(const TypeInfo& type);
-  [[nodiscard]] const Form& TransformOf(const TypeInfo& type);
+  [[nodiscard]] const std::vector<Encoding>& EncodingsOf(const TypeInfo& type);
+  [[nodiscard]] const Encoding& TransformOf(const TypeInfo& type);
 
   Runtime& runtime_;
-  MachineTime look_at_{};
+  SteadyTime look_at_{};
   bool has_looked_ = false;
   std::shared_ptr<const DirectoryContent> content_ = std::make_shared<DirectoryContent>();
-  std::unordered_map<const TypeInfo*, std::vector<Form>> forms_;
-  std::unordered_map<const TypeInfo*, Form> transforms_;
+  std::unordered_map<const TypeInfo*, std::vector<Encoding>> encodings_;
+  std::unordered_map<const TypeInfo*, Encoding> transforms_;
   // Numbers that have been given: a topic that comes back in the same form has its old one.
   std::map<std::pair<std::string, const FoxgloveChannel*>, std::uint32_t> ids_;
 };

@@ -37,15 +37,15 @@ std::uint32_t ReadNumber(std::string_view bytes) {
 FoxgloveSession::FoxgloveSession(std::shared_ptr<FoxgloveShared> shared, WebClient& client)
     : shared_(std::move(shared)),
       client_(client),
-      outbox_(client),
+      send_queue_(client),
       subscriptions_(shared_->runtime(), client),
-      parameters_(*shared_, outbox_, client.Waker()) {
-  outbox_.Send(ServerInfoMessage(*shared_));
+      parameters_(*shared_, send_queue_, client.Waker()) {
+  send_queue_.Send(ServerInfoMessage(*shared_));
 }
 
 void FoxgloveSession::SendStatus(StatusLevel level, const Error& error) {
   // A client that makes mistakes and does not listen need not hear of all of them.
-  if (!outbox_.is_long()) outbox_.Send(StatusMessage(level, error.ToString()));
+  if (!send_queue_.is_long()) send_queue_.Send(StatusMessage(level, error.ToString()));
 }
 
 void FoxgloveSession::OnText(std::string_view message) {
@@ -131,21 +131,21 @@ void FoxgloveSession::Handle(const SubscribeGraphMessage& message) {
   graph_.clear();
   if (!has_graph_) return;
   graph_ = shared_->directory.content()->graph;
-  outbox_.Send(GraphMessage({}, graph_));
+  send_queue_.Send(GraphMessage({}, graph_));
 }
 
-FoxgloveSession::MachineTime FoxgloveSession::OnTurn() {
+FoxgloveSession::SteadyTime FoxgloveSession::OnPoll() {
   const auto now = shared_->Now();
   shared_->directory.Look(now);
-  if (!outbox_.Continue()) return now + kSoon;
+  if (!send_queue_.Continue()) return now + kSoon;
   FollowStructure();
   const bool is_publishing = ContinuePublications();
-  MachineTime next = std::min(now + kBetweenTurns, parameters_.Continue(now));
+  SteadyTime next = std::min(now + kBetweenTurns, parameters_.Continue(now));
   SendTime(now);
   if (now >= sample_at_) sample_at_ = now + (subscriptions_.Sample() ? kBetweenSamples : kSoon);
   for (const Error& error : subscriptions_.TakeFailures()) SendError(error);
   if (!subscriptions_.is_empty()) next = std::min(next, sample_at_);
-  if (is_publishing || !outbox_.is_empty()) next = std::min<MachineTime>(next, now + kSoon);
+  if (is_publishing || !send_queue_.is_empty()) next = std::min<SteadyTime>(next, now + kSoon);
   return std::min(next, time_at_);
 }
 
@@ -159,10 +159,10 @@ void FoxgloveSession::FollowStructure() {
     }
     for (const std::uint32_t id : gone) advertised_.erase(id);
     subscriptions_.Retain(*content);
-    if (!gone.empty()) outbox_.Send(UnadvertiseMessageFor(gone));
+    if (!gone.empty()) send_queue_.Send(UnadvertiseMessageFor(gone));
     DropPublications(*content);
     if (has_graph_ && content->graph != graph_) {
-      outbox_.Send(GraphMessage(graph_, content->graph));
+      send_queue_.Send(GraphMessage(graph_, content->graph));
       graph_ = content->graph;
     }
   }
@@ -172,12 +172,12 @@ void FoxgloveSession::FollowStructure() {
 // In pieces, since there may be thousands.
 void FoxgloveSession::AdvertiseNew() {
   auto channel = content_->channels.begin();
-  while (advertised_.size() < content_->channels.size() && outbox_.is_empty()) {
+  while (advertised_.size() < content_->channels.size() && send_queue_.is_empty()) {
     std::vector<const DirectoryChannel*> fresh;
     for (; channel != content_->channels.end() && fresh.size() < kChannelsInMessage; ++channel) {
       if (advertised_.insert(channel->first).second) fresh.push_back(&channel->second);
     }
-    outbox_.Send(AdvertiseMessageFor(fresh));
+    send_queue_.Send(AdvertiseMessageFor(fresh));
   }
 }
 
@@ -205,7 +205,7 @@ bool FoxgloveSession::ContinuePublications() {
   return is_any_making;
 }
 
-void FoxgloveSession::SendTime(MachineTime now) {
+void FoxgloveSession::SendTime(SteadyTime now) {
   if (now < time_at_) return;
   time_at_ = now + kBetweenTimes;
   const Time time = shared_->runtime().clock().Now();

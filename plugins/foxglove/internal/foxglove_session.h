@@ -7,22 +7,22 @@
 
 #include "plugins/foxglove/internal/client_publication.h"
 #include "plugins/foxglove/internal/foxglove_shared.h"
-#include "plugins/foxglove/internal/outbox.h"
 #include "plugins/foxglove/internal/parameter_handler.h"
+#include "plugins/foxglove/internal/send_queue.h"
 #include "plugins/foxglove/internal/server_messages.h"
 #include "plugins/foxglove/internal/subscriptions.h"
-#include "plugins/web_server/web_conversation.h"
+#include "plugins/web_server/web_session.h"
 
 namespace runnel::internal {
 
 /// The protocol with one client.
-class FoxgloveSession final : public WebConversation {
+class FoxgloveSession final : public WebSession {
  public:
   FoxgloveSession(std::shared_ptr<FoxgloveShared> shared, WebClient& client);
 
   void OnText(std::string_view message) override;
   void OnBinary(std::string_view message) override;
-  MachineTime OnTurn() override;
+  SteadyTime OnPoll() override;
 
  private:
   void Handle(const SubscribeMessage& message);
@@ -42,7 +42,7 @@ class FoxgloveSession final : public WebConversation {
   void AdvertiseNew();
   void DropPublications(const DirectoryContent& content);
   bool ContinuePublications();
-  void SendTime(MachineTime now);
+  void SendTime(SteadyTime now);
 
   struct Publication {
     std::string path;  // of the input
@@ -52,7 +52,7 @@ class FoxgloveSession final : public WebConversation {
 
   const std::shared_ptr<FoxgloveShared> shared_;
   WebClient& client_;
-  Outbox outbox_;
+  SendQueue send_queue_;
   Subscriptions subscriptions_;
   ParameterHandler parameters_;
   std::map<std::uint32_t, Publication> publications_;  // by the client's numbers
@@ -60,8 +60,8 @@ class FoxgloveSession final : public WebConversation {
   std::set<std::uint32_t> advertised_;
   bool has_graph_ = false;
   std::map<std::string, GraphTopic> graph_;  // that the client has been told of
-  MachineTime sample_at_{};
-  MachineTime time_at_{};
+  SteadyTime sample_at_{};
+  SteadyTime time_at_{};
   std::optional<Time> time_;  // that the client has been told
 };
 

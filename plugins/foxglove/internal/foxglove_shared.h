@@ -11,7 +11,7 @@
 
 namespace runnel::internal {
 
-/// What the conversations with all clients share.
+/// What the sessions with all clients share.
 ///
 /// Threads:  the server's.
 struct FoxgloveShared {
@@ -24,9 +24,9 @@ struct FoxgloveShared {
     return application.service.application().runtime;
   }
 
-  [[nodiscard]] WebConversation::MachineTime Now() const {
-    const Clock* const clock = application.machine_clock;
-    return clock != nullptr ? WebConversation::MachineTime(clock->Now().time_since_epoch())
+  [[nodiscard]] WebSession::SteadyTime Now() const {
+    const Clock* const clock = application.steady_clock;
+    return clock != nullptr ? WebSession::SteadyTime(clock->Now().time_since_epoch())
                             : std::chrono::steady_clock::now();
   }
 

@@ -5,8 +5,8 @@
 
 #include "core/base/nearest_name.h"
 #include "plugins/foxglove/internal/foxglove_shared.h"
-#include "plugins/foxglove/internal/outbox.h"
 #include "plugins/foxglove/internal/parameter_values.h"
+#include "plugins/foxglove/internal/send_queue.h"
 #include "plugins/foxglove/internal/server_messages.h"
 #include "plugins/json_values/json_writer.h"
 
@@ -39,7 +39,7 @@ std::vector<std::string> ParameterHandler::AllNames() const {
 }
 
 void ParameterHandler::SendError(const Error& error) {
-  outbox_.Send(StatusMessage(StatusLevel::kError, error.ToString()));
+  send_queue_.Send(StatusMessage(StatusLevel::kError, error.ToString()));
 }
 
 Error ParameterHandler::NoSuchParameter(const std::string& name, bool& may_search) const {
@@ -81,7 +81,7 @@ void ParameterHandler::Subscribe(const SubscribeParametersMessage& message) {
       subscribed_.erase(name);
     } else if (std::ranges::binary_search(known, name)) {
       subscribed_.insert(name);
-    } else if (!outbox_.is_long()) {
+    } else if (!send_queue_.is_long()) {
       SendError(NoSuchParameter(name, may_search));
     }
   }
@@ -89,8 +89,8 @@ void ParameterHandler::Subscribe(const SubscribeParametersMessage& message) {
   look_at_ = {};
 }
 
-ParameterHandler::MachineTime ParameterHandler::Continue(MachineTime now) {
-  if (outbox_.is_long()) return now + kSoon;
+ParameterHandler::SteadyTime ParameterHandler::Continue(SteadyTime now) {
+  if (send_queue_.is_long()) return now + kSoon;
   const bool has_answered = AnswerGets();
   const bool has_set = ContinueSets();
   if (!subscribed_.empty() && now >= look_at_) {
@@ -116,7 +116,7 @@ void ParameterHandler::SendValues(const Directory::ParameterTexts& texts,
     }
     if (id) message.Add("id", *id);
   }
-  outbox_.Send(std::move(json));
+  send_queue_.Send(std::move(json));
 }
 
 // False if something is still to be answered.
@@ -127,7 +127,7 @@ bool ParameterHandler::AnswerGets() {
     if (!texts) return false;
     bool may_search = true;
     for (const std::string& name : get.names) {
-      if (!texts->contains(name) && !outbox_.is_long())
+      if (!texts->contains(name) && !send_queue_.is_long())
         SendError(NoSuchParameter(name, may_search));
     }
     SendValues(*texts, get.id);
@@ -158,7 +158,7 @@ bool ParameterHandler::ContinueSets() {
       if (!answer && !errors.empty()) set.errors.push_back(errors.front());
     }
     for (const Error& error : set.errors) {
-      if (!outbox_.is_long()) SendError(error);
+      if (!send_queue_.is_long()) SendError(error);
     }
     sets_.pop_front();
     look_at_ = {};
@@ -181,7 +181,7 @@ bool ParameterHandler::BeginSet(PendingSet& set) {
       set.errors.push_back(NoSuchParameter(item.name, may_search));
       continue;
     }
-    auto text = TextOfSetting(item, *found->second.type, texts->at(item.name));
+    auto text = TextOfItem(item, *found->second.type, texts->at(item.name));
     if (text) {
       ChangeRequest change{
           {.changes = {SetParameter{found->second.path, std::move(*text)}}, .positions = {}}};

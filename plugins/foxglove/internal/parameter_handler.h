@@ -15,23 +15,23 @@
 namespace runnel::internal {
 
 struct FoxgloveShared;
-class Outbox;
+class SendQueue;
 
 /// What one client asks and is told about parameters.
 class ParameterHandler {
  public:
-  using MachineTime = std::chrono::steady_clock::time_point;
+  using SteadyTime = std::chrono::steady_clock::time_point;
 
-  /// `wake` has the conversation take a turn, from any thread.
-  ParameterHandler(FoxgloveShared& shared, Outbox& outbox, std::function<void()> wake)
-      : shared_(shared), outbox_(outbox), wake_(std::move(wake)) {}
+  /// `wake` has the session take a turn, from any thread.
+  ParameterHandler(FoxgloveShared& shared, SendQueue& send_queue, std::function<void()> wake)
+      : shared_(shared), send_queue_(send_queue), wake_(std::move(wake)) {}
 
   void Get(const GetParametersMessage& message);
   void Set(const SetParametersMessage& message);
   void Subscribe(const SubscribeParametersMessage& message);
 
   /// Answers what can be answered now. When it wants to be called again.
-  MachineTime Continue(MachineTime now);
+  SteadyTime Continue(SteadyTime now);
 
  private:
   struct PendingSet;  // a request to set, from its coming to its answer
@@ -47,13 +47,13 @@ class ParameterHandler {
   void SendChanges();
 
   FoxgloveShared& shared_;
-  Outbox& outbox_;
+  SendQueue& send_queue_;
   const std::function<void()> wake_;
   std::deque<GetParametersMessage> gets_;
   std::deque<std::shared_ptr<PendingSet>> sets_;
   std::set<std::string> subscribed_;
   Directory::ParameterTexts told_;  // of those that are subscribed to
-  MachineTime look_at_{};
+  SteadyTime look_at_{};
 };
 
 }  // namespace runnel::internal

@@ -34,18 +34,18 @@ std::string BytesIn(const TypeInfo& list, void* value) {
   return bytes;
 }
 
-// Whether people had rather read and write the text form: "20ms", not {"sec":0,"nsec":20000000}.
+// Whether people had rather read and write the text format: "20ms", not {"sec":0,"nsec":20000000}.
 bool IsShownAsText(const TypeInfo& type, const std::string& json) {
   if (type.kind() == TypeKind::kEnumeration) return true;
   return type.kind() == TypeKind::kLeaf && (json.starts_with('"') || json.starts_with('{'));
 }
 
-std::optional<unsigned> DigitOf(char letter) {
-  if (letter >= 'A' && letter <= 'Z') return letter - 'A';
-  if (letter >= 'a' && letter <= 'z') return letter - 'a' + 26;
-  if (letter >= '0' && letter <= '9') return letter - '0' + 52;
-  if (letter == '+') return 62;
-  if (letter == '/') return 63;
+std::optional<unsigned> DigitOf(char character) {
+  if (character >= 'A' && character <= 'Z') return character - 'A';
+  if (character >= 'a' && character <= 'z') return character - 'a' + 26;
+  if (character >= '0' && character <= '9') return character - '0' + 52;
+  if (character == '+') return 62;
+  if (character == '/') return 63;
   return std::nullopt;
 }
 
@@ -55,8 +55,8 @@ std::optional<std::string> FromBase64(std::string_view text) {
   std::string bytes;
   unsigned bits = 0;
   int count = 0;
-  for (const char letter : text) {
-    const auto digit = DigitOf(letter);
+  for (const char character : text) {
+    const auto digit = DigitOf(character);
     if (!digit) return std::nullopt;
     bits = (bits << 6 | *digit) & 0xffffff;
     count += 6;
@@ -67,8 +67,8 @@ std::optional<std::string> FromBase64(std::string_view text) {
   return bytes;
 }
 
-Result<std::string> TextOfBytes(const SetParametersMessage::Item& setting, const TypeInfo& type) {
-  const auto bytes = setting.text ? FromBase64(*setting.text) : std::nullopt;
+Result<std::string> TextOfBytes(const SetParametersMessage::Item& item, const TypeInfo& type) {
+  const auto bytes = item.text ? FromBase64(*item.text) : std::nullopt;
   if (!bytes) return Error{.message = "the value of a byte_array is a text in base64"};
   if (!IsBytes(type)) return Error{.message = "a " + type.name() + " is no list of bytes"};
   std::string text = "[";
@@ -104,16 +104,16 @@ void AppendParameter(const std::string& name, const TypeInfo& type, const std::s
   if (is_floats) parameter.Add("type", "float64_array");
 }
 
-Result<std::string> TextOfSetting(const SetParametersMessage::Item& setting, const TypeInfo& type,
-                                  const std::string& text) {
-  if (setting.json.empty()) {
+Result<std::string> TextOfItem(const SetParametersMessage::Item& item, const TypeInfo& type,
+                               const std::string& text) {
+  if (item.json.empty()) {
     return Error{.message = "a parameter cannot be removed, only set", .hint = "say its \"value\""};
   }
-  if (setting.type == "byte_array") return TextOfBytes(setting, type);
-  if (setting.text) return *setting.text;
+  if (item.type == "byte_array") return TextOfBytes(item, type);
+  if (item.text) return *item.text;
   const auto value = ValueOf(type, text);
   if (!value) return Error{.message = "a " + type.name() + " can be set as text only"};
-  if (auto set = SetFromJson(type, setting.json, value.get()); !set) return set.error();
+  if (auto set = SetFromJson(type, item.json, value.get()); !set) return set.error();
   return ToText(type, value.get());
 }
 

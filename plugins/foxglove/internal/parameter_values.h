@@ -18,9 +18,9 @@ namespace runnel::internal {
 void AppendParameter(const std::string& name, const TypeInfo& type, const std::string& text,
                      std::string& json);
 
-/// The text form of what a client sets. `text` is that of the value now, which keeps the fields that the
-/// client leaves out. Texts are taken as the text form. Errors: the value is none of the type.
-[[nodiscard]] Result<std::string> TextOfSetting(const SetParametersMessage::Item& setting,
-                                                const TypeInfo& type, const std::string& text);
+/// The text format of what a client sets. `text` is that of the value now, which keeps the fields that the
+/// client leaves out. Texts are taken as the text format. Errors: the value is none of the type.
+[[nodiscard]] Result<std::string> TextOfItem(const SetParametersMessage::Item& item,
+                                             const TypeInfo& type, const std::string& text);
 
 }  // namespace runnel::internal

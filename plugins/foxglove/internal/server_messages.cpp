@@ -77,8 +77,8 @@ std::string AdvertiseMessageFor(std::span<const DirectoryChannel* const> channel
       channel.Add("id", each->id);
       channel.Add("topic", each->topic);
       channel.Add("encoding", "json");
-      channel.Add("schemaName", each->form->schema_name);
-      channel.Add("schema", each->form->schema);
+      channel.Add("schemaName", each->encoding->schema_name);
+      channel.Add("schema", each->encoding->schema);
       channel.Add("schemaEncoding", "jsonschema");
     }
   }
@@ -123,10 +123,10 @@ std::string GraphMessage(const std::map<std::string, GraphTopic>& before,
   return json;
 }
 
-void AppendMessageHead(std::uint32_t subscription, Time stamp, std::string& bytes) {
+void AppendMessageHead(std::uint32_t subscription, Time timestamp, std::string& bytes) {
   bytes += '\x01';
   AppendLittleEndian(subscription, bytes);
-  AppendLittleEndian(Nanoseconds(stamp), bytes);
+  AppendLittleEndian(Nanoseconds(timestamp), bytes);
 }
 
 std::string TimeMessage(Time now) {

@@ -25,7 +25,7 @@ enum class StatusLevel { kInformation = 0, kWarning = 1, kError = 2 };
                                        const std::map<std::string, GraphTopic>& now);
 
 /// The head of a binary message with a value; the value follows.
-void AppendMessageHead(std::uint32_t subscription, Time stamp, std::string& bytes);
+void AppendMessageHead(std::uint32_t subscription, Time timestamp, std::string& bytes);
 [[nodiscard]] std::string TimeMessage(Time now);
 
 }  // namespace runnel::internal

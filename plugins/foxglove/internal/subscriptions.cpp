@@ -90,10 +90,10 @@ bool Subscriptions::Show(std::uint32_t id, Subscription& subscription) {
   bool is_new = false;
   try {
     is_new = subscription.port
-                 ->LookIfNew([&](const void* value, Time stamp) {
+                 ->VisitIfNew([&](const void* value, Time timestamp) {
                    bytes.clear();
-                   AppendMessageHead(id, stamp, bytes);
-                   subscription.channel.form->Append(value, stamp, bytes);
+                   AppendMessageHead(id, timestamp, bytes);
+                   subscription.channel.encoding->Append(value, timestamp, bytes);
                  })
                  .has_value();
   } catch (...) {

@@ -58,11 +58,11 @@ std::optional<Drawing> DrawRangeScan(const TypeInfo& type, const FoxgloveOptions
   const FieldInfo* const list = type.FindField("ranges");
   return Drawing{"foxglove.LaserScan", LaserScanSchema(),
                  [start = *start, step = *step, ranges = *ranges, list, frame = options.body_frame](
-                     const void* value, Time stamp, std::string& json) {
+                     const void* value, Time timestamp, std::string& json) {
                    const double first = start.Get(value), each = step.Get(value);
                    const std::size_t count = ranges.Size(value);
                    JsonObject message(json);
-                   AppendTime(stamp, message.Key("timestamp"));
+                   AppendTime(timestamp, message.Key("timestamp"));
                    message.Add("frame_id", frame);
                    AppendPose({}, message.Key("pose"));
                    message.Add("start_angle", first);
@@ -78,13 +78,13 @@ std::optional<Drawing> DrawImage(const TypeInfo& type, const FoxgloveOptions& op
   const auto fields = FindImage(type);
   if (!fields) return std::nullopt;
   return Drawing{"foxglove.RawImage", RawImageSchema(),
-                 [fields = *fields, frame = options.body_frame](const void* value, Time stamp,
+                 [fields = *fields, frame = options.body_frame](const void* value, Time timestamp,
                                                                 std::string& json) {
                    const auto count = [&](const NumberField& field) {
                      return static_cast<std::uint32_t>(field.Get(value));
                    };
                    JsonObject message(json);
-                   AppendTime(stamp, message.Key("timestamp"));
+                   AppendTime(timestamp, message.Key("timestamp"));
                    message.Add("frame_id", frame);
                    message.Add("width", count(fields.width));
                    message.Add("height", count(fields.height));

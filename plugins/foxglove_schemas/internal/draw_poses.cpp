@@ -11,10 +11,10 @@ std::optional<Drawing> DrawPose(const TypeInfo& type, const FoxgloveOptions& opt
   const auto pose = PoseReader::For(type);
   if (!pose) return std::nullopt;
   return Drawing{"foxglove.PoseInFrame", PoseInFrameSchema(),
-                 [pose = *pose, frame = options.world_frame](const void* value, Time stamp,
+                 [pose = *pose, frame = options.world_frame](const void* value, Time timestamp,
                                                              std::string& json) {
                    JsonObject message(json);
-                   AppendTime(stamp, message.Key("timestamp"));
+                   AppendTime(timestamp, message.Key("timestamp"));
                    message.Add("frame_id", frame);
                    AppendPose(pose.Get(value), message.Key("pose"));
                  }};
@@ -22,12 +22,12 @@ std::optional<Drawing> DrawPose(const TypeInfo& type, const FoxgloveOptions& opt
 
 std::optional<Drawing> DrawTransform(const TypeInfo& type, const FoxgloveOptions& options) {
   const auto pose = PoseReader::For(type);
-  if (!pose || type.meaning() != "pose") return std::nullopt;
+  if (!pose || type.semantic_tag() != "pose") return std::nullopt;
   return Drawing{"foxglove.FrameTransform", FrameTransformSchema(),
-                 [pose = *pose, options](const void* value, Time stamp, std::string& json) {
+                 [pose = *pose, options](const void* value, Time timestamp, std::string& json) {
                    const PlaceAndHeading at = pose.Get(value);
                    JsonObject message(json);
-                   AppendTime(stamp, message.Key("timestamp"));
+                   AppendTime(timestamp, message.Key("timestamp"));
                    message.Add("parent_frame_id", options.world_frame);
                    message.Add("child_frame_id", options.body_frame);
                    AppendVector(at.place, message.Key("translation"));
@@ -40,10 +40,10 @@ std::optional<Drawing> DrawPath(const TypeInfo& type, const FoxgloveOptions& opt
   const auto points = PlacesField::Find(type, "points");
   if (!points) return std::nullopt;
   return Drawing{"foxglove.PosesInFrame", PosesInFrameSchema(),
-                 [points = *points, frame = options.world_frame](const void* value, Time stamp,
+                 [points = *points, frame = options.world_frame](const void* value, Time timestamp,
                                                                  std::string& json) {
                    JsonObject message(json);
-                   AppendTime(stamp, message.Key("timestamp"));
+                   AppendTime(timestamp, message.Key("timestamp"));
                    message.Add("frame_id", frame);
                    JsonArray poses(message.Key("poses"));
                    const std::size_t count = points.Size(value);

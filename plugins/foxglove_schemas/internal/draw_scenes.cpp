@@ -37,9 +37,9 @@ void AppendScene(std::string& json, const AddEntities& add) {
 /// One thing in a scene. A later one of the same id takes its place.
 class Entity {
  public:
-  Entity(JsonArray& entities, std::string_view id, const std::string& frame, Time stamp)
+  Entity(JsonArray& entities, std::string_view id, const std::string& frame, Time timestamp)
       : object_(entities.Next()) {
-    AppendTime(stamp, object_.Key("timestamp"));
+    AppendTime(timestamp, object_.Key("timestamp"));
     object_.Add("frame_id", frame);
     object_.Add("id", id);
     object_.AddJson("lifetime", R"({"sec":0,"nsec":0})");  // until it is replaced
@@ -208,8 +208,8 @@ void AppendStart(const PlaceAndHeading& start, std::string& json) {
 
 void AppendNumbered(JsonArray& entities, const PlacesField& places, const void* value,
                     const std::string& name, const Colour& colour, const std::string& frame,
-                    Time stamp) {
-  Entity entity(entities, name, frame, stamp);
+                    Time timestamp) {
+  Entity entity(entities, name, frame, timestamp);
   {
     JsonArray balls(entity.Key("spheres"));
     for (std::size_t i = 0; i < places.Size(value); ++i) {
@@ -228,10 +228,10 @@ std::optional<Drawing> DrawPoint(const TypeInfo& type, const FoxgloveOptions& op
   const auto place = PlaceReader::For(type);
   if (!place) return std::nullopt;
   return Drawing{"foxglove.SceneUpdate", SceneUpdateSchema(),
-                 [place = *place, frame = options.world_frame](const void* value, Time stamp,
+                 [place = *place, frame = options.world_frame](const void* value, Time timestamp,
                                                                std::string& json) {
                    AppendScene(json, [&](JsonArray& entities) {
-                     Entity entity(entities, "point", frame, stamp);
+                     Entity entity(entities, "point", frame, timestamp);
                      JsonArray balls(entity.Key("spheres"));
                      AppendBall(place.Get(value), kGoal, balls.Next());
                    });
@@ -243,10 +243,10 @@ std::optional<Drawing> DrawHitAndLeavePoints(const TypeInfo& type, const Foxglov
   if (!hits || !leaves) return std::nullopt;
   return Drawing{"foxglove.SceneUpdate", SceneUpdateSchema(),
                  [hits = *hits, leaves = *leaves, frame = options.world_frame](
-                     const void* value, Time stamp, std::string& json) {
+                     const void* value, Time timestamp, std::string& json) {
                    AppendScene(json, [&](JsonArray& entities) {
-                     AppendNumbered(entities, hits, value, "hit", kHit, frame, stamp);
-                     AppendNumbered(entities, leaves, value, "leave", kLeave, frame, stamp);
+                     AppendNumbered(entities, hits, value, "hit", kHit, frame, timestamp);
+                     AppendNumbered(entities, leaves, value, "leave", kLeave, frame, timestamp);
                    });
                  }};
 }
@@ -255,22 +255,22 @@ std::optional<Drawing> DrawWorldMap(const TypeInfo& type, const FoxgloveOptions&
   const auto fields = FindMap(type);
   if (!fields) return std::nullopt;
   return Drawing{"foxglove.SceneUpdate", SceneUpdateSchema(),
-                 [fields = *fields, frame = options.world_frame](const void* value, Time stamp,
+                 [fields = *fields, frame = options.world_frame](const void* value, Time timestamp,
                                                                  std::string& json) {
                    AppendScene(json, [&](JsonArray& entities) {
                      {
-                       Entity obstacles(entities, "obstacles", frame, stamp);
+                       Entity obstacles(entities, "obstacles", frame, timestamp);
                        AppendLines(fields, value, obstacles.Key("lines"));
                        AppendSides(fields, value, obstacles.Key("triangles"));
                      }
                      if (fields.start) {
-                       Entity entity(entities, "start", frame, stamp);
+                       Entity entity(entities, "start", frame, timestamp);
                        AppendStart(
                            fields.start->Get(fields.start_field->address(ForLooking(value))),
                            entity.Key("arrows"));
                      }
                      if (fields.goal) {
-                       Entity entity(entities, "goal", frame, stamp);
+                       Entity entity(entities, "goal", frame, timestamp);
                        JsonArray balls(entity.Key("spheres"));
                        AppendBall(fields.goal->Get(fields.goal_field->address(ForLooking(value))),
                                   kGoal, balls.Next());

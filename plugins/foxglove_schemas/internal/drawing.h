@@ -13,7 +13,7 @@ namespace runnel::internal {
 struct Drawing {
   std::string schema_name;
   std::string schema;
-  std::function<void(const void* value, Time stamp, std::string& json)> append;
+  std::function<void(const void* value, Time timestamp, std::string& json)> append;
 };
 
 /// Each: nothing, if the type has not the fields that its meaning promises.

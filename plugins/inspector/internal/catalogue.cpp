@@ -46,7 +46,7 @@ void AppendType(const TypeInfo* type, std::string& text) {
   JsonObject json(text);
   json.Add("name", type->name());
   json.Add("kind", KindName(type->kind()));
-  AddTextOrNull("meaning", type->meaning(), json);
+  AddTextOrNull("meaning", type->semantic_tag(), json);
   if (type->kind() == TypeKind::kStructure) {
     AppendList(type->fields(), json.Key("fields"), AppendField);
   }

@@ -63,7 +63,7 @@ class Members {
     Complain("\"" + std::string(key) + "\" cannot be '" + word + "'", NearestNameHint(word, names));
     return otherwise;
   }
-  /// {"step": "0.1"}: values of parameters in their text form.
+  /// {"step": "0.1"}: values of parameters in their text format.
   std::vector<Setting> Settings() {
     std::vector<Setting> settings;
     const Json* const found = Find("settings");

@@ -49,15 +49,15 @@ std::optional<std::string> Inspection::verdict() const {
   return verdict_;
 }
 
-Inspection::MachineTime Inspection::Look() {
-  const MachineTime now = std::chrono::steady_clock::now();
+Inspection::SteadyTime Inspection::Look() {
+  const SteadyTime now = std::chrono::steady_clock::now();
   if (now < look_at_) return look_at_;
   LookAtRegistry(now);
   look_at_ = now + (mirror_.Look() ? Duration(kLook) : Duration(kLookOn));
   return look_at_;
 }
 
-void Inspection::LookAtRegistry(MachineTime now) {
+void Inspection::LookAtRegistry(SteadyTime now) {
   if (now < look_at_registry_ || (cataloguing_ && !cataloguing_->is_done())) return;
   if (cataloguing_ && cataloguing_->failure()) registry_ = 0;  // once more
   std::unique_lock lock(application_.runtime.structure_mutex(), std::try_to_lock);

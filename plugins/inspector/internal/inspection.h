@@ -14,12 +14,12 @@
 
 namespace runnel::internal {
 
-/// What the conversations of all viewers share.
+/// What the sessions of all viewers share.
 ///
 /// Threads:  the server's, but for what says otherwise.
 class Inspection {
  public:
-  using MachineTime = std::chrono::steady_clock::time_point;
+  using SteadyTime = std::chrono::steady_clock::time_point;
 
   Inspection(CommandService& service, Scheduler& scheduler, InspectorOptions options);
 
@@ -38,7 +38,7 @@ class Inspection {
   [[nodiscard]] std::shared_ptr<const Catalogue> catalogue() const;
 
   /// Looks at what all share, unless that has just been done. When it is to be called again.
-  MachineTime Look();
+  SteadyTime Look();
   /// Something has just been changed: to be looked at at once.
   void LookSoon() noexcept { look_at_ = {}; }
 
@@ -48,7 +48,7 @@ class Inspection {
   [[nodiscard]] std::optional<std::string> verdict() const;
 
  private:
-  void LookAtRegistry(MachineTime now);
+  void LookAtRegistry(SteadyTime now);
 
   CommandService& service_;
   const ServedApplication& application_;  // the service's
@@ -57,8 +57,8 @@ class Inspection {
   const std::string run_;
   const Time start_;
   StructureMirror mirror_;
-  MachineTime look_at_{};
-  MachineTime look_at_registry_{};
+  SteadyTime look_at_{};
+  SteadyTime look_at_registry_{};
   std::uint64_t registry_ = 0;  // the fingerprint that the catalogue is of
   mutable std::mutex mutex_;    // a leaf; of the two below
   std::shared_ptr<const Catalogue> catalogue_;

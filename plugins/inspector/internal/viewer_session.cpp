@@ -63,12 +63,12 @@ void ViewerSession::SendHello() {
   client_.SendText(std::move(text));
 }
 
-WebConversation::MachineTime ViewerSession::OnTurn() {
-  MachineTime next = inspection_.Look();
+WebSession::SteadyTime ViewerSession::OnPoll() {
+  SteadyTime next = inspection_.Look();
   SendReplies();
   SendStructure();
   SendLog();
-  const MachineTime now = std::chrono::steady_clock::now();
+  const SteadyTime now = std::chrono::steady_clock::now();
   if (now >= state_due_) SendState(now);
   next = std::min(next, state_due_);
   if (!watches_.empty()) {
@@ -107,7 +107,7 @@ std::string ViewerSession::NextStep(std::optional<std::string> (ChangeHistory::*
   return history != nullptr ? (history->*next)().value_or("") : "";
 }
 
-void ViewerSession::SendState(MachineTime now) {
+void ViewerSession::SendState(SteadyTime now) {
   state_due_ = now + kState;
   if (IsSlow()) return;
   const Pace& pace = inspection_.scheduler().pace();
@@ -171,7 +171,7 @@ void ViewerSession::SendLog() {
   if (client_.SendText(std::move(text))) log_ = read.next;
 }
 
-void ViewerSession::SendValues(MachineTime now) {
+void ViewerSession::SendValues(SteadyTime now) {
   std::vector<Watch*> due;
   for (auto& [path, watch] : watches_) {
     if (now >= watch.due) due.push_back(&watch);
@@ -219,18 +219,18 @@ void ViewerSession::SendValues(MachineTime now) {
 }
 
 std::optional<std::uint64_t> ViewerSession::LookAt(Watch& watch, std::string& item) const {
-  return watch.port.LookIfNew([&](const void* value, Time stamp) {
+  return watch.port.VisitIfNew([&](const void* value, Time timestamp) {
     item = "{\"path\":";
     AppendJsonString(watch.port.path(), item);
     item += ",\"stamp\":";
-    AppendJsonNumber(ToSeconds(stamp - inspection_.start()), item);
+    AppendJsonNumber(ToSeconds(timestamp - inspection_.start()), item);
     item += ",\"value\":";
     const JsonLimits limits{watch.elements, kLongestText, kLargestValue};
     if (!AppendJson(watch.port.type(), value, item, limits)) item += ",\"cut\":true";
   });
 }
 
-void ViewerSession::SendRates(MachineTime now) {
+void ViewerSession::SendRates(SteadyTime now) {
   if (IsSlow()) {
     rates_due_ = now + rates_interval_;
     return;

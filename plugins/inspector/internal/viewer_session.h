@@ -11,39 +11,39 @@
 #include "plugins/inspector/internal/requests.h"
 #include "plugins/inspector/internal/viewer_message.h"
 #include "plugins/watching/watched_port.h"
-#include "plugins/web_server/web_conversation.h"
+#include "plugins/web_server/web_session.h"
 
 namespace runnel::internal {
 
 /// What is said to one viewer. See PROTOCOL.md.
 ///
 /// Threads:  the server's.
-class ViewerSession final : public WebConversation {
+class ViewerSession final : public WebSession {
  public:
   ViewerSession(Inspection& inspection, WebClient& client);
 
   void OnText(std::string_view message) override;
   void OnBinary(std::string_view message) override;
-  MachineTime OnTurn() override;
+  SteadyTime OnPoll() override;
 
  private:
   struct Watch {
     WatchedPort port;
     Duration interval;
     std::size_t elements;
-    MachineTime due{};
+    SteadyTime due{};
   };
   void SendHello();
   void SendStructure();
   void SendLog();
-  void SendState(MachineTime now);
+  void SendState(SteadyTime now);
   [[nodiscard]] std::string NextStep(std::optional<std::string> (ChangeHistory::*next)()
                                          const) const;
   void SendReplies();
-  void SendValues(MachineTime now);
+  void SendValues(SteadyTime now);
   // How many values there have been, and the newest as JSON; nothing if there is no new one.
   std::optional<std::uint64_t> LookAt(Watch& watch, std::string& item) const;
-  void SendRates(MachineTime now);
+  void SendRates(SteadyTime now);
   void BeginWatching(const ViewerMessage& message);
   void BeginRequest(ViewerMessage message);
   void Refuse(const ViewerMessage& message, Error error);
@@ -56,12 +56,12 @@ class ViewerSession final : public WebConversation {
   std::optional<std::uint64_t> log_;
   std::string state_;  // as it was told, without the time
   Duration state_time_{-1};
-  MachineTime state_due_{};
+  SteadyTime state_due_{};
   std::vector<std::unique_ptr<ViewerRequest>> pending_;
   std::deque<std::string> replies_;  // that the client has not taken yet
   std::map<std::string, Watch, std::less<>> watches_;
   Duration rates_interval_{};  // 0: not wanted
-  MachineTime rates_due_{};
+  SteadyTime rates_due_{};
   std::optional<CountSample> counted_;
   std::vector<double> rates_;  // as they were told, of counted_
 };

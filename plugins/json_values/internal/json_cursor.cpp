@@ -10,7 +10,7 @@ namespace runnel {
 
 namespace {
 
-bool IsBlank(char character) {
+bool IsWhitespace(char character) {
   return character == ' ' || character == '\t' || character == '\r' || character == '\n';
 }
 bool IsDigit(char character) { return character >= '0' && character <= '9'; }
@@ -30,29 +30,29 @@ int DigitOf(char character) {
 
 }  // namespace
 
-void JsonCursor::SkipBlanks() {
-  while (next_ < text_.size() && IsBlank(text_[next_])) ++next_;
+void JsonCursor::SkipWhitespace() {
+  while (next_ < text_.size() && IsWhitespace(text_[next_])) ++next_;
 }
 
 char JsonCursor::Peek() {
-  SkipBlanks();
+  SkipWhitespace();
   return At(next_);
 }
 
 bool JsonCursor::AtEnd() {
-  SkipBlanks();
+  SkipWhitespace();
   return next_ == text_.size();
 }
 
 bool JsonCursor::Skip(char character) {
-  SkipBlanks();
+  SkipWhitespace();
   if (next_ == text_.size() || text_[next_] != character) return false;
   ++next_;
   return true;
 }
 
 bool JsonCursor::SkipWord(std::string_view word) {
-  SkipBlanks();
+  SkipWhitespace();
   if (!text_.substr(next_).starts_with(word) || IsOfWord(At(next_ + word.size()))) return false;
   next_ += word.size();
   return true;
@@ -64,7 +64,7 @@ std::size_t JsonCursor::EndOfDigits(std::size_t from) const {
 }
 
 std::string_view JsonCursor::TakeNumber() {
-  SkipBlanks();
+  SkipWhitespace();
   std::size_t end = next_;
   if (At(end) == '-') ++end;
   if (!IsDigit(At(end))) return {};
@@ -113,11 +113,11 @@ Result<void> JsonCursor::TakeEscape(std::string& text) {
     const auto second = TakeFourDigits();
     if (!second) return second.error();
     if (*second < 0xdc00 || *second > 0xdfff)
-      return ErrorHere("half a surrogate pair is no letter");
+      return ErrorHere("half a surrogate pair is no character");
     code_point = 0x10000 + ((code_point - 0xd800) << 10) + (*second - 0xdc00);
   }
   if (code_point >= 0xd800 && code_point <= 0xdfff) {
-    return ErrorHere("half a surrogate pair is no letter");
+    return ErrorHere("half a surrogate pair is no character");
   }
   AppendUtf8(code_point, text);
   return {};
@@ -182,11 +182,11 @@ Error JsonCursor::ErrorHere(std::string message) {
 }
 
 Error JsonCursor::Expected(const std::string& what) {
-  SkipBlanks();
+  SkipWhitespace();
   constexpr std::size_t kShown = 20;
   const std::string_view rest = text_.substr(next_);
   std::string found;
-  AppendJsonString(rest.substr(0, WholeLetters(rest, kShown)), found);
+  AppendJsonString(rest.substr(0, WholeCharacters(rest, kShown)), found);
   return ErrorHere("expected " + what + ", found " +
                    (rest.empty() ? "the end" : "'" + found.substr(1, found.size() - 2) + "'"));
 }

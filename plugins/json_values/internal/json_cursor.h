@@ -14,7 +14,7 @@ class JsonCursor {
  public:
   explicit JsonCursor(std::string_view text) : text_(text) {}
 
-  void SkipBlanks();
+  void SkipWhitespace();
   /// What comes next; '\0' at the end.
   [[nodiscard]] char Peek();
   [[nodiscard]] bool AtEnd();

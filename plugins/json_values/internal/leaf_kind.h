@@ -20,7 +20,7 @@ enum class LeafKind {
   kString,
   kDuration,
   kTime,
-  kOther,  ///< has a text form of its own
+  kOther,  ///< has a text format of its own
 };
 
 [[nodiscard]] LeafKind KindOfLeaf(const TypeInfo& type);

@@ -18,7 +18,7 @@ Result<void> ValueReader::Read(const TypeInfo& type, void* value) {
     return cursor_.ErrorHere("more than " + std::to_string(kDeepest) + " levels of nesting");
   }
   ++depth_;
-  cursor_.SkipBlanks();  // errors name the place where the value begins
+  cursor_.SkipWhitespace();  // errors name the place where the value begins
   auto read = ReadKind(type, value);
   --depth_;
   return read;
@@ -54,7 +54,7 @@ Result<void> ValueReader::ReadStructure(const TypeInfo& type, void* value) {
 
 Result<std::size_t> ValueReader::TakeFieldName(const std::string& type, const Names& names,
                                                std::vector<bool>& is_given) {
-  cursor_.SkipBlanks();
+  cursor_.SkipWhitespace();
   const JsonCursor before = cursor_;
   std::string name;
   if (auto taken = cursor_.TakeString(name); !taken) return taken.error();

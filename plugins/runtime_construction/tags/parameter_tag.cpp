@@ -259,7 +259,7 @@ XmlTag ParameterTag() {
                           .kind = AttributeKind::kName,
                           .summary = "the parameter of the <group_type> whose value it takes"},
                          {.name = "value",
-                          .summary = "in text form; a number may have another unit of the same "
+                          .summary = "in text format; a number may have another unit of the same "
                                      "kind, as in 15 cm"},
                          {.name = "config",
                           .kind = AttributeKind::kPath,

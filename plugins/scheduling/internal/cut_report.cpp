@@ -11,7 +11,7 @@ void ReportCuts(const RunningOrder& order, std::vector<Error>& warnings) {
   for (const Dependency* cut : order.Cuts()) {
     std::vector<PortPair> connections = cut->connections;
     std::ranges::sort(connections, {}, [](const PortPair& each) {
-      return std::pair(each.to->serial(), each.from->serial());
+      return std::pair(each.to->id(), each.from->id());
     });
     for (const auto& [from, to] : connections) {
       warnings.push_back(

@@ -38,15 +38,15 @@ struct Dependency {
 /// A task in a RunningOrder; whoever orders tasks derives from it.
 struct OrderedTask {
   Phase phase = Phase::kUpdate;
-  std::uint64_t serial = 0;  ///< of its element
-  std::size_t number = 0;    ///< among the tasks of its element
-  std::size_t place = 0;     ///< in the order
+  std::uint64_t id = 0;    ///< of its element
+  std::size_t number = 0;  ///< among the tasks of its element
+  std::size_t place = 0;   ///< in the order
   std::size_t place_in_all = 0;
   std::vector<std::unique_ptr<Dependency>> outgoing;
   std::vector<Dependency*> incoming;
 
   /// What comes first where data flow does not decide.
-  [[nodiscard]] auto key() const noexcept { return std::tuple(phase, serial, number); }
+  [[nodiscard]] auto key() const noexcept { return std::tuple(phase, id, number); }
 
   // Notes of the algorithms.
   std::uint64_t set = 0;

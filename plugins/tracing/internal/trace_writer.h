@@ -13,10 +13,10 @@ namespace runnel::internal {
 
 /// The thread of one container, as the trace shows it.
 struct TracedThread {
-  TracedThread(std::uint64_t its_serial, std::string its_name, std::size_t capacity)
-      : serial(its_serial), name(std::move(its_name)), track(capacity) {}
+  TracedThread(std::uint64_t its_id, std::string its_name, std::size_t capacity)
+      : id(its_id), name(std::move(its_name)), track(capacity) {}
 
-  const std::uint64_t serial;
+  const std::uint64_t id;
   const std::string name;  ///< JSON
   TraceTrack track;
 };

@@ -50,15 +50,15 @@ std::string ContentPolicy(const HttpRequest& request) {
 class HttpConnection final : public WebConnection,
                              public std::enable_shared_from_this<HttpConnection> {
  public:
-  HttpConnection(WebHub& hub, tcp::socket socket)
-      : WebConnection(false), hub_(hub), stream_(std::move(socket)) {}
+  HttpConnection(ConnectionRegistry& registry, tcp::socket socket)
+      : WebConnection(false), registry_(registry), stream_(std::move(socket)) {}
 
   void Read() {
     parser_.emplace();
-    parser_->header_limit(static_cast<std::uint32_t>(hub_.limits().header_bytes));
+    parser_->header_limit(static_cast<std::uint32_t>(registry_.limits().header_bytes));
     parser_->body_limit(0);
     // Of the whole request, however many pieces it comes in.
-    stream_.expires_after(hub_.limits().request_time);
+    stream_.expires_after(registry_.limits().request_time);
     http::async_read(stream_, buffer_, *parser_,
                      beast::bind_front_handler(&HttpConnection::OnRead, shared_from_this()));
   }
@@ -94,38 +94,39 @@ class HttpConnection final : public WebConnection,
     if (request_.count(http::field::host) > 1 || request_.count(http::field::origin) > 1) {
       return Refuse(http::status::bad_request, "a field is there twice");
     }
-    if (const auto refusal = hub_.rules().Check(RequestOf(request_))) return Refuse(*refusal);
+    if (const auto refusal = registry_.rules().Check(RequestOf(request_))) return Refuse(*refusal);
     if (beast::websocket::is_upgrade(request_)) return Upgrade();
     if (request_.method() != http::verb::get && request_.method() != http::verb::head) {
       return Refuse(http::status::method_not_allowed, "this server only answers GET and HEAD");
     }
-    const WebResource* const resource = hub_.FindResource(PathOf(View(request_.target())));
+    const WebResource* const resource = registry_.FindResource(PathOf(View(request_.target())));
     if (resource == nullptr) return Refuse(http::status::not_found, "there is no such page");
     Send(http::status::ok, resource->content_type, std::string(resource->content),
          request_.keep_alive());
   }
 
   void Upgrade() {
-    if (const auto refusal = hub_.rules().CheckOrigin(RequestOf(request_))) return Refuse(*refusal);
+    if (const auto refusal = registry_.rules().CheckOrigin(RequestOf(request_)))
+      return Refuse(*refusal);
     const auto offered = View(request_[http::field::sec_websocket_protocol]);
     for (const auto& each : http::token_list(request_[http::field::sec_websocket_protocol])) {
-      const WebProtocol* const protocol = hub_.FindProtocol(View(each));
+      const WebProtocol* const protocol = registry_.FindProtocol(View(each));
       if (protocol == nullptr) continue;
-      if (hub_.IsFull()) {
+      if (registry_.IsFull()) {
         return Refuse(http::status::service_unavailable, "there are " +
-                                                             std::to_string(hub_.conversations()) +
+                                                             std::to_string(registry_.sessions()) +
                                                              " clients already; close one of them");
       }
       std::string name(View(each));
       const auto self = shared_from_this();
-      hub_.Remove(self);
-      return ServeWebSocket(hub_, stream_.release_socket(), std::move(request_), *protocol,
+      registry_.Remove(self);
+      return ServeWebSocket(registry_, stream_.release_socket(), std::move(request_), *protocol,
                             std::move(name));
     }
     Refuse(http::status::bad_request,
            (offered.empty() ? "no protocol is asked for (Sec-WebSocket-Protocol)"
                             : "none of the protocols that are asked for is known here") +
-               ("; there is " + hub_.ProtocolNames()));
+               ("; there is " + registry_.ProtocolNames()));
   }
 
   void Refuse(const AccessRules::Refusal& refusal) {
@@ -150,7 +151,7 @@ class HttpConnection final : public WebConnection,
     response_.set("Cross-Origin-Opener-Policy", "same-origin");
     if (status == http::status::ok) {
       response_.set("Content-Security-Policy", ContentPolicy(request_));
-      const std::string cookie = hub_.rules().CookieFor(RequestOf(request_));
+      const std::string cookie = registry_.rules().CookieFor(RequestOf(request_));
       if (!cookie.empty()) response_.set(http::field::set_cookie, cookie);
     }
     if (status == http::status::method_not_allowed) response_.set(http::field::allow, "GET, HEAD");
@@ -159,7 +160,7 @@ class HttpConnection final : public WebConnection,
     }
     response_.content_length(body.size());
     if (!is_head) response_.body() = std::move(body);
-    stream_.expires_after(hub_.limits().request_time);
+    stream_.expires_after(registry_.limits().request_time);
     http::async_write(stream_, response_,
                       beast::bind_front_handler(&HttpConnection::OnSent, shared_from_this()));
   }
@@ -182,10 +183,10 @@ class HttpConnection final : public WebConnection,
 
   void Remove() {
     Cut();
-    hub_.Remove(shared_from_this());
+    registry_.Remove(shared_from_this());
   }
 
-  WebHub& hub_;
+  ConnectionRegistry& registry_;
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::empty_body>> parser_;
@@ -197,10 +198,10 @@ class HttpConnection final : public WebConnection,
 
 }  // namespace
 
-void ServeHttp(WebHub& hub, tcp::socket socket) {
-  hub.MakeRoom();
-  const auto connection = std::make_shared<HttpConnection>(hub, std::move(socket));
-  hub.Add(connection);
+void ServeHttp(ConnectionRegistry& registry, tcp::socket socket) {
+  registry.EvictOldest();
+  const auto connection = std::make_shared<HttpConnection>(registry, std::move(socket));
+  registry.Add(connection);
   connection->Read();
 }
 

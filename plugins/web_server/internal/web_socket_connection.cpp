@@ -16,7 +16,7 @@
 
 #include "core/base/exception_text.h"
 #include "plugins/web_server/internal/beast_connections.h"
-#include "plugins/web_server/internal/message_budget.h"
+#include "plugins/web_server/internal/token_bucket.h"
 
 namespace runnel::internal {
 
@@ -25,18 +25,18 @@ namespace {
 namespace beast = boost::beast;
 namespace websocket = beast::websocket;
 using boost::asio::ip::tcp;
-using MachineTime = WebConversation::MachineTime;
+using SteadyTime = WebSession::SteadyTime;
 
-// However soon a conversation wants its next turn, others have theirs before.
+// However soon a session wants its next turn, others have theirs before.
 constexpr auto kShortestPause = std::chrono::milliseconds(1);
 // For a client to answer that it ends.
 constexpr auto kTimeToClose = std::chrono::milliseconds(1000);
 // What is longer does not fit into a closing frame.
 constexpr std::size_t kLongestReason = 120;
 
-MachineTime Now() { return std::chrono::steady_clock::now(); }
+SteadyTime Now() { return std::chrono::steady_clock::now(); }
 
-std::string CutAtLetter(std::string_view text, std::size_t longest) {
+std::string CutAtCharacter(std::string_view text, std::size_t longest) {
   if (text.size() <= longest) return std::string(text);
   while (longest > 0 && (static_cast<unsigned char>(text[longest]) & 0xc0U) == 0x80U) --longest;
   return std::string(text.substr(0, longest));
@@ -54,7 +54,7 @@ class WakeHandle : public std::enable_shared_from_this<WakeHandle> {
     if (context_ == nullptr) return;
     boost::asio::post(*context_, [handle = shared_from_this()] {
       handle->is_woken_.store(false);
-      if (const auto alive = handle->connection_.lock()) alive->TakeTurn();
+      if (const auto alive = handle->connection_.lock()) alive->Poll();
     });
   }
   /// The connection goes, and the server may go after it.
@@ -70,26 +70,26 @@ class WakeHandle : public std::enable_shared_from_this<WakeHandle> {
   std::atomic<bool> is_woken_{false};  // a turn has been asked for and has not come yet
 };
 
-/// One WebSocket with its conversation.
+/// One WebSocket with its session.
 class WebSocketConnection final : public WebConnection,
                                   public WebClient,
                                   public std::enable_shared_from_this<WebSocketConnection> {
  public:
-  WebSocketConnection(WebHub& hub, tcp::socket socket, HttpRequest request,
+  WebSocketConnection(ConnectionRegistry& registry, tcp::socket socket, HttpRequest request,
                       const WebProtocol& protocol, std::string name)
       : WebConnection(true),
-        hub_(hub),
+        registry_(registry),
         request_(std::move(request)),
         start_(protocol.start),
         name_(std::move(name)),
         socket_(std::move(socket)),
-        turn_timer_(hub.context()),
-        read_timer_(hub.context()),
-        write_timer_(hub.context()),
-        budget_(hub.limits().messages_per_second, Now()) {}
+        poll_timer_(registry.context()),
+        read_timer_(registry.context()),
+        write_timer_(registry.context()),
+        bucket_(registry.limits().messages_per_second, Now()) {}
 
   void Accept() {
-    const WebLimits& limits = hub_.limits();
+    const WebLimits& limits = registry_.limits();
     beast::get_lowest_layer(socket_).expires_never();
     socket_.set_option(
         websocket::stream_base::timeout{limits.request_time, limits.idle_time, true});
@@ -101,8 +101,8 @@ class WebSocketConnection final : public WebConnection,
     socket_.auto_fragment(false);
     socket_.control_callback([this](websocket::frame_type kind, beast::string_view text) {
       if (kind == websocket::frame_type::close) return BeginClosing();  // answered by Beast
-      budget_.Pay(text.size(), Now());
-      if (budget_.IsFlood()) Close("too many pings");
+      bucket_.Consume(text.size(), Now());
+      if (bucket_.IsFlood()) Close("too many pings");
     });
     socket_.async_accept(request_, [self = shared_from_this()](beast::error_code error) {
       self->OnAccepted(error);
@@ -115,21 +115,21 @@ class WebSocketConnection final : public WebConnection,
   [[nodiscard]] const std::string& protocol() const override { return name_; }
   void Close(std::string reason) override { Close(websocket::close_code::policy_error, reason); }
 
-  void TakeTurn() override {
-    if (conversation_ == nullptr || is_closing_) return;
+  void Poll() override {
+    if (session_ == nullptr || is_closing_) return;
     Attempt([this] {
-      const MachineTime next = conversation_->OnTurn();
+      const SteadyTime next = session_->OnPoll();
       if (is_closing_) return;
-      turn_timer_.expires_at(std::max(next, Now() + kShortestPause));
-      turn_timer_.async_wait([self = shared_from_this()](beast::error_code error) {
-        if (!error) self->TakeTurn();
+      poll_timer_.expires_at(std::max(next, Now() + kShortestPause));
+      poll_timer_.async_wait([self = shared_from_this()](beast::error_code error) {
+        if (!error) self->Poll();
       });
     });
   }
   void End(std::string_view reason) override { Close(websocket::close_code::going_away, reason); }
   [[nodiscard]] std::function<void()> Waker() override {
     if (!wake_handle_) {
-      wake_handle_ = std::make_shared<WakeHandle>(hub_.context(), weak_from_this());
+      wake_handle_ = std::make_shared<WakeHandle>(registry_.context(), weak_from_this());
     }
     return [handle = wake_handle_] { handle->Wake(); };
   }
@@ -160,8 +160,8 @@ class WebSocketConnection final : public WebConnection,
     request_ = {};
     if (error || is_closing_) return Remove();
     is_accepted_ = true;
-    Attempt([this] { conversation_ = start_(*this); });
-    TakeTurn();
+    Attempt([this] { session_ = start_(*this); });
+    Poll();
     Read();
   }
 
@@ -181,16 +181,16 @@ class WebSocketConnection final : public WebConnection,
     const std::string message = beast::buffers_to_string(buffer_.data());
     buffer_.clear();
     buffer_.shrink_to_fit();
-    budget_.Pay(message.size(), Now());
+    bucket_.Consume(message.size(), Now());
     Attempt([&] {
       if (socket_.got_text()) {
-        conversation_->OnText(message);
+        session_->OnText(message);
       } else {
-        conversation_->OnBinary(message);
+        session_->OnBinary(message);
       }
     });
-    TakeTurn();
-    const auto wait = budget_.Wait();
+    Poll();
+    const auto wait = bucket_.Wait();
     if (wait == std::chrono::nanoseconds()) return Read();
     // What the client sends meanwhile waits in its own socket.
     read_timer_.expires_after(wait);
@@ -201,7 +201,8 @@ class WebSocketConnection final : public WebConnection,
 
   bool Send(Message message) {
     if (is_closing_) return false;
-    if (waiting_bytes_ > 0 && waiting_bytes_ + message.bytes.size() > hub_.limits().waiting_bytes) {
+    if (waiting_bytes_ > 0 &&
+        waiting_bytes_ + message.bytes.size() > registry_.limits().waiting_bytes) {
       return false;
     }
     waiting_bytes_ += message.bytes.size();
@@ -214,7 +215,7 @@ class WebSocketConnection final : public WebConnection,
     const Message& message = waiting_.front();
     socket_.text(message.is_text);
     // A client that takes nothing of it all that time is not there any more.
-    write_timer_.expires_after(hub_.limits().idle_time);
+    write_timer_.expires_after(registry_.limits().idle_time);
     write_timer_.async_wait([self = shared_from_this()](beast::error_code cancelled) {
       if (!cancelled) self->Cut();
     });
@@ -242,7 +243,7 @@ class WebSocketConnection final : public WebConnection,
     BeginClosing();
     if (!is_accepted_) return Cut();  // there is nobody yet who could be told
     websocket::close_reason why(code);
-    const std::string cut = CutAtLetter(reason, kLongestReason);
+    const std::string cut = CutAtCharacter(reason, kLongestReason);
     why.reason.assign(cut.data(), cut.size());
     socket_.async_close(why, [self = shared_from_this()](beast::error_code) { self->Remove(); });
   }
@@ -250,51 +251,51 @@ class WebSocketConnection final : public WebConnection,
   // Whoever does not close its end soon is cut.
   void BeginClosing() {
     is_closing_ = true;
-    // Not here: it may be the conversation itself that has asked for it.
-    boost::asio::post(hub_.context(), [self = shared_from_this()] { self->conversation_.reset(); });
-    turn_timer_.expires_after(kTimeToClose);
-    turn_timer_.async_wait([self = shared_from_this()](beast::error_code cancelled) {
+    // Not here: it may be the session itself that has asked for it.
+    boost::asio::post(registry_.context(), [self = shared_from_this()] { self->session_.reset(); });
+    poll_timer_.expires_after(kTimeToClose);
+    poll_timer_.async_wait([self = shared_from_this()](beast::error_code cancelled) {
       if (!cancelled) self->Cut();
     });
   }
 
   void Remove() {
     if (std::exchange(is_removed_, true)) return;
-    turn_timer_.cancel();
+    poll_timer_.cancel();
     read_timer_.cancel();
     write_timer_.cancel();
     Cut();
     Detach();
-    conversation_.reset();
-    hub_.Remove(shared_from_this());
+    session_.reset();
+    registry_.Remove(shared_from_this());
   }
 
-  WebHub& hub_;
+  ConnectionRegistry& registry_;
   HttpRequest request_;
-  const std::function<std::unique_ptr<WebConversation>(WebClient&)> start_;
+  const std::function<std::unique_ptr<WebSession>(WebClient&)> start_;
   const std::string name_;
   websocket::stream<beast::tcp_stream, false> socket_;  // false: nothing is compressed
-  boost::asio::steady_timer turn_timer_;
+  boost::asio::steady_timer poll_timer_;
   boost::asio::steady_timer read_timer_;
   boost::asio::steady_timer write_timer_;
   beast::flat_buffer buffer_;
-  MessageBudget budget_;
+  TokenBucket bucket_;
   std::deque<Message> waiting_;
   std::size_t waiting_bytes_ = 0;
   bool is_accepted_ = false;
   bool is_closing_ = false;
   bool is_removed_ = false;
-  std::shared_ptr<WakeHandle> wake_handle_;        // nullptr until somebody has asked for it
-  std::unique_ptr<WebConversation> conversation_;  // first to go: it uses the rest
+  std::shared_ptr<WakeHandle> wake_handle_;  // nullptr until somebody has asked for it
+  std::unique_ptr<WebSession> session_;      // first to go: it uses the rest
 };
 
 }  // namespace
 
-void ServeWebSocket(WebHub& hub, tcp::socket socket, HttpRequest request,
+void ServeWebSocket(ConnectionRegistry& registry, tcp::socket socket, HttpRequest request,
                     const WebProtocol& protocol, std::string name) {
   const auto connection = std::make_shared<WebSocketConnection>(
-      hub, std::move(socket), std::move(request), protocol, std::move(name));
-  hub.Add(connection);
+      registry, std::move(socket), std::move(request), protocol, std::move(name));
+  registry.Add(connection);
   connection->Accept();
 }
 

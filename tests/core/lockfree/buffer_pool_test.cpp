@@ -27,7 +27,7 @@ struct Pool {
   }
   // Ends a loan with one counted holder, as publishing into a queue does.
   static Buffer<T>* Hold(Buffer<T>* loan) {
-    loan->AddHolders(1);
+    loan->AddReferences(1);
     loan->EndLoan();
     return loan;
   }
@@ -53,10 +53,10 @@ TEST(BufferPoolTest, FixedSizeIsExhaustedUntilNobodyHoldsABuffer) {
   EXPECT_EQ(pool.Loan(), first);
   pool.Hold(first);
   EXPECT_EQ(pool.Loan(), nullptr);
-  first->AddHolders(1);
-  first->DropHolder();
+  first->AddReferences(1);
+  first->ReleaseReference();
   EXPECT_EQ(pool.Loan(), nullptr);
-  first->DropHolder();
+  first->ReleaseReference();
   EXPECT_EQ(pool.Loan(), first);
   EXPECT_EQ(pool.owner->growths(), 0u);
   first->DropLoan();
@@ -144,7 +144,7 @@ TEST(BufferPoolTest, BufferKeepsWhatItsLastUseReserved) {
   Pool<std::vector<int>> pool({.buffers = 1, .may_grow = false});
   auto* buffer = pool.Loan();
   buffer->value().assign(100, 1);
-  pool.Hold(buffer)->DropHolder();
+  pool.Hold(buffer)->ReleaseReference();
   const test::AllocationGuard guard;
   buffer = pool.Loan();
   EXPECT_GE(buffer->value().capacity(), 100u);
@@ -158,7 +158,7 @@ TEST(BufferPoolTest, WritesBigValuesWhereTheLastOnesHaveBeen) {
   std::set<Buffer<std::vector<int>>*> used;
   for (int i = 0; i < 20; ++i) {
     used.insert(pool.Loan());
-    pool.Hold(*used.begin())->DropHolder();
+    pool.Hold(*used.begin())->ReleaseReference();
   }
   EXPECT_EQ(used.size(), 1u);
 }
@@ -175,11 +175,11 @@ TEST(BufferPoolTest, LoansAndCountedHoldersKeepAClosedPool) {
   EXPECT_EQ(held->value().number, 7u);
   loaned->DropLoan();
   EXPECT_EQ(pool.domain.Reclaim(), 1u);
-  held->AddHolders(1);
-  held->DropHolder();
+  held->AddReferences(1);
+  held->ReleaseReference();
   EXPECT_EQ(pool.domain.Reclaim(), 1u);
   EXPECT_EQ(Counted::alive(), 4);
-  held->DropHolder();
+  held->ReleaseReference();
   EXPECT_EQ(Counted::alive(), 4);
   EXPECT_EQ(pool.domain.Reclaim(), 0u);
   EXPECT_EQ(Counted::alive(), 0);

@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-#include "tests/core/lockfree/told_by_many.h"
+#include "tests/core/lockfree/notified_by_many.h"
 #include "tests/support/system_call_probe.h"
 #include "tests/support/threads.h"
 #include "tests/support/yielding_atomic.h"
@@ -74,9 +74,9 @@ void PlayPingPong(int rounds) {
 TEST(Event, LosesNoWakeUp) { PlayPingPong<std::atomic>(10000); }
 TEST(Event, LosesNoWakeUpWhenOthersComeBetweenAnyTwoSteps) { PlayPingPong<YieldingAtomic>(5000); }
 
-TEST(Event, IsToldByManyAtOnce) {
+TEST(Event, IsNotifiedByManyAtOnce) {
   Event<> event;
-  TellByMany(event, [&](const std::atomic<int>& put, int seen) {
+  NotifyByMany(event, [&](const std::atomic<int>& put, int seen) {
     return event.Wait(Late(), [&] { return put.load(std::memory_order_relaxed) > seen; });
   });
 }

@@ -14,7 +14,7 @@ struct Pair {
   std::uint64_t b;
 };
 
-// A reader sees both halves of one publication, with its number and stamp, and never an older one
+// A reader sees both halves of one publication, with its number and timestamp, and never an older one
 // than it has seen already. With few cells the writer laps the reader in a short schedule.
 template <std::size_t kCells>
 struct LatestValueSuite : rl::test_suite<LatestValueSuite<kCells>, 2> {
@@ -34,7 +34,7 @@ struct LatestValueSuite : rl::test_suite<LatestValueSuite<kCells>, 2> {
       if (!latest.Read(pair, publication)) continue;
       RL_ASSERT(pair.b == 10 * pair.a);
       RL_ASSERT(publication.sequence == pair.a);
-      RL_ASSERT(publication.stamp == static_cast<std::int64_t>(100 * pair.a));
+      RL_ASSERT(publication.timestamp == static_cast<std::int64_t>(100 * pair.a));
       RL_ASSERT(publication.order == 1000 * pair.a);
       RL_ASSERT(publication.sequence >= last);
       last = publication.sequence;

@@ -36,7 +36,7 @@ TEST(LatestValueTest, GivesTheNewestValueWithItsStampNumberAndOrder) {
   EXPECT_EQ(pose.x, 10.0);
   EXPECT_EQ(pose.y, 20.0);
   EXPECT_EQ(pose.heading, 0.5F);
-  EXPECT_EQ(publication.stamp, 1000);
+  EXPECT_EQ(publication.timestamp, 1000);
   EXPECT_EQ(publication.sequence, 10u);
   EXPECT_EQ(publication.order, 7u);
   EXPECT_EQ(latest.sequence(), 10u);
@@ -45,10 +45,10 @@ TEST(LatestValueTest, GivesTheNewestValueWithItsStampNumberAndOrder) {
 TEST(LatestValueTest, CarriesTypesThatFillNoWholeWords) {
   LatestValue<std::array<char, 3>> latest;
   latest.Publish({'a', 'b', 'c'}, 0);
-  std::array<char, 3> letters{};
+  std::array<char, 3> characters{};
   Publication publication;
-  ASSERT_TRUE(latest.Read(letters, publication));
-  EXPECT_EQ(letters, (std::array<char, 3>{'a', 'b', 'c'}));
+  ASSERT_TRUE(latest.Read(characters, publication));
+  EXPECT_EQ(characters, (std::array<char, 3>{'a', 'b', 'c'}));
 }
 
 TEST(LatestValueTest, PublishesAndReadsWithoutTheHeap) {
@@ -83,7 +83,7 @@ void ReadersSeeWholeValuesInOrder(std::uint64_t publications) {
       Words expected;
       expected.fill(publication.sequence);
       if (words != expected || publication.order != publication.sequence ||
-          static_cast<std::uint64_t>(publication.stamp) != publication.sequence) {
+          static_cast<std::uint64_t>(publication.timestamp) != publication.sequence) {
         ++torn;
       }
       if (publication.sequence < last) ++backward;

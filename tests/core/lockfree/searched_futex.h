@@ -12,22 +12,22 @@ namespace runnel::test {
 struct SearchedFutex {
   using Deadline = int;
   enum : int { kNever, kAtOnce };  // a deadline that has passed already
-  using Sleepers = std::uint32_t;
-  static constexpr Sleepers kAll = ~Sleepers{0};
-  inline static Sleepers asleep = 0;
+  using Waiters = std::uint32_t;
+  static constexpr Waiters kAll = ~Waiters{0};
+  inline static Waiters asleep = 0;
   inline static int wakes = 0;
 
   static void Reset() { asleep = wakes = 0; }
   static bool Sleep(SearchedAtomic<std::uint32_t>& word, std::uint32_t expected, Deadline deadline,
-                    Sleepers sleeper = 1) {
+                    Waiters waiter = 1) {
     if (word.fetch_add(0, std::memory_order_seq_cst) != expected) return true;
     if (deadline == kAtOnce) return false;
-    asleep |= sleeper;
-    while ((asleep & sleeper) != 0) rl::yield(1, $);
+    asleep |= waiter;
+    while ((asleep & waiter) != 0) rl::yield(1, $);
     return true;
   }
-  static void Wake(SearchedAtomic<std::uint32_t>&, Sleepers sleepers = kAll) {
-    asleep &= ~sleepers;
+  static void Wake(SearchedAtomic<std::uint32_t>&, Waiters waiters = kAll) {
+    asleep &= ~waiters;
     ++wakes;
   }
 };

@@ -8,7 +8,7 @@
 
 #include <gmock/gmock.h>
 
-#include "tests/core/lockfree/told_by_many.h"
+#include "tests/core/lockfree/notified_by_many.h"
 #include "tests/support/system_call_probe.h"
 #include "tests/support/threads.h"
 #include "tests/support/wait_until.h"
@@ -49,71 +49,73 @@ TEST(WakeEvent, NotifyingWhoIsAwakeIsNoSystemCall) {
 
 // Two threads play ping-pong: each round sleeps twice if both are quick enough.
 template <template <typename> class Atomic>
-void PassNoticesOn(int rounds) {
-  Bell<Atomic> bell;
-  Sleeper<Atomic> sleepers[] = {{bell, 1}, {bell, 2}};
-  (void)sleepers[0].Notice();
+void PassNotificationsOn(int rounds) {
+  EventCount<Atomic> event_count;
+  Waiter<Atomic> waiters[] = {{event_count, 1}, {event_count, 2}};
+  (void)waiters[0].MarkNotified();
   RunTogether(2, [&](unsigned index) {
-    Sleeper<Atomic>& other = sleepers[1 - index];
+    Waiter<Atomic>& other = waiters[1 - index];
     for (int round = 0; round < rounds; ++round) {
-      ASSERT_TRUE(sleepers[index].Wait(Late()));
+      ASSERT_TRUE(waiters[index].Wait(Late()));
       other.Notify();
     }
   });
 }
 
-TEST(Bell, LosesNoNotice) { PassNoticesOn<std::atomic>(10000); }
-TEST(Bell, LosesNoNoticeWhenOthersComeBetweenAnyTwoSteps) { PassNoticesOn<YieldingAtomic>(5000); }
+TEST(EventCount, LosesNoNotification) { PassNotificationsOn<std::atomic>(10000); }
+TEST(EventCount, LosesNoNotificationWhenOthersComeBetweenAnyTwoSteps) {
+  PassNotificationsOn<YieldingAtomic>(5000);
+}
 
-TEST(WakeEvent, IsToldByManyAtOnce) {
+TEST(WakeEvent, IsNotifiedByManyAtOnce) {
   WakeEvent event;
-  TellByMany(event, [&](const std::atomic<int>&, int) {
+  NotifyByMany(event, [&](const std::atomic<int>&, int) {
     event.Wait();
     return true;
   });
 }
 
-// More than have room on one bell.
-TEST(WakeUps, WakeAllWhoSleepInEachRound) {
-  constexpr unsigned kSleepers = 40;
+// More than have room on one event_count.
+TEST(NotificationBatch, WakeAllWhoSleepInEachRound) {
+  constexpr unsigned kWaiters = 40;
   constexpr int kRounds = 50;
   std::vector<std::unique_ptr<WakeEvent>> events;
-  for (unsigned i = 0; i < kSleepers; ++i) events.push_back(std::make_unique<WakeEvent>());
+  for (unsigned i = 0; i < kWaiters; ++i) events.push_back(std::make_unique<WakeEvent>());
   WakeEvent all_have_woken;
   std::atomic<unsigned> woken{0};
-  RunTogether(kSleepers + 1, [&](unsigned index) {
+  RunTogether(kWaiters + 1, [&](unsigned index) {
     for (int round = 0; round < kRounds; ++round) {
-      if (index < kSleepers) {
+      if (index < kWaiters) {
         events[index]->Wait();
-        if (woken.fetch_add(1) + 1 == kSleepers) all_have_woken.Notify();
+        if (woken.fetch_add(1) + 1 == kWaiters) all_have_woken.Notify();
         continue;
       }
       {
-        WakeUps wake_ups;
-        for (const auto& event : events) wake_ups.Add(*event);
+        NotificationBatch notifications;
+        for (const auto& event : events) notifications.Add(*event);
       }
       all_have_woken.Wait();
-      EXPECT_EQ(woken.exchange(0), kSleepers);
+      EXPECT_EQ(woken.exchange(0), kWaiters);
     }
   });
 }
 
-// Those on one bell are woken together, at the end: until then nothing calls the system.
-TEST(WakeUps, CallTheSystemOnceForThoseOnOneBell) {
-  constexpr unsigned kSleepers = 4;
-  WakeEvent events[kSleepers];
+// Those on one event count are woken together, at the end: until then nothing calls the system.
+TEST(NotificationBatch, CallTheSystemOnceForThoseOnOneEventCount) {
+  constexpr unsigned kWaiters = 4;
+  WakeEvent events[kWaiters];
   std::atomic<unsigned> about_to_sleep{0};
-  RunTogether(kSleepers + 1, [&](unsigned index) {
-    if (index < kSleepers) {
+  RunTogether(kWaiters + 1, [&](unsigned index) {
+    if (index < kWaiters) {
       ++about_to_sleep;
       events[index].Wait();
       return;
     }
-    WaitUntil("all are about to sleep", [&] { return about_to_sleep >= kSleepers; });
+    WaitUntil("all are about to sleep", [&] { return about_to_sleep >= kWaiters; });
     std::this_thread::sleep_for(milliseconds(20));  // for the better: so that they are asleep
-    WakeUps wake_ups;
+    NotificationBatch notifications;
     SystemCallProbe calls;
-    for (WakeEvent& event : events) wake_ups.Add(event);
+    for (WakeEvent& event : events) notifications.Add(event);
     EXPECT_EQ(calls.Stop(), -1);
   });
 }

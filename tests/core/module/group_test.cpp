@@ -36,7 +36,7 @@ TEST_F(GroupTest, DataFlowsThroughItsInterface) {
   RunOnce(*inner);
   RunOnce(sink);
   double last = 0;
-  sink.doubled.LookAtValue(
+  sink.doubled.VisitLatest(
       [&](const void* value, Time) { last = *static_cast<const double*>(value); });
   EXPECT_EQ(last, 4.0);
 }

@@ -86,7 +86,7 @@ TEST_F(ConnectingTest, CircleOfInterfacePortsIsRefused) {
   Connect(*ring[1], *ring[2]);
   const Error error = RefusalOf(*ring[2], *ring[0]);
   EXPECT_EQ(error.path, "/c");
-  EXPECT_THAT(error.message, HasSubstr("circle"));
+  EXPECT_THAT(error.message, HasSubstr("cycle"));
   EXPECT_FALSE(Port::Connect(*ring[0], *ring[0]));
 }
 

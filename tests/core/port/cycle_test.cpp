@@ -21,8 +21,8 @@ TEST_F(CycleTest, ValuesOfOneCycleBearItsTimeHoweverLateTheyArePublished) {
   clock.Advance(7s);
   sender.out.Publish(1);
   pooled.out.Publish(Scan{});
-  EXPECT_EQ(receiver.in.Read().stamp(), Time(5s));
-  EXPECT_EQ(scans.in.Read().stamp(), Time(5s));
+  EXPECT_EQ(receiver.in.Read().timestamp(), Time(5s));
+  EXPECT_EQ(scans.in.Read().timestamp(), Time(5s));
 }
 
 TEST_F(CycleTest, OutsideOfCyclesTheRuntimesClockCounts) {
@@ -31,7 +31,7 @@ TEST_F(CycleTest, OutsideOfCyclesTheRuntimesClockCounts) {
   Connect(sender.out, receiver.in);
   clock.Advance(3s);
   sender.out.Publish(1);
-  EXPECT_EQ(receiver.in.Read().stamp(), Time(3s));
+  EXPECT_EQ(receiver.in.Read().timestamp(), Time(3s));
 }
 
 TEST_F(CycleTest, CyclesMayBeNestedAndBelongToTheirThread) {

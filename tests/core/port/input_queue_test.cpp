@@ -80,7 +80,7 @@ TEST(InputQueueTest, EntryTellsSourceAndPublication) {
     ASSERT_TRUE(queue.Pop(entry));
     EXPECT_EQ(entry.held.value(), 5);
     EXPECT_EQ(entry.source, 14u);
-    EXPECT_EQ(entry.held.publication().stamp, 11);
+    EXPECT_EQ(entry.held.publication().timestamp, 11);
     EXPECT_EQ(entry.held.publication().sequence, 12u);
     EXPECT_EQ(entry.held.publication().order, 13u);
   }

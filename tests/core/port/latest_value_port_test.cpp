@@ -40,7 +40,7 @@ TEST_F(LatestValuePortTest, EmptyLeaseCannotBeLookedAt) {
   EXPECT_FALSE(nothing);
   EXPECT_FALSE(nothing.is_new());
   EXPECT_THROW(*nothing, ProgrammingError);
-  EXPECT_THROW((void)nothing.stamp(), ProgrammingError);
+  EXPECT_THROW((void)nothing.timestamp(), ProgrammingError);
   EXPECT_EQ(nothing.value_or(3.0), 3.0);
 }
 
@@ -112,13 +112,13 @@ TEST_F(LatestValuePortTest, SmallTypeIsLoanedAsAnEmptyValue) {
   EXPECT_EQ(sender.out.Publish(std::move(loan)), PublishStatus::kNoBuffer);
 }
 
-TEST_F(LatestValuePortTest, ViewersLookAtValuesWithoutMarkingThem) {
+TEST_F(LatestValuePortTest, ViewersVisitValuesWithoutMarkingThem) {
   auto& sender = MakeSender<int>();
   auto& receiver = MakeReceiver<int>();
   Connect(sender.out, receiver.in);
   const auto look = [](const Port& port) {
     int seen = -1;
-    port.LookAtValue([&](const void* value, Time) { seen = *static_cast<const int*>(value); });
+    port.VisitLatest([&](const void* value, Time) { seen = *static_cast<const int*>(value); });
     return seen;
   };
   EXPECT_EQ(look(sender.out), -1);

@@ -23,13 +23,13 @@ TEST_F(PooledPortTest, ReaderLooksAtTheVeryObjectThatTheWriterFilled) {
 }
 
 TEST_F(PooledPortTest, SizeAndCopyingDecideHowATypeTravels) {
-  EXPECT_TRUE(kIsCheap<double>);
-  EXPECT_TRUE((kIsCheap<std::array<char, 32>>));
-  EXPECT_FALSE((kIsCheap<std::array<char, 33>>));
-  EXPECT_FALSE(kIsCheap<Scan>);
-  EXPECT_FALSE(kIsCheap<Token>);
-  EXPECT_FALSE(kIsCheap<Sealed>);
-  EXPECT_FALSE(kIsCheap<Stubborn>);
+  EXPECT_TRUE(kIsInlined<double>);
+  EXPECT_TRUE((kIsInlined<std::array<char, 32>>));
+  EXPECT_FALSE((kIsInlined<std::array<char, 33>>));
+  EXPECT_FALSE(kIsInlined<Scan>);
+  EXPECT_FALSE(kIsInlined<Token>);
+  EXPECT_FALSE(kIsInlined<Sealed>);
+  EXPECT_FALSE(kIsInlined<Stubborn>);
 }
 
 TEST_F(PooledPortTest, GetCopiesTheNewestValueAndMarksNothingAsRead) {

@@ -51,7 +51,7 @@ inline void Describe(TypeBuilder<Stubborn>& type) { type.Name("test::Stubborn");
 }  // namespace runnel::test
 
 template <>
-inline constexpr bool runnel::kIsCheap<runnel::test::Stubborn> = false;
+inline constexpr bool runnel::kIsInlined<runnel::test::Stubborn> = false;
 
 namespace runnel::test {
 

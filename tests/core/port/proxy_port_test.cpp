@@ -117,9 +117,9 @@ TEST_F(ProxyPortTest, ViewersSeeWhatPassesThrough) {
   const auto look = [&](const void* value, Time) {
     seen = static_cast<const Scan*>(value)->number;
   };
-  EXPECT_FALSE(proxy.LookAtValue(look));
+  EXPECT_FALSE(proxy.VisitLatest(look));
   sender.out.Publish(Scan{{}, 3});
-  EXPECT_TRUE(proxy.LookAtValue(look));
+  EXPECT_TRUE(proxy.VisitLatest(look));
   EXPECT_EQ(seen, 3);
   EXPECT_EQ(proxy.description(), "passes on");
 }

@@ -167,9 +167,9 @@ TEST_F(PullPortTest, PulledValuesBearTheTimeOfTheReadersCycle) {
   Connect(sender.out, receiver.in);
   sender.out.SetProvider([this](int& value) { return Count(value, counter); });
   clock.Set(Time(Duration(5)));
-  EXPECT_EQ(receiver.in.Read().stamp(), Time(Duration(5)));
+  EXPECT_EQ(receiver.in.Read().timestamp(), Time(Duration(5)));
   const CycleScope cycle({.now = Time(Duration(7))});
-  EXPECT_EQ(receiver.in.Read().stamp(), Time(Duration(7)));
+  EXPECT_EQ(receiver.in.Read().timestamp(), Time(Duration(7)));
 }
 
 TEST_F(PullPortTest, OnlyAPullableOutputHasAProvider) {

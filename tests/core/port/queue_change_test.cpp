@@ -39,7 +39,7 @@ template <typename Number>
 std::function<void()> InterruptingOf<Number>::interrupt;
 using Interrupting = InterruptingOf<int>;
 void Describe(TypeBuilder<Interrupting>& type) { type.Name("test::Interrupting"); }
-static_assert(!kIsCheap<Interrupting> && kLiesInQueuesAsCopy<Interrupting>);
+static_assert(!kIsInlined<Interrupting> && kLiesInQueuesAsCopy<Interrupting>);
 
 class QueueChangeTest : public PortTest {
  protected:

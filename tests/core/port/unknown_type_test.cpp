@@ -19,7 +19,7 @@ TEST_F(UnknownTypeTest, PublishesWhatHasBeenFilled) {
   ASSERT_TRUE(published);
   EXPECT_EQ(*published, PublishStatus::kPublished);
   EXPECT_EQ(*receiver.in.Read(), 5);
-  EXPECT_EQ(receiver.in.Read().stamp(), Time(Duration(40)));
+  EXPECT_EQ(receiver.in.Read().timestamp(), Time(Duration(40)));
 }
 
 TEST_F(UnknownTypeTest, FillsTheVeryBufferThatReadersLease) {

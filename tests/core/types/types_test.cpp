@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 
 #include "core/base/check.h"
-#include "core/types/binary_form.h"
+#include "core/types/binary_encoding.h"
 #include "core/types/eigen_types.h"
 #include "core/types/type_of.h"
 
@@ -133,14 +133,14 @@ TEST(TypeOf, SaysWhatIsInside) {
   EXPECT_FALSE(TypeOf<example::Handle>().is_transparent());
 }
 
-TEST(TextForm, ReadsBackWhatItWrote) {
+TEST(TextFormat, ReadsBackWhatItWrote) {
   const Path path = SomePath();
   const auto read = FromText<Path>(TextOf(path));
   ASSERT_TRUE(read) << TextOf(path) << "\n" << read.error().ToString();
   EXPECT_EQ(*read, path) << TextOf(path);
 }
 
-TEST(TextForm, IsWhatAPersonWouldWrite) {
+TEST(TextFormat, IsWhatAPersonWouldWrite) {
   EXPECT_EQ(TextOf(0.1), "0.1");
   EXPECT_EQ(TextOf(true), "true");
   EXPECT_EQ(TextOf(Side::kRight), "right");
@@ -152,12 +152,12 @@ TEST(TextForm, IsWhatAPersonWouldWrite) {
   EXPECT_EQ(TextOf(example::Handle{}), "?");
 }
 
-TEST(TextForm, LeavesFieldsThatAreNotNamedAsTheyAre) {
+TEST(TextFormat, LeavesFieldsThatAreNotNamedAsTheyAre) {
   EXPECT_EQ(*FromText<Point>(" { y : -5 } "), (Point{1, -5}));
   EXPECT_EQ(*FromText<Point>("{}"), Point{});
 }
 
-TEST(TextForm, KeepsEveryNumberExactly) {
+TEST(TextFormat, KeepsEveryNumberExactly) {
   for (const double number : {0.1, 1.0 / 3, 5e-324, std::numeric_limits<double>::max(),
                               -std::numeric_limits<double>::infinity()}) {
     EXPECT_EQ(*FromText<double>(TextOf(number)), number);
@@ -167,7 +167,7 @@ TEST(TextForm, KeepsEveryNumberExactly) {
             std::numeric_limits<std::int64_t>::min());
 }
 
-TEST(TextForm, SaysWhatIsWrong) {
+TEST(TextFormat, SaysWhatIsWrong) {
   EXPECT_THAT(WhyNot<double>("1,5"), HasSubstr("'1,5' is no number"));
   EXPECT_THAT(WhyNot<double>(""), HasSubstr("is no number"));
   EXPECT_THAT(WhyNot<std::int32_t>("1.5"), HasSubstr("no whole number"));
@@ -185,10 +185,10 @@ TEST(TextForm, SaysWhatIsWrong) {
   EXPECT_THAT(WhyNot<Eigen::Vector3d>("[1, 2, 3, 4]"), HasSubstr("too many"));
   EXPECT_THAT(WhyNot<Eigen::MatrixXd>("[[1, 2], [3]]"), HasSubstr("rows differ"));
   EXPECT_THAT(WhyNot<Eigen::Matrix2d>("[[1, 2]]"), HasSubstr("1 rows of 2"));
-  EXPECT_THAT(WhyNot<example::Handle>("{}"), HasSubstr("no text form"));
+  EXPECT_THAT(WhyNot<example::Handle>("{}"), HasSubstr("no text format"));
 }
 
-TEST(TextForm, OfDurationsHasAUnit) {
+TEST(TextFormat, OfDurationsHasAUnit) {
   EXPECT_EQ(TextOf(Duration(std::chrono::milliseconds(20))), "20ms");
   EXPECT_EQ(TextOf(Duration(1'500'000'000)), "1.5s");
   EXPECT_EQ(TextOf(Duration(-1)), "-1ns");
@@ -199,7 +199,7 @@ TEST(TextForm, OfDurationsHasAUnit) {
   EXPECT_THAT(WhyNot<Duration>("1e300s"), HasSubstr("no duration"));
 }
 
-TEST(BinaryForm, ReadsBackWhatItWrote) {
+TEST(BinaryEncoding, ReadsBackWhatItWrote) {
   const Path path = SomePath();
   const auto bytes = Bytes(path);
   BinaryReader reader(bytes);
@@ -209,14 +209,14 @@ TEST(BinaryForm, ReadsBackWhatItWrote) {
   EXPECT_EQ(reader.remaining(), 0u);
 }
 
-TEST(BinaryForm, IsLittleEndianWithCountsBefore) {
+TEST(BinaryEncoding, IsLittleEndianWithCountsBefore) {
   EXPECT_THAT(Bytes(std::vector<std::int16_t>{1, -2}),
               ElementsAre(std::byte{2}, std::byte{0}, std::byte{0}, std::byte{0}, std::byte{1},
                           std::byte{0}, std::byte{0xfe}, std::byte{0xff}));
   EXPECT_EQ(Bytes(Eigen::Vector3d::Zero().eval()).size(), 24u) << "fixed sizes need no count";
 }
 
-TEST(BinaryForm, RefusesEveryPartOfAMessage) {
+TEST(BinaryEncoding, RefusesEveryPartOfAMessage) {
   const auto bytes = Bytes(SomePath());
   for (std::size_t length = 0; length < bytes.size(); ++length) {
     BinaryReader reader(std::span<const std::byte>(bytes).first(length));
@@ -225,7 +225,7 @@ TEST(BinaryForm, RefusesEveryPartOfAMessage) {
   }
 }
 
-TEST(BinaryForm, DoesNotBelieveACountBeyondTheBytes) {
+TEST(BinaryEncoding, DoesNotBelieveACountBeyondTheBytes) {
   const std::vector<std::byte> bytes(4, std::byte{0xff});
   BinaryReader reader(bytes);
   std::vector<double> list;
@@ -249,7 +249,7 @@ Nest NestOf(int levels) {
   return nest;
 }
 
-TEST(BinaryForm, RefusesWhatIsNestedTooDeep) {
+TEST(BinaryEncoding, RefusesWhatIsNestedTooDeep) {
   for (const auto& [levels, is_read] :
        {std::pair(20, true), std::pair(50, true), std::pair(60, false)}) {
     const auto bytes = Bytes(NestOf(levels));
@@ -266,7 +266,7 @@ TEST(BinaryForm, RefusesWhatIsNestedTooDeep) {
   EXPECT_FALSE(FromBinary(TypeOf<Nest>(), reader, &read));
 }
 
-TEST(TextForm, RefusesWhatIsNestedTooDeep) {
+TEST(TextFormat, RefusesWhatIsNestedTooDeep) {
   const auto text = [](int levels) {
     std::string opening, closing;
     for (int i = 1; i < levels; ++i) {
@@ -288,7 +288,7 @@ struct Huge {
 };
 void Describe(TypeBuilder<Huge>& type) { type.Name("test::Huge").Field("is_on", &Huge::is_on); }
 
-TEST(BinaryForm, MakesNoRoomForMoreThanItsLimitHoweverFewTheBytes) {
+TEST(BinaryEncoding, MakesNoRoomForMoreThanItsLimitHoweverFewTheBytes) {
   std::vector<std::byte> bytes;
   BinaryWriter writer(bytes);
   writer.WriteUnsigned(std::uint32_t{100});
@@ -299,13 +299,13 @@ TEST(BinaryForm, MakesNoRoomForMoreThanItsLimitHoweverFewTheBytes) {
   EXPECT_EQ(list.capacity(), 0u);
 }
 
-TEST(TextForm, MakesNoRoomForMoreThanItsLimit) {
+TEST(TextFormat, MakesNoRoomForMoreThanItsLimit) {
   const auto list = FromText<std::vector<Huge>>("[{is_on: true}]");
   ASSERT_FALSE(list);
   EXPECT_THAT(list.error().message, testing::HasSubstr("more than 256 MiB"));
 }
 
-TEST(BinaryForm, RefusesValuesThatDoNotExist) {
+TEST(BinaryEncoding, RefusesValuesThatDoNotExist) {
   const std::vector<std::byte> two{std::byte{2}};
   BinaryReader reader(two);
   bool flag = false;

@@ -184,7 +184,7 @@ TEST(XmlDocumentErrorTest, AttributesOfWrongFormAreRefused) {
 
 TEST(XmlDocumentErrorTest, EntitiesUnknownOrUnfinishedAreRefused) {
   EXPECT_EQ(ErrorOf("<a b='&nbsp;'/>"),
-            "a.xml:1:7: no entity '&nbsp;'; write &amp; for the letter '&'");
+            "a.xml:1:7: no entity '&nbsp;'; write &amp; for the character '&'");
   EXPECT_THAT(ErrorOf("<a>R&D</a>"), HasSubstr("a.xml:1:5: '&' begins an entity"));
   EXPECT_THAT(ErrorOf("<a>&#0;</a>"), HasSubstr("no entity '&#0;'"));
   EXPECT_THAT(ErrorOf("<a>&#xD800;</a>"), HasSubstr("no entity"));

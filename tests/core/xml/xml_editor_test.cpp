@@ -62,7 +62,7 @@ TEST(XmlEditor, AddsAnAttributeBehindTheOthers) {
   EXPECT_EQ(Edited("<a></a>", set), "<a x=\"1\"></a>");
 }
 
-TEST(XmlEditor, RemovesAnAttributeWithTheBlanksBeforeIt) {
+TEST(XmlEditor, RemovesAnAttributeWithTheWhitespaceBeforeIt) {
   const auto remove = [](XmlEditor& editor, XmlElement root) {
     editor.RemoveAttribute(root, "x");
     editor.RemoveAttribute(root, "none");

@@ -85,7 +85,7 @@ TEST(CheckChildrenTest, TellsAllUnknownOnesAtOnceAndText) {
             "a.xml:4:1: error: no <xyzzy> may stand in <world>; there is 'box', 'wall'\n");
 }
 
-TEST(CheckChildrenTest, CutsALongTextBetweenLetters) {
+TEST(CheckChildrenTest, CutsALongTextBetweenCharacters) {
   const std::string before(39, 'x');
   const XmlDocument document = DocumentOf("<world>" + before + "\xC3\xA9 and more</world>");
   Diagnostics diagnostics;

@@ -49,10 +49,10 @@ TEST(AccelerationLimit, ComesNearerStepByStep) {
 }
 
 TEST(CommandGate, StateTellsWhy) {
-  EXPECT_EQ(JudgeCommand(std::nullopt, 1, {}), GateState::kNoCommand);
-  EXPECT_EQ(JudgeCommand(0.5, 1, {}), GateState::kOpen);
-  EXPECT_EQ(JudgeCommand(1.5, 1, {}), GateState::kOldCommand);
-  EXPECT_EQ(JudgeCommand(0.5, 1, {true, 0}), GateState::kContact);
+  EXPECT_EQ(CheckCommand(std::nullopt, 1, {}), GateState::kNoCommand);
+  EXPECT_EQ(CheckCommand(0.5, 1, {}), GateState::kOpen);
+  EXPECT_EQ(CheckCommand(1.5, 1, {}), GateState::kOldCommand);
+  EXPECT_EQ(CheckCommand(0.5, 1, {true, 0}), GateState::kContact);
 }
 
 TEST(CommandGateModule, StopsWhenWhoeverCommandsFallsSilent) {

@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-#include "core/types/binary_form.h"
+#include "core/types/binary_encoding.h"
 #include "tests/support/module_rig.h"
 
 namespace runnel {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/types/binary_form.h"
+#include "core/types/binary_encoding.h"
 #include "modules/types/contact.h"
 #include "modules/types/hit_and_leave_points.h"
 #include "modules/types/image.h"
@@ -17,7 +17,7 @@ namespace runnel {
 namespace {
 
 template <typename T>
-void ExpectBothFormsReadBack(const T& value) {
+void ExpectBothReadBack(const T& value) {
   const auto from_text = FromText<T>(TextOf(value));
   ASSERT_TRUE(from_text) << TextOf(value);
   EXPECT_EQ(*from_text, value) << TextOf(value);
@@ -31,20 +31,20 @@ void ExpectBothFormsReadBack(const T& value) {
 }
 
 TEST(ModuleTypes, ReadBackFromTextAndBytes) {
-  ExpectBothFormsReadBack(Point2{0.1, -2});
-  ExpectBothFormsReadBack(Pose2{1, 2, 3.1});
-  ExpectBothFormsReadBack(Twist2{0.5, -1.5});
-  ExpectBothFormsReadBack(WheelSpeeds{3, 4});
-  ExpectBothFormsReadBack(
+  ExpectBothReadBack(Point2{0.1, -2});
+  ExpectBothReadBack(Pose2{1, 2, 3.1});
+  ExpectBothReadBack(Twist2{0.5, -1.5});
+  ExpectBothReadBack(WheelSpeeds{3, 4});
+  ExpectBothReadBack(
       RangeScan{-1.5, 0.1, 0.02, 4, {0.5f, std::numeric_limits<float>::infinity(), 3.25f}});
-  ExpectBothFormsReadBack(InfraredRanges{1, std::numeric_limits<double>::infinity(), 2, 2, 0.45});
-  ExpectBothFormsReadBack(Contact{true, -0.7});
-  ExpectBothFormsReadBack(HitAndLeavePoints{{{1, 2}, {3, 4}}, {{5, 6}}});
-  ExpectBothFormsReadBack(Path2{{{1, 2}, {3, 4}}});
-  ExpectBothFormsReadBack(Image{2, 1, "rgb8", 6, {1, 2, 3, 255, 0, 4}});
-  ExpectBothFormsReadBack(
+  ExpectBothReadBack(InfraredRanges{1, std::numeric_limits<double>::infinity(), 2, 2, 0.45});
+  ExpectBothReadBack(Contact{true, -0.7});
+  ExpectBothReadBack(HitAndLeavePoints{{{1, 2}, {3, 4}}, {{5, 6}}});
+  ExpectBothReadBack(Path2{{{1, 2}, {3, 4}}});
+  ExpectBothReadBack(Image{2, 1, "rgb8", 6, {1, 2, 3, 255, 0, 4}});
+  ExpectBothReadBack(
       WorldMap{"a", {1, 2, 3}, {4, 5}, {{{{0, 0}, {1, 0}, {0, 1}}, 0.5, true}}, {{7, 7}}});
-  ExpectBothFormsReadBack(std::vector<Pose2>{{1, 2, 3}, {4, 5, 6}});
+  ExpectBothReadBack(std::vector<Pose2>{{1, 2, 3}, {4, 5, 6}});
 }
 
 TEST(ModuleTypes, ReadAsAPersonWouldWriteThem) {
@@ -53,10 +53,10 @@ TEST(ModuleTypes, ReadAsAPersonWouldWriteThem) {
 }
 
 // core/types/README.md promises these fields to viewers.
-TEST(ModuleTypes, HaveTheFieldsThatTheirMeaningsPromise) {
+TEST(ModuleTypes, HaveTheFieldsThatTheirTagsPromise) {
   const auto expect = [](const TypeInfo& type, const std::string& meaning,
                          std::initializer_list<const char*> fields) {
-    EXPECT_EQ(type.meaning(), meaning) << type.name();
+    EXPECT_EQ(type.semantic_tag(), meaning) << type.name();
     for (const char* field : fields) {
       EXPECT_NE(type.FindField(field), nullptr) << type.name() << "." << field;
     }

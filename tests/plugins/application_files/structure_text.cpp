@@ -15,7 +15,7 @@ namespace {
 std::string ThreadOf(const FrameworkElement& element, FrameworkElement& application) {
   std::string name;
   application.Visit([&](FrameworkElement& each) {
-    if (each.kind() == ElementKind::kThread && each.serial() == OwnThreadSerial(element)) {
+    if (each.kind() == ElementKind::kThread && each.id() == OwnThreadId(element)) {
       name = each.name();
     }
   });

@@ -163,12 +163,12 @@ class ControlTest : public ::testing::Test {
   /// What comes until the server closes the connection, or says `until`, or
   /// nothing for too long.
   static std::string ReadAll(int descriptor, const std::string& until = "\n\n never \n\n",
-                             int patience_milliseconds = 20'000) {
+                             int timeout_milliseconds = 20'000) {
     std::string text;
     char bytes[65'536];
     for (;;) {
       pollfd polled{descriptor, POLLIN, 0};
-      if (poll(&polled, 1, patience_milliseconds) <= 0) return text + " (nothing more came)";
+      if (poll(&polled, 1, timeout_milliseconds) <= 0) return text + " (nothing more came)";
       const ssize_t count = recv(descriptor, bytes, sizeof bytes, 0);
       if (count <= 0) return text;
       text.append(bytes, static_cast<std::size_t>(count));

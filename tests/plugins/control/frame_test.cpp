@@ -58,18 +58,18 @@ TEST(Frame, IsRefusedIfItIsNone) {
 
 TEST(Request, ComesBackAsItWasWritten) {
   const Request request{.command = "echo",
-                        .words = {"/a b/c", "x=y", ""},
+                        .arguments = {"/a b/c", "x=y", ""},
                         .options = {{"count", "3"}, {"file", "a \"b\".txt"}},
                         .body = "line\n\nline"};
   const auto read = Request::Parse(request.ToText());
   ASSERT_TRUE(read);
   EXPECT_EQ(read->command, request.command);
-  EXPECT_EQ(read->words, request.words);
+  EXPECT_EQ(read->arguments, request.arguments);
   EXPECT_EQ(read->options, request.options);
   EXPECT_EQ(read->body, request.body);
 }
 
-TEST(Request, IsRefusedIfItIsNotOneLineOfWords) {
+TEST(Request, IsRefusedIfItIsNotOneLineOfArguments) {
   for (const char* text : {"", "\nbody", "a;b", "count=3", "ls \"", "ls a=1 a=2"}) {
     EXPECT_FALSE(Request::Parse(text)) << text;
   }

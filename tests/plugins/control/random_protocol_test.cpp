@@ -19,7 +19,7 @@ std::size_t InputCount(std::size_t usual) {
 class Heard final : public Answer {
  public:
   void Write(std::string_view text) override { bytes += text.size(); }
-  void Complain(std::string_view text) override { errors += text; }
+  void WriteError(std::string_view text) override { errors += text; }
   std::size_t bytes = 0;
   std::string errors;
 };
@@ -28,7 +28,7 @@ std::string StructureOf(Runtime& runtime) {
   const std::lock_guard lock(runtime.structure_mutex());
   std::string text;
   runtime.root().Visit([&](FrameworkElement& each) {
-    text += each.path() + " " + FindModuleType(each) + " " + std::to_string(each.serial());
+    text += each.path() + " " + FindModuleType(each) + " " + std::to_string(each.id());
     if (const auto* value = dynamic_cast<const Configurable*>(&each)) text += value->ToText();
     if (const auto* port = dynamic_cast<const Port*>(&each)) {
       for (const Connection& edge : port->outgoing()) {
@@ -49,7 +49,7 @@ class RandomProtocol : public ControlTest {
                                    CommandService& commands, TaskGroup& tasks) {
     auto command = MakeCommand(request, commands, tasks);
     if (!command) {
-      answer.Complain(ErrorLine(command.error()));
+      answer.WriteError(ErrorLine(command.error()));
       return ControlCode::kBadInput;
     }
     const bool is_change = request.starts_with("change");

@@ -127,14 +127,14 @@ class RandomRequests {
     }
   }
   void Damage(std::string& text) {
-    static constexpr std::string_view kLetters(
+    static constexpr std::string_view kCharacters(
         " =\"\\;#[]{}\n\t/\x00\xff\xc3"
         "a0-",
         19);
     const std::size_t at = Below(text.size() + 1);
     switch (Below(5)) {
       case 0:
-        text.insert(at, 1, kLetters[Below(kLetters.size())]);
+        text.insert(at, 1, kCharacters[Below(kCharacters.size())]);
         break;
       case 1:
         if (at < text.size()) text.erase(at, 1 + Below(4));

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/types/eigen_types.h"
-#include "core/types/text_form.h"
+#include "core/types/text_format.h"
 #include "core/types/type_of.h"
 
 namespace runnel::test {
@@ -32,7 +32,7 @@ std::string Text(const T& value, const ValueTextOptions& options = {}) {
 
 }  // namespace
 
-TEST(ValueText, IsTheTextFormWhereNothingIsLong) {
+TEST(ValueText, IsTheTextFormatWhereNothingIsLong) {
   const Report report;
   EXPECT_EQ(Text(report), TextOf(report));
   EXPECT_EQ(Text(3.25), "3.25");

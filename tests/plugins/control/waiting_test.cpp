@@ -14,7 +14,7 @@ namespace {
 class Collected final : public Answer {
  public:
   void Write(std::string_view text) override { output += text; }
-  void Complain(std::string_view text) override { errors += text; }
+  void WriteError(std::string_view text) override { errors += text; }
   std::string output;
   std::string errors;
 };
@@ -39,11 +39,11 @@ TEST(WaitingCommand, IsDueWhenTheWorkerIsDoneAndNotBefore) {
     ASSERT_TRUE(command) << request;
     Collected collected;
     EXPECT_FALSE((*command)->Continue(collected)) << request;
-    EXPECT_EQ((*command)->due(), Command::MachineTime::max()) << request << " is polled";
+    EXPECT_EQ((*command)->due(), Command::SteadyTime::max()) << request << " is polled";
     may_go.release();
     done.acquire();  // of the one that has kept the worker busy
     done.acquire();
-    EXPECT_EQ((*command)->due(), Command::MachineTime::min()) << request << " is not sent at once";
+    EXPECT_EQ((*command)->due(), Command::SteadyTime::min()) << request << " is not sent at once";
     EXPECT_EQ((*command)->Continue(collected), ControlCode::kDone) << request << collected.errors;
     EXPECT_FALSE(collected.output.empty()) << request;
   }

@@ -105,7 +105,7 @@ TEST_F(FinrocApplication, BecomesModulesConnectionsAndValues) {
   EXPECT_EQ(*sink.value.Read(), 2.5);
   const auto& thread = shop_.Get<ThreadContainer>("/my_robot/threads/fast");
   EXPECT_EQ(thread.options().period, std::chrono::milliseconds(20));
-  EXPECT_EQ(AssignedThread(source), thread.serial());
+  EXPECT_EQ(AssignedThread(source), thread.id());
 }
 
 TEST_F(FinrocApplication, TellsOfEachThatHasNoCounterpart) {

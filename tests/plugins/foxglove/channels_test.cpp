@@ -92,7 +92,7 @@ TEST_F(FoxgloveTest, SendsTheNewestValueAndThenEachNewOne) {
   const auto first = TakeValues();
   ASSERT_EQ(first.size(), 1u);
   EXPECT_EQ(first[0].subscription, 7u);
-  EXPECT_EQ(first[0].stamp, 1'000'000'000u);
+  EXPECT_EQ(first[0].timestamp, 1'000'000'000u);
   EXPECT_EQ(first[0].json, (Json{{"x", 1}, {"y", 2}, {"heading", 3}}));
   Turn();
   EXPECT_EQ(TakeValues().size(), 0u) << "nothing new";
@@ -101,20 +101,20 @@ TEST_F(FoxgloveTest, SendsTheNewestValueAndThenEachNewOne) {
   Turn();
   const auto second = TakeValues();
   ASSERT_EQ(second.size(), 1u);
-  EXPECT_EQ(second[0].stamp, 1'250'000'000u);
+  EXPECT_EQ(second[0].timestamp, 1'250'000'000u);
   EXPECT_EQ(second[0].json["x"], 4);
 }
 
 TEST_F(FoxgloveTest, SendsNoMoreThanAViewerCanShow) {
   Begin();
   Say(Subscribe(7, IdOf("/robot/speed")));
-  conversation->OnTurn();
+  session->OnPoll();
   TakeValues();
   const auto begin = std::chrono::steady_clock::now();
   int sent = 0;
   for (int i = 0; i < 2000; ++i) {
     robot.speed.Publish(i);
-    conversation->OnTurn();
+    session->OnPoll();
     sent += static_cast<int>(TakeValues().size());
   }
   const double seconds = ToSeconds(std::chrono::steady_clock::now() - begin);
@@ -197,7 +197,7 @@ TEST_F(FoxgloveTest, LetsGoOfSubscriptionsWhoseModuleIsDeleted) {
   Turn();
   EXPECT_EQ(TakeValues().size(), 1u);
   ASSERT_TRUE(runtime.Delete(other));
-  conversation->OnTurn();
+  session->OnPoll();
   Turn();
   EXPECT_EQ(TakeValues().size(), 0u);
   Say(Subscribe(7, IdOf("/robot/pose")));

@@ -61,7 +61,7 @@ class HeldStructure {
   std::thread other_;
 };
 
-/// The other end of a conversation: keeps what is sent.
+/// The other end of a session: keeps what is sent.
 class FakeWebClient final : public WebClient {
  public:
   bool SendText(std::string text) override {
@@ -129,35 +129,35 @@ class FoxgloveTest : public testing::Test {
     runtime.set_clock(clock);
     clock.Set(Time(std::chrono::seconds(1)));
   }
-  ~FoxgloveTest() override { conversation = nullptr; }
+  ~FoxgloveTest() override { session = nullptr; }
 
   void Begin(bool is_read_only = false) {
     FoxgloveApplication shown{.service = service,
                               .name = "demo",
                               .version = "1.2",
                               .is_read_only = is_read_only,
-                              .machine_clock = &machine_clock};
+                              .steady_clock = &steady_clock};
     protocol = FoxgloveProtocol(std::move(shown));
-    conversation = protocol.start(client);
-    conversation->OnTurn();
+    session = protocol.start(client);
+    session->OnPoll();
   }
 
-  void Say(const Json& message) { conversation->OnText(message.dump()); }
-  void SayRaw(std::string_view text) { conversation->OnText(text); }
+  void Say(const Json& message) { session->OnText(message.dump()); }
+  void SayRaw(std::string_view text) { session->OnText(text); }
   /// Turns until `is_done` says so, or too long.
   bool Wait(const std::function<bool()>& is_done) {
     const auto latest = std::chrono::steady_clock::now() + kLongestWait;
     do {
-      machine_clock.Advance(std::chrono::milliseconds(2));
-      conversation->OnTurn();
+      steady_clock.Advance(std::chrono::milliseconds(2));
+      session->OnPoll();
       if (is_done()) return true;
       std::this_thread::yield();
     } while (std::chrono::steady_clock::now() < latest);
     return false;
   }
   void Turn() {
-    machine_clock.Advance(std::chrono::milliseconds(120));  // until it looks at everything
-    conversation->OnTurn();
+    steady_clock.Advance(std::chrono::milliseconds(120));  // until it looks at everything
+    session->OnPoll();
   }
 
   /// All that has been said so with this operation, and forgets it.
@@ -186,7 +186,7 @@ class FoxgloveTest : public testing::Test {
 
   struct Value {
     std::uint32_t subscription;
-    std::uint64_t stamp;
+    std::uint64_t timestamp;
     Json json;
   };
   /// The values that have come, and forgets them.
@@ -212,12 +212,12 @@ class FoxgloveTest : public testing::Test {
   void Publish(std::uint32_t channel, const std::string& json) {
     std::string bytes = "\x01";
     for (int i = 0; i < 4; ++i) bytes += static_cast<char>(channel >> (8 * i) & 0xff);
-    conversation->OnBinary(bytes + json);
+    session->OnBinary(bytes + json);
   }
 
   Runtime runtime;
   ManualClock clock;
-  ManualClock machine_clock;
+  ManualClock steady_clock;
   ModuleRegistry modules;
   Group& application = runtime.Create<Group>(runtime.root(), "application");
   Robot& robot = runtime.Create<Robot>(application, "robot");
@@ -226,7 +226,7 @@ class FoxgloveTest : public testing::Test {
   CommandService service{{runtime, modules, editor, log}};
   FakeWebClient client;
   WebProtocol protocol;
-  std::unique_ptr<WebConversation> conversation;
+  std::unique_ptr<WebSession> session;
   std::map<std::string, Json> channels;
 };
 

@@ -51,10 +51,10 @@ TEST_F(FoxgloveHostileTest, BinaryGarbageIsRefused) {
   for (const std::string& bytes :
        {std::string(), std::string("\x01"), std::string("\x01\x00\x00\x00", 4),
         std::string("\x02\x00\x00\x00\x00", 5), std::string(100, '\xff')}) {
-    conversation->OnBinary(bytes);
+    session->OnBinary(bytes);
     EXPECT_THAT(Complaint(), HasSubstr("no binary message of this kind"));
   }
-  conversation->OnBinary(std::string("\x01\xff\xff\xff\xff{}", 7));
+  session->OnBinary(std::string("\x01\xff\xff\xff\xff{}", 7));
   EXPECT_EQ(Complaint(), "channel 4294967295 is not advertised");
 }
 
@@ -89,7 +89,7 @@ TEST_F(FoxgloveHostileTest, ManyWrongNamesInOneMessageAreNotAllSearchedFor) {
   EXPECT_EQ(Complaint(), "setParameters: more than 1000 parameters at once");
 }
 
-// Whatever comes, the conversation goes on, and the application is as it was.
+// Whatever comes, the session goes on, and the application is as it was.
 TEST_F(FoxgloveHostileTest, GoesOnWhateverComes) {
   Begin(/*is_read_only=*/true);
   const std::vector<std::string> sensible = {
@@ -114,11 +114,11 @@ TEST_F(FoxgloveHostileTest, GoesOnWhateverComes) {
       if (text.empty()) text = " ";
     }
     if (random() % 8 == 0) {
-      conversation->OnBinary(text);
+      session->OnBinary(text);
     } else {
-      conversation->OnText(text);
+      session->OnText(text);
     }
-    if (i % 100 == 0) conversation->OnTurn();
+    if (i % 100 == 0) session->OnPoll();
     client.texts.clear();
     client.binaries.clear();
   }

@@ -124,7 +124,7 @@ TEST_F(FoxglovePublishingTest, LeavesNothingBehind) {
   EXPECT_EQ(SourcesOf(robot.goal), 0u);
   Say({{"op", "unadvertise"}, {"channelIds", {1}}});
   EXPECT_EQ(Complaint(), "unadvertise: channel 1 is not advertised");
-  conversation = nullptr;
+  session = nullptr;
   protocol = {};
   EXPECT_THAT(Brought(), IsEmpty());
   EXPECT_EQ(SourcesOf(robot.limit), 0u);

@@ -31,11 +31,11 @@ struct Tree {
 };
 void Describe(runnel::TypeBuilder<Handle>& type) { type.Name("Handle"); }
 void Describe(runnel::TypeBuilder<Robot3>& type) {
-  type.Name("Robot3").Meaning("pose").Field("heading", &Robot3::heading).Field("x", &Robot3::x);
+  type.Name("Robot3").SemanticTag("pose").Field("heading", &Robot3::heading).Field("x", &Robot3::x);
   type.Field("y", &Robot3::y).Field("z", &Robot3::z);
 }
 void Describe(runnel::TypeBuilder<Liar>& type) {
-  type.Name("Liar").Meaning("pose").Field("x", &Liar::x);
+  type.Name("Liar").SemanticTag("pose").Field("x", &Liar::x);
 }
 void Describe(runnel::TypeBuilder<Tree>& type) {
   type.Name("Tree").Field("branches", &Tree::branches);
@@ -124,7 +124,7 @@ TEST(FoxgloveDrawings, OfAPoseHavePlaceAndTurn) {
   EXPECT_NEAR(message["pose"]["orientation"]["w"], std::sqrt(0.5), 1e-12);
 }
 
-TEST(FoxgloveDrawings, GoByMeaningAndNotByType) {
+TEST(FoxgloveDrawings, GoBySemanticTagAndNotByType) {
   const Json message = Drawn(example::Robot3{.heading = 0, .x = 1, .y = 2, .z = 3});
   EXPECT_EQ(message["pose"]["position"], Xyz(1, 2, 3));
 }

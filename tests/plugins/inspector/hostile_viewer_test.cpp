@@ -37,7 +37,7 @@ TEST_F(HostileViewer, WhatIsNoMessageIsAnsweredAndDoesNothing) {
   ExpectThatAllIsWell();
 }
 
-TEST_F(HostileViewer, BytesEndTheConversation) {
+TEST_F(HostileViewer, BytesEndTheSession) {
   Start();
   Viewer viewer = View();
   viewer.raw().Send(RawClient::Frame(2, "bytes"));

@@ -92,7 +92,7 @@ class Lists final : public Module {
   }
 };
 
-/// A change in its text form, which is shorter to write, as the protocol has it.
+/// A change in its text format, which is shorter to write, as the protocol has it.
 inline Json ChangeMessage(const std::string& text) {
   Diagnostics diagnostics;
   const PlacedChanges placed = ParseChanges(text, {}, diagnostics);

@@ -69,7 +69,7 @@ TEST(ViewerMessage, IsNotReadIntoDepths) {
 
 TEST(ViewerMessage, SurvivesWhateverComes) {
   std::mt19937 random(5);
-  const std::string letters = R"({}[]",:0123456789.eE+-truefalsn \u"op""watch""path")";
+  const std::string characters = R"({}[]",:0123456789.eE+-truefalsn \u"op""watch""path")";
   const std::string good =
       R"({"op":"change","changes":[{"change":"set","path":"/a","value":"3"}],"rate":2})";
   const auto below = [&](std::size_t end) {
@@ -80,12 +80,12 @@ TEST(ViewerMessage, SurvivesWhateverComes) {
     std::string text = good;
     for (std::size_t changes = below(6); changes > 0; --changes) {
       text[below(text.size())] =
-          below(10) == 0 ? static_cast<char>(below(256)) : letters[below(letters.size())];
+          below(10) == 0 ? static_cast<char>(below(256)) : characters[below(characters.size())];
     }
     if (below(4) == 0) text.resize(below(text.size()));
     if (ParseViewerMessage(text)) ++read;
   }
-  EXPECT_GT(read, 1000);  // that it is not all refused at the first letter
+  EXPECT_GT(read, 1000);  // that it is not all refused at the first character
   EXPECT_LT(read, 49'000);
 }
 

@@ -22,7 +22,7 @@ struct Point {
   friend bool operator==(const Point&, const Point&) = default;
 };
 
-/// Has a text form of its own, as file paths do.
+/// Has a text format of its own, as file paths do.
 struct Label {
   std::string text;
   friend bool operator==(const Label&, const Label&) = default;
@@ -42,7 +42,7 @@ struct Everything {
   double large = 0;
   std::string text;
   runnel::Duration age{};
-  runnel::Time stamp{};
+  runnel::Time timestamp{};
   Side side = Side::kLeft;
   Label label;
   std::vector<Point> points;
@@ -88,7 +88,7 @@ inline void Describe(runnel::TypeBuilder<Everything>& type) {
       .Field("large", &Everything::large)
       .Field("text", &Everything::text)
       .Field("age", &Everything::age)
-      .Field("stamp", &Everything::stamp)
+      .Field("stamp", &Everything::timestamp)
       .Field("side", &Everything::side)
       .Field("label", &Everything::label)
       .Field("points", &Everything::points)

@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-#include "core/types/text_form.h"
+#include "core/types/text_format.h"
 #include "tests/plugins/json_values/example_types.h"
 
 namespace runnel::test {
@@ -75,7 +75,7 @@ class RandomValues {
     value.large = Number<double>();
     value.text = Text();
     value.age = Duration(Number<std::int64_t>());
-    value.stamp = Time(Duration(Number<std::int64_t>()));
+    value.timestamp = Time(Duration(Number<std::int64_t>()));
     value.side = Below(2) == 0 ? Side::kLeft : Side::kRight;
     value.label = {Text()};
     value.points.resize(Below(4));
@@ -109,7 +109,7 @@ TEST(JsonValues, ReadBackAsTheyWere) {
     const Everything value = values.Value(2);
     const std::string json = JsonOf(value);
     const auto read = Read<Everything>(json);
-    // The text form keeps every bit, but it has a sign for NaN, which JSON has not.
+    // The text format keeps every bit, but it has a sign for NaN, which JSON has not.
     ASSERT_EQ(WithoutSignsOfNan(TextOf(read)), WithoutSignsOfNan(TextOf(value))) << json;
     ASSERT_EQ(JsonOf(read), json);
     ASSERT_TRUE(nlohmann::json::accept(json.find("1e999") == std::string::npos ? json : "0"))
@@ -184,9 +184,9 @@ TEST(JsonValues, AreCutWhereAViewerWantsLess) {
   EXPECT_EQ(json, "before [1,2]");
   EXPECT_TRUE(AppendJson(TypeOf<std::vector<int>>(), &numbers, json, {.elements = 4}));
   const std::string text = "häßlich";
-  EXPECT_EQ(JsonOf(text, {.letters = 2}), R"("h…")");
-  EXPECT_EQ(JsonOf(text, {.letters = 3}), R"("hä…")");
-  EXPECT_EQ(JsonOf(text, {.letters = 9}), R"("häßlich")");
+  EXPECT_EQ(JsonOf(text, {.characters = 2}), R"("h…")");
+  EXPECT_EQ(JsonOf(text, {.characters = 3}), R"("hä…")");
+  EXPECT_EQ(JsonOf(text, {.characters = 9}), R"("häßlich")");
   EXPECT_EQ(JsonOf(Eigen::MatrixXd::Zero(3, 3).eval(), {.elements = 2}), "[[0,0],[0,0]]");
 }
 

@@ -75,13 +75,13 @@ TEST(JsonWriter, ThrowsWhereThereIsNoMemoryForABracket) {
   EXPECT_GT(points, 2U);
 }
 
-TEST(JsonWriter, CutsBetweenLetters) {
-  EXPECT_EQ(WholeLetters("abc", 2), 2U);
-  EXPECT_EQ(WholeLetters("abc", 3), 3U);
-  EXPECT_EQ(WholeLetters("a€", 2), 1U);
-  EXPECT_EQ(WholeLetters("a€", 3), 1U);
-  EXPECT_EQ(WholeLetters("a€", 4), 4U);
-  EXPECT_EQ(WholeLetters("\x80\x80\x80\x80\x80\x80", 4), 4U);
+TEST(JsonWriter, CutsBetweenCharacters) {
+  EXPECT_EQ(WholeCharacters("abc", 2), 2U);
+  EXPECT_EQ(WholeCharacters("abc", 3), 3U);
+  EXPECT_EQ(WholeCharacters("a€", 2), 1U);
+  EXPECT_EQ(WholeCharacters("a€", 3), 1U);
+  EXPECT_EQ(WholeCharacters("a€", 4), 4U);
+  EXPECT_EQ(WholeCharacters("\x80\x80\x80\x80\x80\x80", 4), 4U);
 }
 
 TEST(JsonWriter, WritesBytesAsBase64) {

@@ -14,29 +14,31 @@ std::string Repeated(int count) {
 TEST(Compression, GivesBackWhatItWasGiven) {
   for (const std::string& compression : Compressions()) {
     for (const int count : {0, 1, 10'000}) {
-      std::string packed, unpacked;
+      std::string compressed, uncompressed;
       const std::string bytes = Repeated(count);
-      ASSERT_TRUE(Compress(compression, bytes, packed)) << compression;
+      ASSERT_TRUE(Compress(compression, bytes, compressed)) << compression;
       if (count > 100 && !compression.empty()) {
-        EXPECT_LT(packed.size(), bytes.size() / 2);
+        EXPECT_LT(compressed.size(), bytes.size() / 2);
       }
-      ASSERT_TRUE(Decompress(compression, packed, bytes.size(), unpacked)) << compression;
-      EXPECT_EQ(unpacked, bytes) << compression;
+      ASSERT_TRUE(Decompress(compression, compressed, bytes.size(), uncompressed)) << compression;
+      EXPECT_EQ(uncompressed, bytes) << compression;
     }
   }
 }
 
 TEST(Compression, SaysWhatIsBroken) {
   for (const std::string& compression : Compressions()) {
-    std::string packed, unpacked;
+    std::string compressed, uncompressed;
     const std::string bytes = Repeated(100);
-    ASSERT_TRUE(Compress(compression, bytes, packed));
-    EXPECT_FALSE(Decompress(compression, packed, bytes.size() + 1, unpacked)) << compression;
-    EXPECT_FALSE(Decompress(compression, packed, bytes.size() - 1, unpacked)) << compression;
-    EXPECT_FALSE(
-        Decompress(compression, packed.substr(0, packed.size() / 2), bytes.size(), unpacked))
+    ASSERT_TRUE(Compress(compression, bytes, compressed));
+    EXPECT_FALSE(Decompress(compression, compressed, bytes.size() + 1, uncompressed))
         << compression;
-    EXPECT_FALSE(Decompress(compression, "", bytes.size(), unpacked)) << compression;
+    EXPECT_FALSE(Decompress(compression, compressed, bytes.size() - 1, uncompressed))
+        << compression;
+    EXPECT_FALSE(Decompress(compression, compressed.substr(0, compressed.size() / 2), bytes.size(),
+                            uncompressed))
+        << compression;
+    EXPECT_FALSE(Decompress(compression, "", bytes.size(), uncompressed)) << compression;
   }
 }
 

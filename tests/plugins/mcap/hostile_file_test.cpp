@@ -84,8 +84,8 @@ TEST_F(HostileFileTest, RefusesAChunkThatWouldNeedAllMemory) {
   const std::string file = WriteFile("whole", "", 10);
   const std::size_t chunk = Must(McapReader::Open(file))->contents().chunks.at(0).offset;
   std::string bytes = ReadBytes(file);
-  const std::size_t unpacked_size = chunk + kMcapRecordHead + 16;
-  bytes.replace(unpacked_size, 8, "\xff\xff\xff\xff\xff\xff\xff\x7f");
+  const std::size_t uncompressed_size = chunk + kMcapRecordHead + 16;
+  bytes.replace(uncompressed_size, 8, "\xff\xff\xff\xff\xff\xff\xff\x7f");
   WriteBytes(Path("large"), bytes);
   const auto reader = Must(McapReader::Open(Path("large")));
   ASSERT_TRUE(reader->contents().damage);

@@ -93,10 +93,10 @@ TEST_F(McapReaderTest, SaysAtWhichByteWhatWasExpected) {
                                     "[0-9]+ bytes after its head"));
   // A letter of a message.
   broken = bytes;
-  const std::size_t letter = broken.find("{\"x\":11}");
-  broken[letter + 1] = 'y';
-  WriteBytes(Path("letter"), broken);
-  auto reader = Must(McapReader::Open(Path("letter")));
+  const std::size_t character = broken.find("{\"x\":11}");
+  broken[character + 1] = 'y';
+  WriteBytes(Path("character"), broken);
+  auto reader = Must(McapReader::Open(Path("character")));
   const auto read = reader->ReadMessages([](const McapMessage&) -> Result<void> { return {}; });
   ASSERT_FALSE(read);
   EXPECT_THAT(read.error().message, HasSubstr("the content of this chunk has the checksum"));

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/types/binary_form.h"
+#include "core/types/binary_encoding.h"
 
 namespace runnel {
 namespace {
@@ -15,7 +15,7 @@ TEST(FilePath, ReadsAndWritesItsName) {
   EXPECT_FALSE(FromText<FilePath>(std::string_view("a\0b", 3)));
 }
 
-TEST(FilePath, SurvivesTheBinaryForm) {
+TEST(FilePath, SurvivesTheBinaryEncoding) {
   const FilePath file{"maps/a.txt"};
   std::vector<std::byte> bytes;
   ASSERT_TRUE(ToBinary(TypeOf<FilePath>(), &file, bytes));

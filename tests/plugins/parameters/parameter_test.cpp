@@ -81,7 +81,7 @@ TEST_F(ParameterTest, HasItsDefaultAtFirst) {
   EXPECT_TRUE(guard_.weights.Get().empty());
 }
 
-TEST_F(ParameterTest, ReadsTheTextFormsOfAllKindsOfTypes) {
+TEST_F(ParameterTest, ReadsTheTextFormatOfAllKindsOfTypes) {
   EXPECT_TRUE(guard_.stop_distance.SetFromText("1.5"));
   EXPECT_EQ(guard_.stop_distance.Get(), 1.5);
   EXPECT_EQ(guard_.stop_distance.ToText(), "1.5");

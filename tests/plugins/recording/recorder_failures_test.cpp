@@ -8,7 +8,7 @@ namespace {
 using std::chrono::milliseconds;
 using testing::HasSubstr;
 
-/// Its text form throws an int from the third value on.
+/// Its text format throws an int from the third value on.
 struct Moody {
   int number = 0;
 };
@@ -35,7 +35,7 @@ class MoodySource final : public Module {
 
 using RecorderFailures = RecordingTest;
 
-TEST_F(RecorderFailures, ATypeWhoseTextFormThrowsEndsTheRecordingAndNotTheProcess) {
+TEST_F(RecorderFailures, ATypeWhoseTextFormatThrowsEndsTheRecordingAndNotTheProcess) {
   Runtime runtime;
   Scheduler scheduler(runtime, {.clock = SchedulerOptions::ClockKind::kSimulated});
   CreateThread(runtime, "main", {.period = milliseconds(10)});

@@ -62,7 +62,7 @@ TEST_F(RecorderTest, WhatTheApplicationComputesDoesNotDependOnIt) {
   (void)Record("a.mcap", recorded, seconds(2));
   const auto last = [](Application& application) {
     double sum = 0;
-    application.sink->sum.LookAtValue(
+    application.sink->sum.VisitLatest(
         [&](const void* value, Time) { sum = *static_cast<const double*>(value); });
     return sum;
   };
@@ -122,8 +122,8 @@ TEST_F(RecorderTest, CountsWhatComesTooFastOnARealClock) {
   Runtime runtime;
   auto& source = runtime.Create<Source>(runtime.root(), "source");
   Must(runtime.MakeReady(runtime.root()));
-  auto recorder = Must(
-      Recorder::Start(runtime, nullptr, {.file = Path("a.mcap"), .ports = {"number"}, .room = 4}));
+  auto recorder = Must(Recorder::Start(
+      runtime, nullptr, {.file = Path("a.mcap"), .ports = {"number"}, .capacity = 4}));
   constexpr int kValues = 50'000;
   for (int i = 0; i < kValues; ++i) source.number.Publish(i);
   Must(recorder->Finish());

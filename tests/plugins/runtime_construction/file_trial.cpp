@@ -117,7 +117,7 @@ struct FileTrial::World : Workshop {
                               SchedulerOptionsOf(*neighbour).clock != SchedulerOptions{}.clock;
     if (is_annotated) text += "annotated\n";
     root.Visit([&](FrameworkElement& each) {
-      text += std::to_string(each.serial()) + " " + std::to_string(int(each.life_cycle())) + "\n";
+      text += std::to_string(each.id()) + " " + std::to_string(int(each.life_cycle())) + "\n";
     });
     text += std::to_string(plugins.modules().All().size()) + " module types\n";
     for (const char* tag : {"application", "group", "module", "on_stale"}) {

@@ -26,11 +26,11 @@ using Edge = std::pair<std::size_t, std::size_t>;
 /// Tasks by number, and what connects them; can be brought into a RunningOrder, whole or bit by bit.
 struct Graph {
   std::vector<Phase> phases;
-  std::vector<std::uint64_t> serials;
+  std::vector<std::uint64_t> ids;
   std::set<Edge> edges;
 
   [[nodiscard]] auto Key(std::size_t task) const {
-    return std::tuple(phases[task], serials[task], task);
+    return std::tuple(phases[task], ids[task], task);
   }
   [[nodiscard]] bool IsFeedback(const Edge& edge) const {
     return phases[edge.first] == Phase::kControl && phases[edge.second] == Phase::kSense;
@@ -64,14 +64,14 @@ struct Sorted {
 
 inline void Fill(OrderedTask& task, const Graph& graph, std::size_t number) {
   task.phase = graph.phases[number];
-  task.serial = graph.serials[number];
+  task.id = graph.ids[number];
   task.number = number;
 }
 
 inline void ConnectPhases(std::deque<OrderedTask>& tasks, RunningOrder& order) {
   for (OrderedTask& a : tasks) {
     for (OrderedTask& b : tasks) {
-      if (a.serial == b.serial && a.key() < b.key()) order.KeepPhases(a, b);
+      if (a.id == b.id && a.key() < b.key()) order.KeepPhases(a, b);
     }
   }
 }
@@ -93,14 +93,14 @@ inline Sorted Anew(const Graph& graph) {
 
 inline Graph RandomGraph(std::mt19937& random, std::size_t tasks, std::size_t edges) {
   Graph graph;
-  std::uint64_t serial = 0;
+  std::uint64_t id = 0;
   for (std::size_t i = 0; i < tasks; ++i) {
     // Now and then an element with a sense and a control task.
     const bool is_second = i > 0 && graph.phases[i - 1] == Phase::kSense;
-    if (!is_second) ++serial;
+    if (!is_second) ++id;
     const bool is_first = !is_second && random() % 4 == 0 && i + 1 < tasks;
     graph.phases.push_back(is_second ? Phase::kControl : is_first ? Phase::kSense : Phase::kUpdate);
-    graph.serials.push_back(serial);
+    graph.ids.push_back(id);
   }
   for (std::size_t i = 0; i < edges; ++i) graph.edges.emplace(random() % tasks, random() % tasks);
   return graph;
@@ -130,7 +130,7 @@ struct Living {
   void Replace(std::size_t task) {
     std::vector<std::size_t> own;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
-      if (graph.serials[i] == graph.serials[task]) own.push_back(i);
+      if (graph.ids[i] == graph.ids[task]) own.push_back(i);
     }
     for (const std::size_t each : own) {
       order.Remove(tasks[each]);
@@ -176,7 +176,7 @@ struct Living {
 inline Graph Chain(std::size_t length) {
   Graph graph;
   graph.phases.assign(length, Phase::kUpdate);
-  for (std::size_t i = 0; i < length; ++i) graph.serials.push_back(i + 1);
+  for (std::size_t i = 0; i < length; ++i) graph.ids.push_back(i + 1);
   for (std::size_t i = 1; i < length; ++i) graph.edges.emplace(i - 1, i);
   return graph;
 }

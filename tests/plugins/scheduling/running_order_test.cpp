@@ -33,8 +33,7 @@ class ByTheRules {
     }
     for (std::size_t a = 0; a < before_.size(); ++a) {
       for (std::size_t b = 0; b < before_.size(); ++b) {
-        if (graph.serials[a] == graph.serials[b] && graph.Key(a) < graph.Key(b))
-          before_[b].insert(a);
+        if (graph.ids[a] == graph.ids[b] && graph.Key(a) < graph.Key(b)) before_[b].insert(a);
       }
     }
     for (std::size_t i = 0; i < before_.size(); ++i) left_.push_back(i);
@@ -58,9 +57,8 @@ class ByTheRules {
 
  private:
   [[nodiscard]] bool IsThePlaceToCut(std::size_t task) const {
-    const bool waits_for_its_element = std::ranges::any_of(before_[task], [&](std::size_t each) {
-      return graph_.serials[each] == graph_.serials[task];
-    });
+    const bool waits_for_its_element = std::ranges::any_of(
+        before_[task], [&](std::size_t each) { return graph_.ids[each] == graph_.ids[task]; });
     return !waits_for_its_element && std::ranges::all_of(Upstream(task), [&](std::size_t each) {
       return Upstream(each).contains(task);
     });
@@ -142,7 +140,7 @@ TEST(RunningOrderTest, ChangesNothingWhereAConnectionAgreesWithIt) {
 TEST(RunningOrderTest, PutsANewSensorInFrontOfAll) {
   Graph graph = Chain(500);
   graph.phases.push_back(Phase::kUpdate);
-  graph.serials.push_back(501);
+  graph.ids.push_back(501);
   Living living(graph);
   living.Toggle({500, 0});
   living.order.Sort();

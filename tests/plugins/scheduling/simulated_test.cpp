@@ -44,7 +44,7 @@ TEST_F(Simulated, RunsConnectedModulesInTheOrderOfTheData) {
   ASSERT_TRUE(scheduler.Step());
   EXPECT_THAT(diary, ElementsAre("first", "last"));
   double result = 0;
-  ASSERT_TRUE(last.out.LookAtValue(
+  ASSERT_TRUE(last.out.VisitLatest(
       [&](const void* value, Time) { result = *static_cast<const double*>(value); }));
   EXPECT_EQ(result, 2);  // the value went through both in one cycle
 }

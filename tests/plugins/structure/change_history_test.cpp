@@ -156,7 +156,7 @@ TEST_F(ChangeHistoryTest, SaysWhatNoChangeCanMakeAgain) {
 }
 
 TEST_F(ChangeHistoryTest, KeepsWhatCouldNotBeUndoneJustNow) {
-  EditorOptions hasty{.patience = 1ms};
+  EditorOptions hasty{.timeout = 1ms};
   StructureEditor impatient(runtime, modules, &scheduler, hasty);
   ChangeHistory kept(impatient);
   MustBe(kept.Apply({CreateModule{"/app/a", "test/counter"}}));

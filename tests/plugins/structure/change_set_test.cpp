@@ -70,7 +70,7 @@ TEST_F(ChangeSetTest, ConnectionsAreCheckedAgainstWhatWillBe) {
   EXPECT_THAT(Refusal({CreatePort{"/app/a", Port::Direction::kInput, "int32"},
                        CreatePort{"/app/b", Port::Direction::kInput, "int32"},
                        ConnectPorts{"/app/a", "/app/b"}, ConnectPorts{"/app/b", "/app/a"}}),
-              HasSubstr("circle"));
+              HasSubstr("cycle"));
   EXPECT_THAT(Refusal({CreatePort{"/app/a", Port::Direction::kInput, "int32"},
                        ConnectPorts{"/app/a", "/app/a"}}),
               HasSubstr("itself"));

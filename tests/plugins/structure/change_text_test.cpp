@@ -172,9 +172,10 @@ class RandomText {
     return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_);
   }
   std::string Letters() {
-    static const std::string kLetters = "ab/=\"\\ ;#[]{}\n\t\r\x01\x7f\xc3\xb6.,:0";
+    static const std::string kCharacters = "ab/=\"\\ ;#[]{}\n\t\r\x01\x7f\xc3\xb6.,:0";
     std::string text;
-    for (std::size_t left = Below(8); left > 0; --left) text += kLetters[Below(kLetters.size())];
+    for (std::size_t left = Below(8); left > 0; --left)
+      text += kCharacters[Below(kCharacters.size())];
     return text;
   }
   std::string Changes() {
@@ -190,9 +191,9 @@ class RandomText {
     return text;
   }
   std::string Name() {
-    static const std::string kLetters = "abcxyz_0";
+    static const std::string kCharacters = "abcxyz_0";
     std::string text(1 + Below(5), 'a');
-    for (char& letter : text) letter = kLetters[Below(kLetters.size())];
+    for (char& character : text) character = kCharacters[Below(kCharacters.size())];
     return text;
   }
   std::vector<Setting> Settings() {

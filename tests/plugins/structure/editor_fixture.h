@@ -180,7 +180,7 @@ class EditorTest : public ::testing::Test {
     const std::lock_guard lock(runtime.structure_mutex());
     std::string text;
     runtime.root().Visit([&](FrameworkElement& each) {
-      text += each.path() + " " + FindModuleType(each) + " #" + std::to_string(each.serial());
+      text += each.path() + " " + FindModuleType(each) + " #" + std::to_string(each.id());
       if (const auto* value = dynamic_cast<const Configurable*>(&each)) text += value->ToText();
       text += "\n";
       const auto* const port = dynamic_cast<const Port*>(&each);

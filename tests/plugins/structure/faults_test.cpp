@@ -10,7 +10,7 @@
 namespace runnel::test {
 namespace {
 
-/// The value of a parameter whose text form may fail.
+/// The value of a parameter whose text format may fail.
 struct FragileValue {
   int value = 0;
 };
@@ -112,8 +112,8 @@ class World {
     const std::lock_guard lock(runtime.structure_mutex());
     std::string text;
     runtime.root().Visit([&](FrameworkElement& each) {
-      text += each.path() + " " + FindModuleType(each) + " #" + std::to_string(each.serial()) +
-              " " + std::to_string(static_cast<int>(each.life_cycle()));
+      text += each.path() + " " + FindModuleType(each) + " #" + std::to_string(each.id()) + " " +
+              std::to_string(static_cast<int>(each.life_cycle()));
       if (const auto* value = dynamic_cast<const Configurable*>(&each))
         text += " = " + value->ToText();
       if (const auto* thread = OwnThread(each)) text += " by " + thread->path();

@@ -39,15 +39,14 @@ class ReloadWorld {
     const std::lock_guard lock(runtime.structure_mutex());
     auto& port = dynamic_cast<Port&>(**runtime.root().Find(module + "/output/out"));
     // The first member, in all versions.
-    port.LookAtValue([&](const void* at, Time) { value = *static_cast<const int*>(at); });
+    port.VisitLatest([&](const void* at, Time) { value = *static_cast<const int*>(at); });
     return value;
   }
   std::string Dump() {
     const std::lock_guard lock(runtime.structure_mutex());
     std::string text;
     runtime.root().Visit([&](FrameworkElement& each) {
-      text +=
-          each.path() + " #" + std::to_string(each.serial()) + " " + FindModuleType(each) + "\n";
+      text += each.path() + " #" + std::to_string(each.id()) + " " + FindModuleType(each) + "\n";
     });
     for (const ModuleType* type : plugins.modules().All())
       text += type->name + " of " + type->plugin + "\n";

@@ -48,7 +48,7 @@ class ReloadTest : public ::testing::Test {
     const std::lock_guard lock(runtime.structure_mutex());
     auto& port = dynamic_cast<Port&>(**runtime.root().Find(module + "/output/" + output));
     // The first member, in all versions.
-    port.LookAtValue([&](const void* at, Time) { value = *static_cast<const int*>(at); });
+    port.VisitLatest([&](const void* at, Time) { value = *static_cast<const int*>(at); });
     return value;
   }
 

@@ -133,7 +133,7 @@ TEST_F(RunningTest, AModuleThatDoesNotReturnIsNamedAndNothingChanges) {
     }
   };
   Register<Stuck>("test/stuck");
-  StructureEditor impatient(runtime, modules, &scheduler, {.patience = 20ms});
+  StructureEditor impatient(runtime, modules, &scheduler, {.timeout = 20ms});
   Must({CreateModule{"/app/stuck", "test/stuck"}, CreateModule{"/app/counter", "test/counter"},
         AssignToThread{"/app/stuck", "slow"}});
   ASSERT_TRUE(scheduler.Start());

@@ -99,7 +99,7 @@ struct BadFrame {
   int code;
 };
 
-TEST_F(HostileWebClient, FramesThatAreNoneEndTheConversation) {
+TEST_F(HostileWebClient, FramesThatAreNoneEndTheSession) {
   Start();
   const std::string unmasked("\x81\x02hi", 4);
   const std::vector<BadFrame> frames{
@@ -159,7 +159,7 @@ TEST_F(HostileWebClient, AFloodOfMessagesIsReadAtTheRateThatIsAllowed) {
   EXPECT_GE(took, 1900ms);
 }
 
-TEST_F(HostileWebClient, AFloodOfPingsEndsTheConversation) {
+TEST_F(HostileWebClient, AFloodOfPingsEndsTheSession) {
   Start({.limits = {.messages_per_second = 10}});
   RawClient client = Talker();
   std::string flood;

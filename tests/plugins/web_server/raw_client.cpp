@@ -14,11 +14,11 @@ namespace runnel::test {
 
 namespace {
 
-constexpr int kPatience = 20'000;  // ms
+constexpr int kTimeout = 20'000;  // ms
 
 bool Await(int descriptor, short events) {
   pollfd polled{descriptor, events, 0};
-  return poll(&polled, 1, kPatience) > 0;
+  return poll(&polled, 1, kTimeout) > 0;
 }
 
 }  // namespace

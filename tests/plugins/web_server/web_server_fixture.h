@@ -24,7 +24,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-/// What conversations of a test have met; of any thread.
+/// What sessions of a test have met; of any thread.
 struct Met {
   std::atomic<int> begun{0};
   std::atomic<int> ended{0};
@@ -45,7 +45,7 @@ struct Met {
 };
 
 /// Says what it is told. Some words have a meaning: "throw", "close", "much", "soon".
-class Echo final : public WebConversation {
+class Echo final : public WebSession {
  public:
   Echo(WebClient& client, Met& met) : client_(client), met_(met) { ++met_.begun; }
   ~Echo() override { ++met_.ended; }
@@ -54,7 +54,7 @@ class Echo final : public WebConversation {
     ++met_.messages;
     if (message == "throw a number") throw 1;
     if (message == "keep the waker") met_.Keep(client_.Waker());
-    if (message == "throw") throw std::runtime_error("the conversation has thrown");
+    if (message == "throw") throw std::runtime_error("the session has thrown");
     if (message == "close") return client_.Close("as you wish");
     if (message == "much") {
       for (int i = 0; i < 100; ++i) {
@@ -69,7 +69,7 @@ class Echo final : public WebConversation {
     client_.SendText(std::string(message));
   }
   void OnBinary(std::string_view message) override { client_.SendBinary(std::string(message)); }
-  MachineTime OnTurn() override {
+  SteadyTime OnPoll() override {
     ++met_.turns;
     const auto now = std::chrono::steady_clock::now();
     return is_soon_ ? now : now + 1h;
@@ -94,7 +94,7 @@ class WebServerTest : public ::testing::Test {
     server = std::move(*started);
   }
   [[nodiscard]] RawClient Client() const { return RawClient(server->port()); }
-  /// A client whose conversation has begun.
+  /// A client whose session has begun.
   [[nodiscard]] RawClient Talker() const {
     RawClient client = Client();
     EXPECT_THAT(client.Upgrade("echo.v1"), HasSubstr("101 "));
@@ -118,7 +118,7 @@ class WebServerTest : public ::testing::Test {
     return condition();
   }
 
-  Met met;  // conversations use it to their end
+  Met met;  // sessions use it to their end
   std::unique_ptr<WebServer> server;
 };
 

@@ -1,11 +1,11 @@
-#include "core/lockfree/patience.h"
+#include "core/lockfree/backoff.h"
 
 #include <chrono>
 #include <thread>
 
 namespace runnel {
 
-void WaitOneRound(int round) {
+void BackOff(int round) {
   if (round < 64) {
     std::this_thread::yield();
   } else {

@@ -4,6 +4,6 @@ namespace runnel {
 
 /// One round of waiting for another thread, outside of cycles: yields in the first rounds, in which
 /// most waits end, then sleeps for 50 us each.
-void WaitOneRound(int round);
+void BackOff(int round);
 
 }  // namespace runnel

@@ -1,4 +1,4 @@
-#include "core/port/tap.h"
+#include "core/port/probe_port.h"
 
 #include <algorithm>
 #include <mutex>
@@ -6,21 +6,23 @@
 #include "core/element/runtime.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/port/channel_base.h"
-#include "core/port/tap_queue.h"
+#include "core/port/probe_queue.h"
 
 namespace runnel {
 
-Tap::Tap(FrameworkElement& group, std::string name, const TypeInfo& type, std::size_t room)
-    : InputBase({group, std::move(name)}, type, {}), queue_(std::make_unique<TapQueue>(room)) {}
+ProbePort::ProbePort(FrameworkElement& group, std::string name, const TypeInfo& type,
+                     std::size_t capacity)
+    : InputBase({group, std::move(name)}, type, {}),
+      queue_(std::make_unique<ProbeQueue>(capacity)) {}
 
-Tap::~Tap() {
+ProbePort::~ProbePort() {
   SetWaker(nullptr);
   DisconnectAll();
   // Publishers that found the queue before it was disconnected may still be filling it.
   Retire([queue = queue_.release()] { delete queue; });
 }
 
-bool Tap::Take(const Look& look) {
+bool ProbePort::Take(const Visitor& visit) {
   bool is_taken = false;
   while (!is_taken) {
     const bool found = queue_->TryTake(
@@ -29,31 +31,31 @@ bool Tap::Take(const Look& look) {
           if (publication.sequence <= last) return;
           last = publication.sequence;
           is_taken = true;
-          look(value, Time(Duration(publication.stamp)));
+          visit(value, Time(Duration(publication.timestamp)));
         });
     if (!found) return false;
   }
   return true;
 }
 
-std::size_t Tap::waiting() const noexcept { return queue_->size(); }
-std::size_t Tap::room() const noexcept { return queue_->room(); }
-std::uint64_t Tap::dropped() const noexcept { return queue_->dropped(); }
-bool Tap::HasNew() const { return queue_->HasNext(); }
+std::size_t ProbePort::waiting() const noexcept { return queue_->size(); }
+std::size_t ProbePort::capacity() const noexcept { return queue_->capacity(); }
+std::uint64_t ProbePort::dropped() const noexcept { return queue_->dropped(); }
+bool ProbePort::HasNew() const { return queue_->HasNext(); }
 
-std::uint64_t Tap::publications() const noexcept {
+std::uint64_t ProbePort::publications() const noexcept {
   const std::lock_guard lock(runtime().structure_mutex());
   std::uint64_t all = 0;
   for (const Port* source : Sources()) all += source->publications();
   return all;
 }
 
-bool Tap::LookAtValue(const Look& look) const {
+bool ProbePort::VisitLatest(const Visitor& visit) const {
   const std::lock_guard lock(runtime().structure_mutex());
-  return std::ranges::any_of(Sources(), [&](Port* source) { return source->LookAtValue(look); });
+  return std::ranges::any_of(Sources(), [&](Port* source) { return source->VisitLatest(visit); });
 }
 
-QueueSink* Tap::Bind(const std::vector<Source>& sources) {
+QueueSink* ProbePort::Bind(const std::vector<Source>& sources) {
   std::vector<std::uint64_t> bound;
   fresh_.clear();
   for (const Source& source : sources) {
@@ -66,14 +68,14 @@ QueueSink* Tap::Bind(const std::vector<Source>& sources) {
 }
 
 // Publishers know of the queue by now, so none of their values is lost between this one and those.
-void Tap::Bound() {
+void ProbePort::Bound() {
   const EpochGuard guard;
   for (ChannelBase* channel : fresh_) channel->DeliverNewest(*queue_);
   fresh_.clear();
 }
 
-void Tap::TakeOverBinding(InputBase& from) noexcept {
-  auto& other = static_cast<Tap&>(from);
+void ProbePort::TakeOverBinding(InputBase& from) noexcept {
+  auto& other = static_cast<ProbePort&>(from);
   queue_.swap(other.queue_);
   bound_.swap(other.bound_);
   taken_.swap(other.taken_);

@@ -18,7 +18,7 @@ inline KernelFutex::Deadline Late() {
 /// Three threads put things somewhere and notify `event`, all at once; one waits until it has seen all.
 /// `wait(put, seen)` waits for more than `seen` and says whether it came.
 template <typename Event, typename Wait>
-void TellByMany(Event& event, const Wait& wait) {
+void NotifyByMany(Event& event, const Wait& wait) {
   constexpr int kEach = 3000;
   std::atomic<int> put{0};
   RunTogether(4, [&](unsigned index) {

@@ -1,4 +1,4 @@
-#include "plugins/web_server/internal/hub.h"
+#include "plugins/web_server/internal/connection_registry.h"
 
 #include <algorithm>
 #include <utility>
@@ -16,26 +16,27 @@ std::unordered_map<std::string_view, WebResource> ByPath(
 
 }  // namespace
 
-WebHub::WebHub(WebServerOptions options, AccessRules rules,
-               const std::vector<WebResource>& resources, std::vector<WebProtocol> protocols)
+ConnectionRegistry::ConnectionRegistry(WebServerOptions options, AccessRules rules,
+                                       const std::vector<WebResource>& resources,
+                                       std::vector<WebProtocol> protocols)
     : options_(std::move(options)),
       rules_(std::move(rules)),
       resources_(ByPath(resources)),
       protocols_(std::move(protocols)) {}
 
-const WebResource* WebHub::FindResource(std::string_view path) const {
+const WebResource* ConnectionRegistry::FindResource(std::string_view path) const {
   const auto found = resources_.find(path);
   return found == resources_.end() ? nullptr : &found->second;
 }
 
-const WebProtocol* WebHub::FindProtocol(std::string_view name) const {
+const WebProtocol* ConnectionRegistry::FindProtocol(std::string_view name) const {
   const auto found = std::ranges::find_if(protocols_, [&](const WebProtocol& each) {
     return std::ranges::find(each.names, name) != each.names.end();
   });
   return found == protocols_.end() ? nullptr : &*found;
 }
 
-std::string WebHub::ProtocolNames() const {
+std::string ConnectionRegistry::ProtocolNames() const {
   std::string names;
   for (const WebProtocol& protocol : protocols_) {
     for (const std::string& name : protocol.names) names += (names.empty() ? "" : ", ") + name;
@@ -43,20 +44,20 @@ std::string WebHub::ProtocolNames() const {
   return names;
 }
 
-void WebHub::Add(std::shared_ptr<WebConnection> connection) {
-  if (connection->is_conversation()) ++conversations_;
+void ConnectionRegistry::Add(std::shared_ptr<WebConnection> connection) {
+  if (connection->is_session()) ++sessions_;
   connections_.insert(std::move(connection));
 }
 
-void WebHub::Remove(const std::shared_ptr<WebConnection>& connection) noexcept {
-  if (connections_.erase(connection) > 0 && connection->is_conversation()) --conversations_;
+void ConnectionRegistry::Remove(const std::shared_ptr<WebConnection>& connection) noexcept {
+  if (connections_.erase(connection) > 0 && connection->is_session()) --sessions_;
 }
 
-void WebHub::MakeRoom() {
-  if (connections_.size() - conversations_.load() < limits().visitors) return;
+void ConnectionRegistry::EvictOldest() {
+  if (connections_.size() - sessions_.load() < limits().visitors) return;
   std::shared_ptr<WebConnection> oldest;
   for (const auto& each : connections_) {
-    if (each->is_conversation()) continue;
+    if (each->is_session()) continue;
     if (oldest == nullptr || each->since() < oldest->since()) oldest = each;
   }
   if (oldest == nullptr) return;
@@ -64,15 +65,15 @@ void WebHub::MakeRoom() {
   Remove(oldest);
 }
 
-void WebHub::ForEach(const std::function<void(WebConnection&)>& use) {
+void ConnectionRegistry::ForEach(const std::function<void(WebConnection&)>& use) {
   const std::vector<std::shared_ptr<WebConnection>> now(connections_.begin(), connections_.end());
   for (const auto& each : now) use(*each);
 }
 
-void WebHub::Clear() noexcept {
+void ConnectionRegistry::Clear() noexcept {
   for (const auto& each : connections_) each->Detach();
   connections_.clear();
-  conversations_.store(0);
+  sessions_.store(0);
 }
 
 }  // namespace runnel::internal

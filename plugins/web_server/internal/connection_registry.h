@@ -12,20 +12,20 @@
 #include <boost/asio/io_context.hpp>
 
 #include "plugins/web_server/access_rules.h"
-#include "plugins/web_server/web_conversation.h"
 #include "plugins/web_server/web_resource.h"
 #include "plugins/web_server/web_server_options.h"
+#include "plugins/web_server/web_session.h"
 
 namespace runnel::internal {
 
 /// The server's end of one connection.
 class WebConnection {
  public:
-  using MachineTime = std::chrono::steady_clock::time_point;
+  using SteadyTime = std::chrono::steady_clock::time_point;
 
   virtual ~WebConnection() = default;
-  /// For conversations; others have nothing to do.
-  virtual void TakeTurn() {}
+  /// For sessions; others have nothing to do.
+  virtual void Poll() {}
   /// Ends it in order, if its protocol has an order to end in.
   virtual void End(std::string_view reason) = 0;
   /// Ends it at once.
@@ -33,22 +33,22 @@ class WebConnection {
   /// No other thread reaches it any more: the server ends.
   virtual void Detach() noexcept {}
 
-  [[nodiscard]] bool is_conversation() const noexcept { return is_conversation_; }
-  [[nodiscard]] MachineTime since() const noexcept { return since_; }
+  [[nodiscard]] bool is_session() const noexcept { return is_session_; }
+  [[nodiscard]] SteadyTime since() const noexcept { return since_; }
 
  protected:
-  explicit WebConnection(bool is_conversation) : is_conversation_(is_conversation) {}
+  explicit WebConnection(bool is_session) : is_session_(is_session) {}
 
  private:
-  const bool is_conversation_;
-  const MachineTime since_ = std::chrono::steady_clock::now();
+  const bool is_session_;
+  const SteadyTime since_ = std::chrono::steady_clock::now();
 };
 
-/// What the connections of one server share. Threads: the server's; `conversations` any.
-class WebHub {
+/// What the connections of one server share. Threads: the server's; `sessions` any.
+class ConnectionRegistry {
  public:
-  WebHub(WebServerOptions options, AccessRules rules, const std::vector<WebResource>& resources,
-         std::vector<WebProtocol> protocols);
+  ConnectionRegistry(WebServerOptions options, AccessRules rules,
+                     const std::vector<WebResource>& resources, std::vector<WebProtocol> protocols);
 
   [[nodiscard]] boost::asio::io_context& context() noexcept { return context_; }
   [[nodiscard]] const WebLimits& limits() const noexcept { return options_.limits; }
@@ -62,14 +62,14 @@ class WebHub {
   void Add(std::shared_ptr<WebConnection> connection);
   void Remove(const std::shared_ptr<WebConnection>& connection) noexcept;
   /// The plain connection that has been there for the longest time goes, if there are too many.
-  void MakeRoom();
-  [[nodiscard]] bool IsFull() const noexcept { return conversations_.load() >= limits().clients; }
-  [[nodiscard]] std::size_t conversations() const noexcept { return conversations_.load(); }
+  void EvictOldest();
+  [[nodiscard]] bool IsFull() const noexcept { return sessions_.load() >= limits().clients; }
+  [[nodiscard]] std::size_t sessions() const noexcept { return sessions_.load(); }
   [[nodiscard]] std::size_t connections() const noexcept { return connections_.size(); }
 
   /// Also for those that come and go meanwhile.
   void ForEach(const std::function<void(WebConnection&)>& use);
-  /// No connection is left; the conversations are destroyed.
+  /// No connection is left; the sessions are destroyed.
   void Clear() noexcept;
 
  private:
@@ -79,7 +79,7 @@ class WebHub {
   const std::unordered_map<std::string_view, WebResource> resources_;
   const std::vector<WebProtocol> protocols_;
   std::unordered_set<std::shared_ptr<WebConnection>> connections_;
-  std::atomic<std::size_t> conversations_{0};
+  std::atomic<std::size_t> sessions_{0};
 };
 
 }  // namespace runnel::internal

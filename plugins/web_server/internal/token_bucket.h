@@ -8,15 +8,15 @@ namespace runnel::internal {
 
 /// What a client may still say: it has so much a second, may save up for a second, and pays for each
 /// message and each 4 kB of it.
-class MessageBudget {
+class TokenBucket {
  public:
-  using MachineTime = std::chrono::steady_clock::time_point;
+  using SteadyTime = std::chrono::steady_clock::time_point;
   static constexpr std::size_t kBytesOfOne = 4096;
 
-  MessageBudget(double messages_per_second, MachineTime now)
+  TokenBucket(double messages_per_second, SteadyTime now)
       : rate_(messages_per_second), left_(messages_per_second), then_(now) {}
 
-  void Pay(std::size_t bytes, MachineTime now) {
+  void Consume(std::size_t bytes, SteadyTime now) {
     const double seconds = std::chrono::duration<double>(now - then_).count();
     left_ = std::min(rate_, left_ + rate_ * seconds);
     then_ = now;
@@ -33,7 +33,7 @@ class MessageBudget {
  private:
   const double rate_;
   double left_;
-  MachineTime then_;
+  SteadyTime then_;
 };
 
 }  // namespace runnel::internal

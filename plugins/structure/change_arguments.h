@@ -10,8 +10,8 @@
 
 namespace runnel::internal {
 
-/// One word of a change in text form, without the quotation marks that it may have had.
-struct ChangeWord {
+/// One word of a change in text format, without the quotation marks that it may have had.
+struct ChangeArgument {
   std::string text = {};
   /// Where the first '=' outside of quotation marks is: of "name=value", the end of the name.
   std::optional<std::size_t> equals = {};
@@ -22,7 +22,7 @@ struct ChangeWord {
 };
 
 /// The words of one change; never empty.
-using ChangeLine = std::vector<ChangeWord>;
+using ChangeLine = std::vector<ChangeArgument>;
 
 /// Splits a text into changes, by ends of lines and semicolons, and those into words, by blanks. `begins`
 /// is where the text begins in a file. Lines with errors are left out.
@@ -31,6 +31,6 @@ using ChangeLine = std::vector<ChangeWord>;
                                                    Diagnostics& diagnostics);
 
 /// `text` as a word that is read back as it is: in quotation marks where it needs them.
-[[nodiscard]] std::string AsWord(std::string_view text);
+[[nodiscard]] std::string AsArgument(std::string_view text);
 
 }  // namespace runnel::internal

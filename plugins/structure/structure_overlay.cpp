@@ -1,18 +1,18 @@
-#include "plugins/structure/projection.h"
+#include "plugins/structure/structure_overlay.h"
 
 #include <algorithm>
 
 #include "core/base/nearest_name.h"
 #include "core/element/element_path.h"
-#include "core/port/tap.h"
+#include "core/port/probe_port.h"
 
 namespace runnel::internal {
 
 namespace {
 
-bool Fits(const Port& port, Projection::End end) {
+bool Fits(const Port& port, StructureOverlay::End end) {
   return port.is_proxy() ||
-         (port.direction() == Port::Direction::kOutput) == (end == Projection::End::kSends);
+         (port.direction() == Port::Direction::kOutput) == (end == StructureOverlay::End::kSends);
 }
 
 // The ports of a module, whatever groups they are in.
@@ -27,12 +27,12 @@ std::vector<Port*> PortsOf(const FrameworkElement& module) {
   return ports;
 }
 
-Error NoPort(const FrameworkElement& module, std::string_view name, Projection::End end) {
+Error NoPort(const FrameworkElement& module, std::string_view name, StructureOverlay::End end) {
   std::vector<std::string> names;
   for (const Port* port : PortsOf(module)) {
     if (Fits(*port, end)) names.push_back(port->name());
   }
-  const char* const kind = end == Projection::End::kSends ? "output" : "input";
+  const char* const kind = end == StructureOverlay::End::kSends ? "output" : "input";
   return {.message = "no " + std::string(kind) + " '" + std::string(name) + "' in " + module.path(),
           .path = module.path(),
           .hint = NearestNameHint(name, names)};
@@ -40,12 +40,13 @@ Error NoPort(const FrameworkElement& module, std::string_view name, Projection::
 
 }  // namespace
 
-bool Projection::IsGone(const FrameworkElement& element) const {
+bool StructureOverlay::IsGone(const FrameworkElement& element) const {
   return std::ranges::any_of(removed_,
                              [&](const auto* gone) { return element.IsAtOrBelow(*gone); });
 }
 
-FrameworkElement* Projection::Child(const FrameworkElement& parent, std::string_view name) const {
+FrameworkElement* StructureOverlay::Child(const FrameworkElement& parent,
+                                          std::string_view name) const {
   for (FrameworkElement* each : added_) {
     if (each->parent() == &parent && each->name() == name && !IsGone(*each)) return each;
   }
@@ -53,7 +54,7 @@ FrameworkElement* Projection::Child(const FrameworkElement& parent, std::string_
   return child != nullptr && !IsGone(*child) ? child : nullptr;
 }
 
-std::vector<std::string> Projection::NamesIn(const FrameworkElement& parent) const {
+std::vector<std::string> StructureOverlay::NamesIn(const FrameworkElement& parent) const {
   std::vector<std::string> names;
   for (const FrameworkElement* each : parent.children()) {
     if (!IsGone(*each)) names.push_back(each->name());
@@ -64,7 +65,8 @@ std::vector<std::string> Projection::NamesIn(const FrameworkElement& parent) con
   return names;
 }
 
-Result<FrameworkElement*> Projection::Follow(FrameworkElement& start, std::string_view path) const {
+Result<FrameworkElement*> StructureOverlay::Follow(FrameworkElement& start,
+                                                   std::string_view path) const {
   FrameworkElement* at = &start;
   for (const std::string_view part : SplitPath(path)) {
     FrameworkElement* const next = Child(*at, part);
@@ -79,7 +81,7 @@ Result<FrameworkElement*> Projection::Follow(FrameworkElement& start, std::strin
 }
 
 // Groups at the top are applications, but for the one that holds the threads.
-FrameworkElement* Projection::OnlyApplication() const {
+FrameworkElement* StructureOverlay::OnlyApplication() const {
   FrameworkElement* only = nullptr;
   for (FrameworkElement* each : runtime_.root().children()) {
     if (each->kind() != ElementKind::kGroup || each->name() == "threads" || IsGone(*each)) continue;
@@ -89,7 +91,7 @@ FrameworkElement* Projection::OnlyApplication() const {
   return only;
 }
 
-Result<FrameworkElement*> Projection::Find(std::string_view path) const {
+Result<FrameworkElement*> StructureOverlay::Find(std::string_view path) const {
   auto found = Follow(runtime_.root(), path);
   if (found) return found;
   FrameworkElement* const application = OnlyApplication();
@@ -101,7 +103,7 @@ Result<FrameworkElement*> Projection::Find(std::string_view path) const {
   return below || !is_from_root ? below : found;
 }
 
-Result<Placement> Projection::PlaceFor(std::string_view path) const {
+Result<Placement> StructureOverlay::PlaceFor(std::string_view path) const {
   const std::size_t slash = path.find_last_of('/');
   const std::string name(slash == std::string_view::npos ? path : path.substr(slash + 1));
   if (auto good = CheckElementName(name); !good) {
@@ -129,7 +131,7 @@ Result<Placement> Projection::PlaceFor(std::string_view path) const {
   return Placement{*parent, name, false};
 }
 
-Result<Port*> Projection::FindPort(std::string_view path, End end) const {
+Result<Port*> StructureOverlay::FindPort(std::string_view path, End end) const {
   const auto found = Find(path);
   if (found) {
     if (auto* const port = dynamic_cast<Port*>(*found)) return port;
@@ -153,7 +155,7 @@ Result<Port*> Projection::FindPort(std::string_view path, End end) const {
   return ports[0];
 }
 
-Result<FrameworkElement*> Projection::FindParameter(std::string_view path) const {
+Result<FrameworkElement*> StructureOverlay::FindParameter(std::string_view path) const {
   const auto found = Find(path);
   const std::size_t slash = path.find_last_of('/');
   if (found || slash == std::string_view::npos || slash == 0) return found;
@@ -168,17 +170,17 @@ Result<FrameworkElement*> Projection::FindParameter(std::string_view path) const
                .hint = NearestNameHint(name, group ? NamesIn(*group) : std::vector<std::string>())};
 }
 
-void Projection::Add(FrameworkElement& element) { added_.push_back(&element); }
+void StructureOverlay::Add(FrameworkElement& element) { added_.push_back(&element); }
 
-void Projection::Remove(FrameworkElement& element) {
+void StructureOverlay::Remove(FrameworkElement& element) {
   removed_.push_back(&element);
   std::erase_if(connected_, [&](const Edge& edge) {
     return edge.first->IsAtOrBelow(element) || edge.second->IsAtOrBelow(element);
   });
 }
 
-void Projection::Replace(FrameworkElement& gone, FrameworkElement& element,
-                         const std::vector<std::pair<Port*, Port*>>& ports) {
+void StructureOverlay::Replace(FrameworkElement& gone, FrameworkElement& element,
+                               const std::vector<std::pair<Port*, Port*>>& ports) {
   for (const auto& [before, after] : ports) {
     replaced_[before] = after;
     for (auto* edges : {&connected_, &disconnected_}) {
@@ -192,7 +194,7 @@ void Projection::Replace(FrameworkElement& gone, FrameworkElement& element,
   Add(element);
 }
 
-Port& Projection::NowFor(Port& port) const {
+Port& StructureOverlay::NowFor(Port& port) const {
   Port* now = &port;
   for (auto found = replaced_.find(now); found != replaced_.end(); found = replaced_.find(now)) {
     now = found->second;
@@ -200,7 +202,7 @@ Port& Projection::NowFor(Port& port) const {
   return *now;
 }
 
-std::vector<Port*> Projection::Targets(const Port& from) const {
+std::vector<Port*> StructureOverlay::Targets(const Port& from) const {
   std::vector<Port*> targets;
   const auto add_outgoing = [&](const Port& port) {
     for (const Connection& each : port.outgoing()) {
@@ -222,34 +224,34 @@ std::vector<Port*> Projection::Targets(const Port& from) const {
   return targets;
 }
 
-bool Projection::IsConnected(const Port& port) const {
+bool StructureOverlay::IsConnected(const Port& port) const {
   return HasSource(port) || std::ranges::any_of(Targets(port), [](const Port* to) {
-           return dynamic_cast<const Tap*>(to) == nullptr;
+           return dynamic_cast<const ProbePort*>(to) == nullptr;
          });
 }
 
-bool Projection::Reaches(const Port& from, const Port& to) const {
+bool StructureOverlay::Reaches(const Port& from, const Port& to) const {
   if (&from == &to) return true;
   return std::ranges::any_of(Targets(from), [&](const Port* next) {
     return next == &to || (next->is_proxy() && Reaches(*next, to));
   });
 }
 
-Result<void> Projection::Connect(Port& from, Port& to) {
+Result<void> StructureOverlay::Connect(Port& from, Port& to) {
   if (auto ends = Port::CheckEnds(from, to); !ends) return ends;
   if (std::ranges::count(Targets(from), &to) > 0) {
     return Error{.message = "is connected to " + to.path() + " already", .path = from.path()};
   }
   if (from.is_proxy() && to.is_proxy() && Reaches(to, from)) {
     return Error{
-        .message = "connecting to " + to.path() + " would close a circle of interface ports",
+        .message = "connecting to " + to.path() + " would close a cycle of interface ports",
         .path = from.path()};
   }
   connected_.push_back({&from, &to});
   return {};
 }
 
-Result<void> Projection::Disconnect(Port& from, Port& to) {
+Result<void> StructureOverlay::Disconnect(Port& from, Port& to) {
   if (std::ranges::count(Targets(from), &to) == 0) {
     std::vector<std::string> names;
     for (const Port* each : Targets(from)) names.push_back(each->path());
@@ -262,7 +264,7 @@ Result<void> Projection::Disconnect(Port& from, Port& to) {
   return {};
 }
 
-bool Projection::HasSource(const Port& port) const {
+bool StructureOverlay::HasSource(const Port& port) const {
   const auto feeds = [&](const std::vector<Port*>& sources) {
     return std::ranges::any_of(sources, [&](Port* source) {
       const Port& now = NowFor(*source);

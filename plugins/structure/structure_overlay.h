@@ -16,9 +16,9 @@ namespace runnel::internal {
 /// found in its place, what will go is not found. Nothing is changed.
 ///
 /// Threads:  under the structure lock.
-class Projection {
+class StructureOverlay {
  public:
-  explicit Projection(Runtime& runtime) : runtime_(runtime) {}
+  explicit StructureOverlay(Runtime& runtime) : runtime_(runtime) {}
 
   /// The element at `path`. Errors: which part is not there, and the nearest name.
   Result<FrameworkElement*> Find(std::string_view path) const;
@@ -42,7 +42,7 @@ class Projection {
   Result<void> Disconnect(Port& from, Port& to);
 
   [[nodiscard]] bool HasSource(const Port& port) const;
-  /// Who only taps the port does not count: a recorder can do without.
+  /// Who only probes the port does not count: a recorder can do without.
   [[nodiscard]] bool IsConnected(const Port& port) const;
 
  private:

@@ -10,7 +10,7 @@
 
 namespace runnel {
 
-/// One peer at the other end of a WebSocket, as a conversation sees it.
+/// One peer at the other end of a WebSocket, as a session sees it.
 ///
 /// Threads:  the server's only, but for what Waker() returns.
 class WebClient {
@@ -21,9 +21,9 @@ class WebClient {
   virtual bool SendBinary(std::string bytes) = 0;
   /// Not yet taken by the client: send less often if it grows.
   [[nodiscard]] virtual std::size_t waiting_bytes() const = 0;
-  /// Says why, and ends the conversation; nothing is sent or received any more.
+  /// Says why, and ends the session; nothing is sent or received any more.
   virtual void Close(std::string reason) = 0;
-  /// Gives the conversation a turn. May be kept and called by any thread, and does nothing once the
+  /// Gives the session a turn. May be kept and called by any thread, and does nothing once the
   /// client or the server has gone.
   [[nodiscard]] virtual std::function<void()> Waker() = 0;
   /// The subprotocol that was agreed on.
@@ -37,24 +37,24 @@ class WebClient {
 ///
 /// Threads:  the server's, which serves all clients: nothing here may wait, neither for a lock nor for a
 ///           file. Destroyed by it, or by who destroys the server.
-/// Errors:   whatever is thrown ends this conversation and is told to the client; others go on.
-class WebConversation {
+/// Errors:   whatever is thrown ends this session and is told to the client; others go on.
+class WebSession {
  public:
-  using MachineTime = std::chrono::steady_clock::time_point;
+  using SteadyTime = std::chrono::steady_clock::time_point;
 
-  virtual ~WebConversation() = default;
+  virtual ~WebSession() = default;
   virtual void OnText(std::string_view message) = 0;
   virtual void OnBinary(std::string_view message) = 0;
   /// At the start, whenever due, after each message and each WebServer::Wake(). Returns when it wants
   /// the next turn.
-  virtual MachineTime OnTurn() = 0;
+  virtual SteadyTime OnPoll() = 0;
 };
 
-/// A kind of conversation, which clients choose by one of its names (Sec-WebSocket-Protocol).
+/// A kind of session, which clients choose by one of its names (Sec-WebSocket-Protocol).
 struct WebProtocol {
   std::vector<std::string> names;
-  /// The client outlives the conversation.
-  std::function<std::unique_ptr<WebConversation>(WebClient& client)> start;
+  /// The client outlives the session.
+  std::function<std::unique_ptr<WebSession>(WebClient& client)> start;
 };
 
 }  // namespace runnel

@@ -3,7 +3,7 @@
 // The search must come first: it renames what the standard headers below use.
 #undef Sleep
 
-#include "core/lockfree/bell.h"
+#include "core/lockfree/event_count.h"
 #include "tests/core/lockfree/searched_futex.h"
 
 namespace runnel::test {
@@ -11,98 +11,100 @@ namespace {
 
 constexpr unsigned kIterations = 100000;
 
-using SearchedBell = Bell<SearchedAtomic, SearchedFutex>;
-using SearchedSleeper = Sleeper<SearchedAtomic, SearchedFutex>;
+using SearchedEventCount = EventCount<SearchedAtomic, SearchedFutex>;
+using SearchedWaiter = Waiter<SearchedAtomic, SearchedFutex>;
 
 // Each notifier puts something somewhere, in the weakest way, gives notice, and rings if it has to; the
 // last thread waits until it has seen all of it. Notices may add up to one.
 template <int kNotifiers>
 struct NoticingSuite : rl::test_suite<NoticingSuite<kNotifiers>, kNotifiers + 1> {
-  SearchedBell bell;
-  SearchedSleeper sleeper{bell, 1};
+  SearchedEventCount event_count;
+  SearchedWaiter waiter{event_count, 1};
   SearchedAtomic<int> there[kNotifiers];
 
   void before() { SearchedFutex::Reset(); }
   void thread(unsigned index) {
     if (index < kNotifiers) {
       there[index].store(1, std::memory_order_relaxed);
-      sleeper.Notify();
+      waiter.Notify();
       return;
     }
     for (auto& each : there) {
       while (each.load(std::memory_order_relaxed) == 0) {
-        RL_ASSERT(sleeper.Wait(SearchedFutex::kNever));
+        RL_ASSERT(waiter.Wait(SearchedFutex::kNever));
       }
     }
   }
 };
 
-TEST(BellSearch, NoNoticeIsLost) {
+TEST(EventCountSearch, NoNotificationIsLost) {
   EXPECT_TRUE(Search<NoticingSuite<1>>(kIterations, 4));
   EXPECT_TRUE(Search<NoticingSuite<2>>(kIterations, 4));
 }
 
 // What was done before a notice is done for who has taken it.
 struct HandingOverSuite : rl::test_suite<HandingOverSuite, 2> {
-  SearchedBell bell;
-  SearchedSleeper sleeper{bell, 1};
+  SearchedEventCount event_count;
+  SearchedWaiter waiter{event_count, 1};
   SearchedPlain value;
 
   void before() { SearchedFutex::Reset(); }
   void thread(unsigned index) {
     if (index == 0) {
       value.Set(1);
-      sleeper.Notify();
+      waiter.Notify();
     } else {
-      RL_ASSERT(sleeper.Wait(SearchedFutex::kNever));
+      RL_ASSERT(waiter.Wait(SearchedFutex::kNever));
       RL_ASSERT(value.Get() == 1);
     }
   }
 };
 
-TEST(BellSearch, NoticeHandsOverWhatWasDoneBefore) {
+TEST(EventCountSearch, NotificationHandsOverWhatWasDoneBefore) {
   EXPECT_TRUE(Search<HandingOverSuite>(kIterations, 4));
 }
 
-// Two sleep on one bell, and a single ring wakes those of them who sleep.
+// Two sleep on one event count, and a single ring wakes those of them who sleep.
 struct SharingSuite : rl::test_suite<SharingSuite, 3> {
-  SearchedBell bell;
-  SearchedSleeper sleepers[2] = {{bell, 1}, {bell, 2}};
+  SearchedEventCount event_count;
+  SearchedWaiter waiters[2] = {{event_count, 1}, {event_count, 2}};
 
   void before() { SearchedFutex::Reset(); }
   void thread(unsigned index) {
     if (index < 2) {
-      RL_ASSERT(sleepers[index].Wait(SearchedFutex::kNever));
+      RL_ASSERT(waiters[index].Wait(SearchedFutex::kNever));
       return;
     }
-    SearchedBell::Seats seats = 0;
-    for (auto& sleeper : sleepers) {
-      if (sleeper.Notice()) seats |= sleeper.seat();
+    SearchedEventCount::Waiters notified = 0;
+    for (auto& waiter : waiters) {
+      if (waiter.MarkNotified()) notified |= waiter.waiter_bit();
     }
-    if (seats != 0) bell.Ring(seats);
+    if (notified != 0) event_count.Notify(notified);
     RL_ASSERT(SearchedFutex::wakes <= 1);
   }
 };
 
-TEST(BellSearch, OneRingWakesAllWhoSleep) { EXPECT_TRUE(Search<SharingSuite>(kIterations, 4)); }
+TEST(EventCountSearch, OneNotificationWakesAllWhoSleep) {
+  EXPECT_TRUE(Search<SharingSuite>(kIterations, 4));
+}
 
 // After a wait that has run out of time, a notice wakes the next one all the same; and one that came
 // in the last moment is taken.
 struct TimeOutSuite : rl::test_suite<TimeOutSuite, 2> {
-  SearchedBell bell;
-  SearchedSleeper sleeper{bell, 1};
+  SearchedEventCount event_count;
+  SearchedWaiter waiter{event_count, 1};
 
   void before() { SearchedFutex::Reset(); }
   void thread(unsigned index) {
     if (index == 0) {
-      sleeper.Notify();
-    } else if (!sleeper.Wait(SearchedFutex::kAtOnce)) {
-      RL_ASSERT(sleeper.Wait(SearchedFutex::kNever));
+      waiter.Notify();
+    } else if (!waiter.Wait(SearchedFutex::kAtOnce)) {
+      RL_ASSERT(waiter.Wait(SearchedFutex::kNever));
     }
   }
 };
 
-TEST(BellSearch, AWaitThatRanOutOfTimeTakesNothingFromTheNext) {
+TEST(EventCountSearch, AWaitThatRanOutOfTimeTakesNothingFromTheNext) {
   EXPECT_TRUE(Search<TimeOutSuite>(kIterations, 4));
 }
 

@@ -13,15 +13,15 @@
 
 namespace runnel {
 
-/// The values that wait at a Tap: of a type that the tap does not know. Plain values up to 256 bytes
+/// The values that wait at a ProbePort: of a type that the probe does not know. Plain values up to 256 bytes
 /// are copied, all others leased, as in the queue of an input.
 ///
 /// Threads:     Push() by any publisher, TryTake() by one reader at a time.
 /// Progress:    lock-free. A full queue keeps what it has, and counts what it has no room for.
 /// Allocation:  in the constructor only.
-class TapQueue final : public QueueSink {
+class ProbeQueue final : public QueueSink {
  public:
-  explicit TapQueue(std::size_t room) : values_(room) {}
+  explicit ProbeQueue(std::size_t capacity) : values_(capacity) {}
 
   /// A copy of `value`, from the channel with the number `source`.
   template <typename T>
@@ -33,9 +33,9 @@ class TapQueue final : public QueueSink {
   /// What is in `buffer`, which the caller holds.
   template <typename T>
   void PushLease(Buffer<T>& buffer, std::uint64_t source) noexcept {
-    buffer.AddHolders(1);
+    buffer.AddReferences(1);
     PushHold({&buffer, &std::as_const(buffer).value(),
-              [](void* held) { static_cast<Buffer<T>*>(held)->DropHolder(); }},
+              [](void* held) { static_cast<Buffer<T>*>(held)->ReleaseReference(); }},
              buffer.publication, source);
   }
 
@@ -47,8 +47,8 @@ class TapQueue final : public QueueSink {
         [&](const Waiting& oldest) { use(oldest.value(), oldest.publication, oldest.source); });
   }
 
-  [[nodiscard]] std::size_t room() const noexcept override { return values_.capacity(); }
-  [[nodiscard]] TapQueue* tap() noexcept override { return this; }
+  [[nodiscard]] std::size_t capacity() const noexcept override { return values_.capacity(); }
+  [[nodiscard]] ProbeQueue* probe() noexcept override { return this; }
   [[nodiscard]] std::size_t size() const noexcept { return values_.size(); }
   [[nodiscard]] bool HasNext() const noexcept { return values_.HasOldest(); }
   [[nodiscard]] std::uint64_t dropped() const noexcept {

@@ -1,4 +1,4 @@
-#include "core/types/text_form.h"
+#include "core/types/text_format.h"
 
 #include "core/base/nearest_name.h"
 #include "core/types/internal/parts.h"
@@ -208,7 +208,7 @@ Result<void> Read(const TypeInfo& type, TextCursor& cursor, ReadingLimits& limit
   }
   switch (type.kind()) {
     case TypeKind::kOpaque:
-      return Error{.message = "a " + type.name() + " has no text form"};
+      return Error{.message = "a " + type.name() + " has no text format"};
     case TypeKind::kLeaf: {
       std::string text;
       if (!type.leaf().needs_quotes) {
@@ -226,7 +226,7 @@ Result<void> Read(const TypeInfo& type, TextCursor& cursor, ReadingLimits& limit
     case TypeKind::kMatrix:
       return ReadMatrix(type, cursor, limits, value);
   }
-  return Error{.message = "a " + type.name() + " has no text form"};
+  return Error{.message = "a " + type.name() + " has no text format"};
 }
 
 }  // namespace
@@ -235,7 +235,7 @@ std::string ToText(const TypeInfo& type, const void* value) { return Text(type, 
 
 Result<void> SetFromText(const TypeInfo& type, std::string_view text, void* value) {
   if (type.kind() == TypeKind::kLeaf) {
-    return type.leaf().from_text(type.leaf().needs_quotes ? text : WithoutBlanks(text), value);
+    return type.leaf().from_text(type.leaf().needs_quotes ? text : WithoutWhitespace(text), value);
   }
   TextCursor cursor(text);
   ReadingLimits limits;

@@ -10,7 +10,7 @@
 
 namespace runnel {
 
-class TapQueue;
+class ProbeQueue;
 
 /// An input that takes each value of the outputs connected to it, without knowing their type: for
 /// recorders and bridges. What is connected to it delivers its newest value at once. Connections bring
@@ -20,26 +20,27 @@ class TapQueue;
 /// Threads:     Take() by one thread at a time; the rest from any. Connecting and publishing go on
 ///              meanwhile.
 /// Allocation:  in the constructor and by connecting.
-class Tap final : public InputBase {
+class ProbePort final : public InputBase {
  public:
   /// As large as that of an input that asks for as many.
-  static constexpr std::size_t kRoom = 128;
+  static constexpr std::size_t kCapacity = 128;
 
   /// Precondition: room > 0.
-  Tap(FrameworkElement& group, std::string name, const TypeInfo& type, std::size_t room = kRoom);
-  ~Tap() override;
+  ProbePort(FrameworkElement& group, std::string name, const TypeInfo& type,
+            std::size_t capacity = kCapacity);
+  ~ProbePort() override;
 
-  /// Shows the oldest value that waits to `look`, and lets it go; false if none does. What `look` is
-  /// shown is gone when it returns. `look` must not throw.
-  bool Take(const Look& look);
+  /// Shows the oldest value that waits to `visit`, and lets it go; false if none does. What `visit` is
+  /// shown is gone when it returns. `visit` must not throw.
+  bool Take(const Visitor& visit);
   /// How many values wait, about.
   [[nodiscard]] std::size_t waiting() const noexcept;
-  [[nodiscard]] std::size_t room() const noexcept;
+  [[nodiscard]] std::size_t capacity() const noexcept;
 
   [[nodiscard]] std::uint64_t dropped() const noexcept override;
   /// Both of what it is connected to, and under the structure lock.
   [[nodiscard]] std::uint64_t publications() const noexcept override;
-  bool LookAtValue(const Look& look) const override;
+  bool VisitLatest(const Visitor& visit) const override;
 
  private:
   QueueSink* Bind(const std::vector<Source>& sources) override;
@@ -47,7 +48,7 @@ class Tap final : public InputBase {
   void Bound() override;
   [[nodiscard]] bool HasNew() const override;
 
-  std::unique_ptr<TapQueue> queue_;
+  std::unique_ptr<ProbeQueue> queue_;
   // Under the structure lock: the numbers of the channels it is bound to, and those that are new.
   std::vector<std::uint64_t> bound_;
   std::vector<ChannelBase*> fresh_;

@@ -1,4 +1,4 @@
-#include "plugins/structure/change_words.h"
+#include "plugins/structure/change_arguments.h"
 
 #include <algorithm>
 
@@ -6,14 +6,16 @@ namespace runnel::internal {
 
 namespace {
 
-bool IsBlank(char letter) { return letter == ' ' || letter == '\t' || letter == '\r'; }
-bool IsEndOfLine(char letter) { return letter == '\n'; }
-bool IsControl(char letter) {
-  const auto code = static_cast<unsigned char>(letter);
-  return (code < 0x20 && !IsBlank(letter) && !IsEndOfLine(letter)) || code == 0x7f;
+bool IsWhitespace(char character) {
+  return character == ' ' || character == '\t' || character == '\r';
 }
-bool IsOpening(char letter) { return letter == '[' || letter == '{'; }
-bool IsClosing(char letter) { return letter == ']' || letter == '}'; }
+bool IsEndOfLine(char character) { return character == '\n'; }
+bool IsControl(char character) {
+  const auto code = static_cast<unsigned char>(character);
+  return (code < 0x20 && !IsWhitespace(character) && !IsEndOfLine(character)) || code == 0x7f;
+}
+bool IsOpening(char character) { return character == '[' || character == '{'; }
+bool IsClosing(char character) { return character == ']' || character == '}'; }
 
 // Goes through the text and knows where it is.
 class Reader {
@@ -26,23 +28,25 @@ class Reader {
   [[nodiscard]] bool IsAtEndOfLine() const { return IsAtEnd() || IsEndOfLine(text_[at_]); }
   /// Of a change.
   [[nodiscard]] bool IsAtEndOfChange() const { return IsAtEndOfLine() || text_[at_] == ';'; }
-  [[nodiscard]] bool IsAtEndOfWord() const { return IsAtEndOfChange() || IsBlank(text_[at_]); }
+  [[nodiscard]] bool IsAtEndOfArgument() const {
+    return IsAtEndOfChange() || IsWhitespace(text_[at_]);
+  }
   [[nodiscard]] char next() const { return text_[at_]; }
   [[nodiscard]] const SourcePosition& position() const { return position_; }
 
   char Take() {
-    const char letter = text_[at_++];
+    const char character = text_[at_++];
     // Characters, not bytes.
-    if (IsEndOfLine(letter)) {
+    if (IsEndOfLine(character)) {
       ++position_.line;
       position_.column = 1;
     } else if (at_ == text_.size() || (text_[at_] & 0xc0) != 0x80) {
       ++position_.column;
     }
-    return letter;
+    return character;
   }
-  void SkipBlanks() {
-    while (!IsAtEnd() && IsBlank(next())) Take();
+  void SkipWhitespace() {
+    while (!IsAtEnd() && IsWhitespace(next())) Take();
   }
   void SkipLine() {
     while (!IsAtEndOfLine()) Take();
@@ -61,11 +65,11 @@ Error At(const SourcePosition& position, std::string message, std::string hint =
 Result<void> TakeEscaped(Reader& reader, std::string& text) {
   const SourcePosition position = reader.position();
   reader.Take();
-  const char letter = reader.IsAtEndOfLine() ? '\0' : reader.Take();
-  switch (letter) {
+  const char character = reader.IsAtEndOfLine() ? '\0' : reader.Take();
+  switch (character) {
     case '"':
     case '\\':
-      text += letter;
+      text += character;
       return {};
     case 'n':
       text += '\n';
@@ -98,69 +102,70 @@ Result<void> TakeQuoted(Reader& reader, std::string& text) {
   return {};
 }
 
-// As the text form of types has it, strings and all: "{x: 1, name: \"a ]\"}".
+// As the text format of types has it, strings and all: "{x: 1, name: \"a ]\"}".
 Result<void> TakeBracketed(Reader& reader, std::string& text) {
   const SourcePosition begin = reader.position();
   std::size_t depth = 0;
   bool is_in_string = false;
   do {
     if (reader.IsAtEndOfLine()) return At(begin, "the bracket is not closed in its line");
-    const char letter = reader.Take();
-    text += letter;
-    if (is_in_string && letter == '\\' && !reader.IsAtEndOfLine()) {
+    const char character = reader.Take();
+    text += character;
+    if (is_in_string && character == '\\' && !reader.IsAtEndOfLine()) {
       text += reader.Take();
-    } else if (letter == '"') {
+    } else if (character == '"') {
       is_in_string = !is_in_string;
     } else if (!is_in_string) {
-      if (IsOpening(letter)) ++depth;
-      if (IsClosing(letter)) --depth;
+      if (IsOpening(character)) ++depth;
+      if (IsClosing(character)) --depth;
     }
   } while (depth > 0);
   return {};
 }
 
-Result<void> TakePlain(Reader& reader, ChangeWord& word) {
-  while (!reader.IsAtEndOfWord()) {
+Result<void> TakePlain(Reader& reader, ChangeArgument& argument) {
+  while (!reader.IsAtEndOfArgument()) {
     if (IsControl(reader.next())) return At(reader.position(), "a control character");
     if (reader.next() == '"') {
       return At(reader.position(), "a quotation mark in the middle of a word",
                 "put the whole value into quotation marks, with \\\" for those inside");
     }
-    const char letter = reader.Take();
-    word.text += letter;
-    if (letter != '=' || word.equals) continue;
-    word.equals = word.text.size() - 1;
+    const char character = reader.Take();
+    argument.text += character;
+    if (character != '=' || argument.equals) continue;
+    argument.equals = argument.text.size() - 1;
     // A new value begins, which may be in marks of its own.
-    if (!reader.IsAtEndOfWord() && (reader.next() == '"' || IsOpening(reader.next()))) return {};
+    if (!reader.IsAtEndOfArgument() && (reader.next() == '"' || IsOpening(reader.next())))
+      return {};
   }
   return {};
 }
 
-Result<ChangeWord> TakeWord(Reader& reader) {
-  ChangeWord word{.position = reader.position()};
+Result<ChangeArgument> TakeArgument(Reader& reader) {
+  ChangeArgument argument{.position = reader.position()};
   if (reader.next() != '"' && !IsOpening(reader.next())) {
-    if (auto taken = TakePlain(reader, word); !taken) return taken.error();
+    if (auto taken = TakePlain(reader, argument); !taken) return taken.error();
   }
-  if (reader.IsAtEndOfWord()) return word;
-  auto taken =
-      reader.next() == '"' ? TakeQuoted(reader, word.text) : TakeBracketed(reader, word.text);
+  if (reader.IsAtEndOfArgument()) return argument;
+  auto taken = reader.next() == '"' ? TakeQuoted(reader, argument.text)
+                                    : TakeBracketed(reader, argument.text);
   if (!taken) return taken.error();
-  if (!reader.IsAtEndOfWord()) {
+  if (!reader.IsAtEndOfArgument()) {
     return At(reader.position(), "a blank is missing after the end of a value");
   }
-  return word;
+  return argument;
 }
 
 Result<ChangeLine> TakeChange(Reader& reader) {
   ChangeLine line;
-  for (reader.SkipBlanks(); !reader.IsAtEndOfChange(); reader.SkipBlanks()) {
+  for (reader.SkipWhitespace(); !reader.IsAtEndOfChange(); reader.SkipWhitespace()) {
     if (reader.next() == '#') {
       reader.SkipLine();
       break;
     }
-    auto word = TakeWord(reader);
-    if (!word) return word.error();
-    line.push_back(std::move(*word));
+    auto argument = TakeArgument(reader);
+    if (!argument) return argument.error();
+    line.push_back(std::move(*argument));
   }
   if (!reader.IsAtEnd()) reader.Take();
   return line;
@@ -184,28 +189,28 @@ std::vector<ChangeLine> SplitChanges(std::string_view text, const SourcePosition
   return lines;
 }
 
-std::string AsWord(std::string_view text) {
-  const auto needs_marks = [](char letter) {
-    return IsBlank(letter) || IsEndOfLine(letter) || IsControl(letter) || letter == '"' ||
-           letter == ';' || letter == '\\' || letter == '=';
+std::string AsArgument(std::string_view text) {
+  const auto needs_marks = [](char character) {
+    return IsWhitespace(character) || IsEndOfLine(character) || IsControl(character) ||
+           character == '"' || character == ';' || character == '\\' || character == '=';
   };
   const bool is_plain = !text.empty() && text.front() != '#' && !IsOpening(text.front()) &&
                         std::ranges::none_of(text, needs_marks);
   if (is_plain) return std::string(text);
-  std::string word = "\"";
-  for (const char letter : text) {
-    if (letter == '"' || letter == '\\') word += '\\';
-    if (letter == '\n') {
-      word += "\\n";
-    } else if (letter == '\r') {
-      word += "\\r";
-    } else if (letter == '\t') {
-      word += "\\t";
+  std::string argument = "\"";
+  for (const char character : text) {
+    if (character == '"' || character == '\\') argument += '\\';
+    if (character == '\n') {
+      argument += "\\n";
+    } else if (character == '\r') {
+      argument += "\\r";
+    } else if (character == '\t') {
+      argument += "\\t";
     } else {
-      word += letter;
+      argument += character;
     }
   }
-  return word + '"';
+  return argument + '"';
 }
 
 }  // namespace runnel::internal

@@ -1,4 +1,4 @@
-#include "core/types/binary_form.h"
+#include "core/types/binary_encoding.h"
 
 #include "core/types/internal/parts.h"
 #include "core/types/internal/reading_limits.h"
@@ -104,21 +104,21 @@ bool Read(const TypeInfo& type, BinaryReader& reader, ReadingLimits& limits, voi
   return false;
 }
 
-Error NoBinaryForm(const TypeInfo& type) {
-  return {.message = "a " + type.name() + " has no binary form: its inside is not described"};
+Error NoBinaryEncoding(const TypeInfo& type) {
+  return {.message = "a " + type.name() + " has no binary encoding: its inside is not described"};
 }
 
 }  // namespace
 
 Result<void> ToBinary(const TypeInfo& type, const void* value, std::vector<std::byte>& bytes) {
-  if (!type.is_transparent()) return NoBinaryForm(type);
+  if (!type.is_transparent()) return NoBinaryEncoding(type);
   BinaryWriter writer(bytes);
   Write(type, value, writer);
   return {};
 }
 
 Result<void> FromBinary(const TypeInfo& type, BinaryReader& reader, void* value) {
-  if (!type.is_transparent()) return NoBinaryForm(type);
+  if (!type.is_transparent()) return NoBinaryEncoding(type);
   ReadingLimits limits;
   if (!Read(type, reader, limits, value)) {
     return Error{.message = "these bytes are no " + type.name()};

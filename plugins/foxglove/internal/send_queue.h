@@ -5,15 +5,15 @@
 #include <string>
 #include <utility>
 
-#include "plugins/web_server/web_conversation.h"
+#include "plugins/web_server/web_session.h"
 
 namespace runnel::internal {
 
 /// Text messages on their way to a client that may be slow: none is lost, and they stay in order. The
 /// caller makes no more of them while is_long().
-class Outbox {
+class SendQueue {
  public:
-  explicit Outbox(WebClient& client) : client_(client) {}
+  explicit SendQueue(WebClient& client) : client_(client) {}
 
   void Send(std::string message) {
     waiting_.push_back(std::move(message));

@@ -4,9 +4,9 @@ namespace runnel::test {
 
 namespace {
 
-class WebConversations : public WebServerTest {};
+class WebSessions : public WebServerTest {};
 
-TEST_F(WebConversations, SpeakTheFirstProtocolThatBothKnow) {
+TEST_F(WebSessions, SpeakTheFirstProtocolThatBothKnow) {
   Start();
   const auto agreed = [this](const std::string& offered) { return Client().Upgrade(offered); };
   EXPECT_THAT(agreed("echo.v1"), HasSubstr("Sec-WebSocket-Protocol: echo.v1\r\n"));
@@ -14,7 +14,7 @@ TEST_F(WebConversations, SpeakTheFirstProtocolThatBothKnow) {
   EXPECT_THAT(agreed("echo.v2,echo.v1"), HasSubstr("Sec-WebSocket-Protocol: echo.v2\r\n"));
 }
 
-TEST_F(WebConversations, DoNotBeginWithoutAProtocolThatIsKnown) {
+TEST_F(WebSessions, DoNotBeginWithoutAProtocolThatIsKnown) {
   Start();
   RawClient stranger = Client();
   EXPECT_THAT(stranger.Upgrade("other, echo.v"), StartsWith("HTTP/1.1 400 "));
@@ -25,7 +25,7 @@ TEST_F(WebConversations, DoNotBeginWithoutAProtocolThatIsKnown) {
   EXPECT_EQ(met.begun, 0);
 }
 
-TEST_F(WebConversations, CarryTextAndBytes) {
+TEST_F(WebSessions, CarryTextAndBytes) {
   Start();
   RawClient client = Talker();
   client.SendText("grüß dich");
@@ -41,7 +41,7 @@ TEST_F(WebConversations, CarryTextAndBytes) {
   EXPECT_EQ(binary->payload, bytes);
 }
 
-TEST_F(WebConversations, PutMessagesTogetherThatComeInParts) {
+TEST_F(WebSessions, PutMessagesTogetherThatComeInParts) {
   Start();
   RawClient client = Talker();
   client.Send(RawClient::Frame(1, "one ", false));
@@ -55,7 +55,7 @@ TEST_F(WebConversations, PutMessagesTogetherThatComeInParts) {
   EXPECT_EQ(text->payload, "one two");
 }
 
-TEST_F(WebConversations, EndByWhateverTheyThrowAndOthersGoOn) {
+TEST_F(WebSessions, EndByWhateverTheyThrowAndOthersGoOn) {
   Start();
   RawClient other = Talker();
   RawClient client = Talker();
@@ -67,24 +67,24 @@ TEST_F(WebConversations, EndByWhateverTheyThrowAndOthersGoOn) {
   EXPECT_EQ(other.Receive().value().payload, "still there");
 }
 
-TEST_F(WebConversations, HaveATurnWhenAnotherThreadWakesThem) {
+TEST_F(WebSessions, ArePolledWhenAnotherThreadWakesThem) {
   Start();
   RawClient client = Talker();
   client.SendText("keep the waker");
   EXPECT_TRUE(client.Receive());
   const int before = met.turns;  // the next one would come in an hour
   met.WakeAll();
-  WaitUntil("a conversation that is woken has a turn", [&] { return met.turns > before; });
+  WaitUntil("a session that is woken has a turn", [&] { return met.turns > before; });
 }
 
-TEST_F(WebConversations, AreWokenInVainWhenTheyHaveGoneOrTheServerHas) {
+TEST_F(WebSessions, AreWokenInVainWhenTheyHaveGoneOrTheServerHas) {
   Start();
   {
     RawClient gone = Talker();
     gone.SendText("keep the waker");
     EXPECT_TRUE(gone.Receive());
   }
-  WaitUntil("the conversation has ended", [&] { return met.ended == 1; });
+  WaitUntil("the session has ended", [&] { return met.ended == 1; });
   met.WakeAll();
   RawClient client = Talker();
   client.SendText("keep the waker");
@@ -99,7 +99,7 @@ TEST_F(WebConversations, AreWokenInVainWhenTheyHaveGoneOrTheServerHas) {
   met.WakeAll();
 }
 
-TEST_F(WebConversations, CarryLargeMessages) {
+TEST_F(WebSessions, CarryLargeMessages) {
   Start();
   RawClient client = Talker();
   const std::string large(1 << 20, 'x');  // what is allowed, exactly
@@ -109,7 +109,7 @@ TEST_F(WebConversations, CarryLargeMessages) {
   EXPECT_EQ(answer->payload, large);
 }
 
-TEST_F(WebConversations, EndWhenTheClientGoes) {
+TEST_F(WebSessions, EndWhenTheClientGoes) {
   Start();
   {
     RawClient client = Talker();
@@ -120,7 +120,7 @@ TEST_F(WebConversations, EndWhenTheClientGoes) {
   EXPECT_TRUE(Eventually([&] { return server->clients() == 0; }));
 }
 
-TEST_F(WebConversations, EndInOrderWhenTheClientSaysSo) {
+TEST_F(WebSessions, EndInOrderWhenTheClientSaysSo) {
   Start();
   RawClient client = Talker();
   client.Send(RawClient::Frame(8, std::string("\x03\xe8", 2)));
@@ -131,7 +131,7 @@ TEST_F(WebConversations, EndInOrderWhenTheClientSaysSo) {
   EXPECT_TRUE(Eventually([&] { return met.ended == 1; }));
 }
 
-TEST_F(WebConversations, CanEndThemselvesAndSayWhy) {
+TEST_F(WebSessions, CanEndThemselvesAndSayWhy) {
   Start();
   RawClient client = Talker();
   client.SendText("close");
@@ -144,7 +144,7 @@ TEST_F(WebConversations, CanEndThemselvesAndSayWhy) {
   ExpectThatOthersAreServed();
 }
 
-TEST_F(WebConversations, OneThatThrowsEndsAloneAndTellsItsClient) {
+TEST_F(WebSessions, OneThatThrowsEndsAloneAndTellsItsClient) {
   Start();
   RawClient other = Talker();
   RawClient client = Talker();
@@ -152,14 +152,14 @@ TEST_F(WebConversations, OneThatThrowsEndsAloneAndTellsItsClient) {
   const auto closing = client.Receive(8);
   ASSERT_TRUE(closing);
   EXPECT_EQ(closing->code(), 1011);
-  EXPECT_EQ(closing->reason(), "the conversation has thrown");
+  EXPECT_EQ(closing->reason(), "the session has thrown");
   other.SendText("still here");
   const auto answer = other.Receive();
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->payload, "still here");
 }
 
-TEST_F(WebConversations, HaveATurnAtTheStartAfterMessagesAndWhenWoken) {
+TEST_F(WebSessions, ArePolledAtTheStartAfterMessagesAndWhenWoken) {
   Start();
   RawClient client = Talker();
   EXPECT_TRUE(Eventually([&] { return met.turns == 1; }));
@@ -169,7 +169,7 @@ TEST_F(WebConversations, HaveATurnAtTheStartAfterMessagesAndWhenWoken) {
   EXPECT_TRUE(Eventually([&] { return met.turns == 3; }));
 }
 
-TEST_F(WebConversations, HaveTurnsWhenTheyAreDue) {
+TEST_F(WebSessions, ArePolledWhenTheyAreDue) {
   Start();
   RawClient client = Talker();
   client.SendText("soon");
@@ -177,7 +177,7 @@ TEST_F(WebConversations, HaveTurnsWhenTheyAreDue) {
   ExpectThatOthersAreServed();
 }
 
-TEST_F(WebConversations, AreToldWhenTheServerEnds) {
+TEST_F(WebSessions, AreToldWhenTheServerEnds) {
   Start();
   RawClient client = Talker();
   EXPECT_TRUE(Eventually([&] { return met.begun == 1; }));
@@ -191,7 +191,7 @@ TEST_F(WebConversations, AreToldWhenTheServerEnds) {
   EXPECT_EQ(met.ended, 1);
 }
 
-TEST_F(WebConversations, AreNotBegunByPagesOfOthers) {
+TEST_F(WebSessions, AreNotBegunByPagesOfOthers) {
   Start({.origins = {"https://app.example.org"}});
   EXPECT_THAT(Client().Upgrade("echo.v1", "Origin: http://evil.example\r\n"),
               StartsWith("HTTP/1.1 403 "));
@@ -205,14 +205,14 @@ TEST_F(WebConversations, AreNotBegunByPagesOfOthers) {
               StartsWith("HTTP/1.1 400 "));
 }
 
-TEST_F(WebConversations, NeedTheToken) {
+TEST_F(WebSessions, NeedTheToken) {
   Start({.token = "open-sesame"});
   EXPECT_THAT(Client().Upgrade("echo.v1"), StartsWith("HTTP/1.1 401 "));
   EXPECT_THAT(Client().Upgrade("echo.v1", "", "/?token=wrong-sesame"), StartsWith("HTTP/1.1 401 "));
   EXPECT_THAT(Client().Upgrade("echo.v1", "", "/?token=open-sesame"), StartsWith("HTTP/1.1 101 "));
 }
 
-TEST_F(WebConversations, AreLimitedInNumber) {
+TEST_F(WebSessions, AreLimitedInNumber) {
   Start({.limits = {.clients = 2}});
   RawClient first = Talker();
   {
