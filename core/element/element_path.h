@@ -10,7 +10,7 @@ namespace runnel {
 
 /// Whether `name` can name an element, wherever it comes from: a file, a change at run time, a page,
 /// C++ code. The rule is such that paths and lists of paths can be read again, and that every file can
-/// carry every name: UTF-8 without control characters, not empty, no '/', no comma, no blank,
+/// carry every name: UTF-8 without control characters, not empty, no '/', no comma, no space,
 /// tabulator or line end, not "." or "..". All else is good: letters of any language, '?', '"', '&'.
 /// The error says what it breaks.
 Result<void> CheckElementName(std::string_view name);

@@ -16,7 +16,7 @@ namespace runnel {
 /// A first-in-first-out queue of fixed capacity for any number of writers and readers.
 ///
 /// Each cell counts sequence numbers: 2k when it is free for its k-th use, 2k + 1 while it is filled for the
-/// k-th time (after D. Vyukov's bounded queue, with the turns of E. Rigtorp's).
+/// k-th time (after D. Vyukov's bounded queue, with the laps of E. Rigtorp's).
 ///
 /// Ownership:   the queue owns what lies in it, and destroys the rest in its destructor.
 /// Threads:     all members but the constructor and the destructor, from any thread, at any time.

@@ -20,10 +20,10 @@ class BufferPool;
 ///   the publisher     from Loan() on, until it is published or the loan dropped  (is_loaned_)
 ///   the newest value  until the next one is published                           (LatestBuffer)
 ///   a reader's slot   from a lease until the lease is dropped                    (HazardRecord)
-///   counted holders   queue entries, copies of leases, leases without a slot     (count_)
+///   references        queue entries, copies of leases, leases without a slot     (count_)
 ///
-/// It is free for its publisher when none of them does. Counted holders are made only by holders of
-/// any kind, so of a free buffer no new one comes up (LatestBuffer has the one exception, which
+/// It is free for its publisher when none of them does. References are added only by who holds the
+/// buffer in some way, so of a free buffer no new one comes up (LatestBuffer has the one exception, which
 /// looks again). Only the publisher asks, or who has the pool once it is closed, so no two can find the
 /// same buffer free.
 template <typename T, template <typename> class Atomic = std::atomic, std::size_t kSlots = 7>
@@ -47,20 +47,20 @@ class alignas(kCacheLineSize) Buffer {
   /// Written by the publisher before it publishes, read by whoever holds the buffer.
   Publication publication;
 
-  /// `more` further counted holders. Precondition: the caller holds the buffer in some way.
+  /// Adds `more` references. Precondition: the caller holds the buffer in some way.
   void AddReferences(std::uint32_t more) noexcept {
     // relaxed: the caller's own hold keeps the buffer from being reused meanwhile; that is given up
     // with a release, which carries this along to who asks whether the buffer is free.
     count_.fetch_add(more, std::memory_order_relaxed);
   }
-  /// A counted holder that does not know yet whether it holds; see LatestBuffer::Lease().
+  /// A reference whose holder does not know yet whether it came in time; see LatestBuffer::Lease().
   void AddUnverifiedReference() noexcept {
     // relaxed: a fence comes between this and the second look.
     count_.fetch_add(1, std::memory_order_relaxed);
   }
-  /// One counted holder less.
+  /// Gives one reference up.
   void ReleaseReference() noexcept {
-    // release: pairs with the acquire in IsHeld(); this holder's reads are over for who finds the
+    // release: pairs with the acquire in IsHeld(); the holder's reads are over for who finds the
     // buffer free, or deletes it.
     count_.fetch_sub(1, std::memory_order_release);
   }
@@ -93,7 +93,7 @@ class alignas(kCacheLineSize) Buffer {
            count_.load(std::memory_order_acquire) != 0;
   }
 
-  Atomic<std::uint64_t> count_{0};  // counted holders
+  Atomic<std::uint64_t> count_{0};  // references
   Atomic<bool> is_loaned_{false};
   std::uint32_t seen_in_ = 0;  // the publisher's own: the search that last saw it in a slot
   Pool* pool_ = nullptr;

@@ -8,7 +8,7 @@
 
 namespace runnel {
 
-/// Keeps one buffer from being reused, by a slot of a reader's record or, without one, counted.
+/// Keeps one buffer from being reused, by a slot of a reader's record or, without one, by a reference.
 ///
 /// Ownership:   of the hold alone; the buffer belongs to its pool, which lives as long as it is held.
 /// Threads:     one lease belongs to one thread at a time, and may be handed on; copies are
@@ -24,7 +24,7 @@ class BufferLease {
   using Slot = HazardSlot<Atomic>;
 
   BufferLease() = default;
-  /// Takes over one counted hold that the caller has; nullptr is no lease.
+  /// Takes over one reference that the caller has; nullptr is no lease.
   explicit BufferLease(Buffer* counted) noexcept : buffer_(counted) {}
   /// Takes over a slot that holds `buffer`.
   BufferLease(Buffer* buffer, Slot& slot) noexcept : buffer_(buffer), slot_(&slot) {}

@@ -40,7 +40,7 @@ struct PoolOptions {
 /// Progress:    Loan() is wait-free: it looks at each buffer and each slot of readers once.
 /// Allocation:  in Make() and Reserve(); in Loan() only if the pool may grow and all buffers are in
 ///              use, which growths() counts.
-/// Limits:      2^32 counted holders of one buffer at a time.
+/// Limits:      2^64 references to one buffer at a time.
 ///
 /// @tparam Atomic  replaced in tests. @tparam kSlots  fewer in tests.
 template <typename T, template <typename> class Atomic = std::atomic, std::size_t kSlots = 7>
@@ -114,7 +114,7 @@ class BufferPool final : public Retirable<Atomic> {
   static constexpr bool kPrefersWarmBuffers = !std::is_trivially_copyable_v<T> || sizeof(T) > 4096;
   static constexpr std::uint32_t kFewBuffers = 16;
 
-  // Buffers that are made at once, and room to list them with all that were made before. A list
+  // Buffers that are made at once, and a list long enough for them and all that were made before. A list
   // that a longer one has replaced goes with the pool.
   struct Chunk {
     std::unique_ptr<Buffer[]> buffers;
@@ -132,12 +132,12 @@ class BufferPool final : public Retirable<Atomic> {
     chunk->buffers.reset(new Buffer[size]);
     chunk->size = size;
     for (std::uint32_t i = 0; i < size; ++i) chunk->buffers[i].Fill(*this, factory_);
-    // relaxed: a count. Each list has room for all buffers counted before, in whatever order the
+    // relaxed: a count. Each list has a place for all buffers counted before, in whatever order the
     // chunks arrive.
     chunk->list_capacity = capacity_.fetch_add(size, std::memory_order_relaxed) + size;
     try {
       chunk->list.reset(new Buffer*[chunk->list_capacity]);
-    } catch (...) {  // those made meanwhile have room for too many, which is no harm
+    } catch (...) {  // those made meanwhile are longer than they need be, which is no harm
       capacity_.fetch_sub(size, std::memory_order_relaxed);
       throw;
     }
@@ -234,7 +234,7 @@ class BufferPool final : public Retirable<Atomic> {
   Buffer** buffers_ = nullptr;
   std::uint32_t free_count_ = 0;
   std::uint32_t count_ = 0;
-  std::uint32_t list_capacity_ = 0;  // in the list
+  std::uint32_t list_capacity_ = 0;
   std::uint32_t search_ = 0;
   Chunk* chunks_ = nullptr;
   alignas(kCacheLineSize) Atomic<Chunk*> arriving_{nullptr};  // reserved, not yet taken over

@@ -9,7 +9,8 @@
 namespace runnel {
 
 /// Lets threads read shared structures without a lock while others replace parts of them: a part
-/// that has been taken out is destroyed only when no reader can still look at it.
+/// that has been taken out is destroyed only when its grace period is over: when no reader can still look
+/// at it.
 ///
 ///     reader:  Enter ─ load pointer ─ use what it points to ─ Leave
 ///     writer:  swap pointer ─ epoch = Advance() ─ … until HasPassed(epoch) … ─ delete the old part

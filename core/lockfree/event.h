@@ -13,7 +13,7 @@ namespace runnel {
 /// of a queue. The event itself carries nothing; whoever wakes looks for himself.
 ///
 ///     others:  put it there ─ LightFence ─ look whether one sleeps ─ (only then) wake it
-///     waiter: say that it sleeps ─ HeavyFence ─ look whether it is there ─ (only if not) sleep
+///     waiter:  say that it sleeps ─ HeavyFence ─ look whether it is there ─ (only if not) sleep
 ///
 /// So of the two at least one sees the other: either the notifier finds the announcement, or the
 /// waiter what has been put there. And if the notifier takes the announcement back before the

@@ -8,12 +8,12 @@
 
 namespace runnel {
 
-/// What up to 32 threads sleep on, each in a waiter bit of its own, so that one call of the system wakes any
+/// What up to 32 threads sleep on, each under a bit of its own, so that one call of the system wakes any
 /// number of them.
 ///
-/// Threads:     any. Progress: Ring() is wait-free, and calls the system. Allocation: none.
-/// Limits:      a waiter that is held up between two looks while the count of rings comes round to
-///              the same number, 2^32 later, misses the last one.
+/// Threads:     any. Progress: Notify() is wait-free, and calls the system. Allocation: none.
+/// Limits:      a waiter that is held up between two looks while the count comes round to the same
+///              number, 2^32 notifications later, misses the last one.
 /// @tparam Atomic, Futex  replaced in tests.
 template <template <typename> class Atomic = std::atomic, typename Futex = KernelFutex>
 class EventCount {
@@ -21,20 +21,20 @@ class EventCount {
   using Deadline = typename Futex::Deadline;
   using Waiters = typename Futex::Waiters;  ///< a bit for each
 
-  /// Wakes who sleeps in one of `waiters`. Call it after what they look for is there.
+  /// Wakes those of `waiters` who sleep. Call it after what they look for is there.
   void Notify(Waiters waiters) noexcept {
     // release: pairs with the acquire in SleepWhile(): who reads the new count sees what there is.
     count_.fetch_add(1, std::memory_order_release);
     Futex::Wake(count_, waiters);
   }
 
-  /// Sleeps in `waiter bit` as long as `is_asleep()`; false if the deadline has passed before. A ring for other
-  /// waiters may make it look once more than it need.
+  /// Sleeps under `waiter_bit` as long as `is_asleep()`; false if the deadline has passed before. Notify() for
+  /// other waiters may make it look once more than it need.
   template <typename IsAsleep>
   bool SleepWhile(Waiters waiter_bit, Deadline deadline, const IsAsleep& is_asleep) noexcept {
     for (;;) {
       // acquire: as above. So the count comes before the look, and the kernel compares it again under
-      // a lock that waking takes too: a ring in between is not slept through.
+      // a lock that waking takes too: no notification in between is slept through.
       const std::uint32_t count = count_.load(std::memory_order_acquire);
       if (!is_asleep()) return true;
       if (!Futex::Sleep(count_, count, deadline, waiter_bit)) return false;
@@ -45,18 +45,18 @@ class EventCount {
   alignas(kCacheLineSize) Atomic<std::uint32_t> count_{0};
 };
 
-/// One who sleeps on a event count until there is something for it. Notices that come before it looks add up to
-/// one.
+/// One thread that sleeps on an event count until there is something for it. Notifications that come before it
+/// looks add up to one.
 ///
-///     notifier:  put it there ─ MarkNotified() ─ (only if it was asleep) EventCount::Ring()
-///     waiter:   say that it sleeps ─ read the event count's count ─ not noticed? ─ sleep while the count is that
+///     notifier:  put it there ─ MarkNotified() ─ (only if it was asleep) EventCount::Notify()
+///     waiter:    mark itself asleep ─ read the count ─ not notified? ─ sleep while the count is that
 ///
-/// All that changes the word are read-modify-writes, so of "asleep" and "noticed" one comes first: if
-/// "noticed", the waiter finds it; if "asleep", the notifier does, and rings.
+/// All that changes the word are read-modify-writes, so of "asleep" and "notified" one comes first: if
+/// "notified", the waiter finds it; if "asleep", the notifier does, and wakes it.
 ///
 /// Threads:     MarkNotified() by any; Wait() by one at a time.
 /// Progress:    MarkNotified() is wait-free, without a system call. Wait() blocks.
-/// Allocation:  none. Lifetime: the event count must outlive the last Ring() for this waiter, which may come
+/// Allocation:  none. Lifetime: the event count must outlive the last Notify() for this waiter, which may come
 ///              after Wait() has returned.
 template <template <typename> class Atomic = std::atomic, typename Futex = KernelFutex>
 class Waiter {
@@ -66,25 +66,26 @@ class Waiter {
   Waiter(EventCount& event_count, typename EventCount::Waiters waiter_bit) noexcept
       : event_count_(event_count), bit_(waiter_bit) {}
 
-  /// There is something for it. Returns whether it sleeps: then the caller, and nobody else, has to ring.
+  /// There is something for it. Returns whether it sleeps: then the caller, and nobody else, has to call
+  /// EventCount::Notify().
   [[nodiscard]] bool MarkNotified() noexcept {
     // release: pairs with the acquire at the end of Wait(); what was put there is visible, also by
     // notifiers that came before another, since each reads what the one before has written.
     return word_.exchange(kNotified, std::memory_order_release) == kAsleep;
   }
 
-  /// Gives notice, and rings if it has to.
+  /// MarkNotified(), and wakes it if it sleeps.
   void Notify() noexcept {
     if (MarkNotified()) event_count_.Notify(bit_);
   }
 
-  /// Sleeps until there is a notice, or until the deadline; returns whether there is one, and takes it.
+  /// Sleeps until it is notified, or until the deadline; returns whether it has been, and forgets it.
   bool Wait(typename EventCount::Deadline deadline) noexcept {
     std::uint32_t awake = kAwake;
     // relaxed, both: it hands nothing over; who exchanges the word later reads it.
     if (word_.compare_exchange_strong(awake, kAsleep, std::memory_order_relaxed,
                                       std::memory_order_relaxed)) {
-      // relaxed: the event count's count orders.
+      // relaxed: the count orders.
       event_count_.SleepWhile(bit_, deadline,
                               [this] { return word_.load(std::memory_order_relaxed) == kAsleep; });
     }

@@ -11,7 +11,7 @@
 
 namespace runnel {
 
-/// The newest value of a small, trivially copyable type: the cheap path of the ports.
+/// The newest value of a small, trivially copyable type: how ports pass inlined values on.
 ///
 /// Four cells are written in turn, so that a reader never waits for a writer: it copies the newest
 /// complete cell, and starts again only if the writer came round to that very cell meanwhile.

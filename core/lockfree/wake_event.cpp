@@ -10,16 +10,16 @@ namespace {
 
 using Waiters = EventCount<>::Waiters;
 
-// Bells are only ever added: who rings for a waiter may still do so when that has gone.
+// Event counts are only ever added: who notifies a waiter may still do so when that has gone.
 struct SharedEventCount : EventCount<> {
   std::atomic<Waiters> taken{0};
   SharedEventCount* next = nullptr;  // constant once added
 };
 constinit std::atomic<SharedEventCount*> all_event_counts{nullptr};
 
-// A waiter bit of its own, or 0 if all are taken.
+// A bit of its own, or 0 if all are taken.
 Waiters TakeWaiterBit(SharedEventCount& event_count) noexcept {
-  // relaxed, all: a waiter bit hands nothing over. A ring that was meant for who sat there before wakes for
+  // relaxed, all: a bit hands nothing over. A notification that was meant for who had it before wakes for
   // nothing, which waiters know.
   Waiters taken = event_count.taken.load(std::memory_order_relaxed);
   while (~taken != 0) {

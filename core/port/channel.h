@@ -172,7 +172,7 @@ class Channel final : public ChannelBase {
     // Who pulls may look for buffers at the same time, in another thread.
     return Has(kPullable) ? storage_.newest.Loan() : storage_.newest.Loan(ThisThread().hazards);
   }
-  // In turn, if there are turns, and in order, if there is one.
+  // By who has the lock, if there is one, and in order, if there is one.
   template <typename ValueOrBuffer>
   [[gnu::noinline]] PublishStatus PublishOnSlowPath(ValueOrBuffer& what, Time now) {
     if (!Has(kPullable)) return PublishNow<PublishPath::kSlow>(what, now);
@@ -198,7 +198,7 @@ class Channel final : public ChannelBase {
       return Loan<T>(storage_.newest.LoanFrom(*storage_.pool_for_pulls));
     }
   }
-  // The rest of publishing, by who has the turn, if there are turns.
+  // The rest of publishing, by who has the lock, if there is one.
   template <PublishPath kPath>
   [[gnu::always_inline]] PublishStatus PublishNow(const T& value,
                                                   Time now) requires(kIsInlined<T>) {

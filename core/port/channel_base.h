@@ -78,7 +78,7 @@ class ChannelBase {
   /// What makes publishing more than it usually is; bits, so that one look is enough.
   enum Flag : std::uint8_t { kOrdered = 1, kPullable = 2, kPassesFullFences = 4 };
   explicit ChannelBase(bool pullable);
-  /// Has the provider fill a free buffer, and publishes that. By who has the turn. Throws what the
+  /// Has the provider fill a free buffer, and publishes that. By who has the lock. Throws what the
   /// provider throws.
   virtual void PublishPulled(Time (*now)(const Port& reader), const Port& reader) = 0;
   // relaxed, as all of it: a publisher that sees a change late numbers one value less, which then

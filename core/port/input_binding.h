@@ -51,7 +51,7 @@ struct InputLink {
 struct InputBinding {
   using Link = InputLink;
 
-  // If there is one source and no pulling, the short way to it; else nullptr.
+  // If there is one source and no pulling, the fast path to it; else nullptr.
   ChannelBase* channel = nullptr;
   Link* only = nullptr;  // if there is one source
   bool pulls = false;

@@ -31,11 +31,11 @@ class InputQueueBase : public QueueSink {
   /// Takes the oldest value out and counts it as dropped, if the queue drops the oldest. Any thread.
   virtual bool DropOldest() noexcept = 0;
 
-  /// How many values wait in queues that this one has replaced: they take their share of its room,
+  /// How many values wait in queues that this one has replaced: they take their share of its capacity,
   /// else much might wait after some changes. Told before publishers find the queue, then by the
   /// reader.
   void SetWaitingBefore(std::size_t count) noexcept {
-    // relaxed, both: a little more or less room for a moment does not matter.
+    // relaxed, both: a little more or less capacity for a moment does not matter.
     if (waiting_before_.load(std::memory_order_relaxed) == count) return;
     waiting_before_.store(count, std::memory_order_relaxed);
   }
@@ -48,7 +48,7 @@ class InputQueueBase : public QueueSink {
   InputQueueBase(std::size_t capacity, OnFull on_full, Writers writers) noexcept
       : capacity_(capacity), on_full_(on_full), writers_(writers) {}
 
-  // Whether what waits in older queues leaves no room in this one.
+  // Whether what waits in older queues fills this one's capacity.
   [[nodiscard]] bool IsCrowdedOut() const noexcept {
     const std::size_t before = waiting_before_.load(std::memory_order_relaxed);
     return before > 0 && on_full_ != OnFull::kDropOldest && before + size() >= capacity_;

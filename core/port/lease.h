@@ -16,7 +16,7 @@
 
 namespace runnel {
 
-/// Whether values of T travel as copies of their words (cheap) or in buffers of a pool, which
+/// Whether values of T travel inlined, as copies of their words, or in buffers of a pool, which
 /// readers hold instead of copying. A few words are copied sooner than a buffer is held. Specialise
 /// it to false for a type that shall always travel in buffers.
 template <typename T>
@@ -36,7 +36,7 @@ class Input;
 
 namespace internal {
 
-/// A value of a cheap type, copied.
+/// A value that travels inlined, copied.
 template <typename T>
 class InlinedValue {
  public:
@@ -166,7 +166,7 @@ using HeldValue = std::conditional_t<
 ///
 ///     if (const auto pose = pose_input.Read()) Use(*pose, pose.timestamp());
 ///
-/// Ownership:   of one reference to the value's buffer (none for cheap types: a copy).
+/// Ownership:   of one reference to the value's buffer (none of an inlined value: a copy).
 /// Threads:     one lease belongs to one thread at a time; copies are independent.
 /// Allocation:  none.
 /// Errors:      looking at an empty lease throws ProgrammingError.
@@ -211,7 +211,7 @@ class Lease {
     if (has_value()) [[likely]]
       last_ = reader.Note(held_.publication().sequence);
   }
-  // The same as one that came the longer way. Made anew, so that it may lie in registers even if
+  // The same as one that came by the slow path. Made anew, so that it may lie in registers even if
   // the other had to lie in memory.
   [[gnu::always_inline]] Lease(Lease&& other, internal::NoCopy no_copy) noexcept
       : held_(FromSlot(std::move(other.held_), no_copy)), last_(other.last_) {}

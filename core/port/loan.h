@@ -53,7 +53,7 @@ class Loan {
  private:
   friend class Channel<T>;
   using Buffer = runnel::Buffer<T>;
-  // A cheap type needs no buffer: its loan is the value itself.
+  // An inlined value needs no buffer: its loan is the value itself.
   using Slot = std::conditional_t<kIsInlined<T>, std::optional<T>, Buffer*>;
 
   explicit Loan(Slot slot) noexcept : slot_(std::move(slot)) {}

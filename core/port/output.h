@@ -62,11 +62,11 @@ class Output final : public OutputBase {
     for (auto& loan : loans) fill(*loan);
   }
 
-  /// Errors: the loan of another output (but for cheap types) throws ProgrammingError.
+  /// Errors: the loan of another output (but for inlined values) throws ProgrammingError.
   [[gnu::always_inline]] PublishStatus Publish(runnel::Loan<T>&& loan) {
     return own().Publish(std::move(loan), PublicationTime());
   }
-  /// Copies or moves the value into a buffer (cheap types: straight into the slot).
+  /// Copies or moves the value into a buffer (inlined values: straight into the slot).
   PublishStatus Publish(const T& value) requires(kIsInlined<T> || std::is_copy_assignable_v<T>) {
     if constexpr (kIsInlined<T>) {
       return own().PublishValue(value, PublicationTime());

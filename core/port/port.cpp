@@ -43,7 +43,7 @@ auto FindConnection(Connections& outgoing, const Port& to) {
   return found == outgoing.rend() ? outgoing.end() : std::prev(found.base());
 }
 
-// Only interface ports pass data on, so only through them a circle can close.
+// Only interface ports pass data on, so only through them a cycle can close.
 bool Reaches(const Port& from, const Port& to) {
   if (&from == &to) return true;
   return std::ranges::any_of(from.outgoing(), [&](const Connection& each) {

@@ -53,12 +53,12 @@ class Port : public FrameworkElement {
   [[nodiscard]] std::vector<Port*> Sinks() const;
 
   /// Lets data flow between two ports of one runtime and one type. Works while both are in use.
-  /// Errors: wrong types, wrong directions, a second connection between the same two, a circle of
+  /// Errors: wrong types, wrong directions, a second connection between the same two, a cycle of
   /// interface ports, ports being deleted; nothing has changed then.
   static Result<void> Connect(Port& from, Port& to, const ConnectOptions& options = {});
   static Result<void> Disconnect(Port& from, Port& to);
   void DisconnectAll();
-  /// What Connect() would say, but for `from` and `to` being connected already or for a circle.
+  /// What Connect() would say, but for `from` and `to` being connected already or for a cycle.
   [[nodiscard]] static Result<void> CheckEnds(const Port& from, const Port& to);
 
   /// Takes the place of `from` in all its connections, without a value being lost, repeated, or seen

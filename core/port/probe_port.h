@@ -14,7 +14,7 @@ class ProbeQueue;
 
 /// An input that takes each value of the outputs connected to it, without knowing their type: for
 /// recorders and bridges. What is connected to it delivers its newest value at once. Connections bring
-/// no queue of their own: `room` values can wait, and what comes when it is full is not taken, and
+/// no queue of their own: `capacity` values can wait, and what comes when it is full is not taken, and
 /// counted. Publishers pay for it what a queue costs.
 ///
 /// Threads:     Take() by one thread at a time; the rest from any. Connecting and publishing go on
@@ -25,7 +25,7 @@ class ProbePort final : public InputBase {
   /// As large as that of an input that asks for as many.
   static constexpr std::size_t kCapacity = 128;
 
-  /// Precondition: room > 0.
+  /// Precondition: capacity > 0.
   ProbePort(FrameworkElement& group, std::string name, const TypeInfo& type,
             std::size_t capacity = kCapacity);
   ~ProbePort() override;

@@ -17,7 +17,7 @@ namespace runnel {
 /// are copied, all others leased, as in the queue of an input.
 ///
 /// Threads:     Push() by any publisher, TryTake() by one reader at a time.
-/// Progress:    lock-free. A full queue keeps what it has, and counts what it has no room for.
+/// Progress:    lock-free. A full queue keeps what it has, and counts what does not fit.
 /// Allocation:  in the constructor only.
 class ProbeQueue final : public QueueSink {
  public:
@@ -58,7 +58,7 @@ class ProbeQueue final : public QueueSink {
  private:
   static constexpr std::size_t kLargestCopy = 256;
 
-  /// One counted hold of a buffer, whose type only `release` knows.
+  /// One reference to a buffer, whose type only `release` knows.
   struct Hold {
     void* buffer = nullptr;
     const void* value = nullptr;
@@ -93,7 +93,7 @@ class ProbeQueue final : public QueueSink {
 
   void PushBytes(const void* value, std::size_t size, const Publication& publication,
                  std::uint64_t source) noexcept;
-  // Lets go of what there is no room for.
+  // Lets go of what does not fit.
   void PushHold(const Hold& hold, const Publication& publication, std::uint64_t source) noexcept;
 
   BoundedQueue<Waiting> values_;

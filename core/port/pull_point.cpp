@@ -29,7 +29,7 @@ class PullPoint::Running {
   Running& operator=(const Running&) = delete;
 
  private:
-  // Written by who has the turn only: no read-modify-write is needed.
+  // Written by who has the lock only: no read-modify-write is needed.
   void Step(std::memory_order order) noexcept {
     point_.run_.store(point_.run_.load(std::memory_order_relaxed) + 1, order);
   }

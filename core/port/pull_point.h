@@ -9,12 +9,12 @@
 
 namespace runnel {
 
-/// What lets readers pull values out of an output: its provider, and the turn that keeps the
+/// What lets readers pull values out of an output: its provider, and the lock that keeps the
 /// publications of several threads apart.
 ///
-/// Who has the turn may publish; who does not get it goes without, and does not wait. So at any
+/// Who has the lock may publish; who does not get it goes without, and does not wait. So at any
 /// time at most one thread is the publisher, and what belongs to the publisher passes from one to
-/// the next with the turn.
+/// the next with the lock.
 ///
 /// Threads:     any. SetProvider() waits for a provider that is running; the rest never waits.
 /// Allocation:  in SetProvider() only.
@@ -56,7 +56,7 @@ class PullPoint {
   }
 
   /// Has the provider fill `value`; false if there is none, or if it has nothing. By who has the
-  /// turn. Throws what the provider throws.
+  /// lock. Throws what the provider throws.
   [[nodiscard]] bool Run(void* value);
 
   /// A pull came to nothing for want of a buffer, or by an exception.

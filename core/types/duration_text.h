@@ -12,7 +12,7 @@ namespace runnel {
 /// exact to the nanosecond.
 [[nodiscard]] std::string DurationText(Duration duration);
 
-/// A decimal number and a unit (ns, us, ms, s, min), with or without a blank between; negative ones
+/// A decimal number and a unit (ns, us, ms, s, min), with or without a space between; negative ones
 /// too. Rounded to the nearest nanosecond.
 [[nodiscard]] Result<Duration> ParseDuration(std::string_view text);
 

@@ -69,7 +69,7 @@ void XmlEditor::RemoveWords(const XmlAttribute& list, const std::set<std::size_t
       keeps_any = true;
       continue;
     }
-    // With the blanks before it; the first with those behind it.
+    // With the whitespace before it; the first with that behind it.
     if (!keeps_any) {
       edits_.Cut({begin, place});
     } else {

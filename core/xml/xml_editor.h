@@ -40,13 +40,13 @@ class XmlEditor {
   [[nodiscard]] std::string Finish();
 
  private:
-  // What the line of `place` begins with, up to the first that is no blank.
+  // What the line of `place` begins with, up to the first that is no whitespace.
   [[nodiscard]] std::string MarginAt(std::size_t place) const;
   [[nodiscard]] std::string MarginInside(XmlElement parent) const;
   [[nodiscard]] std::size_t SkipWhitespaceBack(std::size_t place) const;
   [[nodiscard]] std::size_t SkipWhitespace(std::size_t place) const;
   [[nodiscard]] bool BeginsLine(std::size_t place) const;
-  // Where the next line begins, if but blanks stand before it; else `place`.
+  // Where the next line begins, if but whitespace stands before it; else `place`.
   [[nodiscard]] std::size_t NextLine(std::size_t place) const;
   void WriteAppended(XmlElement parent, const std::vector<NewElement>& elements);
 

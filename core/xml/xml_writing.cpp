@@ -38,7 +38,7 @@ std::string EscapedAttribute(std::string_view value, char quote) {
       case '<':
         text += "&lt;";
         break;
-      case '\n':  // readers make blanks of these unless they are written so
+      case '\n':  // readers make spaces of these unless they are written so
         text += "&#10;";
         break;
       case '\r':

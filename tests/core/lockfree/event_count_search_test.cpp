@@ -14,8 +14,8 @@ constexpr unsigned kIterations = 100000;
 using SearchedEventCount = EventCount<SearchedAtomic, SearchedFutex>;
 using SearchedWaiter = Waiter<SearchedAtomic, SearchedFutex>;
 
-// Each notifier puts something somewhere, in the weakest way, gives notice, and rings if it has to; the
-// last thread waits until it has seen all of it. Notices may add up to one.
+// Each notifier puts something somewhere, in the weakest way, and notifies the waiter; the
+// last thread waits until it has seen all of it. Notifications may add up to one.
 template <int kNotifiers>
 struct NoticingSuite : rl::test_suite<NoticingSuite<kNotifiers>, kNotifiers + 1> {
   SearchedEventCount event_count;
@@ -42,7 +42,7 @@ TEST(EventCountSearch, NoNotificationIsLost) {
   EXPECT_TRUE(Search<NoticingSuite<2>>(kIterations, 4));
 }
 
-// What was done before a notice is done for who has taken it.
+// What was done before a notification is done for who has taken it.
 struct HandingOverSuite : rl::test_suite<HandingOverSuite, 2> {
   SearchedEventCount event_count;
   SearchedWaiter waiter{event_count, 1};
@@ -64,7 +64,7 @@ TEST(EventCountSearch, NotificationHandsOverWhatWasDoneBefore) {
   EXPECT_TRUE(Search<HandingOverSuite>(kIterations, 4));
 }
 
-// Two sleep on one event count, and a single ring wakes those of them who sleep.
+// Two sleep on one event count, and a single call wakes those of them who sleep.
 struct SharingSuite : rl::test_suite<SharingSuite, 3> {
   SearchedEventCount event_count;
   SearchedWaiter waiters[2] = {{event_count, 1}, {event_count, 2}};
@@ -88,7 +88,7 @@ TEST(EventCountSearch, OneNotificationWakesAllWhoSleep) {
   EXPECT_TRUE(Search<SharingSuite>(kIterations, 4));
 }
 
-// After a wait that has run out of time, a notice wakes the next one all the same; and one that came
+// After a wait that has run out of time, a notification wakes the next one all the same; and one that came
 // in the last moment is taken.
 struct TimeOutSuite : rl::test_suite<TimeOutSuite, 2> {
   SearchedEventCount event_count;
