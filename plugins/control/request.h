@@ -10,7 +10,7 @@
 
 namespace runnel {
 
-/// What a client asks for: a line of words, and, if it has more lines, a text.
+/// What a client asks for: a command with its arguments in a line, and, if it has more lines, a text.
 ///
 ///     echo /robot/planner/pose count=3
 ///     change file=plan.txt
@@ -22,7 +22,7 @@ struct Request {
   std::map<std::string, std::string> options;
   std::string body;
 
-  /// Errors: the first line cannot be split into words, or has an option twice.
+  /// Errors: the first line cannot be split into arguments, or has an option twice.
   [[nodiscard]] static Result<Request> Parse(std::string_view text);
   [[nodiscard]] std::string ToText() const;
 

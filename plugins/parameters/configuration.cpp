@@ -80,7 +80,7 @@ class FileReader {
     entries_[full] = {value.text(), value.position()};
   }
 
-  // Entries are no elements: blanks, as FINROC's have, are good names.
+  // Entries are no elements: spaces, as FINROC's have, may be in their names.
   const std::string* ReadName(XmlElement element) {
     CheckAttributes(element, kName, diagnostics_);
     const std::string* const name = ReadText(element, "name", diagnostics_);

@@ -10,7 +10,7 @@
 
 namespace runnel::internal {
 
-/// One word of a change in text format, without the quotation marks that it may have had.
+/// One argument of a change in text format, without the quotation marks that it may have had.
 struct ChangeArgument {
   std::string text = {};
   /// Where the first '=' outside of quotation marks is: of "name=value", the end of the name.
@@ -21,16 +21,16 @@ struct ChangeArgument {
   [[nodiscard]] std::string value() const { return equals ? text.substr(*equals + 1) : ""; }
 };
 
-/// The words of one change; never empty.
+/// The arguments of one change; never empty.
 using ChangeLine = std::vector<ChangeArgument>;
 
-/// Splits a text into changes, by ends of lines and semicolons, and those into words, by blanks. `begins`
+/// Splits a text into changes, by ends of lines and semicolons, and those into arguments, by whitespace. `begins`
 /// is where the text begins in a file. Lines with errors are left out.
 [[nodiscard]] std::vector<ChangeLine> SplitChanges(std::string_view text,
                                                    const SourcePosition& begins,
                                                    Diagnostics& diagnostics);
 
-/// `text` as a word that is read back as it is: in quotation marks where it needs them.
+/// `text` as an argument that is read back as it is: in quotation marks where it needs them.
 [[nodiscard]] std::string AsArgument(std::string_view text);
 
 }  // namespace runnel::internal

@@ -26,7 +26,7 @@ Error At(const SourcePosition& position, std::string message, std::string hint) 
   return {.message = std::move(message), .position = position, .hint = std::move(hint)};
 }
 
-// The words of one change, taken one after the other. What is missing or wrong is remembered, the first
+// The arguments of one change, taken one after the other. What is missing or wrong is remembered, the first
 // of it, so that readers read straight on.
 class Arguments {
  public:

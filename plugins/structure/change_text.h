@@ -24,9 +24,9 @@ namespace runnel {
 ///     move /robot/planner to control
 ///     move /robot/planner to ""                     # back to where its group is run
 ///
-/// Arguments are separated by blanks. What has blanks or a ';' in it stands in quotation marks, in which
+/// Arguments are separated by whitespace. What has whitespace or a ';' in it stands in quotation marks, in which
 /// the escapes are those of C++ (\" and \\, \n, \t, \r); a value in brackets, as the text format of
-/// types has them, needs none. '#' at the start of a word begins a comment.
+/// types has them, needs none. '#' at the start of an argument begins a comment.
 /// `probation` is of the replacement: a parameter of that name is set by a `set` after it.
 
 /// Changes with the places in the user's text at which they stand.
@@ -39,7 +39,7 @@ struct PlacedChanges {
 /// that is wrong goes to `diagnostics`, with line, column and the nearest word; the changes that are
 /// right are returned nevertheless.
 ///
-/// Only words are looked at, not whether an application could be changed like that: Apply() does.
+/// Only the text is looked at, not whether an application could be changed like that: Apply() does.
 [[nodiscard]] PlacedChanges ParseChanges(std::string_view text, const SourcePosition& begins,
                                          Diagnostics& diagnostics);
 

@@ -11,8 +11,8 @@
 
 namespace runnel::internal {
 
-/// Keeps replaced modules until their successors have run some cycles without throwing, and puts them back
-/// if they do throw.
+/// The trial period of new modules, and the rollback: keeps replaced modules until their successors have run
+/// some cycles without throwing, and puts them back if they do throw.
 ///
 /// Threads:  all under the editor's mutex, and not under the structure lock.
 class Probation {

@@ -12,7 +12,7 @@
 
 namespace runnel::internal {
 
-/// The structure as it will be when the changes so far have been made: what is still beside the tree is
+/// A preview of the structure as it will be when the changes so far have been made: what is still beside the tree is
 /// found in its place, what will go is not found. Nothing is changed.
 ///
 /// Threads:  under the structure lock.

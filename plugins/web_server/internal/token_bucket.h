@@ -6,8 +6,8 @@
 
 namespace runnel::internal {
 
-/// What a client may still say: it has so much a second, may save up for a second, and pays for each
-/// message and each 4 kB of it.
+/// A token bucket for what one client may say: so many tokens come each second, those of a second can be
+/// saved, and each message costs one and one more for each 4 kB.
 class TokenBucket {
  public:
   using SteadyTime = std::chrono::steady_clock::time_point;
