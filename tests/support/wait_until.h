@@ -14,11 +14,10 @@ namespace runnel::test {
 /// takes: whoever waits so long waits for something that does not come.
 inline constexpr std::chrono::seconds kLongestWait{30};
 
-namespace internal {
-
+/// WaitUntil(), with `pause` between two looks.
 template <typename Condition, typename Pause>
-void WaitUntil(std::string_view what, Condition& condition, std::chrono::milliseconds limit,
-               const Pause& pause, std::source_location from) {
+void WaitWithPauses(std::string_view what, Condition& condition, std::chrono::milliseconds limit,
+                    const Pause& pause, std::source_location from) {
   const auto latest = std::chrono::steady_clock::now() + limit;
   while (!condition()) {
     if (std::chrono::steady_clock::now() >= latest) {
@@ -33,8 +32,6 @@ void WaitUntil(std::string_view what, Condition& condition, std::chrono::millise
   }
 }
 
-}  // namespace internal
-
 /// Waits until `condition()`. If that does not come true within `limit`, the test fails at the
 /// calling line with `what`, which says in words what was waited for, and ends there; in a thread of
 /// the test's own the program ends, with the same text.
@@ -43,7 +40,7 @@ void WaitUntil(std::string_view what, Condition&& condition,
                std::chrono::milliseconds limit = kLongestWait,
                std::source_location from = std::source_location::current()) {
   const auto sleep = [] { std::this_thread::sleep_for(std::chrono::microseconds(100)); };
-  internal::WaitUntil(what, condition, limit, sleep, from);
+  WaitWithPauses(what, condition, limit, sleep, from);
 }
 
 /// The same without sleeping, for threads whose turns are to be many and close.
@@ -51,7 +48,8 @@ template <typename Condition>
 void YieldUntil(std::string_view what, Condition&& condition,
                 std::chrono::milliseconds limit = kLongestWait,
                 std::source_location from = std::source_location::current()) {
-  internal::WaitUntil(what, condition, limit, [] { std::this_thread::yield(); }, from);
+  WaitWithPauses(
+      what, condition, limit, [] { std::this_thread::yield(); }, from);
 }
 
 }  // namespace runnel::test
