@@ -74,10 +74,10 @@ Result<void> Application::Connect(std::string_view from, std::string_view to,
 }
 
 ChangeOutcome Application::Apply(const ChangeSet& changes) {
-  const ChangeOutcome outcome = parts_->history->Apply(changes);
-  std::string text = outcome ? "" : "refused: ";
-  for (const Change& change : changes) text += ChangeText(change) + "; ";
-  parts_->log->Add(ApplicationLog::Kind::kChange, text.substr(0, text.size() - 2));
+  std::string text;
+  for (const Change& change : changes) text += (text.empty() ? "" : "; ") + ChangeText(change);
+  ChangeOutcome outcome = parts_->history->Apply(changes);
+  parts_->log->Add(ApplicationLog::Kind::kChange, outcome ? std::move(text) : "refused: " + text);
   return outcome;
 }
 
@@ -156,14 +156,16 @@ CommandService& Application::service() {
   ServiceHooks hooks = parts_->hooks;
   hooks.load_plugin = [this](const std::string& plugin) { return LoadPlugin(plugin); };
   hooks.save = [this](const std::string& file) -> Result<std::string> {
+    std::string done = "saved " + parts_->path() + (file.empty() ? "" : " to " + file);
     const auto saved = file.empty() ? Save() : Save(file);
     if (!saved) return saved.error();
-    return "saved " + parts_->path() + (file.empty() ? "" : " to " + file);
+    return done;
   };
   hooks.reload = [this](const std::string& plugin) -> Result<std::string> {
+    std::string done = "loaded " + plugin + " anew";
     const auto outcome = Reload(plugin);
     if (!outcome) return outcome.diagnostics.errors().front();
-    return "loaded " + plugin + " anew";
+    return done;
   };
   return parts_->service.emplace(ServedApplication{parts_->runtime(), parts_->plugins().modules(),
                                                    *parts_->editor, *parts_->log, std::move(hooks),

@@ -3,22 +3,27 @@
 #include <algorithm>
 #include <array>
 #include <ctime>
+#include <new>
 #include <utility>
 
 #include <fmt/format.h>
 
 namespace runnel {
 
-void ApplicationLog::Add(Kind kind, std::string text) {
-  while (!text.empty() && text.back() == '\n') text.pop_back();
-  if (text.size() > kLongestText) text = text.substr(0, kLongestText) + " …";
-  Entry entry{0, std::chrono::system_clock::now(), clock_.Now() - start_, kind, std::move(text)};
-  const std::lock_guard lock(mutex_);
-  entry.number = first_ + entries_.size();
-  entries_.push_back(std::move(entry));
-  if (entries_.size() <= kMostEntries) return;
-  entries_.pop_front();
-  ++first_;
+// What has been done must be told as done, whatever the log does.
+void ApplicationLog::Add(Kind kind, std::string text) noexcept {
+  try {
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    if (text.size() > kLongestText) text = text.substr(0, kLongestText) + " …";
+    Entry entry{0, std::chrono::system_clock::now(), clock_.Now() - start_, kind, std::move(text)};
+    const std::lock_guard lock(mutex_);
+    entry.number = first_ + entries_.size();
+    entries_.push_back(std::move(entry));
+    if (entries_.size() <= kMostEntries) return;
+    entries_.pop_front();
+    ++first_;
+  } catch (const std::bad_alloc&) {
+  }
 }
 
 ApplicationLog::Entries ApplicationLog::ReadEntries(std::uint64_t from, std::size_t most) const {

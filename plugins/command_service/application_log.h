@@ -25,7 +25,8 @@ class ApplicationLog {
   /// `clock` is the application's and must outlive this; times count from now.
   explicit ApplicationLog(const Clock& clock) : clock_(clock), start_(clock.Now()) {}
 
-  void Add(Kind kind, std::string text);
+  /// What there is no memory for is not kept.
+  void Add(Kind kind, std::string text) noexcept;
 
   /// "fault", "warning", "change".
   [[nodiscard]] static const char* KindName(Kind kind) noexcept;

@@ -5,11 +5,13 @@
 
 namespace runnel {
 
-Error CaughtError() {
+Error CaughtError() noexcept {
   try {
-    throw;
-  } catch (const ElementError& error) {
-    return error.error();
+    try {
+      throw;
+    } catch (const ElementError& error) {
+      return error.error();
+    }
   } catch (...) {
     return {.message = DescribeException()};
   }

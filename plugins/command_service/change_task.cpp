@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <new>
 #include <utility>
 
 #include <fmt/format.h>
@@ -48,8 +49,22 @@ void LoadMissingPlugins(const ChangeSet& changes, const ServedApplication& appli
   }
 }
 
-std::string DoneText(Duration hold_time) {
-  return fmt::format("done; threads stood still for {:.3f} ms", ToSeconds(hold_time) * 1e3);
+// `room` for all that is said of what was done.
+constexpr std::size_t kRoomForText = 160;
+std::string DoneText(Duration hold_time, std::string room) {
+  const auto text = fmt::format_to_n(room.data(), room.size(), "done; threads stood still for {:.3f} ms",
+                                     ToSeconds(hold_time) * 1e3);
+  room.resize(text.size);
+  return room;
+}
+
+std::string EntryOf(const ChangeSet& changes) {
+  std::string text;
+  for (const Change& each : changes) {
+    text += (text.empty() ? "" : "; ") + ChangeText(each);
+    if (text.size() > ApplicationLog::kLongestText) break;
+  }
+  return text;
 }
 
 }  // namespace
@@ -68,7 +83,11 @@ std::optional<Duration> ChangeTask::State::Step() {
   }
   // Once more after the end: a fault in the last cycle may just be being answered.
   has_proved = !is_on_probation;
-  LookAfterProbation();
+  try {
+    LookAfterProbation();
+  } catch (const std::bad_alloc&) {  // it has been done all the same; there may be memory at the next look
+    has_proved = false;
+  }
   if (!IsOver()) {
     look_again = std::min(2 * look_again, kLastLook);
     return look_again;
@@ -77,8 +96,11 @@ std::optional<Duration> ChangeTask::State::Step() {
   return {};
 }
 
+// What the answer and the log need comes first: nothing may fail between doing it and saying that it is done.
 void ChangeTask::State::Apply() {
   const PlacedChanges& placed = request.placed;
+  std::string entry = EntryOf(placed.changes);
+  std::string text(kRoomForText, ' ');
   ChangeOutcome outcome;
   try {
     LoadMissingPlugins(placed.changes, application);
@@ -91,30 +113,10 @@ void ChangeTask::State::Apply() {
   } catch (...) {
     *answer = CommandAnswer::Failed(CaughtError());
   }
-  Log();
   is_on_probation = *answer && !swaps.empty();
-  if (*answer) TellWhatWasDone(outcome.hold_time);
-}
-
-void ChangeTask::State::TellWhatWasDone(Duration hold_time) noexcept {
-  try {
-    answer->text = DoneText(hold_time);
-  } catch (...) {
-    // Out of memory for the text: that it has been done is said all the same.
-  }
-}
-
-void ChangeTask::State::Log() const noexcept {
-  try {
-    std::string text = *answer ? "" : "refused: ";
-    for (std::size_t i = 0; i < request.placed.changes.size(); ++i) {
-      text += (i > 0 ? "; " : "") + ChangeText(request.placed.changes[i]);
-      if (text.size() > ApplicationLog::kLongestText) break;
-    }
-    application.log.Add(ApplicationLog::Kind::kChange, std::move(text));
-  } catch (...) {
-    // Out of memory for the log. The answer must say what has been done, whatever the log does.
-  }
+  if (*answer) answer->text = DoneText(outcome.hold_time, std::move(text));
+  application.log.Add(ApplicationLog::Kind::kChange,
+                      *answer ? std::move(entry) : "refused: " + entry);
 }
 
 void ChangeTask::State::FindSwaps() {

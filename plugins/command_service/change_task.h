@@ -34,8 +34,6 @@ class ChangeTask {
   struct State {
     std::optional<Duration> Step();
     void Apply();
-    void TellWhatWasDone(Duration hold_time) noexcept;
-    void Log() const noexcept;
     void FindSwaps();
     void LookAfterProbation();
     [[nodiscard]] bool IsOver() const;

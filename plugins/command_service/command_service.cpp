@@ -23,8 +23,8 @@ CommandAnswer Call(const Hook& hook, const std::string& argument, const char* wh
     return CommandAnswer::Refused(
         {.message = std::string("the program that runs this application cannot ") + what});
   }
-  const auto done = hook(argument);
-  return done ? CommandAnswer::Done(*done) : CommandAnswer::Failed(done.error());
+  auto done = hook(argument);
+  return done ? CommandAnswer::Done(std::move(*done)) : CommandAnswer::Failed(done.error());
 }
 
 }  // namespace
@@ -34,9 +34,11 @@ CommandAnswer PendingCommand::Take() {
   return std::move(*answer_);
 }
 
+// Nothing can fail once the task is posted: it would be carried out, and nobody be told.
 std::unique_ptr<PendingCommand> CommandService::Begin(CommandRequest request, TaskGroup& tasks,
                                                       std::function<void()> on_done) {
-  auto answer = std::make_shared<CommandAnswer>();
+  auto pending = std::make_unique<PendingCommand>();
+  const std::shared_ptr<CommandAnswer>& answer = pending->answer_;
   TaskStep step =
       std::visit(Overloaded{[&](ChangeRequest& change) -> TaskStep {
                               return ChangeTask(std::move(change), application_, answer);
@@ -48,8 +50,8 @@ std::unique_ptr<PendingCommand> CommandService::Begin(CommandRequest request, Ta
                               };
                             }},
                  request);
-  return std::make_unique<PendingCommand>(tasks.PostSteps(std::move(step), std::move(on_done)),
-                                          std::move(answer));
+  pending->task_ = tasks.PostSteps(std::move(step), std::move(on_done));
+  return pending;
 }
 
 CommandAnswer CommandService::Do(const UndoRequest&) const { return TakeHistoryStep(true); }
@@ -76,6 +78,9 @@ CommandAnswer CommandService::TakeHistoryStep(bool goes_back) const {
   }
   ChangeHistory& history = *application_.history;
   const auto label = goes_back ? history.NextUndo() : history.NextRedo();
+  std::string what;
+  if (label) what = (goes_back ? "undone: " : "redone: ") + *label;
+  std::string entry = what;
   CommandAnswer answer;
   try {
     ChangeOutcome outcome = goes_back ? history.Undo() : history.Redo();
@@ -85,9 +90,9 @@ CommandAnswer CommandService::TakeHistoryStep(bool goes_back) const {
     answer = CommandAnswer::Failed(CaughtError());
   }
   if (!label) return answer;
-  const std::string what = (goes_back ? "undone: " : "redone: ") + *label;
-  application_.log.Add(ApplicationLog::Kind::kChange, (answer ? "" : "could not be ") + what);
-  if (answer) answer.text = what;
+  application_.log.Add(ApplicationLog::Kind::kChange,
+                       answer ? std::move(entry) : "could not be " + what);
+  if (answer) answer.text = std::move(what);
   return answer;
 }
 

@@ -50,9 +50,10 @@ struct ServedApplication {
 /// Threads:  one; its task group outlives it.
 class PendingCommand {
  public:
-  PendingCommand(std::shared_ptr<WorkerTask> task, std::shared_ptr<CommandAnswer> answer)
-      : task_(std::move(task)), answer_(std::move(answer)) {}
-  ~PendingCommand() { task_->Cancel(); }
+  PendingCommand() = default;
+  ~PendingCommand() {
+    if (task_) task_->Cancel();
+  }
   PendingCommand(const PendingCommand&) = delete;
   PendingCommand& operator=(const PendingCommand&) = delete;
 
@@ -62,8 +63,10 @@ class PendingCommand {
   [[nodiscard]] CommandAnswer Take();
 
  private:
-  const std::shared_ptr<WorkerTask> task_;
-  const std::shared_ptr<CommandAnswer> answer_;  // the worker's until the task is done
+  friend class CommandService;
+  const std::shared_ptr<CommandAnswer> answer_ =
+      std::make_shared<CommandAnswer>();  // the worker's until the task is done
+  std::shared_ptr<WorkerTask> task_;
 };
 
 /// The one place that carries out what clients of a running application ask for, whatever they are

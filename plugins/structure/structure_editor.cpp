@@ -6,6 +6,7 @@
 
 #include "core/base/check.h"
 #include "core/base/exception_text.h"
+#include "core/base/retry.h"
 #include "core/lockfree/thread_epoch.h"
 #include "plugins/structure/plan.h"
 #include "plugins/structure/probation.h"
@@ -85,12 +86,14 @@ ChangeOutcome StructureEditor::Apply(const ChangeRequest& request) {
                                         std::to_string(kAttempts) + " attempts"});
   } catch (...) {
     // What has been done by then is done as a whole, and stays.
-    Error error{.message = DescribeException()};
-    if (outcome.is_done) {
-      outcome.diagnostics.AddWarning(std::move(error));
-    } else {
-      outcome.diagnostics.Add(std::move(error));
-    }
+    const Error error{.message = DescribeException()};
+    Retry([&] {
+      if (outcome.is_done) {
+        outcome.diagnostics.AddWarning(error);
+      } else {
+        outcome.diagnostics.Add(error);
+      }
+    });
   }
   return outcome;
 }

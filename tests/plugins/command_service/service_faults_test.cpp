@@ -1,0 +1,147 @@
+// Wherever memory runs out, an answer says whether it has been done.
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <semaphore>
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include "core/module/module.h"
+#include "core/plugin/module_type_name.h"
+#include "plugins/command_service/command_service.h"
+#include "plugins/structure/change_history.h"
+#include "tests/support/fault_injection.h"
+
+namespace runnel::test {
+namespace {
+
+class Idle final : public Module {
+ public:
+  using Module::Module;
+
+ private:
+  void Update() override {}
+};
+
+/// An application that nobody runs, with two modules, of which one was made by a change that can be undone.
+class World {
+ public:
+  World() {
+    for (const char* type : {"test/idle", "test/other"}) {
+      (void)modules.Add({type, "", "test", [](const Placement& placement) {
+                           return std::unique_ptr<FrameworkElement>(
+                               std::make_unique<Idle>(placement));
+                         }});
+    }
+    (void)runtime.MakeReady(runtime.root());
+    (void)editor.Apply({CreateModule{"/first", "test/idle"}});
+    (void)history.Apply({CreateModule{"/second", "test/idle"}});
+  }
+
+  /// The type of a module; "": it is not there.
+  std::string TypeAt(const std::string& path) {
+    const std::lock_guard lock(runtime.structure_mutex());
+    const auto found = runtime.root().Find(path);
+    return found ? FindModuleType(**found) : "";
+  }
+  /// Waits for all that was asked for before.
+  void WaitForWorker() {
+    std::binary_semaphore done(0);
+    TaskGroup tasks(service.worker());
+    const auto task = tasks.Post([] {}, [&] { done.release(); });
+    done.acquire();
+  }
+
+  bool is_saved = false;
+  Runtime runtime;
+  ModuleRegistry modules;
+  StructureEditor editor{runtime, modules, nullptr};
+  ChangeHistory history{editor};
+  ApplicationLog log{runtime.clock()};
+  ServiceHooks hooks{.save = [this](const std::string& file) -> Result<std::string> {
+    std::string done = "saved the application to the file that is called " + file;
+    is_saved = true;
+    return done;
+  }};
+  CommandService service{{runtime, modules, editor, log, hooks, &history}};
+};
+
+/// Has the worker meet a failing allocation at each point of the request.
+void Endure(const CommandRequest& request, const std::function<bool(World&)>& is_done) {
+  bool has_struck = true;
+  std::size_t nth = 0;
+  while (has_struck) {
+    SCOPED_TRACE(++nth);
+    World world;
+    std::optional<FaultInjection> injection;
+    std::binary_semaphore done(0);
+    TaskGroup tasks(world.service.worker());
+    (void)tasks.Post([&] { injection.emplace(InjectedFault::kAllocation, nth); });
+    const auto pending = world.service.Begin(request, tasks, [&] {
+      has_struck = injection->has_struck();
+      injection.reset();
+      done.release();
+    });
+    done.acquire();
+    const CommandAnswer answer = pending->Take();
+    ASSERT_EQ(static_cast<bool>(answer), is_done(world)) << answer.diagnostics.ToString();
+    if (answer) {
+      ASSERT_TRUE(answer.diagnostics.ok());
+      ASSERT_FALSE(answer.text.empty());
+    }
+  }
+  EXPECT_GT(nth, 1u);
+}
+
+ChangeRequest Request(ChangeSet changes) {
+  return {{.changes = std::move(changes), .positions = {}}};
+}
+
+TEST(ServiceFaults, AChangeIsToldAsDoneIfItIs) {
+  Endure(Request({CreateModule{"/a_module_with_a_long_name", "test/idle"}}),
+         [](World& world) { return !world.TypeAt("/a_module_with_a_long_name").empty(); });
+}
+TEST(ServiceFaults, AReplacementIsToldAsDoneIfItIs) {
+  Endure(Request({ReplaceModule{"/first", "test/other"}}),
+         [](World& world) { return world.TypeAt("/first") == "test/other"; });
+}
+TEST(ServiceFaults, AStepBackIsToldAsDoneIfItIs) {
+  Endure(UndoRequest{}, [](World& world) { return world.TypeAt("/second").empty(); });
+}
+TEST(ServiceFaults, ASavedFileIsToldAsSaved) {
+  Endure(SaveRequest{"application.xml"}, [](World& world) { return world.is_saved; });
+}
+
+TEST(ServiceFaults, WhatCouldNotBeAskedForIsNotDone) {
+  auto world = std::make_unique<World>();
+  auto tasks = std::make_unique<TaskGroup>(world->service.worker());
+  CommandRequest request = Request({CreateModule{"/new", "test/idle"}});
+  CommandRequest given = request;
+  std::unique_ptr<PendingCommand> pending;
+  const std::size_t points = AtEachPoint(
+      InjectedFault::kAllocation,
+      [&] {
+        try {
+          pending = world->service.Begin(std::move(given), *tasks);
+        } catch (const std::bad_alloc&) {
+        }
+      },
+      [&](bool) {
+        world->WaitForWorker();
+        ASSERT_EQ(world->TypeAt("/new").empty(), pending == nullptr);
+        given = request;
+        if (!pending) return;
+        pending.reset();
+        tasks.reset();
+        world = std::make_unique<World>();
+        tasks = std::make_unique<TaskGroup>(world->service.worker());
+      });
+  EXPECT_GT(points, 2u);
+}
+
+}  // namespace
+}  // namespace runnel::test
