@@ -58,8 +58,8 @@ void Plan::Make(const ChangeSet& changes, const std::vector<SourcePosition>& pla
     try {
       const auto check = [this](const auto& change) { return Check(change); };
       if (const auto possible = std::visit(check, changes[i]); !possible) tell(possible.error());
-    } catch (...) {
-      tell({.message = DescribeException()});
+    } catch (...) {  // the projection may have been told of something that is gone again
+      return tell({.message = DescribeException()});
     }
     for (Error& each : further_errors_) tell(std::move(each));
     further_errors_.clear();
