@@ -15,15 +15,23 @@ function(runnel_compile_together target count)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-# runnel_library(<name> [SOURCES ...] [APART ...] HEADERS ... [DEPENDS ...] [PRIVATE_DEPENDS ...])
+# runnel_library(<name> [STATIC] [SOURCES ...] [APART ...] HEADERS ... [DEPENDS ...] [PRIVATE_DEPENDS ...])
 # A library runnel_<name>, known to others as runnel::<name>. Without SOURCES it is header-only.
 # APART are sources, too, that cannot be compiled together with the others.
+# STATIC is what belongs to one plugin, and comes and goes with it when that is loaded anew.
 # Its headers are installed under their path from the root of the tree, and each must compile alone
 # (target all_verify_interface_header_sets).
 function(runnel_library name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;APART;HEADERS;DEPENDS;PRIVATE_DEPENDS")
-  if(arg_SOURCES)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "STATIC" "" "SOURCES;APART;HEADERS;DEPENDS;PRIVATE_DEPENDS")
+  if(arg_STATIC)
+    # Hidden: what two versions of a plugin have in common would be one for both.
+    add_library(runnel_${name} STATIC)
+    set_target_properties(runnel_${name} PROPERTIES
+      CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  elseif(arg_SOURCES)
     add_library(runnel_${name})
+  endif()
+  if(arg_SOURCES)
     target_sources(runnel_${name} PRIVATE ${arg_SOURCES} ${arg_APART})
     runnel_compile_together(runnel_${name} 6 ${arg_APART})
     set(scope PUBLIC)
@@ -39,7 +47,7 @@ function(runnel_library name)
   target_link_libraries(runnel_${name} ${scope} ${arg_DEPENDS})
   set_target_properties(runnel_${name} PROPERTIES EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON)
   install(TARGETS runnel_${name} EXPORT runnelTargets
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
     FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/runnel)
 endfunction()
 

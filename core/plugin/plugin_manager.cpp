@@ -10,6 +10,7 @@
 #include "core/base/exception_text.h"
 #include "core/base/nearest_name.h"
 #include "core/base/retry.h"
+#include "core/plugin/outdated_dependency.h"
 #include "core/plugin/plugin_entry.h"
 #include "core/plugin/shared_library.h"
 #include "core/plugin/temporary_copy.h"
@@ -159,6 +160,11 @@ Result<PluginReload> PluginManager::ReloadKnown(std::string_view name) {
   PluginReload reload(registry_, plugin, registry_.SetAside(plugin));
   const auto copy = TemporaryCopy::Make(known->second);
   if (!copy) return copy.error();
+  if (const auto outdated = FindOutdatedDependency(copy->file())) {
+    return Refusal(known->second,
+                   "it needs " + outdated->string() + ", which has been built anew, too",
+                   "start the application again, or link that library into the plugin (STATIC)");
+  }
   auto registered = Register(plugin, copy->file());
   if (!registered) {
     Error error = registered.error();

@@ -44,7 +44,8 @@ class PluginManager {
   Result<void> Load(std::string_view name);
   /// Loads the file of a plugin that is loaded as it is now, beside the library of before, whose code
   /// stays for what was made with it. New modules are made by the new one; if the returned object goes
-  /// without Keep(), by the old one again. Errors: as Load(), and everything is as before then.
+  /// without Keep(), by the old one again. Errors: as Load(), and a library that it needs has been built anew,
+  /// too; everything is as before then.
   Result<PluginReload> Reload(std::string_view name);
   /// The names of the plugins that could be loaded from the search path, sorted.
   [[nodiscard]] std::vector<std::string> Available() const;

@@ -14,6 +14,7 @@ namespace runnel::test {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -167,6 +168,32 @@ TEST_F(PluginManagerTest, OfferedRegistriesKnowWhosePluginRegistersAndWhenItIsOv
   EXPECT_FALSE(manager.Load("throws_int"));
   EXPECT_TRUE(manager.Reload("good"));
   EXPECT_THAT(tags.plugins_told, ElementsAre("good", "", "throws_int", "", "good", ""));
+}
+
+// The linker puts a new file in the place of the old one.
+TEST_F(PluginManagerTest, WhatNeedsALibraryThatHasChangedCannotBeLoadedAnew) {
+  const TemporaryFolder folder;
+  const auto put = [&](const char* from, const char* file) {
+    fs::copy_file(kFolder / from / file, folder / "new");
+    fs::rename(folder / "new", folder / file);
+  };
+  put("needed_1", "needing.so");
+  put("needed_1", "librunnel_test_needed.so");
+  manager.AddSearchFolder(folder.path());
+  ASSERT_TRUE(manager.Load("needing"));
+  {
+    auto reload = manager.Reload("needing");
+    ASSERT_TRUE(reload) << reload.error().ToString();
+    reload->Keep();
+  }
+  put("needed_2", "librunnel_test_needed.so");
+  const auto reload = manager.Reload("needing");
+  ASSERT_FALSE(reload);
+  EXPECT_THAT(reload.error().message,
+              AllOf(HasSubstr("librunnel_test_needed.so"), HasSubstr("has been built anew")));
+  EXPECT_NE(manager.modules().Find("needing/version_1"), nullptr);
+  put("needed_1", "librunnel_test_needed.so");
+  EXPECT_TRUE(manager.Reload("needing")) << "what was built anew and has not changed";
 }
 
 TEST_F(PluginManagerTest, TypeOfAnotherPluginCannotBeTakenOver) {
