@@ -20,6 +20,13 @@ struct KeptFields {
         .Field("total", &PointHistory::total_)
         .Field("size", &PointHistory::size_);
   }
+  static void Describe(TypeBuilder<FacedHeadings>& type) {
+    type.Name("FacedHeadings")
+        .Field("place", &FacedHeadings::place_)
+        .Field("heading", &FacedHeadings::heading_)
+        .Field("left", &FacedHeadings::left_)
+        .Field("right", &FacedHeadings::right_);
+  }
   static void Describe(TypeBuilder<WallFollower>& type) {
     type.Name("WallFollower")
         .Field("direction", &WallFollower::direction_)
@@ -27,7 +34,11 @@ struct KeptFields {
         .Field("target_heading", &WallFollower::target_heading_)
         .Field("is_cautious", &WallFollower::is_cautious_)
         .Field("turning_place", &WallFollower::turning_place_)
-        .Field("turn_sign", &WallFollower::turn_sign_);
+        .Field("turn_sign", &WallFollower::turn_sign_)
+        .Field("is_looking", &WallFollower::is_looking_)
+        .Field("looked_round", &WallFollower::looked_round_)
+        .Field("look_to", &WallFollower::look_to_)
+        .Field("last_heading", &WallFollower::last_heading_);
   }
   using Gate = Lap::Gate;
   static void Describe(TypeBuilder<Gate>& type) {
@@ -51,6 +62,7 @@ struct KeptFields {
 };
 
 inline void Describe(TypeBuilder<PointHistory>& type) { KeptFields::Describe(type); }
+inline void Describe(TypeBuilder<FacedHeadings>& type) { KeptFields::Describe(type); }
 inline void Describe(TypeBuilder<WallFollower>& type) { KeptFields::Describe(type); }
 inline void Describe(TypeBuilder<KeptFields::Gate>& type) { KeptFields::Describe(type); }
 inline void Describe(TypeBuilder<Lap>& type) { KeptFields::Describe(type); }
@@ -80,6 +92,7 @@ inline void Describe(TypeBuilder<BugState>& type) {
       .Field("last_direction", &BugState::last_direction)
       .Field("node_side", &BugState::node_side)
       .Field("second_looks", &BugState::second_looks)
+      .Field("faced", &BugState::faced)
       .Field("progress_point", &BugState::progress_point)
       .Field("idle_time", &BugState::idle_time)
       .Field("refused_at", &BugState::refused_at)

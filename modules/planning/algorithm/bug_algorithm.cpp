@@ -10,7 +10,7 @@ namespace runnel {
 
 namespace {
 
-constexpr double kFaced = DegreesToRadians(8.0);  // rad of bearing at which the robot faces a point
+constexpr double kSeen = DegreesToRadians(13.0);  // rad off ahead, within the narrowest view
 constexpr int kSecondLooks = 3;       // in a task, so that it ends whatever the sensors say
 constexpr double kLookingTime = 4.0;  // s, of standing and looking before a vague obstacle
 constexpr double kTurnsForLookingRound = 2.5;  // that a robot needs where there is no way on
@@ -60,7 +60,7 @@ Twist2 BugAlgorithm::Step(BugState& state, const BugInput& input) const {
 }
 
 Twist2 BugAlgorithm::GoRoundObstacle(BugState& state, const BugInput& input) const {
-  if (IsStuck(state)) {
+  if (IsStuck(state, input)) {
     GiveUp(state, Unreachability::kNoRoom);
     return {};
   }
@@ -97,9 +97,11 @@ void BugAlgorithm::FindLeavePoint(BugState& state, const BugInput& input) const 
   state.approach = found->approach;
 }
 
-bool BugAlgorithm::IsStuck(const BugState& state) const {
+bool BugAlgorithm::IsStuck(const BugState& state, const BugInput& input) const {
   const double turning = kTurnsForLookingRound * 2 * kPi / configuration_.driving.turn_limit;
-  return state.idle_time > std::max(configuration_.idle_limit, turning);
+  // Where rangers of narrow view have to be turned to what they look at, it takes as long again.
+  const double parts = input.surroundings.is_vague ? 2.0 : 1.0;
+  return state.idle_time > parts * std::max(configuration_.idle_limit, turning);
 }
 
 bool BugAlgorithm::LeavePointFound(const BugState& state) const {
@@ -126,7 +128,7 @@ Twist2 BugAlgorithm::MotionToGoal(BugState& state, const BugInput& input) const 
                                  TravelRadius(configuration_.driving, input.surroundings));
   if (way.free_range < std::min(configuration_.hit_range, state.status.distance_to_goal)) {
     // Face what may not be there: looked at, it proves to be there or is gone.
-    if (input.surroundings.is_vague && std::abs(way.obstacle_bearing) > kFaced &&
+    if (input.surroundings.is_vague && !state.faced.Contains(way.obstacle_bearing) &&
         state.idle_time < kLookingTime) {
       return TurnTowards(configuration_.driving, way.obstacle_bearing);
     }
@@ -134,7 +136,7 @@ Twist2 BugAlgorithm::MotionToGoal(BugState& state, const BugInput& input) const 
     return {};
   }
   // A way that the sensors show now free, now not, is none.
-  if (IsStuck(state)) {
+  if (IsStuck(state, input)) {
     Hit(state, input, NearestBoundary(input.surroundings).bearing);
     return {};
   }
@@ -143,6 +145,10 @@ Twist2 BugAlgorithm::MotionToGoal(BugState& state, const BugInput& input) const 
 
 Twist2 BugAlgorithm::GoAhead(const BugState& state, const BugInput& input, double bearing) const {
   const DrivingConfiguration& driving = configuration_.driving;
+  // On a curve the body would go where rangers of narrow view have not looked.
+  if (input.surroundings.is_vague && std::abs(bearing) > kSeen) {
+    return TurnTowards(driving, bearing);
+  }
   const double speed =
       std::min(driving.cruise_speed, SpeedToStopWithin(driving, state.status.distance_to_goal));
   return DriveTowards(driving, input.surroundings, bearing, speed);
@@ -198,7 +204,9 @@ Twist2 BugAlgorithm::FinishFruitlessLap(BugState& state, const BugInput& input) 
 
 Twist2 BugAlgorithm::FaceGoal(BugState& state, const BugInput& input) const {
   const double bearing = BearingTo(input, input.goal);
-  if (std::abs(bearing) > kFaced) return TurnTowards(configuration_.driving, bearing);
+  if (std::abs(bearing) > FacedHeadings::kFaced) {
+    return TurnTowards(configuration_.driving, bearing);
+  }
   const bool may_leave = state.is_last_chance ? IsFreeTowardsGoal(View(state, input))
                                               : components_.leave->MayLeave(View(state, input));
   if (may_leave) {
@@ -210,7 +218,7 @@ Twist2 BugAlgorithm::FaceGoal(BugState& state, const BugInput& input) const {
 }
 
 Twist2 BugAlgorithm::WallFollowing(BugState& state, const BugInput& input) const {
-  return state.follower.Update(configuration_.driving, input.pose, input.surroundings);
+  return state.follower.Update(configuration_.driving, input.pose, input.surroundings, state.faced);
 }
 
 void BugAlgorithm::StartFollowing(BugState& state, const BugInput& input,

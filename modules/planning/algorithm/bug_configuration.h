@@ -17,7 +17,8 @@ struct BugConfiguration {
   double step = 0.50;         ///< m; STEP of DistBug: by which it must see that it gets nearer
   double hit_range = 0.05;    ///< m; the way to the goal free for less than this is a hit
   double leave_range = 0.10;  ///< m; a leave point must be free towards the goal for this
-  /// s; without getting on for so long, and for two turns and a half, there is no room to move.
+  /// s; without getting on for so long, and for two turns and a half, there is no room to move;
+  /// twice that where sensors are vague.
   double idle_limit = 15.0;
 };
 

@@ -16,7 +16,6 @@ constexpr double kPassDistance = 0.20;  // m
 // Near in space is not enough where the boundary comes close to itself: the way gone must fit too.
 constexpr double kWayTolerance = 0.40;         // m
 constexpr double kWayToleranceByLength = 0.1;  // of the way
-constexpr double kFaced = DegreesToRadians(8.0);
 
 double ToleranceOf(double way) { return kWayTolerance + kWayToleranceByLength * way; }
 
@@ -124,7 +123,7 @@ std::optional<Twist2> BugAlgorithm::DriveToPoint(const BugInput& input, Point2 p
   if (FreeRange(input.surroundings, bearing, radius) < distance) return std::nullopt;
   // What rangers of narrow view have not looked at may be anything.
   if (input.surroundings.is_vague && distance > configuration_.leave_range &&
-      std::abs(bearing) > kFaced) {
+      std::abs(bearing) > FacedHeadings::kFaced) {
     return TurnTowards(configuration_.driving, bearing);
   }
   const double speed = SpeedToStopWithin(configuration_.driving, distance);

@@ -38,6 +38,7 @@ void BugAlgorithm::Begin(BugState& state, const BugInput& input) const {
   state.line_start = input.start;
   state.last_pose = input.pose;
   state.progress_point = Position(input.pose);
+  state.faced.Start(input.pose);
 }
 
 // The variant before may have been to places that this one would not have left, or off this one's
@@ -67,6 +68,7 @@ void BugAlgorithm::Record(BugState& state, const BugInput& input) const {
   PlannerStatus& status = state.status;
   status.path_length += Distance(Position(state.last_pose), position);
   status.distance_to_goal = Distance(position, input.goal);
+  state.faced.Update(input.pose);
   RecordIdleTime(state, input);
   RecordMLine(state, input);
   state.least_distance_of_all = std::min(state.least_distance_of_all, status.distance_to_goal);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include "modules/planning/algorithm/faced_headings.h"
 #include "modules/planning/algorithm/lap.h"
 #include "modules/planning/algorithm/point_history.h"
 #include "modules/planning/algorithm/wall_follower.h"
@@ -54,6 +55,7 @@ struct BugState {
   std::optional<BoundaryDirection> last_direction;  ///< chosen at the last hit point
   std::optional<BoundaryDirection> node_side;  ///< of the goal, of the tangent node chosen last
   int second_looks = 0;         ///< at hit points, after a lap, that found the way free
+  FacedHeadings faced;          ///< from where it stands
   Point2 progress_point;        ///< where the robot last got on
   double idle_time = 0.0;       ///< s since then
   double refused_at = -kNever;  ///< m, the path's length where it last found a leave point blocked

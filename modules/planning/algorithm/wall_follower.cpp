@@ -20,41 +20,82 @@ constexpr double kLeastLookahead = 0.03;     // m, in a tight place
 constexpr double kLookahead = 0.15;          // m that the way must be free
 constexpr double kSqueeze = DegreesToRadians(30.0);
 constexpr double kSweepStep = DegreesToRadians(3.0);
+constexpr double kLookedAt = DegreesToRadians(5.0);  // within what counts as faced
 constexpr double kTurnedEnough = DegreesToRadians(10.0);
 constexpr double kOvershoot = DegreesToRadians(30.0);  // of a turn, before it counts as a whole one
 constexpr double kLargeTurn = DegreesToRadians(60.0);
-constexpr double kSearchRadius = 0.5;  // m, of the circle towards a lost boundary
+constexpr double kDetour = DegreesToRadians(15.0);  // off the tangent, that is worth a look
+constexpr double kAhead = DegreesToRadians(-60.0);  // of the boundary, where it is no more beside
+constexpr double kSearchRadius = 0.5;               // m, of the circle towards a lost boundary
 
-// Rad, mirrored so that the boundary is on the right, not wrapped: the robot turns away from the
-// boundary even if it has to turn by more than half a circle.
-std::optional<double> FreeBearing(const Surroundings& surroundings, double sign, double radius,
-                                  double tangent, double lookahead) {
-  const auto is_free = [&](double bearing) {
-    return FreeRange(surroundings, sign * bearing, radius) >= lookahead;
-  };
-  // In a narrow passage nearer to the boundary than it likes to be, so that whether a passage is
-  // wide enough does not depend on the side the robot comes from.
-  for (double bearing = tangent; bearing > tangent - kSqueeze; bearing -= kSweepStep) {
-    if (is_free(bearing)) return bearing;
-  }
-  for (double bearing = tangent; bearing < tangent + 2 * kPi; bearing += kSweepStep) {
-    if (is_free(bearing)) return bearing;
-  }
-  return std::nullopt;
-}
+// What the robot sees, mirrored so that the boundary is on the right, and as if it had not turned to
+// look round.
+class Gaze {
+ public:
+  // `turned` (rad): by so much the robot has turned to look round.
+  Gaze(const Surroundings& surroundings, const FacedHeadings& faced, double sign, double turned,
+       double radius)
+      : surroundings_(surroundings), faced_(faced), sign_(sign), turned_(turned), radius_(radius) {}
 
-double BearingToGo(const Surroundings& surroundings, double sign, double radius,
-                   const BoundaryPoint& contact, double lookahead) {
+  [[nodiscard]] double Body(double bearing) const { return sign_ * bearing - turned_; }
+  [[nodiscard]] double Mirrored(double body) const { return sign_ * WrapAngle(body + turned_); }
+
+  // Whether a point ahead may not be there: it has not been faced from here. What is beside the robot,
+  // the rangers there have looked at.
+  [[nodiscard]] bool IsInDoubt(double bearing) const {
+    return surroundings_.is_vague && bearing > kAhead && !faced_.Contains(Body(bearing));
+  }
+
+  // Rad, not wrapped: the robot turns away from the boundary even if it has to turn by more than half
+  // a circle.
+  [[nodiscard]] double BearingToGo(double tangent, double lookahead) const {
+    for (double free = lookahead; free > kLeastLookahead; free /= 2) {
+      if (const auto bearing = FreeBearing(tangent, free)) return *bearing;
+    }
+    return kPi;
+  }
+
+  // The first point, if there is one, for which the robot would turn away from the tangent, and that
+  // may not be there.
+  [[nodiscard]] std::optional<double> Doubt(double tangent, double bearing_to_go,
+                                            double lookahead) const {
+    if (!surroundings_.is_vague || bearing_to_go < tangent + kDetour) return std::nullopt;
+    for (double bearing = tangent; bearing < bearing_to_go; bearing += kSweepStep) {
+      const WayAhead way = LookAlong(surroundings_, Body(bearing), radius_);
+      const double obstacle = Mirrored(way.obstacle_bearing);
+      if (way.free_range < lookahead && IsInDoubt(obstacle)) return obstacle;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  [[nodiscard]] std::optional<double> FreeBearing(double tangent, double lookahead) const {
+    const auto is_free = [&](double bearing) {
+      return FreeRange(surroundings_, Body(bearing), radius_) >= lookahead;
+    };
+    // In a narrow passage nearer to the boundary than it likes to be, so that whether a passage is
+    // wide enough does not depend on the side the robot comes from.
+    for (double bearing = tangent; bearing > tangent - kSqueeze; bearing -= kSweepStep) {
+      if (is_free(bearing)) return bearing;
+    }
+    for (double bearing = tangent; bearing < tangent + 2 * kPi; bearing += kSweepStep) {
+      if (is_free(bearing)) return bearing;
+    }
+    return std::nullopt;
+  }
+
+  const Surroundings& surroundings_;
+  const FacedHeadings& faced_;
+  double sign_;
+  double turned_;
+  double radius_;
+};
+
+double Tangent(const Surroundings& surroundings, const BoundaryPoint& contact, double bearing) {
   const double correction =
       std::clamp(kDistanceGain * (double{surroundings.safe_distance} - contact.distance),
                  -kCorrectionLimit, kCorrectionLimit);
-  const double tangent = sign * contact.bearing + kPi / 2 + correction;
-  for (double free = lookahead; free > kLeastLookahead; free /= 2) {
-    if (const auto bearing = FreeBearing(surroundings, sign, radius, tangent, free)) {
-      return *bearing;
-    }
-  }
-  return kPi;
+  return bearing + kPi / 2 + correction;
 }
 
 }  // namespace
@@ -65,16 +106,23 @@ void WallFollower::Start(BoundaryDirection direction, const Pose2& pose, double 
   const double offset = sign * WrapAngle(contact_bearing) + kPi / 2;
   is_turning_ = true;
   is_cautious_ = false;
+  EndLook();
   turn_sign_ = offset >= 0.0 ? sign : -sign;
   target_heading_ = pose.heading + sign * offset;
 }
 
+void WallFollower::EndLook() {
+  is_looking_ = false;
+  looked_round_ = 0.0;
+}
+
 BoundaryPoint WallFollower::Contact(const Surroundings& surroundings) const {
-  return NearestBoundary(surroundings, MirrorSign(direction_) * kHandCentre, kHandHalfWidth);
+  return NearestBoundary(surroundings, MirrorSign(direction_) * kHandCentre - looked_round_,
+                         kHandHalfWidth);
 }
 
 Twist2 WallFollower::Update(const DrivingConfiguration& configuration, const Pose2& pose,
-                            const Surroundings& surroundings) {
+                            const Surroundings& surroundings, const FacedHeadings& faced) {
   if (is_turning_) {
     double remaining = WrapAngle(target_heading_ - pose.heading);
     if (turn_sign_ * remaining < -kOvershoot) remaining += turn_sign_ * 2 * kPi;
@@ -82,24 +130,47 @@ Twist2 WallFollower::Update(const DrivingConfiguration& configuration, const Pos
     is_turning_ = false;
   }
   const double sign = MirrorSign(direction_);
+  if (is_looking_) {
+    looked_round_ += WrapAngle(pose.heading - last_heading_);
+    last_heading_ = pose.heading;
+    if (std::abs(look_to_ - looked_round_) > kLookedAt) {
+      return TurnTowards(configuration, look_to_ - looked_round_);
+    }
+  }
   const BoundaryPoint contact = Contact(surroundings);
   const double speed = configuration.following_speed;
-  if (!std::isfinite(contact.distance)) return {speed, -sign * speed / kSearchRadius};
+  if (!std::isfinite(contact.distance)) {
+    EndLook();
+    return {speed, -sign * speed / kSearchRadius};
+  }
   const double radius = TravelRadius(configuration, surroundings);
   if (is_cautious_ && Distance(turning_place_, Position(pose)) > kCautiousReach) {
     is_cautious_ = false;
   }
   const double lookahead = is_cautious_ ? kCautiousLookahead : kLookahead;
-  const double bearing = BearingToGo(surroundings, sign, radius, contact, lookahead);
-  // A large turn is finished: half way, a gap just too narrow may look just wide enough.
-  if (bearing > kLargeTurn) {
-    is_turning_ = true;
-    is_cautious_ = true;
-    turning_place_ = Position(pose);
-    turn_sign_ = sign;
-    target_heading_ = pose.heading + sign * bearing;
+  const Gaze gaze(surroundings, faced, sign, looked_round_, radius);
+  const double contact_bearing = gaze.Mirrored(contact.bearing);
+  const double tangent = Tangent(surroundings, contact, contact_bearing);
+  const double bearing = gaze.BearingToGo(tangent, lookahead);
+  const auto doubt = gaze.IsInDoubt(contact_bearing) ? std::optional(contact_bearing)
+                                                     : gaze.Doubt(tangent, bearing, lookahead);
+  if (doubt) {
+    is_looking_ = true;
+    last_heading_ = pose.heading;
+    look_to_ = looked_round_ + gaze.Body(*doubt);
+    return TurnTowards(configuration, look_to_ - looked_round_);
   }
-  return DriveTowards(configuration, surroundings, sign * bearing, speed);
+  const double remaining = gaze.Body(bearing);
+  // A large turn is finished: half way, a gap just too narrow may look just wide enough.
+  if (bearing > kLargeTurn || (is_looking_ && std::abs(remaining) > kTurnedEnough)) {
+    is_turning_ = true;
+    is_cautious_ = is_cautious_ || bearing > kLargeTurn;
+    turning_place_ = Position(pose);
+    turn_sign_ = remaining > 0.0 ? 1.0 : -1.0;
+    target_heading_ = pose.heading + remaining;
+  }
+  EndLook();
+  return DriveTowards(configuration, surroundings, remaining, speed);
 }
 
 }  // namespace runnel

@@ -54,6 +54,21 @@ bool HasLeft(const PlannerStatus& status) { return status.leaves > 0; }
 
 World BoxWorld() { return World({Box(0, 0, 1, 2)}); }
 
+TEST(BugRules, DrivesOnNoCurveWhereNarrowRangersHaveNotLooked) {
+  for (const bool is_vague : {false, true}) {
+    Surroundings open;
+    open.is_measured = true;
+    open.is_vague = is_vague;
+    open.sensor_range = 2.0F;
+    open.safe_distance = 0.35F;
+    BugState state;
+    const BugInput input = {kTimeStep, {}, open, {0, 0}, {3.0, 1.5}};
+    const Twist2 twist = Make("tangent_bug").Update(state, input).twist;
+    EXPECT_GT(twist.turn, 0.5);
+    EXPECT_EQ(twist.forward == 0.0, is_vague);
+  }
+}
+
 TEST(BugRules, StandsStillWhileNothingWasMeasured) {
   BugState state;
   const BugOutput out = Make("bug2").Update(state, {kTimeStep, {}, Surroundings{}, {0, 0}, {3, 0}});

@@ -4,6 +4,7 @@
 
 #include "gmock/gmock.h"
 #include "modules/planning/algorithm/driving.h"
+#include "modules/planning/algorithm/faced_headings.h"
 #include "modules/planning/algorithm/lap.h"
 #include "modules/planning/algorithm/m_line.h"
 #include "modules/planning/algorithm/wall_follower.h"
@@ -213,7 +214,7 @@ TEST(WallFollower, FirstTurnsTheBoundaryToItsHand) {
   for (const auto direction : {BoundaryDirection::kLeft, BoundaryDirection::kRight}) {
     WallFollower follower;
     follower.Start(direction, {}, 0.0);
-    const Twist2 twist = follower.Update({}, {}, surroundings);
+    const Twist2 twist = follower.Update({}, {}, surroundings, {});
     EXPECT_EQ(twist.forward, 0.0);
     EXPECT_GT(MirrorSign(direction) * twist.turn, 0.5);
     EXPECT_TRUE(follower.is_turning());
@@ -224,14 +225,14 @@ TEST(WallFollower, TurnsAwayFromTheBoundaryEvenIfThatIsTheLongWay) {
   WallFollower follower;
   // The wall is on the left, but it is to be followed on the right: by nearly a whole half turn.
   follower.Start(BoundaryDirection::kLeft, {}, DegreesToRadians(100.0));
-  EXPECT_GT(follower.Update({}, {}, Open()).turn, 0.5);
+  EXPECT_GT(follower.Update({}, {}, Open(), {}).turn, 0.5);
 }
 
 // The twist when the boundary is already on the hand of a robot that turned left.
 Twist2 Follow(const Surroundings& surroundings) {
   WallFollower follower;
   follower.Start(BoundaryDirection::kLeft, {}, -kPi / 2);
-  return follower.Update({}, {}, surroundings);
+  return follower.Update({}, {}, surroundings, {});
 }
 
 TEST(WallFollower, GoesStraightAlongAWallAtTheSafeDistance) {
@@ -257,6 +258,60 @@ TEST(WallFollower, TurnsOnTheSpotInAConcaveCorner) {
   const Twist2 twist = Follow(surroundings);
   EXPECT_GT(twist.turn, 0.5);
   EXPECT_LT(twist.forward, 0.05);
+}
+
+// A wall on the right, and a boundary point ahead on the left that would make the robot turn away.
+Surroundings WithSomethingAhead(bool is_vague, double heading = 0.0) {
+  Surroundings surroundings = Open();
+  surroundings.is_vague = is_vague;
+  AddWall(surroundings, -kPi / 2 - heading, 0.35);
+  AddBoundaryPoint(surroundings, {0.37, DegreesToRadians(-30.0) - heading});
+  return surroundings;
+}
+
+TEST(WallFollower, FacesWhatMayBeThereBeforeItTurnsAway) {
+  WallFollower follower;
+  follower.Start(BoundaryDirection::kLeft, {}, -kPi / 2);
+  FacedHeadings faced;
+  faced.Start({});
+  EXPECT_LT(follower.Update({}, {}, WithSomethingAhead(true), faced).turn, -0.5) << "not looked at";
+  const Pose2 turned = {0.0, 0.0, DegreesToRadians(-30.0)};
+  faced.Update(turned);
+  const Surroundings as_before = WithSomethingAhead(true, turned.heading);
+  EXPECT_GT(follower.Update({}, turned, as_before, faced).turn, 0.5) << "it is there";
+}
+
+TEST(WallFollower, TurnsAwayAtOnceFromWhatIsSurelyThere) {
+  WallFollower follower;
+  follower.Start(BoundaryDirection::kLeft, {}, -kPi / 2);
+  FacedHeadings faced;
+  faced.Start({});
+  EXPECT_GT(follower.Update({}, {}, WithSomethingAhead(false), faced).turn, 0.5);
+}
+
+TEST(FacedHeadings, GrowAsTheRobotTurnsOnTheSpot) {
+  FacedHeadings faced;
+  faced.Start({1.0, 2.0, 3.0});
+  EXPECT_TRUE(faced.Contains(0.1));
+  EXPECT_FALSE(faced.Contains(0.5));
+  EXPECT_FALSE(faced.Contains(-0.5));
+  faced.Update({1.0, 2.05, 3.5});  // past pi
+  faced.Update({1.0, 2.05, 3.2});
+  EXPECT_TRUE(faced.Contains(0.3));
+  EXPECT_TRUE(faced.Contains(-0.2));
+  EXPECT_FALSE(faced.Contains(0.6));
+  EXPECT_FALSE(faced.Contains(-0.5));
+  for (int i = 0; i < 10; ++i) faced.Update({1.0, 2.05, 3.2 + 0.6 * i});
+  EXPECT_TRUE(faced.Contains(3.0)) << "a whole turn";
+}
+
+TEST(FacedHeadings, AreForgottenWhereTheRobotGetsOn) {
+  FacedHeadings faced;
+  faced.Start({});
+  faced.Update({0.0, 0.0, 1.0});
+  faced.Update({0.15, 0.0, 1.0});
+  EXPECT_TRUE(faced.Contains(0.0));
+  EXPECT_FALSE(faced.Contains(-1.0));
 }
 
 TEST(WallFollower, LooksForABoundaryThatIsLost) {
