@@ -12,6 +12,10 @@ namespace {
 // a wall of a concave corner ahead belongs to it, the other wall of a corridor does not.
 constexpr double kHandCentre = DegreesToRadians(-65.0);
 constexpr double kHandHalfWidth = DegreesToRadians(110.0);
+// Of that hand what is no more ahead.
+constexpr double kBesideCentre = DegreesToRadians(-117.5);
+constexpr double kBesideHalfWidth = DegreesToRadians(57.5);
+constexpr double kBesideReach = 0.30;                        // m, beyond the safe distance
 constexpr double kDistanceGain = 6.0;                        // rad of bearing for each m of error
 constexpr double kCorrectionLimit = DegreesToRadians(60.0);  // so that far off it still advances
 constexpr double kCautiousLookahead = 0.40;  // m, where the robot turned away just before
@@ -117,8 +121,16 @@ void WallFollower::EndLook() {
 }
 
 BoundaryPoint WallFollower::Contact(const Surroundings& surroundings) const {
-  return NearestBoundary(surroundings, MirrorSign(direction_) * kHandCentre - looked_round_,
-                         kHandHalfWidth);
+  const auto nearest = [&](double centre, double half_width) {
+    return NearestBoundary(surroundings, MirrorSign(direction_) * centre - looked_round_,
+                           half_width);
+  };
+  if (surroundings.is_vague) {
+    // Pushed off its boundary by an arc, the robot may be nearer to the other side of a passage.
+    const BoundaryPoint beside = nearest(kBesideCentre, kBesideHalfWidth);
+    if (beside.distance < double{surroundings.safe_distance} + kBesideReach) return beside;
+  }
+  return nearest(kHandCentre, kHandHalfWidth);
 }
 
 Twist2 WallFollower::Update(const DrivingConfiguration& configuration, const Pose2& pose,

@@ -289,6 +289,17 @@ TEST(WallFollower, TurnsAwayAtOnceFromWhatIsSurelyThere) {
   EXPECT_GT(follower.Update({}, {}, WithSomethingAhead(false), faced).turn, 0.5);
 }
 
+TEST(WallFollower, KeepsToItsSideOfAPassageWhereAnArcPushedItOff) {
+  Surroundings passage = Open();
+  AddBoundaryPoint(passage, {0.50, DegreesToRadians(-114.0)});
+  AddBoundaryPoint(passage, {0.45, DegreesToRadians(33.0)});
+  WallFollower follower;
+  follower.Start(BoundaryDirection::kLeft, {}, -kPi / 2);
+  EXPECT_NEAR(follower.Contact(passage).bearing, DegreesToRadians(33.0), 0.03);
+  passage.is_vague = true;
+  EXPECT_NEAR(follower.Contact(passage).bearing, DegreesToRadians(-114.0), 0.03);
+}
+
 TEST(FacedHeadings, GrowAsTheRobotTurnsOnTheSpot) {
   FacedHeadings faced;
   faced.Start({1.0, 2.0, 3.0});
