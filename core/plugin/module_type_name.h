@@ -20,4 +20,18 @@ struct ModuleTypeName final : Annotation {
   return type != nullptr ? type->name : "";
 }
 
+/// Whether people see it as one module: also a group that is made by a type of its own.
+[[nodiscard]] inline bool IsModule(const FrameworkElement& element) {
+  return element.kind() == ElementKind::kModule || !FindModuleType(element).empty();
+}
+
+/// The outermost module that `element` is, or is part of; nullptr if there is none.
+[[nodiscard]] inline const FrameworkElement* FindModuleAround(const FrameworkElement& element) {
+  const FrameworkElement* module = nullptr;
+  for (const FrameworkElement* at = &element; at != nullptr; at = at->parent()) {
+    if (IsModule(*at)) module = at;
+  }
+  return module;
+}
+
 }  // namespace runnel

@@ -199,7 +199,7 @@ class Application {
   [[nodiscard]] Result<Input<T>*> InputFrom(std::string_view path,
                                             const ConnectOptions& options = {}) {
     Input<T>* made = nullptr;
-    const auto tied = Tie(path, internal::PathKind::kOutput, options, [&](FrameworkElement& group) {
+    const auto tied = Tie(path, PathKind::kOutput, options, [&](FrameworkElement& group) {
       auto input = std::make_unique<Input<T>>(group, "in");
       made = input.get();
       return std::unique_ptr<Port>(std::move(input));
@@ -213,7 +213,7 @@ class Application {
   [[nodiscard]] Result<Output<T>*> OutputTo(std::string_view path,
                                             const ConnectOptions& options = {}) {
     Output<T>* made = nullptr;
-    const auto tied = Tie(path, internal::PathKind::kInput, options, [&](FrameworkElement& group) {
+    const auto tied = Tie(path, PathKind::kInput, options, [&](FrameworkElement& group) {
       auto output = std::make_unique<Output<T>>(group, "out");
       made = output.get();
       return std::unique_ptr<Port>(std::move(output));
@@ -245,11 +245,11 @@ class Application {
   static LoadedApplication Make(const std::function<bool(Parts&)>& describe,
                                 ApplicationOptions options);
 
-  Result<FrameworkElement*> FindElement(std::string_view path, internal::PathKind kind);
+  Result<FrameworkElement*> FindElement(std::string_view path, PathKind kind);
   static Error IsAnother(const FrameworkElement& found, const std::string& wanted);
   Result<void> LookAt(std::string_view path, const TypeInfo& type, const Port::Visitor& look);
   // Makes a port beside the application and ties it to the one at `path`.
-  Result<void> Tie(std::string_view path, internal::PathKind kind, const ConnectOptions& options,
+  Result<void> Tie(std::string_view path, PathKind kind, const ConnectOptions& options,
                    const std::function<std::unique_ptr<Port>(FrameworkElement& group)>& make);
   // Before any cycle in simulated time.
   Result<void> BeginCycles();

@@ -4,13 +4,13 @@
 #include <mutex>
 #include <utility>
 
+#include "core/port/path_search.h"
 #include "plugins/application/internal/application_parts.h"
 #include "plugins/application_files/application_saver.h"
 #include "plugins/runtime_construction/plugin_loading.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/structure/change_text.h"
 #include "plugins/structure/reload.h"
-#include "plugins/structure/structure_overlay.h"
 
 namespace runnel {
 
@@ -63,12 +63,11 @@ Result<void> Application::Assign(std::string_view path, const std::string& threa
 
 Result<void> Application::Connect(std::string_view from, std::string_view to,
                                   const ConnectOptions& options) {
-  using internal::StructureOverlay;
   const std::lock_guard lock(parts_->runtime().structure_mutex());
-  const StructureOverlay structure(parts_->runtime());
-  const auto source = structure.FindPort(from, StructureOverlay::End::kSends);
+  const PathSearch structure(parts_->runtime());
+  const auto source = structure.FindPort(from, PathKind::kOutput);
   if (!source) return source.error();
-  const auto sink = structure.FindPort(to, StructureOverlay::End::kReceives);
+  const auto sink = structure.FindPort(to, PathKind::kInput);
   if (!sink) return sink.error();
   return Port::Connect(**source, **sink, options);
 }
@@ -102,7 +101,7 @@ ChangeOutcome Application::Redo() { return parts_->history->Redo(); }
 Result<void> Application::Set(std::string_view path, std::string_view value) {
   {
     const std::lock_guard lock(parts_->runtime().structure_mutex());
-    const auto found = internal::StructureOverlay(parts_->runtime()).FindParameter(path);
+    const auto found = PathSearch(parts_->runtime()).Find(path, PathKind::kParameter);
     if (!found) return found.error();
     auto* const parameter = dynamic_cast<Configurable*>(*found);
     if (parameter == nullptr) return IsAnother(**found, "a parameter");
@@ -120,7 +119,7 @@ Result<void> Application::Set(std::string_view path, std::string_view value) {
 
 Result<std::string> Application::Get(std::string_view path) {
   const std::lock_guard lock(parts_->runtime().structure_mutex());
-  const auto found = internal::StructureOverlay(parts_->runtime()).FindParameter(path);
+  const auto found = PathSearch(parts_->runtime()).Find(path, PathKind::kParameter);
   if (!found) return found.error();
   const auto* const parameter = dynamic_cast<const Configurable*>(*found);
   if (parameter == nullptr) return IsAnother(**found, "a parameter");

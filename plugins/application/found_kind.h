@@ -4,13 +4,11 @@
 
 #include "core/port/input.h"
 #include "core/port/output.h"
+#include "core/port/path_search.h"
 #include "plugins/parameters/parameter.h"
 #include "plugins/parameters/static_parameter.h"
 
 namespace runnel::internal {
-
-/// As what a path is followed: decides which groups may be left out in it.
-enum class PathKind { kElement, kOutput, kInput, kParameter };
 
 /// What somebody who asks for a T expects at a path, and what it is called in errors.
 template <typename T>

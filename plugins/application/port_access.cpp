@@ -6,16 +6,13 @@
 #include <utility>
 
 #include "core/lockfree/epoch.h"
+#include "core/port/path_search.h"
 #include "plugins/application/internal/application_parts.h"
-#include "plugins/structure/structure_overlay.h"
 #include "plugins/watching/watched_port.h"
 
 namespace runnel {
 
 namespace {
-
-using internal::PathKind;
-using internal::StructureOverlay;
 
 // What holds a port of whoever embeds the application, beside it.
 class OutsidePort final : public FrameworkElement {
@@ -24,13 +21,11 @@ class OutsidePort final : public FrameworkElement {
   std::unique_ptr<Port> port;
 };
 
-Result<FrameworkElement*> FindAs(const StructureOverlay& structure, std::string_view path,
-                                 PathKind kind) {
-  if (kind == PathKind::kElement) return structure.Find(path);
-  if (kind == PathKind::kParameter) return structure.FindParameter(path);
-  const auto found =
-      structure.FindPort(path, kind == PathKind::kOutput ? StructureOverlay::End::kSends
-                                                         : StructureOverlay::End::kReceives);
+// Of ports only ports.
+Result<FrameworkElement*> FindAs(Runtime& runtime, std::string_view path, PathKind kind) {
+  const PathSearch structure(runtime);
+  if (kind == PathKind::kElement || kind == PathKind::kParameter) return structure.Find(path, kind);
+  const auto found = structure.FindPort(path, kind);
   if (!found) return found.error();
   return static_cast<FrameworkElement*>(*found);
 }
@@ -55,7 +50,7 @@ std::string KindText(const FrameworkElement& element) {
 
 Result<FrameworkElement*> Application::FindElement(std::string_view path, PathKind kind) {
   const std::lock_guard lock(parts_->runtime().structure_mutex());
-  return FindAs(StructureOverlay(parts_->runtime()), path, kind);
+  return FindAs(parts_->runtime(), path, kind);
 }
 
 Error Application::IsAnother(const FrameworkElement& found, const std::string& wanted) {
@@ -66,14 +61,9 @@ Result<void> Application::LookAt(std::string_view path, const TypeInfo& type,
                                  const Port::Visitor& look) {
   const EpochGuard guard;  // what is found stays in memory so long
   std::unique_lock lock(parts_->runtime().structure_mutex());
-  const StructureOverlay structure(parts_->runtime());
-  auto found = FindAs(structure, path, PathKind::kOutput);
-  if (!found) {
-    auto input = FindAs(structure, path, PathKind::kInput);
-    if (!input) return found.error();
-    found = std::move(input);
-  }
-  const auto& port = dynamic_cast<const Port&>(**found);
+  const auto found = PathSearch(parts_->runtime()).FindPort(path, PathKind::kOutput);
+  if (!found) return found.error();
+  const Port& port = **found;
   if (&port.type() != &type) return IsAnother(port, "a port of type " + type.name());
   WatchedPort watched(port.path());
   if (auto there = watched.Find(parts_->runtime()); !there) return there;
@@ -90,7 +80,7 @@ Result<void> Application::Tie(
   Result<void> tied;
   try {
     const std::lock_guard lock(runtime.structure_mutex());
-    const auto found = FindAs(StructureOverlay(runtime), path, kind);
+    const auto found = FindAs(runtime, path, kind);
     if (!found) return found.error();
     auto& port = dynamic_cast<Port&>(**found);
     place =

@@ -49,10 +49,10 @@ void FileUpdate::UpdateChild(XmlElement tag, FrameworkElement& group) {
   FrameworkElement* const element = group.FindChild(NameOf(tag));
   const bool is_saved = element != nullptr && IsSaved(*element);
   if (tag.name() == "module") {
-    is_saved&& IsSavedModule(*element) ? UpdateModule(tag, *element) : editor_.Remove(tag);
+    is_saved&& IsModule(*element) ? UpdateModule(tag, *element) : editor_.Remove(tag);
   } else if (tag.name() == "group") {
     const bool is_instance = tag.Attribute("type") != nullptr;
-    const bool fits = is_saved && !IsSavedModule(*element) &&
+    const bool fits = is_saved && !IsModule(*element) &&
                       is_instance == (element->FindAnnotation<PartInstance>() != nullptr);
     if (!fits) return editor_.Remove(tag);
     is_instance ? UpdateInstance(tag, *element) : UpdateGroup(tag, *element);
@@ -137,7 +137,7 @@ void FileUpdate::WriteValue(XmlElement module_tag, const XmlElement* tag,
   const std::string& name = parameter.element->name();
   if (part_ != nullptr) {
     const FrameworkElement* module = parameter.element->parent();
-    if (!IsSavedModule(*module)) module = module->parent();
+    if (!IsModule(*module)) module = module->parent();
     set_override_(module->path().substr(part_->path().size() + 1), name, value);
   } else if (tag != nullptr) {
     editor_.SetAttribute(*tag, "value", value);
@@ -221,7 +221,7 @@ void FileUpdate::AppendNew(XmlElement tag, FrameworkElement& group) {
     if (const auto* port = dynamic_cast<const ProxyPort*>(child)) {
       editor_.Append(tag, PortElement(*port, saving_));
     } else if (IsSaved(*child)) {
-      editor_.Append(tag, IsSavedModule(*child) ? ModuleElement(*child, saving_)
+      editor_.Append(tag, IsModule(*child) ? ModuleElement(*child, saving_)
                                                 : GroupElement("group", *child, saving_));
     }
   }

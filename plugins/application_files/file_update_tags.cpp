@@ -18,7 +18,7 @@ namespace {
 bool LeadsSomewhere(const PathUse& use) {
   const PathWalk walk(use);
   if (walk.missing().empty()) return true;
-  if (!walk.misses_only_the_last() || !IsSavedModule(walk.at())) return false;
+  if (!walk.misses_only_the_last() || !IsModule(walk.at())) return false;
   const auto is_named = [&](const ConfigurableElement& each) {
     return each.element->name() == walk.missing();
   };

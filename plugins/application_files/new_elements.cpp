@@ -59,7 +59,7 @@ void AddSection(std::vector<NewElement> section, NewElement& parent) {
 
 bool IsSaved(const FrameworkElement& element) {
   if (element.FindAnnotation<NotSaved>() != nullptr) return false;
-  if (IsSavedModule(element)) return true;
+  if (IsModule(element)) return true;
   if (element.kind() != ElementKind::kGroup) return false;
   // Those that hold nothing but threads are made with these.
   const auto is_thread = [](const FrameworkElement* child) {
@@ -167,7 +167,7 @@ NewElement GroupElement(std::string_view tag, FrameworkElement& group, Saving& s
       }
     } else if (!IsSaved(*child)) {
       continue;
-    } else if (IsSavedModule(*child)) {
+    } else if (IsModule(*child)) {
       modules.push_back(ModuleElement(*child, saving));
     } else {
       groups.push_back(GroupElement("group", *child, saving));

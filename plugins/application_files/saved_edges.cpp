@@ -15,7 +15,7 @@ const FrameworkElement* StandsFor(const Port& port, const FrameworkElement& appl
   const FrameworkElement* anchor = &port;
   for (const FrameworkElement* at = &port; at != &application; at = at->parent()) {
     if (at == nullptr || at->FindAnnotation<NotSaved>() != nullptr) return nullptr;
-    if (IsSavedModule(*at)) anchor = at;
+    if (IsModule(*at)) anchor = at;
   }
   return anchor;
 }
@@ -39,10 +39,6 @@ FrameworkElement* Home(const Port& from, const Port& to, const FrameworkElement&
 }
 
 }  // namespace
-
-bool IsSavedModule(const FrameworkElement& element) {
-  return element.kind() == ElementKind::kModule || !FindModuleType(element).empty();
-}
 
 SavedEdges::SavedEdges(FrameworkElement& application) {
   application.Visit([&](FrameworkElement& element) {

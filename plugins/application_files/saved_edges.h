@@ -8,9 +8,6 @@
 
 namespace runnel::internal {
 
-/// Whether a tag of its own stands for the element: it is a module, not a group.
-[[nodiscard]] bool IsSavedModule(const FrameworkElement& element);
-
 /// The connections of an application, as far as a file has to say them: not those within a module,
 /// nor those that lead out of the application.
 ///

@@ -32,19 +32,6 @@ std::string Quoted(const std::string& text) {
   return quoted + "\"";
 }
 
-bool IsModule(const FrameworkElement& element) {
-  return element.kind() == ElementKind::kModule || !FindModuleType(element).empty();
-}
-
-// The outermost module that the port is part of, or nullptr.
-const FrameworkElement* ModuleOf(const Port& port) {
-  const FrameworkElement* module = nullptr;
-  for (const FrameworkElement* at = &port; at != nullptr; at = at->parent()) {
-    if (IsModule(*at)) module = at;
-  }
-  return module;
-}
-
 /// Writes one application.
 class DotWriter {
  public:
@@ -164,7 +151,7 @@ class DotWriter {
   }
 
   std::string End(const Port& port, bool is_source) {
-    const FrameworkElement* const module = ModuleOf(port);
+    const FrameworkElement* const module = FindModuleAround(port);
     if (module == nullptr) return Quoted(port.path()) + (is_source ? ":e" : ":w");
     return Quoted(module->path()) + ":p" + std::to_string(port.id()) +
            (is_source ? ":e" : ":w");

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "core/port/path_search.h"
 #include "plugins/command_service/caught_error.h"
-#include "plugins/command_service/element_search.h"
 #include "plugins/scheduling/pace.h"
 #include "plugins/structure/change_history.h"
 #include "plugins/structure/change_text.h"
@@ -26,7 +26,7 @@ constexpr Duration kLastLook = std::chrono::milliseconds(20);
 
 std::uint64_t IdOf(Runtime& runtime, const std::string& path) {
   const std::lock_guard lock(runtime.structure_mutex());
-  const auto found = FindMeant(runtime, path);
+  const auto found = PathSearch(runtime).Find(path);
   return found ? (*found)->id() : 0;
 }
 

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "core/lockfree/thread_epoch.h"
+#include "core/port/path_search.h"
 #include "core/types/type_info.h"
-#include "plugins/command_service/element_search.h"
 #include "plugins/control/command.h"
 #include "plugins/control/value_text.h"
 
@@ -32,7 +32,7 @@ class EchoCommand final : public Command {
     const EpochGuard guard;
     std::unique_lock lock(runtime_.structure_mutex(), std::try_to_lock);
     if (!lock) return {};
-    const auto found = FindMeantPort(runtime_, path_);
+    const auto found = PathSearch(runtime_).FindPort(path_, PathKind::kOutput);
     if (!found) {
       answer.WriteError(ErrorLine(found.error()));
       return has_found_ ? ControlCode::kFailed : ControlCode::kBadInput;

@@ -151,6 +151,16 @@ std::string RateText(double hertz) {
   return hertz >= 10'000 ? fmt::format("{:.0f}", hertz) : fmt::format("{:.5g}", hertz);
 }
 
+PublicationCounts CountPublications(FrameworkElement& start) {
+  PublicationCounts counts;
+  start.Visit([&](FrameworkElement& element) {
+    if (const auto* const port = dynamic_cast<const Port*>(&element)) {
+      counts.emplace(port->path(), port->publications());
+    }
+  });
+  return counts;
+}
+
 std::string ListElements(FrameworkElement& start, const ListingOptions& options) {
   std::vector<Row> rows;
   if (start.kind() == ElementKind::kRuntime) {

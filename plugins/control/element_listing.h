@@ -1,11 +1,17 @@
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <string>
 
 #include "core/base/clock.h"
-#include "plugins/command_service/element_search.h"
+#include "core/element/framework_element.h"
 
 namespace runnel {
+
+/// How many values have passed each port at and below `start`, by path. Under the structure lock.
+using PublicationCounts = std::map<std::string, std::uint64_t, std::less<>>;
+[[nodiscard]] PublicationCounts CountPublications(FrameworkElement& start);
 
 /// What a listing tells besides names and types.
 struct ListingOptions {

@@ -1,5 +1,6 @@
 #include <mutex>
 
+#include "core/port/path_search.h"
 #include "plugins/control/command.h"
 #include "plugins/control/element_listing.h"
 
@@ -23,8 +24,7 @@ class ListCommand final : public Command {
       ContinueIn(kLookAgain);
       return {};
     }
-    const auto start =
-        path_.empty() ? Result<FrameworkElement*>(&runtime_.root()) : FindMeant(runtime_, path_);
+    const auto start = PathSearch(runtime_).Find(path_);
     if (!start) {
       answer.WriteError(ErrorLine(start.error()));
       return ControlCode::kBadInput;

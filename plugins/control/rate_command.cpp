@@ -1,7 +1,7 @@
 #include <cmath>
 #include <mutex>
 
-#include "plugins/command_service/element_search.h"
+#include "core/port/path_search.h"
 #include "plugins/control/command.h"
 #include "plugins/control/element_listing.h"
 
@@ -23,7 +23,7 @@ class RateCommand final : public Command {
       ContinueIn(kLookAgain);
       return {};
     }
-    const auto found = FindMeantPort(runtime_, path_);
+    const auto found = PathSearch(runtime_).FindPort(path_, PathKind::kOutput);
     if (!found) {
       answer.WriteError(ErrorLine(found.error()));
       return last_ ? ControlCode::kFailed : ControlCode::kBadInput;

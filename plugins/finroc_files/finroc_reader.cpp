@@ -168,11 +168,8 @@ void FinrocReader::MakeThread(XmlElement element, FrameworkElement& group) {
   }
   FrameworkElement* threads = application_.FindChild("threads");
   if (threads == nullptr) threads = &context_.runtime().Create<Group>(application_, "threads");
-  std::string name = group.name();
-  for (int i = 2; threads->FindChild(name) != nullptr; ++i) {
-    name = group.name() + "_" + std::to_string(i);
-  }
-  AssignThread(group, context_.runtime().Create<ThreadContainer>(*threads, name, options));
+  AssignThread(group, context_.runtime().Create<ThreadContainer>(
+                          *threads, FreeName(*threads, group.name()), options));
   has_thread_ = true;
 }
 

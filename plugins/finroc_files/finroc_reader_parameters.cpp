@@ -16,13 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const ConfigurableElement* FindByName(const std::vector<ConfigurableElement>& all,
-                                      const std::string& name) {
-  const auto found = std::ranges::find_if(
-      all, [&](const ConfigurableElement& each) { return each.element->name() == name; });
-  return found == all.end() ? nullptr : &*found;
-}
-
 std::vector<std::string> NamesOf(const std::vector<ConfigurableElement>& all) {
   std::vector<std::string> names;
   for (const ConfigurableElement& each : all) names.push_back(each.element->name());
@@ -47,10 +40,9 @@ void FinrocReader::ReadStaticParameters(XmlElement element, FrameworkElement& mo
     if (list.name() != "parameters") continue;
     for (const XmlElement each : list.children()) {
       const std::string name = SnakeCase(TextOfAttribute(each, "name"));
-      const ConfigurableElement* const parameter = FindByName(all, name);
-      const auto set = parameter != nullptr
-                           ? parameter->configurable->SetFromText(TextFor(
-                                 *parameter->configurable, each.text(), open_.back().parent_path()))
+      const ConfigurableElement parameter = FindConfigurable(module, name);
+      const auto set = parameter ? parameter.configurable->SetFromText(TextFor(
+                                 *parameter.configurable, each.text(), open_.back().parent_path()))
                            : Result<void>(Error{.message = "there is no parameter '" + name + "'",
                                                 .hint = NearestNameHint(name, NamesOf(all))});
       if (!set) Warn(set.error().message, set.error().hint, each.position(), module);
@@ -78,9 +70,10 @@ void FinrocReader::ReadParameter(XmlElement parameter, const std::string& path,
   const auto module = group.Find(path);
   const std::vector<ConfigurableElement> all =
       module ? ConfigurablesOf(**module) : std::vector<ConfigurableElement>();
-  const ConfigurableElement* const found = FindByName(all, name);
+  const ConfigurableElement found =
+      module ? FindConfigurable(**module, name) : ConfigurableElement();
   const auto from_file = [&](const std::string& text, const fs::path& file) {
-    return found != nullptr ? TextFor(*found->configurable, text, file.parent_path()) : text;
+    return found ? TextFor(*found.configurable, text, file.parent_path()) : text;
   };
   std::vector<std::pair<std::string, SourcePosition>> candidates;
   if (const XmlAttribute* value = parameter.Attribute("default")) {
@@ -94,16 +87,16 @@ void FinrocReader::ReadParameter(XmlElement parameter, const std::string& path,
           context_.configuration().FindArgument(TextOfAttribute(parameter, "cmdline"))) {
     candidates.emplace_back(entry->text, entry->position);
   }
-  if (found == nullptr) {
+  if (!found) {
     return Warn("there is no parameter '" + (path.empty() ? name : path + "/" + name) + "'",
                 NearestNameHint(name, NamesOf(all)), parameter.position(), group);
   }
   if (candidates.empty()) return;
   const auto& [text, position] = candidates.back();
-  if (auto set = found->configurable->SetFromText(text); !set) {
+  if (auto set = found.configurable->SetFromText(text); !set) {
     Error error = set.error();
     error.position = position;
-    context_.Report(std::move(error), position, *found->element);
+    context_.Report(std::move(error), position, *found.element);
   }
 }
 

@@ -115,10 +115,6 @@ void Mix(std::string_view text, std::uint64_t& hash) {
 
 }  // namespace
 
-bool IsModule(const FrameworkElement& element) {
-  return element.kind() == ElementKind::kModule || !FindModuleType(element).empty();
-}
-
 const FrameworkElement* OwnerOf(const FrameworkElement& element) {
   const FrameworkElement* at = element.parent();
   while (at != nullptr && !IsModule(*at) && at->kind() != ElementKind::kGroup) at = at->parent();

@@ -40,6 +40,5 @@ struct BoundsEnds {
 
 /// The module or group that a port or parameter belongs to; nullptr if there is none.
 [[nodiscard]] const FrameworkElement* OwnerOf(const FrameworkElement& element);
-[[nodiscard]] bool IsModule(const FrameworkElement& element);
 
 }  // namespace runnel::internal

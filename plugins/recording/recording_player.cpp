@@ -8,6 +8,7 @@
 #include "core/base/nearest_name.h"
 #include "core/element/runtime.h"
 #include "core/module/run_monitor.h"
+#include "core/port/path_search.h"
 #include "core/port/probe_port.h"
 #include "core/types/type_info.h"
 #include "plugins/json_values/json_values.h"
@@ -26,12 +27,6 @@ class PlayerElement final : public FrameworkElement {
   }
 };
 
-std::string FreeName(const FrameworkElement& parent, const std::string& name) {
-  std::string free = name;
-  for (int i = 2; parent.FindChild(free) != nullptr; ++i) free = name + "_" + std::to_string(i);
-  return free;
-}
-
 // The module that publishes there; nullptr if nothing with tasks does.
 FrameworkElement* PublisherOf(const Port& port) {
   FrameworkElement* at = port.parent();
@@ -47,15 +42,10 @@ bool Writes(const Task& task, const Port& port) {
 
 // The port at a recorded path; or, if the application is called otherwise now, in its place.
 Port* FindPort(Runtime& runtime, const std::string& path) {
-  if (const auto found = runtime.root().Find(path)) return dynamic_cast<Port*>(*found);
-  const std::string wanted = ShortPortPath(path);
-  Port* match = nullptr;
-  runtime.root().Visit([&](FrameworkElement& each) {
-    auto* const port = dynamic_cast<Port*>(&each);
-    if (port == nullptr || match != nullptr || ShortPortPath(port->path()) != wanted) return;
-    if (port->is_proxy() || port->direction() == Port::Direction::kOutput) match = port;
-  });
-  return match;
+  const PathSearch search(runtime);
+  if (const auto found = search.FindPort(path, PathKind::kOutput)) return *found;
+  const auto found = search.FindPort(ShortPortPath(path), PathKind::kOutput);
+  return found ? *found : nullptr;
 }
 
 // What is no structure stands in an object of its own, as messages have to be objects.

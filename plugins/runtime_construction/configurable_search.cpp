@@ -12,19 +12,6 @@ ConfigurableElement AsConfigurable(FrameworkElement& element) {
 
 }  // namespace
 
-std::vector<ConfigurableElement> ConfigurablesOf(const FrameworkElement& module) {
-  std::vector<ConfigurableElement> found;
-  const auto add = [&](FrameworkElement& element) {
-    if (const auto configurable = AsConfigurable(element)) found.push_back(configurable);
-  };
-  for (FrameworkElement* child : module.children()) {
-    add(*child);
-    if (child->kind() != ElementKind::kPortGroup) continue;
-    for (FrameworkElement* inner : child->children()) add(*inner);
-  }
-  return found;
-}
-
 ConfigurableElement SearchConfigurable(const PathUse& use, BuildContext& context) {
   const PathWalk walk(use);
   if (walk.missing().empty()) {

@@ -67,9 +67,9 @@ Result<void> Plan::Check(const CreatePort& change) {
 }
 
 Result<void> Plan::Check(const ConnectPorts& change) {
-  const auto from = overlay_.FindPort(change.from, StructureOverlay::End::kSends);
+  const auto from = overlay_.FindPort(change.from, PathKind::kOutput);
   if (!from) return from.error();
-  const auto to = overlay_.FindPort(change.to, StructureOverlay::End::kReceives);
+  const auto to = overlay_.FindPort(change.to, PathKind::kInput);
   if (!to) return to.error();
   if (auto possible = overlay_.Connect(**from, **to); !possible) return possible;
   AddConnection(**from, **to, change.options);
@@ -77,9 +77,9 @@ Result<void> Plan::Check(const ConnectPorts& change) {
 }
 
 Result<void> Plan::Check(const DisconnectPorts& change) {
-  const auto from = overlay_.FindPort(change.from, StructureOverlay::End::kSends);
+  const auto from = overlay_.FindPort(change.from, PathKind::kOutput);
   if (!from) return from.error();
-  const auto to = overlay_.FindPort(change.to, StructureOverlay::End::kReceives);
+  const auto to = overlay_.FindPort(change.to, PathKind::kInput);
   if (!to) return to.error();
   if (auto possible = overlay_.Disconnect(**from, **to); !possible) return possible;
   AddDisconnection(**from, **to);
@@ -112,7 +112,7 @@ Result<void> Plan::Check(const DeleteElement& change) {
 }
 
 Result<void> Plan::Check(const SetParameter& change) {
-  const auto found = overlay_.FindParameter(change.path);
+  const auto found = overlay_.Find(change.path, PathKind::kParameter);
   if (!found) return found.error();
   auto* const parameter = dynamic_cast<Configurable*>(*found);
   if (parameter == nullptr) {

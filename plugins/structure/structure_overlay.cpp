@@ -8,38 +8,6 @@
 
 namespace runnel::internal {
 
-namespace {
-
-bool Fits(const Port& port, StructureOverlay::End end) {
-  return port.is_proxy() ||
-         (port.direction() == Port::Direction::kOutput) == (end == StructureOverlay::End::kSends);
-}
-
-// The ports of a module, whatever groups they are in.
-std::vector<Port*> PortsOf(const FrameworkElement& module) {
-  std::vector<Port*> ports;
-  for (const FrameworkElement* group : module.children()) {
-    if (group->kind() != ElementKind::kPortGroup) continue;
-    for (FrameworkElement* each : group->children()) {
-      if (auto* const port = dynamic_cast<Port*>(each)) ports.push_back(port);
-    }
-  }
-  return ports;
-}
-
-Error NoPort(const FrameworkElement& module, std::string_view name, StructureOverlay::End end) {
-  std::vector<std::string> names;
-  for (const Port* port : PortsOf(module)) {
-    if (Fits(*port, end)) names.push_back(port->name());
-  }
-  const char* const kind = end == StructureOverlay::End::kSends ? "output" : "input";
-  return {.message = "no " + std::string(kind) + " '" + std::string(name) + "' in " + module.path(),
-          .path = module.path(),
-          .hint = NearestNameHint(name, names)};
-}
-
-}  // namespace
-
 bool StructureOverlay::IsGone(const FrameworkElement& element) const {
   return std::ranges::any_of(removed_,
                              [&](const auto* gone) { return element.IsAtOrBelow(*gone); });
@@ -54,53 +22,13 @@ FrameworkElement* StructureOverlay::Child(const FrameworkElement& parent,
   return child != nullptr && !IsGone(*child) ? child : nullptr;
 }
 
-std::vector<std::string> StructureOverlay::NamesIn(const FrameworkElement& parent) const {
-  std::vector<std::string> names;
-  for (const FrameworkElement* each : parent.children()) {
-    if (!IsGone(*each)) names.push_back(each->name());
+std::vector<FrameworkElement*> StructureOverlay::Children(const FrameworkElement& parent) const {
+  std::vector<FrameworkElement*> children = parent.children();
+  for (FrameworkElement* each : added_) {
+    if (each->parent() == &parent) children.push_back(each);
   }
-  for (const FrameworkElement* each : added_) {
-    if (each->parent() == &parent && !IsGone(*each)) names.push_back(each->name());
-  }
-  return names;
-}
-
-Result<FrameworkElement*> StructureOverlay::Follow(FrameworkElement& start,
-                                                   std::string_view path) const {
-  FrameworkElement* at = &start;
-  for (const std::string_view part : SplitPath(path)) {
-    FrameworkElement* const next = Child(*at, part);
-    if (next == nullptr) {
-      return Error{.message = "no '" + std::string(part) + "' in " + at->path(),
-                   .path = std::string(path),
-                   .hint = NearestNameHint(part, NamesIn(*at))};
-    }
-    at = next;
-  }
-  return at;
-}
-
-// Groups at the top are applications, but for the one that holds the threads.
-FrameworkElement* StructureOverlay::OnlyApplication() const {
-  FrameworkElement* only = nullptr;
-  for (FrameworkElement* each : runtime_.root().children()) {
-    if (each->kind() != ElementKind::kGroup || each->name() == "threads" || IsGone(*each)) continue;
-    if (only != nullptr) return nullptr;
-    only = each;
-  }
-  return only;
-}
-
-Result<FrameworkElement*> StructureOverlay::Find(std::string_view path) const {
-  auto found = Follow(runtime_.root(), path);
-  if (found) return found;
-  FrameworkElement* const application = OnlyApplication();
-  if (application == nullptr || path.empty()) return found;
-  auto below = Follow(*application, path);
-  // A path that begins with the application's name is meant from the root.
-  const auto parts = SplitPath(path);
-  const bool is_from_root = !parts.empty() && Child(runtime_.root(), parts.front()) != nullptr;
-  return below || !is_from_root ? below : found;
+  std::erase_if(children, [&](const auto* each) { return IsGone(*each); });
+  return children;
 }
 
 Result<Placement> StructureOverlay::PlaceFor(std::string_view path) const {
@@ -129,45 +57,6 @@ Result<Placement> StructureOverlay::PlaceFor(std::string_view path) const {
                  .hint = "choose another name"};
   }
   return Placement{*parent, name, false};
-}
-
-Result<Port*> StructureOverlay::FindPort(std::string_view path, End end) const {
-  const auto found = Find(path);
-  if (found) {
-    if (auto* const port = dynamic_cast<Port*>(*found)) return port;
-    return Error{.message = (*found)->path() + " is not a port", .path = (*found)->path()};
-  }
-  const std::size_t slash = path.find_last_of('/');
-  if (slash == std::string_view::npos || slash == 0) return found.error();
-  const auto module = Find(path.substr(0, slash));
-  if (!module || (*module)->kind() != ElementKind::kModule) return found.error();
-  const std::string_view name = path.substr(slash + 1);
-  std::vector<Port*> ports = PortsOf(**module);
-  std::erase_if(ports, [&](const Port* port) { return port->name() != name; });
-  // If none suits, connecting says why not.
-  std::ranges::stable_partition(ports, [&](const Port* port) { return Fits(*port, end); });
-  if (ports.empty()) return NoPort(**module, name, end);
-  if (ports.size() > 1 && Fits(*ports[1], end)) {
-    return Error{.message = std::string(path) + " names more than one port",
-                 .path = (*module)->path(),
-                 .hint = "write " + ports[0]->path() + " or " + ports[1]->path()};
-  }
-  return ports[0];
-}
-
-Result<FrameworkElement*> StructureOverlay::FindParameter(std::string_view path) const {
-  const auto found = Find(path);
-  const std::size_t slash = path.find_last_of('/');
-  if (found || slash == std::string_view::npos || slash == 0) return found;
-  const auto module = Find(path.substr(0, slash));
-  if (!module || (*module)->kind() != ElementKind::kModule) return found;
-  const FrameworkElement* const group = Child(**module, "parameter");
-  const std::string_view name = path.substr(slash + 1);
-  FrameworkElement* const parameter = group != nullptr ? Child(*group, name) : nullptr;
-  if (parameter != nullptr) return parameter;
-  return Error{.message = "no parameter '" + std::string(name) + "' in " + (*module)->path(),
-               .path = (*module)->path(),
-               .hint = NearestNameHint(name, group ? NamesIn(*group) : std::vector<std::string>())};
 }
 
 void StructureOverlay::Add(FrameworkElement& element) { added_.push_back(&element); }

@@ -8,7 +8,7 @@
 
 #include "core/base/result.h"
 #include "core/element/runtime.h"
-#include "core/port/port.h"
+#include "core/port/path_search.h"
 
 namespace runnel::internal {
 
@@ -16,20 +16,13 @@ namespace runnel::internal {
 /// found in its place, what will go is not found. Nothing is changed.
 ///
 /// Threads:  under the structure lock.
-class StructureOverlay {
+class StructureOverlay final : public PathSearch {
  public:
-  explicit StructureOverlay(Runtime& runtime) : runtime_(runtime) {}
+  explicit StructureOverlay(Runtime& runtime) : PathSearch(runtime), runtime_(runtime) {}
 
-  /// The element at `path`. Errors: which part is not there, and the nearest name.
-  Result<FrameworkElement*> Find(std::string_view path) const;
   /// Where an element called by the last part of `path` would go. Errors: a bad or taken name, no
   /// parent.
   Result<Placement> PlaceFor(std::string_view path) const;
-  /// The element at `path`, in which the group of a module's parameters may be left out.
-  Result<FrameworkElement*> FindParameter(std::string_view path) const;
-  /// The port at `path`, in which the port's group may be left out.
-  enum class End { kSends, kReceives };
-  Result<Port*> FindPort(std::string_view path, End end) const;
 
   void Add(FrameworkElement& element);
   void Remove(FrameworkElement& element);
@@ -49,11 +42,10 @@ class StructureOverlay {
   using Edge = std::pair<Port*, Port*>;
 
   [[nodiscard]] FrameworkElement* Child(const FrameworkElement& parent,
-                                        std::string_view name) const;
-  [[nodiscard]] std::vector<std::string> NamesIn(const FrameworkElement& parent) const;
+                                        std::string_view name) const override;
+  [[nodiscard]] std::vector<FrameworkElement*> Children(
+      const FrameworkElement& parent) const override;
   [[nodiscard]] bool IsGone(const FrameworkElement& element) const;
-  Result<FrameworkElement*> Follow(FrameworkElement& start, std::string_view path) const;
-  [[nodiscard]] FrameworkElement* OnlyApplication() const;
   [[nodiscard]] std::vector<Port*> Targets(const Port& from) const;
   [[nodiscard]] Port& NowFor(Port& port) const;
   [[nodiscard]] bool Reaches(const Port& from, const Port& to) const;

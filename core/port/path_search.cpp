@@ -1,0 +1,162 @@
+#include "core/port/path_search.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/base/nearest_name.h"
+#include "core/element/element_path.h"
+
+namespace runnel {
+
+namespace {
+
+bool Fits(const FrameworkElement& element, PathKind kind) {
+  const auto* const port = dynamic_cast<const Port*>(&element);
+  if (kind == PathKind::kParameter) return dynamic_cast<const Configurable*>(&element) != nullptr;
+  if (kind == PathKind::kElement || port == nullptr) return kind == PathKind::kElement;
+  const bool sends = port->direction() == Port::Direction::kOutput;
+  return port->is_proxy() || sends == (kind == PathKind::kOutput);
+}
+
+// What may be named without its group: of ports those of either direction, those that fit first.
+std::vector<FrameworkElement*> PartsOf(const FrameworkElement& module, PathKind kind) {
+  std::vector<FrameworkElement*> parts;
+  const auto add = [&](FrameworkElement& element) {
+    const bool is_port = kind != PathKind::kParameter && dynamic_cast<Port*>(&element) != nullptr;
+    if (is_port || Fits(element, kind)) parts.push_back(&element);
+  };
+  for (FrameworkElement* child : module.children()) {
+    add(*child);
+    if (child->kind() != ElementKind::kPortGroup) continue;
+    for (FrameworkElement* inner : child->children()) add(*inner);
+  }
+  const PathKind first = kind == PathKind::kElement ? PathKind::kOutput : kind;
+  std::ranges::stable_partition(parts, [&](const auto* part) { return Fits(*part, first); });
+  return parts;
+}
+
+std::vector<std::string> NamesOf(const std::vector<FrameworkElement*>& elements, PathKind kind) {
+  std::vector<std::string> names;
+  for (const FrameworkElement* each : elements) {
+    if (Fits(*each, kind)) names.push_back(each->name());
+  }
+  return names;
+}
+
+PathEnd Missing(FrameworkElement& at, std::string_view name, std::vector<std::string> candidates) {
+  Error error{.message = "there is no '" + std::string(name) + "' in " + at.path(),
+              .path = at.path(),
+              .hint = NearestNameHint(name, candidates)};
+  return {nullptr, &at, std::string(name), std::move(candidates), std::move(error)};
+}
+
+}  // namespace
+
+PathEnd PathSearch::Follow(std::string_view path, PathKind kind) const {
+  const bool is_from_root = IsAbsolutePath(path) || base_.parent() == nullptr;
+  PathEnd end = FollowFrom(is_from_root ? base_.runtime().root() : base_, path, kind);
+  if (end.found != nullptr || !is_from_root || !may_leave_out_application_) return end;
+  FrameworkElement* const application = OnlyApplication();
+  if (application == nullptr) return end;
+  PathEnd below = FollowFrom(*application, path, kind);
+  // A path that begins with a name at the root is meant from there.
+  return below.found != nullptr || end.at->parent() == nullptr ? below : end;
+}
+
+PathEnd PathSearch::FollowFrom(FrameworkElement& start, std::string_view path,
+                               PathKind kind) const {
+  FrameworkElement* at = &start;
+  const std::vector<std::string_view> names = SplitPath(path);
+  for (const std::string_view& name : names) {
+    FrameworkElement* next = Child(*at, name);
+    if (name == ".") next = at;
+    if (name == "..") next = at->parent();
+    if (next == nullptr) {
+      const bool may_be_short = at->kind() == ElementKind::kModule && &name == &names.back();
+      if (may_be_short) return FollowShort(*at, name, kind);
+      return Missing(*at, name, NamesOf(Children(*at), PathKind::kElement));
+    }
+    at = next;
+  }
+  return {at, at};
+}
+
+PathEnd PathSearch::FollowShort(FrameworkElement& module, std::string_view name,
+                                PathKind kind) const {
+  const std::vector<FrameworkElement*> parts = PartsOf(module, kind);
+  std::vector<FrameworkElement*> called = parts;
+  std::erase_if(called, [&](const auto* part) { return part->name() != name; });
+  if (called.empty()) return Missing(module, name, NamesOf(parts, kind));
+  const bool is_ambiguous =
+      kind != PathKind::kElement && called.size() > 1 && Fits(*called[1], kind);
+  if (!is_ambiguous) return {called[0], called[0]};
+  return {nullptr,
+          &module,
+          {},
+          {},
+          {.message = "'" + std::string(name) + "' names more than one port of " + module.path(),
+           .path = module.path(),
+           .hint = "write " + called[0]->path() + " or " + called[1]->path()}};
+}
+
+Result<FrameworkElement*> PathSearch::Find(std::string_view path, PathKind kind) const {
+  PathEnd end = Follow(path, kind);
+  if (end.found == nullptr) return std::move(end.error);
+  return end.found;
+}
+
+Result<Port*> PathSearch::FindPort(std::string_view path, PathKind kind) const {
+  const auto found = Find(path, kind);
+  if (!found) return found.error();
+  if (auto* const port = dynamic_cast<Port*>(*found)) return port;
+  const std::vector<std::string> ports = NamesOf(PartsOf(**found, kind), kind);
+  return Error{.message = (*found)->path() + " is not a port",
+               .path = (*found)->path(),
+               .hint = !ports.empty() ? "write one of its ports after it, like '" + ports[0] + "'"
+                       : kind == PathKind::kOutput ? "it has no outputs"
+                                                   : "it has no inputs"};
+}
+
+FrameworkElement* PathSearch::Child(const FrameworkElement& parent, std::string_view name) const {
+  return parent.FindChild(name);
+}
+
+std::vector<FrameworkElement*> PathSearch::Children(const FrameworkElement& parent) const {
+  return parent.children();
+}
+
+// Groups at the top are applications, but for the one that holds the threads.
+FrameworkElement* PathSearch::OnlyApplication() const {
+  FrameworkElement* only = nullptr;
+  const FrameworkElement& root = base_.runtime().root();
+  for (FrameworkElement* each : root.children()) {
+    const bool is_seen = Child(root, each->name()) == each;
+    if (!is_seen || each->kind() != ElementKind::kGroup || each->name() == "threads") continue;
+    if (only != nullptr) return nullptr;
+    only = each;
+  }
+  return only;
+}
+
+std::vector<ConfigurableElement> ConfigurablesOf(const FrameworkElement& module) {
+  std::vector<ConfigurableElement> found;
+  for (FrameworkElement* part : PartsOf(module, PathKind::kParameter)) {
+    found.push_back({part, dynamic_cast<Configurable*>(part)});
+  }
+  return found;
+}
+
+ConfigurableElement FindConfigurable(const FrameworkElement& module, std::string_view name) {
+  for (const ConfigurableElement& each : ConfigurablesOf(module)) {
+    if (each.element->name() == name) return each;
+  }
+  return {};
+}
+
+std::string FreeName(const FrameworkElement& parent, const std::string& name) {
+  std::string free = name;
+  for (int i = 2; parent.FindChild(free) != nullptr; ++i) free = name + "_" + std::to_string(i);
+  return free;
+}
+
+}  // namespace runnel
