@@ -5,7 +5,7 @@
 #include "plugins/application_files/file_part.h"
 #include "plugins/application_files/new_elements.h"
 #include "plugins/parameters/file_path.h"
-#include "plugins/runtime_construction/configurable_search.h"
+#include "plugins/runtime_construction/path_use.h"
 #include "plugins/runtime_construction/part_files.h"
 #include "plugins/runtime_construction/source_place.h"
 
@@ -165,11 +165,11 @@ void FileUpdate::UpdatePort(XmlElement tag, FrameworkElement& group) {
 void FileUpdate::UpdateConnect(XmlElement tag, FrameworkElement& group) {
   const XmlAttribute& from_list = *tag.Attribute("from");
   const XmlAttribute& to_list = *tag.Attribute("to");
-  Port* const from = FindPort(PathIn(from_list, group), ConnectionEnd::kFrom);
+  Port* const from = FindPort(PathIn(from_list, group), PathKind::kOutput);
   const std::vector<PathUse> targets = PathsIn(to_list, group);
   std::set<std::size_t> gone;
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    Port* const to = FindPort(targets[i], ConnectionEnd::kTo);
+    Port* const to = FindPort(targets[i], PathKind::kInput);
     if (!SaysConnection(tag, from, to, targets.size() == 1)) gone.insert(i);
   }
   if (gone.size() == targets.size()) {

@@ -13,8 +13,7 @@
 #include "core/xml/xml_editor.h"
 #include "plugins/application_files/saving.h"
 #include "plugins/runtime_construction/application_source.h"
-#include "plugins/runtime_construction/configurable_search.h"
-#include "plugins/runtime_construction/port_search.h"
+#include "plugins/runtime_construction/path_use.h"
 
 namespace runnel::internal {
 

@@ -7,23 +7,14 @@
 #include "core/xml/xml_reading.h"
 #include "plugins/application_files/file_part.h"
 #include "plugins/application_files/new_elements.h"
-#include "plugins/runtime_construction/configurable_search.h"
-#include "plugins/runtime_construction/path_walk.h"
+#include "plugins/runtime_construction/path_use.h"
 
 namespace runnel::internal {
 
 namespace {
 
-// Also where a short path leads.
 bool LeadsSomewhere(const PathUse& use) {
-  const PathWalk walk(use);
-  if (walk.missing().empty()) return true;
-  if (!walk.misses_only_the_last() || !IsModule(walk.at())) return false;
-  const auto is_named = [&](const ConfigurableElement& each) {
-    return each.element->name() == walk.missing();
-  };
-  return std::ranges::any_of(ConfigurablesOf(walk.at()), is_named) ||
-         FindPort(use, ConnectionEnd::kTo) != nullptr;
+  return PathSearch(use.base).Follow(use.path, PathKind::kElement).found != nullptr;
 }
 
 }  // namespace

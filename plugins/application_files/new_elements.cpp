@@ -4,9 +4,8 @@
 
 #include "core/plugin/module_type_name.h"
 #include "core/types/type_info.h"
-#include "plugins/runtime_construction/configurable_search.h"
+#include "plugins/runtime_construction/path_use.h"
 #include "plugins/runtime_construction/not_saved.h"
-#include "plugins/runtime_construction/port_search.h"
 
 namespace runnel::internal {
 
@@ -25,7 +24,7 @@ const char* OnFullName(OnFull on_full) {
 }
 
 // As short as it may be, seen from `home`.
-std::string PortPath(const Port& port, FrameworkElement& home, ConnectionEnd end) {
+std::string PortPath(const Port& port, FrameworkElement& home, PathKind end) {
   const std::string full = port.path().substr(home.path().size() + 1);
   const FrameworkElement* const group = port.parent();
   if (group->kind() != ElementKind::kPortGroup) return full;
@@ -116,7 +115,7 @@ std::vector<NewElement> ConnectElements(FrameworkElement& home, Saving& saving) 
   const SavedEdges::Edge* last = nullptr;
   for (SavedEdges::Edge* edge : saving.edges.Unsaved(home)) {
     edge->is_saved = true;
-    const std::string to = PortPath(*edge->to, home, ConnectionEnd::kTo);
+    const std::string to = PortPath(*edge->to, home, PathKind::kInput);
     if (last != nullptr && last->from == edge->from && IsSame(last->options, edge->options)) {
       elements.back().attributes[1].second += " " + to;
       continue;
@@ -124,7 +123,7 @@ std::vector<NewElement> ConnectElements(FrameworkElement& home, Saving& saving) 
     last = edge;
     NewElement& made = elements.emplace_back(NewElement{
         .name = "connect",
-        .attributes = {{"from", PortPath(*edge->from, home, ConnectionEnd::kFrom)}, {"to", to}}});
+        .attributes = {{"from", PortPath(*edge->from, home, PathKind::kOutput)}, {"to", to}}});
     for (auto& attribute : ConnectAttributes(edge->options)) {
       made.attributes.push_back(std::move(attribute));
     }

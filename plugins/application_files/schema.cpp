@@ -9,7 +9,7 @@
 #include "core/port/port.h"
 #include "core/types/type_info.h"
 #include "core/xml/xml_writing.h"
-#include "plugins/runtime_construction/configurable_search.h"
+#include "plugins/runtime_construction/path_use.h"
 
 namespace runnel {
 
@@ -115,6 +115,10 @@ std::string TypeOfAttribute(AttributeKind kind) {
       return "number";
     case AttributeKind::kDuration:
       return "duration";
+    case AttributeKind::kModuleType:
+      return "module_type";
+    case AttributeKind::kPortType:
+      return "port_type";
     case AttributeKind::kText:
     case AttributeKind::kChoice:
       break;
@@ -193,8 +197,6 @@ class SchemaWriter {
                               const AttributeRule& rule) {
     NewElement attribute{.name = "xs:attribute", .attributes = {{"name", rule.name}}};
     std::string type = TypeOfAttribute(rule.kind);
-    if (tag.name == "module" && rule.name == "type") type = "module_type";
-    if (tag.name == "port" && rule.name == "type") type = "port_type";
     if (parent == "module" && tag.name == "parameter" && rule.name == "name") {
       type = "parameter_name";
     }

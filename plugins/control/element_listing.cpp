@@ -7,6 +7,7 @@
 
 #include "core/element/configurable.h"
 #include "core/plugin/module_type_name.h"
+#include "core/port/port.h"
 #include "core/types/duration_text.h"
 #include "core/types/type_info.h"
 #include "plugins/command_service/parameter_text.h"

@@ -12,7 +12,7 @@
 #include "core/types/duration_text.h"
 #include "core/types/type_info.h"
 #include "plugins/finroc_files/finroc_names.h"
-#include "plugins/runtime_construction/configurable_search.h"
+#include "plugins/runtime_construction/path_use.h"
 #include "plugins/runtime_construction/interface_direction.h"
 #include "plugins/runtime_construction/plugin_loading.h"
 #include "plugins/runtime_construction/source_place.h"
@@ -42,8 +42,8 @@ std::string StaticParameter(XmlElement element, std::string_view name) {
 // Whether a path is a URI, "tcp:host/path": names of elements may hold a ':' further on.
 bool HasScheme(std::string_view path) {
   const auto is_of_scheme = [](char character) {
-    return (character >= 'a' && character <= 'z') || (character >= '0' && character <= '9') ||
-           character == '+' || character == '-' || character == '.';
+    return (character >= 'a' && character <= 'z') || (character >= '0' && character <= '9') || character == '+' ||
+           character == '-' || character == '.';
   };
   const auto end = std::ranges::find_if_not(path, is_of_scheme);
   return end != path.begin() && end != path.end() && *end == ':';
@@ -180,7 +180,6 @@ void FinrocReader::ReadModule(XmlElement element, FrameworkElement& parent) {
   const ModuleRegistry& modules = context_.plugins().modules();
   LoadLibrary(library);
   if (modules.Find(type) == nullptr) {
-    context_.MarkMissing(parent, name);
     const auto missing = modules.Get(type);
     return Warn(
         "there is no module type '" + type + "' for '" + TextOfAttribute(element, "name") + "'",
@@ -217,11 +216,10 @@ void FinrocReader::ReadInterface(XmlElement interface, FrameworkElement& group) 
       if (inner == nullptr || own == nullptr || LastName(SnakeCasePath(own->value)) != name)
         continue;
       const Port* const end =
-          FindEnd(*inner, group, is_output ? ConnectionEnd::kFrom : ConnectionEnd::kTo);
+          FindEnd(*inner, group, is_output ? PathKind::kOutput : PathKind::kInput);
       if (end != nullptr) type = &end->type();
     }
     if (type == nullptr || group.FindChild(name) != nullptr) {
-      context_.MarkMissing(group, name);
       Warn(type == nullptr ? "the type '" + TextOfAttribute(port, "type") +
                                  "' is not known, and no connection within tells it"
                            : "there is already an element called '" + name + "'",
@@ -234,7 +232,7 @@ void FinrocReader::ReadInterface(XmlElement interface, FrameworkElement& group) 
 }
 
 // With the groups of ports as FINROC has them, or as Runnel may leave them out.
-Port* FinrocReader::FindEnd(const XmlAttribute& path, FrameworkElement& group, ConnectionEnd end) {
+Port* FinrocReader::FindEnd(const XmlAttribute& path, FrameworkElement& group, PathKind end) {
   const auto whole = SnakeCasePath(path.value);
   if (auto* port = FindPort({group, whole, path.value_position}, end)) return port;
   const std::string module = WithoutLast(whole, 2);
@@ -255,8 +253,8 @@ void FinrocReader::ReadEdge(XmlElement edge, FrameworkElement& group) {
                 group);
   }
   WarnOfFlags(edge, group);
-  Port* const from = FindEnd(*source, group, ConnectionEnd::kFrom);
-  Port* const to = FindEnd(*target, group, ConnectionEnd::kTo);
+  Port* const from = FindEnd(*source, group, PathKind::kOutput);
+  Port* const to = FindEnd(*target, group, PathKind::kInput);
   if (from == nullptr || to == nullptr) {
     const XmlAttribute& lost = from == nullptr ? *source : *target;
     const std::string path = SnakeCasePath(lost.value);
@@ -266,8 +264,8 @@ void FinrocReader::ReadEdge(XmlElement edge, FrameworkElement& group) {
     Warn("<" + child.name() + "> of an edge has no counterpart", "put a module between the two",
          child.position(), group);
   }
-  if (!IsRightWay(*from, ConnectionEnd::kFrom, *to) ||
-      !IsRightWay(*to, ConnectionEnd::kTo, *from)) {
+  if (!IsRightWay(*from, PathKind::kOutput, *to) ||
+      !IsRightWay(*to, PathKind::kInput, *from)) {
     Warn("goes against the direction of an interface port", "", edge.position(), group);
   } else if (auto connected = Port::Connect(*from, *to); !connected) {
     Warn(connected.error().message, connected.error().hint, edge.position(), group);

@@ -8,7 +8,7 @@
 
 #include "core/xml/xml_document.h"
 #include "plugins/runtime_construction/build_context.h"
-#include "plugins/runtime_construction/port_search.h"
+#include "plugins/runtime_construction/path_use.h"
 
 namespace runnel::internal {
 
@@ -42,7 +42,7 @@ class FinrocReader {
   void ReadInterface(XmlElement interface, FrameworkElement& group);
   void MakeInterfacePorts(XmlElement root, FrameworkElement& group);
   void ReadEdge(XmlElement edge, FrameworkElement& group);
-  Port* FindEnd(const XmlAttribute& path, FrameworkElement& group, ConnectionEnd end);
+  Port* FindEnd(const XmlAttribute& path, FrameworkElement& group, PathKind end);
   void WarnOfFlags(XmlElement edge, FrameworkElement& group);
   void ReadParameterLinks(XmlElement links, const std::string& path, FrameworkElement& group);
   // `module` and `name` seen from the group.

@@ -8,7 +8,7 @@
 #include "plugins/finroc_files/finroc_names.h"
 #include "plugins/finroc_files/finroc_reader.h"
 #include "plugins/parameters/file_path.h"
-#include "plugins/runtime_construction/configurable_search.h"
+#include "plugins/runtime_construction/path_use.h"
 
 namespace runnel::internal {
 

@@ -47,8 +47,7 @@ struct SourceText {
 
 FrameworkElement* Build(XmlElement root, const BuildTools& tools, BuildContext& context,
                         Diagnostics& diagnostics) {
-  ApplicationReader reader(context);  // what it defers needs it still
-  FrameworkElement* const application = reader.Read(root);
+  FrameworkElement* const application = ReadApplication(root, context);
   context.RunDeferred();
   if (application != nullptr) CheckRequiredInputs(*application, context);
   ReportUnknownArguments(root, context.parts(), tools.configuration, diagnostics);

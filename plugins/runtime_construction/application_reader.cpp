@@ -2,26 +2,114 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "core/base/nearest_name.h"
 #include "core/xml/xml_reading.h"
-#include "plugins/runtime_construction/name_check.h"
 #include "plugins/runtime_construction/source_place.h"
 
 namespace runnel {
 
 namespace {
 
-std::vector<std::string> NamesOf(const std::vector<AttributeRule>& rules) {
-  std::vector<std::string> names;
-  for (const AttributeRule& rule : rules) names.push_back(rule.name);
-  return names;
+/// Which of the tags within another are read: those that bring words come first.
+enum class Round { kWords, kRest };
+
+void ReadChildren(std::string_view tag, XmlElement element, FrameworkElement* parent,
+                  FrameworkElement& around, Round round, BuildContext& context);
+
+bool Contains(const std::vector<std::string>& names, std::string_view name) {
+  return std::ranges::find(names, name) != names.end();
 }
 
 // What tells editors where the schema is.
 bool IsForEditors(const std::string& attribute) {
   return attribute == "xmlns:xsi" || attribute == "xsi:noNamespaceSchemaLocation";
+}
+
+// The first attribute that nobody knows.
+std::optional<Error> UnknownAttribute(const std::vector<AttributeRule>& rules, const TagUse& use) {
+  std::vector<std::string> names;
+  for (const AttributeRule& rule : rules) names.push_back(rule.name);
+  for (const XmlAttribute& attribute : use.xml.attributes()) {
+    if (Contains(names, attribute.name) || IsForEditors(attribute.name)) continue;
+    if (!use.context.IsWorthReporting(attribute.name, names)) continue;
+    Diagnostics problems;
+    CheckAttributes(use.xml, names, problems);
+    const auto at = std::ranges::find(problems.errors(), attribute.position, &Error::position);
+    return *at;
+  }
+  return std::nullopt;
+}
+
+// The first that is missing, or whose value is none of its kind. An error without a message: what it
+// says may come with a plugin that could not be loaded, which has been told.
+std::optional<Error> WrongAttribute(const std::vector<AttributeRule>& rules, const TagUse& use) {
+  for (const AttributeRule& rule : rules) {
+    const XmlAttribute* const attribute = use.Find(rule.name);
+    if (attribute == nullptr && rule.required) {
+      return Error{.message = "<" + use.xml.name() + "> has no '" + rule.name + "'",
+                   .position = use.xml.position(),
+                   .hint = "add " + rule.name + "=\"…\"" +
+                           (rule.summary.empty() ? "" : ": " + rule.summary)};
+    }
+    const auto good = attribute != nullptr ? use.context.CheckValue(rule, attribute->value)
+                                           : Result<void>();
+    if (good) continue;
+    Error error = good.error();
+    error.position = attribute->value_position;
+    return error;
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> TextWithin(XmlElement element) {
+  std::vector<std::string> all;
+  for (const XmlElement child : element.children()) all.push_back(child.name());
+  Diagnostics problems;
+  CheckChildren(element, all, problems);
+  return problems.ok() ? std::nullopt : std::optional(problems.errors().front());
+}
+
+// Reports the first mistake of the tag itself. False: it cannot be handled.
+bool CheckTag(const XmlTag& tag, const TagUse& use) {
+  const std::vector<AttributeRule> rules = use.context.tags().Rules(tag);
+  const std::optional<Error> wrong = WrongAttribute(rules, use);
+  std::optional<Error> first = UnknownAttribute(rules, use);
+  if (!first) first = wrong;
+  if (!first) first = TextWithin(use.xml);
+  if (first && !first->message.empty()) use.Report(*first, first->position);
+  return !wrong;
+}
+
+FrameworkElement* Handle(const XmlTag& tag, const TagUse& use) {
+  FrameworkElement* made = nullptr;
+  use.context.Attempt({"<" + tag.name + ">", use.xml.position(), &use.parent},
+                      [&] { made = tag.handle(use); });
+  if (made == nullptr) return nullptr;
+  if (made != &use.parent && made->FindAnnotation<SourcePlace>() == nullptr) {
+    made->Annotate(std::make_unique<SourcePlace>(use.xml.position()));
+  }
+  for (const AddedAttribute* added : use.context.tags().AddedAttributes(tag.name)) {
+    const XmlAttribute* const attribute = use.Find(added->rule.name);
+    if (attribute == nullptr) continue;
+    use.context.Attempt(
+        {attribute->name + "=\"" + attribute->value + "\"", attribute->position, made},
+        [&] { added->handle(*attribute, *made, use.context); });
+  }
+  return made;
+}
+
+// `parent`: nullptr if there is none, and the tag is checked only; `around` is the nearest that is there.
+void ReadTag(const XmlTag& tag, XmlElement element, FrameworkElement* parent,
+             FrameworkElement& around, BuildContext& context) {
+  const TagUse use{element, around, context};
+  const bool is_right = CheckTag(tag, use);
+  if (!is_right && tag.comes_first) context.MarkPluginMissing();
+  FrameworkElement* const made = is_right && parent != nullptr ? Handle(tag, use) : nullptr;
+  if (made == nullptr && tag.is_structure) context.MarkMissing(around, use.Find("name"));
+  ReadChildren(tag.name, element, made, made != nullptr ? *made : around, Round::kRest, context);
 }
 
 // Where a known tag would be right.
@@ -34,245 +122,118 @@ std::string PlaceHint(const XmlTag& tag) {
   return tag.summary.empty() ? places : places + ": " + tag.summary;
 }
 
-}  // namespace
-
-ApplicationReader::ApplicationReader(BuildContext& context) : context_(context) {
-  context.set_part_reader(
-      [this](const XmlAttribute& type, XmlElement part_tag, FrameworkElement& group) {
-        return ReadPart(type, part_tag, group);
-      });
-}
-
-FrameworkElement* ApplicationReader::Read(XmlElement root) {
-  const XmlTag* const tag = context_.tags().FindTag(root.name());
-  FrameworkElement& top = context_.runtime().root();
-  if (tag == nullptr || !tag->parents.empty() || tag->is_part) {
-    const bool is_part = tag != nullptr && tag->is_part;
-    context_.Report({.message = "<" + root.name() + "> is not an application",
-                     .hint = is_part ? "an application uses it by <group name=\"…\" type=\"…\">"
-                                     : "an application file begins with <application>"},
-                    root.position(), top);
-    return nullptr;
+void ReadMisplacedTag(XmlElement element, const std::vector<std::string>& known,
+                      FrameworkElement& around, BuildContext& context) {
+  const XmlTag* tag = context.tags().FindTag(element.name());
+  const std::string hint = tag != nullptr  ? PlaceHint(*tag)
+                           : known.empty() ? "leave it out"
+                                           : NearestNameHint(element.name(), known);
+  if (tag != nullptr || context.IsWorthReporting(element.name(), known)) {
+    context.Report({.message = "no <" + element.name() + "> may stand in <" +
+                               element.parent()->name() + ">",
+                    .position = element.position(),
+                    .hint = hint},
+                   element.position(), around);
   }
-  TagUse use{root, top, context_};
-  FrameworkElement* made = nullptr;
-  // Not before plugins have been loaded: they may bring attributes of the root tag.
-  ReadChildren(*tag, root, top, Mode::kHandle, true);
-  NoteMisplacedLoads(root);
-  if (CheckAttributesOf(*tag, use)) made = Handle(*tag, use);
-  FrameworkElement& inside = made != nullptr ? *made : top;
-  const Mode mode = made != nullptr ? Mode::kHandle : Mode::kCheckOnly;
-  CheckContents(*tag, root, inside);
-  ReadChildren(*tag, root, inside, mode, false);
-  return made;
+  // Also further up: a known tag in a wrong place is missing where it would be right.
+  const XmlAttribute* const name = element.Attribute("name");
+  for (const FrameworkElement* each = &around; each != nullptr; each = each->parent()) {
+    context.MarkMissing(*each, name);
+    if (name == nullptr) break;
+  }
+  if (tag == nullptr) tag = context.tags().FindTag(NearestName(element.name(), known));
+  if (tag != nullptr) {
+    ReadChildren(tag->name, element, nullptr, around, Round::kRest, context);
+  }
 }
 
-Result<void> ApplicationReader::ReadPart(const XmlAttribute& type, XmlElement part_tag,
-                                         FrameworkElement& group) {
-  const auto part = context_.parts().Open(type, part_tag, group);
-  if (!part) return part.error();
-  const XmlElement root = (*part)->root;
-  const XmlTag& tag = *context_.tags().FindTag(root.name());
-  group.Annotate(std::make_unique<PartInstance>(root.position().file));
-  TagUse use{root, group, context_};
-  ReadChildren(tag, root, group, Mode::kHandle, true);
-  NoteMisplacedLoads(root);
-  CheckAttributesOf(tag, use);
-  CheckContents(tag, root, group);
-  ReadChildren(tag, root, group, Mode::kHandle, false);
-  context_.parts().Close();
-  // When all that the tag gives it has been read.
-  context_.Defer(BuildStage::kParameters, [this, part = *part] { CheckParameters(*part); });
-  return {};
+void ReadChildren(std::string_view tag, XmlElement element, FrameworkElement* parent,
+                  FrameworkElement& around, Round round, BuildContext& context) {
+  const std::vector<std::string> known = context.tags().TagsIn(tag);
+  for (const XmlElement child : element.children()) {
+    if (!Contains(known, child.name())) {
+      if (round == Round::kRest) ReadMisplacedTag(child, known, around, context);
+      continue;
+    }
+    const XmlTag& inner = *context.tags().FindTag(child.name());
+    if (inner.comes_first == (round == Round::kWords)) {
+      ReadTag(inner, child, parent, around, context);
+    }
+  }
 }
 
-void ApplicationReader::CheckParameters(PartUse& part) {
+// What brings words, but stands in a wrong place or is misspelt: what is unknown may be its.
+void NoteMisplacedLoads(XmlElement element, BuildContext& context) {
+  const std::vector<std::string> known = context.tags().TagsIn(element.name());
+  for (const XmlElement child : element.children()) {
+    const XmlTag* tag = context.tags().FindTag(child.name());
+    if (tag == nullptr) tag = context.tags().FindTag(NearestName(child.name(), known));
+    const bool is_lost = tag != nullptr && tag->comes_first && !Contains(known, child.name());
+    if (is_lost) context.MarkPluginMissing();
+    NoteMisplacedLoads(child, context);
+  }
+}
+
+void ReadWords(XmlElement root, FrameworkElement& around, BuildContext& context) {
+  ReadChildren(root.name(), root, &around, around, Round::kWords, context);
+  NoteMisplacedLoads(root, context);
+}
+
+void CheckParameters(PartUse& part, BuildContext& context) {
   for (const auto& [name, declared] : part.declared) {
     const bool has_value =
-        declared.Says("value") || declared.Says("config") || declared.Says("command_line");
+        declared.Find("value") || declared.Find("config") || declared.Find("command_line");
     if (has_value || part.given.contains(name)) continue;
     const SourcePosition at = declared.xml.position();
-    context_.Report({.message = "the parameter '" + name + "' of " + at.file + " has no value",
-                     .hint = "add <parameter name=\"" + name + "\" value=\"…\"/>; " + at.file +
-                             " declares it in line " + std::to_string(at.line)},
-                    part.tag.position(), part.group);
+    context.Report({.message = "the parameter '" + name + "' of " + at.file + " has no value",
+                    .hint = "add <parameter name=\"" + name + "\" value=\"…\"/>; " + at.file +
+                            " declares it in line " + std::to_string(at.line)},
+                   part.tag.position(), part.group);
   }
-  context_.Defer(BuildStage::kChecks, [this, &part] {
+  context.Defer(BuildStage::kChecks, [&part, &context] {
     for (const auto& [name, declared] : part.declared) {
       if (part.used.contains(name)) continue;
-      context_.Warn({.message = "nothing takes its value from the parameter '" + name + "'",
-                     .hint = "add from=\"" + name + "\" to a <parameter> of a module"},
-                    declared.Get("name").value_position, part.group);
+      context.Warn({.message = "nothing takes its value from the parameter '" + name + "'",
+                    .hint = "add from=\"" + name + "\" to a <parameter> of a module"},
+                   declared.Get("name").value_position, part.group);
     }
   });
 }
 
-// What stands in a wrong place, or nearly is, may have brought what is unknown elsewhere.
-void ApplicationReader::NoteMisplacedLoads(XmlElement element) {
-  const std::vector<std::string> known = context_.tags().TagsIn(element.name());
-  for (const XmlElement child : element.children()) {
-    const XmlTag* tag = context_.tags().FindTag(child.name());
-    const bool is_known = std::ranges::find(known, child.name()) != known.end();
-    if (tag == nullptr) tag = context_.tags().FindTag(NearestName(child.name(), known));
-    if (tag != nullptr && tag->comes_first && !is_known) context_.MarkPluginMissing();
-    NoteMisplacedLoads(child);
-  }
-}
+}  // namespace
 
-void ApplicationReader::ReadChildren(const XmlTag& tag, XmlElement element,
-                                     FrameworkElement& parent, Mode mode, bool first) {
-  const std::vector<std::string> known = context_.tags().TagsIn(tag.name);
-  for (const XmlElement child : element.children()) {
-    const bool is_known = std::ranges::find(known, child.name()) != known.end();
-    if (!is_known) {
-      if (!first) ReadUnknownTag(child, known, parent, mode);
-      continue;
-    }
-    const XmlTag& inner = *context_.tags().FindTag(child.name());
-    if (inner.comes_first == first) ReadTag(inner, child, parent, mode);
+FrameworkElement* ReadApplication(XmlElement root, BuildContext& context) {
+  const XmlTag* const tag = context.tags().FindTag(root.name());
+  FrameworkElement& top = context.runtime().root();
+  if (tag == nullptr || !tag->parents.empty() || tag->is_part) {
+    const bool is_part = tag != nullptr && tag->is_part;
+    context.Report({.message = "<" + root.name() + "> is not an application",
+                    .hint = is_part ? "an application uses it by <group name=\"…\" type=\"…\">"
+                                    : "an application file begins with <application>"},
+                   root.position(), top);
+    return nullptr;
   }
-}
-
-void ApplicationReader::ReadUnknownTag(XmlElement element, const std::vector<std::string>& known,
-                                       FrameworkElement& parent, Mode mode) {
-  const XmlTag* const meant = context_.tags().FindTag(NearestName(element.name(), known));
-  if (meant != nullptr && !meant->comes_first) {
-    ReadTag(*meant, element, parent, mode);
-  } else if (const XmlAttribute* name = element.Attribute("name")) {
-    // Also further up: a known tag in a wrong place is missing where it would be right.
-    for (const FrameworkElement* each = &parent; each != nullptr; each = each->parent()) {
-      context_.MarkMissing(*each, name->value);
-    }
-  } else {
-    context_.MarkIncomplete(parent);
-  }
-}
-
-void ApplicationReader::ReadTag(const XmlTag& tag, XmlElement element, FrameworkElement& parent,
-                                Mode mode) {
-  TagUse use{element, parent, context_};
-  FrameworkElement* made = nullptr;
-  const bool is_usable = CheckAttributesOf(tag, use);
-  if (!is_usable && tag.comes_first) context_.MarkPluginMissing();
-  if (mode == Mode::kHandle) made = is_usable ? Handle(tag, use) : Salvage(tag, use);
-  if (const XmlAttribute* name = use.Find("name"); name != nullptr && made == nullptr) {
-    context_.MarkMissing(parent, name->value);
-  }
-  FrameworkElement& inside = made != nullptr ? *made : parent;
-  CheckContents(tag, element, inside);
-  ReadChildren(tag, element, inside, made != nullptr ? Mode::kHandle : Mode::kCheckOnly, false);
-}
-
-void ApplicationReader::CheckContents(const XmlTag& tag, XmlElement element,
-                                      FrameworkElement& parent) {
-  const std::vector<std::string> known = context_.tags().TagsIn(tag.name);
-  Diagnostics problems;
-  CheckChildren(element, known, problems);
-  for (Error error : problems.errors()) {
-    const auto is_here = [&](XmlElement child) { return child.position() == error.position; };
-    const auto wrong = std::ranges::find_if(element.children(), is_here);
-    if (wrong != element.children().end()) {
-      const XmlTag* const misplaced = context_.tags().FindTag(wrong->name());
-      if (misplaced != nullptr) error.hint = PlaceHint(*misplaced);
-      if (misplaced == nullptr && !context_.IsWorthReporting(wrong->name(), known)) continue;
-    }
-    context_.Report(std::move(error), element.position(), parent);
-  }
-}
-
-bool ApplicationReader::CheckAttributesOf(const XmlTag& tag, TagUse& use) {
-  const std::vector<AttributeRule> rules = context_.tags().Rules(tag);
-  ReadMisspeltAttributes(rules, use);
-  bool is_usable = true;
-  for (const AttributeRule& rule : rules) {
-    if (!CheckAttribute(rule, use)) is_usable = false;
-  }
-  return is_usable;
-}
-
-void ApplicationReader::ReadMisspeltAttributes(const std::vector<AttributeRule>& rules,
-                                               TagUse& use) {
-  const std::vector<std::string> names = NamesOf(rules);
-  Diagnostics problems;
-  CheckAttributes(use.xml, names, problems);
-  for (const Error& error : problems.errors()) {
-    const auto is_here = [&](const XmlAttribute& each) { return each.position == error.position; };
-    const auto unknown = std::ranges::find_if(use.xml.attributes(), is_here);
-    if (IsForEditors(unknown->name)) continue;
-    std::vector<std::string> free = names;
-    std::erase_if(free, [&](const std::string& name) { return use.Says(name); });
-    if (const std::string meant = NearestName(unknown->name, free); !meant.empty()) {
-      XmlAttribute stand_in = *unknown;
-      stand_in.name = meant;
-      use.stand_ins.push_back(&context_.Keep(std::move(stand_in)));
-    }
-    if (context_.IsWorthReporting(unknown->name, names)) Report(error, unknown->position, use);
-  }
-}
-
-// False if the tag cannot be handled because of this attribute.
-bool ApplicationReader::CheckAttribute(const AttributeRule& rule, TagUse& use) {
-  const bool is_name = rule.kind == AttributeKind::kNewName;
-  if (const XmlAttribute* const attribute = use.Find(rule.name)) {
-    const auto good = CheckAttributeValue(rule, attribute->value);
-    if (good) return true;
-    std::erase(use.stand_ins, attribute);
-    use.unusable.push_back(rule.name);
-    Report(good.error(), attribute->value_position, use);
-  } else {
-    if (!rule.required) return true;
-    Report(
-        {.message = "<" + use.xml.name() + "> has no '" + rule.name + "'",
-         .hint = "add " + rule.name + "=\"…\"" + (rule.summary.empty() ? "" : ": " + rule.summary)},
-        use.xml.position(), use);
-  }
-  if (is_name) GiveStandInName(use);
-  return is_name || !rule.required;
-}
-
-void ApplicationReader::GiveStandInName(TagUse& use) {
-  context_.MarkIncomplete(use.parent);
-  const SourcePosition position = use.xml.position();
-  use.stand_ins.push_back(&context_.Keep({"name", "", position, position}));
-}
-
-FrameworkElement* ApplicationReader::Salvage(const XmlTag& tag, const TagUse& use) {
-  if (tag.salvage) {
-    context_.Attempt({"<" + tag.name + ">", use.xml.position(), &use.parent},
-                     [&] { tag.salvage(use); });
-  }
-  return nullptr;
-}
-
-FrameworkElement* ApplicationReader::Handle(const XmlTag& tag, const TagUse& use) {
-  FrameworkElement* made = nullptr;
-  context_.Attempt({"<" + tag.name + ">", use.xml.position(), &use.parent},
-                   [&] { made = tag.handle(use); });
-  if (made == nullptr) return nullptr;
-  MarkIfStandIn(*made, use);
-  // Connections that were meant for it will not find it.
-  if (IsStandIn(*made)) context_.Excuse(*made);
-  if (made != &use.parent && made->FindAnnotation<SourcePlace>() == nullptr) {
-    made->Annotate(std::make_unique<SourcePlace>(use.xml.position()));
-  }
-  HandleAddedAttributes(tag, use, *made);
+  // Plugins may bring attributes of the root tag.
+  ReadWords(root, top, context);
+  const TagUse use{root, top, context};
+  FrameworkElement* const made = CheckTag(*tag, use) ? Handle(*tag, use) : nullptr;
+  ReadChildren(tag->name, root, made, made != nullptr ? *made : top, Round::kRest, context);
   return made;
 }
 
-void ApplicationReader::HandleAddedAttributes(const XmlTag& tag, const TagUse& use,
-                                              FrameworkElement& made) {
-  for (const AddedAttribute* added : context_.tags().AddedAttributes(tag.name)) {
-    const XmlAttribute* const attribute = use.Find(added->rule.name);
-    if (attribute == nullptr) continue;
-    context_.Attempt(
-        {attribute->name + "=\"" + attribute->value + "\"", attribute->position, &made},
-        [&] { added->handle(*attribute, made, context_); });
-  }
-}
-
-void ApplicationReader::Report(Error error, const SourcePosition& position, const TagUse& use) {
-  if (error.path.empty()) error.path = use.path();
-  context_.Report(std::move(error), position, use.parent);
+Result<void> ReadGroupType(const XmlAttribute& type, XmlElement tag, FrameworkElement& group,
+                           BuildContext& context) {
+  const auto opened = context.parts().Open(type, tag, group);
+  if (!opened) return opened.error();
+  PartUse& part = **opened;
+  group.Annotate(std::make_unique<PartInstance>(part.root.position().file));
+  ReadWords(part.root, group, context);
+  CheckTag(*context.tags().FindTag(part.root.name()), {part.root, group, context});
+  ReadChildren(part.root.name(), part.root, &group, group, Round::kRest, context);
+  context.parts().Close();
+  // When all that the tag gives it has been read.
+  context.Defer(BuildStage::kParameters, [&part, &context] { CheckParameters(part, context); });
+  return {};
 }
 
 }  // namespace runnel

@@ -66,6 +66,8 @@ Result<void> CheckChoice(const AttributeRule& rule, std::string_view value) {
 Result<void> CheckAttributeValue(const AttributeRule& rule, std::string_view value) {
   switch (rule.kind) {
     case AttributeKind::kText:
+    case AttributeKind::kModuleType:
+    case AttributeKind::kPortType:
       return {};
     case AttributeKind::kName:
     case AttributeKind::kNewName:

@@ -20,6 +20,8 @@ enum class AttributeKind {
   kNumber,    ///< finite
   kDuration,  ///< longer than nothing, with unit: "50ms"
   kChoice,    ///< one of AttributeRule::choices
+  kModuleType,  ///< that a plugin has brought
+  kPortType,    ///< of values, that something in the program or in a plugin uses
 };
 
 /// One attribute that a tag understands.
@@ -34,7 +36,7 @@ struct AttributeRule {
   bool names_element = false;
 };
 
-/// Whether `value` may stand in the attribute; the error says what may.
+/// Whether `value` may stand in the attribute, as far as its form goes; the error says what may.
 Result<void> CheckAttributeValue(const AttributeRule& rule, std::string_view value);
 
 /// The values of attributes, for those who handle tags (durations: core/types/duration_text.h).

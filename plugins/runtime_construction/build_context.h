@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <list>
 #include <map>
 #include <set>
 #include <string>
@@ -13,6 +12,7 @@
 #include "core/base/diagnostics.h"
 #include "core/element/runtime.h"
 #include "core/plugin/plugin_manager.h"
+#include "core/port/port.h"
 #include "plugins/parameters/configuration.h"
 #include "plugins/runtime_construction/part_files.h"
 #include "plugins/runtime_construction/xml_tag.h"
@@ -59,13 +59,9 @@ class BuildContext {
 
   /// The files that describe the inside of groups.
   [[nodiscard]] PartFiles& parts() noexcept { return parts_; }
-  /// Makes in `group` what the file says that `tag` names as its type. Errors: it cannot be read.
-  Result<void> ReadPart(const XmlAttribute& type, XmlElement tag, FrameworkElement& group) {
-    return read_part_(type, tag, group);
-  }
-  using PartReader =
-      std::function<Result<void>(const XmlAttribute& type, XmlElement tag, FrameworkElement&)>;
-  void set_part_reader(PartReader reader) { read_part_ = std::move(reader); }
+  /// Whether `value` may stand in the attribute. The error says what may; without a message, that a
+  /// plugin which could not be loaded may have brought it.
+  [[nodiscard]] Result<void> CheckValue(const AttributeRule& rule, std::string_view value) const;
 
   /// Any error makes the build fail, after all of the file has been looked at. The place in the
   /// file and the path are put in where the error has none itself.
@@ -87,35 +83,26 @@ class BuildContext {
   void Defer(BuildStage stage, std::function<void()> action);
   void RunDeferred();
 
-  /// The file asks for `name` below `parent`, but it could not be made and an error says so:
-  /// whoever refers to it need not complain again.
-  void MarkMissing(const FrameworkElement& parent, std::string_view name);
-  /// More was meant to stand below `parent`, but nobody knows under which name; an error says so.
-  void MarkIncomplete(const FrameworkElement& parent) { incomplete_.insert(&parent); }
+  /// A tag directly in `parent` made nothing, or what it made goes by another name, and an error says
+  /// so: whoever refers to it need not complain again. `name`: of the tag, nullptr if it has none.
+  void MarkMissing(const FrameworkElement& parent, const XmlAttribute* name);
   /// Whether to complain that there is no `name` in `parent`, which has `candidates`.
   [[nodiscard]] bool IsNews(const FrameworkElement& parent, std::string_view name,
                             const std::vector<std::string>& candidates) const;
+  /// A connection to something in `element`, or to itself, failed with an error.
+  void MarkUnfed(const FrameworkElement& element) { unfed_.insert(&element); }
+  /// Whether it is news that nothing is connected to the input.
+  [[nodiscard]] bool IsUnfedUnnoticed(const Port& input) const;
 
   /// True the first time: a fault of an element that shows in many places is told once.
   [[nodiscard]] bool IsFirstFaultOf(const FrameworkElement& element) {
     return faulty_.insert(&element).second;
   }
 
-  /// Keeps an attribute that stands for one of the file until the build is over.
-  const XmlAttribute& Keep(XmlAttribute stand_in) {
-    return stand_ins_.emplace_back(std::move(stand_in));
-  }
-
   /// What the parameters of the file came to, by path.
   void NoteValue(const std::string& path, std::string text) { values_[path] = std::move(text); }
   [[nodiscard]] std::map<std::string, std::string, std::less<>> TakeValues() {
     return std::move(values_);
-  }
-
-  /// Something meant for `element` failed with an error: unconnected inputs in it are no news.
-  void Excuse(const FrameworkElement& element) { excused_.push_back(&element); }
-  [[nodiscard]] const std::vector<const FrameworkElement*>& excused() const noexcept {
-    return excused_;
   }
 
   /// A plugin could not be loaded: what is unknown may come with it.
@@ -136,16 +123,14 @@ class BuildContext {
   bool Place(Error& error, const SourcePosition& position, const FrameworkElement& element);
 
   PartFiles parts_;
-  PartReader read_part_;
   std::set<std::string> told_;  // of what stands in parts
   Diagnostics& diagnostics_;
   std::map<BuildStage, std::vector<Deferred>> deferred_;
   Cause cause_;
   std::set<std::pair<const FrameworkElement*, std::string>> missing_;
-  std::set<const FrameworkElement*> incomplete_;
+  std::set<const FrameworkElement*> incomplete_;  // in which something is missing, whatever its name
+  std::set<const FrameworkElement*> unfed_;
   std::set<const FrameworkElement*> faulty_;
-  std::vector<const FrameworkElement*> excused_;
-  std::list<XmlAttribute> stand_ins_;
   std::map<std::string, std::string, std::less<>> values_;
   bool plugin_is_missing_ = false;
 };

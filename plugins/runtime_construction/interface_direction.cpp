@@ -2,21 +2,21 @@
 
 namespace runnel {
 
-bool IsRightWay(const Port& port, ConnectionEnd end, const Port& other) {
+bool IsRightWay(const Port& port, PathKind end, const Port& other) {
   if (!port.is_proxy() || &port == &other) return true;
   const FrameworkElement& group = *port.parent();
   const bool is_input = port.direction() == Port::Direction::kInput;
   // Of one group's input to its output inside, or back outside: either makes sense. Of two outputs
   // one is wrong, whichever; that is told at the first end.
   if (other.parent() == &group) {
-    return end == ConnectionEnd::kTo || other.direction() != port.direction();
+    return end == PathKind::kInput || other.direction() != port.direction();
   }
   const bool is_inside = other.IsAtOrBelow(group);
-  const bool receives = end == ConnectionEnd::kTo;
+  const bool receives = end == PathKind::kInput;
   return is_input == (is_inside != receives);
 }
 
-void CheckInterfaceDirection(const Port& port, const PathUse& use, ConnectionEnd end,
+void CheckInterfaceDirection(const Port& port, const PathUse& use, PathKind end,
                              const Port& other, BuildContext& context) {
   if (IsRightWay(port, end, other)) return;
   if (!context.IsFirstFaultOf(port)) return;

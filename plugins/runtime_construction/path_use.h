@@ -3,8 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "core/element/framework_element.h"
+#include "core/port/path_search.h"
 #include "core/xml/xml_document.h"
+#include "plugins/runtime_construction/build_context.h"
 
 namespace runnel {
 
@@ -19,5 +20,16 @@ struct PathUse {
 [[nodiscard]] PathUse PathIn(const XmlAttribute& attribute, FrameworkElement& base);
 /// The paths in an attribute that holds a list, each with its own place.
 [[nodiscard]] std::vector<PathUse> PathsIn(const XmlAttribute& attribute, FrameworkElement& base);
+
+// What a path names, or nullptr after reporting what is not there or is something else.
+
+[[nodiscard]] FrameworkElement* SearchElement(const PathUse& use, BuildContext& context);
+[[nodiscard]] Port* SearchPort(const PathUse& use, PathKind kind, BuildContext& context);
+/// What can be set while the application runs, and would take `value`.
+[[nodiscard]] FrameworkElement* SearchSettable(const XmlAttribute& path, const XmlAttribute& value,
+                                               FrameworkElement& base, BuildContext& context);
+
+/// The port, without reporting.
+[[nodiscard]] Port* FindPort(const PathUse& use, PathKind kind);
 
 }  // namespace runnel

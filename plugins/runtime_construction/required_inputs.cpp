@@ -14,17 +14,6 @@ namespace {
 
 constexpr std::size_t kMostOutputsNamed = 3;
 
-bool IsExcused(const Port& input, const std::vector<const FrameworkElement*>& excused) {
-  return std::ranges::any_of(excused, [&](const FrameworkElement* each) {
-    if (input.IsAtOrBelow(*each)) return true;
-    // An interface port that stayed unconnected excuses what it would have fed.
-    const auto* const port = dynamic_cast<const Port*>(each);
-    if (port == nullptr || !port->is_proxy()) return false;
-    const std::vector<Port*> sinks = port->Sinks();
-    return std::ranges::find(sinks, &input) != sinks.end();
-  });
-}
-
 std::string Hint(const Port& input, FrameworkElement& application) {
   std::vector<std::string> outputs;
   application.Visit([&](FrameworkElement& element) {
@@ -47,7 +36,7 @@ void CheckRequiredInputs(FrameworkElement& application, BuildContext& context) {
   application.Visit([&](FrameworkElement& element) {
     auto* const port = dynamic_cast<Port*>(&element);
     if (port == nullptr || !port->is_required() || !port->Sources().empty()) return;
-    if (!IsExcused(*port, context.excused())) unconnected.push_back(port);
+    if (context.IsUnfedUnnoticed(*port)) unconnected.push_back(port);
   });
   for (Port* port : unconnected) {
     context.Report({.message = "nothing is connected to this input, which its module requires",

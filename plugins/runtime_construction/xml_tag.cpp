@@ -4,21 +4,11 @@
 
 #include "core/base/check.h"
 #include "core/element/element_path.h"
+#include "plugins/runtime_construction/build_context.h"
+#include "plugins/runtime_construction/source_place.h"
 #include "plugins/runtime_construction/tags/built_in_tags.h"
 
 namespace runnel {
-
-const XmlAttribute* TagUse::Find(std::string_view attribute) const {
-  const auto stand_in = std::ranges::find(stand_ins, attribute, &XmlAttribute::name);
-  if (stand_in != stand_ins.end()) return *stand_in;
-  if (std::ranges::find(unusable, attribute) != unusable.end()) return nullptr;
-  return xml.Attribute(attribute);
-}
-
-bool TagUse::Says(std::string_view attribute) const {
-  return xml.Attribute(attribute) != nullptr || Find(attribute) != nullptr ||
-         std::ranges::find(unusable, attribute) != unusable.end();
-}
 
 std::string TagUse::path() const {
   const XmlAttribute* const name = Find("name");
@@ -32,6 +22,26 @@ const XmlAttribute& TagUse::Get(std::string_view attribute) const {
   const XmlAttribute* const found = Find(attribute);
   RUNNEL_CHECK(found != nullptr, "a tag asks for an attribute that its rules do not require");
   return *found;
+}
+
+void TagUse::Report(Error error, const SourcePosition& position) const {
+  if (error.path.empty()) error.path = path();
+  context.Report(std::move(error), position, parent);
+}
+
+bool TagUse::HasFreeName(const FrameworkElement& where) const {
+  const XmlAttribute& name = Get("name");
+  const FrameworkElement* const known = where.FindChild(name.value);
+  if (known == nullptr) return true;
+  const auto* const place = known->FindAnnotation<SourcePlace>();
+  Report({.message = "there is already an element called '" + name.value + "' in " + where.path(),
+          .hint = place == nullptr ? "choose another name"
+                                   : "the first is in line " + std::to_string(place->position.line)},
+         name.value_position);
+  // Whoever names it may mean the other one, or calls that by another name.
+  context.MarkMissing(*known, nullptr);
+  context.MarkMissing(where, nullptr);
+  return false;
 }
 
 XmlTagRegistry::XmlTagRegistry() {

@@ -25,19 +25,19 @@ struct TagUse {
   XmlElement xml;
   FrameworkElement& parent;  ///< what the enclosing tag has made
   BuildContext& context;
-  std::vector<std::string> unusable = {};  ///< attributes that have been complained about
-  /// Stand for attributes that are misspelt or missing, after an error has said so: nothing of the
-  /// tree stays then, but the rest of the file can be looked at.
-  std::vector<const XmlAttribute*> stand_ins = {};  // the context keeps them
 
-  /// nullptr if it is not there or unusable.
-  [[nodiscard]] const XmlAttribute* Find(std::string_view attribute) const;
-  /// Whether it is there, right or wrong.
-  [[nodiscard]] bool Says(std::string_view attribute) const;
+  /// nullptr if it is not there.
+  [[nodiscard]] const XmlAttribute* Find(std::string_view attribute) const {
+    return xml.Attribute(attribute);
+  }
   /// Precondition: the rules require the attribute.
   [[nodiscard]] const XmlAttribute& Get(std::string_view attribute) const;
   /// Of what the tag makes, whether it has been made or not: the parent's, and the name, if any.
   [[nodiscard]] std::string path() const;
+  /// As BuildContext::Report(), about what the tag makes.
+  void Report(Error error, const SourcePosition& position) const;
+  /// Whether nothing in `where` is called as the tag says; if something is, that is reported.
+  [[nodiscard]] bool HasFreeName(const FrameworkElement& where) const;
 };
 
 /// An attribute as a saved file should have it.
@@ -62,13 +62,12 @@ struct XmlTag {
   /// Handled before all other tags of the file are even looked at, since it may bring new tags.
   bool comes_first = false;
   bool is_part = false;  ///< the root of a file that others use, not of an application
+  /// Makes elements, or connects them: if it is wrong, what is missing elsewhere may be its fault.
+  bool is_structure = false;
   /// Makes what the tag asks for and returns the element that the tags within it go below: a new
   /// one, or use.parent. Nothing if it could not, after reporting why to use.context. What needs
   /// the rest of the file is put off with use.context.Defer(). Exceptions become errors at the tag.
   std::function<FrameworkElement*(const TagUse& use)> handle;
-  /// Called instead if the attributes are wrong, which has been reported: so that no other errors
-  /// come of it. What is there is in use.xml, unchecked.
-  std::function<void(const TagUse& use)> salvage = {};
   /// For those that make what comes and goes while the application lives: all tags of this name that
   /// a file needs directly in `parent` to get what is there now. Without, a file that is saved keeps
   /// the tags that it has.

@@ -2,8 +2,7 @@
 #include <utility>
 
 #include "plugins/runtime_construction/build_context.h"
-#include "plugins/runtime_construction/configurable_search.h"
-#include "plugins/runtime_construction/path_walk.h"
+#include "plugins/runtime_construction/path_use.h"
 #include "plugins/scheduling_tags/xml_scheduling_tags.h"
 
 namespace runnel {
@@ -14,37 +13,20 @@ struct FaultRules final : Annotation {
   std::vector<PlacedFaultRule> rules;
 };
 
-// The target is there, may be set while the application runs, and would take the value.
-bool ReadTarget(const TagUse& use, const XmlAttribute& set, FaultRule& rule) {
-  BuildContext& context = use.context;
-  const PathUse path = PathIn(set, use.parent);
-  const ConfigurableElement target = SearchConfigurable(path, context);
-  const XmlAttribute* const value = use.Find("value");
-  if (!target || value == nullptr) return false;
-  if (target.configurable->info().is_static) {
-    context.Report({.message = "the parameter is static: it cannot be set while its module runs",
-                    .path = target.element->path()},
-                   set.value_position, use.parent);
-    return false;
-  }
-  if (auto good = target.configurable->CheckText(value->value); !good) {
-    Error error = good.error();
-    error.path = target.element->path();
-    context.Report(std::move(error), value->value_position, use.parent);
-    return false;
-  }
-  rule.action = FaultRule::Action::kSet;
-  rule.target = target.element->path();
-  rule.value = value->value;
-  return true;
-}
-
 void AddRule(const TagUse& use) {
   FaultRule rule;
   const FrameworkElement* const of = SearchElement(PathIn(use.Get("of"), use.parent), use.context);
   const XmlAttribute* const set = use.Find("set");
-  const bool is_usable = set == nullptr || ReadTarget(use, *set, rule);
-  if (of == nullptr || !is_usable) return;
+  const XmlAttribute* const value = use.Find("value");
+  if (set != nullptr) {
+    if (value == nullptr) return;
+    const FrameworkElement* const target = SearchSettable(*set, *value, use.parent, use.context);
+    if (target == nullptr) return;
+    rule.action = FaultRule::Action::kSet;
+    rule.target = target->path();
+    rule.value = value->value;
+  }
+  if (of == nullptr) return;
   rule.of = of->path();
   FrameworkElement& application = internal::ApplicationOf(use.parent);
   auto* rules = application.FindAnnotation<FaultRules>();

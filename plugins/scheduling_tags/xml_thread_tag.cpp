@@ -8,9 +8,8 @@
 #include "core/module/group.h"
 #include "core/types/duration_text.h"
 #include "plugins/runtime_construction/build_context.h"
-#include "plugins/runtime_construction/name_check.h"
 #include "plugins/runtime_construction/not_saved.h"
-#include "plugins/runtime_construction/path_walk.h"
+#include "plugins/runtime_construction/path_use.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/scheduling_tags/xml_scheduling_tags.h"
 
@@ -32,19 +31,16 @@ Activation ReadActivation(const TagUse& use) {
 void ReadPeriod(const TagUse& use, ThreadOptions& options) {
   const XmlAttribute* const period = use.Find("period");
   if (period != nullptr) options.period = ParseDuration(period->value).value();
-  const bool may_do_without = use.Says("activation") && use.Find("activation") == nullptr;
-  if (options.activation == Activation::kPeriod && !use.Says("period") && !may_do_without) {
-    use.context.Report({.message = "<thread> has no 'period'",
-                        .path = use.path(),
-                        .hint = "add period=\"50ms\", or activation=\"trigger\" or "
-                                "activation=\"free_running\""},
-                       use.xml.position(), use.parent);
+  if (options.activation == Activation::kPeriod && period == nullptr) {
+    use.Report({.message = "<thread> has no 'period'",
+                .hint = "add period=\"50ms\", or activation=\"trigger\" or "
+                        "activation=\"free_running\""},
+               use.xml.position());
   }
   if (options.activation == Activation::kTrigger && period != nullptr) {
-    use.context.Report({.message = "a thread that waits for data has no period",
-                        .path = use.path(),
-                        .hint = "leave out either period or activation"},
-                       period->position, use.parent);
+    use.Report({.message = "a thread that waits for data has no period",
+                .hint = "leave out either period or activation"},
+               period->position);
   }
 }
 
@@ -56,10 +52,9 @@ void ReadPriority(const TagUse& use, ThreadOptions& options) {
     options.priority = static_cast<int>(count);
     return;
   }
-  use.context.Report({.message = "priority " + priority->value + " is out of bounds",
-                      .path = use.path(),
-                      .hint = "0 is ordinary scheduling, 1 .. 99 is SCHED_FIFO"},
-                     priority->value_position, use.parent);
+  use.Report({.message = "priority " + priority->value + " is out of bounds",
+              .hint = "0 is ordinary scheduling, 1 .. 99 is SCHED_FIFO"},
+             priority->value_position);
 }
 
 FrameworkElement* MakeThread(const TagUse& use) {
@@ -70,7 +65,8 @@ FrameworkElement* MakeThread(const TagUse& use) {
     threads->Annotate(std::make_unique<NotSaved>());
   }
   // Errors name the path that the thread really has.
-  const TagUse inside{use.xml, *threads, use.context, use.unusable, use.stand_ins};
+  const TagUse inside{use.xml, *threads, use.context};
+  if (!inside.HasFreeName(*threads)) return nullptr;
   ThreadOptions options;
   options.activation = ReadActivation(use);
   ReadPeriod(inside, options);
@@ -79,7 +75,7 @@ FrameworkElement* MakeThread(const TagUse& use) {
   if (on_overrun != nullptr && on_overrun->value == "catch_up") {
     options.on_overrun = ThreadOptions::OnOverrun::kCatchUp;
   }
-  return &runtime.Create<ThreadContainer>(*threads, FreeName(inside, *threads), options);
+  return &runtime.Create<ThreadContainer>(*threads, inside.Get("name").value, options);
 }
 
 void Assign(const XmlAttribute& name, FrameworkElement& element, BuildContext& context) {
@@ -92,7 +88,7 @@ void Assign(const XmlAttribute& name, FrameworkElement& element, BuildContext& c
       AssignThread(element, *thread);
       return;
     }
-    known = ChildNames(*threads);
+    for (const FrameworkElement* each : threads->children()) known.push_back(each->name());
   }
   if (!context.IsNews(application, name.value, known)) return;
   context.Report({.message = "there is no thread '" + name.value + "'",
@@ -192,6 +188,7 @@ XmlTag internal::ThreadTag() {
                 .summary = "what happens to cycles that were missed: left out (by default), or run "
                            "at once",
                 .choices = {"skip", "catch_up"}}},
+          .is_structure = true,
           .handle = MakeThread,
           .saved = SavedThreads};
 }

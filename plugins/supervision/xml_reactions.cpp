@@ -6,10 +6,7 @@
 
 #include "core/base/nearest_name.h"
 #include "core/types/type_info.h"
-#include "plugins/runtime_construction/configurable_search.h"
-#include "plugins/runtime_construction/module_type_hint.h"
-#include "plugins/runtime_construction/path_walk.h"
-#include "plugins/runtime_construction/port_search.h"
+#include "plugins/runtime_construction/path_use.h"
 
 namespace runnel::internal {
 
@@ -31,7 +28,7 @@ struct ReactionUse {
   void Describe(const std::string& done) const {
     reaction.description += (reaction.description.empty() ? "" : ", ") + done;
   }
-  [[nodiscard]] Port* FindPortAt(const XmlAttribute& attribute, ConnectionEnd end) const {
+  [[nodiscard]] Port* FindPortAt(const XmlAttribute& attribute, PathKind end) const {
     return SearchPort(PathIn(attribute, base), end, context);
   }
 };
@@ -63,9 +60,9 @@ void ReadSwitch(const ReactionUse& use) {
                use.xml.position());
     return;
   }
-  Port* const input = use.FindPortAt(*input_name, ConnectionEnd::kTo);
-  Port* const from = from_name ? use.FindPortAt(*from_name, ConnectionEnd::kFrom) : nullptr;
-  Port* const to = to_name ? use.FindPortAt(*to_name, ConnectionEnd::kFrom) : nullptr;
+  Port* const input = use.FindPortAt(*input_name, PathKind::kInput);
+  Port* const from = from_name ? use.FindPortAt(*from_name, PathKind::kOutput) : nullptr;
+  Port* const to = to_name ? use.FindPortAt(*to_name, PathKind::kOutput) : nullptr;
   if (input == nullptr || (from_name && !from) || (to_name && !to)) return;
   if (from != nullptr && !HaveOneType(*from, *input, *from_name, use)) return;
   if (to != nullptr && !HaveOneType(*to, *input, *to_name, use)) return;
@@ -86,22 +83,10 @@ void ReadSet(const ReactionUse& use) {
   const XmlAttribute* const parameter = use.Find("parameter");
   const XmlAttribute* const value = use.Find("value");
   if (parameter == nullptr || value == nullptr) return;
-  const ConfigurableElement target = SearchConfigurable(PathIn(*parameter, use.base), use.context);
-  if (!target) return;
-  if (target.configurable->info().is_static) {
-    use.Report({.message = "the parameter is static: it cannot be set while its module runs",
-                .path = target.element->path()},
-               parameter->value_position);
-    return;
-  }
-  if (auto good = target.configurable->CheckText(value->value); !good) {
-    Error error = good.error();
-    error.path = target.element->path();
-    use.Report(std::move(error), value->value_position);
-    return;
-  }
-  use.reaction.changes.push_back(SetParameter{target.element->path(), value->value});
-  use.Describe("set " + target.element->path() + " to " + value->value);
+  const FrameworkElement* const target = SearchSettable(*parameter, *value, use.base, use.context);
+  if (target == nullptr) return;
+  use.reaction.changes.push_back(SetParameter{target->path(), value->value});
+  use.Describe("set " + target->path() + " to " + value->value);
 }
 
 void ReadReplace(const ReactionUse& use) {
@@ -110,13 +95,6 @@ void ReadReplace(const ReactionUse& use) {
   if (module == nullptr || by == nullptr) return;
   const FrameworkElement* const found = SearchElement(PathIn(*module, use.base), use.context);
   if (found == nullptr) return;
-  const ModuleRegistry& modules = use.context.plugins().modules();
-  if (const auto known = modules.Get(by->value); !known) {
-    use.Report({.message = known.error().message,
-                .hint = ModuleTypeHint(by->value, use.context.plugins())},
-               by->value_position);
-    return;
-  }
   use.reaction.changes.push_back(ReplaceModule{found->path(), by->value});
   use.Describe("replaced " + found->path() + " by a new " + by->value);
 }
@@ -158,7 +136,7 @@ std::vector<XmlTag> ReactionTags(const std::function<FrameworkElement*(const Tag
                            .required = true,
                            .names_element = true},
                           {.name = "by",
-                           .kind = AttributeKind::kPath,
+                           .kind = AttributeKind::kModuleType,
                            .required = true,
                            .summary = "a type, as `runnel modules` lists them"}},
            .handle = handle},

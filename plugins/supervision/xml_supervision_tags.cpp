@@ -7,8 +7,7 @@
 #include "core/base/saturating_sum.h"
 #include "core/types/duration_text.h"
 #include "plugins/runtime_construction/build_context.h"
-#include "plugins/runtime_construction/path_walk.h"
-#include "plugins/runtime_construction/port_search.h"
+#include "plugins/runtime_construction/path_use.h"
 #include "plugins/supervision/xml_reactions.h"
 
 namespace runnel {
@@ -46,7 +45,7 @@ void AddStaleRule(const TagUse& use) {
     if (child.name() != "otherwise") continue;
     rule.on_fresh = internal::ReadReaction(child, use.parent, use.context);
   }
-  const Port* const port = SearchPort(PathIn(input, use.parent), ConnectionEnd::kTo, use.context);
+  const Port* const port = SearchPort(PathIn(input, use.parent), PathKind::kInput, use.context);
   if (port == nullptr) return;
   if (port->Sources().empty()) {
     use.context.Report({.message = "cannot become stale, as nothing is connected to it",

@@ -1,6 +1,5 @@
 #include "core/module/group.h"
 #include "plugins/runtime_construction/build_context.h"
-#include "plugins/runtime_construction/name_check.h"
 #include "plugins/runtime_construction/tags/built_in_tags.h"
 
 namespace runnel {
@@ -13,8 +12,10 @@ XmlTag ApplicationTag() {
                           .kind = AttributeKind::kNewName,
                           .required = true,
                           .summary = "the first part of all paths"}},
+          .is_structure = true,
           .handle = [](const TagUse& use) -> FrameworkElement* {
-            return &use.context.runtime().Create<Group>(use.parent, FreeName(use, use.parent));
+            if (!use.HasFreeName(use.parent)) return nullptr;
+            return &use.context.runtime().Create<Group>(use.parent, use.Get("name").value);
           }};
 }
 

@@ -1,11 +1,11 @@
 #include <string>
 #include <vector>
 
+#include "core/plugin/module_type_name.h"
 #include "core/types/type_info.h"
 #include "plugins/runtime_construction/build_context.h"
 #include "plugins/runtime_construction/interface_direction.h"
 #include "plugins/runtime_construction/path_use.h"
-#include "plugins/runtime_construction/port_search.h"
 #include "plugins/runtime_construction/tags/built_in_tags.h"
 
 namespace runnel {
@@ -16,34 +16,27 @@ const std::vector<std::string> kOnFullNames{"drop_oldest", "drop_newest", "refus
 
 constexpr std::size_t kLongestQueue = 1'000'000;
 
-void ReadQueue(const TagUse& use, ConnectOptions& options) {
-  const XmlAttribute* const queue = use.Find("queue");
-  if (queue == nullptr) return;
-  const std::size_t length = ParseCount(queue->value).value();
-  if (length <= kLongestQueue) {
-    options.queue = length;
-    return;
-  }
-  use.context.Report({.message = "a queue of " + queue->value + " values is too long",
-                      .hint = "its memory is taken at once; at most " +
-                              std::to_string(kLongestQueue) + " values may wait"},
-                     queue->value_position, use.parent);
-}
-
 ConnectOptions ReadOptions(const TagUse& use) {
   ConnectOptions options;
-  ReadQueue(use, options);
+  if (const XmlAttribute* const queue = use.Find("queue")) {
+    options.queue = ParseCount(queue->value).value();
+    if (options.queue > kLongestQueue) {
+      use.Report({.message = "a queue of " + queue->value + " values is too long",
+                  .hint = "its memory is taken at once; at most " + std::to_string(kLongestQueue) +
+                          " values may wait"},
+                 queue->value_position);
+      options.queue = 0;
+      return options;
+    }
+  }
   const XmlAttribute* const on_full = use.Find("on_full");
   if (on_full == nullptr) return options;
   if (on_full->value == "drop_newest") options.on_full = OnFull::kDropNewest;
   if (on_full->value == "refuse") options.on_full = OnFull::kRefuse;
-  const XmlAttribute* const queue = use.Find("queue");
-  const bool has_none =
-      queue == nullptr ? !use.Says("queue") : ParseCount(queue->value).value() == 0;
-  if (has_none) {
-    use.context.Report({.message = "on_full has no meaning without a queue",
-                        .hint = "add queue=\"…\" with a count above 0, or leave out on_full"},
-                       on_full->position, use.parent);
+  if (options.queue == 0) {
+    use.Report({.message = "on_full has no meaning without a queue",
+                .hint = "add queue=\"…\" with a count above 0, or leave out on_full"},
+               on_full->position);
   }
   return options;
 }
@@ -59,71 +52,45 @@ std::string FittingInputs(const Port& from, const Port& to) {
   return names.empty() ? "" : from.type().name() + " is taken by " + names;
 }
 
-// A connection fails: the module that it was meant for may have no other one.
-void ExcuseModuleOf(const Port& port, BuildContext& context) {
-  for (const FrameworkElement* each = &port; each != nullptr; each = each->parent()) {
-    if (each->kind() == ElementKind::kModule) return context.Excuse(*each);
-  }
-  context.Excuse(port);
+// Another port of the module may have been meant.
+void MarkUnfed(const Port& port, BuildContext& context) {
+  const FrameworkElement* const module = FindModuleAround(port);
+  context.MarkUnfed(module != nullptr ? *module : port);
 }
 
 void Connect(Port& from, const PathUse& from_use, Port& to, const PathUse& to_use,
              const ConnectOptions& options, BuildContext& context) {
-  CheckInterfaceDirection(from, from_use, ConnectionEnd::kFrom, to, context);
-  CheckInterfaceDirection(to, to_use, ConnectionEnd::kTo, from, context);
+  CheckInterfaceDirection(from, from_use, PathKind::kOutput, to, context);
+  CheckInterfaceDirection(to, to_use, PathKind::kInput, from, context);
   const auto connected = Port::Connect(from, to, options);
   if (connected) return;
   const bool cannot_send = !from.is_proxy() && from.direction() == Port::Direction::kInput;
-  ExcuseModuleOf(to, context);
-  if (cannot_send) ExcuseModuleOf(from, context);
+  MarkUnfed(to, context);
+  if (cannot_send) MarkUnfed(from, context);
   Error error = connected.error();
   if (error.hint.empty() && &from.type() != &to.type()) error.hint = FittingInputs(from, to);
   const PathUse& wrong = cannot_send ? from_use : to_use;
   context.Report(std::move(error), wrong.position, wrong.base);
 }
 
-// Nobody knows what was to be fed: all that could have been.
-void ExcuseInputsFor(const Port* from, FrameworkElement& group, BuildContext& context) {
-  group.Visit([&](FrameworkElement& element) {
-    const auto* const port = dynamic_cast<const Port*>(&element);
-    if (port == nullptr || port->direction() != Port::Direction::kInput) return;
-    if (from == nullptr || &port->type() == &from->type()) context.Excuse(*port);
-  });
-}
-
-std::vector<PathUse> Paths(const TagUse& use, std::string_view attribute) {
-  const XmlAttribute* found = use.Find(attribute);
-  if (found == nullptr) found = use.xml.Attribute(attribute);  // there, but wrong
-  return found == nullptr ? std::vector<PathUse>() : PathsIn(*found, use.parent);
-}
-
-// Also of a tag that lacks an end: the other one is looked at all the same.
 void ConnectAll(const TagUse& use) {
   BuildContext& context = use.context;
   const ConnectOptions options = ReadOptions(use);
-  const std::vector<PathUse> sources = Paths(use, "from");
+  const std::vector<PathUse> sources = PathsIn(use.Get("from"), use.parent);
   if (sources.size() > 1) {
-    context.Report(
-        {.message = "a connection comes from one port", .hint = "write a <connect> for each"},
-        sources[1].position, use.parent);
+    use.Report({.message = "a connection comes from one port", .hint = "write a <connect> for each"},
+               sources[1].position);
   }
-  Port* const from =
-      sources.empty() ? nullptr : SearchPort(sources[0], ConnectionEnd::kFrom, context);
-  const std::vector<PathUse> targets = Paths(use, "to");
-  for (const PathUse& to_use : targets) {
-    Port* const to = SearchPort(to_use, ConnectionEnd::kTo, context);
+  Port* const from = SearchPort(sources[0], PathKind::kOutput, context);
+  for (const PathUse& to_use : PathsIn(use.Get("to"), use.parent)) {
+    Port* const to = SearchPort(to_use, PathKind::kInput, context);
     if (to == nullptr) continue;
     if (from == nullptr) {
-      ExcuseModuleOf(*to, context);
+      MarkUnfed(*to, context);
     } else {
       Connect(*from, sources[0], *to, to_use, options, context);
     }
   }
-  if (targets.empty()) ExcuseInputsFor(from, use.parent, context);
-}
-
-void DeferConnecting(const TagUse& use) {
-  use.context.Defer(BuildStage::kConnections, [use] { ConnectAll(use); });
 }
 
 }  // namespace
@@ -147,11 +114,11 @@ XmlTag ConnectTag() {
                           .kind = AttributeKind::kChoice,
                           .summary = "what a full queue does with one more value",
                           .choices = kOnFullNames}},
+          .is_structure = true,
           .handle = [](const TagUse& use) -> FrameworkElement* {
-            DeferConnecting(use);
+            use.context.Defer(BuildStage::kConnections, [use] { ConnectAll(use); });
             return &use.parent;
-          },
-          .salvage = DeferConnecting};
+          }};
 }
 
 }  // namespace runnel

@@ -2,8 +2,7 @@
 #include <utility>
 
 #include "core/module/group.h"
-#include "plugins/runtime_construction/build_context.h"
-#include "plugins/runtime_construction/name_check.h"
+#include "plugins/runtime_construction/application_reader.h"
 #include "plugins/runtime_construction/tags/built_in_tags.h"
 
 namespace runnel {
@@ -22,13 +21,13 @@ void RefuseContents(const TagUse& use, const FrameworkElement& group) {
 
 FrameworkElement* MakeGroup(const TagUse& use) {
   BuildContext& context = use.context;
-  auto& group = context.runtime().Create<Group>(use.parent, FreeName(use, use.parent));
+  if (!use.HasFreeName(use.parent)) return nullptr;
+  auto& group = context.runtime().Create<Group>(use.parent, use.Get("name").value);
   const XmlAttribute* const type = use.Find("type");
   if (type == nullptr) return &group;
   RefuseContents(use, group);
-  if (auto read = context.ReadPart(*type, use.xml, group); !read) {
-    context.MarkIncomplete(group);
-    context.Excuse(group);
+  if (auto read = ReadGroupType(*type, use.xml, group, context); !read) {
+    context.MarkMissing(group, nullptr);
     context.Report(read.error(), type->value_position, group);
   }
   return &group;
@@ -44,6 +43,7 @@ XmlTag GroupTag() {
                          {.name = "type",
                           .kind = AttributeKind::kPath,
                           .summary = "the file that says what is in it, a <group_type>"}},
+          .is_structure = true,
           .handle = MakeGroup};
 }
 

@@ -8,8 +8,7 @@
 #include "core/base/nearest_name.h"
 #include "plugins/parameters/file_path.h"
 #include "plugins/runtime_construction/build_context.h"
-#include "plugins/runtime_construction/configurable_search.h"
-#include "plugins/runtime_construction/path_walk.h"
+#include "plugins/runtime_construction/path_use.h"
 #include "plugins/runtime_construction/tags/built_in_tags.h"
 
 namespace runnel {
@@ -18,13 +17,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Configurable* FindConfigurable(const TagUse& use, const FrameworkElement& module) {
+Configurable* FindParameter(const TagUse& use, const FrameworkElement& module) {
   const XmlAttribute& name = use.Get("name");
+  if (const auto found = FindConfigurable(module, name.value)) return found.configurable;
   std::vector<std::string> names;
-  for (const ConfigurableElement& each : ConfigurablesOf(module)) {
-    if (each.element->name() == name.value) return each.configurable;
-    names.push_back(each.element->name());
-  }
+  for (const auto& each : ConfigurablesOf(module)) names.push_back(each.element->name());
   use.context.Report({.message = "there is no parameter '" + name.value + "'",
                       .hint = NearestNameHint(name.value, names)},
                      name.value_position, module);
@@ -88,7 +85,9 @@ std::vector<Candidate> Candidates(const TagUse& use, const FrameworkElement& sco
   if (const XmlAttribute* value = use.Find("value")) {
     candidates.push_back({value->value, value->value_position, context.FolderOf(value->position)});
   }
-  if (const XmlAttribute* from = use.Find("from")) {
+  // Of one that a <group_type> declares that is wrong: it might name itself, without an end.
+  const bool is_declared = use.xml.parent()->name() == "group_type";
+  if (const XmlAttribute* from = use.Find("from"); from != nullptr && !is_declared) {
     candidates = CandidatesOfPart(*from, use, scope);
   }
   if (const XmlAttribute* path = use.Find("config")) {
@@ -116,7 +115,7 @@ std::string Text(const Candidate& candidate, const Configurable& configurable) {
 // All candidates are looked at, so that a mistake in the file shows even when it is overridden.
 void SetParameter(const TagUse& use, const FrameworkElement& module,
                   const FrameworkElement& scope) {
-  Configurable* const configurable = FindConfigurable(use, module);
+  Configurable* const configurable = FindParameter(use, module);
   const std::vector<Candidate> candidates = Candidates(use, scope);
   if (configurable == nullptr) return;
   const std::string path = dynamic_cast<FrameworkElement&>(*configurable).path();
@@ -160,14 +159,14 @@ bool IsFirstOfItsName(const TagUse& use) {
 
 void CheckSources(const TagUse& use) {
   const bool sets_something =
-      use.Says("value") || use.Says("config") || use.Says("command_line") || use.Says("from");
+      use.Find("value") || use.Find("config") || use.Find("command_line") || use.Find("from");
   if (!sets_something) {
     use.context.Report({.message = "<parameter> does not say where the value comes from",
                         .hint = "add value=\"…\", config=\"…\" or command_line=\"…\""},
                        use.xml.position(), use.parent);
   }
   const XmlAttribute* const from = use.Find("from");
-  if (from != nullptr && use.Says("value")) {
+  if (from != nullptr && use.Find("value")) {
     use.context.Report({.message = "a value and a parameter that it comes from",
                         .hint = "leave out one of value and from"},
                        from->position, use.parent);
@@ -187,11 +186,7 @@ void Declare(const TagUse& use, PartUse& part) {
   RefuseAttribute("from", "leave it out: where the file is used, it may be said", use);
   RefuseAttribute("of", "leave it out", use);
   if (!IsFirstOfItsName(use)) return;
-  // It might name itself, and looking for its value would have no end.
-  TagUse declared = use;
-  declared.unusable.push_back("from");
-  std::erase_if(declared.stand_ins, [](const XmlAttribute* each) { return each->name == "from"; });
-  part.declared.emplace(use.Get("name").value, std::move(declared));
+  part.declared.emplace(use.Get("name").value, use);
 }
 
 // In a group whose type is a file: of one of its parameters, or, with `of`, of a module in it.

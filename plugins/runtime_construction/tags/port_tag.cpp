@@ -3,14 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "core/base/nearest_name.h"
 #include "core/port/proxy_port.h"
 #include "core/types/type_info.h"
 #include "plugins/runtime_construction/build_context.h"
-#include "plugins/runtime_construction/name_check.h"
 #include "plugins/runtime_construction/path_use.h"
-#include "plugins/runtime_construction/port_search.h"
-#include "plugins/runtime_construction/port_types.h"
 #include "plugins/runtime_construction/source_place.h"
 #include "plugins/runtime_construction/tags/built_in_tags.h"
 
@@ -18,39 +14,19 @@ namespace runnel {
 
 namespace {
 
-const TypeInfo* NamedType(const XmlAttribute& name, const TagUse& use) {
-  if (const TypeInfo* type = FindType(name.value)) return type;
-  MakePortTypesKnown(use.context.plugins().modules());
-  if (const TypeInfo* type = FindType(name.value)) return type;
-  std::vector<std::string> names;
-  for (const TypeInfo* type : RegisteredTypes()) names.push_back(type->name());
-  const std::string nearest = NearestName(name.value, names);
-  if (use.context.IsWorthReporting(name.value, names)) {
-    use.context.Report({.message = "there is no type '" + name.value + "'",
-                        .path = use.path(),
-                        .hint = nearest.empty() ? "types come with the plugins whose modules have "
-                                                  "ports of them; is a <load> missing?"
-                                                : "did you mean '" + nearest + "'?"},
-                       name.value_position, use.parent);
-  }
-  return nullptr;
-}
-
 // The far end of `connect`, if it is a connection of the port called `own` seen from `base`.
-std::optional<std::pair<PathUse, ConnectionEnd>> FarEnd(XmlElement connect, FrameworkElement& base,
+std::optional<std::pair<PathUse, PathKind>> FarEnd(XmlElement connect, FrameworkElement& base,
                                                         const std::string& own) {
   const XmlAttribute* const from = connect.Attribute("from");
   const XmlAttribute* const to = connect.Attribute("to");
-  // A misspelt one has been reported, and is taken for what it was meant to be.
-  const bool is_connect = EditDistance(connect.name(), "connect") <= 2;
-  if (!is_connect || from == nullptr || to == nullptr) return std::nullopt;
+  if (connect.name() != "connect" || from == nullptr || to == nullptr) return std::nullopt;
   const std::vector<PathUse> targets = PathsIn(*to, base);
   if (from->value == own && !targets.empty()) {
-    return std::pair(targets.front(), ConnectionEnd::kTo);
+    return std::pair(targets.front(), PathKind::kInput);
   }
   const auto is_own = [&](const PathUse& target) { return target.path == own; };
   if (std::ranges::none_of(targets, is_own)) return std::nullopt;
-  return std::pair(PathIn(*from, base), ConnectionEnd::kFrom);
+  return std::pair(PathIn(*from, base), PathKind::kOutput);
 }
 
 // Of the first connection between the tags of `element` that leads to a port that is there.
@@ -73,33 +49,24 @@ const TypeInfo* ConnectedType(const TagUse& use) {
   FrameworkElement& outside = *use.parent.parent();
   const std::string seen_from_outside = use.parent.name() + "/" + name;
   if (const TypeInfo* type = TypeAmong(*group.parent(), outside, seen_from_outside)) return type;
-  use.context.Report({.message = "the type of this port cannot be told from its connections",
-                      .path = use.path(),
-                      .hint = "add type=\"…\""},
-                     use.xml.position(), use.parent);
+  use.Report({.message = "the type of this port cannot be told from its connections",
+              .hint = "add type=\"…\""},
+             use.xml.position());
   return nullptr;
 }
 
 void MakePort(const TagUse& use) {
-  const std::string name = FreeName(use, use.parent);
+  if (!use.HasFreeName(use.parent)) return;
+  const XmlAttribute& name = use.Get("name");
   const XmlAttribute* const named = use.Find("type");
-  const TypeInfo* type = nullptr;
-  if (named != nullptr) {
-    type = NamedType(*named, use);
-  } else if (name == use.Get("name").value) {
-    type = ConnectedType(use);
-  }
-  if (type == nullptr) {
-    use.context.MarkMissing(use.parent, name);
-    return;
-  }
+  const TypeInfo* const type = named != nullptr ? FindType(named->value) : ConnectedType(use);
+  if (type == nullptr) return use.context.MarkMissing(use.parent, &name);
   const auto direction =
       use.Get("direction").value == "input" ? Port::Direction::kInput : Port::Direction::kOutput;
   const XmlAttribute* const description = use.Find("description");
   auto& port = use.context.runtime().Create<ProxyPort>(
-      use.parent, name, direction, *type, description != nullptr ? description->value : "");
+      use.parent, name.value, direction, *type, description != nullptr ? description->value : "");
   port.Annotate(std::make_unique<SourcePlace>(use.xml.position()));
-  MarkIfStandIn(port, use);
 }
 
 }  // namespace
@@ -115,10 +82,11 @@ XmlTag PortTag() {
                           .summary = "as seen from outside of the group",
                           .choices = {"input", "output"}},
                          {.name = "type",
-                          .kind = AttributeKind::kText,
+                          .kind = AttributeKind::kPortType,
                           .summary = "of its values; if left out, that of what it is first "
                                      "connected to, inside the group or else outside"},
                          {.name = "description", .kind = AttributeKind::kText}},
+          .is_structure = true,
           .handle = [](const TagUse& use) -> FrameworkElement* {
             use.context.Defer(BuildStage::kInterfaces, [use] { MakePort(use); });
             return &use.parent;

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "plugins/runtime_construction/path_walk.h"
+#include "plugins/runtime_construction/path_use.h"
 #include "tests/plugins/runtime_construction/test_application.h"
 
 namespace runnel::testing {
@@ -68,18 +68,18 @@ TEST(AddedWords, AreCheckedLikeBuiltInOnes) {
   EXPECT_EQ(workshop.Errors(R"(<application name="demo">
   <module name="a" type="test/sink" near="towre"/>
   <module name="b" type="test/sink" near=""/>
-  <beacon name="tower" strength="high"/>
+  <beacon name="hill" strength="high"/>
+  <beacon name="tower"/>
   <beacon name="tower"/>
   <beacn/>
 </application>)"),
             "app.xml:2:43: error: /demo: there is no 'towre' in /demo; did you mean 'tower'?\n"
             "app.xml:3:43: error: /demo/b: a path must not be empty\n"
-            "app.xml:4:34: error: /demo/tower: 'high' is not a count; write 0, 1, 2 …\n"
-            "app.xml:5:3: error: /demo: there is already an element called 'tower'; choose another "
+            "app.xml:4:33: error: /demo/hill: 'high' is not a count; write 0, 1, 2 …\n"
+            "app.xml:6:3: error: /demo: there is already an element called 'tower'; choose another "
             "name\n"
-            "app.xml:6:3: error: /demo: no <beacn> may stand in <application>; did you mean "
-            "'beacon'?\n"
-            "app.xml:6:3: error: /demo: <beacn> has no 'name'; add name=\"…\"\n");
+            "app.xml:7:3: error: /demo: no <beacn> may stand in <application>; did you mean "
+            "'beacon'?\n");
 }
 
 TEST(AddedWords, ThatThrowAreErrorsAtTheTag) {

@@ -99,11 +99,12 @@ TEST(ConnectionErrors, WantAQueueWhereItIsSaidWhatAFullOneDoes) {
   <module name="b" type="test/sink"/>
   <connect from="a/value" to="b/value" on_full="refuse"/>
   <connect from="a/value" to="b/second" queue="-1" on_full="refuses"/>
+  <connect from="a/label" to="b/label" on_full="refuses"/>
 </application>)"),
             "app.xml:4:40: error: /demo: on_full has no meaning without a queue; add queue=\"…\" "
             "with a count above 0, or leave out on_full\n"
             "app.xml:5:48: error: /demo: '-1' is not a count; write 0, 1, 2 …\n"
-            "app.xml:5:61: error: /demo: 'refuses' is not possible for on_full; did you mean "
+            "app.xml:6:49: error: /demo: 'refuses' is not possible for on_full; did you mean "
             "'refuse'?\n");
 }
 

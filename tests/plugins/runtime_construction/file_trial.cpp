@@ -10,7 +10,7 @@
 #include "core/types/type_info.h"
 #include "plugins/finroc_files/finroc_application.h"
 #include "plugins/runtime_construction/application_source.h"
-#include "plugins/runtime_construction/port_types.h"
+#include "plugins/runtime_construction/type_names.h"
 #include "plugins/runtime_construction/source_place.h"
 #include "plugins/supervision/xml_supervision_tags.h"
 #include "tests/plugins/application_files/saving_workshop.h"
@@ -96,7 +96,7 @@ struct FileTrial::World : Workshop {
     Add<Optional>("test/optional");
     AddSchedulingTags(tags);
     AddSupervisionTags(tags);
-    MakePortTypesKnown(plugins.modules());
+    (void)CheckPortType("none that there is", plugins);  // makes all of them known
     neighbour = Build(kNeighbour);
     RUNNEL_CHECK(neighbour != nullptr, "the neighbour cannot be built: " + diagnostics.ToString());
     Diagnostics unread;
