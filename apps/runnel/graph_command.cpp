@@ -13,9 +13,9 @@
 #include "apps/runnel/chosen_application.h"
 #include "apps/runnel/print_error.h"
 #include "core/base/nearest_name.h"
+#include "core/base/replace_file.h"
 #include "plugins/application/application_description.h"
-#include "plugins/application_files/replace_file.h"
-#include "plugins/application_graph/dot_text.h"
+#include "plugins/application_files/dot_text.h"
 
 namespace runnel::program {
 

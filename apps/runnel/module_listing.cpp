@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/element/configurable.h"
+#include "core/port/path_search.h"
 #include "core/port/port.h"
 #include "core/types/type_info.h"
-#include "plugins/runtime_construction/configurable_search.h"
 
 namespace runnel::program {
 

@@ -1,7 +1,6 @@
 #include "apps/runnel/plugin_choice.h"
 
 #include "apps/runnel/print_error.h"
-#include "plugins/runtime_construction/plugin_loading.h"
 
 namespace runnel::program {
 
@@ -9,7 +8,7 @@ bool LoadChosenPlugins(const std::vector<std::string>& chosen,
                        ApplicationDescription& surroundings) {
   bool all_are_there = true;
   for (const std::string& plugin : chosen.empty() ? surroundings.plugins().Available() : chosen) {
-    const auto loaded = LoadPlugin(plugin, surroundings.plugins(), surroundings.tags());
+    const auto loaded = surroundings.plugins().Load(plugin);
     if (loaded) continue;
     PrintError(loaded.error());
     all_are_there = false;

@@ -5,8 +5,8 @@
 #include "apps/runnel/chosen_application.h"
 #include "apps/runnel/plugin_choice.h"
 #include "apps/runnel/print_error.h"
+#include "core/base/replace_file.h"
 #include "plugins/application/application_description.h"
-#include "plugins/application_files/replace_file.h"
 #include "plugins/application_files/schema.h"
 
 namespace runnel::program {

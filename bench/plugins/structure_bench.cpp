@@ -21,9 +21,9 @@
 #include "core/module/module.h"
 #include "core/port/input.h"
 #include "core/port/output.h"
-#include "plugins/runtime_construction/application_builder.h"
+#include "plugins/application_files/application_builder.h"
+#include "plugins/application_files/run_description.h"
 #include "plugins/scheduling/scheduler.h"
-#include "plugins/scheduling_tags/xml_scheduling_tags.h"
 
 namespace runnel {
 namespace {
@@ -110,7 +110,6 @@ struct Figures {
 class Subject {
  public:
   explicit Subject(int modules) : modules_(modules) {
-    AddSchedulingTags(tags_);
     (void)plugins_.modules().Add(
         {"bench/stage", "", "bench",
          [](const Placement& placement) -> std::unique_ptr<FrameworkElement> {

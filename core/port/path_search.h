@@ -21,11 +21,11 @@ enum class PathKind {
 
 /// What came of following a path.
 struct PathEnd {
-  FrameworkElement* found = nullptr;  ///< nullptr: there is no such element
-  FrameworkElement* at = nullptr;     ///< the last element on the way that is there
-  std::string missing = {};           ///< the first name that is not there; "" if all are
+  FrameworkElement* found = nullptr;         ///< nullptr: there is no such element
+  FrameworkElement* at = nullptr;            ///< the last element on the way that is there
+  std::string missing = {};                  ///< the first name that is not there; "" if all are
   std::vector<std::string> candidates = {};  ///< what `at` has instead
-  Error error = {};                   ///< if nothing was found; its path is that of `at`
+  Error error = {};                          ///< if nothing was found; its path is that of `at`
 };
 
 /// Finds what people name by paths, in files, on command lines, in browsers and in code. In all of them

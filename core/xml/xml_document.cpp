@@ -48,7 +48,9 @@ std::string WithoutSpaceAtEnds(std::string_view text) {
 // The root, from the start tags in the order of the file. `shift`: what stands before the text in its file.
 std::unique_ptr<XmlNode> TreeOf(std::vector<StartTag> tags, const std::string& file_name,
                                 std::size_t shift) {
-  const auto shifted = [&](TextSpan span) { return TextSpan{span.begin + shift, span.end + shift}; };
+  const auto shifted = [&](TextSpan span) {
+    return TextSpan{span.begin + shift, span.end + shift};
+  };
   const auto at = [&](TextPlace place) {
     return SourcePosition{file_name, place.line, place.column};
   };

@@ -4,8 +4,7 @@
 
 #include "core/module/group.h"
 #include "plugins/application/application_extension.h"
-#include "plugins/scheduling_tags/xml_scheduling_tags.h"
-#include "plugins/supervision/xml_supervision_tags.h"
+#include "plugins/application_files/run_description.h"
 
 namespace runnel {
 
@@ -22,8 +21,6 @@ BuildOutcome Failed(Error error) {
 ApplicationDescription::ApplicationDescription(ApplicationOptions options)
     : options_(std::move(options)) {
   for (const auto& folder : options_.plugin_folders) plugins_.AddSearchFolder(folder);
-  AddSchedulingTags(tags_);
-  AddSupervisionTags(tags_);
   for (const auto& extension : options_.extensions) extension->AddWords(tags_);
   plugins_.registry().Offer(tags_);
 }

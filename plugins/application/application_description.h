@@ -9,8 +9,8 @@
 #include "core/element/runtime.h"
 #include "core/plugin/plugin_manager.h"
 #include "plugins/application/application_options.h"
+#include "plugins/application_files/application_builder.h"
 #include "plugins/parameters/configuration.h"
-#include "plugins/runtime_construction/application_builder.h"
 
 namespace runnel {
 

@@ -5,8 +5,8 @@
 
 #include "core/base/diagnostics.h"
 #include "core/base/result.h"
+#include "plugins/application_files/application_builder.h"
 #include "plugins/command_service/command_service.h"
-#include "plugins/runtime_construction/application_builder.h"
 #include "plugins/scheduling/scheduler.h"
 
 namespace runnel {

@@ -6,8 +6,7 @@
 
 #include "core/port/path_search.h"
 #include "plugins/application/internal/application_parts.h"
-#include "plugins/application_files/application_saver.h"
-#include "plugins/runtime_construction/plugin_loading.h"
+#include "plugins/application_files/saving/application_saver.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/structure/change_text.h"
 #include "plugins/structure/reload.h"
@@ -34,7 +33,7 @@ void Application::Parts::LoadPluginOf(std::string_view type) {
   const std::lock_guard lock(runtime().structure_mutex());
   const std::string plugin = PluginOf(type);
   if (plugin.empty() || plugins().modules().Find(type) != nullptr) return;
-  (void)runnel::LoadPlugin(plugin, plugins(), tags());
+  (void)plugins().Load(plugin);
 }
 
 Result<FrameworkElement*> Application::CreateModule(std::string_view type,
@@ -142,7 +141,7 @@ Result<void> Application::Save(const std::filesystem::path& file) {
 
 Result<void> Application::LoadPlugin(std::string_view plugin) {
   const std::lock_guard lock(parts_->runtime().structure_mutex());
-  return runnel::LoadPlugin(plugin, parts_->plugins(), parts_->tags());
+  return parts_->plugins().Load(plugin);
 }
 
 ChangeOutcome Application::Reload(const std::string& plugin) {

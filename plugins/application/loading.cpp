@@ -5,10 +5,9 @@
 #include <utility>
 
 #include "core/base/exception_text.h"
+#include "core/element/source_place.h"
 #include "plugins/application/internal/application_parts.h"
-#include "plugins/runtime_construction/source_place.h"
-#include "plugins/scheduling_tags/xml_scheduling_tags.h"
-#include "plugins/supervision/xml_supervision_tags.h"
+#include "plugins/application_files/run_description.h"
 
 namespace runnel {
 

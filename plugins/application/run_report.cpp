@@ -6,8 +6,8 @@
 
 #include "core/base/exception_text.h"
 #include "core/element/runtime.h"
+#include "core/element/source_place.h"
 #include "core/types/duration_text.h"
-#include "plugins/runtime_construction/source_place.h"
 
 namespace runnel {
 

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "core/base/exception_text.h"
+#include "core/element/source_place.h"
 #include "plugins/application/internal/application_parts.h"
 #include "plugins/application/internal/run_loop.h"
-#include "plugins/runtime_construction/source_place.h"
 
 namespace runnel {
 

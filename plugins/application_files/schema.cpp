@@ -9,7 +9,7 @@
 #include "core/port/port.h"
 #include "core/types/type_info.h"
 #include "core/xml/xml_writing.h"
-#include "plugins/runtime_construction/path_use.h"
+#include "plugins/application_files/path_use.h"
 
 namespace runnel {
 

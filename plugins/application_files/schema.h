@@ -4,7 +4,7 @@
 
 #include "core/base/diagnostics.h"
 #include "core/plugin/module_registry.h"
-#include "plugins/runtime_construction/xml_tag.h"
+#include "plugins/application_files/xml_tag.h"
 
 namespace runnel {
 

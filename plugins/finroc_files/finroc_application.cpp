@@ -4,11 +4,11 @@
 #include <mutex>
 #include <utility>
 
+#include "core/element/source_place.h"
 #include "core/module/group.h"
+#include "plugins/application_files/required_inputs.h"
 #include "plugins/finroc_files/finroc_names.h"
 #include "plugins/finroc_files/finroc_reader.h"
-#include "plugins/runtime_construction/required_inputs.h"
-#include "plugins/runtime_construction/source_place.h"
 
 namespace runnel {
 

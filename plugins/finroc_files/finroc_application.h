@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "core/xml/xml_document.h"
-#include "plugins/runtime_construction/application_builder.h"
+#include "plugins/application_files/application_builder.h"
 
 namespace runnel {
 

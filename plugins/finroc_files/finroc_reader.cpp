@@ -7,15 +7,14 @@
 #include <utility>
 
 #include "core/base/nearest_name.h"
+#include "core/element/source_place.h"
 #include "core/module/group.h"
 #include "core/port/proxy_port.h"
 #include "core/types/duration_text.h"
 #include "core/types/type_info.h"
+#include "plugins/application_files/interface_direction.h"
+#include "plugins/application_files/path_use.h"
 #include "plugins/finroc_files/finroc_names.h"
-#include "plugins/runtime_construction/path_use.h"
-#include "plugins/runtime_construction/interface_direction.h"
-#include "plugins/runtime_construction/plugin_loading.h"
-#include "plugins/runtime_construction/source_place.h"
 #include "plugins/scheduling/thread_container.h"
 
 namespace runnel::internal {
@@ -107,7 +106,7 @@ bool FinrocReader::LoadLibrary(const std::string& plugin) {
   if (std::ranges::any_of(context_.plugins().modules().All(), is_of_plugin)) return true;
   const std::vector<std::string> known = context_.plugins().Available();
   if (std::ranges::find(known, plugin) == known.end()) return false;
-  return LoadPlugin(plugin, context_.plugins(), context_.tags()).has_value();
+  return context_.plugins().Load(plugin).has_value();
 }
 
 void FinrocReader::ReadElement(XmlElement element, FrameworkElement& parent, const fs::path& file) {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/xml/xml_document.h"
-#include "plugins/runtime_construction/build_context.h"
-#include "plugins/runtime_construction/path_use.h"
+#include "plugins/application_files/build_context.h"
+#include "plugins/application_files/path_use.h"
 
 namespace runnel::internal {
 

@@ -5,10 +5,10 @@
 
 #include "core/base/nearest_name.h"
 #include "core/types/type_info.h"
+#include "plugins/application_files/path_use.h"
 #include "plugins/finroc_files/finroc_names.h"
 #include "plugins/finroc_files/finroc_reader.h"
 #include "plugins/parameters/file_path.h"
-#include "plugins/runtime_construction/path_use.h"
 
 namespace runnel::internal {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/element/annotation.h"
-#include "plugins/runtime_construction/build_context.h"
+#include "plugins/application_files/build_context.h"
 #include "plugins/web_server/access_rules.h"
 
 namespace runnel {
@@ -63,10 +63,10 @@ std::vector<SavedTag> SavedInspector(const FrameworkElement& application) {
   if (choice == nullptr) return {};
   const InspectorPlace& place = choice->place;
   const InspectorPlace normal;
-  return {{{"port", std::to_string(place.port), place.port == normal.port},
-           {"address", place.address, place.address == normal.address},
-           {"read_only", place.is_read_only ? "true" : "false", !place.is_read_only},
-           {"token", place.token, place.token.empty()}}};
+  return {SavedTag{{{"port", std::to_string(place.port), place.port == normal.port},
+                    {"address", place.address, place.address == normal.address},
+                    {"read_only", place.is_read_only ? "true" : "false", !place.is_read_only},
+                    {"token", place.token, place.token.empty()}}}};
 }
 
 }  // namespace

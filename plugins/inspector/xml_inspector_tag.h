@@ -2,8 +2,8 @@
 
 #include <optional>
 
+#include "plugins/application_files/xml_tag.h"
 #include "plugins/inspector/inspector_place.h"
-#include "plugins/runtime_construction/xml_tag.h"
 
 namespace runnel {
 

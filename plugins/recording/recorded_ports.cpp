@@ -17,7 +17,6 @@
 #include "plugins/mcap/mcap_reader.h"
 #include "plugins/recording/port_patterns.h"
 #include "plugins/recording/recording_names.h"
-#include "plugins/runtime_construction/plugin_loading.h"
 #include "plugins/scheduling/thread_container.h"
 
 namespace runnel {
@@ -42,7 +41,7 @@ class KnownTypes {
   explicit KnownTypes(const BuildTools& tools) {
     for (const std::string& plugin : tools.plugins.Available()) {
       // What cannot be loaded has its say where it is asked for.
-      (void)LoadPlugin(plugin, tools.plugins, tools.tags);
+      (void)tools.plugins.Load(plugin);
     }
     int count = 0;
     for (const ModuleType* type : tools.plugins.modules().All()) {

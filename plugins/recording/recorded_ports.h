@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "plugins/runtime_construction/application_builder.h"
+#include "plugins/application_files/application_builder.h"
 
 namespace runnel {
 

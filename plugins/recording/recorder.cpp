@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "core/base/nearest_name.h"
+#include "core/element/not_saved.h"
 #include "core/types/type_info.h"
 #include "plugins/foxglove_schemas/foxglove_topics.h"
 #include "plugins/mcap/compression.h"
 #include "plugins/mcap/mcap_writer.h"
 #include "plugins/recording/recording_names.h"
-#include "plugins/runtime_construction/not_saved.h"
 #include "plugins/scheduling/scheduler.h"
 
 namespace runnel {

@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/element/source_place.h"
 #include "core/xml/xml_document.h"
-#include "plugins/runtime_construction/source_place.h"
 
 namespace runnel {
 

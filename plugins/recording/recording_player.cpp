@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/nearest_name.h"
+#include "core/element/not_saved.h"
 #include "core/element/runtime.h"
 #include "core/module/run_monitor.h"
 #include "core/port/path_search.h"
@@ -13,7 +14,6 @@
 #include "core/types/type_info.h"
 #include "plugins/json_values/json_values.h"
 #include "plugins/recording/recording_names.h"
-#include "plugins/runtime_construction/not_saved.h"
 
 namespace runnel {
 

@@ -4,8 +4,8 @@
 #include <set>
 #include <utility>
 
-#include "core/element/configurable.h"
 #include "core/plugin/module_type_name.h"
+#include "core/port/path_search.h"
 #include "core/port/port.h"
 #include "core/types/type_info.h"
 #include "plugins/scheduling/thread_container.h"
@@ -15,8 +15,6 @@ namespace runnel::internal {
 
 namespace {
 
-constexpr const char* kParameters = "parameter";
-
 Error CannotBeMade(const FrameworkElement& element) {
   return {.message = "could not be made again by a change: it is of no registered type",
           .path = element.path()};
@@ -25,14 +23,10 @@ Error CannotBeMade(const FrameworkElement& element) {
 // The values that a module of the same type would not have by itself.
 std::vector<Setting> Settings(const FrameworkElement& module) {
   std::vector<Setting> settings;
-  const FrameworkElement* const group = module.FindChild(kParameters);
-  if (group == nullptr) return settings;
-  for (const FrameworkElement* each : group->children()) {
-    const auto* const parameter = dynamic_cast<const Configurable*>(each);
-    if (parameter == nullptr) continue;
+  for (const auto& [element, parameter] : ConfigurablesOf(module)) {
     std::string value = parameter->ToText();
     if (value != parameter->info().default_value) {
-      settings.push_back({each->name(), std::move(value)});
+      settings.push_back({element->name(), std::move(value)});
     }
   }
   return settings;
@@ -41,22 +35,16 @@ std::vector<Setting> Settings(const FrameworkElement& module) {
 // Those that `after` would otherwise hand over.
 void AddDefaults(const FrameworkElement& before, const FrameworkElement& after,
                  std::vector<Setting>& settings) {
-  const FrameworkElement* const from = after.FindChild(kParameters);
-  const FrameworkElement* const to = before.FindChild(kParameters);
-  if (from == nullptr || to == nullptr) return;
-  for (const FrameworkElement* each : to->children()) {
-    const auto* const parameter = dynamic_cast<const Configurable*>(each);
-    const auto* const other = dynamic_cast<const Configurable*>(from->FindChild(each->name()));
-    if (parameter == nullptr || other == nullptr) continue;
-    if (std::ranges::count(settings, each->name(), &Setting::parameter) > 0) continue;
+  for (const auto& [element, parameter] : ConfigurablesOf(before)) {
+    const ConfigurableElement other = FindConfigurable(after, element->name());
+    if (!other || std::ranges::count(settings, element->name(), &Setting::parameter) > 0) continue;
     const std::string value = parameter->ToText();
-    if (other->ToText() != value) settings.push_back({each->name(), value});
+    if (other.configurable->ToText() != value) settings.push_back({element->name(), value});
   }
 }
 
 // Nothing for what comes with a module.
-void AddCreation(const FrameworkElement& element, ChangeSet& changes,
-                 std::optional<Error>& why_not) {
+void AddCreation(const FrameworkElement& element, ChangeSet& changes, std::optional<Error>& why_not) {
   const std::string type = FindModuleType(element);
   const auto* const port = dynamic_cast<const Port*>(&element);
   if (!type.empty()) {

@@ -5,14 +5,12 @@
 
 #include "core/base/exception_text.h"
 #include "core/base/nearest_name.h"
-#include "core/element/configurable.h"
 #include "core/module/kept_state.h"
+#include "core/port/path_search.h"
 
 namespace runnel::internal {
 
 namespace {
-
-constexpr const char* kParameters = "parameter";
 
 std::vector<std::string> NamesIn(const FrameworkElement& element) {
   std::vector<std::string> names;
@@ -42,58 +40,48 @@ Error NoCounterpart(const Port& port, const FrameworkElement& before, FrameworkE
 }  // namespace
 
 Result<void> Configure(FrameworkElement& module, const Setting& setting) {
-  const FrameworkElement* const group = module.FindChild(kParameters);
-  FrameworkElement* const element = group ? group->FindChild(setting.parameter) : nullptr;
-  auto* const parameter = dynamic_cast<Configurable*>(element);
-  if (parameter == nullptr) {
-    const std::vector<std::string> names = group ? NamesIn(*group) : std::vector<std::string>();
+  const ConfigurableElement parameter = FindConfigurable(module, setting.parameter);
+  if (!parameter) {
+    std::vector<std::string> names;
+    for (const auto& each : ConfigurablesOf(module)) names.push_back(each.element->name());
     return Error{.message = "there is no parameter '" + setting.parameter + "'",
                  .path = module.path(),
                  .hint = NearestNameHint(setting.parameter, names)};
   }
-  const auto set = parameter->SetFromText(setting.value);
-  return set ? set : Refused(set, *element);
+  const auto set = parameter.configurable->SetFromText(setting.value);
+  return set ? set : Refused(set, *parameter.element);
 }
 
 Result<void> CopySettings(const FrameworkElement& before, FrameworkElement& after) {
-  const FrameworkElement* const from = before.FindChild(kParameters);
-  FrameworkElement* const to = after.FindChild(kParameters);
-  if (from == nullptr || to == nullptr) return {};
-  for (FrameworkElement* each : to->children()) {
-    const auto* const source = dynamic_cast<const Configurable*>(from->FindChild(each->name()));
-    auto* const target = dynamic_cast<Configurable*>(each);
-    if (source == nullptr || target == nullptr) continue;
-    const std::string value = source->ToText();
-    if (value == source->info().default_value) continue;
-    if (const auto set = target->SetFromText(value); !set) return Refused(set, *each);
+  for (const auto& [element, target] : ConfigurablesOf(after)) {
+    const ConfigurableElement source = FindConfigurable(before, element->name());
+    if (!source) continue;
+    const std::string value = source.configurable->ToText();
+    if (value == source.configurable->info().default_value) continue;
+    if (const auto set = target->SetFromText(value); !set) return Refused(set, *element);
   }
   return {};
 }
 
 Values ValuesOf(const FrameworkElement& module) {
   Values values;
-  const FrameworkElement* const group = module.FindChild(kParameters);
-  if (group == nullptr) return values;
-  for (const FrameworkElement* each : group->children()) {
-    if (const auto* value = dynamic_cast<const Configurable*>(each)) {
-      values[each->name()] = value->ToText();
-    }
+  for (const auto& [element, value] : ConfigurablesOf(module)) {
+    values[element->name()] = value->ToText();
   }
   return values;
 }
 
 Result<void> CopyLateSettings(const FrameworkElement& before, const Values& values,
                               const std::vector<Setting>& settings, FrameworkElement& after) {
-  FrameworkElement* const group = after.FindChild(kParameters);
   for (const auto& [name, value] : ValuesOf(before)) {
     const auto known = values.find(name);
     const bool is_set_anyway =
         std::ranges::find(settings, name, &Setting::parameter) != settings.end();
     if (is_set_anyway || (known != values.end() && known->second == value)) continue;
-    FrameworkElement* const each = group != nullptr ? group->FindChild(name) : nullptr;
-    auto* const target = dynamic_cast<Configurable*>(each);
-    if (target == nullptr || target->info().is_static) continue;
-    if (const auto set = target->SetFromText(value); !set) return Refused(set, *each);
+    const ConfigurableElement target = FindConfigurable(after, name);
+    if (!target || target.configurable->info().is_static) continue;
+    const auto set = target.configurable->SetFromText(value);
+    if (!set) return Refused(set, *target.element);
   }
   return {};
 }

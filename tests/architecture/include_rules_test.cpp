@@ -18,10 +18,10 @@ SourceTree Innocent() {
           {"plugins/parameters/parameter.h", "#include \"core/port/input.h\"\n"},
           {"plugins/scheduling/thread.h", "#include \"core/base/error.h\"\n"},
           {"plugins/scheduling/internal/flow.h", ""},
-          {"plugins/scheduling_tags/tags.h",
+          {"plugins/finroc_files/reader.h",
            "#include \"plugins/scheduling/thread.h\"\n"
-           "#include \"plugins/runtime_construction/tag.h\"\n"},
-          {"plugins/runtime_construction/tag.h", "#include \"plugins/parameters/parameter.h\"\n"},
+           "#include \"plugins/application_files/tag.h\"\n"},
+          {"plugins/application_files/tag.h", "#include \"plugins/parameters/parameter.h\"\n"},
           {"modules/types/algorithm/pose.h", "#include <cmath>\n#include <Eigen/Core>\n"},
           {"modules/types/pose_type.h", "#include \"modules/types/algorithm/pose.h\"\n"},
           {"modules/planning/algorithm/bug.h",
@@ -33,7 +33,7 @@ SourceTree Innocent() {
            "#include \"plugins/parameters/parameter.h\"\n"
            "#include \"modules/types/pose_type.h\"\n"},
           {"modules/simulation/algorithm/world.cpp", "#include <btBulletDynamicsCommon.h>\n"},
-          {"apps/runnel/main.cpp", "#include \"plugins/scheduling_tags/tags.h\"\n"},
+          {"apps/runnel/main.cpp", "#include \"plugins/finroc_files/reader.h\"\n"},
           {"tests/modules/planning/bug_test.cpp",
            "#include \"modules/planning/algorithm/bug.h\"\n"
            "#include \"plugins/scheduling/internal/flow.h\"\n"}};
@@ -62,12 +62,12 @@ TEST(IncludeRulesTest, CoreKnowsNoPluginNorModule) {
 }
 
 TEST(IncludeRulesTest, PluginsKnowOnlyTheirDeclaredNeighbours) {
-  const std::string tag = "#include \"plugins/runtime_construction/tag.h\"";
+  const std::string tag = "#include \"plugins/application_files/tag.h\"";
   EXPECT_EQ(Planted("plugins/scheduling/thread.h", tag).size(), 1u);
   EXPECT_EQ(Planted("plugins/parameters/parameter.h", tag).size(), 1u);
-  EXPECT_THAT(Planted("plugins/scheduling_tags/tags.h", tag), IsEmpty());
+  EXPECT_THAT(Planted("plugins/finroc_files/reader.h", tag), IsEmpty());
   EXPECT_EQ(
-      Planted("plugins/scheduling/thread.h", "#include \"plugins/scheduling_tags/tags.h\"").size(),
+      Planted("plugins/scheduling/thread.h", "#include \"plugins/finroc_files/reader.h\"").size(),
       1u);
 }
 
@@ -96,7 +96,7 @@ TEST(IncludeRulesTest, OfThePluginsModulesKnowTheParametersOnly) {
   EXPECT_THAT(
       Planted(file, "#include \"plugins/scheduling/thread.h\""),
       ElementsAre(HasSubstr("modules/planning may not know \"plugins/scheduling/thread.h\"")));
-  EXPECT_EQ(Planted(file, "#include \"plugins/runtime_construction/tag.h\"").size(), 1u);
+  EXPECT_EQ(Planted(file, "#include \"plugins/application_files/tag.h\"").size(), 1u);
 }
 
 TEST(IncludeRulesTest, FamiliesOfModulesDoNotKnowEachOther) {

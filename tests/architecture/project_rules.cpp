@@ -26,9 +26,7 @@ void AddApplication(std::vector<IncludeRule>& rules) {
                                                 "plugins/command_service",
                                                 "plugins/control",
                                                 "plugins/parameters",
-                                                "plugins/runtime_construction",
                                                 "plugins/scheduling",
-                                                "plugins/scheduling_tags",
                                                 "plugins/structure",
                                                 "plugins/supervision",
                                                 "plugins/watching"};
@@ -58,23 +56,14 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
        "plugins/foxglove",
        {"core", "plugins/command_service", "plugins/foxglove_schemas", "plugins/json_values",
         "plugins/structure", "plugins/watching", "plugins/web_server"}});
-  rules.push_back({"plugins/runtime_construction",
-                   "plugins/runtime_construction",
-                   {"core", "plugins/parameters"}});
   rules.push_back({"plugins/application_files",
                    "plugins/application_files",
-                   {"core", "plugins/parameters", "plugins/runtime_construction"}});
-  rules.push_back(
-      {"plugins/application_graph", "plugins/application_graph", {"core", "plugins/scheduling"}});
+                   {"core", "plugins/parameters", "plugins/scheduling", "plugins/structure",
+                    "plugins/supervision"}});
   rules.push_back(
       {"plugins/finroc_files",
        "plugins/finroc_files",
-       {"core", "plugins/parameters", "plugins/runtime_construction", "plugins/scheduling"}});
-  // The tags of application files stand apart, so that scheduling itself needs no XML.
-  rules.push_back(
-      {"plugins/scheduling_tags",
-       "plugins/scheduling_tags",
-       {"core", "plugins/parameters", "plugins/runtime_construction", "plugins/scheduling"}});
+       {"core", "plugins/parameters", "plugins/application_files", "plugins/scheduling"}});
   rules.push_back({"plugins/scheduling", "plugins/scheduling", {"core"}});
   rules.push_back({"plugins/structure", "plugins/structure", {"core", "plugins/scheduling"}});
   rules.push_back({"plugins/tracing",
@@ -91,20 +80,16 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/recording",
                    "plugins/recording",
                    {"core", "plugins/foxglove_schemas", "plugins/json_values", "plugins/mcap",
-                    "plugins/parameters", "plugins/runtime_construction", "plugins/scheduling"}});
+                    "plugins/application_files", "plugins/parameters", "plugins/scheduling"}});
   rules.push_back({"plugins/web_server", "plugins/web_server", {"core"}});
   rules.push_back(
       {"the tags of the inspector",
        "plugins/inspector/xml_",
-       {"core", "plugins/inspector", "plugins/runtime_construction", "plugins/web_server"}});
+       {"core", "plugins/inspector", "plugins/application_files", "plugins/web_server"}});
   rules.push_back({"plugins/inspector",
                    "plugins/inspector",
                    {"core", "plugins/command_service", "plugins/json_values", "plugins/scheduling",
                     "plugins/structure", "plugins/watching", "plugins/web_server"}});
-  rules.push_back({"the tags of supervision",
-                   "plugins/supervision/xml_",
-                   {"core", "plugins/parameters", "plugins/runtime_construction",
-                    "plugins/structure", "plugins/supervision"}});
   rules.push_back({"plugins/supervision",
                    "plugins/supervision",
                    {"core", "plugins/scheduling", "plugins/structure"}});

@@ -8,11 +8,10 @@
 #include "core/element/runtime.h"
 #include "core/plugin/plugin_manager.h"
 #include "core/port/port.h"
+#include "plugins/application_files/application_builder.h"
+#include "plugins/application_files/run_description.h"
 #include "plugins/parameters/configuration.h"
-#include "plugins/runtime_construction/application_builder.h"
-#include "plugins/scheduling_tags/xml_scheduling_tags.h"
 #include "plugins/structure/structure_editor.h"
-#include "plugins/supervision/xml_supervision_tags.h"
 
 namespace runnel::test {
 
@@ -52,8 +51,6 @@ ApplicationRun RunApplication(const ApplicationChoice& choice) {
   PluginManager plugins;
   plugins.AddSearchFolder(RUNNEL_TEST_PLUGINS);
   XmlTagRegistry tags;
-  AddSchedulingTags(tags);
-  AddSupervisionTags(tags);
   plugins.registry().Offer(tags);
   Configuration configuration;
   for (const std::string& argument : choice.arguments) {

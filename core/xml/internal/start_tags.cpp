@@ -99,7 +99,8 @@ class Scanner {
     const bool is_blank = cursor_.at_end() || cursor_.next() == '<';
     if (!TakeCharacters([&] { return cursor_.Sees("<"); }, /*check_entities=*/true)) return false;
     if (!is_blank) {
-      tags_[open_.back()].text += WithoutEntities(rest.substr(0, rest.size() - cursor_.rest().size()));
+      tags_[open_.back()].text +=
+          WithoutEntities(rest.substr(0, rest.size() - cursor_.rest().size()));
     }
     return true;
   }

@@ -30,8 +30,8 @@ struct StartTag {
   std::string_view name;
   TextPlace place;
   std::vector<AttributePlace> attributes;
-  std::optional<std::size_t> parent = {};     ///< of those before it; none at the root
-  std::string text = {};                      ///< directly between the tags, without entities
+  std::optional<std::size_t> parent = {};    ///< of those before it; none at the root
+  std::string text = {};                     ///< directly between the tags, without entities
   std::optional<TextPlace> text_place = {};  ///< of the first text directly between the tags
   TextSpan span = {};
   TextSpan end_tag = {};  ///< empty, behind `span`, if the element is

@@ -8,10 +8,10 @@
 #include <gmock/gmock.h>
 
 #include "core/port/proxy_port.h"
-#include "plugins/application_files/application_saver.h"
+#include "plugins/application_files/run_description.h"
+#include "plugins/application_files/saving/application_saver.h"
 #include "plugins/scheduling/thread_container.h"
-#include "plugins/scheduling_tags/xml_scheduling_tags.h"
-#include "tests/plugins/runtime_construction/test_application.h"
+#include "tests/plugins/application_files/reading/test_application.h"
 
 namespace runnel::testing {
 namespace {
@@ -23,7 +23,6 @@ class FinrocApplication : public ::testing::Test {
   FinrocApplication() {
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
-    AddSchedulingTags(shop_.tags);
   }
   ~FinrocApplication() override { std::filesystem::remove_all(folder_); }
 

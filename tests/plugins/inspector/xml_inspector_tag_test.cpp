@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "tests/plugins/application_files/saving_workshop.h"
+#include "tests/plugins/application_files/saving/saving_workshop.h"
 
 namespace runnel::testing {
 

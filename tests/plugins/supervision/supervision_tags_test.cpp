@@ -1,8 +1,7 @@
 #include <gmock/gmock.h>
 
-#include "plugins/scheduling_tags/xml_scheduling_tags.h"
-#include "plugins/supervision/xml_supervision_tags.h"
-#include "tests/plugins/runtime_construction/test_application.h"
+#include "plugins/application_files/run_description.h"
+#include "tests/plugins/application_files/reading/test_application.h"
 
 namespace runnel::testing {
 namespace {
@@ -13,8 +12,6 @@ using ::testing::IsEmpty;
 
 struct SupervisedWorkshop : Workshop {
   SupervisedWorkshop() {
-    AddSchedulingTags(tags);
-    AddSupervisionTags(tags);
   }
   // What the file says besides two sources and a sink that the first one feeds.
   std::string ErrorsOf(const std::string& words) {

@@ -1,0 +1,149 @@
+#include "core/base/replace_file.h"
+
+#include <atomic>
+#include <cerrno>
+#include <charconv>
+#include <csignal>
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace runnel {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr mode_t kPermissionBits = 07777;
+constexpr const char* kSuffix = ".new";
+
+Error Failure(const fs::path& file, const std::string& what, int number) {
+  return {.message = what + ": " + std::strerror(number), .position = {file.string()}};
+}
+
+/// A file descriptor that is closed.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() {
+    if (number_ >= 0) close(number_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  [[nodiscard]] int get() const { return number_; }
+
+ private:
+  int number_;
+};
+
+/// The new file, until it has taken the name of the old.
+class NewFile {
+ public:
+  NewFile(fs::path path, int descriptor) : path_(std::move(path)), descriptor_(descriptor) {}
+  ~NewFile() {
+    if (is_there_) unlink(path_.c_str());
+  }
+  NewFile(const NewFile&) = delete;
+  NewFile& operator=(const NewFile&) = delete;
+
+  // 0, or what went wrong.
+  int Write(std::string_view text) {
+    while (!text.empty()) {
+      const ssize_t written = write(descriptor_.get(), text.data(), text.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) return errno;
+      text.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return 0;
+  }
+  int SetMode(mode_t mode) { return fchmod(descriptor_.get(), mode) == 0 ? 0 : errno; }
+  int BringToDisk() { return fsync(descriptor_.get()) == 0 ? 0 : errno; }
+  int TakeNameOf(const fs::path& file) {
+    if (rename(path_.c_str(), file.c_str()) != 0) return errno;
+    is_there_ = false;
+    return 0;
+  }
+
+ private:
+  fs::path path_;
+  Descriptor descriptor_;
+  bool is_there_ = true;
+};
+
+std::string Prefix(const fs::path& file) { return "." + file.filename().string() + "."; }
+
+fs::path NewName(const fs::path& file) {
+  static std::atomic<unsigned> count{0};
+  return file.parent_path() / (Prefix(file) + std::to_string(getpid()) + "-" +
+                               std::to_string(count.fetch_add(1)) + kSuffix);
+}
+
+// What a program that was killed in between has left behind.
+void RemoveRemains(const fs::path& file) {
+  std::error_code ignored;
+  const std::string prefix = Prefix(file);
+  for (fs::directory_iterator entry(file.parent_path(), ignored), end; entry != end;
+       entry.increment(ignored)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with(prefix) || !name.ends_with(kSuffix)) continue;
+    pid_t process = 0;
+    const char* const begin = name.data() + prefix.size();
+    const auto [stop, error] = std::from_chars(begin, name.data() + name.size(), process);
+    if (error != std::errc() || process <= 0 || *stop != '-') continue;
+    if (kill(process, 0) != 0 && errno == ESRCH) fs::remove(entry->path(), ignored);
+  }
+}
+
+// The new name is on the disk only when the folder is.
+int BringFolderToDisk(const fs::path& folder) {
+  const Descriptor descriptor(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (descriptor.get() < 0) return errno;
+  if (fsync(descriptor.get()) == 0 || errno == EINVAL) return 0;  // some file systems have no such
+  return errno;
+}
+
+Result<fs::path> RealFile(const fs::path& file) {
+  std::error_code error;
+  fs::path real = fs::weakly_canonical(fs::absolute(file, error), error);
+  if (error) return Failure(file, "the folder cannot be reached", error.value());
+  if (!fs::is_directory(real.parent_path(), error)) {
+    return Error{.message = "there is no folder " + real.parent_path().string(),
+                 .position = {file.string()}};
+  }
+  if (fs::exists(real, error) && !fs::is_regular_file(real, error)) {
+    return Error{.message = "is not a file that could be replaced", .position = {file.string()}};
+  }
+  return real;
+}
+
+}  // namespace
+
+Result<void> ReplaceFile(const fs::path& file, std::string_view text) {
+  const auto real = RealFile(file);
+  if (!real) return real.error();
+  struct stat known {};
+  const bool replaces = stat(real->c_str(), &known) == 0;
+  if (replaces && access(real->c_str(), W_OK) != 0) {
+    return Failure(file, "must not be written", errno);
+  }
+  RemoveRemains(*real);
+  const fs::path name = NewName(*real);
+  constexpr mode_t kForAll = 0666;  // less what the user's mask takes away
+  const int descriptor = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kForAll);
+  if (descriptor < 0) return Failure(file, "no file can be made in its folder", errno);
+  NewFile made(name, descriptor);
+  int problem = made.Write(text);
+  if (problem == 0 && replaces) problem = made.SetMode(known.st_mode & kPermissionBits);
+  if (problem == 0) problem = made.BringToDisk();
+  if (problem == 0) problem = made.TakeNameOf(*real);
+  if (problem != 0) return Failure(file, "cannot be written", problem);
+  problem = BringFolderToDisk(real->parent_path());
+  if (problem != 0) return Failure(file, "has been written, but may not survive a crash", problem);
+  return {};
+}
+
+}  // namespace runnel

@@ -1,0 +1,140 @@
+#include "plugins/application_files/application_builder.h"
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/base/nearest_name.h"
+#include "core/element/source_place.h"
+#include "plugins/application_files/application_reader.h"
+#include "plugins/application_files/application_source.h"
+#include "plugins/application_files/part_files.h"
+#include "plugins/application_files/required_inputs.h"
+
+namespace runnel {
+
+namespace {
+
+void CollectValues(XmlElement element, std::string_view attribute,
+                   std::vector<std::string>& values) {
+  if (const XmlAttribute* found = element.Attribute(attribute)) values.push_back(found->value);
+  for (const XmlElement child : element.children()) CollectValues(child, attribute, values);
+}
+
+// Names on the command line that nothing in the file knows. What stands in the file counts even if
+// its parameter could not be made, for that has been reported.
+void ReportUnknownArguments(XmlElement root, const PartFiles& parts,
+                            const Configuration& configuration, Diagnostics& diagnostics) {
+  std::vector<std::string> known;
+  CollectValues(root, "command_line", known);
+  for (const XmlElement part : parts.Roots()) CollectValues(part, "command_line", known);
+  for (const std::string& name : configuration.UnusedArguments()) {
+    if (std::ranges::find(known, name) != known.end()) continue;
+    diagnostics.Add({.message = "the application knows no '" + name + "'",
+                     .position = {"command line"},
+                     .hint = NearestNameHint(name, known)});
+  }
+}
+
+// The text that the application came from, if it came from a file.
+struct SourceText {
+  std::filesystem::path file;
+  std::string text;
+};
+
+FrameworkElement* Build(XmlElement root, const BuildTools& tools, BuildContext& context,
+                        Diagnostics& diagnostics) {
+  FrameworkElement* const application = ReadApplication(root, context);
+  context.RunDeferred();
+  if (application != nullptr) CheckRequiredInputs(*application, context);
+  ReportUnknownArguments(root, context.parts(), tools.configuration, diagnostics);
+  return application;
+}
+
+void KeepSource(FrameworkElement& application, SourceText text, BuildContext& context) {
+  auto source = std::make_unique<ApplicationSource>();
+  source->file = std::move(text.file);
+  source->text = std::move(text.text);
+  source->values = context.TakeValues();
+  source->parts = context.parts().TakeTexts();
+  application.Annotate(std::move(source));
+}
+
+BuildOutcome BuildFrom(const XmlDocument& document, const std::filesystem::path& folder,
+                       std::optional<SourceText> text, const BuildTools& tools, BuildMode mode) {
+  BuildOutcome outcome;
+  BuildContext context(tools, folder, outcome.diagnostics);
+  {
+    const std::lock_guard lock(tools.runtime.structure_mutex());
+    outcome.application = Build(document.root(), tools, context, outcome.diagnostics);
+    if (outcome.application != nullptr && text) {
+      KeepSource(*outcome.application, std::move(*text), context);
+    }
+  }
+  FinishBuild(outcome, mode);
+  return outcome;
+}
+
+}  // namespace
+
+Result<void> MakeApplicationReady(FrameworkElement& application) {
+  Runtime& runtime = application.runtime();
+  const std::lock_guard lock(runtime.structure_mutex());
+  const auto ready = runtime.MakeReady(application);
+  if (ready) return {};
+  Error error = ready.error();
+  const auto culprit = runtime.root().Find(error.path);
+  const FrameworkElement& at = culprit ? **culprit : application;
+  if (error.path.empty()) error.path = at.path();
+  if (error.position.file.empty()) error.position = FindSourcePlace(at);
+  const std::string chain = UseChain(error.position.file, at);
+  if (!chain.empty()) error.hint += (error.hint.empty() ? "" : "; ") + chain;
+  return error;
+}
+
+void FinishBuild(BuildOutcome& outcome, BuildMode mode) {
+  if (outcome.application == nullptr) return;
+  if (outcome.diagnostics.ok() && mode == BuildMode::kRun) {
+    if (auto ready = MakeApplicationReady(*outcome.application); !ready) {
+      outcome.diagnostics.Add(ready.error());
+    }
+  }
+  if (outcome.diagnostics.ok() && mode != BuildMode::kCheck) return;
+  // Outside of the lock, for deleting waits for cycles, which may be waiting for the lock.
+  FrameworkElement& application = *std::exchange(outcome.application, nullptr);
+  const auto deleted = application.runtime().Delete(application);
+  if (!deleted) outcome.diagnostics.Add(deleted.error());
+}
+
+BuildOutcome BuildApplication(const XmlDocument& document, const std::filesystem::path& folder,
+                              const BuildTools& tools, BuildMode mode) {
+  return BuildFrom(document, folder, std::nullopt, tools, mode);
+}
+
+BuildOutcome BuildApplication(const ApplicationFile& file, const BuildTools& tools,
+                              BuildMode mode) {
+  return BuildFrom(file.document, file.file.parent_path(), SourceText{file.file, file.text}, tools,
+                   mode);
+}
+
+BuildOutcome BuildApplication(const std::filesystem::path& file, const BuildTools& tools,
+                              BuildMode mode) {
+  auto read = ApplicationFile::Read(file);
+  if (read) return BuildApplication(*read, tools, mode);
+  BuildOutcome failed;
+  failed.diagnostics.Add(read.error());
+  return failed;
+}
+
+Result<ApplicationFile> ApplicationFile::Read(const std::filesystem::path& file) {
+  auto text = XmlDocument::ReadText(file);
+  if (!text) return text.error();
+  auto document = XmlDocument::Parse(*text, file.string());
+  if (!document) return document.error();
+  return ApplicationFile{file, std::move(*text), std::move(*document)};
+}
+
+}  // namespace runnel

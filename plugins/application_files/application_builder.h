@@ -1,0 +1,64 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/base/diagnostics.h"
+#include "core/base/result.h"
+#include "core/xml/xml_document.h"
+#include "plugins/application_files/build_context.h"
+
+namespace runnel {
+
+enum class BuildMode {
+  kRun,        ///< the application is there and ready afterwards
+  kConstruct,  ///< the application is there, but nothing is made ready: to look at it
+  kCheck,      ///< all is checked that can be without making anything ready; nothing is left
+};
+
+/// What came of building an application.
+struct BuildOutcome {
+  FrameworkElement* application = nullptr;  ///< nullptr if there were errors, or in kCheck
+  Diagnostics diagnostics = {};
+};
+
+/// An application file that has been read and parsed, once for all who look at it.
+struct ApplicationFile {
+  std::filesystem::path file;
+  std::string text;  ///< byte for byte
+  XmlDocument document;
+
+  /// Errors: it cannot be read; it is no XML.
+  static Result<ApplicationFile> Read(const std::filesystem::path& file);
+};
+
+/// Builds what an application file describes below one new group of the runtime's root, and makes
+/// it ready. All or nothing: with one error or more, the tree is afterwards what it was before.
+/// Plugins that were loaded stay loaded.
+///
+/// Threads:  any that is not in a cycle; holds the structure lock while it builds, so that nobody
+///           sees half an application.
+/// Errors:   all of the file at once, with place, path and cure.
+[[nodiscard]] BuildOutcome BuildApplication(const std::filesystem::path& file,
+                                            const BuildTools& tools, BuildMode mode);
+
+[[nodiscard]] BuildOutcome BuildApplication(const ApplicationFile& file, const BuildTools& tools,
+                                            BuildMode mode);
+
+/// The same for a document that has been read already. Relative file names in it start in `folder`.
+[[nodiscard]] BuildOutcome BuildApplication(const XmlDocument& document,
+                                            const std::filesystem::path& folder,
+                                            const BuildTools& tools, BuildMode mode);
+
+/// Makes an application ready that was built with kConstruct, as kRun does at once: a program that
+/// runs it makes its scheduler in between, from what the file says.
+///
+/// Threads: as BuildApplication(). Errors: what an element says that could not be prepared, with its
+/// place in the file; nothing is ready then.
+[[nodiscard]] Result<void> MakeApplicationReady(FrameworkElement& application);
+
+/// For builders: what is left to be done in `mode` with an application that has been read. Not under
+/// the structure lock.
+void FinishBuild(BuildOutcome& outcome, BuildMode mode);
+
+}  // namespace runnel

@@ -1,0 +1,105 @@
+#include "plugins/application_files/path_use.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "core/base/nearest_name.h"
+#include "plugins/application_files/attribute_rule.h"
+
+namespace runnel {
+
+namespace {
+
+// Columns count characters: the bytes of UTF-8 that begin one.
+int CountCharacters(std::string_view text) {
+  return static_cast<int>(
+      std::ranges::count_if(text, [](char byte) { return (byte & 0xc0) != 0x80; }));
+}
+
+void Report(Error error, const PathUse& use, BuildContext& context) {
+  error.path = use.base.path();
+  context.Report(std::move(error), use.position, use.base);
+}
+
+FrameworkElement* Search(const PathUse& use, PathKind kind, BuildContext& context) {
+  PathEnd end = PathSearch(use.base).Follow(use.path, kind);
+  if (end.found != nullptr) return end.found;
+  if (kind == PathKind::kInput) {  // it remains without what was meant for it
+    const auto* const meant = end.at->FindChild(NearestName(end.missing, end.candidates));
+    context.MarkUnfed(meant != nullptr ? *meant : *end.at);
+  }
+  const bool is_news = end.missing.empty() || context.IsNews(*end.at, end.missing, end.candidates);
+  if (is_news) Report(std::move(end.error), use, context);
+  return nullptr;
+}
+
+}  // namespace
+
+PathUse PathIn(const XmlAttribute& attribute, FrameworkElement& base) {
+  return {base, attribute.value, attribute.value_position};
+}
+
+std::vector<PathUse> PathsIn(const XmlAttribute& attribute, FrameworkElement& base) {
+  const std::string_view value = attribute.value;
+  std::vector<PathUse> paths;
+  std::size_t from = 0;
+  for (std::string& word : SplitPaths(value)) {
+    const std::size_t begin = value.find(word, from);
+    from = begin + word.size();
+    const std::string_view before = value.substr(0, begin);
+    SourcePosition position = attribute.value_position;
+    // An attribute may go over several lines.
+    position.line += static_cast<int>(std::ranges::count(before, '\n'));
+    const std::size_t line_end = before.rfind('\n');
+    if (line_end == std::string_view::npos) {
+      position.column += CountCharacters(before);
+    } else {
+      position.column = 1 + CountCharacters(before.substr(line_end + 1));
+    }
+    paths.push_back({base, std::move(word), std::move(position)});
+  }
+  return paths;
+}
+
+FrameworkElement* SearchElement(const PathUse& use, BuildContext& context) {
+  return Search(use, PathKind::kElement, context);
+}
+
+Port* SearchPort(const PathUse& use, PathKind kind, BuildContext& context) {
+  FrameworkElement* const found = Search(use, kind, context);
+  if (found == nullptr) return nullptr;
+  const auto port = PathSearch(*found).FindPort("", kind);
+  if (port) return *port;
+  if (kind == PathKind::kInput) context.MarkUnfed(*found);
+  Report(port.error(), use, context);
+  return nullptr;
+}
+
+FrameworkElement* SearchSettable(const XmlAttribute& path, const XmlAttribute& value,
+                                 FrameworkElement& base, BuildContext& context) {
+  const PathUse use = PathIn(path, base);
+  FrameworkElement* const found = Search(use, PathKind::kParameter, context);
+  if (found == nullptr) return nullptr;
+  const auto* const parameter = dynamic_cast<const Configurable*>(found);
+  if (parameter == nullptr) {
+    Report({.message = found->path() + " cannot be set"}, use, context);
+    return nullptr;
+  }
+  const auto good = parameter->CheckText(value.value);
+  if (good && !parameter->info().is_static) return found;
+  Error error =
+      !parameter->info().is_static
+          ? good.error()
+          : Error{.message = "the parameter is static: it cannot be set while its module runs"};
+  error.path = found->path();
+  context.Report(std::move(error),
+                 parameter->info().is_static ? path.value_position : value.value_position, base);
+  return nullptr;
+}
+
+Port* FindPort(const PathUse& use, PathKind kind) {
+  const auto found = PathSearch(use.base).FindPort(use.path, kind);
+  return found ? *found : nullptr;
+}
+
+}  // namespace runnel

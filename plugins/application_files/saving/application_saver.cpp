@@ -1,0 +1,161 @@
+#include "plugins/application_files/saving/application_saver.h"
+
+#include <algorithm>
+#include <mutex>
+#include <utility>
+
+#include "core/base/replace_file.h"
+#include "core/element/runtime.h"
+#include "core/port/proxy_port.h"
+#include "core/xml/xml_editor.h"
+#include "plugins/application_files/application_source.h"
+#include "plugins/application_files/saving/file_update.h"
+#include "plugins/application_files/saving/new_elements.h"
+
+namespace runnel {
+
+namespace {
+
+namespace fs = std::filesystem;
+using internal::Saving;
+
+// What a text comes to besides.
+struct SavedText {
+  std::string text;
+  std::map<std::string, std::string, std::less<>> values;
+};
+
+std::string WholeText(Saving& saving) {
+  NewElement root = internal::ElementOf(
+      *saving.tools.tags.FindTag("application"),
+      {{{"name", saving.application.name()}}, &saving.application}, saving.application, saving);
+  std::vector<NewElement> loads;
+  for (const std::string& plugin : saving.plugins) {
+    loads.push_back({.name = "load", .attributes = {{"plugin", plugin}}});
+  }
+  if (!loads.empty() && !root.children.empty()) root.children.front().after_blank_line = true;
+  root.children.insert(root.children.begin(), loads.begin(), loads.end());
+  return ElementText(root);
+}
+
+Result<std::string> UpdatedText(Saving& saving, const ApplicationSource& source) {
+  const auto document = XmlDocument::Parse(source.text, source.file.string());
+  if (!document) return document.error();
+  XmlEditor editor(*document, source.text);
+  internal::FileUpdate(saving, source, editor).Run(document->root());
+  return editor.Finish();
+}
+
+void RefuseInterface(Saving& saving) {
+  for (const FrameworkElement* child : saving.application.children()) {
+    if (dynamic_cast<const ProxyPort*>(child) == nullptr) continue;
+    saving.Fail({.message = "a file cannot give an application an interface",
+                 .path = child->path(),
+                 .hint = "put it into a group"});
+  }
+}
+
+// A file that would not load is no use; better to be told now. A new file has no connections from
+// other applications.
+void CheckRequiredInputs(Saving& saving, bool is_new_file) {
+  const auto feeds = [&](const Port* source) {
+    return !is_new_file || source->IsAtOrBelow(saving.application);
+  };
+  saving.application.Visit([&](FrameworkElement& element) {
+    const auto* const port = dynamic_cast<const Port*>(&element);
+    if (port == nullptr || !port->is_required()) return;
+    const std::vector<Port*> sources = port->Sources();
+    if (std::ranges::any_of(sources, feeds)) return;
+    const std::string what = sources.empty() ? "nothing is connected to this input"
+                                             : "only another application feeds this input";
+    saving.Fail(
+        {.message = what + ", which its module requires: a file that says so would not load",
+         .path = port->path(),
+         .hint = "connect it, or delete the module"});
+  });
+}
+
+// Under the structure lock.
+Result<SavedText> TextOfApplication(FrameworkElement& application, const SaveTools& tools,
+                                    const fs::path& folder) {
+  Saving saving{application, tools, folder, internal::SavedEdges(application)};
+  const auto* const source = application.FindAnnotation<ApplicationSource>();
+  CheckRequiredInputs(saving, source == nullptr);
+  RefuseInterface(saving);
+  Result<std::string> text =
+      source != nullptr ? UpdatedText(saving, *source) : Result<std::string>(WholeText(saving));
+  if (!text) return text.error();
+  if (saving.error) return *saving.error;
+  return SavedText{std::move(*text), std::move(saving.values)};
+}
+
+bool IsSameFile(const fs::path& one, const fs::path& other) {
+  std::error_code ignored;
+  return fs::weakly_canonical(fs::absolute(one, ignored), ignored) ==
+         fs::weakly_canonical(fs::absolute(other, ignored), ignored);
+}
+
+// Whoever has changed the file meanwhile would lose what they did. A file that is gone may come
+// back.
+Result<void> CheckUnchanged(const ApplicationSource& source) {
+  std::error_code ignored;
+  if (!fs::exists(source.file, ignored)) return {};
+  const auto now = XmlDocument::ReadText(source.file);
+  if (!now) return now.error();
+  if (*now == source.text) return {};
+  return Error{.message = "the file has been changed since the application was loaded from it",
+               .position = {source.file.string()},
+               .hint = "save to another file, and compare the two"};
+}
+
+}  // namespace
+
+Result<std::string> ApplicationText(FrameworkElement& application, const SaveTools& tools,
+                                    const fs::path& folder) {
+  const std::lock_guard lock(application.runtime().structure_mutex());
+  auto saved = TextOfApplication(application, tools, folder);
+  if (!saved) return saved.error();
+  return std::move(saved->text);
+}
+
+Result<void> SaveApplication(FrameworkElement& application, const SaveTools& tools,
+                             const fs::path& file) {
+  const std::lock_guard lock(application.runtime().structure_mutex());
+  auto* source = application.FindAnnotation<ApplicationSource>();
+  const bool is_its_own = source == nullptr || IsSameFile(source->file, file);
+  if (source != nullptr && is_its_own) {
+    if (auto unchanged = CheckUnchanged(*source); !unchanged) return unchanged;
+  }
+  auto saved = TextOfApplication(application, tools, file.parent_path());
+  if (!saved) return saved.error();
+  const bool is_on_disk =
+      source != nullptr && is_its_own && saved->text == source->text && fs::exists(source->file);
+  if (!is_on_disk) {
+    auto good = internal::CheckSavedText(application, saved->text, file, tools);
+    if (!good) return good;
+    if (auto written = ReplaceFile(file, saved->text); !written) return written;
+  }
+  if (!is_its_own) return {};
+  if (source == nullptr) source = &application.Annotate(std::make_unique<ApplicationSource>());
+  source->file = file;
+  source->text = std::move(saved->text);
+  source->values = std::move(saved->values);
+  return {};
+}
+
+Result<void> SaveApplication(FrameworkElement& application, const SaveTools& tools) {
+  fs::path file;
+  {
+    const std::lock_guard lock(application.runtime().structure_mutex());
+    const auto* const source = application.FindAnnotation<ApplicationSource>();
+    if (source == nullptr) {
+      return Error{.message = "the application was built by code, and has no file yet",
+                   .path = application.path(),
+                   .hint = "name one"};
+    }
+    file = source->file;
+  }
+  return SaveApplication(application, tools, file);
+}
+
+}  // namespace runnel

@@ -1,0 +1,69 @@
+#include "plugins/application_files/saving/saved_edges.h"
+
+#include <algorithm>
+
+#include "core/element/not_saved.h"
+#include "core/plugin/module_type_name.h"
+
+namespace runnel::internal {
+
+namespace {
+
+// What stands for a port in its group: the outermost module that it is part of, or, in the
+// interface of a group, itself. nullptr if no file says anything of it.
+const FrameworkElement* StandsFor(const Port& port, const FrameworkElement& application) {
+  const FrameworkElement* anchor = &port;
+  for (const FrameworkElement* at = &port; at != &application; at = at->parent()) {
+    if (at == nullptr || at->FindAnnotation<NotSaved>() != nullptr) return nullptr;
+    if (IsModule(*at)) anchor = at;
+  }
+  return anchor;
+}
+
+bool IsPortOf(const Port& port, const FrameworkElement& module) {
+  const FrameworkElement* const parent = port.parent();
+  return parent == &module ||
+         (parent->kind() == ElementKind::kPortGroup && parent->parent() == &module);
+}
+
+// The innermost group that has both, or nullptr.
+FrameworkElement* Home(const Port& from, const Port& to, const FrameworkElement& application) {
+  const FrameworkElement* const source = StandsFor(from, application);
+  const FrameworkElement* const target = StandsFor(to, application);
+  if (source == nullptr || target == nullptr) return nullptr;
+  const bool is_inside = source == target && !(IsPortOf(from, *source) && IsPortOf(to, *source));
+  if (is_inside) return nullptr;
+  FrameworkElement* home = source->parent();
+  while (!target->parent()->IsAtOrBelow(*home)) home = home->parent();
+  return home;
+}
+
+}  // namespace
+
+SavedEdges::SavedEdges(FrameworkElement& application) {
+  application.Visit([&](FrameworkElement& element) {
+    const auto* const port = dynamic_cast<const Port*>(&element);
+    if (port == nullptr) return;
+    for (const Connection& connection : port->outgoing()) {
+      FrameworkElement* const home = Home(*connection.from, *connection.to, application);
+      if (home == nullptr) continue;
+      edges_.push_back({connection.from, connection.to, connection.options, home});
+    }
+  });
+}
+
+SavedEdges::Edge* SavedEdges::Find(const Port& from, const Port& to) {
+  const auto found = std::ranges::find_if(
+      edges_, [&](const Edge& edge) { return edge.from == &from && edge.to == &to; });
+  return found == edges_.end() ? nullptr : &*found;
+}
+
+std::vector<SavedEdges::Edge*> SavedEdges::Unsaved() {
+  std::vector<Edge*> unsaved;
+  for (Edge& edge : edges_) {
+    if (!edge.is_saved) unsaved.push_back(&edge);
+  }
+  return unsaved;
+}
+
+}  // namespace runnel::internal

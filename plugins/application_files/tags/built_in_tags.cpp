@@ -1,0 +1,19 @@
+#include "plugins/application_files/tags/built_in_tags.h"
+
+#include "plugins/application_files/tags/reaction_tags.h"
+
+namespace runnel {
+
+void AddBuiltInTags(XmlTagRegistry& tags) {
+  for (const auto& make :
+       {ApplicationTag, GroupTypeTag, LoadTag, ClockTag, ThreadTag, PortTag, ModuleTag,
+        ParameterTag, GroupTag, ConnectTag, OnFaultTag, OnStaleTag, OtherwiseTag}) {
+    tags.AddTag(make());
+  }
+  for (XmlTag& tag : internal::ReactionTags()) tags.AddTag(std::move(tag));
+  for (const char* tag : {"application", "group", "module"}) {
+    tags.AddAttribute(ThreadAttribute(tag));
+  }
+}
+
+}  // namespace runnel

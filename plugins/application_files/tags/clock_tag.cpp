@@ -1,0 +1,108 @@
+#include <memory>
+
+#include "core/types/type_of.h"
+#include "core/xml/xml_reading.h"
+#include "plugins/application_files/build_context.h"
+#include "plugins/application_files/run_description.h"
+#include "plugins/application_files/tags/built_in_tags.h"
+
+namespace runnel {
+
+namespace {
+
+struct ClockChoice final : Annotation {
+  SchedulerOptions options;
+  int line = 0;
+};
+
+void ReadSpeed(const TagUse& use, ClockChoice& choice) {
+  const XmlAttribute* const speed = use.Find("speed");
+  if (speed == nullptr) return;
+  choice.options.speed = ParseNumber(speed->value).value();
+  if (choice.options.speed < 0) {
+    use.context.Report(
+        {.message = "time cannot run backwards", .hint = "1 is real time, 0 as fast as it can"},
+        speed->value_position, use.parent);
+  } else if (!Pacing::Takes(choice.options.speed)) {
+    use.context.Report({.message = "speed " + speed->value + " is out of bounds",
+                        .hint = "allowed is 0 (as fast as it can), or 1e-6 .. 1e6"},
+                       speed->value_position, use.parent);
+  }
+  if (choice.options.clock == SchedulerOptions::ClockKind::kReal) {
+    use.context.Report({.message = "the speed of real time cannot be chosen",
+                        .hint = "leave out speed, or write type=\"simulated\""},
+                       speed->position, use.parent);
+  }
+}
+
+void ReadPaused(const TagUse& use, ClockChoice& choice) {
+  const XmlAttribute* const paused = use.Find("paused");
+  if (paused == nullptr) return;
+  choice.options.is_paused = paused->value == "true";
+  if (choice.options.clock == SchedulerOptions::ClockKind::kReal) {
+    use.context.Report({.message = "real time cannot be paused",
+                        .hint = "leave out paused, or write type=\"simulated\""},
+                       paused->position, use.parent);
+  }
+}
+
+FrameworkElement* ChooseClock(const TagUse& use) {
+  if (const auto* first = use.parent.FindAnnotation<ClockChoice>()) {
+    use.context.Report({.message = "the clock is chosen twice",
+                        .hint = "the first is in line " + std::to_string(first->line)},
+                       use.xml.position(), use.parent);
+    return &use.parent;
+  }
+  auto& choice = use.parent.Annotate(std::make_unique<ClockChoice>());
+  choice.line = use.xml.position().line;
+  const bool is_simulated = use.Get("type").value == "simulated";
+  choice.options.clock =
+      is_simulated ? SchedulerOptions::ClockKind::kSimulated : SchedulerOptions::ClockKind::kReal;
+  if (is_simulated) choice.options.speed = 1;
+  ReadSpeed(use, choice);
+  ReadPaused(use, choice);
+  return &use.parent;
+}
+
+std::vector<SavedTag> SavedClock(const FrameworkElement& application) {
+  const auto* const choice = application.FindAnnotation<ClockChoice>();
+  if (choice == nullptr) return {};
+  const bool is_simulated = choice->options.clock == SchedulerOptions::ClockKind::kSimulated;
+  std::vector<SavedAttribute> tag{{"type", is_simulated ? "simulated" : "real"}};
+  if (is_simulated) {
+    tag.push_back({"speed", TextOf(choice->options.speed), choice->options.speed == 1});
+    tag.push_back(
+        {"paused", choice->options.is_paused ? "true" : "false", !choice->options.is_paused});
+  }
+  return {SavedTag{std::move(tag)}};
+}
+
+}  // namespace
+
+SchedulerOptions SchedulerOptionsOf(const FrameworkElement& application) {
+  const auto* const choice = application.FindAnnotation<ClockChoice>();
+  return choice != nullptr ? choice->options : SchedulerOptions{};
+}
+
+XmlTag ClockTag() {
+  return {.name = "clock",
+          .summary = "which time the application lives in; without it, real time",
+          .parents = {"application"},
+          .attributes = {{.name = "type",
+                          .kind = AttributeKind::kChoice,
+                          .required = true,
+                          .choices = {"real", "simulated"}},
+                         {.name = "speed",
+                          .kind = AttributeKind::kNumber,
+                          .summary = "of simulated time, at most; 1 (which it is by default) is "
+                                     "real time, 0 as fast as it can"},
+                         {.name = "paused",
+                          .kind = AttributeKind::kChoice,
+                          .summary = "whether simulated time stands still until somebody lets it "
+                                     "go on; false by default",
+                          .choices = {"false", "true"}}},
+          .handle = ChooseClock,
+          .saved = SavedClock};
+}
+
+}  // namespace runnel

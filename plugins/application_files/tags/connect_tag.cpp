@@ -1,0 +1,239 @@
+#include <algorithm>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/plugin/module_type_name.h"
+#include "core/types/type_info.h"
+#include "plugins/application_files/build_context.h"
+#include "plugins/application_files/interface_direction.h"
+#include "plugins/application_files/path_use.h"
+#include "plugins/application_files/saving/file_update.h"
+#include "plugins/application_files/tags/built_in_tags.h"
+
+namespace runnel {
+
+namespace {
+
+// In the order of OnFull.
+const std::vector<std::string> kOnFullNames{"drop_oldest", "drop_newest", "refuse"};
+
+constexpr std::size_t kLongestQueue = 1'000'000;
+
+ConnectOptions ReadOptions(const TagUse& use) {
+  ConnectOptions options;
+  if (const XmlAttribute* const queue = use.Find("queue")) {
+    options.queue = ParseCount(queue->value).value();
+    if (options.queue > kLongestQueue) {
+      use.Report({.message = "a queue of " + queue->value + " values is too long",
+                  .hint = "its memory is taken at once; at most " + std::to_string(kLongestQueue) +
+                          " values may wait"},
+                 queue->value_position);
+      options.queue = 0;
+      return options;
+    }
+  }
+  const XmlAttribute* const on_full = use.Find("on_full");
+  if (on_full == nullptr) return options;
+  const auto name = std::ranges::find(kOnFullNames, on_full->value);
+  options.on_full = static_cast<OnFull>(name - kOnFullNames.begin());
+  if (options.queue == 0) {
+    use.Report({.message = "on_full has no meaning without a queue",
+                .hint = "add queue=\"…\" with a count above 0, or leave out on_full"},
+               on_full->position);
+  }
+  return options;
+}
+
+// Other inputs beside `to` that would take what `from` carries.
+std::string FittingInputs(const Port& from, const Port& to) {
+  std::string names;
+  for (const FrameworkElement* each : to.parent()->children()) {
+    const auto* const port = dynamic_cast<const Port*>(each);
+    if (port == nullptr || port->direction() != to.direction()) continue;
+    if (&port->type() == &from.type()) names += (names.empty() ? "'" : ", '") + port->name() + "'";
+  }
+  return names.empty() ? "" : from.type().name() + " is taken by " + names;
+}
+
+// Another port of the module may have been meant.
+void MarkUnfed(const Port& port, BuildContext& context) {
+  const FrameworkElement* const module = FindModuleAround(port);
+  context.MarkUnfed(module != nullptr ? *module : port);
+}
+
+void Connect(Port& from, const PathUse& from_use, Port& to, const PathUse& to_use,
+             const ConnectOptions& options, BuildContext& context) {
+  CheckInterfaceDirection(from, from_use, PathKind::kOutput, to, context);
+  CheckInterfaceDirection(to, to_use, PathKind::kInput, from, context);
+  const auto connected = Port::Connect(from, to, options);
+  if (connected) return;
+  const bool cannot_send = !from.is_proxy() && from.direction() == Port::Direction::kInput;
+  MarkUnfed(to, context);
+  if (cannot_send) MarkUnfed(from, context);
+  Error error = connected.error();
+  if (error.hint.empty() && &from.type() != &to.type()) error.hint = FittingInputs(from, to);
+  const PathUse& wrong = cannot_send ? from_use : to_use;
+  context.Report(std::move(error), wrong.position, wrong.base);
+}
+
+void ConnectAll(const TagUse& use) {
+  BuildContext& context = use.context;
+  const ConnectOptions options = ReadOptions(use);
+  const std::vector<PathUse> sources = PathsIn(use.Get("from"), use.parent);
+  if (sources.size() > 1) {
+    use.Report(
+        {.message = "a connection comes from one port", .hint = "write a <connect> for each"},
+        sources[1].position);
+  }
+  Port* const from = SearchPort(sources[0], PathKind::kOutput, context);
+  for (const PathUse& to_use : PathsIn(use.Get("to"), use.parent)) {
+    Port* const to = SearchPort(to_use, PathKind::kInput, context);
+    if (to == nullptr) continue;
+    if (from == nullptr) {
+      MarkUnfed(*to, context);
+    } else {
+      Connect(*from, sources[0], *to, to_use, options, context);
+    }
+  }
+}
+
+// Saving.
+
+// As short as it may be, seen from `home`.
+std::string PathFrom(FrameworkElement& home, const Port& port, PathKind kind) {
+  const std::string full = port.path().substr(home.path().size() + 1);
+  const FrameworkElement* const group = port.parent();
+  if (group->kind() != ElementKind::kPortGroup) return full;
+  std::string module = group->parent()->path().substr(home.path().size());
+  if (!module.empty()) module.erase(0, 1);
+  const std::string shorter = module + "/" + port.name();
+  return FindPort({home, shorter, {}}, kind) == &port ? shorter : full;
+}
+
+// "queue" and "on_full", as they stand in a file; "" if it need not say them.
+std::pair<std::string, std::string> TextsOf(const ConnectOptions& options) {
+  if (options.queue == 0) return {};
+  return {std::to_string(options.queue),
+          options.on_full == OnFull::kDropOldest
+              ? ""
+              : kOnFullNames[static_cast<std::size_t>(options.on_full)]};
+}
+
+std::string TextOr(const XmlAttribute* attribute, const char* usual) {
+  return attribute != nullptr ? attribute->value : usual;
+}
+
+bool SaysOptions(XmlElement tag, const ConnectOptions& options) {
+  const auto [queue, on_full] = TextsOf(options);
+  return internal::MeanTheSame({.name = "queue", .kind = AttributeKind::kCount},
+                               TextOr(tag.Attribute("queue"), "0"), queue.empty() ? "0" : queue) &&
+         TextOr(tag.Attribute("on_full"), "drop_oldest") ==
+             (on_full.empty() ? "drop_oldest" : on_full);
+}
+
+// Whether a tag says it already; if not, and the tag may be changed, the tag says it from now on.
+bool SaysConnection(XmlElement tag, Port* from, Port* to, bool is_only_one,
+                    internal::FileUpdate& update) {
+  const bool is_there = from != nullptr && to != nullptr;
+  internal::SavedEdges::Edge* const edge =
+      is_there ? update.saving().edges.Find(*from, *to) : nullptr;
+  // One that leads out of the application is left to whoever wrote it.
+  if (edge == nullptr && is_there &&
+      std::ranges::find(from->outgoing(), to, &Connection::to) != from->outgoing().end()) {
+    return true;
+  }
+  if (edge == nullptr || edge->is_saved) {
+    update.Touch(from);
+    update.Touch(to);
+    return false;
+  }
+  if (!SaysOptions(tag, edge->options)) {
+    if (!is_only_one) return false;
+    const auto [queue, on_full] = TextsOf(edge->options);
+    const auto set = [&](const char* name, const std::string& value) {
+      value.empty() ? update.editor().RemoveAttribute(tag, name)
+                    : update.editor().SetAttribute(tag, name, value);
+    };
+    set("queue", queue);
+    set("on_full", on_full);
+  }
+  edge->is_saved = true;
+  return true;
+}
+
+void UpdateConnect(XmlElement tag, FrameworkElement& group, internal::FileUpdate& update) {
+  const XmlAttribute& to_list = *tag.Attribute("to");
+  Port* const from = FindPort(PathIn(*tag.Attribute("from"), group), PathKind::kOutput);
+  const std::vector<PathUse> targets = PathsIn(to_list, group);
+  std::set<std::size_t> gone;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    Port* const to = FindPort(targets[i], PathKind::kInput);
+    if (!SaysConnection(tag, from, to, targets.size() == 1, update)) gone.insert(i);
+  }
+  if (gone.size() == targets.size()) {
+    update.editor().Remove(tag);
+  } else {
+    update.editor().RemoveWords(to_list, gone);
+  }
+}
+
+// Of the connections that no tag says yet; those of one port together.
+std::vector<NewElement> MissingConnections(FrameworkElement& home, internal::Saving& saving) {
+  std::vector<NewElement> elements;
+  const internal::SavedEdges::Edge* last = nullptr;
+  for (internal::SavedEdges::Edge* edge : saving.edges.Unsaved()) {
+    if (edge->home != &home) continue;
+    edge->is_saved = true;
+    const std::string to = PathFrom(home, *edge->to, PathKind::kInput);
+    const auto [queue, on_full] = TextsOf(edge->options);
+    const bool goes_on = last != nullptr && last->from == edge->from &&
+                         TextsOf(last->options) == TextsOf(edge->options);
+    last = edge;
+    if (goes_on) {
+      elements.back().attributes[1].second += " " + to;
+      continue;
+    }
+    NewElement& made = elements.emplace_back(NewElement{
+        .name = "connect",
+        .attributes = {{"from", PathFrom(home, *edge->from, PathKind::kOutput)}, {"to", to}}});
+    if (!queue.empty()) made.attributes.emplace_back("queue", queue);
+    if (!on_full.empty()) made.attributes.emplace_back("on_full", on_full);
+  }
+  return elements;
+}
+
+}  // namespace
+
+XmlTag ConnectTag() {
+  return {.name = "connect",
+          .summary = "lets data flow from one port to others",
+          .parents = {"application", "group"},
+          .attributes = {{.name = "from",
+                          .kind = AttributeKind::kPath,
+                          .required = true,
+                          .summary = "an output, or an interface port"},
+                         {.name = "to",
+                          .kind = AttributeKind::kPathList,
+                          .required = true,
+                          .summary = "inputs or interface ports, separated by blanks"},
+                         {.name = "queue",
+                          .kind = AttributeKind::kCount,
+                          .summary = "how many values may wait at the input; 0: the latest counts"},
+                         {.name = "on_full",
+                          .kind = AttributeKind::kChoice,
+                          .summary = "what a full queue does with one more value",
+                          .choices = kOnFullNames}},
+          .is_structure = true,
+          .handle = [](const TagUse& use) -> FrameworkElement* {
+            use.context.Defer(BuildStage::kConnections, [use] { ConnectAll(use); });
+            return &use.parent;
+          },
+          .update = UpdateConnect,
+          .missing = [](const XmlElement*, FrameworkElement& home, internal::Saving& saving,
+                        internal::FileUpdate*) { return MissingConnections(home, saving); },
+          .place = 4};
+}
+
+}  // namespace runnel

@@ -1,0 +1,67 @@
+#include <memory>
+#include <utility>
+
+#include "core/element/source_place.h"
+#include "core/module/group.h"
+#include "core/plugin/module_type_name.h"
+#include "plugins/application_files/application_reader.h"
+#include "plugins/application_files/saving/saving.h"
+#include "plugins/application_files/tags/built_in_tags.h"
+
+namespace runnel {
+
+namespace {
+
+void RefuseContents(const TagUse& use, const FrameworkElement& group) {
+  for (const XmlElement child : use.xml.children()) {
+    const XmlTag* const known = use.context.tags().FindTag(child.name());
+    if (known == nullptr || child.name() == "parameter") continue;
+    use.context.Report({.message = "<" + child.name() + "> in a group whose type is a file",
+                        .hint = "write it into " + use.Get("type").value + ", or leave out type"},
+                       child.position(), group);
+  }
+}
+
+FrameworkElement* MakeGroup(const TagUse& use) {
+  BuildContext& context = use.context;
+  if (!use.HasFreeName(use.parent)) return nullptr;
+  auto& group = context.runtime().Create<Group>(use.parent, use.Get("name").value);
+  const XmlAttribute* const type = use.Find("type");
+  if (type == nullptr) return &group;
+  group.Annotate(std::make_unique<SourcePlace>(use.xml.position()));  // errors in the file name it
+  RefuseContents(use, group);
+  if (auto read = ReadGroupType(*type, use.xml, group, context); !read) {
+    context.MarkMissing(group, nullptr);
+    context.Report(read.error(), type->value_position, group);
+  }
+  return &group;
+}
+
+std::vector<SavedTag> SavedGroups(FrameworkElement& parent) {
+  std::vector<SavedTag> tags;
+  for (FrameworkElement* child : parent.children()) {
+    if (!internal::IsSaved(*child) || IsModule(*child)) continue;
+    tags.push_back({{{"name", child->name()}}, child});
+    if (child->FindAnnotation<PartInstance>() == nullptr) continue;
+    tags.back().attributes.push_back({.name = "type", .value = "", .is_kept = true});
+  }
+  return tags;
+}
+
+}  // namespace
+
+XmlTag GroupTag() {
+  return {.name = "group",
+          .summary = "modules and groups that serve one purpose",
+          .parents = {"application", "group"},
+          .attributes = {{.name = "name", .kind = AttributeKind::kNewName, .required = true},
+                         {.name = "type",
+                          .kind = AttributeKind::kPath,
+                          .summary = "the file that says what is in it, a <group_type>"}},
+          .is_structure = true,
+          .handle = MakeGroup,
+          .saved = SavedGroups,
+          .place = 3};
+}
+
+}  // namespace runnel

@@ -1,0 +1,47 @@
+#include "core/plugin/module_type_name.h"
+#include "plugins/application_files/build_context.h"
+#include "plugins/application_files/saving/saving.h"
+#include "plugins/application_files/tags/built_in_tags.h"
+
+namespace runnel {
+
+namespace {
+
+FrameworkElement* MakeModule(const TagUse& use) {
+  if (!use.HasFreeName(use.parent)) return nullptr;
+  const auto made = use.context.plugins().modules().Create(use.Get("type").value, use.parent,
+                                                           use.Get("name").value);
+  if (made) return *made;
+  Error error = made.error();
+  error.path = use.path();
+  use.Report(std::move(error), use.xml.position());
+  return nullptr;
+}
+
+std::vector<SavedTag> SavedModules(FrameworkElement& parent) {
+  std::vector<SavedTag> tags;
+  for (FrameworkElement* child : parent.children()) {
+    if (!internal::IsSaved(*child) || !IsModule(*child)) continue;
+    tags.push_back({{{"name", child->name()}, {"type", FindModuleType(*child)}}, child});
+  }
+  return tags;
+}
+
+}  // namespace
+
+XmlTag ModuleTag() {
+  return {.name = "module",
+          .summary = "a module of a type that a plugin brings",
+          .parents = {"application", "group"},
+          .attributes = {{.name = "name", .kind = AttributeKind::kNewName, .required = true},
+                         {.name = "type",
+                          .kind = AttributeKind::kModuleType,
+                          .required = true,
+                          .summary = "as `runnel modules` lists them"}},
+          .is_structure = true,
+          .handle = MakeModule,
+          .saved = SavedModules,
+          .place = 2};
+}
+
+}  // namespace runnel

@@ -1,0 +1,113 @@
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/element/source_place.h"
+#include "core/port/proxy_port.h"
+#include "core/types/type_info.h"
+#include "plugins/application_files/build_context.h"
+#include "plugins/application_files/path_use.h"
+#include "plugins/application_files/tags/built_in_tags.h"
+
+namespace runnel {
+
+namespace {
+
+// The far end of `connect`, if it is a connection of the port called `own` seen from `base`.
+std::optional<std::pair<PathUse, PathKind>> FarEnd(XmlElement connect, FrameworkElement& base,
+                                                   const std::string& own) {
+  const XmlAttribute* const from = connect.Attribute("from");
+  const XmlAttribute* const to = connect.Attribute("to");
+  if (connect.name() != "connect" || from == nullptr || to == nullptr) return std::nullopt;
+  const std::vector<PathUse> targets = PathsIn(*to, base);
+  if (from->value == own && !targets.empty()) {
+    return std::pair(targets.front(), PathKind::kInput);
+  }
+  const auto is_own = [&](const PathUse& target) { return target.path == own; };
+  if (std::ranges::none_of(targets, is_own)) return std::nullopt;
+  return std::pair(PathIn(*from, base), PathKind::kOutput);
+}
+
+// Of the first connection between the tags of `element` that leads to a port that is there.
+const TypeInfo* TypeAmong(XmlElement element, FrameworkElement& base, const std::string& own) {
+  for (const XmlElement child : element.children()) {
+    const auto far_end = FarEnd(child, base, own);
+    if (!far_end) continue;
+    const Port* const port = FindPort(far_end->first, far_end->second);
+    if (port != nullptr) return &port->type();
+  }
+  return nullptr;
+}
+
+const TypeInfo* ConnectedType(const TagUse& use) {
+  const std::string& name = use.Get("name").value;
+  XmlElement group = *use.xml.parent();
+  if (const TypeInfo* type = TypeAmong(group, use.parent, name)) return type;
+  // What is outside of a part stands where the part is used.
+  if (const PartUse* part = use.context.parts().Find(use.parent)) group = part->tag;
+  FrameworkElement& outside = *use.parent.parent();
+  const std::string seen_from_outside = use.parent.name() + "/" + name;
+  if (const TypeInfo* type = TypeAmong(*group.parent(), outside, seen_from_outside)) return type;
+  use.Report({.message = "the type of this port cannot be told from its connections",
+              .hint = "add type=\"…\""},
+             use.xml.position());
+  return nullptr;
+}
+
+void MakePort(const TagUse& use) {
+  if (!use.HasFreeName(use.parent)) return;
+  const XmlAttribute& name = use.Get("name");
+  const XmlAttribute* const named = use.Find("type");
+  const TypeInfo* const type = named != nullptr ? FindType(named->value) : ConnectedType(use);
+  if (type == nullptr) return use.context.MarkMissing(use.parent, &name);
+  const auto direction =
+      use.Get("direction").value == "input" ? Port::Direction::kInput : Port::Direction::kOutput;
+  const XmlAttribute* const description = use.Find("description");
+  auto& port = use.context.runtime().Create<ProxyPort>(
+      use.parent, name.value, direction, *type, description != nullptr ? description->value : "");
+  port.Annotate(std::make_unique<SourcePlace>(use.xml.position()));
+}
+
+std::vector<SavedTag> SavedPorts(FrameworkElement& group) {
+  std::vector<SavedTag> tags;
+  for (FrameworkElement* child : group.children()) {
+    const auto* const port = dynamic_cast<const ProxyPort*>(child);
+    if (port == nullptr) continue;
+    const bool is_input = port->direction() == Port::Direction::kInput;
+    tags.push_back({{{"name", port->name()},
+                     {"direction", is_input ? "input" : "output"},
+                     {"type", port->type().name()},
+                     {"description", port->description(), port->description().empty()}},
+                    child});
+  }
+  return tags;
+}
+
+}  // namespace
+
+XmlTag PortTag() {
+  return {.name = "port",
+          .summary = "a port in the interface of its group; costs nothing at run time",
+          .parents = {"group"},
+          .attributes = {{.name = "name", .kind = AttributeKind::kNewName, .required = true},
+                         {.name = "direction",
+                          .kind = AttributeKind::kChoice,
+                          .required = true,
+                          .summary = "as seen from outside of the group",
+                          .choices = {"input", "output"}},
+                         {.name = "type",
+                          .kind = AttributeKind::kPortType,
+                          .summary = "of its values; if left out, that of what it is first "
+                                     "connected to, inside the group or else outside"},
+                         {.name = "description", .kind = AttributeKind::kText}},
+          .is_structure = true,
+          .handle = [](const TagUse& use) -> FrameworkElement* {
+            use.context.Defer(BuildStage::kInterfaces, [use] { MakePort(use); });
+            return &use.parent;
+          },
+          .saved = SavedPorts,
+          .place = 1};
+}
+
+}  // namespace runnel

@@ -1,0 +1,159 @@
+#include "plugins/application_files/tags/reaction_tags.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "core/base/nearest_name.h"
+#include "core/types/type_info.h"
+#include "plugins/application_files/path_use.h"
+
+namespace runnel::internal {
+
+namespace {
+
+// One tag that says what is to be done, with all that reading it needs.
+struct ReactionUse {
+  XmlElement xml;
+  FrameworkElement& base;
+  BuildContext& context;
+  Reaction& reaction;
+
+  [[nodiscard]] const XmlAttribute* Find(std::string_view name) const {
+    return xml.Attribute(name);
+  }
+  void Report(Error error, const SourcePosition& position) const {
+    context.Report(std::move(error), position, base);
+  }
+  void Describe(const std::string& done) const {
+    reaction.description += (reaction.description.empty() ? "" : ", ") + done;
+  }
+  [[nodiscard]] Port* FindPortAt(const XmlAttribute& attribute, PathKind end) const {
+    return SearchPort(PathIn(attribute, base), end, context);
+  }
+};
+
+// How the input is connected to `from` now, so that a switch keeps its queue.
+ConnectOptions OptionsOf(const Port& from, const Port& input) {
+  const auto found = std::ranges::find(from.outgoing(), &input, &Connection::to);
+  return found == from.outgoing().end() ? ConnectOptions{} : found->options;
+}
+
+bool HaveOneType(const Port& source, const Port& input, const XmlAttribute& at,
+                 const ReactionUse& use) {
+  if (&source.type() == &input.type()) return true;
+  use.Report({.message = "carries " + source.type().name() + ", but " + input.path() + " takes " +
+                         input.type().name(),
+              .path = source.path()},
+             at.value_position);
+  return false;
+}
+
+void ReadSwitch(const ReactionUse& use) {
+  const XmlAttribute* const input_name = use.Find("input");
+  const XmlAttribute* const from_name = use.Find("from");
+  const XmlAttribute* const to_name = use.Find("to");
+  if (input_name == nullptr) return;
+  if (from_name == nullptr && to_name == nullptr) {
+    use.Report({.message = "<switch> says neither where the input is fed from, nor from where else",
+                .hint = "add from=\"…\", the source that is to be left, and to=\"…\""},
+               use.xml.position());
+    return;
+  }
+  Port* const input = use.FindPortAt(*input_name, PathKind::kInput);
+  Port* const from = from_name ? use.FindPortAt(*from_name, PathKind::kOutput) : nullptr;
+  Port* const to = to_name ? use.FindPortAt(*to_name, PathKind::kOutput) : nullptr;
+  if (input == nullptr || (from_name && !from) || (to_name && !to)) return;
+  if (from != nullptr && !HaveOneType(*from, *input, *from_name, use)) return;
+  if (to != nullptr && !HaveOneType(*to, *input, *to_name, use)) return;
+  ConnectOptions options;
+  for (const Port* source : input->incoming()) {
+    const ConnectOptions each = OptionsOf(*source, *input);
+    if (each.queue >= options.queue) options = each;
+  }
+  if (from != nullptr) use.reaction.changes.push_back(DisconnectPorts{from->path(), input->path()});
+  if (to != nullptr) {
+    use.reaction.changes.push_back(ConnectPorts{to->path(), input->path(), options});
+  }
+  use.Describe("switched " + input->path() + (from ? " from " + from->path() : "") +
+               (to ? " to " + to->path() : ""));
+}
+
+void ReadSet(const ReactionUse& use) {
+  const XmlAttribute* const parameter = use.Find("parameter");
+  const XmlAttribute* const value = use.Find("value");
+  if (parameter == nullptr || value == nullptr) return;
+  const FrameworkElement* const target = SearchSettable(*parameter, *value, use.base, use.context);
+  if (target == nullptr) return;
+  use.reaction.changes.push_back(SetParameter{target->path(), value->value});
+  use.Describe("set " + target->path() + " to " + value->value);
+}
+
+void ReadReplace(const ReactionUse& use) {
+  const XmlAttribute* const module = use.Find("module");
+  const XmlAttribute* const by = use.Find("by");
+  if (module == nullptr || by == nullptr) return;
+  const FrameworkElement* const found = SearchElement(PathIn(*module, use.base), use.context);
+  if (found == nullptr) return;
+  use.reaction.changes.push_back(ReplaceModule{found->path(), by->value});
+  use.Describe("replaced " + found->path() + " by a new " + by->value);
+}
+
+}  // namespace
+
+std::vector<XmlTag> ReactionTags() {
+  const auto handle = [](const TagUse& use) -> FrameworkElement* { return &use.parent; };
+  const std::vector<std::string> parents{"on_stale", "on_fault", "otherwise"};
+  return {{.name = "switch",
+           .summary = "feeds an input from another source",
+           .parents = parents,
+           .attributes = {{.name = "input",
+                           .kind = AttributeKind::kPath,
+                           .required = true,
+                           .names_element = true},
+                          {.name = "from",
+                           .kind = AttributeKind::kPath,
+                           .summary = "the source that is left; without it, none is",
+                           .names_element = true},
+                          {.name = "to",
+                           .kind = AttributeKind::kPath,
+                           .summary = "the source that comes; without it, none does",
+                           .names_element = true}},
+           .handle = handle},
+          {.name = "set",
+           .summary = "sets a parameter",
+           .parents = parents,
+           .attributes = {{.name = "parameter",
+                           .kind = AttributeKind::kPath,
+                           .required = true,
+                           .names_element = true},
+                          {.name = "value", .required = true}},
+           .handle = handle},
+          {.name = "replace",
+           .summary = "puts a new module in the place of another",
+           .parents = parents,
+           .attributes = {{.name = "module",
+                           .kind = AttributeKind::kPath,
+                           .required = true,
+                           .names_element = true},
+                          {.name = "by",
+                           .kind = AttributeKind::kModuleType,
+                           .required = true,
+                           .summary = "a type, as `runnel modules` lists them"}},
+           .handle = handle},
+          {.name = "stop", .summary = "ends the run", .parents = parents, .handle = handle}};
+}
+
+Reaction ReadReaction(XmlElement xml, FrameworkElement& base, BuildContext& context) {
+  Reaction reaction;
+  for (const XmlElement child : xml.children()) {
+    const ReactionUse use{child, base, context, reaction};
+    if (child.name() == "switch") ReadSwitch(use);
+    if (child.name() == "set") ReadSet(use);
+    if (child.name() == "replace") ReadReplace(use);
+    if (child.name() == "stop") reaction.stops_application = true;
+  }
+  return reaction;
+}
+
+}  // namespace runnel::internal

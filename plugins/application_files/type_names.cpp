@@ -1,0 +1,98 @@
+#include "plugins/application_files/type_names.h"
+
+#include <algorithm>
+#include <thread>
+
+#include "core/base/nearest_name.h"
+#include "core/element/runtime.h"
+#include "core/types/builtin_types.h"
+#include "core/types/type_of.h"
+
+namespace runnel {
+
+namespace {
+
+bool Contains(const std::vector<std::string>& names, std::string_view name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+std::string LastPart(std::string_view type) {
+  return std::string(type.substr(type.rfind('/') + 1));  // npos + 1 is 0
+}
+
+// Of "sensors/laser" and "laser": 'adaptors/laser' or 'simulation/laser'. "" if none ends alike.
+std::string TypesWithNearestEnd(std::string_view type, const std::vector<std::string>& known) {
+  std::vector<std::string> ends;
+  for (const std::string& each : known) ends.push_back(LastPart(each));
+  const std::string nearest = NearestName(LastPart(type), ends);
+  std::string types;
+  for (std::size_t i = 0; i < known.size() && !nearest.empty(); ++i) {
+    if (ends[i] == nearest) types += (types.empty() ? "'" : " or '") + known[i] + "'";
+  }
+  return types;
+}
+
+std::string ModuleTypeHint(std::string_view type, const PluginManager& plugins) {
+  const std::string family(type.substr(0, std::min(type.find('/'), type.size())));
+  if (Contains(plugins.Available(), family) && !Contains(plugins.loaded(), family)) {
+    return "add <load plugin=\"" + family + "\"/>";
+  }
+  const std::vector<std::string> known = ModuleTypeNames(plugins);
+  const std::string nearest = NearestName(type, known);
+  const std::string meant =
+      nearest.empty() ? TypesWithNearestEnd(type, known) : "'" + nearest + "'";
+  if (!meant.empty()) return "did you mean " + meant + "?";
+  return "load the plugin that brings it; `runnel modules` lists all types";
+}
+
+template <typename... Types>
+void MakeKnown() {
+  ((void)TypeOf<Types>(), ...);
+}
+
+void MakePortTypesKnown(const ModuleRegistry& modules) {
+  MakeKnown<bool, std::int8_t, std::int16_t, std::int32_t, std::int64_t, std::uint8_t,
+            std::uint16_t, std::uint32_t, std::uint64_t, float, double, std::string, Duration,
+            Time>();
+  std::thread([&modules] {
+    Runtime scratch;
+    for (const ModuleType* type : modules.All()) {
+      // One that cannot be made here brings no type; if the application asks for it, that is told.
+      (void)modules.Create(type->name, scratch.root(),
+                           std::to_string(scratch.root().children().size()));
+    }
+  }).join();
+}
+
+}  // namespace
+
+std::vector<std::string> ModuleTypeNames(const PluginManager& plugins) {
+  std::vector<std::string> names;
+  for (const ModuleType* type : plugins.modules().All()) names.push_back(type->name);
+  return names;
+}
+
+std::vector<std::string> PortTypeNames() {
+  std::vector<std::string> names;
+  for (const TypeInfo* type : RegisteredTypes()) names.push_back(type->name());
+  return names;
+}
+
+Result<void> CheckModuleType(std::string_view type, const PluginManager& plugins) {
+  const auto known = plugins.modules().Get(type);
+  if (known) return {};
+  return Error{.message = known.error().message, .hint = ModuleTypeHint(type, plugins)};
+}
+
+Result<void> CheckPortType(std::string_view type, const PluginManager& plugins) {
+  if (FindType(type) != nullptr) return {};
+  MakePortTypesKnown(plugins.modules());
+  if (FindType(type) != nullptr) return {};
+  const std::string nearest = NearestName(type, PortTypeNames());
+  return Error{.message = "there is no type '" + std::string(type) + "'",
+               .hint = nearest.empty() ? "types come with the plugins whose modules have ports of "
+                                         "them; is a <load> missing?"
+                                       : "did you mean '" + nearest + "'?"};
+}
+
+}  // namespace runnel

@@ -1,0 +1,130 @@
+#include "plugins/application_files/xml_tag.h"
+
+#include <algorithm>
+
+#include "core/base/check.h"
+#include "core/element/element_path.h"
+#include "core/element/source_place.h"
+#include "plugins/application_files/build_context.h"
+#include "plugins/application_files/tags/built_in_tags.h"
+
+namespace runnel {
+
+std::string TagUse::path() const {
+  const XmlAttribute* const name = Find("name");
+  const std::string parent_path = parent.path();
+  const bool is_name = name != nullptr && CheckElementName(name->value);
+  if (!is_name) return parent_path;
+  return (parent_path == "/" ? "" : parent_path) + "/" + name->value;
+}
+
+const XmlAttribute& TagUse::Get(std::string_view attribute) const {
+  const XmlAttribute* const found = Find(attribute);
+  RUNNEL_CHECK(found != nullptr, "a tag asks for an attribute that its rules do not require");
+  return *found;
+}
+
+void TagUse::Report(Error error, const SourcePosition& position) const {
+  if (error.path.empty()) error.path = path();
+  context.Report(std::move(error), position, parent);
+}
+
+bool TagUse::HasFreeName(const FrameworkElement& where) const {
+  const XmlAttribute& name = Get("name");
+  const FrameworkElement* const known = where.FindChild(name.value);
+  if (known == nullptr) return true;
+  const auto* const place = known->FindAnnotation<SourcePlace>();
+  Report(
+      {.message = "there is already an element called '" + name.value + "' in " + where.path(),
+       .hint = place == nullptr ? "choose another name"
+                                : "the first is in line " + std::to_string(place->position.line)},
+      name.value_position);
+  // Whoever names it may mean the other one, or calls that by another name.
+  context.MarkMissing(*known, nullptr);
+  context.MarkMissing(where, nullptr);
+  return false;
+}
+
+XmlTagRegistry::XmlTagRegistry() { AddBuiltInTags(*this); }
+
+void XmlTagRegistry::AddTag(XmlTag tag) {
+  if (const XmlTag* known = FindTag(tag.name)) {
+    throw ElementError(
+        {.message = "there is already a tag <" + tag.name + ">" +
+                    (known->plugin.empty() ? "" : " of plugin '" + known->plugin + "'")});
+  }
+  tag.plugin = plugin_;
+  std::string name = tag.name;
+  tags_.emplace(std::move(name), std::move(tag));
+}
+
+void XmlTagRegistry::AddAttribute(AddedAttribute attribute) {
+  const auto same = [&](const AttributeRule& rule) { return rule.name == attribute.rule.name; };
+  const XmlTag* const tag = FindTag(attribute.tag);
+  if (tag == nullptr) {
+    throw ElementError({.message = "there is no tag <" + attribute.tag + "> that could have '" +
+                                   attribute.rule.name + "'"});
+  }
+  if (std::ranges::any_of(Rules(*tag), same)) {
+    throw ElementError(
+        {.message = "<" + tag->name + "> already has '" + attribute.rule.name + "'"});
+  }
+  attribute.plugin = plugin_;
+  added_attributes_.push_back(std::move(attribute));
+}
+
+std::function<void()> XmlTagRegistry::SetAside(std::string_view plugin) {
+  struct Aside {
+    decltype(tags_) tags;
+    std::vector<AddedAttribute> attributes;
+  };
+  // All memory comes before the first is taken out; putting them back needs none.
+  const auto aside = std::make_shared<Aside>();
+  const auto is_of_it = [&](const AddedAttribute& each) { return each.plugin == plugin; };
+  std::ranges::copy_if(added_attributes_, std::back_inserter(aside->attributes), is_of_it);
+  std::function<void()> back = [this, aside] {
+    tags_.merge(aside->tags);
+    added_attributes_.insert(added_attributes_.end(), aside->attributes.begin(),
+                             aside->attributes.end());
+    aside->attributes.clear();
+  };
+  for (auto each = tags_.begin(); each != tags_.end();) {
+    const auto at = each++;
+    if (at->second.plugin == plugin) aside->tags.insert(tags_.extract(at));
+  }
+  std::erase_if(added_attributes_, is_of_it);
+  return back;
+}
+
+const XmlTag* XmlTagRegistry::FindTag(std::string_view name) const {
+  const auto found = tags_.find(name);
+  return found == tags_.end() ? nullptr : &found->second;
+}
+
+std::vector<const AddedAttribute*> XmlTagRegistry::AddedAttributes(std::string_view tag) const {
+  std::vector<const AddedAttribute*> attributes;
+  for (const AddedAttribute& each : added_attributes_) {
+    if (each.tag == tag) attributes.push_back(&each);
+  }
+  return attributes;
+}
+
+std::vector<AttributeRule> XmlTagRegistry::Rules(const XmlTag& tag) const {
+  std::vector<AttributeRule> rules = tag.attributes;
+  for (const AddedAttribute* added : AddedAttributes(tag.name)) rules.push_back(added->rule);
+  return rules;
+}
+
+std::vector<std::string> XmlTagRegistry::TagsIn(std::string_view parent) const {
+  std::vector<std::string> names;
+  for (const auto& [name, tag] : tags_) {
+    const auto may_stand_in = [&tag = tag](std::string_view place) {
+      return std::ranges::find(tag.parents, place) != tag.parents.end();
+    };
+    const bool is_of_group = parent == "group_type" && may_stand_in("group");
+    if (may_stand_in(parent) || is_of_group) names.push_back(name);
+  }
+  return names;
+}
+
+}  // namespace runnel

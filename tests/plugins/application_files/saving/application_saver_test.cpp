@@ -1,0 +1,345 @@
+// What of a file changes when its application has changed, and what does not.
+
+#include "plugins/application_files/saving/application_saver.h"
+
+#include <functional>
+
+#include <gmock/gmock.h>
+
+#include "core/module/group.h"
+#include "core/port/proxy_port.h"
+#include "plugins/application_files/application_source.h"
+#include "plugins/scheduling/thread_container.h"
+#include "tests/plugins/application_files/saving/saving_workshop.h"
+
+namespace runnel::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const char* const kFile = R"(<?xml version="1.0"?>
+<!-- of the whole -->
+<application   name='demo' >
+
+  <thread name="slow" period="0.05 s"/>
+  <thread name="fast" period="10ms"/>   <!-- of the thread -->
+
+  <module name="source" type="test/source" thread="slow">
+    <!-- of the gain -->
+    <parameter name='gain'   value='2.50'/>
+    <parameter name="count" value="4" command_line="count"/>
+  </module>
+  <group name="inner">
+      <port name="in" direction="input"/>
+      <module name="filter" type="test/filter"/><!-- of the filter -->
+      <module name="sink" type="test/sink"/>
+      <connect from="in" to="filter/value  sink/second"/>
+      <connect from="filter/value" to="sink/value" queue="3" on_full="refuse"/>
+  </group>
+
+  <connect from="source/value" to="inner/in"/>
+  <on_fault of="inner/filter" action="stop_application"/>
+</application>
+<!-- the end -->
+)";
+
+class ApplicationSaver : public ::testing::Test {
+ protected:
+  FrameworkElement& Load(const std::string& text = kFile) {
+    WriteAll(file_, text);
+    application_ = shop_.Load(file_);
+    return *application_;
+  }
+  std::string Text() { return shop_.Text(*application_, folder_.path()); }
+  // What the file is after `from` has become `to`.
+  static std::string With(const std::string& from, const std::string& to,
+                          std::string text = kFile) {
+    const std::size_t place = text.find(from);
+    EXPECT_NE(place, std::string::npos) << from;
+    return text.replace(place, from.size(), to);
+  }
+  template <typename T>
+  T& Get(const std::string& path) {
+    return shop_.Get<T>(path);
+  }
+  FrameworkElement& Create(const std::string& type, const std::string& parent,
+                           const std::string& name) {
+    return *shop_.plugins.modules().Create(type, Get<FrameworkElement>(parent), name).value();
+  }
+  void Delete(const std::string& path) {
+    const auto deleted = shop_.runtime.Delete(Get<FrameworkElement>(path));
+    ASSERT_TRUE(deleted) << deleted.error().ToString();
+  }
+
+  TestFolder folder_;
+  std::filesystem::path file_ = folder_ / "app.xml";
+  SavingWorkshop shop_;
+  FrameworkElement* application_ = nullptr;
+};
+
+TEST_F(ApplicationSaver, WritesTheSameBytesIfNothingHasChanged) {
+  Load();
+  EXPECT_EQ(Text(), kFile);
+}
+
+TEST_F(ApplicationSaver, LeavesValuesOfTheCommandLineToIt) {
+  ASSERT_TRUE(shop_.configuration.AddArgument("count=7"));
+  Load();
+  EXPECT_EQ(Get<Source>("/demo/source").count.Get(), 7);
+  EXPECT_EQ(Text(), kFile);
+  ASSERT_TRUE(Get<Source>("/demo/source").count.Set(8));
+  EXPECT_EQ(Text(), With("value=\"4\"", "value=\"8\""));
+}
+
+TEST_F(ApplicationSaver, RewritesAChangedValueWithinItsQuotes) {
+  Load();
+  ASSERT_TRUE(Get<Source>("/demo/source").gain.Set(3.5));
+  EXPECT_EQ(Text(), With("'2.50'", "'3.5'"));
+}
+
+TEST_F(ApplicationSaver, AddsAValueThatWasNotThere) {
+  Load(With("    <parameter name='gain'   value='2.50'/>\n", ""));
+  ASSERT_TRUE(Get<Source>("/demo/source").gain.Set(3.5));
+  EXPECT_EQ(Text(), With("command_line=\"count\"/>\n",
+                         "command_line=\"count\"/>\n    <parameter name=\"gain\" "
+                         "value=\"3.5\"/>\n",
+                         With("    <parameter name='gain'   value='2.50'/>\n", "")));
+}
+
+TEST_F(ApplicationSaver, TakesOneNameOutOfAList) {
+  Load();
+  ASSERT_TRUE(
+      Port::Disconnect(Get<Port>("/demo/inner/in"), Get<Port>("/demo/inner/sink/input/second")));
+  EXPECT_EQ(Text(), With("<port name=\"in\" direction=\"input\"/>",
+                         "<port name=\"in\" direction=\"input\" type=\"double\"/>",
+                         With("\"filter/value  sink/second\"", "\"filter/value\"")));
+}
+
+TEST_F(ApplicationSaver, RefusesWhatWouldNotLoad) {
+  Load();
+  ASSERT_TRUE(
+      Port::Disconnect(Get<Port>("/demo/inner/in"), Get<Port>("/demo/inner/filter/input/value")));
+  const auto text = ApplicationText(*application_, shop_.tools(), folder_.path());
+  ASSERT_FALSE(text);
+  EXPECT_EQ(text.error().path, "/demo/inner/filter/input/value");
+  EXPECT_THAT(text.error().message, HasSubstr("would not load"));
+}
+
+TEST_F(ApplicationSaver, CutsAConnectionWithItsLine) {
+  Load();
+  ASSERT_TRUE(Port::Disconnect(Get<Port>("/demo/inner/filter/output/value"),
+                               Get<Port>("/demo/inner/sink/input/value")));
+  EXPECT_EQ(Text(), With("      <connect from=\"filter/value\" to=\"sink/value\" queue=\"3\" "
+                         "on_full=\"refuse\"/>\n",
+                         ""));
+}
+
+TEST_F(ApplicationSaver, RewritesTheQueueOfAConnection) {
+  Load();
+  auto& from = Get<Port>("/demo/inner/filter/output/value");
+  auto& to = Get<Port>("/demo/inner/sink/input/value");
+  ASSERT_TRUE(Port::Disconnect(from, to));
+  ASSERT_TRUE(Port::Connect(from, to, {.queue = 5}));
+  EXPECT_EQ(Text(), With("queue=\"3\" on_full=\"refuse\"", "queue=\"5\""));
+}
+
+TEST_F(ApplicationSaver, KeepsConnectionsThatLeadOutAsLongAsTheyAreThere) {
+  shop_.Add<Optional>("test/optional");
+  ASSERT_NE(shop_.Build(R"(<application name="other"><module name="a" type="test/source"/>
+    <module name="b" type="test/sink"/></application>)"),
+            nullptr);
+  const std::string text = R"(<application name="demo">
+  <module name="m" type="test/optional"/>
+  <connect from="/other/a/value" to="m/value"/>
+  <connect from="m/output/value" to="../other/b/value /other/b/second"/>
+</application>)";
+  Load(text);
+  EXPECT_EQ(Text(), text);
+  ASSERT_TRUE(Port::Disconnect(shop_.Get<Port>("/demo/m/output/value"),
+                               shop_.Get<Port>("/other/b/input/value")));
+  EXPECT_EQ(Text(), With("../other/b/value /other/b/second", "/other/b/second", text));
+}
+
+TEST_F(ApplicationSaver, CutsWhatADeletedModuleLeavesBehind) {
+  Load();
+  Delete("/demo/inner/filter");
+  const std::string text = Text();
+  EXPECT_THAT(text, Not(HasSubstr("test/filter")));
+  EXPECT_THAT(text, Not(HasSubstr("filter/value")));
+  EXPECT_THAT(text, Not(HasSubstr("on_fault")));
+  EXPECT_THAT(text, HasSubstr("      <!-- of the filter -->\n"));
+  EXPECT_THAT(text, HasSubstr("<connect from=\"in\" to=\"sink/second\"/>"));
+}
+
+TEST_F(ApplicationSaver, AppendsWhatIsNewToItsGroup) {
+  Load();
+  Create("test/sink", "/demo/inner", "log");
+  ASSERT_TRUE(Port::Connect(Get<Port>("/demo/inner/filter/output/value"),
+                            Get<Port>("/demo/inner/log/input/value"), {.queue = 2}));
+  ASSERT_TRUE(Port::Connect(Get<Port>("/demo/source/output/label"),
+                            Get<Port>("/demo/inner/log/input/label")));
+  std::string expected =
+      With("  </group>\n",
+           "      <module name=\"log\" type=\"test/sink\"/>\n"
+           "      <connect from=\"filter/value\" to=\"log/value\" queue=\"2\"/>\n  </group>\n");
+  expected = With("</application>",
+                  "  <connect from=\"source/label\" to=\"inner/log/label\"/>\n"
+                  "</application>",
+                  expected);
+  EXPECT_EQ(Text(), expected);
+}
+
+TEST_F(ApplicationSaver, TellsAnInputAndAnOutputOfOneNameApart) {
+  Load();
+  Create("test/filter", "/demo", "second");
+  ASSERT_TRUE(
+      Port::Connect(Get<Port>("/demo/source/output/value"), Get<Port>("/demo/second/input/value")));
+  EXPECT_THAT(Text(), HasSubstr("<connect from=\"source/value\" to=\"second/value\"/>"));
+}
+
+TEST_F(ApplicationSaver, RewritesTheTypeOfAReplacedModule) {
+  Load();
+  Delete("/demo/inner/sink");
+  Create("test/source", "/demo/inner", "sink");
+  ASSERT_TRUE(Get<Source>("/demo/inner/sink").gain.Set(4));
+  const std::string text = Text();
+  EXPECT_THAT(text, HasSubstr("      <module name=\"sink\" type=\"test/source\">\n"
+                              "        <parameter name=\"gain\" value=\"4\"/>\n"
+                              "      </module>\n"));
+}
+
+TEST_F(ApplicationSaver, WritesANewGroupWithAllThatIsInIt) {
+  Load();
+  auto& group = shop_.runtime.Create<Group>(Get<FrameworkElement>("/demo"), "outer");
+  auto& port = shop_.runtime.Create<ProxyPort>(group, "values", Port::Direction::kOutput,
+                                               TypeOf<double>(), "all \"values\"");
+  Create("test/source", "/demo/outer", "a");
+  ASSERT_TRUE(Port::Connect(Get<Port>("/demo/outer/a/output/value"), port));
+  EXPECT_EQ(Text(), With("</application>",
+                         "  <group name=\"outer\">\n"
+                         "    <port name=\"values\" direction=\"output\" type=\"double\" "
+                         "description=\"all &quot;values&quot;\"/>\n\n"
+                         "    <module name=\"a\" type=\"test/source\"/>\n\n"
+                         "    <connect from=\"a/value\" to=\"values\"/>\n"
+                         "  </group>\n</application>"));
+}
+
+TEST_F(ApplicationSaver, FollowsModulesToOtherThreads) {
+  Load();
+  AssignThread(Get<FrameworkElement>("/demo/source"), Get<ThreadContainer>("/demo/threads/fast"));
+  AssignThread(Get<FrameworkElement>("/demo/inner"), Get<ThreadContainer>("/demo/threads/slow"));
+  EXPECT_EQ(Text(), With("<group name=\"inner\">", "<group name=\"inner\" thread=\"slow\">",
+                         With("thread=\"slow\"", "thread=\"fast\"")));
+  Delete("/demo/threads/slow");
+  EXPECT_EQ(Text(), With("  <thread name=\"slow\" period=\"0.05 s\"/>\n", "",
+                         With("thread=\"slow\"", "thread=\"fast\"")));
+}
+
+TEST_F(ApplicationSaver, WritesNewThreads) {
+  Load();
+  auto& thread = shop_.runtime.Create<ThreadContainer>(
+      Get<FrameworkElement>("/demo/threads"), "new",
+      ThreadOptions{.activation = ThreadOptions::Activation::kTrigger, .priority = 4});
+  AssignThread(Get<FrameworkElement>("/demo/source"), thread);
+  EXPECT_EQ(Text(), With("</application>",
+                         "  <thread name=\"new\" activation=\"trigger\" priority=\"4\"/>\n"
+                         "</application>",
+                         With("thread=\"slow\"", "thread=\"new\"")));
+}
+
+TEST_F(ApplicationSaver, WritesAWholeFileOfWhatCodeHasBuilt) {
+  auto& application = shop_.runtime.Create<Group>(shop_.runtime.root(), "made");
+  application_ = &application;
+  Create("test/source", "/made", "source");
+  auto& inner = shop_.runtime.Create<Group>(application, "inner");
+  Create("test/sink", "/made/inner", "sink");
+  ASSERT_TRUE(Get<Source>("/made/source").text.SetFromText("a < b"));
+  ASSERT_TRUE(Port::Connect(Get<Port>("/made/source/output/value"),
+                            Get<Port>("/made/inner/sink/input/value")));
+  ASSERT_TRUE(Port::Connect(Get<Port>("/made/source/output/value"),
+                            Get<Port>("/made/inner/sink/input/second")));
+  AssignThread(inner, CreateThread(shop_.runtime, "own", {.period = std::chrono::seconds(1)}));
+  EXPECT_EQ(Text(), R"(<application name="made">
+  <thread name="own" period="1s"/>
+
+  <module name="source" type="test/source">
+    <parameter name="text" value="a &lt; b"/>
+  </module>
+
+  <group name="inner" thread="own">
+    <module name="sink" type="test/sink"/>
+  </group>
+
+  <connect from="source/value" to="inner/sink/value inner/sink/second"/>
+</application>
+)");
+}
+
+TEST_F(ApplicationSaver, RefusesAModuleThatNoFileCanName) {
+  Load();
+  shop_.runtime.Create<Source>(Get<FrameworkElement>("/demo"), "by_code");
+  const auto text = ApplicationText(*application_, shop_.tools(), folder_.path());
+  ASSERT_FALSE(text);
+  EXPECT_EQ(text.error().path, "/demo/by_code");
+  EXPECT_THAT(text.error().message, HasSubstr("no file can name"));
+}
+
+TEST_F(ApplicationSaver, WritesNamesOfFilesSeenFromTheFolderOfTheText) {
+  const std::string text = R"(<application name="demo">
+  <module name="source" type="test/source">
+    <parameter name="file" value="data/world.xml"/>
+  </module>
+</application>
+)";
+  Load(text);
+  EXPECT_EQ(Text(), text);
+  EXPECT_THAT(shop_.Text(*application_, folder_ / "below"),
+              HasSubstr("value=\"../data/world.xml\""));
+  Create("test/source", "/demo", "late");
+  const auto other = std::filesystem::relative(folder_ / "other.xml");
+  ASSERT_TRUE(Get<Source>("/demo/late").file.SetFromText(other.string()));
+  EXPECT_THAT(Text(), HasSubstr("value=\"other.xml\""));
+}
+
+TEST_F(ApplicationSaver, SavesToTheFileItCameFromAgainAndAgain) {
+  Load();
+  ASSERT_TRUE(Get<Source>("/demo/source").gain.Set(3.5));
+  ASSERT_TRUE(SaveApplication(*application_, shop_.tools()));
+  EXPECT_EQ(ReadAll(file_), With("'2.50'", "'3.5'"));
+  Delete("/demo/inner");
+  ASSERT_TRUE(SaveApplication(*application_, shop_.tools()));
+  EXPECT_THAT(ReadAll(file_), AllOf(HasSubstr("'3.5'"), Not(HasSubstr("inner"))));
+  ASSERT_TRUE(Get<Source>("/demo/source").gain.Set(2.5));
+  ASSERT_TRUE(SaveApplication(*application_, shop_.tools()));
+  EXPECT_THAT(ReadAll(file_), HasSubstr("'2.5'"));
+}
+
+TEST_F(ApplicationSaver, DoesNotOverwriteWhatSomebodyElseHasChanged) {
+  Load();
+  WriteAll(file_, With("demo", "mine"));
+  ASSERT_TRUE(Get<Source>("/demo/source").gain.Set(3.5));
+  const auto saved = SaveApplication(*application_, shop_.tools());
+  ASSERT_FALSE(saved);
+  EXPECT_THAT(saved.error().message, HasSubstr("has been changed"));
+  EXPECT_EQ(ReadAll(file_), With("demo", "mine"));
+  ASSERT_TRUE(SaveApplication(*application_, shop_.tools(), folder_ / "copy.xml"));
+  EXPECT_EQ(ReadAll(folder_ / "copy.xml"), With("'2.50'", "'3.5'"));
+}
+
+TEST_F(ApplicationSaver, FirstFileOfWhatCodeHasBuiltIsItsFile) {
+  application_ = &shop_.runtime.Create<Group>(shop_.runtime.root(), "made");
+  const auto without = SaveApplication(*application_, shop_.tools());
+  ASSERT_FALSE(without);
+  EXPECT_EQ(without.error().path, "/made");
+  ASSERT_TRUE(SaveApplication(*application_, shop_.tools(), file_));
+  Create("test/sink", "/made", "sink");
+  ASSERT_TRUE(SaveApplication(*application_, shop_.tools()));
+  EXPECT_EQ(ReadAll(file_),
+            "<application name=\"made\">\n  <module name=\"sink\" type=\"test/sink\"/>\n"
+            "</application>\n");
+}
+
+}  // namespace
+}  // namespace runnel::testing
