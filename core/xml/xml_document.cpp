@@ -5,6 +5,8 @@
 #include <iterator>
 #include <vector>
 
+#include <tinyxml2.h>
+
 #include "core/base/nearest_name.h"
 #include "core/xml/internal/start_tags.h"
 #include "core/xml/internal/text_cursor.h"
@@ -45,42 +47,70 @@ std::string WithoutSpaceAtEnds(std::string_view text) {
   return std::string(text);
 }
 
-// The root, from the start tags in the order of the file. `shift`: what stands before the text in its file.
-std::unique_ptr<XmlNode> TreeOf(std::vector<StartTag> tags, const std::string& file_name,
-                                std::size_t shift) {
-  const auto shifted = [&](TextSpan span) {
-    return TextSpan{span.begin + shift, span.end + shift};
-  };
-  const auto at = [&](TextPlace place) {
-    return SourcePosition{file_name, place.line, place.column};
-  };
-  auto root = std::make_unique<XmlNode>();
-  root->own_file_name = file_name;
-  std::vector<XmlNode*> nodes;
-  for (StartTag& tag : tags) {
-    XmlNode* node = root.get();
-    if (tag.parent) {
-      XmlNode& parent = *nodes[*tag.parent];
-      node = parent.owned_children.emplace_back(std::make_unique<XmlNode>()).get();
-      node->parent = &parent;
-      parent.children.emplace_back(*node);
-    }
-    nodes.push_back(node);
-    node->file_name = &root->own_file_name;
-    node->name = tag.name;
-    node->place = tag.place;
-    node->spans = {shifted({tag.span.begin, tag.end_tag.end}), shifted(tag.span),
-                   shifted(tag.end_tag)};
-    node->text = WithoutSpaceAtEnds(tag.text);
-    node->text_place = tag.text_place.value_or(tag.place);
-    for (internal::AttributePlace& each : tag.attributes) {
-      node->attributes.push_back({std::string(each.name), std::move(each.value), at(each.place),
-                                  at(each.value_place), shifted(each.span),
-                                  shifted(each.value_span)});
-    }
+std::string TextOf(const tinyxml2::XMLElement& source) {
+  std::string text;
+  for (const auto* child = source.FirstChild(); child != nullptr; child = child->NextSibling()) {
+    if (const tinyxml2::XMLText* piece = child->ToText()) text += piece->Value();
   }
-  return root;
+  return WithoutSpaceAtEnds(text);
 }
+
+/// Joins what tinyxml2 read with the places of the start tags, both in the order of the file.
+class TreeBuilder {
+ public:
+  TreeBuilder(const std::vector<StartTag>& tags, const std::string& file_name, std::size_t shift)
+      : tags_(tags), file_name_(file_name), shift_(shift) {}
+
+  /// nullptr if the two do not agree.
+  std::unique_ptr<XmlNode> Build(const tinyxml2::XMLElement& root) {
+    auto node = std::make_unique<XmlNode>();
+    node->own_file_name = file_name_;
+    node->file_name = &node->own_file_name;
+    return Fill(*node, root) && next_ == tags_.size() ? std::move(node) : nullptr;
+  }
+
+ private:
+  bool Fill(XmlNode& node, const tinyxml2::XMLElement& source) {
+    if (next_ == tags_.size() || tags_[next_].name != source.Name()) return false;
+    const StartTag& tag = tags_[next_++];
+    node.name = tag.name;
+    node.place = tag.place;
+    node.spans = {Shifted({tag.span.begin, tag.end_tag.end}), Shifted(tag.span),
+                  Shifted(tag.end_tag)};
+    node.text = TextOf(source);
+    node.text_place = tag.text_place.value_or(tag.place);
+    if (!FillAttributes(node, source, tag)) return false;
+    for (const auto* child = source.FirstChildElement(); child != nullptr;
+         child = child->NextSiblingElement()) {
+      auto& added = *node.owned_children.emplace_back(std::make_unique<XmlNode>());
+      added.file_name = node.file_name;
+      added.parent = &node;
+      if (!Fill(added, *child)) return false;
+      node.children.emplace_back(added);
+    }
+    return true;
+  }
+
+  bool FillAttributes(XmlNode& node, const tinyxml2::XMLElement& source, const StartTag& tag) {
+    const tinyxml2::XMLAttribute* attribute = source.FirstAttribute();
+    for (const internal::AttributePlace& place : tag.attributes) {
+      if (attribute == nullptr || place.name != attribute->Name()) return false;
+      node.attributes.push_back({attribute->Name(), attribute->Value(), At(place.place),
+                                 At(place.value_place), Shifted(place.span),
+                                 Shifted(place.value_span)});
+      attribute = attribute->Next();
+    }
+    return attribute == nullptr;
+  }
+
+  TextSpan Shifted(TextSpan span) const { return {span.begin + shift_, span.end + shift_}; }
+  SourcePosition At(TextPlace place) const { return {file_name_, place.line, place.column}; }
+
+  const std::vector<StartTag>& tags_;
+  const std::string& file_name_;
+  const std::size_t shift_;  // what stands before the text in its file
+  std::size_t next_ = 0;
+};
 
 Error CannotRead(const std::filesystem::path& path, std::string why, std::string hint = "") {
   return {.message = std::move(why), .position = {path.string()}, .hint = std::move(hint)};
@@ -178,9 +208,19 @@ Result<XmlDocument> XmlDocument::Parse(std::string_view text, std::string file_n
   }
   const std::size_t shift = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
   text.remove_prefix(shift);
-  auto tags = internal::FindStartTags(text, file_name);
+  const auto tags = internal::FindStartTags(text, file_name);
   if (!tags) return tags.error();
-  return XmlDocument(TreeOf(std::move(*tags), file_name, shift));
+
+  tinyxml2::XMLDocument source;
+  if (source.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
+    return Error{.message = std::string("not well-formed XML: ") + source.ErrorName(),
+                 .position = {std::move(file_name), source.ErrorLineNum(), 0}};
+  }
+  auto root = TreeBuilder(*tags, file_name, shift).Build(*source.RootElement());
+  if (!root) {
+    return Error{.message = "not well-formed XML", .position = {std::move(file_name), 1, 1}};
+  }
+  return XmlDocument(std::move(root));
 }
 
 }  // namespace runnel

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,7 +18,6 @@ struct TextPlace {
 
 struct AttributePlace {
   std::string_view name;
-  std::string value;  ///< without entities
   TextPlace place;
   TextPlace value_place;
   TextSpan span = {};
@@ -30,15 +28,16 @@ struct StartTag {
   std::string_view name;
   TextPlace place;
   std::vector<AttributePlace> attributes;
-  std::optional<std::size_t> parent = {};    ///< of those before it; none at the root
-  std::string text = {};                     ///< directly between the tags, without entities
   std::optional<TextPlace> text_place = {};  ///< of the first text directly between the tags
   TextSpan span = {};
   TextSpan end_tag = {};  ///< empty, behind `span`, if the element is
 };
 
-/// The start tags of an XML text in the order of the text; the names refer to `text`. Whatever is not
-/// well-formed is refused with line and column.
+/// The start tags of an XML text in the order of the text; the names refer to `text`.
+///
+/// tinyxml2 knows the line of an error and of an element but no column, and lets much pass that is
+/// not XML. So this goes over the text first: it finds all places, and refuses with line and column
+/// whatever is not well-formed.
 Result<std::vector<StartTag>> FindStartTags(std::string_view text, const std::string& file_name);
 
 }  // namespace runnel::internal

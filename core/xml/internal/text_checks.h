@@ -8,11 +8,6 @@ namespace runnel::internal {
 /// What is wrong with the entity that `text` begins with ("&lt;…"), "" if nothing is.
 [[nodiscard]] std::string EntityFault(std::string_view text);
 
-/// A well-formed text with what its entities stand for, and with '\n' for all line ends.
-[[nodiscard]] std::string WithoutEntities(std::string_view text);
-/// The same for text in which there are no entities.
-[[nodiscard]] std::string WithUsualLineEnds(std::string_view text);
-
 /// What a declaration ("<?xml version=… encoding=…") says of the encoding, "" if nothing.
 [[nodiscard]] std::string DeclaredEncoding(std::string_view declaration);
 

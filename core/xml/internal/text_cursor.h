@@ -9,6 +9,7 @@ namespace runnel::internal {
 inline bool IsXmlSpace(char character) {
   return character == ' ' || character == '\t' || character == '\n' || character == '\r';
 }
+// The same characters as in tinyxml2, so that both find the same names.
 inline bool IsXmlNameStart(char character) {
   return (character >= 'a' && character <= 'z') || (character >= 'A' && character <= 'Z') ||
          character == ':' || character == '_' || static_cast<unsigned char>(character) >= 128;
