@@ -16,7 +16,7 @@ struct IncludeRule {
   std::string name;   ///< of the part that these files are, for messages and circles
   std::string files;  ///< a folder, or the beginning of file names: "plugins/scheduling/xml_"
   std::vector<std::string> may_include;  ///< folders, with all below them; their own part besides
-  bool is_algorithm = false;  ///< knows no framework: of <…>, only the standard and Eigen
+  bool is_algorithm = false;  ///< knows no framework: of <…>, only the standard, Eigen and fmt
 };
 
 /// The layers of the project, bottom to top.
