@@ -64,26 +64,25 @@ void TypeRegistry::CheckSame(const TypeInfo& known, const internal::TypeLayout& 
 const TypeInfo& TypeRegistry::Get(std::type_index cpp_type, const internal::TypeLayout& layout,
                                   const std::function<void(TypeInfo&)>& describe) {
   const std::lock_guard lock(mutex_);
-  const auto [place, is_new] = by_cpp_type_.try_emplace(cpp_type);
-  if (!is_new) {
-    CheckSame(*place->second, layout, describe);
-    return *place->second;
+  const auto known = by_cpp_type_.find(cpp_type);
+  if (known != by_cpp_type_.end()) {
+    CheckSame(*known->second, layout, describe);
+    return *known->second;
   }
-  place->second = std::make_unique<TypeInfo>(cpp_type);
+  const auto place = by_cpp_type_.emplace(cpp_type, std::make_unique<TypeInfo>(cpp_type)).first;
   TypeInfo& type = *place->second;
   type.size_ = layout.size;
   type.alignment_ = layout.alignment;
   try {
     describe(type);
     CheckName(type);
+    by_name_.emplace(type.name(), &type);
   } catch (...) {
     // Kept, since descriptions made meanwhile (of lists of this type) may point to it.
-    refused_.push_back(std::move(place->second));
-    by_cpp_type_.erase(place);
+    refused_.insert(by_cpp_type_.extract(place));
     throw;
   }
   type.is_complete_ = true;
-  by_name_.emplace(type.name(), &type);
   return type;
 }
 

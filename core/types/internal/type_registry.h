@@ -43,7 +43,7 @@ class TypeRegistry {
   mutable OrderedMutex mutex_{LockLevel::kRegistry};
   std::map<std::type_index, std::unique_ptr<TypeInfo>> by_cpp_type_;
   std::map<std::string, const TypeInfo*, std::less<>> by_name_;
-  std::vector<std::unique_ptr<TypeInfo>> refused_;
+  std::multimap<std::type_index, std::unique_ptr<TypeInfo>> refused_;
   std::vector<const TypeInfo*> being_compared_;
 };
 
