@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <mutex>
+#include <new>
 #include <utility>
 
 #include "core/base/exception_text.h"
+#include "core/base/retry.h"
 #include "core/element/configurable.h"
 #include "core/element/runtime.h"
 
@@ -79,7 +81,10 @@ void FaultDispatcher::Dispatch() {
 
 void FaultDispatcher::Report(const Fault& fault) {
   if (const auto done = Handle(fault)) {
-    return Log({fault.path, fault.message + "; " + *done, fault.time, fault.cycle, true});
+    Retry([&] {
+      Log({fault.path, fault.message + "; " + *done, fault.time, fault.cycle, true});
+    });
+    return;
   }
   std::vector<FaultRule> rules;
   {
@@ -106,6 +111,8 @@ std::optional<std::string> FaultDispatcher::Handle(const Fault& fault) {
   if (!handler) return {};
   try {
     return handler(fault);
+  } catch (const std::bad_alloc&) {
+    throw;  // it is asked again
   } catch (...) {
     Log({fault.path, "the fault handler failed: " + DescribeException(), fault.time});
   }

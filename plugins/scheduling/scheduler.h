@@ -142,7 +142,8 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   [[nodiscard]] std::optional<Progress> ProgressOf(const std::string& path);
 
   /// Is asked first about each fault, outside of cycles and without locks. What it says it has done
-  /// about it is added to the fault's message, and no rule is applied then; nullopt: not its business.
+  /// about it is added to the fault's message, and no rule is applied then; nullopt: not its business. Who
+  /// throws std::bad_alloc is asked again.
   using FaultHandler = std::function<std::optional<std::string>(const Fault&)>;
   void SetFaultHandler(FaultHandler handler) { faults_.SetHandler(std::move(handler)); }
 

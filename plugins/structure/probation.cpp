@@ -4,7 +4,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/base/exception_text.h"
 #include "core/base/retry.h"
 #include "core/plugin/module_type_name.h"
 #include "plugins/structure/replacement.h"
@@ -106,7 +105,6 @@ Result<UnlistedElement> Probation::PutBack(Waiting& waiting) {
     }
     return gone;
   } catch (...) {
-    Error error{.message = DescribeException(), .path = path};
     Retry([&] {
       for (; moved > 0; --moved) {
         const auto& [from, to] = match.ports[moved - 1];
@@ -114,7 +112,7 @@ Result<UnlistedElement> Probation::PutBack(Waiting& waiting) {
       }
       (void)runtime_.List(std::move(*gone), place);
     });
-    return error;
+    throw;
   }
 }
 

@@ -1,5 +1,5 @@
 // One plugin in several versions, for being loaded anew. VERSION 1 counts by one, 2 by ten; the others are
-// wrong in one way each.
+// wrong in one way each. 9 and 10 are 1 and 2 once more, and throw where the test that loads them wants it.
 
 #include <optional>
 #include <stdexcept>
@@ -8,6 +8,12 @@
 #include "core/module/module.h"
 #include "core/plugin/plugin_entry.h"
 #include "core/port/output.h"
+
+#if VERSION >= 9
+extern "C" void InjectionPointForPlugins();  // of the program
+#else
+static void InjectionPointForPlugins() {}
+#endif
 
 namespace runnel::test {
 
@@ -23,6 +29,7 @@ struct Tally {
 #endif
 };
 inline void Describe(TypeBuilder<Tally>& type) {
+  InjectionPointForPlugins();
   type.Name("test::Tally").Field(Tally::kField, &Tally::value);
 }
 
@@ -31,6 +38,7 @@ struct Count {
   int value = 0;
 };
 inline void Describe(TypeBuilder<Count>& type) {
+  InjectionPointForPlugins();
   type.Name("test::Count").Field("value", &Count::value);
 }
 
@@ -53,6 +61,7 @@ class Counting final : public Module {
  public:
   explicit Counting(const Placement& placement) : Module(placement) {
     KeepState(count_);
+    InjectionPointForPlugins();
     KeepState(marks_);
     KeepState(last_mark_);
   }
@@ -61,8 +70,12 @@ class Counting final : public Module {
   Output<int> sum_of_marks{this, "sum_of_marks"};
 
  private:
+  Result<void> Prepare() override {
+    InjectionPointForPlugins();
+    return {};
+  }
   void Update() override {
-#if VERSION == 2
+#if VERSION == 2 || VERSION == 10
     count_.value += 10;
 #else
     ++count_.value;
@@ -86,6 +99,7 @@ class Counting final : public Module {
 }  // namespace runnel::test
 
 RUNNEL_PLUGIN(counting, registry) {
+  InjectionPointForPlugins();
 #if VERSION == 5
   throw std::runtime_error("cannot register");
 #endif

@@ -281,5 +281,31 @@ TEST_F(FaultsTest, AConnectionIsCutOrNot) {
 }
 TEST_F(FaultsTest, AGroupIsDeletedOrNot) { EndureCutting({DeleteElement{"/app/group"}}); }
 
+// Who has thrown in its first cycles stands still until the one before is back, if need be in the cycle after.
+TEST_F(FaultsTest, TheModuleBeforeComesBack) {
+  bool has_struck = true;
+  for (std::size_t nth = 1; has_struck && !HasFatalFailure(); ++nth) {
+    SCOPED_TRACE(nth);
+    World world;
+    World::Must(world.editor.Apply({ReplaceModule{"/app/source", "test/faulty"}}));
+    {
+      FaultInjection injection(InjectedFault::kAllocation, nth);
+      try {
+        (void)world.scheduler.RunUntil(world.runtime.clock().Now() + 20ms);
+      } catch (const std::bad_alloc&) {
+      }
+      injection.End();
+      has_struck = injection.has_struck();
+    }
+    (void)world.scheduler.RunUntil(world.runtime.clock().Now() + 20ms);
+    const auto faults = world.scheduler.TakeFaults();
+    ASSERT_FALSE(faults.empty());
+    const bool is_back = world.Dump().find("/app/source test/fragile") != std::string::npos;
+    ASSERT_TRUE(is_back);
+    world.ExpectItRuns();
+    ASSERT_EQ(world.editor.on_probation(), 0u);
+  }
+}
+
 }  // namespace
 }  // namespace runnel::test

@@ -9,6 +9,8 @@
 #include "tests/support/fault_injection.h"
 #include "tests/support/temporary_folder.h"
 
+extern "C" void InjectionPointForPlugins() { runnel::test::InjectionPoint(); }
+
 namespace runnel::test {
 namespace {
 
@@ -18,8 +20,8 @@ namespace fs = std::filesystem;
 /// counts by ten.
 class ReloadWorld {
  public:
-  ReloadWorld() {
-    Put("1");
+  explicit ReloadWorld(const std::string& version = "1", const std::string& next = "2") {
+    Put(version);
     plugins.AddSearchFolder(folder_.path());
     Must(plugins.Load("counting"));
     CreateThread(runtime, "main", {.period = 10ms});
@@ -27,7 +29,7 @@ class ReloadWorld {
     Must(editor.Apply({CreateGroup{"/app"}, CreateModule{"/app/a", "counting/counting"},
                        CreateModule{"/app/b", "counting/counting"}}));
     Run();
-    Put("2");
+    Put(next);
   }
   template <typename Outcome>
   static void Must(const Outcome& outcome) {
@@ -66,12 +68,12 @@ class ReloadWorld {
   TemporaryFolder folder_;
 };
 
-TEST(ReloadFaultsTest, APluginIsLoadedAnewOrNot) {
-  auto world = std::make_unique<ReloadWorld>();
+std::size_t EndureReload(InjectedFault fault, const std::string& version, const std::string& next) {
+  auto world = std::make_unique<ReloadWorld>(version, next);
   std::string dump = world->Dump();
   ChangeOutcome outcome;
-  AtEachPoint(
-      InjectedFault::kAllocation,
+  return AtEachPoint(
+      fault,
       [&] { outcome = ReloadPlugin(world->plugins, world->editor, world->runtime, "counting"); },
       [&](bool has_struck) {
         if (!has_struck) {
@@ -86,9 +88,19 @@ TEST(ReloadFaultsTest, APluginIsLoadedAnewOrNot) {
             << outcome.diagnostics.ToString();
         ASSERT_EQ(world->Value("/app/b"), world->Value("/app/a"));
         if (!outcome) return;
-        world = std::make_unique<ReloadWorld>();
+        world = std::make_unique<ReloadWorld>(version, next);
         dump = world->Dump();
       });
+}
+
+TEST(ReloadFaultsTest, APluginIsLoadedAnewOrNot) {
+  EXPECT_GT(EndureReload(InjectedFault::kAllocation, "1", "2"), 100u);
+}
+
+// Registration, descriptions of types and states, constructors, preparation.
+TEST(ReloadFaultsTest, APluginThatThrowsIsLoadedAnewOrNot) {
+  EXPECT_GE(EndureReload(InjectedFault::kException, "9", "10"), 7u);
+  EXPECT_GE(EndureReload(InjectedFault::kNumber, "9", "10"), 7u);
 }
 
 TEST(ReloadFaultsTest, APluginIsLoadedOrNot) {
