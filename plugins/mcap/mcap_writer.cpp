@@ -38,8 +38,14 @@ void AppendRecord(McapOpcode opcode, std::string_view content, std::string& byte
 Result<std::unique_ptr<McapWriter>> McapWriter::Create(const std::string& file,
                                                        McapWriterOptions options) {
   if (auto known = CheckCompression(options.compression); !known) return known.error();
-  const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (descriptor < 0) {
+  std::unique_ptr<McapWriter> writer(new McapWriter(file, std::move(options)));
+  std::string start(kMcapMagic);
+  AppendMcapRecord(McapOpcode::kHeader, start, [&](McapBytesWriter& bytes) {
+    bytes.Text(writer->options_.header.profile).Text(writer->options_.header.library);
+  });
+  // All that needs memory is done: a file that is there is begun, or removed again.
+  writer->descriptor_ = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (writer->descriptor_ < 0) {
     const int number = errno;
     return Error{.message = std::string("cannot be made: ") + std::strerror(number),
                  .position = {file},
@@ -47,17 +53,15 @@ Result<std::unique_ptr<McapWriter>> McapWriter::Create(const std::string& file,
                          : number == ENOENT ? "make its folder first"
                                             : ""};
   }
-  std::unique_ptr<McapWriter> writer(new McapWriter(file, descriptor, std::move(options)));
-  std::string start(kMcapMagic);
-  AppendMcapRecord(McapOpcode::kHeader, start, [&](McapBytesWriter& bytes) {
-    bytes.Text(writer->options_.header.profile).Text(writer->options_.header.library);
-  });
-  if (auto written = writer->Write(start); !written) return written.error();
+  if (auto written = writer->Write(start); !written) {
+    unlink(file.c_str());
+    return written.error();
+  }
   return writer;
 }
 
-McapWriter::McapWriter(std::string file, int descriptor, McapWriterOptions options)
-    : file_(std::move(file)), options_(std::move(options)), descriptor_(descriptor) {}
+McapWriter::McapWriter(std::string file, McapWriterOptions options)
+    : file_(std::move(file)), options_(std::move(options)) {}
 
 McapWriter::~McapWriter() {
   if (descriptor_ >= 0) close(descriptor_);

@@ -63,7 +63,7 @@ class McapWriter {
     std::uint64_t offset;
   };
 
-  McapWriter(std::string file, int descriptor, McapWriterOptions options);
+  McapWriter(std::string file, McapWriterOptions options);
   Result<void> Write(std::string_view bytes);
   Result<void> WriteRecord(McapOpcode opcode, std::string_view content);
   [[nodiscard]] Error Failure(const std::string& what, int number);
@@ -74,7 +74,7 @@ class McapWriter {
 
   const std::string file_;
   const McapWriterOptions options_;
-  int descriptor_;
+  int descriptor_ = -1;
   std::uint64_t offset_ = 0;
   Checksum checksum_;
   std::vector<Error> failure_;  // one or none

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <ctime>
 #include <exception>
 #include <utility>
 
+#include "core/base/exception_text.h"
 #include "core/base/nearest_name.h"
 #include "core/element/not_saved.h"
 #include "core/types/type_info.h"
@@ -60,7 +62,11 @@ Result<std::unique_ptr<Recorder>> Recorder::Start(Runtime& runtime, Scheduler* s
   options.compression = *compression;
   std::unique_ptr<Recorder> recorder(
       new Recorder(runtime, scheduler, std::move(options), std::move(*patterns)));
-  if (auto begun = recorder->Begin(); !begun) return begun.error();
+  try {
+    if (auto begun = recorder->Begin(); !begun) return begun.error();
+  } catch (...) {
+    return Error{.message = "the recording could not begin: " + DescribeException()};
+  }
   return recorder;
 }
 
@@ -81,6 +87,7 @@ Recorder::~Recorder() {
   } catch (...) {  // memory is short: nothing may be left that knows this
     EndWriting();
   }
+  if (writer_ != nullptr && !has_begun_) std::remove(options_.file.c_str());
 }
 
 Result<void> Recorder::Begin() {
@@ -107,6 +114,7 @@ Result<void> Recorder::Begin() {
   }
   if (scheduler_ != nullptr) scheduler_->backpressure().Add(*this);
   thread_ = std::thread([this] { Write(); });
+  has_begun_ = true;
   return {};
 }
 
@@ -253,8 +261,10 @@ void Recorder::Follow(Port& port) {
   recorded->probe = std::make_unique<ProbePort>(*element_, "probe_" + std::to_string(++made_probes_),
                                         port.type(), options_.capacity);
   recorded->forms = ChannelsFor(port.type(), TopicOf(port), WholeValues());
-  // Refused only to a port that is being deleted.
-  if (!Port::Connect(port, *recorded->probe)) return;
+  if (const auto connected = Port::Connect(port, *recorded->probe); !connected) {
+    if (port.life_cycle() == LifeCycle::kDeleted) return;
+    throw ElementError(connected.error());
+  }
   const std::lock_guard lock(mutex_);
   recorded_.push_back(std::move(recorded));
   ++status_.ports;
@@ -284,9 +294,13 @@ void Recorder::ShowWhereTheRobotIs() {
 
 void Recorder::OnReady(FrameworkElement& element) {
   if (has_failed_) return;
-  element.Visit([this](FrameworkElement& each) {
-    if (auto* const port = dynamic_cast<Port*>(&each)) Follow(*port);
-  });
+  try {
+    element.Visit([this](FrameworkElement& each) {
+      if (auto* const port = dynamic_cast<Port*>(&each)) Follow(*port);
+    });
+  } catch (...) {  // the recording would lack something; the change of the structure is none of its business
+    NoteException();
+  }
 }
 
 // Whether another module takes over its connections, as one that replaces it does, is seen later.

@@ -148,6 +148,7 @@ class Recorder final : public ElementListener, public BackpressureSource {
   std::unique_ptr<McapWriter> writer_;
   std::vector<std::pair<std::string, std::uint16_t>> schemas_;
   std::vector<std::pair<std::string, std::uint16_t>> channels_;
+  bool has_begun_ = false;  // else its file goes with it
   bool has_finished_ = false;
   std::uint64_t written_drops_ = 0;
   std::chrono::steady_clock::time_point last_flush_{};
