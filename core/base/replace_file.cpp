@@ -5,9 +5,11 @@
 #include <charconv>
 #include <csignal>
 #include <cstring>
+#include <memory>
 #include <string>
 #include <utility>
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -82,19 +84,21 @@ fs::path NewName(const fs::path& file) {
                                std::to_string(count.fetch_add(1)) + kSuffix);
 }
 
-// What a program that was killed in between has left behind.
+// What a program that was killed in between has left behind. Not by std::filesystem::directory_iterator, which
+// ends the process in GCC 12 when there is no memory for the path.
 void RemoveRemains(const fs::path& file) {
-  std::error_code ignored;
   const std::string prefix = Prefix(file);
-  for (fs::directory_iterator entry(file.parent_path(), ignored), end; entry != end;
-       entry.increment(ignored)) {
-    const std::string name = entry->path().filename().string();
+  const fs::path folder = file.parent_path();
+  const std::unique_ptr<DIR, int (*)(DIR*)> listing(opendir(folder.c_str()), closedir);
+  if (!listing) return;
+  while (const dirent* const entry = readdir(listing.get())) {
+    const std::string name = entry->d_name;
     if (!name.starts_with(prefix) || !name.ends_with(kSuffix)) continue;
     pid_t process = 0;
     const char* const begin = name.data() + prefix.size();
     const auto [stop, error] = std::from_chars(begin, name.data() + name.size(), process);
     if (error != std::errc() || process <= 0 || *stop != '-') continue;
-    if (kill(process, 0) != 0 && errno == ESRCH) fs::remove(entry->path(), ignored);
+    if (kill(process, 0) != 0 && errno == ESRCH) unlink((folder / name).c_str());
   }
 }
 
@@ -131,17 +135,18 @@ Result<void> ReplaceFile(const fs::path& file, std::string_view text) {
     return Failure(file, "must not be written", errno);
   }
   RemoveRemains(*real);
-  const fs::path name = NewName(*real);
+  const fs::path folder = real->parent_path();
+  fs::path name = NewName(*real);
   constexpr mode_t kForAll = 0666;  // less what the user's mask takes away
   const int descriptor = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kForAll);
   if (descriptor < 0) return Failure(file, "no file can be made in its folder", errno);
-  NewFile made(name, descriptor);
+  NewFile made(std::move(name), descriptor);
   int problem = made.Write(text);
   if (problem == 0 && replaces) problem = made.SetMode(known.st_mode & kPermissionBits);
   if (problem == 0) problem = made.BringToDisk();
   if (problem == 0) problem = made.TakeNameOf(*real);
   if (problem != 0) return Failure(file, "cannot be written", problem);
-  problem = BringFolderToDisk(real->parent_path());
+  problem = BringFolderToDisk(folder);
   if (problem != 0) return Failure(file, "has been written, but may not survive a crash", problem);
   return {};
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/replace_file.h"
+#include "core/base/retry.h"
 #include "core/element/runtime.h"
 #include "core/port/proxy_port.h"
 #include "core/xml/xml_editor.h"
@@ -130,16 +131,23 @@ Result<void> SaveApplication(FrameworkElement& application, const SaveTools& too
   if (!saved) return saved.error();
   const bool is_on_disk =
       source != nullptr && is_its_own && saved->text == source->text && fs::exists(source->file);
+  // All that needs memory comes before the file is another one.
+  const auto now = source != nullptr ? std::make_unique<ApplicationSource>(*source)
+                                     : std::make_unique<ApplicationSource>();
+  now->file = file;
+  now->text = saved->text;
+  now->values = std::move(saved->values);
   if (!is_on_disk) {
     auto good = internal::CheckSavedText(application, saved->text, file, tools);
     if (!good) return good;
     if (auto written = ReplaceFile(file, saved->text); !written) return written;
   }
   if (!is_its_own) return {};
-  if (source == nullptr) source = &application.Annotate(std::make_unique<ApplicationSource>());
-  source->file = file;
-  source->text = std::move(saved->text);
-  source->values = std::move(saved->values);
+  if (source != nullptr) {
+    *source = std::move(*now);
+  } else {
+    Retry([&] { application.Annotate(std::make_unique<ApplicationSource>(*now)); });
+  }
   return {};
 }
 
