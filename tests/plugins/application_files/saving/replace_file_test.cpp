@@ -2,18 +2,23 @@
 
 #include "core/base/replace_file.h"
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
+#include <new>
 #include <random>
 #include <thread>
 
 #include <gmock/gmock.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "tests/plugins/application_files/saving/saving_workshop.h"
+#include "tests/support/wait_until.h"
 
 namespace runnel::testing {
 namespace {
@@ -93,17 +98,27 @@ TEST(ReplaceFile, KilledAtAnyMomentLeavesOneFileWhole) {
   const std::string two(300'000, '2');
   WriteAll(file, one);
   std::mt19937 random(1);
-  std::uniform_int_distribution<int> moment(0, 8000);
+  std::uniform_int_distribution<int> whole(1, 4);
+  std::uniform_int_distribution<int> more(0, 2000);  // us
+  // How often the child has replaced the file: it is killed a moment later, however slow the machine is.
+  void* const shared = mmap(nullptr, sizeof(std::atomic<int>), PROT_READ | PROT_WRITE,
+                            MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  ASSERT_NE(shared, MAP_FAILED);
+  std::atomic<int>& replaced = *new (shared) std::atomic<int>;
   int ones = 0;
   constexpr int kKills = 150;
   for (int i = 0; i < kKills; ++i) {
+    replaced = 0;
     const pid_t child = fork();
     if (child == 0) {
-      for (;;) {
-        if (!ReplaceFile(file, two) || !ReplaceFile(file, one)) _exit(1);
+      prctl(PR_SET_PDEATHSIG, SIGKILL);
+      for (;; ++replaced) {
+        if (!ReplaceFile(file, replaced % 2 == 0 ? two : one)) _exit(1);
       }
     }
-    std::this_thread::sleep_for(std::chrono::microseconds(moment(random)));
+    const int wanted = whole(random);
+    test::WaitUntil("the child has replaced the file", [&] { return replaced >= wanted; });
+    std::this_thread::sleep_for(std::chrono::microseconds(more(random)));
     kill(child, SIGKILL);
     int status = 0;
     ASSERT_EQ(waitpid(child, &status, 0), child);
