@@ -17,7 +17,9 @@ class WriterFaultsTest : public McapTest {
       const auto schema = to.AddSchema("test::Numbers", "jsonschema", R"({"type":"object"})");
       if (!schema) return false;
       const auto channel = to.AddChannel(*schema, "/some/topic", "json", {{"unit", "metre"}});
-      if (!channel || !to.AddMetadata({"about", {{"clock", "simulated"}}})) return false;
+      if (!channel) return false;
+      const McapMetadata about{"about", {{"clock", "simulated"}}};
+      if (!to.AddMetadata(about)) return false;
       for (std::uint32_t i = 0; i < 10; ++i) {
         if (!to.AddMessage({*channel, i, i, i, "{\"x\":\"a number of some length\"}"})) return false;
       }
