@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/characters.h"
 #include "core/element/configurable.h"
 #include "core/port/path_search.h"
 #include "core/port/port.h"
@@ -16,23 +17,19 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-// Characters, not bytes: units and descriptions are UTF-8.
-std::size_t Width(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(text, [](char byte) { return (byte & 0xc0) != 0x80; }));
-}
-
 void WriteTable(const std::string& title, const std::vector<Row>& rows, std::ostream& stream) {
   if (rows.empty()) return;
   stream << "  " << title << '\n';
   std::vector<std::size_t> widths(rows.front().size(), 0);
   for (const Row& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], Width(row[i]));
+    for (std::size_t i = 0; i < row.size(); ++i)
+      widths[i] = std::max(widths[i], CharacterCount(row[i]));
   }
   for (const Row& row : rows) {
     std::string line = "   ";
     for (std::size_t i = 0; i < row.size(); ++i) {
-      if (widths[i] > 0) line += " " + row[i] + std::string(widths[i] - Width(row[i]) + 1, ' ');
+      if (widths[i] > 0)
+        line += " " + row[i] + std::string(widths[i] - CharacterCount(row[i]) + 1, ' ');
     }
     line.erase(line.find_last_not_of(' ') + 1);
     stream << line << '\n';

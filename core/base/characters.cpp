@@ -1,6 +1,14 @@
 #include "core/base/characters.h"
 
+#include <algorithm>
+
 namespace runnel {
+
+namespace {
+
+bool IsInner(char byte) noexcept { return (static_cast<unsigned char>(byte) & 0xc0U) == 0x80U; }
+
+}  // namespace
 
 std::size_t CharacterLength(std::string_view text) noexcept {
   const auto byte = [&](std::size_t i) -> unsigned {
@@ -48,6 +56,34 @@ std::string UnwritableCharacter(std::string_view text) {
                                             : "U+FFFF, which is no character";
   }
   return "";
+}
+
+std::size_t CharacterCount(std::string_view text) noexcept {
+  return text.size() - static_cast<std::size_t>(std::ranges::count_if(text, IsInner));
+}
+
+std::size_t WholeCharacters(std::string_view text, std::size_t most) noexcept {
+  if (text.size() <= most) return text.size();
+  std::size_t end = most;
+  while (end > 0 && most - end < 3 && IsInner(text[end])) --end;
+  return IsInner(text[end]) ? most : end;
+}
+
+std::string Shortened(std::string text, std::size_t most) {
+  if (text.size() <= most) return text;
+  text.resize(WholeCharacters(text, most));
+  return text + "…";
+}
+
+std::string Quoted(std::string_view text) {
+  constexpr std::string_view kMeant = "\"\\\n\t\r", kNames = "\"\\ntr";
+  std::string quoted = "\"";
+  for (const char character : text) {
+    const std::size_t escaped = kMeant.find(character);
+    if (escaped != std::string_view::npos) quoted += '\\';
+    quoted += escaped != std::string_view::npos ? kNames[escaped] : character;
+  }
+  return quoted + '"';
 }
 
 void AppendUtf8(unsigned code_point, std::string& text) {

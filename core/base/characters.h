@@ -20,6 +20,18 @@ namespace runnel {
 /// "byte 0xff, which is no UTF-8". "" if there is none.
 [[nodiscard]] std::string UnwritableCharacter(std::string_view text);
 
+/// How many characters there are: how wide the text is for people. Stray bytes within it count as none.
+[[nodiscard]] std::size_t CharacterCount(std::string_view text) noexcept;
+
+/// How many of the first `most` bytes of a text hold whole characters, so that it is not cut in one.
+[[nodiscard]] std::size_t WholeCharacters(std::string_view text, std::size_t most) noexcept;
+
+/// The text, or so much of it as fits into `most` bytes, and "…".
+[[nodiscard]] std::string Shortened(std::string text, std::size_t most);
+
+/// `text` in quotation marks, with \" \\ \n \t \r for what cannot stand in them as it is.
+[[nodiscard]] std::string Quoted(std::string_view text);
+
 /// Precondition: a code point that may be written: not a surrogate, at most U+10FFFF.
 void AppendUtf8(unsigned code_point, std::string& text);
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -15,25 +17,35 @@ struct ConfigurableInfo {
   std::string bounds;         ///< "0.05 .. 5", "" for none
   std::string default_value;  ///< text format
   std::string description;
-  bool is_static = false;  ///< may be set only until its module is ready
+  bool is_static = false;              ///< may be set only until its module is ready
+  std::optional<double> minimum = {};  ///< the bounds of a number, as viewers want them
+  std::optional<double> maximum = {};
 };
 
-/// "Set me from text, give me as text, describe me": what XML readers, command lines and viewers
-/// need of a parameter, so that none of them needs the plugin that makes parameters. An element
-/// that can be set derives from FrameworkElement and from this.
+/// "Set me, say what you are, describe yourself", by values of the type and by their text format: what XML
+/// readers, command lines and viewers need of a parameter, so that none of them needs the plugin that makes
+/// parameters. An element that can be set derives from FrameworkElement and from this.
 ///
-/// Threads:  SetFromText() under the structure lock; the rest from any thread.
+/// Threads:  SetFrom() and SetFromText() under the structure lock; the rest from any thread.
 class Configurable {
  public:
   virtual ~Configurable() = default;
 
-  /// Takes over the value, or leaves everything as it was and says why not.
-  virtual Result<void> SetFromText(std::string_view text) = 0;
-  /// Whether SetFromText() would accept the text, without doing it.
-  [[nodiscard]] virtual Result<void> CheckText(std::string_view text) const = 0;
-  [[nodiscard]] virtual std::string ToText() const = 0;
+  /// The value that `text` stands for, an object of type(). Errors: there is none, or Check() refuses it.
+  [[nodiscard]] virtual Result<std::shared_ptr<const void>> Parse(std::string_view text) const = 0;
+  /// Whether `value`, an object of type(), is one that this may have.
+  [[nodiscard]] virtual Result<void> Check(const void* value) const = 0;
+  /// Takes over the value, an object of type(), or leaves everything as it was and says why not.
+  virtual Result<void> SetFrom(const void* value) = 0;
+  /// A copy of the value, an object of type(). Allocates.
+  [[nodiscard]] virtual std::shared_ptr<void> Value() const = 0;
   [[nodiscard]] virtual const TypeInfo& type() const = 0;
   [[nodiscard]] virtual const ConfigurableInfo& info() const = 0;
+
+  // The same by the text format.
+  Result<void> SetFromText(std::string_view text);
+  [[nodiscard]] Result<void> CheckText(std::string_view text) const;
+  [[nodiscard]] std::string ToText() const;
 };
 
 }  // namespace runnel

@@ -10,8 +10,8 @@
 
 #include "core/base/check.h"
 #include "core/element/framework_element.h"
-#include "core/types/binary_encoding.h"
 #include "core/types/type_info.h"
+#include "core/types/value_copy.h"
 
 namespace runnel {
 
@@ -54,12 +54,8 @@ std::optional<Error> Refusal(const KeptPart& from, const KeptPart& to) {
 
 void HandOver(const KeptPart& from, const KeptPart& to) {
   if (from.library == to.library) return to.copy(to.state, from.state);
-  const TypeInfo& type = from.description();
-  std::vector<std::byte> bytes;
-  auto done = ToBinary(type, from.state, bytes);
-  BinaryReader reader(bytes);
-  if (done) done = FromBinary(type, reader, to.state);
-  if (!done) throw ElementError(done.error());
+  if (CopyValue(from.description(), from.state, to.state)) return;
+  throw ElementError({.message = "'" + NameOf(from) + "' has a list that cannot be made as long"});
 }
 
 }  // namespace

@@ -34,4 +34,11 @@ struct ModuleTypeName final : Annotation {
   return module;
 }
 
+/// The module or group that a port or parameter belongs to; nullptr if there is none.
+[[nodiscard]] inline const FrameworkElement* FindOwner(const FrameworkElement& element) {
+  const FrameworkElement* at = element.parent();
+  while (at != nullptr && !IsModule(*at) && at->kind() != ElementKind::kGroup) at = at->parent();
+  return at;
+}
+
 }  // namespace runnel

@@ -1,5 +1,8 @@
 #include "core/types/text_format.h"
 
+#include <utility>
+
+#include "core/base/characters.h"
 #include "core/base/nearest_name.h"
 #include "core/types/internal/parts.h"
 #include "core/types/internal/reading_limits.h"
@@ -18,57 +21,81 @@ std::string EnumerationText(const TypeInfo& type, const void* value) {
   return std::to_string(number);  // a value that nobody named
 }
 
-// `inner`: within a structure or a sequence, where strings need marks at their ends.
-std::string Text(const TypeInfo& type, const void* value, bool inner);
+class TextWriter {
+ public:
+  explicit TextWriter(const TextLimits& limits) : limits_(limits) {}
 
-std::string StructureText(const TypeInfo& type, const void* value) {
-  std::string text = "{";
-  for (const FieldInfo& field : type.fields()) {
-    if (text.size() > 1) text += ", ";
-    text += field.name + ": " + Text(*field.type, field.address(ForLooking(value)), true);
-  }
-  return text + "}";
-}
-
-std::string RowText(const TypeInfo& type, const void* value, std::size_t row) {
-  const ElementOperations& elements = type.elements();
-  const std::size_t columns = elements.columns(value);
-  std::string text = "[";
-  for (std::size_t i = 0; i < columns; ++i) {
-    if (i > 0) text += ", ";
-    text += Text(*elements.type, elements.element(ForLooking(value), row * columns + i), true);
-  }
-  return text + "]";
-}
-
-std::string MatrixText(const TypeInfo& type, const void* value) {
-  std::string text = "[";
-  for (std::size_t row = 0; row < type.elements().rows(value); ++row) {
-    if (row > 0) text += ", ";
-    text += RowText(type, value, row);
-  }
-  return text + "]";
-}
-
-std::string Text(const TypeInfo& type, const void* value, bool inner) {
-  switch (type.kind()) {
-    case TypeKind::kOpaque:
-      return "?";
-    case TypeKind::kLeaf: {
-      std::string text = type.leaf().to_text(value);
-      return inner && type.leaf().needs_quotes ? Quoted(text) : text;
+  // `is_inner`: within a structure or a list, where strings need marks at their ends.
+  void Write(const TypeInfo& type, const void* value, bool is_inner) {
+    switch (type.kind()) {
+      case TypeKind::kOpaque:
+        text_ += '?';
+        return;
+      case TypeKind::kLeaf:
+        return WriteLeaf(type.leaf(), value, is_inner);
+      case TypeKind::kEnumeration:
+        text_ += EnumerationText(type, value);
+        return;
+      case TypeKind::kStructure:
+        return WriteStructure(type, value);
+      case TypeKind::kSequence:
+        return WriteRow(type, value, 0);
+      case TypeKind::kMatrix:
+        return WriteList(type.elements().rows(value),
+                         [&](std::size_t row) { WriteRow(type, value, row); });
     }
-    case TypeKind::kEnumeration:
-      return EnumerationText(type, value);
-    case TypeKind::kStructure:
-      return StructureText(type, value);
-    case TypeKind::kSequence:
-      return RowText(type, value, 0);
-    case TypeKind::kMatrix:
-      return MatrixText(type, value);
   }
-  return "?";
-}
+  [[nodiscard]] std::string Take() { return std::move(text_); }
+
+ private:
+  [[nodiscard]] bool IsFull() const { return text_.size() >= limits_.all; }
+
+  void WriteLeaf(const LeafOperations& leaf, const void* value, bool is_inner) {
+    std::string text = leaf.to_text(value);
+    const std::size_t size = text.size();
+    const bool is_cut = size > limits_.text;
+    if (is_cut) text = Shortened(std::move(text), limits_.text);
+    text_ += is_inner && leaf.needs_quotes ? Quoted(text) : text;
+    if (is_cut) text_ += " " + std::to_string(size) + " bytes in all";
+  }
+  void WriteStructure(const TypeInfo& type, const void* value) {
+    text_ += '{';
+    const char* separator = "";
+    for (const FieldInfo& field : type.fields()) {
+      text_.append(separator).append(field.name).append(": ");
+      if (IsFull()) {
+        text_ += "…";
+        break;
+      }
+      Write(*field.type, field.address(ForLooking(value)), true);
+      separator = ", ";
+    }
+    text_ += '}';
+  }
+  void WriteRow(const TypeInfo& type, const void* value, std::size_t row) {
+    const ElementOperations& elements = type.elements();
+    const std::size_t columns = elements.columns(value);
+    WriteList(columns, [&](std::size_t i) {
+      Write(*elements.type, elements.element(ForLooking(value), row * columns + i), true);
+    });
+  }
+  template <typename WriteOne>
+  void WriteList(std::size_t count, const WriteOne& write_one) {
+    text_ += '[';
+    for (std::size_t i = 0; i < count; ++i) {
+      if (i > 0) text_ += ", ";
+      if (i >= limits_.elements || IsFull()) {
+        text_ += "… " + std::to_string(count) + " in all";
+        break;
+      }
+      write_one(i);
+    }
+    text_ += ']';
+  }
+
+  const TextLimits& limits_;
+  std::string text_;
+};
 
 Result<void> ReadEnumeration(const TypeInfo& type, std::string_view text, void* value) {
   std::vector<std::string> names;
@@ -231,7 +258,11 @@ Result<void> Read(const TypeInfo& type, TextCursor& cursor, ReadingLimits& limit
 
 }  // namespace
 
-std::string ToText(const TypeInfo& type, const void* value) { return Text(type, value, false); }
+std::string ToText(const TypeInfo& type, const void* value, const TextLimits& limits) {
+  TextWriter writer(limits);
+  writer.Write(type, value, false);
+  return writer.Take();
+}
 
 Result<void> SetFromText(const TypeInfo& type, std::string_view text, void* value) {
   if (type.kind() == TypeKind::kLeaf) {

@@ -74,6 +74,9 @@ class TypeBuilder {
   TypeBuilder& Leaf(const LeafOperations& operations) {
     type_.kind_ = TypeKind::kLeaf;
     type_.leaf_ = operations;
+    type_.leaf_.copy = [](void* to, const void* from) {
+      *static_cast<T*>(to) = *static_cast<const T*>(from);
+    };
     return *this;
   }
   /// For containers. `kind` is kSequence or kMatrix.

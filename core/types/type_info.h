@@ -14,8 +14,6 @@
 
 namespace runnel {
 
-class BinaryReader;
-class BinaryWriter;
 class TypeInfo;
 struct FieldOptions;
 
@@ -43,13 +41,12 @@ struct EnumeratorInfo {
   std::int64_t value;
 };
 
-/// How a leaf becomes text and bytes, and back.
+/// How a leaf becomes text, and back.
 struct LeafOperations {
   std::string (*to_text)(const void* value);
   Result<void> (*from_text)(std::string_view text, void* value);
-  void (*write)(const void* value, BinaryWriter& writer);
-  bool (*read)(BinaryReader& reader, void* value);  ///< false: not what write() writes
   bool needs_quotes;  ///< within structures the text stands in quotation marks
+  void (*copy)(void* to, const void* from) = nullptr;  ///< set by TypeBuilder::Leaf()
 };
 
 struct EnumerationOperations {
@@ -89,7 +86,7 @@ class TypeInfo {
   /// What a value stands for, for viewers that know no module: "pose", "range_scan"; "" if nobody
   /// said. The words and the fields that go with them: core/types/README.md.
   [[nodiscard]] const std::string& semantic_tag() const noexcept { return semantic_tag_; }
-  /// Whether values have a text and a binary encoding: nothing in them is opaque.
+  /// Whether values have a text format: nothing in them is opaque.
   [[nodiscard]] bool is_transparent() const;
 
   /// Of a structure, in the order of their description.

@@ -1,11 +1,11 @@
 #include "core/xml/xml_reading.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <vector>
 
 #include "core/base/nearest_name.h"
+#include "core/base/number_text.h"
 #include "core/xml/internal/text_cursor.h"
 
 namespace runnel {
@@ -57,11 +57,8 @@ std::optional<double> ParseNumber(std::string_view text) {
   while (!text.empty() && internal::IsXmlSpace(text.front())) text.remove_prefix(1);
   while (!text.empty() && internal::IsXmlSpace(text.back())) text.remove_suffix(1);
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-  double number = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto [stopped, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc() || stopped != end || !std::isfinite(number)) return std::nullopt;
-  return number;
+  const auto number = NumberIn<double>(text);
+  return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
 std::optional<double> ReadNumber(XmlElement element, std::string_view attribute,

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <vector>
 
+#include "core/base/characters.h"
 #include "core/base/markup.h"
 #include "core/element/runtime.h"
 #include "core/plugin/module_type_name.h"
@@ -22,15 +23,6 @@ namespace {
 constexpr std::array<const char*, 8> kColours{"#cfe3f7", "#fde2b3", "#d6efd0", "#f6d0e0",
                                               "#e3dcf4", "#f3eea0", "#c5ecea", "#e6d5c5"};
 constexpr const char* kNoThread = "#f2f2f2";
-
-std::string Quoted(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char letter : text) {
-    if (letter == '"' || letter == '\\') quoted += '\\';
-    quoted += letter;
-  }
-  return quoted + "\"";
-}
 
 /// Writes one application.
 class DotWriter {

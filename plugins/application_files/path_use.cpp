@@ -3,18 +3,13 @@
 #include <algorithm>
 #include <string_view>
 
+#include "core/base/characters.h"
 #include "core/base/nearest_name.h"
 #include "plugins/application_files/attribute_rule.h"
 
 namespace runnel {
 
 namespace {
-
-// Columns count characters: the bytes of UTF-8 that begin one.
-int CountCharacters(std::string_view text) {
-  return static_cast<int>(
-      std::ranges::count_if(text, [](char byte) { return (byte & 0xc0) != 0x80; }));
-}
 
 void Report(Error error, const PathUse& use, BuildContext& context) {
   error.path = use.base.path();
@@ -52,9 +47,9 @@ std::vector<PathUse> PathsIn(const XmlAttribute& attribute, FrameworkElement& ba
     position.line += static_cast<int>(std::ranges::count(before, '\n'));
     const std::size_t line_end = before.rfind('\n');
     if (line_end == std::string_view::npos) {
-      position.column += CountCharacters(before);
+      position.column += static_cast<int>(CharacterCount(before));
     } else {
-      position.column = 1 + CountCharacters(before.substr(line_end + 1));
+      position.column = 1 + static_cast<int>(CharacterCount(before.substr(line_end + 1)));
     }
     paths.push_back({base, std::move(word), std::move(position)});
   }

@@ -1,10 +1,5 @@
 #include "plugins/parameters/file_path.h"
 
-#include <cstdint>
-#include <vector>
-
-#include "core/types/binary_encoding.h"
-
 namespace runnel {
 
 namespace {
@@ -19,28 +14,12 @@ Result<void> FromText(std::string_view text, void* value) {
   return {};
 }
 
-void Write(const void* value, BinaryWriter& writer) {
-  const std::string& text = TextIn(value);
-  writer.WriteUnsigned(static_cast<std::uint32_t>(text.size()));
-  writer.WriteBytes(std::as_bytes(std::span(text)));
-}
-
-bool Read(BinaryReader& reader, void* value) {
-  std::uint32_t size = 0;
-  if (!reader.ReadUnsigned(size) || size > reader.remaining()) return false;
-  std::string& text = static_cast<FilePath*>(value)->text;
-  text.resize(size);
-  return reader.ReadBytes(std::as_writable_bytes(std::span(text)));
-}
-
 }  // namespace
 
 void Describe(TypeBuilder<FilePath>& type) {
   type.Name("FilePath")
       .Leaf({.to_text = [](const void* value) { return TextIn(value); },
              .from_text = FromText,
-             .write = Write,
-             .read = Read,
              .needs_quotes = true});
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -17,7 +18,7 @@ namespace runnel {
 ///                                      robot"}};
 ///
 /// Threads:     Get() from any thread, at any time; setting under the structure lock, which
-///              SetFromText() and Set() take.
+///              SetFrom(), SetFromText() and Set() take.
 /// Progress:    Get() is lock-free and sees a whole value, the old or the new.
 /// Allocation:  Get() none.
 /// For texts, vectors and other large values there is StaticParameter.
@@ -28,10 +29,11 @@ class Parameter final : public ParameterBase {
                 "for this type use StaticParameter");
 
  public:
-  Parameter(FrameworkElement* module, std::string name, ParameterOptions<T> options = {})
-      : ParameterBase(module, std::move(name), internal::InfoOf(options, false)),
-        options_(std::move(options)) {
-    value_.Publish(options_.default_value, 0);
+  /// Errors: throws ElementError if the default value is out of the bounds.
+  Parameter(FrameworkElement* module, std::string name, const ParameterOptions<T>& options = {})
+      : ParameterBase(module, std::move(name), internal::DescriptionOf(options, false),
+                      &options.default_value) {
+    value_.Publish(options.default_value, 0);
   }
 
   [[nodiscard]] T Get() const noexcept {
@@ -41,21 +43,13 @@ class Parameter final : public ParameterBase {
     return value;
   }
   /// Errors: out of bounds.
-  Result<void> Set(const T& value) { return SetFromText(TextOf(value)); }
+  Result<void> Set(const T& value) { return SetFrom(&value); }
 
-  [[nodiscard]] Result<void> CheckText(std::string_view text) const override {
-    if (auto value = internal::Accept<T>(text, options_, info_); !value) return value.error();
-    return {};
-  }
-  [[nodiscard]] std::string ToText() const override { return TextOf(Get()); }
-  [[nodiscard]] const TypeInfo& type() const override { return TypeOf<T>(); }
+  [[nodiscard]] std::shared_ptr<void> Value() const override { return std::make_shared<T>(Get()); }
 
  private:
-  void Assign(std::string_view text) override {
-    value_.Publish(*internal::Accept<T>(text, options_, info_), 0);
-  }
+  void Assign(const void* value) override { value_.Publish(*static_cast<const T*>(value), 0); }
 
-  const ParameterOptions<T> options_;
   LatestValue<T> value_;
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -25,70 +27,58 @@ requires(!Bounded<T>) struct ParameterOptions<T> {
   std::string description = {};
 };
 
-/// The part of a parameter that does not depend on its type: its place in the tree and the way from
-/// text. A parameter hangs below its module, in the group "parameter".
-class ParameterBase : public FrameworkElement, public Configurable {
- public:
-  [[nodiscard]] const ConfigurableInfo& info() const override { return info_; }
-  Result<void> SetFromText(std::string_view text) final;
-
- protected:
-  ParameterBase(FrameworkElement* module, std::string name, ConfigurableInfo info);
-
-  /// Takes over a text that CheckText() has accepted.
-  virtual void Assign(std::string_view text) = 0;
-
-  ConfigurableInfo info_;
-};
-
 namespace internal {
 
+/// The same without the type.
+struct ParameterDescription {
+  const TypeInfo& type;
+  ConfigurableInfo info;
+  bool is_number;
+  std::function<bool(const void* value)> is_within_bounds;  ///< empty: all values are
+};
+
 template <typename T>
-std::string BoundsText(const ParameterOptions<T>& options) {
+ParameterDescription DescriptionOf(const ParameterOptions<T>& options, bool is_static) {
+  ParameterDescription description{
+      TypeOf<T>(),
+      {options.unit, "", TextOf(options.default_value), options.description, is_static, {}, {}},
+      Bounded<T>,
+      {}};
   if constexpr (Bounded<T>) {
     const Bounds<T>& bounds = options.bounds;
-    if (bounds.empty()) return "";
-    return (bounds.lowest ? TextOf(*bounds.lowest) + " " : "") + ".." +
-           (bounds.highest ? " " + TextOf(*bounds.highest) : "");
-  } else {
-    return "";
+    if (bounds.empty()) return description;
+    if (bounds.lowest) description.info.minimum = static_cast<double>(*bounds.lowest);
+    if (bounds.highest) description.info.maximum = static_cast<double>(*bounds.highest);
+    description.info.bounds = (bounds.lowest ? TextOf(*bounds.lowest) + " " : "") + ".." +
+                              (bounds.highest ? " " + TextOf(*bounds.highest) : "");
+    description.is_within_bounds = [bounds](const void* value) {
+      return bounds.Contain(*static_cast<const T*>(value));
+    };
   }
-}
-
-template <typename T>
-ConfigurableInfo InfoOf(const ParameterOptions<T>& options, bool is_static) {
-  return {options.unit, BoundsText(options), TextOf(options.default_value), options.description,
-          is_static};
-}
-
-/// `text` without the unit of a number, which is then in `unit` (units.h). Errors: a character that
-/// no file can carry, so that the value could not be saved; a unit of something else.
-Result<std::string> ReadableText(std::string_view text, bool is_number, const std::string& unit);
-
-/// The value in `text`, or what is wrong with it.
-template <typename T>
-Result<T> Accept(std::string_view text, const ParameterOptions<T>& options,
-                 const ConfigurableInfo& info) {
-  const auto readable = ReadableText(text, Bounded<T>, info.unit);
-  if (!readable) return readable.error();
-  auto value = FromText<T>(*readable);
-  if (!value) {
-    Error error = value.error();
-    if (Bounded<T> && error.hint.empty() && !info.unit.empty()) {
-      error.hint = "write a number; without a unit it is in " + info.unit;
-    }
-    return error;
-  }
-  if constexpr (Bounded<T>) {
-    if (!options.bounds.Contain(*value)) {
-      const std::string unit = info.unit.empty() ? "" : " " + info.unit;
-      return Error{.message = *readable + unit + " is out of bounds",
-                   .hint = "allowed is " + info.bounds + unit};
-    }
-  }
-  return value;
+  return description;
 }
 
 }  // namespace internal
+
+/// The part of a parameter that does not depend on its type: its place in the tree, the way from
+/// text, what it accepts. A parameter hangs below its module, in the group "parameter".
+class ParameterBase : public FrameworkElement, public Configurable {
+ public:
+  [[nodiscard]] Result<std::shared_ptr<const void>> Parse(std::string_view text) const final;
+  [[nodiscard]] Result<void> Check(const void* value) const final;
+  Result<void> SetFrom(const void* value) final;
+  [[nodiscard]] const TypeInfo& type() const final { return description_.type; }
+  [[nodiscard]] const ConfigurableInfo& info() const final { return description_.info; }
+
+ protected:
+  ParameterBase(FrameworkElement* module, std::string name,
+                internal::ParameterDescription description, const void* default_value);
+
+  /// Takes over a value that Check() has accepted.
+  virtual void Assign(const void* value) = 0;
+
+ private:
+  const internal::ParameterDescription description_;
+};
 
 }  // namespace runnel

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -14,26 +15,20 @@ namespace runnel {
 template <typename T>
 class StaticParameter final : public ParameterBase {
  public:
-  StaticParameter(FrameworkElement* module, std::string name, ParameterOptions<T> options = {})
-      : ParameterBase(module, std::move(name), internal::InfoOf(options, true)),
-        options_(std::move(options)),
-        value_(options_.default_value) {}
+  /// Errors: throws ElementError if the default value is out of the bounds.
+  StaticParameter(FrameworkElement* module, std::string name,
+                  const ParameterOptions<T>& options = {})
+      : ParameterBase(module, std::move(name), internal::DescriptionOf(options, true),
+                      &options.default_value),
+        value_(options.default_value) {}
 
   [[nodiscard]] const T& Get() const noexcept { return value_; }
 
-  [[nodiscard]] Result<void> CheckText(std::string_view text) const override {
-    if (auto value = internal::Accept<T>(text, options_, info_); !value) return value.error();
-    return {};
-  }
-  [[nodiscard]] std::string ToText() const override { return TextOf(value_); }
-  [[nodiscard]] const TypeInfo& type() const override { return TypeOf<T>(); }
+  [[nodiscard]] std::shared_ptr<void> Value() const override { return std::make_shared<T>(value_); }
 
  private:
-  void Assign(std::string_view text) override {
-    value_ = *internal::Accept<T>(text, options_, info_);
-  }
+  void Assign(const void* value) override { value_ = *static_cast<const T*>(value); }
 
-  const ParameterOptions<T> options_;
   T value_;
 };
 

@@ -1,10 +1,10 @@
 #include "plugins/recording/recording_info.h"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <set>
 
+#include "core/base/number_text.h"
 #include "plugins/json_values/json_writer.h"
 #include "plugins/mcap/mcap_reader.h"
 #include "plugins/recording/recording_names.h"
@@ -21,9 +21,7 @@ Drops DropsOf(const McapContents& contents) {
   for (const McapMetadata& metadata : contents.metadata) {
     if (metadata.name != kDropsMetadata) continue;
     for (const auto& [path, text] : metadata.texts) {
-      std::uint64_t count = 0;
-      std::from_chars(text.data(), text.data() + text.size(), count);
-      drops[path] = count;
+      drops[path] = NumberIn<std::uint64_t>(text).value_or(0);
     }
   }
   return drops;

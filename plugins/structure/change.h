@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -10,6 +11,8 @@
 #include "core/port/port_options.h"
 
 namespace runnel {
+
+class TypeInfo;
 
 /// The value of a parameter in its text format, by the parameter's name: {"stop_distance", "0.3"}.
 struct Setting {
@@ -57,7 +60,10 @@ struct DisconnectPorts {
 
 struct SetParameter {
   std::string path;
-  std::string value;
+  std::string value;  ///< text format
+  /// Instead of the text, an object of `type`, which must be the parameter's.
+  std::shared_ptr<const void> object = {};
+  const TypeInfo* type = nullptr;
 };
 
 /// Puts a module of `type` in the place of another one. It takes over the connections (what waits in

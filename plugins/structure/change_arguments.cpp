@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/characters.h"
+
 namespace runnel::internal {
 
 namespace {
@@ -197,20 +199,7 @@ std::string AsArgument(std::string_view text) {
   const bool is_plain = !text.empty() && text.front() != '#' && !IsOpening(text.front()) &&
                         std::ranges::none_of(text, needs_marks);
   if (is_plain) return std::string(text);
-  std::string argument = "\"";
-  for (const char character : text) {
-    if (character == '"' || character == '\\') argument += '\\';
-    if (character == '\n') {
-      argument += "\\n";
-    } else if (character == '\r') {
-      argument += "\\r";
-    } else if (character == '\t') {
-      argument += "\\t";
-    } else {
-      argument += character;
-    }
-  }
-  return argument + '"';
+  return Quoted(text);
 }
 
 }  // namespace runnel::internal

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/base/characters.h"
 #include "core/base/exception_text.h"
 #include "plugins/structure/change_text.h"
 
@@ -13,8 +14,7 @@ constexpr std::size_t kLongestLabel = 200;
 
 std::string LabelOf(const ChangeSet& changes) {
   if (changes.empty()) return "nothing";
-  std::string label = ChangeText(changes.front());
-  if (label.size() > kLongestLabel) label = label.substr(0, kLongestLabel) + " …";
+  std::string label = Shortened(ChangeText(changes.front()), kLongestLabel);
   if (changes.size() == 1) return label;
   return label + " and " + std::to_string(changes.size() - 1) + " more";
 }

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <optional>
 #include <utility>
 
 #include "core/base/nearest_name.h"
+#include "core/base/number_text.h"
+#include "core/types/text_format.h"
 #include "plugins/structure/change_arguments.h"
 
 namespace runnel {
@@ -89,11 +90,8 @@ class Arguments {
   template <typename Number>
   Number ReadCount(const ChangeArgument& argument, Number largest) {
     const std::string text = argument.value();
-    Number number{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error == std::errc{} && end == text.data() + text.size() && number <= largest) {
-      return number;
-    }
+    const auto number = NumberIn<Number>(text);
+    if (number && *number <= largest) return *number;
     Complain(argument.position, "'" + text + "' is not a count for '" + argument.name() + "'",
              "write a whole number from 0 to " + std::to_string(largest));
     return {};
@@ -184,7 +182,7 @@ Change ReadDisconnect(Arguments& arguments) {
 }
 
 Change ReadSet(Arguments& arguments) {
-  SetParameter change{arguments.Take("the path of a parameter"), {}};
+  SetParameter change{.path = arguments.Take("the path of a parameter"), .value = {}};
   change.value = arguments.Take("a value");
   arguments.End();
   return change;
@@ -277,7 +275,8 @@ std::string Text(const DisconnectPorts& change) {
   return "disconnect " + AsArgument(change.from) + " " + AsArgument(change.to);
 }
 std::string Text(const SetParameter& change) {
-  return "set " + AsArgument(change.path) + " " + AsArgument(change.value);
+  return "set " + AsArgument(change.path) + " " +
+         AsArgument(change.object ? ToText(*change.type, change.object.get()) : change.value);
 }
 std::string Text(const ReplaceModule& change) {
   std::string text = "replace " + AsArgument(change.path) + " with " + AsArgument(change.type) +

@@ -15,6 +15,22 @@
 
 namespace runnel::internal {
 
+namespace {
+
+// What the parameter is to be set to; one that it accepts.
+Result<std::shared_ptr<const void>> ValueIn(const SetParameter& change,
+                                            const Configurable& parameter) {
+  if (!change.object) return parameter.Parse(change.value);
+  if (change.type != &parameter.type()) {
+    return Error{.message =
+                     "a " + parameter.type().name() + " cannot be set to a " + change.type->name()};
+  }
+  if (auto good = parameter.Check(change.object.get()); !good) return good.error();
+  return change.object;
+}
+
+}  // namespace
+
 Result<UnlistedElement> Plan::MakeModule(const std::string& type, const Placement& placement) {
   auto made = modules_.Make(type, placement);
   if (made || !made.error().path.empty()) return made;
@@ -123,19 +139,20 @@ Result<void> Plan::Check(const SetParameter& change) {
                  .path = (*found)->path(),
                  .hint = "replace the module, by the same type, with the new value"};
   }
-  if (auto accepted = parameter->CheckText(change.value); !accepted) {
-    Error error = accepted.error();
+  const auto value = ValueIn(change, *parameter);
+  if (!value) {
+    Error error = value.error();
     if (error.path.empty()) error.path = (*found)->path();
     return error;
   }
   Concern(**found);
-  auto before = std::make_shared<std::optional<std::string>>();
-  steps_.push_back({[parameter, before, value = change.value] {
-                      *before = parameter->ToText();
-                      return parameter->SetFromText(value);
+  auto before = std::make_shared<std::shared_ptr<const void>>();
+  steps_.push_back({[parameter, before, value = *value] {
+                      *before = parameter->Value();
+                      return parameter->SetFrom(value.get());
                     },
                     [parameter, before] {
-                      if (*before) (void)parameter->SetFromText(**before);
+                      if (*before) (void)parameter->SetFrom(before->get());
                     },
                     [parameter, path = (*found)->path()](auto&) -> ChangeSet {
                       // The module has been made by this change set, and goes as a whole.

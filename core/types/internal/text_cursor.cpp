@@ -20,21 +20,6 @@ std::string_view WithoutWhitespace(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(kWhitespace) - begin + 1);
 }
 
-std::string Quoted(std::string_view text) {
-  std::string quoted = "\"";
-  for (const char character : text) {
-    if (character == '\n') {
-      quoted += "\\n";
-    } else if (character == '\t') {
-      quoted += "\\t";
-    } else {
-      if (character == '"' || character == '\\') quoted += '\\';
-      quoted += character;
-    }
-  }
-  return quoted + '"';
-}
-
 void TextCursor::SkipWhitespace() {
   const auto next = rest_.find_first_not_of(kWhitespace);
   rest_.remove_prefix(next == std::string_view::npos ? rest_.size() : next);
@@ -81,7 +66,8 @@ bool TextCursor::TakeQuoted(std::string& text) {
       continue;
     }
     if (++i == rest_.size()) return false;
-    text += rest_[i] == 'n' ? '\n' : rest_[i] == 't' ? '\t' : rest_[i];
+    const char name = rest_[i];
+    text += name == 'n' ? '\n' : name == 't' ? '\t' : name == 'r' ? '\r' : name;
   }
   return false;
 }

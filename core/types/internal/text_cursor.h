@@ -9,9 +9,6 @@ namespace runnel {
 
 [[nodiscard]] std::string_view WithoutWhitespace(std::string_view text);
 
-/// `text` in quotation marks, as TextCursor::TakeQuoted() reads it.
-[[nodiscard]] std::string Quoted(std::string_view text);
-
 /// Walks through a text format. White space before anything that is taken does not count.
 class TextCursor {
  public:

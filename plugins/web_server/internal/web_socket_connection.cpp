@@ -14,6 +14,7 @@
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/websocket/stream.hpp>
 
+#include "core/base/characters.h"
 #include "core/base/exception_text.h"
 #include "plugins/web_server/internal/beast_connections.h"
 #include "plugins/web_server/internal/token_bucket.h"
@@ -35,12 +36,6 @@ constexpr auto kTimeToClose = std::chrono::milliseconds(1000);
 constexpr std::size_t kLongestReason = 120;
 
 SteadyTime Now() { return std::chrono::steady_clock::now(); }
-
-std::string CutAtCharacter(std::string_view text, std::size_t longest) {
-  if (text.size() <= longest) return std::string(text);
-  while (longest > 0 && (static_cast<unsigned char>(text[longest]) & 0xc0U) == 0x80U) --longest;
-  return std::string(text.substr(0, longest));
-}
 
 /// By which other threads reach a connection for as long as it is there.
 class WakeHandle : public std::enable_shared_from_this<WakeHandle> {
@@ -243,7 +238,7 @@ class WebSocketConnection final : public WebConnection,
     BeginClosing();
     if (!is_accepted_) return Cut();  // there is nobody yet who could be told
     websocket::close_reason why(code);
-    const std::string cut = CutAtCharacter(reason, kLongestReason);
+    const std::string cut(reason.substr(0, WholeCharacters(reason, kLongestReason)));
     why.reason.assign(cut.data(), cut.size());
     socket_.async_close(why, [self = shared_from_this()](beast::error_code) { self->Remove(); });
   }

@@ -9,9 +9,9 @@
 #include <gmock/gmock.h>
 
 #include "core/base/check.h"
-#include "core/types/binary_encoding.h"
 #include "core/types/eigen_types.h"
 #include "core/types/type_of.h"
+#include "core/types/value_copy.h"
 
 namespace example {
 
@@ -90,13 +90,6 @@ template <typename T>
 std::string WhyNot(std::string_view text) {
   const auto read = FromText<T>(text);
   return read ? "it could be read" : read.error().message + " | " + read.error().hint;
-}
-
-template <typename T>
-std::vector<std::byte> Bytes(const T& value) {
-  std::vector<std::byte> bytes;
-  EXPECT_TRUE(ToBinary(TypeOf<T>(), &value, bytes));
-  return bytes;
 }
 
 TEST(TypeOf, IsOneObjectPerTypeThatCanBeFoundByName) {
@@ -199,72 +192,11 @@ TEST(TextFormat, OfDurationsHasAUnit) {
   EXPECT_THAT(WhyNot<Duration>("1e300s"), HasSubstr("no duration"));
 }
 
-TEST(BinaryEncoding, ReadsBackWhatItWrote) {
-  const Path path = SomePath();
-  const auto bytes = Bytes(path);
-  BinaryReader reader(bytes);
-  Path read;
-  ASSERT_TRUE(FromBinary(TypeOf<Path>(), reader, &read));
-  EXPECT_EQ(read, path);
-  EXPECT_EQ(reader.remaining(), 0u);
-}
-
-TEST(BinaryEncoding, IsLittleEndianWithCountsBefore) {
-  EXPECT_THAT(Bytes(std::vector<std::int16_t>{1, -2}),
-              ElementsAre(std::byte{2}, std::byte{0}, std::byte{0}, std::byte{0}, std::byte{1},
-                          std::byte{0}, std::byte{0xfe}, std::byte{0xff}));
-  EXPECT_EQ(Bytes(Eigen::Vector3d::Zero().eval()).size(), 24u) << "fixed sizes need no count";
-}
-
-TEST(BinaryEncoding, RefusesEveryPartOfAMessage) {
-  const auto bytes = Bytes(SomePath());
-  for (std::size_t length = 0; length < bytes.size(); ++length) {
-    BinaryReader reader(std::span<const std::byte>(bytes).first(length));
-    Path read;
-    EXPECT_FALSE(FromBinary(TypeOf<Path>(), reader, &read)) << length;
-  }
-}
-
-TEST(BinaryEncoding, DoesNotBelieveACountBeyondTheBytes) {
-  const std::vector<std::byte> bytes(4, std::byte{0xff});
-  BinaryReader reader(bytes);
-  std::vector<double> list;
-  EXPECT_FALSE(FromBinary(TypeOf<std::vector<double>>(), reader, &list));
-  EXPECT_EQ(list.capacity(), 0u);
-}
-
 // A list of itself, of any depth.
 struct Nest {
   std::vector<Nest> nests;
 };
 void Describe(TypeBuilder<Nest>& type) { type.Name("test::Nest").Field("nests", &Nest::nests); }
-
-Nest NestOf(int levels) {
-  Nest nest;
-  for (int i = 1; i < levels; ++i) {
-    Nest outer;
-    outer.nests.push_back(std::move(nest));
-    nest = std::move(outer);
-  }
-  return nest;
-}
-
-TEST(BinaryEncoding, RefusesWhatIsNestedTooDeep) {
-  for (const auto& [levels, is_read] :
-       {std::pair(20, true), std::pair(50, true), std::pair(60, false)}) {
-    const auto bytes = Bytes(NestOf(levels));
-    BinaryReader reader(bytes);
-    Nest read;
-    EXPECT_EQ(bool(FromBinary(TypeOf<Nest>(), reader, &read)), is_read) << levels;
-  }
-  // Each level takes four bytes: these would take a stack of gigabytes.
-  std::vector<std::byte> bytes;
-  BinaryWriter writer(bytes);
-  for (int i = 0; i < 10'000'000; ++i) writer.WriteUnsigned(std::uint32_t{1});
-  BinaryReader reader(bytes);
-  Nest read;
-  EXPECT_FALSE(FromBinary(TypeOf<Nest>(), reader, &read));
-}
 
 TEST(TextFormat, RefusesWhatIsNestedTooDeep) {
   const auto text = [](int levels) {
@@ -288,35 +220,41 @@ struct Huge {
 };
 void Describe(TypeBuilder<Huge>& type) { type.Name("test::Huge").Field("is_on", &Huge::is_on); }
 
-TEST(BinaryEncoding, MakesNoRoomForMoreThanItsLimitHoweverFewTheBytes) {
-  std::vector<std::byte> bytes;
-  BinaryWriter writer(bytes);
-  writer.WriteUnsigned(std::uint32_t{100});
-  bytes.resize(bytes.size() + 100);
-  BinaryReader reader(bytes);
-  std::vector<Huge> list;
-  EXPECT_FALSE(FromBinary(TypeOf<std::vector<Huge>>(), reader, &list));
-  EXPECT_EQ(list.capacity(), 0u);
-}
-
 TEST(TextFormat, MakesNoRoomForMoreThanItsLimit) {
   const auto list = FromText<std::vector<Huge>>("[{is_on: true}]");
   ASSERT_FALSE(list);
   EXPECT_THAT(list.error().message, testing::HasSubstr("more than 256 MiB"));
 }
 
-TEST(BinaryEncoding, RefusesValuesThatDoNotExist) {
-  const std::vector<std::byte> two{std::byte{2}};
-  BinaryReader reader(two);
-  bool flag = false;
-  EXPECT_FALSE(FromBinary(TypeOf<bool>(), reader, &flag));
-  const std::vector<std::byte> unnamed(8, std::byte{1});
-  BinaryReader side_reader(unnamed);
-  Side side{};
-  EXPECT_FALSE(FromBinary(TypeOf<Side>(), side_reader, &side));
-  std::vector<std::byte> bytes;
+TEST(TextFormat, ShortensListsAndTextsForPeople) {
+  const auto text = [](const auto& value, const TextLimits& limits) {
+    return ToText(TypeOf<std::decay_t<decltype(value)>>(), &value, limits);
+  };
+  const std::vector<std::int32_t> numbers(640, 7);
+  EXPECT_EQ(text(numbers, {.elements = 2}), "[7, 7, … 640 in all]");
+  EXPECT_EQ(text(std::string(200, 'x'), {.text = 3}), "xxx… 200 bytes in all");
+  EXPECT_EQ(text(std::vector<std::string>{"aö"}, {.text = 2}), "[\"a…\" 3 bytes in all]");
+  const Path path = SomePath();
+  EXPECT_EQ(text(path, {.elements = 1000, .text = 1000, .all = 100'000}), TextOf(path));
+}
+
+TEST(TextFormat, EndsAfterItsLimitHoweverLargeTheValueIs) {
+  const std::vector<std::vector<double>> table(1000, std::vector<double>(1000, 0.125));
+  EXPECT_LT(ToText(TypeOf<std::vector<std::vector<double>>>(), &table, {.all = 5'000}).size(),
+            5'300U);
+  const std::vector<std::string> texts{"a\r\n\t\"\\"};
+  EXPECT_EQ(*FromText<std::vector<std::string>>(TextOf(texts)), texts);
+}
+
+TEST(CopyValue, CopiesEveryPart) {
+  const Path path = SomePath();
+  Path copy;
+  copy.branches.resize(7);
+  ASSERT_TRUE(CopyValue(TypeOf<Path>(), &path, &copy));
+  EXPECT_EQ(copy, path);
   const example::Handle handle;
-  EXPECT_FALSE(ToBinary(TypeOf<example::Handle>(), &handle, bytes));
+  example::Handle other;
+  EXPECT_THROW((void)CopyValue(TypeOf<example::Handle>(), &handle, &other), ProgrammingError);
 }
 
 TEST(TypeInfo, MakesValues) {

@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-#include "core/types/binary_encoding.h"
+#include "core/types/value_copy.h"
 #include "tests/support/module_rig.h"
 
 namespace runnel {
@@ -123,11 +123,7 @@ TEST(BugState, IsDescribedFieldByField) {
   BugState copy;
   std::memset(static_cast<void*>(&full), 1, sizeof full);
   std::memset(static_cast<void*>(&copy), 0, sizeof copy);
-  std::vector<std::byte> bytes;
-  ASSERT_TRUE(ToBinary(TypeOf<BugState>(), &full, bytes));
-  BinaryReader reader(bytes);
-  const auto read = FromBinary(TypeOf<BugState>(), reader, &copy);
-  ASSERT_TRUE(read) << read.error().ToString();
+  ASSERT_TRUE(CopyValue(TypeOf<BugState>(), &full, &copy));
   const auto* const gone_over = reinterpret_cast<const unsigned char*>(&copy);
   std::size_t missing = 0;
   for (std::size_t i = 0; i < sizeof copy; ++i) {

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/types/binary_encoding.h"
 #include "modules/types/contact.h"
 #include "modules/types/hit_and_leave_points.h"
 #include "modules/types/image.h"
@@ -17,34 +16,27 @@ namespace runnel {
 namespace {
 
 template <typename T>
-void ExpectBothReadBack(const T& value) {
+void ExpectReadsBack(const T& value) {
   const auto from_text = FromText<T>(TextOf(value));
   ASSERT_TRUE(from_text) << TextOf(value);
   EXPECT_EQ(*from_text, value) << TextOf(value);
-
-  std::vector<std::byte> bytes;
-  ASSERT_TRUE(ToBinary(TypeOf<T>(), &value, bytes));
-  BinaryReader reader(bytes);
-  T read;
-  ASSERT_TRUE(FromBinary(TypeOf<T>(), reader, &read));
-  EXPECT_EQ(read, value);
 }
 
-TEST(ModuleTypes, ReadBackFromTextAndBytes) {
-  ExpectBothReadBack(Point2{0.1, -2});
-  ExpectBothReadBack(Pose2{1, 2, 3.1});
-  ExpectBothReadBack(Twist2{0.5, -1.5});
-  ExpectBothReadBack(WheelSpeeds{3, 4});
-  ExpectBothReadBack(
+TEST(ModuleTypes, ReadBackFromText) {
+  ExpectReadsBack(Point2{0.1, -2});
+  ExpectReadsBack(Pose2{1, 2, 3.1});
+  ExpectReadsBack(Twist2{0.5, -1.5});
+  ExpectReadsBack(WheelSpeeds{3, 4});
+  ExpectReadsBack(
       RangeScan{-1.5, 0.1, 0.02, 4, {0.5f, std::numeric_limits<float>::infinity(), 3.25f}});
-  ExpectBothReadBack(InfraredRanges{1, std::numeric_limits<double>::infinity(), 2, 2, 0.45});
-  ExpectBothReadBack(Contact{true, -0.7});
-  ExpectBothReadBack(HitAndLeavePoints{{{1, 2}, {3, 4}}, {{5, 6}}});
-  ExpectBothReadBack(Path2{{{1, 2}, {3, 4}}});
-  ExpectBothReadBack(Image{2, 1, "rgb8", 6, {1, 2, 3, 255, 0, 4}});
-  ExpectBothReadBack(
+  ExpectReadsBack(InfraredRanges{1, std::numeric_limits<double>::infinity(), 2, 2, 0.45});
+  ExpectReadsBack(Contact{true, -0.7});
+  ExpectReadsBack(HitAndLeavePoints{{{1, 2}, {3, 4}}, {{5, 6}}});
+  ExpectReadsBack(Path2{{{1, 2}, {3, 4}}});
+  ExpectReadsBack(Image{2, 1, "rgb8", 6, {1, 2, 3, 255, 0, 4}});
+  ExpectReadsBack(
       WorldMap{"a", {1, 2, 3}, {4, 5}, {{{{0, 0}, {1, 0}, {0, 1}}, 0.5, true}}, {{7, 7}}});
-  ExpectBothReadBack(std::vector<Pose2>{{1, 2, 3}, {4, 5, 6}});
+  ExpectReadsBack(std::vector<Pose2>{{1, 2, 3}, {4, 5, 6}});
 }
 
 TEST(ModuleTypes, ReadAsAPersonWouldWriteThem) {

@@ -67,7 +67,11 @@ TEST_F(ParameterTest, SaysWhatItIs) {
   EXPECT_EQ(info.description, "obstacles nearer than this stop the robot");
   EXPECT_FALSE(info.is_static);
   EXPECT_TRUE(guard_.label.info().is_static);
+  EXPECT_EQ(info.minimum, 0.05);
+  EXPECT_EQ(info.maximum, 5.0);
   EXPECT_EQ(guard_.beams.info().bounds, "1 ..");
+  EXPECT_EQ(guard_.beams.info().minimum, 1.0);
+  EXPECT_EQ(guard_.beams.info().maximum, std::nullopt);
   EXPECT_EQ(guard_.size.info().bounds, ".. 8");
   EXPECT_EQ(guard_.active.info().bounds, "");
   EXPECT_EQ(&guard_.side.type(), &TypeOf<Side>());
@@ -142,6 +146,54 @@ TEST_F(ParameterTest, CannotBeSetAnyMoreIfStatic) {
   EXPECT_EQ(set.error().path, "/guard/parameter/label");
   EXPECT_EQ(set.error().hint, "set it in the application file");
   EXPECT_EQ(guard_.label.Get(), "rear");
+}
+
+TEST_F(ParameterTest, TakesValuesOfItsTypeAsTheyAre) {
+  // No text of so few digits is this number.
+  const double third = 1.0 / 3;
+  ASSERT_TRUE(guard_.stop_distance.SetFrom(&third));
+  EXPECT_EQ(guard_.stop_distance.Get(), third);
+  EXPECT_EQ(*std::static_pointer_cast<double>(guard_.stop_distance.Value()), third);
+  const double far = 7;
+  const auto set = guard_.stop_distance.SetFrom(&far);
+  ASSERT_FALSE(set);
+  EXPECT_EQ(set.error().ToString(),
+            "/guard/parameter/stop_distance: 7 m is out of bounds; allowed is 0.05 .. 5 m");
+  const std::string label = "a\x01";
+  EXPECT_EQ(guard_.label.SetFrom(&label).error().message,
+            "the value contains control character 0x01");
+}
+
+template <typename P>
+class ModuleWith final : public Module {
+ public:
+  ModuleWith(const Placement& placement, ParameterOptions<double> options)
+      : Module(placement), distance(this, "distance", std::move(options)) {}
+  P distance;
+
+ private:
+  void Update() override {}
+};
+
+template <typename P>
+std::string WhyNotMade(Runtime& runtime, ParameterOptions<double> options) {
+  try {
+    runtime.Create<ModuleWith<P>>(runtime.root(), "module", std::move(options));
+  } catch (const ElementError& error) {
+    return error.error().ToString();
+  }
+  return "it has been made";
+}
+
+TEST_F(ParameterTest, IsRefusedWithADefaultOutsideOfItsOwnBounds) {
+  const ParameterOptions<double> forgotten{.bounds = {0.05, 5.0}, .unit = "m"};
+  const std::string why =
+      "/module/parameter/distance: its default, 0 m, is out of its bounds; they are 0.05 .. 5 m";
+  EXPECT_EQ(WhyNotMade<Parameter<double>>(runtime_, forgotten), why);
+  EXPECT_EQ(WhyNotMade<StaticParameter<double>>(runtime_, forgotten), why);
+  EXPECT_EQ(runtime_.root().FindChild("module"), nullptr);
+  EXPECT_EQ(WhyNotMade<Parameter<double>>(runtime_, {.default_value = 0.05, .bounds = {0.05, 5.0}}),
+            "it has been made");
 }
 
 TEST_F(ParameterTest, IsNeverSeenHalfSet) {

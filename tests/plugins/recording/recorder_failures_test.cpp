@@ -19,8 +19,7 @@ inline void Describe(TypeBuilder<Moody>& type) {
                if (number >= 3) throw number;
                return std::to_string(number);
              },
-             [](std::string_view, void*) -> Result<void> { return {}; },
-             [](const void*, BinaryWriter&) {}, [](BinaryReader&, void*) { return true; }, true});
+             [](std::string_view, void*) -> Result<void> { return {}; }, true});
 }
 
 class MoodySource final : public Module {

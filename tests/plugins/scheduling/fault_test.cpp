@@ -22,17 +22,17 @@ using ::testing::SizeIs;
 class Setting final : public FrameworkElement, public Configurable {
  public:
   explicit Setting(const Placement& placement) : FrameworkElement(placement) {}
-  Result<void> SetFromText(std::string_view value) override {
-    if (auto accepted = CheckText(value); !accepted) return accepted;
-    text = value;
-    return {};
-  }
-  Result<void> CheckText(std::string_view value) const override {
+  Result<std::shared_ptr<const void>> Parse(std::string_view value) const override {
     if (value == "bad") return Error{.message = "not accepted"};
+    return std::shared_ptr<const void>(std::make_shared<std::string>(value));
+  }
+  Result<void> Check(const void*) const override { return {}; }
+  Result<void> SetFrom(const void* value) override {
+    text = *static_cast<const std::string*>(value);
     return {};
   }
-  std::string ToText() const override { return text; }
-  const TypeInfo& type() const override { return TypeOf<double>(); }
+  std::shared_ptr<void> Value() const override { return std::make_shared<std::string>(text); }
+  const TypeInfo& type() const override { return TypeOf<std::string>(); }
   const ConfigurableInfo& info() const override { return info_; }
   std::string text = "before";
 

@@ -25,9 +25,7 @@ Result<void> FragileFromText(std::string_view text, void* value) {
   return {};
 }
 void Describe(TypeBuilder<FragileValue>& type) {
-  type.Name("test::FragileValue")
-      .Leaf({FragileText, FragileFromText, [](const void*, BinaryWriter&) {},
-             [](BinaryReader&, void*) { return true; }, false});
+  type.Name("test::FragileValue").Leaf({FragileText, FragileFromText, false});
 }
 
 /// A kept state whose copying may fail.

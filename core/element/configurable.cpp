@@ -1,0 +1,24 @@
+#include "core/element/configurable.h"
+
+#include "core/element/framework_element.h"
+#include "core/types/text_format.h"
+
+namespace runnel {
+
+Result<void> Configurable::SetFromText(std::string_view text) {
+  const auto value = Parse(text);
+  if (value) return SetFrom(value->get());
+  Error error = value.error();
+  const auto* const element = dynamic_cast<const FrameworkElement*>(this);
+  if (element != nullptr && error.path.empty()) error.path = element->path();
+  return error;
+}
+
+Result<void> Configurable::CheckText(std::string_view text) const {
+  const auto value = Parse(text);
+  return value ? Result<void>() : value.error();
+}
+
+std::string Configurable::ToText() const { return runnel::ToText(type(), Value().get()); }
+
+}  // namespace runnel
