@@ -1,10 +1,11 @@
 #include <algorithm>
+#include <concepts>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
 #include "core/types/type_info.h"
-#include "plugins/json_values/internal/leaf_kind.h"
+#include "plugins/json_values/internal/leaf_types.h"
 #include "plugins/json_values/json_values.h"
 #include "plugins/json_values/json_writer.h"
 
@@ -29,7 +30,7 @@ class SchemaWriter {
         schema.Add("type", "null");
         return;
       case TypeKind::kLeaf:
-        return WriteLeaf(KindOfLeaf(type), type, schema);
+        return WriteLeaf(type, schema);
       case TypeKind::kEnumeration:
         return WriteEnumeration(type, schema);
       case TypeKind::kStructure:
@@ -42,45 +43,27 @@ class SchemaWriter {
   }
 
  private:
-  template <typename N>
-  static void WriteRange(JsonObject& schema) {
-    schema.Add("type", "integer");
-    schema.Add("minimum", std::numeric_limits<N>::lowest());
-    schema.Add("maximum", std::numeric_limits<N>::max());
-  }
-
-  void WriteLeaf(LeafKind kind, const TypeInfo& type, JsonObject& schema) {
-    switch (kind) {
-      case LeafKind::kBool:
-        return schema.Add("type", "boolean");
-      case LeafKind::kInt8:
-        return WriteRange<std::int8_t>(schema);
-      case LeafKind::kInt16:
-        return WriteRange<std::int16_t>(schema);
-      case LeafKind::kInt32:
-        return WriteRange<std::int32_t>(schema);
-      case LeafKind::kUint8:
-        return WriteRange<std::uint8_t>(schema);
-      case LeafKind::kUint16:
-        return WriteRange<std::uint16_t>(schema);
-      case LeafKind::kUint32:
-        return WriteRange<std::uint32_t>(schema);
-      case LeafKind::kUint64:
+  static void WriteLeaf(const TypeInfo& type, JsonObject& schema) {
+    WithLeafType(type, [&]<typename T>(std::type_identity<T>) {
+      if constexpr (std::same_as<T, bool>) {
+        schema.Add("type", "boolean");
+      } else if constexpr (std::integral<T>) {
         schema.Add("type", "integer");
-        return schema.Add("minimum", 0);
-      case LeafKind::kInt64:
-        return schema.Add("type", "integer");
-      case LeafKind::kFloat:
-      case LeafKind::kDouble:
+        // The ends of 64 bits are no doubles, by which many readers compare.
+        if constexpr (std::unsigned_integral<T>) schema.Add("minimum", 0);
+        if constexpr (std::signed_integral<T> && sizeof(T) < 8) {
+          schema.Add("minimum", std::numeric_limits<T>::lowest());
+        }
+        if constexpr (sizeof(T) < 8) schema.Add("maximum", std::numeric_limits<T>::max());
+      } else if constexpr (std::floating_point<T>) {
         schema.Add("type", "number");
-        return schema.Add("nullable", true);
-      case LeafKind::kDuration:
-      case LeafKind::kTime:
-        return WriteSeconds(type, schema);
-      case LeafKind::kString:
-      case LeafKind::kOther:
-        return schema.Add("type", "string");
-    }
+        schema.Add("nullable", true);
+      } else if constexpr (std::same_as<T, Duration> || std::same_as<T, Time>) {
+        WriteSeconds(type, schema);
+      } else {
+        schema.Add("type", "string");
+      }
+    });
   }
 
   // As viewers know times and durations, by their titles.

@@ -82,30 +82,4 @@ void AppendJsonNumber(float number, std::string& json) { AppendFloating(number, 
 void AppendJsonNumber(std::int64_t number, std::string& json) { AppendDigits(number, json); }
 void AppendJsonNumber(std::uint64_t number, std::string& json) { AppendDigits(number, json); }
 
-std::size_t WholeCharacters(std::string_view text, std::size_t most) {
-  if (text.size() <= most) return text.size();
-  const auto is_inner = [&](std::size_t at) {
-    return (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80;
-  };
-  std::size_t end = most;
-  while (end > 0 && most - end < 3 && is_inner(end)) --end;
-  return is_inner(end) ? most : end;
-}
-
-void AppendBase64(std::string_view bytes, std::string& text) {
-  constexpr std::string_view kCharacters =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  text.reserve(text.size() + (bytes.size() + 2) / 3 * 4);
-  const auto byte = [&](std::size_t i) -> unsigned {
-    return i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0;
-  };
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const unsigned three = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
-    text += kCharacters[three >> 18 & 63];
-    text += kCharacters[three >> 12 & 63];
-    text += i + 1 < bytes.size() ? kCharacters[three >> 6 & 63] : '=';
-    text += i + 2 < bytes.size() ? kCharacters[three & 63] : '=';
-  }
-}
-
 }  // namespace runnel

@@ -18,12 +18,6 @@ void AppendJsonNumber(float number, std::string& json);
 void AppendJsonNumber(std::int64_t number, std::string& json);
 void AppendJsonNumber(std::uint64_t number, std::string& json);
 
-/// How many of the first `most` bytes of a text hold whole characters, so that it is not cut in one.
-[[nodiscard]] std::size_t WholeCharacters(std::string_view text, std::size_t most);
-
-/// Bytes as text (RFC 4648), which JSON has no other way for. Without quotation marks.
-void AppendBase64(std::string_view bytes, std::string& text);
-
 namespace internal {
 
 // A bracket now, and the other one at the end of life, which throws what appending throws. While another

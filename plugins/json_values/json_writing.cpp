@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <concepts>
 
+#include "core/base/characters.h"
 #include "core/base/clock.h"
 #include "core/types/type_info.h"
-#include "plugins/json_values/internal/leaf_kind.h"
+#include "plugins/json_values/internal/leaf_types.h"
 #include "plugins/json_values/json_values.h"
 #include "plugins/json_values/json_writer.h"
 
@@ -36,7 +38,7 @@ class ValueWriter {
         json_ += "null";
         return;
       case TypeKind::kLeaf:
-        return WriteLeaf(KindOfLeaf(type), type, value);
+        return WriteLeaf(type, value);
       case TypeKind::kEnumeration:
         return WriteEnumeration(type, value);
       case TypeKind::kStructure:
@@ -51,40 +53,26 @@ class ValueWriter {
  private:
   [[nodiscard]] bool IsFull() const noexcept { return json_.size() >= end_; }
 
-  void WriteLeaf(LeafKind kind, const TypeInfo& type, const void* value) {
-    switch (kind) {
-      case LeafKind::kBool:
+  void WriteLeaf(const TypeInfo& type, const void* value) {
+    WithLeafType(type, [&]<typename T>(std::type_identity<T>) {
+      if constexpr (std::same_as<T, bool>) {
         json_ += As<bool>(value) ? "true" : "false";
-        return;
-      case LeafKind::kInt8:
-        return AppendJsonNumber(std::int64_t{As<std::int8_t>(value)}, json_);
-      case LeafKind::kInt16:
-        return AppendJsonNumber(std::int64_t{As<std::int16_t>(value)}, json_);
-      case LeafKind::kInt32:
-        return AppendJsonNumber(std::int64_t{As<std::int32_t>(value)}, json_);
-      case LeafKind::kInt64:
-        return AppendJsonNumber(As<std::int64_t>(value), json_);
-      case LeafKind::kUint8:
-        return AppendJsonNumber(std::uint64_t{As<std::uint8_t>(value)}, json_);
-      case LeafKind::kUint16:
-        return AppendJsonNumber(std::uint64_t{As<std::uint16_t>(value)}, json_);
-      case LeafKind::kUint32:
-        return AppendJsonNumber(std::uint64_t{As<std::uint32_t>(value)}, json_);
-      case LeafKind::kUint64:
-        return AppendJsonNumber(As<std::uint64_t>(value), json_);
-      case LeafKind::kFloat:
-        return WriteFloating(As<float>(value));
-      case LeafKind::kDouble:
-        return WriteFloating(As<double>(value));
-      case LeafKind::kString:
-        return WriteText(As<std::string>(value));
-      case LeafKind::kDuration:
-        return WriteSeconds(As<Duration>(value));
-      case LeafKind::kTime:
-        return WriteSeconds(As<Time>(value).time_since_epoch());
-      case LeafKind::kOther:
-        return WriteText(type.leaf().to_text(value));
-    }
+      } else if constexpr (std::signed_integral<T>) {
+        AppendJsonNumber(std::int64_t{As<T>(value)}, json_);
+      } else if constexpr (std::unsigned_integral<T>) {
+        AppendJsonNumber(std::uint64_t{As<T>(value)}, json_);
+      } else if constexpr (std::floating_point<T>) {
+        WriteFloating(As<T>(value));
+      } else if constexpr (std::same_as<T, std::string>) {
+        WriteText(As<std::string>(value));
+      } else if constexpr (std::same_as<T, Duration>) {
+        WriteSeconds(As<Duration>(value));
+      } else if constexpr (std::same_as<T, Time>) {
+        WriteSeconds(As<Time>(value).time_since_epoch());
+      } else {
+        WriteText(type.leaf().to_text(value));
+      }
+    });
   }
 
   template <typename N>
@@ -100,7 +88,7 @@ class ValueWriter {
     const std::size_t most = IsFull() ? 0 : std::min(limits_.characters, end_ - json_.size());
     if (text.size() <= most) return AppendJsonString(text, json_);
     is_whole_ = false;
-    AppendJsonString(std::string(text.substr(0, WholeCharacters(text, most))) + "…", json_);
+    AppendJsonString(Shortened(std::string(text.substr(0, most + 1)), most), json_);
   }
 
   void WriteSeconds(Duration duration) {
@@ -129,18 +117,11 @@ class ValueWriter {
     const ElementOperations& elements = type.elements();
     const std::size_t columns = elements.columns(value);
     const std::size_t shown = std::min(columns, limits_.elements);
-    const bool is_leaf = elements.type->kind() == TypeKind::kLeaf;
-    const LeafKind leaf = is_leaf ? KindOfLeaf(*elements.type) : LeafKind::kOther;
     std::size_t i = 0;
     JsonArray list(json_);
     for (; i < shown && !IsFull(); ++i) {
       list.Next();
-      const void* element = elements.element(ForLooking(value), row * columns + i);
-      if (is_leaf) {
-        WriteLeaf(leaf, *elements.type, element);
-      } else {
-        Write(*elements.type, element);
-      }
+      Write(*elements.type, elements.element(ForLooking(value), row * columns + i));
     }
     if (i < columns) is_whole_ = false;
   }

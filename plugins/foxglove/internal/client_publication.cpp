@@ -8,6 +8,7 @@
 #include "core/lockfree/thread_epoch.h"
 #include "core/types/type_info.h"
 #include "plugins/command_service/caught_error.h"
+#include "plugins/json_values/json_reader.h"
 #include "plugins/json_values/json_values.h"
 
 namespace runnel::internal {
@@ -32,18 +33,10 @@ namespace {
 // {"value":…} around what is no structure, as its channel has it; else the JSON as it is.
 std::string_view Unwrapped(const TypeInfo& type, std::string_view json) {
   if (type.kind() == TypeKind::kStructure) return json;
-  constexpr std::string_view kWhitespace = " \t\r\n";
-  const auto skip = [&](std::string_view& rest, std::string_view word) {
-    rest.remove_prefix(std::min(rest.find_first_not_of(kWhitespace), rest.size()));
-    if (!rest.starts_with(word)) return false;
-    rest.remove_prefix(word.size());
-    return true;
-  };
-  std::string_view rest = json;
-  if (!skip(rest, "{") || !skip(rest, "\"value\"") || !skip(rest, ":")) return json;
-  const auto end = rest.find_last_not_of(kWhitespace);
-  if (end == std::string_view::npos || rest[end] != '}') return json;
-  return rest.substr(0, end);
+  const auto part = JsonPart::Parse(json);
+  if (!part) return json;  // whoever reads it says why
+  const auto members = part->members();
+  return members.size() == 1 && members[0].first == "value" ? members[0].second.json() : json;
 }
 
 }  // namespace

@@ -1,10 +1,14 @@
 #include "plugins/foxglove/internal/directory.h"
 
 #include <mutex>
+#include <optional>
+#include <set>
 
 #include "core/lockfree/thread_epoch.h"
+#include "core/plugin/module_type_name.h"
+#include "core/port/port.h"
 #include "core/types/type_info.h"
-#include "plugins/command_service/parameter_text.h"
+#include "plugins/foxglove_schemas/foxglove_topics.h"
 
 namespace runnel::internal {
 
@@ -13,87 +17,130 @@ namespace {
 // A large structure takes some milliseconds to look at: not more often than a person notices.
 constexpr auto kBetweenLooks = std::chrono::milliseconds(100);
 
-/// Which names several elements have; those are called by their paths.
-class Names {
- public:
-  void Note(const std::string& name) { ++count_[name]; }
-  [[nodiscard]] bool IsOfOne(const std::string& name) const {
-    const auto found = count_.find(name);
-    return found != count_.end() && found->second == 1;
-  }
-
- private:
-  std::unordered_map<std::string, int> count_;
-};
-
-void AddInputs(const FoundStructure& found, DirectoryContent& content) {
-  Names topics;
-  for (const FoundPort& port : found.ports) {
-    if (port.is_target) topics.Note(port.topic);
-  }
-  for (const FoundPort& port : found.ports) {
-    if (!port.is_target || !port.type->is_transparent()) continue;
-    content.inputs[port.path] = {port.path, port.type};
-    if (topics.IsOfOne(port.topic)) content.inputs[port.topic] = {port.path, port.type};
-  }
+std::string OwnerPath(const FrameworkElement& element) {
+  const FrameworkElement* const owner = FindOwner(element);
+  return owner != nullptr ? owner->path() : "/";
 }
 
-void AddParameters(const FoundStructure& found, DirectoryContent& content) {
-  Names names;
-  for (const FoundParameter& each : found.parameters) names.Note(each.topic);
-  for (const FoundParameter& each : found.parameters) {
-    const std::string& name = names.IsOfOne(each.topic) ? each.topic : each.path;
-    content.parameters[name] = {each.path, each.type, each.element};
+}  // namespace
+
+// What of a structure can be shown, in the order of the tree. Made under the structure lock.
+struct Directory::Search {
+  struct FoundPort {
+    const Port* port;  // as long as the structure is the same
+    std::string path;
+    std::string topic;
+    const TypeInfo* type;
+    bool is_shown;   // values come out of it
+    bool is_target;  // values can be put into it
+    std::string owner;
+    std::vector<std::string> readers;  // owners of the ports that read what comes out, sorted
+  };
+  using Counts = std::unordered_map<std::string, int>;  // how many elements have a topic
+
+  explicit Search(Runtime& runtime) : revision(runtime.revision()) {
+    Collect(runtime.root());
+    std::vector<const Port*> all;
+    for (const FoundPort& each : ports) all.push_back(each.port);
+    robot_pose = RobotPose(all);
   }
+
+  void Collect(const FrameworkElement& element) {
+    if (element.FindAnnotation<BroughtByClient>() != nullptr) return;
+    if (const auto* const port = dynamic_cast<const Port*>(&element)) {
+      Add(*port);
+    } else if (const auto* const parameter = dynamic_cast<const Configurable*>(&element)) {
+      parameters.emplace_back(TopicOf(element),
+                              DirectoryParameter{element.path(), &parameter->type(), parameter});
+      ++parameter_topics[parameters.back().first];
+    }
+    for (const FrameworkElement* child : element.children()) Collect(*child);
+  }
+  void Add(const Port& port) {
+    const bool is_output = port.direction() == Port::Direction::kOutput;
+    FoundPort found{&port,
+                    port.path(),
+                    TopicOf(port),
+                    &port.type(),
+                    is_output || port.is_proxy(),
+                    !is_output,
+                    OwnerPath(port),
+                    {}};
+    if (found.is_target) ++target_topics[found.topic];
+    if (found.is_shown) {
+      ++shown_topics[found.topic];
+      std::set<std::string> readers;
+      for (const Port* sink : port.Sinks()) readers.insert(OwnerPath(*sink));
+      found.readers.assign(readers.begin(), readers.end());
+    }
+    ports.push_back(std::move(found));
+  }
+
+  const std::uint64_t revision;
+  std::vector<FoundPort> ports;
+  std::vector<std::pair<std::string, DirectoryParameter>> parameters;  // with their topics
+  Counts target_topics, shown_topics, parameter_topics;
+  const Port* robot_pose = nullptr;  // which of the ports tells where the robot is
+};
+
+namespace {
+
+// What several have in common names none of them; those are called by their paths.
+const std::string& NameIn(const std::unordered_map<std::string, int>& counts,
+                          const std::string& topic, const std::string& path) {
+  return counts.at(topic) == 1 ? topic : path;
 }
 
 }  // namespace
 
 void Directory::Look(SteadyTime now) {
   if (now < look_at_) return;
-  FoundStructure found;
+  std::optional<Search> search;
   {
     const std::unique_lock lock(runtime_.structure_mutex(), std::try_to_lock);
     if (!lock) return;
     look_at_ = now + kBetweenLooks;
     if (has_looked_ && runtime_.revision() == content_->revision) return;
-    found = FindStructure(runtime_);
+    search.emplace(runtime_);
   }
   has_looked_ = true;
   auto content = std::make_shared<DirectoryContent>();
-  content->revision = found.revision;
-  AddParameters(found, *content);
-  AddInputs(found, *content);
-  AddChannels(found, *content);
+  content->revision = search->revision;
+  for (const auto& [topic, parameter] : search->parameters) {
+    content->parameters[NameIn(search->parameter_topics, topic, parameter.path)] = parameter;
+  }
+  for (const Search::FoundPort& port : search->ports) {
+    if (!port.is_target || !port.type->is_transparent()) continue;
+    const DirectoryInput input{port.path, port.type};
+    content->inputs[port.path] = input;
+    content->inputs[NameIn(search->target_topics, port.topic, port.path)] = input;
+  }
+  AddChannels(*search, *content);
   content_ = std::move(content);
 }
 
-void Directory::AddChannels(const FoundStructure& found, DirectoryContent& content) {
-  Names topics;
-  for (const FoundPort& port : found.ports) {
-    if (port.is_shown) topics.Note(port.topic);
+void Directory::AddChannels(const Search& search, DirectoryContent& content) {
+  for (const Search::FoundPort& port : search.ports) {
+    if (port.port != search.robot_pose) continue;
+    const Encoding& encoding = TransformOf(*port.type);
+    if (encoding) AddChannel("/tf", port.path, *port.type, encoding, content);
   }
-  if (found.robot_pose != FoundStructure::kNone) {
-    const FoundPort& port = found.ports[found.robot_pose];
-    if (const Encoding& encoding = TransformOf(*port.type))
-      AddChannel("/tf", port, encoding, content);
-  }
-  for (const FoundPort& port : found.ports) {
+  for (const Search::FoundPort& port : search.ports) {
     if (!port.is_shown) continue;
-    const std::string& topic = topics.IsOfOne(port.topic) ? port.topic : port.path;
+    const std::string& topic = NameIn(search.shown_topics, port.topic, port.path);
     const std::vector<Encoding>& encodings = EncodingsOf(*port.type);
-    for (const Encoding& encoding : encodings)
-      AddChannel(topic + encoding->topic, port, encoding, content);
+    for (const Encoding& encoding : encodings) {
+      AddChannel(topic + encoding->topic, port.path, *port.type, encoding, content);
+    }
     if (!encodings.empty()) content.graph[topic] = {{port.owner}, port.readers};
   }
 }
 
-void Directory::AddChannel(std::string topic, const FoundPort& port, const Encoding& encoding,
-                           DirectoryContent& content) {
+void Directory::AddChannel(std::string topic, const std::string& port, const TypeInfo& type,
+                           const Encoding& encoding, DirectoryContent& content) {
   const auto next = static_cast<std::uint32_t>(ids_.size() + 1);
   const auto [place, is_new] = ids_.try_emplace({topic, encoding.get()}, next);
-  content.channels[place->second] = {place->second, std::move(topic), port.path, port.type,
-                                     encoding};
+  content.channels[place->second] = {place->second, std::move(topic), port, &type, encoding};
 }
 
 const std::vector<Directory::Encoding>& Directory::EncodingsOf(const TypeInfo& type) {
@@ -116,20 +163,19 @@ const Directory::Encoding& Directory::TransformOf(const TypeInfo& type) {
   return place->second;
 }
 
-std::optional<Directory::ParameterTexts> Directory::ReadParameters(
-    const std::vector<std::string>& names) const {
+bool Directory::VisitParameters(const std::vector<std::string>& names,
+                                const ParameterVisitor& visit) const {
   // What is there under the lock stays in memory while the guard is held; so the lock need not be.
   const EpochGuard guard;
   {
     const std::unique_lock lock(runtime_.structure_mutex(), std::try_to_lock);
-    if (!lock || runtime_.revision() != content_->revision) return std::nullopt;
+    if (!lock || runtime_.revision() != content_->revision) return false;
   }
-  ParameterTexts texts;
-  for (const std::string& name : names) {
-    const auto found = content_->parameters.find(name);
-    if (found != content_->parameters.end()) texts[name] = ParameterText(*found->second.element);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto found = content_->parameters.find(names[i]);
+    visit(i, found != content_->parameters.end() ? &found->second : nullptr);
   }
-  return texts;
+  return true;
 }
 
 }  // namespace runnel::internal

@@ -2,19 +2,22 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "core/element/configurable.h"
 #include "core/element/runtime.h"
-#include "plugins/foxglove/internal/found_structure.h"
 #include "plugins/foxglove_schemas/foxglove_channel.h"
 
 namespace runnel::internal {
+
+/// Elements that clients have brought with them are annotated so: they are not shown to clients.
+class BroughtByClient final : public Annotation {};
 
 /// A channel as it is advertised.
 struct DirectoryChannel {
@@ -69,18 +72,19 @@ class Directory {
   /// Never nullptr; another object whenever something has changed.
   [[nodiscard]] std::shared_ptr<const DirectoryContent> content() const { return content_; }
 
-  /// The texts of parameters by name; those that do not exist are left out. Nothing if that cannot be said
-  /// at the moment: the structure is locked, or has just changed.
-  using ParameterTexts = std::map<std::string, std::string>;
-  [[nodiscard]] std::optional<ParameterTexts> ReadParameters(
-      const std::vector<std::string>& names) const;
+  /// Shows the parameters one by one, each with the index of its name; nullptr if there is none. False, and
+  /// none is shown, if that cannot be done at the moment: the structure is locked, or has just changed.
+  using ParameterVisitor = std::function<void(std::size_t index, const DirectoryParameter*)>;
+  bool VisitParameters(const std::vector<std::string>& names, const ParameterVisitor& visit) const;
 
  private:
   using Encoding = std::shared_ptr<const FoxgloveChannel>;
 
-  void AddChannels(const FoundStructure& found, DirectoryContent& content);
-  void AddChannel(std::string topic, const FoundPort& port, const Encoding& encoding,
-                  DirectoryContent& content);
+  struct Search;
+
+  void AddChannels(const Search& search, DirectoryContent& content);
+  void AddChannel(std::string topic, const std::string& port, const TypeInfo& type,
+                  const Encoding& encoding, DirectoryContent& content);
   [[nodiscard]] const std::vector<Encoding>& EncodingsOf(const TypeInfo& type);
   [[nodiscard]] const Encoding& TransformOf(const TypeInfo& type);
 

@@ -20,6 +20,12 @@ constexpr auto kLongTime = std::chrono::hours(1);
 constexpr std::size_t kMostWaiting = 100;  // requests of one client
 constexpr std::size_t kMostAtOnce = 1000;
 
+std::vector<std::string> NamesIn(const SetParametersMessage& message) {
+  std::vector<std::string> names;
+  for (const auto& item : message.parameters) names.push_back(item.name);
+  return names;
+}
+
 }  // namespace
 
 struct ParameterHandler::PendingSet {
@@ -101,18 +107,24 @@ ParameterHandler::SteadyTime ParameterHandler::Continue(SteadyTime now) {
   return subscribed_.empty() ? now + kLongTime : look_at_;
 }
 
-void ParameterHandler::SendValues(const Directory::ParameterTexts& texts,
-                                  const std::optional<std::string>& id) {
-  const auto content = shared_.directory.content();
+std::optional<ParameterHandler::Values> ParameterHandler::Read(
+    const std::vector<std::string>& names) const {
+  Values values;
+  const auto add = [&](std::size_t i, const DirectoryParameter* parameter) {
+    if (parameter != nullptr) values[names[i]] = ParameterJson(names[i], *parameter->element);
+  };
+  if (!shared_.directory.VisitParameters(names, add)) return std::nullopt;
+  return values;
+}
+
+void ParameterHandler::SendValues(const Values& values, const std::optional<std::string>& id) {
   std::string json;
   {
     JsonObject message(json);
     message.Add("op", "parameterValues");
     {
       JsonArray list(message.Key("parameters"));
-      for (const auto& [name, text] : texts) {
-        AppendParameter(name, *content->parameters.at(name).type, text, list.Next());
-      }
+      for (const auto& [name, value] : values) list.Next() += value;
     }
     if (id) message.Add("id", *id);
   }
@@ -123,14 +135,15 @@ void ParameterHandler::SendValues(const Directory::ParameterTexts& texts,
 bool ParameterHandler::AnswerGets() {
   while (!gets_.empty()) {
     const GetParametersMessage& get = gets_.front();
-    const auto texts = shared_.directory.ReadParameters(get.names.empty() ? AllNames() : get.names);
-    if (!texts) return false;
+    const auto values = Read(get.names.empty() ? AllNames() : get.names);
+    if (!values) return false;
     bool may_search = true;
     for (const std::string& name : get.names) {
-      if (!texts->contains(name) && !send_queue_.is_long())
+      if (!values->contains(name) && !send_queue_.is_long()) {
         SendError(NoSuchParameter(name, may_search));
+      }
     }
-    SendValues(*texts, get.id);
+    SendValues(*values, get.id);
     gets_.pop_front();
   }
   return true;
@@ -144,13 +157,11 @@ bool ParameterHandler::ContinueSets() {
     if (!std::ranges::all_of(set.changes, [](const auto& each) { return each->is_done(); })) {
       return true;
     }
-    std::vector<std::string> names;
-    for (const auto& item : set.message.parameters) names.push_back(item.name);
     // What they are now, whatever has come of it.
     if (set.message.id) {
-      const auto texts = shared_.directory.ReadParameters(names);
-      if (!texts) return false;
-      SendValues(*texts, set.message.id);
+      const auto values = Read(NamesIn(set.message));
+      if (!values) return false;
+      SendValues(*values, set.message.id);
     }
     for (const auto& change : set.changes) {
       const CommandAnswer answer = change->Take();
@@ -168,46 +179,39 @@ bool ParameterHandler::ContinueSets() {
 
 // False if the structure is locked.
 bool ParameterHandler::BeginSet(PendingSet& set) {
-  const auto content = shared_.directory.content();
-  std::vector<std::string> names;
-  for (const auto& item : set.message.parameters) names.push_back(item.name);
-  const auto texts = shared_.directory.ReadParameters(names);
-  if (!texts) return false;
-  set.has_begun = true;
   bool may_search = true;
-  for (const auto& item : set.message.parameters) {
-    const auto found = content->parameters.find(item.name);
-    if (found == content->parameters.end()) {
-      set.errors.push_back(NoSuchParameter(item.name, may_search));
-      continue;
-    }
-    auto text = TextOfItem(item, *found->second.type, texts->at(item.name));
-    if (text) {
-      ChangeRequest change{
-          {.changes = {SetParameter{found->second.path, std::move(*text)}}, .positions = {}}};
-      set.changes.push_back(
-          shared_.application.service.Begin(std::move(change), *shared_.tasks, wake_));
-    } else {
-      Error error = text.error();
-      error.path = found->second.path;
-      set.errors.push_back(std::move(error));
-    }
-  }
-  return true;
+  set.has_begun = shared_.directory.VisitParameters(
+      NamesIn(set.message), [&](std::size_t i, const DirectoryParameter* parameter) {
+        const SetParametersMessage::Item& item = set.message.parameters[i];
+        if (parameter == nullptr) {
+          set.errors.push_back(NoSuchParameter(item.name, may_search));
+          return;
+        }
+        auto setting = SettingOf(item, parameter->path, *parameter->element);
+        if (!setting) {
+          set.errors.push_back(setting.error());
+          set.errors.back().path = parameter->path;
+          return;
+        }
+        set.changes.push_back(shared_.application.service.Begin(
+            ChangeRequest{{.changes = {std::move(*setting)}, .positions = {}}}, *shared_.tasks,
+            wake_));
+      });
+  return set.has_begun;
 }
 
 void ParameterHandler::SendChanges() {
-  const auto texts = shared_.directory.ReadParameters({subscribed_.begin(), subscribed_.end()});
-  if (!texts) {
+  auto values = Read({subscribed_.begin(), subscribed_.end()});
+  if (!values) {
     look_at_ = {};
     return;
   }
-  Directory::ParameterTexts changed;
-  for (const auto& [name, text] : *texts) {
+  Values changed;
+  for (const auto& [name, value] : *values) {
     const auto before = told_.find(name);
-    if (before == told_.end() || before->second != text) changed[name] = text;
+    if (before == told_.end() || before->second != value) changed[name] = value;
   }
-  told_ = *texts;
+  told_ = std::move(*values);
   if (!changed.empty()) SendValues(changed, std::nullopt);
 }
 

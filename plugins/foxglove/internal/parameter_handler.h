@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -40,7 +41,10 @@ class ParameterHandler {
   void SendError(const Error& error);
   /// `may_search`: for the nearest name, which takes time; once in a message.
   [[nodiscard]] Error NoSuchParameter(const std::string& name, bool& may_search) const;
-  void SendValues(const Directory::ParameterTexts& texts, const std::optional<std::string>& id);
+  using Values = std::map<std::string, std::string>;  // as JSON, by name
+  /// Of those that exist. Nothing if that cannot be said at the moment.
+  [[nodiscard]] std::optional<Values> Read(const std::vector<std::string>& names) const;
+  void SendValues(const Values& values, const std::optional<std::string>& id);
   bool AnswerGets();
   bool ContinueSets();
   bool BeginSet(PendingSet& set);
@@ -52,7 +56,7 @@ class ParameterHandler {
   std::deque<GetParametersMessage> gets_;
   std::deque<std::shared_ptr<PendingSet>> sets_;
   std::set<std::string> subscribed_;
-  Directory::ParameterTexts told_;  // of those that are subscribed to
+  Values told_;  // of those that are subscribed to
   SteadyTime look_at_{};
 };
 

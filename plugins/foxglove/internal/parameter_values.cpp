@@ -1,9 +1,11 @@
 #include "plugins/foxglove/internal/parameter_values.h"
 
+#include <cstring>
 #include <memory>
-#include <optional>
 
+#include "core/base/exception_text.h"
 #include "core/types/type_of.h"
+#include "plugins/json_values/base64.h"
 #include "plugins/json_values/json_values.h"
 #include "plugins/json_values/json_writer.h"
 
@@ -15,15 +17,6 @@ bool IsListOf(const TypeInfo& type, const TypeInfo& element) {
   return type.kind() == TypeKind::kSequence && type.elements().type == &element;
 }
 bool IsBytes(const TypeInfo& type) { return IsListOf(type, TypeOf<std::uint8_t>()); }
-bool IsFloat(const TypeInfo& type) {
-  return &type == &TypeOf<double>() || &type == &TypeOf<float>();
-}
-
-std::shared_ptr<void> ValueOf(const TypeInfo& type, const std::string& text) {
-  auto value = type.is_transparent() ? type.Make() : nullptr;
-  if (value && !SetFromText(type, text, value.get())) value = nullptr;
-  return value;
-}
 
 std::string BytesIn(const TypeInfo& list, void* value) {
   std::string bytes;
@@ -34,87 +27,88 @@ std::string BytesIn(const TypeInfo& list, void* value) {
   return bytes;
 }
 
+// What the protocol calls it; "" for what has no name there.
+const char* KindOf(const TypeInfo& type) {
+  if (IsBytes(type)) return "byte_array";
+  if (&type == &TypeOf<double>() || &type == &TypeOf<float>()) return "float64";
+  const bool is_list = IsListOf(type, TypeOf<double>()) || IsListOf(type, TypeOf<float>());
+  return is_list ? "float64_array" : "";
+}
+
 // Whether people had rather read and write the text format: "20ms", not {"sec":0,"nsec":20000000}.
 bool IsShownAsText(const TypeInfo& type, const std::string& json) {
   if (type.kind() == TypeKind::kEnumeration) return true;
   return type.kind() == TypeKind::kLeaf && (json.starts_with('"') || json.starts_with('{'));
 }
 
-std::optional<unsigned> DigitOf(char character) {
-  if (character >= 'A' && character <= 'Z') return character - 'A';
-  if (character >= 'a' && character <= 'z') return character - 'a' + 26;
-  if (character >= '0' && character <= '9') return character - '0' + 52;
-  if (character == '+') return 62;
-  if (character == '/') return 63;
-  return std::nullopt;
-}
-
-std::optional<std::string> FromBase64(std::string_view text) {
-  while (text.ends_with('=')) text.remove_suffix(1);
-  if (text.size() % 4 == 1) return std::nullopt;
-  std::string bytes;
-  unsigned bits = 0;
-  int count = 0;
-  for (const char character : text) {
-    const auto digit = DigitOf(character);
-    if (!digit) return std::nullopt;
-    bits = (bits << 6 | *digit) & 0xffffff;
-    count += 6;
-    if (count < 8) continue;
-    count -= 8;
-    bytes += static_cast<char>(bits >> count & 0xff);
+std::string ValueJson(const Configurable& parameter) {
+  const TypeInfo& type = parameter.type();
+  const std::shared_ptr<void> value = parameter.Value();
+  std::string json;
+  if (IsBytes(type)) {
+    json += '"';
+    AppendBase64(BytesIn(type, value.get()), json);
+    json += '"';
+    return json;
   }
-  return bytes;
+  if (type.is_transparent()) AppendJson(type, value.get(), json, {.has_infinity = false});
+  if (!json.empty() && !IsShownAsText(type, json)) return json;
+  json.clear();
+  AppendJsonString(ToText(type, value.get()), json);
+  return json;
 }
 
-Result<std::string> TextOfBytes(const SetParametersMessage::Item& item, const TypeInfo& type) {
+Result<SetParameter> SettingOfBytes(const SetParametersMessage::Item& item, const std::string& path,
+                                    const TypeInfo& type) {
   const auto bytes = item.text ? FromBase64(*item.text) : std::nullopt;
   if (!bytes) return Error{.message = "the value of a byte_array is a text in base64"};
   if (!IsBytes(type)) return Error{.message = "a " + type.name() + " is no list of bytes"};
-  std::string text = "[";
-  for (const char byte : *bytes) {
-    if (text.size() > 1) text += ", ";
-    text += std::to_string(static_cast<unsigned char>(byte));
+  const std::shared_ptr<void> list = type.Make();
+  if (!type.elements().resize(list.get(), 1, bytes->size())) {
+    return Error{.message = std::to_string(bytes->size()) + " bytes are no " + type.name()};
   }
-  return text + "]";
+  for (std::size_t i = 0; i < bytes->size(); ++i) {
+    std::memcpy(type.elements().element(list.get(), i), &(*bytes)[i], 1);
+  }
+  return SetParameter{path, "", list, &type};
 }
 
 }  // namespace
 
-void AppendParameter(const std::string& name, const TypeInfo& type, const std::string& text,
-                     std::string& json) {
-  JsonObject parameter(json);
-  parameter.Add("name", name);
-  const auto value = ValueOf(type, text);
-  if (!value) return parameter.Add("value", text);
-  if (IsBytes(type)) {
-    std::string& bytes = parameter.Key("value");
-    bytes += '"';
-    AppendBase64(BytesIn(type, value.get()), bytes);
-    bytes += '"';
-    return parameter.Add("type", "byte_array");
+std::string ParameterJson(const std::string& name, const Configurable& parameter) {
+  std::string value;
+  const char* kind = "";
+  try {
+    value = ValueJson(parameter);
+    // Numbers that are none are null, which no type of the protocol allows.
+    if (value.find("null") == std::string::npos) kind = KindOf(parameter.type());
+  } catch (...) {
+    AppendJsonString("(" + DescribeException() + ")", value);
   }
-  std::string as_json;
-  AppendJson(type, value.get(), as_json, {.has_infinity = false});
-  if (IsShownAsText(type, as_json)) return parameter.Add("value", text);
-  parameter.AddJson("value", as_json);
-  const bool is_floats = IsListOf(type, TypeOf<double>()) || IsListOf(type, TypeOf<float>());
-  if (as_json.find("null") != std::string::npos) return;  // no number, whatever the type
-  if (IsFloat(type)) parameter.Add("type", "float64");
-  if (is_floats) parameter.Add("type", "float64_array");
+  std::string json;
+  {
+    JsonObject object(json);
+    object.Add("name", name);
+    object.AddJson("value", value);
+    if (*kind != '\0') object.Add("type", kind);
+  }
+  return json;
 }
 
-Result<std::string> TextOfItem(const SetParametersMessage::Item& item, const TypeInfo& type,
-                               const std::string& text) {
+Result<SetParameter> SettingOf(const SetParametersMessage::Item& item, const std::string& path,
+                               const Configurable& parameter) {
+  const TypeInfo& type = parameter.type();
   if (item.json.empty()) {
     return Error{.message = "a parameter cannot be removed, only set", .hint = "say its \"value\""};
   }
-  if (item.type == "byte_array") return TextOfBytes(item, type);
-  if (item.text) return *item.text;
-  const auto value = ValueOf(type, text);
-  if (!value) return Error{.message = "a " + type.name() + " can be set as text only"};
+  if (item.type == "byte_array") return SettingOfBytes(item, path, type);
+  if (item.text) return SetParameter{path, *item.text};
+  if (!type.is_transparent()) {
+    return Error{.message = "a " + type.name() + " can be set as text only"};
+  }
+  const std::shared_ptr<void> value = parameter.Value();
   if (auto set = SetFromJson(type, item.json, value.get()); !set) return set.error();
-  return ToText(type, value.get());
+  return SetParameter{path, "", value, &type};
 }
 
 }  // namespace runnel::internal

@@ -3,6 +3,7 @@
 #include "plugins/foxglove_schemas/internal/fields.h"
 #include "plugins/foxglove_schemas/internal/message_parts.h"
 #include "plugins/foxglove_schemas/internal/schema_texts.h"
+#include "plugins/json_values/base64.h"
 #include "plugins/json_values/json_values.h"
 
 namespace runnel::internal {

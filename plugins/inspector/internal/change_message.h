@@ -1,10 +1,7 @@
 #pragma once
 
-#include <string>
-
-#include <nlohmann/json_fwd.hpp>
-
 #include "core/base/result.h"
+#include "plugins/json_values/json_reader.h"
 #include "plugins/structure/change.h"
 
 namespace runnel::internal {
@@ -12,6 +9,6 @@ namespace runnel::internal {
 /// One change as PROTOCOL.md has it: {"change":"connect","from":"/a/out","to":"/b/in","queue":10}.
 /// Errors: it is no object, there is no such change (with the nearest name), a member is missing, unknown
 /// or of another kind.
-[[nodiscard]] Result<Change> ParseChange(const nlohmann::json& json);
+[[nodiscard]] Result<Change> ParseChange(const JsonPart& json);
 
 }  // namespace runnel::internal

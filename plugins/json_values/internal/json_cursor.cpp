@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 
 #include "core/base/characters.h"
 #include "plugins/json_values/json_writer.h"
@@ -149,9 +150,13 @@ Result<void> JsonCursor::TakeString(std::string& text) {
 }
 
 bool JsonCursor::SkipValue(int depth) {
-  if (depth <= 0) return false;
   std::string text;
-  switch (Peek()) {
+  const char next = Peek();
+  if (depth <= 0 && (next == '{' || next == '[')) {
+    is_too_deep_ = true;
+    return false;
+  }
+  switch (next) {
     case '"':
       return TakeString(text).has_value();
     case '{':
@@ -171,6 +176,13 @@ bool JsonCursor::SkipValue(int depth) {
     default:
       return SkipWord("true") || SkipWord("false") || SkipWord("null") || !TakeNumber().empty();
   }
+}
+
+std::string_view JsonCursor::TakeValue() {
+  SkipWhitespace();
+  const std::size_t begin = next_;
+  SkipValue(std::numeric_limits<int>::max());
+  return text_.substr(begin, next_ - begin);
 }
 
 Error JsonCursor::ErrorHere(std::string message) {

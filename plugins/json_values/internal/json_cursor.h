@@ -27,8 +27,12 @@ class JsonCursor {
   /// What a text in quotation marks stands for. Errors: no whole text comes next, or it is not
   /// written as JSON wants.
   Result<void> TakeString(std::string& text);
-  /// Goes past the next value, whatever it is, down to `depth` levels of nesting.
+  /// Goes past the next value, whatever it is, with at most `depth` lists and objects inside of one another.
   bool SkipValue(int depth);
+  /// Whether SkipValue() has failed for want of depth.
+  [[nodiscard]] bool is_too_deep() const noexcept { return is_too_deep_; }
+  /// Goes past the next value, in a text that has been checked.
+  std::string_view TakeValue();
 
   /// `message` with the line and the column of what comes next.
   [[nodiscard]] Error ErrorHere(std::string message);
@@ -45,6 +49,7 @@ class JsonCursor {
 
   std::string_view text_;
   std::size_t next_ = 0;
+  bool is_too_deep_ = false;
 };
 
 }  // namespace runnel

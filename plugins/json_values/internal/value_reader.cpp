@@ -29,7 +29,7 @@ Result<void> ValueReader::ReadKind(const TypeInfo& type, void* value) {
     case TypeKind::kOpaque:
       break;
     case TypeKind::kLeaf:
-      return ReadLeaf(KindOfLeaf(type), type, value);
+      return ReadLeaf(type, value);
     case TypeKind::kEnumeration:
       return ReadEnumeration(type, value);
     case TypeKind::kStructure:

@@ -9,7 +9,6 @@
 #include "core/base/result.h"
 #include "core/types/type_info.h"
 #include "plugins/json_values/internal/json_cursor.h"
-#include "plugins/json_values/internal/leaf_kind.h"
 
 namespace runnel {
 
@@ -38,7 +37,7 @@ class ValueReader {
   Result<void> Read(const TypeInfo& type, void* value);
   Result<void> ReadKind(const TypeInfo& type, void* value);
 
-  Result<void> ReadLeaf(LeafKind kind, const TypeInfo& type, void* value);
+  Result<void> ReadLeaf(const TypeInfo& type, void* value);
   Result<void> ReadBool(void* value);
   template <typename N>
   Result<void> ReadNumber(const TypeInfo& type, void* value);

@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <concepts>
 #include <cstdint>
 #include <limits>
 
 #include "core/base/nearest_name.h"
 #include "plugins/json_values/internal/json_numbers.h"
+#include "plugins/json_values/internal/leaf_types.h"
 #include "plugins/json_values/internal/value_reader.h"
 
 namespace runnel {
@@ -50,44 +52,25 @@ Result<void> ValueReader::ReadNumber(const TypeInfo& type, void* value) {
   return {};
 }
 
-Result<void> ValueReader::ReadLeaf(LeafKind kind, const TypeInfo& type, void* value) {
-  switch (kind) {
-    case LeafKind::kBool:
+Result<void> ValueReader::ReadLeaf(const TypeInfo& type, void* value) {
+  return WithLeafType(type, [&]<typename T>(std::type_identity<T>) -> Result<void> {
+    if constexpr (std::same_as<T, bool>) {
       return ReadBool(value);
-    case LeafKind::kInt8:
-      return ReadNumber<std::int8_t>(type, value);
-    case LeafKind::kInt16:
-      return ReadNumber<std::int16_t>(type, value);
-    case LeafKind::kInt32:
-      return ReadNumber<std::int32_t>(type, value);
-    case LeafKind::kInt64:
-      return ReadNumber<std::int64_t>(type, value);
-    case LeafKind::kUint8:
-      return ReadNumber<std::uint8_t>(type, value);
-    case LeafKind::kUint16:
-      return ReadNumber<std::uint16_t>(type, value);
-    case LeafKind::kUint32:
-      return ReadNumber<std::uint32_t>(type, value);
-    case LeafKind::kUint64:
-      return ReadNumber<std::uint64_t>(type, value);
-    case LeafKind::kFloat:
-      return ReadNumber<float>(type, value);
-    case LeafKind::kDouble:
-      return ReadNumber<double>(type, value);
-    case LeafKind::kString:
+    } else if constexpr (std::is_arithmetic_v<T>) {
+      return ReadNumber<T>(type, value);
+    } else if constexpr (std::same_as<T, std::string>) {
       return cursor_.TakeString(*static_cast<std::string*>(value));
-    case LeafKind::kDuration:
+    } else if constexpr (std::same_as<T, Duration>) {
       return ReadDuration(type, *static_cast<Duration*>(value));
-    case LeafKind::kTime: {
+    } else if constexpr (std::same_as<T, Time>) {
       Duration since_start{};
       if (auto read = ReadDuration(type, since_start); !read) return read;
       *static_cast<Time*>(value) = Time(since_start);
       return {};
-    }
-    case LeafKind::kOther:
+    } else {
       return ReadText(type, value);
-  }
-  return {};
+    }
+  });
 }
 
 Result<void> ValueReader::ReadBool(void* value) {

@@ -71,7 +71,7 @@ inline void Describe(runnel::TypeBuilder<Label>& type) {
                              static_cast<Label*>(at)->text = text;
                              return {};
                            },
-                           nullptr, nullptr, /*needs_quotes=*/true});
+                           /*needs_quotes=*/true});
 }
 inline void Describe(runnel::TypeBuilder<Everything>& type) {
   type.Name("Everything")

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "plugins/json_values/base64.h"
 #include "tests/support/fault_injection.h"
 
 namespace runnel {
@@ -73,15 +74,6 @@ TEST(JsonWriter, ThrowsWhereThereIsNoMemoryForABracket) {
       test::AtEachPoint(test::InjectedFault::kAllocation, write,
                         [&](bool has_struck) { EXPECT_EQ(json.size(), has_struck ? 2 : 502); });
   EXPECT_GT(points, 2U);
-}
-
-TEST(JsonWriter, CutsBetweenCharacters) {
-  EXPECT_EQ(WholeCharacters("abc", 2), 2U);
-  EXPECT_EQ(WholeCharacters("abc", 3), 3U);
-  EXPECT_EQ(WholeCharacters("a€", 2), 1U);
-  EXPECT_EQ(WholeCharacters("a€", 3), 1U);
-  EXPECT_EQ(WholeCharacters("a€", 4), 4U);
-  EXPECT_EQ(WholeCharacters("\x80\x80\x80\x80\x80\x80", 4), 4U);
 }
 
 TEST(JsonWriter, WritesBytesAsBase64) {
