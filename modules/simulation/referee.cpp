@@ -8,6 +8,7 @@
 
 #include "modules/simulation/algorithm/run_result.h"
 #include "modules/simulation/algorithm/trajectory_svg.h"
+#include "modules/simulation/run_result_json.h"
 
 namespace runnel {
 
