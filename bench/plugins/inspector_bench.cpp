@@ -237,8 +237,8 @@ bool MeasureStructure(int count) {
     }
     if (!runtime.MakeReady(runtime.root())) return false;
   }
-  internal::FaultLog faults;
-  internal::StructureMirror mirror(runtime, modules, scheduler, faults);
+  const ApplicationLog log(runtime.clock());
+  internal::StructureMirror mirror(runtime, modules, scheduler, log);
   const Looking first = LookUntilSeen(mirror);
   const auto before = MachineClock::now();
   const std::string whole = mirror.Whole();

@@ -49,8 +49,6 @@ class ApplicationExtension {
   [[nodiscard]] virtual std::optional<Duration> limit() const { return std::nullopt; }
   /// Whether the run is over, asked some fifty times a second; nullopt: its run monitors decide.
   virtual std::optional<bool> IsOver() { return std::nullopt; }
-  /// A module has been stopped.
-  virtual void OnFault(const Fault& /*fault*/) {}
   /// What has gone wrong here since the last call, and did not end the run.
   virtual std::optional<Error> TakeFailure() { return std::nullopt; }
   /// No cycle will run any more; `verdict` is what has come of it, for people.

@@ -68,9 +68,9 @@ void Application::Attend() {
   for (const Fault& fault : parts.scheduler->TakeFaults()) {
     parts.report->Hear(fault);
     std::string text = FaultText(fault, parts.start, root);
-    parts.log->Add(ApplicationLog::Kind::kFault, text);
+    parts.log->Add(ApplicationLog::Kind::kFault, text, fault.path,
+                   fault.is_mended ? "" : fault.message);
     parts.Add({Kind::kFault, std::move(text), fault});
-    for (const auto& extension : parts.options().extensions) extension->OnFault(fault);
   }
   for (const auto& extension : parts.options().extensions) {
     const auto failure = extension->TakeFailure();

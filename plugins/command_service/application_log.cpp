@@ -8,15 +8,24 @@
 
 #include <fmt/format.h>
 
+#include "core/base/characters.h"
+
 namespace runnel {
 
 // What has been done must be told as done, whatever the log does.
-void ApplicationLog::Add(Kind kind, std::string text) noexcept {
+void ApplicationLog::Add(Kind kind, std::string text, std::string module,
+                         std::string cause) noexcept {
   try {
     while (!text.empty() && text.back() == '\n') text.pop_back();
-    if (text.size() > kLongestText) text = text.substr(0, kLongestText) + " …";
-    Entry entry{0, std::chrono::system_clock::now(), clock_.Now() - start_, kind, std::move(text)};
+    Entry entry{0,
+                std::chrono::system_clock::now(),
+                clock_.Now() - start_,
+                kind,
+                Shortened(std::move(text), kLongestText),
+                std::move(module),
+                std::move(cause)};
     const std::lock_guard lock(mutex_);
+    if (!entry.module.empty()) ++faults_;
     entry.number = first_ + entries_.size();
     entries_.push_back(std::move(entry));
     if (entries_.size() <= kMostEntries) return;
@@ -43,11 +52,9 @@ std::uint64_t ApplicationLog::end() const {
   return first_ + entries_.size();
 }
 
-ApplicationLog::Lines ApplicationLog::Read(std::uint64_t from, std::size_t most) const {
-  const Entries read = ReadEntries(from, most);
-  Lines lines{.lines = {}, .lost = read.lost, .next = read.next};
-  for (const Entry& entry : read.entries) lines.lines.push_back(LineOf(entry));
-  return lines;
+std::uint64_t ApplicationLog::faults() const {
+  const std::lock_guard lock(mutex_);
+  return faults_;
 }
 
 const char* ApplicationLog::KindName(Kind kind) noexcept {

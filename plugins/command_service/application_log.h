@@ -25,8 +25,9 @@ class ApplicationLog {
   /// `clock` is the application's and must outlive this; times count from now.
   explicit ApplicationLog(const Clock& clock) : clock_(clock), start_(clock.Now()) {}
 
-  /// What there is no memory for is not kept.
-  void Add(Kind kind, std::string text) noexcept;
+  /// `module`: the path of one that has thrown; `cause`: what it has thrown, if that has stopped it. What there
+  /// is no memory for is not kept.
+  void Add(Kind kind, std::string text, std::string module = {}, std::string cause = {}) noexcept;
 
   /// "fault", "warning", "change".
   [[nodiscard]] static const char* KindName(Kind kind) noexcept;
@@ -38,6 +39,8 @@ class ApplicationLog {
     Duration time{};  ///< on the application's clock
     Kind kind = Kind::kChange;
     std::string text;
+    std::string module;
+    std::string cause;
   };
   struct Entries {
     std::vector<Entry> entries;
@@ -48,22 +51,18 @@ class ApplicationLog {
   [[nodiscard]] Entries ReadEntries(std::uint64_t from, std::size_t most) const;
   /// The number that the next entry will have.
   [[nodiscard]] std::uint64_t end() const;
+  /// How often a module has thrown.
+  [[nodiscard]] std::uint64_t faults() const;
 
-  struct Lines {
-    std::vector<std::string> lines;  ///< "14:31:05  12.350 s  fault    /robot/arm: …"
-    std::uint64_t lost = 0;          ///< entries that were asked for and are gone
-    std::uint64_t next = 0;          ///< what to ask for the next time
-  };
-  /// The same as lines.
-  [[nodiscard]] Lines Read(std::uint64_t from, std::size_t most) const;
+  /// "14:31:05  12.350 s  fault    /robot/arm: …"
+  [[nodiscard]] static std::string LineOf(const Entry& entry);
 
  private:
-  static std::string LineOf(const Entry& entry);
-
   const Clock& clock_;
   const Time start_;
   mutable std::mutex mutex_;  // a leaf: nothing else is locked meanwhile
   std::deque<Entry> entries_;
+  std::uint64_t faults_ = 0;
   std::uint64_t first_ = 0;  // the number of the oldest that is kept
 };
 

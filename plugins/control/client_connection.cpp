@@ -28,19 +28,19 @@ ClientConnection::~ClientConnection() { close(descriptor_); }
 
 short ClientConnection::events() const noexcept {
   // Requests are taken one by one: what comes meanwhile stays where it is.
-  const bool reads = !has_ended_ && !is_refused_ && command_ == nullptr && backlog() < kBacklog;
+  const bool reads = !has_ended_ && !is_refused_ && !command_ && backlog() < kBacklog;
   return static_cast<short>((reads ? POLLIN : 0) | (backlog() > 0 ? POLLOUT : 0));
 }
 
 bool ClientConnection::is_over() const noexcept {
   if (is_broken_) return true;
-  if (backlog() > 0 || command_ != nullptr) return false;
+  if (backlog() > 0 || command_) return false;
   return is_refused_ || (has_ended_ && !may_have_request_);
 }
 
 std::optional<Command::SteadyTime> ClientConnection::due() const noexcept {
   if (backlog() >= kBacklog || is_refused_) return {};
-  if (command_ != nullptr) return command_->due();
+  if (command_) return command_->due();
   return may_have_request_ ? std::optional(SteadyTime{}) : std::nullopt;
 }
 
@@ -105,18 +105,17 @@ void ClientConnection::Begin(CommandService& service, TaskGroup& tasks) {
   }
   auto command = MakeCommand((*frame)->payload, service, tasks);
   if (command) {
-    command_ = std::move(*command);
+    command_.emplace(std::move(*command));
   } else {
-    WriteError(ErrorLine(command.error()));
-    SendEnd(ControlCode::kBadInput);
+    SendEnd(runnel::Refuse(*this, command.error()));
   }
 }
 
 void ClientConnection::Work(CommandService& service, TaskGroup& tasks) {
   if (is_broken_ || is_refused_ || backlog() >= kBacklog) return;
   try {
-    if (command_ == nullptr) Begin(service, tasks);
-    if (command_ == nullptr || command_->due() > std::chrono::steady_clock::now()) return Flush();
+    if (!command_) Begin(service, tasks);
+    if (!command_ || command_->due() > std::chrono::steady_clock::now()) return Flush();
     if (const auto code = command_->Continue(*this)) {
       command_.reset();
       SendEnd(*code);
@@ -128,7 +127,7 @@ void ClientConnection::Work(CommandService& service, TaskGroup& tasks) {
 }
 
 void ClientConnection::Finish() {
-  if (command_ != nullptr) {
+  if (command_) {
     command_.reset();
     WriteError("the application has ended\n");
     SendEnd(ControlCode::kFailed);

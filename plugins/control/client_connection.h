@@ -59,7 +59,7 @@ class ClientConnection final : private Answer {
 
   const int descriptor_;
   FrameReader reader_;
-  std::unique_ptr<Command> command_;
+  std::optional<Command> command_;
   std::string out_;
   std::size_t sent_ = 0;
   bool has_ended_ = false;  // the client sends no more

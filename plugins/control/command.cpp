@@ -1,10 +1,11 @@
 #include "plugins/control/command.h"
 
 #include <algorithm>
-#include <charconv>
+#include <mutex>
 #include <vector>
 
 #include "core/base/nearest_name.h"
+#include "core/base/number_text.h"
 
 namespace runnel {
 
@@ -85,6 +86,28 @@ CommandResult MakeCommand(const std::string& text, CommandService& service, Task
   return kind->make(*request, service, tasks);
 }
 
+std::optional<ControlCode> Command::Continue(Answer& answer) {
+  const CommandStep next = step_(answer);
+  if (const auto* const code = std::get_if<ControlCode>(&next)) return *code;
+  const auto* const task = std::get_if<std::shared_ptr<const WorkerTask>>(&next);
+  task_ = task != nullptr ? *task : nullptr;
+  if (task_ == nullptr) due_ = std::chrono::steady_clock::now() + std::get<Duration>(next);
+  return {};
+}
+
+Command::Step UnderLock(Runtime& runtime, Command::Step work) {
+  return [&runtime, work = std::move(work)](Answer& answer) -> CommandStep {
+    const std::unique_lock lock(runtime.structure_mutex(), std::try_to_lock);
+    if (!lock) return kLookAgain;
+    return work(answer);
+  };
+}
+
+ControlCode Refuse(Answer& answer, const Error& error) {
+  answer.WriteError(ErrorLine(error));
+  return ControlCode::kBadInput;
+}
+
 std::string ErrorLine(const Error& error) {
   Diagnostics diagnostics;
   diagnostics.Add(error);
@@ -94,12 +117,8 @@ std::string ErrorLine(const Error& error) {
 Result<std::optional<std::uint64_t>> ReadCountOption(const Request& request) {
   if (!request.Has("count")) return std::optional<std::uint64_t>();
   const std::string text = request.Option("count");
-  std::uint64_t count = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-  if (error == std::errc{} && end == text.data() + text.size() && count >= 1 &&
-      count <= 1'000'000'000) {
-    return std::optional(count);
-  }
+  const auto count = NumberIn<std::uint64_t>(text);
+  if (count && *count >= 1 && *count <= 1'000'000'000) return count;
   return Error{.message = "'" + text + "' is not a count from 1 to 1000000000"};
 }
 

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <variant>
 
 #include "plugins/command_service/command_service.h"
 #include "plugins/control/request.h"
@@ -29,42 +31,39 @@ class Answer {
   ~Answer() = default;
 };
 
+/// What comes next: the command has ended; it wants to go on after a while, but not before what it has written is
+/// on its way; or when a task is done, of which the task group tells.
+using CommandStep = std::variant<ControlCode, Duration, std::shared_ptr<const WorkerTask>>;
+
 /// One request while it is being answered.
 ///
-/// Threads:  the server's. Continue() does not wait for anything.
+/// Threads:  the server's. Steps do not wait for anything.
 class Command {
  public:
   using SteadyTime = std::chrono::steady_clock::time_point;
+  using Step = std::function<CommandStep(Answer& answer)>;
 
-  virtual ~Command() = default;
-  /// Does what can be done now. How it ended; nothing: call it again when due() has come, and what it
-  /// has written is on its way.
-  virtual std::optional<ControlCode> Continue(Answer& answer) = 0;
-  /// The past if it waits for a task that is done by now: the task group tells when that may be.
+  explicit Command(Step step) : step_(std::move(step)) {}
+  /// Does what can be done now. How it ended; nothing: call it again when due() has come.
+  std::optional<ControlCode> Continue(Answer& answer);
+  /// The past if it waits for a task that is done by now.
   [[nodiscard]] SteadyTime due() const noexcept {
     if (task_ == nullptr) return due_;
     return task_->is_done() ? SteadyTime::min() : SteadyTime::max();
   }
 
- protected:
-  void ContinueIn(Duration duration) {
-    due_ = std::chrono::steady_clock::now() + duration;
-    task_ = nullptr;
-  }
-  void ContinueAfter(std::shared_ptr<const WorkerTask> task) { task_ = std::move(task); }
-
  private:
+  Step step_;
   SteadyTime due_{};
   std::shared_ptr<const WorkerTask> task_;
 };
 
 /// The command that the request names. Errors: there is none, or its words are wrong.
-[[nodiscard]] Result<std::unique_ptr<Command>> MakeCommand(const std::string& request,
-                                                           CommandService& service,
-                                                           TaskGroup& tasks);
+[[nodiscard]] Result<Command> MakeCommand(const std::string& request, CommandService& service,
+                                          TaskGroup& tasks);
 
 // Their makers.
-using CommandResult = Result<std::unique_ptr<Command>>;
+using CommandResult = Result<Command>;
 [[nodiscard]] CommandResult MakeListCommand(const Request&, const ServedApplication&);
 [[nodiscard]] CommandResult MakePathsCommand(const Request&, const ServedApplication&);
 [[nodiscard]] CommandResult MakeTypesCommand(const Request&, const ServedApplication&);
@@ -76,7 +75,7 @@ using CommandResult = Result<std::unique_ptr<Command>>;
 [[nodiscard]] CommandResult MakeStepCommand(const Request&, const ServedApplication&);
 [[nodiscard]] CommandResult MakeSpeedCommand(const Request&, const ServedApplication&);
 [[nodiscard]] CommandResult MakeRecordCommand(const Request&, const ServedApplication&, TaskGroup&);
-/// Of those that the service carries out. Errors: the changes cannot be read.
+/// Of those that the service carries out.
 [[nodiscard]] CommandResult MakeServiceCommand(const Request&, CommandService&, TaskGroup&);
 
 /// The errors and warnings as lines, the first hundred of each.
@@ -84,8 +83,14 @@ using CommandResult = Result<std::unique_ptr<Command>>;
 /// "path: error: message; hint" with an end of line.
 [[nodiscard]] std::string ErrorLine(const Error& error);
 
+/// Complains of the error, which is the client's.
+ControlCode Refuse(Answer& answer, const Error& error);
+
 /// How often a command that finds the structure locked, or has to look again and again, does so.
 inline constexpr Duration kLookAgain = std::chrono::milliseconds(5);
+
+/// `work` under the structure lock, once nobody else has it.
+[[nodiscard]] Command::Step UnderLock(Runtime& runtime, Command::Step work);
 
 /// How many lines or values a client wants: the option "count". Errors: no number from 1 to 1e9.
 [[nodiscard]] Result<std::optional<std::uint64_t>> ReadCountOption(const Request& request);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <limits>
 #include <utility>
@@ -13,6 +12,7 @@
 #include <unistd.h>
 
 #include "core/base/nearest_name.h"
+#include "core/base/number_text.h"
 #include "plugins/control/control_folder.h"
 
 namespace runnel {
@@ -108,9 +108,7 @@ Result<int> ControlClient::Ask(const std::string& request, const Use& output, co
     if (frame->kind == "out" && !output(frame->payload)) return 0;
     if (frame->kind == "err" && !errors(frame->payload)) return 0;
     if (frame->kind != "end") continue;
-    int code = 1;
-    std::from_chars(frame->payload.data(), frame->payload.data() + frame->payload.size(), code);
-    return code;
+    return NumberIn<int>(frame->payload).value_or(1);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/characters.h"
 #include "core/element/configurable.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/port.h"
@@ -51,8 +52,7 @@ std::string Milliseconds(Duration duration) {
 std::string ParameterLine(const Configurable& parameter) {
   const ConfigurableInfo& info = parameter.info();
   const std::string unit = info.unit.empty() ? "" : " " + info.unit;
-  std::string value = ParameterText(parameter);
-  if (value.size() > kLongestValue) value = value.substr(0, kLongestValue) + "…";
+  const std::string value = Shortened(ParameterText(parameter), kLongestValue);
   std::string text = parameter.type().name() + " = " + (value.empty() ? "\"\"" : value) + unit;
   if (!info.bounds.empty()) text += ", in " + info.bounds + unit;
   std::string choices;
@@ -120,12 +120,6 @@ std::string About(const FrameworkElement& element, const ListingOptions& options
   return text;
 }
 
-// Characters, not bytes.
-std::size_t Width(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(text, [](char byte) { return (byte & 0xc0) != 0x80; }));
-}
-
 struct Row {
   std::string name;
   std::string kind;
@@ -172,12 +166,12 @@ std::string ListElements(FrameworkElement& start, const ListingOptions& options)
   std::size_t name_width = 0;
   std::size_t kind_width = 0;
   for (const Row& row : rows) {
-    name_width = std::max(name_width, Width(row.name));
+    name_width = std::max(name_width, CharacterCount(row.name));
     kind_width = std::max(kind_width, row.kind.size());
   }
   std::string text;
   for (const Row& row : rows) {
-    text += row.name + std::string(name_width - Width(row.name) + 2, ' ') + row.kind;
+    text += row.name + std::string(name_width - CharacterCount(row.name) + 2, ' ') + row.kind;
     if (!row.about.empty()) {
       text += std::string(kind_width - row.kind.size() + 2, ' ') + row.about;
     }

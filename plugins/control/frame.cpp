@@ -1,7 +1,8 @@
 #include "plugins/control/frame.h"
 
 #include <algorithm>
-#include <charconv>
+
+#include "core/base/number_text.h"
 
 namespace runnel {
 
@@ -13,13 +14,6 @@ bool IsKind(std::string_view text) {
   return !text.empty() && text.size() <= FrameReader::kLongestKind &&
          std::ranges::all_of(text,
                              [](char character) { return character >= 'a' && character <= 'z'; });
-}
-
-std::optional<std::size_t> ReadLength(std::string_view text) {
-  std::size_t length = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), length);
-  if (error != std::errc{} || end != text.data() + text.size()) return {};
-  return length;
 }
 
 Error NoFrame(std::string what) {
@@ -44,7 +38,7 @@ Result<std::optional<Frame>> FrameReader::Take() {
   }
   const std::string_view header = rest.substr(0, end);
   const std::size_t blank = std::min(header.find(' '), header.size());
-  const auto length = ReadLength(header.substr(std::min(blank + 1, header.size())));
+  const auto length = NumberIn<std::size_t>(header.substr(std::min(blank + 1, header.size())));
   if (!IsKind(header.substr(0, blank)) || !length) return NoFrame("what came has no good header");
   if (*length > longest_) {
     return NoFrame("a frame of " + std::to_string(*length) + " bytes is too long; " +

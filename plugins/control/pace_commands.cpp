@@ -1,8 +1,8 @@
-#include <charconv>
 #include <string>
 
 #include <fmt/format.h>
 
+#include "core/base/number_text.h"
 #include "plugins/control/command.h"
 #include "plugins/scheduling/pace.h"
 
@@ -11,14 +11,6 @@ namespace runnel {
 namespace {
 
 constexpr Duration kLookWhetherDone = std::chrono::milliseconds(5);
-
-template <typename Number>
-std::optional<Number> ReadAll(const std::string& text) {
-  Number number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || end != text.data() + text.size()) return {};
-  return number;
-}
 
 std::string TimeText(const ServedApplication& application) {
   return fmt::format("{:.3f} s", ToSeconds(application.runtime.clock().Now()));
@@ -31,44 +23,12 @@ std::string SpeedText(double speed) {
 }
 
 // Says what has been done; what could not be is the command's error.
-class SaidCommand final : public Command {
- public:
-  explicit SaidCommand(std::string text) : text_(std::move(text)) {}
-  std::optional<ControlCode> Continue(Answer& answer) override {
-    answer.Write(text_ + "\n");
-    return ControlCode::kDone;
-  }
-
- private:
-  const std::string text_;
-};
-
 CommandResult Say(std::string text) {
-  return std::unique_ptr<Command>(std::make_unique<SaidCommand>(std::move(text)));
-}
-
-// Waits until the cycles have run.
-class StepCommand final : public Command {
- public:
-  explicit StepCommand(const ServedApplication& application) : application_(application) {}
-
-  std::optional<ControlCode> Continue(Answer& answer) override {
-    const Pace& pace = *application_.pace;
-    if (!pace.is_paused()) {
-      answer.WriteError("somebody else has let it go on meanwhile\n");
-      return ControlCode::kFailed;
-    }
-    if (pace.cycles_to_step() > 0) {
-      ContinueIn(kLookWhetherDone);
-      return {};
-    }
-    answer.Write("stands at " + TimeText(application_) + "\n");
+  return Command([text = std::move(text)](Answer& answer) -> CommandStep {
+    answer.Write(text + "\n");
     return ControlCode::kDone;
-  }
-
- private:
-  const ServedApplication& application_;
-};
+  });
+}
 
 // What it wants, done and logged. Errors: of the pace.
 CommandResult Do(const ServedApplication& application, const Result<void>& done,
@@ -97,13 +57,22 @@ CommandResult MakeResumeCommand(const Request&, const ServedApplication& applica
 CommandResult MakeStepCommand(const Request& request, const ServedApplication& application) {
   if (application.pace == nullptr) return NoPace();
   const std::string word = request.arguments.empty() ? "1" : request.arguments[0];
-  const auto count = ReadAll<std::uint64_t>(word);
+  const auto count = NumberIn<std::uint64_t>(word);
   if (!count) {
     return Error{.message = "'" + word + "' is not a count of cycles",
                  .hint = "allowed is 1 .. " + std::to_string(Pace::kMostCycles)};
   }
   if (auto stepped = application.pace->StepCycles(*count); !stepped) return stepped.error();
-  return std::unique_ptr<Command>(std::make_unique<StepCommand>(application));
+  // Waits until the cycles have run.
+  return Command([&application, &pace = *application.pace](Answer& answer) -> CommandStep {
+    if (!pace.is_paused()) {
+      answer.WriteError("somebody else has let it go on meanwhile\n");
+      return ControlCode::kFailed;
+    }
+    if (pace.cycles_to_step() > 0) return kLookWhetherDone;
+    answer.Write("stands at " + TimeText(application) + "\n");
+    return ControlCode::kDone;
+  });
 }
 
 CommandResult MakeSpeedCommand(const Request& request, const ServedApplication& application) {
@@ -112,7 +81,7 @@ CommandResult MakeSpeedCommand(const Request& request, const ServedApplication& 
   if (request.arguments.empty()) {
     return Say(SpeedText(pace.speed()) + (pace.is_paused() ? ", but paused" : ""));
   }
-  const auto speed = ReadAll<double>(request.arguments[0]);
+  const auto speed = NumberIn<double>(request.arguments[0]);
   if (!speed) return Error{.message = "'" + request.arguments[0] + "' is not a number"};
   return Do(application, pace.SetSpeed(*speed), SpeedText(*speed));
 }

@@ -1,21 +1,9 @@
 #include "plugins/control/protocol.h"
 
-#include <charconv>
-
+#include "core/base/number_text.h"
 #include "plugins/control/request.h"
 
 namespace runnel {
-
-namespace {
-
-template <typename Number>
-Number ReadNumber(const std::string& text) {
-  Number number{};
-  std::from_chars(text.data(), text.data() + text.size(), number);
-  return number;
-}
-
-}  // namespace
 
 std::string Hello::ToText() const {
   return Request{.command = "runnel",
@@ -35,16 +23,16 @@ Result<Hello> Hello::Parse(std::string_view text) {
     return Error{.message = "who answers there is no application of Runnel's"};
   }
   Hello hello;
-  hello.protocol = ReadNumber<int>(arguments->Option("protocol"));
+  hello.protocol = NumberIn<int>(arguments->Option("protocol")).value_or(0);
   if (hello.protocol != kControlProtocol) {
     return Error{.message = "the application speaks protocol " + arguments->Option("protocol") +
                             ", this program " + std::to_string(kControlProtocol),
                  .hint = "use the program that started it"};
   }
-  hello.process = ReadNumber<pid_t>(arguments->Option("process"));
+  hello.process = NumberIn<pid_t>(arguments->Option("process")).value_or(0);
   hello.application = arguments->Option("application");
   hello.file = arguments->Option("file");
-  hello.time = Duration(ReadNumber<std::int64_t>(arguments->Option("nanoseconds")));
+  hello.time = Duration(NumberIn<std::int64_t>(arguments->Option("nanoseconds")).value_or(0));
   return hello;
 }
 

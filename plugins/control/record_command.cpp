@@ -12,7 +12,7 @@ constexpr Duration kTellProgress = std::chrono::milliseconds(250);
 
 /// Records until its client goes, or so long as that has said. What waits for the disk or for the structure
 /// does so in the worker's thread.
-class RecordCommand final : public Command {
+class RecordCommand {
  public:
   RecordCommand(const RecordingHook& hook, RecordingRequest recording,
                 std::optional<std::uint64_t> seconds, TaskGroup& tasks)
@@ -27,16 +27,18 @@ class RecordCommand final : public Command {
     });
   }
   // The client has gone: the worker brings the file to its end.
-  ~RecordCommand() override {
+  ~RecordCommand() {
     if (!task_->is_done()) task_->Cancel();
     if (!has_ended_) {
       tasks_.Post([shared = shared_] { shared->recording.reset(); });
     }
   }
 
-  std::optional<ControlCode> Continue(Answer& answer) override {
-    ContinueAfter(task_);
-    if (!task_->is_done()) return {};
+  RecordCommand(const RecordCommand&) = delete;
+  RecordCommand& operator=(const RecordCommand&) = delete;
+
+  CommandStep Continue(Answer& answer) {
+    if (!task_->is_done()) return task_;
     if (!shared_->outcome) {
       has_ended_ = true;
       answer.WriteError(ErrorLine(shared_->outcome.error()));
@@ -54,11 +56,10 @@ class RecordCommand final : public Command {
     }
     if (seconds_ && std::chrono::steady_clock::now() - began_ >= std::chrono::seconds(*seconds_)) {
       End();
-      return {};
+      return task_;
     }
-    ContinueIn(kTellProgress);
     answer.Write(shared_->recording->Progress() + "\n");
-    return {};
+    return kTellProgress;
   }
 
  private:
@@ -105,10 +106,11 @@ CommandResult MakeRecordCommand(const Request& request, const ServedApplication&
   if (request.Option("file").empty()) {
     return Error{.message = "'record' needs the file to record to, as file=…"};
   }
-  return std::unique_ptr<Command>(std::make_unique<RecordCommand>(
+  const auto recording = std::make_shared<RecordCommand>(
       application.hooks.record,
       RecordingRequest{request.Option("file"), request.arguments, request.Option("compression")},
-      *seconds, tasks));
+      *seconds, tasks);
+  return Command([recording](Answer& answer) { return recording->Continue(answer); });
 }
 
 }  // namespace runnel

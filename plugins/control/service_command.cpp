@@ -10,41 +10,6 @@ namespace {
 
 constexpr std::size_t kMostErrors = 100;
 
-// Has the service carry out a request, and tells what has come of it.
-class ServiceCommand final : public Command {
- public:
-  ServiceCommand(CommandRequest request, CommandService& service, TaskGroup& tasks)
-      : pending_(service.Begin(std::move(request), tasks)) {}
-
-  std::optional<ControlCode> Continue(Answer& answer) override {
-    ContinueAfter(pending_->task());
-    if (!pending_->is_done()) return {};
-    const CommandAnswer done = pending_->Take();
-    const std::string diagnostics = DiagnosticsText(done.diagnostics);
-    if (!diagnostics.empty()) answer.WriteError(diagnostics);
-    if (done.outcome == CommandAnswer::Outcome::kRefused) return ControlCode::kBadInput;
-    if (done.outcome == CommandAnswer::Outcome::kFailed) return ControlCode::kFailed;
-    answer.Write(done.text + "\n");
-    return ControlCode::kDone;
-  }
-
- private:
-  const std::unique_ptr<PendingCommand> pending_;
-};
-
-// Refuses what cannot be read; an answer with all that is wrong.
-class RefusedCommand final : public Command {
- public:
-  explicit RefusedCommand(std::string text) : text_(std::move(text)) {}
-  std::optional<ControlCode> Continue(Answer& answer) override {
-    answer.WriteError(text_);
-    return ControlCode::kBadInput;
-  }
-
- private:
-  const std::string text_;
-};
-
 PlacedChanges ReadChanges(const Request& request, Diagnostics& diagnostics) {
   const SourcePosition begins{request.Option("file"), 1, 1};
   PlacedChanges placed = ParseChanges(request.body, begins, diagnostics);
@@ -70,6 +35,7 @@ CommandRequest RequestOf(const Request& request, PlacedChanges placed) {
 
 }  // namespace
 
+// Has the service carry out the request, and tells what has come of it.
 CommandResult MakeServiceCommand(const Request& request, CommandService& service,
                                  TaskGroup& tasks) {
   PlacedChanges placed;
@@ -77,12 +43,24 @@ CommandResult MakeServiceCommand(const Request& request, CommandService& service
     Diagnostics diagnostics;
     placed = ReadChanges(request, diagnostics);
     if (!diagnostics.ok()) {
-      return std::unique_ptr<Command>(
-          std::make_unique<RefusedCommand>(DiagnosticsText(diagnostics)));
+      return Command([text = DiagnosticsText(diagnostics)](Answer& answer) -> CommandStep {
+        answer.WriteError(text);
+        return ControlCode::kBadInput;
+      });
     }
   }
-  return std::unique_ptr<Command>(
-      std::make_unique<ServiceCommand>(RequestOf(request, std::move(placed)), service, tasks));
+  const std::shared_ptr<PendingCommand> pending =
+      service.Begin(RequestOf(request, std::move(placed)), tasks);
+  return Command([pending](Answer& answer) -> CommandStep {
+    if (!pending->is_done()) return std::shared_ptr<const WorkerTask>(pending->task());
+    const CommandAnswer done = pending->Take();
+    const std::string diagnostics = DiagnosticsText(done.diagnostics);
+    if (!diagnostics.empty()) answer.WriteError(diagnostics);
+    if (done.outcome == CommandAnswer::Outcome::kRefused) return ControlCode::kBadInput;
+    if (done.outcome == CommandAnswer::Outcome::kFailed) return ControlCode::kFailed;
+    answer.Write(done.text + "\n");
+    return ControlCode::kDone;
+  });
 }
 
 std::string DiagnosticsText(const Diagnostics& all) {

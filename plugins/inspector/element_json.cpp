@@ -5,7 +5,6 @@
 #include "core/element/configurable.h"
 #include "core/plugin/module_type_name.h"
 #include "core/types/type_info.h"
-#include "core/xml/xml_reading.h"
 #include "plugins/command_service/parameter_text.h"
 #include "plugins/inspector/internal/json_parts.h"
 #include "plugins/scheduling/thread_container.h"
@@ -54,7 +53,7 @@ void AddThread(const ThreadContainer& thread, JsonObject& json) {
 }
 
 void AddPort(const Port& port, JsonObject& json) {
-  const FrameworkElement* const owner = OwnerOf(port);
+  const FrameworkElement* const owner = FindOwner(port);
   json.Add("kind", "port");
   json.Add("name", port.name());
   json.Add("direction", port.direction() == Port::Direction::kInput ? "input" : "output");
@@ -68,14 +67,13 @@ void AddPort(const Port& port, JsonObject& json) {
 void AddParameter(const FrameworkElement& element, const Configurable& parameter,
                   JsonObject& json) {
   const ConfigurableInfo& info = parameter.info();
-  const BoundsEnds bounds = ParseBounds(info.bounds);
-  const FrameworkElement* const owner = OwnerOf(element);
+  const FrameworkElement* const owner = FindOwner(element);
   json.Add("kind", "parameter");
   json.Add("name", element.name());
   json.Add("data_type", parameter.type().name());
   json.Add("unit", info.unit);
-  AddNumberOrNull("minimum", bounds.minimum, json);
-  AddNumberOrNull("maximum", bounds.maximum, json);
+  AddNumberOrNull("minimum", info.minimum, json);
+  AddNumberOrNull("maximum", info.maximum, json);
   json.Add("description", info.description);
   json.Add("value", ParameterText(parameter));
   json.Add("default", info.default_value);
@@ -114,18 +112,6 @@ void Mix(std::string_view text, std::uint64_t& hash) {
 }
 
 }  // namespace
-
-const FrameworkElement* OwnerOf(const FrameworkElement& element) {
-  const FrameworkElement* at = element.parent();
-  while (at != nullptr && !IsModule(*at) && at->kind() != ElementKind::kGroup) at = at->parent();
-  return at;
-}
-
-BoundsEnds ParseBounds(std::string_view bounds) {
-  const std::size_t dots = bounds.find("..");
-  if (dots == std::string_view::npos) return {};
-  return {ParseNumber(bounds.substr(0, dots)), ParseNumber(bounds.substr(dots + 2))};
-}
 
 std::string ElementJson(const FrameworkElement& element, const ElementSurroundings& around) {
   std::string text;

@@ -31,14 +31,4 @@ struct ElementSurroundings {
 /// {"from":…,"to":…,…}. Under the structure lock.
 [[nodiscard]] std::string ConnectionJson(const Connection& connection);
 
-/// The two ends of ".. 5", "0.05 .. 5".
-struct BoundsEnds {
-  std::optional<double> minimum;
-  std::optional<double> maximum;
-};
-[[nodiscard]] BoundsEnds ParseBounds(std::string_view bounds);
-
-/// The module or group that a port or parameter belongs to; nullptr if there is none.
-[[nodiscard]] const FrameworkElement* OwnerOf(const FrameworkElement& element);
-
 }  // namespace runnel::internal

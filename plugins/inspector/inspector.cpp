@@ -23,7 +23,6 @@ WebProtocol Inspector::Protocol() {
           }};
 }
 
-void Inspector::Hear(const Fault& fault) { shared_->faults.Add(fault.path, fault.message); }
 void Inspector::NoteEnd(std::string verdict) { shared_->NoteEnd(std::move(verdict)); }
 
 }  // namespace runnel

@@ -31,8 +31,6 @@ class Inspector {
   Inspector& operator=(const Inspector&) = delete;
 
   [[nodiscard]] WebProtocol Protocol();
-  /// A module has been stopped.
-  void Hear(const Fault& fault);
   /// No cycle will run any more; `verdict` is what has come of it, for people.
   void NoteEnd(std::string verdict);
 

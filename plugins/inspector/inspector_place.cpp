@@ -1,16 +1,12 @@
 #include "plugins/inspector/inspector_place.h"
 
-#include <charconv>
-
+#include "core/base/number_text.h"
 #include "plugins/web_server/access_rules.h"
 
 namespace runnel {
 
 Result<std::uint16_t> ParseNetworkPort(std::string_view text) {
-  std::uint16_t port = 0;
-  const char* const end = text.data() + text.size();
-  const auto read = std::from_chars(text.data(), end, port);
-  if (read.ec == std::errc() && read.ptr == end) return port;
+  if (const auto port = NumberIn<std::uint16_t>(text)) return *port;
   return Error{.message = "'" + std::string(text) + "' is not a port",
                .hint = "write a number from 1 to 65535, or 0 for any that is free"};
 }

@@ -45,8 +45,8 @@ bool IsObserver(const Port& port) { return dynamic_cast<const ProbePort*>(&port)
 }  // namespace
 
 StructureMirror::StructureMirror(Runtime& runtime, const ModuleRegistry& modules,
-                                 const Scheduler& scheduler, FaultLog& faults)
-    : runtime_(runtime), scheduler_(scheduler), faults_(faults) {
+                                 const Scheduler& scheduler, const ApplicationLog& log)
+    : runtime_(runtime), scheduler_(scheduler), log_(log) {
   around_.modules = &modules;
 }
 
@@ -91,10 +91,13 @@ bool StructureMirror::LookOn() {
 }
 
 void StructureMirror::NoteFaults() {
-  for (const FaultLog::Entry& fault : faults_.Take()) {
-    const auto found = runtime_.root().Find(fault.path);
+  const auto news = log_.ReadEntries(next_in_log_, ApplicationLog::kMostEntries);
+  next_in_log_ = news.next;
+  for (const ApplicationLog::Entry& entry : news.entries) {
+    if (entry.cause.empty()) continue;
+    const auto found = runtime_.root().Find(entry.module);
     if (!found) continue;  // it has been deleted since
-    around_.stopped[(*found)->id()] = fault.message;
+    around_.stopped[(*found)->id()] = entry.cause;
     seen_.reset();
   }
 }

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/element/runtime.h"
+#include "plugins/command_service/application_log.h"
 #include "plugins/inspector/element_json.h"
-#include "plugins/inspector/fault_log.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/scheduling/thread_container.h"
 
@@ -39,7 +39,7 @@ struct CountSample {
 class StructureMirror {
  public:
   StructureMirror(Runtime& runtime, const ModuleRegistry& modules, const Scheduler& scheduler,
-                  FaultLog& faults);
+                  const ApplicationLog& log);
 
   /// Looks on for a moment. True: what there is to see has been seen; false: come again soon.
   /// Throws what a type or the lack of memory throws; then everything is looked at and told anew.
@@ -100,7 +100,8 @@ class StructureMirror {
 
   Runtime& runtime_;
   const Scheduler& scheduler_;
-  FaultLog& faults_;
+  const ApplicationLog& log_;
+  std::uint64_t next_in_log_ = 0;
   ElementSurroundings around_;
   std::uint64_t revision_ = 0;
   std::deque<std::string> changes_;  // the newest leads to revision_

@@ -86,10 +86,6 @@ Result<void> Viewers::Begin(Application& application, Diagnostics& diagnostics) 
   return {};
 }
 
-void Viewers::OnFault(const Fault& fault) {
-  if (inspector_ != nullptr) inspector_->Hear(fault);
-}
-
 void Viewers::OnEnd(const std::string& verdict) {
   if (inspector_ != nullptr) inspector_->NoteEnd(verdict);
 }

@@ -35,7 +35,6 @@ class Viewers final : public ApplicationExtension {
 
   void AddWords(XmlTagRegistry& tags) override;
   Result<void> Begin(Application& application, Diagnostics& diagnostics) override;
-  void OnFault(const Fault& fault) override;
   void OnEnd(const std::string& verdict) override;
   void End() noexcept override;
 

@@ -6,6 +6,19 @@
 
 namespace runnel {
 
+namespace {
+
+// A port that publishes during a look is looked at again, but not for ever.
+constexpr int kLooks = 3;
+
+std::uint64_t CountOf(const std::vector<const Port*>& ports) {
+  std::uint64_t count = 0;
+  for (const Port* port : ports) count += port->publications();
+  return count;
+}
+
+}  // namespace
+
 Result<void> WatchedPort::Find(Runtime& runtime) {
   sources_.clear();
   input_ = nullptr;
@@ -27,13 +40,18 @@ Result<void> WatchedPort::Find(Runtime& runtime) {
 }
 
 std::optional<std::uint64_t> WatchedPort::VisitIfNew(const Port::Visitor& look) {
-  std::uint64_t count = 0;
-  // Before looking: what is published meanwhile may be shown twice, and is never missed.
-  for (const Port* source : sources_) count += source->publications();
+  std::uint64_t count = CountOf(sources_);
   if (shown_ == count) return {};
-  const bool has_value =
-      std::ranges::any_of(sources_, [&](const Port* source) { return source->VisitLatest(look); });
-  if (!has_value) return {};
+  for (int looks = kLooks; looks > 0; --looks) {
+    const bool has_value = std::ranges::any_of(
+        sources_, [&](const Port* source) { return source->VisitLatest(look); });
+    if (!has_value) return {};
+    const std::uint64_t after = CountOf(sources_);
+    if (after == count) break;
+    // What was published meanwhile may have been shown, or not. After the last look, the count of before:
+    // what may be shown twice is never missed.
+    if (looks > 1) count = after;
+  }
   shown_ = count;
   return count;
 }

@@ -37,7 +37,7 @@ class WatchedPort {
   [[nodiscard]] const TypeInfo& type() const noexcept { return *type_; }
 
   /// Shows the newest value, unless it has been shown already; returns how many have been published so
-  /// far. Of a group's interface port: the first that there is among its sources'. Not under the
+  /// far. `look` is called again, for a newer one, if something is published meanwhile. Of a group's interface port: the first that there is among its sources'. Not under the
   /// structure lock.
   std::optional<std::uint64_t> VisitIfNew(const Port::Visitor& look);
   /// How many values the queue of the port that was found has lost, if it is an input with one; else 0.

@@ -74,7 +74,8 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
                    {"core", "plugins/scheduling", "plugins/structure"}});
   rules.push_back({"plugins/control",
                    "plugins/control",
-                   {"core", "plugins/command_service", "plugins/scheduling", "plugins/structure"}});
+                   {"core", "plugins/command_service", "plugins/scheduling", "plugins/structure",
+                    "plugins/watching"}});
   rules.push_back({"plugins/watching", "plugins/watching", {"core"}});
   rules.push_back({"plugins/mcap", "plugins/mcap", {"core"}});
   rules.push_back({"plugins/recording",
@@ -110,9 +111,10 @@ void AddFamily(std::vector<IncludeRule>& rules, const std::string& name,
 void AddModules(std::vector<IncludeRule>& rules) {
   rules.push_back({"modules/types/algorithm", "modules/types/algorithm", {}, true});
   rules.push_back({"modules/types", "modules/types", {"core", "modules/types/algorithm"}});
-  for (const char* family : {"adaptors", "motion", "planning", "sensors", "simulation"}) {
+  for (const char* family : {"adaptors", "motion", "planning", "sensors"}) {
     AddFamily(rules, family);
   }
+  AddFamily(rules, "simulation", {"plugins/json_values"});  // the referee's result
   // Worlds made and measured: no modules, and what a world is, the simulation says.
   rules.push_back({"modules/worlds",
                    "modules/worlds",

@@ -76,30 +76,36 @@ struct ParameterOfType {
 
 void AppendParameter(const ParameterOfType& each, std::string& text) {
   const ConfigurableInfo& info = each.parameter->info();
-  const BoundsEnds bounds = ParseBounds(info.bounds);
   JsonObject object(text);
   object.Add("name", each.name);
   object.Add("type", each.parameter->type().name());
   object.Add("unit", info.unit);
   object.Add("default", info.default_value);
-  AddNumberOrNull("minimum", bounds.minimum, object);
-  AddNumberOrNull("maximum", bounds.maximum, object);
+  AddNumberOrNull("minimum", info.minimum, object);
+  AddNumberOrNull("maximum", info.maximum, object);
   object.Add("description", info.description);
 }
 
-CatalogueItem Describe(const ModuleType& type, FrameworkElement& module) {
+CatalogueItemPort ItemOf(const Port& port) {
+  return {port.name(), port.direction() == Port::Direction::kInput, port.type().name(),
+          port.is_required()};
+}
+
+// `module`: one that has been made, or why none can be.
+CatalogueItem Describe(const ModuleType& type, const Result<UnlistedElement>& module) {
   std::vector<const Port*> ports;
   std::vector<ParameterOfType> parameters;
-  module.Visit([&](FrameworkElement& element) {
-    if (const auto* const port = dynamic_cast<const Port*>(&element)) ports.push_back(port);
-    if (const auto* const parameter = dynamic_cast<const Configurable*>(&element)) {
-      parameters.push_back({element.name(), parameter});
-    }
-  });
   CatalogueItem item{type.name, type.summary, {}, {}};
-  for (const Port* port : ports) {
-    item.ports.push_back({port->name(), port->direction() == Port::Direction::kInput,
-                          port->type().name(), port->is_required()});
+  if (module) {
+    (*module)->Visit([&](FrameworkElement& element) {
+      if (const auto* const port = dynamic_cast<const Port*>(&element)) {
+        ports.push_back(port);
+        item.ports.push_back(ItemOf(*port));
+      }
+      if (const auto* const parameter = dynamic_cast<const Configurable*>(&element)) {
+        parameters.push_back({element.name(), parameter});
+      }
+    });
   }
   JsonObject json(item.json);
   json.Add("type", type.name);
@@ -107,18 +113,7 @@ CatalogueItem Describe(const ModuleType& type, FrameworkElement& module) {
   json.Add("plugin", type.plugin);
   AppendList(ports, json.Key("ports"), AppendPort);
   AppendList(parameters, json.Key("parameters"), AppendParameter);
-  return item;
-}
-
-CatalogueItem DescribeProblem(const ModuleType& type, const Error& error) {
-  CatalogueItem item{type.name, type.summary, {}, {}};
-  JsonObject json(item.json);
-  json.Add("type", type.name);
-  json.Add("summary", type.summary);
-  json.Add("plugin", type.plugin);
-  json.AddJson("ports", "[]");
-  json.AddJson("parameters", "[]");
-  json.Add("problem", error.ToString());
+  if (!module) json.Add("problem", module.error().ToString());
   return item;
 }
 
@@ -139,8 +134,8 @@ std::optional<CatalogueItem> Look(Runtime& runtime, const ModuleRegistry& module
     const ModuleType* const type = modules.Find(name);
     if (type == nullptr) return {};
     auto module = modules.Make(name, {runtime.root(), "module", false});
-    if (!module) return DescribeProblem(*type, module.error());
-    item = Describe(*type, **module);
+    item = Describe(*type, module);
+    if (!module) return item;
     made = std::move(*module);
   }
   runtime.Destroy(std::move(*made));
@@ -153,8 +148,7 @@ std::vector<CatalogueItemPort> ConnectedPorts(FrameworkElement& module) {
   module.Visit([&](FrameworkElement& element) {
     const auto* const port = dynamic_cast<const Port*>(&element);
     if (port == nullptr || (port->outgoing().empty() && port->incoming().empty())) return;
-    ports.push_back({port->name(), port->direction() == Port::Direction::kInput,
-                     port->type().name(), port->is_required()});
+    ports.push_back(ItemOf(*port));
   });
   return ports;
 }

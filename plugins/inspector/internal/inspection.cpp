@@ -31,7 +31,7 @@ Inspection::Inspection(CommandService& service, Scheduler& scheduler, InspectorO
       options_(std::move(options)),
       run_(RunName()),
       start_(application_.runtime.clock().Now()),
-      mirror_(application_.runtime, application_.modules, scheduler, faults),
+      mirror_(application_.runtime, application_.modules, scheduler, application_.log),
       tasks_(service.worker()) {}
 
 std::shared_ptr<const Catalogue> Inspection::catalogue() const {

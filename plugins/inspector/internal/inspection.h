@@ -7,7 +7,6 @@
 #include <string>
 
 #include "plugins/command_service/command_service.h"
-#include "plugins/inspector/fault_log.h"
 #include "plugins/inspector/inspector.h"
 #include "plugins/inspector/internal/catalogue.h"
 #include "plugins/inspector/structure_mirror.h"
@@ -42,7 +41,6 @@ class Inspection {
   /// Something has just been changed: to be looked at at once.
   void LookSoon() noexcept { look_at_ = {}; }
 
-  FaultLog faults;  // any thread
   /// Any thread.
   void NoteEnd(std::string verdict);
   [[nodiscard]] std::optional<std::string> verdict() const;

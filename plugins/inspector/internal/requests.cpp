@@ -52,35 +52,12 @@ std::vector<RequestError> ErrorsOf(const Diagnostics& diagnostics) {
   return errors;
 }
 
-// What the service carries out.
-class ServiceRequest final : public ViewerRequest {
- public:
-  ServiceRequest(std::optional<std::uint64_t> request, std::unique_ptr<PendingCommand> pending)
-      : request_(request), pending_(std::move(pending)) {}
-
-  std::optional<std::string> Continue() override {
-    if (!pending_->is_done()) return {};
-    const CommandAnswer answer = pending_->Take();
-    if (!answer) return Refusal(request_, ErrorsOf(answer.diagnostics));
-    std::string text = answer.text;
-    for (const Error& warning : answer.diagnostics.warnings()) text += "\n" + warning.ToString();
-    return Reply(request_, text);
-  }
-
- private:
-  const std::optional<std::uint64_t> request_;
-  const std::unique_ptr<PendingCommand> pending_;
-};
-
-// One that has been answered before it began.
-class AnsweredRequest final : public ViewerRequest {
- public:
-  explicit AnsweredRequest(std::string reply) : reply_(std::move(reply)) {}
-  std::optional<std::string> Continue() override { return reply_; }
-
- private:
-  const std::string reply_;
-};
+std::string ReplyTo(std::optional<std::uint64_t> request, const CommandAnswer& answer) {
+  if (!answer) return Refusal(request, ErrorsOf(answer.diagnostics));
+  std::string text = answer.text;
+  for (const Error& warning : answer.diagnostics.warnings()) text += "\n" + warning.ToString();
+  return Reply(request, text);
+}
 
 using CommandOrErrors = std::variant<CommandRequest, std::vector<RequestError>>;
 
@@ -98,8 +75,7 @@ CommandOrErrors ReadChanges(ViewerMessage& message) {
   ChangeRequest request{{.changes = std::move(message.changes), .positions = {}},
                         std::move(message.label)};
   for (std::size_t i = 0; i < request.placed.changes.size(); ++i) {
-    request.placed.positions.push_back(
-        {"changes", static_cast<int>(i + 1), 1});
+    request.placed.positions.push_back({"changes", static_cast<int>(i + 1), 1});
   }
   return CommandRequest(std::move(request));
 }
@@ -130,31 +106,6 @@ std::string FindCompatible(Inspection& inspection, const ViewerMessage& message)
   }
   return text;
 }
-
-// Waits for the structure, in the worker's thread.
-class CompatibleRequest final : public ViewerRequest {
- public:
-  CompatibleRequest(Inspection& inspection, ViewerMessage message, std::function<void()> on_done)
-      : request_(message.request),
-        reply_(std::make_shared<std::string>()),
-        task_(inspection.tasks().Post(
-            [&inspection, reply = reply_, message = std::move(message)] {
-              *reply = FindCompatible(inspection, message);
-            },
-            std::move(on_done))) {}
-  ~CompatibleRequest() override { task_->Cancel(); }
-
-  std::optional<std::string> Continue() override {
-    if (!task_->is_done()) return {};
-    if (task_->failure()) return Refusal(request_, {{*task_->failure()}});
-    return std::move(*reply_);
-  }
-
- private:
-  const std::optional<std::uint64_t> request_;
-  const std::shared_ptr<std::string> reply_;
-  const std::shared_ptr<WorkerTask> task_;
-};
 
 std::string SetPace(Inspection& inspection, const ViewerMessage& message) {
   Pace& pace = inspection.scheduler().pace();
@@ -210,22 +161,32 @@ bool IsRequest(const std::string& op) {
 
 bool OnlyLooks(const std::string& op) { return op == "compatible"; }
 
-std::unique_ptr<ViewerRequest> BeginRequest(Inspection& inspection, ViewerMessage message,
-                                            std::function<void()> on_done) {
+ViewerRequest BeginRequest(Inspection& inspection, ViewerMessage message,
+                           std::function<void()> on_done) {
+  const auto request = message.request;
   // At once, whatever the worker is waiting for.
   if (IsOneOf(message.op, {"pause", "resume", "step", "speed"})) {
-    return std::make_unique<AnsweredRequest>(SetPace(inspection, message));
+    return {nullptr, [reply = SetPace(inspection, message)] { return reply; }};
   }
   if (message.op == "compatible") {
-    return std::make_unique<CompatibleRequest>(inspection, std::move(message), std::move(on_done));
+    // Waits for the structure.
+    const auto reply = std::make_shared<std::string>();
+    auto task = inspection.tasks().Post(
+        [&inspection, reply, message = std::move(message)] {
+          *reply = FindCompatible(inspection, message);
+        },
+        std::move(on_done));
+    return {task, [request, reply, task = task.get()] {
+              return task->failure() ? Refusal(request, {{*task->failure()}}) : *reply;
+            }};
   }
   auto command = CommandOf(inspection, message);
   if (const auto* const errors = std::get_if<std::vector<RequestError>>(&command)) {
-    return std::make_unique<AnsweredRequest>(Refusal(message.request, *errors));
+    return {nullptr, [reply = Refusal(request, *errors)] { return reply; }};
   }
-  return std::make_unique<ServiceRequest>(
-      message.request, inspection.service().Begin(std::move(std::get<CommandRequest>(command)),
-                                                  inspection.tasks(), std::move(on_done)));
+  const std::shared_ptr<PendingCommand> pending = inspection.service().Begin(
+      std::move(std::get<CommandRequest>(command)), inspection.tasks(), std::move(on_done));
+  return {pending->task(), [request, pending] { return ReplyTo(request, pending->Take()); }};
 }
 
 }  // namespace runnel::internal

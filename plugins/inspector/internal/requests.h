@@ -25,18 +25,15 @@ namespace runnel::internal {
 /// All that viewers may say, for the hint to one that says something else.
 [[nodiscard]] const std::vector<std::string>& AllOperations();
 
-/// A request while it is being carried out; destroyed before it has begun, it is not done.
+/// A request while it is being carried out; a change that is destroyed before it has begun is not done.
 ///
 /// Threads:  the server's; waits for nothing.
-class ViewerRequest {
- public:
-  virtual ~ViewerRequest() = default;
-  /// The reply, once there is one.
-  virtual std::optional<std::string> Continue() = 0;
+struct ViewerRequest {
+  std::shared_ptr<WorkerTask> task;         ///< nullptr: it has been answered at once
+  std::function<std::string()> take_reply;  ///< once the task is done
 };
-/// `on_done` is called by the worker when Continue() has a reply, unless it has one at once.
-[[nodiscard]] std::unique_ptr<ViewerRequest> BeginRequest(Inspection& inspection,
-                                                          ViewerMessage message,
-                                                          std::function<void()> on_done);
+/// `on_done` is called by the worker when the task is done.
+[[nodiscard]] ViewerRequest BeginRequest(Inspection& inspection, ViewerMessage message,
+                                         std::function<void()> on_done);
 
 }  // namespace runnel::internal

@@ -121,7 +121,7 @@ void ViewerSession::SendState(SteadyTime now) {
                     json);
     AddTextOrNull("undo", NextStep(&ChangeHistory::NextUndo), json);
     AddTextOrNull("redo", NextStep(&ChangeHistory::NextRedo), json);
-    json.Add("faults", inspection_.faults.count());
+    json.Add("faults", inspection_.application().log.faults());
     json.Add("ended", verdict.has_value());
     AddTextOrNull("verdict", verdict.value_or(""), json);
   }
@@ -136,10 +136,9 @@ void ViewerSession::SendState(SteadyTime now) {
 }
 
 void ViewerSession::SendReplies() {
-  std::erase_if(pending_, [&](const std::unique_ptr<ViewerRequest>& each) {
-    auto reply = each->Continue();
-    if (!reply) return false;
-    replies_.push_back(std::move(*reply));
+  std::erase_if(pending_, [&](const ViewerRequest& each) {
+    if (each.task != nullptr && !each.task->is_done()) return false;
+    replies_.push_back(each.take_reply());
     inspection_.LookSoon();
     return true;
   });

@@ -57,7 +57,7 @@ class ViewerSession final : public WebSession {
   std::string state_;  // as it was told, without the time
   Duration state_time_{-1};
   SteadyTime state_due_{};
-  std::vector<std::unique_ptr<ViewerRequest>> pending_;
+  std::vector<ViewerRequest> pending_;
   std::deque<std::string> replies_;  // that the client has not taken yet
   std::map<std::string, Watch, std::less<>> watches_;
   Duration rates_interval_{};  // 0: not wanted

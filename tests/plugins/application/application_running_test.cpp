@@ -110,7 +110,7 @@ TEST(ApplicationRunning, TellsOfFaults) {
   ASSERT_TRUE(events[0].fault);
   EXPECT_EQ(events[0].fault->path, "/counting/judge");
   EXPECT_THAT(application->TakeEvents(), IsEmpty());
-  EXPECT_THAT(application->log().Read(0, 10).lines, SizeIs(1));
+  EXPECT_THAT(application->log().ReadEntries(0, 10).entries, SizeIs(1));
   EXPECT_EQ(Newest(*application, "/source/count"), 6) << "the rest runs on";
 }
 

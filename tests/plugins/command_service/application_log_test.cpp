@@ -14,12 +14,15 @@ TEST(ApplicationLog, TellsWhenWhatHappened) {
   clock.Advance(std::chrono::seconds(7));
   ApplicationLog log(clock);
   clock.Advance(std::chrono::milliseconds(1500));
-  log.Add(ApplicationLog::Kind::kFault, "boom\n");
-  const auto read = log.Read(0, 10);
-  ASSERT_THAT(read.lines, SizeIs(1));
-  EXPECT_THAT(read.lines[0], EndsWith("      1.500 s  fault    boom"));
+  log.Add(ApplicationLog::Kind::kFault, "boom\n", "/app/a", "boom");
+  const auto read = log.ReadEntries(0, 10);
+  ASSERT_THAT(read.entries, SizeIs(1));
+  EXPECT_THAT(ApplicationLog::LineOf(read.entries[0]), EndsWith("      1.500 s  fault    boom"));
+  EXPECT_EQ(read.entries[0].module, "/app/a");
+  EXPECT_EQ(read.entries[0].cause, "boom");
+  EXPECT_EQ(log.faults(), 1U);
   EXPECT_EQ(read.next, 1U);
-  EXPECT_THAT(log.Read(read.next, 10).lines, IsEmpty());
+  EXPECT_THAT(log.ReadEntries(read.next, 10).entries, IsEmpty());
 }
 
 TEST(ApplicationLog, KeepsTheNewestAndCountsWhatIsGone) {
@@ -28,11 +31,11 @@ TEST(ApplicationLog, KeepsTheNewestAndCountsWhatIsGone) {
   for (std::size_t i = 0; i < ApplicationLog::kMostEntries + 5; ++i) {
     log.Add(ApplicationLog::Kind::kChange, "entry " + std::to_string(i));
   }
-  const auto read = log.Read(2, 3);
+  const auto read = log.ReadEntries(2, 3);
   EXPECT_EQ(read.lost, 3U);
   EXPECT_EQ(read.next, 8U);
-  ASSERT_THAT(read.lines, SizeIs(3));
-  EXPECT_THAT(read.lines[0], EndsWith("entry 5"));
+  ASSERT_THAT(read.entries, SizeIs(3));
+  EXPECT_THAT(ApplicationLog::LineOf(read.entries[0]), EndsWith("entry 5"));
 }
 
 TEST(ApplicationLog, CutsLongTextsAndIndentsFurtherLines) {
@@ -40,9 +43,9 @@ TEST(ApplicationLog, CutsLongTextsAndIndentsFurtherLines) {
   ApplicationLog log(clock);
   log.Add(ApplicationLog::Kind::kWarning, std::string(100'000, 'x'));
   log.Add(ApplicationLog::Kind::kWarning, "a\nb");
-  const auto read = log.Read(0, 2);
-  EXPECT_LT(read.lines[0].size(), ApplicationLog::kLongestText + 100);
-  EXPECT_THAT(read.lines[1], HasSubstr("a\n    b"));
+  const auto read = log.ReadEntries(0, 2);
+  EXPECT_LT(read.entries[0].text.size(), ApplicationLog::kLongestText + 100);
+  EXPECT_THAT(ApplicationLog::LineOf(read.entries[1]), HasSubstr("a\n    b"));
 }
 
 }  // namespace runnel::test

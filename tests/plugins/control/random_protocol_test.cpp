@@ -54,7 +54,7 @@ class RandomProtocol : public ControlTest {
     }
     const bool is_change = request.starts_with("change");
     for (int i = 0; is_change || i < 3; ++i) {
-      if (const auto code = (*command)->Continue(answer)) return code;
+      if (const auto code = command->Continue(answer)) return code;
       if (is_change) std::this_thread::yield();
     }
     return {};

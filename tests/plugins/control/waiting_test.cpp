@@ -38,13 +38,13 @@ TEST(WaitingCommand, IsDueWhenTheWorkerIsDoneAndNotBefore) {
     auto command = MakeCommand(request, service, tasks);
     ASSERT_TRUE(command) << request;
     Collected collected;
-    EXPECT_FALSE((*command)->Continue(collected)) << request;
-    EXPECT_EQ((*command)->due(), Command::SteadyTime::max()) << request << " is polled";
+    EXPECT_FALSE(command->Continue(collected)) << request;
+    EXPECT_EQ(command->due(), Command::SteadyTime::max()) << request << " is polled";
     may_go.release();
     done.acquire();  // of the one that has kept the worker busy
     done.acquire();
-    EXPECT_EQ((*command)->due(), Command::SteadyTime::min()) << request << " is not sent at once";
-    EXPECT_EQ((*command)->Continue(collected), ControlCode::kDone) << request << collected.errors;
+    EXPECT_EQ(command->due(), Command::SteadyTime::min()) << request << " is not sent at once";
+    EXPECT_EQ(command->Continue(collected), ControlCode::kDone) << request << collected.errors;
     EXPECT_FALSE(collected.output.empty()) << request;
   }
 }

@@ -2,8 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include "plugins/inspector/element_json.h"
-
 namespace runnel::test {
 
 namespace {
@@ -32,17 +30,6 @@ TEST(InspectorPlace, WhatIsNoneIsRefusedWithACure) {
     ASSERT_FALSE(place) << text;
     EXPECT_NE(place.error().hint, "") << text;
   }
-}
-
-TEST(Bounds, AreReadFromWhatParametersSayOfThem) {
-  const auto both = internal::ParseBounds("0.05 .. 5");
-  EXPECT_EQ(both.minimum, 0.05);
-  EXPECT_EQ(both.maximum, 5);
-  EXPECT_EQ(internal::ParseBounds("-1 ..").minimum, -1);
-  EXPECT_EQ(internal::ParseBounds("-1 ..").maximum, std::nullopt);
-  EXPECT_EQ(internal::ParseBounds(".. 7").minimum, std::nullopt);
-  EXPECT_EQ(internal::ParseBounds(".. 7").maximum, 7);
-  EXPECT_EQ(internal::ParseBounds("").maximum, std::nullopt);
 }
 
 }  // namespace

@@ -11,7 +11,6 @@ namespace runnel::test {
 
 namespace {
 
-using internal::FaultLog;
 using internal::StructureMirror;
 
 /// What a viewer knows that follows the messages.
@@ -51,8 +50,7 @@ class StructureMirrorTest : public InspectorTest {
     for (int i = 0; i < 10'000 && !mirror.Look(); ++i) {
     }
   }
-  FaultLog faults;
-  StructureMirror mirror{runtime, modules, scheduler, faults};
+  StructureMirror mirror{runtime, modules, scheduler, log};
 };
 
 TEST_F(StructureMirrorTest, KnowsNothingBeforeItHasLooked) {

@@ -226,10 +226,14 @@ TEST_F(SimulatedViewing, ShowsWhichModulesHaveBeenStoppedAndWhy) {
   Viewer viewer = View();
   EXPECT_EQ(viewer.Element("/app/broken")["stopped"], nullptr);
   scheduler.RunUntil(Time(10ms));
-  for (const Fault& fault : scheduler.TakeFaults()) inspector->Hear(fault);
+  for (const Fault& fault : scheduler.TakeFaults()) {
+    log.Add(ApplicationLog::Kind::kFault, "a text", fault.path, fault.message);
+  }
+  log.Add(ApplicationLog::Kind::kFault, "replaced by the supervisor", "/app/a", "");
   EXPECT_EQ(viewer.Element("/app/broken")["stopped"], "is worn out");
-  EXPECT_EQ(View().Next("state")["faults"], 1);
+  EXPECT_EQ(View().Next("state")["faults"], 2);
   EXPECT_EQ(View().Element("/app/broken")["stopped"], "is worn out");
+  EXPECT_EQ(View().Element("/app/a")["stopped"], nullptr);
   Apply("replace /app/broken with test/counter");
   EXPECT_EQ(viewer.Element("/app/broken")["stopped"], nullptr);
 }
