@@ -30,8 +30,7 @@ inline void Describe(TypeBuilder<Spy>& type) {
          }
          return std::to_string(static_cast<const Spy*>(at)->number);
        },
-       [](std::string_view, void*) -> Result<void> { return {}; },
-       [](const void*, BinaryWriter&) {}, [](BinaryReader&, void*) { return true; }, true});
+       [](std::string_view, void*) -> Result<void> { return {}; }, true});
 }
 
 class SpySource final : public Module {
