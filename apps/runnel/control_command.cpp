@@ -148,7 +148,7 @@ Result<int> Ask(const ControlArguments& arguments, Request request) {
   if (!chosen) return chosen.error();
   auto client = ControlClient::Connect(chosen->socket);
   if (!client) return client.error();
-  if (arguments.command == "record") return AskToRecord(*client, request, arguments.file);
+  if (arguments.command == "record") return AskToRecord(*client, request);
   const auto show = [](std::ostream& stream) {
     return [&stream](std::string_view text) {
       stream << text << std::flush;

@@ -1,17 +1,10 @@
 #include "apps/runnel/remote_recording.h"
 
 #include <atomic>
-#include <chrono>
 #include <csignal>
 #include <iostream>
-#include <thread>
-#include <utility>
 
 #include <unistd.h>
-
-#include "plugins/mcap/mcap_reader.h"
-#include "plugins/recording/recording_info.h"
-#include "plugins/recording/recording_text.h"
 
 namespace runnel::program {
 
@@ -30,35 +23,16 @@ class Interruptions {
   }
 };
 
-// The application ends the file when it sees that we have gone.
-int ReportWhenEnded(const std::string& file) {
-  constexpr auto kTimeout = std::chrono::seconds(10);
-  const auto latest = std::chrono::steady_clock::now() + kTimeout;
-  for (;;) {
-    const auto reader = McapReader::Open(file);
-    if (reader && (*reader)->contents().ended_properly) {
-      const RecordingInfo info = InfoOf(**reader);
-      std::cout << RecordingText(file, {.values = info.values,
-                                        .dropped = info.dropped,
-                                        .ports = info.ports,
-                                        .bytes = info.bytes})
-                << std::flush;
-      return 0;
-    }
-    if (std::chrono::steady_clock::now() > latest) {
-      std::cerr << file << ": error: the application has not ended the recording within 10 s\n";
-      return 1;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-}
-
 }  // namespace
 
-Result<int> AskToRecord(ControlClient& client, const Request& request, const std::string& file) {
+Result<int> AskToRecord(ControlClient& client, const Request& request) {
   const Interruptions interruptions;
   const bool is_terminal = isatty(STDOUT_FILENO) == 1;
   std::string last;
+  const auto go_on = [&] {
+    if (interrupted) client.EndRequests();
+    return true;
+  };
   const auto code = client.Ask(
       request.ToText(),
       [&](std::string_view text) {
@@ -66,19 +40,14 @@ Result<int> AskToRecord(ControlClient& client, const Request& request, const std
         if (is_terminal) {
           std::cout << "\r\x1b[K" << text.substr(0, text.find('\n')) << std::flush;
         }
-        return !interrupted.load();
+        return go_on();
       },
       [&](std::string_view text) {
         std::cerr << (is_terminal ? "\n" : "") << text << std::flush;
-        return !interrupted.load();
+        return go_on();
       });
   if (is_terminal) std::cout << "\r\x1b[K";
-  if (interrupted) {
-    { const ControlClient gone(std::move(client)); }
-    return ReportWhenEnded(file);
-  }
-  if (!code) return code;
-  if (*code == 0) std::cout << last << std::flush;
+  if (code && *code == 0) std::cout << last << std::flush;
   return code;
 }
 

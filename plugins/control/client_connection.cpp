@@ -29,7 +29,9 @@ ClientConnection::~ClientConnection() { close(descriptor_); }
 short ClientConnection::events() const noexcept {
   // Requests are taken one by one: what comes meanwhile stays where it is.
   const bool reads = !has_ended_ && !is_refused_ && !command_ && backlog() < kBacklog;
-  return static_cast<short>((reads ? POLLIN : 0) | (backlog() > 0 ? POLLOUT : 0));
+  const bool may_end = command_ && !has_enough_;
+  return static_cast<short>((reads ? POLLIN : 0) | (may_end ? POLLRDHUP : 0) |
+                            (backlog() > 0 ? POLLOUT : 0));
 }
 
 bool ClientConnection::is_over() const noexcept {
@@ -64,6 +66,7 @@ void ClientConnection::OnEvents(short events) {
     is_broken_ = true;
     return;
   }
+  if ((events & POLLRDHUP) != 0) has_enough_ = true;
   if ((events & POLLIN) != 0) Read();
   if ((events & POLLOUT) != 0) Flush();
 }

@@ -50,6 +50,7 @@ class ClientConnection final : private Answer {
 
  private:
   void Write(std::string_view text) override { Send("out", text); }
+  [[nodiscard]] bool has_enough() const override { return has_enough_; }
   void WriteError(std::string_view text) override { Send("err", text); }
 
   void Read();
@@ -62,8 +63,9 @@ class ClientConnection final : private Answer {
   std::optional<Command> command_;
   std::string out_;
   std::size_t sent_ = 0;
-  bool has_ended_ = false;  // the client sends no more
-  bool is_broken_ = false;  // the client has gone
+  bool has_ended_ = false;   // the client sends no more
+  bool has_enough_ = false;  // the client waits for the end of its command
+  bool is_broken_ = false;   // the client has gone
   bool is_refused_ = false;
   bool may_have_request_ = false;  // among what has been read
   SteadyTime quiet_since_ = std::chrono::steady_clock::now();

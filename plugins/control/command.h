@@ -26,6 +26,8 @@ class Answer {
  public:
   virtual void Write(std::string_view text) = 0;       ///< for standard output
   virtual void WriteError(std::string_view text) = 0;  ///< for standard errors
+  /// The client asks for nothing more: what goes on until it has enough ends.
+  [[nodiscard]] virtual bool has_enough() const = 0;
 
  protected:
   ~Answer() = default;

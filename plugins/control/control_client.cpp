@@ -112,6 +112,8 @@ Result<int> ControlClient::Ask(const std::string& request, const Use& output, co
   }
 }
 
+void ControlClient::EndRequests() noexcept { shutdown(descriptor_, SHUT_WR); }
+
 Result<std::vector<RunningApplication>> FindRunningApplications(const std::filesystem::path& folder,
                                                                 std::vector<Error>* silent) {
   const auto sockets = FindControlSockets(folder);

@@ -32,6 +32,8 @@ class ControlClient {
   /// Asks, and returns the code with which the answer ended: 0 done, 1 failed, 2 bad input.
   /// Errors: the connection is lost.
   Result<int> Ask(const std::string& request, const Use& output, const Use& errors);
+  /// There will be no more requests, and one that goes on until its client has enough ends in order.
+  void EndRequests() noexcept;
 
  private:
   explicit ControlClient(int descriptor);

@@ -54,7 +54,9 @@ class RecordCommand {
       answer.WriteError(ErrorLine(*failure));
       return ControlCode::kFailed;
     }
-    if (seconds_ && std::chrono::steady_clock::now() - began_ >= std::chrono::seconds(*seconds_)) {
+    const bool is_long_enough =
+        seconds_ && std::chrono::steady_clock::now() - began_ >= std::chrono::seconds(*seconds_);
+    if (is_long_enough || answer.has_enough()) {
       End();
       return task_;
     }
