@@ -2,13 +2,12 @@
 
 #include <iostream>
 
-#include "apps/runnel/chosen_application.h"
 #include "plugins/application/application_description.h"
 
 namespace runnel::program {
 
 ExitCode Check(const CheckArguments& arguments) {
-  ApplicationDescription description(OptionsOf(arguments.application));
+  ApplicationDescription description(arguments.application.Options());
   (void)description.Read(arguments.application.file);
   std::cerr << description.diagnostics().ToString();
   const std::size_t errors = description.diagnostics().errors().size();

@@ -6,19 +6,20 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/runnel/control_command_line.h"
+#include "apps/runnel/extension_command_line.h"
 #include "apps/runnel/other_programs.h"
-#include "apps/runnel/recording_command_line.h"
+#include "apps/runnel/print_error.h"
 #include "core/base/nearest_name.h"
+#include "core/plugin/plugin_manager.h"
 #include "core/xml/xml_reading.h"
-#include "plugins/inspector/inspector_place.h"
 #include "plugins/scheduling/pacing.h"
-#include "plugins/web_server/access_rules.h"
 
 namespace runnel::program {
 
 namespace {
 
-const std::vector<std::string> kCommands{"run", "check", "modules", "schema", "graph", "version"};
+const std::vector<std::string> kCommands{"run",    "replay", "check",  "modules",
+                                         "schema", "graph",  "version"};
 
 ExitCode Refuse(const std::string& message, const std::string& hint) {
   std::cerr << "error: " << message << "; " << hint << '\n';
@@ -28,7 +29,6 @@ ExitCode Refuse(const std::string& message, const std::string& hint) {
 std::vector<std::string> AllCommands() {
   std::vector<std::string> commands = kCommands;
   for (const std::string& command : ControlCommandLine::Names()) commands.push_back(command);
-  for (const std::string& command : RecordingCommandLine::Names()) commands.push_back(command);
   for (const std::string& command : OtherCommands()) commands.push_back(command);
   return commands;
 }
@@ -85,38 +85,6 @@ void AddApplicationArguments(CLI::App& command, ApplicationArguments& arguments)
       ->allow_extra_args(false);
 }
 
-std::string CheckPlace(const std::string& text) {
-  if (text == InspectArguments::kUsualPlace) return "";
-  const auto place = ParseInspectorPlace(text);
-  return place ? "" : place.error().ToString();
-}
-std::string CheckInspectToken(const std::string& text) {
-  const auto good = CheckToken(text);
-  return good ? "" : good.error().ToString();
-}
-
-void AddInspect(CLI::App& run, InspectArguments& arguments) {
-  // A flag that may have a value, so that the word after it is not taken for one.
-  run.add_flag("--inspect", arguments.place,
-               "shows the application in a browser: --inspect, --inspect=PORT or "
-               "--inspect=ADDRESS:PORT")
-      ->check(CheckPlace);
-  run.add_option("--inspect-token", arguments.token,
-                 "what viewers must show; made at random if others than this machine can reach the "
-                 "address")
-      ->type_name("TOKEN")
-      ->check(CheckInspectToken);
-  run.add_flag("--inspect-read-only", arguments.is_read_only, "viewers change nothing");
-  run.add_option("--inspect-origin", arguments.origins,
-                 "pages of other places that may connect, may be given several times")
-      ->type_name("URL")
-      ->allow_extra_args(false);
-  const auto none = run.add_flag("--no-inspect", arguments.is_refused,
-                                 "no inspector, whatever the application file says");
-  run.add_flag("--hold", arguments.hold, "when the run has ended, viewers can go on until Ctrl-C")
-      ->excludes(none);
-}
-
 // The same for whatever is run.
 void AddWhatAccompaniesARun(CLI::App& run, RunArguments& arguments) {
   run.add_option("--duration", arguments.duration, "ends the run after so long, simulated or real")
@@ -125,15 +93,9 @@ void AddWhatAccompaniesARun(CLI::App& run, RunArguments& arguments) {
   run.add_flag("--quiet", arguments.quiet, "no progress, only how the run ended");
   run.add_flag("--statistics", arguments.statistics,
                "at the end, how punctual the threads were and how long their cycles took");
-  run.add_option("--trace", arguments.trace,
-                 "writes cycles, updates and publications into a file (JSON) for ui.perfetto.dev")
-      ->type_name("FILE")
-      ->check(CheckFile);
   run.add_flag_callback(
       "--no-control", [&arguments] { arguments.has_control = false; },
       "no other process can look at it or change it");
-  AddInspect(run, arguments.inspect);
-  AddRecordOptions(run, arguments.record);
 }
 
 CLI::App& AddRun(CLI::App& program, RunArguments& arguments) {
@@ -151,20 +113,60 @@ CLI::App& AddRun(CLI::App& program, RunArguments& arguments) {
   return run;
 }
 
+CLI::App& AddReplay(CLI::App& program, RunArguments& arguments) {
+  CLI::App& replay = *program.add_subcommand(
+      "replay", "publishes what was recorded, into an application or for viewers alone");
+  replay.add_option("--rate", arguments.speed, "1 is real time (usual), 0 as fast as it can")
+      ->type_name("FACTOR")
+      ->check(CheckSpeed);
+  replay.add_flag("--paused", arguments.is_paused,
+                  "begins with a pause: 'runnel resume' or 'runnel step' go on");
+  replay.add_flag("--step", arguments.steps, "paused; each Enter runs one cycle");
+  AddWhatAccompaniesARun(replay, arguments);
+  return replay;
+}
+
+// After what is replayed.
+void AddReplayedApplication(CLI::App& replay, ApplicationArguments& arguments) {
+  replay
+      .add_option("application", arguments.file,
+                  "application file (XML): recorded ports are played instead of what its modules "
+                  "publish there; without, ports are made for all that is recorded")
+      ->type_name("FILE.xml");
+  replay.add_option("settings", arguments.settings, "values for parameters of the application")
+      ->type_name("NAME=VALUE");
+}
+
 }  // namespace
 
+ApplicationOptions ApplicationArguments::Options() const {
+  ApplicationOptions options{.configurations = configurations};
+  for (const std::string& each : settings) options.settings.emplace_back(each);
+  return options;
+}
+
 CommandLine ParseCommandLine(int count, const char* const* words) {
+  const auto catalogue = ExtensionCatalogue::Read(PluginManager().search_path());
+  if (!catalogue) {
+    PrintError(catalogue.error());
+    return ExitCode::kBadInput;
+  }
   CLI::App program("Runs robot applications that are described in XML files.", "runnel");
   program.require_subcommand(1);
   program.set_version_flag("--version", "runnel " RUNNEL_VERSION, "says which version this is");
   program.footer(FooterText());
   RunArguments run_arguments;
+  RunArguments replay_arguments;
   CheckArguments check_arguments;
   ModulesArguments modules_arguments;
   SchemaArguments schema_arguments;
   GraphArguments graph_arguments;
 
-  const CLI::App& run = AddRun(program, run_arguments);
+  CLI::App& run = AddRun(program, run_arguments);
+  const ExtensionCommandLine run_extensions(*catalogue, run);
+  CLI::App& replay = AddReplay(program, replay_arguments);
+  const ExtensionCommandLine replay_extensions(*catalogue, replay);
+  AddReplayedApplication(replay, replay_arguments.application);
   CLI::App& check = *program.add_subcommand("check", "looks for mistakes, without running");
   AddApplicationArguments(check, check_arguments.application);
   CLI::App& modules = *program.add_subcommand("modules", "lists module types, ports, parameters");
@@ -186,10 +188,13 @@ CommandLine ParseCommandLine(int count, const char* const* words) {
       ->check(CheckFile);
   program.add_subcommand("version", "says which version this is");
   const ControlCommandLine control(program);
-  RecordingCommandLine recording(program);
-  AddWhatAccompaniesARun(recording.replay(), recording.replay_arguments());
 
   if (count > 1 && IsUnknownCommand(words[1])) {
+    if (const auto* const extension = catalogue->FindCommand(words[1])) {
+      return Refuse("'" + std::string(words[1]) + "' is of the extension '" + extension->name +
+                        "', which is not installed",
+                    "it " + extension->summary);
+    }
     return Refuse("there is no command '" + std::string(words[1]) + "'",
                   NearestNameHint(words[1], AllCommands()));
   }
@@ -202,13 +207,16 @@ CommandLine ParseCommandLine(int count, const char* const* words) {
   } catch (const CLI::ParseError& error) {
     return Refuse(error.what(), "see 'runnel --help' or 'runnel run --help'");
   }
+  run_arguments.extensions = run_extensions.Chosen();
+  replay_arguments.extensions = replay_extensions.Chosen();
+  replay_arguments.is_paused = replay_arguments.is_paused || replay_arguments.steps;
   if (run.parsed()) return run_arguments;
+  if (replay.parsed()) return replay_arguments;
   if (check.parsed()) return check_arguments;
   if (modules.parsed()) return modules_arguments;
   if (schema.parsed()) return schema_arguments;
   if (graph.parsed()) return graph_arguments;
   if (auto arguments = control.Parsed()) return *arguments;
-  if (auto arguments = recording.Parsed()) return *arguments;
   return VersionArguments{};
 }
 

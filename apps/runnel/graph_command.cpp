@@ -10,7 +10,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "apps/runnel/chosen_application.h"
 #include "apps/runnel/print_error.h"
 #include "core/base/nearest_name.h"
 #include "core/base/replace_file.h"
@@ -88,7 +87,7 @@ ExitCode DrawGraph(const GraphArguments& arguments) {
                 .hint = "its name ends in .svg, .png, .pdf or .dot"});
     return ExitCode::kBadInput;
   }
-  ApplicationDescription description(OptionsOf(arguments.application));
+  ApplicationDescription description(arguments.application.Options());
   const bool is_right = description.Read(arguments.application.file);
   std::cerr << description.diagnostics().ToString();
   if (!is_right) return ExitCode::kBadInput;

@@ -6,7 +6,6 @@
 #include "apps/runnel/command_line.h"
 #include "apps/runnel/control_command.h"
 #include "apps/runnel/graph_command.h"
-#include "apps/runnel/info_command.h"
 #include "apps/runnel/modules_command.h"
 #include "apps/runnel/other_programs.h"
 #include "apps/runnel/run_command.h"
@@ -24,7 +23,6 @@ ExitCode Do(const ModulesArguments& arguments) { return ListModules(arguments); 
 ExitCode Do(const SchemaArguments& arguments) { return WriteSchema(arguments); }
 ExitCode Do(const GraphArguments& arguments) { return DrawGraph(arguments); }
 ExitCode Do(const ControlArguments& arguments) { return Control(arguments); }
-ExitCode Do(const InfoArguments& arguments) { return ShowRecording(arguments); }
 ExitCode Do(const VersionArguments&) {
   std::cout << "runnel " RUNNEL_VERSION "\n";
   return ExitCode::kDone;

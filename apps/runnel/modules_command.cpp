@@ -2,7 +2,6 @@
 
 #include <iostream>
 
-#include "apps/runnel/chosen_application.h"
 #include "apps/runnel/module_listing.h"
 #include "apps/runnel/plugin_choice.h"
 #include "apps/runnel/print_error.h"
@@ -11,7 +10,7 @@
 namespace runnel::program {
 
 ExitCode ListModules(const ModulesArguments& arguments) {
-  ApplicationDescription surroundings(OptionsOf(ApplicationArguments{}));
+  ApplicationDescription surroundings;
   ExitCode code =
       LoadChosenPlugins(arguments.plugins, surroundings) ? ExitCode::kDone : ExitCode::kBadInput;
   for (const ModuleType* type : surroundings.plugins().modules().All()) {

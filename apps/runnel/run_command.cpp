@@ -1,7 +1,9 @@
 #include "apps/runnel/run_command.h"
 
+#include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <memory>
 #include <string>
 #include <thread>
 #include <utility>
@@ -11,15 +13,11 @@
 #include "apps/runnel/number_text.h"
 #include "apps/runnel/print_error.h"
 #include "apps/runnel/progress_display.h"
-#include "apps/runnel/run_extensions.h"
 #include "apps/runnel/statistics_table.h"
 #include "apps/runnel/stop_signal.h"
-#include "apps/runnel/trace_run.h"
 #include "apps/runnel/typed_steps.h"
 #include "plugins/application/application.h"
 #include "plugins/application/run_report.h"
-#include "plugins/recording/recorded_ports.h"
-#include "plugins/recording/recording_text.h"
 
 namespace runnel::program {
 
@@ -40,13 +38,36 @@ void PrintTimes(Duration so_far, std::chrono::steady_clock::duration real, Clock
   }
 }
 
+// Says in the words of the command line what cannot be had of real time.
+class ClockWords final : public ApplicationExtension {
+ public:
+  explicit ClockWords(const RunArguments& arguments) : arguments_(arguments) {}
+
+  Result<void> Prepare(FrameworkElement& /*application*/, SchedulerOptions& options) override {
+    const auto refuse = [&](const char* message, const std::string& words) {
+      return Error{
+          .message = message,
+          .position = {arguments_.application.file},
+          .hint = "leave out " + words + ", or add <clock type=\"simulated\"/> to the application"};
+    };
+    if (options.clock != ClockKind::kReal) return {};
+    if (arguments_.speed) {
+      return refuse("the speed of real time cannot be chosen", "--fast and --speed");
+    }
+    if (arguments_.is_paused) return refuse("real time cannot be paused", "--paused");
+    return {};
+  }
+
+ private:
+  const RunArguments& arguments_;  // outlive the run
+};
+
 // One run of an application that has been loaded.
 class Session {
  public:
-  Session(const RunArguments& arguments, Application& application, const RunExtensions& with)
+  Session(const RunArguments& arguments, Application& application)
       : arguments_(arguments),
         application_(application),
-        with_(with),
         report_(application.report()),
         display_(!arguments.quiet) {}
 
@@ -71,7 +92,8 @@ class Session {
     }
     const bool was_asked = stop_signal.has_come();
     const ExitCode code = Conclude(*ran, real, was_asked);
-    if (arguments_.inspect.hold && !was_asked) Hold(stop_signal);
+    const auto is_held = [](const auto& extension) { return extension->IsHeld(); };
+    if (!was_asked && std::ranges::any_of(application_.extensions(), is_held)) Hold(stop_signal);
     return code;
   }
 
@@ -86,7 +108,7 @@ class Session {
     PrintEvents();
     Pace& pace = application_.scheduler().pace();
     if (display_.IsDue()) display_.Show(so_far, pace.is_paused(), report_.Progress());
-    if (arguments_.replay && arguments_.replay->steps) steps_.Look(pace);
+    if (arguments_.steps) steps_.Look(pace);
   }
 
   void PrintEvents() {
@@ -96,73 +118,69 @@ class Session {
     }
   }
 
+  // An extension does, if one of them says when it is over: of a replay.
+  bool MonitorsDecide() {
+    const auto decides = [](const auto& extension) { return extension->IsOver().has_value(); };
+    return std::ranges::none_of(application_.extensions(), decides);
+  }
+
   std::string WhyItEnded(bool was_stopped, bool was_asked) {
     if (was_stopped) return "the run was stopped because of a fault\n";
     if (was_asked) return "stopped by the user\n";
-    if (with_.replay) return with_.replay->Text();
-    return report_.IsOver() ? "" : "the time is up\n";
+    return report_.IsOver() || !MonitorsDecide() ? "" : "the time is up\n";
   }
 
   ExitCode Conclude(Duration so_far, std::chrono::steady_clock::duration real, bool was_asked) {
     const Scheduler& scheduler = application_.scheduler();
     const bool was_stopped = scheduler.stopped_by_fault();
-    const std::string verdicts = report_.Verdicts();
     Diagnostics failures;
-    std::cout << verdicts << report_.Finish(failures);
+    std::string verdict = report_.Verdicts();
+    std::cout << verdict << report_.Finish(failures);
+    for (const auto& extension : application_.extensions()) {
+      const std::string text = extension->Finish(failures);
+      std::cout << text;
+      verdict += text;
+    }
     std::cout << std::flush;
-    const bool is_recorded = FinishRecording();
-    if (with_.replay && with_.replay->failure()) failures.Add(*with_.replay->failure());
     const std::string why = WhyItEnded(was_stopped, was_asked);
-    application_.NoteEnd(verdicts + why);
+    application_.NoteEnd(verdict + why);
     std::cerr << failures.ToString();
     (was_stopped ? std::cerr : std::cout) << why;
     if (!arguments_.quiet) PrintTimes(so_far, real, scheduler.options().clock);
     if (arguments_.statistics) std::cout << StatisticsTable(application_.runtime().root());
-    // What monitors say of a replay, they say of another run.
-    const bool is_well_judged = with_.replay || report_.IsGood();
-    const bool is_good = !was_stopped && is_well_judged && failures.ok() && is_recorded;
-    return is_good ? ExitCode::kDone : ExitCode::kRunFailed;
-  }
-
-  // Whether the user has the recording that was asked for.
-  bool FinishRecording() {
-    Recorder* const recorder = with_.recording->recorder();
-    if (recorder == nullptr) return true;
-    const auto finished = recorder->Finish();
-    if (const auto failure = recorder->TakeFailure()) PrintError(*failure);
-    std::cout << RecordingText(recorder->file(), recorder->status());
-    return finished.has_value();
+    const bool is_well_judged = report_.IsGood() || !MonitorsDecide();
+    return !was_stopped && is_well_judged && failures.ok() ? ExitCode::kDone : ExitCode::kRunFailed;
   }
 
   const RunArguments& arguments_;
   Application& application_;
-  const RunExtensions& with_;
   RunReport& report_;
   ProgressDisplay display_;
   TypedSteps steps_;
 };
 
-LoadedApplication LoadWhatRuns(const RunArguments& arguments, const RunExtensions& with) {
-  ApplicationOptions options = with.Options(arguments);
-  if (!IsWithoutApplication(arguments)) {
-    return Application::Load(arguments.application.file, std::move(options));
-  }
-  return Application::LoadFrom(
-      [&](const BuildTools& tools) { return BuildRecordedPorts(arguments.replay->file, tools); },
-      std::move(options));
+ApplicationOptions OptionsOf(const RunArguments& arguments) {
+  ApplicationOptions options = arguments.application.Options();
+  options.speed = arguments.speed;
+  options.is_paused = arguments.is_paused;
+  options.has_control = arguments.has_control;
+  // Of what was recorded, replayed for viewers alone.
+  if (arguments.application.file.empty()) options.clock = ClockKind::kSimulated;
+  options.extensions.push_back(std::make_shared<ClockWords>(arguments));
+  options.extensions_by_name = arguments.extensions;
+  return options;
 }
 
 }  // namespace
 
 ExitCode Run(const RunArguments& arguments) {
-  const RunExtensions with(arguments);
-  const LoadedApplication application = LoadWhatRuns(arguments, with);
+  const LoadedApplication application =
+      Application::Load(arguments.application.file, OptionsOf(arguments));
   std::cerr << application.diagnostics().ToString();
   if (!application) return ExitCode::kBadInput;
-  const std::string url = with.viewers->url();
-  if (!url.empty()) std::cout << "inspector: " << url << '\n' << std::flush;
-  const ExitCode code = Session(arguments, *application, with).Run();
-  return with.trace ? FinishTrace(*with.trace, arguments, code) : code;
+  for (const auto& extension : application->extensions()) std::cout << extension->StartText();
+  std::cout << std::flush;
+  return Session(arguments, *application).Run();
 }
 
 }  // namespace runnel::program

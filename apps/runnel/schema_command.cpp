@@ -2,7 +2,6 @@
 
 #include <iostream>
 
-#include "apps/runnel/chosen_application.h"
 #include "apps/runnel/plugin_choice.h"
 #include "apps/runnel/print_error.h"
 #include "core/base/replace_file.h"
@@ -12,7 +11,7 @@
 namespace runnel::program {
 
 ExitCode WriteSchema(const SchemaArguments& arguments) {
-  ApplicationDescription surroundings(OptionsOf(ApplicationArguments{}));
+  ApplicationDescription surroundings;
   if (!LoadChosenPlugins(arguments.plugins, surroundings)) return ExitCode::kBadInput;
   Diagnostics diagnostics;
   const std::string text =

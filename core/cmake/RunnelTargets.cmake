@@ -76,6 +76,16 @@ function(runnel_plugin name)
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/runnel/plugins)
 endfunction()
 
+# runnel_extension(<name> SOURCES ... [DEPENDS ...])
+# A plugin that adds to applications what extension.xml beside the CMakeLists.txt says (plugins/application).
+# That is found by the runtime without loading the library, and may be installed without it.
+function(runnel_extension name)
+  runnel_plugin(${name} ${ARGN})
+  configure_file(extension.xml "${CMAKE_BINARY_DIR}/lib/runnel/plugins/${name}.extension.xml" COPYONLY)
+  install(FILES extension.xml RENAME "${name}.extension.xml"
+    DESTINATION ${CMAKE_INSTALL_LIBDIR}/runnel/plugins)
+endfunction()
+
 # runnel_test(<name> SOURCES ... [DEPENDS ...] [LABELS ...] [TIMEOUT seconds] [APART ...])
 # A GoogleTest program; each of its test cases becomes a CTest test called <name>/<Suite>.<Case>.
 function(runnel_test name)

@@ -231,6 +231,7 @@ class Application {
   [[nodiscard]] PluginManager& plugins() noexcept;
   [[nodiscard]] XmlTagRegistry& tags() noexcept;
   [[nodiscard]] const ApplicationOptions& options() const noexcept;
+  [[nodiscard]] const Extensions& extensions() const noexcept;
   /// "0.1.0", of the library.
   [[nodiscard]] static const char* Version() noexcept;
   /// What it came from, absolute; "" if from no file.

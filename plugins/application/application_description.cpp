@@ -1,10 +1,11 @@
 #include "plugins/application/application_description.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "core/base/nearest_name.h"
 #include "core/module/group.h"
-#include "plugins/application/application_extension.h"
-#include "plugins/application_files/run_description.h"
+#include "plugins/application/extension_description.h"
 
 namespace runnel {
 
@@ -16,13 +17,70 @@ BuildOutcome Failed(Error error) {
   return outcome;
 }
 
+Error UnknownExtension(const std::string& name, const ExtensionCatalogue& catalogue) {
+  std::vector<std::string> names;
+  for (const ExtensionDescription& each : catalogue.all()) names.push_back(each.name);
+  return {.message = "there is no extension '" + name + "'", .hint = NearestNameHint(name, names)};
+}
+
+Result<void> CheckOptions(const ExtensionDescription& extension,
+                          const ExtensionArguments& arguments) {
+  std::vector<std::string> known;
+  for (const ExtensionOption& each : extension.options) known.push_back(each.name);
+  for (const auto& [name, value] : arguments.values) {
+    if (std::ranges::find(known, name) != known.end()) continue;
+    return Error{.message = "the extension '" + extension.name + "' has no option '" + name + "'",
+                 .hint = NearestNameHint(name, known)};
+  }
+  return {};
+}
+
 }  // namespace
 
 ApplicationDescription::ApplicationDescription(ApplicationOptions options)
-    : options_(std::move(options)) {
+    : options_(std::move(options)), extensions_(options_.extensions) {
   for (const auto& folder : options_.plugin_folders) plugins_.AddSearchFolder(folder);
-  for (const auto& extension : options_.extensions) extension->AddWords(tags_);
+  tags_.set_source([this](std::string_view tag) { return AttachForTag(tag); });
   plugins_.registry().Offer(tags_);
+  plugins_.registry().Offer(extension_registry_);
+}
+
+Result<Extensions> ApplicationDescription::MakeExtensions(const ExtensionDescription& extension,
+                                                          const std::string& need,
+                                                          const ExtensionArguments& arguments) {
+  if (auto known = CheckOptions(extension, arguments); !known) return known.error();
+  const std::vector<std::string> there = plugins_.Available();
+  if (std::ranges::find(there, extension.name) == there.end()) {
+    return Error{
+        .message = need + " needs the extension '" + extension.name + "', which is not installed",
+        .hint = "it " + extension.summary};
+  }
+  if (auto loaded = plugins_.Load(extension.name); !loaded) return loaded.error();
+  return extension_registry_.Make(extension.name, arguments);
+}
+
+Result<void> ApplicationDescription::Attach(const ExtensionByName& extension) {
+  const auto catalogue = ExtensionCatalogue::Read(plugins_.search_path());
+  if (!catalogue) return catalogue.error();
+  const ExtensionDescription* const known = catalogue->Find(extension.name);
+  if (known == nullptr) return UnknownExtension(extension.name, *catalogue);
+  const auto& values = extension.arguments.values;
+  auto made = MakeExtensions(*known, values.empty() ? "this" : "--" + values.front().first,
+                             extension.arguments);
+  if (!made) return made.error();
+  extensions_.insert(extensions_.end(), made->begin(), made->end());
+  return {};
+}
+
+Result<void> ApplicationDescription::AttachForTag(std::string_view tag) {
+  const auto catalogue = ExtensionCatalogue::Read(plugins_.search_path());
+  if (!catalogue) return catalogue.error();
+  const ExtensionDescription* const known = catalogue->FindTag(tag);
+  if (known == nullptr) return {};
+  auto made = MakeExtensions(*known, "<" + std::string(tag) + ">", {});
+  if (!made) return made.error();
+  extensions_.insert(extensions_.end(), made->begin(), made->end());
+  return {};
 }
 
 bool ApplicationDescription::ReadFrom(const Describe& describe) {
@@ -30,6 +88,9 @@ bool ApplicationDescription::ReadFrom(const Describe& describe) {
   for (const std::string& each : options_.configurations) configuration_.Load(each, before);
   for (const ApplicationSetting& setting : options_.settings) {
     if (auto added = configuration_.AddArgument(setting.text); !added) before.Add(added.error());
+  }
+  for (const ExtensionByName& each : options_.extensions_by_name) {
+    if (auto attached = Attach(each); !attached) before.Add(attached.error());
   }
   BuildOutcome outcome = describe({runtime_, plugins_, tags_, configuration_});
   diagnostics_ = std::move(outcome.diagnostics);
@@ -45,21 +106,30 @@ bool ApplicationDescription::ReadFrom(const Describe& describe) {
   return true;
 }
 
-BuildOutcome ApplicationDescription::Build(const ApplicationFile& file) {
+BuildOutcome ApplicationDescription::Build(const ApplicationFile* file) {
   const BuildTools tools{runtime_, plugins_, tags_, configuration_};
-  for (const auto& extension : options_.extensions) {
+  if (file != nullptr) {
+    if (auto brought = tags_.Bring(file->document.root().name()); !brought) {
+      Error error = brought.error();
+      error.position = file->document.root().position();
+      return Failed(std::move(error));
+    }
+  }
+  for (const auto& extension : extensions_) {
     if (auto built = extension->Build(file, tools)) return std::move(*built);
   }
-  return BuildApplication(file, tools, BuildMode::kConstruct);
+  if (file == nullptr) return Failed({.message = "there is no application file"});
+  return BuildApplication(*file, tools, BuildMode::kConstruct);
 }
 
 bool ApplicationDescription::Read(const std::filesystem::path& file) {
   return ReadFrom([&](const BuildTools&) {
+    if (file.empty()) return Build(nullptr);
     const auto read = ApplicationFile::Read(file);
     if (!read) return Failed(read.error());
     file_ = std::filesystem::absolute(file).lexically_normal().string();
     text_ = read->text;
-    return Build(*read);
+    return Build(&*read);
   });
 }
 

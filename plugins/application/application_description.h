@@ -9,10 +9,13 @@
 #include "core/element/runtime.h"
 #include "core/plugin/plugin_manager.h"
 #include "plugins/application/application_options.h"
+#include "plugins/application/extension_registry.h"
 #include "plugins/application_files/application_builder.h"
 #include "plugins/parameters/configuration.h"
 
 namespace runnel {
+
+struct ExtensionDescription;
 
 /// What an application is before any of it runs: elements that are constructed, configured and connected, with what
 /// the file says of the clock, threads and rules kept at them; and all that is wrong with it. Application makes
@@ -26,7 +29,7 @@ namespace runnel {
 /// Errors:     in the diagnostics, all of a file at once; nothing is left of it then.
 class ApplicationDescription {
  public:
-  /// Nothing is described yet; the words and types that are there can be asked for. Throws what extensions throw.
+  /// Nothing is described yet; the words and types that are there can be asked for.
   explicit ApplicationDescription(ApplicationOptions options = {});
   virtual ~ApplicationDescription() = default;
   ApplicationDescription(const ApplicationDescription&) = delete;
@@ -34,6 +37,7 @@ class ApplicationDescription {
 
   // One of these, once. False: it is wrong.
 
+  /// "": what an extension describes without a file.
   bool Read(const std::filesystem::path& file);
   /// Errors call the text `name`; relative file names in it start in `folder`.
   bool ReadText(std::string_view text, const std::filesystem::path& folder,
@@ -55,16 +59,27 @@ class ApplicationDescription {
   [[nodiscard]] const std::string& text() const noexcept { return text_; }
 
   [[nodiscard]] const ApplicationOptions& options() const noexcept { return options_; }
+  /// Those of the options, those that are named there, and those of the file's words.
+  [[nodiscard]] const Extensions& extensions() const noexcept { return extensions_; }
   [[nodiscard]] Runtime& runtime() noexcept { return runtime_; }
   [[nodiscard]] PluginManager& plugins() noexcept { return plugins_; }
   [[nodiscard]] XmlTagRegistry& tags() noexcept { return tags_; }
 
  protected:
+  /// Loads the plugin of an extension, unless it is there. `need` is what asks for it: "--trace". Errors: it is not
+  /// installed; it knows no such option; what is wrong with a value.
+  Result<Extensions> MakeExtensions(const ExtensionDescription& extension, const std::string& need,
+                                    const ExtensionArguments& arguments);
+
   Diagnostics diagnostics_;
   FrameworkElement* element_ = nullptr;
 
  private:
-  BuildOutcome Build(const ApplicationFile& file);
+  BuildOutcome Build(const ApplicationFile* file);
+  // Loads the plugin of an extension and attaches what it makes of the arguments.
+  Result<void> Attach(const ExtensionByName& extension);
+  // Likewise, if an extension has this word of application files.
+  Result<void> AttachForTag(std::string_view tag);
 
   const ApplicationOptions options_;
   std::string name_;
@@ -73,7 +88,9 @@ class ApplicationDescription {
   std::string text_;
   PluginManager plugins_;
   XmlTagRegistry tags_;
+  ExtensionRegistry extension_registry_;
   Configuration configuration_;
+  Extensions extensions_;
   Runtime runtime_;  // last, for modules may still use what plugins gave them
 };
 

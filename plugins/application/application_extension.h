@@ -13,22 +13,22 @@ namespace runnel {
 
 class Application;
 
-/// What a library adds to an application that can do without it. Each function is called at its point of the
-/// application's life, in this order; all of them do nothing unless they are overridden.
+/// What is added to an application that can do without it, by a plugin (ExtensionRegistry) or by the program that
+/// runs it. Each function is called at its point of the application's life, in this order; all of them do nothing
+/// unless they are overridden.
 ///
 /// Ownership:  shared by the application's options and whoever wants to ask it something; what it has of the
 ///             application it gives back in End() and Release().
 /// Threads:    up to Begin(), the thread that loads; then the one that runs the application; End() and
 ///             Release() by the one that destroys it. Never within a cycle, nor under the structure lock.
-/// Errors:     an error or an exception of AddWords() to Begin() makes loading fail, and leaves nothing.
+/// Errors:     an error or an exception of Build() to Begin() makes loading fail, and leaves nothing.
 class ApplicationExtension {
  public:
   virtual ~ApplicationExtension() = default;
 
-  /// Before the file is read: words that it may have.
-  virtual void AddWords(XmlTagRegistry& /*tags*/) {}
-  /// A file of another form than Runnel's: builds it with kConstruct. nullopt: of a form that it does not know.
-  virtual std::optional<BuildOutcome> Build(const ApplicationFile& /*file*/,
+  /// A file of another form than Runnel's, or an application without a file (nullptr): builds it with kConstruct.
+  /// nullopt: of a form that it does not know.
+  virtual std::optional<BuildOutcome> Build(const ApplicationFile* /*file*/,
                                             const BuildTools& /*tools*/) {
     return std::nullopt;
   }
@@ -43,6 +43,8 @@ class ApplicationExtension {
     return {};
   }
 
+  /// What people are told once all has begun: where to look at it, for one. Whole lines.
+  [[nodiscard]] virtual std::string StartText() const { return {}; }
   /// Just before the first cycle.
   virtual void OnStart() {}
   /// How long the application is to run at most, on its clock.
@@ -51,8 +53,13 @@ class ApplicationExtension {
   virtual std::optional<bool> IsOver() { return std::nullopt; }
   /// What has gone wrong here since the last call, and did not end the run.
   virtual std::optional<Error> TakeFailure() { return std::nullopt; }
-  /// No cycle will run any more; `verdict` is what has come of it, for people.
+  /// No cycle will run any more: brings what it does to an end, and says in whole lines what has come of it. What
+  /// goes wrong is an error, and the run has failed.
+  virtual std::string Finish(Diagnostics& /*problems*/) { return {}; }
+  /// After that; `verdict` is what has come of the run, for people.
   virtual void OnEnd(const std::string& /*verdict*/) {}
+  /// The user wants to look at what has come of the run before the application goes.
+  [[nodiscard]] virtual bool IsHeld() const { return false; }
 
   /// The application goes; no cycle runs any more. Lets go of all that is of it ...
   virtual void End() noexcept {}

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "plugins/scheduling/scheduler.h"
@@ -21,6 +22,31 @@ struct ApplicationSetting {
   explicit ApplicationSetting(std::string argument) : text(std::move(argument)) {}
 
   std::string text;
+};
+
+/// Values for the options of an extension, in their order: {{"inspect", "8765"}, {"inspect-read-only", ""}}.
+struct ExtensionArguments {
+  std::vector<std::pair<std::string, std::string>> values = {};
+
+  [[nodiscard]] bool Has(std::string_view option) const { return !All(option).empty(); }
+  /// The last one; "" if there is none.
+  [[nodiscard]] std::string Find(std::string_view option) const {
+    const std::vector<std::string> all = All(option);
+    return all.empty() ? "" : all.back();
+  }
+  [[nodiscard]] std::vector<std::string> All(std::string_view option) const {
+    std::vector<std::string> all;
+    for (const auto& [name, value] : values) {
+      if (name == option) all.push_back(value);
+    }
+    return all;
+  }
+};
+
+/// An extension that is a plugin: {"recording", {{{"record", "run.mcap"}}}}.
+struct ExtensionByName {
+  std::string name;
+  ExtensionArguments arguments = {};
 };
 
 /// What is said of an application from outside of its file.
@@ -40,8 +66,10 @@ struct ApplicationOptions {
 
   /// Other processes of the same user reach it: `runnel ls`, `runnel swap`. That they cannot is a warning.
   bool has_control = false;
-  /// What other libraries add, in the order in which they begin. Each is of one application.
+  /// What the program itself adds, in the order in which they begin. Each is of one application.
   std::vector<std::shared_ptr<ApplicationExtension>> extensions = {};
+  /// What plugins add, after those. What the words of the file need is loaded besides.
+  std::vector<ExtensionByName> extensions_by_name = {};
 };
 
 }  // namespace runnel

@@ -6,6 +6,7 @@
 
 #include "core/base/exception_text.h"
 #include "core/element/source_place.h"
+#include "plugins/application/extension_description.h"
 #include "plugins/application/internal/application_parts.h"
 #include "plugins/application_files/run_description.h"
 
@@ -56,7 +57,7 @@ Error Application::Parts::Placed(Error error) const {
 Result<void> Application::Parts::Schedule() {
   SchedulerOptions made = SchedulerOptionsOf(*element_);
   if (options().clock) made.clock = *options().clock;
-  for (const auto& extension : options().extensions) {
+  for (const auto& extension : extensions()) {
     ++prepared_extensions;
     if (auto prepared = extension->Prepare(*element_, made); !prepared) return prepared;
   }
@@ -79,11 +80,32 @@ Result<void> Application::Parts::Schedule() {
   return AddSupervisionRules(*element_, *supervisor);
 }
 
+// What clients want to be recorded is, though nobody has said so at the start.
+RecordingHook Application::Parts::RecordingOnDemand(Application& application) {
+  return [this,
+          &application](const RecordingRequest& wish) -> Result<std::unique_ptr<ClientRecording>> {
+    ServiceHooks found;
+    {
+      const std::lock_guard lock(runtime().structure_mutex());  // as for all plugins
+      const auto catalogue = ExtensionCatalogue::Read(plugins().search_path());
+      if (!catalogue) return catalogue.error();
+      const ExtensionDescription* const known = catalogue->FindCommand("record");
+      if (known == nullptr) return Error{.message = "no extension that records is installed"};
+      const auto made = MakeExtensions(*known, "'record'", {});
+      if (!made) return made.error();
+      for (const auto& extension : *made) extension->AddHooks(application, found);
+    }
+    if (!found.record) return Error{.message = "the extension that records does not do so"};
+    return found.record(wish);
+  };
+}
+
 Result<void> Application::Parts::Begin(Application& application, Diagnostics& diagnostics) {
   log.emplace(runtime().clock());
   report.emplace(runtime());
   start = runtime().clock().Now();
-  for (const auto& extension : options().extensions) extension->AddHooks(application, hooks);
+  for (const auto& extension : extensions()) extension->AddHooks(application, hooks);
+  if (!hooks.record) hooks.record = RecordingOnDemand(application);
   if (options().has_control) {
     auto server =
         ControlServer::Start(application.service(), {.application = name(), .file = file()});
@@ -95,7 +117,7 @@ Result<void> Application::Parts::Begin(Application& application, Diagnostics& di
       diagnostics.AddWarning(std::move(warning));
     }
   }
-  for (const auto& extension : options().extensions) {
+  for (const auto& extension : extensions()) {
     if (auto begun = extension->Begin(application, diagnostics); !begun) return begun;
   }
   return {};
@@ -163,15 +185,15 @@ Application::Parts::~Parts() {
   Join();
   if (scheduler) scheduler->Stop();
   control.reset();
-  const auto& extensions = options().extensions;
-  for (std::size_t i = prepared_extensions; i > 0; --i) extensions[i - 1]->End();
+  const auto& attached = extensions();
+  for (std::size_t i = prepared_extensions; i > 0; --i) attached[i - 1]->End();
   service.reset();
   report.reset();
   supervisor.reset();
   history.reset();
   editor.reset();
   scheduler.reset();
-  for (std::size_t i = prepared_extensions; i > 0; --i) extensions[i - 1]->Release();
+  for (std::size_t i = prepared_extensions; i > 0; --i) attached[i - 1]->Release();
 }
 
 }  // namespace runnel

@@ -106,6 +106,7 @@ const std::string& Application::name() const noexcept { return parts_->name(); }
 const std::string& Application::file() const noexcept { return parts_->file(); }
 const std::string& Application::text() const noexcept { return parts_->text(); }
 const ApplicationOptions& Application::options() const noexcept { return parts_->options(); }
+const Extensions& Application::extensions() const noexcept { return parts_->extensions(); }
 Scheduler& Application::scheduler() noexcept { return *parts_->scheduler; }
 StructureEditor& Application::editor() noexcept { return *parts_->editor; }
 ChangeHistory& Application::history() noexcept { return *parts_->history; }

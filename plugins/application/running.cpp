@@ -72,7 +72,7 @@ void Application::Attend() {
                    fault.is_mended ? "" : fault.message);
     parts.Add({Kind::kFault, std::move(text), fault});
   }
-  for (const auto& extension : parts.options().extensions) {
+  for (const auto& extension : parts.extensions()) {
     const auto failure = extension->TakeFailure();
     if (!failure) continue;
     parts.log->Add(ApplicationLog::Kind::kWarning, failure->ToString());
@@ -88,7 +88,7 @@ void Application::Attend() {
 }
 
 bool Application::IsOver() {
-  for (const auto& extension : parts_->options().extensions) {
+  for (const auto& extension : parts_->extensions()) {
     if (const auto is_over = extension->IsOver()) return *is_over;
   }
   return parts_->report->IsOver();
@@ -107,7 +107,7 @@ Result<void> Application::MakeReady() {
 
 void Application::NoteStart() {
   if (std::exchange(parts_->has_started, true)) return;
-  for (const auto& extension : parts_->options().extensions) extension->OnStart();
+  for (const auto& extension : parts_->extensions()) extension->OnStart();
 }
 
 Result<void> Application::Start() {
@@ -187,7 +187,7 @@ Result<Duration> Application::Run(const RunOptions& options) {
   Stop();
   if (auto ready = MakeReady(); !ready) return ready.error();
   std::optional<Duration> limit = options.limit;
-  for (const auto& extension : parts.options().extensions) {
+  for (const auto& extension : parts.extensions()) {
     const auto longest = extension->limit();
     if (longest) limit = std::min(limit.value_or(Duration::max()), *longest);
   }
@@ -256,7 +256,7 @@ std::vector<ApplicationEvent> Application::TakeEvents() {
 }
 
 void Application::NoteEnd(const std::string& verdict) {
-  for (const auto& extension : parts_->options().extensions) extension->OnEnd(verdict);
+  for (const auto& extension : parts_->extensions()) extension->OnEnd(verdict);
 }
 
 }  // namespace runnel

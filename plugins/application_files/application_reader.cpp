@@ -174,8 +174,20 @@ void NoteMisplacedLoads(XmlElement element, BuildContext& context) {
   }
 }
 
+// What an extension has that nobody has asked for yet.
+void BringTags(XmlElement element, const FrameworkElement& around, BuildContext& context) {
+  for (const XmlElement child : element.children()) {
+    if (const auto brought = context.tags().Bring(child.name()); !brought) {
+      context.Report(brought.error(), child.position(), around);
+      context.MarkPluginMissing();
+    }
+    BringTags(child, around, context);
+  }
+}
+
 void ReadWords(XmlElement root, FrameworkElement& around, BuildContext& context) {
   ReadChildren(root.name(), root, &around, around, Round::kWords, context);
+  BringTags(root, around, context);
   NoteMisplacedLoads(root, context);
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/result.h"
@@ -121,6 +122,13 @@ class XmlTagRegistry final : public OfferedRegistry {
   /// Both throw ElementError if the word is taken, as registrations of plugins do.
   void AddTag(XmlTag tag);
   void AddAttribute(AddedAttribute attribute);
+  /// Is asked for tags that are not there, and adds those that it knows of. Errors: it has one, and cannot add it.
+  using Source = std::function<Result<void>(std::string_view tag)>;
+  void set_source(Source source) { source_ = std::move(source); }
+  /// Has the tag added if it is not there and somebody knows of it. Errors: the source's.
+  Result<void> Bring(std::string_view tag) const {
+    return source_ && FindTag(tag) == nullptr ? source_(tag) : Result<void>();
+  }
   std::function<void()> SetAside(std::string_view plugin) override;
   void set_plugin(const std::string& plugin) override { plugin_ = plugin; }
 
@@ -136,6 +144,7 @@ class XmlTagRegistry final : public OfferedRegistry {
   std::map<std::string, XmlTag, std::less<>> tags_;
   std::vector<AddedAttribute> added_attributes_;
   std::string plugin_;
+  Source source_;
 };
 
 }  // namespace runnel

@@ -27,7 +27,7 @@ class Answer {
   virtual void Write(std::string_view text) = 0;       ///< for standard output
   virtual void WriteError(std::string_view text) = 0;  ///< for standard errors
   /// The client asks for nothing more: what goes on until it has enough ends.
-  [[nodiscard]] virtual bool has_enough() const = 0;
+  [[nodiscard]] virtual bool has_enough() const { return false; }
 
  protected:
   ~Answer() = default;

@@ -76,4 +76,11 @@ std::optional<Error> ApplicationRecording::TakeFailure() {
   return recorder_ != nullptr ? recorder_->TakeFailure() : std::nullopt;
 }
 
+std::string ApplicationRecording::Finish(Diagnostics& problems) {
+  if (recorder_ == nullptr) return {};
+  if (const auto finished = recorder_->Finish(); !finished) problems.Add(finished.error());
+  (void)recorder_->TakeFailure();  // the same
+  return RecordingText(recorder_->file(), recorder_->status());
+}
+
 }  // namespace runnel

@@ -15,8 +15,8 @@ class Application;
 
 /// Records ports of an application into a file, from the first cycle on; and has its clients record others.
 ///
-///     auto recording = std::make_shared<ApplicationRecording>(RecorderOptions{.file = "run.mcap"});
-///     auto application = Application::Load("robot.xml", {.extensions = {recording}});
+///     auto application = Application::Load(
+///         "robot.xml", {.extensions_by_name = {{"recording", {{{"record", "run.mcap"}}}}}});
 ///
 /// Errors: of loading: see Recorder::Start(). Later ones are events of the application, which goes on.
 class ApplicationRecording final : public ApplicationExtension {
@@ -24,12 +24,10 @@ class ApplicationRecording final : public ApplicationExtension {
   /// Without a file, for clients only.
   explicit ApplicationRecording(RecorderOptions options = {}) : options_(std::move(options)) {}
 
-  /// nullptr if nothing is recorded from the start.
-  [[nodiscard]] Recorder* recorder() const noexcept { return recorder_.get(); }
-
   void AddHooks(Application& application, ServiceHooks& hooks) override;
   Result<void> Begin(Application& application, Diagnostics& diagnostics) override;
   std::optional<Error> TakeFailure() override;
+  std::string Finish(Diagnostics& problems) override;
   void End() noexcept override { recorder_.reset(); }
 
  private:

@@ -5,6 +5,7 @@
 #include "core/types/duration_text.h"
 #include "plugins/application/application.h"
 #include "plugins/mcap/mcap_reader.h"
+#include "plugins/recording/recorded_ports.h"
 #include "plugins/recording/recording_info.h"
 
 namespace runnel {
@@ -15,6 +16,12 @@ namespace {
 constexpr Duration kLastCycle = std::chrono::seconds(1);
 
 }  // namespace
+
+std::optional<BuildOutcome> ApplicationReplay::Build(const ApplicationFile* file,
+                                                     const BuildTools& tools) {
+  if (file != nullptr) return std::nullopt;
+  return BuildRecordedPorts(file_, tools);
+}
 
 Result<void> ApplicationReplay::Prepare(FrameworkElement& /*application*/,
                                         SchedulerOptions& options) {
@@ -61,7 +68,8 @@ std::optional<bool> ApplicationReplay::IsOver() {
   return player_->failure() || (!is_simulated_ && player_->is_over());
 }
 
-std::string ApplicationReplay::Text() const {
+std::string ApplicationReplay::Finish(Diagnostics& problems) {
+  if (const auto failure = player_->failure()) problems.Add(*failure);
   const std::size_t ports = player_->ports();
   return "replayed " + DurationText(player_->length()) +
          (options_.loops ? ", again and again: " : ": ") + std::to_string(player_->published()) +

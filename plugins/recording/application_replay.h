@@ -10,10 +10,11 @@ namespace runnel {
 
 /// Plays a recording into an application instead of what its modules publish.
 ///
-///     auto replay = std::make_shared<ApplicationReplay>("run.mcap", PlayerOptions{.ports = {"laser/scan"}});
-///     auto application = Application::Load("robot.xml", {.extensions = {replay}});
+///     auto application = Application::Load("robot.xml",
+///         {.extensions_by_name = {{"recording", {{{"recording", "run.mcap"}, {"ports", "laser/scan"}}}}}});
 ///     application->Run();   // until all has been played
 ///
+/// Without an application file, ports are made for all that is recorded.
 /// Simulated time passes as real time does unless the options say otherwise, and goes on where the recording was.
 /// Errors: of loading: see McapReader::Open(), Player::Prepare(). What cannot be played is a warning.
 class ApplicationReplay final : public ApplicationExtension {
@@ -21,16 +22,13 @@ class ApplicationReplay final : public ApplicationExtension {
   explicit ApplicationReplay(std::string file, PlayerOptions options = {})
       : file_(std::move(file)), options_(std::move(options)) {}
 
-  /// What ended it early.
-  [[nodiscard]] std::optional<Error> failure() const { return player_->failure(); }
-  /// "replayed 12.3 s: 240 values at 2 ports", with an end of line.
-  [[nodiscard]] std::string Text() const;
-
+  std::optional<BuildOutcome> Build(const ApplicationFile* file, const BuildTools& tools) override;
   Result<void> Prepare(FrameworkElement& application, SchedulerOptions& options) override;
   Result<void> Begin(Application& application, Diagnostics& diagnostics) override;
   void OnStart() override;
   [[nodiscard]] std::optional<Duration> limit() const override;
   std::optional<bool> IsOver() override;
+  std::string Finish(Diagnostics& problems) override;
   void End() noexcept override { player_.reset(); }
 
  private:

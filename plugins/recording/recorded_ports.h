@@ -11,8 +11,6 @@ namespace runnel {
 /// plugins that can be found; what is of none of them is left out, with a warning. As BuildApplication() with
 /// kConstruct.
 ///
-///     Application::LoadFrom([&](const BuildTools& tools) { return BuildRecordedPorts(file, tools); }, …)
-///
 /// Errors: no recording; none of its types is known.
 [[nodiscard]] BuildOutcome BuildRecordedPorts(const std::string& file, const BuildTools& tools);
 

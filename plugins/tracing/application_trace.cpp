@@ -21,4 +21,20 @@ Result<void> ApplicationTrace::Begin(Application& /*application*/, Diagnostics& 
   return {};
 }
 
+std::string ApplicationTrace::Finish(Diagnostics& problems) {
+  const auto finished = recorder_->Finish();
+  if (!finished) {
+    problems.Add(finished.error());
+    return {};
+  }
+  const auto warn = [&](std::uint64_t events, const char* why) {
+    if (events == 0) return;
+    problems.AddWarning({.message = std::to_string(events) + " events are not in it, as " + why,
+                         .position = {file_}});
+  };
+  warn(finished->lost, "they came faster than they could be written down");
+  warn(finished->left_out, "it is as long as a trace may be");
+  return "traced " + std::to_string(finished->events) + " events to " + file_ + "\n";
+}
+
 }  // namespace runnel

@@ -1,17 +1,36 @@
-#include "plugins/viewers/viewers.h"
+// Shows an application to browsers (the inspector) and to whatever speaks Foxglove's protocol, if options or file
+// (`<inspector>`) ask for it.
 
+#include <memory>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "core/plugin/plugin_entry.h"
 #include "plugins/application/application.h"
 #include "plugins/foxglove/foxglove.h"
+#include "plugins/inspector/inspector.h"
 #include "plugins/inspector/inspector_place.h"
 #include "plugins/inspector/inspector_resources.h"
 #include "plugins/inspector/xml_inspector_tag.h"
+#include "plugins/web_server/access_rules.h"
+#include "plugins/web_server/web_server.h"
 
 namespace runnel {
 
 namespace {
+
+struct ViewerOptions {
+  bool is_wanted = false;   // also if the application file does not say so
+  bool is_refused = false;  // whatever the file says
+  bool is_held = false;     // after the run, until Ctrl-C
+  // "[ADDRESS:]PORT"; "": what the file says, or else port 8765 of this machine, or any that is free.
+  std::string place = {};
+  std::string token = {};                 // "": the file's, or see WebServerOptions
+  std::vector<std::string> origins = {};  // of pages of other places that may connect
+  bool is_read_only = false;
+};
 
 struct ViewerRequest {
   InspectorPlace place;
@@ -56,9 +75,28 @@ Result<std::unique_ptr<WebServer>> StartServer(const ViewerRequest& request,
   return server;
 }
 
-}  // namespace
+class Viewers final : public ApplicationExtension {
+ public:
+  explicit Viewers(ViewerOptions options) : options_(std::move(options)) {}
 
-void Viewers::AddWords(XmlTagRegistry& tags) { AddInspectorTag(tags); }
+  Result<void> Begin(Application& application, Diagnostics& diagnostics) override;
+  std::string StartText() const override {
+    return web_ != nullptr ? "inspector: " + web_->url() + "\n" : "";
+  }
+  void OnEnd(const std::string& verdict) override {
+    if (inspector_ != nullptr) inspector_->NoteEnd(verdict);
+  }
+  bool IsHeld() const override { return options_.is_held; }
+  void End() noexcept override {
+    web_.reset();
+    inspector_.reset();
+  }
+
+ private:
+  const ViewerOptions options_;
+  std::unique_ptr<Inspector> inspector_;
+  std::unique_ptr<WebServer> web_;  // uses the inspector
+};
 
 Result<void> Viewers::Begin(Application& application, Diagnostics& diagnostics) {
   const auto request = RequestOf(options_, application.element());
@@ -86,13 +124,33 @@ Result<void> Viewers::Begin(Application& application, Diagnostics& diagnostics) 
   return {};
 }
 
-void Viewers::OnEnd(const std::string& verdict) {
-  if (inspector_ != nullptr) inspector_->NoteEnd(verdict);
+Result<Extensions> MakeViewers(const ExtensionArguments& arguments) {
+  ViewerOptions options{.is_wanted = !arguments.values.empty(),
+                        .is_refused = arguments.Has("no-inspect"),
+                        .is_held = arguments.Has("hold"),
+                        .place = arguments.Find("inspect"),
+                        .token = arguments.Find("inspect-token"),
+                        .origins = arguments.All("inspect-origin"),
+                        .is_read_only = arguments.Has("inspect-read-only")};
+  if (options.is_held && options.is_refused) {
+    return Error{.message = "--hold is for viewers, and --no-inspect refuses them"};
+  }
+  if (!options.place.empty()) {
+    if (const auto place = ParseInspectorPlace(options.place); !place) return place.error();
+  }
+  if (arguments.Has("inspect-token")) {
+    if (const auto good = CheckToken(options.token); !good) return good.error();
+  }
+  return Extensions{std::make_shared<Viewers>(std::move(options))};
 }
 
-void Viewers::End() noexcept {
-  web_.reset();
-  inspector_.reset();
-}
+}  // namespace
 
 }  // namespace runnel
+
+RUNNEL_PLUGIN(viewers, registry) {
+  if (auto* const tags = registry.Find<runnel::XmlTagRegistry>()) runnel::AddInspectorTag(*tags);
+  if (auto* const extensions = registry.Find<runnel::ExtensionRegistry>()) {
+    extensions->Add(runnel::MakeViewers);
+  }
+}

@@ -60,6 +60,7 @@ struct Application::Parts final : ApplicationDescription {
   Result<void> Schedule();
   Result<void> Begin(Application& application, Diagnostics& diagnostics);
 
+  RecordingHook RecordingOnDemand(Application& application);
   void LoadPluginOf(std::string_view type);
 
   // Ends the thread of Start(), if there is one.

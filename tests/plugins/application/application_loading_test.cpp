@@ -80,7 +80,6 @@ class Notes final : public ApplicationExtension {
   std::string fails_at;
   bool throws_number = false;
 
-  void AddWords(XmlTagRegistry&) override { (void)Note("words"); }
   Result<void> Prepare(FrameworkElement& application, SchedulerOptions&) override {
     EXPECT_EQ(application.life_cycle(), LifeCycle::kConstructed);
     return Note("prepare");
@@ -113,7 +112,7 @@ TEST(ApplicationLoading, AsksExtensionsAtEachOfItsSteps) {
     ASSERT_TRUE(application->RunCycles(1));
     application->NoteEnd("fine");
   }
-  EXPECT_THAT(notes->calls, ElementsAre("words", "prepare", "hooks", "begin", "start", "end: fine",
+  EXPECT_THAT(notes->calls, ElementsAre("prepare", "hooks", "begin", "start", "end: fine",
                                         "end", "release"));
 }
 
@@ -129,7 +128,7 @@ TEST(ApplicationLoading, FailsWithAnExtensionAndGivesBackWhatItHas) {
 }
 
 TEST(ApplicationLoading, SurvivesAnExceptionOfAnExtensionAtEachStep) {
-  for (const std::string call : {"words", "prepare", "hooks", "begin"}) {
+  for (const std::string call : {"prepare", "hooks", "begin"}) {
     const auto notes = std::make_shared<Notes>();
     notes->fails_at = call;
     notes->throws_number = true;

@@ -1,17 +1,19 @@
-#include "apps/runnel/info_command.h"
+// The command `runnel info`: says what is in a recording, for people or as JSON. One that is broken, or was never
+// finished, is shown as far as it goes; what is wrong with it goes to stderr.
 
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "apps/runnel/print_error.h"
+#include "core/base/diagnostics.h"
 #include "plugins/mcap/mcap_reader.h"
 #include "plugins/recording/recording_info.h"
 #include "plugins/recording/recording_text.h"
 
-namespace runnel::program {
+namespace runnel {
 
 namespace {
 
@@ -22,8 +24,8 @@ void PrintLine(const char* name, const std::string& text) {
 std::string PackingText(const RecordingInfo& info) {
   std::string text = std::to_string(info.chunks) + (info.chunks == 1 ? " chunk, " : " chunks, ");
   if (info.compression == "none") return text + "not compressed";
-  return text + info.compression + ", " + SizeText(info.compressed_bytes) + " of " +
-         SizeText(info.uncompressed_bytes);
+  return text + info.compression + ", " + SizeText(info.packed_bytes) + " of " +
+         SizeText(info.unpacked_bytes);
 }
 
 void PrintChannels(const RecordingInfo& info) {
@@ -63,23 +65,48 @@ void Print(const RecordingInfo& info) {
   std::fflush(stdout);
 }
 
-}  // namespace
+constexpr int kDone = 0, kRunFailed = 1, kBadInput = 2;
 
-ExitCode ShowRecording(const InfoArguments& arguments) {
-  const auto reader = McapReader::Open(arguments.file);
+void PrintError(const Error& error) {
+  Diagnostics diagnostics;
+  diagnostics.Add(error);
+  std::cerr << diagnostics.ToString();
+}
+
+int ShowRecording(const std::string& file, bool is_json) {
+  const auto reader = McapReader::Open(file);
   if (!reader) {
     PrintError(reader.error());
-    return ExitCode::kBadInput;
+    return kBadInput;
   }
   const RecordingInfo info = InfoOf(**reader);
-  if (arguments.is_json) {
+  if (is_json) {
     std::cout << RecordingInfoJson(info) << '\n' << std::flush;
   } else {
     Print(info);
   }
-  if (!info.damage) return ExitCode::kDone;
+  if (!info.damage) return kDone;
   PrintError(*info.damage);
-  return ExitCode::kRunFailed;
+  return kRunFailed;
 }
 
-}  // namespace runnel::program
+}  // namespace
+
+}  // namespace runnel
+
+int main(int count, char** words) {
+  CLI::App program("Says what is in a recording.", "runnel info");
+  std::string file;
+  bool is_json = false;
+  program.add_option("recording", file, "file (MCAP)")->required()->type_name("FILE.mcap");
+  program.add_flag("--json", is_json, "for programs");
+  try {
+    program.parse(count, words);
+    return runnel::ShowRecording(file, is_json);
+  } catch (const CLI::Success& help) {
+    return program.exit(help);
+  } catch (const std::exception& error) {
+    std::cerr << "error: " << error.what() << "; see 'runnel info --help'\n";
+    return runnel::kBadInput;
+  }
+}

@@ -1,0 +1,120 @@
+#include "plugins/application/extension_description.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+
+#include "core/base/diagnostics.h"
+#include "core/xml/xml_document.h"
+#include "core/xml/xml_reading.h"
+
+namespace runnel {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kEnding = ".extension.xml";
+const std::vector<std::string> kParts{"command", "option", "tag"};
+// In the order of ExtensionOption::Kind.
+const std::vector<std::string> kKinds{"flag", "optional_value", "value", "list", "argument"};
+
+std::string TextOr(XmlElement element, std::string_view attribute, std::string text) {
+  const XmlAttribute* const found = element.Attribute(attribute);
+  return found != nullptr ? found->value : std::move(text);
+}
+
+ExtensionOption ReadOption(XmlElement element, const std::string& name, Diagnostics& problems) {
+  const std::string kind = TextOr(element, "kind", kKinds.front());
+  const auto known = std::ranges::find(kKinds, kind);
+  if (known == kKinds.end()) {
+    problems.Add({.message = "'" + kind + "' is no kind of option",
+                  .position = element.Attribute("kind")->value_position,
+                  .hint = "flag, optional_value, value, list or argument"});
+  }
+  return {.name = name,
+          .kind = static_cast<ExtensionOption::Kind>(known - kKinds.begin()),
+          .value_name = TextOr(element, "value", "VALUE"),
+          .summary = TextOr(element, "summary", ""),
+          .command = TextOr(element, "command", "")};
+}
+
+void ReadPart(XmlElement element, ExtensionDescription& extension, Diagnostics& problems) {
+  const bool is_option = element.name() == "option";
+  CheckAttributes(element,
+                  is_option
+                      ? std::vector<std::string>{"command", "kind", "name", "summary", "value"}
+                      : std::vector<std::string>{"name"},
+                  problems);
+  const std::string* const name = ReadText(element, "name", problems);
+  if (name == nullptr) return;
+  if (is_option) extension.options.push_back(ReadOption(element, *name, problems));
+  if (element.name() == "tag") extension.tags.push_back(*name);
+  if (element.name() == "command") extension.commands.push_back(*name);
+}
+
+Result<ExtensionDescription> ReadDescription(const fs::path& file, std::string name) {
+  const auto document = XmlDocument::Load(file);
+  if (!document) return document.error();
+  const XmlElement root = document->root();
+  if (root.name() != "extension") {
+    return Error{.message = "<" + root.name() + "> does not describe an extension",
+                 .position = root.position(),
+                 .hint = "such a file begins with <extension>"};
+  }
+  ExtensionDescription extension{.name = std::move(name), .summary = {}};
+  Diagnostics problems;
+  CheckAttributes(root, std::array<std::string, 1>{"summary"}, problems);
+  CheckChildren(root, kParts, problems);
+  if (const std::string* const text = ReadText(root, "summary", problems))
+    extension.summary = *text;
+  for (const XmlElement child : root.children()) ReadPart(child, extension, problems);
+  if (!problems.ok()) return problems.errors().front();
+  return extension;
+}
+
+const ExtensionDescription* FindIn(const std::vector<ExtensionDescription>& all,
+                                   std::vector<std::string> ExtensionDescription::*words,
+                                   std::string_view word) {
+  const auto found = std::ranges::find_if(all, [&](const ExtensionDescription& each) {
+    return std::ranges::find(each.*words, word) != (each.*words).end();
+  });
+  return found != all.end() ? &*found : nullptr;
+}
+
+}  // namespace
+
+Result<ExtensionCatalogue> ExtensionCatalogue::Read(const std::vector<fs::path>& folders) {
+  std::map<std::string, fs::path> files;
+  for (const fs::path& folder : folders) {
+    std::error_code ignored;  // a folder that is not there has none
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+      const std::string name = entry.path().filename().string();
+      if (!name.ends_with(kEnding)) continue;
+      files.try_emplace(name.substr(0, name.size() - kEnding.size()), entry.path());
+    }
+  }
+  ExtensionCatalogue catalogue;
+  for (const auto& [name, file] : files) {
+    auto extension = ReadDescription(file, name);
+    if (!extension) return extension.error();
+    catalogue.all_.push_back(std::move(*extension));
+  }
+  return catalogue;
+}
+
+const ExtensionDescription* ExtensionCatalogue::Find(std::string_view name) const {
+  const auto found = std::ranges::find(all_, name, &ExtensionDescription::name);
+  return found != all_.end() ? &*found : nullptr;
+}
+
+const ExtensionDescription* ExtensionCatalogue::FindTag(std::string_view tag) const {
+  return FindIn(all_, &ExtensionDescription::tags, tag);
+}
+
+const ExtensionDescription* ExtensionCatalogue::FindCommand(std::string_view command) const {
+  return FindIn(all_, &ExtensionDescription::commands, command);
+}
+
+}  // namespace runnel
