@@ -24,8 +24,8 @@ void PrintLine(const char* name, const std::string& text) {
 std::string PackingText(const RecordingInfo& info) {
   std::string text = std::to_string(info.chunks) + (info.chunks == 1 ? " chunk, " : " chunks, ");
   if (info.compression == "none") return text + "not compressed";
-  return text + info.compression + ", " + SizeText(info.packed_bytes) + " of " +
-         SizeText(info.unpacked_bytes);
+  return text + info.compression + ", " + SizeText(info.compressed_bytes) + " of " +
+         SizeText(info.uncompressed_bytes);
 }
 
 void PrintChannels(const RecordingInfo& info) {

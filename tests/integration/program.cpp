@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 
 #include <linux/capability.h>
@@ -86,6 +87,11 @@ bool Program::Handles(int signal) const {
 void Program::WaitUntilHandles(int signal, bool handles) const {
   WaitUntil("the program handles signal " + std::to_string(signal) + (handles ? "" : " no more"),
             [&] { return Handles(signal) == handles; });
+}
+
+std::string Program::Maps() const {
+  std::ifstream maps("/proc/" + std::to_string(process_) + "/maps");
+  return {std::istreambuf_iterator<char>(maps), {}};
 }
 
 void Program::Send(int signal) const { kill(process_, signal); }

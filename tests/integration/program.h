@@ -35,6 +35,8 @@ class Program {
   /// ends; its start is not waited for by SIGINT, which the shell before it handles, too.
   void WaitUntilHandles(int signal, bool handles) const;
   void Send(int signal) const;
+  /// The files in its memory, as the system lists them.
+  [[nodiscard]] std::string Maps() const;
   /// Until it has ended. Once.
   Ended Wait();
 

@@ -87,7 +87,7 @@ TEST_F(Described, AndNotInstalledIsToldByItsNameOnceWithAllOtherMistakes) {
       LoadWith("\n<see port=\"1\"/><module/>", {}, folder_.path()).diagnostics().ToString();
   EXPECT_THAT(text, HasSubstr(":2:1: error: /: <see> needs the extension 'absent', which is not "
                               "installed; it sees\n"));
-  EXPECT_THAT(text, AllOf(HasSubstr("<module> has no 'type'"), Not(HasSubstr("unknown"))));
+  EXPECT_THAT(text, AllOf(HasSubstr("<module> has no 'name'"), Not(HasSubstr("unknown"))));
   EXPECT_THAT(LoadWith("", {{"absent", {{{"see", ""}}}}}, folder_.path()).error().message,
               "--see needs the extension 'absent', which is not installed");
 }
@@ -114,13 +114,13 @@ TEST_F(Described, SaysWhatItAdds) {
 
 TEST_F(Described, WronglyIsToldWithItsPlace) {
   for (const auto& [text, message] : std::vector<std::pair<std::string, std::string>>{
-           {"<extension/>", "1:1: error: <extension> has no 'summary'"},
-           {"<plugin summary=\"\"/>", "1:1: error: <plugin> does not describe an extension"},
-           {"<extension summary=\"\"><tags/></extension>", "1:23: error: "},
-           {"<extension summary=\"\"><tag/></extension>", "1:23: error: <tag> has no 'name'"},
+           {"<extension/>", "1:1: <extension> has no 'summary'"},
+           {"<plugin summary=\"\"/>", "1:1: <plugin> does not describe an extension"},
+           {"<extension summary=\"\"><tags/></extension>", "1:23: "},
+           {"<extension summary=\"\"><tag/></extension>", "1:23: <tag> has no 'name'"},
            {"<extension summary=\"\"><option name=\"a\" kind=\"b\"/></extension>",
-            "1:46: error: 'b' is no kind of option; flag,"},
-           {"<extension", "error: "}}) {
+            "1:46: 'b' is no kind of option; flag,"},
+           {"<extension", ""}}) {
     const auto read = Read(text);
     ASSERT_FALSE(read) << text;
     EXPECT_THAT(read.error().ToString(),
