@@ -29,7 +29,8 @@ run(COMMAND "${program}" modules outside EXPECT "outside/wanderer.*drives ahead"
 run(COMMAND "${program}" modules simulation EXPECT "simulation/world")
 set(world "world=${WORK}/prefix/share/runnel/xml/worlds/rooms.xml")
 run(COMMAND "${program}" check "${SOURCE}/wander.xml" "${world}")
-run(COMMAND "${program}" run --fast --duration 5 "${SOURCE}/wander.xml" "${world}")
+run(COMMAND "${program}" run --fast --duration 5 "${SOURCE}/wander.xml" "${world}"
+  --trace "${WORK}/trace.json" EXPECT "traced [0-9]+ events")
 
 # A program that has the application as an object.
 run(COMMAND "${WORK}/outside/embedding" "${WORK}/prefix/share/runnel/xml/apps/bug_demo.xml"
