@@ -15,7 +15,7 @@ namespace {
 constexpr std::string_view kBlanks = " \t\r\n";
 constexpr std::string_view kSeparators = " \t\r\n,";
 
-std::string Quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
+std::string InApostrophes(std::string_view text) { return "'" + std::string(text) + "'"; }
 
 template <typename T>
 Result<void> WithoutValue(const Result<T>& result) {
@@ -32,7 +32,7 @@ Result<void> CheckSinglePath(std::string_view value) {
   if (auto filled = CheckNotEmpty(value); !filled) return filled;
   if (kBlanks.find(value.front()) != std::string_view::npos ||
       kBlanks.find(value.back()) != std::string_view::npos) {
-    return Error{.message = "the path " + Quoted(value) + " begins or ends with a blank"};
+    return Error{.message = "the path " + InApostrophes(value) + " begins or ends with a blank"};
   }
   return {};
 }
@@ -45,19 +45,19 @@ Result<void> CheckPathList(std::string_view value) {
 
 Result<void> CheckNumber(std::string_view value) {
   if (ParseNumber(value)) return {};
-  return Error{.message = Quoted(value) + " is not a number"};
+  return Error{.message = InApostrophes(value) + " is not a number"};
 }
 
 Result<void> CheckDuration(std::string_view value) {
   const auto duration = ParseDuration(value);
   if (!duration) return duration.error();
   if (*duration > Duration::zero()) return {};
-  return Error{.message = Quoted(value) + " is not longer than nothing"};
+  return Error{.message = InApostrophes(value) + " is not longer than nothing"};
 }
 
 Result<void> CheckChoice(const AttributeRule& rule, std::string_view value) {
   if (std::ranges::find(rule.choices, value) != rule.choices.end()) return {};
-  return Error{.message = Quoted(value) + " is not possible for " + rule.name,
+  return Error{.message = InApostrophes(value) + " is not possible for " + rule.name,
                .hint = NearestNameHint(value, rule.choices)};
 }
 
@@ -92,7 +92,7 @@ Result<std::size_t> ParseCount(std::string_view text) {
   std::size_t count = 0;
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), count);
   if (problem != std::errc{} || end != text.data() + text.size()) {
-    return Error{.message = Quoted(text) + " is not a count", .hint = "write 0, 1, 2 …"};
+    return Error{.message = InApostrophes(text) + " is not a count", .hint = "write 0, 1, 2 …"};
   }
   return count;
 }
