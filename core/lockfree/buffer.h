@@ -15,7 +15,7 @@ namespace runnel {
 template <typename T, template <typename> class Atomic, std::size_t kSlots>
 class BufferPool;
 
-/// One buffer of a pool: a value and what is kept with it. Who holds a buffer:
+/// What is kept with the value in a buffer of a pool, whatever its type. Who holds a buffer:
 ///
 ///   the publisher     from Loan() on, until it is published or the loan dropped  (is_loaned_)
 ///   the newest value  until the next one is published                           (LatestBuffer)
@@ -26,24 +26,9 @@ class BufferPool;
 /// buffer in some way, so of a free buffer no new one comes up (LatestBuffer has the one exception, which
 /// looks again). Only the publisher asks, or who has the pool once it is closed, so no two can find the
 /// same buffer free.
-template <typename T, template <typename> class Atomic = std::atomic, std::size_t kSlots = 7>
-class alignas(kCacheLineSize) Buffer {
+template <template <typename> class Atomic = std::atomic>
+class BufferBase {
  public:
-  using Pool = BufferPool<T, Atomic, kSlots>;
-  using Factory = std::function<T()>;
-
-  Buffer() = default;
-  ~Buffer() {
-    if (pool_ != nullptr) value().~T();
-  }
-  Buffer(const Buffer&) = delete;
-  Buffer& operator=(const Buffer&) = delete;
-
-  [[nodiscard]] T& value() noexcept { return *std::launder(reinterpret_cast<T*>(storage_)); }
-  [[nodiscard]] const T& value() const noexcept {
-    return *std::launder(reinterpret_cast<const T*>(storage_));
-  }
-
   /// Written by the publisher before it publishes, read by whoever holds the buffer.
   Publication publication;
 
@@ -72,6 +57,40 @@ class alignas(kCacheLineSize) Buffer {
   /// By the publisher, before others can reach the buffer.
   void EndLoan() noexcept { is_loaned_.store(false, std::memory_order_relaxed); }
 
+ private:
+  template <typename, template <typename> class, std::size_t>
+  friend class BufferPool;
+
+  // By loan or count. acquire: pairs with the releases of those who gave it up.
+  [[nodiscard]] bool IsHeld() const noexcept {
+    return is_loaned_.load(std::memory_order_acquire) ||
+           count_.load(std::memory_order_acquire) != 0;
+  }
+
+  Atomic<std::uint64_t> count_{0};  // references
+  Atomic<bool> is_loaned_{false};
+  std::uint32_t seen_in_ = 0;  // the publisher's own: the search that last saw it in a slot
+};
+
+/// One buffer of a pool: a value and what is kept with it.
+template <typename T, template <typename> class Atomic = std::atomic, std::size_t kSlots = 7>
+class alignas(kCacheLineSize) Buffer : public BufferBase<Atomic> {
+ public:
+  using Pool = BufferPool<T, Atomic, kSlots>;
+  using Factory = std::function<T()>;
+
+  Buffer() = default;
+  ~Buffer() {
+    if (pool_ != nullptr) value().~T();
+  }
+  Buffer(const Buffer&) = delete;
+  Buffer& operator=(const Buffer&) = delete;
+
+  [[nodiscard]] T& value() noexcept { return *std::launder(reinterpret_cast<T*>(storage_)); }
+  [[nodiscard]] const T& value() const noexcept {
+    return *std::launder(reinterpret_cast<const T*>(storage_));
+  }
+
   [[nodiscard]] Pool& pool() const noexcept { return *pool_; }
 
  private:
@@ -87,15 +106,7 @@ class alignas(kCacheLineSize) Buffer {
     }
     pool_ = &pool;
   }
-  // By loan or count. acquire: pairs with the releases of those who gave it up.
-  [[nodiscard]] bool IsHeld() const noexcept {
-    return is_loaned_.load(std::memory_order_acquire) ||
-           count_.load(std::memory_order_acquire) != 0;
-  }
 
-  Atomic<std::uint64_t> count_{0};  // references
-  Atomic<bool> is_loaned_{false};
-  std::uint32_t seen_in_ = 0;  // the publisher's own: the search that last saw it in a slot
   Pool* pool_ = nullptr;
   alignas(T) std::byte storage_[sizeof(T)];
 };

@@ -8,6 +8,10 @@ namespace runnel {
 
 constinit const internal::InputBinding BoundInput::kUnbound{};
 
+BoundInput::BoundInput(FrameworkElement& group, std::string&& name, const TypeInfo& type,
+                       InputOptions&& options)
+    : InputBase({group, std::move(name)}, type, std::move(options)) {}
+
 BoundInput::~BoundInput() = default;
 
 std::uint64_t BoundInput::dropped() const noexcept {
@@ -140,8 +144,8 @@ void BoundInput::Bound() {
 void BoundInput::TakeOverBinding(InputBase& from) noexcept {
   auto& other = static_cast<BoundInput&>(from);
   // acq_rel, release: as in Replace().
-  const Binding* const taken = other.binding_.exchange(binding_.load(std::memory_order_relaxed),
-                                                       std::memory_order_acq_rel);
+  const Binding* const taken =
+      other.binding_.exchange(binding_.load(std::memory_order_relaxed), std::memory_order_acq_rel);
   binding_.store(taken, std::memory_order_release);
   last_links_.swap(other.last_links_);
 }

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/port/channel_base.h"
@@ -26,7 +27,9 @@ class BoundInput : public InputBase {
   using Link = internal::InputLink;
   using Binding = internal::InputBinding;
 
-  using InputBase::InputBase;
+  // By reference, so that typed inputs move nothing themselves.
+  BoundInput(FrameworkElement& group, std::string&& name, const TypeInfo& type,
+             InputOptions&& options);
   ~BoundInput() override;
   /// By the destructor of typed inputs: they make queues while they are
   /// disconnected.

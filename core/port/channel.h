@@ -12,10 +12,9 @@
 #include "core/lockfree/thread_epoch.h"
 #include "core/port/channel_base.h"
 #include "core/port/distribution.h"
-#include "core/port/input_queue.h"
 #include "core/port/lease.h"
 #include "core/port/loan.h"
-#include "core/port/probe_queue.h"
+#include "core/port/queued_value.h"
 
 namespace runnel {
 
@@ -116,19 +115,14 @@ class Channel final : public ChannelBase {
       if (storage_.pool_for_pulls) storage_.pool_for_pulls->Reserve(buffers);
     }
   }
-  void DeliverNewest(ProbeQueue& probe) override {
-    if constexpr (kIsInlined<T>) {
-      const internal::HeldValue<T> held = Read();
-      if (!held.has_value()) return;
-      internal::PushTo<T>(probe, held.value(), held.publication(), nullptr, number());
-    } else if (const auto lease = storage_.newest.Lease(ThisThread().hazards); lease.get()) {
-      Buffer<T>& buffer = *lease.get();
-      internal::PushTo<T>(probe, buffer.value(), buffer.publication, &buffer, number());
+  void DeliverNewest(QueueSink& sink) override {
+    const auto held = ReadForViewer();
+    if (!held.has_value()) return;
+    if constexpr (kLiesInQueuesAsCopy<T>) {
+      Distribution::ToNew(sink, &held.value(), held.publication(), number());
+    } else {
+      Distribution::ToNew(sink, {held.buffer(), &held.value()}, held.publication(), number());
     }
-  }
-  void DeliverNewest(InputQueueBase& queue) override {
-    auto held = ReadForViewer();
-    if (held.has_value()) internal::QueueOf<T>(queue).PutFirst(std::move(held), number());
   }
   /// How many buffers there are for Loan().
   [[nodiscard]] std::size_t buffers() const noexcept requires(!kIsInlined<T>) {
@@ -148,6 +142,7 @@ class Channel final : public ChannelBase {
   static constexpr bool kCanPull = !kIsInlined<T> || std::is_default_constructible_v<T>;
 
  private:
+  using Distribution = internal::DistributionOf<T>;
   struct InlinedStorage : LatestValue<T> {
     InlinedStorage(const PoolOptions&, typename BufferPool<T>::Factory&&, bool) {}
   };
@@ -207,7 +202,7 @@ class Channel final : public ChannelBase {
     storage_.Publish(value, timestamp, order);
     if (subscribers(kPath) == nullptr) [[likely]]
       return PublishStatus::kPublished;
-    return Distribute(value, timestamp, storage_.sequence(), order, nullptr);
+    return Distribution::ToAll(*this, &value, timestamp, storage_.sequence(), order);
   }
   template <PublishPath kPath>
   [[gnu::always_inline]] PublishStatus PublishNow(Buffer<T>& buffer, Time now) noexcept
@@ -221,23 +216,11 @@ class Channel final : public ChannelBase {
     if (subscribers(kPath) == nullptr) [[likely]]
       return PublishStatus::kPublished;
     // The buffer stays the newest while this goes on, which keeps it.
-    return Distribute(std::as_const(buffer).value(), timestamp, sequence, order, &buffer);
-  }
-
-  // Gives the value to each queue. Apart, so that publishing to readers of the newest value alone
-  // stays short. What is told about the value comes in registers: to load it in one piece from where
-  // it has just been stored in three would have to wait for all stores before.
-  [[gnu::noinline]] PublishStatus Distribute(const T& value, std::int64_t timestamp,
-                                             std::uint64_t sequence, std::uint64_t order,
-                                             Buffer<T>* buffer) noexcept {
-    return Guarded([&]() __attribute__((always_inline)) {
-      const Subscribers* const list = subscribers_in_guard();
-      if (list == nullptr) return PublishStatus::kPublished;
-      const Publication publication{timestamp, sequence, order};
-      if (list->only_queue == nullptr)  // a copy for it, as it asks where that lies
-        return internal::PushToAll(*list, value, Publication(publication), buffer, number());
-      return internal::PushTo(*list->only_queue, value, publication, buffer, number());
-    });
+    if constexpr (kLiesInQueuesAsCopy<T>) {
+      return Distribution::ToAll(*this, &buffer.value(), timestamp, sequence, order);
+    } else {
+      return Distribution::ToAll(*this, {&buffer, &buffer.value()}, timestamp, sequence, order);
+    }
   }
 
   std::conditional_t<kIsInlined<T>, InlinedStorage, BufferStorage> storage_;

@@ -12,8 +12,12 @@
 
 namespace runnel {
 
-class InputQueueBase;
 class Port;
+
+namespace internal {
+template <typename Queued>
+class Distribution;
+}
 
 /// What an output and the inputs connected to it share, apart from the type of the values: the
 /// output publishes into its channel, and the inputs read from it.
@@ -37,11 +41,9 @@ class ChannelBase {
   /// Sees to it that `leases` values can wait in queues besides those that the pool's options plan
   /// for. Allocates.
   virtual void ReserveFor(std::size_t leases) = 0;
-  /// Pushes the newest value, if there is one. Call inside an EpochGuard.
-  virtual void DeliverNewest(ProbeQueue& probe) = 0;
-  /// The same into the queue of an input of this channel's type, see
-  /// InputQueue::PutFirst().
-  virtual void DeliverNewest(InputQueueBase& queue) = 0;
+  /// Pushes the newest value, if there is one, into a probe's queue, or into that of an input of this
+  /// channel's type, see InputQueue::PutFirst(). Call inside an EpochGuard.
+  virtual void DeliverNewest(QueueSink& sink) = 0;
   /// Whether a queue that refuses is full.
   [[nodiscard]] bool WouldRefuse() const noexcept;
   /// Has the provider, if there is one and nobody is publishing just now, make
@@ -94,6 +96,9 @@ class ChannelBase {
   }
 
  private:
+  template <typename>
+  friend class internal::Distribution;
+
   static std::uint64_t TakeOrderNumber() noexcept;
   void Set(Flag flag, bool is) noexcept;
 

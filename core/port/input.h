@@ -36,7 +36,7 @@ class Input final : public BoundInput {
       : Input(owner->InputGroup(), std::move(name), std::move(options)) {}
   /// Into a certain group.
   Input(FrameworkElement& group, std::string name, InputOptions options = {})
-      : BoundInput({group, std::move(name)}, TypeOf<T>(), std::move(options)) {}
+      : BoundInput(group, std::move(name), TypeOf<T>(), std::move(options)) {}
   ~Input() override { DisconnectForEver(); }
 
   /// The newest value, with whether it is new since the last Read().
@@ -186,17 +186,26 @@ class Input final : public BoundInput {
     return binding->HasNext() || (!binding->queue && PeekForViewer().is_new());
   }
 
+  using Queued = internal::Queued<T>;
   [[nodiscard, gnu::always_inline]] static bool Pop(const Binding& binding,
                                                     internal::HeldValue<T>& held,
                                                     std::uint64_t& source) noexcept {
     if (!binding.older_queues.empty()) [[unlikely]]
       return PopFromAll(binding, held, source);
-    return binding.queue && internal::QueueOf<T>(*binding.queue).Pop(held, source);
+    return binding.queue &&
+           internal::DistributionOf<T>::QueueOf(*binding.queue).Pop(TakeInto(held, source));
+  }
+  [[nodiscard, gnu::always_inline]] static auto TakeInto(internal::HeldValue<T>& held,
+                                                         std::uint64_t& source) noexcept {
+    return [&](Queued & queued) __attribute__((always_inline)) {
+      source = queued.source;
+      internal::MoveTo<T>(held, queued);
+    };
   }
   [[gnu::noinline]] static bool PopFromAll(const Binding& binding, internal::HeldValue<T>& held,
                                            std::uint64_t& source) noexcept {
     const bool popped = PopInOrder(binding.all_queues, [&](InputQueueBase& each, const auto& may) {
-      return internal::QueueOf<T>(each).PopIf(may, held, source);
+      return internal::DistributionOf<T>::QueueOf(each).PopIf(may, TakeInto(held, source));
     });
     if (binding.queue) binding.queue->SetWaitingBefore(binding.WaitingInOlder());
     return popped;
@@ -217,7 +226,7 @@ class Input final : public BoundInput {
 
   [[nodiscard]] std::unique_ptr<InputQueueBase> MakeQueue(std::size_t capacity, OnFull on_full,
                                                           Writers writers) const override {
-    return std::make_unique<InputQueue<T>>(capacity, on_full, writers);
+    return internal::DistributionOf<T>::MakeQueue(capacity, on_full, writers);
   }
 };
 

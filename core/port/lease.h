@@ -85,6 +85,7 @@ class LeasedValue {
   [[nodiscard]] const Publication& publication() const noexcept {
     return lease_.get()->publication;
   }
+  [[nodiscard]] Buffer<T>* buffer() const noexcept { return lease_.get(); }
 
  private:
   BufferLease<T> lease_;

@@ -47,7 +47,7 @@ class Output final : public OutputBase {
   Output(FrameworkElement& group, std::string name, OutputOptions options = {},
          Factory factory = {})
       : OutputBase(
-            {group, std::move(name)}, TypeOf<T>(), std::move(options.description),
+            group, std::move(name), TypeOf<T>(), std::move(options),
             std::make_unique<Channel<T>>(options.pool, std::move(factory), options.pullable)) {}
 
   /// A buffer to fill; empty if a pool of fixed size is exhausted.

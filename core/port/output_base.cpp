@@ -6,9 +6,9 @@
 
 namespace runnel {
 
-OutputBase::OutputBase(const Placement& placement, const TypeInfo& type, std::string description,
-                       std::unique_ptr<ChannelBase> channel)
-    : Port(placement, Direction::kOutput, type, std::move(description)),
+OutputBase::OutputBase(FrameworkElement& group, std::string&& name, const TypeInfo& type,
+                       OutputOptions&& options, std::unique_ptr<ChannelBase>&& channel)
+    : Port({group, std::move(name)}, Direction::kOutput, type, std::move(options.description)),
       channel_(channel.release()) {}
 
 OutputBase::~OutputBase() {

@@ -25,8 +25,9 @@ class OutputBase : public Port {
   [[nodiscard]] std::uint64_t publications() const noexcept override;
 
  protected:
-  OutputBase(const Placement& placement, const TypeInfo& type, std::string description,
-             std::unique_ptr<ChannelBase> channel);
+  // By reference, so that typed outputs move nothing themselves.
+  OutputBase(FrameworkElement& group, std::string&& name, const TypeInfo& type,
+             OutputOptions&& options, std::unique_ptr<ChannelBase>&& channel);
 
   // acquire: pairs with the release in TakeOverFlow(), for viewers; publishers are at rest then.
   [[nodiscard, gnu::always_inline]] ChannelBase& own_channel() const noexcept {

@@ -4,11 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <type_traits>
 #include <utility>
 
 #include "core/lockfree/bounded_queue.h"
-#include "core/lockfree/buffer.h"
+#include "core/lockfree/publication.h"
+#include "core/port/buffer_reference.h"
 #include "core/port/subscribers.h"
 
 namespace runnel {
@@ -23,21 +23,12 @@ class ProbeQueue final : public QueueSink {
  public:
   explicit ProbeQueue(std::size_t capacity) : values_(capacity) {}
 
-  /// A copy of `value`, from the channel with the number `source`.
-  template <typename T>
-  void PushCopy(const T& value, const Publication& publication, std::uint64_t source) noexcept {
-    static_assert(std::is_trivially_copyable_v<T> && sizeof(T) <= kLargestCopy &&
-                  alignof(T) <= kCacheLineSize);
-    PushBytes(&value, sizeof value, publication, source);
-  }
-  /// What is in `buffer`, which the caller holds.
-  template <typename T>
-  void PushLease(Buffer<T>& buffer, std::uint64_t source) noexcept {
-    buffer.AddReferences(1);
-    PushHold({&buffer, &std::as_const(buffer).value(),
-              [](void* held) { static_cast<Buffer<T>*>(held)->ReleaseReference(); }},
-             buffer.publication, source);
-  }
+  /// A copy of the `size` bytes at `value`, from the channel with the number `source`.
+  void PushCopy(const void* value, std::size_t size, const Publication& publication,
+                std::uint64_t source) noexcept;
+  /// `value`, which lies in the buffer.
+  void PushReference(BufferReference reference, const void* value, const Publication& publication,
+                     std::uint64_t source) noexcept;
 
   /// Calls `use(value, publication, source)` for the oldest value, then lets it go; false if there is
   /// none.
@@ -58,43 +49,23 @@ class ProbeQueue final : public QueueSink {
  private:
   static constexpr std::size_t kLargestCopy = 256;
 
-  /// One reference to a buffer, whose type only `release` knows.
-  struct Hold {
-    void* buffer = nullptr;
-    const void* value = nullptr;
-    void (*release)(void* buffer) = nullptr;
-  };
   struct Waiting {
     Waiting(const void* copied, std::size_t size, const Publication& of,
             std::uint64_t from) noexcept
         : publication(of), source(from) {
       std::memcpy(copy, copied, size);
     }
-    Waiting(const Hold& held, const Publication& of, std::uint64_t from) noexcept
-        : hold(held), publication(of), source(from) {}
-    Waiting(Waiting&& other) noexcept
-        : hold(std::exchange(other.hold, {})),
-          publication(other.publication),
-          source(other.source) {
-      std::memcpy(copy, other.copy, sizeof copy);
-    }
-    ~Waiting() {
-      if (hold.release != nullptr) hold.release(hold.buffer);
-    }
-    [[nodiscard]] const void* value() const noexcept {
-      return hold.value != nullptr ? hold.value : copy;
-    }
+    Waiting(BufferReference&& taken_over, const void* in_buffer, const Publication& of,
+            std::uint64_t from) noexcept
+        : reference(std::move(taken_over)), leased(in_buffer), publication(of), source(from) {}
+    [[nodiscard]] const void* value() const noexcept { return leased != nullptr ? leased : copy; }
 
-    Hold hold;
+    BufferReference reference;
+    const void* leased = nullptr;
     Publication publication;
     std::uint64_t source;
-    alignas(kCacheLineSize) std::byte copy[kLargestCopy];  // if nothing is held
+    alignas(kCacheLineSize) std::byte copy[kLargestCopy];  // if nothing is leased
   };
-
-  void PushBytes(const void* value, std::size_t size, const Publication& publication,
-                 std::uint64_t source) noexcept;
-  // Lets go of what does not fit.
-  void PushHold(const Hold& hold, const Publication& publication, std::uint64_t source) noexcept;
 
   BoundedQueue<Waiting> values_;
   std::atomic<std::uint64_t> dropped_{0};

@@ -35,7 +35,8 @@ class TypeBuilder {
  public:
   explicit TypeBuilder(TypeInfo& type) : type_(type) {
     if constexpr (std::is_default_constructible_v<T>) {
-      type_.make_ = [] { return std::static_pointer_cast<void>(std::make_shared<T>()); };
+      type_.make_ = []() -> void* { return new T(); };
+      type_.delete_ = [](void* value) { delete static_cast<T*>(value); };
     }
   }
 
@@ -55,9 +56,8 @@ class TypeBuilder {
   template <typename Member, typename Owner>
   requires std::derived_from<T, Owner> TypeBuilder& Field(std::string name, Member Owner::*member,
                                                           FieldOptions options = {}) {
-    type_.AddField(
-        std::move(name), TypeOf<Member>(), std::move(options),
-        [member](void* structure) -> void* { return &(static_cast<T*>(structure)->*member); });
+    type_.AddField(std::move(name), TypeOf<Member>(), std::move(options),
+                   FieldAddress(std::type_identity<T>(), member));
     return *this;
   }
 

@@ -36,11 +36,16 @@ const FieldInfo* TypeInfo::FindField(std::string_view name) const {
   return found == fields_.end() ? nullptr : &*found;
 }
 
+std::shared_ptr<void> TypeInfo::Make() const {
+  if (make_ == nullptr) return nullptr;
+  return {make_(), delete_};
+}
+
 void TypeInfo::AddField(std::string&& name, const TypeInfo& type, FieldOptions&& options,
-                        std::function<void*(void* structure)>&& address) {
+                        const FieldAddress& address) {
   kind_ = TypeKind::kStructure;
-  fields_.push_back({std::move(name), &type, std::move(options.unit),
-                     std::move(options.description), std::move(address)});
+  fields_.push_back(
+      {std::move(name), &type, std::move(options.unit), std::move(options.description), address});
 }
 
 }  // namespace runnel

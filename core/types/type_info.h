@@ -2,11 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
+#include <cstring>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <typeindex>
 #include <vector>
 
@@ -26,13 +27,35 @@ enum class TypeKind {
   kMatrix,       ///< rows and columns of elements of one type
 };
 
+/// Where a field lies in a structure. No std::function, which would cost each field of each type more code.
+class FieldAddress {
+ public:
+  template <typename T, typename Pointer>
+  FieldAddress(std::type_identity<T>, Pointer member) : find_(Find<T, Pointer>) {
+    static_assert(sizeof member == sizeof member_);
+    std::memcpy(&member_, &member, sizeof member);
+  }
+  void* operator()(void* structure) const { return find_(structure, member_); }
+
+ private:
+  template <typename T, typename Pointer>
+  static void* Find(void* structure, std::ptrdiff_t bytes) {
+    Pointer member;
+    std::memcpy(&member, &bytes, sizeof member);
+    return &(static_cast<T*>(structure)->*member);
+  }
+
+  void* (*find_)(void* structure, std::ptrdiff_t member);
+  std::ptrdiff_t member_ = 0;  // the bytes of a pointer to a data member
+};
+
 /// A public member of a structure.
 struct FieldInfo {
   std::string name;
   const TypeInfo* type;
   std::string unit;  ///< SI, "" for none
   std::string description;
-  std::function<void*(void* structure)> address;
+  FieldAddress address;
 };
 
 /// One name of an enumeration.
@@ -104,7 +127,7 @@ class TypeInfo {
   [[nodiscard]] bool is_complete() const noexcept { return is_complete_; }
 
   /// A new value as `T{}` makes it; nullptr if the type has no default constructor. Allocates.
-  [[nodiscard]] std::shared_ptr<void> Make() const { return make_ ? make_() : nullptr; }
+  [[nodiscard]] std::shared_ptr<void> Make() const;
 
  private:
   template <typename T>
@@ -112,7 +135,7 @@ class TypeInfo {
   friend class TypeRegistry;
 
   void AddField(std::string&& name, const TypeInfo& type, FieldOptions&& options,
-                std::function<void*(void* structure)>&& address);
+                const FieldAddress& address);
 
   const std::type_index cpp_type_;
   std::size_t size_ = 0;  // of a value, and how it is aligned, where it was described first
@@ -126,7 +149,8 @@ class TypeInfo {
   LeafOperations leaf_{};
   EnumerationOperations enumeration_{};
   ElementOperations elements_{};
-  std::shared_ptr<void> (*make_)() = nullptr;
+  void* (*make_)() = nullptr;
+  void (*delete_)(void* value) = nullptr;
 };
 
 /// The type called `name` among those that have been asked for in this process; nullptr if there is

@@ -3,12 +3,12 @@
 
 #include <array>
 #include <atomic>
-#include <concepts>
+#include <cstring>
 #include <functional>
 #include <thread>
-#include <type_traits>
 #include <utility>
 
+#include "core/port/queued_value.h"
 #include "tests/core/port/port_fixture.h"
 #include "tests/support/sanitizer.h"
 #include "tests/support/threads.h"
@@ -18,28 +18,34 @@ namespace {
 
 using testing::ElementsAre;
 
-/// Calls what it is told when one of its kind is copied, which in a publication is done for each queue.
-/// It counts as a plain value, of which queues have copies: a template is no copy constructor, and the
-/// one that is declared never fits.
-template <typename Number>
-struct InterruptingOf {
-  InterruptingOf() = default;
-  InterruptingOf(const InterruptingOf&) requires(!std::is_integral_v<Number>) = default;
-  template <std::same_as<InterruptingOf> Same>
-  InterruptingOf(const Same& other) noexcept : number(other.number) {
-    if (interrupt) std::exchange(interrupt, nullptr)();
-  }
-  InterruptingOf& operator=(const InterruptingOf&) = default;
-
-  Number number = 0;
-  std::array<Number, 16> more{};  // too large to travel without a buffer
-  static std::function<void()> interrupt;
+/// A plain value, of which queues have copies. No other type has its size, so what is done below when one
+/// is put into a queue is done to no other.
+struct Interrupting {
+  int number = 0;
+  std::array<int, 16> more{};  // too large to travel without a buffer
+  static inline std::function<void()> interrupt;
 };
-template <typename Number>
-std::function<void()> InterruptingOf<Number>::interrupt;
-using Interrupting = InterruptingOf<int>;
 void Describe(TypeBuilder<Interrupting>& type) { type.Name("test::Interrupting"); }
 static_assert(!kIsInlined<Interrupting> && kLiesInQueuesAsCopy<Interrupting>);
+
+}  // namespace
+}  // namespace runnel::test
+
+// Calls what it is told when a value is put into a queue.
+namespace runnel::internal {
+using test::Interrupting;
+template <>
+QueuedCopy<sizeof(Interrupting), alignof(Interrupting)>::QueuedCopy(Content copied,
+                                                                    const Publication& of,
+                                                                    std::uint64_t from) noexcept
+    : source(from), publication(of) {
+  std::memcpy(value, copied, sizeof value);
+  if (Interrupting::interrupt) std::exchange(Interrupting::interrupt, nullptr)();
+}
+}  // namespace runnel::internal
+
+namespace runnel::test {
+namespace {
 
 class QueueChangeTest : public PortTest {
  protected:
