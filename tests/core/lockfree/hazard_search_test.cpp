@@ -3,6 +3,7 @@
 // The search must come first: it renames what the standard headers below use.
 
 #include <array>
+#include <new>
 
 #include "core/lockfree/hazard.h"
 
@@ -42,6 +43,45 @@ struct SharedBitSuite : rl::test_suite<SharedBitSuite, 2> {
 
 TEST(HazardSearch, RecordsThatAreAddedAtOnceAreAllLookedAt) {
   EXPECT_TRUE(Search<SharedBitSuite>(kIterations, 4));
+}
+
+// Two threads retire a part each, and look at what waits. Each part is held when it is first looked at:
+// one thread at a time looks at it, and it is deleted once.
+struct ReclaimingSuite : rl::test_suite<ReclaimingSuite, 2> {
+  using Domain = HazardDomain<SearchedAtomic, 1>;
+  class Part final : public Retirable<SearchedAtomic> {
+   public:
+    // It stays where it is.
+    static void operator delete(Part* part, std::destroying_delete_t) noexcept { part->Look(); }
+    [[nodiscard]] bool is_deleted() const { return looks_.Get() == 3; }
+
+   private:
+    bool IsHeld() noexcept override { return Look() < 2; }
+    // How often somebody has been here, this time included.
+    int Look() noexcept {
+      RL_ASSERT(!is_deleted());
+      looks_.Set(looks_.Get() + 1);
+      return looks_.Get();
+    }
+    SearchedPlain looks_;
+  };
+
+  void thread(unsigned index) {
+    domain.Retire(parts[index]);
+    (void)domain.Reclaim();
+  }
+  void after() {
+    while (domain.Reclaim() > 0) {
+    }
+    for (const Part& part : parts) RL_ASSERT(part.is_deleted());
+  }
+
+  std::array<Part, 2> parts;
+  Domain domain;
+};
+
+TEST(HazardSearch, PartThatIsRetiredIsLookedAtByOneThreadAtATime) {
+  EXPECT_TRUE(Search<ReclaimingSuite>(kIterations, 3));
 }
 
 }  // namespace
