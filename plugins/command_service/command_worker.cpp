@@ -104,12 +104,13 @@ std::shared_ptr<WorkerTask> TaskGroup::PostSteps(TaskStep step, std::function<vo
   task->step_ = std::move(step);
   task->on_done_ = on_done ? std::move(on_done) : on_done_;
   CommandWorker::Tasks one{task};
+  CommandWorker& worker = worker_;  // once the task waits, it may run and end this group
   {
-    const std::lock_guard lock(worker_.mutex_);
+    const std::lock_guard lock(worker.mutex_);
     task->due_ = std::chrono::steady_clock::now();
-    worker_.waiting_.splice(worker_.waiting_.end(), one);
+    worker.waiting_.splice(worker.waiting_.end(), one);
   }
-  worker_.has_changed_.notify_all();
+  worker.has_changed_.notify_all();
   return task;
 }
 
