@@ -59,17 +59,22 @@ Result<Extensions> ApplicationDescription::MakeExtensions(const ExtensionDescrip
   return extension_registry_.Make(extension.name, arguments);
 }
 
-Result<void> ApplicationDescription::Attach(const ExtensionByName& extension) {
+Result<void> ApplicationDescription::Attach(const ExtensionDescription& extension,
+                                            const std::string& need,
+                                            const ExtensionArguments& arguments) {
+  auto made = MakeExtensions(extension, need, arguments);
+  if (!made) return made.error();
+  extensions_.insert(extensions_.end(), made->begin(), made->end());
+  return {};
+}
+
+Result<void> ApplicationDescription::AttachByName(const ExtensionByName& extension) {
   const auto catalogue = ExtensionCatalogue::Read(plugins_.search_path());
   if (!catalogue) return catalogue.error();
   const ExtensionDescription* const known = catalogue->Find(extension.name);
   if (known == nullptr) return UnknownExtension(extension.name, *catalogue);
   const auto& values = extension.arguments.values;
-  auto made = MakeExtensions(*known, values.empty() ? "this" : "--" + values.front().first,
-                             extension.arguments);
-  if (!made) return made.error();
-  extensions_.insert(extensions_.end(), made->begin(), made->end());
-  return {};
+  return Attach(*known, values.empty() ? "this" : "--" + values.front().first, extension.arguments);
 }
 
 Result<void> ApplicationDescription::AttachForTag(std::string_view tag) {
@@ -77,10 +82,7 @@ Result<void> ApplicationDescription::AttachForTag(std::string_view tag) {
   if (!catalogue) return catalogue.error();
   const ExtensionDescription* const known = catalogue->FindTag(tag);
   if (known == nullptr) return {};
-  auto made = MakeExtensions(*known, "<" + std::string(tag) + ">", {});
-  if (!made) return made.error();
-  extensions_.insert(extensions_.end(), made->begin(), made->end());
-  return {};
+  return Attach(*known, "<" + std::string(tag) + ">", {});
 }
 
 bool ApplicationDescription::ReadFrom(const Describe& describe) {
@@ -90,7 +92,7 @@ bool ApplicationDescription::ReadFrom(const Describe& describe) {
     if (auto added = configuration_.AddArgument(setting.text); !added) before.Add(added.error());
   }
   for (const ExtensionByName& each : options_.extensions_by_name) {
-    if (auto attached = Attach(each); !attached) before.Add(attached.error());
+    if (auto attached = AttachByName(each); !attached) before.Add(attached.error());
   }
   BuildOutcome outcome = describe({runtime_, plugins_, tags_, configuration_});
   diagnostics_ = std::move(outcome.diagnostics);

@@ -77,7 +77,9 @@ class ApplicationDescription {
  private:
   BuildOutcome Build(const ApplicationFile* file);
   // Loads the plugin of an extension and attaches what it makes of the arguments.
-  Result<void> Attach(const ExtensionByName& extension);
+  Result<void> Attach(const ExtensionDescription& extension, const std::string& need,
+                      const ExtensionArguments& arguments);
+  Result<void> AttachByName(const ExtensionByName& extension);
   // Likewise, if an extension has this word of application files.
   Result<void> AttachForTag(std::string_view tag);
 
