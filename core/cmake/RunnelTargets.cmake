@@ -98,8 +98,7 @@ function(runnel_test name)
   endif()
   add_executable(test_${name} ${arg_SOURCES} ${arg_APART})
   runnel_compile_together(test_${name} 8 ${arg_APART})
-  # Three quarters of the time to compile. Libraries that are tested stay as they are.
-  target_compile_options(test_${name} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1>)
+  target_compile_options(test_${name} PRIVATE ${RUNNEL_TEST_OPTIMISATION})
   target_include_directories(test_${name} PRIVATE "${RUNNEL_ROOT}")
   target_link_libraries(test_${name} PRIVATE
     runnel_warnings runnel_test_warnings ${arg_DEPENDS} GTest::gmock GTest::gtest_main)

@@ -104,7 +104,8 @@ class ControlServer::Loop {
     }
     int milliseconds = must_pause_ ? kPauseMilliseconds : -1;
     if (first) {
-      const auto now = std::chrono::steady_clock::now();  // not to be subtracted from the earliest time
+      const auto now = std::chrono::steady_clock::now();
+      // The earliest time of all is due, too, and is too far away to be subtracted from.
       const auto left = std::chrono::ceil<std::chrono::milliseconds>(std::max(*first, now) - now);
       const int wait = static_cast<int>(std::clamp<std::int64_t>(left.count(), 0, 60'000));
       milliseconds = milliseconds < 0 ? wait : std::min(wait, milliseconds);

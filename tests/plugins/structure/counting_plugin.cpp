@@ -84,12 +84,13 @@ class Counting final : public Module {
     tally.value = count_.value;
     out.Publish(tally);
     const int number = static_cast<int>(marks_.size()) + 1;
-    last_mark_ = {number, number * number};
+    const auto side = static_cast<unsigned>(number);
+    last_mark_ = {number, static_cast<int>(side * side)};
     marks_.push_back(*last_mark_);
-    int sum = 0;
-    for (const Mark& each : marks_) sum += each.squared;
+    unsigned sum = 0;  // wraps where an application runs for minutes
+    for (const Mark& each : marks_) sum += static_cast<unsigned>(each.squared);
     marks.Publish(number);
-    sum_of_marks.Publish(sum);
+    sum_of_marks.Publish(static_cast<int>(sum));
   }
   Count count_;
   std::vector<Mark> marks_;

@@ -25,6 +25,12 @@ std::atomic<bool> has_failed{false};
   if (block == nullptr) throw std::bad_alloc();
   return block;
 }
+// A sanitizer's runtime has this form, too, and its own blocks must not come to the functions below.
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  return fails_elsewhere && std::this_thread::get_id() != test_thread
+             ? nullptr
+             : std::malloc(size == 0 ? 1 : size);
+}
 [[gnu::noinline]] void operator delete(void* block) noexcept { std::free(block); }
 [[gnu::noinline]] void operator delete(void* block, std::size_t) noexcept { std::free(block); }
 
