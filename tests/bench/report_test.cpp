@@ -12,6 +12,7 @@
 #include "bench/report/row.h"
 #include "bench/report/table.h"
 #include "bench/report/text.h"
+#include "tests/support/temporary_folder.h"
 
 namespace runnel::bench {
 namespace {
@@ -36,15 +37,6 @@ Results Example() {
   results.Add(Time("other work", Role::kRival, "quickest", {1}));
   return results;
 }
-
-class TemporaryFile {
- public:
-  TemporaryFile() = default;
-  ~TemporaryFile() { std::filesystem::remove_all(path); }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  const std::string path = ::testing::TempDir() + "runnel_bench_report_test";
-};
 
 TEST(Measurement, CountsTheMedianOrTheBest) {
   Measurement times = Time("work", Role::kRunnel, "ports", {4, 1, 3, 9});
@@ -170,9 +162,10 @@ TEST(Peers, AreDividedByTheBaselineOfTheirOwnMachine) {
 }
 
 TEST(EarlierRun, IsComparedWithWhatJsonWrote) {
-  const TemporaryFile file;
-  std::ofstream(file.path) << ToJson({{{"processor", "a \"quoted\" one"}}, {"busy"}}, Example());
-  const EarlierRun earlier(file.path);
+  const test::TemporaryFolder folder;
+  const std::string file = folder / "report";
+  std::ofstream(file) << ToJson({{{"processor", "a \"quoted\" one"}}, {"busy"}}, Example());
+  const EarlierRun earlier(file);
   EXPECT_THAT(earlier.CompareWith(Example()), HasSubstr("even"));
   Results now;
   now.Add(Time("work", Role::kRunnel, "ports", {2, 3, 2}));
@@ -186,10 +179,11 @@ TEST(EarlierRun, IsComparedWithWhatJsonWrote) {
 }
 
 TEST(EarlierRun, RefusesOtherFiles) {
-  const TemporaryFile file;
-  std::ofstream(file.path) << "{\"a\": 1}";
-  EXPECT_THROW(EarlierRun{file.path}, std::runtime_error);
-  EXPECT_THROW(EarlierRun{file.path + "/missing"}, std::runtime_error);
+  const test::TemporaryFolder folder;
+  const std::string file = folder / "report";
+  std::ofstream(file) << "{\"a\": 1}";
+  EXPECT_THROW(EarlierRun{file}, std::runtime_error);
+  EXPECT_THROW(EarlierRun{file + "/missing"}, std::runtime_error);
 }
 
 TEST(Charts, AreDrawnForEachWorkloadAndFamily) {
@@ -200,10 +194,10 @@ TEST(Charts, AreDrawnForEachWorkloadAndFamily) {
     each.workload.position = readers;
     results.Add(each);
   }
-  const TemporaryFile folder;
-  WriteCharts(folder.path, results);
+  const test::TemporaryFolder folder;
+  WriteCharts(folder.path(), results);
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder.path)) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
     names.push_back(entry.path().filename());
     EXPECT_GT(entry.file_size(), 100u);
   }
