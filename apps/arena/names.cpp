@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/folder_names.h"
 #include "core/base/nearest_name.h"
 #include "core/plugin/plugin_manager.h"
 #include "core/xml/xml_document.h"
@@ -67,11 +68,9 @@ Product FindProduct() {
 
 std::vector<std::string> NamesIn(const std::filesystem::path& folder) {
   std::vector<std::string> names;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    if (entry.path().extension() == ".xml") names.push_back(entry.path().stem().string());
+  for (const std::filesystem::path name : NamesInFolder(folder)) {
+    if (name.extension() == ".xml") names.push_back(name.stem().string());
   }
-  std::ranges::sort(names);
   return names;
 }
 

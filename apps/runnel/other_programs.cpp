@@ -1,11 +1,12 @@
 #include "apps/runnel/other_programs.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 
 #include <unistd.h>
+
+#include "core/base/folder_names.h"
 
 namespace runnel::program {
 
@@ -27,14 +28,11 @@ bool IsProgram(const std::filesystem::path& file) {
 
 std::vector<std::string> OtherCommands() {
   std::vector<std::string> commands;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(OwnFolder(), error)) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with(kPrefix) && IsProgram(entry.path())) {
+  for (const std::string& name : NamesInFolder(OwnFolder())) {
+    if (name.starts_with(kPrefix) && IsProgram(OwnFolder() / name)) {
       commands.push_back(name.substr(kPrefix.size()));
     }
   }
-  std::ranges::sort(commands);
   return commands;
 }
 

@@ -5,14 +5,14 @@
 #include <charconv>
 #include <csignal>
 #include <cstring>
-#include <memory>
 #include <string>
 #include <utility>
 
-#include <dirent.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "core/base/folder_names.h"
 
 namespace runnel {
 
@@ -84,15 +84,11 @@ fs::path NewName(const fs::path& file) {
                                std::to_string(count.fetch_add(1)) + kSuffix);
 }
 
-// What a program that was killed in between has left behind. Not by std::filesystem::directory_iterator, which
-// ends the process in GCC 12 when there is no memory for the path.
+// What a program that was killed in between has left behind.
 void RemoveRemains(const fs::path& file) {
   const std::string prefix = Prefix(file);
   const fs::path folder = file.parent_path();
-  const std::unique_ptr<DIR, int (*)(DIR*)> listing(opendir(folder.c_str()), closedir);
-  if (!listing) return;
-  while (const dirent* const entry = readdir(listing.get())) {
-    const std::string name = entry->d_name;
+  for (const std::string& name : NamesInFolder(folder)) {
     if (!name.starts_with(prefix) || !name.ends_with(kSuffix)) continue;
     pid_t process = 0;
     const char* const begin = name.data() + prefix.size();

@@ -8,6 +8,7 @@
 #include <dlfcn.h>
 
 #include "core/base/exception_text.h"
+#include "core/base/folder_names.h"
 #include "core/base/nearest_name.h"
 #include "core/base/retry.h"
 #include "core/plugin/outdated_dependency.h"
@@ -198,9 +199,10 @@ std::vector<std::string> PluginManager::Available() const {
   std::set<std::string> names;
   std::error_code ignored;
   for (const fs::path& folder : search_path_) {
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-      const bool is_library = entry.path().extension() == ".so" && entry.is_regular_file(ignored);
-      if (is_library) names.insert(entry.path().stem().string());
+    for (const fs::path name : NamesInFolder(folder)) {
+      const bool is_library =
+          name.extension() == ".so" && fs::is_regular_file(folder / name, ignored);
+      if (is_library) names.insert(name.stem().string());
     }
   }
   return {names.begin(), names.end()};

@@ -7,6 +7,7 @@
 
 #include <tinyxml2.h>
 
+#include "core/base/folder_names.h"
 #include "core/base/nearest_name.h"
 #include "core/xml/internal/start_tags.h"
 #include "core/xml/internal/text_cursor.h"
@@ -117,15 +118,8 @@ Error CannotRead(const std::filesystem::path& path, std::string why, std::string
 }
 
 std::string NearestFileHint(const std::filesystem::path& path) {
-  std::error_code ignored;
-  std::vector<std::string> names;
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  for (std::filesystem::directory_iterator entry(folder, ignored), end; entry != end;
-       entry.increment(ignored)) {
-    names.push_back(entry->path().filename().string());
-  }
-  std::ranges::sort(names);  // the order of a directory is nobody's
-  const std::string nearest = NearestName(path.filename().string(), names);
+  const std::string nearest =
+      NearestName(path.filename().string(), NamesInFolder(path.parent_path()));
   return nearest.empty() ? "" : "did you mean '" + nearest + "'?";
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/diagnostics.h"
+#include "core/base/folder_names.h"
 #include "core/xml/xml_document.h"
 #include "core/xml/xml_reading.h"
 
@@ -88,11 +89,9 @@ const ExtensionDescription* FindIn(const std::vector<ExtensionDescription>& all,
 Result<ExtensionCatalogue> ExtensionCatalogue::Read(const std::vector<fs::path>& folders) {
   std::map<std::string, fs::path> files;
   for (const fs::path& folder : folders) {
-    std::error_code ignored;  // a folder that is not there has none
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-      const std::string name = entry.path().filename().string();
+    for (const std::string& name : NamesInFolder(folder)) {
       if (!name.ends_with(kEnding)) continue;
-      files.try_emplace(name.substr(0, name.size() - kEnding.size()), entry.path());
+      files.try_emplace(name.substr(0, name.size() - kEnding.size()), folder / name);
     }
   }
   ExtensionCatalogue catalogue;

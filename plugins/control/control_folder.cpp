@@ -20,6 +20,8 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include "core/base/folder_names.h"
+
 namespace runnel {
 
 namespace {
@@ -141,15 +143,14 @@ Result<std::vector<fs::path>> FindControlSockets(const fs::path& folder) {
   if (auto checked = CheckControlFolder(folder); !checked) return checked.error();
   std::vector<fs::path> sockets;
   std::error_code none;
-  for (const auto& entry : fs::directory_iterator(folder, none)) {
-    if (entry.path().extension() == kStartingEnding && !IsAlive(OrderOf(entry.path()).first)) {
-      unlink(entry.path().c_str());
-    }
-    if (entry.path().extension() != kEnding || !entry.is_socket(none)) continue;
-    if (IsStale(entry.path())) {
-      unlink(entry.path().c_str());
+  for (const std::string& name : NamesInFolder(folder)) {
+    const fs::path path = folder / name;
+    if (path.extension() == kStartingEnding && !IsAlive(OrderOf(path).first)) unlink(path.c_str());
+    if (path.extension() != kEnding || !fs::is_socket(path, none)) continue;
+    if (IsStale(path)) {
+      unlink(path.c_str());
     } else {
-      sockets.push_back(entry.path());
+      sockets.push_back(path);
     }
   }
   std::ranges::sort(sockets, {}, OrderOf);
