@@ -1,6 +1,7 @@
 #include "plugins/inspector/structure_mirror.h"
 
 #include <algorithm>
+#include <chrono>
 #include <mutex>
 #include <unordered_set>
 #include <utility>
@@ -13,17 +14,10 @@ namespace runnel::internal {
 
 namespace {
 
-using SteadyTime = std::chrono::steady_clock::time_point;
-
-// For which the structure is locked at a time; whoever changes it waits so long.
-constexpr auto kHold = std::chrono::milliseconds(2);
-// If it changes all the time, it is looked at in one go in the end.
-constexpr int kMostRestarts = 20;
 constexpr std::size_t kMostChanges = 100;
-// Elements between two looks at the clock.
-constexpr std::size_t kStride = 64;
-
-SteadyTime Now() { return std::chrono::steady_clock::now(); }
+// For which the structure is locked while parameters are looked at.
+constexpr auto kHold = std::chrono::milliseconds(2);
+constexpr std::size_t kStride = 64;  // parameters between two looks at the clock
 
 // What is in both lists goes from both.
 void Cancel(std::vector<std::string>& a, std::vector<std::string>& b) {
@@ -46,7 +40,7 @@ bool IsObserver(const Port& port) { return dynamic_cast<const ProbePort*>(&port)
 
 StructureMirror::StructureMirror(Runtime& runtime, const ModuleRegistry& modules,
                                  const Scheduler& scheduler, const ApplicationLog& log)
-    : runtime_(runtime), scheduler_(scheduler), log_(log) {
+    : runtime_(runtime), scheduler_(scheduler), log_(log), walk_(runtime) {
   around_.modules = &modules;
 }
 
@@ -64,8 +58,7 @@ void StructureMirror::Forget() noexcept {
   changes_.clear();
   entries_.clear();
   order_.clear();
-  seen_.reset();
-  walked_.reset();
+  walk_.Forget();
   found_ = {};
   ports_.clear();
   threads_.clear();
@@ -78,13 +71,16 @@ bool StructureMirror::LookOn() {
   std::unique_lock lock(runtime_.structure_mutex(), std::try_to_lock);
   if (!lock) return false;
   NoteFaults();
-  const SteadyTime until = Now() + kHold;
-  if (seen_ == runtime_.revision()) {
-    SweepParameters(until);
+  const auto outcome = walk_.Continue([this] { BeginWalk(); },
+                                      [this](const FrameworkElement& element) {
+                                        if (element.parent() != nullptr) Visit(element);
+                                        return true;
+                                      });
+  if (outcome == StructureWalk::Outcome::kUnderWay) return false;
+  if (outcome == StructureWalk::Outcome::kUnchanged) {
+    SweepParameters();
     return true;
   }
-  if (walked_ != runtime_.revision()) BeginWalk();
-  if (!Walk(restarts_ > kMostRestarts ? SteadyTime::max() : until)) return false;
   lock.unlock();  // the rest is our own
   FinishWalk();
   return true;
@@ -98,7 +94,7 @@ void StructureMirror::NoteFaults() {
     const auto found = runtime_.root().Find(entry.module);
     if (!found) continue;  // it has been deleted since
     around_.stopped[(*found)->id()] = entry.cause;
-    seen_.reset();
+    walk_.Forget();
   }
 }
 
@@ -120,30 +116,15 @@ void StructureMirror::NoteThreads() {
 }
 
 void StructureMirror::BeginWalk() {
-  restarts_ = walked_ ? restarts_ + 1 : 0;
-  walked_ = runtime_.revision();
-  ++walk_;
+  ++walks_;
   found_ = {};
-  found_.ahead = {&runtime_.root()};
   NoteThreads();  // first: modules name theirs
 }
 
-bool StructureMirror::Walk(SteadyTime until) {
-  for (std::size_t i = 1; !found_.ahead.empty(); ++i) {
-    FrameworkElement& element = *found_.ahead.back();
-    found_.ahead.pop_back();
-    const auto& children = element.children();
-    found_.ahead.insert(found_.ahead.end(), children.rbegin(), children.rend());
-    if (element.parent() != nullptr) Visit(element);
-    if (i % kStride == 0 && Now() >= until) return found_.ahead.empty();
-  }
-  return true;
-}
-
-void StructureMirror::Visit(FrameworkElement& element) {
+void StructureMirror::Visit(const FrameworkElement& element) {
   const std::uint64_t fingerprint = Fingerprint(element);
   const auto known = entries_.find(element.id());
-  if (known != entries_.end()) known->second.walk = walk_;
+  if (known != entries_.end()) known->second.walk = walks_;
   if (known == entries_.end() || known->second.fingerprint != fingerprint) {
     found_.news.emplace_back(element.id(), Describe(element, fingerprint));
   }
@@ -187,7 +168,7 @@ StructureMirror::Entry StructureMirror::Describe(const FrameworkElement& element
               .json = ElementJson(element, around_),
               .connections = {},
               .fingerprint = fingerprint,
-              .walk = walk_};
+              .walk = walks_};
   if (const auto* const port = dynamic_cast<const Port*>(&element)) {
     for (const Connection& each : port->outgoing()) {
       if (IsObserver(*each.to)) continue;
@@ -215,7 +196,7 @@ StructureMirror::Difference StructureMirror::TakeNews() {
   }
   std::erase_if(entries_, [&](const auto& each) {
     const Entry& entry = each.second;
-    if (entry.walk == walk_) return false;
+    if (entry.walk == walks_) return false;
     if (made_anew.count(entry.path) == 0) difference.gone.push_back(entry.path);
     add(difference.disconnected, entry.connections);
     around_.stopped.erase(each.first);
@@ -237,16 +218,16 @@ void StructureMirror::FinishWalk() {
   parameters_ = std::move(found_.parameters);
   metered_ = std::make_shared<const MeteredElements>(std::move(found_.metered));
   next_parameter_ = 0;
-  seen_ = walked_;
-  walked_.reset();
-  restarts_ = 0;
+  walk_.Confirm();
   Tell(std::move(difference));
 }
 
 // Nobody announces that a parameter has been set.
-void StructureMirror::SweepParameters(SteadyTime until) {
+void StructureMirror::SweepParameters() {
+  const auto until = std::chrono::steady_clock::now() + kHold;
+  const auto is_late = [&] { return std::chrono::steady_clock::now() >= until; };
   Difference difference;
-  for (std::size_t i = 0; i < parameters_.size() && (i % kStride != 0 || Now() < until); ++i) {
+  for (std::size_t i = 0; i < parameters_.size() && (i % kStride != 0 || !is_late()); ++i) {
     const FrameworkElement& parameter = *parameters_[next_parameter_];
     next_parameter_ = (next_parameter_ + 1) % parameters_.size();
     const std::uint64_t fingerprint = Fingerprint(parameter);
@@ -302,7 +283,7 @@ const std::string* StructureMirror::ChangeTo(std::uint64_t revision) const {
 
 std::optional<CountSample> StructureMirror::Count() const {
   const std::unique_lock lock(runtime_.structure_mutex(), std::try_to_lock);
-  if (!lock || seen_ != runtime_.revision()) return {};
+  if (!lock || !walk_.is_current()) return {};
   CountSample sample{
       .of = metered_, .publications = {}, .threads = {}, .time = runtime_.clock().Now()};
   sample.publications.reserve(ports_.size());

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -11,6 +10,7 @@
 
 #include "core/element/runtime.h"
 #include "plugins/command_service/application_log.h"
+#include "plugins/command_service/structure_walk.h"
 #include "plugins/inspector/element_json.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/scheduling/thread_container.h"
@@ -32,10 +32,10 @@ struct CountSample {
 };
 
 /// The structure of an application as viewers have been told it, once for all of them: what has changed
-/// since is found by looking at everything again, bit by bit, whenever the structure has another
-/// revision; the values of parameters, whose changes nobody announces, by looking at some of them in turn.
+/// since is found by walking through everything again whenever the structure has another revision; the
+/// values of parameters, whose changes nobody announces, by looking at some of them in turn.
 ///
-/// Threads:  the server's. Tries the structure lock, and holds it for kHold at a time.
+/// Threads:  the server's. Tries the structure lock, and holds it for 2 ms at a time.
 class StructureMirror {
  public:
   StructureMirror(Runtime& runtime, const ModuleRegistry& modules, const Scheduler& scheduler,
@@ -62,7 +62,7 @@ class StructureMirror {
     std::string json;
     std::vector<std::string> connections;
     std::uint64_t fingerprint = 0;  // of both
-    std::uint64_t walk = 0;         // that has seen it last
+    std::uint64_t walk = 0;         // the number of the one that has seen it last
   };
   struct Difference {
     std::vector<std::string> gone;      // paths
@@ -72,7 +72,6 @@ class StructureMirror {
   };
   // What a walk has found, to be told when it has come to its end.
   struct Findings {
-    std::vector<FrameworkElement*> ahead;
     std::vector<std::uint64_t> order;
     std::vector<std::pair<std::uint64_t, Entry>> news;
     MeteredElements metered;
@@ -84,11 +83,10 @@ class StructureMirror {
   // All of the following under the structure lock.
   bool LookOn();
   void BeginWalk();
-  bool Walk(std::chrono::steady_clock::time_point until);
-  void Visit(FrameworkElement& element);
+  void Visit(const FrameworkElement& element);
   [[nodiscard]] Entry Describe(const FrameworkElement& element, std::uint64_t fingerprint) const;
   [[nodiscard]] std::uint64_t Fingerprint(const FrameworkElement& element) const;
-  void SweepParameters(std::chrono::steady_clock::time_point until);
+  void SweepParameters();
   void NoteFaults();
   void NoteThreads();
 
@@ -108,13 +106,11 @@ class StructureMirror {
 
   std::unordered_map<std::uint64_t, Entry> entries_;  // by id
   std::vector<const Entry*> order_;                   // of the tree; of the entries above
-  std::optional<std::uint64_t> seen_;                 // the runtime's revision that has been seen
-  std::uint64_t walk_ = 0;
-  std::optional<std::uint64_t> walked_;  // the runtime's revision in which a walk is under way
-  int restarts_ = 0;
-  Findings found_;  // valid while the runtime has that revision
+  StructureWalk walk_;
+  std::uint64_t walks_ = 0;
+  Findings found_;  // valid while the walk is under way
 
-  // Valid while the runtime has the revision seen_.
+  // Valid while the walk is current.
   std::vector<const Port*> ports_;
   std::vector<const ThreadContainer*> threads_;
   std::vector<const FrameworkElement*> parameters_;

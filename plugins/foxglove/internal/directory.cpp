@@ -1,7 +1,6 @@
 #include "plugins/foxglove/internal/directory.h"
 
 #include <mutex>
-#include <optional>
 #include <set>
 
 #include "core/lockfree/thread_epoch.h"
@@ -16,6 +15,8 @@ namespace {
 
 // A large structure takes some milliseconds to look at: not more often than a person notices.
 constexpr auto kBetweenLooks = std::chrono::milliseconds(100);
+constexpr auto kLookOn =
+    std::chrono::milliseconds(5);  // while there is more to look at, or it is locked
 
 std::string OwnerPath(const FrameworkElement& element) {
   const FrameworkElement* const owner = FindOwner(element);
@@ -38,15 +39,9 @@ struct Directory::Search {
   };
   using Counts = std::unordered_map<std::string, int>;  // how many elements have a topic
 
-  explicit Search(Runtime& runtime) : revision(runtime.revision()) {
-    Collect(runtime.root());
-    std::vector<const Port*> all;
-    for (const FoundPort& each : ports) all.push_back(each.port);
-    robot_pose = RobotPose(all);
-  }
-
-  void Collect(const FrameworkElement& element) {
-    if (element.FindAnnotation<BroughtByClient>() != nullptr) return;
+  // Whether what is below is to be shown, too.
+  bool Visit(const FrameworkElement& element) {
+    if (element.FindAnnotation<BroughtByClient>() != nullptr) return false;
     if (const auto* const port = dynamic_cast<const Port*>(&element)) {
       Add(*port);
     } else if (const auto* const parameter = dynamic_cast<const Configurable*>(&element)) {
@@ -54,7 +49,13 @@ struct Directory::Search {
                               DirectoryParameter{element.path(), &parameter->type(), parameter});
       ++parameter_topics[parameters.back().first];
     }
-    for (const FrameworkElement* child : element.children()) Collect(*child);
+    return true;
+  }
+  // Which of the ports tells where the robot is; nullptr if none does.
+  [[nodiscard]] const Port* FindRobotPose() const {
+    std::vector<const Port*> all;
+    for (const FoundPort& each : ports) all.push_back(each.port);
+    return RobotPose(all);
   }
   void Add(const Port& port) {
     const bool is_output = port.direction() == Port::Direction::kOutput;
@@ -76,11 +77,9 @@ struct Directory::Search {
     ports.push_back(std::move(found));
   }
 
-  const std::uint64_t revision;
   std::vector<FoundPort> ports;
   std::vector<std::pair<std::string, DirectoryParameter>> parameters;  // with their topics
   Counts target_topics, shown_topics, parameter_topics;
-  const Port* robot_pose = nullptr;  // which of the ports tells where the robot is
 };
 
 namespace {
@@ -93,19 +92,23 @@ const std::string& NameIn(const std::unordered_map<std::string, int>& counts,
 
 }  // namespace
 
-void Directory::Look(SteadyTime now) {
-  if (now < look_at_) return;
-  std::optional<Search> search;
-  {
-    const std::unique_lock lock(runtime_.structure_mutex(), std::try_to_lock);
-    if (!lock) return;
-    look_at_ = now + kBetweenLooks;
-    if (has_looked_ && runtime_.revision() == content_->revision) return;
-    search.emplace(runtime_);
-  }
-  has_looked_ = true;
+Directory::Directory(Runtime& runtime) : runtime_(runtime), walk_(runtime) {}
+Directory::~Directory() = default;
+
+Directory::SteadyTime Directory::Look(SteadyTime now) {
+  if (now < look_at_) return look_at_;
+  std::unique_lock lock(runtime_.structure_mutex(), std::try_to_lock);
+  if (!lock) return now + kLookOn;
+  const auto outcome =
+      walk_.Continue([this] { search_ = std::make_unique<Search>(); },
+                     [this](const FrameworkElement& element) { return search_->Visit(element); });
+  if (outcome == StructureWalk::Outcome::kUnderWay) return now + kLookOn;
+  look_at_ = now + kBetweenLooks;
+  if (outcome == StructureWalk::Outcome::kUnchanged) return look_at_;
+  const std::unique_ptr<const Search> search = std::move(search_);
+  const Port* const robot_pose = search->FindRobotPose();
+  lock.unlock();
   auto content = std::make_shared<DirectoryContent>();
-  content->revision = search->revision;
   for (const auto& [topic, parameter] : search->parameters) {
     content->parameters[NameIn(search->parameter_topics, topic, parameter.path)] = parameter;
   }
@@ -115,13 +118,16 @@ void Directory::Look(SteadyTime now) {
     content->inputs[port.path] = input;
     content->inputs[NameIn(search->target_topics, port.topic, port.path)] = input;
   }
-  AddChannels(*search, *content);
+  AddChannels(*search, robot_pose, *content);
   content_ = std::move(content);
+  walk_.Confirm();
+  return look_at_;
 }
 
-void Directory::AddChannels(const Search& search, DirectoryContent& content) {
+void Directory::AddChannels(const Search& search, const Port* robot_pose,
+                            DirectoryContent& content) {
   for (const Search::FoundPort& port : search.ports) {
-    if (port.port != search.robot_pose) continue;
+    if (port.port != robot_pose) continue;
     const Encoding& encoding = TransformOf(*port.type);
     if (encoding) AddChannel("/tf", port.path, *port.type, encoding, content);
   }
@@ -169,7 +175,7 @@ bool Directory::VisitParameters(const std::vector<std::string>& names,
   const EpochGuard guard;
   {
     const std::unique_lock lock(runtime_.structure_mutex(), std::try_to_lock);
-    if (!lock || runtime_.revision() != content_->revision) return false;
+    if (!lock || !walk_.is_current()) return false;
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto found = content_->parameters.find(names[i]);

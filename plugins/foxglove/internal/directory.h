@@ -12,6 +12,8 @@
 
 #include "core/element/configurable.h"
 #include "core/element/runtime.h"
+#include "core/port/port.h"
+#include "plugins/command_service/structure_walk.h"
 #include "plugins/foxglove_schemas/foxglove_channel.h"
 
 namespace runnel::internal {
@@ -49,7 +51,6 @@ struct GraphTopic {
 
 /// What there is in an application at one moment, by the names that clients know.
 struct DirectoryContent {
-  std::uint64_t revision = 0;  ///< of the structure
   std::map<std::uint32_t, DirectoryChannel> channels;
   /// By path, and by topic where that means one only.
   std::map<std::string, DirectoryInput, std::less<>> inputs;
@@ -64,11 +65,12 @@ class Directory {
  public:
   using SteadyTime = std::chrono::steady_clock::time_point;
 
-  explicit Directory(Runtime& runtime) : runtime_(runtime) {}
+  explicit Directory(Runtime& runtime);
+  ~Directory();
 
   /// Looks whether the structure has changed, unless that has just been done or somebody has it
-  /// locked.
-  void Look(SteadyTime now);
+  /// locked. When it is to be called again.
+  SteadyTime Look(SteadyTime now);
   /// Never nullptr; another object whenever something has changed.
   [[nodiscard]] std::shared_ptr<const DirectoryContent> content() const { return content_; }
 
@@ -82,15 +84,16 @@ class Directory {
 
   struct Search;
 
-  void AddChannels(const Search& search, DirectoryContent& content);
+  void AddChannels(const Search& search, const Port* robot_pose, DirectoryContent& content);
   void AddChannel(std::string topic, const std::string& port, const TypeInfo& type,
                   const Encoding& encoding, DirectoryContent& content);
   [[nodiscard]] const std::vector<Encoding>& EncodingsOf(const TypeInfo& type);
   [[nodiscard]] const Encoding& TransformOf(const TypeInfo& type);
 
   Runtime& runtime_;
+  StructureWalk walk_;
+  std::unique_ptr<Search> search_;  // while the walk is under way
   SteadyTime look_at_{};
-  bool has_looked_ = false;
   std::shared_ptr<const DirectoryContent> content_ = std::make_shared<DirectoryContent>();
   std::unordered_map<const TypeInfo*, std::vector<Encoding>> encodings_;
   std::unordered_map<const TypeInfo*, Encoding> transforms_;

@@ -13,7 +13,6 @@ namespace {
 
 constexpr auto kBetweenSamples = std::chrono::microseconds(16'667);  // 60 Hz
 constexpr auto kBetweenTimes = std::chrono::milliseconds(50);
-constexpr auto kBetweenTurns = std::chrono::milliseconds(100);  // to see changes of the structure
 constexpr auto kSoon = std::chrono::milliseconds(5);
 constexpr std::size_t kChannelsInMessage = 50;
 constexpr std::size_t kMostPublications = 100;
@@ -136,11 +135,11 @@ void FoxgloveSession::Handle(const SubscribeGraphMessage& message) {
 
 FoxgloveSession::SteadyTime FoxgloveSession::OnPoll() {
   const auto now = shared_->Now();
-  shared_->directory.Look(now);
+  const SteadyTime look_at = shared_->directory.Look(now);
   if (!send_queue_.Continue()) return now + kSoon;
   FollowStructure();
   const bool is_publishing = ContinuePublications();
-  SteadyTime next = std::min(now + kBetweenTurns, parameters_.Continue(now));
+  SteadyTime next = std::min(look_at, parameters_.Continue(now));
   SendTime(now);
   if (now >= sample_at_) sample_at_ = now + (subscriptions_.Sample() ? kBetweenSamples : kSoon);
   for (const Error& error : subscriptions_.TakeFailures()) SendError(error);
