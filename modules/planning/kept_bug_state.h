@@ -92,6 +92,7 @@ inline void Describe(TypeBuilder<BugState>& type) {
       .Field("last_direction", &BugState::last_direction)
       .Field("node_side", &BugState::node_side)
       .Field("second_looks", &BugState::second_looks)
+      .Field("doubted_hit_distance", &BugState::doubted_hit_distance)
       .Field("faced", &BugState::faced)
       .Field("progress_point", &BugState::progress_point)
       .Field("idle_time", &BugState::idle_time)

@@ -138,7 +138,7 @@ std::vector<IncludeRule> MakeProjectRules() {
   }
   rules.push_back({"apps", "apps", {"core", "plugins"}});
   // Apart, since a benchmark of whole applications runs them as the tests do.
-  rules.push_back({"tests/bench", "tests/bench", {"core", "bench"}});
+  rules.push_back({"tests/bench", "tests/bench", {"core", "bench", "tests/support"}});
   for (const char* folder : {"tests", "bench"}) {
     rules.push_back({folder, folder, {"core", "plugins", "modules", "apps", "tests", "bench"}});
   }

@@ -116,6 +116,13 @@ bool BugAlgorithm::CompleteCycleAroundObstacle(const BugState& state) const {
   return state.lap.is_complete() && components_.leave->decides_after_lap();
 }
 
+// Nearer to the goal on this lap than at the hit point; and at the hit point nearer than at the last one
+// doubted, so that there is an end.
+bool BugAlgorithm::HasComeNearer(const BugState& state) const {
+  return state.closest_distance < state.hit_distance - configuration_.leave_margin &&
+         state.hit_distance < state.doubted_hit_distance - kFalseLeave;
+}
+
 bool BugAlgorithm::GoalReached(const BugState& state) const {
   return state.status.distance_to_goal < configuration_.goal_tolerance;
 }
@@ -189,7 +196,14 @@ void BugAlgorithm::Hit(BugState& state, const BugInput& input, double contact_be
 Twist2 BugAlgorithm::FinishFruitlessLap(BugState& state, const BugInput& input) const {
   // What was hit may have been none, a vague echo say: then the way is free where it was not.
   const bool is_at_hit_point = Distance(Position(input.pose), state.status.hit_point) < kHitPlace;
-  if (state.is_other_loop && state.second_looks < kSecondLooks) return LeaveOtherLoop(state, input);
+  if (state.is_other_loop && state.second_looks < kSecondLooks) {
+    ++state.second_looks;
+    return LeaveWhereNearest(state, input);
+  }
+  if (components_.leave->may_miss_passages() && HasComeNearer(state)) {
+    state.doubted_hit_distance = state.hit_distance;
+    return LeaveWhereNearest(state, input);
+  }
   if (!is_at_hit_point || state.second_looks == kSecondLooks ||
       !IsFreeTowardsGoal(View(state, input))) {
     GiveUp(state, Unreachability::kEnclosed);

@@ -45,6 +45,7 @@ class BugAlgorithm {
   [[nodiscard]] bool LeavePointFound(const BugState& state) const;
   [[nodiscard]] bool ResearchComplete(const BugState& state, const BugInput& input) const;
   [[nodiscard]] bool CompleteCycleAroundObstacle(const BugState& state) const;
+  [[nodiscard]] bool HasComeNearer(const BugState& state) const;
   [[nodiscard]] bool GoalReached(const BugState& state) const;
   Twist2 WallFollowing(BugState& state, const BugInput& input) const;
   Twist2 GoToLeavePoint(BugState& state, const BugInput& input) const;
@@ -61,7 +62,7 @@ class BugAlgorithm {
   void RestartLap(BugState& state, const BugInput& input) const;
   void Reverse(BugState& state, const BugInput& input) const;
   Twist2 FinishFruitlessLap(BugState& state, const BugInput& input) const;
-  Twist2 LeaveOtherLoop(BugState& state, const BugInput& input) const;
+  Twist2 LeaveWhereNearest(BugState& state, const BugInput& input) const;
   void SetOut(BugState& state, const BugInput& input) const;
   void ChooseShorterWay(BugState& state, const BugInput& input) const;
   std::optional<Twist2> GoAlongBoundary(BugState& state, const BugInput& input) const;

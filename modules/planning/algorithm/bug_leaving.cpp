@@ -40,11 +40,10 @@ void BugAlgorithm::Reverse(BugState& state, const BugInput& input) const {
   StartFollowing(state, input, Opposite(state.follower.direction()));
 }
 
-// The lap went round something that the hit point is not on: the sensors showed a passage closed, then
-// open. That proves nothing of the obstacle hit, and its hit point means nothing here. What can
-// always be done is what Bug1 does; the variant begins anew from there.
-Twist2 BugAlgorithm::LeaveOtherLoop(BugState& state, const BugInput& input) const {
-  ++state.second_looks;
+// The lap proves nothing. It went round something that the hit point is not on: the sensors showed a
+// passage closed, then open, and the hit point means nothing here. Or the leave condition is one that may
+// miss passages. What can always be done is what Bug1 does; the variant begins anew from there.
+Twist2 BugAlgorithm::LeaveWhereNearest(BugState& state, const BugInput& input) const {
   state.leave_point = state.closest_point;
   state.approach = Approach::kAlongBoundary;
   state.last_leave_distance = BugState::kNever;

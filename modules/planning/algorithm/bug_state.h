@@ -54,7 +54,9 @@ struct BugState {
   double last_leave_distance = kNever;     ///< m to the goal, from where motion to goal began
   std::optional<BoundaryDirection> last_direction;  ///< chosen at the last hit point
   std::optional<BoundaryDirection> node_side;  ///< of the goal, of the tangent node chosen last
-  int second_looks = 0;         ///< at hit points, after a lap, that found the way free
+  int second_looks = 0;  ///< at hit points, after a lap, that found the way free
+  double doubted_hit_distance =
+      kNever;                   ///< m to the goal, of the last hit point whose lap proved nothing
   FacedHeadings faced;          ///< from where it stands
   Point2 progress_point;        ///< where the robot last got on
   double idle_time = 0.0;       ///< s since then

@@ -37,6 +37,9 @@ class LeaveCondition {
   [[nodiscard]] virtual bool needs_range_sensor() const { return false; }
   /// Whether a lap without a leave point proves that the goal cannot be reached.
   [[nodiscard]] virtual bool decides_after_lap() const { return true; }
+  /// Whether it may find none although the robot could get on: after such a lap the robot goes to the
+  /// point of the boundary nearest to the goal, as Bug1 does.
+  [[nodiscard]] virtual bool may_miss_passages() const { return false; }
 };
 
 /// After one whole lap the point with the least d, by the shorter way round (Bug1).
@@ -71,13 +74,15 @@ class ClosestSoFar final : public LeaveCondition {
 };
 
 /// With F the free range towards the goal: d(x) - F <= 0 (the goal is in view), or d(x) - F <= d_min
-/// - STEP with d_min the least d since H (DistBug).
+/// - STEP with d_min the least d since H (DistBug). Where passages are narrower than STEP and the body
+/// together, no point may be so.
 class FreeRangeStep final : public LeaveCondition {
  public:
   [[nodiscard]] std::string_view name() const override { return "free_range_step"; }
   [[nodiscard]] std::optional<LeavePoint> Find(const BugView& view) const override;
   [[nodiscard]] bool MayLeave(const BugView& view) const override;
   [[nodiscard]] bool needs_range_sensor() const override { return true; }
+  [[nodiscard]] bool may_miss_passages() const override { return true; }
 };
 
 /// d_reach < d_followed: something seen and free is nearer to the goal than all of the boundary
