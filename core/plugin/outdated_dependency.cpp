@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 using Segment = ElfW(Phdr);
 
 // Not by std::memcmp, which AddressSanitizer watches: it would refuse the red zones of the library's own data.
-[[gnu::no_sanitize("address")]] bool IsSame(std::span<const char> file, const char* in_memory) {
+[[gnu::no_sanitize_address]] bool IsSame(std::span<const char> file, const char* in_memory) {
   for (std::size_t i = 0; i < file.size(); ++i) {
     if (file[i] != in_memory[i]) return false;
   }

@@ -31,7 +31,8 @@ std::vector<FrameworkElement*> PartsOf(const FrameworkElement& module, PathKind 
     for (FrameworkElement* inner : child->children()) add(*inner);
   }
   const PathKind first = kind == PathKind::kElement ? PathKind::kOutput : kind;
-  std::ranges::stable_partition(parts, [&](const auto* part) { return Fits(*part, first); });
+  std::stable_partition(parts.begin(), parts.end(),
+                        [&](const auto* part) { return Fits(*part, first); });
   return parts;
 }
 

@@ -1,6 +1,8 @@
 #include "plugins/command_service/command_service.h"
 
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 #include "plugins/command_service/caught_error.h"
 #include "plugins/command_service/change_task.h"
@@ -10,11 +12,6 @@
 namespace runnel {
 
 namespace {
-
-template <typename... Handlers>
-struct Overloaded : Handlers... {
-  using Handlers::operator()...;
-};
 
 using Hook = std::function<Result<std::string>(const std::string&)>;
 
@@ -39,17 +36,18 @@ std::unique_ptr<PendingCommand> CommandService::Begin(CommandRequest request, Ta
                                                       std::function<void()> on_done) {
   auto pending = std::make_unique<PendingCommand>();
   const std::shared_ptr<CommandAnswer>& answer = pending->answer_;
-  TaskStep step =
-      std::visit(Overloaded{[&](ChangeRequest& change) -> TaskStep {
-                              return ChangeTask(std::move(change), application_, answer);
-                            },
-                            [&](const auto& other) -> TaskStep {
-                              return [this, other, answer]() -> std::optional<Duration> {
-                                *answer = Do(other);
-                                return {};
-                              };
-                            }},
-                 request);
+  TaskStep step = std::visit(
+      [&](auto& each) -> TaskStep {
+        if constexpr (std::is_same_v<decltype(each), ChangeRequest&>) {
+          return ChangeTask(std::move(each), application_, answer);
+        } else {
+          return [this, each, answer]() -> std::optional<Duration> {
+            *answer = Do(each);
+            return {};
+          };
+        }
+      },
+      request);
   pending->task_ = tasks.PostSteps(std::move(step), std::move(on_done));
   return pending;
 }
