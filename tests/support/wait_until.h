@@ -1,7 +1,6 @@
 #pragma once
 
 #include <chrono>
-#include <source_location>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -17,16 +16,15 @@ inline constexpr std::chrono::seconds kLongestWait{30};
 /// WaitUntil(), with `pause` between two looks.
 template <typename Condition, typename Pause>
 void WaitWithPauses(std::string_view what, Condition& condition, std::chrono::milliseconds limit,
-                    const Pause& pause, std::source_location from) {
+                    const Pause& pause, const char* file, int line) {
   const auto latest = std::chrono::steady_clock::now() + limit;
   while (!condition()) {
     if (std::chrono::steady_clock::now() >= latest) {
       const std::string text =
           "waited " + std::to_string(limit.count()) + " ms in vain until " + std::string(what);
-      const auto line = static_cast<int>(from.line());
-      ADD_FAILURE_AT(from.file_name(), line) << text;
+      ADD_FAILURE_AT(file, line) << text;
       throw ::testing::AssertionException(::testing::TestPartResult(
-          ::testing::TestPartResult::kFatalFailure, from.file_name(), line, text.c_str()));
+          ::testing::TestPartResult::kFatalFailure, file, line, text.c_str()));
     }
     pause();
   }
@@ -34,22 +32,23 @@ void WaitWithPauses(std::string_view what, Condition& condition, std::chrono::mi
 
 /// Waits until `condition()`. If that does not come true within `limit`, the test fails at the
 /// calling line with `what`, which says in words what was waited for, and ends there; in a thread of
-/// the test's own the program ends, with the same text.
+/// the test's own the program ends, with the same text. The caller's place is the builtins' that GCC and
+/// clang share: clang 14 does not have std::source_location.
 template <typename Condition>
 void WaitUntil(std::string_view what, Condition&& condition,
-               std::chrono::milliseconds limit = kLongestWait,
-               std::source_location from = std::source_location::current()) {
+               std::chrono::milliseconds limit = kLongestWait, const char* file = __builtin_FILE(),
+               int line = __builtin_LINE()) {
   const auto sleep = [] { std::this_thread::sleep_for(std::chrono::microseconds(100)); };
-  WaitWithPauses(what, condition, limit, sleep, from);
+  WaitWithPauses(what, condition, limit, sleep, file, line);
 }
 
 /// The same without sleeping, for threads whose turns are to be many and close.
 template <typename Condition>
 void YieldUntil(std::string_view what, Condition&& condition,
-                std::chrono::milliseconds limit = kLongestWait,
-                std::source_location from = std::source_location::current()) {
+                std::chrono::milliseconds limit = kLongestWait, const char* file = __builtin_FILE(),
+                int line = __builtin_LINE()) {
   WaitWithPauses(
-      what, condition, limit, [] { std::this_thread::yield(); }, from);
+      what, condition, limit, [] { std::this_thread::yield(); }, file, line);
 }
 
 }  // namespace runnel::test

@@ -198,9 +198,10 @@ TEST_F(OrderOfTasks, BreaksNoConnectionThatItDoesNotReport) {
   for (const auto& [from, to] : connections) {
     if (place(from) < place(to)) continue;
     ++late;
-    EXPECT_TRUE(std::ranges::any_of(order.cuts, [&](const Error& cut) {
-      return cut.path == from->out.path() && cut.message.find(to->in.path()) != std::string::npos;
-    }));
+    const auto is_told = [&source = from->out, &target = to->in](const Error& cut) {
+      return cut.path == source.path() && cut.message.find(target.path()) != std::string::npos;
+    };
+    EXPECT_TRUE(std::ranges::any_of(order.cuts, is_told));
   }
   EXPECT_EQ(order.cuts.size(), late);  // and nothing is reported that was not broken
 }
