@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "plugins/json_values/json_writer.h"
+#include "plugins/values/json_writer.h"
 
 namespace runnel {
 
@@ -31,30 +31,21 @@ void AppendMode(const PathSample& sample, std::string& json) {
   AppendJsonNumber(static_cast<std::int64_t>(sample.mode), json);
 }
 
-template <typename Items, typename Append>
-void AppendList(const Items& items, const Append& append, std::string& json) {
-  JsonArray list(json);
-  for (const auto& item : items) append(item, list.Next());
-}
-
 }  // namespace
 
 std::string JsonOf(const RunResult& result) {
-  std::string json;
-  {
-    JsonObject object(json);
-    object.Add("outcome", result.outcome);
-    object.Add("remark", result.remark);
-    AppendNumber(result.path_length, object.Key("path_length_m"));
-    AppendNumber(result.simulated_time, object.Key("sim_time_s"));
-    object.Add("cycles", result.cycles);
-    AppendNumber(result.robot_radius, object.Key("robot_radius_m"));
-    AppendList(result.hits, AppendPlace, object.Key("hits"));
-    AppendList(result.leaves, AppendPlace, object.Key("leaves"));
-    AppendList(result.path, AppendSample, object.Key("path"));
-    AppendList(result.path, AppendMode, object.Key("modes"));
-  }
-  return json + "\n";
+  return JsonObjectText([&](JsonObject& object) {
+           object.Add("outcome", result.outcome).Add("remark", result.remark);
+           AppendNumber(result.path_length, object.Key("path_length_m"));
+           AppendNumber(result.simulated_time, object.Key("sim_time_s"));
+           object.Add("cycles", result.cycles);
+           AppendNumber(result.robot_radius, object.Key("robot_radius_m"));
+           AppendList(result.hits, object.Key("hits"), AppendPlace);
+           AppendList(result.leaves, object.Key("leaves"), AppendPlace);
+           AppendList(result.path, object.Key("path"), AppendSample);
+           AppendList(result.path, object.Key("modes"), AppendMode);
+         }) +
+         "\n";
 }
 
 }  // namespace runnel

@@ -8,7 +8,7 @@
 #include "core/lockfree/epoch.h"
 #include "core/port/path_search.h"
 #include "plugins/application/internal/application_parts.h"
-#include "plugins/watching/watched_port.h"
+#include "plugins/values/watched_port.h"
 
 namespace runnel {
 

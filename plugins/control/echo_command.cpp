@@ -8,7 +8,7 @@
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
 #include "plugins/control/command.h"
-#include "plugins/watching/watched_port.h"
+#include "plugins/values/watched_port.h"
 
 namespace runnel {
 

@@ -6,8 +6,8 @@
 #include "core/plugin/module_type_name.h"
 #include "core/types/type_info.h"
 #include "plugins/command_service/parameter_text.h"
-#include "plugins/inspector/internal/json_parts.h"
 #include "plugins/scheduling/thread_container.h"
+#include "plugins/values/json_writer.h"
 
 namespace runnel::internal {
 
@@ -40,27 +40,21 @@ std::string_view StoppedBy(const FrameworkElement& element, const ElementSurroun
 void AddThread(const ThreadContainer& thread, JsonObject& json) {
   const ThreadOptions& options = thread.options();
   const bool has_period = options.activation == ThreadOptions::Activation::kPeriod;
-  json.Add("kind", "thread");
-  json.Add("name", thread.name());
-  AddNumberOrNull("period", has_period ? std::optional(ToSeconds(options.period)) : std::nullopt,
-                  json);
+  json.Add("kind", "thread").Add("name", thread.name());
+  json.AddOrNull("period", has_period ? std::optional(ToSeconds(options.period)) : std::nullopt);
   json.Add("activation", has_period ? "period"
                          : options.activation == ThreadOptions::Activation::kTrigger
                              ? "trigger"
                              : "free_running");
-  json.Add("priority", static_cast<std::uint64_t>(options.priority));
-  json.Add("order", thread.id());
+  json.Add("priority", options.priority).Add("order", thread.id());
 }
 
 void AddPort(const Port& port, JsonObject& json) {
   const FrameworkElement* const owner = FindOwner(port);
-  json.Add("kind", "port");
-  json.Add("name", port.name());
+  json.Add("kind", "port").Add("name", port.name());
   json.Add("direction", port.direction() == Port::Direction::kInput ? "input" : "output");
-  json.Add("data_type", port.type().name());
-  json.Add("interface", port.is_proxy());
-  json.Add("required", port.is_required());
-  json.Add("description", port.description());
+  json.Add("data_type", port.type().name()).Add("interface", port.is_proxy());
+  json.Add("required", port.is_required()).Add("description", port.description());
   json.Add("owner", owner != nullptr ? owner->path() : "");
 }
 
@@ -68,30 +62,23 @@ void AddParameter(const FrameworkElement& element, const Configurable& parameter
                   JsonObject& json) {
   const ConfigurableInfo& info = parameter.info();
   const FrameworkElement* const owner = FindOwner(element);
-  json.Add("kind", "parameter");
-  json.Add("name", element.name());
-  json.Add("data_type", parameter.type().name());
-  json.Add("unit", info.unit);
-  AddNumberOrNull("minimum", info.minimum, json);
-  AddNumberOrNull("maximum", info.maximum, json);
-  json.Add("description", info.description);
-  json.Add("value", ParameterText(parameter));
-  json.Add("default", info.default_value);
-  json.Add("settable", !info.is_static);
+  json.Add("kind", "parameter").Add("name", element.name());
+  json.Add("data_type", parameter.type().name()).Add("unit", info.unit);
+  json.AddOrNull("minimum", info.minimum).AddOrNull("maximum", info.maximum);
+  json.Add("description", info.description).Add("value", ParameterText(parameter));
+  json.Add("default", info.default_value).Add("settable", !info.is_static);
   json.Add("owner", owner != nullptr ? owner->path() : "");
 }
 
 void AddOther(const FrameworkElement& element, const ElementSurroundings& around,
               JsonObject& json) {
   if (IsModule(element)) {
-    json.Add("kind", "module");
-    json.Add("name", element.name());
+    json.Add("kind", "module").Add("name", element.name());
     const std::string name = FindModuleType(element);
     const ModuleType* const type = around.modules->Find(name);
-    json.Add("type", name);
-    json.Add("summary", type != nullptr ? type->summary : "");
-    AddTextOrNull("thread", ThreadName(element, around), json);
-    AddTextOrNull("stopped", StoppedBy(element, around), json);
+    json.Add("type", name).Add("summary", type != nullptr ? type->summary : "");
+    json.AddTextOrNull("thread", ThreadName(element, around));
+    json.AddTextOrNull("stopped", StoppedBy(element, around));
     return;
   }
   const bool is_group = element.kind() == ElementKind::kGroup;
@@ -114,9 +101,7 @@ void Mix(std::string_view text, std::uint64_t& hash) {
 }  // namespace
 
 std::string ElementJson(const FrameworkElement& element, const ElementSurroundings& around) {
-  std::string text;
-  {
-    JsonObject json(text);
+  return JsonObjectText([&](JsonObject& json) {
     json.Add("path", element.path());
     if (const auto* const port = dynamic_cast<const Port*>(&element)) {
       AddPort(*port, json);
@@ -127,8 +112,7 @@ std::string ElementJson(const FrameworkElement& element, const ElementSurroundin
     } else {
       AddOther(element, around, json);
     }
-  }
-  return text;
+  });
 }
 
 std::uint64_t ElementFingerprint(const FrameworkElement& element,
@@ -149,15 +133,11 @@ std::uint64_t ElementFingerprint(const FrameworkElement& element,
 }
 
 std::string ConnectionJson(const Connection& connection) {
-  std::string text;
-  {
-    JsonObject json(text);
-    json.Add("from", connection.from->path());
-    json.Add("to", connection.to->path());
+  return JsonObjectText([&](JsonObject& json) {
+    json.Add("from", connection.from->path()).Add("to", connection.to->path());
     json.Add("queue", connection.options.queue);
     json.Add("on_full", OnFullName(connection.options.on_full));
-  }
-  return text;
+  });
 }
 
 }  // namespace runnel::internal

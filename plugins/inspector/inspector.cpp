@@ -7,13 +7,8 @@
 
 namespace runnel {
 
-class Inspector::Shared final : public internal::Inspection {
- public:
-  using Inspection::Inspection;
-};
-
 Inspector::Inspector(CommandService& service, Scheduler& scheduler, InspectorOptions options)
-    : shared_(std::make_unique<Shared>(service, scheduler, std::move(options))) {}
+    : shared_(std::make_unique<internal::Inspection>(service, scheduler, std::move(options))) {}
 Inspector::~Inspector() = default;
 
 WebProtocol Inspector::Protocol() {

@@ -9,6 +9,10 @@
 
 namespace runnel {
 
+namespace internal {
+class Inspection;
+}
+
 struct InspectorOptions {
   std::string application = {};  ///< its name
   std::string file = {};         ///< that it came from
@@ -35,8 +39,7 @@ class Inspector {
   void NoteEnd(std::string verdict);
 
  private:
-  class Shared;
-  const std::unique_ptr<Shared> shared_;
+  const std::unique_ptr<internal::Inspection> shared_;
 };
 
 }  // namespace runnel

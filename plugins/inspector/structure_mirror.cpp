@@ -8,7 +8,7 @@
 
 #include "core/element/configurable.h"
 #include "core/port/probe_port.h"
-#include "plugins/inspector/internal/json_parts.h"
+#include "plugins/values/json_writer.h"
 
 namespace runnel::internal {
 
@@ -248,8 +248,7 @@ void StructureMirror::Tell(Difference difference) {
   std::string message;
   if (revision_ > 1) {  // what comes first is told as a whole
     JsonObject json(message);
-    json.Add("op", "structure_change");
-    json.Add("revision", revision_);
+    json.Add("op", "structure_change").Add("revision", revision_);
     AppendList(difference.gone, json.Key("gone"), AppendJsonString);
     AppendList(difference.elements, json.Key("elements"), AppendRaw);
     AppendList(difference.connected, json.Key("connected"), AppendRaw);
@@ -260,19 +259,15 @@ void StructureMirror::Tell(Difference difference) {
 }
 
 std::string StructureMirror::Whole() const {
-  std::string message;
-  {
-    JsonObject json(message);
-    json.Add("op", "structure");
-    json.Add("revision", revision_);
+  return JsonObjectText([this](JsonObject& json) {
+    json.Add("op", "structure").Add("revision", revision_);
     AppendList(order_, json.Key("elements"),
                [](const Entry* entry, std::string& text) { text += entry->json; });
     JsonArray connections(json.Key("connections"));
     for (const Entry* entry : order_) {
       for (const std::string& each : entry->connections) connections.Next() += each;
     }
-  }
-  return message;
+  });
 }
 
 const std::string* StructureMirror::ChangeTo(std::uint64_t revision) const {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <span>
 
+#include "core/element/element_path.h"
+
 namespace runnel {
 
 namespace {
@@ -10,14 +12,8 @@ namespace {
 using Parts = std::vector<std::string>;
 
 Parts Split(std::string_view path) {
-  Parts parts;
-  while (!path.empty()) {
-    const std::size_t slash = path.find('/');
-    const std::string_view part = path.substr(0, slash);
-    if (!part.empty()) parts.emplace_back(part);
-    path = slash == std::string_view::npos ? std::string_view() : path.substr(slash + 1);
-  }
-  return parts;
+  const auto names = SplitPath(path);
+  return {names.begin(), names.end()};
 }
 
 bool IsPortGroup(const std::string& name) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/diagnostics.h"
+#include "core/element/element_path.h"
 #include "core/module/executable.h"
 #include "core/module/group.h"
 #include "core/module/port_group.h"
@@ -69,13 +70,8 @@ class KnownTypes {
 using Parts = std::vector<std::string>;
 
 Parts PartsOf(const std::string& path) {
-  Parts parts;
-  for (std::size_t begin = 1; begin <= path.size();) {
-    const std::size_t end = std::min(path.find('/', begin), path.size());
-    parts.push_back(path.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return parts;
+  const auto names = SplitPath(path);
+  return {names.begin(), names.end()};
 }
 
 // How many of the parts lead to the module that a port is of: all but the port and its group.

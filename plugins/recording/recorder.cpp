@@ -11,11 +11,11 @@
 #include "core/base/nearest_name.h"
 #include "core/element/not_saved.h"
 #include "core/types/type_info.h"
-#include "plugins/foxglove_schemas/foxglove_topics.h"
 #include "plugins/mcap/compression.h"
 #include "plugins/mcap/mcap_writer.h"
 #include "plugins/recording/recording_names.h"
 #include "plugins/scheduling/scheduler.h"
+#include "plugins/values/foxglove_topics.h"
 
 namespace runnel {
 
@@ -95,9 +95,9 @@ Result<void> Recorder::Begin() {
     const std::lock_guard lock(runtime_.structure_mutex());
     if (auto checked = CheckNames(); !checked) return checked;
   }
-  auto writer = McapWriter::Create(
-      options_.file,
-      {.header = McapHeader{"", "runnel " + options_.about.version}, .compression = options_.compression});
+  auto writer = McapWriter::Create(options_.file,
+                                   {.header = McapHeader{"", "runnel " + options_.about.version},
+                                    .compression = options_.compression});
   if (!writer) return writer.error();
   writer_ = std::move(*writer);
   if (auto written = WriteAbout(); !written) return written;
@@ -128,7 +128,7 @@ Result<void> Recorder::CheckNames() {
     ports.push_back(port);
     if (port->is_proxy() || port->direction() == Port::Direction::kOutput) {
       paths.push_back(PlainPortPath(port->path()));
-      paths.push_back(ShortPortPath(port->path()));
+      paths.push_back(TopicOf(*port));
     }
   });
   for (const std::string& name : patterns_.Names()) {
@@ -258,8 +258,8 @@ void Recorder::Follow(Port& port) {
   auto recorded = std::make_shared<Recorded>();
   recorded->path = port.path();
   recorded->type = &port.type();
-  recorded->probe = std::make_unique<ProbePort>(*element_, "probe_" + std::to_string(++made_probes_),
-                                        port.type(), options_.capacity);
+  recorded->probe = std::make_unique<ProbePort>(
+      *element_, "probe_" + std::to_string(++made_probes_), port.type(), options_.capacity);
   recorded->forms = ChannelsFor(port.type(), TopicOf(port), WholeValues());
   if (const auto connected = Port::Connect(port, *recorded->probe); !connected) {
     if (port.life_cycle() == LifeCycle::kDeleted) return;
@@ -298,7 +298,8 @@ void Recorder::OnReady(FrameworkElement& element) {
     element.Visit([this](FrameworkElement& each) {
       if (auto* const port = dynamic_cast<Port*>(&each)) Follow(*port);
     });
-  } catch (...) {  // the recording would lack something; the change of the structure is none of its business
+  } catch (
+      ...) {  // the recording would lack something; the change of the structure is none of its business
     NoteException();
   }
 }
@@ -309,8 +310,9 @@ void Recorder::OnDeleted(FrameworkElement&) { has_gone_ = true; }
 void Recorder::WaitForRoom() noexcept {
   const auto is_behind = [this] {
     const std::lock_guard lock(mutex_);
-    return std::ranges::any_of(
-        recorded_, [](const auto& each) { return each->probe->waiting() * 2 > each->probe->capacity(); });
+    return std::ranges::any_of(recorded_, [](const auto& each) {
+      return each->probe->waiting() * 2 > each->probe->capacity();
+    });
   };
   while (!has_failed_ && is_behind()) {
     {

@@ -14,10 +14,10 @@
 #include "core/element/element_listener.h"
 #include "core/element/runtime.h"
 #include "core/port/probe_port.h"
-#include "plugins/foxglove_schemas/foxglove_channel.h"
 #include "plugins/mcap/mcap_records.h"
 #include "plugins/recording/port_patterns.h"
 #include "plugins/scheduling/backpressure.h"
+#include "plugins/values/foxglove_channel.h"
 
 namespace runnel {
 
@@ -156,7 +156,6 @@ class Recorder final : public ElementListener, public BackpressureSource {
   std::atomic<bool> has_failed_{false};
   std::atomic<bool> is_ending_{false};
   std::atomic<bool> has_gone_{false};
-  std::atomic<bool> is_waited_for_{false};  // by simulated time
   std::mutex wake_mutex_;
   std::condition_variable wake_;
   bool is_woken_ = false;  // guarded by wake_mutex_

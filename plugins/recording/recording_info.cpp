@@ -5,9 +5,9 @@
 #include <set>
 
 #include "core/base/number_text.h"
-#include "plugins/json_values/json_writer.h"
 #include "plugins/mcap/mcap_reader.h"
 #include "plugins/recording/recording_names.h"
+#include "plugins/values/json_writer.h"
 
 namespace runnel {
 
@@ -91,11 +91,8 @@ RecordingInfo InfoOf(const McapReader& reader) {
 }
 
 std::string RecordingInfoJson(const RecordingInfo& info) {
-  std::string json;
-  {
-    JsonObject object(json);
-    object.Add("file", info.file);
-    object.Add("bytes", info.bytes);
+  return JsonObjectText([&](JsonObject& object) {
+    object.Add("file", info.file).Add("bytes", info.bytes);
     object.Add("ended_properly", info.ended_properly);
     if (info.damage) object.Add("damage", info.damage->message);
     object.Add("library", info.library);
@@ -107,29 +104,19 @@ std::string RecordingInfoJson(const RecordingInfo& info) {
       JsonArray attachments(object.Key("attachments"));
       for (const std::string& name : info.attachments) attachments.Add(name);
     }
-    object.Add("start", info.start);
-    object.Add("end", info.end);
-    object.Add("duration", info.duration());
-    object.Add("ports", info.ports);
-    object.Add("values", info.values);
-    object.Add("dropped", info.dropped);
-    object.Add("chunks", info.chunks);
-    object.Add("compression", info.compression);
+    object.Add("start", info.start).Add("end", info.end).Add("duration", info.duration());
+    object.Add("ports", info.ports).Add("values", info.values).Add("dropped", info.dropped);
+    object.Add("chunks", info.chunks).Add("compression", info.compression);
     object.Add("packed_bytes", info.compressed_bytes);
     object.Add("unpacked_bytes", info.uncompressed_bytes);
     JsonArray channels(object.Key("channels"));
     for (const RecordingInfo::Channel& each : info.channels) {
       JsonObject channel(channels.Next());
-      channel.Add("path", each.path);
-      channel.Add("type", each.type);
-      channel.Add("encoding", each.encoding);
-      channel.Add("values", each.values);
-      channel.Add("rate", each.rate);
-      channel.Add("dropped", each.dropped);
+      channel.Add("path", each.path).Add("type", each.type).Add("encoding", each.encoding);
+      channel.Add("values", each.values).Add("rate", each.rate).Add("dropped", each.dropped);
       channel.Add("is_view", each.is_view);
     }
-  }
-  return json;
+  });
 }
 
 }  // namespace runnel

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "plugins/foxglove_schemas/foxglove_channel.h"
 #include "plugins/mcap/mcap_records.h"
+#include "plugins/values/foxglove_channel.h"
 
 namespace runnel {
 

@@ -12,8 +12,8 @@
 #include "core/port/path_search.h"
 #include "core/port/probe_port.h"
 #include "core/types/type_info.h"
-#include "plugins/json_values/json_values.h"
 #include "plugins/recording/recording_names.h"
+#include "plugins/values/json_values.h"
 
 namespace runnel {
 

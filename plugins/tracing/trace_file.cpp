@@ -7,7 +7,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "plugins/json_values/json_writer.h"
+#include "plugins/values/json_writer.h"
 
 namespace runnel {
 

@@ -5,8 +5,8 @@
 #include "core/base/exception_text.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/port.h"
-#include "plugins/json_values/json_writer.h"
 #include "plugins/tracing/internal/trace_writer.h"
+#include "plugins/values/json_writer.h"
 
 namespace runnel {
 

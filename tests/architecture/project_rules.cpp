@@ -29,7 +29,7 @@ void AddApplication(std::vector<IncludeRule>& rules) {
                                                 "plugins/scheduling",
                                                 "plugins/structure",
                                                 "plugins/supervision",
-                                                "plugins/watching"};
+                                                "plugins/values/watched_port.h"};
   const auto attached = [&](const std::string& name, const std::string& files,
                             const std::vector<std::string>& neighbours) {
     std::vector<std::string> may_include = application;
@@ -48,14 +48,11 @@ void AddApplication(std::vector<IncludeRule>& rules) {
 
 void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/parameters", "plugins/parameters", {"core"}});
-  rules.push_back({"plugins/json_values", "plugins/json_values", {"core/base", "core/types"}});
-  rules.push_back(
-      {"plugins/foxglove_schemas", "plugins/foxglove_schemas", {"core", "plugins/json_values"}});
-  rules.push_back(
-      {"plugins/foxglove",
-       "plugins/foxglove",
-       {"core", "plugins/command_service", "plugins/foxglove_schemas", "plugins/json_values",
-        "plugins/structure", "plugins/watching", "plugins/web_server"}});
+  rules.push_back({"plugins/values", "plugins/values", {"core"}});
+  rules.push_back({"plugins/foxglove",
+                   "plugins/foxglove",
+                   {"core", "plugins/command_service", "plugins/structure", "plugins/values",
+                    "plugins/web_server"}});
   rules.push_back({"plugins/application_files",
                    "plugins/application_files",
                    {"core", "plugins/parameters", "plugins/scheduling", "plugins/structure",
@@ -66,22 +63,20 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
        {"core", "plugins/parameters", "plugins/application_files", "plugins/scheduling"}});
   rules.push_back({"plugins/scheduling", "plugins/scheduling", {"core"}});
   rules.push_back({"plugins/structure", "plugins/structure", {"core", "plugins/scheduling"}});
-  rules.push_back({"plugins/tracing",
-                   "plugins/tracing",
-                   {"core", "plugins/json_values", "plugins/scheduling"}});
+  rules.push_back(
+      {"plugins/tracing", "plugins/tracing", {"core", "plugins/values", "plugins/scheduling"}});
   rules.push_back({"plugins/command_service",
                    "plugins/command_service",
                    {"core", "plugins/scheduling", "plugins/structure"}});
   rules.push_back({"plugins/control",
                    "plugins/control",
                    {"core", "plugins/command_service", "plugins/scheduling", "plugins/structure",
-                    "plugins/watching"}});
-  rules.push_back({"plugins/watching", "plugins/watching", {"core"}});
+                    "plugins/values/watched_port.h"}});
   rules.push_back({"plugins/mcap", "plugins/mcap", {"core"}});
   rules.push_back({"plugins/recording",
                    "plugins/recording",
-                   {"core", "plugins/foxglove_schemas", "plugins/json_values", "plugins/mcap",
-                    "plugins/application_files", "plugins/parameters", "plugins/scheduling"}});
+                   {"core", "plugins/values", "plugins/mcap", "plugins/application_files",
+                    "plugins/parameters", "plugins/scheduling"}});
   rules.push_back({"plugins/web_server", "plugins/web_server", {"core"}});
   rules.push_back(
       {"the tags of the inspector",
@@ -89,8 +84,8 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
        {"core", "plugins/inspector", "plugins/application_files", "plugins/web_server"}});
   rules.push_back({"plugins/inspector",
                    "plugins/inspector",
-                   {"core", "plugins/command_service", "plugins/json_values", "plugins/scheduling",
-                    "plugins/structure", "plugins/watching", "plugins/web_server"}});
+                   {"core", "plugins/command_service", "plugins/values", "plugins/scheduling",
+                    "plugins/structure", "plugins/web_server"}});
   rules.push_back({"plugins/supervision",
                    "plugins/supervision",
                    {"core", "plugins/scheduling", "plugins/structure"}});
@@ -114,7 +109,7 @@ void AddModules(std::vector<IncludeRule>& rules) {
   for (const char* family : {"adaptors", "motion", "planning", "sensors"}) {
     AddFamily(rules, family);
   }
-  AddFamily(rules, "simulation", {"plugins/json_values"});  // the referee's result
+  AddFamily(rules, "simulation", {"plugins/values"});  // the referee's result
   // Worlds made and measured: no modules, and what a world is, the simulation says.
   rules.push_back({"modules/worlds",
                    "modules/worlds",

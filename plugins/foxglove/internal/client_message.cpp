@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/base/nearest_name.h"
-#include "plugins/json_values/json_reader.h"
+#include "plugins/values/json_reader.h"
 
 namespace runnel::internal {
 

@@ -8,8 +8,8 @@
 #include "core/lockfree/thread_epoch.h"
 #include "core/types/type_info.h"
 #include "plugins/command_service/caught_error.h"
-#include "plugins/json_values/json_reader.h"
-#include "plugins/json_values/json_values.h"
+#include "plugins/values/json_reader.h"
+#include "plugins/values/json_values.h"
 
 namespace runnel::internal {
 

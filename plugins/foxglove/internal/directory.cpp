@@ -7,7 +7,7 @@
 #include "core/plugin/module_type_name.h"
 #include "core/port/port.h"
 #include "core/types/type_info.h"
-#include "plugins/foxglove_schemas/foxglove_topics.h"
+#include "plugins/values/foxglove_topics.h"
 
 namespace runnel::internal {
 

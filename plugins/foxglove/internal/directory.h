@@ -14,7 +14,7 @@
 #include "core/element/runtime.h"
 #include "core/port/port.h"
 #include "plugins/command_service/structure_walk.h"
-#include "plugins/foxglove_schemas/foxglove_channel.h"
+#include "plugins/values/foxglove_channel.h"
 
 namespace runnel::internal {
 

@@ -8,7 +8,7 @@
 #include "plugins/foxglove/internal/parameter_values.h"
 #include "plugins/foxglove/internal/send_queue.h"
 #include "plugins/foxglove/internal/server_messages.h"
-#include "plugins/json_values/json_writer.h"
+#include "plugins/values/json_writer.h"
 
 namespace runnel::internal {
 
@@ -118,17 +118,14 @@ std::optional<ParameterHandler::Values> ParameterHandler::Read(
 }
 
 void ParameterHandler::SendValues(const Values& values, const std::optional<std::string>& id) {
-  std::string json;
-  {
-    JsonObject message(json);
+  send_queue_.Send(JsonObjectText([&](JsonObject& message) {
     message.Add("op", "parameterValues");
     {
       JsonArray list(message.Key("parameters"));
       for (const auto& [name, value] : values) list.Next() += value;
     }
     if (id) message.Add("id", *id);
-  }
-  send_queue_.Send(std::move(json));
+  }));
 }
 
 // False if something is still to be answered.

@@ -5,9 +5,9 @@
 
 #include "core/base/exception_text.h"
 #include "core/types/type_of.h"
-#include "plugins/json_values/base64.h"
-#include "plugins/json_values/json_values.h"
-#include "plugins/json_values/json_writer.h"
+#include "plugins/values/base64.h"
+#include "plugins/values/json_values.h"
+#include "plugins/values/json_writer.h"
 
 namespace runnel::internal {
 
@@ -17,15 +17,6 @@ bool IsListOf(const TypeInfo& type, const TypeInfo& element) {
   return type.kind() == TypeKind::kSequence && type.elements().type == &element;
 }
 bool IsBytes(const TypeInfo& type) { return IsListOf(type, TypeOf<std::uint8_t>()); }
-
-std::string BytesIn(const TypeInfo& list, void* value) {
-  std::string bytes;
-  const std::size_t count = list.elements().columns(value);
-  for (std::size_t i = 0; i < count; ++i) {
-    bytes += *static_cast<const char*>(list.elements().element(value, i));
-  }
-  return bytes;
-}
 
 // What the protocol calls it; "" for what has no name there.
 const char* KindOf(const TypeInfo& type) {
@@ -46,9 +37,7 @@ std::string ValueJson(const Configurable& parameter) {
   const std::shared_ptr<void> value = parameter.Value();
   std::string json;
   if (IsBytes(type)) {
-    json += '"';
-    AppendBase64(BytesIn(type, value.get()), json);
-    json += '"';
+    AppendBase64(type, value.get(), json);
     return json;
   }
   if (type.is_transparent()) AppendJson(type, value.get(), json, {.has_infinity = false});
@@ -85,14 +74,10 @@ std::string ParameterJson(const std::string& name, const Configurable& parameter
   } catch (...) {
     AppendJsonString("(" + DescribeException() + ")", value);
   }
-  std::string json;
-  {
-    JsonObject object(json);
-    object.Add("name", name);
-    object.AddJson("value", value);
+  return JsonObjectText([&](JsonObject& object) {
+    object.Add("name", name).AddJson("value", value);
     if (*kind != '\0') object.Add("type", kind);
-  }
-  return json;
+  });
 }
 
 Result<SetParameter> SettingOf(const SetParametersMessage::Item& item, const std::string& path,

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "plugins/foxglove/internal/foxglove_shared.h"
-#include "plugins/json_values/json_writer.h"
+#include "plugins/values/json_writer.h"
 
 namespace runnel::internal {
 
@@ -33,11 +33,8 @@ void AddTopics(JsonObject& message, const char* field, const char* ids,
 
 std::string ServerInfoMessage(const FoxgloveShared& shared) {
   const bool is_read_only = shared.application.is_read_only;
-  std::string json;
-  {
-    JsonObject message(json);
-    message.Add("op", "serverInfo");
-    message.Add("name", shared.application.name);
+  return JsonObjectText([&](JsonObject& message) {
+    message.Add("op", "serverInfo").Add("name", shared.application.name);
     {
       JsonArray capabilities(message.Key("capabilities"));
       for (const char* each : {"time", "parameters", "parametersSubscribe", "connectionGraph"}) {
@@ -46,54 +43,34 @@ std::string ServerInfoMessage(const FoxgloveShared& shared) {
       if (!is_read_only) capabilities.Add("clientPublish");
     }
     if (!is_read_only) message.AddJson("supportedEncodings", R"(["json"])");
-    {
-      JsonObject metadata(message.Key("metadata"));
-      metadata.Add("runnel", shared.application.version);
-    }
+    JsonObject(message.Key("metadata")).Add("runnel", shared.application.version);
     message.Add("sessionId", shared.session);
-  }
-  return json;
+  });
 }
 
 std::string StatusMessage(StatusLevel level, std::string_view text) {
-  std::string json;
-  {
-    JsonObject message(json);
-    message.Add("op", "status");
-    message.Add("level", static_cast<int>(level));
-    message.Add("message", text);
-  }
-  return json;
+  return JsonObjectText([&](JsonObject& message) {
+    message.Add("op", "status").Add("level", static_cast<int>(level)).Add("message", text);
+  });
 }
 
 std::string AdvertiseMessageFor(std::span<const DirectoryChannel* const> channels) {
-  std::string json;
-  {
-    JsonObject message(json);
-    message.Add("op", "advertise");
-    JsonArray list(message.Key("channels"));
+  return JsonObjectText([&](JsonObject& message) {
+    JsonArray list(message.Add("op", "advertise").Key("channels"));
     for (const DirectoryChannel* each : channels) {
       JsonObject channel(list.Next());
-      channel.Add("id", each->id);
-      channel.Add("topic", each->topic);
-      channel.Add("encoding", "json");
+      channel.Add("id", each->id).Add("topic", each->topic).Add("encoding", "json");
       channel.Add("schemaName", each->encoding->schema_name);
-      channel.Add("schema", each->encoding->schema);
-      channel.Add("schemaEncoding", "jsonschema");
+      channel.Add("schema", each->encoding->schema).Add("schemaEncoding", "jsonschema");
     }
-  }
-  return json;
+  });
 }
 
 std::string UnadvertiseMessageFor(std::span<const std::uint32_t> ids) {
-  std::string json;
-  {
-    JsonObject message(json);
-    message.Add("op", "unadvertise");
-    JsonArray list(message.Key("channelIds"));
+  return JsonObjectText([&](JsonObject& message) {
+    JsonArray list(message.Add("op", "unadvertise").Key("channelIds"));
     for (const std::uint32_t id : ids) AppendJsonNumber(std::uint64_t{id}, list.Next());
-  }
-  return json;
+  });
 }
 
 std::string GraphMessage(const std::map<std::string, GraphTopic>& before,
@@ -105,9 +82,7 @@ std::string GraphMessage(const std::map<std::string, GraphTopic>& before,
     published[name] = &topic.publishers;
     subscribed[name] = &topic.subscribers;
   }
-  std::string json;
-  {
-    JsonObject message(json);
+  return JsonObjectText([&](JsonObject& message) {
     message.Add("op", "connectionGraphUpdate");
     AddTopics(message, "publishedTopics", "publisherIds", published);
     AddTopics(message, "subscribedTopics", "subscriberIds", subscribed);
@@ -119,8 +94,7 @@ std::string GraphMessage(const std::map<std::string, GraphTopic>& before,
       }
     }
     message.AddJson("removedServices", "[]");
-  }
-  return json;
+  });
 }
 
 void AppendMessageHead(std::uint32_t subscription, Time timestamp, std::string& bytes) {

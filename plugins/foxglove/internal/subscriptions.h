@@ -9,7 +9,7 @@
 
 #include "plugins/foxglove/internal/client_message.h"
 #include "plugins/foxglove/internal/directory.h"
-#include "plugins/watching/watched_port.h"
+#include "plugins/values/watched_port.h"
 #include "plugins/web_server/web_session.h"
 
 namespace runnel::internal {

@@ -10,7 +10,7 @@
 #include "core/port/port.h"
 #include "core/types/type_info.h"
 #include "plugins/inspector/element_json.h"
-#include "plugins/inspector/internal/json_parts.h"
+#include "plugins/values/json_writer.h"
 
 namespace runnel::internal {
 
@@ -36,17 +36,14 @@ const char* KindName(TypeKind kind) {
 
 void AppendField(const FieldInfo& field, std::string& text) {
   JsonObject object(text);
-  object.Add("name", field.name);
-  object.Add("type", field.type->name());
-  object.Add("unit", field.unit);
-  object.Add("description", field.description);
+  object.Add("name", field.name).Add("type", field.type->name());
+  object.Add("unit", field.unit).Add("description", field.description);
 }
 
 void AppendType(const TypeInfo* type, std::string& text) {
   JsonObject json(text);
-  json.Add("name", type->name());
-  json.Add("kind", KindName(type->kind()));
-  AddTextOrNull("meaning", type->semantic_tag(), json);
+  json.Add("name", type->name()).Add("kind", KindName(type->kind()));
+  json.AddTextOrNull("meaning", type->semantic_tag());
   if (type->kind() == TypeKind::kStructure) {
     AppendList(type->fields(), json.Key("fields"), AppendField);
   }
@@ -64,8 +61,7 @@ void AppendPort(const Port* port, std::string& text) {
   JsonObject object(text);
   object.Add("name", port->name());
   object.Add("direction", port->direction() == Port::Direction::kInput ? "input" : "output");
-  object.Add("type", port->type().name());
-  object.Add("required", port->is_required());
+  object.Add("type", port->type().name()).Add("required", port->is_required());
   object.Add("description", port->description());
 }
 
@@ -77,12 +73,9 @@ struct ParameterOfType {
 void AppendParameter(const ParameterOfType& each, std::string& text) {
   const ConfigurableInfo& info = each.parameter->info();
   JsonObject object(text);
-  object.Add("name", each.name);
-  object.Add("type", each.parameter->type().name());
-  object.Add("unit", info.unit);
-  object.Add("default", info.default_value);
-  AddNumberOrNull("minimum", info.minimum, object);
-  AddNumberOrNull("maximum", info.maximum, object);
+  object.Add("name", each.name).Add("type", each.parameter->type().name());
+  object.Add("unit", info.unit).Add("default", info.default_value);
+  object.AddOrNull("minimum", info.minimum).AddOrNull("maximum", info.maximum);
   object.Add("description", info.description);
 }
 
@@ -108,9 +101,7 @@ CatalogueItem Describe(const ModuleType& type, const Result<UnlistedElement>& mo
     });
   }
   JsonObject json(item.json);
-  json.Add("type", type.name);
-  json.Add("summary", type.summary);
-  json.Add("plugin", type.plugin);
+  json.Add("type", type.name).Add("summary", type.summary).Add("plugin", type.plugin);
   AppendList(ports, json.Key("ports"), AppendPort);
   AppendList(parameters, json.Key("parameters"), AppendParameter);
   if (!module) json.Add("problem", module.error().ToString());
@@ -214,8 +205,7 @@ Result<std::string> CompatibleTypes(Runtime& runtime, const Catalogue& catalogue
   std::string text;
   AppendList(candidates, text, [](const Candidate& each, std::string& to) {
     JsonObject json(to);
-    json.Add("type", each.item->type);
-    json.Add("summary", each.item->summary);
+    json.Add("type", each.item->type).Add("summary", each.item->summary);
     AppendList(each.lost, json.Key("lost"), AppendJsonString);
   });
   return text;

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "core/base/result.h"
-#include "plugins/json_values/json_reader.h"
 #include "plugins/structure/change.h"
+#include "plugins/values/json_reader.h"
 
 namespace runnel::internal {
 

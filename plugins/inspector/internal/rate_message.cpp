@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "plugins/inspector/internal/json_parts.h"
+#include "plugins/values/json_writer.h"
 
 namespace runnel::internal {
 
@@ -25,9 +25,9 @@ void AppendThread(const CycleStatistics& statistics, std::string& text) {
   json.Add("period_ms", Milliseconds(statistics.period_mean));
   json.Add("jitter_ms", Milliseconds(statistics.jitter_mean));
   json.Add("overruns", statistics.overruns);
-  JsonObject duration(json.Key("duration_ms"));
-  duration.Add("mean", Milliseconds(statistics.execution_mean));
-  duration.Add("max", Milliseconds(statistics.execution_max));
+  JsonObject(json.Key("duration_ms"))
+      .Add("mean", Milliseconds(statistics.execution_mean))
+      .Add("max", Milliseconds(statistics.execution_max));
 }
 
 void AppendPorts(const CountSample& before, const CountSample& now, std::vector<double>& told,
@@ -61,16 +61,12 @@ void AppendThreads(const CountSample& before, const CountSample& now, std::strin
 
 std::string RateMessage(const CountSample& before, const CountSample& now, double time,
                         std::vector<double>& told) {
-  std::string text;
-  {
-    JsonObject json(text);
-    json.Add("op", "rates");
-    json.Add("time", time);
+  return JsonObjectText([&](JsonObject& json) {
+    json.Add("op", "rates").Add("time", time);
     AppendPorts(before, now, told, json.Key("ports"));
     AppendThreads(before, now, json.Key("threads"));
     json.AddJson("modules", "{}");
-  }
-  return text;
+  });
 }
 
 }  // namespace runnel::internal

@@ -6,7 +6,7 @@
 #include <utility>
 #include <variant>
 
-#include "plugins/inspector/internal/json_parts.h"
+#include "plugins/values/json_writer.h"
 
 namespace runnel::internal {
 
@@ -17,23 +17,13 @@ constexpr std::size_t kMostErrors = 100;
 void AppendError(const RequestError& each, std::string& text) {
   JsonObject json(text);
   json.Add("message", each.error.message);
-  AddTextOrNull("path", each.error.path, json);
-  AddTextOrNull("hint", each.error.hint, json);
-  if (each.change) {
-    json.Add("change", *each.change);
-  } else {
-    AddNull("change", json);
-  }
+  json.AddTextOrNull("path", each.error.path);
+  json.AddTextOrNull("hint", each.error.hint);
+  json.AddOrNull("change", each.change);
 }
 
 void AddHead(std::optional<std::uint64_t> request, bool is_ok, JsonObject& json) {
-  json.Add("op", "reply");
-  if (request) {
-    json.Add("request", *request);
-  } else {
-    AddNull("request", json);
-  }
-  json.Add("ok", is_ok);
+  json.Add("op", "reply").AddOrNull("request", request).Add("ok", is_ok);
 }
 
 bool IsOneOf(std::string_view word, std::initializer_list<std::string_view> words) {
@@ -98,13 +88,10 @@ std::string FindCompatible(Inspection& inspection, const ViewerMessage& message)
   }
   const auto types = CompatibleTypes(inspection.application().runtime, *catalogue, message.path);
   if (!types) return Refusal(message.request, {{types.error()}});
-  std::string text;
-  {
-    JsonObject json(text);
+  return JsonObjectText([&](JsonObject& json) {
     AddHead(message.request, true, json);
     json.AddJson("types", *types);
-  }
-  return text;
+  });
 }
 
 std::string SetPace(Inspection& inspection, const ViewerMessage& message) {
@@ -128,23 +115,17 @@ std::string SetPace(Inspection& inspection, const ViewerMessage& message) {
 }  // namespace
 
 std::string Reply(std::optional<std::uint64_t> request, const std::string& text) {
-  std::string reply;
-  {
-    JsonObject json(reply);
+  return JsonObjectText([&](JsonObject& json) {
     AddHead(request, true, json);
     json.Add("text", text);
-  }
-  return reply;
+  });
 }
 
 std::string Refusal(std::optional<std::uint64_t> request, const std::vector<RequestError>& errors) {
-  std::string reply;
-  {
-    JsonObject json(reply);
+  return JsonObjectText([&](JsonObject& json) {
     AddHead(request, false, json);
     AppendList(errors, json.Key("errors"), AppendError);
-  }
-  return reply;
+  });
 }
 
 const std::vector<std::string>& AllOperations() {

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "plugins/inspector/internal/change_message.h"
-#include "plugins/json_values/json_reader.h"
+#include "plugins/values/json_reader.h"
 
 namespace runnel::internal {
 

@@ -9,10 +9,10 @@
 #include "core/lockfree/thread_epoch.h"
 #include "core/types/type_info.h"
 #include "plugins/command_service/caught_error.h"
-#include "plugins/inspector/internal/json_parts.h"
 #include "plugins/inspector/internal/rate_message.h"
-#include "plugins/json_values/json_values.h"
 #include "plugins/structure/change_history.h"
+#include "plugins/values/json_values.h"
+#include "plugins/values/json_writer.h"
 
 namespace runnel::internal {
 
@@ -48,19 +48,12 @@ void ViewerSession::SendHello() {
   const InspectorOptions& options = inspection_.options();
   const bool is_simulated =
       inspection_.scheduler().options().clock == SchedulerOptions::ClockKind::kSimulated;
-  std::string text;
-  {
-    JsonObject json(text);
-    json.Add("op", "hello");
-    json.Add("protocol", 1);
-    json.Add("application", options.application);
-    json.Add("file", options.file);
-    json.Add("run", inspection_.run());
-    json.Add("clock", is_simulated ? "simulated" : "real");
-    json.Add("read_only", options.is_read_only);
-    json.Add("runnel", options.version);
-  }
-  client_.SendText(std::move(text));
+  client_.SendText(JsonObjectText([&](JsonObject& json) {
+    json.Add("op", "hello").Add("protocol", 1);
+    json.Add("application", options.application).Add("file", options.file);
+    json.Add("run", inspection_.run()).Add("clock", is_simulated ? "simulated" : "real");
+    json.Add("read_only", options.is_read_only).Add("runnel", options.version);
+  }));
 }
 
 WebSession::SteadyTime ViewerSession::OnPoll() {
@@ -113,18 +106,15 @@ void ViewerSession::SendState(SteadyTime now) {
   const Pace& pace = inspection_.scheduler().pace();
   const Duration time = inspection_.running_for();
   const auto verdict = inspection_.verdict();
-  std::string state;
-  {
-    JsonObject json(state);
+  std::string state = JsonObjectText([&](JsonObject& json) {
     json.Add("paused", pace.is_paused());
-    AddNumberOrNull("speed", pace.is_simulated() ? std::optional(pace.speed()) : std::nullopt,
-                    json);
-    AddTextOrNull("undo", NextStep(&ChangeHistory::NextUndo), json);
-    AddTextOrNull("redo", NextStep(&ChangeHistory::NextRedo), json);
+    json.AddOrNull("speed", pace.is_simulated() ? std::optional(pace.speed()) : std::nullopt);
+    json.AddTextOrNull("undo", NextStep(&ChangeHistory::NextUndo));
+    json.AddTextOrNull("redo", NextStep(&ChangeHistory::NextRedo));
     json.Add("faults", inspection_.application().log.faults());
     json.Add("ended", verdict.has_value());
-    AddTextOrNull("verdict", verdict.value_or(""), json);
-  }
+    json.AddTextOrNull("verdict", verdict.value_or(""));
+  });
   if (state == state_ && (time == state_time_)) return;
   if (state == state_) state_due_ = now + kTimeAlone;
   std::string text = "{\"op\":\"state\",\"time\":";
@@ -154,19 +144,14 @@ void ViewerSession::SendLog() {
   }
   if (log.end() <= *log_) return;
   const ApplicationLog::Entries read = log.ReadEntries(*log_, kMostLogEntries);
-  std::string text;
-  {
-    JsonObject json(text);
-    json.Add("op", "log");
-    AppendList(read.entries, json.Key("entries"),
+  std::string text = JsonObjectText([&](JsonObject& json) {
+    AppendList(read.entries, json.Add("op", "log").Key("entries"),
                [](const ApplicationLog::Entry& each, std::string& to) {
                  JsonObject object(to);
-                 object.Add("number", each.number);
-                 object.Add("time", ToSeconds(each.time));
-                 object.Add("kind", ApplicationLog::KindName(each.kind));
-                 object.Add("text", each.text);
+                 object.Add("number", each.number).Add("time", ToSeconds(each.time));
+                 object.Add("kind", ApplicationLog::KindName(each.kind)).Add("text", each.text);
                });
-  }
+  });
   if (client_.SendText(std::move(text))) log_ = read.next;
 }
 

@@ -10,7 +10,7 @@
 #include "plugins/inspector/internal/inspection.h"
 #include "plugins/inspector/internal/requests.h"
 #include "plugins/inspector/internal/viewer_message.h"
-#include "plugins/watching/watched_port.h"
+#include "plugins/values/watched_port.h"
 #include "plugins/web_server/web_session.h"
 
 namespace runnel::internal {

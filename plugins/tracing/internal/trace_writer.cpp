@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "plugins/json_values/json_writer.h"
+#include "plugins/values/json_writer.h"
 
 namespace runnel::internal {
 

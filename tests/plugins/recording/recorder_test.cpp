@@ -9,8 +9,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "plugins/json_values/json_values.h"
 #include "plugins/recording/recording_names.h"
+#include "plugins/values/json_values.h"
 #include "tests/plugins/recording/recording_fixture.h"
 #include "tests/support/wait_until.h"
 

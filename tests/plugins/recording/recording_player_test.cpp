@@ -1,6 +1,6 @@
 #include "plugins/recording/recording_player.h"
 
-#include "plugins/json_values/json_values.h"
+#include "plugins/values/json_values.h"
 #include "tests/plugins/recording/recording_fixture.h"
 
 namespace runnel::test {

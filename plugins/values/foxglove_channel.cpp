@@ -1,0 +1,98 @@
+#include "plugins/values/foxglove_channel.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/types/type_info.h"
+#include "plugins/values/internal/drawing.h"
+#include "plugins/values/json_values.h"
+#include "plugins/values/json_writer.h"
+
+namespace runnel {
+
+namespace {
+
+using internal::Drawing;
+
+constexpr std::array<const Drawing*, 7> kDrawings{
+    &internal::kPoseDrawing,    &internal::kPathDrawing,  &internal::kRangeScanDrawing,
+    &internal::kImageDrawing,   &internal::kPointDrawing, &internal::kHitAndLeavePointsDrawing,
+    &internal::kWorldMapDrawing};
+
+bool IsList(const TypeInfo& type) {
+  return type.kind() == TypeKind::kSequence || type.kind() == TypeKind::kMatrix;
+}
+
+// Foxglove refuses a channel whose schema has lists of lists, and reads it well without a schema.
+bool HasListsOfLists(const TypeInfo& type, std::vector<const TypeInfo*>& open) {
+  if (type.kind() == TypeKind::kMatrix) return true;
+  if (std::ranges::find(open, &type) != open.end()) return false;
+  open.push_back(&type);
+  bool has = false;
+  if (type.kind() == TypeKind::kSequence) {
+    const TypeInfo& element = *type.elements().type;
+    has = IsList(element) || HasListsOfLists(element, open);
+  }
+  for (const FieldInfo& field : type.fields()) has = has || HasListsOfLists(*field.type, open);
+  open.pop_back();
+  return has;
+}
+
+// Messages are objects; what is none is put into one.
+std::string WrappedSchema(const TypeInfo& type) {
+  return JsonObjectText([&](JsonObject& schema) {
+    schema.Add("type", "object").Add("title", type.name());
+    JsonObject(schema.Key("properties")).AddJson("value", JsonSchemaOf(type));
+    schema.AddJson("required", R"(["value"])");
+  });
+}
+
+FoxgloveChannel PlainChannel(const TypeInfo& type, std::string_view topic,
+                             const FoxgloveOptions& options) {
+  const bool is_object = type.kind() == TypeKind::kStructure;
+  std::vector<const TypeInfo*> open;
+  FoxgloveChannel channel{std::string(topic), type.name(), "", {}};
+  if (!HasListsOfLists(type, open)) {
+    channel.schema = is_object ? JsonSchemaOf(type) : WrappedSchema(type);
+  }
+  channel.append = [&type, is_object, limits = JsonLimits{.has_infinity = options.has_infinity}](
+                       const void* value, Time, std::string& json) {
+    if (!is_object) json += "{\"value\":";
+    AppendJson(type, value, json, limits);
+    if (!is_object) json += '}';
+  };
+  return channel;
+}
+
+FoxgloveChannel DrawnChannel(const Drawing& drawing, const TypeInfo& type, std::string topic,
+                             const FoxgloveOptions& options) {
+  return {std::move(topic), std::string("foxglove.").append(drawing.schema),
+          internal::FoxgloveSchema(drawing.schema),
+          [&type, append = drawing.append, options](const void* value, Time timestamp,
+                                                    std::string& json) {
+            append({type, value}, {timestamp, options}, json);
+          }};
+}
+
+}  // namespace
+
+std::vector<FoxgloveChannel> ChannelsFor(const TypeInfo& type, std::string_view topic,
+                                         const FoxgloveOptions& options) {
+  std::vector<FoxgloveChannel> channels;
+  if (!type.is_transparent()) return channels;
+  channels.push_back(PlainChannel(type, topic, options));
+  for (const Drawing* drawing : kDrawings) {
+    if (drawing->tag != type.semantic_tag() || !drawing->fits(type)) continue;
+    channels.push_back(DrawnChannel(*drawing, type, std::string(topic) + "/foxglove", options));
+  }
+  return channels;
+}
+
+std::optional<FoxgloveChannel> TransformChannelFor(const TypeInfo& type,
+                                                   const FoxgloveOptions& options) {
+  const Drawing& drawing = internal::kTransformDrawing;
+  if (drawing.tag != type.semantic_tag() || !drawing.fits(type)) return std::nullopt;
+  return DrawnChannel(drawing, type, "/tf", options);
+}
+
+}  // namespace runnel

@@ -1,0 +1,231 @@
+#include <string_view>
+#include <vector>
+
+#include "core/types/type_of.h"
+#include "plugins/values/internal/drawing.h"
+#include "plugins/values/internal/message_parts.h"
+#include "plugins/values/internal/triangulation.h"
+
+namespace runnel::internal {
+
+namespace {
+
+constexpr Colour kGoal{0.13, 0.60, 0.33};
+constexpr Colour kStart{0.35, 0.40, 0.48};
+constexpr Colour kHit{0.84, 0.22, 0.20};
+constexpr Colour kLeave{0.13, 0.44, 0.85};
+constexpr Colour kWall{0.62, 0.67, 0.74, 0.9};
+constexpr Colour kEdge{0.36, 0.41, 0.49};
+constexpr Colour kBounds{0.80, 0.55, 0.20};
+
+constexpr double kBall = 0.2;        // m across
+constexpr double kLineWidth = 0.02;  // m
+constexpr double kTextHeight = 0.2;  // m
+
+/// The things that are drawn. A later one of the same id takes its place.
+class Scene {
+ public:
+  Scene(std::string& json, const DrawnAt& at)
+      : at_(at), update_(json), entities_(update_.AddJson("deletions", "[]").Key("entities")) {}
+
+  /// `fill` adds to a thing what it is made of.
+  template <typename Fill>
+  void Add(std::string_view id, const Fill& fill) {
+    JsonObject entity(entities_.Next());
+    AppendTime(at_.timestamp, entity.Key("timestamp"));
+    entity.Add("frame_id", at_.options.world_frame).Add("id", id);
+    entity.AddJson("lifetime", R"({"sec":0,"nsec":0})");  // until it is replaced
+    entity.Add("frame_locked", true).AddJson("metadata", "[]");
+    fill(entity);
+  }
+
+ private:
+  const DrawnAt& at_;
+  JsonObject update_;
+  JsonArray entities_;
+};
+
+void AppendBall(const Place& place, const Colour& colour, std::string& json) {
+  JsonObject ball(json);
+  AppendPose({place, 0.0}, ball.Key("pose"));
+  AppendVector({kBall, kBall, kBall}, ball.Key("size"));
+  AppendColour(colour, ball.Key("color"));
+}
+
+void AppendLabel(const Place& place, const std::string& text, const Colour& colour,
+                 std::string& json) {
+  JsonObject label(json);
+  AppendPose({{place.x, place.y, place.z + kBall}, 0.0}, label.Key("pose"));
+  label.Add("billboard", true).Add("font_size", kTextHeight).Add("scale_invariant", false);
+  AppendColour(colour, label.Key("color"));
+  label.Add("text", text);
+}
+
+// A closed line, `height` above where its points are.
+void AppendRing(const ValueView& points, double height, const Colour& colour, std::string& json) {
+  JsonObject line(json);
+  line.Add("type", 1);  // LINE_LOOP
+  AppendPose({}, line.Key("pose"));
+  line.Add("thickness", kLineWidth).Add("scale_invariant", false);
+  {
+    JsonArray list(line.Key("points"));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      Place place = PlaceOf(points[i]);
+      place.z += height;
+      AppendVector(place, list.Next());
+    }
+  }
+  AppendColour(colour, line.Key("color"));
+  line.AddJson("colors", "[]").AddJson("indices", "[]");
+}
+
+double HeightOf(const ValueView& outline) {
+  return HasNumbers(outline.type(), {"height"}) ? outline.Field("height").number() : 0.0;
+}
+
+// For each outline the lines on the ground, and those at its top.
+void AppendLines(const ValueView& map, std::string& json) {
+  JsonArray lines(json);
+  const ValueView outlines = map.Field("outlines");
+  for (std::size_t i = 0; i < outlines.size(); ++i) {
+    const ValueView points = outlines[i].Field("points");
+    AppendRing(points, 0.0, kEdge, lines.Next());
+    const double height = HeightOf(outlines[i]);
+    if (height > 0) AppendRing(points, height, kEdge, lines.Next());
+  }
+  if (HasPlaces(map.type(), "bounds") && map.Field("bounds").size() > 0) {
+    AppendRing(map.Field("bounds"), 0.0, kBounds, lines.Next());
+  }
+}
+
+// What has holes is left open at its top.
+bool HasTop(const ValueView& outlines, std::size_t outline) {
+  const auto is_hole = [&](std::size_t at) {
+    if (at >= outlines.size()) return false;
+    const FieldInfo* const field = outlines[at].type().FindField("is_hole");
+    return field != nullptr && field->type == &TypeOf<bool>() &&
+           *static_cast<const bool*>(outlines[at].Field("is_hole").value());
+  };
+  return !is_hole(outline) && !is_hole(outline + 1);
+}
+
+// The upright sides of all outlines, and their tops, as one list of triangles: each point of an outline has one on the
+// ground and one at the top, and two triangles join it to the next.
+void AppendSides(const ValueView& map, std::string& json) {
+  JsonArray lists(json);
+  JsonObject triangles(lists.Next());
+  AppendPose({}, triangles.Key("pose"));
+  std::string corners;
+  {
+    JsonArray points(triangles.Key("points"));
+    JsonArray indices(corners);
+    std::size_t first = 0;
+    const ValueView outlines = map.Field("outlines");
+    for (std::size_t i = 0; i < outlines.size(); ++i) {
+      const double height = HeightOf(outlines[i]);
+      const ValueView places = outlines[i].Field("points");
+      const std::size_t count = places.size();
+      std::vector<Place> ring;
+      for (std::size_t k = 0; k < count; ++k) {
+        Place place = PlaceOf(places[k]);
+        ring.push_back(place);
+        AppendVector(place, points.Next());
+        place.z += height;
+        AppendVector(place, points.Next());
+        const std::size_t here = first + 2 * k, next = first + 2 * ((k + 1) % count);
+        for (const std::size_t index : {here, next, here + 1, here + 1, next, next + 1}) {
+          AppendJsonNumber(std::uint64_t{index}, indices.Next());
+        }
+      }
+      if (!HasTop(outlines, i)) ring.clear();
+      for (const auto& triangle : TrianglesOf(ring)) {
+        for (const std::size_t corner : triangle) {
+          AppendJsonNumber(std::uint64_t{first + 2 * corner + 1}, indices.Next());
+        }
+      }
+      first += 2 * count;
+    }
+  }
+  AppendColour(kWall, triangles.Key("color"));
+  triangles.AddJson("colors", "[]").AddJson("indices", corners);
+}
+
+void AppendStart(const PlaceAndHeading& start, std::string& json) {
+  JsonArray arrows(json);
+  JsonObject arrow(arrows.Next());
+  AppendPose(start, arrow.Key("pose"));
+  arrow.Add("shaft_length", 0.25).Add("shaft_diameter", 0.05);
+  arrow.Add("head_length", 0.12).Add("head_diameter", 0.12);
+  AppendColour(kStart, arrow.Key("color"));
+}
+
+void AddGoal(Scene& scene, std::string_view id, const ValueView& goal) {
+  scene.Add(id, [&](JsonObject& entity) {
+    JsonArray balls(entity.Key("spheres"));
+    AppendBall(PlaceOf(goal), kGoal, balls.Next());
+  });
+}
+
+void AddNumbered(Scene& scene, const ValueView& places, const std::string& name,
+                 const Colour& colour) {
+  scene.Add(name, [&](JsonObject& entity) {
+    {
+      JsonArray balls(entity.Key("spheres"));
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        AppendBall(PlaceOf(places[i]), colour, balls.Next());
+      }
+    }
+    JsonArray labels(entity.Key("texts"));
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      AppendLabel(PlaceOf(places[i]), name + " " + std::to_string(i + 1), colour, labels.Next());
+    }
+  });
+}
+
+bool HasHitsAndLeaves(const TypeInfo& type) {
+  return HasPlaces(type, "hits") && HasPlaces(type, "leaves");
+}
+
+// Of what else a map may have, nothing is drawn if it is not there.
+bool HasOutlines(const TypeInfo& type) {
+  const TypeInfo* const outline = ElementsOf(type, "outlines");
+  return outline != nullptr && HasPlaces(*outline, "points");
+}
+
+void AppendPoint(const ValueView& point, const DrawnAt& at, std::string& json) {
+  Scene scene(json, at);
+  AddGoal(scene, "point", point);
+}
+
+void AppendHitAndLeavePoints(const ValueView& points, const DrawnAt& at, std::string& json) {
+  Scene scene(json, at);
+  AddNumbered(scene, points.Field("hits"), "hit", kHit);
+  AddNumbered(scene, points.Field("leaves"), "leave", kLeave);
+}
+
+void AppendWorldMap(const ValueView& map, const DrawnAt& at, std::string& json) {
+  const auto has = [&](std::string_view name, bool (*fits)(const TypeInfo& type)) {
+    const FieldInfo* const field = map.type().FindField(name);
+    return field != nullptr && fits(*field->type);
+  };
+  Scene scene(json, at);
+  scene.Add("obstacles", [&](JsonObject& entity) {
+    AppendLines(map, entity.Key("lines"));
+    AppendSides(map, entity.Key("triangles"));
+  });
+  if (has("start", IsPose)) {
+    scene.Add("start", [&](JsonObject& entity) {
+      AppendStart(PoseOf(map.Field("start")), entity.Key("arrows"));
+    });
+  }
+  if (has("goal", IsPlace)) AddGoal(scene, "goal", map.Field("goal"));
+}
+
+}  // namespace
+
+const Drawing kPointDrawing{"point", "SceneUpdate", IsPlace, AppendPoint};
+const Drawing kHitAndLeavePointsDrawing{"hit_and_leave_points", "SceneUpdate", HasHitsAndLeaves,
+                                        AppendHitAndLeavePoints};
+const Drawing kWorldMapDrawing{"world_map", "SceneUpdate", HasOutlines, AppendWorldMap};
+
+}  // namespace runnel::internal

@@ -1,0 +1,154 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <concepts>
+
+#include "core/base/characters.h"
+#include "core/base/clock.h"
+#include "core/types/type_info.h"
+#include "plugins/values/internal/leaf_types.h"
+#include "plugins/values/json_values.h"
+#include "plugins/values/json_writer.h"
+
+namespace runnel {
+
+namespace {
+
+template <typename T>
+const T& As(const void* value) {
+  return *static_cast<const T*>(value);
+}
+
+// Descriptions hand out addresses to write to; here they are only looked at.
+void* ForLooking(const void* value) { return const_cast<void*>(value); }
+
+class ValueWriter {
+ public:
+  ValueWriter(std::string& json, const JsonLimits& limits)
+      : json_(json),
+        limits_(limits),
+        end_(limits.bytes > JsonLimits::kNone - json.size() ? JsonLimits::kNone
+                                                            : json.size() + limits.bytes) {}
+
+  [[nodiscard]] bool is_whole() const noexcept { return is_whole_; }
+
+  void Write(const TypeInfo& type, const void* value) {
+    switch (type.kind()) {
+      case TypeKind::kOpaque:
+        json_ += "null";
+        return;
+      case TypeKind::kLeaf:
+        return WriteLeaf(type, value);
+      case TypeKind::kEnumeration:
+        return WriteEnumeration(type, value);
+      case TypeKind::kStructure:
+        return WriteStructure(type, value);
+      case TypeKind::kSequence:
+        return WriteRow(type, value, 0);
+      case TypeKind::kMatrix:
+        return WriteMatrix(type, value);
+    }
+  }
+
+ private:
+  [[nodiscard]] bool IsFull() const noexcept { return json_.size() >= end_; }
+
+  void WriteLeaf(const TypeInfo& type, const void* value) {
+    WithLeafType(type, [&]<typename T>(std::type_identity<T>) {
+      if constexpr (std::same_as<T, bool>) {
+        json_ += As<bool>(value) ? "true" : "false";
+      } else if constexpr (std::signed_integral<T>) {
+        AppendJsonNumber(std::int64_t{As<T>(value)}, json_);
+      } else if constexpr (std::unsigned_integral<T>) {
+        AppendJsonNumber(std::uint64_t{As<T>(value)}, json_);
+      } else if constexpr (std::floating_point<T>) {
+        WriteFloating(As<T>(value));
+      } else if constexpr (std::same_as<T, std::string>) {
+        WriteText(As<std::string>(value));
+      } else if constexpr (std::same_as<T, Duration>) {
+        WriteSeconds(As<Duration>(value));
+      } else if constexpr (std::same_as<T, Time>) {
+        WriteSeconds(As<Time>(value).time_since_epoch());
+      } else {
+        WriteText(type.leaf().to_text(value));
+      }
+    });
+  }
+
+  template <typename N>
+  void WriteFloating(N number) {
+    if (std::isinf(number) && !limits_.has_infinity) {
+      json_ += "null";
+    } else {
+      AppendJsonNumber(number, json_);
+    }
+  }
+
+  void WriteText(std::string_view text) {
+    const std::size_t most = IsFull() ? 0 : std::min(limits_.characters, end_ - json_.size());
+    if (text.size() <= most) return AppendJsonString(text, json_);
+    is_whole_ = false;
+    AppendJsonString(Shortened(std::string(text.substr(0, most + 1)), most), json_);
+  }
+
+  void WriteSeconds(Duration duration) {
+    const auto seconds = std::chrono::floor<std::chrono::seconds>(duration);
+    JsonObject(json_).Add("sec", seconds.count()).Add("nsec", (duration - seconds).count());
+  }
+
+  void WriteEnumeration(const TypeInfo& type, const void* value) {
+    const std::int64_t number = type.enumeration().get(value);
+    const auto named = std::ranges::find(type.enumerators(), number, &EnumeratorInfo::value);
+    if (named == type.enumerators().end()) return AppendJsonNumber(number, json_);
+    AppendJsonString(named->name, json_);
+  }
+
+  void WriteStructure(const TypeInfo& type, const void* value) {
+    JsonObject object(json_);
+    for (const FieldInfo& field : type.fields()) {
+      object.Key(field.name);
+      Write(*field.type, field.address(ForLooking(value)));
+    }
+  }
+
+  void WriteRow(const TypeInfo& type, const void* value, std::size_t row) {
+    const ElementOperations& elements = type.elements();
+    const std::size_t columns = elements.columns(value);
+    const std::size_t shown = std::min(columns, limits_.elements);
+    std::size_t i = 0;
+    JsonArray list(json_);
+    for (; i < shown && !IsFull(); ++i) {
+      list.Next();
+      Write(*elements.type, elements.element(ForLooking(value), row * columns + i));
+    }
+    if (i < columns) is_whole_ = false;
+  }
+
+  void WriteMatrix(const TypeInfo& type, const void* value) {
+    const std::size_t rows = type.elements().rows(value);
+    const std::size_t shown = std::min(rows, limits_.elements);
+    std::size_t row = 0;
+    JsonArray list(json_);
+    for (; row < shown && !IsFull(); ++row) {
+      list.Next();
+      WriteRow(type, value, row);
+    }
+    if (row < rows) is_whole_ = false;
+  }
+
+  std::string& json_;
+  const JsonLimits& limits_;
+  const std::size_t end_;
+  bool is_whole_ = true;
+};
+
+}  // namespace
+
+bool AppendJson(const TypeInfo& type, const void* value, std::string& json,
+                const JsonLimits& limits) {
+  ValueWriter writer(json, limits);
+  writer.Write(type, value);
+  return writer.is_whole();
+}
+
+}  // namespace runnel

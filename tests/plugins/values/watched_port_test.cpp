@@ -1,0 +1,96 @@
+#include "plugins/values/watched_port.h"
+
+#include <gmock/gmock.h>
+
+#include "core/lockfree/thread_epoch.h"
+#include "core/module/group.h"
+#include "core/module/module.h"
+#include "core/port/input.h"
+#include "core/port/output.h"
+#include "core/port/proxy_port.h"
+
+namespace runnel::test {
+
+namespace {
+
+using ::testing::HasSubstr;
+
+class Source final : public Module {
+ public:
+  using Module::Module;
+  Output<int> out{this, "out"};
+
+ private:
+  void Update() override {}
+};
+
+class WatchedPortTest : public ::testing::Test {
+ protected:
+  /// What is shown; nothing if it is not new.
+  std::optional<int> Look(WatchedPort& watched) {
+    const EpochGuard guard;
+    {
+      const std::lock_guard lock(runtime.structure_mutex());
+      const auto found = watched.Find(runtime);
+      EXPECT_TRUE(found) << found.error().ToString();
+    }
+    std::optional<int> seen;
+    count = watched.VisitIfNew(
+        [&](const void* value, Time) { seen = *static_cast<const int*>(value); });
+    EXPECT_EQ(count.has_value(), seen.has_value());
+    return seen;
+  }
+
+  Runtime runtime;
+  Group& app = runtime.Create<Group>(runtime.root(), "app");
+  Source& source = runtime.Create<Source>(app, "source");
+  std::optional<std::uint64_t> count;
+};
+
+TEST_F(WatchedPortTest, ShowsEachValueOnce) {
+  WatchedPort watched("/app/source/output/out");
+  EXPECT_EQ(Look(watched), std::nullopt);  // there is none yet
+  source.out.Publish(7);
+  EXPECT_EQ(Look(watched), 7);
+  EXPECT_EQ(count, 1U);
+  EXPECT_EQ(Look(watched), std::nullopt);
+  source.out.Publish(8);
+  source.out.Publish(9);
+  EXPECT_EQ(Look(watched), 9);
+  EXPECT_EQ(count, 3U);
+}
+
+TEST_F(WatchedPortTest, FollowsAPortThatIsMadeAnew) {
+  WatchedPort watched("/app/source/output/out");
+  source.out.Publish(7);
+  EXPECT_EQ(Look(watched), 7);
+  ASSERT_TRUE(runtime.Delete(source));
+  Source& again = runtime.Create<Source>(app, "source");
+  EXPECT_EQ(Look(watched), std::nullopt);
+  again.out.Publish(7);
+  EXPECT_EQ(Look(watched), 7);  // the first again, and another one
+  EXPECT_EQ(count, 1U);
+}
+
+TEST_F(WatchedPortTest, ShowsWhatComesThroughAPortOfAGroup) {
+  auto& border = runtime.Create<ProxyPort>(app, "border", Port::Direction::kOutput, TypeOf<int>());
+  ASSERT_TRUE(Port::Connect(source.out, border));
+  WatchedPort watched("/app/border");
+  source.out.Publish(5);
+  EXPECT_EQ(Look(watched), 5);
+  EXPECT_EQ(Look(watched), std::nullopt);
+}
+
+TEST_F(WatchedPortTest, WhatIsNotThereIsSaidWithTheNearest) {
+  const std::lock_guard lock(runtime.structure_mutex());
+  const auto missing = WatchedPort("/app/source/output/ouf").Find(runtime);
+  ASSERT_FALSE(missing);
+  EXPECT_THAT(missing.error().hint, HasSubstr("out"));
+  const auto no_port = WatchedPort("/app/source").Find(runtime);
+  ASSERT_FALSE(no_port);
+  EXPECT_THAT(no_port.error().message, HasSubstr("not a port"));
+}
+
+}  // namespace
+
+}  // namespace runnel::test
