@@ -5,7 +5,6 @@
 #include "core/base/characters.h"
 #include "core/base/nearest_name.h"
 #include "core/types/internal/parts.h"
-#include "core/types/internal/reading_limits.h"
 #include "core/types/internal/text_cursor.h"
 #include "core/types/type_info.h"
 
@@ -97,164 +96,190 @@ class TextWriter {
   std::string text_;
 };
 
-Result<void> ReadEnumeration(const TypeInfo& type, std::string_view text, void* value) {
-  std::vector<std::string> names;
-  for (const EnumeratorInfo& each : type.enumerators()) {
-    if (each.name == text || std::to_string(each.value) == text) {
-      type.enumeration().set(value, each.value);
-      return {};
+constexpr int kMostNested = 100;
+constexpr std::size_t kMostBytes = std::size_t{1} << 28;  // of elements, 256 MiB
+
+/// Reads one value. What comes from outside may be nested as deep as it is long, and a few bytes can promise much:
+/// both are limited.
+class TextReader {
+ public:
+  explicit TextReader(std::string_view text) : cursor_(text) {}
+
+  Result<void> ReadAll(const TypeInfo& type, void* value) {
+    try {
+      Read(type, value);
+      if (!cursor_.AtEnd()) Fail(cursor_.Expected("the end"));
+    } catch (const Failure& failure) {
+      return failure.error;
     }
-    names.push_back(each.name);
+    return {};
   }
-  return Error{.message = "there is no " + type.name() + " '" + std::string(text) + "'",
-               .hint = NearestNameHint(text, names)};
-}
 
-Error TooLarge(const TypeInfo& type) {
-  return {.message =
-              "a " + type.name() + " has too many elements: together with what it is part of, " +
-              "they take more than " + std::to_string(ReadingLimits::kMostBytes >> 20) + " MiB"};
-}
+ private:
+  struct Failure {
+    Error error;
+  };
+  [[noreturn]] static void Fail(Error error) { throw Failure{std::move(error)}; }
 
-Result<void> Read(const TypeInfo& type, TextCursor& cursor, ReadingLimits& limits, void* value);
+  void Need(char character, std::string_view what, std::string_view of = {}) {
+    if (!cursor_.Skip(character)) Fail(cursor_.Expected(std::string(what).append(of)));
+  }
+  static void Check(const Result<void>& done) {
+    if (!done) Fail(done.error());
+  }
 
-Result<void> ReadField(const TypeInfo& type, TextCursor& cursor, ReadingLimits& limits,
-                       void* value) {
-  const std::string_view name = cursor.TakeWord();
-  const FieldInfo* field = type.FindField(name);
-  if (field == nullptr) {
+  void Read(const TypeInfo& type, void* value) {
+    if (++nested_ > kMostNested) {
+      Fail({.message = "a " + type.name() + " is nested deeper than " +
+                       std::to_string(kMostNested) + " levels"});
+    }
+    switch (type.kind()) {
+      case TypeKind::kOpaque:
+        Fail({.message = "a " + type.name() + " has no text format"});
+      case TypeKind::kLeaf:
+        ReadLeaf(type.leaf(), value);
+        break;
+      case TypeKind::kEnumeration:
+        ReadEnumeration(type, value);
+        break;
+      case TypeKind::kStructure:
+        ReadStructure(type, value);
+        break;
+      case TypeKind::kSequence:
+        ReadSequence(type, value);
+        break;
+      case TypeKind::kMatrix:
+        ReadMatrix(type, value);
+        break;
+    }
+    --nested_;
+  }
+
+  void ReadLeaf(const LeafOperations& leaf, void* value) {
+    if (!leaf.needs_quotes) return Check(leaf.from_text(cursor_.TakeToken(), value));
+    std::string text;
+    if (!cursor_.TakeQuoted(text)) Fail(cursor_.Expected("a text in quotation marks"));
+    Check(leaf.from_text(text, value));
+  }
+
+  void ReadEnumeration(const TypeInfo& type, void* value) {
+    const std::string_view text = cursor_.TakeToken();
     std::vector<std::string> names;
-    for (const FieldInfo& each : type.fields()) names.push_back(each.name);
-    return Error{.message = type.name() + " has no field '" + std::string(name) + "'",
-                 .hint = NearestNameHint(name, names)};
-  }
-  if (!cursor.Skip(':')) return cursor.Expected("':' after '" + field->name + "'");
-  return Read(*field->type, cursor, limits, field->address(value));
-}
-
-Result<void> ReadStructure(const TypeInfo& type, TextCursor& cursor, ReadingLimits& limits,
-                           void* value) {
-  if (!cursor.Skip('{')) return cursor.Expected("'{' before a " + type.name());
-  if (cursor.Skip('}')) return {};
-  do {
-    if (auto read = ReadField(type, cursor, limits, value); !read) return read;
-  } while (cursor.Skip(','));
-  if (!cursor.Skip('}')) return cursor.Expected("',' or '}' in a " + type.name());
-  return {};
-}
-
-// Makes room one by one, since nobody has counted the elements before.
-Result<void> ReadElement(const TypeInfo& type, TextCursor& cursor, ReadingLimits& limits,
-                         void* value, std::size_t rows, std::size_t columns, std::size_t index) {
-  const ElementOperations& elements = type.elements();
-  if (!limits.Take(1, elements.type->size())) return TooLarge(type);
-  if (!elements.is_fixed && !elements.resize(value, rows, columns)) {
-    return Error{.message = "a " + type.name() + " cannot have that many elements"};
-  }
-  if (index >= elements.rows(value) * elements.columns(value)) {
-    return Error{.message = "too many elements for a " + type.name()};
-  }
-  return Read(*elements.type, cursor, limits, elements.element(value, index));
-}
-
-Result<void> ReadSequence(const TypeInfo& type, TextCursor& cursor, ReadingLimits& limits,
-                          void* value) {
-  if (!cursor.Skip('[')) return cursor.Expected("'[' before a " + type.name());
-  std::size_t count = 0;
-  if (!cursor.Skip(']')) {
-    do {
-      if (auto read = ReadElement(type, cursor, limits, value, 1, count + 1, count); !read)
-        return read;
-      ++count;
-    } while (cursor.Skip(','));
-    if (!cursor.Skip(']')) return cursor.Expected("',' or ']' in a " + type.name());
-  }
-  if (!type.elements().resize(value, 1, count)) {
-    return Error{.message = "too few elements for a " + type.name()};
-  }
-  return {};
-}
-
-// The first row tells how many columns there are; so the text is gone through twice.
-Result<std::pair<std::size_t, std::size_t>> ShapeOfMatrix(TextCursor cursor) {
-  std::size_t rows = 0, columns = 0;
-  if (!cursor.Skip('[')) return cursor.Expected("'[' before a matrix");
-  if (cursor.Skip(']')) return std::pair{rows, columns};
-  do {
-    if (!cursor.Skip('[')) return cursor.Expected("'[' before a row");
-    std::size_t count = 0;
-    if (!cursor.Skip(']')) {
-      do {
-        cursor.TakeToken();
-        ++count;
-      } while (cursor.Skip(','));
-      if (!cursor.Skip(']')) return cursor.Expected("',' or ']' in a row");
-    }
-    if (rows > 0 && count != columns) return Error{.message = "the rows differ in length"};
-    columns = count;
-    ++rows;
-  } while (cursor.Skip(','));
-  return std::pair{rows, columns};
-}
-
-Result<void> ReadMatrix(const TypeInfo& type, TextCursor& cursor, ReadingLimits& limits,
-                        void* value) {
-  const ElementOperations& elements = type.elements();
-  const auto shape = ShapeOfMatrix(cursor);
-  if (!shape) return shape.error();
-  const auto [rows, columns] = *shape;
-  if (!limits.Take(rows * columns, elements.type->size())) return TooLarge(type);
-  if (!elements.resize(value, rows, columns)) {
-    return Error{.message = std::to_string(rows) + " rows of " + std::to_string(columns) +
-                            " are no " + type.name()};
-  }
-  cursor.Skip('[');
-  for (std::size_t index = 0; index < rows * columns; ++index) {
-    if (index % columns == 0) cursor.Skip('[');
-    if (auto read = Read(*elements.type, cursor, limits, elements.element(value, index)); !read) {
-      return read;
-    }
-    if (!cursor.Skip(',')) {
-      cursor.Skip(']');
-      cursor.Skip(',');
-    }
-  }
-  while (columns == 0 && cursor.Skip('[')) {
-    cursor.Skip(']');
-    cursor.Skip(',');
-  }
-  if (!cursor.Skip(']')) return cursor.Expected("']' after a " + type.name());
-  return {};
-}
-
-Result<void> Read(const TypeInfo& type, TextCursor& cursor, ReadingLimits& limits, void* value) {
-  const ReadingLimits::Level level(limits);
-  if (level.is_too_deep()) {
-    return Error{.message = "a " + type.name() + " is nested deeper than " +
-                            std::to_string(ReadingLimits::kMostNested) + " levels"};
-  }
-  switch (type.kind()) {
-    case TypeKind::kOpaque:
-      return Error{.message = "a " + type.name() + " has no text format"};
-    case TypeKind::kLeaf: {
-      std::string text;
-      if (!type.leaf().needs_quotes) {
-        return type.leaf().from_text(cursor.TakeToken(), value);
+    for (const EnumeratorInfo& each : type.enumerators()) {
+      if (each.name == text || std::to_string(each.value) == text) {
+        return type.enumeration().set(value, each.value);
       }
-      if (!cursor.TakeQuoted(text)) return cursor.Expected("a text in quotation marks");
-      return type.leaf().from_text(text, value);
+      names.push_back(each.name);
     }
-    case TypeKind::kEnumeration:
-      return ReadEnumeration(type, cursor.TakeToken(), value);
-    case TypeKind::kStructure:
-      return ReadStructure(type, cursor, limits, value);
-    case TypeKind::kSequence:
-      return ReadSequence(type, cursor, limits, value);
-    case TypeKind::kMatrix:
-      return ReadMatrix(type, cursor, limits, value);
+    Fail({.message = "there is no " + type.name() + " '" + std::string(text) + "'",
+          .hint = NearestNameHint(text, names)});
   }
-  return Error{.message = "a " + type.name() + " has no text format"};
-}
+
+  void ReadStructure(const TypeInfo& type, void* value) {
+    Need('{', "'{' before a ", type.name());
+    if (cursor_.Skip('}')) return;
+    do {
+      ReadField(type, value);
+    } while (cursor_.Skip(','));
+    Need('}', "',' or '}' in a ", type.name());
+  }
+
+  void ReadField(const TypeInfo& type, void* value) {
+    const std::string_view name = cursor_.TakeWord();
+    const FieldInfo* const field = type.FindField(name);
+    if (field == nullptr) {
+      std::vector<std::string> names;
+      for (const FieldInfo& each : type.fields()) names.push_back(each.name);
+      Fail({.message = type.name() + " has no field '" + std::string(name) + "'",
+            .hint = NearestNameHint(name, names)});
+    }
+    if (!cursor_.Skip(':')) Fail(cursor_.Expected("':' after '" + field->name + "'"));
+    Read(*field->type, field->address(value));
+  }
+
+  // Makes room for elements one by one, since nobody has counted them before.
+  void ReadSequence(const TypeInfo& type, void* value) {
+    const ElementOperations& elements = type.elements();
+    Need('[', "'[' before a ", type.name());
+    std::size_t count = 0;
+    if (!cursor_.Skip(']')) {
+      do {
+        TakeRoom(1, type);
+        if (!elements.is_fixed && !elements.resize(value, 1, count + 1)) {
+          Fail({.message = "a " + type.name() + " cannot have that many elements"});
+        }
+        if (count >= elements.rows(value) * elements.columns(value)) {
+          Fail({.message = "too many elements for a " + type.name()});
+        }
+        Read(*elements.type, elements.element(value, count));
+        ++count;
+      } while (cursor_.Skip(','));
+      Need(']', "',' or ']' in a ", type.name());
+    }
+    if (!elements.resize(value, 1, count)) {
+      Fail({.message = "too few elements for a " + type.name()});
+    }
+  }
+
+  void TakeRoom(std::size_t count, const TypeInfo& type) {
+    const std::size_t size = type.elements().type->size();
+    if (size > 0 && count > (kMostBytes - bytes_) / size) {
+      Fail({.message = "a " + type.name() +
+                       " has too many elements: together with what it is part of, " +
+                       "they take more than " + std::to_string(kMostBytes >> 20) + " MiB"});
+    }
+    bytes_ += count * size;
+  }
+
+  // The first row tells how many columns there are; so the text is gone through twice.
+  std::pair<std::size_t, std::size_t> TakeShapeOfMatrix() {
+    std::size_t rows = 0, columns = 0;
+    Need('[', "'[' before a matrix");
+    if (cursor_.Skip(']')) return {rows, columns};
+    do {
+      Need('[', "'[' before a row");
+      std::size_t count = 0;
+      if (!cursor_.Skip(']')) {
+        do {
+          cursor_.TakeToken();
+          ++count;
+        } while (cursor_.Skip(','));
+        Need(']', "',' or ']' in a row");
+      }
+      if (rows > 0 && count != columns) Fail({.message = "the rows differ in length"});
+      columns = count;
+      ++rows;
+    } while (cursor_.Skip(','));
+    return {rows, columns};
+  }
+
+  void ReadMatrix(const TypeInfo& type, void* value) {
+    const ElementOperations& elements = type.elements();
+    const TextCursor before = cursor_;
+    const auto [rows, columns] = TakeShapeOfMatrix();
+    cursor_ = before;
+    TakeRoom(rows * columns, type);
+    if (!elements.resize(value, rows, columns)) {
+      Fail({.message = std::to_string(rows) + " rows of " + std::to_string(columns) + " are no " +
+                       type.name()});
+    }
+    cursor_.Skip('[');
+    for (std::size_t row = 0; row < rows; ++row) {
+      cursor_.Skip('[');
+      for (std::size_t column = 0; column < columns; ++column) {
+        Read(*elements.type, elements.element(value, row * columns + column));
+        cursor_.Skip(',');
+      }
+      cursor_.Skip(']');
+      cursor_.Skip(',');
+    }
+    Need(']', "']' after a ", type.name());
+  }
+
+  TextCursor cursor_;
+  int nested_ = 0;
+  std::size_t bytes_ = 0;
+};
 
 }  // namespace
 
@@ -268,11 +293,7 @@ Result<void> SetFromText(const TypeInfo& type, std::string_view text, void* valu
   if (type.kind() == TypeKind::kLeaf) {
     return type.leaf().from_text(type.leaf().needs_quotes ? text : WithoutWhitespace(text), value);
   }
-  TextCursor cursor(text);
-  ReadingLimits limits;
-  if (auto read = Read(type, cursor, limits, value); !read) return read;
-  if (!cursor.AtEnd()) return cursor.Expected("the end");
-  return {};
+  return TextReader(text).ReadAll(type, value);
 }
 
 }  // namespace runnel

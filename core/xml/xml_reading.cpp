@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/characters.h"
 #include "core/base/nearest_name.h"
 #include "core/base/number_text.h"
 #include "core/xml/internal/text_cursor.h"
@@ -11,16 +12,6 @@
 namespace runnel {
 
 namespace {
-
-// The first bytes of a text in UTF-8, `most` of them, but no half character.
-std::string Beginning(const std::string& text, std::size_t most) {
-  std::size_t end = std::min(most, text.size());
-  const auto is_inside_character = [&] {
-    return end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U;
-  };
-  while (end > 0 && is_inside_character()) --end;
-  return text.substr(0, end);
-}
 
 std::optional<double> NumberOf(const XmlAttribute& attribute, Diagnostics& diagnostics) {
   const std::optional<double> number = ParseNumber(attribute.value);
@@ -104,10 +95,10 @@ void CheckChildren(XmlElement element, std::span<const std::string> known,
          .position = child.position(),
          .hint = known.empty() ? "leave it out" : NearestNameHint(child.name(), known)});
   }
-  if (!element.text().empty()) {
+  if (const std::string& text = element.text(); !text.empty()) {
     diagnostics.Add({.message = "no text may stand in <" + element.name() + ">",
                      .position = element.text_position(),
-                     .hint = "leave out '" + Beginning(element.text(), 40) + "'"});
+                     .hint = "leave out '" + text.substr(0, WholeCharacters(text, 40)) + "'"});
   }
 }
 
