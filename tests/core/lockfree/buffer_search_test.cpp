@@ -269,18 +269,24 @@ TEST(BufferSearch, ValueOfWhoTakesOverIsCompleteForWhoPublishedBefore) {
 // A record is added while the publisher looks for free buffers.
 // With nine before it, it has no bit of its own.
 template <std::size_t kBefore>
-struct AddingSuite : rl::test_suite<AddingSuite<kBefore>, 2>, Rig<SearchedPlain, kBefore> {
+struct LateRecord {  // a base, since a record is there for as long as its domain
+  std::optional<typename Rig<SearchedPlain, kBefore>::Domain::Record> late;
+};
+template <std::size_t kBefore>
+struct AddingSuite : rl::test_suite<AddingSuite<kBefore>, 2>,
+                     LateRecord<kBefore>,
+                     Rig<SearchedPlain, kBefore> {
   using Base = Rig<SearchedPlain, kBefore>;
   AddingSuite() : Base({.buffers = 2, .may_grow = false}) {}
-  std::optional<typename Base::Domain::Record> late;  // made here, so that it may be met incomplete
 
   void thread(unsigned index) {
     if (index == 1) {
       for (int i = 1; i <= 4; ++i) this->Publish(i);
       return;
     }
-    this->domain.Add(late.emplace());
-    const auto lease = this->latest.Lease(*late);
+    // Made here, so that it may be met incomplete.
+    this->domain.Add(this->late.emplace());
+    const auto lease = this->latest.Lease(*this->late);
     if (lease.get() != nullptr) LookAt(lease);
   }
 };
