@@ -200,9 +200,16 @@ Twist2 BugAlgorithm::FinishFruitlessLap(BugState& state, const BugInput& input) 
     ++state.second_looks;
     return LeaveWhereNearest(state, input);
   }
-  if (components_.leave->may_miss_passages() && HasComeNearer(state)) {
-    state.doubted_hit_distance = state.hit_distance;
-    return LeaveWhereNearest(state, input);
+  if (components_.leave->MayMissPassages(View(state, input))) {
+    if (HasComeNearer(state)) {
+      state.doubted_hit_distance = state.hit_distance;
+      return LeaveWhereNearest(state, input);
+    }
+    // The arcs of far echoes may have closed a passage; from the other side they lie elsewhere.
+    if (input.surroundings.is_vague && !state.has_reversed) {
+      Reverse(state, input);
+      return WallFollowing(state, input);
+    }
   }
   if (!is_at_hit_point || state.second_looks == kSecondLooks ||
       !IsFreeTowardsGoal(View(state, input))) {

@@ -36,6 +36,7 @@ bool HasMissedIt(const BugState& state) {
 // of the boundary.
 void BugAlgorithm::Reverse(BugState& state, const BugInput& input) const {
   state.has_reversed = true;
+  state.followed_distance = BugState::kNever;  // the least distance visited stays
   RestartLap(state, input);
   StartFollowing(state, input, Opposite(state.follower.direction()));
 }

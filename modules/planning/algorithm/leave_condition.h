@@ -37,9 +37,10 @@ class LeaveCondition {
   [[nodiscard]] virtual bool needs_range_sensor() const { return false; }
   /// Whether a lap without a leave point proves that the goal cannot be reached.
   [[nodiscard]] virtual bool decides_after_lap() const { return true; }
-  /// Whether it may find none although the robot could get on: after such a lap the robot goes to the
-  /// point of the boundary nearest to the goal, as Bug1 does.
-  [[nodiscard]] virtual bool may_miss_passages() const { return false; }
+  /// Whether it may find none although the robot could get on. After such a lap the robot goes to the
+  /// point of the boundary nearest to the goal, as Bug1 does; if that is the hit point, it goes round the
+  /// other way where its sensors are vague.
+  [[nodiscard]] virtual bool MayMissPassages(const BugView&) const { return false; }
 };
 
 /// After one whole lap the point with the least d, by the shorter way round (Bug1).
@@ -82,17 +83,21 @@ class FreeRangeStep final : public LeaveCondition {
   [[nodiscard]] std::optional<LeavePoint> Find(const BugView& view) const override;
   [[nodiscard]] bool MayLeave(const BugView& view) const override;
   [[nodiscard]] bool needs_range_sensor() const override { return true; }
-  [[nodiscard]] bool may_miss_passages() const override { return true; }
+  [[nodiscard]] bool MayMissPassages(const BugView&) const override { return true; }
 };
 
 /// d_reach < d_followed: something seen and free is nearer to the goal than all of the boundary
 /// sensed since H (TangentBug). The robot first goes there, then moves to the goal again. Works with
-/// a sensor that only feels, too, with what lies at the leave range ahead.
+/// a sensor that only feels, too, with what lies at the leave range ahead. What a vague sensor takes for
+/// boundary may be nearer to the goal than any is.
 class ReachBelowFollowed final : public LeaveCondition {
  public:
   [[nodiscard]] std::string_view name() const override { return "reach_below_followed"; }
   [[nodiscard]] std::optional<LeavePoint> Find(const BugView& view) const override;
   [[nodiscard]] double FollowedDistance(const BugView& view) const override;
+  [[nodiscard]] bool MayMissPassages(const BugView& view) const override {
+    return view.input.surroundings.is_vague;
+  }
 };
 
 /// d(x) < d(H), free (Class1).

@@ -20,7 +20,8 @@ class TokenBucket {
     const double seconds = std::chrono::duration<double>(now - then_).count();
     left_ = std::min(rate_, left_ + rate_ * seconds);
     then_ = now;
-    left_ -= 1 + static_cast<double>(bytes / kBytesOfOne);
+    const std::size_t further = bytes / kBytesOfOne;
+    left_ -= 1 + static_cast<double>(further);
   }
   /// How long it has to be silent now; 0: it may go on.
   [[nodiscard]] std::chrono::nanoseconds Wait() const {

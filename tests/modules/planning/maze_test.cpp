@@ -67,6 +67,19 @@ TEST(InfraredInAMaze, PassesWhereAFarEchoMayHaveBeen) {
   EXPECT_GT(outcome.least_clearance, Robot::kRadius + 0.02);
 }
 
+// An echo from afar may have closed a passage; from the other side it does not. So a goal behind a wall that
+// has none is given up after two laps.
+TEST(InfraredInAMaze, TangentBugGoesRoundTheOtherWayBeforeItGivesUp) {
+  const World world({Box(0, 0, 3, 3), Box(0, 0, 2.8, 2.8)});
+  const auto drive = [&](Sensor sensor) {
+    return Drive("tangent_bug", BoundaryDirection::kLeft, sensor, {world, {-4, 0}, {-0.9, 0}});
+  };
+  const Outcome seen = drive(Sensor::kLaser), felt = drive(Sensor::kInfrared);
+  EXPECT_EQ(int(seen.status.mode), int(PlannerMode::kUnreachable));
+  EXPECT_EQ(int(felt.status.mode), int(PlannerMode::kUnreachable));
+  EXPECT_GT(felt.status.path_length, 1.7 * seen.status.path_length);
+}
+
 // Where no point has a way of DistBug's step behind it, it leaves as Bug1 does.
 TEST(DistBugInAMaze, ReachesAGoalBehindPassagesNarrowerThanItsStep) {
   for (const Sensor sensor : {Sensor::kLaser, Sensor::kInfrared}) {

@@ -57,12 +57,14 @@ World MakeSpiral(const GeneratorOptions& options, Random& random) {
   Point2 corner{pitch / 2, pitch / 2}, along{-pitch, 0.0};
   wall.points.push_back(turned(corner));
   for (int side = 0; side < sides; ++side) {
-    corner = corner + (side / 2 + 1.0) * along;
+    const int pitches = side / 2 + 1;  // two sides of each length
+    corner = corner + static_cast<double>(pitches) * along;
     along = {-along.y, along.x};
     wall.points.push_back(turned(corner));
   }
   world.walls.push_back(std::move(wall));
-  const double reach = (sides / 4 + 1.5) * pitch + 1.5;
+  const int windings = sides / 4;
+  const double reach = (windings + 1.5) * pitch + 1.5;
   const Point2 start = turned({-reach, random.Between(-0.4, 0.4) * pitch});
   world.start = {start.x, start.y, 0.0};
   return world;
