@@ -31,18 +31,14 @@ std::string Hint(const Port& input, FrameworkElement& application) {
 
 }  // namespace
 
-void CheckRequiredInputs(FrameworkElement& application, BuildContext& context) {
-  std::vector<Port*> unconnected;
+void CheckRequiredInputs(FrameworkElement& application, const TellError& tell) {
   application.Visit([&](FrameworkElement& element) {
-    auto* const port = dynamic_cast<Port*>(&element);
+    const auto* const port = dynamic_cast<const Port*>(&element);
     if (port == nullptr || !port->is_required() || !port->Sources().empty()) return;
-    if (context.IsUnfedUnnoticed(*port)) unconnected.push_back(port);
+    tell({.message = "nothing is connected to this input, which its module requires",
+          .hint = Hint(*port, application)},
+         FindSourcePlace(*port), *port);
   });
-  for (Port* port : unconnected) {
-    context.Report({.message = "nothing is connected to this input, which its module requires",
-                    .hint = Hint(*port, application)},
-                   FindSourcePlace(*port), *port);
-  }
 }
 
 }  // namespace runnel

@@ -1,7 +1,5 @@
 #include "plugins/application_files/tags/built_in_tags.h"
 
-#include "plugins/application_files/tags/reaction_tags.h"
-
 namespace runnel {
 
 void AddBuiltInTags(XmlTagRegistry& tags) {

@@ -38,7 +38,6 @@ XmlTag ModuleTag() {
                           .kind = AttributeKind::kModuleType,
                           .required = true,
                           .summary = "as `runnel modules` lists them"}},
-          .is_structure = true,
           .handle = MakeModule,
           .saved = SavedModules,
           .place = 2};
