@@ -163,9 +163,8 @@ class Application {
   /// Parameters in text format. Errors: no such parameter, with the nearest; not a value of it.
   Result<void> Set(std::string_view path, std::string_view value);
   [[nodiscard]] Result<std::string> Get(std::string_view path);
-  /// Saves what it is now to the file it came from, or to another.
-  Result<void> Save();
-  Result<void> Save(const std::filesystem::path& file);
+  /// Saves what it is now to the file; "": the one that it came from.
+  Result<void> Save(const std::filesystem::path& file = {});
   /// Loads a plugin, or loads it anew and makes its modules anew by it.
   Result<void> LoadPlugin(std::string_view plugin);
   ChangeOutcome Reload(const std::string& plugin);
@@ -255,9 +254,6 @@ class Application {
   // Before any cycle in simulated time.
   Result<void> BeginCycles();
   void NoteStart();
-  // By the thread of Start().
-  void AttendThreads();
-  void RunCyclesUntilEnd();
   // Gathers what has happened.
   void Attend();
   [[nodiscard]] bool IsOver();

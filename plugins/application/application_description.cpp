@@ -5,7 +5,6 @@
 
 #include "core/base/nearest_name.h"
 #include "core/module/group.h"
-#include "plugins/application/extension_description.h"
 
 namespace runnel {
 
@@ -18,15 +17,13 @@ BuildOutcome Failed(Error error) {
 }
 
 Error UnknownExtension(const std::string& name, const ExtensionCatalogue& catalogue) {
-  std::vector<std::string> names;
-  for (const ExtensionDescription& each : catalogue.all()) names.push_back(each.name);
-  return {.message = "there is no extension '" + name + "'", .hint = NearestNameHint(name, names)};
+  return {.message = "there is no extension '" + name + "'",
+          .hint = NearestNameHint(name, NamesOf(catalogue.all(), &ExtensionDescription::name))};
 }
 
 Result<void> CheckOptions(const ExtensionDescription& extension,
                           const ExtensionArguments& arguments) {
-  std::vector<std::string> known;
-  for (const ExtensionOption& each : extension.options) known.push_back(each.name);
+  const std::vector<std::string> known = NamesOf(extension.options, &ExtensionOption::name);
   for (const auto& [name, value] : arguments.values) {
     if (std::ranges::find(known, name) != known.end()) continue;
     return Error{.message = "the extension '" + extension.name + "' has no option '" + name + "'",
@@ -68,19 +65,26 @@ Result<void> ApplicationDescription::Attach(const ExtensionDescription& extensio
   return {};
 }
 
+Result<const ExtensionCatalogue*> ApplicationDescription::Catalogue() {
+  if (catalogue_) return &*catalogue_;
+  auto read = ExtensionCatalogue::Read(plugins_.search_path());
+  if (!read) return read.error();
+  return &catalogue_.emplace(std::move(*read));
+}
+
 Result<void> ApplicationDescription::AttachByName(const ExtensionByName& extension) {
-  const auto catalogue = ExtensionCatalogue::Read(plugins_.search_path());
+  const auto catalogue = Catalogue();
   if (!catalogue) return catalogue.error();
-  const ExtensionDescription* const known = catalogue->Find(extension.name);
-  if (known == nullptr) return UnknownExtension(extension.name, *catalogue);
+  const ExtensionDescription* const known = (*catalogue)->Find(extension.name);
+  if (known == nullptr) return UnknownExtension(extension.name, **catalogue);
   const auto& values = extension.arguments.values;
   return Attach(*known, values.empty() ? "this" : "--" + values.front().first, extension.arguments);
 }
 
 Result<void> ApplicationDescription::AttachForTag(std::string_view tag) {
-  const auto catalogue = ExtensionCatalogue::Read(plugins_.search_path());
+  const auto catalogue = Catalogue();
   if (!catalogue) return catalogue.error();
-  const ExtensionDescription* const known = catalogue->FindTag(tag);
+  const ExtensionDescription* const known = (*catalogue)->FindTag(tag);
   if (known == nullptr) return {};
   return Attach(*known, "<" + std::string(tag) + ">", {});
 }

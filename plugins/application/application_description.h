@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -9,13 +10,12 @@
 #include "core/element/runtime.h"
 #include "core/plugin/plugin_manager.h"
 #include "plugins/application/application_options.h"
+#include "plugins/application/extension_description.h"
 #include "plugins/application/extension_registry.h"
 #include "plugins/application_files/application_builder.h"
 #include "plugins/parameters/configuration.h"
 
 namespace runnel {
-
-struct ExtensionDescription;
 
 /// What an application is before any of it runs: elements that are constructed, configured and connected, with what
 /// the file says of the clock, threads and rules kept at them; and all that is wrong with it. Application makes
@@ -76,6 +76,8 @@ class ApplicationDescription {
 
  private:
   BuildOutcome Build(const ApplicationFile* file);
+  // Reads it when it is first asked for.
+  Result<const ExtensionCatalogue*> Catalogue();
   // Loads the plugin of an extension and attaches what it makes of the arguments.
   Result<void> Attach(const ExtensionDescription& extension, const std::string& need,
                       const ExtensionArguments& arguments);
@@ -91,6 +93,7 @@ class ApplicationDescription {
   PluginManager plugins_;
   XmlTagRegistry tags_;
   ExtensionRegistry extension_registry_;
+  std::optional<ExtensionCatalogue> catalogue_;
   Configuration configuration_;
   Extensions extensions_;
   Runtime runtime_;  // last, for modules may still use what plugins gave them

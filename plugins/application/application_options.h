@@ -63,6 +63,9 @@ struct ApplicationOptions {
   std::optional<double> speed = {};
   /// Simulated time begins with a pause. Errors: on a real clock.
   bool is_paused = false;
+  /// What the cures of these errors are to name.
+  const char* speed_words = "the speed";
+  const char* pause_words = "the pause";
 
   /// Other processes of the same user reach it: `runnel ls`, `runnel swap`. That they cannot is a warning.
   bool has_control = false;

@@ -125,13 +125,6 @@ Result<std::string> Application::Get(std::string_view path) {
   return parameter->ToText();
 }
 
-Result<void> Application::Save() {
-  const std::lock_guard lock(parts_->runtime().structure_mutex());
-  const auto found = parts_->FindAgain();
-  if (!found) return found.error();
-  return SaveApplication(**found, {parts_->plugins(), parts_->tags()});
-}
-
 Result<void> Application::Save(const std::filesystem::path& file) {
   const std::lock_guard lock(parts_->runtime().structure_mutex());
   const auto found = parts_->FindAgain();
@@ -155,8 +148,7 @@ CommandService& Application::service() {
   hooks.load_plugin = [this](const std::string& plugin) { return LoadPlugin(plugin); };
   hooks.save = [this](const std::string& file) -> Result<std::string> {
     std::string done = "saved " + parts_->path() + (file.empty() ? "" : " to " + file);
-    const auto saved = file.empty() ? Save() : Save(file);
-    if (!saved) return saved.error();
+    if (auto saved = Save(file); !saved) return saved.error();
     return done;
   };
   hooks.reload = [this](const std::string& plugin) -> Result<std::string> {

@@ -6,7 +6,6 @@
 
 #include "core/base/exception_text.h"
 #include "core/element/source_place.h"
-#include "plugins/application/extension_description.h"
 #include "plugins/application/internal/application_parts.h"
 #include "plugins/application_files/run_description.h"
 
@@ -25,9 +24,9 @@ Error Refusal(const char* message, const char* option) {
 Result<void> Choose(const ApplicationOptions& chosen, SchedulerOptions& options) {
   const bool is_real = options.clock == ClockKind::kReal;
   if (chosen.speed && is_real) {
-    return Refusal("the speed of real time cannot be chosen", "the speed");
+    return Refusal("the speed of real time cannot be chosen", chosen.speed_words);
   }
-  if (chosen.is_paused && is_real) return Refusal("real time cannot be paused", "the pause");
+  if (chosen.is_paused && is_real) return Refusal("real time cannot be paused", chosen.pause_words);
   if (chosen.speed) options.speed = *chosen.speed;
   if (chosen.is_paused) options.is_paused = true;
   return {};

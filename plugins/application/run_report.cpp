@@ -11,6 +11,20 @@
 
 namespace runnel {
 
+namespace {
+
+// What has happened to the element of the path.
+std::string EventText(Error text, Time time, Time start, bool is_warning, FrameworkElement& root) {
+  const std::lock_guard lock(root.runtime().structure_mutex());
+  if (const auto element = root.Find(text.path)) text.position = FindSourcePlace(**element);
+  text.hint = DurationText(time - start) + " after the start";
+  Diagnostics diagnostics;
+  is_warning ? diagnostics.AddWarning(std::move(text)) : diagnostics.Add(std::move(text));
+  return diagnostics.ToString();
+}
+
+}  // namespace
+
 RunReport::RunReport(Runtime& runtime) : runtime_(runtime) {
   const std::lock_guard lock(runtime_.structure_mutex());
   OnReady(runtime_.root());
@@ -121,35 +135,13 @@ std::string RunReport::Finish(Diagnostics& diagnostics) {
 }
 
 std::string FaultText(const Fault& fault, Time start, FrameworkElement& root) {
-  const std::lock_guard lock(root.runtime().structure_mutex());
-  const auto element = root.Find(fault.path);
-  Error text{.message = "has been stopped: " + fault.message,
-             .path = fault.path,
-             .position = element ? FindSourcePlace(**element) : SourcePosition{},
-             .hint = DurationText(fault.time - start) + " after the start"};
-  Diagnostics diagnostics;
-  if (fault.is_mended) {
-    diagnostics.AddWarning(std::move(text));
-  } else {
-    diagnostics.Add(std::move(text));
-  }
-  return diagnostics.ToString();
+  return EventText({.message = "has been stopped: " + fault.message, .path = fault.path},
+                   fault.time, start, fault.is_mended, root);
 }
 
 std::string NoticeText(const Notice& notice, Time start, FrameworkElement& root) {
-  const std::lock_guard lock(root.runtime().structure_mutex());
-  const auto element = root.Find(notice.path);
-  Error text{.message = notice.message,
-             .path = notice.path,
-             .position = element ? FindSourcePlace(**element) : SourcePosition{},
-             .hint = DurationText(notice.time - start) + " after the start"};
-  Diagnostics diagnostics;
-  if (notice.is_failure) {
-    diagnostics.Add(std::move(text));
-  } else {
-    diagnostics.AddWarning(std::move(text));
-  }
-  return diagnostics.ToString();
+  return EventText({.message = notice.message, .path = notice.path}, notice.time, start,
+                   !notice.is_failure, root);
 }
 
 }  // namespace runnel

@@ -7,7 +7,6 @@
 #include "core/base/exception_text.h"
 #include "core/element/source_place.h"
 #include "plugins/application/internal/application_parts.h"
-#include "plugins/application/internal/run_loop.h"
 
 namespace runnel {
 
@@ -17,8 +16,18 @@ using ClockKind = SchedulerOptions::ClockKind;
 using MachineClock = std::chrono::steady_clock;
 
 constexpr std::size_t kMostEvents = 10'000;
+// How often somebody looks at an application that runs.
+constexpr Duration kLookAround = std::chrono::milliseconds(20);
+// How long real threads go on after a stop has been requested, by a fault or by the user, so that
+// what else is there can bring the robot to rest.
+constexpr Duration kGraceTime = std::chrono::milliseconds(500);
 
 Error RunsAlready() { return {.message = "the application runs already", .hint = "stop it first"}; }
+
+Error NothingToRun() {
+  return {.message = "there is nothing to run",
+          .hint = "the application has no modules, or none that any thread would ever run"};
+}
 
 // One text for all of them.
 std::string WarningsText(std::vector<Error>& warnings, Runtime& runtime) {
@@ -50,6 +59,46 @@ void Application::Parts::Join() {
   }
   has_changed.notify_all();
   thread.join();
+}
+
+bool Application::Parts::EndsWithin(Duration longest) {
+  std::unique_lock lock(running_mutex);
+  return longest > Duration{} ? has_changed.wait_for(lock, longest, [this] { return ends; }) : ends;
+}
+
+Duration Application::Parts::RunThreads(std::optional<Duration> limit, const LookAround& look) {
+  const Clock& clock = runtime().clock();
+  const Time begun = clock.Now();
+  auto latest = MachineClock::time_point::max();
+  Duration so_far{};
+  bool is_over = false;
+  while (!is_over && !EndsWithin(limit ? std::min(*limit - so_far, kLookAround) : kLookAround)) {
+    so_far = clock.Now() - begun;
+    is_over = look(so_far) || (limit && so_far >= *limit);
+    if (!scheduler->stop_requested()) continue;
+    limit.reset();
+    latest = std::min(latest, MachineClock::now() + kGraceTime);
+    is_over = MachineClock::now() >= latest;
+  }
+  so_far = clock.Now() - begun;
+  scheduler->Stop();
+  return so_far;
+}
+
+Result<Duration> Application::Parts::RunCycles(std::optional<Duration> limit, bool waits_for_tasks,
+                                               const LookAround& look) {
+  const Clock& clock = runtime().clock();
+  const Time begun = clock.Now();
+  const auto end = limit ? std::optional(begun + *limit) : std::nullopt;
+  for (;;) {
+    if (!waits_for_tasks && !scheduler->NextDue()) return NothingToRun();
+    const auto result = scheduler->Advance(end, kLookAround);
+    const Duration so_far = clock.Now() - begun;
+    const bool is_idle = result == Scheduler::StepResult::kEnd;
+    const bool is_at_the_end = limit && (is_idle || so_far >= *limit);
+    const bool is_over = look(so_far) || is_at_the_end || scheduler->stop_requested();
+    if (is_over || EndsWithin(is_idle ? kLookAround : Duration{})) return so_far;
+  }
 }
 
 void Application::Attend() {
@@ -123,8 +172,16 @@ Result<void> Application::Start() {
   parts.ends = false;
   parts.is_running = true;
   parts.thread = std::thread([this, is_real] {
+    auto next_look = MachineClock::now();
+    const auto look = [&](Duration) {
+      if (MachineClock::now() < next_look) return false;
+      next_look = MachineClock::now() + kLookAround;
+      Attend();
+      return false;
+    };
     try {
-      is_real ? AttendThreads() : RunCyclesUntilEnd();
+      is_real ? (void)parts_->RunThreads({}, look) : (void)parts_->RunCycles({}, true, look);
+      Attend();
     } catch (...) {
       parts_->Add({ApplicationEvent::Kind::kFailure,
                    "error: the run has ended: " + DescribeException() + "\n"});
@@ -132,44 +189,6 @@ Result<void> Application::Start() {
     parts_->is_running = false;
   });
   return {};
-}
-
-void Application::AttendThreads() {
-  Parts& parts = *parts_;
-  auto latest = MachineClock::time_point::max();
-  std::unique_lock lock(parts.running_mutex);
-  while (!parts.ends && MachineClock::now() < latest) {
-    parts.has_changed.wait_for(lock, internal::kLookAround);
-    lock.unlock();
-    Attend();
-    if (parts.scheduler->stop_requested()) {
-      latest = std::min(latest, MachineClock::now() + internal::kGraceTime);
-    }
-    lock.lock();
-  }
-  lock.unlock();
-  parts.scheduler->Stop();
-  Attend();
-}
-
-void Application::RunCyclesUntilEnd() {
-  Parts& parts = *parts_;
-  auto next_look = MachineClock::now();
-  for (;;) {
-    const auto result = parts.scheduler->Advance(std::nullopt, internal::kLookAround);
-    if (result == Scheduler::StepResult::kStopped) break;
-    std::unique_lock lock(parts.running_mutex);
-    // Nothing to run, for now.
-    if (result == Scheduler::StepResult::kEnd && !parts.ends) {
-      parts.has_changed.wait_for(lock, internal::kLookAround);
-    }
-    if (parts.ends) break;
-    lock.unlock();
-    if (MachineClock::now() < next_look) continue;
-    next_look = MachineClock::now() + internal::kLookAround;
-    Attend();
-  }
-  Attend();
 }
 
 void Application::Stop() {
@@ -192,11 +211,18 @@ Result<Duration> Application::Run(const RunOptions& options) {
     if (longest) limit = std::min(limit.value_or(Duration::max()), *longest);
   }
   NoteStart();
-  auto ran = internal::Run({*parts.scheduler, parts.runtime(), limit, [&](Duration so_far) {
-                              Attend();
-                              const bool is_over = options.is_over && options.is_over(so_far);
-                              return IsOver() || is_over;
-                            }});
+  const auto look = [&](Duration so_far) {
+    Attend();
+    const bool is_over = options.is_over && options.is_over(so_far);
+    return IsOver() || is_over;
+  };
+  if (!parts.scheduler->HasTasks()) return NothingToRun();
+  const bool is_real = parts.scheduler->options().clock == ClockKind::kReal;
+  if (is_real) {
+    if (auto started = parts.scheduler->Start(); !started) return started.error();
+  }
+  parts.ends = false;
+  auto ran = is_real ? parts.RunThreads(limit, look) : parts.RunCycles(limit, false, look);
   Attend();
   return ran;
 }
@@ -231,7 +257,7 @@ Result<void> Application::RunCycles(std::uint64_t count) {
   for (; count > 0 && went; --count) {
     if (parts_->scheduler->Step()) continue;
     went = parts_->scheduler->stop_requested() ? Error{.message = "a stop has been requested"}
-                                               : internal::NothingToRun();
+                                               : NothingToRun();
   }
   Attend();
   return went;

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -63,6 +64,16 @@ struct Application::Parts final : ApplicationDescription {
   RecordingHook RecordingOnDemand(Application& application);
   void LoadPluginOf(std::string_view type);
 
+  // Asked now and then for how long it has run. True: it is over.
+  using LookAround = std::function<bool(Duration so_far)>;
+  // How long it has run on its clock; no cycle runs any more then. The thread of Start() is ended, if it is
+  // that. The threads have been started.
+  Duration RunThreads(std::optional<Duration> limit, const LookAround& look);
+  // Cycles that are due at the limit do not run. Errors: there is nothing to run, and it does not wait for that.
+  Result<Duration> RunCycles(std::optional<Duration> limit, bool waits_for_tasks,
+                             const LookAround& look);
+  // Whether the thread of Start() is to end. Waits for it so long.
+  bool EndsWithin(Duration longest);
   // Ends the thread of Start(), if there is one.
   void Join();
   void Add(ApplicationEvent event);
