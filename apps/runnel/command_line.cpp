@@ -5,10 +5,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/runnel/commands.h"
 #include "apps/runnel/control_command_line.h"
 #include "apps/runnel/extension_command_line.h"
 #include "apps/runnel/other_programs.h"
-#include "apps/runnel/print_error.h"
+#include "apps/runnel/output.h"
 #include "core/base/nearest_name.h"
 #include "core/plugin/plugin_manager.h"
 #include "core/xml/xml_reading.h"
@@ -18,17 +19,20 @@ namespace runnel::program {
 
 namespace {
 
-const std::vector<std::string> kCommands{"run",    "replay", "check",  "modules",
-                                         "schema", "graph",  "version"};
+using Command = std::function<ExitCode()>;
 
-ExitCode Refuse(const std::string& message, const std::string& hint) {
-  std::cerr << "error: " << message << "; " << hint << '\n';
-  return ExitCode::kBadInput;
+Command Ends(ExitCode code) {
+  return [code] { return code; };
 }
 
-std::vector<std::string> AllCommands() {
-  std::vector<std::string> commands = kCommands;
-  for (const std::string& command : ControlCommandLine::Names()) commands.push_back(command);
+Command Refuse(const std::string& message, const std::string& hint) {
+  std::cerr << "error: " << message << "; " << hint << '\n';
+  return Ends(ExitCode::kBadInput);
+}
+
+std::vector<std::string> AllCommands(const CLI::App& program) {
+  std::vector<std::string> commands;
+  for (const CLI::App* each : program.get_subcommands({})) commands.push_back(each->get_name());
   for (const std::string& command : OtherCommands()) commands.push_back(command);
   return commands;
 }
@@ -41,11 +45,6 @@ std::string FooterText() {
   }
   return (others.empty() ? "" : "Further commands, each with its own --help: " + others + "\n") +
          "Exit codes: 0 done, 1 the run failed, 2 bad input.";
-}
-
-bool IsUnknownCommand(const std::string& word) {
-  const auto names = AllCommands();
-  return !word.starts_with('-') && std::ranges::find(names, word) == names.end();
 }
 
 // CLI11's own checks name bounds with three hundred digits.
@@ -145,11 +144,11 @@ ApplicationOptions ApplicationArguments::Options() const {
   return options;
 }
 
-CommandLine ParseCommandLine(int count, const char* const* words) {
+Command ParseCommandLine(int count, const char* const* words) {
   const auto catalogue = ExtensionCatalogue::Read(PluginManager().search_path());
   if (!catalogue) {
     PrintError(catalogue.error());
-    return ExitCode::kBadInput;
+    return Ends(ExitCode::kBadInput);
   }
   CLI::App program("Runs robot applications that are described in XML files.", "runnel");
   program.require_subcommand(1);
@@ -157,7 +156,7 @@ CommandLine ParseCommandLine(int count, const char* const* words) {
   program.footer(FooterText());
   RunArguments run_arguments;
   RunArguments replay_arguments;
-  CheckArguments check_arguments;
+  ApplicationArguments check_arguments;
   ModulesArguments modules_arguments;
   SchemaArguments schema_arguments;
   GraphArguments graph_arguments;
@@ -168,7 +167,7 @@ CommandLine ParseCommandLine(int count, const char* const* words) {
   const ExtensionCommandLine replay_extensions(*catalogue, replay);
   AddReplayedApplication(replay, replay_arguments.application);
   CLI::App& check = *program.add_subcommand("check", "looks for mistakes, without running");
-  AddApplicationArguments(check, check_arguments.application);
+  AddApplicationArguments(check, check_arguments);
   CLI::App& modules = *program.add_subcommand("modules", "lists module types, ports, parameters");
   modules.add_option("plugins", modules_arguments.plugins, "only of these; without, of all")
       ->type_name("PLUGIN");
@@ -189,35 +188,40 @@ CommandLine ParseCommandLine(int count, const char* const* words) {
   program.add_subcommand("version", "says which version this is");
   const ControlCommandLine control(program);
 
-  if (count > 1 && IsUnknownCommand(words[1])) {
-    if (const auto* const extension = catalogue->FindCommand(words[1])) {
-      return Refuse("'" + std::string(words[1]) + "' is of the extension '" + extension->name +
-                        "', which is not installed",
-                    "it " + extension->summary);
+  const std::string command = count > 1 ? words[1] : "";
+  const std::vector<std::string> all_commands = AllCommands(program);
+  const bool is_known = std::ranges::count(all_commands, command) > 0;
+  if (count > 1 && !command.starts_with('-') && !is_known) {
+    if (const auto* const extension = catalogue->FindCommand(command)) {
+      return Refuse(
+          "'" + command + "' is of the extension '" + extension->name + "', which is not installed",
+          "it " + extension->summary);
     }
-    return Refuse("there is no command '" + std::string(words[1]) + "'",
-                  NearestNameHint(words[1], AllCommands()));
+    return Refuse("there is no command '" + command + "'", NearestNameHint(command, all_commands));
   }
   try {
     const auto all = WithNegativeValues(count, words);
     program.parse(static_cast<int>(all.size()), all.data());
   } catch (const CLI::Success& help) {
     program.exit(help);
-    return ExitCode::kDone;
+    return Ends(ExitCode::kDone);
   } catch (const CLI::ParseError& error) {
     return Refuse(error.what(), "see 'runnel --help' or 'runnel run --help'");
   }
   run_arguments.extensions = run_extensions.Chosen();
   replay_arguments.extensions = replay_extensions.Chosen();
   replay_arguments.is_paused = replay_arguments.is_paused || replay_arguments.steps;
-  if (run.parsed()) return run_arguments;
-  if (replay.parsed()) return replay_arguments;
-  if (check.parsed()) return check_arguments;
-  if (modules.parsed()) return modules_arguments;
-  if (schema.parsed()) return schema_arguments;
-  if (graph.parsed()) return graph_arguments;
-  if (auto arguments = control.Parsed()) return *arguments;
-  return VersionArguments{};
+  if (run.parsed()) return [=] { return Run(run_arguments); };
+  if (replay.parsed()) return [=] { return Run(replay_arguments); };
+  if (check.parsed()) return [=] { return Check(check_arguments); };
+  if (modules.parsed()) return [=] { return ListModules(modules_arguments); };
+  if (schema.parsed()) return [=] { return WriteSchema(schema_arguments); };
+  if (graph.parsed()) return [=] { return DrawGraph(graph_arguments); };
+  if (auto arguments = control.Parsed()) return [=] { return Control(*arguments); };
+  return [] {
+    std::cout << "runnel " RUNNEL_VERSION "\n";
+    return ExitCode::kDone;
+  };
 }
 
 }  // namespace runnel::program

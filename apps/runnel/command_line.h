@@ -1,15 +1,21 @@
 #pragma once
 
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "apps/runnel/control_command.h"
-#include "apps/runnel/exit_code.h"
 #include "plugins/application/application_options.h"
 
 namespace runnel::program {
+
+/// What the program tells whoever called it.
+enum class ExitCode : int {
+  kDone = 0,
+  kRunFailed = 1,  ///< the application ran, and did not come to a good end
+  kBadInput = 2,   ///< application file, arguments, configuration, plugins
+};
 
 /// Which application, and what is said of it from outside.
 struct ApplicationArguments {
@@ -33,10 +39,6 @@ struct RunArguments {
   std::vector<ExtensionByName> extensions = {};
 };
 
-struct CheckArguments {
-  ApplicationArguments application;
-};
-
 struct ModulesArguments {
   std::vector<std::string> plugins = {};  ///< none: all that can be found
   bool names_only = false;
@@ -52,13 +54,16 @@ struct GraphArguments {
   std::string output = {};  ///< a file; what it is called decides what it becomes
 };
 
-struct VersionArguments {};
+/// What is asked of a running application.
+struct ControlArguments {
+  std::string command = {};      ///< "ls", as on the command line
+  std::string application = {};  ///< name or process; "": the only one
+  std::vector<std::string> words = {};
+  std::map<std::string, std::string> options = {};  ///< as requests have them: {"count", "3"}
+};
 
-/// What to do; or, if there is nothing (left) to do, the exit code: help has been printed, or what
-/// is wrong with the arguments.
-using CommandLine = std::variant<RunArguments, CheckArguments, ModulesArguments, SchemaArguments,
-                                 GraphArguments, ControlArguments, VersionArguments, ExitCode>;
-
-[[nodiscard]] CommandLine ParseCommandLine(int count, const char* const* words);
+/// What is to be done. If there is nothing (left) to do, for help has been printed or the arguments are wrong, it
+/// does no more than give the exit code.
+[[nodiscard]] std::function<ExitCode()> ParseCommandLine(int count, const char* const* words);
 
 }  // namespace runnel::program

@@ -1,10 +1,9 @@
-#include "apps/runnel/completion.h"
-
 #include <algorithm>
 #include <functional>
 #include <iostream>
 #include <sstream>
 
+#include "apps/runnel/commands.h"
 #include "plugins/control/control_client.h"
 #include "plugins/control/control_folder.h"
 

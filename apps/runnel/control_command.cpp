@@ -1,18 +1,19 @@
-#include "apps/runnel/control_command.h"
-
 #include <algorithm>
+#include <atomic>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
 
-#include "apps/runnel/completion.h"
-#include "apps/runnel/print_error.h"
-#include "apps/runnel/remote_recording.h"
+#include <unistd.h>
+
+#include "apps/runnel/commands.h"
+#include "apps/runnel/output.h"
 #include "plugins/control/control_client.h"
 #include "plugins/control/control_folder.h"
-#include "plugins/control/request.h"
+#include "plugins/control/protocol.h"
 #include "plugins/structure/change_arguments.h"
 
 namespace runnel::program {
@@ -36,22 +37,21 @@ std::string WordsText(const std::vector<std::string>& words, std::size_t plain) 
   return text;
 }
 
-std::string OptionText(const char* name, const std::optional<std::string>& value) {
-  return value ? " " + std::string(name) + "=" + AsArgument(*value) : "";
+std::string OptionsText(const ControlArguments& arguments) {
+  std::string text;
+  for (const auto& [name, value] : arguments.options) text += " " + name + "=" + AsArgument(value);
+  return text;
 }
 
 // What the command says in the language of changes; what is wrong with it is for the reader to say.
 std::optional<std::string> ChangeTextOf(const ControlArguments& arguments) {
   const std::string& command = arguments.command;
   const std::vector<std::string>& words = arguments.words;
-  if (command == "connect") {
-    return command + WordsText(words, 2) + OptionText("queue", arguments.queue) +
-           OptionText("on_full", arguments.on_full);
-  }
+  if (command == "connect") return command + WordsText(words, 2) + OptionsText(arguments);
   if (command == "swap") {
     std::string text = "replace " + AsArgument(words[0]) + " with";
     text += WordsText({words.begin() + 1, words.end()}, 1);
-    return text + OptionText("probation", arguments.probation);
+    return text + OptionsText(arguments);
   }
   if (command == "move") return "move " + AsArgument(words[0]) + " to " + AsArgument(words[1]);
   if (command == "create") return command + WordsText(words, words[0] == "port" ? 4 : 2);
@@ -72,12 +72,11 @@ Result<std::string> ReadChanges(const std::string& file) {
 }
 
 Result<Request> RequestOf(const ControlArguments& arguments) {
-  Request request{.command = arguments.command, .arguments = {}, .options = {}, .body = {}};
   if (const auto change = ChangeTextOf(arguments)) {
-    request.command = "change";
-    request.body = *change;
-    return request;
+    return Request{.command = "change", .arguments = {}, .options = {}, .body = *change};
   }
+  Request request{
+      .command = arguments.command, .arguments = {}, .options = arguments.options, .body = {}};
   if (arguments.command == "change") {
     const std::string& file = arguments.words[0];
     const auto text = ReadChanges(file);
@@ -93,14 +92,9 @@ Result<Request> RequestOf(const ControlArguments& arguments) {
   if (arguments.command == "save" && !request.arguments.empty()) {
     request.arguments[0] = std::filesystem::absolute(request.arguments[0]).string();
   }
-  if (!arguments.file.empty()) {
-    request.options["file"] = std::filesystem::absolute(arguments.file).string();
+  if (!request.Option("file").empty()) {
+    request.options["file"] = std::filesystem::absolute(request.Option("file")).string();
   }
-  if (!arguments.compression.empty()) request.options["compression"] = arguments.compression;
-  if (arguments.count) request.options["count"] = std::to_string(*arguments.count);
-  if (arguments.is_long) request.options["long"] = "yes";
-  if (arguments.is_full) request.options["full"] = "yes";
-  if (arguments.follows) request.options["follow"] = "yes";
   return request;
 }
 
@@ -137,6 +131,47 @@ std::string TakeApplication(const std::vector<RunningApplication>& running, Requ
   if (!is_one) return {};
   request.arguments.erase(request.arguments.begin());
   return first;
+}
+
+std::atomic<bool> interrupted{false};
+
+// The first Ctrl-C ends the recording, a second the program.
+class Interruptions {
+ public:
+  Interruptions() {
+    struct sigaction action {};
+    action.sa_handler = [](int) { interrupted = true; };
+    action.sa_flags = SA_RESETHAND | SA_RESTART;
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
+  }
+};
+
+// Has a running application record, shows on a terminal how it goes, and says what there is when it has ended,
+// also by Ctrl-C.
+Result<int> AskToRecord(ControlClient& client, const Request& request) {
+  const Interruptions interruptions;
+  const bool is_terminal = isatty(STDOUT_FILENO) == 1;
+  std::string last;
+  const auto go_on = [&] {
+    if (interrupted) client.EndRequests();
+    return true;
+  };
+  const auto code = client.Ask(
+      request.ToText(),
+      [&](std::string_view text) {
+        last = text;
+        if (is_terminal) {
+          std::cout << "\r\x1b[K" << text.substr(0, text.find('\n')) << std::flush;
+        }
+        return go_on();
+      },
+      [&](std::string_view text) {
+        std::cerr << (is_terminal ? "\n" : "") << text << std::flush;
+        return go_on();
+      });
+  if (is_terminal) std::cout << "\r\x1b[K";
+  if (code && *code == 0) std::cout << last << std::flush;
+  return code;
 }
 
 Result<int> Ask(const ControlArguments& arguments, Request request) {

@@ -13,14 +13,6 @@ constexpr std::size_t kMostWords = 2;  // of those that are parsed one by one
 
 }  // namespace
 
-const std::vector<std::string>& ControlCommandLine::Names() {
-  static const std::vector<std::string> names{
-      "ps",     "ls",     "echo",  "hz",     "set",  "connect", "disconnect", "create",
-      "delete", "swap",   "move",  "undo",   "redo", "save",    "reload",     "change",
-      "log",    "record", "pause", "resume", "step", "speed",   "complete"};
-  return names;
-}
-
 ControlCommandLine::ControlCommandLine(CLI::App& program) {
   const auto add = [&](const char* name, const char* description) -> Entry& {
     Entry& entry = entries_.emplace_back();
@@ -38,10 +30,18 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
     return entry.command->add_option(name, entry.arguments.words.emplace_back(), description)
         ->required();
   };
-  const auto count = [](Entry& entry, const char* description) {
-    entry.command->add_option("-n", entry.arguments.count, description)
-        ->type_name("N")
-        ->check(CLI::Range(1, 1'000'000'000));
+  // `key`: what the request calls it.
+  const auto option = [](Entry& entry, const char* name, const char* key, const char* description) {
+    return entry.command->add_option_function<std::string>(
+        name, [&entry, key](const std::string& value) { entry.arguments.options[key] = value; },
+        description);
+  };
+  const auto flag = [](Entry& entry, const char* name, const char* key, const char* description) {
+    entry.command->add_flag_callback(
+        name, [&entry, key] { entry.arguments.options[key] = "yes"; }, description);
+  };
+  const auto count = [&](Entry& entry, const char* description) {
+    option(entry, "-n", "count", description)->type_name("N")->check(CLI::Range(1, 1'000'000'000));
   };
 
   Entry& ps = entries_.emplace_back();
@@ -50,13 +50,12 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
 
   Entry& ls = add("ls", "shows what a running application is made of");
   word(ls, "path", "only this and what is below it")->required(false)->type_name(kElement);
-  ls.command->add_flag("-l,--long", ls.arguments.is_long,
-                       "also connections, rates, threads and their cycles");
+  flag(ls, "-l,--long", "long", "also connections, rates, threads and their cycles");
 
   Entry& echo = add("echo", "shows the values of a port, until Ctrl-C");
   word(echo, "port", "input or output")->type_name(kPort);
   count(echo, "ends after so many values");
-  echo.command->add_flag("--full", echo.arguments.is_full, "does not shorten long lists and texts");
+  flag(echo, "--full", "full", "does not shorten long lists and texts");
 
   Entry& hz = add("hz", "shows each second how often a port publishes, until Ctrl-C");
   word(hz, "port", "input or output")->type_name(kPort);
@@ -69,11 +68,9 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   Entry& connect = add("connect", "connects two ports");
   word(connect, "from", "output")->type_name(kPort);
   word(connect, "to", "input")->type_name(kPort);
-  connect.command->add_option("--queue", connect.arguments.queue, "so many values may wait")
-      ->type_name("N");
-  connect.command
-      ->add_option("--on-full", connect.arguments.on_full,
-                   "what a full queue does: drop_oldest, drop_newest, refuse")
+  option(connect, "--queue", "queue", "so many values may wait")->type_name("N");
+  option(connect, "--on-full", "on_full",
+         "what a full queue does: drop_oldest, drop_newest, refuse")
       ->type_name("WORD");
 
   Entry& disconnect = add("disconnect", "takes the connection of two ports back");
@@ -94,9 +91,8 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   swap.command->add_option("words", swap.arguments.words, "path, new type and values of parameters")
       ->required()
       ->type_name("PATH TYPE NAME=VALUE");
-  swap.command
-      ->add_option("--probation", swap.arguments.probation,
-                   "the old one comes back if the new one throws in so many first cycles (10)")
+  option(swap, "--probation", "probation",
+         "the old one comes back if the new one throws in so many first cycles (10)")
       ->type_name("CYCLES");
 
   Entry& move = add("move", "has a module or group run by another thread");
@@ -122,13 +118,10 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
                    "the application, if several are running, and which ports: /robot/pose, */pose, "
                    "/robot/**; '!' in front: not those; without, all")
       ->type_name("[NAME|PROCESS] PATTERN");
-  record.command->add_option("-o,--output", record.arguments.file, "the file (MCAP)")
-      ->required()
-      ->type_name("FILE.mcap");
+  option(record, "-o,--output", "file", "the file (MCAP)")->required()->type_name("FILE.mcap");
   count(record, "ends after so many seconds");
-  record.command
-      ->add_option("--compression", record.arguments.compression,
-                   "zstd, lz4 or none; without, the first that is there")
+  option(record, "--compression", "compression",
+         "zstd, lz4 or none; without, the first that is there")
       ->type_name("WORD");
 
   add("pause", "lets simulated time stand still");
@@ -143,7 +136,7 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
       ->type_name("FACTOR");
 
   Entry& log = add("log", "shows faults, warnings and changes since the start");
-  log.command->add_flag("-f,--follow", log.arguments.follows, "goes on with what comes");
+  flag(log, "-f,--follow", "follow", "goes on with what comes");
 
   Entry& complete = add("complete", "for the completion of shells");
   complete.command->group("");

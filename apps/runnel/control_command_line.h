@@ -7,7 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "apps/runnel/control_command.h"
+#include "apps/runnel/command_line.h"
 
 namespace runnel::program {
 
@@ -19,8 +19,6 @@ class ControlCommandLine {
 
   /// After parsing: which of them it was, if any.
   [[nodiscard]] std::optional<ControlArguments> Parsed() const;
-
-  [[nodiscard]] static const std::vector<std::string>& Names();
 
  private:
   struct Entry {

@@ -1,5 +1,3 @@
-#include "apps/runnel/graph_command.h"
-
 #include <array>
 #include <cstring>
 #include <filesystem>
@@ -10,7 +8,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "apps/runnel/print_error.h"
+#include "apps/runnel/commands.h"
+#include "apps/runnel/output.h"
 #include "core/base/nearest_name.h"
 #include "core/base/replace_file.h"
 #include "plugins/application/application_description.h"

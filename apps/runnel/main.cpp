@@ -1,33 +1,14 @@
 #include <algorithm>
 #include <iostream>
-#include <type_traits>
 
-#include "apps/runnel/check_command.h"
 #include "apps/runnel/command_line.h"
-#include "apps/runnel/control_command.h"
-#include "apps/runnel/graph_command.h"
-#include "apps/runnel/modules_command.h"
 #include "apps/runnel/other_programs.h"
-#include "apps/runnel/run_command.h"
-#include "apps/runnel/schema_command.h"
-#include "apps/runnel/standard_output.h"
+#include "apps/runnel/output.h"
 #include "core/base/exception_text.h"
 
 namespace runnel::program {
 
 namespace {
-
-ExitCode Do(const RunArguments& arguments) { return Run(arguments); }
-ExitCode Do(const CheckArguments& arguments) { return Check(arguments); }
-ExitCode Do(const ModulesArguments& arguments) { return ListModules(arguments); }
-ExitCode Do(const SchemaArguments& arguments) { return WriteSchema(arguments); }
-ExitCode Do(const GraphArguments& arguments) { return DrawGraph(arguments); }
-ExitCode Do(const ControlArguments& arguments) { return Control(arguments); }
-ExitCode Do(const VersionArguments&) {
-  std::cout << "runnel " RUNNEL_VERSION "\n";
-  return ExitCode::kDone;
-}
-ExitCode Do(ExitCode code) { return code; }
 
 bool IsOtherCommand(const std::string& word) {
   const std::vector<std::string> commands = OtherCommands();
@@ -41,8 +22,7 @@ ExitCode DoWhatIsAsked(int count, char** words) {
       std::cerr << "error: " << why_not << '\n';
       return ExitCode::kRunFailed;
     }
-    const CommandLine command = ParseCommandLine(count, words);
-    return std::visit([](const auto& what) { return Do(what); }, command);
+    return ParseCommandLine(count, words)();
   } catch (...) {  // plugins may throw anything
     std::cerr << "error: " << runnel::DescribeException() << '\n';
   }

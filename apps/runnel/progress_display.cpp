@@ -7,8 +7,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "apps/runnel/number_text.h"
-
 namespace runnel::program {
 
 namespace {
@@ -24,6 +22,10 @@ std::string Padded(std::string text, std::size_t width) {
 }
 
 }  // namespace
+
+std::string NumberText(double number) {
+  return number < 100 ? fmt::format("{:.3g}", number) : fmt::format("{:.0f}", number);
+}
 
 ProgressDisplay::ProgressDisplay(bool is_on)
     : is_on_(is_on),

@@ -7,6 +7,10 @@
 
 namespace runnel::program {
 
+/// Three digits, or all those before the point: "0.05", "9.81", "1300"; no exponent for what is
+/// large.
+[[nodiscard]] std::string NumberText(double number);
+
 /// Shows on stdout how a run is going: on a terminal one line that is written anew about five times
 /// a second, else one line a second.
 class ProgressDisplay {

@@ -1,6 +1,5 @@
-#include "apps/runnel/run_command.h"
-
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <iostream>
 #include <memory>
@@ -9,13 +8,14 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
 
-#include "apps/runnel/number_text.h"
-#include "apps/runnel/print_error.h"
+#include "apps/runnel/commands.h"
+#include "apps/runnel/output.h"
 #include "apps/runnel/progress_display.h"
 #include "apps/runnel/statistics_table.h"
 #include "apps/runnel/stop_signal.h"
-#include "apps/runnel/typed_steps.h"
 #include "plugins/application/application.h"
 #include "plugins/application/run_report.h"
 
@@ -37,30 +37,6 @@ void PrintTimes(Duration so_far, std::chrono::steady_clock::duration real, Clock
                              real_seconds, NumberText(seconds / real_seconds));
   }
 }
-
-// Says in the words of the command line what cannot be had of real time.
-class ClockWords final : public ApplicationExtension {
- public:
-  explicit ClockWords(const RunArguments& arguments) : arguments_(arguments) {}
-
-  Result<void> Prepare(FrameworkElement& /*application*/, SchedulerOptions& options) override {
-    const auto refuse = [&](const char* message, const std::string& words) {
-      return Error{
-          .message = message,
-          .position = {arguments_.application.file},
-          .hint = "leave out " + words + ", or add <clock type=\"simulated\"/> to the application"};
-    };
-    if (options.clock != ClockKind::kReal) return {};
-    if (arguments_.speed) {
-      return refuse("the speed of real time cannot be chosen", "--fast and --speed");
-    }
-    if (arguments_.is_paused) return refuse("real time cannot be paused", "--paused");
-    return {};
-  }
-
- private:
-  const RunArguments& arguments_;  // outlive the run
-};
 
 // One run of an application that has been loaded.
 class Session {
@@ -108,7 +84,19 @@ class Session {
     PrintEvents();
     Pace& pace = application_.scheduler().pace();
     if (display_.IsDue()) display_.Show(so_far, pace.is_paused(), report_.Progress());
-    if (arguments_.steps) steps_.Look(pace);
+    if (arguments_.steps) LookForTypedSteps(pace);
+  }
+
+  // Lets a paused application run one cycle for each line of standard input, without waiting for one.
+  void LookForTypedSteps(Pace& pace) {
+    pollfd input{STDIN_FILENO, POLLIN, 0};
+    if (input_has_ended_ || poll(&input, 1, 0) <= 0) return;
+    std::array<char, 256> typed;
+    const ssize_t count = read(STDIN_FILENO, typed.data(), typed.size());
+    input_has_ended_ = count <= 0;
+    if (count <= 0) return;
+    const auto lines = std::count(typed.data(), typed.data() + count, '\n');
+    if (lines > 0) (void)pace.StepCycles(static_cast<std::uint64_t>(lines));
   }
 
   void PrintEvents() {
@@ -156,17 +144,18 @@ class Session {
   Application& application_;
   RunReport& report_;
   ProgressDisplay display_;
-  TypedSteps steps_;
+  bool input_has_ended_ = false;
 };
 
 ApplicationOptions OptionsOf(const RunArguments& arguments) {
   ApplicationOptions options = arguments.application.Options();
   options.speed = arguments.speed;
   options.is_paused = arguments.is_paused;
+  options.speed_words = "--fast and --speed";
+  options.pause_words = "--paused";
   options.has_control = arguments.has_control;
   // Of what was recorded, replayed for viewers alone.
   if (arguments.application.file.empty()) options.clock = ClockKind::kSimulated;
-  options.extensions.push_back(std::make_shared<ClockWords>(arguments));
   options.extensions_by_name = arguments.extensions;
   return options;
 }

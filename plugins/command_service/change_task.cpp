@@ -1,9 +1,14 @@
 #include "plugins/command_service/change_task.h"
 
 #include <algorithm>
+#include <chrono>
+#include <cstdint>
 #include <mutex>
 #include <new>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -52,8 +57,9 @@ void LoadMissingPlugins(const ChangeSet& changes, const ServedApplication& appli
 // `room` for all that is said of what was done.
 constexpr std::size_t kRoomForText = 160;
 std::string DoneText(Duration hold_time, std::string room) {
-  const auto text = fmt::format_to_n(room.data(), room.size(), "done; threads stood still for {:.3f} ms",
-                                     ToSeconds(hold_time) * 1e3);
+  const auto text =
+      fmt::format_to_n(room.data(), room.size(), "done; threads stood still for {:.3f} ms",
+                       ToSeconds(hold_time) * 1e3);
   room.resize(text.size);
   return room;
 }
@@ -67,13 +73,33 @@ std::string EntryOf(const ChangeSet& changes) {
   return text;
 }
 
-}  // namespace
+// A replaced module, to find out whether the new one is still there a moment later.
+struct Swap {
+  std::string path;
+  std::uint64_t before = 0;  // id of the old one
+  bool is_back = false;
+};
 
-ChangeTask::ChangeTask(ChangeRequest request, const ServedApplication& application,
-                       std::shared_ptr<CommandAnswer> answer)
-    : state_(std::make_shared<State>(State{std::move(request), application, std::move(answer)})) {}
+struct ChangeTask {
+  std::optional<Duration> Step();
+  void Apply();
+  void FindSwaps();
+  void LookAfterProbation();
+  [[nodiscard]] bool IsOver() const;
+  void Conclude();
 
-std::optional<Duration> ChangeTask::State::Step() {
+  ChangeRequest request;
+  const ServedApplication& application;
+  const std::shared_ptr<CommandAnswer> answer;
+  std::vector<Swap> swaps = {};
+  bool has_begun = false;
+  bool is_on_probation = false;
+  bool has_proved = false;
+  std::chrono::steady_clock::time_point until{};  // when the wait for the proof is given up
+  Duration look_again{};
+};
+
+std::optional<Duration> ChangeTask::Step() {
   if (!std::exchange(has_begun, true)) {
     Apply();
     if (!is_on_probation) return {};
@@ -85,7 +111,8 @@ std::optional<Duration> ChangeTask::State::Step() {
   has_proved = !is_on_probation;
   try {
     LookAfterProbation();
-  } catch (const std::bad_alloc&) {  // it has been done all the same; there may be memory at the next look
+  } catch (const std::
+               bad_alloc&) {  // it has been done all the same; there may be memory at the next look
     has_proved = false;
   }
   if (!IsOver()) {
@@ -97,7 +124,7 @@ std::optional<Duration> ChangeTask::State::Step() {
 }
 
 // What the answer and the log need comes first: nothing may fail between doing it and saying that it is done.
-void ChangeTask::State::Apply() {
+void ChangeTask::Apply() {
   const PlacedChanges& placed = request.placed;
   std::string entry = EntryOf(placed.changes);
   std::string text(kRoomForText, ' ');
@@ -119,7 +146,7 @@ void ChangeTask::State::Apply() {
                       *answer ? std::move(entry) : "refused: " + entry);
 }
 
-void ChangeTask::State::FindSwaps() {
+void ChangeTask::FindSwaps() {
   for (const Change& each : request.placed.changes) {
     const auto* const replace = std::get_if<ReplaceModule>(&each);
     if (replace == nullptr || replace->probation_cycles == 0) continue;
@@ -127,7 +154,7 @@ void ChangeTask::State::FindSwaps() {
   }
 }
 
-void ChangeTask::State::LookAfterProbation() {
+void ChangeTask::LookAfterProbation() {
   application.editor.Tend();
   is_on_probation = application.editor.on_probation() > 0;
   for (Swap& swap : swaps) {
@@ -135,7 +162,7 @@ void ChangeTask::State::LookAfterProbation() {
   }
 }
 
-bool ChangeTask::State::IsOver() const {
+bool ChangeTask::IsOver() const {
   if (std::ranges::any_of(swaps, &Swap::is_back)) return true;
   if (!is_on_probation) return has_proved;
   // Nothing proves itself while time stands still.
@@ -143,7 +170,7 @@ bool ChangeTask::State::IsOver() const {
   return std::chrono::steady_clock::now() > until;
 }
 
-void ChangeTask::State::Conclude() {
+void ChangeTask::Conclude() {
   for (const Swap& swap : swaps) {
     if (!swap.is_back) continue;
     answer->outcome = CommandAnswer::Outcome::kFailed;
@@ -155,6 +182,15 @@ void ChangeTask::State::Conclude() {
   if (*answer && is_on_probation) {
     answer->text += "\nthe new module has not run all the cycles of its probation yet";
   }
+}
+
+}  // namespace
+
+TaskStep ChangeSteps(ChangeRequest request, const ServedApplication& application,
+                     std::shared_ptr<CommandAnswer> answer) {
+  const auto task =
+      std::make_shared<ChangeTask>(ChangeTask{std::move(request), application, std::move(answer)});
+  return [task] { return task->Step(); };
 }
 
 }  // namespace runnel

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "core/base/diagnostics.h"
@@ -49,9 +50,17 @@ struct CommandAnswer {
 
   explicit operator bool() const noexcept { return outcome == Outcome::kDone; }
 
-  [[nodiscard]] static CommandAnswer Done(std::string text);
-  [[nodiscard]] static CommandAnswer Failed(Error error);
-  [[nodiscard]] static CommandAnswer Refused(Error error);
+  [[nodiscard]] static CommandAnswer Done(std::string text) {
+    return {.outcome = Outcome::kDone, .text = std::move(text), .diagnostics = {}};
+  }
+  [[nodiscard]] static CommandAnswer Failed(Error error, Outcome outcome = Outcome::kFailed) {
+    CommandAnswer answer{.outcome = outcome, .text = {}, .diagnostics = {}};
+    answer.diagnostics.Add(std::move(error));
+    return answer;
+  }
+  [[nodiscard]] static CommandAnswer Refused(Error error) {
+    return Failed(std::move(error), Outcome::kRefused);
+  }
 };
 
 }  // namespace runnel

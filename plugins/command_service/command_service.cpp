@@ -4,6 +4,7 @@
 #include <utility>
 #include <variant>
 
+#include "core/plugin/module_type_name.h"
 #include "plugins/command_service/caught_error.h"
 #include "plugins/command_service/change_task.h"
 #include "plugins/command_service/save_place.h"
@@ -12,6 +13,37 @@
 namespace runnel {
 
 namespace {
+
+// Writes into the log what others than clients change: those have their changes logged as they wrote them.
+class StructureRecorder final : public ElementListener {
+ public:
+  StructureRecorder(Runtime& runtime, ApplicationLog& log) : runtime_(runtime), log_(log) {
+    runtime_.AddListener(*this);
+  }
+  ~StructureRecorder() override { runtime_.RemoveListener(*this); }
+  StructureRecorder(const StructureRecorder&) = delete;
+  StructureRecorder& operator=(const StructureRecorder&) = delete;
+
+  void OnReady(FrameworkElement& element) override {
+    const std::string type = FindModuleType(element);
+    Add("put in " + element.path() + (type.empty() ? "" : " (" + type + ")"));
+  }
+  void OnDeleted(FrameworkElement& element) override { Add("took out " + element.path()); }
+  void OnConnected(FrameworkElement& from, FrameworkElement& to) override {
+    Add("connected " + from.path() + " to " + to.path());
+  }
+  void OnDisconnected(FrameworkElement& from, FrameworkElement& to) override {
+    Add("disconnected " + from.path() + " from " + to.path());
+  }
+
+ private:
+  void Add(std::string text) {
+    if (!CommandWorker::IsThisThread()) log_.Add(ApplicationLog::Kind::kChange, std::move(text));
+  }
+
+  Runtime& runtime_;
+  ApplicationLog& log_;
+};
 
 using Hook = std::function<Result<std::string>(const std::string&)>;
 
@@ -26,6 +58,10 @@ CommandAnswer Call(const Hook& hook, const std::string& argument, const char* wh
 
 }  // namespace
 
+CommandService::CommandService(ServedApplication application)
+    : application_(std::move(application)),
+      recorder_(std::make_unique<StructureRecorder>(application_.runtime, application_.log)) {}
+
 CommandAnswer PendingCommand::Take() {
   if (task_->failure()) return CommandAnswer::Failed(*task_->failure());
   return std::move(*answer_);
@@ -39,7 +75,7 @@ std::unique_ptr<PendingCommand> CommandService::Begin(CommandRequest request, Ta
   TaskStep step = std::visit(
       [&](auto& each) -> TaskStep {
         if constexpr (std::is_same_v<decltype(each), ChangeRequest&>) {
-          return ChangeTask(std::move(each), application_, answer);
+          return ChangeSteps(std::move(each), application_, answer);
         } else {
           return [this, each, answer]() -> std::optional<Duration> {
             *answer = Do(each);

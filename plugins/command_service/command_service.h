@@ -4,13 +4,13 @@
 #include <memory>
 #include <string>
 
+#include "core/element/element_listener.h"
 #include "core/element/runtime.h"
 #include "core/plugin/module_registry.h"
 #include "plugins/command_service/application_log.h"
 #include "plugins/command_service/command_request.h"
 #include "plugins/command_service/command_worker.h"
 #include "plugins/command_service/recording_hook.h"
-#include "plugins/command_service/structure_recorder.h"
 #include "plugins/structure/structure_editor.h"
 
 namespace runnel {
@@ -78,8 +78,7 @@ class PendingCommand {
 /// Errors:     in the answers. Whatever a plugin throws becomes one.
 class CommandService {
  public:
-  explicit CommandService(ServedApplication application)
-      : application_(std::move(application)), recorder_(application_.runtime, application_.log) {}
+  explicit CommandService(ServedApplication application);
 
   [[nodiscard]] const ServedApplication& application() const noexcept { return application_; }
   /// For what else a transport has to do that may wait.
@@ -98,8 +97,8 @@ class CommandService {
   [[nodiscard]] CommandAnswer TakeHistoryStep(bool goes_back) const;
 
   const ServedApplication application_;
-  StructureRecorder recorder_;
-  CommandWorker worker_;  // first to go: its tasks use the rest
+  const std::unique_ptr<ElementListener> recorder_;  // of what others than clients change
+  CommandWorker worker_;                             // first to go: its tasks use the rest
 };
 
 }  // namespace runnel

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "plugins/control/command.h"
-#include "plugins/control/frame.h"
+#include "plugins/control/protocol.h"
 
 namespace runnel {
 

@@ -16,40 +16,30 @@ struct CommandKind {
   std::size_t least_arguments;
   std::size_t most_arguments;
   std::vector<std::string> options;
-  std::function<CommandResult(const Request&, CommandService&, TaskGroup&)> make;
+  CommandMaker* make;
+  bool needs_pace = false;
 };
-
-// For those that need no worker.
-auto Alone(CommandResult (*make)(const Request&, const ServedApplication&)) {
-  return [make](const Request& request, CommandService& service, TaskGroup&) {
-    return make(request, service.application());
-  };
-}
-
-CommandResult MakeRecord(const Request& request, CommandService& service, TaskGroup& tasks) {
-  return MakeRecordCommand(request, service.application(), tasks);
-}
 
 constexpr std::size_t kMostPatterns = 1000;
 
 const std::vector<CommandKind>& Kinds() {
   static const std::vector<CommandKind> kinds{
-      {"ls", 0, 1, {"long"}, Alone(MakeListCommand)},
-      {"paths", 0, 0, {}, Alone(MakePathsCommand)},
-      {"types", 0, 0, {}, Alone(MakeTypesCommand)},
-      {"echo", 1, 1, {"count", "full"}, Alone(MakeEchoCommand)},
-      {"hz", 1, 1, {"count"}, Alone(MakeRateCommand)},
-      {"log", 0, 0, {"follow"}, Alone(MakeLogCommand)},
+      {"ls", 0, 1, {"long"}, MakeListCommand},
+      {"paths", 0, 0, {}, MakePathsCommand},
+      {"types", 0, 0, {}, MakeTypesCommand},
+      {"echo", 1, 1, {"count", "full"}, MakeEchoCommand},
+      {"hz", 1, 1, {"count"}, MakeRateCommand},
+      {"log", 0, 0, {"follow"}, MakeLogCommand},
       {"change", 0, 0, {"file"}, MakeServiceCommand},
       {"undo", 0, 0, {}, MakeServiceCommand},
       {"redo", 0, 0, {}, MakeServiceCommand},
       {"save", 0, 1, {}, MakeServiceCommand},
-      {"pause", 0, 0, {}, Alone(MakePauseCommand)},
-      {"resume", 0, 0, {}, Alone(MakeResumeCommand)},
-      {"step", 0, 1, {}, Alone(MakeStepCommand)},
-      {"speed", 0, 1, {}, Alone(MakeSpeedCommand)},
+      {"pause", 0, 0, {}, MakePauseCommand, true},
+      {"resume", 0, 0, {}, MakeResumeCommand, true},
+      {"step", 0, 1, {}, MakeStepCommand, true},
+      {"speed", 0, 1, {}, MakeSpeedCommand, true},
       {"reload", 1, 1, {}, MakeServiceCommand},
-      {"record", 0, kMostPatterns, {"file", "count", "compression"}, MakeRecord},
+      {"record", 0, kMostPatterns, {"file", "count", "compression"}, MakeRecordCommand},
   };
   return kinds;
 }
@@ -77,13 +67,15 @@ CommandResult MakeCommand(const std::string& text, CommandService& service, Task
   if (!request) return request.error();
   const auto kind = std::ranges::find(Kinds(), request->command, &CommandKind::name);
   if (kind == Kinds().end()) {
-    std::vector<std::string> names;
-    for (const CommandKind& each : Kinds()) names.push_back(each.name);
     return Error{.message = "there is no command '" + request->command + "'",
-                 .hint = NearestNameHint(request->command, names)};
+                 .hint = NearestNameHint(request->command, NamesOf(Kinds(), &CommandKind::name))};
   }
   if (auto good = CheckArguments(*request, *kind); !good) return good.error();
-  return kind->make(*request, service, tasks);
+  if (kind->needs_pace && service.application().pace == nullptr) {
+    return Error{.message =
+                     "the program that runs this application cannot pause it or change its speed"};
+  }
+  return kind->make(*request, {service.application(), service, tasks});
 }
 
 std::optional<ControlCode> Command::Continue(Answer& answer) {

@@ -10,7 +10,7 @@
 #include <variant>
 
 #include "plugins/command_service/command_service.h"
-#include "plugins/control/request.h"
+#include "plugins/control/protocol.h"
 
 namespace runnel {
 
@@ -64,21 +64,19 @@ class Command {
 [[nodiscard]] Result<Command> MakeCommand(const std::string& request, CommandService& service,
                                           TaskGroup& tasks);
 
-// Their makers.
+/// What a request is carried out on, and by.
+struct CommandContext {
+  const ServedApplication& application;
+  CommandService& service;
+  TaskGroup& tasks;
+};
 using CommandResult = Result<Command>;
-[[nodiscard]] CommandResult MakeListCommand(const Request&, const ServedApplication&);
-[[nodiscard]] CommandResult MakePathsCommand(const Request&, const ServedApplication&);
-[[nodiscard]] CommandResult MakeTypesCommand(const Request&, const ServedApplication&);
-[[nodiscard]] CommandResult MakeEchoCommand(const Request&, const ServedApplication&);
-[[nodiscard]] CommandResult MakeRateCommand(const Request&, const ServedApplication&);
-[[nodiscard]] CommandResult MakeLogCommand(const Request&, const ServedApplication&);
-[[nodiscard]] CommandResult MakePauseCommand(const Request&, const ServedApplication&);
-[[nodiscard]] CommandResult MakeResumeCommand(const Request&, const ServedApplication&);
-[[nodiscard]] CommandResult MakeStepCommand(const Request&, const ServedApplication&);
-[[nodiscard]] CommandResult MakeSpeedCommand(const Request&, const ServedApplication&);
-[[nodiscard]] CommandResult MakeRecordCommand(const Request&, const ServedApplication&, TaskGroup&);
+using CommandMaker = CommandResult(const Request& request, const CommandContext& context);
+CommandMaker MakeListCommand, MakePathsCommand, MakeTypesCommand, MakeEchoCommand, MakeRateCommand,
+    MakeLogCommand, MakePauseCommand, MakeResumeCommand, MakeStepCommand, MakeSpeedCommand,
+    MakeRecordCommand;
 /// Of those that the service carries out.
-[[nodiscard]] CommandResult MakeServiceCommand(const Request&, CommandService&, TaskGroup&);
+CommandMaker MakeServiceCommand;
 
 /// The errors and warnings as lines, the first hundred of each.
 [[nodiscard]] std::string DiagnosticsText(const Diagnostics& all);

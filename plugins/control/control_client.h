@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "plugins/control/frame.h"
 #include "plugins/control/protocol.h"
 
 namespace runnel {

@@ -84,10 +84,11 @@ class Echo {
 
 }  // namespace
 
-CommandResult MakeEchoCommand(const Request& request, const ServedApplication& application) {
+CommandResult MakeEchoCommand(const Request& request, const CommandContext& context) {
   const auto count = ReadCountOption(request);
   if (!count) return count.error();
-  return Command(Echo(application.runtime, request.arguments[0], *count, request.Has("full")));
+  return Command(
+      Echo(context.application.runtime, request.arguments[0], *count, request.Has("full")));
 }
 
 }  // namespace runnel

@@ -9,8 +9,8 @@ constexpr Duration kLookForNew = std::chrono::milliseconds(100);
 
 }  // namespace
 
-CommandResult MakeLogCommand(const Request& request, const ServedApplication& application) {
-  return Command([&log = application.log, follows = request.Has("follow"),
+CommandResult MakeLogCommand(const Request& request, const CommandContext& context) {
+  return Command([&log = context.application.log, follows = request.Has("follow"),
                   next = std::uint64_t{0}](Answer& answer) mutable -> CommandStep {
     const ApplicationLog::Entries read = log.ReadEntries(next, kEntriesAtOnce);
     std::string text;

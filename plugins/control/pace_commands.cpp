@@ -38,33 +38,27 @@ CommandResult Do(const ServedApplication& application, const Result<void>& done,
   return Say(what + " at " + TimeText(application));
 }
 
-Error NoPace() {
-  return {.message = "the program that runs this application cannot pause it or change its speed"};
-}
-
 }  // namespace
 
-CommandResult MakePauseCommand(const Request&, const ServedApplication& application) {
-  if (application.pace == nullptr) return NoPace();
-  return Do(application, application.pace->Pause(), "paused");
+CommandResult MakePauseCommand(const Request&, const CommandContext& context) {
+  return Do(context.application, context.application.pace->Pause(), "paused");
 }
 
-CommandResult MakeResumeCommand(const Request&, const ServedApplication& application) {
-  if (application.pace == nullptr) return NoPace();
-  return Do(application, application.pace->Resume(), "resumed");
+CommandResult MakeResumeCommand(const Request&, const CommandContext& context) {
+  return Do(context.application, context.application.pace->Resume(), "resumed");
 }
 
-CommandResult MakeStepCommand(const Request& request, const ServedApplication& application) {
-  if (application.pace == nullptr) return NoPace();
+CommandResult MakeStepCommand(const Request& request, const CommandContext& context) {
   const std::string word = request.arguments.empty() ? "1" : request.arguments[0];
   const auto count = NumberIn<std::uint64_t>(word);
   if (!count) {
     return Error{.message = "'" + word + "' is not a count of cycles",
                  .hint = "allowed is 1 .. " + std::to_string(Pace::kMostCycles)};
   }
-  if (auto stepped = application.pace->StepCycles(*count); !stepped) return stepped.error();
+  if (auto stepped = context.application.pace->StepCycles(*count); !stepped) return stepped.error();
   // Waits until the cycles have run.
-  return Command([&application, &pace = *application.pace](Answer& answer) -> CommandStep {
+  return Command([&application = context.application,
+                  &pace = *context.application.pace](Answer& answer) -> CommandStep {
     if (!pace.is_paused()) {
       answer.WriteError("somebody else has let it go on meanwhile\n");
       return ControlCode::kFailed;
@@ -75,15 +69,14 @@ CommandResult MakeStepCommand(const Request& request, const ServedApplication& a
   });
 }
 
-CommandResult MakeSpeedCommand(const Request& request, const ServedApplication& application) {
-  if (application.pace == nullptr) return NoPace();
-  Pace& pace = *application.pace;
+CommandResult MakeSpeedCommand(const Request& request, const CommandContext& context) {
+  Pace& pace = *context.application.pace;
   if (request.arguments.empty()) {
     return Say(SpeedText(pace.speed()) + (pace.is_paused() ? ", but paused" : ""));
   }
   const auto speed = NumberIn<double>(request.arguments[0]);
   if (!speed) return Error{.message = "'" + request.arguments[0] + "' is not a number"};
-  return Do(application, pace.SetSpeed(*speed), SpeedText(*speed));
+  return Do(context.application, pace.SetSpeed(*speed), SpeedText(*speed));
 }
 
 }  // namespace runnel

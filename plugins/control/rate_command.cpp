@@ -35,12 +35,12 @@ std::string LineOf(const Sample& before, const Sample& now) {
 }  // namespace
 
 // Counts at the publisher: nothing is subscribed, read or copied.
-CommandResult MakeRateCommand(const Request& request, const ServedApplication& application) {
+CommandResult MakeRateCommand(const Request& request, const CommandContext& context) {
   const auto count = ReadCountOption(request);
   if (!count) return count.error();
   return Command(UnderLock(
-      application.runtime,
-      [&runtime = application.runtime, path = request.arguments[0], left = *count,
+      context.application.runtime,
+      [&runtime = context.application.runtime, path = request.arguments[0], left = *count,
        last = std::optional<Sample>()](Answer& answer) mutable -> CommandStep {
         const auto found = PathSearch(runtime).FindPort(path, PathKind::kOutput);
         if (!found) {

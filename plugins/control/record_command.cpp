@@ -98,9 +98,9 @@ class RecordCommand {
 
 }  // namespace
 
-CommandResult MakeRecordCommand(const Request& request, const ServedApplication& application,
-                                TaskGroup& tasks) {
-  if (!application.hooks.record) {
+CommandResult MakeRecordCommand(const Request& request, const CommandContext& context) {
+  const RecordingHook& record = context.application.hooks.record;
+  if (!record) {
     return Error{.message = "the program that runs this application cannot record it"};
   }
   const auto seconds = ReadCountOption(request);
@@ -109,9 +109,9 @@ CommandResult MakeRecordCommand(const Request& request, const ServedApplication&
     return Error{.message = "'record' needs the file to record to, as file=…"};
   }
   const auto recording = std::make_shared<RecordCommand>(
-      application.hooks.record,
+      record,
       RecordingRequest{request.Option("file"), request.arguments, request.Option("compression")},
-      *seconds, tasks);
+      *seconds, context.tasks);
   return Command([recording](Answer& answer) { return recording->Continue(answer); });
 }
 

@@ -36,8 +36,7 @@ CommandRequest RequestOf(const Request& request, PlacedChanges placed) {
 }  // namespace
 
 // Has the service carry out the request, and tells what has come of it.
-CommandResult MakeServiceCommand(const Request& request, CommandService& service,
-                                 TaskGroup& tasks) {
+CommandResult MakeServiceCommand(const Request& request, const CommandContext& context) {
   PlacedChanges placed;
   if (request.command == "change") {
     Diagnostics diagnostics;
@@ -50,7 +49,7 @@ CommandResult MakeServiceCommand(const Request& request, CommandService& service
     }
   }
   const std::shared_ptr<PendingCommand> pending =
-      service.Begin(RequestOf(request, std::move(placed)), tasks);
+      context.service.Begin(RequestOf(request, std::move(placed)), context.tasks);
   return Command([pending](Answer& answer) -> CommandStep {
     if (!pending->is_done()) return std::shared_ptr<const WorkerTask>(pending->task());
     const CommandAnswer done = pending->Take();

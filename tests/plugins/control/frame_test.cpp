@@ -1,8 +1,6 @@
-#include "plugins/control/frame.h"
-
 #include <gmock/gmock.h>
 
-#include "plugins/control/request.h"
+#include "plugins/control/protocol.h"
 
 namespace runnel::test {
 

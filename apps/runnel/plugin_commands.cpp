@@ -1,15 +1,20 @@
-#include "apps/runnel/module_listing.h"
+// What plugins bring, listed and as a schema.
 
 #include <algorithm>
-#include <ostream>
+#include <iostream>
 #include <string>
 #include <vector>
 
+#include "apps/runnel/commands.h"
+#include "apps/runnel/output.h"
 #include "core/base/characters.h"
+#include "core/base/replace_file.h"
 #include "core/element/configurable.h"
 #include "core/port/path_search.h"
 #include "core/port/port.h"
 #include "core/types/type_info.h"
+#include "plugins/application/application_description.h"
+#include "plugins/application_files/schema.h"
 
 namespace runnel::program {
 
@@ -17,9 +22,9 @@ namespace {
 
 using Row = std::vector<std::string>;
 
-void WriteTable(const std::string& title, const std::vector<Row>& rows, std::ostream& stream) {
+void WriteTable(const std::string& title, const std::vector<Row>& rows) {
   if (rows.empty()) return;
-  stream << "  " << title << '\n';
+  std::cout << "  " << title << '\n';
   std::vector<std::size_t> widths(rows.front().size(), 0);
   for (const Row& row : rows) {
     for (std::size_t i = 0; i < row.size(); ++i)
@@ -32,7 +37,7 @@ void WriteTable(const std::string& title, const std::vector<Row>& rows, std::ost
         line += " " + row[i] + std::string(widths[i] - CharacterCount(row[i]) + 1, ' ');
     }
     line.erase(line.find_last_not_of(' ') + 1);
-    stream << line << '\n';
+    std::cout << line << '\n';
   }
 }
 
@@ -77,19 +82,67 @@ std::vector<Row> Parameters(const FrameworkElement& module) {
   return rows;
 }
 
-}  // namespace
-
-Result<void> ListModule(const ModuleType& type, ApplicationDescription& surroundings,
-                        std::ostream& stream) {
+// Makes a module of the type, writes down its ports and parameters, and deletes it again. Errors: it cannot be
+// made.
+Result<void> ListModule(const ModuleType& type, ApplicationDescription& surroundings) {
   Runtime& runtime = surroundings.runtime();
   const auto module = surroundings.plugins().modules().Create(type.name, runtime.root(), "module");
   if (!module) return module.error();
-  stream << type.name << (type.summary.empty() ? "" : "  " + type.summary) << '\n';
-  WriteTable("inputs", Ports(**module, Port::Direction::kInput), stream);
-  WriteTable("outputs", Ports(**module, Port::Direction::kOutput), stream);
-  WriteTable("parameters", Parameters(**module), stream);
-  stream << '\n';
+  std::cout << type.name << (type.summary.empty() ? "" : "  " + type.summary) << '\n';
+  WriteTable("inputs", Ports(**module, Port::Direction::kInput));
+  WriteTable("outputs", Ports(**module, Port::Direction::kOutput));
+  WriteTable("parameters", Parameters(**module));
+  std::cout << '\n';
   return runtime.Delete(**module);
+}
+
+// Loads the plugins, or all that can be found if none is named. False after saying which could not
+// be loaded, and why; the others have been.
+bool LoadChosenPlugins(const std::vector<std::string>& chosen,
+                       ApplicationDescription& surroundings) {
+  bool all_are_there = true;
+  for (const std::string& plugin : chosen.empty() ? surroundings.plugins().Available() : chosen) {
+    const auto loaded = surroundings.plugins().Load(plugin);
+    if (loaded) continue;
+    PrintError(loaded.error());
+    all_are_there = false;
+  }
+  return all_are_there;
+}
+
+}  // namespace
+
+ExitCode ListModules(const ModulesArguments& arguments) {
+  ApplicationDescription surroundings;
+  ExitCode code =
+      LoadChosenPlugins(arguments.plugins, surroundings) ? ExitCode::kDone : ExitCode::kBadInput;
+  for (const ModuleType* type : surroundings.plugins().modules().All()) {
+    if (arguments.names_only) {
+      std::cout << type->name << '\n';
+    } else if (auto listed = ListModule(*type, surroundings); !listed) {
+      PrintError(listed.error());
+      code = ExitCode::kBadInput;
+    }
+  }
+  return code;
+}
+
+ExitCode WriteSchema(const SchemaArguments& arguments) {
+  ApplicationDescription surroundings;
+  if (!LoadChosenPlugins(arguments.plugins, surroundings)) return ExitCode::kBadInput;
+  Diagnostics diagnostics;
+  const std::string text =
+      SchemaText(surroundings.tags(), surroundings.plugins().modules(), diagnostics);
+  std::cerr << diagnostics.ToString();
+  if (!diagnostics.ok()) return ExitCode::kBadInput;
+  if (arguments.output.empty()) {
+    std::cout << text;
+    return ExitCode::kDone;
+  }
+  const auto written = ReplaceFile(arguments.output, text);
+  if (written) return ExitCode::kDone;
+  PrintError(written.error());
+  return ExitCode::kRunFailed;
 }
 
 }  // namespace runnel::program

@@ -1,6 +1,11 @@
 #pragma once
 
+#include "core/base/error.h"
+
 namespace runnel::program {
+
+/// Writes it to stderr, in one line: "app.xml:3:5: error: /demo/x: …".
+void PrintError(const Error& error);
 
 /// Lets what is written to a pipe that nobody reads any more be lost ("| head -1"), rather than end
 /// the program: a run shall end in order.

@@ -1,10 +1,12 @@
-#include "apps/runnel/standard_output.h"
+#include "apps/runnel/output.h"
 
 #include <csignal>
 #include <iostream>
 
 #include <poll.h>
 #include <unistd.h>
+
+#include "plugins/control/command.h"
 
 namespace runnel::program {
 
@@ -16,6 +18,8 @@ bool IsReaderGone() {
 }
 
 }  // namespace
+
+void PrintError(const Error& error) { std::cerr << ErrorLine(error); }
 
 void OutliveReaders() { std::signal(SIGPIPE, SIG_IGN); }
 
