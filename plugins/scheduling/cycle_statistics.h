@@ -1,11 +1,9 @@
 #pragma once
 
-#include <array>
-#include <atomic>
 #include <cstdint>
 
 #include "core/base/clock.h"
-#include "core/lockfree/cache_line.h"
+#include "core/lockfree/latest_value.h"
 
 namespace runnel {
 
@@ -32,13 +30,10 @@ struct CycleMeasurement {
   bool overrun = false;
 };
 
-/// Sums up measurements, and lets others look at the sum meanwhile.
+/// Sums up measurements, and lets others look at the sum meanwhile. What a cycle pays for is adding up;
+/// who looks does the dividing.
 ///
-/// What a cycle pays for is adding up; who looks does the dividing. Two cells are written in turn, each
-/// from what the other one has, so that a reader never waits for a writer that has been interrupted.
-///
-/// Threads:   Add() by one thread at a time; statistics() by any. Progress: wait-free / lock-free
-///            (repeated only if a whole cycle has gone by meanwhile).
+/// Threads:   Add() by one thread at a time; statistics() by any. Progress: as LatestValue.
 /// Allocation: none.
 class CycleMeter {
  public:
@@ -46,32 +41,15 @@ class CycleMeter {
   [[nodiscard]] CycleStatistics statistics() const noexcept;
 
  private:
-  // All are sums and extremes of counts, or of nanoseconds, in words that are copied one by one.
-  enum Word {
-    kOverruns,
-    kFirstStart,
-    kLastStart,
-    kPeriodMin,
-    kPeriodMax,
-    kJitter,
-    kJitterMax,
-    kExecution,
-    kExecutionMax,
-    kWords
-  };
-  using Sums = std::array<std::int64_t, kWords>;
-  static constexpr std::int64_t kBeingWritten = 0;
-
-  struct alignas(kCacheLineSize) Cell {
-    std::atomic<std::int64_t> number{kBeingWritten};  // of the cycle that it was written after
-    std::array<std::atomic<std::int64_t>, kWords> words{};
+  // Until they have been divided, what is called mean is a sum.
+  struct Sums {
+    CycleStatistics of;
+    Time first_start{};
+    Time last_start{};
   };
 
-  // Returns the number of cycles in them; 0: none yet.
-  std::int64_t Read(Sums& sums) const noexcept;
-
-  std::array<Cell, 2> cells_;
-  alignas(kCacheLineSize) std::atomic<std::int64_t> published_{0};  // the number of cycles
+  Sums sums_;  // the writer's own
+  LatestValue<Sums> shown_;
 };
 
 }  // namespace runnel

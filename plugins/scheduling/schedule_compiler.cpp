@@ -8,7 +8,6 @@
 #include "core/port/port.h"
 #include "plugins/scheduling/cycle_runner.h"
 #include "plugins/scheduling/cycle_tracer.h"
-#include "plugins/scheduling/internal/data_flow.h"
 #include "plugins/scheduling/internal/trigger_binding.h"
 
 namespace runnel {
@@ -232,18 +231,15 @@ void ScheduleCompiler::RemoveTasks(PlannedElement& planned) {
 }
 
 void ScheduleCompiler::ConnectTasks(PlannedElement& planned) {
-  const auto visit = [](const FrameworkElement* group, const auto& visitor) {
-    if (group != nullptr) internal::VisitPorts(*group, visitor);
-  };
   for (const auto& task : planned.tasks) {
     for (const FrameworkElement* group : task->task.writes) {
-      visit(group, [&](const Port& port) {
+      internal::VisitPorts(group, [&](const Port& port) {
         if (port.is_proxy() || port.direction() != Port::Direction::kOutput) return;
         for (const Port* input : port.Sinks()) ConnectPair(port, *input);
       });
     }
     for (const FrameworkElement* group : task->task.reads) {
-      visit(group, [&](const Port& port) {
+      internal::VisitPorts(group, [&](const Port& port) {
         if (port.is_proxy() || port.direction() != Port::Direction::kInput) return;
         for (const Port* output : port.Sources()) ConnectPair(*output, port);
       });
@@ -276,13 +272,9 @@ void ScheduleCompiler::HandOver(PlannedElement& planned, ThreadSchedule& thread)
 }
 
 void ScheduleCompiler::BindTriggersOf(PlannedElement& planned) {
-  const std::vector<InputBase*> inputs = internal::TriggerInputs(TasksOf(planned));
-  if (planned.thread->runner->waits_for_data()) {
-    internal::BindTriggers(inputs, *planned.state, *planned.thread->runner);
-  } else {
-    internal::UnbindTriggers(inputs);
-    planned.state->set_runner(nullptr);
-  }
+  CycleRunner& runner = *planned.thread->runner;
+  internal::BindTriggers(internal::TriggerInputs(TasksOf(planned)), *planned.state,
+                         runner.waits_for_data() ? &runner : nullptr);
 }
 
 // What fails on the way is made good by compiling everything, but what is about to go is let go of: a schedule
@@ -307,7 +299,10 @@ void ScheduleCompiler::ReleaseAll(FrameworkElement& element) {
     if (threads_.contains(each.id())) NeedAll();
     const auto known = elements_.find(each.id());
     if (known == elements_.end()) return;
-    internal::UnbindTriggers(internal::TriggerInputs(each.FindAnnotation<Executable>()->tasks()));
+    if (known->second.state) {  // else memory was too short for it, and nothing is bound
+      internal::BindTriggers(internal::TriggerInputs(each.FindAnnotation<Executable>()->tasks()),
+                             *known->second.state, nullptr);
+    }
     RemoveTasks(known->second);
     // A publisher may still be about to wake it.
     Retire([state = known->second.state] {});

@@ -65,9 +65,7 @@ void Scheduler::OnDisconnected(FrameworkElement& from, FrameworkElement& to) {
   Changed();
 }
 
-void Scheduler::OnAssigned(FrameworkElement& element, ThreadContainer&) { OnUnassigned(element); }
-
-void Scheduler::OnUnassigned(FrameworkElement& element) {
+void Scheduler::OnAssigned(FrameworkElement& element) {
   compiler_.Reassign(element);
   Changed();
 }

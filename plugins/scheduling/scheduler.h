@@ -161,8 +161,7 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   void OnDeleted(FrameworkElement& element) override;
   void OnConnected(FrameworkElement& from, FrameworkElement& to) override;
   void OnDisconnected(FrameworkElement& from, FrameworkElement& to) override;
-  void OnAssigned(FrameworkElement& element, ThreadContainer& thread) override;
-  void OnUnassigned(FrameworkElement& element) override;
+  void OnAssigned(FrameworkElement& element) override;
   void OnChangesEnd() override;
 
  private:

@@ -37,6 +37,15 @@ void CheckOptions(const FrameworkElement& container, const ThreadOptions& option
   }
 }
 
+void SetAssignment(FrameworkElement& element, std::uint64_t thread) {
+  Runtime& runtime = element.runtime();
+  const std::lock_guard lock(runtime.structure_mutex());
+  element.Annotate(std::make_unique<ThreadAssignment>(thread));
+  runtime.ForEachListener([&](ElementListener& listener) {
+    if (auto* const told = dynamic_cast<AssignmentListener*>(&listener)) told->OnAssigned(element);
+  });
+}
+
 }  // namespace
 
 ThreadContainer::ThreadContainer(const Placement& placement, const ThreadOptions& options)
@@ -63,31 +72,17 @@ ThreadContainer& CreateThread(Runtime& runtime, const std::string& name,
 }
 
 void AssignThread(FrameworkElement& element, ThreadContainer& thread) {
-  Runtime& runtime = element.runtime();
-  RUNNEL_CHECK(&runtime == &thread.runtime(), "a thread runs modules of its own runtime only");
-  const std::lock_guard lock(runtime.structure_mutex());
-  element.Annotate(std::make_unique<ThreadAssignment>(thread.id()));
-  runtime.ForEachListener([&](ElementListener& listener) {
-    if (auto* const told = dynamic_cast<AssignmentListener*>(&listener)) {
-      told->OnAssigned(element, thread);
-    }
-  });
+  RUNNEL_CHECK(&element.runtime() == &thread.runtime(),
+               "a thread runs modules of its own runtime only");
+  SetAssignment(element, thread.id());
 }
+
+// One that never was: what is above decides.
+void UnassignThread(FrameworkElement& element) { SetAssignment(element, kNoThread); }
 
 std::uint64_t OwnThreadId(const FrameworkElement& element) {
   const auto* const found = element.FindAnnotation<ThreadAssignment>();
-  return found != nullptr && found->id != kNoThread ? found->id : 0;
-}
-
-void UnassignThread(FrameworkElement& element) {
-  Runtime& runtime = element.runtime();
-  const std::lock_guard lock(runtime.structure_mutex());
-  // One that never was: what is above decides.
-  element.Annotate(std::make_unique<ThreadAssignment>(kNoThread));
-  runtime.ForEachListener([&](ElementListener& listener) {
-    if (auto* const told = dynamic_cast<AssignmentListener*>(&listener))
-      told->OnUnassigned(element);
-  });
+  return found != nullptr ? found->id : kNoThread;
 }
 
 // Threads are children of a group "threads", of the root or of an application.

@@ -60,9 +60,8 @@ void UnassignThread(FrameworkElement& element);
 /// Told of assignments; an ElementListener may be one too.
 class AssignmentListener {
  public:
-  /// Under the structure lock. Must not throw.
-  virtual void OnAssigned(FrameworkElement& element, ThreadContainer& thread) = 0;
-  virtual void OnUnassigned(FrameworkElement& element) = 0;
+  /// To another thread or to none, under the structure lock. Must not throw.
+  virtual void OnAssigned(FrameworkElement& element) = 0;
 
  protected:
   ~AssignmentListener() = default;

@@ -27,7 +27,7 @@ struct LoopCut {
 
 inline constexpr int kDeepestLoop = 32;
 
-/// Cuts `loop`, of more than one task, by rule 4 of OrderTasks(): in front of the task that rule 3
+/// Cuts `loop`, of more than one task, by rule 4 of RunningOrder: in front of the task that rule 3
 /// puts first and that waits for no task of its own element; then the loops that are left among the
 /// others. A function of the loop alone. O(size of the loop), times how deep loops lie in loops; those
 /// that lie deeper than kDeepestLoop are cut wherever a connection leads against the order of rule 3.

@@ -58,9 +58,25 @@ struct OrderedTask {
   bool is_head = false;
 };
 
-/// The tasks of one thread in the order of the data flow, by the rules of OrderTasks()
-/// (execution_order.h). Sorting makes all of it anew: order and cuts are then a function of the tasks
-/// and connections alone.
+/// The tasks of one thread in the order of the data flow, so that what the first one measures reaches
+/// the last one in the same cycle. Sorting makes all of it anew: order and cuts are then a function of
+/// the tasks and connections alone.
+///
+/// An edge leads from the task that writes a group to each task that reads a group in which a port
+/// is fed by it, through however many interface ports. Besides, the tasks of one element keep the
+/// order of their phases. Rules, in this order:
+///   1. An edge from a control task into a sense task is the feedback through the robot: not followed,
+///      and not reported.
+///   2. All other edges are followed, as long as they form no loop.
+///   3. Of the tasks that are free to run, the one with the earlier phase comes first, then the one
+///      whose element was made earlier (id), then the one named earlier by its element.
+///   4. If none is free, the tasks left contain loops. Of those loops that no other loop feeds, the
+///      task that rule 3 puts first runs next; the edges into it from tasks that are left are cut,
+///      and each of their connections is reported. A task that feeds itself is reported likewise.
+///      After 32 such cuts, each within the loop that the one before has left, what is left of it runs
+///      by rule 3 alone, and every connection against that is cut.
+/// No address and no clock enters: the same application gives the same order and the same cuts.
+/// Source:   the sorting of S. Kahn, "Topological sorting of large networks" (1962).
 ///
 /// Threads:  one at a time. Ownership: tasks belong to the caller and stay where they are until they
 ///           are removed.

@@ -1,5 +1,3 @@
-#include "plugins/scheduling/execution_order.h"
-
 #include <algorithm>
 #include <random>
 
@@ -7,6 +5,7 @@
 
 #include "core/module/group.h"
 #include "core/port/proxy_port.h"
+#include "tests/plugins/scheduling/order_tasks.h"
 #include "tests/plugins/scheduling/test_modules.h"
 
 namespace runnel {
@@ -15,9 +14,11 @@ namespace {
 using ::testing::AllOf;
 using testing::Base;
 using ::testing::ElementsAre;
+using testing::ExecutionOrder;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::MustSucceed;
+using testing::OrderTasks;
 using testing::Relay;
 using ::testing::SizeIs;
 

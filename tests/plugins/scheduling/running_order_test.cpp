@@ -19,7 +19,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-/// Rules 1 to 4 of OrderTasks(), word by word and as slow as they come.
+/// Rules 1 to 4 of RunningOrder, word by word and as slow as they come.
 class ByTheRules {
  public:
   explicit ByTheRules(const Graph& graph) : graph_(graph), before_(graph.phases.size()) {
