@@ -81,7 +81,7 @@ std::string RunTable(const std::vector<Row>& rows) {
   return text + "</tbody></table></div>\n";
 }
 
-std::string Figure(const Row& row, const std::string& world_id, const ViewBox& view) {
+std::string Figure(const Row& row, const std::string& world_id, const Extent& view) {
   const RunKey& key = row.record->key;
   std::string caption = "<b>" + EscapedMarkup(key.variant) + "</b> " + EscapedMarkup(key.sensor) +
                         ", " + EscapedMarkup(key.direction) + ", seed " + std::to_string(key.seed) +
@@ -95,7 +95,7 @@ std::string Figure(const Row& row, const std::string& world_id, const ViewBox& v
 
 std::string WorldSection(const Course& course, std::size_t number, const std::vector<Row>& rows) {
   const std::string id = "w" + std::to_string(number);
-  ViewBox view = ViewBoxOf(course);
+  Extent view = ViewOf(course);
   for (const Row& row : rows) {
     if (row.course != &course) continue;
     for (const PathSample& sample : row.record->result.path) view.Include(sample.position, 0.3);

@@ -43,7 +43,7 @@ std::string Rings(const std::vector<Ring>& rings) {
   return text + "\"/>";
 }
 
-std::string ObstaclesOf(const World& world, const ViewBox& view) {
+std::string ObstaclesOf(const World& world, const Extent& view) {
   std::string text;
   if (world.bounds) {
     text += Rings({{view.low, {view.high.x, view.low.y}, view.high, {view.low.x, view.high.y}},
@@ -65,7 +65,7 @@ std::string ObstaclesOf(const World& world, const ViewBox& view) {
   return text;
 }
 
-std::string ViewBoxText(const ViewBox& view) {
+std::string ViewBoxText(const Extent& view) {
   const Point2 size = view.high - view.low;
   return "viewBox=\"" + Fixed(view.low.x, 2) + " " + Fixed(-view.high.y, 2) + " " +
          Fixed(size.x, 2) + " " + Fixed(size.y, 2) + "\"";
@@ -90,25 +90,12 @@ std::string PathOf(const std::vector<PathSample>& path) {
 
 }  // namespace
 
-void ViewBox::Include(Point2 point, double reach) {
-  low = {std::min(low.x, point.x - reach), std::min(low.y, point.y - reach)};
-  high = {std::max(high.x, point.x + reach), std::max(high.y, point.y + reach)};
+Extent ViewOf(const Course& course) {
+  const Extent extent = ExtentOf(course.world);
+  return {extent.low - Point2{kAir, kAir}, extent.high + Point2{kAir, kAir}};
 }
 
-ViewBox ViewBoxOf(const Course& course) {
-  const Point2 start = Position(course.world.start);
-  ViewBox view{start, start};
-  view.Include(start, kAir);
-  view.Include(course.world.goal, kAir);
-  const Outline outline = OutlineOf(course.world);
-  for (const Outline::Flat& flat : outline.flats) view.Include(flat.ground.from, kAir);
-  for (const Outline::Round& round : outline.rounds) {
-    view.Include(round.centre, round.radius + kAir);
-  }
-  return view;
-}
-
-std::string WorldSymbol(const std::string& id, const Course& course, const ViewBox& view) {
+std::string WorldSymbol(const std::string& id, const Course& course, const Extent& view) {
   std::string text = "<symbol id=\"" + id + "\" " + ViewBoxText(view) + ">";
   text += ObstaclesOf(course.world, view);
   if (course.shortest) text += Polyline(course.shortest->points, "shortest");
@@ -118,7 +105,7 @@ std::string WorldSymbol(const std::string& id, const Course& course, const ViewB
   return text + "</symbol>\n";
 }
 
-std::string RunDrawing(const std::string& world_id, const RunRecord& record, const ViewBox& view) {
+std::string RunDrawing(const std::string& world_id, const RunRecord& record, const Extent& view) {
   const double mark = 0.009 * Norm(view.high - view.low);
   const Point2 size = view.high - view.low;
   std::string text = "<svg role=\"img\" aria-label=\"" + EscapedMarkup(TextOf(record.key)) + "\" " +

@@ -4,24 +4,19 @@
 
 #include "apps/arena/course.h"
 #include "apps/arena/run_record.h"
+#include "modules/simulation/algorithm/outline.h"
 
 namespace runnel::arena {
 
-/// Where all paths and the world are, in m.
-struct ViewBox {
-  Point2 low;
-  Point2 high;
-
-  void Include(Point2 point, double reach = 0.0);
-};
-[[nodiscard]] ViewBox ViewBoxOf(const Course& course);
+/// What is shown of a world, with some air round it.
+[[nodiscard]] Extent ViewOf(const Course& course);
 
 /// The world's obstacles, start, goal and shortest path, as a <symbol> of this id. Drawn in m, y up;
 /// colours come from the classes of the page.
 [[nodiscard]] std::string WorldSymbol(const std::string& id, const Course& course,
-                                      const ViewBox& view);
+                                      const Extent& view);
 /// One run over the world: an <svg> that uses the symbol.
 [[nodiscard]] std::string RunDrawing(const std::string& world_id, const RunRecord& record,
-                                     const ViewBox& view);
+                                     const Extent& view);
 
 }  // namespace runnel::arena

@@ -135,8 +135,8 @@ class Session {
                         (remark.empty() ? "" : "; " + remark));
       return {};
     };
-    return Runner(arguments_, product_, matrix_)
-        .Run(to_do, {.finished = finished,
+    return MakeRuns(to_do, arguments_, product_, matrix_,
+                    {.finished = finished,
                      .tick = [&] { progress.Show(); },
                      .is_to_stop = [] { return stop_is_wanted != 0; }});
   }

@@ -5,7 +5,8 @@
 
 namespace runnel::arena {
 
-std::string PictureOf(const Course& course, const RunRecord& record) {
+Result<void> WritePicture(const std::filesystem::path& folder, const Course& course,
+                          const RunRecord& record) {
   const RunResult& result = record.result;
   Trajectory trajectory{
       .path = result.path,
@@ -22,12 +23,7 @@ std::string PictureOf(const Course& course, const RunRecord& record) {
   }
   World world = course.world;
   world.name = record.key.world + " · " + record.key.variant + " · " + record.key.sensor;
-  return TrajectorySvg(world, trajectory);
-}
-
-Result<void> WritePicture(const std::filesystem::path& folder, const Course& course,
-                          const RunRecord& record) {
-  return WriteFile(folder / (FileNameOf(record.key) + ".svg"), PictureOf(course, record));
+  return WriteFile(folder / (FileNameOf(record.key) + ".svg"), TrajectorySvg(world, trajectory));
 }
 
 }  // namespace runnel::arena

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 #include "apps/arena/course.h"
 #include "apps/arena/run_record.h"
@@ -9,10 +8,7 @@
 
 namespace runnel::arena {
 
-/// The run as a complete SVG file, drawn as the referee draws.
-[[nodiscard]] std::string PictureOf(const Course& course, const RunRecord& record);
-
-/// Into <folder>/<world>-<variant>-<sensor>-<direction>-<seed>.svg. Errors: it cannot be written.
+/// Draws the run as the referee does, into <folder>/<world>-<variant>-<sensor>-<direction>-<seed>.svg. Errors: it cannot be written.
 Result<void> WritePicture(const std::filesystem::path& folder, const Course& course,
                           const RunRecord& record);
 

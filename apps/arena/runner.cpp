@@ -7,8 +7,10 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <list>
 #include <sstream>
+#include <string>
 #include <system_error>
 
 #include <poll.h>
@@ -92,6 +94,29 @@ RunRecord RecordOf(const Underway& underway, const ChildProcess::Ending& ending,
   return record;
 }
 
+/// Of temporary files; removed with all that is in it.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = std::filesystem::temp_directory_path() / "runnel-arena-XXXXXX";
+    if (mkdtemp(name.data()) == nullptr) {
+      throw std::system_error(errno, std::generic_category(), "no temporary folder " + name);
+    }
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code error;
+    std::filesystem::remove_all(path_, error);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
 /// What runs now.
 class Pool {
  public:
@@ -133,7 +158,7 @@ class Pool {
   }
 
   /// Hands those over that have ended, and ends those that hang.
-  Result<void> Collect(const Runner::Callbacks& callbacks) {
+  Result<void> Collect(const RunCallbacks& callbacks) {
     for (auto each = underway_.begin(); each != underway_.end();) {
       if (!each->hangs && Clock::now() >= Deadline(*each)) {
         each->hangs = true;
@@ -169,24 +194,12 @@ class Pool {
 
 }  // namespace
 
-TemporaryFolder::TemporaryFolder() {
-  std::string name = std::filesystem::temp_directory_path() / "runnel-arena-XXXXXX";
-  if (mkdtemp(name.data()) == nullptr) {
-    throw std::system_error(errno, std::generic_category(), "no temporary folder " + name);
-  }
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code error;
-  std::filesystem::remove_all(path_, error);
-}
-
-Result<void> Runner::Run(const std::vector<const PlannedRun*>& runs, const Callbacks& callbacks) {
-  Pool pool(arguments_, product_, matrix_);
+Result<void> MakeRuns(const std::vector<const PlannedRun*>& runs, const ArenaArguments& arguments,
+                      const Product& product, const Matrix& matrix, const RunCallbacks& callbacks) {
+  Pool pool(arguments, product, matrix);
   std::size_t next = 0;
   while ((next < runs.size() || pool.size() > 0) && !callbacks.is_to_stop()) {
-    if (next < runs.size() && pool.size() < static_cast<std::size_t>(arguments_.jobs)) {
+    if (next < runs.size() && pool.size() < static_cast<std::size_t>(arguments.jobs)) {
       if (auto started = pool.Start(*runs[next++]); !started) return started;
       continue;
     }

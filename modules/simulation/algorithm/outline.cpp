@@ -1,5 +1,8 @@
 #include "modules/simulation/algorithm/outline.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "modules/simulation/algorithm/world_geometry.h"
 
 namespace runnel {
@@ -34,6 +37,21 @@ Outline OutlineOf(const World& world, double bounds_height) {
   for (const WallObstacle& wall : world.walls) AddWall(wall, outline);
   if (world.bounds) AddRing(*world.bounds, bounds_height, outline);
   return outline;
+}
+
+void Extent::Include(Point2 point, double reach) {
+  if (!std::isfinite(point.x) || !std::isfinite(point.y)) return;
+  low = {std::min(low.x, point.x - reach), std::min(low.y, point.y - reach)};
+  high = {std::max(high.x, point.x + reach), std::max(high.y, point.y + reach)};
+}
+
+Extent ExtentOf(const World& world) {
+  Extent extent{Position(world.start), Position(world.start)};
+  extent.Include(world.goal);
+  const Outline outline = OutlineOf(world);
+  for (const Outline::Flat& flat : outline.flats) extent.Include(flat.ground.from);
+  for (const Outline::Round& round : outline.rounds) extent.Include(round.centre, round.radius);
+  return extent;
 }
 
 BoxObstacle StraightPart(const Segment2& piece, double thickness, double height) {

@@ -27,6 +27,18 @@ struct Outline {
 /// Bounds have no height of their own: they take `bounds_height` (m).
 [[nodiscard]] Outline OutlineOf(const World& world, double bounds_height = kDefaultObstacleHeight);
 
+/// An upright rectangle, in m.
+struct Extent {
+  Point2 low;
+  Point2 high;
+
+  /// With `reach` on all sides of the point. One that is not finite is left out.
+  void Include(Point2 point, double reach = 0.0);
+};
+
+/// Everything that stands in the world, and its start and goal.
+[[nodiscard]] Extent ExtentOf(const World& world);
+
 /// The rectangle that a piece of a wall stands on, without the round ends.
 [[nodiscard]] BoxObstacle StraightPart(const Segment2& piece, double thickness, double height);
 

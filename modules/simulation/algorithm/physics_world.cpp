@@ -20,19 +20,8 @@ constexpr double kBroadphaseMargin = 5.0;
 btVector3 ToBullet(Point2 point, double z) { return {point.x, point.y, z}; }
 
 /// A box round the world for the sweep. Outside of it everything still collides, only slower.
-std::pair<btVector3, btVector3> ExtentOf(const World& world) {
-  Point2 low = Position(world.start), high = low;
-  const auto include = [&](Point2 point, double reach) {
-    low = {std::min(low.x, point.x - reach), std::min(low.y, point.y - reach)};
-    high = {std::max(high.x, point.x + reach), std::max(high.y, point.y + reach)};
-  };
-  include(world.goal, 0.0);
-  const Outline outline = OutlineOf(world);
-  for (const Outline::Flat& flat : outline.flats) {
-    include(flat.ground.from, 0.0);
-    include(flat.ground.to, 0.0);
-  }
-  for (const Outline::Round& round : outline.rounds) include(round.centre, round.radius);
+std::pair<btVector3, btVector3> BroadphaseExtent(const World& world) {
+  const auto [low, high] = ExtentOf(world);
   const btVector3 margin(kBroadphaseMargin, kBroadphaseMargin, kBroadphaseMargin);
   return {ToBullet(low, -1.0) - margin, ToBullet(high, 1.0) + margin};
 }
@@ -69,7 +58,7 @@ btRigidBody::btRigidBodyConstructionInfo BodyInfo(const RobotOptions& robot,
 struct PhysicsWorld::State {
   State(const World& description, const PhysicsOptions& physics_options)
       : options(physics_options),
-        extent(ExtentOf(description)),
+        extent(BroadphaseExtent(description)),
         dispatcher(&configuration),
         broadphase(extent.first, extent.second, GreatestCountOfObjects(description), nullptr, true),
         world(&dispatcher, &broadphase, &solver, &configuration),

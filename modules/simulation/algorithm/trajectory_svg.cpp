@@ -38,8 +38,8 @@ std::string_view ColourOf(VerdictTone tone) {
   return kInk;
 }
 
-internal::Extent ExtentOf(const World& world, const Trajectory& trajectory) {
-  internal::Extent extent = internal::ExtentOf(world);
+Extent ExtentOf(const World& world, const Trajectory& trajectory) {
+  Extent extent = ExtentOf(world);
   for (const PathSample& sample : trajectory.path) extent.Include(sample.position);
   return extent;
 }

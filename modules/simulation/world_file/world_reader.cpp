@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -17,12 +19,8 @@ using Names = std::vector<std::string>;
 
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
-/// Where each part of the world came from, in step with the world's own lists.
-struct Places {
-  std::optional<XmlElement> start, goal, bounds;
-  std::vector<XmlElement> polygons, boxes, cylinders, walls;
-  std::vector<std::vector<XmlElement>> holes;  // of each polygon
-};
+/// Which part of the world it is, as a WorldFault has it.
+using PartKey = std::tuple<WorldPart, std::size_t, std::size_t>;
 
 class WorldReader {
  public:
@@ -39,9 +37,11 @@ class WorldReader {
                   diagnostics_);
     if (const std::string* name = ReadText(root, "name", diagnostics_)) world_.name = *name;
     for (const XmlElement child : root.children()) ReadPart(child);
-    if (!places_.start) Report(root, "the world has no <start>", "add <start x=\"…\" y=\"…\"/>");
-    if (!places_.goal) Report(root, "the world has no <goal>", "add <goal x=\"…\" y=\"…\"/>");
-    ReportFaults(root);
+    if (!Has(WorldPart::kStart))
+      Report(root, "the world has no <start>", "add <start x=\"…\" y=\"…\"/>");
+    if (!Has(WorldPart::kGoal))
+      Report(root, "the world has no <goal>", "add <goal x=\"…\" y=\"…\"/>");
+    ReportFaults();
     if (diagnostics_.errors().size() != errors_before) return std::nullopt;
     return std::move(world_);
   }
@@ -69,14 +69,13 @@ class WorldReader {
   }
 
   /// The element's place becomes known; another one of a kind of which there is one is an error.
-  void TakeOnly(XmlElement element, std::optional<XmlElement>& place) {
-    if (place) {
-      Report(element, "the world has a second <" + element.name() + ">",
-             "the first is in line " + std::to_string(place->position().line));
-    } else {
-      place = element;
-    }
+  void TakeOnly(XmlElement element, WorldPart part) {
+    const auto [place, is_first] = places_.try_emplace({part, 0, 0}, element);
+    if (is_first) return;
+    Report(element, "the world has a second <" + element.name() + ">",
+           "the first is in line " + std::to_string(place->second.position().line));
   }
+  bool Has(WorldPart part) const { return places_.contains({part, 0, 0}); }
 
   /// Without a number the element is told of already, and its geometry means nothing.
   double Number(XmlElement element, const char* attribute) {
@@ -110,13 +109,13 @@ class WorldReader {
   }
 
   void ReadStart(XmlElement element) {
-    TakeOnly(element, places_.start);
+    TakeOnly(element, WorldPart::kStart);
     CheckLeaf(element, {"x", "y", "heading"});
     world_.start = ReadPose(element);
   }
 
   void ReadGoal(XmlElement element) {
-    TakeOnly(element, places_.goal);
+    TakeOnly(element, WorldPart::kGoal);
     CheckLeaf(element, {"x", "y"});
     world_.goal = ReadPlace(element);
   }
@@ -125,17 +124,16 @@ class WorldReader {
     CheckAttributes(element, Names{"height"}, diagnostics_);
     CheckChildren(element, Names{"point", "hole"}, diagnostics_);
     PolygonObstacle polygon{.outline = ReadPoints(element), .height = ReadHeight(element)};
-    std::vector<XmlElement> holes;
+    const std::size_t index = world_.polygons.size();
     for (const XmlElement child : element.children()) {
       if (child.name() != "hole") continue;
       CheckAttributes(child, {}, diagnostics_);
       CheckChildren(child, Names{"point"}, diagnostics_);
+      places_.emplace(PartKey{WorldPart::kHole, index, polygon.holes.size()}, child);
       polygon.holes.push_back(ReadPoints(child));
-      holes.push_back(child);
     }
+    places_.emplace(PartKey{WorldPart::kPolygon, index, 0}, element);
     world_.polygons.push_back(std::move(polygon));
-    places_.polygons.push_back(element);
-    places_.holes.push_back(std::move(holes));
   }
 
   void ReadBox(XmlElement element) {
@@ -143,52 +141,31 @@ class WorldReader {
     const Pose2 pose = ReadPose(element);
     const double length = Number(element, "length");
     const double width = Number(element, "width");
+    places_.emplace(PartKey{WorldPart::kBox, world_.boxes.size(), 0}, element);
     world_.boxes.push_back({pose, length, width, ReadHeight(element)});
-    places_.boxes.push_back(element);
   }
 
   void ReadCylinder(XmlElement element) {
     CheckLeaf(element, {"x", "y", "radius", "height"});
     const Point2 centre = ReadPlace(element);
     const double radius = Number(element, "radius");
+    places_.emplace(PartKey{WorldPart::kCylinder, world_.cylinders.size(), 0}, element);
     world_.cylinders.push_back({centre, radius, ReadHeight(element)});
-    places_.cylinders.push_back(element);
   }
 
   void ReadWall(XmlElement element) {
     CheckAttributes(element, Names{"thickness", "height"}, diagnostics_);
     CheckChildren(element, Names{"point"}, diagnostics_);
     const double thickness = Number(element, "thickness");
+    places_.emplace(PartKey{WorldPart::kWall, world_.walls.size(), 0}, element);
     world_.walls.push_back({ReadPoints(element), thickness, ReadHeight(element)});
-    places_.walls.push_back(element);
   }
 
   void ReadBounds(XmlElement element) {
-    TakeOnly(element, places_.bounds);
+    TakeOnly(element, WorldPart::kBounds);
     CheckAttributes(element, {}, diagnostics_);
     CheckChildren(element, Names{"point"}, diagnostics_);
     world_.bounds = ReadPoints(element);
-  }
-
-  XmlElement PlaceOf(const WorldFault& fault, XmlElement root) const {
-    switch (fault.part) {
-      case WorldPart::kStart:
-      case WorldPart::kGoal:
-        break;  // their numbers are finite or told of already
-      case WorldPart::kPolygon:
-        return places_.polygons[fault.index];
-      case WorldPart::kHole:
-        return places_.holes[fault.index][fault.hole];
-      case WorldPart::kBox:
-        return places_.boxes[fault.index];
-      case WorldPart::kCylinder:
-        return places_.cylinders[fault.index];
-      case WorldPart::kWall:
-        return places_.walls[fault.index];
-      case WorldPart::kBounds:
-        return places_.bounds.value_or(root);
-    }
-    return root;
   }
 
   bool IsComplete(XmlElement element) const {
@@ -200,11 +177,12 @@ class WorldReader {
     });
   }
 
-  void ReportFaults(XmlElement root) {
-    if (!places_.start) world_.start = {kNoNumber, kNoNumber, 0.0};
+  void ReportFaults() {
+    if (!Has(WorldPart::kStart)) world_.start = {kNoNumber, kNoNumber, 0.0};
     for (WorldFault& fault : FaultsOf(world_)) {
+      // Their numbers are finite or told of already.
       if (fault.part == WorldPart::kStart || fault.part == WorldPart::kGoal) continue;
-      const XmlElement place = PlaceOf(fault, root);
+      const XmlElement place = places_.at({fault.part, fault.index, fault.hole});
       if (IsComplete(place)) Report(place, std::move(fault.message));
     }
   }
@@ -212,7 +190,7 @@ class WorldReader {
   Diagnostics& diagnostics_;
   World world_;
   std::vector<XmlElement> incomplete_;
-  Places places_;
+  std::map<PartKey, XmlElement> places_;
 };
 
 std::optional<World> ReadDocument(const Result<XmlDocument>& document, Diagnostics& diagnostics) {

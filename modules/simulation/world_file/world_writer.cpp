@@ -1,7 +1,6 @@
 #include "modules/simulation/world_file/world_writer.h"
 
 #include <charconv>
-#include <fstream>
 #include <string_view>
 
 #include "core/xml/xml_writing.h"
@@ -76,18 +75,6 @@ std::string WriteWorld(const World& world) {
   text += WriteAll(world.cylinders) + WriteAll(world.walls);
   if (world.bounds) text += "  <bounds>\n" + Points(*world.bounds, "    ") + "  </bounds>\n";
   return text + "</world>\n";
-}
-
-Result<void> WriteWorldFile(const std::filesystem::path& path, const World& world) {
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  file << WriteWorld(world);
-  file.close();
-  if (file) return {};
-  Error error;
-  error.message = "the world cannot be written";
-  error.position.file = path.string();
-  error.hint = "is its folder there, and may you write in it?";
-  return error;
 }
 
 }  // namespace runnel

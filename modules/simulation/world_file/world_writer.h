@@ -1,9 +1,7 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 
-#include "core/base/result.h"
 #include "modules/simulation/algorithm/world.h"
 
 namespace runnel {
@@ -11,8 +9,5 @@ namespace runnel {
 /// The world as XML in the format that ReadWorld reads. Numbers are as short as they can be without
 /// losing a bit, so that reading gives an equal world. Headings of 0 and heights of 1 are left out.
 [[nodiscard]] std::string WriteWorld(const World& world);
-
-/// Replaces the file.
-Result<void> WriteWorldFile(const std::filesystem::path& path, const World& world);
 
 }  // namespace runnel

@@ -1,13 +1,9 @@
 #include "modules/simulation/world_file/world_writer.h"
 
-#include <filesystem>
-#include <fstream>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "modules/simulation/world_file/world_reader.h"
-#include "tests/support/temporary_folder.h"
 
 namespace runnel {
 namespace {
@@ -40,21 +36,6 @@ TEST(WriteWorld, LeavesOutWhatIsUsual) {
             "  <goal x=\"0\" y=\"0\"/>\n"
             "  <cylinder x=\"5\" y=\"5\" radius=\"1\"/>\n"
             "</world>\n");
-}
-
-TEST(WriteWorldFile, ReplacesTheFile) {
-  const test::TemporaryFolder folder;
-  const auto path = folder / "world.xml";
-  std::ofstream(path) << std::string(100000, 'x');
-  ASSERT_TRUE(WriteWorldFile(path, EveryPart()).has_value());
-  Diagnostics diagnostics;
-  EXPECT_EQ(ReadWorldFile(path, diagnostics), EveryPart()) << diagnostics.ToString();
-}
-
-TEST(WriteWorldFile, TellsWhereItCannotWrite) {
-  const auto written = WriteWorldFile("/nowhere/at/all.xml", World{});
-  ASSERT_FALSE(written.has_value());
-  EXPECT_EQ(written.error().position.file, "/nowhere/at/all.xml");
 }
 
 }  // namespace

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "modules/simulation/algorithm/outline.h"
-
 namespace runnel::internal {
 
 namespace {
@@ -21,21 +19,6 @@ std::string Style(std::initializer_list<std::string_view> names_and_values) {
     style += std::string(at[0]) + "=\"" + std::string(at[1]) + "\"";
   }
   return style;
-}
-
-void Extent::Include(Point2 point, double reach) {
-  if (!IsFinite(point)) return;
-  low = {std::min(low.x, point.x - reach), std::min(low.y, point.y - reach)};
-  high = {std::max(high.x, point.x + reach), std::max(high.y, point.y + reach)};
-}
-
-Extent ExtentOf(const World& world) {
-  Extent extent{Position(world.start), Position(world.start)};
-  extent.Include(world.goal);
-  const Outline outline = OutlineOf(world);
-  for (const Outline::Flat& flat : outline.flats) extent.Include(flat.ground.from);
-  for (const Outline::Round& round : outline.rounds) extent.Include(round.centre, round.radius);
-  return extent;
 }
 
 Canvas::Canvas(const Extent& extent) : extent_(extent) {

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "modules/simulation/algorithm/outline.h"
 #include "modules/types/algorithm/svg_writer.h"
-#include "modules/simulation/algorithm/world.h"
 
 namespace runnel::internal {
 
@@ -26,16 +26,6 @@ inline constexpr std::string_view kFaintInk = "#667182";
 
 /// Attributes from names and values in turn.
 [[nodiscard]] std::string Style(std::initializer_list<std::string_view> names_and_values);
-
-struct Extent {
-  Point2 low;
-  Point2 high;
-
-  void Include(Point2 point, double reach = 0.0);
-};
-
-/// Everything that stands in the world, and its start and goal.
-[[nodiscard]] Extent ExtentOf(const World& world);
 
 /// A part of the world (m, y up) laid out as a plot in a picture (pixels, y down).
 class Canvas {
