@@ -44,29 +44,28 @@ std::vector<std::string> NamesOf(const std::vector<FrameworkElement*>& elements,
   return names;
 }
 
-Error Missing(const FrameworkElement& at, std::string_view name,
-              const std::vector<std::string>& candidates) {
-  return {.message = "there is no '" + std::string(name) + "' in " + at.path(),
-          .path = at.path(),
-          .hint = NearestNameHint(name, candidates)};
+PathEnd Missing(FrameworkElement& at, std::string_view name, std::vector<std::string> candidates) {
+  Error error{.message = "there is no '" + std::string(name) + "' in " + at.path(),
+              .path = at.path(),
+              .hint = NearestNameHint(name, candidates)};
+  return {nullptr, &at, std::string(name), std::move(candidates), std::move(error)};
 }
 
 }  // namespace
 
-Result<FrameworkElement*> PathSearch::Find(std::string_view path, PathKind kind) const {
+PathEnd PathSearch::Follow(std::string_view path, PathKind kind) const {
   const bool is_from_root = IsAbsolutePath(path) || base_.parent() == nullptr;
-  FrameworkElement& root = base_.runtime().root();
-  auto found = FollowFrom(is_from_root ? root : base_, path, kind);
-  if (found || !is_from_root || !may_leave_out_application_) return found;
+  PathEnd end = FollowFrom(is_from_root ? base_.runtime().root() : base_, path, kind);
+  if (end.found != nullptr || !is_from_root || !may_leave_out_application_) return end;
   FrameworkElement* const application = OnlyApplication();
-  if (application == nullptr) return found;
-  auto below = FollowFrom(*application, path, kind);
+  if (application == nullptr) return end;
+  PathEnd below = FollowFrom(*application, path, kind);
   // A path that begins with a name at the root is meant from there.
-  return below || found.error().path == root.path() ? below : found;
+  return below.found != nullptr || end.at->parent() == nullptr ? below : end;
 }
 
-Result<FrameworkElement*> PathSearch::FollowFrom(FrameworkElement& start, std::string_view path,
-                                                 PathKind kind) const {
+PathEnd PathSearch::FollowFrom(FrameworkElement& start, std::string_view path,
+                               PathKind kind) const {
   FrameworkElement* at = &start;
   const std::vector<std::string_view> names = SplitPath(path);
   for (const std::string_view& name : names) {
@@ -80,22 +79,31 @@ Result<FrameworkElement*> PathSearch::FollowFrom(FrameworkElement& start, std::s
     }
     at = next;
   }
-  return at;
+  return {at, at};
 }
 
-Result<FrameworkElement*> PathSearch::FollowShort(FrameworkElement& module, std::string_view name,
-                                                  PathKind kind) const {
+PathEnd PathSearch::FollowShort(FrameworkElement& module, std::string_view name,
+                                PathKind kind) const {
   const std::vector<FrameworkElement*> parts = PartsOf(module, kind);
   std::vector<FrameworkElement*> called = parts;
   std::erase_if(called, [&](const auto* part) { return part->name() != name; });
   if (called.empty()) return Missing(module, name, NamesOf(parts, kind));
   const bool is_ambiguous =
       kind != PathKind::kElement && called.size() > 1 && Fits(*called[1], kind);
-  if (!is_ambiguous) return called[0];
-  return Error{
-      .message = "'" + std::string(name) + "' names more than one port of " + module.path(),
-      .path = module.path(),
-      .hint = "write " + called[0]->path() + " or " + called[1]->path()};
+  if (!is_ambiguous) return {called[0], called[0]};
+  return {nullptr,
+          &module,
+          {},
+          {},
+          {.message = "'" + std::string(name) + "' names more than one port of " + module.path(),
+           .path = module.path(),
+           .hint = "write " + called[0]->path() + " or " + called[1]->path()}};
+}
+
+Result<FrameworkElement*> PathSearch::Find(std::string_view path, PathKind kind) const {
+  PathEnd end = Follow(path, kind);
+  if (end.found == nullptr) return std::move(end.error);
+  return end.found;
 }
 
 Result<Port*> PathSearch::FindPort(std::string_view path, PathKind kind) const {

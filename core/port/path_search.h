@@ -19,6 +19,15 @@ enum class PathKind {
   kParameter,  ///< anything; in a module, what can be set
 };
 
+/// What came of following a path.
+struct PathEnd {
+  FrameworkElement* found = nullptr;         ///< nullptr: there is no such element
+  FrameworkElement* at = nullptr;            ///< the last element on the way that is there
+  std::string missing = {};                  ///< the first name that is not there; "" if all are
+  std::vector<std::string> candidates = {};  ///< what `at` has instead
+  Error error = {};                          ///< if nothing was found; its path is that of `at`
+};
+
 /// Finds what people name by paths, in files, on command lines, in browsers and in code. In all of them
 ///
 ///     robot/laser    begins at the base, ".." being the parent; with a '/' in front at the root
@@ -37,7 +46,9 @@ class PathSearch {
   PathSearch(const PathSearch&) = delete;
   PathSearch& operator=(const PathSearch&) = delete;
 
-  /// Errors: which name is not there, in which element, and the nearest.
+  [[nodiscard]] PathEnd Follow(std::string_view path, PathKind kind) const;
+
+  /// Errors: which name is not there, and the nearest.
   [[nodiscard]] Result<FrameworkElement*> Find(std::string_view path,
                                                PathKind kind = PathKind::kElement) const;
   /// Errors: besides, that it is no port; that two ports fit. If none fits the kind, one that does not is
@@ -54,10 +65,10 @@ class PathSearch {
   [[nodiscard]] FrameworkElement* OnlyApplication() const;
 
  private:
-  [[nodiscard]] Result<FrameworkElement*> FollowFrom(FrameworkElement& start, std::string_view path,
-                                                     PathKind kind) const;
-  [[nodiscard]] Result<FrameworkElement*> FollowShort(FrameworkElement& module,
-                                                      std::string_view name, PathKind kind) const;
+  [[nodiscard]] PathEnd FollowFrom(FrameworkElement& start, std::string_view path,
+                                   PathKind kind) const;
+  [[nodiscard]] PathEnd FollowShort(FrameworkElement& module, std::string_view name,
+                                    PathKind kind) const;
 
   FrameworkElement& base_;
   const bool may_leave_out_application_;

@@ -88,7 +88,7 @@ class XmlDocument {
   /// Reads a file of at most 64 MiB.
   static Result<XmlDocument> Load(const std::filesystem::path& path);
   /// `file_name` is what errors call the text.
-  static Result<XmlDocument> Parse(std::string_view text, const std::string& file_name);
+  static Result<XmlDocument> Parse(std::string_view text, std::string file_name);
   /// The bytes of a file that Load() would take.
   static Result<std::string> ReadText(const std::filesystem::path& path);
 

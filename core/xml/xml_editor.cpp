@@ -1,7 +1,7 @@
 #include "core/xml/xml_editor.h"
 
 #include <algorithm>
-#include <tuple>
+#include <optional>
 
 #include "core/xml/internal/text_cursor.h"
 
@@ -35,13 +35,13 @@ void XmlEditor::SetAttribute(XmlElement element, std::string_view name, std::str
   if (const XmlAttribute* known = element.Attribute(name)) {
     if (known->value == value) return;
     const char quote = text_[known->value_span.begin - 1];
-    Replace(known->value_span, EscapedAttribute(value, quote));
+    edits_.Replace(known->value_span, EscapedAttribute(value, quote));
     return;
   }
   const std::size_t place = element.attributes().empty()
                                 ? element.spans().start_tag.begin + 1 + element.name().size()
                                 : element.attributes().back().span.end;
-  Insert(place, " " + std::string(name) + "=\"" + EscapedAttribute(value) + "\"");
+  edits_.Insert(place, " " + std::string(name) + "=\"" + EscapedAttribute(value) + "\"");
 }
 
 void XmlEditor::RemoveAttribute(XmlElement element, std::string_view name) {
@@ -49,7 +49,7 @@ void XmlEditor::RemoveAttribute(XmlElement element, std::string_view name) {
   if (known == nullptr) return;
   std::size_t begin = known->span.begin;
   while (internal::IsXmlSpace(text_[begin - 1])) --begin;
-  Cut({begin, known->span.end});
+  edits_.Cut({begin, known->span.end});
 }
 
 void XmlEditor::RemoveWords(const XmlAttribute& list, const std::set<std::size_t>& words) {
@@ -71,10 +71,10 @@ void XmlEditor::RemoveWords(const XmlAttribute& list, const std::set<std::size_t
     }
     // With the whitespace before it; the first with that behind it.
     if (!keeps_any) {
-      Cut({begin, place});
+      edits_.Cut({begin, place});
     } else {
       while (internal::IsXmlSpace(text_[begin - 1])) --begin;
-      Cut({begin, word_end});
+      edits_.Cut({begin, word_end});
     }
   }
 }
@@ -86,9 +86,9 @@ void XmlEditor::Remove(XmlElement element) {
   const std::size_t next_line = NextLine(whole.end);
   const bool is_last_of_line = next_line != whole.end;
   if (!is_last_of_line) {
-    Cut({whole.begin, behind});
+    edits_.Cut({whole.begin, behind});
   } else {
-    Cut({before, BeginsLine(whole.begin) ? next_line : whole.end});
+    edits_.Cut({before, BeginsLine(whole.begin) ? next_line : whole.end});
   }
 }
 
@@ -101,9 +101,9 @@ void XmlEditor::InsertAfter(XmlElement sibling, const NewElement& element) {
   const TextSpan whole = sibling.spans().whole;
   std::string text = ElementText(element, MarginAt(whole.begin), layout_);
   const std::size_t next_line = NextLine(whole.end);
-  if (next_line != whole.end) return Insert(next_line, std::move(text));
+  if (next_line != whole.end) return edits_.Insert(next_line, std::move(text));
   text.resize(text.size() - layout_.line_end.size());
-  Insert(whole.end, layout_.line_end + text);
+  edits_.Insert(whole.end, layout_.line_end + text);
 }
 
 void XmlEditor::InsertFirst(XmlElement parent, const NewElement& element) {
@@ -111,32 +111,15 @@ void XmlEditor::InsertFirst(XmlElement parent, const NewElement& element) {
   if (parent.spans().end_tag.size() == 0) return Append(parent, element);
   std::string text = ElementText(element, MarginInside(parent), layout_);
   const std::size_t next_line = NextLine(start.end);
-  if (next_line != start.end) return Insert(next_line, std::move(text));
+  if (next_line != start.end) return edits_.Insert(next_line, std::move(text));
   text.resize(text.size() - layout_.line_end.size());
-  Insert(start.end, layout_.line_end + text);
+  edits_.Insert(start.end, layout_.line_end + text);
 }
 
 std::string XmlEditor::Finish() {
   for (const auto& [place, appended] : appended_) WriteAppended(appended.parent, appended.elements);
   appended_.clear();
-  std::vector<const Edit*> sorted;
-  for (const Edit& edit : edits_) sorted.push_back(&edit);
-  // What is put in before what is taken away from the same place on.
-  std::ranges::stable_sort(sorted, {}, [](const Edit* edit) {
-    return std::tuple(edit->span.begin, edit->span.size() > 0);
-  });
-  std::string result;
-  std::size_t done = 0;
-  for (const Edit* edit : sorted) {
-    if (edit->span.begin >= done) {
-      result += text_.substr(done, edit->span.begin - done);
-      result += edit->text;
-      done = edit->span.end;
-    } else if (edit->text.empty()) {
-      done = std::max(done, edit->span.end);
-    }
-  }
-  return result += text_.substr(done);
+  return edits_.Apply(text_);
 }
 
 void XmlEditor::WriteAppended(XmlElement parent, const std::vector<NewElement>& elements) {
@@ -148,12 +131,12 @@ void XmlEditor::WriteAppended(XmlElement parent, const std::vector<NewElement>& 
   if (spans.end_tag.size() == 0) {
     std::size_t begin = spans.start_tag.end - 2;
     while (internal::IsXmlSpace(text_[begin - 1])) --begin;
-    Replace({begin, spans.start_tag.end},
-            ">" + layout_.line_end + text + outer + "</" + parent.name() + ">");
+    edits_.Replace({begin, spans.start_tag.end},
+                   ">" + layout_.line_end + text + outer + "</" + parent.name() + ">");
   } else if (BeginsLine(spans.end_tag.begin)) {
-    Insert(SkipWhitespaceBack(spans.end_tag.begin), std::move(text));
+    edits_.Insert(SkipWhitespaceBack(spans.end_tag.begin), std::move(text));
   } else {
-    Insert(spans.end_tag.begin, layout_.line_end + text + outer);
+    edits_.Insert(spans.end_tag.begin, layout_.line_end + text + outer);
   }
 }
 

@@ -45,7 +45,8 @@ std::vector<std::string> NotYetGiven(XmlElement element, std::span<const std::st
 }  // namespace
 
 std::optional<double> ParseNumber(std::string_view text) {
-  text = internal::Trimmed(text);
+  while (!text.empty() && internal::IsXmlSpace(text.front())) text.remove_prefix(1);
+  while (!text.empty() && internal::IsXmlSpace(text.back())) text.remove_suffix(1);
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   const auto number = NumberIn<double>(text);
   return number && std::isfinite(*number) ? number : std::nullopt;
@@ -73,28 +74,15 @@ const std::string* ReadText(XmlElement element, std::string_view attribute,
   return nullptr;
 }
 
-Error UnknownAttribute(XmlElement element, const XmlAttribute& attribute,
-                       std::span<const std::string> known) {
-  const std::vector<std::string> candidates = NotYetGiven(element, known);
-  return {
-      .message = "<" + element.name() + "> knows no '" + attribute.name + "'",
-      .position = attribute.position,
-      .hint = candidates.empty() ? "leave it out" : NearestNameHint(attribute.name, candidates)};
-}
-
-std::optional<Error> TextWithin(XmlElement element) {
-  const std::string& text = element.text();
-  if (text.empty()) return std::nullopt;
-  return Error{.message = "no text may stand in <" + element.name() + ">",
-               .position = element.text_position(),
-               .hint = "leave out '" + text.substr(0, WholeCharacters(text, 40)) + "'"};
-}
-
 void CheckAttributes(XmlElement element, std::span<const std::string> known,
                      Diagnostics& diagnostics) {
   for (const XmlAttribute& attribute : element.attributes()) {
     if (Contains(known, attribute.name)) continue;
-    diagnostics.Add(UnknownAttribute(element, attribute, known));
+    const std::vector<std::string> candidates = NotYetGiven(element, known);
+    diagnostics.Add({.message = "<" + element.name() + "> knows no '" + attribute.name + "'",
+                     .position = attribute.position,
+                     .hint = candidates.empty() ? "leave it out"
+                                                : NearestNameHint(attribute.name, candidates)});
   }
 }
 
@@ -107,7 +95,11 @@ void CheckChildren(XmlElement element, std::span<const std::string> known,
          .position = child.position(),
          .hint = known.empty() ? "leave it out" : NearestNameHint(child.name(), known)});
   }
-  if (auto text = TextWithin(element)) diagnostics.Add(std::move(*text));
+  if (const std::string& text = element.text(); !text.empty()) {
+    diagnostics.Add({.message = "no text may stand in <" + element.name() + ">",
+                     .position = element.text_position(),
+                     .hint = "leave out '" + text.substr(0, WholeCharacters(text, 40)) + "'"});
+  }
 }
 
 }  // namespace runnel

@@ -38,7 +38,7 @@ struct ApplicationFile {
 ///
 /// Threads:  any that is not in a cycle; holds the structure lock while it builds, so that nobody
 ///           sees half an application.
-/// Errors:   of all tags at once, else of all paths, with place, path and cure.
+/// Errors:   all of the file at once, with place, path and cure.
 [[nodiscard]] BuildOutcome BuildApplication(const std::filesystem::path& file,
                                             const BuildTools& tools, BuildMode mode);
 

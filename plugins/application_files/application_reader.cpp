@@ -29,12 +29,16 @@ bool IsForEditors(const std::string& attribute) {
 }
 
 // The first attribute that nobody knows.
-std::optional<Error> FirstUnknown(const std::vector<AttributeRule>& rules, const TagUse& use) {
-  const std::vector<std::string> names = NamesOf(rules, &AttributeRule::name);
+std::optional<Error> UnknownAttribute(const std::vector<AttributeRule>& rules, const TagUse& use) {
+  std::vector<std::string> names;
+  for (const AttributeRule& rule : rules) names.push_back(rule.name);
   for (const XmlAttribute& attribute : use.xml.attributes()) {
     if (Contains(names, attribute.name) || IsForEditors(attribute.name)) continue;
     if (!use.context.IsWorthReporting(attribute.name, names)) continue;
-    return UnknownAttribute(use.xml, attribute, names);
+    Diagnostics problems;
+    CheckAttributes(use.xml, names, problems);
+    const auto at = std::ranges::find(problems.errors(), attribute.position, &Error::position);
+    return *at;
   }
   return std::nullopt;
 }
@@ -60,11 +64,19 @@ std::optional<Error> WrongAttribute(const std::vector<AttributeRule>& rules, con
   return std::nullopt;
 }
 
+std::optional<Error> TextWithin(XmlElement element) {
+  std::vector<std::string> all;
+  for (const XmlElement child : element.children()) all.push_back(child.name());
+  Diagnostics problems;
+  CheckChildren(element, all, problems);
+  return problems.ok() ? std::nullopt : std::optional(problems.errors().front());
+}
+
 // Reports the first mistake of the tag itself. False: it cannot be handled.
 bool CheckTag(const XmlTag& tag, const TagUse& use) {
   const std::vector<AttributeRule> rules = use.context.tags().Rules(tag);
   const std::optional<Error> wrong = WrongAttribute(rules, use);
-  std::optional<Error> first = FirstUnknown(rules, use);
+  std::optional<Error> first = UnknownAttribute(rules, use);
   if (!first) first = wrong;
   if (!first) first = TextWithin(use.xml);
   if (first && !first->message.empty()) use.Report(*first, first->position);
@@ -96,6 +108,7 @@ void ReadTag(const XmlTag& tag, XmlElement element, FrameworkElement* parent,
   const bool is_right = CheckTag(tag, use);
   if (!is_right && tag.comes_first) context.MarkPluginMissing();
   FrameworkElement* const made = is_right && parent != nullptr ? Handle(tag, use) : nullptr;
+  if (made == nullptr && tag.is_structure) context.MarkMissing(around, use.Find("name"));
   ReadChildren(tag.name, element, made, made != nullptr ? *made : around, Round::kRest, context);
 }
 
@@ -121,6 +134,12 @@ void ReadMisplacedTag(XmlElement element, const std::vector<std::string>& known,
          .position = element.position(),
          .hint = hint},
         element.position(), around);
+  }
+  // Also further up: a known tag in a wrong place is missing where it would be right.
+  const XmlAttribute* const name = element.Attribute("name");
+  for (const FrameworkElement* each = &around; each != nullptr; each = each->parent()) {
+    context.MarkMissing(*each, name);
+    if (name == nullptr) break;
   }
   if (tag == nullptr) tag = context.tags().FindTag(NearestName(element.name(), known));
   if (tag != nullptr) {

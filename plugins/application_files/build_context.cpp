@@ -5,6 +5,7 @@
 #include "core/base/check.h"
 #include "core/base/exception_text.h"
 #include "core/base/nearest_name.h"
+#include "core/element/element_path.h"
 #include "plugins/application_files/type_names.h"
 
 namespace runnel {
@@ -67,7 +68,6 @@ void BuildContext::Defer(BuildStage stage, std::function<void()> action) {
 void BuildContext::RunDeferred() {
   while (!deferred_.empty()) {
     auto first = deferred_.extract(deferred_.begin());
-    if (!ok() && first.key() != BuildStage::kParameters) continue;
     if (first.key() == BuildStage::kInterfaces) std::ranges::reverse(first.mapped());
     for (const Deferred& each : first.mapped()) Attempt(each.cause, each.action);
   }
@@ -82,6 +82,30 @@ Result<void> BuildContext::CheckValue(const AttributeRule& rule, std::string_vie
   const bool is_told = good || IsWorthReporting(value, is_module_type ? ModuleTypeNames(plugins())
                                                                       : PortTypeNames());
   return is_told ? good : Error{};
+}
+
+void BuildContext::MarkMissing(const FrameworkElement& parent, const XmlAttribute* name) {
+  unfed_.insert(&parent);
+  if (name != nullptr && CheckElementName(name->value)) {
+    missing_.emplace(&parent, name->value);
+  } else {
+    incomplete_.insert(&parent);
+  }
+}
+
+bool BuildContext::IsNews(const FrameworkElement& parent, std::string_view name,
+                          const std::vector<std::string>& candidates) const {
+  if (missing_.contains({&parent, std::string(name)})) return false;
+  return !incomplete_.contains(&parent) || !NearestName(name, candidates).empty();
+}
+
+bool BuildContext::IsUnfedUnnoticed(const Port& input) const {
+  return std::ranges::none_of(unfed_, [&](const FrameworkElement* each) {
+    if (input.IsAtOrBelow(*each)) return true;
+    // An interface port that stayed unconnected leaves what it would have fed unconnected.
+    const auto* const port = dynamic_cast<const Port*>(each);
+    return port != nullptr && port->is_proxy() && std::ranges::count(port->Sinks(), &input) > 0;
+  });
 }
 
 bool BuildContext::IsWorthReporting(std::string_view unknown,

@@ -30,8 +30,7 @@ struct BuildTools {
 };
 
 /// What is done once all tags have been handled, in this order. Within a stage the order is that of
-/// the file. What looks for elements is done only if nothing has been wrong before, for who is missing then may be
-/// missing by that mistake; parameters belong to modules that are there.
+/// the file.
 enum class BuildStage {
   kInterfaces,   ///< interface ports, which may take their type from modules; from the last to the
                  ///< first, so that the inner groups' come before the outer ones'
@@ -40,7 +39,8 @@ enum class BuildStage {
   kChecks,       ///< what can be said of the whole only
 };
 
-/// One build, as those who handle tags see it: where errors go, and what is put off.
+/// One build, as those who handle tags see it: where errors go, what is put off, and what is known
+/// to be missing so that one mistake is told once.
 ///
 /// Threads: used by the building thread, under the structure lock.
 class BuildContext {
@@ -86,6 +86,17 @@ class BuildContext {
   void Defer(BuildStage stage, std::function<void()> action);
   void RunDeferred();
 
+  /// A tag directly in `parent` made nothing, or what it made goes by another name, and an error says
+  /// so: whoever refers to it need not complain again. `name`: of the tag, nullptr if it has none.
+  void MarkMissing(const FrameworkElement& parent, const XmlAttribute* name);
+  /// Whether to complain that there is no `name` in `parent`, which has `candidates`.
+  [[nodiscard]] bool IsNews(const FrameworkElement& parent, std::string_view name,
+                            const std::vector<std::string>& candidates) const;
+  /// A connection to something in `element`, or to itself, failed with an error.
+  void MarkUnfed(const FrameworkElement& element) { unfed_.insert(&element); }
+  /// Whether it is news that nothing is connected to the input.
+  [[nodiscard]] bool IsUnfedUnnoticed(const Port& input) const;
+
   /// True the first time: a fault of an element that shows in many places is told once.
   [[nodiscard]] bool IsFirstFaultOf(const FrameworkElement& element) {
     return faulty_.insert(&element).second;
@@ -119,6 +130,10 @@ class BuildContext {
   Diagnostics& diagnostics_;
   std::map<BuildStage, std::vector<Deferred>> deferred_;
   Cause cause_;
+  std::set<std::pair<const FrameworkElement*, std::string>> missing_;
+  std::set<const FrameworkElement*>
+      incomplete_;  // in which something is missing, whatever its name
+  std::set<const FrameworkElement*> unfed_;
   std::set<const FrameworkElement*> faulty_;
   std::map<std::string, std::string, std::less<>> values_;
   bool plugin_is_missing_ = false;

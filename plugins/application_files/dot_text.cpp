@@ -13,7 +13,6 @@
 #include "core/port/port.h"
 #include "core/types/duration_text.h"
 #include "core/types/type_info.h"
-#include "plugins/application_files/saving/saving.h"
 #include "plugins/scheduling/thread_container.h"
 
 namespace runnel {
@@ -31,10 +30,8 @@ class DotWriter {
   explicit DotWriter(FrameworkElement& application) : application_(application) {}
 
   std::string Write() {
-    application_.runtime().root().Visit([this](const FrameworkElement& element) {
-      if (element.kind() != ElementKind::kThread) return;
-      const std::size_t count = colours_.size();
-      colours_[element.id()] = {kColours.at(count % kColours.size()), &element};
+    application_.Visit([this](FrameworkElement& element) {
+      if (element.kind() == ElementKind::kThread) NoteThread(element);
     });
     text_ =
         "digraph " + Quoted(application_.name()) +
@@ -58,12 +55,24 @@ class DotWriter {
     text_ += std::string(static_cast<std::size_t>(depth) * 2, ' ') + line + "\n";
   }
 
+  void NoteThread(const FrameworkElement& thread) {
+    const std::size_t count = colours_.size();
+    colours_[thread.id()] = {kColours.at(count % kColours.size()), &thread};
+  }
   std::string ColourOf(const FrameworkElement& module) {
-    const auto found = colours_.find(AssignedThread(module));
+    const std::uint64_t id = AssignedThread(module);
+    if (id != 0 && !colours_.contains(id)) NoteThreadElsewhere(id);
+    const auto found = colours_.find(id);
     if (found == colours_.end()) return kNoThread;
     found->second.is_used = true;
     return found->second.colour;
   }
+  void NoteThreadElsewhere(std::uint64_t id) {
+    application_.runtime().root().Visit([&](FrameworkElement& element) {
+      if (element.id() == id) NoteThread(element);
+    });
+  }
+
   void WriteContents(FrameworkElement& group, int depth) {
     for (FrameworkElement* child : group.children()) {
       const auto* const port = dynamic_cast<const Port*>(child);
@@ -71,7 +80,7 @@ class DotWriter {
         WriteInterface(*port, depth);
       } else if (IsModule(*child)) {
         WriteModule(*child, depth);
-      } else if (internal::IsSaved(*child)) {
+      } else if (child->kind() == ElementKind::kGroup && !HoldsOnlyThreads(*child)) {
         Line(depth, "subgraph " + Quoted("cluster_" + child->path()) + " {");
         Line(depth + 1, "label=" + Quoted(child->name()));
         WriteContents(*child, depth + 1);
@@ -82,6 +91,13 @@ class DotWriter {
         Line(depth, "}");
       }
     }
+  }
+
+  static bool HoldsOnlyThreads(const FrameworkElement& group) {
+    const auto is_thread = [](const FrameworkElement* child) {
+      return child->kind() == ElementKind::kThread;
+    };
+    return !group.children().empty() && std::ranges::all_of(group.children(), is_thread);
   }
 
   void WriteInterface(const Port& port, int depth) {

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "core/base/characters.h"
+#include "core/base/nearest_name.h"
 #include "plugins/application_files/attribute_rule.h"
 
 namespace runnel {
@@ -15,11 +16,15 @@ void Report(Error error, const PathUse& use, BuildContext& context) {
   context.Report(std::move(error), use.position, use.base);
 }
 
-// What has been found; nullptr after reporting that nothing has.
-template <typename T>
-T* Found(const Result<T*>& found, const PathUse& use, BuildContext& context) {
-  if (found) return *found;
-  Report(found.error(), use, context);
+FrameworkElement* Search(const PathUse& use, PathKind kind, BuildContext& context) {
+  PathEnd end = PathSearch(use.base).Follow(use.path, kind);
+  if (end.found != nullptr) return end.found;
+  if (kind == PathKind::kInput) {  // it remains without what was meant for it
+    const auto* const meant = end.at->FindChild(NearestName(end.missing, end.candidates));
+    context.MarkUnfed(meant != nullptr ? *meant : *end.at);
+  }
+  const bool is_news = end.missing.empty() || context.IsNews(*end.at, end.missing, end.candidates);
+  if (is_news) Report(std::move(end.error), use, context);
   return nullptr;
 }
 
@@ -52,18 +57,23 @@ std::vector<PathUse> PathsIn(const XmlAttribute& attribute, FrameworkElement& ba
 }
 
 FrameworkElement* SearchElement(const PathUse& use, BuildContext& context) {
-  return Found(PathSearch(use.base).Find(use.path), use, context);
+  return Search(use, PathKind::kElement, context);
 }
 
 Port* SearchPort(const PathUse& use, PathKind kind, BuildContext& context) {
-  return Found(PathSearch(use.base).FindPort(use.path, kind), use, context);
+  FrameworkElement* const found = Search(use, kind, context);
+  if (found == nullptr) return nullptr;
+  const auto port = PathSearch(*found).FindPort("", kind);
+  if (port) return *port;
+  if (kind == PathKind::kInput) context.MarkUnfed(*found);
+  Report(port.error(), use, context);
+  return nullptr;
 }
 
 FrameworkElement* SearchSettable(const XmlAttribute& path, const XmlAttribute& value,
                                  FrameworkElement& base, BuildContext& context) {
   const PathUse use = PathIn(path, base);
-  FrameworkElement* const found =
-      Found(PathSearch(base).Find(use.path, PathKind::kParameter), use, context);
+  FrameworkElement* const found = Search(use, PathKind::kParameter, context);
   if (found == nullptr) return nullptr;
   const auto* const parameter = dynamic_cast<const Configurable*>(found);
   if (parameter == nullptr) {
@@ -85,36 +95,6 @@ FrameworkElement* SearchSettable(const XmlAttribute& path, const XmlAttribute& v
 Port* FindPort(const PathUse& use, PathKind kind) {
   const auto found = PathSearch(use.base).FindPort(use.path, kind);
   return found ? *found : nullptr;
-}
-
-bool IsRightWay(const Port& port, PathKind end, const Port& other) {
-  if (!port.is_proxy() || &port == &other) return true;
-  const FrameworkElement& group = *port.parent();
-  const bool is_input = port.direction() == Port::Direction::kInput;
-  // Of one group's input to its output inside, or back outside: either makes sense. Of two outputs
-  // one is wrong, whichever; that is told at the first end.
-  if (other.parent() == &group) {
-    return end == PathKind::kInput || other.direction() != port.direction();
-  }
-  const bool is_inside = other.IsAtOrBelow(group);
-  const bool receives = end == PathKind::kInput;
-  return is_input == (is_inside != receives);
-}
-
-void CheckInterfaceDirection(const Port& port, const PathUse& use, PathKind end, const Port& other,
-                             BuildContext& context) {
-  if (IsRightWay(port, end, other)) return;
-  if (!context.IsFirstFaultOf(port)) return;
-  const bool is_input = port.direction() == Port::Direction::kInput;
-  const std::string ways = is_input ? "an input of its group: it sends inside of the group and "
-                                      "receives outside"
-                                    : "an output of its group: it receives inside of the group and "
-                                      "sends outside";
-  context.Report({.message = "is " + ways,
-                  .path = port.path(),
-                  .hint = std::string("write direction=\"") + (is_input ? "output" : "input") +
-                          "\" at its <port>, or swap 'from' and 'to'"},
-                 use.position, use.base);
 }
 
 }  // namespace runnel

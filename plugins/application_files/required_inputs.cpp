@@ -31,14 +31,18 @@ std::string Hint(const Port& input, FrameworkElement& application) {
 
 }  // namespace
 
-void CheckRequiredInputs(FrameworkElement& application, const TellError& tell) {
+void CheckRequiredInputs(FrameworkElement& application, BuildContext& context) {
+  std::vector<Port*> unconnected;
   application.Visit([&](FrameworkElement& element) {
-    const auto* const port = dynamic_cast<const Port*>(&element);
+    auto* const port = dynamic_cast<Port*>(&element);
     if (port == nullptr || !port->is_required() || !port->Sources().empty()) return;
-    tell({.message = "nothing is connected to this input, which its module requires",
-          .hint = Hint(*port, application)},
-         FindSourcePlace(*port), *port);
+    if (context.IsUnfedUnnoticed(*port)) unconnected.push_back(port);
   });
+  for (Port* port : unconnected) {
+    context.Report({.message = "nothing is connected to this input, which its module requires",
+                    .hint = Hint(*port, application)},
+                   FindSourcePlace(*port), *port);
+  }
 }
 
 }  // namespace runnel

@@ -1,17 +1,11 @@
 #pragma once
 
-#include <functional>
-
-#include "core/base/error.h"
-#include "core/element/framework_element.h"
+#include "plugins/application_files/build_context.h"
 
 namespace runnel {
 
-/// Says what is wrong with an element, and where it stands in the file.
-using TellError = std::function<void(Error error, const SourcePosition& position,
-                                     const FrameworkElement& element)>;
-
-/// Tells of each input at or below `application` that has to be connected and is not.
-void CheckRequiredInputs(FrameworkElement& application, const TellError& tell);
+/// Reports each input at or below `application` that has to be connected and is not, unless a
+/// connection meant for it failed and that was reported.
+void CheckRequiredInputs(FrameworkElement& application, BuildContext& context);
 
 }  // namespace runnel

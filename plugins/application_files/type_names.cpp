@@ -22,7 +22,8 @@ std::string LastPart(std::string_view type) {
 
 // Of "sensors/laser" and "laser": 'adaptors/laser' or 'simulation/laser'. "" if none ends alike.
 std::string TypesWithNearestEnd(std::string_view type, const std::vector<std::string>& known) {
-  const std::vector<std::string> ends = NamesOf(known, LastPart);
+  std::vector<std::string> ends;
+  for (const std::string& each : known) ends.push_back(LastPart(each));
   const std::string nearest = NearestName(LastPart(type), ends);
   std::string types;
   for (std::size_t i = 0; i < known.size() && !nearest.empty(); ++i) {
@@ -66,10 +67,16 @@ void MakePortTypesKnown(const ModuleRegistry& modules) {
 }  // namespace
 
 std::vector<std::string> ModuleTypeNames(const PluginManager& plugins) {
-  return NamesOf(plugins.modules().All(), &ModuleType::name);
+  std::vector<std::string> names;
+  for (const ModuleType* type : plugins.modules().All()) names.push_back(type->name);
+  return names;
 }
 
-std::vector<std::string> PortTypeNames() { return NamesOf(RegisteredTypes(), &TypeInfo::name); }
+std::vector<std::string> PortTypeNames() {
+  std::vector<std::string> names;
+  for (const TypeInfo* type : RegisteredTypes()) names.push_back(type->name());
+  return names;
+}
 
 Result<void> CheckModuleType(std::string_view type, const PluginManager& plugins) {
   const auto known = plugins.modules().Get(type);

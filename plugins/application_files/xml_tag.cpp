@@ -39,6 +39,9 @@ bool TagUse::HasFreeName(const FrameworkElement& where) const {
        .hint = place == nullptr ? "choose another name"
                                 : "the first is in line " + std::to_string(place->position.line)},
       name.value_position);
+  // Whoever names it may mean the other one, or calls that by another name.
+  context.MarkMissing(*known, nullptr);
+  context.MarkMissing(where, nullptr);
   return false;
 }
 

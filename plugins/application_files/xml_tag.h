@@ -76,6 +76,8 @@ struct XmlTag {
   /// Handled before all other tags of the file are even looked at, since it may bring new tags.
   bool comes_first = false;
   bool is_part = false;  ///< the root of a file that others use, not of an application
+  /// Makes elements, or connects them: if it is wrong, what is missing elsewhere may be its fault.
+  bool is_structure = false;
   /// Makes what the tag asks for and returns the element that the tags within it go below: a new
   /// one, or use.parent. Nothing if it could not, after reporting why to use.context. What needs
   /// the rest of the file is put off with use.context.Defer(). Exceptions become errors at the tag.

@@ -1,6 +1,5 @@
 #include "plugins/finroc_files/finroc_application.h"
 
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -20,6 +19,15 @@ std::string NameOf(XmlElement root, const std::filesystem::path& file) {
   return SnakeCase(name != nullptr ? name->value : file.stem().string());
 }
 
+// What would have fed them may have had no counterpart, which has been told; the rest is built.
+void WarnOfRequiredInputs(FrameworkElement& application, const BuildTools& tools,
+                          const std::filesystem::path& file, BuildContext& context) {
+  Diagnostics missing;
+  BuildContext check(tools, file.parent_path(), missing);
+  CheckRequiredInputs(application, check);
+  for (const Error& error : missing.errors()) context.Warn(error, error.position, application);
+}
+
 FrameworkElement* Build(XmlElement root, const std::filesystem::path& file, const BuildTools& tools,
                         BuildContext& context) {
   FrameworkElement* application = nullptr;
@@ -30,12 +38,11 @@ FrameworkElement* Build(XmlElement root, const std::filesystem::path& file, cons
     internal::FinrocReader(*application, context).Read(root, file);
   });
   if (application == nullptr) return nullptr;
-  // What would have fed them may have had no counterpart, which has been told; the rest is built.
-  CheckRequiredInputs(*application, std::bind_front(&BuildContext::Warn, &context));
+  WarnOfRequiredInputs(*application, tools, file, context);
   for (const std::string& name : tools.configuration.UnusedArguments()) {
-    context.Report(
-        {.message = "the application knows no '" + name + "'", .position = {"command line"}}, {},
-        *application);
+    context.Report({.message = "the application knows no '" + name + "'",
+                    .position = {"command line"}},
+                   {}, *application);
   }
   return application;
 }

@@ -12,6 +12,7 @@
 #include "core/port/proxy_port.h"
 #include "core/types/duration_text.h"
 #include "core/types/type_info.h"
+#include "plugins/application_files/interface_direction.h"
 #include "plugins/application_files/path_use.h"
 #include "plugins/finroc_files/finroc_names.h"
 #include "plugins/scheduling/thread_container.h"
@@ -40,8 +41,8 @@ std::string StaticParameter(XmlElement element, std::string_view name) {
 // Whether a path is a URI, "tcp:host/path": names of elements may hold a ':' further on.
 bool HasScheme(std::string_view path) {
   const auto is_of_scheme = [](char character) {
-    return (character >= 'a' && character <= 'z') || (character >= '0' && character <= '9') ||
-           character == '+' || character == '-' || character == '.';
+    return (character >= 'a' && character <= 'z') || (character >= '0' && character <= '9') || character == '+' ||
+           character == '-' || character == '.';
   };
   const auto end = std::ranges::find_if_not(path, is_of_scheme);
   return end != path.begin() && end != path.end() && *end == ':';
@@ -262,7 +263,8 @@ void FinrocReader::ReadEdge(XmlElement edge, FrameworkElement& group) {
     Warn("<" + child.name() + "> of an edge has no counterpart", "put a module between the two",
          child.position(), group);
   }
-  if (!IsRightWay(*from, PathKind::kOutput, *to) || !IsRightWay(*to, PathKind::kInput, *from)) {
+  if (!IsRightWay(*from, PathKind::kOutput, *to) ||
+      !IsRightWay(*to, PathKind::kInput, *from)) {
     Warn("goes against the direction of an interface port", "", edge.position(), group);
   } else if (auto connected = Port::Connect(*from, *to); !connected) {
     Warn(connected.error().message, connected.error().hint, edge.position(), group);

@@ -3,16 +3,15 @@
 #include <string>
 #include <string_view>
 
-#include "core/base/result.h"
-
 namespace runnel::internal {
 
-/// Appends what the entity means that `text` begins with ("&lt;…") to `resolved`; how many bytes the entity has.
-/// Errors: what is wrong with it.
-Result<std::size_t> ResolveEntity(std::string_view text, std::string& resolved);
+/// What is wrong with the entity that `text` begins with ("&lt;…"), "" if nothing is.
+[[nodiscard]] std::string EntityFault(std::string_view text);
 
-/// The encoding that a declaration ("<?xml version=… encoding=…") names, if text in it is no UTF-8, as all
-/// ASCII is; "" if it is, or none is named.
-[[nodiscard]] std::string OtherEncoding(std::string_view declaration);
+/// What a declaration ("<?xml version=… encoding=…") says of the encoding, "" if nothing.
+[[nodiscard]] std::string DeclaredEncoding(std::string_view declaration);
+
+/// Whether text of that encoding is UTF-8, as all ASCII is. "" stands for UTF-8.
+[[nodiscard]] bool IsReadableEncoding(std::string_view encoding);
 
 }  // namespace runnel::internal

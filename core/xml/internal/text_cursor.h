@@ -1,24 +1,15 @@
 #pragma once
 
-#include <algorithm>
-#include <string>
 #include <string_view>
 
-#include "core/base/error.h"
+#include "core/xml/internal/start_tags.h"
 
 namespace runnel::internal {
 
 inline bool IsXmlSpace(char character) {
   return character == ' ' || character == '\t' || character == '\n' || character == '\r';
 }
-
-/// `text` without white space at either end.
-inline std::string_view Trimmed(std::string_view text) {
-  while (!text.empty() && IsXmlSpace(text.front())) text.remove_prefix(1);
-  while (!text.empty() && IsXmlSpace(text.back())) text.remove_suffix(1);
-  return text;
-}
-
+// The same characters as in tinyxml2, so that both find the same names.
 inline bool IsXmlNameStart(char character) {
   return (character >= 'a' && character <= 'z') || (character >= 'A' && character <= 'Z') ||
          character == ':' || character == '_' || static_cast<unsigned char>(character) >= 128;
@@ -28,17 +19,13 @@ inline bool IsXmlNameCharacter(char character) {
          character == '-';
 }
 
-/// Walks through a text and knows at which line and column it is. The byte order mark is no column.
+/// Walks through a text and knows at which line and column it is.
 class TextCursor {
  public:
-  TextCursor(std::string_view text, const std::string& file_name)
-      : file_name_(&file_name), size_(text.size()), rest_(text) {
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-    if (Sees(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
-  }
+  explicit TextCursor(std::string_view text) : size_(text.size()), rest_(text) {}
 
   [[nodiscard]] bool at_end() const { return rest_.empty(); }
-  [[nodiscard]] SourcePosition position() const { return {*file_name_, line_, column_}; }
+  [[nodiscard]] TextPlace place() const { return place_; }
   [[nodiscard]] std::string_view rest() const { return rest_; }
   /// In bytes from the beginning.
   [[nodiscard]] std::size_t offset() const { return size_ - rest_.size(); }
@@ -51,31 +38,33 @@ class TextCursor {
     const std::string_view taken = rest_.substr(0, count);
     for (const char character : taken) {
       if (character == '\n') {
-        ++line_;
-        column_ = 1;
+        ++place_.line;
+        place_.column = 1;
       } else if ((static_cast<unsigned char>(character) & 0xC0U) != 0x80U) {
-        ++column_;  // a byte that continues a UTF-8 character is not counted
+        ++place_.column;  // a byte that continues a UTF-8 character is not counted
       }
     }
     rest_.remove_prefix(count);
     return taken;
   }
+
   template <typename Predicate>
-  std::string_view TakeWhile(Predicate is_taken) {
-    const auto end = std::ranges::find_if_not(rest_, is_taken);
-    return Take(static_cast<std::size_t>(end - rest_.begin()));
+  std::string_view TakeWhile(Predicate predicate) {
+    std::size_t count = 0;
+    while (count < rest_.size() && predicate(rest_[count])) ++count;
+    return Take(count);
   }
+
   std::string_view TakeName() {
     return IsXmlNameStart(next()) ? TakeWhile(IsXmlNameCharacter) : std::string_view();
   }
-  std::string_view TakeSpace() { return TakeWhile(IsXmlSpace); }
+  /// True if there was any.
+  bool SkipSpace() { return !TakeWhile(IsXmlSpace).empty(); }
 
  private:
-  const std::string* file_name_;
   std::size_t size_;
   std::string_view rest_;
-  int line_ = 1;
-  int column_ = 1;
+  TextPlace place_;
 };
 
 }  // namespace runnel::internal

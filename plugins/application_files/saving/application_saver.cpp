@@ -11,7 +11,7 @@
 #include "core/xml/xml_editor.h"
 #include "plugins/application_files/application_source.h"
 #include "plugins/application_files/saving/file_update.h"
-#include "plugins/application_files/saving/saving.h"
+#include "plugins/application_files/saving/new_elements.h"
 
 namespace runnel {
 
@@ -79,7 +79,7 @@ void CheckRequiredInputs(Saving& saving, bool is_new_file) {
 // Under the structure lock.
 Result<SavedText> TextOfApplication(FrameworkElement& application, const SaveTools& tools,
                                     const fs::path& folder) {
-  Saving saving{application, tools, folder, internal::EdgesOf(application)};
+  Saving saving{application, tools, folder, internal::SavedEdges(application)};
   const auto* const source = application.FindAnnotation<ApplicationSource>();
   CheckRequiredInputs(saving, source == nullptr);
   RefuseInterface(saving);
@@ -88,6 +88,12 @@ Result<SavedText> TextOfApplication(FrameworkElement& application, const SaveToo
   if (!text) return text.error();
   if (saving.error) return *saving.error;
   return SavedText{std::move(*text), std::move(saving.values)};
+}
+
+bool IsSameFile(const fs::path& one, const fs::path& other) {
+  std::error_code ignored;
+  return fs::weakly_canonical(fs::absolute(one, ignored), ignored) ==
+         fs::weakly_canonical(fs::absolute(other, ignored), ignored);
 }
 
 // Whoever has changed the file meanwhile would lose what they did. A file that is gone may come
@@ -114,17 +120,10 @@ Result<std::string> ApplicationText(FrameworkElement& application, const SaveToo
 }
 
 Result<void> SaveApplication(FrameworkElement& application, const SaveTools& tools,
-                             const fs::path& to) {
+                             const fs::path& file) {
   const std::lock_guard lock(application.runtime().structure_mutex());
   auto* source = application.FindAnnotation<ApplicationSource>();
-  if (to.empty() && source == nullptr) {
-    return Error{.message = "the application was built by code, and has no file yet",
-                 .path = application.path(),
-                 .hint = "name one"};
-  }
-  const fs::path file = to.empty() ? source->file : to;
-  const bool is_its_own =
-      source == nullptr || internal::Whole(source->file) == internal::Whole(file);
+  const bool is_its_own = source == nullptr || IsSameFile(source->file, file);
   if (source != nullptr && is_its_own) {
     if (auto unchanged = CheckUnchanged(*source); !unchanged) return unchanged;
   }
@@ -150,6 +149,21 @@ Result<void> SaveApplication(FrameworkElement& application, const SaveTools& too
     Retry([&] { application.Annotate(std::make_unique<ApplicationSource>(*now)); });
   }
   return {};
+}
+
+Result<void> SaveApplication(FrameworkElement& application, const SaveTools& tools) {
+  fs::path file;
+  {
+    const std::lock_guard lock(application.runtime().structure_mutex());
+    const auto* const source = application.FindAnnotation<ApplicationSource>();
+    if (source == nullptr) {
+      return Error{.message = "the application was built by code, and has no file yet",
+                   .path = application.path(),
+                   .hint = "name one"};
+    }
+    file = source->file;
+  }
+  return SaveApplication(application, tools, file);
 }
 
 }  // namespace runnel

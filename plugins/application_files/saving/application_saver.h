@@ -30,16 +30,19 @@ struct SaveTools {
                                                   const SaveTools& tools,
                                                   const std::filesystem::path& folder);
 
-/// Writes it to `file` ("": the one that it came from), at once or not at all (replace_file.h), after building it
-/// once in a runtime of its own as `runnel check` does: a text that would not load never replaces a file. An
-/// application that came from no file is from now on that of `file`; one that came from another remains that
-/// file's, and `file` is a copy. One that is connected with another application cannot be built alone; then only
-/// what can be known of the text itself is checked.
+/// Writes it, at once or not at all (replace_file.h), after building it once in a runtime of its own as
+/// `runnel check` does: a text that would not load never replaces a file. An application that came from
+/// no file is from now on that of `file`; one that came from another remains that file's, and `file` is a
+/// copy. One that is connected with another application cannot be built alone; then only what can be
+/// known of the text itself is checked.
 ///
 /// Threads: any outside of cycles; holds the structure lock as long as building the application takes.
 /// Errors: besides those above, that the text would not load; the file it came from is not what was
 ///         loaded: somebody has changed it meanwhile.
 [[nodiscard]] Result<void> SaveApplication(FrameworkElement& application, const SaveTools& tools,
-                                           const std::filesystem::path& file = {});
+                                           const std::filesystem::path& file);
+
+/// To the file that it came from.
+[[nodiscard]] Result<void> SaveApplication(FrameworkElement& application, const SaveTools& tools);
 
 }  // namespace runnel

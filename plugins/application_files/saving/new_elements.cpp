@@ -1,6 +1,6 @@
-#include <algorithm>
+#include "plugins/application_files/saving/new_elements.h"
 
-#include "plugins/application_files/saving/saving.h"
+#include <algorithm>
 
 namespace runnel::internal {
 

@@ -12,6 +12,7 @@ XmlTag ApplicationTag() {
                           .kind = AttributeKind::kNewName,
                           .required = true,
                           .summary = "the first part of all paths"}},
+          .is_structure = true,
           .handle = [](const TagUse& use) -> FrameworkElement* {
             if (!use.HasFreeName(use.parent)) return nullptr;
             return &use.context.runtime().Create<Group>(use.parent, use.Get("name").value);

@@ -1,5 +1,7 @@
 #include "plugins/application_files/tags/built_in_tags.h"
 
+#include "plugins/application_files/tags/reaction_tags.h"
+
 namespace runnel {
 
 void AddBuiltInTags(XmlTagRegistry& tags) {

@@ -7,6 +7,7 @@
 #include "core/plugin/module_type_name.h"
 #include "core/types/type_info.h"
 #include "plugins/application_files/build_context.h"
+#include "plugins/application_files/interface_direction.h"
 #include "plugins/application_files/path_use.h"
 #include "plugins/application_files/saving/file_update.h"
 #include "plugins/application_files/tags/built_in_tags.h"
@@ -56,6 +57,12 @@ std::string FittingInputs(const Port& from, const Port& to) {
   return names.empty() ? "" : from.type().name() + " is taken by " + names;
 }
 
+// Another port of the module may have been meant.
+void MarkUnfed(const Port& port, BuildContext& context) {
+  const FrameworkElement* const module = FindModuleAround(port);
+  context.MarkUnfed(module != nullptr ? *module : port);
+}
+
 void Connect(Port& from, const PathUse& from_use, Port& to, const PathUse& to_use,
              const ConnectOptions& options, BuildContext& context) {
   CheckInterfaceDirection(from, from_use, PathKind::kOutput, to, context);
@@ -63,6 +70,8 @@ void Connect(Port& from, const PathUse& from_use, Port& to, const PathUse& to_us
   const auto connected = Port::Connect(from, to, options);
   if (connected) return;
   const bool cannot_send = !from.is_proxy() && from.direction() == Port::Direction::kInput;
+  MarkUnfed(to, context);
+  if (cannot_send) MarkUnfed(from, context);
   Error error = connected.error();
   if (error.hint.empty() && &from.type() != &to.type()) error.hint = FittingInputs(from, to);
   const PathUse& wrong = cannot_send ? from_use : to_use;
@@ -81,7 +90,10 @@ void ConnectAll(const TagUse& use) {
   Port* const from = SearchPort(sources[0], PathKind::kOutput, context);
   for (const PathUse& to_use : PathsIn(use.Get("to"), use.parent)) {
     Port* const to = SearchPort(to_use, PathKind::kInput, context);
-    if (from != nullptr && to != nullptr) {
+    if (to == nullptr) continue;
+    if (from == nullptr) {
+      MarkUnfed(*to, context);
+    } else {
       Connect(*from, sources[0], *to, to_use, options, context);
     }
   }
@@ -125,15 +137,14 @@ bool SaysOptions(XmlElement tag, const ConnectOptions& options) {
 bool SaysConnection(XmlElement tag, Port* from, Port* to, bool is_only_one,
                     internal::FileUpdate& update) {
   const bool is_there = from != nullptr && to != nullptr;
-  auto& edges = update.saving().edges;
-  const auto edge = std::ranges::find_if(
-      edges, [&](const internal::SavedEdge& each) { return each.from == from && each.to == to; });
+  internal::SavedEdges::Edge* const edge =
+      is_there ? update.saving().edges.Find(*from, *to) : nullptr;
   // One that leads out of the application is left to whoever wrote it.
-  if (edge == edges.end() && is_there &&
+  if (edge == nullptr && is_there &&
       std::ranges::find(from->outgoing(), to, &Connection::to) != from->outgoing().end()) {
     return true;
   }
-  if (edge == edges.end() || edge->is_saved) {
+  if (edge == nullptr || edge->is_saved) {
     update.Touch(from);
     update.Touch(to);
     return false;
@@ -171,22 +182,22 @@ void UpdateConnect(XmlElement tag, FrameworkElement& group, internal::FileUpdate
 // Of the connections that no tag says yet; those of one port together.
 std::vector<NewElement> MissingConnections(FrameworkElement& home, internal::Saving& saving) {
   std::vector<NewElement> elements;
-  const internal::SavedEdge* last = nullptr;
-  for (internal::SavedEdge& edge : saving.edges) {
-    if (edge.is_saved || edge.home != &home) continue;
-    edge.is_saved = true;
-    const std::string to = PathFrom(home, *edge.to, PathKind::kInput);
-    const auto [queue, on_full] = TextsOf(edge.options);
-    const bool goes_on = last != nullptr && last->from == edge.from &&
-                         TextsOf(last->options) == TextsOf(edge.options);
-    last = &edge;
+  const internal::SavedEdges::Edge* last = nullptr;
+  for (internal::SavedEdges::Edge* edge : saving.edges.Unsaved()) {
+    if (edge->home != &home) continue;
+    edge->is_saved = true;
+    const std::string to = PathFrom(home, *edge->to, PathKind::kInput);
+    const auto [queue, on_full] = TextsOf(edge->options);
+    const bool goes_on = last != nullptr && last->from == edge->from &&
+                         TextsOf(last->options) == TextsOf(edge->options);
+    last = edge;
     if (goes_on) {
       elements.back().attributes[1].second += " " + to;
       continue;
     }
     NewElement& made = elements.emplace_back(NewElement{
         .name = "connect",
-        .attributes = {{"from", PathFrom(home, *edge.from, PathKind::kOutput)}, {"to", to}}});
+        .attributes = {{"from", PathFrom(home, *edge->from, PathKind::kOutput)}, {"to", to}}});
     if (!queue.empty()) made.attributes.emplace_back("queue", queue);
     if (!on_full.empty()) made.attributes.emplace_back("on_full", on_full);
   }
@@ -214,6 +225,7 @@ XmlTag ConnectTag() {
                           .kind = AttributeKind::kChoice,
                           .summary = "what a full queue does with one more value",
                           .choices = kOnFullNames}},
+          .is_structure = true,
           .handle = [](const TagUse& use) -> FrameworkElement* {
             use.context.Defer(BuildStage::kConnections, [use] { ConnectAll(use); });
             return &use.parent;

@@ -31,6 +31,7 @@ FrameworkElement* MakeGroup(const TagUse& use) {
   group.Annotate(std::make_unique<SourcePlace>(use.xml.position()));  // errors in the file name it
   RefuseContents(use, group);
   if (auto read = ReadGroupType(*type, use.xml, group, context); !read) {
+    context.MarkMissing(group, nullptr);
     context.Report(read.error(), type->value_position, group);
   }
   return &group;
@@ -57,6 +58,7 @@ XmlTag GroupTag() {
                          {.name = "type",
                           .kind = AttributeKind::kPath,
                           .summary = "the file that says what is in it, a <group_type>"}},
+          .is_structure = true,
           .handle = MakeGroup,
           .saved = SavedGroups,
           .place = 3};

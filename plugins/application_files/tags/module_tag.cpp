@@ -38,6 +38,7 @@ XmlTag ModuleTag() {
                           .kind = AttributeKind::kModuleType,
                           .required = true,
                           .summary = "as `runnel modules` lists them"}},
+          .is_structure = true,
           .handle = MakeModule,
           .saved = SavedModules,
           .place = 2};

@@ -5,6 +5,7 @@
 #include "plugins/application_files/path_use.h"
 #include "plugins/application_files/run_description.h"
 #include "plugins/application_files/tags/built_in_tags.h"
+#include "plugins/application_files/tags/reaction_tags.h"
 
 namespace runnel {
 
@@ -16,6 +17,7 @@ void AddRule(const TagUse& use) {
   const XmlAttribute* const set = use.Find("set");
   const XmlAttribute* const value = use.Find("value");
   if (set != nullptr) {
+    if (value == nullptr) return;
     const FrameworkElement* const target = SearchSettable(*set, *value, use.parent, use.context);
     if (target == nullptr) return;
     rule.action = FaultRule::Action::kSet;

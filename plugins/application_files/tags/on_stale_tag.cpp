@@ -8,6 +8,7 @@
 #include "plugins/application_files/path_use.h"
 #include "plugins/application_files/run_description.h"
 #include "plugins/application_files/tags/built_in_tags.h"
+#include "plugins/application_files/tags/reaction_tags.h"
 
 namespace runnel {
 

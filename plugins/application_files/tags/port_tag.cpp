@@ -60,7 +60,7 @@ void MakePort(const TagUse& use) {
   const XmlAttribute& name = use.Get("name");
   const XmlAttribute* const named = use.Find("type");
   const TypeInfo* const type = named != nullptr ? FindType(named->value) : ConnectedType(use);
-  if (type == nullptr) return;
+  if (type == nullptr) return use.context.MarkMissing(use.parent, &name);
   const auto direction =
       use.Get("direction").value == "input" ? Port::Direction::kInput : Port::Direction::kOutput;
   const XmlAttribute* const description = use.Find("description");
@@ -101,6 +101,7 @@ XmlTag PortTag() {
                           .summary = "of its values; if left out, that of what it is first "
                                      "connected to, inside the group or else outside"},
                          {.name = "description", .kind = AttributeKind::kText}},
+          .is_structure = true,
           .handle = [](const TagUse& use) -> FrameworkElement* {
             use.context.Defer(BuildStage::kInterfaces, [use] { MakePort(use); });
             return &use.parent;

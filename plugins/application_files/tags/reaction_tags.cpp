@@ -1,3 +1,5 @@
+#include "plugins/application_files/tags/reaction_tags.h"
+
 #include <algorithm>
 #include <array>
 #include <string>
@@ -5,21 +7,29 @@
 #include "core/base/nearest_name.h"
 #include "core/types/type_info.h"
 #include "plugins/application_files/path_use.h"
-#include "plugins/application_files/tags/built_in_tags.h"
 
 namespace runnel::internal {
 
 namespace {
 
 // One tag that says what is to be done, with all that reading it needs.
-struct ReactionUse : TagUse {
+struct ReactionUse {
+  XmlElement xml;
+  FrameworkElement& base;
+  BuildContext& context;
   Reaction& reaction;
 
+  [[nodiscard]] const XmlAttribute* Find(std::string_view name) const {
+    return xml.Attribute(name);
+  }
+  void Report(Error error, const SourcePosition& position) const {
+    context.Report(std::move(error), position, base);
+  }
   void Describe(const std::string& done) const {
     reaction.description += (reaction.description.empty() ? "" : ", ") + done;
   }
   [[nodiscard]] Port* FindPortAt(const XmlAttribute& attribute, PathKind end) const {
-    return SearchPort(PathIn(attribute, parent), end, context);
+    return SearchPort(PathIn(attribute, base), end, context);
   }
 };
 
@@ -40,15 +50,17 @@ bool HaveOneType(const Port& source, const Port& input, const XmlAttribute& at,
 }
 
 void ReadSwitch(const ReactionUse& use) {
+  const XmlAttribute* const input_name = use.Find("input");
   const XmlAttribute* const from_name = use.Find("from");
   const XmlAttribute* const to_name = use.Find("to");
+  if (input_name == nullptr) return;
   if (from_name == nullptr && to_name == nullptr) {
     use.Report({.message = "<switch> says neither where the input is fed from, nor from where else",
                 .hint = "add from=\"…\", the source that is to be left, and to=\"…\""},
                use.xml.position());
     return;
   }
-  Port* const input = use.FindPortAt(use.Get("input"), PathKind::kInput);
+  Port* const input = use.FindPortAt(*input_name, PathKind::kInput);
   Port* const from = from_name ? use.FindPortAt(*from_name, PathKind::kOutput) : nullptr;
   Port* const to = to_name ? use.FindPortAt(*to_name, PathKind::kOutput) : nullptr;
   if (input == nullptr || (from_name && !from) || (to_name && !to)) return;
@@ -68,21 +80,23 @@ void ReadSwitch(const ReactionUse& use) {
 }
 
 void ReadSet(const ReactionUse& use) {
-  const XmlAttribute& value = use.Get("value");
-  const FrameworkElement* const target =
-      SearchSettable(use.Get("parameter"), value, use.parent, use.context);
+  const XmlAttribute* const parameter = use.Find("parameter");
+  const XmlAttribute* const value = use.Find("value");
+  if (parameter == nullptr || value == nullptr) return;
+  const FrameworkElement* const target = SearchSettable(*parameter, *value, use.base, use.context);
   if (target == nullptr) return;
-  use.reaction.changes.push_back(SetParameter{target->path(), value.value});
-  use.Describe("set " + target->path() + " to " + value.value);
+  use.reaction.changes.push_back(SetParameter{target->path(), value->value});
+  use.Describe("set " + target->path() + " to " + value->value);
 }
 
 void ReadReplace(const ReactionUse& use) {
-  const std::string& type = use.Get("by").value;
-  const FrameworkElement* const found =
-      SearchElement(PathIn(use.Get("module"), use.parent), use.context);
+  const XmlAttribute* const module = use.Find("module");
+  const XmlAttribute* const by = use.Find("by");
+  if (module == nullptr || by == nullptr) return;
+  const FrameworkElement* const found = SearchElement(PathIn(*module, use.base), use.context);
   if (found == nullptr) return;
-  use.reaction.changes.push_back(ReplaceModule{found->path(), type});
-  use.Describe("replaced " + found->path() + " by a new " + type);
+  use.reaction.changes.push_back(ReplaceModule{found->path(), by->value});
+  use.Describe("replaced " + found->path() + " by a new " + by->value);
 }
 
 }  // namespace
@@ -133,7 +147,7 @@ std::vector<XmlTag> ReactionTags() {
 Reaction ReadReaction(XmlElement xml, FrameworkElement& base, BuildContext& context) {
   Reaction reaction;
   for (const XmlElement child : xml.children()) {
-    const ReactionUse use{{child, base, context}, reaction};
+    const ReactionUse use{child, base, context, reaction};
     if (child.name() == "switch") ReadSwitch(use);
     if (child.name() == "set") ReadSet(use);
     if (child.name() == "replace") ReadReplace(use);

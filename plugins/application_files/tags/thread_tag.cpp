@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <set>
@@ -24,16 +23,10 @@ constexpr std::size_t kHighestPriority = 99;
 
 using Activation = ThreadOptions::Activation;
 
-// In the order of Activation and of OnOverrun.
-const std::vector<std::string> kActivations{"period", "free_running", "trigger"};
-const std::vector<std::string> kOverruns{"skip", "catch_up"};
-
-// Which of the words the tag says; the first if none.
-template <typename Kind>
-Kind Chosen(const TagUse& use, const char* name, const std::vector<std::string>& words) {
-  const XmlAttribute* const said = use.Find(name);
-  return static_cast<Kind>(said != nullptr ? std::ranges::find(words, said->value) - words.begin()
-                                           : 0);
+Activation ReadActivation(const TagUse& use) {
+  const XmlAttribute* const activation = use.Find("activation");
+  if (activation == nullptr || activation->value == "period") return Activation::kPeriod;
+  return activation->value == "trigger" ? Activation::kTrigger : Activation::kFreeRunning;
 }
 
 void ReadPeriod(const TagUse& use, ThreadOptions& options) {
@@ -76,10 +69,13 @@ FrameworkElement* MakeThread(const TagUse& use) {
   const TagUse inside{use.xml, *threads, use.context};
   if (!inside.HasFreeName(*threads)) return nullptr;
   ThreadOptions options;
-  options.activation = Chosen<Activation>(use, "activation", kActivations);
+  options.activation = ReadActivation(use);
   ReadPeriod(inside, options);
   ReadPriority(inside, options);
-  options.on_overrun = Chosen<ThreadOptions::OnOverrun>(use, "on_overrun", kOverruns);
+  const XmlAttribute* const on_overrun = use.Find("on_overrun");
+  if (on_overrun != nullptr && on_overrun->value == "catch_up") {
+    options.on_overrun = ThreadOptions::OnOverrun::kCatchUp;
+  }
   return &runtime.Create<ThreadContainer>(*threads, inside.Get("name").value, options);
 }
 
@@ -93,8 +89,9 @@ void Assign(const XmlAttribute& name, FrameworkElement& element, BuildContext& c
       AssignThread(element, *thread);
       return;
     }
-    known = NamesOf(threads->children(), &FrameworkElement::name);
+    for (const FrameworkElement* each : threads->children()) known.push_back(each->name());
   }
+  if (!context.IsNews(application, name.value, known)) return;
   context.Report({.message = "there is no thread '" + name.value + "'",
                   .hint = known.empty() ? "add <thread name=\"" + name.value +
                                               "\" period=\"50ms\"/> to the application"
@@ -102,8 +99,21 @@ void Assign(const XmlAttribute& name, FrameworkElement& element, BuildContext& c
                  name.value_position, element);
 }
 
+const char* ActivationName(Activation activation) {
+  switch (activation) {
+    case Activation::kFreeRunning:
+      return "free_running";
+    case Activation::kTrigger:
+      return "trigger";
+    case Activation::kPeriod:
+      break;
+  }
+  return "period";
+}
+
 SavedTag SavedThread(const ThreadContainer& thread) {
   const ThreadOptions& options = thread.options();
+  const bool catches_up = options.on_overrun == ThreadOptions::OnOverrun::kCatchUp;
   const bool has_period = options.activation != Activation::kTrigger;
   std::vector<SavedAttribute> tag{{"name", thread.name()}};
   if (has_period) {
@@ -111,11 +121,10 @@ SavedTag SavedThread(const ThreadContainer& thread) {
                    options.activation == Activation::kFreeRunning &&
                        options.period == ThreadOptions{}.period});
   }
-  tag.push_back({"activation", kActivations[static_cast<std::size_t>(options.activation)],
+  tag.push_back({"activation", ActivationName(options.activation),
                  options.activation == Activation::kPeriod});
   tag.push_back({"priority", std::to_string(options.priority), options.priority == 0});
-  tag.push_back({"on_overrun", kOverruns[static_cast<std::size_t>(options.on_overrun)],
-                 options.on_overrun == ThreadOptions::OnOverrun::kSkip});
+  tag.push_back({"on_overrun", catches_up ? "catch_up" : "skip", !catches_up});
   return SavedTag{std::move(tag)};
 }
 
@@ -171,7 +180,7 @@ XmlTag ThreadTag() {
                 .kind = AttributeKind::kChoice,
                 .summary = "when a cycle begins: every period, at the end of the last one, or when "
                            "data comes",
-                .choices = kActivations},
+                .choices = {"period", "free_running", "trigger"}},
                {.name = "priority",
                 .kind = AttributeKind::kCount,
                 .summary = "0: ordinary; 1 .. 99: real-time, SCHED_FIFO"},
@@ -179,7 +188,8 @@ XmlTag ThreadTag() {
                 .kind = AttributeKind::kChoice,
                 .summary = "what happens to cycles that were missed: left out (by default), or run "
                            "at once",
-                .choices = kOverruns}},
+                .choices = {"skip", "catch_up"}}},
+          .is_structure = true,
           .handle = MakeThread,
           .saved = SavedThreads};
 }

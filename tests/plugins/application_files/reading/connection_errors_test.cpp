@@ -98,17 +98,13 @@ TEST(ConnectionErrors, WantAQueueWhereItIsSaidWhatAFullOneDoes) {
   <module name="a" type="test/source"/>
   <module name="b" type="test/sink"/>
   <connect from="a/value" to="b/value" on_full="refuse"/>
-</application>)"),
-            "app.xml:4:40: error: /demo: on_full has no meaning without a queue; add queue=\"…\" "
-            "with a count above 0, or leave out on_full\n");
-  EXPECT_EQ(workshop.Errors(R"(<application name="demo">
-  <module name="a" type="test/source"/>
-  <module name="b" type="test/sink"/>
   <connect from="a/value" to="b/second" queue="-1" on_full="refuses"/>
   <connect from="a/label" to="b/label" on_full="refuses"/>
 </application>)"),
-            "app.xml:4:48: error: /demo: '-1' is not a count; write 0, 1, 2 …\n"
-            "app.xml:5:49: error: /demo: 'refuses' is not possible for on_full; did you mean "
+            "app.xml:4:40: error: /demo: on_full has no meaning without a queue; add queue=\"…\" "
+            "with a count above 0, or leave out on_full\n"
+            "app.xml:5:48: error: /demo: '-1' is not a count; write 0, 1, 2 …\n"
+            "app.xml:6:49: error: /demo: 'refuses' is not possible for on_full; did you mean "
             "'refuse'?\n");
 }
 
@@ -141,16 +137,12 @@ TEST(ConnectionErrors, TellThatATypeCannotBeGuessed) {
   EXPECT_EQ(workshop.Errors(R"(<application name="demo">
   <group name="inner">
     <port name="x" direction="outward"/>
-  </group>
-</application>)"),
-            "app.xml:3:31: error: /demo/inner/x: 'outward' is not possible for direction; there "
-            "is 'input', 'output'\n");
-  EXPECT_EQ(workshop.Errors(R"(<application name="demo">
-  <group name="inner">
     <port name="y" direction="output"/>
   </group>
 </application>)"),
-            "app.xml:3:5: error: /demo/inner/y: the type of this port cannot be told from its "
+            "app.xml:3:31: error: /demo/inner/x: 'outward' is not possible for direction; there "
+            "is 'input', 'output'\n"
+            "app.xml:4:5: error: /demo/inner/y: the type of this port cannot be told from its "
             "connections; add type=\"…\"\n");
 }
 

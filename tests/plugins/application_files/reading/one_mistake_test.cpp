@@ -1,4 +1,4 @@
-// One mistake is told once; what it may have to do with waits until it has been mended.
+// One mistake is told once, and none waits until another has been mended.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -121,9 +121,10 @@ TEST(OneMistake, OfANameThatIsTakenIsNotThatTheRightNameIsMissing) {
             "first is in line 2\n");
 }
 
-TEST(OneMistake, InATagLetsPathsWait) {
+TEST(OneMistake, InANamelessPlaceStillGetsTheNearestNameTold) {
   EXPECT_EQ(WithConnection(R"(<connect from="a/value" to="fliter/value"/>)", "<module/>\n"),
-            "app.xml:2:1: error: /demo: <module> has no 'name'; add name=\"…\"\n");
+            "app.xml:2:1: error: /demo: <module> has no 'name'; add name=\"…\"\n"
+            "app.xml:5:31: error: /demo: there is no 'fliter' in /demo; did you mean 'filter'?\n");
 }
 
 TEST(OneMistake, OfAConnectionIsNotThatAnInputIsUnconnected) {
@@ -224,7 +225,9 @@ TEST(Mistakes, OfThreeElementsAreThree) {
             "app.xml:5:44: error: /demo/filter: <module> knows no 'colour'; there is 'thread'\n"
             "app.xml:7:3: error: /demo: <group> has no 'name'; add name=\"…\"\n"
             "app.xml:8:32: error: /demo/inner: there is no module type 'test/sinc'; did you mean "
-            "'test/sink'?\n");
+            "'test/sink'?\n"
+            "app.xml:11:36: error: /demo: there is no 'vlaue' in /demo/sink; did you mean "
+            "'value'?\n");
 }
 
 }  // namespace

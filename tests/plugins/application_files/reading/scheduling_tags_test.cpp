@@ -183,27 +183,24 @@ TEST_F(SchedulingTags, SayWhatHappensOnFaults) {
 TEST_F(SchedulingTags, TellWhatIsWrongWithFaultRules) {
   EXPECT_EQ(Errors(R"(<application name="demo">
   <module name="source" type="test/source"/>
+  <on_fault of="sorce" action="stop_application"/>
   <on_fault of="source"/>
   <on_fault of="source" set="source/gain"/>
-</application>)"),
-            "app.xml:3:3: error: /demo: <on_fault> must say one thing that is to be done; write "
-            "either action=\"stop_application\" or set=\"…\" value=\"…\"\n"
-            "app.xml:4:3: error: /demo: <on_fault> does not say to which value; add value=\"…\"\n");
-  EXPECT_EQ(Errors(R"(<application name="demo">
-  <module name="source" type="test/source"/>
-  <on_fault of="sorce" action="stop_application"/>
   <on_fault of="source" set="source/gain" value="70"/>
   <on_fault of="source" set="source/gian" value="7"/>
   <on_fault of="source" set="source/text" value="7"/>
   <on_fault of="source" set="source/output/value" value="7"/>
 </application>)"),
             "app.xml:3:17: error: /demo: there is no 'sorce' in /demo; did you mean 'source'?\n"
-            "app.xml:4:50: error: /demo/source/parameter/gain: 70 m is out of bounds; allowed is 0 "
+            "app.xml:4:3: error: /demo: <on_fault> must say one thing that is to be done; write "
+            "either action=\"stop_application\" or set=\"…\" value=\"…\"\n"
+            "app.xml:5:3: error: /demo: <on_fault> does not say to which value; add value=\"…\"\n"
+            "app.xml:6:50: error: /demo/source/parameter/gain: 70 m is out of bounds; allowed is 0 "
             ".. 10 m\n"
-            "app.xml:5:30: error: /demo: there is no 'gian' in /demo/source; did you mean 'gain'?\n"
-            "app.xml:6:30: error: /demo/source/parameter/text: the parameter is static: it cannot "
+            "app.xml:7:30: error: /demo: there is no 'gian' in /demo/source; did you mean 'gain'?\n"
+            "app.xml:8:30: error: /demo/source/parameter/text: the parameter is static: it cannot "
             "be set while its module runs\n"
-            "app.xml:7:30: error: /demo: /demo/source/output/value cannot be set\n");
+            "app.xml:9:30: error: /demo: /demo/source/output/value cannot be set\n");
 }
 
 TEST_F(SchedulingTags, TellOneMistakeOfAThreadOnce) {

@@ -1,0 +1,258 @@
+#include "core/xml/internal/start_tags.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "core/base/characters.h"
+#include "core/xml/internal/text_checks.h"
+#include "core/xml/internal/text_cursor.h"
+
+namespace runnel::internal {
+
+namespace {
+
+// tinyxml2 gives up at 100; staying below it, we are the one to say where.
+constexpr std::size_t kDeepestNesting = 90;
+
+std::string Quoted(std::string_view name) { return "<" + std::string(name) + ">"; }
+
+std::string At(TextPlace place) {
+  return "line " + std::to_string(place.line) + ", column " + std::to_string(place.column);
+}
+
+/// Each Take…() steps over one thing and returns false if it is not well-formed; error_ says why.
+class Scanner {
+ public:
+  Scanner(std::string_view text, const std::string& file_name)
+      : file_name_(file_name), cursor_(text) {}
+
+  Result<std::vector<StartTag>> Run() {
+    while (!cursor_.at_end()) {
+      if (!TakeNext()) return std::move(*error_);
+    }
+    if (tags_.empty()) return Failure(cursor_.place(), "there is no element", "");
+    if (!open_.empty()) {
+      const StartTag& last = tags_[open_.back()];
+      return Failure(last.place, Quoted(last.name) + " is never closed",
+                     "add </" + std::string(last.name) + ">");
+    }
+    return std::move(tags_);
+  }
+
+ private:
+  bool TakeNext() {
+    if (cursor_.Sees("<?")) return TakeDeclaration();
+    anything_but_declarations_ = true;
+    if (cursor_.Sees("<!--")) return TakePast("<!--", "-->", "comment");
+    if (cursor_.Sees("<![CDATA[")) return TakeCharacterData();
+    if (cursor_.Sees("<!")) {
+      return Fail(cursor_.place(), "a document type declaration is not supported", "leave it out");
+    }
+    if (cursor_.Sees("</")) return TakeEndTag();
+    if (cursor_.Sees("<")) return TakeStartTag();
+    return TakeText();
+  }
+
+  bool TakeDeclaration() {
+    if (anything_but_declarations_) {
+      return Fail(cursor_.place(), "'<?' must stand at the very beginning of the file", "");
+    }
+    const TextPlace start = cursor_.place();
+    const std::string_view rest = cursor_.rest();
+    if (!TakePast("<?", "?>", "declaration")) return false;
+    const std::string encoding = DeclaredEncoding(rest.substr(0, rest.find("?>")));
+    if (!IsReadableEncoding(encoding)) {
+      return Fail(start, "the file says that it is " + encoding,
+                  "save it as UTF-8 and write encoding=\"UTF-8\"");
+    }
+    cursor_.SkipSpace();
+    return true;
+  }
+
+  bool TakeCharacterData() {
+    if (open_.empty()) return Fail(cursor_.place(), "text outside of the root element", "");
+    NoteText();
+    return TakePast("<![CDATA[", "]]>", "CDATA section");
+  }
+
+  bool TakePast(std::string_view opening, std::string_view closing, const std::string& what) {
+    const TextPlace start = cursor_.place();
+    cursor_.Take(opening.size());
+    return TakeCharacters([&] { return cursor_.Sees(closing); }) && !cursor_.at_end()
+               ? (cursor_.Take(closing.size()), true)
+               : Fail(start, "a " + what + " that is never closed", "add " + std::string(closing));
+  }
+
+  bool TakeText() {
+    const bool outside = open_.empty();
+    cursor_.SkipSpace();
+    if (!outside && !cursor_.at_end() && cursor_.next() != '<') NoteText();
+    if (outside && !cursor_.at_end() && cursor_.next() != '<') {
+      return Fail(cursor_.place(), "text outside of the root element", "");
+    }
+    return TakeCharacters([&] { return cursor_.Sees("<"); }, /*check_entities=*/true);
+  }
+
+  void NoteText() {
+    StartTag& tag = tags_[open_.back()];
+    if (!tag.text_place) tag.text_place = cursor_.place();
+  }
+
+  bool TakeEndTag() {
+    const TextPlace start = cursor_.place();
+    const std::size_t begin = cursor_.offset();
+    cursor_.Take(2);
+    std::string_view name;
+    if (!TakeName(name)) return false;
+    cursor_.SkipSpace();
+    if (open_.empty()) return Fail(start, "</" + std::string(name) + "> closes nothing", "");
+    const StartTag& opened = tags_[open_.back()];
+    if (name != opened.name) {
+      return Fail(start,
+                  "</" + std::string(name) + "> where " + Quoted(opened.name) + " of " +
+                      At(opened.place) + " is still open",
+                  "write </" + std::string(opened.name) + "> first");
+    }
+    if (cursor_.next() != '>') return Fail(start, "an end tag without '>'", "");
+    cursor_.Take(1);
+    tags_[open_.back()].end_tag = {begin, cursor_.offset()};
+    open_.pop_back();
+    return true;
+  }
+
+  bool TakeStartTag() {
+    const TextPlace start = cursor_.place();
+    const std::size_t begin = cursor_.offset();
+    cursor_.Take(1);
+    StartTag tag{{}, start, {}, {}};
+    if (!TakeName(tag.name)) return false;
+    if (tag.name.empty()) return Fail(start, "'<' without a name", "write &lt; for the character");
+    if (open_.empty() && !tags_.empty()) {
+      return Fail(start, "a second root element " + Quoted(tag.name), "a file has one");
+    }
+    if (open_.size() >= kDeepestNesting) return Fail(start, "elements nested too deeply", "");
+    for (;;) {
+      const bool spaced = cursor_.SkipSpace();
+      if (cursor_.Sees(">") || cursor_.Sees("/>")) break;
+      if (!TakeAttribute(tag, spaced)) return false;
+    }
+    const bool closes = cursor_.Sees("/>");
+    cursor_.Take(closes ? 2 : 1);
+    tag.span = {begin, cursor_.offset()};
+    tag.end_tag = {cursor_.offset(), cursor_.offset()};
+    tags_.push_back(std::move(tag));
+    if (!closes) open_.push_back(tags_.size() - 1);
+    return true;
+  }
+
+  /// `name` is empty if there is none.
+  bool TakeName(std::string_view& name) {
+    TextCursor characters = cursor_;
+    name = cursor_.TakeName();
+    for (std::size_t done = 0; done < name.size();) {
+      const std::size_t length = FileCharacterLength(characters.rest());
+      if (length == 0) {
+        cursor_ = characters;
+        return FailAtCharacter();
+      }
+      characters.Take(length);
+      done += length;
+    }
+    return true;
+  }
+
+  bool TakeAttribute(StartTag& tag, bool spaced) {
+    const TextPlace place = cursor_.place();
+    const std::size_t begin = cursor_.offset();
+    std::string_view name;
+    if (!TakeName(name)) return false;
+    if (name.empty()) {
+      return cursor_.at_end() || cursor_.next() == '<'
+                 ? Fail(tag.place, "the tag " + Quoted(tag.name) + " has no '>'", "")
+                 : Fail(place, "an attribute must begin with a letter", "");
+    }
+    const std::string quoted = "'" + std::string(name) + "'";
+    if (!spaced) return Fail(place, "no space before attribute " + quoted, "");
+    const auto is_same = [name](const AttributePlace& other) { return other.name == name; };
+    if (const auto same = std::ranges::find_if(tag.attributes, is_same);
+        same != tag.attributes.end()) {
+      return Fail(place, "attribute " + quoted + " stands here twice", "leave one out");
+    }
+    cursor_.SkipSpace();
+    if (cursor_.next() != '=') return Fail(place, "attribute " + quoted + " has no value", "");
+    cursor_.Take(1);
+    cursor_.SkipSpace();
+    return TakeValue(tag, {name, place, {}, {begin, begin}, {}}, quoted);
+  }
+
+  bool TakeValue(StartTag& tag, AttributePlace attribute, const std::string& quoted) {
+    const char quote = cursor_.next();
+    if (quote != '"' && quote != '\'') {
+      return Fail(cursor_.place(), "the value of " + quoted + " is not in quotes",
+                  "write \"…\" round it");
+    }
+    cursor_.Take(1);
+    attribute.value_place = cursor_.place();
+    attribute.value_span.begin = cursor_.offset();
+    const auto at_stop = [&] { return cursor_.next() == quote || cursor_.next() == '<'; };
+    if (!TakeCharacters(at_stop, /*check_entities=*/true)) return false;
+    if (cursor_.next() != quote) {
+      return Fail(attribute.place, "the value of " + quoted + " has no closing quote",
+                  cursor_.at_end() ? "" : "or write &lt; for '<' in it");
+    }
+    attribute.value_span.end = cursor_.offset();
+    cursor_.Take(1);
+    attribute.span.end = cursor_.offset();
+    tag.attributes.push_back(attribute);
+    return true;
+  }
+
+  /// Steps on until `at_stop` or the end of the text.
+  template <typename Predicate>
+  bool TakeCharacters(Predicate at_stop, bool check_entities = false) {
+    while (!cursor_.at_end() && !at_stop()) {
+      const std::size_t length = FileCharacterLength(cursor_.rest());
+      if (length == 0) return FailAtCharacter();
+      if (check_entities && cursor_.next() == '&') {
+        const std::string fault = EntityFault(cursor_.rest());
+        if (!fault.empty()) {
+          return Fail(cursor_.place(), fault, "write &amp; for the character '&'");
+        }
+      }
+      cursor_.Take(length);
+    }
+    return true;
+  }
+
+  bool FailAtCharacter() {
+    const std::string fault = UnwritableCharacter(cursor_.rest().substr(0, 4));
+    return Fail(cursor_.place(), fault, fault.starts_with("byte") ? "save the file as UTF-8" : "");
+  }
+
+  Error Failure(TextPlace place, std::string message, std::string hint) const {
+    return {.message = std::move(message),
+            .position = {file_name_, place.line, place.column},
+            .hint = std::move(hint)};
+  }
+  /// Keeps the first error only: what follows is mostly its consequence.
+  bool Fail(TextPlace place, std::string message, std::string hint) {
+    if (!error_) error_ = Failure(place, std::move(message), std::move(hint));
+    return false;
+  }
+
+  const std::string& file_name_;
+  TextCursor cursor_;
+  std::vector<StartTag> tags_;
+  std::vector<std::size_t> open_;  // indices into tags_
+  std::optional<Error> error_;
+  bool anything_but_declarations_ = false;
+};
+
+}  // namespace
+
+Result<std::vector<StartTag>> FindStartTags(std::string_view text, const std::string& file_name) {
+  return Scanner(text, file_name).Run();
+}
+
+}  // namespace runnel::internal
