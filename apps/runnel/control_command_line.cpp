@@ -72,6 +72,9 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   option(connect, "--on-full", "on_full",
          "what a full queue does: drop_oldest, drop_newest, refuse")
       ->type_name("WORD");
+  connect.command->add_flag_callback(
+      "--pull", [&connect] { connect.arguments.options["pull"] = "true"; },
+      "reading the input has the output make a value");
 
   Entry& disconnect = add("disconnect", "takes the connection of two ports back");
   word(disconnect, "from", "output")->type_name(kPort);

@@ -60,11 +60,12 @@ QueueSink* BoundInput::Bind(const std::vector<Source>& sources) {
   for (const Source& source : sources) {
     ChannelBase* const channel = ChannelOf(*source.output);
     next->links.push_back(KeepOrMakeLink(*before, *channel));
-    if (sources.size() == 1) {
-      if (!next->pulls) next->channel = channel;
-      next->only = next->links.back().get();
-    }
     if (source.options.queue > options.queue) options = source.options;
+    next->pulls = next->pulls || source.options.pull;
+  }
+  if (sources.size() == 1) {
+    next->only = next->links.front().get();
+    if (!next->pulls) next->channel = next->only->channel;
   }
   if (options.queue > 0) next->queue = KeepOrMakeQueue(*before, *next, options);
   KeepWaitingValues(*before, *next);

@@ -25,6 +25,8 @@ std::uint64_t OutputBase::pull_failures() const noexcept {
 
 std::uint64_t OutputBase::publications() const noexcept { return own_channel().publications(); }
 
+bool OutputBase::is_pullable() const noexcept { return own_channel().pull_point() != nullptr; }
+
 void OutputBase::SetPullProvider(PullPoint::Provider provider) {
   PullPoint* const point = own_channel().pull_point();
   RUNNEL_CHECK(point != nullptr, "an output without OutputOptions::pullable is given a provider");

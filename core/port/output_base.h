@@ -23,6 +23,7 @@ class OutputBase : public Port {
   /// How many pulls have come to nothing because the provider threw or had no buffer.
   [[nodiscard]] std::uint64_t pull_failures() const noexcept;
   [[nodiscard]] std::uint64_t publications() const noexcept override;
+  [[nodiscard]] bool is_pullable() const noexcept override;
 
  protected:
   // By reference, so that typed outputs move nothing themselves.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <mutex>
 #include <thread>
 #include <unordered_set>
 
@@ -78,12 +79,24 @@ void DropRepetitions(std::vector<Port*>& ports) {
 }
 
 // Of two stretches of one way, or two ways from one source, the one that asks for a queue decides;
-// of two queues, the longer.
-const ConnectOptions& Stronger(const ConnectOptions& a, const ConnectOptions& b) {
-  return b.queue > a.queue ? b : a;
+// of two queues, the longer. If one pulls, all of it does.
+ConnectOptions Stronger(const ConnectOptions& a, const ConnectOptions& b) {
+  ConnectOptions stronger = b.queue > a.queue ? b : a;
+  stronger.pull = a.pull || b.pull;
+  return stronger;
+}
+
+Error CannotBePulled(const Port& output) {
+  return Refusal(output, "cannot be pulled: it has no provider",
+                 "its module has to make it pullable and to set a provider");
 }
 
 }  // namespace
+
+const std::vector<std::string>& OnFullNames() {
+  static const std::vector<std::string> names{"drop_oldest", "drop_newest", "refuse"};
+  return names;
+}
 
 Port::Port(const Placement& placement, Direction direction, const TypeInfo& type,
            std::string description)
@@ -94,7 +107,7 @@ Port::Port(const Placement& placement, Direction direction, const TypeInfo& type
 
 Port::~Port() = default;
 
-Result<void> Port::CheckEnds(const Port& from, const Port& to) {
+Result<void> Port::CheckEnds(const Port& from, const Port& to, const ConnectOptions& options) {
   if (&from.runtime() != &to.runtime()) {
     return Refusal(from, "cannot connect to a port of another runtime");
   }
@@ -113,11 +126,17 @@ Result<void> Port::CheckEnds(const Port& from, const Port& to) {
     return Refusal(from, "carries " + from.type().name() + ", but " + to.path() + " takes " +
                              to.type().name());
   }
-  return {};
+  if (!options.pull) return {};
+  if (options.queue > 0) {
+    return Refusal(from, "a connection that pulls cannot have a queue",
+                   "what is pulled is the newest value; leave out one of the two");
+  }
+  return from.is_pullable() ? Result<void>() : CannotBePulled(from);
 }
 
-Result<void> Port::CheckConnection(const Port& from, const Port& to) {
-  if (auto ends = CheckEnds(from, to); !ends) return ends;
+Result<void> Port::CheckConnection(const Port& from, const Port& to,
+                                   const ConnectOptions& options) {
+  if (auto ends = CheckEnds(from, to, options); !ends) return ends;
   if (IsConnected(from, to)) return Refusal(from, "is connected to " + to.path() + " already");
   if (from.is_proxy() && to.is_proxy() && Reaches(to, from)) {
     return Refusal(from, "connecting to " + to.path() + " would close a cycle of interface ports");
@@ -127,7 +146,7 @@ Result<void> Port::CheckConnection(const Port& from, const Port& to) {
 
 Result<void> Port::Connect(Port& from, Port& to, const ConnectOptions& options) {
   const std::lock_guard lock(from.runtime().structure_mutex());
-  if (auto possible = CheckConnection(from, to); !possible) return possible;
+  if (auto possible = CheckConnection(from, to, options); !possible) return possible;
   from.outgoing_.push_back({&from, &to, options});
   try {
     to.incoming_.push_back(&from);
@@ -188,6 +207,9 @@ Result<void> Port::CheckTakeOver(const Port& port, const Port& from) {
   if (!port.incoming_.empty() || !port.outgoing_.empty()) {
     return Refusal(port, "is connected and cannot take over from " + from.path());
   }
+  const auto pulls = [](const Connection& each) { return each.options.pull; };
+  if (!port.is_pullable() && std::ranges::any_of(from.outgoing_, pulls))
+    return CannotBePulled(port);
   return {};
 }
 
@@ -235,7 +257,7 @@ void Port::Detach() noexcept { DisconnectAll(); }
 void Port::CollectSources(const ConnectOptions& options, std::vector<Source>& sources) const {
   for (Port* from : incoming_) {
     const auto edge = FindConnection(from->outgoing_, *this);
-    const ConnectOptions& stronger = Stronger(options, edge->options);
+    const ConnectOptions stronger = Stronger(options, edge->options);
     if (from->is_proxy()) {
       from->CollectSources(stronger, sources);
       continue;
@@ -274,6 +296,18 @@ std::vector<Port*> Port::Sinks() const {
       std::ranges::any_of(outgoing_, [](const Connection& each) { return each.to->is_proxy(); });
   if (has_detours) DropRepetitions(sinks);
   return sinks;
+}
+
+bool Port::VisitLatest(const Visitor& visit) const {
+  const std::lock_guard lock(runtime().structure_mutex());
+  return std::ranges::any_of(Sources(), [&](Port* source) { return source->VisitLatest(visit); });
+}
+
+std::uint64_t Port::publications() const noexcept {
+  const std::lock_guard lock(runtime().structure_mutex());
+  std::uint64_t all = 0;
+  for (const Port* source : Sources()) all += source->publications();
+  return all;
 }
 
 Result<PublishStatus> Port::PublishFilled(const Fill&) {

@@ -43,6 +43,8 @@ class Port : public FrameworkElement {
   /// An interface port of a group, which only passes on.
   [[nodiscard]] virtual bool is_proxy() const noexcept { return false; }
   [[nodiscard]] virtual bool is_required() const noexcept { return false; }
+  /// Outputs: whether it may have a provider. Interface ports: yes, they pass on what is asked of them.
+  [[nodiscard]] virtual bool is_pullable() const noexcept { return is_proxy(); }
 
   [[nodiscard]] const std::vector<Connection>& outgoing() const noexcept { return outgoing_; }
   [[nodiscard]] const std::vector<Port*>& incoming() const noexcept { return incoming_; }
@@ -54,28 +56,31 @@ class Port : public FrameworkElement {
 
   /// Lets data flow between two ports of one runtime and one type. Works while both are in use.
   /// Errors: wrong types, wrong directions, a second connection between the same two, a cycle of
-  /// interface ports, ports being deleted; nothing has changed then.
+  /// interface ports, ports being deleted, options that contradict each other, pulling from an output
+  /// that cannot be pulled; nothing has changed then.
   static Result<void> Connect(Port& from, Port& to, const ConnectOptions& options = {});
   static Result<void> Disconnect(Port& from, Port& to);
   void DisconnectAll();
   /// What Connect() would say, but for `from` and `to` being connected already or for a cycle.
-  [[nodiscard]] static Result<void> CheckEnds(const Port& from, const Port& to);
+  [[nodiscard]] static Result<void> CheckEnds(const Port& from, const Port& to,
+                                              const ConnectOptions& options = {});
 
   /// Takes the place of `from` in all its connections, without a value being lost, repeated, or seen
   /// anew: an input goes on reading where the other has stopped, an output publishes into the channel
   /// that the readers of the other are bound to. `from` has no connection then; it can take over again.
-  /// Preconditions, by CheckTakeOver(): one type and one direction, both or neither interface ports,
-  /// and this port is not connected. Nobody reads or publishes through either of them meanwhile;
+  /// Preconditions, by CheckTakeOver(): one type and one direction, both or neither interface ports, this
+  /// port can be pulled if connections of the other pull, and it is not connected. Nobody reads or publishes through either of them meanwhile;
   /// those at the other ends may. Throws for lack of memory, and has changed nothing then.
   static Result<void> CheckTakeOver(const Port& port, const Port& from);
   void TakeOver(Port& from);
 
   /// Shows the newest value to `visit`, without marking it as read; false if there is none. For
-  /// viewers that know the type by its TypeInfo only. Any thread.
+  /// viewers that know the type by its TypeInfo only. Any thread. Ports without values of their own show
+  /// that of the first source that has one, under the structure lock.
   using Visitor = std::function<void(const void* value, Time timestamp)>;
-  virtual bool VisitLatest(const Visitor& visit) const = 0;
-  /// How many values have passed this port's source. Any thread.
-  [[nodiscard]] virtual std::uint64_t publications() const noexcept { return 0; }
+  virtual bool VisitLatest(const Visitor& visit) const;
+  /// How many values have passed this port's source, or all its sources together. Any thread; likewise.
+  [[nodiscard]] virtual std::uint64_t publications() const noexcept;
 
   /// Outputs: lends a buffer, has `fill` write the value, and publishes that. `value` is of this
   /// port's type, T{} or what an earlier use has left there. For who knows the type by its TypeInfo
@@ -125,7 +130,8 @@ class Port : public FrameworkElement {
 
  private:
   [[nodiscard]] Time TimeOutsideOfCycles() const noexcept;
-  static Result<void> CheckConnection(const Port& from, const Port& to);
+  static Result<void> CheckConnection(const Port& from, const Port& to,
+                                      const ConnectOptions& options);
   void CollectSources(const ConnectOptions& options, std::vector<Source>& sources) const;
   static bool RemoveEdge(Port& from, Port& to);
   void ExchangeConnections(Port& from, const std::vector<Port*>& sinks) noexcept;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "core/lockfree/buffer_pool.h"
 
@@ -21,10 +22,14 @@ enum class OnFull {
   kRefuse,      ///< keeps what it has, and Publish() returns kRefused
 };
 
+/// How files, commands and messages write it: drop_oldest, drop_newest, refuse. In its order.
+[[nodiscard]] const std::vector<std::string>& OnFullNames();
+
 /// How one connection behaves.
 struct ConnectOptions {
   std::size_t queue = 0;  ///< how many values may wait at the input; 0: only the latest counts
   OnFull on_full = OnFull::kDropOldest;
+  bool pull = false;  ///< the input pulls, see Strategy::kPull; not with a queue
 };
 
 /// Who sees to it that a value comes.

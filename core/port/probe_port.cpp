@@ -1,9 +1,7 @@
 #include "core/port/probe_port.h"
 
 #include <algorithm>
-#include <mutex>
 
-#include "core/element/runtime.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/port/channel_base.h"
 #include "core/port/probe_queue.h"
@@ -42,18 +40,6 @@ std::size_t ProbePort::waiting() const noexcept { return queue_->size(); }
 std::size_t ProbePort::capacity() const noexcept { return queue_->capacity(); }
 std::uint64_t ProbePort::dropped() const noexcept { return queue_->dropped(); }
 bool ProbePort::HasNew() const { return queue_->HasNext(); }
-
-std::uint64_t ProbePort::publications() const noexcept {
-  const std::lock_guard lock(runtime().structure_mutex());
-  std::uint64_t all = 0;
-  for (const Port* source : Sources()) all += source->publications();
-  return all;
-}
-
-bool ProbePort::VisitLatest(const Visitor& visit) const {
-  const std::lock_guard lock(runtime().structure_mutex());
-  return std::ranges::any_of(Sources(), [&](Port* source) { return source->VisitLatest(visit); });
-}
 
 QueueSink* ProbePort::Bind(const std::vector<Source>& sources) {
   std::vector<std::uint64_t> bound;

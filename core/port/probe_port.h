@@ -38,9 +38,6 @@ class ProbePort final : public InputBase {
   [[nodiscard]] std::size_t capacity() const noexcept;
 
   [[nodiscard]] std::uint64_t dropped() const noexcept override;
-  /// Both of what it is connected to, and under the structure lock.
-  [[nodiscard]] std::uint64_t publications() const noexcept override;
-  bool VisitLatest(const Visitor& visit) const override;
 
  private:
   QueueSink* Bind(const std::vector<Source>& sources) override;

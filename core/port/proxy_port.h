@@ -15,10 +15,6 @@ class ProxyPort final : public Port {
   ~ProxyPort() override { DisconnectAll(); }
 
   [[nodiscard]] bool is_proxy() const noexcept override { return true; }
-  /// Of the first source that has a value. Takes the structure lock.
-  bool VisitLatest(const Visitor& visit) const override;
-  /// Of all its sources together. Takes the structure lock.
-  [[nodiscard]] std::uint64_t publications() const noexcept override;
 };
 
 }  // namespace runnel

@@ -157,6 +157,7 @@ class DotWriter {
         extra +=
             ", style=bold, label=" + Quoted("queue " + std::to_string(connection.options.queue));
       }
+      if (connection.options.pull) extra += ", style=dashed, label=pull";
       Line(1, End(port, true) + " -> " + End(*connection.to, false) + " [" + extra + "]");
     }
   }

@@ -102,6 +102,7 @@ std::string PortText(const Port& port, const ListingOptions& options) {
   for (const Connection& each : port.outgoing()) {
     text += ", to " + each.to->path();
     if (each.options.queue > 0) text += " (queue " + std::to_string(each.options.queue) + ")";
+    if (each.options.pull) text += " (pulled)";
   }
   return text;
 }

@@ -13,18 +13,6 @@ namespace runnel::internal {
 
 namespace {
 
-const char* OnFullName(OnFull on_full) {
-  switch (on_full) {
-    case OnFull::kDropOldest:
-      return "drop_oldest";
-    case OnFull::kDropNewest:
-      return "drop_newest";
-    case OnFull::kRefuse:
-      break;
-  }
-  return "refuse";
-}
-
 std::string_view ThreadName(const FrameworkElement& element, const ElementSurroundings& around) {
   std::uint64_t id = AssignedThread(element);
   if (id == 0) id = around.default_thread;
@@ -54,7 +42,8 @@ void AddPort(const Port& port, JsonObject& json) {
   json.Add("kind", "port").Add("name", port.name());
   json.Add("direction", port.direction() == Port::Direction::kInput ? "input" : "output");
   json.Add("data_type", port.type().name()).Add("interface", port.is_proxy());
-  json.Add("required", port.is_required()).Add("description", port.description());
+  json.Add("required", port.is_required()).Add("pullable", port.is_pullable());
+  json.Add("description", port.description());
   json.Add("owner", owner != nullptr ? owner->path() : "");
 }
 
@@ -136,7 +125,8 @@ std::string ConnectionJson(const Connection& connection) {
   return JsonObjectText([&](JsonObject& json) {
     json.Add("from", connection.from->path()).Add("to", connection.to->path());
     json.Add("queue", connection.options.queue);
-    json.Add("on_full", OnFullName(connection.options.on_full));
+    json.Add("on_full", OnFullNames()[static_cast<std::size_t>(connection.options.on_full)]);
+    json.Add("pull", connection.options.pull);
   });
 }
 

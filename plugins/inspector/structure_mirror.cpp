@@ -157,7 +157,9 @@ std::uint64_t StructureMirror::Fingerprint(const FrameworkElement& element) cons
   for (const Connection& each : dynamic_cast<const Port&>(element).outgoing()) {
     if (IsObserver(*each.to)) continue;
     hash = hash * 31 + each.to->id();
-    hash = hash * 31 + each.options.queue * 4 + static_cast<std::uint64_t>(each.options.on_full);
+    hash = hash * 31 + each.options.queue * 8 +
+           static_cast<std::uint64_t>(each.options.on_full) * 2 +
+           static_cast<std::uint64_t>(each.options.pull);
   }
   return hash;
 }

@@ -20,7 +20,7 @@ using internal::ChangeLine;
 
 constexpr std::size_t kLongestQueue = 1'000'000;
 constexpr std::uint64_t kLongestProbation = 1'000'000'000;
-const std::vector<std::string> kOnFullNames{"drop_oldest", "drop_newest", "refuse"};
+const std::vector<std::string> kNoOrYes{"false", "true"};
 const std::vector<std::string> kDirections{"input", "output"};
 
 Error At(const SourcePosition& position, std::string message, std::string hint) {
@@ -155,13 +155,17 @@ Change ReadConnect(Arguments& arguments) {
   ConnectPorts change{arguments.Take("the output"), {}};
   change.to = arguments.Take("the input");
   const ChangeArgument* on_full = nullptr;
-  arguments.TakeOptions({"queue", "on_full"}, [&](const ChangeArgument& argument) {
+  const ChangeArgument* pull = nullptr;
+  arguments.TakeOptions({"queue", "on_full", "pull"}, [&](const ChangeArgument& argument) {
     if (argument.name() == "queue") {
       change.options.queue = arguments.ReadCount<std::size_t>(argument, kLongestQueue);
     } else if (argument.name() == "on_full") {
       on_full = &argument;
       change.options.on_full =
-          static_cast<OnFull>(arguments.Choose(argument, argument.value(), kOnFullNames));
+          static_cast<OnFull>(arguments.Choose(argument, argument.value(), OnFullNames()));
+    } else if (argument.name() == "pull") {
+      pull = &argument;
+      change.options.pull = arguments.Choose(argument, argument.value(), kNoOrYes) == 1;
     } else {
       return false;
     }
@@ -170,6 +174,10 @@ Change ReadConnect(Arguments& arguments) {
   if (on_full != nullptr && change.options.queue == 0) {
     arguments.Complain(on_full->position, "on_full has no meaning without a queue",
                        "add queue=N with a count above 0, or leave out on_full");
+  }
+  if (change.options.pull && change.options.queue > 0) {
+    arguments.Complain(pull->position, "a connection that pulls cannot have a queue",
+                       "what is pulled is the newest value; leave out one of the two");
   }
   return change;
 }
@@ -222,7 +230,8 @@ constexpr std::array<Verb, 7> kVerbs{{
      "[description=TEXT]",
      ReadCreate},
     {"delete", "delete PATH", ReadDelete},
-    {"connect", "connect FROM TO [queue=N] [on_full=drop_oldest|drop_newest|refuse]", ReadConnect},
+    {"connect", "connect FROM TO [queue=N] [on_full=drop_oldest|drop_newest|refuse] [pull=true]",
+     ReadConnect},
     {"disconnect", "disconnect FROM TO", ReadDisconnect},
     {"set", "set PATH VALUE, with a VALUE that has blanks in quotation marks", ReadSet},
     {"replace", "replace PATH with TYPE [NAME=VALUE ...] [probation=CYCLES]", ReadReplace},
@@ -266,10 +275,11 @@ std::string Text(const CreatePort& change) {
 std::string Text(const DeleteElement& change) { return "delete " + AsArgument(change.path); }
 std::string Text(const ConnectPorts& change) {
   std::string text = "connect " + AsArgument(change.from) + " " + AsArgument(change.to);
+  if (change.options.pull) text += " pull=true";
   if (change.options.queue == 0) return text;
   text += " queue=" + std::to_string(change.options.queue);
   if (change.options.on_full == OnFull::kDropOldest) return text;
-  return text + " on_full=" + kOnFullNames[static_cast<std::size_t>(change.options.on_full)];
+  return text + " on_full=" + OnFullNames()[static_cast<std::size_t>(change.options.on_full)];
 }
 std::string Text(const DisconnectPorts& change) {
   return "disconnect " + AsArgument(change.from) + " " + AsArgument(change.to);

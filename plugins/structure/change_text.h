@@ -18,6 +18,7 @@ namespace runnel {
 ///     create port /robot/left/scan input RangeScan description="of the front laser"
 ///     delete /robot/filter
 ///     connect /laser/scan /robot/filter/scan queue=10 on_full=refuse
+///     connect /camera/image /robot/filter/image pull=true
 ///     disconnect /laser/scan /robot/planner/scan
 ///     set /robot/base/target {x: 1, y: 2}
 ///     replace /robot/planner with planning/tangent_bug step=0.1 probation=10

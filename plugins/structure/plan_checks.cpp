@@ -87,7 +87,7 @@ Result<void> Plan::Check(const ConnectPorts& change) {
   if (!from) return from.error();
   const auto to = overlay_.FindPort(change.to, PathKind::kInput);
   if (!to) return to.error();
-  if (auto possible = overlay_.Connect(**from, **to); !possible) return possible;
+  if (auto possible = overlay_.Connect(**from, **to, change.options); !possible) return possible;
   AddConnection(**from, **to, change.options);
   return {};
 }

@@ -126,8 +126,8 @@ bool StructureOverlay::Reaches(const Port& from, const Port& to) const {
   });
 }
 
-Result<void> StructureOverlay::Connect(Port& from, Port& to) {
-  if (auto ends = Port::CheckEnds(from, to); !ends) return ends;
+Result<void> StructureOverlay::Connect(Port& from, Port& to, const ConnectOptions& options) {
+  if (auto ends = Port::CheckEnds(from, to, options); !ends) return ends;
   if (std::ranges::count(Targets(from), &to) > 0) {
     return Error{.message = "is connected to " + to.path() + " already", .path = from.path()};
   }

@@ -31,7 +31,7 @@ class StructureOverlay final : public PathSearch {
                const std::vector<std::pair<Port*, Port*>>& ports);
 
   /// Errors: what Port::Connect() and Disconnect() would say.
-  Result<void> Connect(Port& from, Port& to);
+  Result<void> Connect(Port& from, Port& to, const ConnectOptions& options);
   Result<void> Disconnect(Port& from, Port& to);
 
   [[nodiscard]] bool HasSource(const Port& port) const;

@@ -1,11 +1,14 @@
-// A plugin for tests: modules that fail, each in its own way.
+// A plugin for tests: modules that fail, each in its own way, and some that pull.
 
 #include "core/plugin/plugin_entry.h"
 #include "tests/integration/faulty_modules.h"
+#include "tests/integration/pulling_modules.h"
 
 RUNNEL_PLUGIN(faulty, registry) {
   using namespace runnel::test;
   registry.Add<FaultyRelay>("faulty/relay", "hands on, and fails after a while");
   registry.Add<FaultyWorker>("faulty/worker", "does nothing, and fails after a while");
   registry.Add<FaultyMonitor>("faulty/monitor", "judges the run, and fails at it");
+  registry.Add<CountingProvider>("faulty/provider", "counts for those who pull");
+  registry.Add<CountReader>("faulty/reader", "tells what it reads");
 }

@@ -75,6 +75,8 @@ TEST(Schema, RefusesMistakes) {
   EXPECT_TRUE(is_refused("<thread name=\"t\" activation=\"now\"/>"));
   EXPECT_TRUE(is_refused("<conect from=\"a\" to=\"b\"/>"));
   EXPECT_TRUE(is_refused("<connect from=\"a\" to=\"b\" queue=\"-1\"/>"));
+  EXPECT_FALSE(is_refused("<connect from=\"a\" to=\"b\" pull=\"true\"/>"));
+  EXPECT_TRUE(is_refused("<connect from=\"a\" to=\"b\" pull=\"1\"/>"));
 }
 
 TEST(Graph, IsDrawnWithGroupsThreadsAndQueues) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <set>
 #include <string>
 #include <utility>
@@ -16,9 +17,6 @@ namespace runnel {
 
 namespace {
 
-// In the order of OnFull.
-const std::vector<std::string> kOnFullNames{"drop_oldest", "drop_newest", "refuse"};
-
 constexpr std::size_t kLongestQueue = 1'000'000;
 
 ConnectOptions ReadOptions(const TagUse& use) {
@@ -34,10 +32,18 @@ ConnectOptions ReadOptions(const TagUse& use) {
       return options;
     }
   }
+  const XmlAttribute* const pull = use.Find("pull");
+  options.pull = pull != nullptr && pull->value == "true";
+  if (options.pull && options.queue > 0) {
+    use.Report({.message = "a connection that pulls cannot have a queue",
+                .hint = "what is pulled is the newest value; leave out one of the two"},
+               pull->position);
+    options.pull = false;
+  }
   const XmlAttribute* const on_full = use.Find("on_full");
   if (on_full == nullptr) return options;
-  const auto name = std::ranges::find(kOnFullNames, on_full->value);
-  options.on_full = static_cast<OnFull>(name - kOnFullNames.begin());
+  const auto name = std::ranges::find(OnFullNames(), on_full->value);
+  options.on_full = static_cast<OnFull>(name - OnFullNames().begin());
   if (options.queue == 0) {
     use.Report({.message = "on_full has no meaning without a queue",
                 .hint = "add queue=\"…\" with a count above 0, or leave out on_full"},
@@ -74,7 +80,8 @@ void Connect(Port& from, const PathUse& from_use, Port& to, const PathUse& to_us
   if (cannot_send) MarkUnfed(from, context);
   Error error = connected.error();
   if (error.hint.empty() && &from.type() != &to.type()) error.hint = FittingInputs(from, to);
-  const PathUse& wrong = cannot_send ? from_use : to_use;
+  const bool cannot_be_pulled = options.pull && !from.is_pullable();
+  const PathUse& wrong = cannot_send || cannot_be_pulled ? from_use : to_use;
   context.Report(std::move(error), wrong.position, wrong.base);
 }
 
@@ -112,25 +119,27 @@ std::string PathFrom(FrameworkElement& home, const Port& port, PathKind kind) {
   return FindPort({home, shorter, {}}, kind) == &port ? shorter : full;
 }
 
-// "queue" and "on_full", as they stand in a file; "" if it need not say them.
-std::pair<std::string, std::string> TextsOf(const ConnectOptions& options) {
-  if (options.queue == 0) return {};
-  return {std::to_string(options.queue),
-          options.on_full == OnFull::kDropOldest
-              ? ""
-              : kOnFullNames[static_cast<std::size_t>(options.on_full)]};
-}
+struct OptionText {
+  AttributeRule rule;
+  std::string usual;
+  std::string value;
+  friend bool operator==(const OptionText& a, const OptionText& b) { return a.value == b.value; }
+};
 
-std::string TextOr(const XmlAttribute* attribute, const char* usual) {
-  return attribute != nullptr ? attribute->value : usual;
+// What a file says of a connection; it need not say what is usual.
+std::array<OptionText, 3> TextsOf(const ConnectOptions& options) {
+  const OnFull on_full = options.queue > 0 ? options.on_full : OnFull::kDropOldest;
+  return {
+      {{{.name = "queue", .kind = AttributeKind::kCount}, "0", std::to_string(options.queue)},
+       {{.name = "on_full"}, OnFullNames()[0], OnFullNames()[static_cast<std::size_t>(on_full)]},
+       {{.name = "pull"}, "false", options.pull ? "true" : "false"}}};
 }
 
 bool SaysOptions(XmlElement tag, const ConnectOptions& options) {
-  const auto [queue, on_full] = TextsOf(options);
-  return internal::MeanTheSame({.name = "queue", .kind = AttributeKind::kCount},
-                               TextOr(tag.Attribute("queue"), "0"), queue.empty() ? "0" : queue) &&
-         TextOr(tag.Attribute("on_full"), "drop_oldest") ==
-             (on_full.empty() ? "drop_oldest" : on_full);
+  return std::ranges::all_of(TextsOf(options), [&](const OptionText& each) {
+    const XmlAttribute* const said = tag.Attribute(each.rule.name);
+    return internal::MeanTheSame(each.rule, said != nullptr ? said->value : each.usual, each.value);
+  });
 }
 
 // Whether a tag says it already; if not, and the tag may be changed, the tag says it from now on.
@@ -151,13 +160,10 @@ bool SaysConnection(XmlElement tag, Port* from, Port* to, bool is_only_one,
   }
   if (!SaysOptions(tag, edge->options)) {
     if (!is_only_one) return false;
-    const auto [queue, on_full] = TextsOf(edge->options);
-    const auto set = [&](const char* name, const std::string& value) {
-      value.empty() ? update.editor().RemoveAttribute(tag, name)
-                    : update.editor().SetAttribute(tag, name, value);
-    };
-    set("queue", queue);
-    set("on_full", on_full);
+    for (const auto& [rule, usual, value] : TextsOf(edge->options)) {
+      value == usual ? update.editor().RemoveAttribute(tag, rule.name)
+                     : update.editor().SetAttribute(tag, rule.name, value);
+    }
   }
   edge->is_saved = true;
   return true;
@@ -187,7 +193,6 @@ std::vector<NewElement> MissingConnections(FrameworkElement& home, internal::Sav
     if (edge->home != &home) continue;
     edge->is_saved = true;
     const std::string to = PathFrom(home, *edge->to, PathKind::kInput);
-    const auto [queue, on_full] = TextsOf(edge->options);
     const bool goes_on = last != nullptr && last->from == edge->from &&
                          TextsOf(last->options) == TextsOf(edge->options);
     last = edge;
@@ -198,8 +203,9 @@ std::vector<NewElement> MissingConnections(FrameworkElement& home, internal::Sav
     NewElement& made = elements.emplace_back(NewElement{
         .name = "connect",
         .attributes = {{"from", PathFrom(home, *edge->from, PathKind::kOutput)}, {"to", to}}});
-    if (!queue.empty()) made.attributes.emplace_back("queue", queue);
-    if (!on_full.empty()) made.attributes.emplace_back("on_full", on_full);
+    for (const auto& [rule, usual, value] : TextsOf(edge->options)) {
+      if (value != usual) made.attributes.emplace_back(rule.name, value);
+    }
   }
   return elements;
 }
@@ -207,33 +213,38 @@ std::vector<NewElement> MissingConnections(FrameworkElement& home, internal::Sav
 }  // namespace
 
 XmlTag ConnectTag() {
-  return {.name = "connect",
-          .summary = "lets data flow from one port to others",
-          .parents = {"application", "group"},
-          .attributes = {{.name = "from",
-                          .kind = AttributeKind::kPath,
-                          .required = true,
-                          .summary = "an output, or an interface port"},
-                         {.name = "to",
-                          .kind = AttributeKind::kPathList,
-                          .required = true,
-                          .summary = "inputs or interface ports, separated by blanks"},
-                         {.name = "queue",
-                          .kind = AttributeKind::kCount,
-                          .summary = "how many values may wait at the input; 0: the latest counts"},
-                         {.name = "on_full",
-                          .kind = AttributeKind::kChoice,
-                          .summary = "what a full queue does with one more value",
-                          .choices = kOnFullNames}},
-          .is_structure = true,
-          .handle = [](const TagUse& use) -> FrameworkElement* {
-            use.context.Defer(BuildStage::kConnections, [use] { ConnectAll(use); });
-            return &use.parent;
-          },
-          .update = UpdateConnect,
-          .missing = [](const XmlElement*, FrameworkElement& home, internal::Saving& saving,
-                        internal::FileUpdate*) { return MissingConnections(home, saving); },
-          .place = 4};
+  return {
+      .name = "connect",
+      .summary = "lets data flow from one port to others",
+      .parents = {"application", "group"},
+      .attributes = {{.name = "from",
+                      .kind = AttributeKind::kPath,
+                      .required = true,
+                      .summary = "an output, or an interface port"},
+                     {.name = "to",
+                      .kind = AttributeKind::kPathList,
+                      .required = true,
+                      .summary = "inputs or interface ports, separated by blanks"},
+                     {.name = "queue",
+                      .kind = AttributeKind::kCount,
+                      .summary = "how many values may wait at the input; 0: the latest counts"},
+                     {.name = "on_full",
+                      .kind = AttributeKind::kChoice,
+                      .summary = "what a full queue does with one more value",
+                      .choices = OnFullNames()},
+                     {.name = "pull",
+                      .kind = AttributeKind::kChoice,
+                      .summary = "whether reading the input first has its sources make a value; "
+                                 "false by default, and not with a queue",
+                      .choices = {"false", "true"}}},
+      .handle = [](const TagUse& use) -> FrameworkElement* {
+        use.context.Defer(BuildStage::kConnections, [use] { ConnectAll(use); });
+        return &use.parent;
+      },
+      .update = UpdateConnect,
+      .missing = [](const XmlElement*, FrameworkElement& home, internal::Saving& saving,
+                    internal::FileUpdate*) { return MissingConnections(home, saving); },
+      .place = 4};
 }
 
 }  // namespace runnel

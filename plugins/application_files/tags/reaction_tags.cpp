@@ -33,7 +33,7 @@ struct ReactionUse {
   }
 };
 
-// How the input is connected to `from` now, so that a switch keeps its queue.
+// How the input is connected to `from` now, so that a switch keeps its queue, or that it pulls.
 ConnectOptions OptionsOf(const Port& from, const Port& input) {
   const auto found = std::ranges::find(from.outgoing(), &input, &Connection::to);
   return found == from.outgoing().end() ? ConnectOptions{} : found->options;
@@ -73,6 +73,7 @@ void ReadSwitch(const ReactionUse& use) {
   }
   if (from != nullptr) use.reaction.changes.push_back(DisconnectPorts{from->path(), input->path()});
   if (to != nullptr) {
+    options.pull = options.pull && to->is_pullable();
     use.reaction.changes.push_back(ConnectPorts{to->path(), input->path(), options});
   }
   use.Describe("switched " + input->path() + (from ? " from " + from->path() : "") +

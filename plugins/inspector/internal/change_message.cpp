@@ -34,6 +34,16 @@ T OneOf(JsonMembers& members, const std::string& key,
   return otherwise;
 }
 
+bool IsTrue(JsonMembers& members, const std::string& key) {
+  const JsonPart* const found = members.Find(key);
+  if (found == nullptr || found->is_null()) return false;
+  const bool is_true = found->json() == "true";
+  if (!is_true && found->json() != "false") {
+    members.Complain("\"" + key + "\" must be true or false");
+  }
+  return is_true;
+}
+
 // {"step": "0.1"}: values of parameters in their text format.
 std::vector<Setting> SettingsIn(JsonMembers& members) {
   std::vector<Setting> settings;
@@ -61,7 +71,8 @@ Change ReadConnect(JsonMembers& m) {
   return ConnectPorts{m.NeedText("from"),
                       m.NeedText("to"),
                       {.queue = m.Count("queue", kLargestCount).value_or(0),
-                       .on_full = OneOf(m, "on_full", kOnFull, OnFull::kDropOldest)}};
+                       .on_full = OneOf(m, "on_full", kOnFull, OnFull::kDropOldest),
+                       .pull = IsTrue(m, "pull")}};
 }
 Change ReadDisconnect(JsonMembers& m) {
   return DisconnectPorts{m.NeedText("from"), m.NeedText("to")};

@@ -113,6 +113,30 @@ test('switches and choices set at once', async (t) => {
   assert.equal(application.elements.get('/mock/robot/planner/direction').value, 'right');
 });
 
+test('a connection is pulled, and looks like it, where the output can be', async (t) => {
+  const { inspector, page } = await Robot(t);
+  const choose = async (from, to) => {
+    const edge = page.locator(`[data-edge="${from} → ${to}"]`);
+    const { x, y } = await edge.evaluate((path) => {
+      const { x, y } = path.getPointAtLength(path.getTotalLength() / 2).matrixTransform(path.getScreenCTM());
+      return { x, y };
+    });
+    await page.mouse.click(x, y);
+    await inspector.details.locator('#disconnect').waitFor();
+    return edge;
+  };
+  await choose('/mock/world/pose', '/mock/laser/pose');
+  assert.equal(await page.locator('#pull').count(), 0);
+  const edge = await choose('/mock/laser/scan', '/mock/robot/scan');
+  await page.locator('#pull', { hasText: 'Pull' }).click();
+  await page.locator('#pull', { hasText: 'Push' }).waitFor();
+  assert.match(await edge.getAttribute('class'), /pulled/);
+  await inspector.details.locator('.facts dt', { hasText: 'pulled' }).waitFor();
+  await page.locator('#pull').click();
+  await page.locator('#pull', { hasText: 'Pull' }).waitFor();
+  assert.doesNotMatch(await edge.getAttribute('class'), /pulled/);
+});
+
 test('the log is filtered, and faults of changes come up as toasts', async (t) => {
   const { application, inspector, page } = await Robot(t);
   await page.locator('#tab-log').click();

@@ -52,7 +52,7 @@ export class MockApplication {
 
   /** What has changed since an earlier structure, as the protocol tells it. */
   difference(before) {
-    const key = (connection) => `${connection.from} ${connection.to}`;
+    const key = (connection) => JSON.stringify(connection);
     const old = new Map(before.elements.map((element) => [element.path, element]));
     const had = new Set(before.connections.map(key));
     const has = new Set(this.connections.map(key));
@@ -74,7 +74,7 @@ export class MockApplication {
     this.connections = connections;
   }
 
-  #apply({ change, path, value, from, to, type, thread }) {
+  #apply({ change, path, value, from, to, pull = false, type, thread }) {
     const missing = [path, from, to].find((each) =>
       each !== undefined && !this.elements.has(each) && !change.startsWith('create'));
     if (missing) return { message: `there is no '${missing}'`, path: missing, hint: '' };
@@ -85,7 +85,7 @@ export class MockApplication {
       }
       this.elements.set(path, { ...parameter, value });
     } else if (change === 'connect') {
-      this.connections = [...this.connections, { from, to, queue: 0, on_full: 'drop_oldest' }];
+      this.connections = [...this.connections, { from, to, queue: 0, on_full: 'drop_oldest', pull }];
     } else if (change === 'disconnect') {
       this.connections = this.connections.filter((each) => each.from !== from || each.to !== to);
     } else if (change === 'delete') {
@@ -113,7 +113,8 @@ export function ModuleElements(catalogue, type, path, { thread = null } = {}) {
   const elements = [{ path, kind: 'module', type, summary: module.summary, thread, stopped: null }];
   for (const port of module.ports) {
     elements.push({ path: `${path}/${port.name}`, kind: 'port', name: port.name, direction: port.direction,
-      data_type: port.type, interface: false, required: port.required ?? false, description: '', owner: path });
+      data_type: port.type, interface: false, required: port.required ?? false, pullable: port.pullable ?? false,
+      description: '', owner: path });
   }
   for (const parameter of module.parameters) {
     elements.push({ path: `${path}/${parameter.name}`, kind: 'parameter', name: parameter.name, data_type: parameter.type,

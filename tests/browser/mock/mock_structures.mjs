@@ -20,7 +20,7 @@ const kModules = [
     { name: 'pose', direction: 'output', type: 'Pose2' }, { name: 'goal', direction: 'output', type: 'Point2' }],
   parameters: [{ name: 'goal_x', type: 'double', unit: 'm', default: '3' }, { name: 'goal_y', type: 'double', unit: 'm', default: '1' }] },
   { type: 'mock/laser', summary: 'measures distances', plugin: 'mock', ports: [{ name: 'pose', direction: 'input', type: 'Pose2', required: true },
-    { name: 'scan', direction: 'output', type: 'RangeScan' }], parameters: [] },
+    { name: 'scan', direction: 'output', type: 'RangeScan', pullable: true }], parameters: [] },
   { type: 'mock/planner', summary: 'finds the way', plugin: 'mock', ports: [{ name: 'scan', direction: 'input', type: 'RangeScan', required: true },
     { name: 'goal', direction: 'input', type: 'Point2', required: true }, { name: 'pose', direction: 'input', type: 'Pose2', required: true },
     { name: 'twist', direction: 'output', type: 'Twist2' }],
@@ -36,7 +36,7 @@ const kModules = [
 ];
 
 export const kCatalogue = { modules: kModules, types: kTypes };
-const Connection = (from, to) => ({ from, to, queue: 0, on_full: 'drop_oldest' });
+const Connection = (from, to) => ({ from, to, queue: 0, on_full: 'drop_oldest', pull: false });
 const Thread = (root, name, period, order) => ({ path: `${root}/threads/${name}`, kind: 'thread', name, period, order });
 
 export function RobotStructure() {

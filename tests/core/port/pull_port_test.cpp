@@ -52,6 +52,40 @@ TEST_F(PullPortTest, SoItIsWithValuesInBuffers) {
   }
 }
 
+TEST_F(PullPortTest, AConnectionMayAskForIt) {
+  auto& sender = MakeSender<int>("sender", kPullable);
+  auto& receiver = MakeReceiver<int>("receiver");
+  auto& proxy =
+      runtime.Create<ProxyPort>(runtime.root(), "proxy", Port::Direction::kInput, TypeOf<int>());
+  sender.out.SetProvider([this](int& value) { return Count(value, counter); });
+  Connect(sender.out, receiver.in, {.pull = true});
+  EXPECT_EQ(*receiver.in.Read(), 1);
+  EXPECT_EQ(receiver.in.Get(), 2);
+  ASSERT_TRUE(Port::Disconnect(sender.out, receiver.in));
+  Connect(sender.out, receiver.in);
+  EXPECT_EQ(receiver.in.Get(), 2);
+  ASSERT_TRUE(Port::Disconnect(sender.out, receiver.in));
+  Connect(sender.out, proxy);
+  Connect(proxy, receiver.in, {.pull = true});
+  EXPECT_EQ(*receiver.in.Read(), 3);
+}
+
+TEST_F(PullPortTest, AConnectionPullsNeitherWithAQueueNorWithoutAProvider) {
+  auto& sender = MakeSender<int>("sender", kPullable);
+  auto& plain = MakeSender<int>("plain");
+  auto& receiver = MakeReceiver<int>("receiver");
+  const auto queued = Port::Connect(sender.out, receiver.in, {.queue = 1, .pull = true});
+  ASSERT_FALSE(queued);
+  EXPECT_EQ(queued.error().message, "a connection that pulls cannot have a queue");
+  const auto pushed = Port::Connect(plain.out, receiver.in, {.pull = true});
+  ASSERT_FALSE(pushed);
+  EXPECT_EQ(pushed.error().message, "cannot be pulled: it has no provider");
+  Connect(sender.out, receiver.in, {.pull = true});
+  const auto taken_over = Port::CheckTakeOver(plain.out, sender.out);
+  ASSERT_FALSE(taken_over);
+  EXPECT_EQ(taken_over.error().path, "/plain/out");
+}
+
 TEST_F(PullPortTest, StrategyAndProviderChangeWhileInUse) {
   auto& sender = MakeSender<int>("sender", kPullable);
   auto& receiver = MakeReceiver<int>();

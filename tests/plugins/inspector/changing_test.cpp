@@ -97,6 +97,11 @@ TEST_F(Changing, EachKindOfChangeIsReadAndADetailThatIsWrongIsNamed) {
             "of 'connect', \"on_full\" cannot be 'refus'");
   EXPECT_EQ(told({{"change", "connect"}, {"from", "/a"}, {"to", "/b"}, {"queue", -1}}),
             "of 'connect', \"queue\" must be a count, at most 1000000000");
+  EXPECT_EQ(told({{"change", "connect"}, {"from", "/a"}, {"to", "/b"}, {"pull", 1}}),
+            "of 'connect', \"pull\" must be true or false");
+  EXPECT_EQ(
+      told({{"change", "connect"}, {"from", "/app/a/out"}, {"to", "/app/b/in"}, {"pull", true}}),
+      "cannot be pulled: it has no provider");
   EXPECT_EQ(told({{"change", "create"}, {"path", "/x"}, {"type", "t"}, {"settings", {{"a", 1}}}}),
             "of 'create', the setting 'a' must be a text");
   EXPECT_EQ(told({{"change", "set"}, {"path", 3}, {"value", "2"}}),

@@ -70,6 +70,11 @@ TEST(ChangeText, ReadsConnections) {
   const auto queued = ParseOne<ConnectPorts>("connect /a/x /b/y on_full=drop_newest queue=10");
   EXPECT_EQ(queued.options.queue, 10U);
   EXPECT_EQ(queued.options.on_full, OnFull::kDropNewest);
+  EXPECT_FALSE(queued.options.pull);
+  EXPECT_TRUE(ParseOne<ConnectPorts>("connect /a/x /b/y pull=true").options.pull);
+  EXPECT_FALSE(ParseOne<ConnectPorts>("connect /a/x /b/y queue=1 pull=false").options.pull);
+  EXPECT_EQ(ChangeText(ConnectPorts{"/a/x", "/b/y", {.pull = true}}),
+            "connect /a/x /b/y pull=true");
   EXPECT_EQ(ParseOne<DisconnectPorts>("disconnect /a/x /b/y").to, "/b/y");
 }
 
@@ -137,6 +142,8 @@ TEST(ChangeText, SaysWhatIsMissingAndWhatIsTooMuch) {
   EXPECT_THAT(ErrorOf("create /a t =3"), HasSubstr("'=3' is one word too many"));
   EXPECT_THAT(ErrorOf("create /a t w=3 w=4"), HasSubstr("'w' is there twice"));
   EXPECT_THAT(ErrorOf("connect /a /b on_full=refuse"), HasSubstr("no meaning without a queue"));
+  EXPECT_THAT(ErrorOf("connect /a /b queue=3 pull=true"), HasSubstr("cannot have a queue"));
+  EXPECT_THAT(ErrorOf("connect /a /b pull=tru"), HasSubstr("did you mean 'true'?"));
 }
 
 TEST(ChangeText, RefusesCountsThatAreNone) {

@@ -16,7 +16,11 @@ export const EdgeView = memo(({ edge }) => {
     shapeRevision.value;
     return OriginsOf(structure, edge.from).some((origin) => RateOf(origin).value > 0);
   });
-  return html`<path class=${`edge ${state.value} ${isLive.value ? 'live' : ''}`} data-edge=${edge.key}
+  const isPulled = useComputed(() => {
+    shapeRevision.value;
+    return structure.connections.get(edge.key)?.pull === true;
+  });
+  return html`<path class=${`edge ${state.value} ${isLive.value ? 'live' : ''} ${isPulled.value ? 'pulled' : ''}`} data-edge=${edge.key}
     d=${edge.path} transform=${edge.dx || edge.dy ? `translate(${edge.dx},${edge.dy})` : undefined} />`;
 });
 

@@ -5,7 +5,7 @@ export const Change = {
   createGroup: (path) => ({ change: 'create_group', path }),
   createPort: (path, direction, type) => ({ change: 'create_port', path, direction, type }),
   delete: (path) => ({ change: 'delete', path }),
-  connect: (from, to) => ({ change: 'connect', from, to }),
+  connect: (from, to, options = {}) => ({ change: 'connect', from, to, ...options }),
   disconnect: (from, to) => ({ change: 'disconnect', from, to }),
   set: (path, value) => ({ change: 'set', path, value }),
   replace: (path, type) => ({ change: 'replace', path, type }),

@@ -5,7 +5,7 @@
 export class Structure {
   constructor() {
     this.elements = new Map();    // path -> element, as the server told it, with `children` (paths)
-    this.connections = new Map(); // ConnectionKey -> {from, to, queue, on_full}
+    this.connections = new Map(); // ConnectionKey -> {from, to, queue, on_full, pull}
     this.touching = new Map();    // port path -> Set of keys of connections that begin or end there
     this.ports = new Map();       // owner path -> port paths, in order
     this.parameters = new Map();  // owner path -> parameter paths, in order

@@ -61,6 +61,7 @@ function ConnectionRow({ port, connection }) {
     <span class="arrow">${isSource ? 'to' : 'from'}</span>
     <${Link} path=${other} text=${`${owner ? NameOf(owner) : ''}/${NameOf(other)}`} />
     ${connection.queue > 0 && html`<small>queue of ${connection.queue}</small>`}
+    ${connection.pull && html`<small>pulled</small>`}
     <button class="remove" disabled=${!canChange.value} title="Disconnect" aria-label=${`Disconnect ${other}`}
       onClick=${() => Disconnect(connection.from, connection.to)}>✕</button></li>`;
 }

@@ -37,6 +37,12 @@ export function Disconnect(from, to) {
   return Apply([Change.disconnect(from, to)], `disconnect ${Brief(from)} from ${Brief(to)}`);
 }
 
+/** Whether a connection pulls is said when it is made, so it is made anew. */
+export function SetPull(from, to, pull) {
+  return Apply([Change.disconnect(from, to), Change.connect(from, to, { pull })],
+    `${pull ? 'pull' : 'push'} from ${Brief(from)} to ${Brief(to)}`);
+}
+
 export async function Delete(path) {
   const reply = await Apply([Change.delete(path)], `delete ${NameOf(path)}`);
   if (reply.ok && selected.value === path) selected.value = structure.get(path)?.owner ?? ParentOf(path);
