@@ -129,7 +129,8 @@ Result<void> Application::Save(const std::filesystem::path& file) {
   const std::lock_guard lock(parts_->runtime().structure_mutex());
   const auto found = parts_->FindAgain();
   if (!found) return found.error();
-  return SaveApplication(**found, {parts_->plugins(), parts_->tags()}, file);
+  const SaveTools tools{parts_->plugins(), parts_->tags()};
+  return file.empty() ? SaveApplication(**found, tools) : SaveApplication(**found, tools, file);
 }
 
 Result<void> Application::LoadPlugin(std::string_view plugin) {

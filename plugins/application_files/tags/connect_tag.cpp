@@ -237,6 +237,7 @@ XmlTag ConnectTag() {
                       .summary = "whether reading the input first has its sources make a value; "
                                  "false by default, and not with a queue",
                       .choices = {"false", "true"}}},
+      .is_structure = true,
       .handle = [](const TagUse& use) -> FrameworkElement* {
         use.context.Defer(BuildStage::kConnections, [use] { ConnectAll(use); });
         return &use.parent;
