@@ -164,15 +164,13 @@ class TextReader {
 
   void ReadEnumeration(const TypeInfo& type, void* value) {
     const std::string_view text = cursor_.TakeToken();
-    std::vector<std::string> names;
     for (const EnumeratorInfo& each : type.enumerators()) {
       if (each.name == text || std::to_string(each.value) == text) {
         return type.enumeration().set(value, each.value);
       }
-      names.push_back(each.name);
     }
     Fail({.message = "there is no " + type.name() + " '" + std::string(text) + "'",
-          .hint = NearestNameHint(text, names)});
+          .hint = NearestNameHint(text, NamesOf(type.enumerators(), &EnumeratorInfo::name))});
   }
 
   void ReadStructure(const TypeInfo& type, void* value) {
@@ -188,10 +186,8 @@ class TextReader {
     const std::string_view name = cursor_.TakeWord();
     const FieldInfo* const field = type.FindField(name);
     if (field == nullptr) {
-      std::vector<std::string> names;
-      for (const FieldInfo& each : type.fields()) names.push_back(each.name);
       Fail({.message = type.name() + " has no field '" + std::string(name) + "'",
-            .hint = NearestNameHint(name, names)});
+            .hint = NearestNameHint(name, NamesOf(type.fields(), &FieldInfo::name))});
     }
     if (!cursor_.Skip(':')) Fail(cursor_.Expected("':' after '" + field->name + "'"));
     Read(*field->type, field->address(value));

@@ -168,14 +168,13 @@ class ValueReader {
     } else {
       number = NumberOf<std::int64_t>(cursor_.TakeNumber());
     }
-    std::vector<std::string> names;
     for (const EnumeratorInfo& each : type.enumerators()) {
       if (is_text ? each.name == name : number == each.value) {
         return type.enumeration().set(value, each.value);
       }
-      names.push_back(each.name);
     }
-    const std::string hint = NearestNameHint(name, names);
+    const std::string hint =
+        NearestNameHint(name, NamesOf(type.enumerators(), &EnumeratorInfo::name));
     if (is_text) cursor_.FailAt(place, "there is no " + type.name() + " '" + name + "'", hint);
     Error error = cursor_.ExpectedAt(place, "the name of a " + type.name() + " in quotation marks");
     error.hint = hint;
