@@ -86,25 +86,4 @@ std::string Quoted(std::string_view text) {
   return quoted + '"';
 }
 
-void AppendUtf8(unsigned code_point, std::string& text) {
-  const auto inner = [&](unsigned shift) {
-    text += static_cast<char>(0x80 | (code_point >> shift & 0x3f));
-  };
-  if (code_point < 0x80) {
-    text += static_cast<char>(code_point);
-  } else if (code_point < 0x800) {
-    text += static_cast<char>(0xc0 | code_point >> 6);
-    inner(0);
-  } else if (code_point < 0x10000) {
-    text += static_cast<char>(0xe0 | code_point >> 12);
-    inner(6);
-    inner(0);
-  } else {
-    text += static_cast<char>(0xf0 | code_point >> 18);
-    inner(12);
-    inner(6);
-    inner(0);
-  }
-}
-
 }  // namespace runnel

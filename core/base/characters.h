@@ -32,7 +32,4 @@ namespace runnel {
 /// `text` in quotation marks, with \" \\ \n \t \r for what cannot stand in them as it is.
 [[nodiscard]] std::string Quoted(std::string_view text);
 
-/// Precondition: a code point that may be written: not a surrogate, at most U+10FFFF.
-void AppendUtf8(unsigned code_point, std::string& text);
-
 }  // namespace runnel

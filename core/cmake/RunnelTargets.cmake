@@ -86,11 +86,14 @@ function(runnel_extension name)
     DESTINATION ${CMAKE_INSTALL_LIBDIR}/runnel/plugins)
 endfunction()
 
-# runnel_test(<name> [OPTIMISED] SOURCES ... [DEPENDS ...] [LABELS ...] [TIMEOUT seconds] [APART ...])
-# A GoogleTest program; each of its test cases becomes a CTest test called <name>/<Suite>.<Case>.
+# runnel_test(<name> [OPTIMISED] SOURCES ... [DEPENDS ...] [PLUGINS ...] [LABELS ...] [TIMEOUT seconds] [APART ...])
+# A GoogleTest program with runnel::testing; each of its test cases becomes a CTest test called <name>/<Suite>.<Case>.
+# Works in this tree and, after find_package(runnel) and enable_testing(), in any other.
+# PLUGINS are those of the tree that its rigs load; they are built before, and found.
 # OPTIMISED is one whose own code, and not only the library's, computes for many seconds.
 function(runnel_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "OPTIMISED" "TIMEOUT" "SOURCES;DEPENDS;LABELS;APART")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "OPTIMISED" "TIMEOUT"
+    "SOURCES;DEPENDS;PLUGINS;LABELS;APART")
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 120)
   endif()
@@ -99,13 +102,27 @@ function(runnel_test name)
   endif()
   add_executable(test_${name} ${arg_SOURCES} ${arg_APART})
   runnel_compile_together(test_${name} 8 ${arg_APART})
-  target_include_directories(test_${name} PRIVATE "${RUNNEL_ROOT}")
-  target_link_libraries(test_${name} PRIVATE
-    runnel_warnings runnel_test_warnings ${arg_DEPENDS} GTest::gmock GTest::gtest_main)
-  if(NOT arg_OPTIMISED)
-    target_compile_options(test_${name} PRIVATE ${RUNNEL_TEST_OPTIMISATION})
-    target_precompile_headers(test_${name} REUSE_FROM runnel_test_headers)
+  target_link_libraries(test_${name} PRIVATE ${arg_DEPENDS} GTest::gmock GTest::gtest_main)
+  if(TARGET runnel_test_headers)
+    target_include_directories(test_${name} PRIVATE "${RUNNEL_ROOT}")
+    target_link_libraries(test_${name} PRIVATE runnel_warnings runnel_test_warnings fmt::fmt)
+    if(NOT arg_OPTIMISED)
+      target_compile_options(test_${name} PRIVATE ${RUNNEL_TEST_OPTIMISATION})
+      target_precompile_headers(test_${name} REUSE_FROM runnel_test_headers)
+    endif()
+  else()
+    if(NOT TARGET GTest::gmock)
+      message(FATAL_ERROR "runnel_test() needs GoogleTest: install libgtest-dev and libgmock-dev")
+    endif()
+    include(GoogleTest)
+    target_compile_features(test_${name} PRIVATE cxx_std_20)
+    target_link_libraries(test_${name} PRIVATE runnel::testing)
   endif()
+  foreach(plugin IN LISTS arg_PLUGINS)
+    add_dependencies(test_${name} runnel_plugin_${plugin})
+    target_compile_definitions(test_${name} PRIVATE
+      RUNNEL_TEST_PLUGIN_FOLDER="${CMAKE_BINARY_DIR}/lib/runnel/plugins")
+  endforeach()
   gtest_discover_tests(test_${name} TEST_PREFIX "${name}/" DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT})
 endfunction()

@@ -10,9 +10,16 @@ namespace {
 
 constexpr std::string_view kWhitespace = " \t\r\n";
 
+// What most names are made of.
+bool IsPlain(char character) noexcept {
+  return (character >= 'a' && character <= 'z') || (character >= 'A' && character <= 'Z') ||
+         (character >= '0' && character <= '9') || character == '_';
+}
+
 }  // namespace
 
 Result<void> CheckElementName(std::string_view name) {
+  if (!name.empty() && std::ranges::all_of(name, IsPlain)) return {};
   if (name.empty()) return Error{.message = "a name must not be empty"};
   const std::string quoted = "'" + std::string(name) + "'";
   if (name == "." || name == "..") return Error{.message = "the name " + quoted + " is reserved"};

@@ -37,18 +37,17 @@ void FrameworkElement::JoinParent(const FrameworkElement* place) {
         {.message = "cannot create '" + name_ + "' in an element that is being deleted",
          .path = parent_->path()});
   }
-  if (parent_->children_by_name_.contains(name_)) {
+  const auto [entry, is_new] = parent_->children_by_name_.try_emplace(name_, this);
+  if (!is_new) {
     throw ElementError({.message = "there is already an element called '" + name_ + "'",
                         .path = parent_->path(),
                         .hint = "choose another name"});
   }
   auto& siblings = parent_->children_;
-  const auto at =
-      siblings.insert(place == nullptr ? siblings.end() : std::ranges::find(siblings, place), this);
   try {
-    parent_->children_by_name_.emplace(name_, this);
+    siblings.insert(place == nullptr ? siblings.end() : std::ranges::find(siblings, place), this);
   } catch (...) {
-    siblings.erase(at);
+    parent_->children_by_name_.erase(entry);
     throw;
   }
   is_listed_ = true;

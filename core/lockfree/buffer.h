@@ -4,11 +4,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <new>
+#include <utility>
 
 #include "core/base/check.h"
 #include "core/lockfree/cache_line.h"
 #include "core/lockfree/publication.h"
+#include "core/lockfree/value_owner.h"
 
 namespace runnel {
 
@@ -20,7 +23,8 @@ class BufferPool;
 ///   the publisher     from Loan() on, until it is published or the loan dropped  (is_loaned_)
 ///   the newest value  until the next one is published                           (LatestBuffer)
 ///   a reader's slot   from a lease until the lease is dropped                    (HazardRecord)
-///   references        queue entries, copies of leases, leases without a slot     (count_)
+///   references        queue entries, copies of leases, leases without a slot, buffers of other
+///                     outputs that forward what lies in it                       (count_)
 ///
 /// It is free for its publisher when none of them does. References are added only by who holds the
 /// buffer in some way, so of a free buffer no new one comes up (LatestBuffer has the one exception, which
@@ -72,7 +76,9 @@ class BufferBase {
   std::uint32_t seen_in_ = 0;  // the publisher's own: the search that last saw it in a slot
 };
 
-/// One buffer of a pool: a value and what is kept with it.
+/// One buffer of a pool: a value and what is kept with it. What is published by it may also lie elsewhere:
+/// in a buffer that is forwarded, of whatever pool, or with an owner of its own. Then the buffer holds that, as long
+/// as it is held itself, and its own value rests.
 template <typename T, template <typename> class Atomic = std::atomic, std::size_t kSlots = 7>
 class alignas(kCacheLineSize) Buffer : public BufferBase<Atomic> {
  public:
@@ -91,10 +97,42 @@ class alignas(kCacheLineSize) Buffer : public BufferBase<Atomic> {
     return *std::launder(reinterpret_cast<const T*>(storage_));
   }
 
+  /// What readers see: the buffer's own value, or one that lies elsewhere.
+  [[nodiscard]] const T& published_value() const noexcept { return *published_value_; }
+
   [[nodiscard]] Pool& pool() const noexcept { return *pool_; }
+
+  /// Has readers see what `held` has them see. What that is held by is counted once more, not `held` in
+  /// between: so a chain of any length holds one buffer, and ends there. By who has the loan.
+  /// Precondition: the caller holds `held`.
+  void ReferTo(Buffer& held) noexcept {
+    Buffer& origin = held.forwarded_ != nullptr ? *held.forwarded_ : held;
+    origin.AddReferences(1);
+    forwarded_ = &origin;
+    published_value_ = held.published_value_;
+  }
+  /// The same with a value of somebody else's, which that one gets back.
+  void ReferTo(const T& value, std::shared_ptr<ValueOwner<T>> owner) noexcept {
+    owner_ = std::move(owner);
+    published_value_ = &value;
+  }
+  /// By who has the loan and could not publish: the value stays with who has it.
+  void ReferToNothing() noexcept {
+    owner_.reset();
+    EndReference();
+  }
 
  private:
   friend Pool;
+
+  /// By who has found that nobody holds the buffer.
+  void EndReference() noexcept {
+    if (published_value_ == &value()) [[likely]]
+      return;
+    const T* const published = std::exchange(published_value_, &value());
+    if (Buffer* const origin = std::exchange(forwarded_, nullptr)) origin->ReleaseReference();
+    if (const auto owner = std::exchange(owner_, nullptr)) owner->TakeBack(*published);
+  }
 
   void Fill(Pool& pool, const Factory& factory) {
     if (factory) {
@@ -105,10 +143,17 @@ class alignas(kCacheLineSize) Buffer : public BufferBase<Atomic> {
       ThrowProgrammingError("a type without default constructor needs a factory", "BufferPool");
     }
     pool_ = &pool;
+    published_value_ = &value();
   }
 
+  // With what is kept with it, one line. Plain, as the value is: written while only the publisher, or who
+  // has the closed pool, can reach the buffer.
   Pool* pool_ = nullptr;
+  const T* published_value_ = nullptr;
   alignas(T) std::byte storage_[sizeof(T)];
+  // Whom what lies elsewhere is held from; behind the value, since it is seldom looked at.
+  Buffer* forwarded_ = nullptr;
+  std::shared_ptr<ValueOwner<T>> owner_;
 };
 
 }  // namespace runnel

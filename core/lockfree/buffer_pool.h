@@ -78,7 +78,9 @@ class BufferPool final : public Retirable<Atomic> {
   [[nodiscard]] Buffer* Loan(const Buffer* newest, Readers&& readers) {
     if (Buffer* const buffer = LoanAtOnce()) return buffer;
     FindFree(newest, readers);
-    return free_count_ > 0 || TakeArriving() || Grow() ? TakeFree() : nullptr;
+    if (free_count_ > 0) [[likely]]
+      return TakeFree();
+    return TakeNew();
   }
   /// A buffer that was free when others were looked for, or nullptr if it is time to look again.
   [[nodiscard, gnu::always_inline]] Buffer* LoanAtOnce() noexcept {
@@ -86,6 +88,22 @@ class BufferPool final : public Retirable<Atomic> {
         [[unlikely]]
       return nullptr;
     return TakeFree();
+  }
+
+  /// Loan() that looks for free buffers also if there are some: what those refer to that nobody holds any
+  /// more is given back. By who publishes what lies elsewhere, which shall not be kept for long.
+  template <typename Readers>
+  [[nodiscard]] Buffer* LoanAnew(const Buffer* newest, Readers&& readers) {
+    may_refer_ = true;
+    FindFree(newest, readers);
+    if (free_count_ > 0) [[likely]]
+      return TakeFree();
+    return TakeNew();
+  }
+  /// The same without a loan.
+  template <typename Readers>
+  void ReleaseUnused(const Buffer* newest, Readers&& readers) noexcept {
+    FindFree(newest, readers);
   }
 
   /// Sees to it that there are at least `buffers` buffers in all. Allocates; not for a cycle.
@@ -163,6 +181,8 @@ class BufferPool final : public Retirable<Atomic> {
     buffer->is_loaned_.store(true, std::memory_order_relaxed);
     return buffer;
   }
+  // Apart, so that who finds a free buffer saves no registers for those that have to be made.
+  [[gnu::noinline]] Buffer* TakeNew() { return TakeArriving() || Grow() ? TakeFree() : nullptr; }
   bool TakeArriving() noexcept {
     if (arriving_.load(std::memory_order_relaxed) == nullptr) return false;
     // acquire: pairs with the release in Reserve().
@@ -191,7 +211,8 @@ class BufferPool final : public Retirable<Atomic> {
     return nullptr;
   }
 
-  // Moves from the other buffers to the free ones those that nobody holds.
+  // Moves from the other buffers to the free ones those that nobody holds, and gives back what these
+  // held themselves.
   template <typename Readers>
   void FindFree(const Buffer* newest, const Readers& readers) noexcept {
     ++search_;
@@ -207,7 +228,8 @@ class BufferPool final : public Retirable<Atomic> {
     // Copies of the members, which the compiler would load anew after each acquire.
     Buffer** const buffers = buffers_;
     const std::uint32_t search = search_;
-    std::uint32_t free = free_count_;
+    const std::uint32_t free_before = free_count_;
+    std::uint32_t free = free_before;
     for (std::uint32_t i = free, count = count_; i < count; ++i) {
       Buffer* const buffer = buffers[i];
       const bool held = buffer == newest || buffer->seen_in_ == search || buffer->IsHeld();
@@ -216,12 +238,22 @@ class BufferPool final : public Retirable<Atomic> {
       buffers[free++] = buffer;
     }
     free_count_ = free;
+    if (may_refer_) [[unlikely]]
+      EndReferences(free_before);
+  }
+  // Of the buffers that are free since then. Apart, so that who looks saves no registers for it.
+  [[gnu::noinline]] void EndReferences(std::uint32_t free_before) noexcept {
+    for (std::uint32_t i = free_before; i < free_count_; ++i) buffers_[i]->EndReference();
   }
 
   // A closed pool has no newest buffer, and all who may have leased have passed their fences: they are
   // ordered before its closing. From then on this thread is in the publisher's place.
   [[nodiscard]] bool IsHeld() noexcept override {
-    FindFree(nullptr, [] { return Domain::kAll; });
+    std::uint32_t free_before = 0;
+    do {  // again as long as some are free now: they may have held others of this pool
+      free_before = free_count_;
+      FindFree(nullptr, [] { return Domain::kAll; });
+    } while (free_count_ > free_before && free_count_ < count_);
     return free_count_ < count_;
   }
 
@@ -236,6 +268,7 @@ class BufferPool final : public Retirable<Atomic> {
   std::uint32_t count_ = 0;
   std::uint32_t list_capacity_ = 0;
   std::uint32_t search_ = 0;
+  bool may_refer_ = false;  // whether one of them may refer to a value elsewhere
   Chunk* chunks_ = nullptr;
   alignas(kCacheLineSize) Atomic<Chunk*> arriving_{nullptr};  // reserved, not yet taken over
   Atomic<std::uint32_t> capacity_{0};

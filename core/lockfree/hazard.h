@@ -119,10 +119,20 @@ class HazardDomain {
     // Nobody takes single parts off the list, so no address in it can come back to life (no ABA).
     // relaxed: only whether there is something.
     if (retired_.load(std::memory_order_relaxed) == nullptr) return 0;
+    std::size_t left = 0;
+    while (DeleteFree(left) && left > 0) {  // what has been deleted may have held what is left
+    }
+    return left;
+  }
+
+ private:
+  // Deletes what of the retired is not held; false if there is none. Says how much is left.
+  bool DeleteFree(std::size_t& left) noexcept {
     // acquire: pairs with the release in PushRetired(): the part is complete, and whoever looked at it
     // before has ended.
     Retirable<Atomic>* part = retired_.exchange(nullptr, std::memory_order_acquire);
-    std::size_t left = 0;
+    bool is_any_deleted = false;
+    left = 0;
     while (part != nullptr) {
       Retirable<Atomic>* const next = part->next_retired_;
       if (part->IsHeld()) {
@@ -130,13 +140,12 @@ class HazardDomain {
         ++left;
       } else {
         delete part;
+        is_any_deleted = true;
       }
       part = next;
     }
-    return left;
+    return is_any_deleted;
   }
-
- private:
   void PushRetired(Retirable<Atomic>& part) noexcept {
     part.next_retired_ = retired_.load(std::memory_order_relaxed);
     // release: pairs with the acquire in Reclaim().

@@ -39,6 +39,14 @@ class LatestBuffer {
   /// Loan() from another pool, for another publisher that takes turns with the first one: each may
   /// loan from its own pool while the other publishes. Then neither passes a record.
   [[nodiscard]] Buffer* LoanFrom(Pool& pool) { return LoanFor(nullptr, pool); }
+  /// Loan() by who publishes what lies elsewhere, see BufferPool::LoanAnew(). nullptr: as in Loan().
+  [[nodiscard]] Buffer* LoanAnew(Record* publisher) {
+    return pool_.LoanAnew(newest_.load(std::memory_order_relaxed), LooksFor(publisher));
+  }
+  /// Gives back what lies elsewhere and nobody holds any more. By the publisher.
+  void ReleaseUnused(Record* publisher) noexcept {
+    pool_.ReleaseUnused(newest_.load(std::memory_order_relaxed), LooksFor(publisher));
+  }
   /// Makes a loaned buffer, of whichever pool, the newest one.
   void Publish(Buffer& buffer) noexcept {
     buffer.EndLoan();
@@ -93,10 +101,14 @@ class LatestBuffer {
     // relaxed: the newest is the caller's own note, unless it is of the other publisher, and then of
     // the other pool. An outdated one is not reused for one more time; one that is seen to have
     // replaced the caller's is, after the fences, seen by the readers too.
-    return pool.Loan(newest_.load(std::memory_order_relaxed), [this, publisher] {
+    return pool.Loan(newest_.load(std::memory_order_relaxed), LooksFor(publisher));
+  }
+  // Whose slots are to be looked at; asked when it comes to that.
+  [[nodiscard]] auto LooksFor(Record* publisher) noexcept {
+    return [this, publisher] {
       LetRead(publisher);
       return ReadersBut(publisher != nullptr ? publisher->own_bit : 0);
-    });
+    };
   }
   // Before looking for free buffers: if it is the caller's thread alone that does so, and it reads
   // here too, its leases need no fence. They have until another thread comes to look.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
@@ -28,30 +29,22 @@ class LatestValue {
                 "LatestValue copies words: T must be trivially copyable; use LatestBuffer instead");
 
  public:
-  void Publish(const T& value, std::int64_t timestamp, std::uint64_t order = 0) noexcept {
-    const std::uint64_t sequence = ++published_;
-    Cell& cell = cells_[sequence % kCells];
-    // relaxed: the release stores of the words below carry it to whoever sees one of them.
-    cell.sequence.store(kBeingWritten, std::memory_order_relaxed);
-    std::array<std::uint64_t, kWords> words{};
-    std::memcpy(words.data(), &value, sizeof(T));
-    // release: pairs with the acquire loads of the words in Read(). A reader that sees one of these
-    // words also sees kBeingWritten, or something later, in the check that ends its copy.
-    for (std::size_t i = 0; i < kWords; ++i) {
-      cell.words[i].store(words[i], std::memory_order_release);
-    }
-    cell.timestamp.store(timestamp, std::memory_order_release);
-    cell.order.store(order, std::memory_order_release);
-    // relaxed: the release store below carries it.
-    cell.sequence.store(sequence, std::memory_order_relaxed);
-    // release: pairs with the acquire in Read(): the whole cell is visible with its number.
-    newest_.store(sequence, std::memory_order_release);
+  void Publish(const T& value, std::int64_t timestamp, std::int64_t publication_time,
+               std::uint64_t order) noexcept {
+    Write(value, timestamp, publication_time,
+          [order](Cell& cell) { cell.order.store(order, std::memory_order_release); });
   }
+  /// The same without an order, as all before: whoever has given one always gives one.
+  void Publish(const T& value, std::int64_t timestamp, std::int64_t publication_time) noexcept {
+    Write(value, timestamp, publication_time, [](Cell&) {});
+  }
+  void Publish(const T& value, std::int64_t now) noexcept { Publish(value, now, now); }
 
   /// Copies the newest value to `value`. Returns false before the first publication.
   bool Read(T& value, Publication& publication) const noexcept {
     return Copy(value, [&](const Cell& cell, std::uint64_t sequence) {
       publication.timestamp = cell.timestamp.load(std::memory_order_acquire);
+      publication.publication_time = cell.publication_time.load(std::memory_order_acquire);
       publication.order = cell.order.load(std::memory_order_acquire);
       publication.sequence = sequence;
     });
@@ -71,13 +64,47 @@ class LatestValue {
   static constexpr std::size_t kWords = (sizeof(T) + 7) / 8;
   static constexpr std::uint64_t kBeingWritten = ~std::uint64_t{0};  // never the newest
 
+  // One line, with a value of 32 bytes.
   struct alignas(kCacheLineSize) Cell {
     Atomic<std::uint64_t> sequence{kBeingWritten};
     Atomic<std::int64_t> timestamp{0};
+    Atomic<std::int64_t> publication_time{0};
     Atomic<std::uint64_t> order{0};
     std::array<Atomic<std::uint64_t>, kWords> words{};
   };
 
+  // Word by word: who has just written the members would wait for a load that is wider than its stores.
+  [[gnu::always_inline]] static std::uint64_t Word(const T& value, std::size_t i) noexcept {
+    const auto* const bytes = reinterpret_cast<const std::byte*>(&value) + i * 8;
+    std::uint64_t word = 0;
+    if (sizeof(T) % 8 == 0 || i + 1 < kWords) {
+      std::memcpy(&word, bytes, 8);
+    } else {
+      std::memcpy(&word, bytes, sizeof(T) % 8);
+    }
+    return word;
+  }
+  // `also(cell)` stores what else there is, with release.
+  template <typename Also>
+  [[gnu::always_inline]] void Write(const T& value, std::int64_t timestamp,
+                                    std::int64_t publication_time, Also&& also) noexcept {
+    const std::uint64_t sequence = ++published_;
+    Cell& cell = cells_[sequence % kCells];
+    // relaxed: the release stores of the words below carry it to whoever sees one of them.
+    cell.sequence.store(kBeingWritten, std::memory_order_relaxed);
+    // release: pairs with the acquire loads of the words in Read(). A reader that sees one of these
+    // words also sees kBeingWritten, or something later, in the check that ends its copy.
+    for (std::size_t i = 0; i < kWords; ++i) {
+      cell.words[i].store(Word(value, i), std::memory_order_release);
+    }
+    cell.timestamp.store(timestamp, std::memory_order_release);
+    cell.publication_time.store(publication_time, std::memory_order_release);
+    also(cell);
+    // relaxed: the release store below carries it.
+    cell.sequence.store(sequence, std::memory_order_relaxed);
+    // release: pairs with the acquire in Read(): the whole cell is visible with its number.
+    newest_.store(sequence, std::memory_order_release);
+  }
   // `also(cell, sequence)` copies what else is wanted of the cell, with acquire.
   template <typename Also>
   [[gnu::always_inline]] bool Copy(T& value, Also&& also) const noexcept {

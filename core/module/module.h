@@ -4,6 +4,7 @@
 
 #include "core/base/clock.h"
 #include "core/element/framework_element.h"
+#include "core/log/logger.h"
 #include "core/module/kept_state.h"
 #include "core/port/port_owner.h"
 
@@ -47,6 +48,8 @@ class Module : public FrameworkElement, public PortOwner {
 
   /// The time of the current cycle; outside of one, that of the runtime's clock.
   [[nodiscard]] Time now() const noexcept;
+  /// What the module says to people: `log().Warn("no echo for {} s", seconds);`
+  [[nodiscard]] Logger& log() noexcept { return log_; }
   /// Planned time from cycle to cycle; 0 outside of a cycle or without a plan.
   [[nodiscard]] static Duration period() noexcept;
 
@@ -69,6 +72,7 @@ class Module : public FrameworkElement, public PortOwner {
   Module(const Placement& placement, NoTasks);
 
  private:
+  Logger log_{*this};
   std::unique_ptr<PortGroup> input_group_;
   std::unique_ptr<PortGroup> output_group_;
 };

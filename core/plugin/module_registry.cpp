@@ -42,10 +42,8 @@ const ModuleType* ModuleRegistry::Find(std::string_view name) const {
 
 Result<const ModuleType*> ModuleRegistry::Get(std::string_view name) const {
   if (const ModuleType* type = Find(name)) return type;
-  std::vector<std::string> names;
-  for (const auto& [each, type] : types_) names.push_back(each);
   return Error{.message = "there is no module type '" + std::string(name) + "'",
-               .hint = NearestNameHint(name, names)};
+               .hint = NearestNameHint(name, NamesOf(types_, &Types::value_type::first))};
 }
 
 std::vector<const ModuleType*> ModuleRegistry::All() const {

@@ -13,7 +13,6 @@
 #include "core/base/retry.h"
 #include "core/plugin/outdated_dependency.h"
 #include "core/plugin/plugin_entry.h"
-#include "core/plugin/shared_library.h"
 #include "core/plugin/temporary_copy.h"
 
 namespace runnel {
@@ -44,28 +43,37 @@ Error Refusal(const fs::path& file, std::string why, std::string hint = {}) {
           .hint = std::move(hint)};
 }
 
+// It is never unmapped: types, vtables and strings of it may live on in objects that nobody can count.
+Result<void*> OpenLibrary(const fs::path& file) {
+  // NOW: a missing symbol is an error here, not a crash later. LOCAL: plugins do not see each other.
+  void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  if (library != nullptr) return library;
+  const char* const reason = dlerror();
+  return Error{.message = "cannot load the library " + file.string() + ": " +
+                          (reason != nullptr ? reason : "unknown reason")};
+}
+
 // Reads only what never changes its place before it trusts the rest.
-Result<const PluginEntry*> Handshake(const SharedLibrary& library) {
+Result<const PluginEntry*> Handshake(void* library, const fs::path& file) {
   const auto entry_function =
-      reinterpret_cast<const PluginEntry* (*)()>(library.FindSymbol(kPluginEntrySymbol));
+      reinterpret_cast<const PluginEntry* (*)()>(dlsym(library, kPluginEntrySymbol));
   if (entry_function == nullptr) {
-    return Refusal(library.file(), std::string("it has no entry ") + kPluginEntrySymbol,
+    return Refusal(file, std::string("it has no entry ") + kPluginEntrySymbol,
                    "write RUNNEL_PLUGIN(name, registry) { … } in one of its sources");
   }
   const PluginEntry* const entry = entry_function();
-  if (entry == nullptr) return Refusal(library.file(), "its entry is empty");
+  if (entry == nullptr) return Refusal(file, "its entry is empty");
   if (entry->abi_version != kPluginAbiVersion) {
-    return Refusal(library.file(),
+    return Refusal(file,
                    "it was built for plugin ABI " + std::to_string(entry->abi_version) +
                        ", this core has " + std::to_string(kPluginAbiVersion),
                    "rebuild the plugin");
   }
   if (entry->entry_size != sizeof(PluginEntry)) {
-    return Refusal(library.file(), "its entry has another size than this core's",
-                   "rebuild the plugin");
+    return Refusal(file, "its entry has another size than this core's", "rebuild the plugin");
   }
   if (std::strcmp(entry->fingerprint, CoreAbiFingerprint()) != 0) {
-    return Refusal(library.file(),
+    return Refusal(file,
                    std::string("it was built with '") + entry->fingerprint + "', this core with '" +
                        CoreAbiFingerprint() + "'",
                    "rebuild the plugin with the compiler of the core");
@@ -119,9 +127,9 @@ Result<void> PluginManager::LoadUnlessKnown(std::string_view name) {
 }
 
 Result<void> PluginManager::Register(const std::string& name, const fs::path& file) {
-  const auto library = SharedLibrary::Open(file);
+  const auto library = OpenLibrary(file);
   if (!library) return library.error();
-  const auto entry = Handshake(*library);
+  const auto entry = Handshake(*library, file);
   if (!entry) return entry.error();
   struct Reset {  // whatever comes of it: what others add later is not this plugin's
     ~Reset() { registry.set_plugin(""); }

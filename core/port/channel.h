@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "core/base/check.h"
@@ -15,6 +16,7 @@
 #include "core/port/lease.h"
 #include "core/port/loan.h"
 #include "core/port/queued_value.h"
+#include "core/port/value_times.h"
 
 namespace runnel {
 
@@ -41,12 +43,12 @@ class Channel final : public ChannelBase {
     }
   }
 
-  [[gnu::always_inline]] PublishStatus Publish(Loan<T>&& loan, Time now) {
+  [[gnu::always_inline]] PublishStatus Publish(Loan<T>&& loan, ValueTimes times) {
     if (!loan) [[unlikely]]
       return PublishStatus::kNoBuffer;
     if constexpr (kIsInlined<T>) {
       const T value = *loan;
-      const PublishStatus status = PublishValue(value, now);
+      const PublishStatus status = PublishValue(value, times);
       if (status != PublishStatus::kBusy) loan.Drop();
       return status;
     } else {
@@ -54,18 +56,42 @@ class Channel final : public ChannelBase {
       RUNNEL_CHECK(&buffer->pool() == storage_.pool.get(),
                    "a loan can be published only by the output that gave it");
       if (HasFlags()) [[unlikely]] {
-        const PublishStatus status = PublishOnSlowPath(*buffer, now);
+        const PublishStatus status = PublishOnSlowPath(*buffer, times);
         if (status != PublishStatus::kBusy) loan.slot_ = nullptr;
         return status;
       }
       loan.slot_ = nullptr;
-      return PublishNow<PublishPath::kFast>(*buffer, now);
+      return PublishNow<PublishPath::kFast>(*buffer, times);
     }
   }
-  PublishStatus PublishValue(const T& value, Time now) requires(kIsInlined<T>) {
+  PublishStatus PublishValue(const T& value, ValueTimes times) requires(kIsInlined<T>) {
     if (HasFlags()) [[unlikely]]
-      return PublishOnSlowPath(value, now);
-    return PublishNow<PublishPath::kFast>(value, now);
+      return PublishOnSlowPath(value, times);
+    return PublishNow<PublishPath::kFast>(value, times);
+  }
+
+  /// Publishes what the lease holds: a copy, if that is how such values travel; else the very value.
+  PublishStatus Forward(const Lease<T>& lease, ValueTimes times) {
+    const internal::HeldValue<T>& held = lease.Checked();
+    if constexpr (kIsInlined<T>) {
+      return PublishValue(held.value(), times);
+    } else if constexpr (kLiesInQueuesAsCopy<T>) {
+      Loan<T> loan = MakeLoan();
+      if (loan) std::construct_at(&*loan, held.value());  // trivially copyable: nothing to destroy
+      return Publish(std::move(loan), times);
+    } else {
+      return PublishElsewhere(times, [&](Buffer<T>& buffer) { buffer.ReferTo(*held.buffer()); });
+    }
+  }
+  /// Publishes a value that belongs to somebody else.
+  PublishStatus PublishInPlace(const T& value, std::shared_ptr<ValueOwner<T>>&& owner,
+                               ValueTimes times) requires(!kLiesInQueuesAsCopy<T>) {
+    return PublishElsewhere(times,
+                            [&](Buffer<T>& buffer) { buffer.ReferTo(value, std::move(owner)); });
+  }
+  /// Gives back what of other outputs and of owners nobody holds by this one any more.
+  void ReleaseUnused() noexcept requires(!kIsInlined<T>) {
+    storage_.newest.ReleaseUnused(Publisher());
   }
 
   /// The newest value, or none. Call inside an EpochGuard.
@@ -94,7 +120,7 @@ class Channel final : public ChannelBase {
     } else {
       const auto lease = storage_.newest.Lease(record);
       if (lease.get() == nullptr) return false;
-      value = std::as_const(*lease.get()).value();
+      value = internal::ValueOf(*lease.get());
       return true;
     }
   }
@@ -164,25 +190,47 @@ class Channel final : public ChannelBase {
   };
 
   [[gnu::noinline]] Buffer<T>* LookForBuffer() requires(!kIsInlined<T>) {
-    // Who pulls may look for buffers at the same time, in another thread.
-    return Has(kPullable) ? storage_.newest.Loan() : storage_.newest.Loan(ThisThread().hazards);
+    HazardRecord<>* const publisher = Publisher();
+    return publisher == nullptr ? storage_.newest.Loan() : storage_.newest.Loan(*publisher);
+  }
+  // By whose own slots the publisher may be spared fences; nullptr if who pulls may look for buffers at the
+  // same time, in another thread.
+  [[nodiscard]] HazardRecord<>* Publisher() const noexcept {
+    return Has(kPullable) ? nullptr : &ThisThread().hazards;
+  }
+  template <typename Refer>
+  PublishStatus PublishElsewhere(ValueTimes times, Refer&& refer) {
+    Buffer<T>* const buffer = storage_.newest.LoanAnew(Publisher());
+    if (buffer == nullptr) return PublishStatus::kNoBuffer;
+    refer(*buffer);
+    if (!HasFlags()) [[likely]]
+      return PublishNow<PublishPath::kFast>(*buffer, times);
+    const PublishStatus status = PublishOnSlowPath(*buffer, times);
+    if (status == PublishStatus::kBusy) {
+      buffer->ReferToNothing();
+      buffer->DropLoan();
+    }
+    return status;
   }
   // By who has the lock, if there is one, and in order, if there is one.
   template <typename ValueOrBuffer>
-  [[gnu::noinline]] PublishStatus PublishOnSlowPath(ValueOrBuffer& what, Time now) {
-    if (!Has(kPullable)) return PublishNow<PublishPath::kSlow>(what, now);
+  [[gnu::noinline]] PublishStatus PublishOnSlowPath(ValueOrBuffer& what, ValueTimes times) {
+    if (!Has(kPullable)) return PublishNow<PublishPath::kSlow>(what, times);
     const PullPoint::Lock lock(*pull_point());
-    return lock.held() ? PublishNow<PublishPath::kSlow>(what, now) : PublishStatus::kBusy;
+    return lock.held() ? PublishNow<PublishPath::kSlow>(what, times) : PublishStatus::kBusy;
   }
   void PublishPulled(Time (*now)(const Port& reader), const Port& reader) override {
     if constexpr (kCanPull) {
       Loan<T> loan = LoanForPull();
       if (!loan) return pull_point()->CountFailure();
-      if (!pull_point()->Run(&*loan)) return;
+      std::optional<Time> timestamp;
+      if (!pull_point()->Run(&*loan, timestamp)) return;
+      const Time published = now(reader);
+      const ValueTimes times{timestamp.value_or(published), published};
       if constexpr (kIsInlined<T>) {
-        (void)PublishNow<PublishPath::kSlow>(*loan, now(reader));
+        (void)PublishNow<PublishPath::kSlow>(*loan, times);
       } else {
-        (void)PublishNow<PublishPath::kSlow>(*std::exchange(loan.slot_, nullptr), now(reader));
+        (void)PublishNow<PublishPath::kSlow>(*std::exchange(loan.slot_, nullptr), times);
       }
     }
   }
@@ -196,30 +244,41 @@ class Channel final : public ChannelBase {
   // The rest of publishing, by who has the lock, if there is one.
   template <PublishPath kPath>
   [[gnu::always_inline]] PublishStatus PublishNow(const T& value,
-                                                  Time now) requires(kIsInlined<T>) {
-    const std::int64_t timestamp = now.time_since_epoch().count();
+                                                  ValueTimes times) requires(kIsInlined<T>) {
+    const std::int64_t timestamp = times.timestamp.time_since_epoch().count();
+    const std::int64_t published = times.publication_time.time_since_epoch().count();
     const std::uint64_t order = kPath == PublishPath::kFast ? 0 : OrderNumber();
-    storage_.Publish(value, timestamp, order);
+    if constexpr (kPath == PublishPath::kFast) {
+      storage_.Publish(value, timestamp, published);
+    } else {
+      storage_.Publish(value, timestamp, published, order);
+    }
     if (subscribers(kPath) == nullptr) [[likely]]
       return PublishStatus::kPublished;
-    return Distribution::ToAll(*this, &value, timestamp, storage_.sequence(), order);
+    return Distribution::ToAll(*this, &value, timestamp, published, storage_.sequence(), order);
   }
   template <PublishPath kPath>
-  [[gnu::always_inline]] PublishStatus PublishNow(Buffer<T>& buffer, Time now) noexcept
+  [[gnu::always_inline]] PublishStatus PublishNow(Buffer<T>& buffer, ValueTimes times) noexcept
       requires(!kIsInlined<T>) {
     const std::uint64_t sequence = storage_.published.load(std::memory_order_relaxed) + 1;
     storage_.published.store(sequence, std::memory_order_relaxed);
-    const std::int64_t timestamp = now.time_since_epoch().count();
+    const std::int64_t timestamp = times.timestamp.time_since_epoch().count();
+    const std::int64_t published = times.publication_time.time_since_epoch().count();
     const std::uint64_t order = kPath == PublishPath::kFast ? 0 : OrderNumber();
-    buffer.publication = {timestamp, sequence, order};
+    buffer.publication.timestamp = timestamp;
+    buffer.publication.publication_time = published;
+    buffer.publication.sequence = sequence;
+    // Without flags no buffer has ever had an order: once numbered, always numbered.
+    if constexpr (kPath != PublishPath::kFast) buffer.publication.order = order;
     storage_.newest.Publish(buffer);
     if (subscribers(kPath) == nullptr) [[likely]]
       return PublishStatus::kPublished;
     // The buffer stays the newest while this goes on, which keeps it.
     if constexpr (kLiesInQueuesAsCopy<T>) {
-      return Distribution::ToAll(*this, &buffer.value(), timestamp, sequence, order);
+      return Distribution::ToAll(*this, &buffer.value(), timestamp, published, sequence, order);
     } else {
-      return Distribution::ToAll(*this, {&buffer, &buffer.value()}, timestamp, sequence, order);
+      return Distribution::ToAll(*this, {&buffer, &buffer.published_value()}, timestamp, published,
+                                 sequence, order);
     }
   }
 

@@ -65,13 +65,7 @@ void ChannelBase::DeleteLater(ChannelBase* channel) {
   Retire([channel] { delete channel; });
 }
 
-void ChannelBase::Set(Flag flag, bool is) noexcept {
-  if (is) {
-    flags_.fetch_or(flag, std::memory_order_relaxed);
-  } else {
-    flags_.fetch_and(static_cast<std::uint8_t>(~flag), std::memory_order_relaxed);
-  }
-}
+void ChannelBase::SetOrdered() noexcept { flags_.fetch_or(kOrdered, std::memory_order_relaxed); }
 
 std::uint64_t ChannelBase::TakeOrderNumber() noexcept {
   static std::atomic<std::uint64_t> last{0};

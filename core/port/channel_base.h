@@ -36,8 +36,9 @@ class ChannelBase {
   /// Swaps the list that publishers visit; the old one goes when nobody can still look at it. A value
   /// whose publisher does not find the new list is seen by who reads the newest value from now on.
   void SetSubscribers(Subscribers subscribers);
-  /// A channel that shares an input with others numbers its values in one order with theirs.
-  void SetOrdered(bool ordered) noexcept { Set(kOrdered, ordered); }
+  /// A channel that shares an input with others numbers its values in one order with theirs, from now on for
+  /// ever: else a number from before would outdo a later value.
+  void SetOrdered() noexcept;
   /// Sees to it that `leases` values can wait in queues besides those that the pool's options plan
   /// for. Allocates.
   virtual void ReserveFor(std::size_t leases) = 0;
@@ -100,7 +101,6 @@ class ChannelBase {
   friend class internal::Distribution;
 
   static std::uint64_t TakeOrderNumber() noexcept;
-  void Set(Flag flag, bool is) noexcept;
 
   const std::uint64_t number_;
   std::atomic<const Subscribers*> subscribers_{nullptr};

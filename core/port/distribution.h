@@ -37,12 +37,14 @@ class Distribution {
   /// stays short. What is told about the value comes in registers: to load it in one piece from where
   /// it has just been stored in three would have to wait for all stores before.
   [[gnu::noinline]] static PublishStatus ToAll(const ChannelBase& channel, Shown shown,
-                                               std::int64_t timestamp, std::uint64_t sequence,
+                                               std::int64_t timestamp,
+                                               std::int64_t publication_time,
+                                               std::uint64_t sequence,
                                                std::uint64_t order) noexcept {
     return Guarded([&]() __attribute__((always_inline)) {
       const Subscribers* const list = channel.subscribers_in_guard();
       if (list == nullptr) return PublishStatus::kPublished;
-      const Publication publication{timestamp, sequence, order};
+      const Publication publication{timestamp, sequence, order, publication_time};
       if (list->only_queue == nullptr)  // a copy for it, as it asks where that lies
         return PushToAll(*list, shown, Publication(publication), channel.number());
       return PushTo(*list->only_queue, shown, publication, channel.number());

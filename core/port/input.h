@@ -97,7 +97,7 @@ class Input final : public BoundInput {
 
   bool VisitLatest(const Visitor& visit) const override {
     const Lease<T> lease = PeekForViewer();
-    if (lease) visit(&*lease, lease.timestamp());
+    if (lease) visit(&*lease, lease.times());
     return lease.has_value();
   }
   [[nodiscard]] std::unique_ptr<Port> MakeOutput(FrameworkElement& group, std::string name,

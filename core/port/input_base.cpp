@@ -153,8 +153,7 @@ void InputBase::UpdateChannel(Port& output) {
     shares_an_input = shares_an_input || input.sources_.size() > 1;
   }
   channel.ReserveFor(waiting);
-  // Once numbered, always numbered: else a number from before would outdo a later value.
-  if (shares_an_input) channel.SetOrdered(true);
+  if (shares_an_input) channel.SetOrdered();
   channel.SetSubscribers(std::move(subscribers));
 }
 

@@ -13,6 +13,7 @@
 #include "core/lockfree/latest_buffer.h"
 #include "core/lockfree/latest_value.h"
 #include "core/port/port_options.h"
+#include "core/port/value_times.h"
 
 namespace runnel {
 
@@ -65,6 +66,17 @@ class InlinedValue {
   Publication publication_;
 };
 
+/// Where readers find the value. Types that are copied where that is cheaper are copied also instead of being
+/// forwarded, and so lie in the buffer itself: one need not ask the buffer.
+template <typename T>
+[[nodiscard, gnu::always_inline]] inline const T& ValueOf(const Buffer<T>& buffer) noexcept {
+  if constexpr (kIsCopiedInQueues<T>) {
+    return buffer.value();
+  } else {
+    return buffer.published_value();
+  }
+}
+
 /// A value in a buffer, leased.
 template <typename T>
 class LeasedValue {
@@ -81,7 +93,7 @@ class LeasedValue {
       : lease_(latest.Lease(record)) {}
 
   [[nodiscard]] bool has_value() const noexcept { return lease_.get() != nullptr; }
-  [[nodiscard]] const T& value() const noexcept { return std::as_const(*lease_.get()).value(); }
+  [[nodiscard]] const T& value() const noexcept { return ValueOf(*lease_.get()); }
   [[nodiscard]] const Publication& publication() const noexcept {
     return lease_.get()->publication;
   }
@@ -192,8 +204,13 @@ class Lease {
     return held_.publication().sequence != last_ ? Freshness::kNew : Freshness::kOld;
   }
   [[nodiscard]] bool is_new() const noexcept { return freshness() == Freshness::kNew; }
-  /// The time of the cycle that published the value.
+  /// When the value was measured, if its publisher said so; else when it was published.
   [[nodiscard]] Time timestamp() const { return Time(Duration(Checked().publication().timestamp)); }
+  /// The time of the cycle that published the value.
+  [[nodiscard]] Time publication_time() const {
+    return Time(Duration(Checked().publication().publication_time));
+  }
+  [[nodiscard]] ValueTimes times() const { return ValueTimes::Of(Checked().publication()); }
   /// 1 for the first value that the source has published, and so on.
   [[nodiscard]] std::uint64_t sequence() const { return Checked().publication().sequence; }
   /// How many values of the same source came and went unseen since the last read of this input.
@@ -203,6 +220,7 @@ class Lease {
   }
 
  private:
+  friend class Channel<T>;
   friend class Input<T>;
   // The channel's newest value, made in place, so that it is copied once or not at all; `reader`
   // notes its number and says which it had before.

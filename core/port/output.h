@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -34,7 +35,8 @@ std::unique_ptr<Port> MakeOutput(FrameworkElement& group, std::string&& name,
 ///              and reading go on meanwhile.
 /// Progress:    Publish() is lock-free, and does not visit inputs that read only the latest value.
 /// Allocation:  none, unless a growing pool has run out of buffers (growths() counts it).
-/// Time:        values bear the time of the cycle; outside of a cycle, that of the runtime's clock.
+/// Time:        values bear the time of the cycle; outside of a cycle, that of the runtime's clock; and
+///              beside it that of their measurement, if Publish() is told.
 template <typename T>
 class Output final : public OutputBase {
  public:
@@ -64,24 +66,56 @@ class Output final : public OutputBase {
 
   /// Errors: the loan of another output (but for inlined values) throws ProgrammingError.
   [[gnu::always_inline]] PublishStatus Publish(runnel::Loan<T>&& loan) {
-    return own().Publish(std::move(loan), PublicationTime());
+    return own().Publish(std::move(loan), ValueTimes::Of(PublicationTime()));
   }
   /// Copies or moves the value into a buffer (inlined values: straight into the slot).
   PublishStatus Publish(const T& value) requires(kIsInlined<T> || std::is_copy_assignable_v<T>) {
-    if constexpr (kIsInlined<T>) {
-      return own().PublishValue(value, PublicationTime());
-    } else {
-      auto loan = Loan();
-      if (!loan) return PublishStatus::kNoBuffer;
-      *loan = value;
-      return Publish(std::move(loan));
-    }
+    return PublishAt(value, ValueTimes::Of(PublicationTime()));
   }
   PublishStatus Publish(T&& value) requires(!kIsInlined<T>) {
-    auto loan = Loan();
-    if (!loan) return PublishStatus::kNoBuffer;
-    *loan = std::move(value);
-    return Publish(std::move(loan));
+    return PublishAt(std::move(value), ValueTimes::Of(PublicationTime()));
+  }
+  /// The same with the time at which the value was measured, on the application's clock: what readers
+  /// see as timestamp(). Values need not come in the order of their timestamps.
+  [[gnu::always_inline]] PublishStatus Publish(runnel::Loan<T>&& loan, Time timestamp) {
+    return own().Publish(std::move(loan), {timestamp, PublicationTime()});
+  }
+  PublishStatus Publish(const T& value,
+                        Time timestamp) requires(kIsInlined<T> || std::is_copy_assignable_v<T>) {
+    return PublishAt(value, {timestamp, PublicationTime()});
+  }
+  PublishStatus Publish(T&& value, Time timestamp) requires(!kIsInlined<T>) {
+    return PublishAt(std::move(value), {timestamp, PublicationTime()});
+  }
+
+  /// Publishes what has come by an input, from whatever output: of types that travel in buffers the very value,
+  /// without a copy, for a switch, a gate, a merge. It keeps its timestamp; when it was published, its
+  /// number and its order are those of this output, and readers of the other see what they have seen.
+  /// The value stays in the buffer of the output that first published it, which is held as long as this
+  /// output's readers hold it, or it is the newest here; and a while longer, until this output publishes
+  /// again or is told to ReleaseUnused(). A buffer of the own pool is taken to refer to it.
+  /// Threads:   as Publish(). Progress: wait-free to readers of the newest value, as Loan().
+  /// Errors:    an empty lease throws ProgrammingError; kNoBuffer if the own pool is of fixed size and
+  ///            exhausted.
+  PublishStatus Forward(const Lease<T>& lease) {
+    return own().Forward(lease, {lease.timestamp(), PublicationTime()});
+  }
+  /// Publishes a value that lies in the user's own memory, as it is: `owner` gets it back
+  /// (ValueOwner::TakeBack()) when nobody holds it any more. Who finds that out is this output, when it is given
+  /// more to publish in place or to forward, when it looks for a free buffer, or in ReleaseUnused(); after
+  /// its end, whoever changes the structure. Until then the value must not change, and its owner is kept.
+  /// Threads:   as Publish(). Allocation: none, but for a growing pool.
+  /// Errors:    if it returns kNoBuffer or kBusy nothing is published and the value stays with the caller.
+  PublishStatus PublishInPlace(const T& value, std::shared_ptr<ValueOwner<T>> owner) {
+    return PublishInPlaceAt(value, std::move(owner), ValueTimes::Of(PublicationTime()));
+  }
+  PublishStatus PublishInPlace(const T& value, std::shared_ptr<ValueOwner<T>> owner,
+                               Time timestamp) {
+    return PublishInPlaceAt(value, std::move(owner), {timestamp, PublicationTime()});
+  }
+  /// Gives back what has been forwarded or published in place and nobody holds any more. By the publisher.
+  void ReleaseUnused() noexcept {
+    if constexpr (!kIsInlined<T>) own().ReleaseUnused();
   }
 
   /// Fills `value` (T{}, or what an earlier use left in a buffer) and returns true, or returns
@@ -101,9 +135,19 @@ class Output final : public OutputBase {
   /// Errors:    throws ProgrammingError if the output was not made with OutputOptions::pullable.
   void SetProvider(Provider provider) requires(Channel<T>::kCanPull) {
     if (!provider) return SetPullProvider({});
-    SetPullProvider([provider = std::move(provider)](void* value) {
+    SetPullProvider([provider = std::move(provider)](void* value, std::optional<Time>&) {
       return provider(*static_cast<T*>(value));
     });
+  }
+  /// The same for a `provider(T& value, std::optional<Time>& timestamp)` that also says when the value
+  /// was measured.
+  template <typename TimedProvider>
+  requires std::is_invocable_r_v < bool, TimedProvider&, T&, std::optional<Time>
+  & > void SetProvider(TimedProvider provider) requires(Channel<T>::kCanPull) {
+    SetPullProvider(
+        [provider = std::move(provider)](void* value, std::optional<Time>& timestamp) mutable {
+          return provider(*static_cast<T*>(value), timestamp);
+        });
   }
   /// How often the pool had to allocate since the start.
   [[nodiscard]] std::uint64_t growths() const noexcept { return own().growths(); }
@@ -111,16 +155,18 @@ class Output final : public OutputBase {
   bool VisitLatest(const Visitor& visit) const override {
     const auto held = own().ReadForViewer();
     if (!held.has_value()) return false;
-    visit(&held.value(), Time(Duration(held.publication().timestamp)));
+    visit(&held.value(), ValueTimes::Of(held.publication()));
     return true;
   }
-  Result<PublishStatus> PublishFilled(const Fill& fill) override {
+  Result<PublishStatus> PublishFilled(const Fill& fill,
+                                      std::optional<Time> timestamp = {}) override {
     if constexpr (Channel<T>::kCanPull) {
       auto loan = Loan();
-      return FillAndPublish(loan ? &*loan : nullptr, fill, &loan, [](Port& self, void* filled) {
-        return static_cast<Output&>(self).Publish(
-            std::move(*static_cast<runnel::Loan<T>*>(filled)));
-      });
+      return FillAndPublish(loan ? &*loan : nullptr, fill, timestamp, &loan,
+                            [](Port& self, void* filled, ValueTimes times) {
+                              return static_cast<Output&>(self).own().Publish(
+                                  std::move(*static_cast<runnel::Loan<T>*>(filled)), times);
+                            });
     } else {
       return CannotPublish("only its module can make values of its type");
     }
@@ -131,6 +177,26 @@ class Output final : public OutputBase {
   }
 
  private:
+  template <typename Value>
+  [[gnu::always_inline]] PublishStatus PublishAt(Value&& value, ValueTimes times) {
+    if constexpr (kIsInlined<T>) {
+      return own().PublishValue(value, times);
+    } else {
+      auto loan = Loan();
+      if (!loan) return PublishStatus::kNoBuffer;
+      *loan = std::forward<Value>(value);
+      return own().Publish(std::move(loan), times);
+    }
+  }
+  PublishStatus PublishInPlaceAt(const T& value, std::shared_ptr<ValueOwner<T>>&& owner,
+                                 ValueTimes times) {
+    static_assert(
+        !kLiesInQueuesAsCopy<T>,
+        "values of this type are copied on their way, so nobody would hold this one: publish it, "
+        "and it is free at once; if it only refers to memory of yours, set kIsInlined and "
+        "kIsCopiedInQueues to false for its type");
+    return own().PublishInPlace(value, std::move(owner), times);
+  }
   // The channel that the constructor has made, or another output's of this class.
   [[nodiscard, gnu::always_inline]] Channel<T>& own() const noexcept {
     return static_cast<Channel<T>&>(own_channel());

@@ -310,15 +310,18 @@ std::uint64_t Port::publications() const noexcept {
   return all;
 }
 
-Result<PublishStatus> Port::PublishFilled(const Fill&) {
+Result<PublishStatus> Port::PublishFilled(const Fill&, std::optional<Time>) {
   return CannotPublish(is_proxy() ? "is an interface port" : "is an input");
 }
 
-Result<PublishStatus> Port::FillAndPublish(void* value, const Fill& fill, void* loan,
-                                           PublishStatus (*publish)(Port& self, void* loan)) {
+Result<PublishStatus> Port::FillAndPublish(void* value, const Fill& fill,
+                                           std::optional<Time> timestamp, void* loan,
+                                           PublishStatus (*publish)(Port& self, void* loan,
+                                                                    ValueTimes times)) {
   if (value == nullptr) return CannotPublish("its pool has no free buffer");
   if (auto filled = fill(value); !filled) return filled.error();
-  return publish(*this, loan);
+  const Time now = PublicationTime();
+  return publish(*this, loan, {timestamp.value_or(now), now});
 }
 
 Error Port::CannotPublish(const char* why) const {

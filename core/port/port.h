@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "core/element/runtime.h"
 #include "core/port/cycle.h"
 #include "core/port/port_options.h"
+#include "core/port/value_times.h"
 #include "core/port/waker.h"
 
 namespace runnel {
@@ -77,17 +79,18 @@ class Port : public FrameworkElement {
   /// Shows the newest value to `visit`, without marking it as read; false if there is none. For
   /// viewers that know the type by its TypeInfo only. Any thread. Ports without values of their own show
   /// that of the first source that has one, under the structure lock.
-  using Visitor = std::function<void(const void* value, Time timestamp)>;
+  using Visitor = std::function<void(const void* value, ValueTimes times)>;
   virtual bool VisitLatest(const Visitor& visit) const;
   /// How many values have passed this port's source, or all its sources together. Any thread; likewise.
   [[nodiscard]] virtual std::uint64_t publications() const noexcept;
 
   /// Outputs: lends a buffer, has `fill` write the value, and publishes that. `value` is of this
-  /// port's type, T{} or what an earlier use has left there. For who knows the type by its TypeInfo
+  /// port's type, T{} or what an earlier use has left there. `timestamp`: when it was measured, if that
+  /// is known. For who knows the type by its TypeInfo
   /// only. Threads: as Output::Publish(). Errors: those of `fill`, a fixed pool without a free buffer,
   /// a type that only its module can make, a port that is no output; nothing is published then.
   using Fill = std::function<Result<void>(void* value)>;
-  virtual Result<PublishStatus> PublishFilled(const Fill& fill);
+  virtual Result<PublishStatus> PublishFilled(const Fill& fill, std::optional<Time> timestamp = {});
   /// Another output for values of the type of this one, which the caller owns; nullptr if only a module
   /// can make such values (no default constructor), and for ports that know no C++ type: interface ports
   /// and probes. Throws what the constructor of an element throws.
@@ -113,9 +116,11 @@ class Port : public FrameworkElement {
   /// Binds all inputs at the far end anew.
   void RebindSinks();
   /// PublishFilled() of an output: fills `value`, unless it is nullptr for want of a buffer, and has
-  /// `publish(*this, loan)` publish it.
-  Result<PublishStatus> FillAndPublish(void* value, const Fill& fill, void* loan,
-                                       PublishStatus (*publish)(Port& self, void* loan));
+  /// `publish(*this, loan, times)` publish it.
+  Result<PublishStatus> FillAndPublish(void* value, const Fill& fill, std::optional<Time> timestamp,
+                                       void* loan,
+                                       PublishStatus (*publish)(Port& self, void* loan,
+                                                                ValueTimes times));
   /// What PublishFilled() says when it cannot.
   [[nodiscard]] Error CannotPublish(const char* why) const;
   /// Outputs: the channel that inputs are bound to; nullptr for other ports.

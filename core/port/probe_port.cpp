@@ -29,7 +29,7 @@ bool ProbePort::Take(const Visitor& visit) {
           if (publication.sequence <= last) return;
           last = publication.sequence;
           is_taken = true;
-          visit(value, Time(Duration(publication.timestamp)));
+          visit(value, ValueTimes::Of(publication));
         });
     if (!found) return false;
   }

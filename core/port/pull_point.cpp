@@ -55,11 +55,11 @@ void PullPoint::ExchangeProviders(PullPoint& other) {
   other.WaitForRun();
 }
 
-bool PullPoint::Run(void* value) {
+bool PullPoint::Run(void* value, std::optional<Time>& timestamp) {
   const Running running(*this);
   // acquire: pairs with the release in SetProvider().
   const Provider* const provider = provider_.load(std::memory_order_acquire);
-  return provider != nullptr && (*provider)(value);
+  return provider != nullptr && (*provider)(value, timestamp);
 }
 
 void PullPoint::WaitForRun() const {

@@ -3,7 +3,9 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 
+#include "core/base/clock.h"
 #include "core/lockfree/cache_line.h"
 #include "core/lockfree/thread_record.h"
 
@@ -20,8 +22,8 @@ namespace runnel {
 /// Allocation:  in SetProvider() only.
 class PullPoint {
  public:
-  /// Fills a value of the output's type.
-  using Provider = std::function<bool(void* value)>;
+  /// Fills a value of the output's type, and says when it was measured, if it knows.
+  using Provider = std::function<bool(void* value, std::optional<Time>& timestamp)>;
 
   /// The right to publish, if it was free.
   class Lock {
@@ -57,7 +59,7 @@ class PullPoint {
 
   /// Has the provider fill `value`; false if there is none, or if it has nothing. By who has the
   /// lock. Throws what the provider throws.
-  [[nodiscard]] bool Run(void* value);
+  [[nodiscard]] bool Run(void* value, std::optional<Time>& timestamp);
 
   /// A pull came to nothing for want of a buffer, or by an exception.
   void CountFailure() noexcept { failures_.fetch_add(1, std::memory_order_relaxed); }

@@ -31,13 +31,23 @@ struct QueuedCopy {
   using Content = const void*;
 
   QueuedCopy(Content copied, const Publication& of, std::uint64_t from) noexcept
-      : source(from), publication(of) {
+      : source(from),
+        timestamp(of.timestamp),
+        publication_time(of.publication_time),
+        own_sequence(of.sequence) {
     std::memcpy(value, copied, kSize);
   }
-  [[nodiscard]] std::uint64_t sequence() const noexcept { return publication.sequence; }
+  [[nodiscard]] std::uint64_t sequence() const noexcept { return own_sequence; }
+  // What is in a queue has its order by that.
+  [[nodiscard]] Publication publication() const noexcept {
+    return {timestamp, own_sequence, 0, publication_time};
+  }
 
+  // Without the order: so a value of 24 bytes lies in one line with all this and its cell's number.
   std::uint64_t source;
-  Publication publication;
+  std::int64_t timestamp;
+  std::int64_t publication_time;
+  std::uint64_t own_sequence;
   alignas(kAlignment) std::byte value[kSize];
 
   static void PushTo(ProbeQueue& probe, Shown shown, const Publication& publication,
@@ -82,7 +92,7 @@ void MoveTo(HeldValue<T>& held, Queued<T>& queued) noexcept {
     // In its place: the value is copied once.
     std::destroy_at(&held);
     std::construct_at(&held, *std::launder(reinterpret_cast<const T*>(queued.value)),
-                      queued.publication);
+                      queued.publication());
   } else {
     held = HeldValue<T>(BufferLease<T>(static_cast<Buffer<T>*>(queued.reference.Take())));
   }

@@ -38,8 +38,8 @@ struct TextLimits {
 [[nodiscard]] std::string ToText(const TypeInfo& type, const void* value,
                                  const TextLimits& limits = {});
 
-/// Sets what the text names. Errors: say what is wrong and where in the text; the value may then be
-/// half set, so work on a copy.
+/// Sets what the text names; elements of lists begin as their type makes them. Errors: say what is wrong,
+/// and where in the text or of which field ("points[2].x"); the value may then be half set, so work on a copy.
 Result<void> SetFromText(const TypeInfo& type, std::string_view text, void* value);
 
 }  // namespace runnel

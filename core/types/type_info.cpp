@@ -9,26 +9,28 @@ namespace runnel {
 
 namespace {
 
-// Types may contain themselves (a tree has a list of trees), so those being looked at are kept.
-bool IsTransparent(const TypeInfo& type, std::vector<const TypeInfo*>& open) {
-  if (std::ranges::find(open, &type) != open.end()) return true;
-  open.push_back(&type);
-  bool transparent = type.kind() != TypeKind::kOpaque;
-  if (type.kind() == TypeKind::kStructure) {
-    transparent = std::ranges::all_of(
-        type.fields(), [&](const FieldInfo& field) { return IsTransparent(*field.type, open); });
-  } else if (type.kind() == TypeKind::kSequence || type.kind() == TypeKind::kMatrix) {
-    transparent = IsTransparent(*type.elements().type, open);
-  }
-  open.pop_back();
-  return transparent;
+// Types may contain themselves (a tree has a list of trees), so those that have been looked at are kept.
+bool IsAnyPart(const TypeInfo& type, bool (*is_meant)(const TypeInfo& part),
+               std::vector<const TypeInfo*>& known) {
+  if (std::ranges::find(known, &type) != known.end()) return false;
+  known.push_back(&type);
+  if (is_meant(type)) return true;
+  const TypeInfo* const element = type.elements().type;
+  return (element != nullptr && IsAnyPart(*element, is_meant, known)) ||
+         std::ranges::any_of(type.fields(), [&](const FieldInfo& field) {
+           return IsAnyPart(*field.type, is_meant, known);
+         });
 }
 
 }  // namespace
 
+bool TypeInfo::HasPart(bool (*is_meant)(const TypeInfo& part)) const {
+  std::vector<const TypeInfo*> known;
+  return IsAnyPart(*this, is_meant, known);
+}
+
 bool TypeInfo::is_transparent() const {
-  std::vector<const TypeInfo*> open;
-  return IsTransparent(*this, open);
+  return !HasPart([](const TypeInfo& part) { return part.kind() == TypeKind::kOpaque; });
 }
 
 const FieldInfo* TypeInfo::FindField(std::string_view name) const {

@@ -64,6 +64,10 @@ struct EnumeratorInfo {
   std::int64_t value;
 };
 
+/// FieldInfo::address and ElementOperations::element give a way to change the value; those who only
+/// look at it say so by this.
+[[nodiscard]] inline void* ForLooking(const void* value) { return const_cast<void*>(value); }
+
 /// How a leaf becomes text, and back.
 struct LeafOperations {
   std::string (*to_text)(const void* value);
@@ -111,6 +115,8 @@ class TypeInfo {
   [[nodiscard]] const std::string& semantic_tag() const noexcept { return semantic_tag_; }
   /// Whether values have a text format: nothing in them is opaque.
   [[nodiscard]] bool is_transparent() const;
+  /// Whether the type, or one of what is inside, its fields and elements, is what is meant.
+  [[nodiscard]] bool HasPart(bool (*is_meant)(const TypeInfo& part)) const;
 
   /// Of a structure, in the order of their description.
   [[nodiscard]] std::span<const FieldInfo> fields() const noexcept { return fields_; }

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/base/check.h"
-#include "core/types/internal/parts.h"
 #include "core/types/type_info.h"
 
 namespace runnel {

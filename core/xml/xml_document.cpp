@@ -9,34 +9,13 @@
 
 #include "core/base/folder_names.h"
 #include "core/base/nearest_name.h"
-#include "core/xml/internal/start_tags.h"
 #include "core/xml/internal/text_cursor.h"
+#include "core/xml/internal/xml_node.h"
 
 namespace runnel {
 
-namespace internal {
-
-/// Owns its children by pointer, so that nodes stay where they are while the tree grows and moves.
-struct XmlNode {
-  const std::string* file_name = nullptr;  // the root's own_file_name
-  std::string own_file_name;               // at the root only
-  std::string name;
-  TextPlace place;
-  ElementSpans spans;
-  std::string text;
-  TextPlace text_place;
-  std::vector<XmlAttribute> attributes;
-  const XmlNode* parent = nullptr;
-  std::vector<std::unique_ptr<XmlNode>> owned_children;
-  std::vector<XmlElement> children;
-};
-
-}  // namespace internal
-
 namespace {
 
-using internal::StartTag;
-using internal::TextPlace;
 using internal::XmlNode;
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
@@ -56,62 +35,23 @@ std::string TextOf(const tinyxml2::XMLElement& source) {
   return WithoutSpaceAtEnds(text);
 }
 
-/// Joins what tinyxml2 read with the places of the start tags, both in the order of the file.
-class TreeBuilder {
- public:
-  TreeBuilder(const std::vector<StartTag>& tags, const std::string& file_name, std::size_t shift)
-      : tags_(tags), file_name_(file_name), shift_(shift) {}
-
-  /// nullptr if the two do not agree.
-  std::unique_ptr<XmlNode> Build(const tinyxml2::XMLElement& root) {
-    auto node = std::make_unique<XmlNode>();
-    node->own_file_name = file_name_;
-    node->file_name = &node->own_file_name;
-    return Fill(*node, root) && next_ == tags_.size() ? std::move(node) : nullptr;
+// Gives the elements what tinyxml2 has read of them. False if the two do not agree.
+bool Fill(XmlNode& node, const tinyxml2::XMLElement& source) {
+  if (node.name != source.Name()) return false;
+  node.text = TextOf(source);
+  const tinyxml2::XMLAttribute* attribute = source.FirstAttribute();
+  for (XmlAttribute& each : node.attributes) {
+    if (attribute == nullptr || each.name != attribute->Name()) return false;
+    each.value = attribute->Value();
+    attribute = attribute->Next();
   }
-
- private:
-  bool Fill(XmlNode& node, const tinyxml2::XMLElement& source) {
-    if (next_ == tags_.size() || tags_[next_].name != source.Name()) return false;
-    const StartTag& tag = tags_[next_++];
-    node.name = tag.name;
-    node.place = tag.place;
-    node.spans = {Shifted({tag.span.begin, tag.end_tag.end}), Shifted(tag.span),
-                  Shifted(tag.end_tag)};
-    node.text = TextOf(source);
-    node.text_place = tag.text_place.value_or(tag.place);
-    if (!FillAttributes(node, source, tag)) return false;
-    for (const auto* child = source.FirstChildElement(); child != nullptr;
-         child = child->NextSiblingElement()) {
-      auto& added = *node.owned_children.emplace_back(std::make_unique<XmlNode>());
-      added.file_name = node.file_name;
-      added.parent = &node;
-      if (!Fill(added, *child)) return false;
-      node.children.emplace_back(added);
-    }
-    return true;
+  const tinyxml2::XMLElement* child = source.FirstChildElement();
+  for (const auto& each : node.owned_children) {
+    if (child == nullptr || !Fill(*each, *child)) return false;
+    child = child->NextSiblingElement();
   }
-
-  bool FillAttributes(XmlNode& node, const tinyxml2::XMLElement& source, const StartTag& tag) {
-    const tinyxml2::XMLAttribute* attribute = source.FirstAttribute();
-    for (const internal::AttributePlace& place : tag.attributes) {
-      if (attribute == nullptr || place.name != attribute->Name()) return false;
-      node.attributes.push_back({attribute->Name(), attribute->Value(), At(place.place),
-                                 At(place.value_place), Shifted(place.span),
-                                 Shifted(place.value_span)});
-      attribute = attribute->Next();
-    }
-    return attribute == nullptr;
-  }
-
-  TextSpan Shifted(TextSpan span) const { return {span.begin + shift_, span.end + shift_}; }
-  SourcePosition At(TextPlace place) const { return {file_name_, place.line, place.column}; }
-
-  const std::vector<StartTag>& tags_;
-  const std::string& file_name_;
-  const std::size_t shift_;  // what stands before the text in its file
-  std::size_t next_ = 0;
-};
+  return attribute == nullptr && child == nullptr;
+}
 
 Error CannotRead(const std::filesystem::path& path, std::string why, std::string hint = "") {
   return {.message = std::move(why), .position = {path.string()}, .hint = std::move(hint)};
@@ -121,34 +61,6 @@ std::string NearestFileHint(const std::filesystem::path& path) {
   const std::string nearest =
       NearestName(path.filename().string(), NamesInFolder(path.parent_path()));
   return nearest.empty() ? "" : "did you mean '" + nearest + "'?";
-}
-
-Result<std::string> ReadFile(const std::filesystem::path& path) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) {
-    return CannotRead(path, "there is no such file", NearestFileHint(path));
-  }
-  if (std::filesystem::is_directory(status)) return CannotRead(path, "is a folder, not a file");
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) return CannotRead(path, "cannot be opened", "may you read it?");
-  std::string text;
-  std::vector<char> block(std::size_t{1} << 16U);
-  while (stream.read(block.data(), static_cast<std::streamsize>(block.size())),
-         stream.gcount() > 0) {
-    text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
-    if (text.size() > kLargestFile) return CannotRead(path, "is larger than 64 MiB");
-  }
-  if (stream.bad()) return CannotRead(path, "cannot be read");
-  return text;
-}
-
-Result<void> RefuseOtherEncodings(std::string_view text, const std::string& file_name) {
-  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
-    return Error{
-        .message = "the file is UTF-16", .position = {file_name, 1, 1}, .hint = "save it as UTF-8"};
-  }
-  return {};
 }
 
 }  // namespace
@@ -187,34 +99,50 @@ XmlDocument& XmlDocument::operator=(XmlDocument&&) noexcept = default;
 XmlDocument::~XmlDocument() = default;
 
 Result<std::string> XmlDocument::ReadText(const std::filesystem::path& path) {
-  return ReadFile(path);
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) {
+    return CannotRead(path, "there is no such file", NearestFileHint(path));
+  }
+  if (std::filesystem::is_directory(status)) return CannotRead(path, "is a folder, not a file");
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) return CannotRead(path, "cannot be opened", "may you read it?");
+  std::string text;
+  std::vector<char> block(std::size_t{1} << 16U);
+  while (stream.read(block.data(), static_cast<std::streamsize>(block.size())),
+         stream.gcount() > 0) {
+    text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > kLargestFile) return CannotRead(path, "is larger than 64 MiB");
+  }
+  if (stream.bad()) return CannotRead(path, "cannot be read");
+  return text;
 }
 
 Result<XmlDocument> XmlDocument::Load(const std::filesystem::path& path) {
-  const Result<std::string> text = ReadFile(path);
+  const Result<std::string> text = ReadText(path);
   if (!text) return text.error();
   return Parse(*text, path.string());
 }
 
 Result<XmlDocument> XmlDocument::Parse(std::string_view text, std::string file_name) {
-  if (const auto encoding = RefuseOtherEncodings(text, file_name); !encoding) {
-    return encoding.error();
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
+    return Error{
+        .message = "the file is UTF-16", .position = {file_name, 1, 1}, .hint = "save it as UTF-8"};
   }
   const std::size_t shift = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
   text.remove_prefix(shift);
-  const auto tags = internal::FindStartTags(text, file_name);
-  if (!tags) return tags.error();
+  auto root = internal::ScanXml(text, file_name, shift);
+  if (!root) return root.error();
 
   tinyxml2::XMLDocument source;
   if (source.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     return Error{.message = std::string("not well-formed XML: ") + source.ErrorName(),
                  .position = {std::move(file_name), source.ErrorLineNum(), 0}};
   }
-  auto root = TreeBuilder(*tags, file_name, shift).Build(*source.RootElement());
-  if (!root) {
+  if (!Fill(**root, *source.RootElement())) {
     return Error{.message = "not well-formed XML", .position = {std::move(file_name), 1, 1}};
   }
-  return XmlDocument(std::move(root));
+  return XmlDocument(std::move(*root));
 }
 
 }  // namespace runnel

@@ -1,7 +1,7 @@
 #include "core/xml/xml_editor.h"
 
 #include <algorithm>
-#include <optional>
+#include <tuple>
 
 #include "core/xml/internal/text_cursor.h"
 
@@ -35,13 +35,13 @@ void XmlEditor::SetAttribute(XmlElement element, std::string_view name, std::str
   if (const XmlAttribute* known = element.Attribute(name)) {
     if (known->value == value) return;
     const char quote = text_[known->value_span.begin - 1];
-    edits_.Replace(known->value_span, EscapedAttribute(value, quote));
+    Replace(known->value_span, EscapedAttribute(value, quote));
     return;
   }
   const std::size_t place = element.attributes().empty()
                                 ? element.spans().start_tag.begin + 1 + element.name().size()
                                 : element.attributes().back().span.end;
-  edits_.Insert(place, " " + std::string(name) + "=\"" + EscapedAttribute(value) + "\"");
+  Insert(place, " " + std::string(name) + "=\"" + EscapedAttribute(value) + "\"");
 }
 
 void XmlEditor::RemoveAttribute(XmlElement element, std::string_view name) {
@@ -49,7 +49,7 @@ void XmlEditor::RemoveAttribute(XmlElement element, std::string_view name) {
   if (known == nullptr) return;
   std::size_t begin = known->span.begin;
   while (internal::IsXmlSpace(text_[begin - 1])) --begin;
-  edits_.Cut({begin, known->span.end});
+  Cut({begin, known->span.end});
 }
 
 void XmlEditor::RemoveWords(const XmlAttribute& list, const std::set<std::size_t>& words) {
@@ -71,10 +71,10 @@ void XmlEditor::RemoveWords(const XmlAttribute& list, const std::set<std::size_t
     }
     // With the whitespace before it; the first with that behind it.
     if (!keeps_any) {
-      edits_.Cut({begin, place});
+      Cut({begin, place});
     } else {
       while (internal::IsXmlSpace(text_[begin - 1])) --begin;
-      edits_.Cut({begin, word_end});
+      Cut({begin, word_end});
     }
   }
 }
@@ -86,9 +86,9 @@ void XmlEditor::Remove(XmlElement element) {
   const std::size_t next_line = NextLine(whole.end);
   const bool is_last_of_line = next_line != whole.end;
   if (!is_last_of_line) {
-    edits_.Cut({whole.begin, behind});
+    Cut({whole.begin, behind});
   } else {
-    edits_.Cut({before, BeginsLine(whole.begin) ? next_line : whole.end});
+    Cut({before, BeginsLine(whole.begin) ? next_line : whole.end});
   }
 }
 
@@ -99,27 +99,43 @@ void XmlEditor::Append(XmlElement parent, NewElement element) {
 
 void XmlEditor::InsertAfter(XmlElement sibling, const NewElement& element) {
   const TextSpan whole = sibling.spans().whole;
-  std::string text = ElementText(element, MarginAt(whole.begin), layout_);
-  const std::size_t next_line = NextLine(whole.end);
-  if (next_line != whole.end) return edits_.Insert(next_line, std::move(text));
-  text.resize(text.size() - layout_.line_end.size());
-  edits_.Insert(whole.end, layout_.line_end + text);
+  InsertLines(whole.end, ElementText(element, MarginAt(whole.begin), layout_));
 }
 
 void XmlEditor::InsertFirst(XmlElement parent, const NewElement& element) {
   const TextSpan start = parent.spans().start_tag;
   if (parent.spans().end_tag.size() == 0) return Append(parent, element);
-  std::string text = ElementText(element, MarginInside(parent), layout_);
-  const std::size_t next_line = NextLine(start.end);
-  if (next_line != start.end) return edits_.Insert(next_line, std::move(text));
-  text.resize(text.size() - layout_.line_end.size());
-  edits_.Insert(start.end, layout_.line_end + text);
+  InsertLines(start.end, ElementText(element, MarginInside(parent), layout_));
+}
+
+void XmlEditor::InsertLines(std::size_t place, std::string lines) {
+  const std::size_t next_line = NextLine(place);
+  if (next_line != place) return Insert(next_line, std::move(lines));
+  lines.resize(lines.size() - layout_.line_end.size());
+  Insert(place, layout_.line_end + lines);
 }
 
 std::string XmlEditor::Finish() {
   for (const auto& [place, appended] : appended_) WriteAppended(appended.parent, appended.elements);
   appended_.clear();
-  return edits_.Apply(text_);
+  std::vector<const Edit*> sorted;
+  for (const Edit& edit : edits_) sorted.push_back(&edit);
+  // What is put in before what is taken away from the same place on.
+  std::ranges::stable_sort(sorted, {}, [](const Edit* edit) {
+    return std::tuple(edit->span.begin, edit->span.size() > 0);
+  });
+  std::string result;
+  std::size_t done = 0;
+  for (const Edit* edit : sorted) {
+    if (edit->span.begin >= done) {
+      result += text_.substr(done, edit->span.begin - done);
+      result += edit->text;
+      done = edit->span.end;
+    } else if (edit->text.empty()) {
+      done = std::max(done, edit->span.end);
+    }
+  }
+  return result += text_.substr(done);
 }
 
 void XmlEditor::WriteAppended(XmlElement parent, const std::vector<NewElement>& elements) {
@@ -131,12 +147,12 @@ void XmlEditor::WriteAppended(XmlElement parent, const std::vector<NewElement>& 
   if (spans.end_tag.size() == 0) {
     std::size_t begin = spans.start_tag.end - 2;
     while (internal::IsXmlSpace(text_[begin - 1])) --begin;
-    edits_.Replace({begin, spans.start_tag.end},
-                   ">" + layout_.line_end + text + outer + "</" + parent.name() + ">");
+    Replace({begin, spans.start_tag.end},
+            ">" + layout_.line_end + text + outer + "</" + parent.name() + ">");
   } else if (BeginsLine(spans.end_tag.begin)) {
-    edits_.Insert(SkipWhitespaceBack(spans.end_tag.begin), std::move(text));
+    Insert(SkipWhitespaceBack(spans.end_tag.begin), std::move(text));
   } else {
-    edits_.Insert(spans.end_tag.begin, layout_.line_end + text + outer);
+    Insert(spans.end_tag.begin, layout_.line_end + text + outer);
   }
 }
 

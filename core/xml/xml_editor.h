@@ -4,9 +4,9 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "core/xml/text_edits.h"
 #include "core/xml/xml_document.h"
 #include "core/xml/xml_writing.h"
 
@@ -48,11 +48,24 @@ class XmlEditor {
   [[nodiscard]] bool BeginsLine(std::size_t place) const;
   // Where the next line begins, if but whitespace stands before it; else `place`.
   [[nodiscard]] std::size_t NextLine(std::size_t place) const;
+  // Below the line of `place`, or, if more stands there, between.
+  void InsertLines(std::size_t place, std::string lines);
   void WriteAppended(XmlElement parent, const std::vector<NewElement>& elements);
 
+  // Changes of the text that leave all the rest of it as it is. Places are those of the text before any change;
+  // what is put at one place goes there in the order of the calls.
+  void Insert(std::size_t place, std::string text) { Replace({place, place}, std::move(text)); }
+  void Cut(TextSpan span) { Replace(span, ""); }
+  // Of two that overlap, the later in the text gives way; what both cut is cut.
+  void Replace(TextSpan span, std::string text) { edits_.push_back({span, std::move(text)}); }
+
+  struct Edit {
+    TextSpan span;
+    std::string text;
+  };
   std::string_view text_;
   XmlLayout layout_;
-  TextEdits edits_;
+  std::vector<Edit> edits_;
   struct Appended {
     XmlElement parent;
     std::vector<NewElement> elements;

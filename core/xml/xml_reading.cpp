@@ -29,10 +29,6 @@ void ReportMissing(XmlElement element, std::string_view attribute, Diagnostics& 
                    .hint = "add " + std::string(attribute) + "=\"…\""});
 }
 
-bool Contains(std::span<const std::string> names, const std::string& name) {
-  return std::ranges::find(names, name) != names.end();
-}
-
 /// A name already given cannot be what the user meant by another one.
 std::vector<std::string> NotYetGiven(XmlElement element, std::span<const std::string> known) {
   std::vector<std::string> free;
@@ -74,32 +70,41 @@ const std::string* ReadText(XmlElement element, std::string_view attribute,
   return nullptr;
 }
 
+Error UnknownAttribute(XmlElement element, const XmlAttribute& attribute,
+                       std::span<const std::string> known) {
+  const std::vector<std::string> candidates = NotYetGiven(element, known);
+  return {
+      .message = "<" + element.name() + "> knows no '" + attribute.name + "'",
+      .position = attribute.position,
+      .hint = candidates.empty() ? "leave it out" : NearestNameHint(attribute.name, candidates)};
+}
+
+std::optional<Error> TextWithin(XmlElement element) {
+  const std::string& text = element.text();
+  if (text.empty()) return std::nullopt;
+  return Error{.message = "no text may stand in <" + element.name() + ">",
+               .position = element.text_position(),
+               .hint = "leave out '" + text.substr(0, WholeCharacters(text, 40)) + "'"};
+}
+
 void CheckAttributes(XmlElement element, std::span<const std::string> known,
                      Diagnostics& diagnostics) {
   for (const XmlAttribute& attribute : element.attributes()) {
-    if (Contains(known, attribute.name)) continue;
-    const std::vector<std::string> candidates = NotYetGiven(element, known);
-    diagnostics.Add({.message = "<" + element.name() + "> knows no '" + attribute.name + "'",
-                     .position = attribute.position,
-                     .hint = candidates.empty() ? "leave it out"
-                                                : NearestNameHint(attribute.name, candidates)});
+    if (std::ranges::count(known, attribute.name) > 0) continue;
+    diagnostics.Add(UnknownAttribute(element, attribute, known));
   }
 }
 
 void CheckChildren(XmlElement element, std::span<const std::string> known,
                    Diagnostics& diagnostics) {
   for (const XmlElement child : element.children()) {
-    if (Contains(known, child.name())) continue;
+    if (std::ranges::count(known, child.name()) > 0) continue;
     diagnostics.Add(
         {.message = "no <" + child.name() + "> may stand in <" + element.name() + ">",
          .position = child.position(),
          .hint = known.empty() ? "leave it out" : NearestNameHint(child.name(), known)});
   }
-  if (const std::string& text = element.text(); !text.empty()) {
-    diagnostics.Add({.message = "no text may stand in <" + element.name() + ">",
-                     .position = element.text_position(),
-                     .hint = "leave out '" + text.substr(0, WholeCharacters(text, 40)) + "'"});
-  }
+  if (auto text = TextWithin(element)) diagnostics.Add(std::move(*text));
 }
 
 }  // namespace runnel

@@ -28,6 +28,12 @@ double ReadNumberOr(XmlElement element, std::string_view attribute, double fallb
 const std::string* ReadText(XmlElement element, std::string_view attribute,
                             Diagnostics& diagnostics);
 
+/// What is wrong with an attribute whose name is not among `known`.
+[[nodiscard]] Error UnknownAttribute(XmlElement element, const XmlAttribute& attribute,
+                                     std::span<const std::string> known);
+/// What is wrong with text between the tags; nothing if there is none.
+[[nodiscard]] std::optional<Error> TextWithin(XmlElement element);
+
 /// Complains about each attribute whose name is not among `known`.
 void CheckAttributes(XmlElement element, std::span<const std::string> known,
                      Diagnostics& diagnostics);

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "core/xml/internal/start_tags.h"
+#include "core/xml/internal/xml_node.h"
 
 namespace runnel::internal {
 
@@ -22,13 +22,15 @@ inline bool IsXmlNameCharacter(char character) {
 /// Walks through a text and knows at which line and column it is.
 class TextCursor {
  public:
-  explicit TextCursor(std::string_view text) : size_(text.size()), rest_(text) {}
+  /// `begin`: how many bytes stand before the text in its file.
+  explicit TextCursor(std::string_view text, std::size_t begin = 0)
+      : end_(begin + text.size()), rest_(text) {}
 
   [[nodiscard]] bool at_end() const { return rest_.empty(); }
   [[nodiscard]] TextPlace place() const { return place_; }
   [[nodiscard]] std::string_view rest() const { return rest_; }
-  /// In bytes from the beginning.
-  [[nodiscard]] std::size_t offset() const { return size_ - rest_.size(); }
+  /// In bytes from the beginning of the file.
+  [[nodiscard]] std::size_t offset() const { return end_ - rest_.size(); }
   /// '\0' at the end.
   [[nodiscard]] char next() const { return rest_.empty() ? '\0' : rest_.front(); }
   [[nodiscard]] bool Sees(std::string_view expected) const { return rest_.starts_with(expected); }
@@ -62,7 +64,7 @@ class TextCursor {
   bool SkipSpace() { return !TakeWhile(IsXmlSpace).empty(); }
 
  private:
-  std::size_t size_;
+  std::size_t end_;
   std::string_view rest_;
   TextPlace place_;
 };

@@ -1,5 +1,3 @@
-#include "core/xml/internal/start_tags.h"
-
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -7,6 +5,7 @@
 #include "core/base/characters.h"
 #include "core/xml/internal/text_checks.h"
 #include "core/xml/internal/text_cursor.h"
+#include "core/xml/internal/xml_node.h"
 
 namespace runnel::internal {
 
@@ -24,20 +23,19 @@ std::string At(TextPlace place) {
 /// Each Take…() steps over one thing and returns false if it is not well-formed; error_ says why.
 class Scanner {
  public:
-  Scanner(std::string_view text, const std::string& file_name)
-      : file_name_(file_name), cursor_(text) {}
+  Scanner(std::string_view text, const std::string& file_name, std::size_t begin)
+      : file_name_(file_name), cursor_(text, begin) {}
 
-  Result<std::vector<StartTag>> Run() {
+  Result<std::unique_ptr<XmlNode>> Run() {
     while (!cursor_.at_end()) {
       if (!TakeNext()) return std::move(*error_);
     }
-    if (tags_.empty()) return Failure(cursor_.place(), "there is no element", "");
-    if (!open_.empty()) {
-      const StartTag& last = tags_[open_.back()];
-      return Failure(last.place, Quoted(last.name) + " is never closed",
-                     "add </" + std::string(last.name) + ">");
+    if (!root_) return Failure(cursor_.place(), "there is no element", "");
+    if (open_ != nullptr) {
+      return Failure(open_->place, Quoted(open_->name) + " is never closed",
+                     "add </" + open_->name + ">");
     }
-    return std::move(tags_);
+    return std::move(root_);
   }
 
  private:
@@ -71,7 +69,7 @@ class Scanner {
   }
 
   bool TakeCharacterData() {
-    if (open_.empty()) return Fail(cursor_.place(), "text outside of the root element", "");
+    if (open_ == nullptr) return Fail(cursor_.place(), "text outside of the root element", "");
     NoteText();
     return TakePast("<![CDATA[", "]]>", "CDATA section");
   }
@@ -85,7 +83,7 @@ class Scanner {
   }
 
   bool TakeText() {
-    const bool outside = open_.empty();
+    const bool outside = open_ == nullptr;
     cursor_.SkipSpace();
     if (!outside && !cursor_.at_end() && cursor_.next() != '<') NoteText();
     if (outside && !cursor_.at_end() && cursor_.next() != '<') {
@@ -95,8 +93,7 @@ class Scanner {
   }
 
   void NoteText() {
-    StartTag& tag = tags_[open_.back()];
-    if (!tag.text_place) tag.text_place = cursor_.place();
+    if (open_->text_place == open_->place) open_->text_place = cursor_.place();
   }
 
   bool TakeEndTag() {
@@ -106,18 +103,17 @@ class Scanner {
     std::string_view name;
     if (!TakeName(name)) return false;
     cursor_.SkipSpace();
-    if (open_.empty()) return Fail(start, "</" + std::string(name) + "> closes nothing", "");
-    const StartTag& opened = tags_[open_.back()];
-    if (name != opened.name) {
+    if (open_ == nullptr) return Fail(start, "</" + std::string(name) + "> closes nothing", "");
+    if (name != open_->name) {
       return Fail(start,
-                  "</" + std::string(name) + "> where " + Quoted(opened.name) + " of " +
-                      At(opened.place) + " is still open",
-                  "write </" + std::string(opened.name) + "> first");
+                  "</" + std::string(name) + "> where " + Quoted(open_->name) + " of " +
+                      At(open_->place) + " is still open",
+                  "write </" + open_->name + "> first");
     }
     if (cursor_.next() != '>') return Fail(start, "an end tag without '>'", "");
     cursor_.Take(1);
-    tags_[open_.back()].end_tag = {begin, cursor_.offset()};
-    open_.pop_back();
+    open_->spans.end_tag = {begin, cursor_.offset()};
+    Close();
     return true;
   }
 
@@ -125,25 +121,50 @@ class Scanner {
     const TextPlace start = cursor_.place();
     const std::size_t begin = cursor_.offset();
     cursor_.Take(1);
-    StartTag tag{{}, start, {}, {}};
-    if (!TakeName(tag.name)) return false;
-    if (tag.name.empty()) return Fail(start, "'<' without a name", "write &lt; for the character");
-    if (open_.empty() && !tags_.empty()) {
-      return Fail(start, "a second root element " + Quoted(tag.name), "a file has one");
+    std::string_view name;
+    if (!TakeName(name)) return false;
+    if (name.empty()) return Fail(start, "'<' without a name", "write &lt; for the character");
+    if (open_ == nullptr && root_) {
+      return Fail(start, "a second root element " + Quoted(name), "a file has one");
     }
-    if (open_.size() >= kDeepestNesting) return Fail(start, "elements nested too deeply", "");
+    if (depth_ >= kDeepestNesting) return Fail(start, "elements nested too deeply", "");
+    XmlNode& node = Open(name, start);
     for (;;) {
       const bool spaced = cursor_.SkipSpace();
       if (cursor_.Sees(">") || cursor_.Sees("/>")) break;
-      if (!TakeAttribute(tag, spaced)) return false;
+      if (!TakeAttribute(node, spaced)) return false;
     }
     const bool closes = cursor_.Sees("/>");
     cursor_.Take(closes ? 2 : 1);
-    tag.span = {begin, cursor_.offset()};
-    tag.end_tag = {cursor_.offset(), cursor_.offset()};
-    tags_.push_back(std::move(tag));
-    if (!closes) open_.push_back(tags_.size() - 1);
+    node.spans.start_tag = {begin, cursor_.offset()};
+    node.spans.end_tag = {cursor_.offset(), cursor_.offset()};
+    if (closes) Close();
     return true;
+  }
+
+  XmlNode& Open(std::string_view name, TextPlace place) {
+    auto made = std::make_unique<XmlNode>();
+    XmlNode& node = *made;
+    node.name = name;
+    node.place = node.text_place = place;
+    node.parent = open_;
+    if (open_ != nullptr) {
+      node.file_name = open_->file_name;
+      open_->children.emplace_back(node);
+      open_->owned_children.push_back(std::move(made));
+    } else {
+      node.own_file_name = file_name_;
+      node.file_name = &node.own_file_name;
+      root_ = std::move(made);
+    }
+    open_ = &node;
+    ++depth_;
+    return node;
+  }
+  void Close() {
+    open_->spans.whole = {open_->spans.start_tag.begin, open_->spans.end_tag.end};
+    open_ = open_->parent;
+    --depth_;
   }
 
   /// `name` is empty if there is none.
@@ -162,49 +183,50 @@ class Scanner {
     return true;
   }
 
-  bool TakeAttribute(StartTag& tag, bool spaced) {
+  bool TakeAttribute(XmlNode& node, bool spaced) {
     const TextPlace place = cursor_.place();
     const std::size_t begin = cursor_.offset();
     std::string_view name;
     if (!TakeName(name)) return false;
     if (name.empty()) {
       return cursor_.at_end() || cursor_.next() == '<'
-                 ? Fail(tag.place, "the tag " + Quoted(tag.name) + " has no '>'", "")
+                 ? Fail(node.place, "the tag " + Quoted(node.name) + " has no '>'", "")
                  : Fail(place, "an attribute must begin with a letter", "");
     }
     const std::string quoted = "'" + std::string(name) + "'";
     if (!spaced) return Fail(place, "no space before attribute " + quoted, "");
-    const auto is_same = [name](const AttributePlace& other) { return other.name == name; };
-    if (const auto same = std::ranges::find_if(tag.attributes, is_same);
-        same != tag.attributes.end()) {
+    if (std::ranges::count(node.attributes, name, &XmlAttribute::name) > 0) {
       return Fail(place, "attribute " + quoted + " stands here twice", "leave one out");
     }
     cursor_.SkipSpace();
     if (cursor_.next() != '=') return Fail(place, "attribute " + quoted + " has no value", "");
     cursor_.Take(1);
     cursor_.SkipSpace();
-    return TakeValue(tag, {name, place, {}, {begin, begin}, {}}, quoted);
+    XmlAttribute& attribute = node.attributes.emplace_back();
+    attribute.name = name;
+    attribute.position = PositionAt(place);
+    attribute.span.begin = begin;
+    return TakeValue(attribute, place, quoted);
   }
 
-  bool TakeValue(StartTag& tag, AttributePlace attribute, const std::string& quoted) {
+  bool TakeValue(XmlAttribute& attribute, TextPlace place, const std::string& quoted) {
     const char quote = cursor_.next();
     if (quote != '"' && quote != '\'') {
       return Fail(cursor_.place(), "the value of " + quoted + " is not in quotes",
                   "write \"…\" round it");
     }
     cursor_.Take(1);
-    attribute.value_place = cursor_.place();
+    attribute.value_position = PositionAt(cursor_.place());
     attribute.value_span.begin = cursor_.offset();
     const auto at_stop = [&] { return cursor_.next() == quote || cursor_.next() == '<'; };
     if (!TakeCharacters(at_stop, /*check_entities=*/true)) return false;
     if (cursor_.next() != quote) {
-      return Fail(attribute.place, "the value of " + quoted + " has no closing quote",
+      return Fail(place, "the value of " + quoted + " has no closing quote",
                   cursor_.at_end() ? "" : "or write &lt; for '<' in it");
     }
     attribute.value_span.end = cursor_.offset();
     cursor_.Take(1);
     attribute.span.end = cursor_.offset();
-    tag.attributes.push_back(attribute);
     return true;
   }
 
@@ -230,10 +252,11 @@ class Scanner {
     return Fail(cursor_.place(), fault, fault.starts_with("byte") ? "save the file as UTF-8" : "");
   }
 
+  SourcePosition PositionAt(TextPlace place) const {
+    return {file_name_, place.line, place.column};
+  }
   Error Failure(TextPlace place, std::string message, std::string hint) const {
-    return {.message = std::move(message),
-            .position = {file_name_, place.line, place.column},
-            .hint = std::move(hint)};
+    return {.message = std::move(message), .position = PositionAt(place), .hint = std::move(hint)};
   }
   /// Keeps the first error only: what follows is mostly its consequence.
   bool Fail(TextPlace place, std::string message, std::string hint) {
@@ -243,16 +266,18 @@ class Scanner {
 
   const std::string& file_name_;
   TextCursor cursor_;
-  std::vector<StartTag> tags_;
-  std::vector<std::size_t> open_;  // indices into tags_
+  std::unique_ptr<XmlNode> root_;
+  XmlNode* open_ = nullptr;  // the innermost
+  std::size_t depth_ = 0;    // of `open_`
   std::optional<Error> error_;
   bool anything_but_declarations_ = false;
 };
 
 }  // namespace
 
-Result<std::vector<StartTag>> FindStartTags(std::string_view text, const std::string& file_name) {
-  return Scanner(text, file_name).Run();
+Result<std::unique_ptr<XmlNode>> ScanXml(std::string_view text, const std::string& file_name,
+                                         std::size_t begin) {
+  return Scanner(text, file_name, begin).Run();
 }
 
 }  // namespace runnel::internal

@@ -1,0 +1,55 @@
+#include "core/log/logger.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "core/element/runtime.h"
+#include "core/log/internal/log_dispatcher.h"
+#include "core/log/internal/log_ring.h"
+#include "core/port/cycle.h"
+
+namespace runnel {
+
+Logger::Logger(const FrameworkElement& element) : element_(element) {
+  internal::LogDispatcher::OfProcess().Add(*this);
+}
+
+Logger::~Logger() {
+  // relaxed: whoever has written has ended before the element is destroyed.
+  internal::LogDispatcher::OfProcess().Remove(*this, has_spoken_.load(std::memory_order_relaxed));
+}
+
+void Logger::Send(LogLevel level, internal::EncodedMessage& message) noexcept {
+  const Cycle* const cycle = CurrentCycle();
+  const Time now = cycle != nullptr ? cycle->now : element_.runtime().clock().Now();
+  TokenBucket& bucket = buckets_.at(static_cast<std::size_t>(level));
+  if (!bucket.Take(now)) {
+    ++bucket.left_out;
+    return;
+  }
+  PrepareLogging();
+  internal::LogRing* const ring = internal::log_ring;
+  if (ring == nullptr) return;  // no memory for it
+  auto& header = message.header();
+  header.source = this;
+  header.time = now.time_since_epoch().count();
+  header.level = level;
+  header.left_out = std::exchange(bucket.left_out, 0);
+  // relaxed: read when no other thread writes any more.
+  has_spoken_.store(true, std::memory_order_relaxed);
+  ring->Push(message.Finish(), message.size());
+}
+
+bool Logger::TokenBucket::Take(Time now) noexcept {
+  using Seconds = std::chrono::duration<double>;
+  // A clock that has been set back fills nothing.
+  const double seconds = std::max(0.0, Seconds(now - filled).count());
+  tokens = std::min(kCapacity, tokens + seconds * kPerSecond);
+  filled = now;
+  if (tokens < 1) return false;
+  tokens -= 1;
+  return true;
+}
+
+}  // namespace runnel
