@@ -28,7 +28,7 @@ class XmlTagRegistry;
 
 /// Something that has happened to an application and that a person should read.
 struct ApplicationEvent {
-  enum class Kind { kWarning, kFault, kNotice, kFailure };
+  enum class Kind { kWarning, kFault, kNotice, kFailure, kMessage };
   Kind kind = Kind::kWarning;
   std::string text;                 ///< whole lines, with place and path
   std::optional<Fault> fault = {};  ///< of kFault
@@ -78,8 +78,6 @@ class Application {
 
   /// Stops, and ends what reaches it from outside.
   ~Application();
-  Application(const Application&) = delete;
-  Application& operator=(const Application&) = delete;
 
   // Composing in code. Elements are configured and connected until MakeReady(); what is created later is
   // ready at once by Apply().
@@ -197,28 +195,14 @@ class Application {
   template <typename T>
   [[nodiscard]] Result<Input<T>*> InputFrom(std::string_view path,
                                             const ConnectOptions& options = {}) {
-    Input<T>* made = nullptr;
-    const auto tied = Tie(path, PathKind::kOutput, options, [&](FrameworkElement& group) {
-      auto input = std::make_unique<Input<T>>(group, "in");
-      made = input.get();
-      return std::unique_ptr<Port>(std::move(input));
-    });
-    if (!tied) return tied.error();
-    return made;
+    return TieTo<Input<T>>(path, PathKind::kOutput, options, "in");
   }
   /// An output beside the application that is connected to the input at `path`, also after swaps. One thread at a
   /// time publishes to it, outside of cycles.
   template <typename T>
   [[nodiscard]] Result<Output<T>*> OutputTo(std::string_view path,
                                             const ConnectOptions& options = {}) {
-    Output<T>* made = nullptr;
-    const auto tied = Tie(path, PathKind::kInput, options, [&](FrameworkElement& group) {
-      auto output = std::make_unique<Output<T>>(group, "out");
-      made = output.get();
-      return std::unique_ptr<Port>(std::move(output));
-    });
-    if (!tied) return tied.error();
-    return made;
+    return TieTo<Output<T>>(path, PathKind::kInput, options, "out");
   }
 
   // Its parts, for extensions and for those who know what they do.
@@ -251,6 +235,18 @@ class Application {
   // Makes a port beside the application and ties it to the one at `path`.
   Result<void> Tie(std::string_view path, PathKind kind, const ConnectOptions& options,
                    const std::function<std::unique_ptr<Port>(FrameworkElement& group)>& make);
+  template <typename Made>
+  Result<Made*> TieTo(std::string_view path, PathKind kind, const ConnectOptions& options,
+                      const char* name) {
+    Made* made = nullptr;
+    const auto tied = Tie(path, kind, options, [&](FrameworkElement& group) {
+      auto port = std::make_unique<Made>(group, name);
+      made = port.get();
+      return port;
+    });
+    if (!tied) return tied.error();
+    return made;
+  }
   // Before any cycle in simulated time.
   Result<void> BeginCycles();
   void NoteStart();

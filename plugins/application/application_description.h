@@ -32,8 +32,6 @@ class ApplicationDescription {
   /// Nothing is described yet; the words and types that are there can be asked for.
   explicit ApplicationDescription(ApplicationOptions options = {});
   virtual ~ApplicationDescription() = default;
-  ApplicationDescription(const ApplicationDescription&) = delete;
-  ApplicationDescription& operator=(const ApplicationDescription&) = delete;
 
   // One of these, once. False: it is wrong.
 

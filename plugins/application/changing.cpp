@@ -130,7 +130,7 @@ Result<void> Application::Save(const std::filesystem::path& file) {
   const auto found = parts_->FindAgain();
   if (!found) return found.error();
   const SaveTools tools{parts_->plugins(), parts_->tags()};
-  return file.empty() ? SaveApplication(**found, tools) : SaveApplication(**found, tools, file);
+  return SaveApplication(**found, tools, file);
 }
 
 Result<void> Application::LoadPlugin(std::string_view plugin) {

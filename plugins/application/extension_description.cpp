@@ -26,7 +26,13 @@ std::string TextOr(XmlElement element, std::string_view attribute, std::string t
   return found != nullptr ? found->value : std::move(text);
 }
 
-ExtensionOption ReadOption(XmlElement element, const std::string& name, Diagnostics& problems) {
+// What the file names from its own place.
+std::string PathFrom(const fs::path& file, const std::string& text) {
+  return text.empty() ? "" : fs::absolute(file.parent_path() / text).lexically_normal().string();
+}
+
+ExtensionOption ReadOption(XmlElement element, const std::string& name, const fs::path& file,
+                           Diagnostics& problems) {
   const std::string kind = TextOr(element, "kind", kKinds.front());
   const auto known = std::ranges::find(kKinds, kind);
   if (known == kKinds.end()) {
@@ -38,19 +44,21 @@ ExtensionOption ReadOption(XmlElement element, const std::string& name, Diagnost
           .kind = static_cast<ExtensionOption::Kind>(known - kKinds.begin()),
           .value_name = TextOr(element, "value", "VALUE"),
           .summary = TextOr(element, "summary", ""),
-          .command = TextOr(element, "command", "")};
+          .command = TextOr(element, "command", ""),
+          .preload = PathFrom(file, TextOr(element, "preload", ""))};
 }
 
-void ReadPart(XmlElement element, ExtensionDescription& extension, Diagnostics& problems) {
+void ReadPart(XmlElement element, const fs::path& file, ExtensionDescription& extension,
+              Diagnostics& problems) {
   const bool is_option = element.name() == "option";
-  CheckAttributes(element,
-                  is_option
-                      ? std::vector<std::string>{"command", "kind", "name", "summary", "value"}
-                      : std::vector<std::string>{"name"},
-                  problems);
+  CheckAttributes(
+      element,
+      is_option ? std::vector<std::string>{"command", "kind", "name", "preload", "summary", "value"}
+                : std::vector<std::string>{"name"},
+      problems);
   const std::string* const name = ReadText(element, "name", problems);
   if (name == nullptr) return;
-  if (is_option) extension.options.push_back(ReadOption(element, *name, problems));
+  if (is_option) extension.options.push_back(ReadOption(element, *name, file, problems));
   if (element.name() == "tag") extension.tags.push_back(*name);
   if (element.name() == "command") extension.commands.push_back(*name);
 }
@@ -70,7 +78,7 @@ Result<ExtensionDescription> ReadDescription(const fs::path& file, std::string n
   CheckChildren(root, kParts, problems);
   if (const std::string* const text = ReadText(root, "summary", problems))
     extension.summary = *text;
-  for (const XmlElement child : root.children()) ReadPart(child, extension, problems);
+  for (const XmlElement child : root.children()) ReadPart(child, file, extension, problems);
   if (!problems.ok()) return problems.errors().front();
   return extension;
 }

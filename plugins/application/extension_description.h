@@ -24,6 +24,8 @@ struct ExtensionOption {
   std::string value_name = {};
   std::string summary = {};  ///< one line
   std::string command = {};  ///< only of this one; "": of all that run an application
+  /// A library that must be in the process from its start if the option is given, as a path; "": none.
+  std::string preload = {};
 };
 
 /// What a plugin adds to applications that can do without it, known before its library is loaded: the file

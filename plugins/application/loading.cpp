@@ -69,14 +69,7 @@ Result<void> Application::Parts::Schedule() {
     if (!outcome) return outcome.diagnostics.errors().front();
     return {};
   });
-  for (const auto& [rule, position] : FaultRulesOf(*element_)) {
-    if (auto added = scheduler->AddFaultRule(rule); !added) {
-      Error error = added.error();
-      error.position = position;
-      return error;
-    }
-  }
-  return AddSupervisionRules(*element_, *supervisor);
+  return AddRules(*element_, *scheduler, *supervisor);
 }
 
 // What clients want to be recorded is, though nobody has said so at the start.
@@ -100,9 +93,13 @@ RecordingHook Application::Parts::RecordingOnDemand(Application& application) {
 }
 
 Result<void> Application::Parts::Begin(Application& application, Diagnostics& diagnostics) {
-  log.emplace(runtime().clock());
   report.emplace(runtime());
   start = runtime().clock().Now();
+  {
+    const std::lock_guard lock(events_mutex);
+    log.emplace(runtime().clock());
+  }
+  for (const LogMessage& message : std::exchange(early_messages, {})) Hear(message);
   for (const auto& extension : extensions()) extension->AddHooks(application, hooks);
   if (!hooks.record) hooks.record = RecordingOnDemand(application);
   if (options().has_control) {

@@ -4,6 +4,8 @@
 #include <mutex>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "core/base/exception_text.h"
 #include "core/element/runtime.h"
 #include "core/element/source_place.h"
@@ -137,6 +139,10 @@ std::string RunReport::Finish(Diagnostics& diagnostics) {
 std::string FaultText(const Fault& fault, Time start, FrameworkElement& root) {
   return EventText({.message = "has been stopped: " + fault.message, .path = fault.path},
                    fault.time, start, fault.is_mended, root);
+}
+
+std::string MessageText(const LogMessage& message, Time start) {
+  return fmt::format("{:>9}  {}\n", DurationText(message.time - start), message.ToString());
 }
 
 std::string NoticeText(const Notice& notice, Time start, FrameworkElement& root) {

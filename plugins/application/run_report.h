@@ -7,6 +7,7 @@
 #include "core/base/diagnostics.h"
 #include "core/element/element_listener.h"
 #include "core/element/runtime.h"
+#include "core/log/log_message.h"
 #include "core/module/run_monitor.h"
 #include "plugins/scheduling/fault.h"
 #include "plugins/supervision/supervision_rules.h"
@@ -67,6 +68,9 @@ class RunReport final : public ElementListener {
 /// "app.xml:3:5: error: /demo/x: has been stopped: boom; 1.25 s after the start". Takes the
 /// structure lock.
 [[nodiscard]] std::string FaultText(const Fault& fault, Time start, FrameworkElement& root);
+
+/// "    1.25s  warning  /demo/x: no echo for 2.5 s".
+[[nodiscard]] std::string MessageText(const LogMessage& message, Time start);
 
 /// "app.xml:58:3: warning: /demo/x/in: nothing new for 0.3 s; switched …". Takes the structure lock.
 [[nodiscard]] std::string NoticeText(const Notice& notice, Time start, FrameworkElement& root);

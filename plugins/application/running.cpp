@@ -43,6 +43,15 @@ std::string WarningsText(std::vector<Error>& warnings, Runtime& runtime) {
 
 }  // namespace
 
+void Application::Parts::Hear(const LogMessage& message) {
+  {
+    const std::lock_guard lock(events_mutex);
+    if (!log) return early_messages.push_back(message);
+  }
+  log->Add(message);
+  Add({ApplicationEvent::Kind::kMessage, MessageText(message, start)});
+}
+
 void Application::Parts::Add(ApplicationEvent event) {
   const std::lock_guard lock(events_mutex);
   if (events.size() == kMostEvents) events.pop_front();
@@ -105,6 +114,7 @@ void Application::Attend() {
   using Kind = ApplicationEvent::Kind;
   Parts& parts = *parts_;
   FrameworkElement& root = parts.runtime().root();
+  FlushLog();
   // Not before the start, which only shows what the system refuses to real-time threads.
   if (!std::exchange(parts.has_warned, true)) {
     std::vector<Error> warnings = parts.scheduler->Warnings();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -39,12 +38,6 @@ void ReportUnknownArguments(XmlElement root, const PartFiles& parts,
   }
 }
 
-// The text that the application came from, if it came from a file.
-struct SourceText {
-  std::filesystem::path file;
-  std::string text;
-};
-
 FrameworkElement* Build(XmlElement root, const BuildTools& tools, BuildContext& context,
                         Diagnostics& diagnostics) {
   FrameworkElement* const application = ReadApplication(root, context);
@@ -54,24 +47,24 @@ FrameworkElement* Build(XmlElement root, const BuildTools& tools, BuildContext& 
   return application;
 }
 
-void KeepSource(FrameworkElement& application, SourceText text, BuildContext& context) {
+void KeepSource(FrameworkElement& application, const ApplicationFile& file, BuildContext& context) {
   auto source = std::make_unique<ApplicationSource>();
-  source->file = std::move(text.file);
-  source->text = std::move(text.text);
+  source->file = file.file;
+  source->text = file.text;
   source->values = context.TakeValues();
   source->parts = context.parts().TakeTexts();
   application.Annotate(std::move(source));
 }
 
 BuildOutcome BuildFrom(const XmlDocument& document, const std::filesystem::path& folder,
-                       std::optional<SourceText> text, const BuildTools& tools, BuildMode mode) {
+                       const ApplicationFile* file, const BuildTools& tools, BuildMode mode) {
   BuildOutcome outcome;
   BuildContext context(tools, folder, outcome.diagnostics);
   {
     const std::lock_guard lock(tools.runtime.structure_mutex());
     outcome.application = Build(document.root(), tools, context, outcome.diagnostics);
-    if (outcome.application != nullptr && text) {
-      KeepSource(*outcome.application, std::move(*text), context);
+    if (outcome.application != nullptr && file != nullptr) {
+      KeepSource(*outcome.application, *file, context);
     }
   }
   FinishBuild(outcome, mode);
@@ -111,13 +104,12 @@ void FinishBuild(BuildOutcome& outcome, BuildMode mode) {
 
 BuildOutcome BuildApplication(const XmlDocument& document, const std::filesystem::path& folder,
                               const BuildTools& tools, BuildMode mode) {
-  return BuildFrom(document, folder, std::nullopt, tools, mode);
+  return BuildFrom(document, folder, nullptr, tools, mode);
 }
 
 BuildOutcome BuildApplication(const ApplicationFile& file, const BuildTools& tools,
                               BuildMode mode) {
-  return BuildFrom(file.document, file.file.parent_path(), SourceText{file.file, file.text}, tools,
-                   mode);
+  return BuildFrom(file.document, file.file.parent_path(), &file, tools, mode);
 }
 
 BuildOutcome BuildApplication(const std::filesystem::path& file, const BuildTools& tools,

@@ -19,26 +19,18 @@ enum class Round { kWords, kRest };
 void ReadChildren(std::string_view tag, XmlElement element, FrameworkElement* parent,
                   FrameworkElement& around, Round round, BuildContext& context);
 
-bool Contains(const std::vector<std::string>& names, std::string_view name) {
-  return std::ranges::find(names, name) != names.end();
-}
-
 // What tells editors where the schema is.
 bool IsForEditors(const std::string& attribute) {
   return attribute == "xmlns:xsi" || attribute == "xsi:noNamespaceSchemaLocation";
 }
 
 // The first attribute that nobody knows.
-std::optional<Error> UnknownAttribute(const std::vector<AttributeRule>& rules, const TagUse& use) {
-  std::vector<std::string> names;
-  for (const AttributeRule& rule : rules) names.push_back(rule.name);
+std::optional<Error> FirstUnknown(const std::vector<AttributeRule>& rules, const TagUse& use) {
+  const std::vector<std::string> names = NamesOf(rules, &AttributeRule::name);
   for (const XmlAttribute& attribute : use.xml.attributes()) {
-    if (Contains(names, attribute.name) || IsForEditors(attribute.name)) continue;
+    if (std::ranges::count(names, attribute.name) > 0 || IsForEditors(attribute.name)) continue;
     if (!use.context.IsWorthReporting(attribute.name, names)) continue;
-    Diagnostics problems;
-    CheckAttributes(use.xml, names, problems);
-    const auto at = std::ranges::find(problems.errors(), attribute.position, &Error::position);
-    return *at;
+    return UnknownAttribute(use.xml, attribute, names);
   }
   return std::nullopt;
 }
@@ -64,19 +56,11 @@ std::optional<Error> WrongAttribute(const std::vector<AttributeRule>& rules, con
   return std::nullopt;
 }
 
-std::optional<Error> TextWithin(XmlElement element) {
-  std::vector<std::string> all;
-  for (const XmlElement child : element.children()) all.push_back(child.name());
-  Diagnostics problems;
-  CheckChildren(element, all, problems);
-  return problems.ok() ? std::nullopt : std::optional(problems.errors().front());
-}
-
 // Reports the first mistake of the tag itself. False: it cannot be handled.
 bool CheckTag(const XmlTag& tag, const TagUse& use) {
   const std::vector<AttributeRule> rules = use.context.tags().Rules(tag);
   const std::optional<Error> wrong = WrongAttribute(rules, use);
-  std::optional<Error> first = UnknownAttribute(rules, use);
+  std::optional<Error> first = FirstUnknown(rules, use);
   if (!first) first = wrong;
   if (!first) first = TextWithin(use.xml);
   if (first && !first->message.empty()) use.Report(*first, first->position);
@@ -86,7 +70,7 @@ bool CheckTag(const XmlTag& tag, const TagUse& use) {
 FrameworkElement* Handle(const XmlTag& tag, const TagUse& use) {
   FrameworkElement* made = nullptr;
   use.context.Attempt({"<" + tag.name + ">", use.xml.position(), &use.parent},
-                      [&] { made = tag.handle(use); });
+                      [&] { made = tag.handle ? tag.handle(use) : &use.parent; });
   if (made == nullptr) return nullptr;
   if (made != &use.parent && made->FindAnnotation<SourcePlace>() == nullptr) {
     made->Annotate(std::make_unique<SourcePlace>(use.xml.position()));
@@ -151,7 +135,7 @@ void ReadChildren(std::string_view tag, XmlElement element, FrameworkElement* pa
                   FrameworkElement& around, Round round, BuildContext& context) {
   const std::vector<std::string> known = context.tags().TagsIn(tag);
   for (const XmlElement child : element.children()) {
-    if (!Contains(known, child.name())) {
+    if (std::ranges::count(known, child.name()) == 0) {
       if (round == Round::kRest) ReadMisplacedTag(child, known, around, context);
       continue;
     }
@@ -168,7 +152,8 @@ void NoteMisplacedLoads(XmlElement element, BuildContext& context) {
   for (const XmlElement child : element.children()) {
     const XmlTag* tag = context.tags().FindTag(child.name());
     if (tag == nullptr) tag = context.tags().FindTag(NearestName(child.name(), known));
-    const bool is_lost = tag != nullptr && tag->comes_first && !Contains(known, child.name());
+    const bool is_lost =
+        tag != nullptr && tag->comes_first && std::ranges::count(known, child.name()) == 0;
     if (is_lost) context.MarkPluginMissing();
     NoteMisplacedLoads(child, context);
   }

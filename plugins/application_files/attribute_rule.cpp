@@ -1,9 +1,9 @@
 #include "plugins/application_files/attribute_rule.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include "core/base/nearest_name.h"
+#include "core/base/number_text.h"
 #include "core/element/element_path.h"
 #include "core/types/duration_text.h"
 #include "core/xml/xml_reading.h"
@@ -16,12 +16,6 @@ constexpr std::string_view kBlanks = " \t\r\n";
 constexpr std::string_view kSeparators = " \t\r\n,";
 
 std::string InApostrophes(std::string_view text) { return "'" + std::string(text) + "'"; }
-
-template <typename T>
-Result<void> WithoutValue(const Result<T>& result) {
-  if (!result) return result.error();
-  return {};
-}
 
 Result<void> CheckNotEmpty(std::string_view value) {
   if (SplitPaths(value).empty()) return Error{.message = "a path must not be empty"};
@@ -77,7 +71,8 @@ Result<void> CheckAttributeValue(const AttributeRule& rule, std::string_view val
     case AttributeKind::kPathList:
       return CheckPathList(value);
     case AttributeKind::kCount:
-      return WithoutValue(ParseCount(value));
+      if (auto count = ParseCount(value); !count) return count.error();
+      return {};
     case AttributeKind::kNumber:
       return CheckNumber(value);
     case AttributeKind::kDuration:
@@ -89,12 +84,8 @@ Result<void> CheckAttributeValue(const AttributeRule& rule, std::string_view val
 }
 
 Result<std::size_t> ParseCount(std::string_view text) {
-  std::size_t count = 0;
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), count);
-  if (problem != std::errc{} || end != text.data() + text.size()) {
-    return Error{.message = InApostrophes(text) + " is not a count", .hint = "write 0, 1, 2 …"};
-  }
-  return count;
+  if (const auto count = NumberIn<std::size_t>(text)) return *count;
+  return Error{.message = InApostrophes(text) + " is not a count", .hint = "write 0, 1, 2 …"};
 }
 
 std::vector<std::string> SplitPaths(std::string_view text) {

@@ -11,8 +11,8 @@
 #include "core/element/runtime.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/port.h"
-#include "core/types/duration_text.h"
 #include "core/types/type_info.h"
+#include "plugins/application_files/saving/saving.h"
 #include "plugins/scheduling/thread_container.h"
 
 namespace runnel {
@@ -80,7 +80,7 @@ class DotWriter {
         WriteInterface(*port, depth);
       } else if (IsModule(*child)) {
         WriteModule(*child, depth);
-      } else if (child->kind() == ElementKind::kGroup && !HoldsOnlyThreads(*child)) {
+      } else if (child->kind() == ElementKind::kGroup && !internal::HoldsOnlyThreads(*child)) {
         Line(depth, "subgraph " + Quoted("cluster_" + child->path()) + " {");
         Line(depth + 1, "label=" + Quoted(child->name()));
         WriteContents(*child, depth + 1);
@@ -91,13 +91,6 @@ class DotWriter {
         Line(depth, "}");
       }
     }
-  }
-
-  static bool HoldsOnlyThreads(const FrameworkElement& group) {
-    const auto is_thread = [](const FrameworkElement* child) {
-      return child->kind() == ElementKind::kThread;
-    };
-    return !group.children().empty() && std::ranges::all_of(group.children(), is_thread);
   }
 
   void WriteInterface(const Port& port, int depth) {
@@ -165,16 +158,7 @@ class DotWriter {
   static std::string ThreadText(const FrameworkElement& element) {
     const auto* const thread = dynamic_cast<const ThreadContainer*>(&element);
     if (thread == nullptr) return element.name();
-    const ThreadOptions& options = thread->options();
-    switch (options.activation) {
-      case ThreadOptions::Activation::kFreeRunning:
-        return element.name() + " (free running)";
-      case ThreadOptions::Activation::kTrigger:
-        return element.name() + " (when data comes)";
-      case ThreadOptions::Activation::kPeriod:
-        break;
-    }
-    return element.name() + " (every " + DurationText(options.period) + ")";
+    return element.name() + " (" + ActivationText(thread->options()) + ")";
   }
 
   void WriteKey() {

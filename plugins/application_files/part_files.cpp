@@ -36,7 +36,7 @@ std::string UseChain(const std::string& file, const FrameworkElement& element) {
 }
 
 fs::path PartFiles::FolderOf(const std::string& file) const {
-  return Knows(file) ? fs::path(file).parent_path() : folder_;
+  return files_.contains(file) ? fs::path(file).parent_path() : folder_;
 }
 
 Result<const PartFiles::File*> PartFiles::Read(const std::string& name) {

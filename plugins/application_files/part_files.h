@@ -47,7 +47,6 @@ class PartFiles {
 
   /// Where relative names in a file start. For unknown ones, in the folder of the application.
   [[nodiscard]] std::filesystem::path FolderOf(const std::string& file) const;
-  [[nodiscard]] bool Knows(const std::string& file) const { return files_.contains(file); }
 
   /// Opens the file that `tag` names, until Close(). Errors: it is not there, is no part, contains
   /// itself; there are too many.

@@ -4,32 +4,20 @@
 
 namespace runnel {
 
-namespace {
-
-template <typename Rule>
-Result<void> AddAll(const std::vector<Placed<Rule>>& rules, Supervisor& supervisor) {
-  for (const auto& [rule, position] : rules) {
+Result<void> AddRules(const FrameworkElement& application, Scheduler& scheduler,
+                      Supervisor& supervisor) {
+  const auto* const rules = application.FindAnnotation<RunRules>();
+  if (rules == nullptr) return {};
+  for (const FaultRule& rule : rules->fault_rules) scheduler.AddFaultRule(rule);
+  for (const auto& [rule, position] : rules->stale_rules) {
     if (auto added = supervisor.Add(rule); !added) {
       Error error = added.error();
       error.position = position;
       return error;
     }
   }
+  for (const FaultReaction& reaction : rules->fault_reactions) supervisor.Add(reaction);
   return {};
-}
-
-}  // namespace
-
-std::vector<Placed<FaultRule>> FaultRulesOf(const FrameworkElement& application) {
-  const auto* const rules = application.FindAnnotation<RunRules>();
-  return rules != nullptr ? rules->fault_rules : std::vector<Placed<FaultRule>>{};
-}
-
-Result<void> AddSupervisionRules(const FrameworkElement& application, Supervisor& supervisor) {
-  const auto* const rules = application.FindAnnotation<RunRules>();
-  if (rules == nullptr) return {};
-  if (auto added = AddAll(rules->stale_rules, supervisor); !added) return added;
-  return AddAll(rules->fault_reactions, supervisor);
 }
 
 namespace internal {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "core/base/error.h"
@@ -13,25 +14,19 @@ namespace runnel {
 
 // What an application file says of how the application is run. It has been checked; paths in it are absolute.
 
-template <typename Rule>
-struct Placed {
-  Rule rule;
-  SourcePosition position;  ///< where the file says so
-};
-
 /// Kept with the application by <on_fault> and <on_stale>; in the order of the file.
 struct RunRules final : Annotation {
-  std::vector<Placed<FaultRule>> fault_rules;
-  std::vector<Placed<FaultReaction>> fault_reactions;
-  std::vector<Placed<StaleRule>> stale_rules;
+  std::vector<FaultRule> fault_rules;
+  std::vector<FaultReaction> fault_reactions;
+  std::vector<std::pair<StaleRule, SourcePosition>> stale_rules;
 };
 
 /// What <clock> says; without it, the defaults of SchedulerOptions.
 [[nodiscard]] SchedulerOptions SchedulerOptionsOf(const FrameworkElement& application);
 
-[[nodiscard]] std::vector<Placed<FaultRule>> FaultRulesOf(const FrameworkElement& application);
-/// Adds the rules of silence, and what is done about faults besides, to `supervisor`. The error has the place.
-Result<void> AddSupervisionRules(const FrameworkElement& application, Supervisor& supervisor);
+/// Hands over the application's rules. The error, of a rule of silence, has the place.
+Result<void> AddRules(const FrameworkElement& application, Scheduler& scheduler,
+                      Supervisor& supervisor);
 
 namespace internal {
 

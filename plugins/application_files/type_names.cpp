@@ -12,18 +12,13 @@ namespace runnel {
 
 namespace {
 
-bool Contains(const std::vector<std::string>& names, std::string_view name) {
-  return std::ranges::find(names, name) != names.end();
-}
-
 std::string LastPart(std::string_view type) {
   return std::string(type.substr(type.rfind('/') + 1));  // npos + 1 is 0
 }
 
 // Of "sensors/laser" and "laser": 'adaptors/laser' or 'simulation/laser'. "" if none ends alike.
 std::string TypesWithNearestEnd(std::string_view type, const std::vector<std::string>& known) {
-  std::vector<std::string> ends;
-  for (const std::string& each : known) ends.push_back(LastPart(each));
+  const std::vector<std::string> ends = NamesOf(known, LastPart);
   const std::string nearest = NearestName(LastPart(type), ends);
   std::string types;
   for (std::size_t i = 0; i < known.size() && !nearest.empty(); ++i) {
@@ -34,7 +29,8 @@ std::string TypesWithNearestEnd(std::string_view type, const std::vector<std::st
 
 std::string ModuleTypeHint(std::string_view type, const PluginManager& plugins) {
   const std::string family(type.substr(0, std::min(type.find('/'), type.size())));
-  if (Contains(plugins.Available(), family) && !Contains(plugins.loaded(), family)) {
+  if (std::ranges::count(plugins.Available(), family) > 0 &&
+      std::ranges::count(plugins.loaded(), family) == 0) {
     return "add <load plugin=\"" + family + "\"/>";
   }
   const std::vector<std::string> known = ModuleTypeNames(plugins);
@@ -67,16 +63,10 @@ void MakePortTypesKnown(const ModuleRegistry& modules) {
 }  // namespace
 
 std::vector<std::string> ModuleTypeNames(const PluginManager& plugins) {
-  std::vector<std::string> names;
-  for (const ModuleType* type : plugins.modules().All()) names.push_back(type->name);
-  return names;
+  return NamesOf(plugins.modules().All(), &ModuleType::name);
 }
 
-std::vector<std::string> PortTypeNames() {
-  std::vector<std::string> names;
-  for (const TypeInfo* type : RegisteredTypes()) names.push_back(type->name());
-  return names;
-}
+std::vector<std::string> PortTypeNames() { return NamesOf(RegisteredTypes(), &TypeInfo::name); }
 
 Result<void> CheckModuleType(std::string_view type, const PluginManager& plugins) {
   const auto known = plugins.modules().Get(type);

@@ -80,8 +80,9 @@ struct XmlTag {
   bool is_structure = false;
   /// Makes what the tag asks for and returns the element that the tags within it go below: a new
   /// one, or use.parent. Nothing if it could not, after reporting why to use.context. What needs
-  /// the rest of the file is put off with use.context.Defer(). Exceptions become errors at the tag.
-  std::function<FrameworkElement*(const TagUse& use)> handle;
+  /// the rest of the file is put off with use.context.Defer(). Exceptions become errors at the tag. Without,
+  /// the tag makes nothing, and is read by the one that it stands in.
+  std::function<FrameworkElement*(const TagUse& use)> handle = {};
   /// For those that make what comes and goes while the application lives: all tags of this name that
   /// a file needs directly in `parent` to get what is there now. Without, a file that is saved keeps
   /// the tags that it has.

@@ -6,33 +6,58 @@
 #include <new>
 #include <utility>
 
-#include <fmt/format.h>
+#include <fmt/chrono.h>
 
 #include "core/base/characters.h"
 
 namespace runnel {
+
+namespace {
+
+ApplicationLog::Kind KindOf(LogLevel level) {
+  switch (level) {
+    case LogLevel::kDebug:
+      return ApplicationLog::Kind::kDebug;
+    case LogLevel::kInfo:
+      return ApplicationLog::Kind::kInfo;
+    case LogLevel::kWarning:
+      return ApplicationLog::Kind::kWarning;
+    case LogLevel::kError:
+    case LogLevel::kOff:
+      break;
+  }
+  return ApplicationLog::Kind::kError;
+}
+
+}  // namespace
 
 // What has been done must be told as done, whatever the log does.
 void ApplicationLog::Add(Kind kind, std::string text, std::string module,
                          std::string cause) noexcept {
   try {
     while (!text.empty() && text.back() == '\n') text.pop_back();
-    Entry entry{0,
-                std::chrono::system_clock::now(),
-                clock_.Now() - start_,
-                kind,
-                Shortened(std::move(text), kLongestText),
-                std::move(module),
-                std::move(cause)};
-    const std::lock_guard lock(mutex_);
-    if (!entry.module.empty()) ++faults_;
-    entry.number = first_ + entries_.size();
-    entries_.push_back(std::move(entry));
-    if (entries_.size() <= kMostEntries) return;
-    entries_.pop_front();
-    ++first_;
+    Keep({0, std::chrono::system_clock::now(), clock_.Now() - start_, kind,
+          Shortened(std::move(text), kLongestText), std::move(module), std::move(cause)});
   } catch (const std::bad_alloc&) {
   }
+}
+
+void ApplicationLog::Add(const LogMessage& message) noexcept {
+  try {
+    Keep({0, std::chrono::system_clock::now(), message.time - start_, KindOf(message.level),
+          Shortened(message.BodyText(), kLongestText), message.path, {}});
+  } catch (const std::bad_alloc&) {
+  }
+}
+
+void ApplicationLog::Keep(Entry entry) {
+  const std::lock_guard lock(mutex_);
+  if (entry.kind == Kind::kFault && !entry.module.empty()) ++faults_;
+  entry.number = first_ + entries_.size();
+  entries_.push_back(std::move(entry));
+  if (entries_.size() <= kMostEntries) return;
+  entries_.pop_front();
+  ++first_;
 }
 
 ApplicationLog::Entries ApplicationLog::ReadEntries(std::uint64_t from, std::size_t most) const {
@@ -58,17 +83,14 @@ std::uint64_t ApplicationLog::faults() const {
 }
 
 const char* ApplicationLog::KindName(Kind kind) noexcept {
-  static constexpr std::array kNames{"fault", "warning", "change"};
+  static constexpr std::array kNames{"fault", "warning", "change", "error", "info", "debug"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
 std::string ApplicationLog::LineOf(const Entry& entry) {
-  const std::time_t wall = std::chrono::system_clock::to_time_t(entry.wall);
-  std::tm parts{};
-  localtime_r(&wall, &parts);
-  std::string line =
-      fmt::format("{:02}:{:02}:{:02} {:10.3f} s  {:<7}  {}", parts.tm_hour, parts.tm_min,
-                  parts.tm_sec, ToSeconds(entry.time), KindName(entry.kind), entry.text);
+  const std::tm wall = fmt::localtime(std::chrono::system_clock::to_time_t(entry.wall));
+  std::string line = fmt::format("{:%H:%M:%S} {:10.3f} s  {:<7}  {}", wall, ToSeconds(entry.time),
+                                 KindName(entry.kind), entry.text);
   // What has more than one line goes on below its beginning.
   for (std::size_t at = line.find('\n'); at != std::string::npos; at = line.find('\n', at + 1)) {
     line.insert(at + 1, "    ");

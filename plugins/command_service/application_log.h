@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "core/base/clock.h"
+#include "core/log/log_message.h"
 
 namespace runnel {
 
 /// What has happened to an application since its start, for those who come to look later: faults,
-/// warnings, changes. The newest are kept.
+/// warnings, changes, and what its modules say. The newest are kept.
 ///
 /// Threads:  any, but not from within a cycle: locks and allocates.
 class ApplicationLog {
@@ -20,7 +21,7 @@ class ApplicationLog {
   static constexpr std::size_t kMostEntries = 10'000;
   static constexpr std::size_t kLongestText = 4'000;  ///< bytes; the rest is cut off
 
-  enum class Kind { kFault, kWarning, kChange };
+  enum class Kind { kFault, kWarning, kChange, kError, kInfo, kDebug };
 
   /// `clock` is the application's and must outlive this; times count from now.
   explicit ApplicationLog(const Clock& clock) : clock_(clock), start_(clock.Now()) {}
@@ -29,7 +30,10 @@ class ApplicationLog {
   /// is no memory for is not kept.
   void Add(Kind kind, std::string text, std::string module = {}, std::string cause = {}) noexcept;
 
-  /// "fault", "warning", "change".
+  /// What a module has said: a warning, an error …, at the time at which it was said.
+  void Add(const LogMessage& message) noexcept;
+
+  /// "fault", "warning", "change", "error", "info", "debug".
   [[nodiscard]] static const char* KindName(Kind kind) noexcept;
 
   /// What has happened, as it was added.
@@ -58,6 +62,8 @@ class ApplicationLog {
   [[nodiscard]] static std::string LineOf(const Entry& entry);
 
  private:
+  void Keep(Entry entry);
+
   const Clock& clock_;
   const Time start_;
   mutable std::mutex mutex_;  // a leaf: nothing else is locked meanwhile

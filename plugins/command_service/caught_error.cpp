@@ -17,4 +17,12 @@ Error CaughtError() noexcept {
   }
 }
 
+std::string ParameterText(const Configurable& parameter) {
+  try {
+    return parameter.ToText();
+  } catch (...) {
+    return "(" + DescribeException() + ")";
+  }
+}
+
 }  // namespace runnel

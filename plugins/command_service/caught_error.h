@@ -1,11 +1,18 @@
 #pragma once
 
+#include <string>
+
 #include "core/base/error.h"
+#include "core/element/configurable.h"
 
 namespace runnel {
 
 /// The exception that is being handled as an error: that of an ElementError, else what
 /// DescribeException() says. Precondition: within a catch block. Without memory it says that.
 [[nodiscard]] Error CaughtError() noexcept;
+
+/// The text format of a parameter's value, for people. A type whose text format throws does not end the whole
+/// of what is shown: what it has thrown stands in the place of the value, in brackets.
+[[nodiscard]] std::string ParameterText(const Configurable& parameter);
 
 }  // namespace runnel

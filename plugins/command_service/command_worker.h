@@ -57,8 +57,6 @@ class CommandWorker {
  public:
   CommandWorker() : thread_([this] { Work(); }) {}
   ~CommandWorker();
-  CommandWorker(const CommandWorker&) = delete;
-  CommandWorker& operator=(const CommandWorker&) = delete;
 
   /// Whether the calling thread is the worker of any application.
   [[nodiscard]] static bool IsThisThread() noexcept;

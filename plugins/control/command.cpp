@@ -29,7 +29,7 @@ const std::vector<CommandKind>& Kinds() {
       {"types", 0, 0, {}, MakeTypesCommand},
       {"echo", 1, 1, {"count", "full"}, MakeEchoCommand},
       {"hz", 1, 1, {"count"}, MakeRateCommand},
-      {"log", 0, 0, {"follow"}, MakeLogCommand},
+      {"log", 0, 0, {"follow", "level"}, MakeLogCommand},
       {"change", 0, 0, {"file"}, MakeServiceCommand},
       {"undo", 0, 0, {}, MakeServiceCommand},
       {"redo", 0, 0, {}, MakeServiceCommand},

@@ -7,8 +7,8 @@
 #include <limits>
 #include <utility>
 
-#include <poll.h>
 #include <sys/socket.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include "core/base/nearest_name.h"
@@ -25,15 +25,12 @@ Error Lost(const std::string& why) {
   return {.message = "the connection to the application is lost: " + why};
 }
 
-int Milliseconds(std::optional<Duration> timeout) {
-  if (!timeout) return -1;
-  return static_cast<int>(std::chrono::ceil<std::chrono::milliseconds>(*timeout).count());
-}
-
-// -1: interrupted; 0: the time is over.
-int WaitFor(int descriptor, short events, std::optional<Duration> timeout) {
-  pollfd polled{.fd = descriptor, .events = events, .revents = 0};
-  return poll(&polled, 1, Milliseconds(timeout));
+// How long reading waits; 0: for ever.
+void SetPatience(int descriptor, Duration timeout) {
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(timeout);
+  const auto rest = std::chrono::ceil<std::chrono::microseconds>(timeout - seconds);
+  const timeval wait{.tv_sec = seconds.count(), .tv_usec = rest.count()};
+  setsockopt(descriptor, SOL_SOCKET, SO_RCVTIMEO, &wait, sizeof wait);
 }
 
 std::string Described(const RunningApplication& application) {
@@ -58,7 +55,9 @@ Result<ControlClient> ControlClient::Connect(const std::filesystem::path& socket
   const auto descriptor = ConnectToSocket(socket);
   if (!descriptor) return descriptor.error();
   ControlClient client(*descriptor);
-  const auto frame = client.Receive(timeout);
+  SetPatience(*descriptor, timeout);
+  const auto frame = client.Receive();
+  SetPatience(*descriptor, {});
   if (!frame) return frame.error();
   if (frame->kind == "err") return Error{.message = frame->payload};
   auto hello = frame->kind == "hello" ? Hello::Parse(frame->payload) : Hello::Parse("");
@@ -72,8 +71,6 @@ Result<void> ControlClient::Send(std::string_view bytes) {
     const ssize_t count = send(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
     if (count >= 0) {
       bytes.remove_prefix(static_cast<std::size_t>(count));
-    } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
-      WaitFor(descriptor_, POLLOUT, {});
     } else if (errno != EINTR) {
       return Lost(std::strerror(errno));
     }
@@ -81,7 +78,7 @@ Result<void> ControlClient::Send(std::string_view bytes) {
   return {};
 }
 
-Result<Frame> ControlClient::Receive(std::optional<Duration> timeout) {
+Result<Frame> ControlClient::Receive() {
   std::array<char, 65'536> bytes;
   for (;;) {
     auto frame = reader_.Take();
@@ -93,7 +90,7 @@ Result<Frame> ControlClient::Receive(std::optional<Duration> timeout) {
     } else if (count == 0) {
       return Lost("it has ended");
     } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
-      if (WaitFor(descriptor_, POLLIN, timeout) == 0) return Lost("it does not answer");
+      return Lost("it does not answer");
     } else if (errno != EINTR) {
       return Lost(std::strerror(errno));
     }
@@ -103,7 +100,7 @@ Result<Frame> ControlClient::Receive(std::optional<Duration> timeout) {
 Result<int> ControlClient::Ask(const std::string& request, const Use& output, const Use& errors) {
   if (auto sent = Send(FrameBytes("request", request)); !sent) return sent.error();
   for (;;) {
-    const auto frame = Receive({});
+    const auto frame = Receive();
     if (!frame) return frame.error();
     if (frame->kind == "out" && !output(frame->payload)) return 0;
     if (frame->kind == "err" && !errors(frame->payload)) return 0;

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,8 +36,8 @@ class ControlClient {
  private:
   explicit ControlClient(int descriptor);
   Result<void> Send(std::string_view bytes);
-  /// Waits for the next frame; for ever, if there is no timeout.
-  Result<Frame> Receive(std::optional<Duration> timeout);
+  /// Waits for the next frame.
+  Result<Frame> Receive();
 
   int descriptor_;
   FrameReader reader_;

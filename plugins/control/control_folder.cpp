@@ -4,19 +4,18 @@
 #include <atomic>
 #include <cerrno>
 #include <charconv>
-#include <chrono>
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <string>
 #include <system_error>
-#include <thread>
 #include <utility>
 
 #include <fcntl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/time.h>
 #include <sys/un.h>
 #include <unistd.h>
 
@@ -33,8 +32,7 @@ constexpr const char* kEnding = ".sock";
 constexpr const char* kStartingEnding = ".starting";
 constexpr int kMostSocketsOfAProcess = 100;
 constexpr int kWaitingConnections = 64;
-constexpr int kMostTries = 2'000;
-constexpr auto kBetweenTries = std::chrono::milliseconds(1);
+constexpr time_t kPatience = 2;  // s
 
 Error SystemError(const std::string& what, const fs::path& path) {
   return {.message = what + ": " + std::strerror(errno), .position = {path.string()}};
@@ -62,7 +60,15 @@ Result<sockaddr_un> AddressOf(const fs::path& path) {
   return address;
 }
 
-int OpenSocket() { return socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0); }
+int OpenSocket(int more = SOCK_NONBLOCK) {
+  return socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | more, 0);
+}
+
+// How long connecting and sending wait; 0: for ever.
+void SetPatience(int descriptor, time_t seconds) {
+  const timeval wait{.tv_sec = seconds, .tv_usec = 0};
+  setsockopt(descriptor, SOL_SOCKET, SO_SNDTIMEO, &wait, sizeof wait);
+}
 
 int Connect(int descriptor, const sockaddr_un& address) {
   return connect(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof address);
@@ -160,19 +166,15 @@ Result<std::vector<fs::path>> FindControlSockets(const fs::path& folder) {
 Result<int> ConnectToSocket(const fs::path& path) {
   const auto address = AddressOf(path);
   if (!address) return address.error();
-  const int descriptor = OpenSocket();
+  const int descriptor = OpenSocket(0);
   if (descriptor < 0) return SystemError("no socket can be made", path);
-  int refused = Connect(descriptor, *address);
-  // So many wait there already.
-  for (int i = 0; refused != 0 && errno == EAGAIN && i < kMostTries; ++i) {
-    std::this_thread::sleep_for(kBetweenTries);
-    refused = Connect(descriptor, *address);
-  }
-  if (refused != 0) {
+  SetPatience(descriptor, kPatience);  // many may be waiting there already
+  if (Connect(descriptor, *address) != 0) {
     Error error = SystemError("cannot be reached", path);
     close(descriptor);
     return error;
   }
+  SetPatience(descriptor, 0);
   return descriptor;
 }
 

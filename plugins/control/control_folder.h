@@ -25,7 +25,7 @@ Result<void> CheckControlFolder(const std::filesystem::path& folder);
 [[nodiscard]] Result<std::vector<std::filesystem::path>> FindControlSockets(
     const std::filesystem::path& folder);
 
-/// A socket connected to `path`. Errors: nobody listens there, or the path is too long.
+/// A socket connected to `path`, whose reading and writing waits. Errors: nobody listens there, or the path is too long.
 [[nodiscard]] Result<int> ConnectToSocket(const std::filesystem::path& path);
 
 /// A socket that listens at a name of its own in the folder, for its owner only, and its path.

@@ -31,8 +31,6 @@ class ControlServer {
                                                       ControlOptions options);
   /// Ends all connections, removes the socket, and waits for a change that is being carried out.
   ~ControlServer();
-  ControlServer(const ControlServer&) = delete;
-  ControlServer& operator=(const ControlServer&) = delete;
 
   [[nodiscard]] const std::filesystem::path& socket() const noexcept;
 

@@ -44,6 +44,11 @@ class Echo {
   }
 
  private:
+  // Of a value that says when it was measured.
+  static std::string Measured(ValueTimes times) {
+    if (times.timestamp == times.publication_time) return {};
+    return fmt::format("(measured at {:.3f} s)  ", ToSeconds(times.timestamp));
+  }
   Result<void> Find() {
     const auto found = PathSearch(runtime_).FindPort(path_, PathKind::kOutput);
     if (!found) return found.error();
@@ -60,9 +65,9 @@ class Echo {
 
   void Show(Answer& answer) {
     std::string text;
-    const auto count = port_->VisitIfNew([&](const void* value, Time timestamp) {
-      text =
-          fmt::format("{:.3f} s  {}", ToSeconds(timestamp), ToText(port_->type(), value, limits_));
+    const auto count = port_->VisitIfNew([&](const void* value, ValueTimes times) {
+      text = fmt::format("{:.3f} s  {}{}", ToSeconds(times.publication_time), Measured(times),
+                         ToText(port_->type(), value, limits_));
     });
     if (!count) return;
     if (shown_ && *count > *shown_ + 1) {

@@ -1,6 +1,7 @@
 #include "plugins/control/element_listing.h"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include <fmt/format.h>
@@ -9,9 +10,8 @@
 #include "core/element/configurable.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/port.h"
-#include "core/types/duration_text.h"
 #include "core/types/type_info.h"
-#include "plugins/command_service/parameter_text.h"
+#include "plugins/command_service/caught_error.h"
 #include "plugins/scheduling/thread_container.h"
 
 namespace runnel {
@@ -20,29 +20,15 @@ namespace {
 
 constexpr std::size_t kLongestValue = 200;
 
+// Of an ElementKind, in their order.
+constexpr std::array<const char*, 8> kKindNames{"runtime", "group",     "module", "ports",
+                                                "port",    "parameter", "thread", "element"};
+
 const char* KindName(const FrameworkElement& element) {
   if (const auto* const port = dynamic_cast<const Port*>(&element)) {
     return port->direction() == Port::Direction::kInput ? "input" : "output";
   }
-  switch (element.kind()) {
-    case ElementKind::kRuntime:
-      return "runtime";
-    case ElementKind::kGroup:
-      return "group";
-    case ElementKind::kModule:
-      return "module";
-    case ElementKind::kPortGroup:
-      return "ports";
-    case ElementKind::kPort:
-      return "port";
-    case ElementKind::kParameter:
-      return "parameter";
-    case ElementKind::kThread:
-      return "thread";
-    case ElementKind::kOther:
-      break;
-  }
-  return "element";
+  return kKindNames[static_cast<std::size_t>(element.kind())];
 }
 
 std::string Milliseconds(Duration duration) {
@@ -64,18 +50,7 @@ std::string ParameterLine(const Configurable& parameter) {
 
 std::string ThreadText(const ThreadContainer& thread, bool is_long) {
   const ThreadOptions& options = thread.options();
-  std::string text;
-  switch (options.activation) {
-    case ThreadOptions::Activation::kPeriod:
-      text = "every " + DurationText(options.period);
-      break;
-    case ThreadOptions::Activation::kFreeRunning:
-      text = "free-running";
-      break;
-    case ThreadOptions::Activation::kTrigger:
-      text = "when data comes";
-      break;
-  }
+  std::string text = ActivationText(options);
   if (options.priority > 0) text += ", priority " + std::to_string(options.priority);
   if (!is_long) return text;
   const CycleStatistics all = thread.statistics();

@@ -1,4 +1,6 @@
+#include <functional>
 #include <optional>
+#include <utility>
 
 #include "core/port/path_search.h"
 #include "plugins/control/command.h"
@@ -10,6 +12,14 @@ namespace {
 
 // How long rates are counted for a long listing, by the machine's clock.
 constexpr Duration kRateWindow = std::chrono::milliseconds(500);
+
+// Says what `text` makes under the lock.
+Command Told(Runtime& runtime, std::function<std::string()> text) {
+  return Command(UnderLock(runtime, [text = std::move(text)](Answer& answer) -> CommandStep {
+    answer.Write(text());
+    return ControlCode::kDone;
+  }));
+}
 
 }  // namespace
 
@@ -35,25 +45,19 @@ CommandResult MakeListCommand(const Request& request, const CommandContext& cont
 }
 
 CommandResult MakePathsCommand(const Request&, const CommandContext& context) {
-  return Command(UnderLock(context.application.runtime,
-                           [&runtime = context.application.runtime](Answer& answer) -> CommandStep {
-                             answer.Write(ListPaths(runtime.root()));
-                             return ControlCode::kDone;
-                           }));
+  Runtime& runtime = context.application.runtime;
+  return Told(runtime, [&runtime] { return ListPaths(runtime.root()); });
 }
 
 CommandResult MakeTypesCommand(const Request&, const CommandContext& context) {
-  // Plugins are loaded under it.
-  return Command(UnderLock(context.application.runtime,
-                           [&modules = context.application.modules](Answer& answer) -> CommandStep {
-                             std::string text;
-                             for (const ModuleType* type : modules.All()) {
-                               text += type->name +
-                                       (type->summary.empty() ? "" : "\t" + type->summary) + "\n";
-                             }
-                             answer.Write(text);
-                             return ControlCode::kDone;
-                           }));
+  // Plugins are loaded under the lock.
+  return Told(context.application.runtime, [&modules = context.application.modules] {
+    std::string text;
+    for (const ModuleType* type : modules.All()) {
+      text += type->name + (type->summary.empty() ? "" : "\t" + type->summary) + "\n";
+    }
+    return text;
+  });
 }
 
 }  // namespace runnel

@@ -35,8 +35,6 @@ class FrameReader {
   void Add(std::string_view bytes) { bytes_ += bytes; }
   /// The next one, if all of it is there. Errors: what has come is no frame; there is no way on then.
   [[nodiscard]] Result<std::optional<Frame>> Take();
-  /// Bytes that belong to no frame yet.
-  [[nodiscard]] std::size_t waiting() const noexcept { return bytes_.size() - at_; }
 
  private:
   const std::size_t longest_;

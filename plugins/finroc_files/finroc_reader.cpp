@@ -12,7 +12,6 @@
 #include "core/port/proxy_port.h"
 #include "core/types/duration_text.h"
 #include "core/types/type_info.h"
-#include "plugins/application_files/interface_direction.h"
 #include "plugins/application_files/path_use.h"
 #include "plugins/finroc_files/finroc_names.h"
 #include "plugins/scheduling/thread_container.h"

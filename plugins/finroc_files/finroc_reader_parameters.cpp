@@ -16,11 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> NamesOf(const std::vector<ConfigurableElement>& all) {
-  std::vector<std::string> names;
-  for (const ConfigurableElement& each : all) names.push_back(each.element->name());
-  return names;
-}
+const std::string& NameOf(const ConfigurableElement& each) { return each.element->name(); }
 
 // As everywhere, names of files start in the folder of the file that they stand in.
 std::string TextFor(const Configurable& configurable, const std::string& text,
@@ -41,10 +37,11 @@ void FinrocReader::ReadStaticParameters(XmlElement element, FrameworkElement& mo
     for (const XmlElement each : list.children()) {
       const std::string name = SnakeCase(TextOfAttribute(each, "name"));
       const ConfigurableElement parameter = FindConfigurable(module, name);
-      const auto set = parameter ? parameter.configurable->SetFromText(TextFor(
-                                 *parameter.configurable, each.text(), open_.back().parent_path()))
-                           : Result<void>(Error{.message = "there is no parameter '" + name + "'",
-                                                .hint = NearestNameHint(name, NamesOf(all))});
+      const auto set =
+          parameter ? parameter.configurable->SetFromText(
+                          TextFor(*parameter.configurable, each.text(), open_.back().parent_path()))
+                    : Result<void>(Error{.message = "there is no parameter '" + name + "'",
+                                         .hint = NearestNameHint(name, NamesOf(all, NameOf))});
       if (!set) Warn(set.error().message, set.error().hint, each.position(), module);
     }
   }
@@ -89,7 +86,7 @@ void FinrocReader::ReadParameter(XmlElement parameter, const std::string& path,
   }
   if (!found) {
     return Warn("there is no parameter '" + (path.empty() ? name : path + "/" + name) + "'",
-                NearestNameHint(name, NamesOf(all)), parameter.position(), group);
+                NearestNameHint(name, NamesOf(all, NameOf)), parameter.position(), group);
   }
   if (candidates.empty()) return;
   const auto& [text, position] = candidates.back();

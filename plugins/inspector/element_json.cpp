@@ -5,7 +5,7 @@
 #include "core/element/configurable.h"
 #include "core/plugin/module_type_name.h"
 #include "core/types/type_info.h"
-#include "plugins/command_service/parameter_text.h"
+#include "plugins/command_service/caught_error.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/values/json_writer.h"
 
@@ -30,10 +30,7 @@ void AddThread(const ThreadContainer& thread, JsonObject& json) {
   const bool has_period = options.activation == ThreadOptions::Activation::kPeriod;
   json.Add("kind", "thread").Add("name", thread.name());
   json.AddOrNull("period", has_period ? std::optional(ToSeconds(options.period)) : std::nullopt);
-  json.Add("activation", has_period ? "period"
-                         : options.activation == ThreadOptions::Activation::kTrigger
-                             ? "trigger"
-                             : "free_running");
+  json.Add("activation", ActivationNames()[static_cast<std::size_t>(options.activation)]);
   json.Add("priority", options.priority).Add("order", thread.id());
 }
 

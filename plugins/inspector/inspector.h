@@ -31,8 +31,6 @@ class Inspector {
  public:
   Inspector(CommandService& service, Scheduler& scheduler, InspectorOptions options);
   ~Inspector();
-  Inspector(const Inspector&) = delete;
-  Inspector& operator=(const Inspector&) = delete;
 
   [[nodiscard]] WebProtocol Protocol();
   /// No cycle will run any more; `verdict` is what has come of it, for people.

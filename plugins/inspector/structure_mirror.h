@@ -31,6 +31,11 @@ struct CountSample {
   Time time{};  ///< on the application's clock
 };
 
+/// What has been published and run between two samples of the same elements, as the protocol has it.
+/// `told`: the rates that were told last, of which only other ones are told; kept up to date.
+[[nodiscard]] std::string RateMessage(const CountSample& before, const CountSample& now,
+                                      double time, std::vector<double>& told);
+
 /// The structure of an application as viewers have been told it, once for all of them: what has changed
 /// since is found by walking through everything again whenever the structure has another revision; the
 /// values of parameters, whose changes nobody announces, by looking at some of them in turn.

@@ -17,29 +17,26 @@ struct InspectorChoice final : Annotation {
   int line = 0;
 };
 
-void Complain(const TagUse& use, const XmlAttribute& attribute, const Error& error) {
-  use.context.Report({.message = error.message, .hint = error.hint}, attribute.value_position,
-                     use.parent);
+template <typename T>
+void Check(const Result<T>& read, const TagUse& use, const XmlAttribute& attribute) {
+  if (read) return;
+  use.context.Report({.message = read.error().message, .hint = read.error().hint},
+                     attribute.value_position, use.parent);
 }
 
 void ReadPlace(const TagUse& use, InspectorPlace& place) {
   if (const XmlAttribute* const port = use.Find("port")) {
     const auto number = ParseNetworkPort(port->value);
-    if (number) {
-      place.port = *number;
-    } else {
-      Complain(use, *port, number.error());
-    }
+    if (number) place.port = *number;
+    Check(number, use, *port);
   }
   if (const XmlAttribute* const address = use.Find("address")) {
-    const auto known = IsLoopback(address->value);
     place.address = address->value;
-    if (!known) Complain(use, *address, known.error());
+    Check(IsLoopback(place.address), use, *address);
   }
   if (const XmlAttribute* const token = use.Find("token")) {
-    const auto good = CheckToken(token->value);
     place.token = token->value;
-    if (!good) Complain(use, *token, good.error());
+    Check(CheckToken(place.token), use, *token);
   }
   const XmlAttribute* const read_only = use.Find("read_only");
   place.is_read_only = read_only != nullptr && read_only->value == "true";

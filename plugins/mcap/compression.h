@@ -9,10 +9,9 @@
 
 namespace runnel {
 
-/// How the chunks of a file are compressed: "zstd", "lz4", or "" for not at all, as MCAP names them. The
-/// first two are there if the libraries were when Runnel was built.
+/// How the chunks of a file are compressed: "zstd", "lz4", or "" for not at all, as MCAP names them.
 
-/// Those that are there, the best one first; "" is always among them.
+/// The best one first.
 [[nodiscard]] std::vector<std::string> Compressions();
 
 /// "" or an error that names those that are there.

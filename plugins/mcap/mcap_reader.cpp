@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/ranges.h>
+
 #include "plugins/mcap/checksum.h"
 #include "plugins/mcap/compression.h"
 #include "plugins/mcap/mcap_bytes.h"
@@ -12,14 +14,8 @@ namespace {
 
 // "7f 45 4c 46 …", as a person compares it with what a file should begin with.
 std::string Hexadecimal(std::string_view bytes) {
-  std::string text;
-  for (const char each : bytes) {
-    constexpr std::string_view kDigits = "0123456789abcdef";
-    const auto byte = static_cast<unsigned char>(each);
-    if (!text.empty()) text += ' ';
-    text += {kDigits[byte >> 4], kDigits[byte & 15]};
-  }
-  return text;
+  return fmt::format("{:02x}",
+                     fmt::join(std::vector<unsigned char>(bytes.begin(), bytes.end()), " "));
 }
 
 }  // namespace

@@ -38,6 +38,14 @@ inline constexpr std::uint64_t kMcapRecordHead = 9;
 
 using McapTexts = std::vector<std::pair<std::string, std::string>>;
 
+/// The text under `key`; nullptr if there is none.
+[[nodiscard]] inline const std::string* FindText(const McapTexts& texts, std::string_view key) {
+  for (const auto& [name, text] : texts) {
+    if (name == key) return &text;
+  }
+  return nullptr;
+}
+
 struct McapHeader {
   std::string profile;
   std::string library;

@@ -18,21 +18,6 @@ namespace {
 
 constexpr std::size_t kMostIds = 65535;
 
-template <typename Write>
-std::string Content(Write&& write) {
-  std::string content;
-  McapBytesWriter writer(content);
-  write(writer);
-  return content;
-}
-
-void AppendRecord(McapOpcode opcode, std::string_view content, std::string& bytes) {
-  McapBytesWriter(bytes)
-      .Number(static_cast<std::uint8_t>(opcode))
-      .Number(static_cast<std::uint64_t>(content.size()))
-      .Bytes(content);
-}
-
 }  // namespace
 
 Result<std::unique_ptr<McapWriter>> McapWriter::Create(const std::string& file,
@@ -96,22 +81,23 @@ Result<void> McapWriter::Write(std::string_view bytes) {
   return {};
 }
 
-Result<void> McapWriter::WriteRecord(McapOpcode opcode, std::string_view content) {
+template <typename WriteContent>
+Result<void> McapWriter::WriteRecord(McapOpcode opcode, const WriteContent& write_content) {
   record_.clear();
-  AppendRecord(opcode, content, record_);
+  AppendMcapRecord(opcode, record_, write_content);
   return Write(record_);
 }
 
 Result<std::uint16_t> McapWriter::AddSchema(const std::string& name, const std::string& encoding,
                                             const std::string& data) {
   if (statistics_.schemas == kMostIds) {
-    return Error{.message = "a file cannot have more than 65535 schemas",
-                 .position = {file_}};
+    return Error{.message = "a file cannot have more than 65535 schemas", .position = {file_}};
   }
   const auto id = static_cast<std::uint16_t>(statistics_.schemas + 1);
-  const std::string content = Content(
-      [&](McapBytesWriter& bytes) { bytes.Number(id).Text(name).Text(encoding).Text(data); });
-  if (auto written = WriteRecord(McapOpcode::kSchema, content); !written) return written.error();
+  const auto written = WriteRecord(McapOpcode::kSchema, [&](McapBytesWriter& bytes) {
+    bytes.Number(id).Text(name).Text(encoding).Text(data);
+  });
+  if (!written) return written.error();
   schemas_ += record_;
   ++statistics_.schemas;
   return id;
@@ -126,10 +112,10 @@ Result<std::uint16_t> McapWriter::AddChannel(std::uint16_t schema, const std::st
                  .hint = "record fewer ports"};
   }
   const auto id = static_cast<std::uint16_t>(statistics_.channels);
-  const std::string content = Content([&](McapBytesWriter& bytes) {
+  const auto written = WriteRecord(McapOpcode::kChannel, [&](McapBytesWriter& bytes) {
     bytes.Number(id).Number(schema).Text(topic).Text(message_encoding).Texts(metadata);
   });
-  if (auto written = WriteRecord(McapOpcode::kChannel, content); !written) return written.error();
+  if (!written) return written.error();
   channels_ += record_;
   ++statistics_.channels;
   statistics_.messages_of[id] = 0;
@@ -161,17 +147,17 @@ Result<void> McapWriter::AddMessage(const McapMessage& message) {
 }
 
 Result<void> McapWriter::AddAttachment(const McapAttachment& attachment) {
-  std::string content = Content([&](McapBytesWriter& bytes) {
+  const std::uint64_t offset = offset_;
+  const auto written = WriteRecord(McapOpcode::kAttachment, [&](McapBytesWriter& bytes) {
     bytes.Number(attachment.log_time)
         .Number(attachment.create_time)
         .Text(attachment.name)
         .Text(attachment.media_type)
         .Number(static_cast<std::uint64_t>(attachment.data.size()))
         .Bytes(attachment.data);
+    bytes.Number(ChecksumOf(std::string_view(record_).substr(kMcapRecordHead)));
   });
-  McapBytesWriter(content).Number(ChecksumOf(content));
-  const std::uint64_t offset = offset_;
-  if (auto written = WriteRecord(McapOpcode::kAttachment, content); !written) return written;
+  if (!written) return written;
   AppendMcapRecord(McapOpcode::kAttachmentIndex, attachment_indexes_, [&](McapBytesWriter& bytes) {
     bytes.Number(offset)
         .Number(offset_ - offset)
@@ -187,9 +173,10 @@ Result<void> McapWriter::AddAttachment(const McapAttachment& attachment) {
 
 Result<void> McapWriter::AddMetadata(const McapMetadata& metadata) {
   const std::uint64_t offset = offset_;
-  const std::string content =
-      Content([&](McapBytesWriter& bytes) { bytes.Text(metadata.name).Texts(metadata.texts); });
-  if (auto written = WriteRecord(McapOpcode::kMetadata, content); !written) return written;
+  const auto written = WriteRecord(McapOpcode::kMetadata, [&](McapBytesWriter& bytes) {
+    bytes.Text(metadata.name).Texts(metadata.texts);
+  });
+  if (!written) return written;
   AppendMcapRecord(McapOpcode::kMetadataIndex, metadata_indexes_, [&](McapBytesWriter& bytes) {
     bytes.Number(offset).Number(offset_ - offset).Text(metadata.name);
   });
@@ -253,8 +240,11 @@ Result<void> McapWriter::WriteChunk() {
   return {};
 }
 
-std::string McapWriter::StatisticsContent() const {
-  return Content([&](McapBytesWriter& bytes) {
+std::string McapWriter::StatisticsRecord() const {
+  std::string counts, record;
+  McapBytesWriter counts_writer(counts);
+  for (const auto& [id, count] : statistics_.messages_of) counts_writer.Number(id).Number(count);
+  AppendMcapRecord(McapOpcode::kStatistics, record, [&](McapBytesWriter& bytes) {
     bytes.Number(statistics_.messages)
         .Number(statistics_.schemas)
         .Number(statistics_.channels)
@@ -263,10 +253,9 @@ std::string McapWriter::StatisticsContent() const {
         .Number(statistics_.chunks)
         .Number(statistics_.start)
         .Number(statistics_.end)
-        .Text(Content([&](McapBytesWriter& counts) {
-          for (const auto& [id, count] : statistics_.messages_of) counts.Number(id).Number(count);
-        }));
+        .Text(counts);
   });
+  return record;
 }
 
 void McapWriter::AppendSummaryGroup(McapOpcode opcode, const std::string& records,
@@ -291,9 +280,7 @@ Result<void> McapWriter::Finish() {
   std::string summary;
   AppendSummaryGroup(McapOpcode::kSchema, schemas_, summary);
   AppendSummaryGroup(McapOpcode::kChannel, channels_, summary);
-  std::string statistics;
-  AppendRecord(McapOpcode::kStatistics, StatisticsContent(), statistics);
-  AppendSummaryGroup(McapOpcode::kStatistics, statistics, summary);
+  AppendSummaryGroup(McapOpcode::kStatistics, StatisticsRecord(), summary);
   AppendSummaryGroup(McapOpcode::kChunkIndex, chunk_indexes_, summary);
   AppendSummaryGroup(McapOpcode::kAttachmentIndex, attachment_indexes_, summary);
   AppendSummaryGroup(McapOpcode::kMetadataIndex, metadata_indexes_, summary);

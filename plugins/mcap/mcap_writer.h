@@ -51,11 +51,8 @@ class McapWriter {
   /// Ends the chunk, writes the summary, and closes the file. Idempotent.
   Result<void> Finish();
 
-  /// Bytes that have been given to the system so far, and how many chunks.
+  /// Bytes that have been given to the system so far.
   [[nodiscard]] std::uint64_t written_bytes() const noexcept { return offset_; }
-  [[nodiscard]] std::uint32_t chunks() const noexcept { return statistics_.chunks; }
-  /// Bytes that wait for the chunk to be full.
-  [[nodiscard]] std::size_t waiting_bytes() const noexcept { return chunk_.size(); }
 
  private:
   struct IndexEntry {
@@ -65,12 +62,13 @@ class McapWriter {
 
   McapWriter(std::string file, McapWriterOptions options);
   Result<void> Write(std::string_view bytes);
-  Result<void> WriteRecord(McapOpcode opcode, std::string_view content);
+  template <typename WriteContent>
+  Result<void> WriteRecord(McapOpcode opcode, const WriteContent& write_content);
   [[nodiscard]] Error Failure(const std::string& what, int number);
   Result<void> WriteChunk();
   void AppendMessageIndexes(std::string& bytes, std::string& offsets) const;
   void AppendSummaryGroup(McapOpcode opcode, const std::string& records, std::string& summary);
-  [[nodiscard]] std::string StatisticsContent() const;
+  [[nodiscard]] std::string StatisticsRecord() const;
 
   const std::string file_;
   const McapWriterOptions options_;

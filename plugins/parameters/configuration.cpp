@@ -160,9 +160,7 @@ std::vector<std::string> Configuration::UnusedArguments() const {
 }
 
 std::vector<std::string> Configuration::EntryPaths() const {
-  std::vector<std::string> paths;
-  for (const auto& [path, entry] : entries_) paths.push_back(path);
-  return paths;
+  return NamesOf(entries_, &std::pair<const std::string, Entry>::first);
 }
 
 }  // namespace runnel

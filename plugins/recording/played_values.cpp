@@ -42,7 +42,10 @@ void PlayedValues::Rewind() {
   for (auto& [channel, value] : before_) {
     // What was the newest when the stretch began is published at its beginning; with its own time, unless
     // that would go back behind what the round before has published.
-    if (loops_) value.time = start_;
+    if (loops_) {
+      value.timestamp += start_ - value.time;
+      value.time = start_;
+    }
     waiting_[channel].push_front(std::move(value));
   }
   before_.clear();
@@ -64,10 +67,12 @@ void PlayedValues::ReadChunk(const McapChunk& chunk) {
     const auto wanted = waiting_.find(message.channel);
     if (wanted == waiting_.end()) return {};
     const std::int64_t time = Signed(message.log_time);
+    const std::int64_t timestamp = Signed(message.publish_time);
     if (time > end_) return {};
     if (time < start_) {
-      Waiting& newest = before_.try_emplace(message.channel, Waiting{time, {}}).first->second;
-      if (time >= newest.time) newest = {time, std::string(message.data)};
+      Waiting& newest =
+          before_.try_emplace(message.channel, Waiting{time, timestamp, {}}).first->second;
+      if (time >= newest.time) newest = {time, timestamp, std::string(message.data)};
       return {};
     }
     std::deque<Waiting>& values = wanted->second;
@@ -75,7 +80,7 @@ void PlayedValues::ReadChunk(const McapChunk& chunk) {
     const auto place =
         std::upper_bound(values.begin(), values.end(), time,
                          [](std::int64_t at, const Waiting& each) { return at < each.time; });
-    values.insert(place, {time, std::string(message.data)});
+    values.insert(place, {time, timestamp, std::string(message.data)});
     return {};
   });
   if (!read) failure_ = read.error();
@@ -96,7 +101,8 @@ std::optional<PlayedValues::Value> PlayedValues::Take(std::uint16_t channel, Tim
   if (values.empty() || values.front().time > at) return {};
   Waiting first = std::move(values.front());
   values.pop_front();
-  return Value{Time(Duration(first.time + offset_)), std::move(first.json)};
+  return Value{Time(Duration(first.time + offset_)), Time(Duration(first.timestamp + offset_)),
+               std::move(first.json)};
 }
 
 bool PlayedValues::HasEnded() const {

@@ -22,7 +22,8 @@ namespace runnel {
 class PlayedValues {
  public:
   struct Value {
-    Time time;  ///< on the clock of who plays
+    Time time;       ///< when it is published, on the clock of who plays
+    Time timestamp;  ///< when it was measured, likewise
     std::string json;
   };
 
@@ -50,6 +51,7 @@ class PlayedValues {
  private:
   struct Waiting {
     std::int64_t time;
+    std::int64_t timestamp;
     std::string json;
   };
 

@@ -11,11 +11,6 @@ namespace {
 
 using Parts = std::vector<std::string>;
 
-Parts Split(std::string_view path) {
-  const auto names = SplitPath(path);
-  return {names.begin(), names.end()};
-}
-
 bool IsPortGroup(const std::string& name) {
   constexpr const char* kGroups[] = {"input",         "output",           "sensor_input",
                                      "sensor_output", "controller_input", "controller_output"};
@@ -49,7 +44,7 @@ bool FitsParts(std::span<const std::string> pattern, std::span<const std::string
 
 // The path as it stands, and without its port group.
 std::vector<Parts> Forms(std::string_view path) {
-  std::vector<Parts> forms{Split(path)};
+  std::vector<Parts> forms{PartsOf(path)};
   Parts& whole = forms.front();
   if (whole.size() >= 2 && IsPortGroup(whole[whole.size() - 2])) {
     Parts without = whole;
@@ -73,7 +68,7 @@ Result<PortPatterns> PortPatterns::Make(const std::vector<std::string>& patterns
   for (const std::string& text : patterns) {
     const bool is_excluded = text.starts_with('!');
     const std::string_view path = std::string_view(text).substr(is_excluded ? 1 : 0);
-    Parts parts = Split(path);
+    Parts parts = PartsOf(path);
     if (parts.empty()) {
       return Error{.message = "'" + text + "' is no pattern of ports",
                    .hint = "for example /robot/pose, */pose, /robot/**, or !**/scan"};
@@ -107,8 +102,13 @@ std::vector<std::string> PortPatterns::Names() const {
 
 bool PortPatterns::Name(std::string_view path) const {
   return Fit(path) && std::ranges::any_of(Names(), [&](const std::string& name) {
-           return FitOne(Split(name), path);
+           return FitOne(PartsOf(name), path);
          });
+}
+
+std::vector<std::string> PartsOf(std::string_view path) {
+  const auto names = SplitPath(path);
+  return {names.begin(), names.end()};
 }
 
 std::string PlainPortPath(std::string_view path) { return Join(Forms(path).back()); }

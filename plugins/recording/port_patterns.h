@@ -41,6 +41,8 @@ class PortPatterns {
   std::vector<Parts> excluded_;
 };
 
+/// The names in a path.
+[[nodiscard]] std::vector<std::string> PartsOf(std::string_view path);
 /// The path by which people know a port: without the port's group.
 [[nodiscard]] std::string PlainPortPath(std::string_view path);
 /// The same without the application's name, which is the first.

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/base/diagnostics.h"
-#include "core/element/element_path.h"
 #include "core/module/executable.h"
 #include "core/module/group.h"
 #include "core/module/port_group.h"
@@ -68,11 +67,6 @@ class KnownTypes {
 };
 
 using Parts = std::vector<std::string>;
-
-Parts PartsOf(const std::string& path) {
-  const auto names = SplitPath(path);
-  return {names.begin(), names.end()};
-}
 
 // How many of the parts lead to the module that a port is of: all but the port and its group.
 std::size_t ModuleDepth(const std::string& path, const Parts& parts) {

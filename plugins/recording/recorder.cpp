@@ -7,6 +7,8 @@
 #include <exception>
 #include <utility>
 
+#include <fmt/chrono.h>
+
 #include "core/base/exception_text.h"
 #include "core/base/nearest_name.h"
 #include "core/element/not_saved.h"
@@ -37,11 +39,7 @@ bool Feeds(const Port& port, const FrameworkElement& below) {
 }
 
 std::string NowText() {
-  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  char text[32];
-  return {text, std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts)};
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
 }
 
 Result<std::string> ChooseCompression(const std::string& request) {
@@ -213,12 +211,16 @@ void Recorder::DisconnectProbes() {
 
 void Recorder::EndWriting() noexcept {
   is_ending_ = true;
+  Wake();
+  if (thread_.joinable()) thread_.join();
+}
+
+void Recorder::Wake() noexcept {
   {
     const std::lock_guard lock(wake_mutex_);
     is_woken_ = true;
   }
   wake_.notify_one();
-  if (thread_.joinable()) thread_.join();
 }
 
 RecordingStatus Recorder::status() const {
@@ -315,11 +317,7 @@ void Recorder::WaitForRoom() noexcept {
     });
   };
   while (!has_failed_ && is_behind()) {
-    {
-      const std::lock_guard lock(wake_mutex_);
-      is_woken_ = true;
-    }
-    wake_.notify_one();
+    Wake();
     std::this_thread::sleep_for(std::chrono::microseconds(100));
   }
 }

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -55,8 +56,8 @@ struct RecordingStatus {
   std::optional<Error> failure = {};  ///< nothing more is written
 };
 
-/// Records the values of outputs into an MCAP file: as JSON, with the time that each value bears, with
-/// JSON schemas, and with what the application was; what Foxglove can draw also in its own schemas. Ports that come later are recorded from their first
+/// Records the values of outputs into an MCAP file: as JSON, with the times at which each value was published
+/// (log_time) and measured (publish_time), with JSON schemas, and with what the application was; what Foxglove can draw also in its own schemas. Ports that come later are recorded from their first
 /// value on, as soon as they fit; those that go just end.
 ///
 /// Publishers pay what a queue costs (ProbePort). A thread of the recorder takes the values, makes text of them
@@ -88,9 +89,6 @@ class Recorder final : public ElementListener, public BackpressureSource {
   void OnDeleted(FrameworkElement& element) override;
   void WaitForRoom() noexcept override;
 
-  Recorder(const Recorder&) = delete;
-  Recorder& operator=(const Recorder&) = delete;
-
  private:
   /// One port, as it is recorded.
   struct Recorded {
@@ -118,13 +116,14 @@ class Recorder final : public ElementListener, public BackpressureSource {
   // By Finish().
   void DisconnectProbes();
   void EndWriting() noexcept;
+  void Wake() noexcept;
 
   // By the writing thread, or by Finish() when that has ended.
   void Write() noexcept;
   void WriteUntilEnd();
   bool WriteWaiting();
   std::uint64_t WriteWaitingOf(Recorded& recorded);
-  Result<void> WriteValue(Recorded& recorded, Time timestamp);
+  Result<void> WriteValue(Recorded& recorded, ValueTimes times);
   Result<void> AddChannels(Recorded& recorded);
   Result<void> WriteDrops();
   void Note(const Result<void>& done);
@@ -146,8 +145,8 @@ class Recorder final : public ElementListener, public BackpressureSource {
   std::uint64_t made_probes_ = 0;  // under the structure lock
 
   std::unique_ptr<McapWriter> writer_;
-  std::vector<std::pair<std::string, std::uint16_t>> schemas_;
-  std::vector<std::pair<std::string, std::uint16_t>> channels_;
+  std::map<std::string, std::uint16_t> schemas_;
+  std::map<std::string, std::uint16_t> channels_;
   bool has_begun_ = false;  // else its file goes with it
   bool has_finished_ = false;
   std::uint64_t written_drops_ = 0;

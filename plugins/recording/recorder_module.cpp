@@ -1,9 +1,11 @@
 #include "plugins/recording/recorder_module.h"
 
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
+#include "core/element/element_path.h"
 #include "core/element/source_place.h"
 #include "core/xml/xml_document.h"
 
@@ -12,16 +14,8 @@ namespace runnel {
 namespace {
 
 std::vector<std::string> Words(const std::string& text) {
-  std::vector<std::string> words;
   std::istringstream stream(text);
-  for (std::string word; stream >> word;) words.push_back(word);
-  return words;
-}
-
-const FrameworkElement& ApplicationOf(const FrameworkElement& element) {
-  const FrameworkElement* at = &element;
-  while (at->parent() != nullptr && at->parent()->parent() != nullptr) at = at->parent();
-  return *at;
+  return {std::istream_iterator<std::string>(stream), {}};
 }
 
 }  // namespace
@@ -31,7 +25,7 @@ Result<void> RecorderModule::Prepare() {
     return Error{.message = "needs the file to record to, as parameter 'file'", .path = path()};
   }
   is_simulated_ = dynamic_cast<const ManualClock*>(&runtime().clock()) != nullptr;
-  RecordedApplication about{.name = ApplicationOf(*this).name(),
+  RecordedApplication about{.name = std::string(SplitPath(path()).front()),
                             .file = FindSourcePlace(*this).file};
   // A recorder that was made while the application runs stands in no file.
   if (auto text = XmlDocument::ReadText(about.file)) about.text = std::move(*text);

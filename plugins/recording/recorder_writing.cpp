@@ -19,14 +19,16 @@ constexpr auto kLookAgain = std::chrono::milliseconds(5);
 // What a killed process loses is not older than this.
 constexpr auto kLongestChunk = std::chrono::seconds(1);
 
-template <typename Id, typename Make>
-Result<std::uint16_t> FindOrMake(std::vector<std::pair<std::string, Id>>& known,
+std::uint64_t Nanoseconds(Time time) {
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(time.time_since_epoch().count(), 0));
+}
+
+template <typename Make>
+Result<std::uint16_t> FindOrMake(std::map<std::string, std::uint16_t>& known,
                                  const std::string& name, const Make& make) {
-  const auto found = std::ranges::find(
-      known, name, [](const auto& each) -> const auto& { return each.first; });
-  if (found != known.end()) return found->second;
+  if (const auto found = known.find(name); found != known.end()) return found->second;
   const Result<std::uint16_t> made = make();
-  if (made) known.emplace_back(name, *made);
+  if (made) known.emplace(name, *made);
   return made;
 }
 
@@ -80,15 +82,15 @@ bool Recorder::WriteWaiting() {
 std::uint64_t Recorder::WriteWaitingOf(Recorded& recorded) {
   std::uint64_t count = 0;
   while (count < recorded.probe->capacity() && !has_failed_) {
-    Time timestamp;
+    ValueTimes times;
     std::exception_ptr failure;  // the value must be let go of first
-    const bool taken = recorded.probe->Take([&](const void* value, Time of) {
-      timestamp = of;
+    const bool taken = recorded.probe->Take([&](const void* value, ValueTimes of) {
+      times = of;
       try {
         recorded.messages.resize(recorded.forms.size());
         for (std::size_t i = 0; i < recorded.forms.size(); ++i) {
           recorded.messages[i].clear();
-          recorded.forms[i].Append(value, of, recorded.messages[i]);
+          recorded.forms[i].Append(value, of.timestamp, recorded.messages[i]);
         }
       } catch (...) {
         failure = std::current_exception();
@@ -100,7 +102,7 @@ std::uint64_t Recorder::WriteWaitingOf(Recorded& recorded) {
                  .path = recorded.path});
       break;
     }
-    if (auto written = WriteValue(recorded, timestamp); !written) {
+    if (auto written = WriteValue(recorded, times); !written) {
       Note(written);
       break;
     }
@@ -109,16 +111,17 @@ std::uint64_t Recorder::WriteWaitingOf(Recorded& recorded) {
   return count;
 }
 
-Result<void> Recorder::WriteValue(Recorded& recorded, Time timestamp) {
+// Its log time is when it was published here, in the order of which values are replayed; its publish time
+// when it was measured, as whoever published it there said.
+Result<void> Recorder::WriteValue(Recorded& recorded, ValueTimes times) {
   if (recorded.channels.empty()) {
     if (auto added = AddChannels(recorded); !added) return added;
   }
-  const auto time =
-      static_cast<std::uint64_t>(std::max<std::int64_t>(timestamp.time_since_epoch().count(), 0));
   ++recorded.sequence;
   for (std::size_t i = 0; i < recorded.channels.size(); ++i) {
-    auto added = writer_->AddMessage(
-        {recorded.channels[i], recorded.sequence, time, time, recorded.messages[i]});
+    auto added = writer_->AddMessage({recorded.channels[i], recorded.sequence,
+                                      Nanoseconds(times.publication_time),
+                                      Nanoseconds(times.timestamp), recorded.messages[i]});
     if (!added) return added;
   }
   return {};

@@ -41,10 +41,8 @@ double Seconds(std::uint64_t nanoseconds) { return static_cast<double>(nanosecon
 
 std::string AboutText(const McapReader& reader, std::string_view key) {
   const McapMetadata* const about = reader.FindMetadata(kAboutMetadata);
-  if (about == nullptr) return {};
-  const auto found = std::ranges::find(
-      about->texts, key, [](const auto& each) -> const auto& { return each.first; });
-  return found == about->texts.end() ? std::string() : found->second;
+  const std::string* const text = about != nullptr ? FindText(about->texts, key) : nullptr;
+  return text != nullptr ? *text : "";
 }
 
 RecordingInfo InfoOf(const McapReader& reader) {

@@ -28,17 +28,12 @@ inline constexpr const char* kSchemaEncoding = "jsonschema";
 
 /// The path of the port whose values a channel has: as Runnel notes it, or else the topic.
 [[nodiscard]] inline std::string PortOf(const McapChannel& channel) {
-  for (const auto& [key, text] : channel.metadata) {
-    if (key == kPortKey) return text;
-  }
-  return channel.topic;
+  const std::string* const port = FindText(channel.metadata, kPortKey);
+  return port != nullptr ? *port : channel.topic;
 }
 /// Whether a channel only shows what another one has.
 [[nodiscard]] inline bool IsView(const McapChannel& channel) {
-  for (const auto& [key, text] : channel.metadata) {
-    if (key == kViewOfKey) return true;
-  }
-  return false;
+  return FindText(channel.metadata, kViewOfKey) != nullptr;
 }
 
 }  // namespace runnel

@@ -13,7 +13,7 @@
 #include "core/port/probe_port.h"
 #include "core/types/type_info.h"
 #include "plugins/recording/recording_names.h"
-#include "plugins/values/json_values.h"
+#include "plugins/values/foxglove_channel.h"
 
 namespace runnel {
 
@@ -46,18 +46,6 @@ Port* FindPort(Runtime& runtime, const std::string& path) {
   if (const auto found = search.FindPort(path, PathKind::kOutput)) return *found;
   const auto found = search.FindPort(ShortPortPath(path), PathKind::kOutput);
   return found ? *found : nullptr;
-}
-
-// What is no structure stands in an object of its own, as messages have to be objects.
-Result<void> SetFromMessage(const TypeInfo& type, std::string_view json, void* value) {
-  constexpr std::string_view kBefore = "{\"value\":";
-  if (type.kind() == TypeKind::kStructure) return SetFromJson(type, json, value);
-  if (!json.starts_with(kBefore) || !json.ends_with('}')) {
-    return Error{.message = "expected {\"value\":…}"};
-  }
-  json.remove_prefix(kBefore.size());
-  json.remove_suffix(1);
-  return SetFromJson(type, json, value);
 }
 
 }  // namespace
@@ -275,9 +263,9 @@ void Player::Publish(const std::vector<PlayedPort*>& ports) {
   for (PlayedPort* each : ports) {
     while (auto value = values_->Take(each->channel, now)) {
       const CycleScope at({value->time, cycle != nullptr ? cycle->period : Duration::zero()});
-      const auto published = each->publisher().PublishFilled([&](void* filled) {
-        return SetFromMessage(each->original->type(), value->json, filled);
-      });
+      const auto published = each->publisher().PublishFilled(
+          [&](void* filled) { return SetFromMessage(each->original->type(), value->json, filled); },
+          value->timestamp);
       if (published) {
         published_.fetch_add(1, std::memory_order_relaxed);
         continue;

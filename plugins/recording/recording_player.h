@@ -52,8 +52,6 @@ class Player {
                                                  std::unique_ptr<McapReader> reader,
                                                  const PlayerOptions& options);
   ~Player();
-  Player(const Player&) = delete;
-  Player& operator=(const Player&) = delete;
 
   /// The values begin at `now` of the application's clock.
   void Start(Time now) { values_->Start(now); }

@@ -63,10 +63,9 @@ void RunInTurn(std::span<const Schedule::Entry> entries, CycleMoment now,
   }
 }
 
-template <bool kIsTraced>
 void Run(std::span<const Schedule::Entry> entries, const Schedule& schedule, CycleMoment now,
          FaultDispatcher& faults) noexcept {
-  if constexpr (kIsTraced) {
+  if (schedule.track != nullptr) [[unlikely]] {
     RunTraced(entries, now, faults, *schedule.track);
   } else {
     RunInTurn(entries, now, faults);
@@ -102,35 +101,20 @@ bool CycleRunner::RunCycle(Cycle cycle, FaultDispatcher& faults) noexcept {
   const std::uint64_t number = cycles_begun_.load(std::memory_order_relaxed) + 1;
   cycles_begun_.store(number, std::memory_order_relaxed);
   const CycleMoment now{cycle.now, number};
-  if (schedule->track != nullptr) [[unlikely]] {
-    RunNoted(*schedule, now, faults);
+  TraceTrack* const track = schedule->track;
+  const Time began = track != nullptr ? track->Now() : Time{};
+  if (waits_for_data()) {
+    RunActivated(*schedule, now, faults);
   } else {
-    RunTasks<false>(*schedule, now, faults);
+    RunAll(*schedule, now, faults);
   }
+  if (track != nullptr) track->NoteCycle(began, now.time, now.number);
   in_cycle_of = nullptr;
   NotificationBatch notifications;
   for (CycleRunner* const waiting : *schedule->waiting) {
     if (waiting->is_activated()) notifications.Add(waiting->event_);
   }
   return true;
-}
-
-template <bool kIsTraced>
-void CycleRunner::RunTasks(const Schedule& schedule, CycleMoment now,
-                           FaultDispatcher& faults) noexcept {
-  if (waits_for_data()) {
-    RunActivated<kIsTraced>(schedule, now, faults);
-  } else {
-    RunAll<kIsTraced>(schedule, now, faults);
-  }
-}
-
-// Apart, so that cycles that nobody traces have nothing of it but the question.
-void CycleRunner::RunNoted(const Schedule& schedule, CycleMoment now,
-                           FaultDispatcher& faults) noexcept {
-  const Time began = schedule.track->Now();
-  RunTasks<true>(schedule, now, faults);
-  schedule.track->NoteCycle(began, now.time, now.number);
 }
 
 // Whether nothing need be asked of its elements any more.
@@ -142,24 +126,22 @@ bool CycleRunner::IsSettled(const Schedule& schedule) noexcept {
 }
 
 // An element that another thread may still be running is left out of this cycle.
-template <bool kIsTraced>
 void CycleRunner::RunAll(const Schedule& schedule, CycleMoment now,
                          FaultDispatcher& faults) noexcept {
-  if (IsSettled(schedule)) return Run<kIsTraced>(schedule.entries, schedule, now, faults);
+  if (IsSettled(schedule)) return Run(schedule.entries, schedule, now, faults);
   for (const Schedule::Entry& entry : schedule.entries) {
-    if (entry.HasArrived()) Run<kIsTraced>({&entry, 1}, schedule, now, faults);
+    if (entry.HasArrived()) Run({&entry, 1}, schedule, now, faults);
   }
 }
 
 // The entries of one element follow one another only by chance, so what has come for it is taken
 // once, by its first task, and holds for the others.
-template <bool kIsTraced>
 void CycleRunner::RunActivated(const Schedule& schedule, CycleMoment now,
                                FaultDispatcher& faults) noexcept {
   const bool is_settled = IsSettled(schedule);
   is_held_up_ = false;
   for (const Schedule::Entry& entry : schedule.entries) {
-    RunIfActivated<kIsTraced>(entry, schedule, is_settled, now, faults);
+    RunIfActivated(entry, schedule, is_settled, now, faults);
   }
   // What came during the pass for those further down has been used in it; what came for those
   // further up, or from other threads, is for the next one. So is what came for those that only a
@@ -171,7 +153,6 @@ void CycleRunner::RunActivated(const Schedule& schedule, CycleMoment now,
   }
 }
 
-template <bool kIsTraced>
 void CycleRunner::RunIfActivated(const Schedule::Entry& entry, const Schedule& schedule,
                                  bool is_settled, CycleMoment now,
                                  FaultDispatcher& faults) noexcept {
@@ -182,7 +163,7 @@ void CycleRunner::RunIfActivated(const Schedule::Entry& entry, const Schedule& s
     return;
   }
   if (entry.is_first && element.TakeActivation()) element.set_in_pass(true);
-  if (element.in_pass()) Run<kIsTraced>({&entry, 1}, schedule, now, faults);
+  if (element.in_pass()) Run({&entry, 1}, schedule, now, faults);
   if (entry.is_last) element.set_in_pass(false);
 }
 

@@ -9,7 +9,6 @@
 #include "core/base/clock.h"
 #include "core/lockfree/wake_event.h"
 #include "core/port/cycle.h"
-#include "plugins/scheduling/cycle_gate.h"
 #include "plugins/scheduling/cycle_statistics.h"
 #include "plugins/scheduling/schedule.h"
 #include "plugins/scheduling/thread_options.h"
@@ -28,8 +27,6 @@ class CycleRunner {
   CycleRunner(std::string path, const ThreadOptions& options)
       : path_(std::move(path)), options_(options) {}
   ~CycleRunner();
-  CycleRunner(const CycleRunner&) = delete;
-  CycleRunner& operator=(const CycleRunner&) = delete;
 
   /// Of its container.
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
@@ -83,24 +80,10 @@ class CycleRunner {
 
  private:
   [[nodiscard]] bool IsSettled(const Schedule& schedule) noexcept;
-  // The same with and without a track on which it is noted. Hidden, as calls of templates would else go
-  // through the library's table of symbols.
-  template <bool kIsTraced>
-  [[gnu::visibility("hidden")]] void RunTasks(const Schedule& schedule, CycleMoment now,
-                                              FaultDispatcher& faults) noexcept;
-  template <bool kIsTraced>
-  [[gnu::visibility("hidden")]] void RunAll(const Schedule& schedule, CycleMoment now,
-                                            FaultDispatcher& faults) noexcept;
-  template <bool kIsTraced>
-  [[gnu::visibility("hidden")]] void RunActivated(const Schedule& schedule, CycleMoment now,
-                                                  FaultDispatcher& faults) noexcept;
-  template <bool kIsTraced>
-  [[gnu::visibility("hidden")]] void RunIfActivated(const Schedule::Entry& entry,
-                                                    const Schedule& schedule, bool is_settled,
-                                                    CycleMoment now,
-                                                    FaultDispatcher& faults) noexcept;
-  [[gnu::cold, gnu::noinline]] void RunNoted(const Schedule& schedule, CycleMoment now,
-                                             FaultDispatcher& faults) noexcept;
+  void RunAll(const Schedule& schedule, CycleMoment now, FaultDispatcher& faults) noexcept;
+  void RunActivated(const Schedule& schedule, CycleMoment now, FaultDispatcher& faults) noexcept;
+  void RunIfActivated(const Schedule::Entry& entry, const Schedule& schedule, bool is_settled,
+                      CycleMoment now, FaultDispatcher& faults) noexcept;
 
   const std::string path_;
   const ThreadOptions options_;

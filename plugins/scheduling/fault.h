@@ -23,17 +23,10 @@ inline constexpr std::size_t kLongestFaultMessage = 500;
 /// their adding, never in the cycle that failed: after it (simulated clock) or by the supervising
 /// thread (real clock).
 struct FaultRule {
-  enum class Action {
-    kStopApplication,  ///< Scheduler::stop_requested() becomes true
-    kSet,              ///< sets `target` to `value`
-    kCall,             ///< calls `call`; what it throws is reported as a fault of `of`
-  };
-
   std::string of = "/";  ///< path: faults of this element and of all below it
-  Action action = Action::kStopApplication;
-  std::string target = {};  ///< absolute path of an element that is Configurable
-  std::string value = {};
-  std::function<void(const Fault&)> call = {};  ///< must not call Scheduler::Stop()
+  /// What is called then, which must not call Scheduler::Stop(); what it throws is reported as a fault of `of`.
+  /// Without, Scheduler::stop_requested() becomes true.
+  std::function<void(const Fault&)> call = {};
 };
 
 }  // namespace runnel

@@ -7,8 +7,6 @@
 
 #include "core/base/exception_text.h"
 #include "core/base/retry.h"
-#include "core/element/configurable.h"
-#include "core/element/runtime.h"
 
 namespace runnel {
 
@@ -17,16 +15,6 @@ namespace {
 bool Covers(std::string_view of, std::string_view path) {
   while (of.ends_with('/')) of.remove_suffix(1);
   return path.starts_with(of) && (path.size() == of.size() || path[of.size()] == '/');
-}
-
-Result<Configurable*> FindTarget(Runtime& runtime, const FaultRule& rule) {
-  const auto found = runtime.root().Find(rule.target);
-  if (!found) return found.error();
-  auto* const target = dynamic_cast<Configurable*>(*found);
-  if (target == nullptr) {
-    return Error{.message = "cannot be set by a fault rule", .path = rule.target};
-  }
-  return target;
 }
 
 }  // namespace
@@ -59,6 +47,8 @@ void FaultDispatcher::Raise(std::unique_ptr<FaultRecord> record) noexcept {
 }
 
 void FaultDispatcher::Dispatch() {
+  // relaxed: only whether there is something; simulated time asks in each step.
+  if (raised_.load(std::memory_order_relaxed) == nullptr) return;
   // acquire: pairs with the release in Raise().
   FaultRecord* newest = raised_.exchange(nullptr, std::memory_order_acquire);
   FaultRecord* oldest = nullptr;
@@ -81,9 +71,7 @@ void FaultDispatcher::Dispatch() {
 
 void FaultDispatcher::Report(const Fault& fault) {
   if (const auto done = Handle(fault)) {
-    Retry([&] {
-      Log({fault.path, fault.message + "; " + *done, fault.time, fault.cycle, true});
-    });
+    Retry([&] { Log({fault.path, fault.message + "; " + *done, fault.time, fault.cycle, true}); });
     return;
   }
   std::vector<FaultRule> rules;
@@ -121,41 +109,15 @@ std::optional<std::string> FaultDispatcher::Handle(const Fault& fault) {
 
 void FaultDispatcher::Apply(const FaultRule& rule, const Fault& fault) {
   try {
-    if (rule.action == FaultRule::Action::kStopApplication) {
-      stopped_by_fault_.store(true, std::memory_order_release);
-      RequestStop();
-    }
-    if (rule.action == FaultRule::Action::kCall && rule.call) rule.call(fault);
-    if (rule.action == FaultRule::Action::kSet) {
-      const auto set = Set(rule);
-      if (!set) Log({rule.of, "the fault rule failed: " + set.error().ToString(), fault.time});
-    }
+    rule.call ? rule.call(fault) : StopForFault();
   } catch (...) {
     Log({rule.of, "the fault rule failed: " + DescribeException(), fault.time});
   }
 }
 
-Result<void> FaultDispatcher::Set(const FaultRule& rule) {
-  const std::lock_guard lock(runtime_.structure_mutex());
-  const auto target = FindTarget(runtime_, rule);
-  if (!target) return target.error();
-  return (*target)->SetFromText(rule.value);
-}
-
-Result<void> FaultDispatcher::AddRule(FaultRule rule) {
-  if (rule.action == FaultRule::Action::kSet) {
-    const std::lock_guard lock(runtime_.structure_mutex());
-    const auto target = FindTarget(runtime_, rule);
-    if (!target) return target.error();
-    if (const auto accepted = (*target)->CheckText(rule.value); !accepted) {
-      Error error = accepted.error();
-      if (error.path.empty()) error.path = rule.target;
-      return error;
-    }
-  }
+void FaultDispatcher::AddRule(FaultRule rule) {
   const std::lock_guard lock(mutex_);
   rules_.push_back(std::move(rule));
-  return {};
 }
 
 void FaultDispatcher::Log(Fault fault) {

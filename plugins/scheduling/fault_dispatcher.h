@@ -39,10 +39,7 @@ class FaultRecord {
 /// Ownership:  of records that have been raised.
 class FaultDispatcher {
  public:
-  explicit FaultDispatcher(Runtime& runtime) : runtime_(runtime) {}
   ~FaultDispatcher();
-  FaultDispatcher(const FaultDispatcher&) = delete;
-  FaultDispatcher& operator=(const FaultDispatcher&) = delete;
 
   void Raise(std::unique_ptr<FaultRecord> record) noexcept;
 
@@ -57,8 +54,7 @@ class FaultDispatcher {
   using Handler = std::function<std::optional<std::string>(const Fault&)>;
   void SetHandler(Handler handler);
 
-  /// Errors: a target that is not there or cannot take the value.
-  Result<void> AddRule(FaultRule rule);
+  void AddRule(FaultRule rule);
 
   void RequestStop() noexcept { stop_requested_.store(true, std::memory_order_release); }
   void StopForFault() noexcept {
@@ -85,9 +81,7 @@ class FaultDispatcher {
   void Log(Fault fault);
   [[nodiscard]] std::optional<std::string> Handle(const Fault& fault);
   void Apply(const FaultRule& rule, const Fault& fault);
-  Result<void> Set(const FaultRule& rule);
 
-  Runtime& runtime_;
   // A stack that is only ever pushed to and taken as a whole, so no address can come back to life.
   std::atomic<FaultRecord*> raised_{nullptr};
   std::atomic<bool> stop_requested_{false};

@@ -10,10 +10,6 @@ namespace {
 
 constexpr Time kNever = Time::max();
 
-Error OutOfBounds(std::string message, std::string hint) {
-  return {.message = std::move(message), .hint = std::move(hint)};
-}
-
 }  // namespace
 
 Pace::Pace(bool is_simulated, double speed, bool is_paused, const Clock& machine)
@@ -26,8 +22,9 @@ Pace::Pace(bool is_simulated, double speed, bool is_paused, const Clock& machine
 
 Result<void> Pace::CheckClock(const char* what) const {
   if (is_simulated_) return {};
-  return OutOfBounds("real time cannot be " + std::string(what),
-                     "only of simulated time: <clock type=\"simulated\"/> in the application file");
+  return Error{
+      .message = "real time cannot be " + std::string(what),
+      .hint = "only of simulated time: <clock type=\"simulated\"/> in the application file"};
 }
 
 void Pace::Changed() {
@@ -58,8 +55,8 @@ Result<void> Pace::Resume() {
 Result<void> Pace::StepCycles(std::uint64_t count) {
   if (auto simulated = CheckClock("stepped"); !simulated) return simulated;
   if (count < 1 || count > kMostCycles) {
-    return OutOfBounds(std::to_string(count) + " cycles cannot be stepped",
-                       "allowed is 1 .. " + std::to_string(kMostCycles));
+    return Error{.message = std::to_string(count) + " cycles cannot be stepped",
+                 .hint = "allowed is 1 .. " + std::to_string(kMostCycles)};
   }
   const std::lock_guard lock(mutex_);
   if (cycles_to_step() == 0) pacing_.Untie();
@@ -72,8 +69,8 @@ Result<void> Pace::StepCycles(std::uint64_t count) {
 Result<void> Pace::SetSpeed(double speed) {
   if (auto simulated = CheckClock("made faster or slower"); !simulated) return simulated;
   if (!Pacing::Takes(speed)) {
-    return OutOfBounds("speed " + std::to_string(speed) + " is out of bounds",
-                       "allowed is 0 (as fast as it can), or 1e-6 .. 1e6");
+    return Error{.message = "speed " + std::to_string(speed) + " is out of bounds",
+                 .hint = "allowed is 0 (as fast as it can), or 1e-6 .. 1e6"};
   }
   const std::lock_guard lock(mutex_);
   pacing_.SetSpeed(speed);

@@ -1,11 +1,14 @@
 #include "plugins/scheduling/real_thread.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
+#include <time.h>
+
+#include "core/log/logger.h"
 #include "plugins/scheduling/due_time.h"
 #include "plugins/scheduling/realtime_setup.h"
-#include "plugins/scheduling/sleep_until.h"
 #include "plugins/scheduling/tick_clock.h"
 
 namespace runnel {
@@ -15,6 +18,25 @@ namespace {
 // How soon a thread asks again whether another has let go of what data has come for. It sleeps
 // meanwhile, so that the other gets to its end even if it has the lower priority.
 constexpr Duration kLookAgain = std::chrono::microseconds(100);
+
+// Sleeps until the steady clock shows `due`, at once if it does already. Wakes a few times a
+// second to ask `give_up()`. Returns false if given up.
+template <typename GiveUp>
+bool SleepUntil(Time due, const GiveUp& give_up) {
+  constexpr Duration kLongestSleep = std::chrono::milliseconds(100);
+  const SteadyClock clock;
+  for (Time now = clock.Now(); now < due; now = clock.Now()) {
+    if (give_up()) return false;
+    const auto until = std::min(due, now + kLongestSleep).time_since_epoch();
+    const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(until);
+    timespec wake{};
+    wake.tv_sec = static_cast<time_t>(seconds.count());
+    wake.tv_nsec = static_cast<long>((until - seconds).count());
+    // The steady clock is CLOCK_MONOTONIC. A signal that ends the sleep early does no harm.
+    clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &wake, nullptr);
+  }
+  return !give_up();
+}
 
 }  // namespace
 
@@ -42,6 +64,7 @@ void RealThread::RequestStop() noexcept {
 void RealThread::Run(Time first) {
   runner_->quiescence()->Take();
   PrefaultStack();
+  PrepareLogging();
   RunCycles(first);
   ended_.store(true, std::memory_order_release);
 }

@@ -20,8 +20,6 @@ class RealThread {
   RealThread(std::shared_ptr<CycleRunner> runner, FaultDispatcher& faults, Time first);
   /// Stops and joins.
   ~RealThread();
-  RealThread(const RealThread&) = delete;
-  RealThread& operator=(const RealThread&) = delete;
 
   [[nodiscard]] const std::shared_ptr<CycleRunner>& runner() const noexcept { return runner_; }
   /// Puts it under the real-time scheduling that its container asks for.

@@ -42,12 +42,6 @@ Found Search(FrameworkElement& top) {
   return found;
 }
 
-std::vector<Task> TasksOf(const PlannedElement& planned) {
-  std::vector<Task> tasks;
-  for (const auto& each : planned.tasks) tasks.push_back(each->task);
-  return tasks;
-}
-
 // Whether data still go from the one to the other, by another way.
 bool StillFeeds(const Port& output, const Port& input) {
   const auto& incoming = input.incoming();
@@ -175,12 +169,9 @@ void ScheduleCompiler::Disconnect(const Port& from, const Port& to) noexcept {
   Follow([&] {
     ForEachPair(from, to, [&](const Port& output, const Port& input) {
       if (StillFeeds(output, input)) return;
-      tasks_of_groups_.ForEachWriter(output, [&](PlannedTask& writer) {
-        tasks_of_groups_.ForEachReader(input, [&](PlannedTask& reader) {
-          if (writer.element->thread != reader.element->thread) return;
-          writer.element->thread->order.Disconnect(writer, reader, {&output, &input});
-          Touch(*writer.element->thread);
-        });
+      tasks_of_groups_.ForEachPair(output, input, [&](PlannedTask& writer, PlannedTask& reader) {
+        writer.element->thread->order.Disconnect(writer, reader, {&output, &input});
+        Touch(*writer.element->thread);
       });
     });
   });
@@ -191,15 +182,20 @@ void ScheduleCompiler::Plan(FrameworkElement& element) {
   planned.element = &element;
   if (!planned.state) {
     planned.state = std::make_shared<ScheduledElement>(
-        element.path(), element.id(), tracer_ != nullptr ? tracer_->Watch(element) : nullptr);
+        element.path(), tracer_ != nullptr ? tracer_->Watch(element) : nullptr);
   }
   HandOver(planned, *ChooseThread(element));
   AddTasks(planned);
-  BindTriggersOf(planned);
+  std::vector<Task> tasks;
+  for (const auto& each : planned.tasks) tasks.push_back(each->task);
+  CycleRunner& runner = *planned.thread->runner;
+  internal::BindTriggers(internal::TriggerInputs(tasks), *planned.state,
+                         runner.waits_for_data() ? &runner : nullptr);
 }
 
 void ScheduleCompiler::AddTasks(PlannedElement& planned) {
   for (Task& task : planned.element->FindAnnotation<Executable>()->tasks()) {
+    if (watch_ != nullptr) task.run = planned.state->Watched(task, *watch_);
     planned.tasks.push_back(std::make_unique<PlannedTask>(std::move(task)));
   }
   std::ranges::stable_sort(planned.tasks, {}, [](const auto& each) { return each->phase; });
@@ -248,12 +244,9 @@ void ScheduleCompiler::ConnectTasks(PlannedElement& planned) {
 }
 
 void ScheduleCompiler::ConnectPair(const Port& output, const Port& input) {
-  tasks_of_groups_.ForEachWriter(output, [&](PlannedTask& writer) {
-    tasks_of_groups_.ForEachReader(input, [&](PlannedTask& reader) {
-      if (writer.element->thread != reader.element->thread) return;
-      writer.element->thread->order.Connect(writer, reader, {&output, &input});
-      Touch(*writer.element->thread);
-    });
+  tasks_of_groups_.ForEachPair(output, input, [&](PlannedTask& writer, PlannedTask& reader) {
+    writer.element->thread->order.Connect(writer, reader, {&output, &input});
+    Touch(*writer.element->thread);
   });
 }
 
@@ -269,12 +262,6 @@ void ScheduleCompiler::HandOver(PlannedElement& planned, ThreadSchedule& thread)
     has_handovers_ = true;
   }
   planned.current = next;
-}
-
-void ScheduleCompiler::BindTriggersOf(PlannedElement& planned) {
-  CycleRunner& runner = *planned.thread->runner;
-  internal::BindTriggers(internal::TriggerInputs(TasksOf(planned)), *planned.state,
-                         runner.waits_for_data() ? &runner : nullptr);
 }
 
 // What fails on the way is made good by compiling everything, but what is about to go is let go of: a schedule

@@ -28,9 +28,11 @@ class ScheduleCompiler {
 
   /// Tasks that are assigned to no container go to the one called `default_thread`, or to the first
   /// if there is none of that name.
-  /// `tracer`, if there is one, is told of all that is to be run.
-  explicit ScheduleCompiler(std::string default_thread, CycleTracer* tracer = nullptr)
-      : default_thread_(std::move(default_thread)), tracer_(tracer) {}
+  /// `tracer`, if there is one, is told of all that is to be run; all tasks are run by way of `watch`, if there
+  /// is one.
+  explicit ScheduleCompiler(std::string default_thread, CycleTracer* tracer = nullptr,
+                            TaskWatch* watch = nullptr)
+      : default_thread_(std::move(default_thread)), tracer_(tracer), watch_(watch) {}
   ~ScheduleCompiler();
   ScheduleCompiler(const ScheduleCompiler&) = delete;
   ScheduleCompiler& operator=(const ScheduleCompiler&) = delete;
@@ -84,7 +86,6 @@ class ScheduleCompiler {
   void ConnectTasks(internal::PlannedElement& planned);
   void ConnectPair(const Port& output, const Port& input);
   void HandOver(internal::PlannedElement& planned, internal::ThreadSchedule& thread);
-  void BindTriggersOf(internal::PlannedElement& planned);
   void Touch(internal::ThreadSchedule& thread);
   void NoteChange(internal::ThreadSchedule& thread);
   [[nodiscard]] internal::ThreadSchedule* ChooseThread(const FrameworkElement& element) const;
@@ -93,6 +94,7 @@ class ScheduleCompiler {
 
   const std::string default_thread_;
   CycleTracer* const tracer_;
+  TaskWatch* const watch_;
   bool needs_all_ = true;
   bool has_handovers_ = false;
   bool has_unassigned_tasks_ = false;

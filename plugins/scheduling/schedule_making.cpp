@@ -5,7 +5,6 @@
 
 #include "core/base/retry.h"
 #include "core/lockfree/thread_epoch.h"
-#include "plugins/scheduling/internal/cut_report.h"
 #include "plugins/scheduling/internal/trigger_binding.h"
 #include "plugins/scheduling/schedule_compiler.h"
 

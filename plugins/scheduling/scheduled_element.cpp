@@ -7,14 +7,17 @@
 
 namespace runnel {
 
-ScheduledElement::ScheduledElement(std::string path, std::uint64_t id,
-                                   std::unique_ptr<TracedElement> traced)
+ScheduledElement::ScheduledElement(std::string path, std::unique_ptr<TracedElement> traced)
     : path_(std::move(path)),
-      id_(id),
       traced_(std::move(traced)),
       record_(std::make_unique<FaultRecord>(path_)) {}
 
 ScheduledElement::~ScheduledElement() = default;
+
+BoundCall ScheduledElement::Watched(const Task& task, TaskWatch& watch) {
+  watched_.push_back(watch.Watch(task));
+  return BoundCall::To<&WatchedTask::Run>(*watched_.back());
+}
 
 void ScheduledElement::Fail(std::string_view message, CycleMoment now,
                             FaultDispatcher& faults) noexcept {

@@ -5,9 +5,11 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/port/waker.h"
 #include "plugins/scheduling/fault_dispatcher.h"
+#include "plugins/scheduling/task_watch.h"
 
 namespace runnel {
 
@@ -30,11 +32,10 @@ struct CycleMoment {
 class ScheduledElement final : public Waker {
  public:
   /// `traced`: what is written down of it, if anything is.
-  ScheduledElement(std::string path, std::uint64_t id, std::unique_ptr<TracedElement> traced = {});
+  explicit ScheduledElement(std::string path, std::unique_ptr<TracedElement> traced = {});
   ~ScheduledElement();
 
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
-  [[nodiscard]] std::uint64_t id() const noexcept { return id_; }
 
   /// Stops the element for good, whatever schedule has it. Any thread.
   void Stop() noexcept { stopped_.store(true, std::memory_order_relaxed); }
@@ -48,6 +49,9 @@ class ScheduledElement final : public Waker {
 
   /// nullptr: nothing is written down of it. By the thread whose cycle has it.
   [[nodiscard]] TracedElement* traced() noexcept { return traced_.get(); }
+
+  /// What runs `task` while `watch` is there. Under the structure lock.
+  [[nodiscard]] BoundCall Watched(const Task& task, TaskWatch& watch);
 
   /// Who runs the element on new data; nullptr for nobody.
   void set_runner(CycleRunner* runner) noexcept {
@@ -72,9 +76,9 @@ class ScheduledElement final : public Waker {
 
  private:
   const std::string path_;
-  const std::uint64_t id_;
   const std::unique_ptr<TracedElement> traced_;
-  std::unique_ptr<FaultRecord> record_;  // until the element has failed
+  std::vector<std::unique_ptr<WatchedTask>> watched_;  // cycles may be running any of them
+  std::unique_ptr<FaultRecord> record_;                // until the element has failed
   std::atomic<bool> stopped_{false};
   std::atomic<bool> activated_{false};
   std::atomic<bool> in_pass_{false};

@@ -7,6 +7,7 @@
 #include "core/base/exception_text.h"
 #include "core/base/saturating_sum.h"
 #include "core/lockfree/thread_epoch.h"
+#include "core/log/logger.h"
 #include "core/port/port.h"
 #include "plugins/scheduling/realtime_setup.h"
 
@@ -24,9 +25,8 @@ Scheduler::Scheduler(Runtime& runtime, SchedulerOptions options)
     : runtime_(runtime),
       options_(std::move(options)),
       clock_before_(runtime.clock()),
-      faults_(runtime),
       pace_(IsSimulated(options_), options_.speed, options_.is_paused, machine_),
-      compiler_(options_.default_thread, options_.tracer) {
+      compiler_(options_.default_thread, options_.tracer, options_.watch) {
   if (IsSimulated(options_)) runtime_.set_clock(simulation_.clock());
   runtime_.AddListener(*this);
 }
@@ -225,6 +225,7 @@ std::optional<Time> Scheduler::NextDue() {
 // What is due next is asked anew each time, as the structure may change while the pace lets nothing
 // run.
 Scheduler::StepResult Scheduler::Advance(std::optional<Time> end, Duration timeout) {
+  PrepareLogging();  // this thread runs cycles from here on
   std::optional<Time> latest;
   while (!stop_requested()) {
     const auto due = NextDue();
@@ -306,18 +307,6 @@ std::vector<Error> Scheduler::Warnings() {
   std::vector<Error> warnings = compiler_.Warnings();
   std::ranges::copy(realtime_warnings_, std::back_inserter(warnings));
   return warnings;
-}
-
-std::vector<Scheduler::ScheduledTask> Scheduler::Order(const ThreadContainer& thread) {
-  const std::lock_guard lock(runtime_.structure_mutex());
-  BringUpToDate();
-  std::vector<ScheduledTask> order;
-  const Schedule* const schedule = thread.runner()->schedule();
-  if (schedule == nullptr) return order;
-  for (const auto& entry : schedule->entries) {
-    order.push_back({entry.element->path(), entry.phase});
-  }
-  return order;
 }
 
 }  // namespace runnel

@@ -25,6 +25,7 @@
 namespace runnel {
 
 class CycleTracer;
+class TaskWatch;
 
 struct SchedulerOptions {
   enum class ClockKind {
@@ -43,6 +44,8 @@ struct SchedulerOptions {
   std::string default_thread = {};
   /// Has it written down what cycles do. Must outlive the scheduler and the runtime. nullptr: nobody.
   CycleTracer* tracer = nullptr;
+  /// Is there whenever a task runs. Must outlive both, too. nullptr: nobody.
+  TaskWatch* watch = nullptr;
   /// If there is something to run but no container, one called "main" is made with these.
   ThreadOptions default_options = {};
 };
@@ -60,8 +63,6 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   /// On a simulated clock, becomes the clock of the runtime.
   explicit Scheduler(Runtime& runtime, SchedulerOptions options = {});
   ~Scheduler();
-  Scheduler(const Scheduler&) = delete;
-  Scheduler& operator=(const Scheduler&) = delete;
 
   [[nodiscard]] const SchedulerOptions& options() const noexcept { return options_; }
 
@@ -110,8 +111,7 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   /// The faults since the last call, oldest first. While real threads run, those that the
   /// supervising thread has not attended to yet come with a later call.
   [[nodiscard]] std::vector<Fault> TakeFaults();
-  /// Errors: a rule whose target is not there, or cannot take the value.
-  Result<void> AddFaultRule(FaultRule rule) { return faults_.AddRule(std::move(rule)); }
+  void AddFaultRule(FaultRule rule) { faults_.AddRule(std::move(rule)); }
 
   /// Whether any thread has anything to run. Brings the schedules up to date.
   [[nodiscard]] bool HasTasks();
@@ -120,15 +120,6 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   /// never run or that name no thread where there are several, and, once started, real-time rights
   /// that are missing. Brings the schedules up to date.
   [[nodiscard]] std::vector<Error> Warnings();
-
-  /// One task as it is scheduled.
-  struct ScheduledTask {
-    std::string path;  ///< of the element
-    Phase phase;
-    friend bool operator==(const ScheduledTask&, const ScheduledTask&) = default;
-  };
-  /// In the order of their running. Brings the schedules up to date.
-  [[nodiscard]] std::vector<ScheduledTask> Order(const ThreadContainer& thread);
 
   /// Keeps the threads that run anything at or below one of `paths` between two of their cycles, so
   /// that what is changed until the hold goes takes effect as a whole. Errors, threads: see CycleHold;

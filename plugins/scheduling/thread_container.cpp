@@ -4,6 +4,7 @@
 
 #include "core/element/runtime.h"
 #include "core/module/group.h"
+#include "core/types/duration_text.h"
 #include "plugins/scheduling/cycle_runner.h"
 
 namespace runnel {
@@ -59,6 +60,17 @@ ThreadContainer::~ThreadContainer() = default;
 const ThreadOptions& ThreadContainer::options() const noexcept { return runner_->options(); }
 
 CycleStatistics ThreadContainer::statistics() const noexcept { return runner_->statistics(); }
+
+const std::vector<std::string>& ActivationNames() {
+  static const std::vector<std::string> names{"period", "free_running", "trigger"};
+  return names;
+}
+
+std::string ActivationText(const ThreadOptions& options) {
+  using Activation = ThreadOptions::Activation;
+  if (options.activation == Activation::kPeriod) return "every " + DurationText(options.period);
+  return options.activation == Activation::kTrigger ? "when data comes" : "free-running";
+}
 
 ThreadContainer& CreateThread(Runtime& runtime, const std::string& name,
                               const ThreadOptions& options) {

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/element/framework_element.h"
 #include "plugins/scheduling/cycle_statistics.h"
@@ -32,6 +33,12 @@ class ThreadContainer final : public FrameworkElement {
  private:
   const std::shared_ptr<CycleRunner> runner_;
 };
+
+/// In the order of ThreadOptions::Activation: "period", "free_running", "trigger".
+[[nodiscard]] const std::vector<std::string>& ActivationNames();
+
+/// When cycles begin, for people: "every 20ms", "free-running", "when data comes".
+[[nodiscard]] std::string ActivationText(const ThreadOptions& options);
 
 /// Makes the container /threads/<name>, ready to be used. Throws ElementError for a name that is
 /// taken, or for bad options.

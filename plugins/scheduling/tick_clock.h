@@ -40,7 +40,7 @@ struct MachineTicks {
 template <typename Machine>
 class BasicTickClock {
  public:
-  [[nodiscard]] Time Now() noexcept {
+  [[nodiscard, gnu::always_inline]] Time Now() noexcept {
     // A counter that has gone back makes this huge.
     const std::uint64_t since = Machine::Count() - asked_at_;
     if (since >= trusted_) return last_ = std::max(last_, Ask());
@@ -51,7 +51,7 @@ class BasicTickClock {
   static constexpr Duration kInterval = std::chrono::milliseconds(1);
 
  private:
-  [[nodiscard]] Time Ask() noexcept {
+  [[nodiscard, gnu::noinline]] Time Ask() noexcept {
     const std::uint64_t before = Machine::Count();
     const Time now = Machine::Now();
     // An answer that was long in coming says nothing of the rate.

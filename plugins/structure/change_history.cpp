@@ -19,16 +19,10 @@ std::string LabelOf(const ChangeSet& changes) {
   return label + " and " + std::to_string(changes.size() - 1) + " more";
 }
 
-ChangeOutcome Refused(Error error) {
+ChangeOutcome NotDone(Error error, bool is_refused) {
   ChangeOutcome outcome;
-  outcome.is_refused = true;
+  outcome.is_refused = is_refused;
   outcome.diagnostics.Add(std::move(error));
-  return outcome;
-}
-
-ChangeOutcome Failed(std::string why) {
-  ChangeOutcome outcome;
-  outcome.diagnostics.Add({.message = std::move(why)});
   return outcome;
 }
 
@@ -41,7 +35,7 @@ ChangeOutcome ChangeHistory::Apply(const ChangeSet& changes,
   try {
     entry.push_back({label.empty() ? LabelOf(changes) : std::move(label), {}});
   } catch (...) {
-    return Failed(DescribeException());
+    return NotDone({.message = DescribeException()}, false);
   }
   ChangeOutcome outcome = editor_.Apply({changes, places, nullptr, &entry.back().undo_record});
   if (!outcome.is_done || changes.empty()) return outcome;
@@ -63,13 +57,14 @@ ChangeOutcome ChangeHistory::Take(Entries& from, Entries& to, const char* what) 
     Entry entry;
     {
       const std::lock_guard lock(entries_);
-      if (from.empty()) return Refused({.message = "there is nothing to be " + std::string(what)});
+      if (from.empty())
+        return NotDone({.message = "there is nothing to be " + std::string(what)}, true);
       entry = from.back();
     }
     back.push_back({entry.label, {}});
     ChangeOutcome outcome =
         entry.undo_record.why_not
-            ? Refused(*entry.undo_record.why_not)
+            ? NotDone(*entry.undo_record.why_not, true)
             : editor_.Apply(
                   {entry.undo_record.changes, {}, &entry.undo_record, &back.back().undo_record});
     if (!outcome.is_done && outcome.is_refused) {
@@ -81,7 +76,7 @@ ChangeOutcome ChangeHistory::Take(Entries& from, Entries& to, const char* what) 
     if (outcome.is_done) Add(to, back);
     return outcome;
   } catch (...) {
-    return Failed(DescribeException());
+    return NotDone({.message = DescribeException()}, false);
   }
 }
 

@@ -66,15 +66,16 @@ class Arguments {
         Complain(argument.position, "'" + argument.text + "' is one word too many",
                  "write: " + usage_);
       } else if (std::ranges::count(seen, argument.name()) > 0) {
-        Complain(NameAt(argument), "'" + argument.name() + "' is there twice",
+        Complain(argument.position, "'" + argument.name() + "' is there twice",
                  "leave one of them out");
       } else if (!take(argument)) {
-        Complain(NameAt(argument), "there is no option '" + argument.name() + "'",
+        Complain(argument.position, "there is no option '" + argument.name() + "'",
                  NearestNameHint(argument.name(), names));
       }
       seen.push_back(argument.name());
     }
   }
+  /// What is left has no meaning.
   void End() {
     TakeOptions({}, [](const ChangeArgument&) { return false; });
   }
@@ -102,29 +103,16 @@ class Arguments {
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
  private:
-  static const SourcePosition& NameAt(const ChangeArgument& argument) { return argument.position; }
-
   const ChangeLine& line_;
   const std::string usage_;
   std::size_t at_ = 1;
   std::optional<Error> error_;
 };
 
-std::vector<Setting> TakeSettings(Arguments& arguments) {
-  std::vector<Setting> settings;
-  arguments.TakeOptions({}, [&](const ChangeArgument& argument) {
-    settings.push_back({argument.name(), argument.value()});
-    return true;
-  });
-  return settings;
-}
-
 Change ReadCreate(Arguments& arguments) {
   if (arguments.IsNext("group")) {
     arguments.Take("group");
-    CreateGroup change{arguments.Take("a path")};
-    arguments.End();
-    return change;
+    return CreateGroup{arguments.Take("a path")};
   }
   if (arguments.IsNext("port")) {
     arguments.Take("port");
@@ -139,21 +127,18 @@ Change ReadCreate(Arguments& arguments) {
     });
     return change;
   }
-  CreateModule change{arguments.Take("a path"), {}};
-  change.type = arguments.Take("a module type");
-  change.settings = TakeSettings(arguments);
+  CreateModule change{arguments.Take("a path"), arguments.Take("a module type")};
+  arguments.TakeOptions({}, [&](const ChangeArgument& argument) {
+    change.settings.push_back({argument.name(), argument.value()});
+    return true;
+  });
   return change;
 }
 
-Change ReadDelete(Arguments& arguments) {
-  DeleteElement change{arguments.Take("a path")};
-  arguments.End();
-  return change;
-}
+Change ReadDelete(Arguments& arguments) { return DeleteElement{arguments.Take("a path")}; }
 
 Change ReadConnect(Arguments& arguments) {
-  ConnectPorts change{arguments.Take("the output"), {}};
-  change.to = arguments.Take("the input");
+  ConnectPorts change{arguments.Take("the output"), arguments.Take("the input")};
   const ChangeArgument* on_full = nullptr;
   const ChangeArgument* pull = nullptr;
   arguments.TakeOptions({"queue", "on_full", "pull"}, [&](const ChangeArgument& argument) {
@@ -183,17 +168,11 @@ Change ReadConnect(Arguments& arguments) {
 }
 
 Change ReadDisconnect(Arguments& arguments) {
-  DisconnectPorts change{arguments.Take("the output"), {}};
-  change.to = arguments.Take("the input");
-  arguments.End();
-  return change;
+  return DisconnectPorts{arguments.Take("the output"), arguments.Take("the input")};
 }
 
 Change ReadSet(Arguments& arguments) {
-  SetParameter change{.path = arguments.Take("the path of a parameter"), .value = {}};
-  change.value = arguments.Take("a value");
-  arguments.End();
-  return change;
+  return SetParameter{arguments.Take("the path of a parameter"), arguments.Take("a value")};
 }
 
 Change ReadReplace(Arguments& arguments) {
@@ -215,7 +194,6 @@ Change ReadMove(Arguments& arguments) {
   AssignToThread change{arguments.Take("a path"), {}};
   arguments.Expect("to");
   change.thread = arguments.Take("a thread");
-  arguments.End();
   return change;
 }
 
@@ -242,13 +220,12 @@ Result<Change> ReadChange(const ChangeLine& line) {
   const ChangeArgument& first = line.front();
   const auto verb = std::ranges::find(kVerbs, first.text, &Verb::name);
   if (verb == kVerbs.end()) {
-    std::vector<std::string> names;
-    for (const Verb& each : kVerbs) names.emplace_back(each.name);
     return At(first.position, "there is no change '" + first.text + "'",
-              NearestNameHint(first.text, names));
+              NearestNameHint(first.text, NamesOf(kVerbs, &Verb::name)));
   }
   Arguments arguments(line, verb->usage);
   Change change = verb->read(arguments);
+  arguments.End();
   if (arguments.error()) return *arguments.error();
   return change;
 }

@@ -44,7 +44,8 @@ void AddDefaults(const FrameworkElement& before, const FrameworkElement& after,
 }
 
 // Nothing for what comes with a module.
-void AddCreation(const FrameworkElement& element, ChangeSet& changes, std::optional<Error>& why_not) {
+void AddCreation(const FrameworkElement& element, ChangeSet& changes,
+                 std::optional<Error>& why_not) {
   const std::string type = FindModuleType(element);
   const auto* const port = dynamic_cast<const Port*>(&element);
   if (!type.empty()) {
@@ -94,14 +95,6 @@ const std::string* Takes(const Change& change) {
 
 }  // namespace
 
-ChangeSet Inverse::All() const {
-  ChangeSet all;
-  for (auto step = of_steps.rbegin(); step != of_steps.rend(); ++step) {
-    all.insert(all.end(), step->begin(), step->end());
-  }
-  return all;
-}
-
 std::string OwnThreadPath(const FrameworkElement& element) {
   const ThreadContainer* const thread = OwnThread(element);
   return thread != nullptr ? thread->path() : "";
@@ -126,29 +119,27 @@ ChangeSet ReplaceBack(const FrameworkElement& before, const FrameworkElement& af
   return {ReplaceModule{before.path(), type, std::move(settings), probation_cycles}};
 }
 
-Expected WhatIsThere(const ChangeSet& changes, FrameworkElement& root) {
-  Expected expected;
-  for (const Change& each : changes) {
+UndoRecord UndoRecordOf(const std::vector<ChangeSet>& inverses, std::optional<Error> why_not,
+                        FrameworkElement& root) {
+  UndoRecord undo_record{{}, {}, std::move(why_not)};
+  // The last step first.
+  for (auto step = inverses.rbegin(); step != inverses.rend(); ++step) {
+    undo_record.changes.insert(undo_record.changes.end(), step->begin(), step->end());
+  }
+  for (const Change& each : undo_record.changes) {
     const std::string* const path = Takes(each);
     if (path == nullptr) continue;
-    if (const auto found = root.Find(*path)) expected[*path] = WhatItIs(**found);
+    if (const auto found = root.Find(*path)) undo_record.expected[*path] = WhatItIs(**found);
   }
-  return expected;
-}
-
-UndoRecord UndoRecordOf(Inverse inverse, FrameworkElement& root) {
-  UndoRecord undo_record{inverse.All(), {}, std::move(inverse.why_not)};
-  undo_record.expected = WhatIsThere(undo_record.changes, root);
   return undo_record;
 }
 
-Result<void> CheckExpected(const ChangeSet& changes, const Expected& expected,
-                           FrameworkElement& root) {
+Result<void> CheckExpected(const UndoRecord& undo_record, FrameworkElement& root) {
   std::set<std::string> deleted;
-  for (const Change& each : changes) {
+  for (const Change& each : undo_record.changes) {
     if (const auto* const change = std::get_if<DeleteElement>(&each)) deleted.insert(change->path);
   }
-  for (const auto& [path, what] : expected) {
+  for (const auto& [path, what] : undo_record.expected) {
     const auto found = root.Find(path);
     if (!found) return found.error();
     if (WhatItIs(**found) != what) {

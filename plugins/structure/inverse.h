@@ -12,17 +12,8 @@
 
 namespace runnel::internal {
 
-/// What would take a change set back. Filled step by step while it is carried out, each step just before
-/// it takes effect, so that what is noted is what was there.
-struct Inverse {
-  /// Of each step, in the order of the steps; those of one step in their own order.
-  std::vector<ChangeSet> of_steps;
-  /// What cannot be made again by a change, if there is something.
-  std::optional<Error> why_not = {};
-
-  /// All of it, the last step first.
-  [[nodiscard]] ChangeSet All() const;
-};
+// What would take a change set back is noted step by step while it is carried out, each step just before it takes
+// effect, so that what is noted is what was there.
 
 /// Makes the element again, with all that is below it, the values of parameters that are not the default
 /// ones, its assignments to threads and its connections. Under the structure lock.
@@ -36,24 +27,21 @@ struct Inverse {
 /// The path of the thread container that the element itself is assigned to, or "".
 [[nodiscard]] std::string OwnThreadPath(const FrameworkElement& element);
 
-/// What `changes` would delete or replace, and what these elements are now: path and what it is. For
-/// finding out whether others have put something else in their place. Under the structure lock.
-using Expected = std::map<std::string, std::string>;
-[[nodiscard]] Expected WhatIsThere(const ChangeSet& changes, FrameworkElement& root);
-
-/// Whether `changes` still find what they are to delete or replace, and delete nothing that is not theirs.
-/// Errors: what is not as it was. Under the structure lock.
-Result<void> CheckExpected(const ChangeSet& changes, const Expected& expected,
-                           FrameworkElement& root);
-
 /// A change set that takes another one back.
 struct UndoRecord {
   ChangeSet changes;
-  Expected expected;
-  std::optional<Error> why_not;  ///< it cannot be taken back
+  /// What `changes` would delete or replace, and what these elements were then: path and what it is. For
+  /// finding out whether others have put something else in their place.
+  std::map<std::string, std::string> expected;
+  std::optional<Error> why_not;  ///< it cannot be taken back: what no change can make again
 };
 
-/// Right after the change set that `inverse` is of has been carried out. Under the structure lock.
-[[nodiscard]] UndoRecord UndoRecordOf(Inverse inverse, FrameworkElement& root);
+/// Right after the change set has been carried out that `inverses` are of, step by step. Under the structure lock.
+[[nodiscard]] UndoRecord UndoRecordOf(const std::vector<ChangeSet>& inverses,
+                                      std::optional<Error> why_not, FrameworkElement& root);
+
+/// Whether its changes still find what they are to delete or replace, and delete nothing that is not theirs.
+/// Errors: what is not as it was. Under the structure lock.
+Result<void> CheckExpected(const UndoRecord& undo_record, FrameworkElement& root);
 
 }  // namespace runnel::internal

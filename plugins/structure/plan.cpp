@@ -94,13 +94,14 @@ Result<void> Plan::Commit(UndoRecord* back) {
 }
 
 Result<void> Plan::Apply(UndoRecord* back, std::size_t& begun) {
-  Inverse inverse;
+  std::vector<ChangeSet> inverses;
+  std::optional<Error> why_not;
   for (const Step& step : steps_) {
-    if (back != nullptr) inverse.of_steps.push_back(step.inverse(inverse.why_not));
+    if (back != nullptr) inverses.push_back(step.inverse(why_not));
     ++begun;
     if (auto applied = step.apply(); !applied) return applied;
   }
-  if (back != nullptr) *back = UndoRecordOf(std::move(inverse), runtime_.root());
+  if (back != nullptr) *back = UndoRecordOf(inverses, std::move(why_not), runtime_.root());
   return {};
 }
 
@@ -147,41 +148,41 @@ void Plan::AddCreation(UnlistedElement element) {
                     [&made](auto&) -> ChangeSet { return {DeleteElement{made.path()}}; }});
 }
 
-void Plan::AddConnection(Port& from, Port& to, const ConnectOptions& options) {
+Result<void> Plan::CheckTie(const std::string& from_path, const std::string& to_path,
+                            const std::optional<ConnectOptions>& wanted) {
+  const auto found_from = overlay_.FindPort(from_path, PathKind::kOutput);
+  if (!found_from) return found_from.error();
+  const auto found_to = overlay_.FindPort(to_path, PathKind::kInput);
+  if (!found_to) return found_to.error();
+  Port& from = **found_from;
+  Port& to = **found_to;
+  auto possible = wanted ? overlay_.Connect(from, to, *wanted) : overlay_.Disconnect(from, to);
+  if (!possible) return possible;
   Concern(from);
   Concern(to);
-  auto is_made = std::make_shared<bool>(false);
-  steps_.push_back({[&from, &to, options, is_made] {
-                      auto connected = Port::Connect(from, to, options);
-                      *is_made = connected.has_value();
-                      return connected;
+  const auto tie = [&from, &to](const std::optional<ConnectOptions>& options) {
+    return options ? Port::Connect(from, to, *options) : Port::Disconnect(from, to);
+  };
+  struct Done {
+    std::optional<ConnectOptions> before;  // of a connection that is cut
+    bool is_done = false;
+  };
+  auto done = std::make_shared<Done>();
+  steps_.push_back({[=, &from, &to] {
+                      if (!wanted) done->before = OptionsOf(from, to);
+                      auto tied = tie(wanted);
+                      done->is_done = tied.has_value();
+                      return tied;
                     },
-                    [&from, &to, is_made] {
-                      if (*is_made) Must(Port::Disconnect(from, to));
-                      *is_made = false;
+                    [=] {
+                      if (done->is_done) Must(tie(done->before));
+                      done->is_done = false;
                     },
-                    [&from, &to](auto&) -> ChangeSet {
-                      return {DisconnectPorts{from.path(), to.path()}};
-                    }});
-}
-
-void Plan::AddDisconnection(Port& from, Port& to) {
-  Concern(from);
-  Concern(to);
-  auto cut = std::make_shared<std::optional<ConnectOptions>>();
-  steps_.push_back({[&from, &to, cut] {
-                      const ConnectOptions options = OptionsOf(from, to);
-                      auto disconnected = Port::Disconnect(from, to);
-                      if (disconnected) *cut = options;
-                      return disconnected;
-                    },
-                    [&from, &to, cut] {
-                      if (*cut) Must(Port::Connect(from, to, **cut));
-                      cut->reset();
-                    },
-                    [&from, &to](auto&) -> ChangeSet {
+                    [=, &from, &to](auto&) -> ChangeSet {
+                      if (wanted) return {DisconnectPorts{from.path(), to.path()}};
                       return {ConnectPorts{from.path(), to.path(), OptionsOf(from, to)}};
                     }});
+  return {};
 }
 
 // What goes with it stays as it is among itself; what ties it to others is cut.

@@ -68,19 +68,24 @@ class Plan {
   Result<void> Check(const CreateGroup& change);
   Result<void> Check(const CreatePort& change);
   Result<void> Check(const DeleteElement& change);
-  Result<void> Check(const ConnectPorts& change);
-  Result<void> Check(const DisconnectPorts& change);
+  Result<void> Check(const ConnectPorts& change) {
+    return CheckTie(change.from, change.to, change.options);
+  }
+  Result<void> Check(const DisconnectPorts& change) {
+    return CheckTie(change.from, change.to, std::nullopt);
+  }
   Result<void> Check(const SetParameter& change);
   Result<void> Check(const ReplaceModule& change);
   Result<void> Check(const AssignToThread& change);
 
+  // `wanted`: of the connection that is to be; nullopt: none is to be.
+  Result<void> CheckTie(const std::string& from_path, const std::string& to_path,
+                        const std::optional<ConnectOptions>& wanted);
   Result<void> Apply(UndoRecord* back, std::size_t& begun);
   Result<UnlistedElement> MakeModule(const std::string& type, const Placement& placement);
   void WarnOfMissingSources(Diagnostics& diagnostics) const;
 
   void AddCreation(UnlistedElement element);
-  void AddConnection(Port& from, Port& to, const ConnectOptions& options);
-  void AddDisconnection(Port& from, Port& to);
   void AddRemoval(FrameworkElement& element);
   void AddReplacement(FrameworkElement& before, UnlistedElement after,
                       std::vector<std::pair<Port*, Port*>> ports, const ReplaceModule& change);

@@ -66,11 +66,9 @@ Result<void> Plan::Check(const CreatePort& change) {
   if (!place) return place.error();
   const TypeInfo* const type = FindType(change.type);
   if (type == nullptr) {
-    std::vector<std::string> names;
-    for (const TypeInfo* each : RegisteredTypes()) names.push_back(each->name());
     return Error{.message = "there is no data type '" + change.type + "'",
                  .path = change.path,
-                 .hint = NearestNameHint(change.type, names)};
+                 .hint = NearestNameHint(change.type, NamesOf(RegisteredTypes(), &TypeInfo::name))};
   }
   if (const std::string fault = UnwritableCharacter(change.description); !fault.empty()) {
     return Error{.message = "the description contains " + fault, .path = change.path};
@@ -79,26 +77,6 @@ Result<void> Plan::Check(const CreatePort& change) {
       std::make_unique<ProxyPort>(*place, change.direction, *type, change.description));
   if (auto prepared = Runtime::Prepare(made); !prepared) return prepared;
   AddCreation(std::move(made));
-  return {};
-}
-
-Result<void> Plan::Check(const ConnectPorts& change) {
-  const auto from = overlay_.FindPort(change.from, PathKind::kOutput);
-  if (!from) return from.error();
-  const auto to = overlay_.FindPort(change.to, PathKind::kInput);
-  if (!to) return to.error();
-  if (auto possible = overlay_.Connect(**from, **to, change.options); !possible) return possible;
-  AddConnection(**from, **to, change.options);
-  return {};
-}
-
-Result<void> Plan::Check(const DisconnectPorts& change) {
-  const auto from = overlay_.FindPort(change.from, PathKind::kOutput);
-  if (!from) return from.error();
-  const auto to = overlay_.FindPort(change.to, PathKind::kInput);
-  if (!to) return to.error();
-  if (auto possible = overlay_.Disconnect(**from, **to); !possible) return possible;
-  AddDisconnection(**from, **to);
   return {};
 }
 

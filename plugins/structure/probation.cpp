@@ -40,19 +40,12 @@ bool Probation::HasProved(const Waiting& waiting) {
 }
 
 // Memory comes before anything is taken out: what is lost on the way would be destroyed while others look at it.
-std::vector<UnlistedElement> Probation::TakeProved() {
+std::vector<UnlistedElement> Probation::Take(bool all) {
   proved_.reserve(proved_.size() + waiting_.size());
   for (Waiting& each : waiting_) {
-    if (HasProved(each)) proved_.push_back(std::move(each.replaced.before));
+    if (all || HasProved(each)) proved_.push_back(std::move(each.replaced.before));
   }
   std::erase_if(waiting_, [](const Waiting& each) { return !each.replaced.before; });
-  return std::exchange(proved_, {});
-}
-
-std::vector<UnlistedElement> Probation::TakeAll() {
-  proved_.reserve(proved_.size() + waiting_.size());
-  for (Waiting& each : waiting_) proved_.push_back(std::move(each.replaced.before));
-  waiting_.clear();
   return std::exchange(proved_, {});
 }
 

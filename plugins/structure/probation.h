@@ -23,9 +23,8 @@ class Probation {
   /// Takes those that are to be kept; the rest stays in `replaced`. Throws for lack of memory, and has taken
   /// nothing then.
   void Add(std::vector<Replaced>& replaced);
-  /// Takes out those whose successors have proved themselves, or are gone.
-  [[nodiscard]] std::vector<UnlistedElement> TakeProved();
-  [[nodiscard]] std::vector<UnlistedElement> TakeAll();
+  /// Takes out all, or those whose successors have proved themselves, or are gone.
+  [[nodiscard]] std::vector<UnlistedElement> Take(bool all);
   /// The module of the fault has thrown: if it is on probation, its predecessor is back when this returns.
   /// What has been done, in words; nullopt if it is not on probation. Throws if it could not be done.
   [[nodiscard]] std::optional<std::string> Answer(const Fault& fault);

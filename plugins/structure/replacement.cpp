@@ -12,12 +12,6 @@ namespace runnel::internal {
 
 namespace {
 
-std::vector<std::string> NamesIn(const FrameworkElement& element) {
-  std::vector<std::string> names;
-  for (const FrameworkElement* each : element.children()) names.push_back(each->name());
-  return names;
-}
-
 Result<void> Refused(const Result<void>& refusal, const FrameworkElement& parameter) {
   Error error = refusal.error();
   if (error.path.empty()) error.path = parameter.path();
@@ -34,7 +28,9 @@ Error NoCounterpart(const Port& port, const FrameworkElement& before, FrameworkE
   const auto group = after.Find(port.parent()->path().substr(before.path().size() + 1));
   return {.message = "the new module has no port '" + port.name() + "', which is connected",
           .path = port.path(),
-          .hint = group ? NearestNameHint(port.name(), NamesIn(**group)) : "disconnect it first"};
+          .hint = group ? NearestNameHint(port.name(),
+                                          NamesOf((*group)->children(), &FrameworkElement::name))
+                        : "disconnect it first"};
 }
 
 }  // namespace
@@ -42,11 +38,11 @@ Error NoCounterpart(const Port& port, const FrameworkElement& before, FrameworkE
 Result<void> Configure(FrameworkElement& module, const Setting& setting) {
   const ConfigurableElement parameter = FindConfigurable(module, setting.parameter);
   if (!parameter) {
-    std::vector<std::string> names;
-    for (const auto& each : ConfigurablesOf(module)) names.push_back(each.element->name());
-    return Error{.message = "there is no parameter '" + setting.parameter + "'",
-                 .path = module.path(),
-                 .hint = NearestNameHint(setting.parameter, names)};
+    const auto name_of = [](const auto& each) { return each.element->name(); };
+    return Error{
+        .message = "there is no parameter '" + setting.parameter + "'",
+        .path = module.path(),
+        .hint = NearestNameHint(setting.parameter, NamesOf(ConfigurablesOf(module), name_of))};
   }
   const auto set = parameter.configurable->SetFromText(setting.value);
   return set ? set : Refused(set, *parameter.element);

@@ -18,13 +18,6 @@ namespace {
 // How often others may change the structure between checking and carrying out before it is given up.
 constexpr int kAttempts = 100;
 
-void CheckUndoRecord(const internal::UndoRecord& undo_record, Runtime& runtime,
-                     Diagnostics& diagnostics) {
-  const auto possible =
-      internal::CheckExpected(undo_record.changes, undo_record.expected, runtime.root());
-  if (!possible) diagnostics.Add(possible.error());
-}
-
 }  // namespace
 
 // Shared with the scheduler's fault handler, so that a fault that is just being answered when the editor
@@ -53,7 +46,7 @@ StructureEditor::~StructureEditor() {
   if (scheduler_ == nullptr) return;
   scheduler_->SetFaultHandler({});
   const std::lock_guard lock(shared_->mutex);
-  runtime_.Destroy(shared_->probation->TakeAll());
+  runtime_.Destroy(shared_->probation->Take(/*all=*/true));
 }
 
 std::size_t StructureEditor::on_probation() const {
@@ -63,7 +56,7 @@ std::size_t StructureEditor::on_probation() const {
 
 void StructureEditor::Tend() {
   const std::lock_guard lock(shared_->mutex);
-  if (shared_->probation) runtime_.Destroy(shared_->probation->TakeProved());
+  if (shared_->probation) runtime_.Destroy(shared_->probation->Take(/*all=*/false));
 }
 
 ChangeOutcome StructureEditor::Apply(const ChangeSet& changes,
@@ -104,8 +97,10 @@ StructureEditor::Attempt StructureEditor::Try(const ChangeRequest& request,
   std::uint64_t revision = 0;
   {
     const std::lock_guard lock(runtime_.structure_mutex());
-    if (request.undo_record != nullptr)
-      CheckUndoRecord(*request.undo_record, runtime_, outcome.diagnostics);
+    if (request.undo_record != nullptr) {
+      const auto possible = internal::CheckExpected(*request.undo_record, runtime_.root());
+      if (!possible) outcome.diagnostics.Add(possible.error());
+    }
     if (outcome.diagnostics.ok()) plan.Make(request.changes, request.places, outcome.diagnostics);
     revision = runtime_.revision();
   }
@@ -142,7 +137,7 @@ StructureEditor::Attempt StructureEditor::Try(const ChangeRequest& request,
   }
   runtime_.Destroy(std::move(plan.removed()));
   if (shared_->probation) {
-    runtime_.Destroy(shared_->probation->TakeProved());
+    runtime_.Destroy(shared_->probation->Take(/*all=*/false));
     shared_->probation->Add(plan.replaced());
   }
   for (internal::Replaced& each : plan.replaced()) runtime_.Destroy(std::move(each.before));

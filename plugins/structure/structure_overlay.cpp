@@ -142,8 +142,7 @@ Result<void> StructureOverlay::Connect(Port& from, Port& to, const ConnectOption
 
 Result<void> StructureOverlay::Disconnect(Port& from, Port& to) {
   if (std::ranges::count(Targets(from), &to) == 0) {
-    std::vector<std::string> names;
-    for (const Port* each : Targets(from)) names.push_back(each->path());
+    const std::vector<std::string> names = NamesOf(Targets(from), &Port::path);
     return Error{.message = "is not connected to " + to.path(),
                  .path = from.path(),
                  .hint = names.empty() ? "it is not connected to anything"

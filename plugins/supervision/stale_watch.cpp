@@ -23,13 +23,16 @@ StaleWatch::Turn StaleWatch::Look(Runtime& runtime, Time now) {
   return turn;
 }
 
-// An output that is gone is silent.
+// Counted from the measurement: what is old when it comes is stale. A time to come counts as that of the
+// publication, else a publisher with a wrong clock would be fresh for ever. An output that is gone is silent.
 void StaleWatch::Hear(Runtime& runtime) {
   for (const std::string& path : outputs_) {
     const auto found = runtime.root().Find(path);
     const auto* const port = found ? dynamic_cast<const Port*>(*found) : nullptr;
     if (port == nullptr) continue;
-    port->VisitLatest([&](const void*, Time timestamp) { heard_ = std::max(*heard_, timestamp); });
+    port->VisitLatest([&](const void*, ValueTimes times) {
+      heard_ = std::max(*heard_, std::min(times.timestamp, times.publication_time));
+    });
   }
 }
 

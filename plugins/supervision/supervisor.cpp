@@ -104,15 +104,14 @@ Result<void> Supervisor::Add(StaleRule rule) {
   return {};
 }
 
-Result<void> Supervisor::Add(FaultReaction rule) {
-  FaultRule added{.of = rule.of, .action = FaultRule::Action::kCall};
+void Supervisor::Add(FaultReaction rule) {
   // Weakly, for the scheduler keeps its rules longer than this.
-  added.call = [shared = std::weak_ptr(shared_), rule](const Fault& fault) {
+  const auto call = [shared = std::weak_ptr(shared_), rule](const Fault& fault) {
     if (const auto there = shared.lock()) {
       there->React(rule.reaction, fault.path, "has failed", fault.time);
     }
   };
-  return scheduler_.AddFaultRule(std::move(added));
+  scheduler_.AddFaultRule({.of = rule.of, .call = call});
 }
 
 std::vector<Notice> Supervisor::TakeNotices() {

@@ -33,8 +33,7 @@ class Supervisor {
 
   /// Errors: no such port; nothing is connected to it; a time-out that is not positive.
   Result<void> Add(StaleRule rule);
-  /// Errors: as Scheduler::AddFaultRule().
-  Result<void> Add(FaultReaction rule);
+  void Add(FaultReaction rule);
 
   /// What has been done since the last call, oldest first.
   [[nodiscard]] std::vector<Notice> TakeNotices();

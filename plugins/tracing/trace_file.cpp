@@ -2,12 +2,11 @@
 
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 #include <utility>
 
-#include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
-
-#include "plugins/values/json_writer.h"
 
 namespace runnel {
 
@@ -15,49 +14,38 @@ namespace {
 
 constexpr std::size_t kAtOnce = 1 << 18;
 
-void AppendPadded(std::uint64_t number, int digits, std::string& text) {
-  char buffer[20];
-  for (int i = digits; i-- > 0; number /= 10) buffer[i] = static_cast<char>('0' + number % 10);
-  text.append(buffer, static_cast<std::size_t>(digits));
+// In microseconds, as the format wants them.
+void AppendTime(std::string_view key, Duration duration, std::string& text) {
+  const std::int64_t count = duration.count();
+  const std::uint64_t size =
+      count < 0 ? 0 - static_cast<std::uint64_t>(count) : static_cast<std::uint64_t>(count);
+  fmt::format_to(std::back_inserter(text), ",\"{}\":{}{}.{:03}", key, count < 0 ? "-" : "",
+                 size / 1000, size % 1000);
 }
 
 }  // namespace
 
 Result<TraceFile> TraceFile::Create(const std::string& file, std::uint64_t most_bytes) {
-  const int descriptor =
-      open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);  // less the user's mask
-  if (descriptor < 0) {
+  std::FILE* const opened = std::fopen(file.c_str(), "we");  // closed in child processes
+  if (opened == nullptr) {
     const bool lacks_folder = errno == ENOENT;
     return Error{.message = std::string("cannot be written: ") + std::strerror(errno),
                  .position = {file},
                  .hint = lacks_folder ? "make its folder first" : ""};
   }
-  return TraceFile(file, descriptor, most_bytes);
+  std::setbuf(opened, nullptr);  // text_ is the buffer
+  return TraceFile(file, opened, most_bytes);
 }
 
-TraceFile::TraceFile(std::string file, int descriptor, std::uint64_t most_bytes)
-    : file_(std::move(file)),
-      descriptor_(descriptor),
+TraceFile::TraceFile(std::string name, std::FILE* file, std::uint64_t most_bytes)
+    : name_(std::move(name)),
+      file_(file, std::fclose),
       most_bytes_(most_bytes),
       start_(SteadyClock().Now()),
-      head_("\",\"pid\":" + std::to_string(getpid()) + ",\"tid\":") {}
-
-TraceFile::TraceFile(TraceFile&& other) noexcept
-    : file_(std::move(other.file_)),
-      descriptor_(std::exchange(other.descriptor_, -1)),
-      most_bytes_(other.most_bytes_),
-      start_(other.start_),
-      head_(std::move(other.head_)),
-      text_(std::move(other.text_)),
-      events_in_text_(other.events_in_text_),
-      reserve_(other.reserve_),
-      written_(other.written_),
-      events_(other.events_),
-      left_out_(other.left_out_),
-      error_(std::move(other.error_)) {}
+      process_(getpid()) {}
 
 TraceFile::~TraceFile() {
-  if (descriptor_ >= 0) (void)Close();
+  if (file_ != nullptr) (void)Close();
 }
 
 bool TraceFile::Begin(char phase, int track, std::string_view name) {
@@ -66,33 +54,16 @@ bool TraceFile::Begin(char phase, int track, std::string_view name) {
     return false;
   }
   // The comma comes first, so that the file is whole wherever it ends between two events.
-  text_ += events_ == 0 ? "[\n{\"ph\":\"" : ",\n{\"ph\":\"";
-  text_ += phase;
-  text_ += head_;
-  AppendJsonNumber(static_cast<std::int64_t>(track), text_);
-  text_ += ",\"name\":";
-  text_ += name;
+  fmt::format_to(std::back_inserter(text_), R"({}{{"ph":"{}","pid":{},"tid":{},"name":{})",
+                 events_ == 0 ? "[\n" : ",\n", phase, process_, track, name);
   ++events_;
   ++events_in_text_;
   return true;
 }
 
-// In microseconds, as the format wants them.
-void TraceFile::AppendTime(std::string_view key, Duration duration) {
-  std::int64_t count = duration.count();
-  text_ += key;
-  if (count < 0) text_ += '-';
-  const auto size = static_cast<std::uint64_t>(count < 0 ? -count : count);
-  AppendJsonNumber(size / 1000, text_);
-  text_ += '.';
-  AppendPadded(size % 1000, 3, text_);
-}
-
 void TraceFile::End(std::string_view arguments) {
   if (!arguments.empty()) {
-    text_ += ",\"args\":{";
-    text_ += arguments;
-    text_ += '}';
+    fmt::format_to(std::back_inserter(text_), ",\"args\":{{{}}}", arguments);
   }
   text_ += '}';
   if (text_.size() >= kAtOnce) Flush();
@@ -105,21 +76,17 @@ void TraceFile::AddName(int track, std::string_view what, std::string_view argum
 void TraceFile::AddSlice(int track, std::string_view name, const char* category, Time began,
                          Time ended, std::string_view arguments) {
   if (!Begin('X', track, name)) return;
-  text_ += ",\"cat\":\"";
-  text_ += category;
-  text_ += '"';
-  AppendTime(",\"ts\":", began - start_);
-  AppendTime(",\"dur\":", ended - began);
+  fmt::format_to(std::back_inserter(text_), ",\"cat\":\"{}\"", category);
+  AppendTime("ts", began - start_, text_);
+  AppendTime("dur", ended - began, text_);
   End(arguments);
 }
 
 void TraceFile::AddInstant(int track, std::string_view name, const char* category, Time when,
                            std::string_view arguments) {
   if (!Begin('i', track, name)) return;
-  text_ += ",\"s\":\"t\",\"cat\":\"";
-  text_ += category;
-  text_ += '"';
-  AppendTime(",\"ts\":", when - start_);
+  fmt::format_to(std::back_inserter(text_), ",\"s\":\"t\",\"cat\":\"{}\"", category);
+  AppendTime("ts", when - start_, text_);
   End(arguments);
 }
 
@@ -135,29 +102,23 @@ void TraceFile::Flush() {
 
 void TraceFile::Write(std::string_view bytes) {
   while (!bytes.empty() && !error_) {
-    const ssize_t count = write(descriptor_, bytes.data(), bytes.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) {
-      error_ =
-          Error{.message = std::string("the trace could not be written: ") + std::strerror(errno),
-                .position = {file_}};
-      return;
-    }
-    written_ += static_cast<std::uint64_t>(count);
-    bytes.remove_prefix(static_cast<std::size_t>(count));
+    const std::size_t count = std::fwrite(bytes.data(), 1, bytes.size(), file_.get());
+    written_ += count;
+    bytes.remove_prefix(count);
+    if (!bytes.empty() && errno != EINTR) Fail();
   }
+}
+
+void TraceFile::Fail() {
+  error_ = Error{.message = std::string("the trace could not be written: ") + std::strerror(errno),
+                 .position = {name_}};
 }
 
 Result<void> TraceFile::Close() {
   Flush();
   Write(events_ == 0 ? "[\n]\n" : "\n]\n");
-  if (close(std::exchange(descriptor_, -1)) != 0 && !error_) {
-    error_ =
-        Error{.message = std::string("the trace could not be written: ") + std::strerror(errno),
-              .position = {file_}};
-  }
-  if (error_) return *error_;
-  return {};
+  if (std::fclose(file_.release()) != 0 && !error_) Fail();
+  return error_ ? Result<void>(*error_) : Result<void>();
 }
 
 }  // namespace runnel

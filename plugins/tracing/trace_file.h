@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdio>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,6 +11,13 @@
 #include "core/base/result.h"
 
 namespace runnel {
+
+/// What a trace has come to.
+struct TraceSummary {
+  std::uint64_t events = 0;    ///< in the file
+  std::uint64_t lost = 0;      ///< as they came faster than they could be written down
+  std::uint64_t left_out = 0;  ///< as the file was as long as it may be, or could not be written
+};
 
 /// A file in Chrome's trace event format, the array form of it, which Perfetto and chrome://tracing open:
 ///
@@ -26,7 +35,7 @@ class TraceFile {
   /// Errors: the file cannot be made.
   static Result<TraceFile> Create(const std::string& file, std::uint64_t most_bytes);
   ~TraceFile();
-  TraceFile(TraceFile&& other) noexcept;
+  TraceFile(TraceFile&&) = default;
   TraceFile& operator=(TraceFile&&) = delete;
 
   /// Times count from now on.
@@ -56,19 +65,19 @@ class TraceFile {
   [[nodiscard]] std::uint64_t left_out() const noexcept { return left_out_; }
 
  private:
-  TraceFile(std::string file, int descriptor, std::uint64_t most_bytes);
+  TraceFile(std::string name, std::FILE* file, std::uint64_t most_bytes);
 
   /// Whether there is room for an event. Appends what all have in common.
   bool Begin(char phase, int track, std::string_view name);
-  void AppendTime(std::string_view key, Duration duration);
   void End(std::string_view arguments);
   void Write(std::string_view bytes);
+  void Fail();
 
-  std::string file_;
-  int descriptor_;
+  std::string name_;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
   const std::uint64_t most_bytes_;
   const Time start_;
-  std::string head_;  // of each event, from its second character on
+  const int process_;
   std::string text_;  // not written yet
   std::size_t events_in_text_ = 0;
   std::uint64_t reserve_ = 4096;

@@ -13,7 +13,6 @@
 #include "core/element/runtime.h"
 #include "plugins/scheduling/cycle_tracer.h"
 #include "plugins/tracing/trace_file.h"
-#include "plugins/tracing/trace_summary.h"
 
 namespace runnel {
 
@@ -49,8 +48,6 @@ class TraceRecorder final : public CycleTracer, private ElementListener {
   /// Errors: the file cannot be made.
   static Result<std::unique_ptr<TraceRecorder>> Start(Runtime& runtime, TraceOptions options);
   ~TraceRecorder() override;
-  TraceRecorder(const TraceRecorder&) = delete;
-  TraceRecorder& operator=(const TraceRecorder&) = delete;
 
   /// What is put in, taken out and connected from now on is written down; not what is built before.
   void FollowStructure();

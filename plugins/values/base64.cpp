@@ -29,7 +29,7 @@ void AppendBase64(const TypeInfo& list, const void* value, std::string& json) {
   const ElementOperations& elements = list.elements();
   const std::size_t count = elements.columns(value);
   const auto at = [&](std::size_t index) {
-    return static_cast<const char*>(elements.element(const_cast<void*>(value), index));
+    return static_cast<const char*>(elements.element(ForLooking(value), index));
   };
   json += '"';
   // They lie one behind the other in all lists that anybody uses for them; the others are copied.

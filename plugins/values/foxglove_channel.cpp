@@ -5,6 +5,7 @@
 
 #include "core/types/type_info.h"
 #include "plugins/values/internal/drawing.h"
+#include "plugins/values/json_reader.h"
 #include "plugins/values/json_values.h"
 #include "plugins/values/json_writer.h"
 
@@ -24,18 +25,9 @@ bool IsList(const TypeInfo& type) {
 }
 
 // Foxglove refuses a channel whose schema has lists of lists, and reads it well without a schema.
-bool HasListsOfLists(const TypeInfo& type, std::vector<const TypeInfo*>& open) {
-  if (type.kind() == TypeKind::kMatrix) return true;
-  if (std::ranges::find(open, &type) != open.end()) return false;
-  open.push_back(&type);
-  bool has = false;
-  if (type.kind() == TypeKind::kSequence) {
-    const TypeInfo& element = *type.elements().type;
-    has = IsList(element) || HasListsOfLists(element, open);
-  }
-  for (const FieldInfo& field : type.fields()) has = has || HasListsOfLists(*field.type, open);
-  open.pop_back();
-  return has;
+bool IsListOfLists(const TypeInfo& type) {
+  return type.kind() == TypeKind::kMatrix ||
+         (type.kind() == TypeKind::kSequence && IsList(*type.elements().type));
 }
 
 // Messages are objects; what is none is put into one.
@@ -50,9 +42,8 @@ std::string WrappedSchema(const TypeInfo& type) {
 FoxgloveChannel PlainChannel(const TypeInfo& type, std::string_view topic,
                              const FoxgloveOptions& options) {
   const bool is_object = type.kind() == TypeKind::kStructure;
-  std::vector<const TypeInfo*> open;
   FoxgloveChannel channel{std::string(topic), type.name(), "", {}};
-  if (!HasListsOfLists(type, open)) {
+  if (!type.HasPart(IsListOfLists)) {
     channel.schema = is_object ? JsonSchemaOf(type) : WrappedSchema(type);
   }
   channel.append = [&type, is_object, limits = JsonLimits{.has_infinity = options.has_infinity}](
@@ -86,6 +77,15 @@ std::vector<FoxgloveChannel> ChannelsFor(const TypeInfo& type, std::string_view 
     channels.push_back(DrawnChannel(*drawing, type, std::string(topic) + "/foxglove", options));
   }
   return channels;
+}
+
+Result<void> SetFromMessage(const TypeInfo& type, std::string_view json, void* value) {
+  const auto message = JsonPart::Parse(json);
+  if (!message) return message.error();
+  if (type.kind() == TypeKind::kStructure) return SetFromJson(type, *message, value);
+  JsonMembers members(*message);
+  const JsonPart* const wrapped = members.Find("value");
+  return SetFromJson(type, wrapped != nullptr ? *wrapped : *message, value);
 }
 
 std::optional<FoxgloveChannel> TransformChannelFor(const TypeInfo& type,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/clock.h"
+#include "core/base/result.h"
 
 namespace runnel {
 
@@ -18,7 +19,7 @@ struct FoxgloveChannel {
   std::string topic;
   std::string schema_name;  ///< the type's name, or one of Foxglove's own: "foxglove.LaserScan"
   std::string schema;       ///< JSON Schema; "" where viewers could not read it (lists of lists)
-  /// Appends the message for a value of the type, with the time it was published.
+  /// Appends the message for a value of the type, with the time it was measured.
   /// Threads: as for the value. Allocates what the message needs.
   std::function<void(const void* value, Time timestamp, std::string& json)> append;
 
@@ -47,6 +48,11 @@ struct FoxgloveOptions {
 /// Empty for a type that is not transparent.
 [[nodiscard]] std::vector<FoxgloveChannel> ChannelsFor(const TypeInfo& type, std::string_view topic,
                                                        const FoxgloveOptions& options = {});
+
+/// Sets `value` from a message of the channel that shows values as they are; one that is not within "value", though
+/// its type is no structure, is read, too.
+/// Errors: as of SetFromJson().
+Result<void> SetFromMessage(const TypeInfo& type, std::string_view json, void* value);
 
 /// Foxglove's transform from the world to the body, made of the body's poses: what puts scans where the
 /// robot is. Its topic is "/tf". Nothing if the type's values are no poses.

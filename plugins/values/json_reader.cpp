@@ -5,57 +5,40 @@
 
 #include "core/base/nearest_name.h"
 #include "core/base/number_text.h"
-#include "plugins/values/internal/json_cursor.h"
+#include "plugins/values/internal/json_number.h"
 
 namespace runnel {
 
-Result<JsonPart> JsonPart::Parse(std::string_view text, int deepest) {
-  JsonCursor cursor(text);
-  if (!cursor.SkipValue(deepest)) {
-    if (cursor.is_too_deep()) return cursor.ErrorAt(cursor.place(), "it is nested too deeply");
-    cursor.SkipWhitespace();
-    return cursor.ExpectedAt(cursor.place(), "JSON");
-  }
-  if (!cursor.AtEnd()) return cursor.ExpectedAt(cursor.place(), "the end");
-  return JsonPart(JsonCursor(text).TakeValue());
+std::optional<bool> JsonPart::boolean() const {
+  if (IsWord("true")) return true;
+  return IsWord("false") ? std::optional(false) : std::nullopt;
 }
 
 std::optional<std::string> JsonPart::text() const {
-  JsonCursor cursor(json_);
-  std::string text;
-  if (!json_.starts_with('"')) return {};
-  cursor.TakeString(text);
-  return text;
+  return Is(ValueToken::Kind::kText) ? std::optional(token_->text) : std::nullopt;
 }
 
-std::optional<double> JsonPart::number() const {
-  const std::string_view digits = JsonCursor(json_).TakeNumber();
-  if (digits.empty()) return {};
-  return DoubleOf(digits);
-}
+std::optional<double> JsonPart::number() const { return internal::NumberOf<double>(*token_); }
 
-std::optional<std::uint64_t> JsonPart::count() const { return NumberIn<std::uint64_t>(json_); }
+std::optional<std::uint64_t> JsonPart::count() const {
+  return Is(ValueToken::Kind::kWord) ? NumberIn<std::uint64_t>(token_->text) : std::nullopt;
+}
 
 std::vector<JsonPart> JsonPart::items() const {
   std::vector<JsonPart> items;
-  JsonCursor cursor(json_);
-  if (!cursor.Skip('[') || cursor.Skip(']')) return items;
-  do {
-    items.push_back(JsonPart(cursor.TakeValue()));
-  } while (cursor.Skip(','));
+  if (!is_list()) return items;
+  const ValueToken* item = token_->First();
+  for (; items.size() < token_->count; item = item->Next()) items.push_back(Part(item));
   return items;
 }
 
 std::vector<std::pair<std::string, JsonPart>> JsonPart::members() const {
   std::vector<std::pair<std::string, JsonPart>> members;
-  JsonCursor cursor(json_);
-  if (!cursor.Skip('{') || cursor.Skip('}')) return members;
-  do {
-    std::string name;
-    cursor.TakeString(name);  // has been checked
-    cursor.Skip(':');
-    members.emplace_back(std::move(name), JsonPart(cursor.TakeValue()));
-  } while (cursor.Skip(','));
+  if (!is_object()) return members;
+  const ValueToken* name = token_->First();
+  for (; members.size() * 2 < token_->count; name = name->Next()->Next()) {
+    members.emplace_back(name->text, Part(name->Next()));
+  }
   return members;
 }
 

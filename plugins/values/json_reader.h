@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,25 +9,26 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/types/value_tokens.h"
 
 namespace runnel {
 
-/// One value within a JSON text (RFC 8259, strictly), for requests, whose shape only those know who read them.
-/// The text has been checked as a whole, and outlives this.
+/// One value within a JSON text (RFC 8259), for requests, whose shape only those know who read them.
+/// Copies share what has been read; it lives as long as one of them.
+/// Threads: never changes; any thread.
 class JsonPart {
  public:
-  static constexpr int kDeepest = 100;
+  /// Errors: the text is no JSON, or has more than `deepest` lists and objects inside of one another, or a number
+  /// beyond 1e4932; with the line and the column (bytes, from 1) where that shows.
+  [[nodiscard]] static Result<JsonPart> Parse(std::string_view text,
+                                              int deepest = ValueTokens::kDeepest);
 
-  /// Errors: the text is no JSON, or has more than `deepest` lists and objects inside of one another.
-  [[nodiscard]] static Result<JsonPart> Parse(std::string_view text, int deepest = kDeepest);
-
-  /// As it stands.
-  [[nodiscard]] std::string_view json() const noexcept { return json_; }
-  [[nodiscard]] bool is_object() const noexcept { return json_.starts_with('{'); }
-  [[nodiscard]] bool is_list() const noexcept { return json_.starts_with('['); }
-  [[nodiscard]] bool is_null() const noexcept { return json_ == "null"; }
+  [[nodiscard]] bool is_object() const noexcept { return Is(ValueToken::Kind::kStructure); }
+  [[nodiscard]] bool is_list() const noexcept { return Is(ValueToken::Kind::kList); }
+  [[nodiscard]] bool is_null() const noexcept { return IsWord("null"); }
 
   // Nothing, or empty, if it is none.
+  [[nodiscard]] std::optional<bool> boolean() const;
   [[nodiscard]] std::optional<std::string> text() const;
   [[nodiscard]] std::optional<double> number() const;
   /// A whole number, not below 0.
@@ -34,10 +36,20 @@ class JsonPart {
   [[nodiscard]] std::vector<JsonPart> items() const;
   [[nodiscard]] std::vector<std::pair<std::string, JsonPart>> members() const;
 
- private:
-  explicit JsonPart(std::string_view json) : json_(json) {}
+  /// Booleans, numbers and null are words: numbers with all their digits.
+  [[nodiscard]] const ValueToken& token() const noexcept { return *token_; }
 
-  std::string_view json_;
+ private:
+  explicit JsonPart(std::shared_ptr<const ValueToken> token) : token_(std::move(token)) {}
+  [[nodiscard]] JsonPart Part(const ValueToken* token) const {
+    return JsonPart(std::shared_ptr<const ValueToken>(token_, token));
+  }
+  [[nodiscard]] bool Is(ValueToken::Kind kind) const noexcept { return token_->kind == kind; }
+  [[nodiscard]] bool IsWord(std::string_view word) const noexcept {
+    return Is(ValueToken::Kind::kWord) && token_->text == word;
+  }
+
+  std::shared_ptr<const ValueToken> token_;  // owns all of the text's
 };
 
 /// Takes members out of an object one after the other. What is missing or of a wrong kind is remembered, the

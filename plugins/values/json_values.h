@@ -9,6 +9,7 @@
 
 namespace runnel {
 
+class JsonPart;
 class TypeInfo;
 
 /// How much of a value a viewer wants. What is beyond is left out, and the rest is JSON of the same
@@ -46,10 +47,12 @@ bool AppendJson(const TypeInfo& type, const void* value, std::string& json,
 /// The way back: sets `value` from what AppendJson() has written without limits, or what somebody
 /// wrote by hand. Strict JSON (RFC 8259), in UTF-8. Fields that are left out stay as they are;
 /// elements of lists begin as the type makes them.
-/// Errors:   say what is wrong, of which field ("points[2].x"), the nearest name that would have
-///           been right, and in Error::position the line and the column (bytes, from 1). The value may
-///           then be half set, so work on a copy. Nesting is limited to 100 levels.
+/// Errors:   say what is wrong, of which field ("points[2].x") with the nearest name that would have
+///           been right; or where the text is no JSON, in Error::position the line and the column (bytes, from
+///           1). The value may then be half set, so work on a copy. Nesting is limited to 100 levels, lists to
+///           256 MiB together.
 Result<void> SetFromJson(const TypeInfo& type, std::string_view json, void* value);
+Result<void> SetFromJson(const TypeInfo& type, const JsonPart& json, void* value);
 
 /// What AppendJson() writes for the type, as JSON Schema that is good for draft 7 and 2020-12:
 /// units and descriptions in "description", "nullable" (an OpenAPI word, which validators know) for

@@ -1,9 +1,5 @@
 #include "plugins/values/json_writer.h"
 
-#include <array>
-#include <charconv>
-#include <cmath>
-
 #include "core/base/characters.h"
 
 namespace runnel {
@@ -25,19 +21,6 @@ void AppendAscii(char character, std::string& json) {
   }
 }
 
-template <typename N>
-void AppendDigits(N number, std::string& json) {
-  std::array<char, 32> digits;
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number);
-  json.append(digits.data(), end.ptr);
-}
-
-template <typename N>
-void AppendFloating(N number, std::string& json) {
-  if (std::isfinite(number)) return AppendDigits(number, json);
-  json += std::isnan(number) ? "null" : number > 0 ? "1e999" : "-1e999";
-}
-
 }  // namespace
 
 void AppendJsonString(std::string_view text, std::string& json) {
@@ -54,10 +37,5 @@ void AppendJsonString(std::string_view text, std::string& json) {
   }
   json += '"';
 }
-
-void AppendJsonNumber(double number, std::string& json) { AppendFloating(number, json); }
-void AppendJsonNumber(float number, std::string& json) { AppendFloating(number, json); }
-void AppendJsonNumber(std::int64_t number, std::string& json) { AppendDigits(number, json); }
-void AppendJsonNumber(std::uint64_t number, std::string& json) { AppendDigits(number, json); }
 
 }  // namespace runnel

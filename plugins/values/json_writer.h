@@ -1,8 +1,9 @@
 #pragma once
 
+#include <array>
+#include <charconv>
+#include <cmath>
 #include <concepts>
-#include <cstddef>
-#include <cstdint>
 #include <exception>
 #include <optional>
 #include <string>
@@ -14,10 +15,19 @@ namespace runnel {
 /// `text` in quotation marks, with what JSON wants escaped; bytes that are no UTF-8 become U+FFFD.
 void AppendJsonString(std::string_view text, std::string& json);
 /// In the fewest digits that read back the same; NaN is null, infinities are 1e999 and -1e999.
-void AppendJsonNumber(double number, std::string& json);
-void AppendJsonNumber(float number, std::string& json);
-void AppendJsonNumber(std::int64_t number, std::string& json);
-void AppendJsonNumber(std::uint64_t number, std::string& json);
+template <typename N>
+requires std::is_arithmetic_v<N>
+void AppendJsonNumber(N number, std::string& json) {
+  if constexpr (std::floating_point<N>) {
+    if (!std::isfinite(number)) {
+      json += std::isnan(number) ? "null" : number > 0 ? "1e999" : "-1e999";
+      return;
+    }
+  }
+  std::array<char, 32> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number);
+  json.append(digits.data(), end.ptr);
+}
 
 namespace internal {
 
@@ -71,11 +81,8 @@ class JsonObject {
   requires std::is_arithmetic_v<N> JsonObject& Add(std::string_view name, N number) {
     if constexpr (std::same_as<N, bool>) {
       Key(name) += number ? "true" : "false";
-    } else if constexpr (std::floating_point<N>) {
-      AppendJsonNumber(number, Key(name));
     } else {
-      using Wide = std::conditional_t<std::signed_integral<N>, std::int64_t, std::uint64_t>;
-      AppendJsonNumber(static_cast<Wide>(number), Key(name));
+      AppendJsonNumber(number, Key(name));
     }
     return *this;
   }

@@ -19,9 +19,6 @@ const T& As(const void* value) {
   return *static_cast<const T*>(value);
 }
 
-// Descriptions hand out addresses to write to; here they are only looked at.
-void* ForLooking(const void* value) { return const_cast<void*>(value); }
-
 class ValueWriter {
  public:
   ValueWriter(std::string& json, const JsonLimits& limits)
@@ -46,7 +43,8 @@ class ValueWriter {
       case TypeKind::kSequence:
         return WriteRow(type, value, 0);
       case TypeKind::kMatrix:
-        return WriteMatrix(type, value);
+        return WriteList(type.elements().rows(value),
+                         [&](std::size_t row) { WriteRow(type, value, row); });
     }
   }
 
@@ -57,10 +55,8 @@ class ValueWriter {
     WithLeafType(type, [&]<typename T>(std::type_identity<T>) {
       if constexpr (std::same_as<T, bool>) {
         json_ += As<bool>(value) ? "true" : "false";
-      } else if constexpr (std::signed_integral<T>) {
-        AppendJsonNumber(std::int64_t{As<T>(value)}, json_);
-      } else if constexpr (std::unsigned_integral<T>) {
-        AppendJsonNumber(std::uint64_t{As<T>(value)}, json_);
+      } else if constexpr (std::integral<T>) {
+        AppendJsonNumber(As<T>(value), json_);
       } else if constexpr (std::floating_point<T>) {
         WriteFloating(As<T>(value));
       } else if constexpr (std::same_as<T, std::string>) {
@@ -114,26 +110,21 @@ class ValueWriter {
   void WriteRow(const TypeInfo& type, const void* value, std::size_t row) {
     const ElementOperations& elements = type.elements();
     const std::size_t columns = elements.columns(value);
-    const std::size_t shown = std::min(columns, limits_.elements);
+    WriteList(columns, [&](std::size_t i) {
+      Write(*elements.type, elements.element(ForLooking(value), row * columns + i));
+    });
+  }
+
+  template <typename WriteOne>
+  void WriteList(std::size_t count, const WriteOne& write_one) {
+    const std::size_t shown = std::min(count, limits_.elements);
     std::size_t i = 0;
     JsonArray list(json_);
     for (; i < shown && !IsFull(); ++i) {
       list.Next();
-      Write(*elements.type, elements.element(ForLooking(value), row * columns + i));
+      write_one(i);
     }
-    if (i < columns) is_whole_ = false;
-  }
-
-  void WriteMatrix(const TypeInfo& type, const void* value) {
-    const std::size_t rows = type.elements().rows(value);
-    const std::size_t shown = std::min(rows, limits_.elements);
-    std::size_t row = 0;
-    JsonArray list(json_);
-    for (; row < shown && !IsFull(); ++row) {
-      list.Next();
-      WriteRow(type, value, row);
-    }
-    if (row < rows) is_whole_ = false;
+    if (i < count) is_whole_ = false;
   }
 
   std::string& json_;

@@ -12,7 +12,7 @@
 #include "plugins/foxglove/foxglove.h"
 #include "plugins/inspector/inspector.h"
 #include "plugins/inspector/inspector_place.h"
-#include "plugins/inspector/inspector_resources.h"
+#include "plugins/inspector/page/inspector_page.h"
 #include "plugins/inspector/xml_inspector_tag.h"
 #include "plugins/web_server/access_rules.h"
 #include "plugins/web_server/web_server.h"
@@ -59,7 +59,7 @@ Result<std::unique_ptr<WebServer>> StartServer(const ViewerRequest& request,
                                                const std::vector<std::string>& origins,
                                                const std::vector<WebProtocol>& protocols,
                                                Diagnostics& diagnostics) {
-  const auto resources = InspectorResources();
+  const auto& resources = InspectorPage();
   WebServerOptions options{.address = request.place.address,
                            .port = request.place.port,
                            .token = request.place.token,

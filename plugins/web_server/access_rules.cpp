@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <locale>
 #include <utility>
 
-#include <arpa/inet.h>
+#include <boost/algorithm/string/case_conv.hpp>
+#include <boost/asio/ip/address.hpp>
+#include <boost/asio/ip/host_name.hpp>
 #include <fmt/format.h>
 #include <sys/random.h>
-#include <unistd.h>
 
 namespace runnel {
 
@@ -18,11 +20,7 @@ constexpr std::size_t kShortestToken = 8;
 constexpr std::size_t kLongestToken = 128;
 
 std::string Lower(std::string_view text) {
-  std::string lower(text);
-  for (char& character : lower) {
-    character = static_cast<char>(std::tolower(static_cast<unsigned char>(character)));
-  }
-  return lower;
+  return boost::algorithm::to_lower_copy(std::string(text), std::locale::classic());
 }
 
 std::string_view Trimmed(std::string_view text) {
@@ -57,16 +55,9 @@ std::string_view TokenInAuthorization(const WebRequest& request) {
 }
 
 bool IsAddress(std::string_view text) {
-  std::array<unsigned char, sizeof(in6_addr)> ignored{};
-  const std::string terminated(text);
-  return inet_pton(AF_INET, terminated.c_str(), ignored.data()) == 1 ||
-         inet_pton(AF_INET6, terminated.c_str(), ignored.data()) == 1;
-}
-
-std::string NameOfMachine() {
-  std::array<char, 256> name{};
-  if (gethostname(name.data(), name.size() - 1) != 0) return {};
-  return Lower(name.data());
+  boost::system::error_code error;
+  boost::asio::ip::make_address(std::string(text), error);
+  return !error;
 }
 
 }  // namespace
@@ -127,10 +118,9 @@ Result<void> CheckToken(std::string_view token) {
 }
 
 Result<bool> IsLoopback(const std::string& address) {
-  in_addr four{};
-  if (inet_pton(AF_INET, address.c_str(), &four) == 1) return (ntohl(four.s_addr) >> 24) == 127;
-  in6_addr six{};
-  if (inet_pton(AF_INET6, address.c_str(), &six) == 1) return IN6_IS_ADDR_LOOPBACK(&six) != 0;
+  boost::system::error_code error;
+  const auto parsed = boost::asio::ip::make_address(address, error);
+  if (!error) return parsed.is_loopback();
   return Error{.message = "'" + address + "' is not an address of a network",
                .hint = "write 127.0.0.1 for this machine only, or 0.0.0.0 for all networks"};
 }
@@ -141,7 +131,8 @@ AccessRules::AccessRules(std::string token, std::vector<std::string> names,
       cookie_name_("runnel_token_" + std::to_string(port)),
       origins_(std::move(origins)) {
   names_.emplace_back("localhost");
-  if (const std::string name = NameOfMachine(); !name.empty()) {
+  boost::system::error_code ignored;
+  if (const std::string name = Lower(boost::asio::ip::host_name(ignored)); !name.empty()) {
     names_.push_back(name);
     names_.push_back(name + ".local");
   }

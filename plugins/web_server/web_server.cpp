@@ -48,8 +48,7 @@ Error CannotListen(const WebServerOptions& options, const boost::system::error_c
 // 0.0.0.0 stands for all addresses, and is none to open.
 std::string UrlOf(const std::string& address, std::uint16_t port, const std::string& token) {
   std::string host = address;
-  if (address == "0.0.0.0") host = asio::ip::host_name();
-  if (address == "::") host = asio::ip::host_name();
+  if (address == "0.0.0.0" || address == "::") host = asio::ip::host_name();
   if (host.find(':') != std::string::npos) host = "[" + host + "]";
   return "http://" + host + ":" + std::to_string(port) + "/" +
          (token.empty() ? "" : "?token=" + token);
@@ -117,14 +116,6 @@ class WebServer::Running {
   [[nodiscard]] std::uint16_t port() const noexcept { return port_; }
   [[nodiscard]] std::size_t clients() const noexcept { return registry_->sessions(); }
 
-  void Wake() {
-    if (is_woken_.exchange(true)) return;
-    asio::post(registry_->context(), [this] {
-      is_woken_.store(false);
-      registry_->ForEach([](WebConnection& each) { each.Poll(); });
-    });
-  }
-
  private:
   void Accept() {
     acceptor_.async_accept([this](boost::system::error_code error, tcp::socket socket) {
@@ -157,7 +148,6 @@ class WebServer::Running {
   asio::steady_timer pause_;
   const std::string url_;
   const std::uint16_t port_;
-  std::atomic<bool> is_woken_{false};
   std::thread thread_;
 };
 
@@ -187,6 +177,5 @@ WebServer::~WebServer() = default;
 const std::string& WebServer::url() const noexcept { return running_->url(); }
 std::uint16_t WebServer::port() const noexcept { return running_->port(); }
 std::size_t WebServer::clients() const noexcept { return running_->clients(); }
-void WebServer::Wake() { running_->Wake(); }
 
 }  // namespace runnel

@@ -15,8 +15,8 @@ namespace runnel {
 /// Gives browsers a few files by HTTP, and talks to them and others by WebSocket. Knows nothing of what it
 /// is about. See README.md for what it refuses, and why.
 ///
-/// Threads:    one of its own, which serves all clients; no client makes it wait. Wake() from any
-///             thread; the rest from one.
+/// Threads:    one of its own, which serves all clients; no client makes it wait. clients() from
+///             any thread; the rest from one.
 /// Allocation: as its limits say.
 /// Errors:     of Start(): the address or port cannot be had, the token is none. Clients' mistakes are
 ///             answered, and go no further.
@@ -27,16 +27,12 @@ class WebServer {
                                                   std::vector<WebProtocol> protocols);
   /// Tells clients that it ends, and waits for them for a moment.
   ~WebServer();
-  WebServer(const WebServer&) = delete;
-  WebServer& operator=(const WebServer&) = delete;
 
   /// What to open in a browser, the token included: "http://127.0.0.1:8765/".
   [[nodiscard]] const std::string& url() const noexcept;
   [[nodiscard]] std::uint16_t port() const noexcept;
-  /// WebSockets that are open. Any thread.
+  /// WebSockets that are open.
   [[nodiscard]] std::size_t clients() const noexcept;
-  /// Gives every session a turn.
-  void Wake();
 
  private:
   class Running;

@@ -45,8 +45,8 @@ class WebSession {
   virtual ~WebSession() = default;
   virtual void OnText(std::string_view message) = 0;
   virtual void OnBinary(std::string_view message) = 0;
-  /// At the start, whenever due, after each message and each WebServer::Wake(). Returns when it wants
-  /// the next turn.
+  /// At the start, whenever due, after each message, and when its client's Waker() is called. Returns when
+  /// it wants the next turn.
   virtual SteadyTime OnPoll() = 0;
 };
 

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/log/log_sink.h"
 #include "plugins/application/application.h"
 #include "plugins/application/application_description.h"
 #include "plugins/application/application_extension.h"
@@ -28,6 +29,8 @@ namespace runnel {
 struct Application::Parts final : ApplicationDescription {
   using ApplicationDescription::ApplicationDescription;
   ~Parts() override;
+
+  std::vector<LogMessage> early_messages;  // what modules say while it is loaded; guarded by events_mutex
 
   bool is_composed = false;  // in code: whoever composes it makes it ready
   std::optional<Scheduler> scheduler;
@@ -56,6 +59,10 @@ struct Application::Parts final : ApplicationDescription {
   bool ends = false;  // guarded by running_mutex
   std::atomic<bool> is_running{false};
   std::thread thread;
+
+  // From the first module on, until the last has gone.
+  void Hear(const LogMessage& message);
+  LogSink log_sink{runtime(), [this](const LogMessage& message) { Hear(message); }};
 
   // The steps of loading.
   Result<void> Schedule();

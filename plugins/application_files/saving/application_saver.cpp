@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <thread>
 #include <utility>
 
 #include "core/base/replace_file.h"
@@ -9,9 +10,11 @@
 #include "core/element/runtime.h"
 #include "core/port/proxy_port.h"
 #include "core/xml/xml_editor.h"
+#include "plugins/application_files/application_builder.h"
 #include "plugins/application_files/application_source.h"
 #include "plugins/application_files/saving/file_update.h"
-#include "plugins/application_files/saving/new_elements.h"
+#include "plugins/application_files/saving/saving.h"
+#include "plugins/structure/plan.h"
 
 namespace runnel {
 
@@ -19,12 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using internal::Saving;
-
-// What a text comes to besides.
-struct SavedText {
-  std::string text;
-  std::map<std::string, std::string, std::less<>> values;
-};
 
 std::string WholeText(Saving& saving) {
   NewElement root = internal::ElementOf(
@@ -76,24 +73,29 @@ void CheckRequiredInputs(Saving& saving, bool is_new_file) {
   });
 }
 
-// Under the structure lock.
-Result<SavedText> TextOfApplication(FrameworkElement& application, const SaveTools& tools,
-                                    const fs::path& folder) {
-  Saving saving{application, tools, folder, internal::SavedEdges(application)};
-  const auto* const source = application.FindAnnotation<ApplicationSource>();
-  CheckRequiredInputs(saving, source == nullptr);
-  RefuseInterface(saving);
-  Result<std::string> text =
-      source != nullptr ? UpdatedText(saving, *source) : Result<std::string>(WholeText(saving));
-  if (!text) return text.error();
-  if (saving.error) return *saving.error;
-  return SavedText{std::move(*text), std::move(saving.values)};
+Error WouldNotLoad(Error reason) {
+  reason.message = "the file would not load, and is left as it was: " + reason.message;
+  return reason;
 }
 
-bool IsSameFile(const fs::path& one, const fs::path& other) {
-  std::error_code ignored;
-  return fs::weakly_canonical(fs::absolute(one, ignored), ignored) ==
-         fs::weakly_canonical(fs::absolute(other, ignored), ignored);
+// Whether `text`, which is to stand in `file` for the application, would load.
+Result<void> CheckSavedText(FrameworkElement& application, std::string_view text,
+                            const fs::path& file, const SaveTools& tools) {
+  const auto document = XmlDocument::Parse(text, file.string());
+  if (!document) return WouldNotLoad(document.error());
+  // Its file names ports that are not there when it is built alone.
+  if (!internal::ExternalConnectionsOf(application).empty()) return {};
+  Diagnostics diagnostics;
+  // In a thread of its own, for this one holds the lock of another tree.
+  std::thread([&] {
+    Runtime runtime;
+    Configuration none;
+    diagnostics = BuildApplication(*document, file.parent_path(),
+                                   {runtime, tools.plugins, tools.tags, none}, BuildMode::kCheck)
+                      .diagnostics;
+  }).join();
+  if (!diagnostics.ok()) return WouldNotLoad(diagnostics.errors().front());
+  return {};
 }
 
 // Whoever has changed the file meanwhile would lose what they did. A file that is gone may come
@@ -111,23 +113,36 @@ Result<void> CheckUnchanged(const ApplicationSource& source) {
 
 }  // namespace
 
-Result<std::string> ApplicationText(FrameworkElement& application, const SaveTools& tools,
-                                    const fs::path& folder) {
-  const std::lock_guard lock(application.runtime().structure_mutex());
-  auto saved = TextOfApplication(application, tools, folder);
-  if (!saved) return saved.error();
-  return std::move(saved->text);
+Result<internal::SavedText> internal::TextOfApplication(FrameworkElement& application,
+                                                        const SaveTools& tools,
+                                                        const fs::path& folder) {
+  Saving saving{application, tools, folder, internal::EdgesOf(application)};
+  const auto* const source = application.FindAnnotation<ApplicationSource>();
+  CheckRequiredInputs(saving, source == nullptr);
+  RefuseInterface(saving);
+  Result<std::string> text =
+      source != nullptr ? UpdatedText(saving, *source) : Result<std::string>(WholeText(saving));
+  if (!text) return text.error();
+  if (saving.error) return *saving.error;
+  return internal::SavedText{std::move(*text), std::move(saving.values)};
 }
 
 Result<void> SaveApplication(FrameworkElement& application, const SaveTools& tools,
-                             const fs::path& file) {
+                             const fs::path& to) {
   const std::lock_guard lock(application.runtime().structure_mutex());
   auto* source = application.FindAnnotation<ApplicationSource>();
-  const bool is_its_own = source == nullptr || IsSameFile(source->file, file);
+  if (to.empty() && source == nullptr) {
+    return Error{.message = "the application was built by code, and has no file yet",
+                 .path = application.path(),
+                 .hint = "name one"};
+  }
+  const fs::path file = to.empty() ? source->file : to;
+  const bool is_its_own =
+      source == nullptr || internal::Whole(source->file) == internal::Whole(file);
   if (source != nullptr && is_its_own) {
     if (auto unchanged = CheckUnchanged(*source); !unchanged) return unchanged;
   }
-  auto saved = TextOfApplication(application, tools, file.parent_path());
+  auto saved = internal::TextOfApplication(application, tools, file.parent_path());
   if (!saved) return saved.error();
   const bool is_on_disk =
       source != nullptr && is_its_own && saved->text == source->text && fs::exists(source->file);
@@ -138,7 +153,7 @@ Result<void> SaveApplication(FrameworkElement& application, const SaveTools& too
   now->text = saved->text;
   now->values = std::move(saved->values);
   if (!is_on_disk) {
-    auto good = internal::CheckSavedText(application, saved->text, file, tools);
+    auto good = CheckSavedText(application, saved->text, file, tools);
     if (!good) return good;
     if (auto written = ReplaceFile(file, saved->text); !written) return written;
   }
@@ -149,21 +164,6 @@ Result<void> SaveApplication(FrameworkElement& application, const SaveTools& too
     Retry([&] { application.Annotate(std::make_unique<ApplicationSource>(*now)); });
   }
   return {};
-}
-
-Result<void> SaveApplication(FrameworkElement& application, const SaveTools& tools) {
-  fs::path file;
-  {
-    const std::lock_guard lock(application.runtime().structure_mutex());
-    const auto* const source = application.FindAnnotation<ApplicationSource>();
-    if (source == nullptr) {
-      return Error{.message = "the application was built by code, and has no file yet",
-                   .path = application.path(),
-                   .hint = "name one"};
-    }
-    file = source->file;
-  }
-  return SaveApplication(application, tools, file);
 }
 
 }  // namespace runnel

@@ -16,33 +16,21 @@ struct SaveTools {
   XmlTagRegistry& tags;
 };
 
-/// The text of an application file that gives what the application is now, as it would stand in
-/// `folder`. If it came from a file, that text with what has changed since, and all else byte for
-/// byte as it was; if it was built by code, a new one.
+/// Writes a text that gives what the application is now to `file` ("": the one that it came from), at once or not at
+/// all (replace_file.h), after building it once in a runtime of its own as `runnel check` does: a text that would not
+/// load never replaces a file. If the application came from a file, it is that text with what has changed since, and
+/// all else byte for byte as it was; if it was built by code, a new one. Values that came from the command line or a
+/// configuration are left to these, unless they have been changed since.
 ///
-/// Values that came from the command line or a configuration are left to these, unless they have
-/// been changed since.
-///
-/// Threads: any outside of cycles; holds the structure lock.
-/// Errors:  a module of no registered type; a change of what another file describes; a required input
-///          that nothing is connected to.
-[[nodiscard]] Result<std::string> ApplicationText(FrameworkElement& application,
-                                                  const SaveTools& tools,
-                                                  const std::filesystem::path& folder);
-
-/// Writes it, at once or not at all (replace_file.h), after building it once in a runtime of its own as
-/// `runnel check` does: a text that would not load never replaces a file. An application that came from
-/// no file is from now on that of `file`; one that came from another remains that file's, and `file` is a
-/// copy. One that is connected with another application cannot be built alone; then only what can be
-/// known of the text itself is checked.
+/// An application that came from no file is from now on that of `file`; one that came from another remains that
+/// file's, and `file` is a copy. One that is connected with another application cannot be built alone; then only
+/// what can be known of the text itself is checked.
 ///
 /// Threads: any outside of cycles; holds the structure lock as long as building the application takes.
-/// Errors: besides those above, that the text would not load; the file it came from is not what was
+/// Errors: a module of no registered type; a change of what another file describes; a required input
+///         that nothing is connected to; that the text would not load; the file it came from is not what was
 ///         loaded: somebody has changed it meanwhile.
 [[nodiscard]] Result<void> SaveApplication(FrameworkElement& application, const SaveTools& tools,
-                                           const std::filesystem::path& file);
-
-/// To the file that it came from.
-[[nodiscard]] Result<void> SaveApplication(FrameworkElement& application, const SaveTools& tools);
+                                           const std::filesystem::path& file = {});
 
 }  // namespace runnel

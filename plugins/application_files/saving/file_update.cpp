@@ -11,15 +11,12 @@
 #include "core/xml/xml_reading.h"
 #include "plugins/application_files/part_files.h"
 #include "plugins/application_files/path_use.h"
-#include "plugins/application_files/saving/new_elements.h"
 
 namespace runnel::internal {
 
 namespace {
 
-bool LeadsSomewhere(const PathUse& use) {
-  return PathSearch(use.base).Follow(use.path, PathKind::kElement).found != nullptr;
-}
+bool LeadsSomewhere(const PathUse& use) { return PathSearch(use.base).Find(use.path).has_value(); }
 
 }  // namespace
 
@@ -40,11 +37,7 @@ bool MeanTheSame(const AttributeRule& rule, const std::string& one, const std::s
 
 bool FileUpdate::IsMoved() const {
   if (part_ != nullptr) return false;
-  std::error_code ignored;
-  const auto whole = [&](const std::filesystem::path& folder) {
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(folder, ignored), ignored);
-  };
-  return whole(old_folder_) != whole(saving_.folder);
+  return Whole(old_folder_) != Whole(saving_.folder);
 }
 
 std::string FileUpdate::Moved(const std::string& file) const {
@@ -61,8 +54,8 @@ void FileUpdate::Run(XmlElement root) {
     editor_.SetAttribute(root, "name", saving_.application.name());
   }
   UpdateInside(root, saving_.application);
-  for (const SavedEdges::Edge* edge : saving_.edges.Unsaved()) {
-    touched_.insert({edge->from, edge->to});
+  for (const SavedEdge& edge : saving_.edges) {
+    if (!edge.is_saved) touched_.insert({edge.from, edge.to});
   }
   GiveTypes();
   for (Inside& each : insides_) AppendMissing(each);

@@ -1,6 +1,6 @@
-#include "plugins/application_files/saving/new_elements.h"
-
 #include <algorithm>
+
+#include "plugins/application_files/saving/saving.h"
 
 namespace runnel::internal {
 

@@ -1,9 +1,8 @@
-#include "plugins/application_files/saving/saved_edges.h"
-
 #include <algorithm>
 
 #include "core/element/not_saved.h"
 #include "core/plugin/module_type_name.h"
+#include "plugins/application_files/saving/saving.h"
 
 namespace runnel::internal {
 
@@ -40,30 +39,18 @@ FrameworkElement* Home(const Port& from, const Port& to, const FrameworkElement&
 
 }  // namespace
 
-SavedEdges::SavedEdges(FrameworkElement& application) {
+std::vector<SavedEdge> EdgesOf(FrameworkElement& application) {
+  std::vector<SavedEdge> edges;
   application.Visit([&](FrameworkElement& element) {
     const auto* const port = dynamic_cast<const Port*>(&element);
     if (port == nullptr) return;
     for (const Connection& connection : port->outgoing()) {
       FrameworkElement* const home = Home(*connection.from, *connection.to, application);
       if (home == nullptr) continue;
-      edges_.push_back({connection.from, connection.to, connection.options, home});
+      edges.push_back({connection.from, connection.to, connection.options, home});
     }
   });
-}
-
-SavedEdges::Edge* SavedEdges::Find(const Port& from, const Port& to) {
-  const auto found = std::ranges::find_if(
-      edges_, [&](const Edge& edge) { return edge.from == &from && edge.to == &to; });
-  return found == edges_.end() ? nullptr : &*found;
-}
-
-std::vector<SavedEdges::Edge*> SavedEdges::Unsaved() {
-  std::vector<Edge*> unsaved;
-  for (Edge& edge : edges_) {
-    if (!edge.is_saved) unsaved.push_back(&edge);
-  }
-  return unsaved;
+  return edges;
 }
 
 }  // namespace runnel::internal

@@ -11,13 +11,15 @@ namespace runnel::internal {
 
 namespace fs = std::filesystem;
 
+fs::path Whole(const fs::path& path) {
+  std::error_code ignored;
+  return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
+}
+
 std::string MovedFileName(const std::string& name, const fs::path& from, const fs::path& to) {
   if (name.empty() || fs::path(name).is_absolute()) return name;
-  std::error_code error;
-  const fs::path file = fs::weakly_canonical(fs::absolute(from / name, error), error);
-  const fs::path folder = fs::weakly_canonical(fs::absolute(to, error), error);
-  const fs::path moved = file.lexically_relative(folder);
-  return error || moved.empty() ? name : moved.string();
+  const fs::path moved = Whole(from / name).lexically_relative(Whole(to));
+  return moved.empty() ? name : moved.string();
 }
 
 std::string SavedValue(const Configurable& configurable, const Saving& saving) {
@@ -49,15 +51,16 @@ void Saving::CheckAttribute(const AttributeRule& rule, const std::string& value,
   if (std::ranges::find(loaded, type->plugin) != loaded.end()) plugins.insert(type->plugin);
 }
 
-bool IsSaved(const FrameworkElement& element) {
-  if (element.FindAnnotation<NotSaved>() != nullptr) return false;
-  if (IsModule(element)) return true;
-  if (element.kind() != ElementKind::kGroup) return false;
-  // Those that hold nothing but threads are made with these.
+bool HoldsOnlyThreads(const FrameworkElement& group) {
   const auto is_thread = [](const FrameworkElement* child) {
     return child->kind() == ElementKind::kThread;
   };
-  return element.children().empty() || !std::ranges::all_of(element.children(), is_thread);
+  return !group.children().empty() && std::ranges::all_of(group.children(), is_thread);
+}
+
+bool IsSaved(const FrameworkElement& element) {
+  if (element.FindAnnotation<NotSaved>() != nullptr) return false;
+  return IsModule(element) || (element.kind() == ElementKind::kGroup && !HoldsOnlyThreads(element));
 }
 
 }  // namespace runnel::internal

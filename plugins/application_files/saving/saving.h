@@ -6,12 +6,25 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/element/configurable.h"
+#include "core/port/port.h"
+#include "core/xml/xml_writing.h"
 #include "plugins/application_files/saving/application_saver.h"
-#include "plugins/application_files/saving/saved_edges.h"
 
 namespace runnel::internal {
+
+/// A connection that a file has to say: not one within a module, nor one that leads out of the application.
+struct SavedEdge {
+  Port* from;
+  Port* to;
+  ConnectOptions options;
+  FrameworkElement* home;  ///< the innermost group that has both ends
+  bool is_saved = false;   ///< a tag says it
+};
+/// In the order in which they were made.
+[[nodiscard]] std::vector<SavedEdge> EdgesOf(FrameworkElement& application);
 
 /// One saving of an application: what all who take part in it share.
 ///
@@ -20,7 +33,7 @@ struct Saving {
   FrameworkElement& application;
   const SaveTools& tools;
   std::filesystem::path folder;  ///< where the text will stand
-  SavedEdges edges;
+  std::vector<SavedEdge> edges;
   /// What the parameters that the text names come to when it is loaded again.
   std::map<std::string, std::string, std::less<>> values = {};
   /// Of the modules that the text names anew.
@@ -40,6 +53,9 @@ struct Saving {
 /// The value as text that gives it again when it stands in the file: names of files start there.
 [[nodiscard]] std::string SavedValue(const Configurable& configurable, const Saving& saving);
 
+/// The file or folder, whatever name it goes by.
+[[nodiscard]] std::filesystem::path Whole(const std::filesystem::path& path);
+
 /// `name` of a file, written in one folder, as it must be written in another.
 [[nodiscard]] std::string MovedFileName(const std::string& name, const std::filesystem::path& from,
                                         const std::filesystem::path& to);
@@ -50,12 +66,28 @@ struct Saving {
   return name != nullptr ? name->value : "";
 }
 
-/// Whether `text`, which is to stand in `file` for `application`, would load. Under the structure lock.
-[[nodiscard]] Result<void> CheckSavedText(FrameworkElement& application, std::string_view text,
-                                          const std::filesystem::path& file,
-                                          const SaveTools& tools);
+struct SavedText {
+  std::string text;
+  std::map<std::string, std::string, std::less<>> values;  ///< as Saving::values
+};
+/// What SaveApplication() would write into a file in `folder`, but for whether it would load. Under the structure lock.
+[[nodiscard]] Result<SavedText> TextOfApplication(FrameworkElement& application,
+                                                  const SaveTools& tools,
+                                                  const std::filesystem::path& folder);
 
-/// Whether a module or group of the application is for a file at all.
+// The tags that give again what is in the tree, as if no file had been there before.
+
+/// `saved` as an element, with all that is in it. `about`: the element that errors name.
+[[nodiscard]] NewElement ElementOf(const XmlTag& tag, const SavedTag& saved,
+                                   const FrameworkElement& about, Saving& saving);
+
+/// The tags that may stand in another, in the order of XmlTag::place.
+[[nodiscard]] std::vector<const XmlTag*> TagsWithin(std::string_view tag, const Saving& saving);
+
+/// Such a group is made with its threads.
+[[nodiscard]] bool HoldsOnlyThreads(const FrameworkElement& group);
+
+/// Whether it is a module or group that a file says something of: not one that is made with threads.
 [[nodiscard]] bool IsSaved(const FrameworkElement& element);
 
 }  // namespace runnel::internal

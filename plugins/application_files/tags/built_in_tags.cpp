@@ -1,13 +1,11 @@
 #include "plugins/application_files/tags/built_in_tags.h"
 
-#include "plugins/application_files/tags/reaction_tags.h"
-
 namespace runnel {
 
 void AddBuiltInTags(XmlTagRegistry& tags) {
   for (const auto& make :
        {ApplicationTag, GroupTypeTag, LoadTag, ClockTag, ThreadTag, PortTag, ModuleTag,
-        ParameterTag, GroupTag, ConnectTag, OnFaultTag, OnStaleTag, OtherwiseTag}) {
+        ParameterTag, GroupTag, ConnectTag, LogTag, OnFaultTag, OnStaleTag, OtherwiseTag}) {
     tags.AddTag(make());
   }
   for (XmlTag& tag : internal::ReactionTags()) tags.AddTag(std::move(tag));

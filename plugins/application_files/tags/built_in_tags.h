@@ -3,6 +3,7 @@
 #include <string>
 
 #include "plugins/application_files/xml_tag.h"
+#include "plugins/supervision/supervision_rules.h"
 
 namespace runnel {
 
@@ -15,6 +16,7 @@ void AddBuiltInTags(XmlTagRegistry& tags);
 [[nodiscard]] XmlTag GroupTag();
 [[nodiscard]] XmlTag GroupTypeTag();
 [[nodiscard]] XmlTag LoadTag();
+[[nodiscard]] XmlTag LogTag();
 [[nodiscard]] XmlTag ModuleTag();
 [[nodiscard]] XmlTag OnFaultTag();
 [[nodiscard]] XmlTag OnStaleTag();
@@ -24,5 +26,16 @@ void AddBuiltInTags(XmlTagRegistry& tags);
 [[nodiscard]] XmlTag ThreadTag();
 /// thread="control", of <application>, <group> and <module>.
 [[nodiscard]] AddedAttribute ThreadAttribute(std::string tag);
+
+namespace internal {
+
+/// The tags <switch>, <set>, <replace> and <stop>, which are read by the tag that they stand in.
+[[nodiscard]] std::vector<XmlTag> ReactionTags();
+
+/// What the tags directly within `xml` say is to be done; mistakes are reported. Paths start at
+/// `base`. When connections have been made.
+[[nodiscard]] Reaction ReadReaction(XmlElement xml, FrameworkElement& base, BuildContext& context);
+
+}  // namespace internal
 
 }  // namespace runnel

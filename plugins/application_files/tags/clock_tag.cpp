@@ -15,6 +15,14 @@ struct ClockChoice final : Annotation {
   int line = 0;
 };
 
+void RefuseInRealTime(const XmlAttribute& attribute, std::string message, const TagUse& use,
+                      const ClockChoice& choice) {
+  if (choice.options.clock != SchedulerOptions::ClockKind::kReal) return;
+  use.context.Report({.message = std::move(message),
+                      .hint = "leave out " + attribute.name + ", or write type=\"simulated\""},
+                     attribute.position, use.parent);
+}
+
 void ReadSpeed(const TagUse& use, ClockChoice& choice) {
   const XmlAttribute* const speed = use.Find("speed");
   if (speed == nullptr) return;
@@ -28,22 +36,14 @@ void ReadSpeed(const TagUse& use, ClockChoice& choice) {
                         .hint = "allowed is 0 (as fast as it can), or 1e-6 .. 1e6"},
                        speed->value_position, use.parent);
   }
-  if (choice.options.clock == SchedulerOptions::ClockKind::kReal) {
-    use.context.Report({.message = "the speed of real time cannot be chosen",
-                        .hint = "leave out speed, or write type=\"simulated\""},
-                       speed->position, use.parent);
-  }
+  RefuseInRealTime(*speed, "the speed of real time cannot be chosen", use, choice);
 }
 
 void ReadPaused(const TagUse& use, ClockChoice& choice) {
   const XmlAttribute* const paused = use.Find("paused");
   if (paused == nullptr) return;
   choice.options.is_paused = paused->value == "true";
-  if (choice.options.clock == SchedulerOptions::ClockKind::kReal) {
-    use.context.Report({.message = "real time cannot be paused",
-                        .hint = "leave out paused, or write type=\"simulated\""},
-                       paused->position, use.parent);
-  }
+  RefuseInRealTime(*paused, "real time cannot be paused", use, choice);
 }
 
 FrameworkElement* ChooseClock(const TagUse& use) {

@@ -8,7 +8,6 @@
 #include "core/plugin/module_type_name.h"
 #include "core/types/type_info.h"
 #include "plugins/application_files/build_context.h"
-#include "plugins/application_files/interface_direction.h"
 #include "plugins/application_files/path_use.h"
 #include "plugins/application_files/saving/file_update.h"
 #include "plugins/application_files/tags/built_in_tags.h"
@@ -146,14 +145,15 @@ bool SaysOptions(XmlElement tag, const ConnectOptions& options) {
 bool SaysConnection(XmlElement tag, Port* from, Port* to, bool is_only_one,
                     internal::FileUpdate& update) {
   const bool is_there = from != nullptr && to != nullptr;
-  internal::SavedEdges::Edge* const edge =
-      is_there ? update.saving().edges.Find(*from, *to) : nullptr;
+  std::vector<internal::SavedEdge>& edges = update.saving().edges;
+  const auto edge = std::ranges::find_if(
+      edges, [&](const auto& each) { return each.from == from && each.to == to; });
   // One that leads out of the application is left to whoever wrote it.
-  if (edge == nullptr && is_there &&
+  if (edge == edges.end() && is_there &&
       std::ranges::find(from->outgoing(), to, &Connection::to) != from->outgoing().end()) {
     return true;
   }
-  if (edge == nullptr || edge->is_saved) {
+  if (edge == edges.end() || edge->is_saved) {
     update.Touch(from);
     update.Touch(to);
     return false;
@@ -188,22 +188,22 @@ void UpdateConnect(XmlElement tag, FrameworkElement& group, internal::FileUpdate
 // Of the connections that no tag says yet; those of one port together.
 std::vector<NewElement> MissingConnections(FrameworkElement& home, internal::Saving& saving) {
   std::vector<NewElement> elements;
-  const internal::SavedEdges::Edge* last = nullptr;
-  for (internal::SavedEdges::Edge* edge : saving.edges.Unsaved()) {
-    if (edge->home != &home) continue;
-    edge->is_saved = true;
-    const std::string to = PathFrom(home, *edge->to, PathKind::kInput);
-    const bool goes_on = last != nullptr && last->from == edge->from &&
-                         TextsOf(last->options) == TextsOf(edge->options);
-    last = edge;
+  const internal::SavedEdge* last = nullptr;
+  for (internal::SavedEdge& edge : saving.edges) {
+    if (edge.is_saved || edge.home != &home) continue;
+    edge.is_saved = true;
+    const std::string to = PathFrom(home, *edge.to, PathKind::kInput);
+    const bool goes_on = last != nullptr && last->from == edge.from &&
+                         TextsOf(last->options) == TextsOf(edge.options);
+    last = &edge;
     if (goes_on) {
       elements.back().attributes[1].second += " " + to;
       continue;
     }
     NewElement& made = elements.emplace_back(NewElement{
         .name = "connect",
-        .attributes = {{"from", PathFrom(home, *edge->from, PathKind::kOutput)}, {"to", to}}});
-    for (const auto& [rule, usual, value] : TextsOf(edge->options)) {
+        .attributes = {{"from", PathFrom(home, *edge.from, PathKind::kOutput)}, {"to", to}}});
+    for (const auto& [rule, usual, value] : TextsOf(edge.options)) {
       if (value != usual) made.attributes.emplace_back(rule.name, value);
     }
   }

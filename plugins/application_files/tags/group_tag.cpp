@@ -64,4 +64,13 @@ XmlTag GroupTag() {
           .place = 3};
 }
 
+// What is read of it goes into the group that uses it: it makes nothing itself.
+XmlTag GroupTypeTag() {
+  return {.name = "group_type",
+          .summary = "what is in every <group> whose type is this file",
+          .parents = {},
+          .attributes = {{.name = "description"}},
+          .is_part = true};
+}
+
 }  // namespace runnel

@@ -1,15 +1,28 @@
 #include <memory>
+#include <mutex>
+#include <string>
 #include <utility>
 
 #include "plugins/application_files/build_context.h"
 #include "plugins/application_files/path_use.h"
 #include "plugins/application_files/run_description.h"
 #include "plugins/application_files/tags/built_in_tags.h"
-#include "plugins/application_files/tags/reaction_tags.h"
 
 namespace runnel {
 
 namespace {
+
+// By its path, for its module may have been replaced meanwhile.
+void SetParameterAt(const std::string& path, const std::string& value, Runtime& runtime) {
+  const std::lock_guard lock(runtime.structure_mutex());
+  const auto found = runtime.root().Find(path);
+  if (!found) throw ElementError(found.error());
+  auto* const parameter = dynamic_cast<Configurable*>(*found);
+  if (parameter == nullptr) {
+    throw ElementError({.message = "cannot be set by a fault rule", .path = path});
+  }
+  if (auto set = parameter->SetFromText(value); !set) throw ElementError(set.error());
+}
 
 void AddRule(const TagUse& use) {
   FaultRule rule;
@@ -20,21 +33,19 @@ void AddRule(const TagUse& use) {
     if (value == nullptr) return;
     const FrameworkElement* const target = SearchSettable(*set, *value, use.parent, use.context);
     if (target == nullptr) return;
-    rule.action = FaultRule::Action::kSet;
-    rule.target = target->path();
-    rule.value = value->value;
+    rule.call = [path = target->path(), text = value->value, &runtime = use.context.runtime()](
+                    const Fault&) { SetParameterAt(path, text, runtime); };
   }
   if (of == nullptr) return;
   rule.of = of->path();
-  internal::RunRulesAround(use.parent).fault_rules.push_back({std::move(rule), use.xml.position()});
+  internal::RunRulesAround(use.parent).fault_rules.push_back(std::move(rule));
 }
 
 void AddReaction(const TagUse& use) {
   const FrameworkElement* const of = SearchElement(PathIn(use.Get("of"), use.parent), use.context);
   Reaction reaction = internal::ReadReaction(use.xml, use.parent, use.context);
   if (of == nullptr) return;
-  internal::RunRulesAround(use.parent)
-      .fault_reactions.push_back({{of->path(), std::move(reaction)}, use.xml.position()});
+  internal::RunRulesAround(use.parent).fault_reactions.push_back({of->path(), std::move(reaction)});
 }
 
 FrameworkElement* HandleOnFault(const TagUse& use) {

@@ -8,7 +8,6 @@
 #include "plugins/application_files/path_use.h"
 #include "plugins/application_files/run_description.h"
 #include "plugins/application_files/tags/built_in_tags.h"
-#include "plugins/application_files/tags/reaction_tags.h"
 
 namespace runnel {
 
@@ -75,8 +74,7 @@ XmlTag OnStaleTag() {
 XmlTag OtherwiseTag() {
   return {.name = "otherwise",
           .summary = "what happens when the input is fresh again",
-          .parents = {"on_stale"},
-          .handle = [](const TagUse& use) { return &use.parent; }};
+          .parents = {"on_stale"}};
 }
 
 }  // namespace runnel

@@ -19,21 +19,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr auto kNameOfDeclared = &std::pair<const std::string, TagUse>::first;
+
 Configurable* FindParameter(const TagUse& use, const FrameworkElement& module) {
   const XmlAttribute& name = use.Get("name");
   if (const auto found = FindConfigurable(module, name.value)) return found.configurable;
-  std::vector<std::string> names;
-  for (const auto& each : ConfigurablesOf(module)) names.push_back(each.element->name());
-  use.context.Report({.message = "there is no parameter '" + name.value + "'",
-                      .hint = NearestNameHint(name.value, names)},
-                     name.value_position, module);
+  const auto name_of = [](const auto& each) { return each.element->name(); };
+  use.context.Report(
+      {.message = "there is no parameter '" + name.value + "'",
+       .hint = NearestNameHint(name.value, NamesOf(ConfigurablesOf(module), name_of))},
+      name.value_position, module);
   return nullptr;
-}
-
-std::vector<std::string> NamesOf(const std::map<std::string, TagUse, std::less<>>& parameters) {
-  std::vector<std::string> names;
-  for (const auto& [name, use] : parameters) names.push_back(name);
-  return names;
 }
 
 // A text that wants to become the value, and where relative file names in it start.
@@ -66,9 +62,10 @@ std::vector<Candidate> CandidatesOfPart(const XmlAttribute& from, const TagUse& 
   }
   const auto declared = part->declared.find(from.value);
   if (declared == part->declared.end()) {
-    use.context.Report({.message = "<group_type> has no parameter '" + from.value + "'",
-                        .hint = NearestNameHint(from.value, NamesOf(part->declared))},
-                       from.value_position, use.parent);
+    use.context.Report(
+        {.message = "<group_type> has no parameter '" + from.value + "'",
+         .hint = NearestNameHint(from.value, NamesOf(part->declared, kNameOfDeclared))},
+        from.value_position, use.parent);
     return {};
   }
   part->used.insert(from.value);
@@ -215,7 +212,7 @@ void Give(const TagUse& use, PartUse& part) {
   }
   use.context.Report(
       {.message = part.root.position().file + " has no parameter '" + name.value + "'",
-       .hint = NearestNameHint(name.value, NamesOf(part.declared))},
+       .hint = NearestNameHint(name.value, NamesOf(part.declared, kNameOfDeclared))},
       name.value_position, use.parent);
 }
 

@@ -1,5 +1,3 @@
-#include "plugins/application_files/tags/reaction_tags.h"
-
 #include <algorithm>
 #include <array>
 #include <string>
@@ -7,29 +5,21 @@
 #include "core/base/nearest_name.h"
 #include "core/types/type_info.h"
 #include "plugins/application_files/path_use.h"
+#include "plugins/application_files/tags/built_in_tags.h"
 
 namespace runnel::internal {
 
 namespace {
 
 // One tag that says what is to be done, with all that reading it needs.
-struct ReactionUse {
-  XmlElement xml;
-  FrameworkElement& base;
-  BuildContext& context;
+struct ReactionUse : TagUse {
   Reaction& reaction;
 
-  [[nodiscard]] const XmlAttribute* Find(std::string_view name) const {
-    return xml.Attribute(name);
-  }
-  void Report(Error error, const SourcePosition& position) const {
-    context.Report(std::move(error), position, base);
-  }
   void Describe(const std::string& done) const {
     reaction.description += (reaction.description.empty() ? "" : ", ") + done;
   }
   [[nodiscard]] Port* FindPortAt(const XmlAttribute& attribute, PathKind end) const {
-    return SearchPort(PathIn(attribute, base), end, context);
+    return SearchPort(PathIn(attribute, parent), end, context);
   }
 };
 
@@ -50,17 +40,15 @@ bool HaveOneType(const Port& source, const Port& input, const XmlAttribute& at,
 }
 
 void ReadSwitch(const ReactionUse& use) {
-  const XmlAttribute* const input_name = use.Find("input");
   const XmlAttribute* const from_name = use.Find("from");
   const XmlAttribute* const to_name = use.Find("to");
-  if (input_name == nullptr) return;
   if (from_name == nullptr && to_name == nullptr) {
     use.Report({.message = "<switch> says neither where the input is fed from, nor from where else",
                 .hint = "add from=\"…\", the source that is to be left, and to=\"…\""},
                use.xml.position());
     return;
   }
-  Port* const input = use.FindPortAt(*input_name, PathKind::kInput);
+  Port* const input = use.FindPortAt(use.Get("input"), PathKind::kInput);
   Port* const from = from_name ? use.FindPortAt(*from_name, PathKind::kOutput) : nullptr;
   Port* const to = to_name ? use.FindPortAt(*to_name, PathKind::kOutput) : nullptr;
   if (input == nullptr || (from_name && !from) || (to_name && !to)) return;
@@ -81,29 +69,26 @@ void ReadSwitch(const ReactionUse& use) {
 }
 
 void ReadSet(const ReactionUse& use) {
-  const XmlAttribute* const parameter = use.Find("parameter");
-  const XmlAttribute* const value = use.Find("value");
-  if (parameter == nullptr || value == nullptr) return;
-  const FrameworkElement* const target = SearchSettable(*parameter, *value, use.base, use.context);
+  const XmlAttribute& value = use.Get("value");
+  const FrameworkElement* const target =
+      SearchSettable(use.Get("parameter"), value, use.parent, use.context);
   if (target == nullptr) return;
-  use.reaction.changes.push_back(SetParameter{target->path(), value->value});
-  use.Describe("set " + target->path() + " to " + value->value);
+  use.reaction.changes.push_back(SetParameter{target->path(), value.value});
+  use.Describe("set " + target->path() + " to " + value.value);
 }
 
 void ReadReplace(const ReactionUse& use) {
-  const XmlAttribute* const module = use.Find("module");
-  const XmlAttribute* const by = use.Find("by");
-  if (module == nullptr || by == nullptr) return;
-  const FrameworkElement* const found = SearchElement(PathIn(*module, use.base), use.context);
+  const std::string& type = use.Get("by").value;
+  const FrameworkElement* const found =
+      SearchElement(PathIn(use.Get("module"), use.parent), use.context);
   if (found == nullptr) return;
-  use.reaction.changes.push_back(ReplaceModule{found->path(), by->value});
-  use.Describe("replaced " + found->path() + " by a new " + by->value);
+  use.reaction.changes.push_back(ReplaceModule{found->path(), type});
+  use.Describe("replaced " + found->path() + " by a new " + type);
 }
 
 }  // namespace
 
 std::vector<XmlTag> ReactionTags() {
-  const auto handle = [](const TagUse& use) -> FrameworkElement* { return &use.parent; };
   const std::vector<std::string> parents{"on_stale", "on_fault", "otherwise"};
   return {{.name = "switch",
            .summary = "feeds an input from another source",
@@ -119,8 +104,7 @@ std::vector<XmlTag> ReactionTags() {
                           {.name = "to",
                            .kind = AttributeKind::kPath,
                            .summary = "the source that comes; without it, none does",
-                           .names_element = true}},
-           .handle = handle},
+                           .names_element = true}}},
           {.name = "set",
            .summary = "sets a parameter",
            .parents = parents,
@@ -128,8 +112,7 @@ std::vector<XmlTag> ReactionTags() {
                            .kind = AttributeKind::kPath,
                            .required = true,
                            .names_element = true},
-                          {.name = "value", .required = true}},
-           .handle = handle},
+                          {.name = "value", .required = true}}},
           {.name = "replace",
            .summary = "puts a new module in the place of another",
            .parents = parents,
@@ -140,15 +123,14 @@ std::vector<XmlTag> ReactionTags() {
                           {.name = "by",
                            .kind = AttributeKind::kModuleType,
                            .required = true,
-                           .summary = "a type, as `runnel modules` lists them"}},
-           .handle = handle},
-          {.name = "stop", .summary = "ends the run", .parents = parents, .handle = handle}};
+                           .summary = "a type, as `runnel modules` lists them"}}},
+          {.name = "stop", .summary = "ends the run", .parents = parents}};
 }
 
 Reaction ReadReaction(XmlElement xml, FrameworkElement& base, BuildContext& context) {
   Reaction reaction;
   for (const XmlElement child : xml.children()) {
-    const ReactionUse use{child, base, context, reaction};
+    const ReactionUse use{{child, base, context}, reaction};
     if (child.name() == "switch") ReadSwitch(use);
     if (child.name() == "set") ReadSet(use);
     if (child.name() == "replace") ReadReplace(use);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <set>
@@ -23,10 +24,15 @@ constexpr std::size_t kHighestPriority = 99;
 
 using Activation = ThreadOptions::Activation;
 
-Activation ReadActivation(const TagUse& use) {
-  const XmlAttribute* const activation = use.Find("activation");
-  if (activation == nullptr || activation->value == "period") return Activation::kPeriod;
-  return activation->value == "trigger" ? Activation::kTrigger : Activation::kFreeRunning;
+// In the order of OnOverrun.
+const std::vector<std::string> kOverruns{"skip", "catch_up"};
+
+// Which of the words the tag says; the first if none.
+template <typename Kind>
+Kind Chosen(const TagUse& use, const char* name, const std::vector<std::string>& words) {
+  const XmlAttribute* const said = use.Find(name);
+  return static_cast<Kind>(said != nullptr ? std::ranges::find(words, said->value) - words.begin()
+                                           : 0);
 }
 
 void ReadPeriod(const TagUse& use, ThreadOptions& options) {
@@ -69,13 +75,10 @@ FrameworkElement* MakeThread(const TagUse& use) {
   const TagUse inside{use.xml, *threads, use.context};
   if (!inside.HasFreeName(*threads)) return nullptr;
   ThreadOptions options;
-  options.activation = ReadActivation(use);
+  options.activation = Chosen<Activation>(use, "activation", ActivationNames());
   ReadPeriod(inside, options);
   ReadPriority(inside, options);
-  const XmlAttribute* const on_overrun = use.Find("on_overrun");
-  if (on_overrun != nullptr && on_overrun->value == "catch_up") {
-    options.on_overrun = ThreadOptions::OnOverrun::kCatchUp;
-  }
+  options.on_overrun = Chosen<ThreadOptions::OnOverrun>(use, "on_overrun", kOverruns);
   return &runtime.Create<ThreadContainer>(*threads, inside.Get("name").value, options);
 }
 
@@ -89,7 +92,7 @@ void Assign(const XmlAttribute& name, FrameworkElement& element, BuildContext& c
       AssignThread(element, *thread);
       return;
     }
-    for (const FrameworkElement* each : threads->children()) known.push_back(each->name());
+    known = NamesOf(threads->children(), &FrameworkElement::name);
   }
   if (!context.IsNews(application, name.value, known)) return;
   context.Report({.message = "there is no thread '" + name.value + "'",
@@ -99,21 +102,8 @@ void Assign(const XmlAttribute& name, FrameworkElement& element, BuildContext& c
                  name.value_position, element);
 }
 
-const char* ActivationName(Activation activation) {
-  switch (activation) {
-    case Activation::kFreeRunning:
-      return "free_running";
-    case Activation::kTrigger:
-      return "trigger";
-    case Activation::kPeriod:
-      break;
-  }
-  return "period";
-}
-
 SavedTag SavedThread(const ThreadContainer& thread) {
   const ThreadOptions& options = thread.options();
-  const bool catches_up = options.on_overrun == ThreadOptions::OnOverrun::kCatchUp;
   const bool has_period = options.activation != Activation::kTrigger;
   std::vector<SavedAttribute> tag{{"name", thread.name()}};
   if (has_period) {
@@ -121,10 +111,11 @@ SavedTag SavedThread(const ThreadContainer& thread) {
                    options.activation == Activation::kFreeRunning &&
                        options.period == ThreadOptions{}.period});
   }
-  tag.push_back({"activation", ActivationName(options.activation),
+  tag.push_back({"activation", ActivationNames()[static_cast<std::size_t>(options.activation)],
                  options.activation == Activation::kPeriod});
   tag.push_back({"priority", std::to_string(options.priority), options.priority == 0});
-  tag.push_back({"on_overrun", catches_up ? "catch_up" : "skip", !catches_up});
+  tag.push_back({"on_overrun", kOverruns[static_cast<std::size_t>(options.on_overrun)],
+                 options.on_overrun == ThreadOptions::OnOverrun::kSkip});
   return SavedTag{std::move(tag)};
 }
 
@@ -180,7 +171,7 @@ XmlTag ThreadTag() {
                 .kind = AttributeKind::kChoice,
                 .summary = "when a cycle begins: every period, at the end of the last one, or when "
                            "data comes",
-                .choices = {"period", "free_running", "trigger"}},
+                .choices = ActivationNames()},
                {.name = "priority",
                 .kind = AttributeKind::kCount,
                 .summary = "0: ordinary; 1 .. 99: real-time, SCHED_FIFO"},
@@ -188,7 +179,7 @@ XmlTag ThreadTag() {
                 .kind = AttributeKind::kChoice,
                 .summary = "what happens to cycles that were missed: left out (by default), or run "
                            "at once",
-                .choices = {"skip", "catch_up"}}},
+                .choices = kOverruns}},
           .is_structure = true,
           .handle = MakeThread,
           .saved = SavedThreads};

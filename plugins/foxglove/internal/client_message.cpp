@@ -72,13 +72,10 @@ ClientMessage ReadGetParameters(JsonMembers& members) {
 }
 ClientMessage ReadSetParameters(JsonMembers& members) {
   auto items = ItemsIn(members, "parameters", [](JsonMembers& item) {
-    SetParametersMessage::Item set{item.NeedText("name"), "", std::nullopt,
-                                   item.Text("type").value_or("")};
-    if (const JsonPart* const value = item.Find("value")) {
-      set.json = value->json();
-      set.text = value->text();
-    }
-    return set;
+    const JsonPart* const value = item.Find("value");
+    return SetParametersMessage::Item{item.NeedText("name"),
+                                      value != nullptr ? std::optional(*value) : std::nullopt,
+                                      item.Text("type").value_or("")};
   });
   return SetParametersMessage{std::move(items), members.Text("id")};
 }
@@ -118,10 +115,8 @@ Result<ClientMessage> ParseClientMessage(std::string_view text) {
   if (!op) return Error{.message = "a message is a JSON object with an \"op\""};
   const auto operation = std::ranges::find(kOperations, *op, &Operation::name);
   if (operation == kOperations.end()) {
-    std::vector<std::string> names;
-    for (const Operation& each : kOperations) names.emplace_back(each.name);
     return Error{.message = "there is no operation '" + *op + "' here",
-                 .hint = NearestNameHint(*op, names)};
+                 .hint = NearestNameHint(*op, NamesOf(kOperations, &Operation::name))};
   }
   ClientMessage message = operation->read(members);
   if (!members.error()) return message;

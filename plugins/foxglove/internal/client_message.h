@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "plugins/values/json_reader.h"
 
 namespace runnel::internal {
 
@@ -39,9 +40,8 @@ struct GetParametersMessage {
 struct SetParametersMessage {
   struct Item {
     std::string name;
-    std::string json;                 ///< the value; "" if there is none
-    std::optional<std::string> text;  ///< the value, if it is a text
-    std::string type;                 ///< "byte_array", "float64", "float64_array" or ""
+    std::optional<JsonPart> value;
+    std::string type;  ///< "byte_array", "float64", "float64_array" or ""
   };
   std::vector<Item> parameters;
   std::optional<std::string> id;

@@ -1,6 +1,5 @@
 #include "plugins/foxglove/internal/client_publication.h"
 
-#include <algorithm>
 #include <atomic>
 #include <mutex>
 #include <utility>
@@ -8,7 +7,7 @@
 #include "core/lockfree/thread_epoch.h"
 #include "core/types/type_info.h"
 #include "plugins/command_service/caught_error.h"
-#include "plugins/values/json_reader.h"
+#include "plugins/values/foxglove_channel.h"
 #include "plugins/values/json_values.h"
 
 namespace runnel::internal {
@@ -27,19 +26,6 @@ struct ClientPublication::PendingOutput {
   std::string path;        // of the place
   std::optional<Error> error;
 };
-
-namespace {
-
-// {"value":…} around what is no structure, as its channel has it; else the JSON as it is.
-std::string_view Unwrapped(const TypeInfo& type, std::string_view json) {
-  if (type.kind() == TypeKind::kStructure) return json;
-  const auto part = JsonPart::Parse(json);
-  if (!part) return json;  // whoever reads it says why
-  const auto members = part->members();
-  return members.size() == 1 && members[0].first == "value" ? members[0].second.json() : json;
-}
-
-}  // namespace
 
 ClientPublication::ClientPublication(FoxgloveShared& shared, const DirectoryInput& input,
                                      std::function<void()> wake)
@@ -129,7 +115,7 @@ Result<void> ClientPublication::PublishWaiting() {
   const std::string json = *std::exchange(waiting_, std::nullopt);
   const auto fill = [&](void* value) -> Result<void> {
     if (auto usual = SetFromJson(type_, usual_, value); !usual) return usual;
-    return SetFromJson(type_, Unwrapped(type_, json), value);
+    return SetFromMessage(type_, json, value);
   };
   try {
     const auto published = pending_->place->output->PublishFilled(fill);

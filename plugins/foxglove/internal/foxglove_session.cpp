@@ -17,12 +17,6 @@ constexpr auto kSoon = std::chrono::milliseconds(5);
 constexpr std::size_t kChannelsInMessage = 50;
 constexpr std::size_t kMostPublications = 100;
 
-std::vector<std::string> TopicsOf(const DirectoryContent& content) {
-  std::vector<std::string> topics;
-  for (const auto& [topic, input] : content.inputs) topics.push_back(topic);
-  return topics;
-}
-
 std::uint32_t ReadNumber(std::string_view bytes) {
   std::uint32_t number = 0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -109,7 +103,8 @@ void FoxgloveSession::Advertise(const AdvertiseMessage::Channel& channel, bool& 
   if (input == content->inputs.end()) {
     Error error{.message = "advertise: '" + channel.topic + "' is no input, or means several"};
     if (std::exchange(may_search, false)) {
-      error.hint = NearestNameHint(channel.topic, TopicsOf(*content));
+      const auto topics = NamesOf(content->inputs, [](const auto& each) { return each.first; });
+      error.hint = NearestNameHint(channel.topic, topics);
     }
     return SendError(error);
   }

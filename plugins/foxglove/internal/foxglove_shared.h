@@ -17,8 +17,6 @@ namespace runnel::internal {
 struct FoxgloveShared {
   explicit FoxgloveShared(FoxgloveApplication given);
   ~FoxgloveShared();
-  FoxgloveShared(const FoxgloveShared&) = delete;
-  FoxgloveShared& operator=(const FoxgloveShared&) = delete;
 
   [[nodiscard]] Runtime& runtime() const noexcept {
     return application.service.application().runtime;

@@ -20,12 +20,6 @@ constexpr auto kLongTime = std::chrono::hours(1);
 constexpr std::size_t kMostWaiting = 100;  // requests of one client
 constexpr std::size_t kMostAtOnce = 1000;
 
-std::vector<std::string> NamesIn(const SetParametersMessage& message) {
-  std::vector<std::string> names;
-  for (const auto& item : message.parameters) names.push_back(item.name);
-  return names;
-}
-
 }  // namespace
 
 struct ParameterHandler::PendingSet {
@@ -37,11 +31,8 @@ struct ParameterHandler::PendingSet {
 };
 
 std::vector<std::string> ParameterHandler::AllNames() const {
-  std::vector<std::string> names;
-  for (const auto& [name, parameter] : shared_.directory.content()->parameters) {
-    names.push_back(name);
-  }
-  return names;
+  return NamesOf(shared_.directory.content()->parameters,
+                 [](const auto& each) { return each.first; });
 }
 
 void ParameterHandler::SendError(const Error& error) {
@@ -156,7 +147,7 @@ bool ParameterHandler::ContinueSets() {
     }
     // What they are now, whatever has come of it.
     if (set.message.id) {
-      const auto values = Read(NamesIn(set.message));
+      const auto values = Read(NamesOf(set.message.parameters, &SetParametersMessage::Item::name));
       if (!values) return false;
       SendValues(*values, set.message.id);
     }
@@ -178,7 +169,8 @@ bool ParameterHandler::ContinueSets() {
 bool ParameterHandler::BeginSet(PendingSet& set) {
   bool may_search = true;
   set.has_begun = shared_.directory.VisitParameters(
-      NamesIn(set.message), [&](std::size_t i, const DirectoryParameter* parameter) {
+      NamesOf(set.message.parameters, &SetParametersMessage::Item::name),
+      [&](std::size_t i, const DirectoryParameter* parameter) {
         const SetParametersMessage::Item& item = set.message.parameters[i];
         if (parameter == nullptr) {
           set.errors.push_back(NoSuchParameter(item.name, may_search));

@@ -49,7 +49,8 @@ std::string ValueJson(const Configurable& parameter) {
 
 Result<SetParameter> SettingOfBytes(const SetParametersMessage::Item& item, const std::string& path,
                                     const TypeInfo& type) {
-  const auto bytes = item.text ? FromBase64(*item.text) : std::nullopt;
+  const auto text = item.value->text();
+  const auto bytes = text ? FromBase64(*text) : std::nullopt;
   if (!bytes) return Error{.message = "the value of a byte_array is a text in base64"};
   if (!IsBytes(type)) return Error{.message = "a " + type.name() + " is no list of bytes"};
   const std::shared_ptr<void> list = type.Make();
@@ -83,16 +84,16 @@ std::string ParameterJson(const std::string& name, const Configurable& parameter
 Result<SetParameter> SettingOf(const SetParametersMessage::Item& item, const std::string& path,
                                const Configurable& parameter) {
   const TypeInfo& type = parameter.type();
-  if (item.json.empty()) {
+  if (!item.value) {
     return Error{.message = "a parameter cannot be removed, only set", .hint = "say its \"value\""};
   }
   if (item.type == "byte_array") return SettingOfBytes(item, path, type);
-  if (item.text) return SetParameter{path, *item.text};
+  if (const auto text = item.value->text()) return SetParameter{path, *text};
   if (!type.is_transparent()) {
     return Error{.message = "a " + type.name() + " can be set as text only"};
   }
   const std::shared_ptr<void> value = parameter.Value();
-  if (auto set = SetFromJson(type, item.json, value.get()); !set) return set.error();
+  if (auto set = SetFromJson(type, *item.value, value.get()); !set) return set.error();
   return SetParameter{path, "", value, &type};
 }
 

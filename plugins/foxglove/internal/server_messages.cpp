@@ -69,7 +69,7 @@ std::string AdvertiseMessageFor(std::span<const DirectoryChannel* const> channel
 std::string UnadvertiseMessageFor(std::span<const std::uint32_t> ids) {
   return JsonObjectText([&](JsonObject& message) {
     JsonArray list(message.Add("op", "unadvertise").Key("channelIds"));
-    for (const std::uint32_t id : ids) AppendJsonNumber(std::uint64_t{id}, list.Next());
+    for (const std::uint32_t id : ids) AppendJsonNumber(id, list.Next());
   });
 }
 

@@ -90,10 +90,10 @@ bool Subscriptions::Show(std::uint32_t id, Subscription& subscription) {
   bool is_new = false;
   try {
     is_new = subscription.port
-                 ->VisitIfNew([&](const void* value, Time timestamp) {
+                 ->VisitIfNew([&](const void* value, ValueTimes times) {
                    bytes.clear();
-                   AppendMessageHead(id, timestamp, bytes);
-                   subscription.channel.encoding->Append(value, timestamp, bytes);
+                   AppendMessageHead(id, times.publication_time, bytes);
+                   subscription.channel.encoding->Append(value, times.timestamp, bytes);
                  })
                  .has_value();
   } catch (...) {

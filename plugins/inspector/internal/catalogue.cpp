@@ -1,10 +1,12 @@
 #include "plugins/inspector/internal/catalogue.h"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <mutex>
 #include <optional>
 
+#include "core/base/nearest_name.h"
 #include "core/element/configurable.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/port.h"
@@ -16,23 +18,9 @@ namespace runnel::internal {
 
 namespace {
 
-const char* KindName(TypeKind kind) {
-  switch (kind) {
-    case TypeKind::kOpaque:
-      break;
-    case TypeKind::kLeaf:
-      return "leaf";
-    case TypeKind::kEnumeration:
-      return "enumeration";
-    case TypeKind::kStructure:
-      return "structure";
-    case TypeKind::kSequence:
-      return "sequence";
-    case TypeKind::kMatrix:
-      return "matrix";
-  }
-  return "opaque";
-}
+/// Of a TypeKind, in their order.
+constexpr std::array<const char*, 6> kKindNames{"opaque",    "leaf",     "enumeration",
+                                                "structure", "sequence", "matrix"};
 
 void AppendField(const FieldInfo& field, std::string& text) {
   JsonObject object(text);
@@ -42,7 +30,7 @@ void AppendField(const FieldInfo& field, std::string& text) {
 
 void AppendType(const TypeInfo* type, std::string& text) {
   JsonObject json(text);
-  json.Add("name", type->name()).Add("kind", KindName(type->kind()));
+  json.Add("name", type->name()).Add("kind", kKindNames[static_cast<std::size_t>(type->kind())]);
   json.AddTextOrNull("meaning", type->semantic_tag());
   if (type->kind() == TypeKind::kStructure) {
     AppendList(type->fields(), json.Key("fields"), AppendField);
@@ -80,8 +68,7 @@ void AppendParameter(const ParameterOfType& each, std::string& text) {
 }
 
 CatalogueItemPort ItemOf(const Port& port) {
-  return {port.name(), port.direction() == Port::Direction::kInput, port.type().name(),
-          port.is_required()};
+  return {port.name(), port.direction() == Port::Direction::kInput, port.type().name()};
 }
 
 // `module`: one that has been made, or why none can be.
@@ -106,13 +93,6 @@ CatalogueItem Describe(const ModuleType& type, const Result<UnlistedElement>& mo
   AppendList(parameters, json.Key("parameters"), AppendParameter);
   if (!module) json.Add("problem", module.error().ToString());
   return item;
-}
-
-std::vector<std::string> NamesOf(Runtime& runtime, const ModuleRegistry& modules) {
-  const std::lock_guard lock(runtime.structure_mutex());
-  std::vector<std::string> names;
-  for (const ModuleType* type : modules.All()) names.push_back(type->name);
-  return names;
 }
 
 // Nothing if the type has just gone.
@@ -148,7 +128,12 @@ std::vector<CatalogueItemPort> ConnectedPorts(FrameworkElement& module) {
 
 Catalogue MakeCatalogue(Runtime& runtime, const ModuleRegistry& modules) {
   Catalogue catalogue;
-  for (const std::string& name : NamesOf(runtime, modules)) {
+  std::vector<std::string> names;
+  {
+    const std::lock_guard lock(runtime.structure_mutex());
+    names = NamesOf(modules.All(), &ModuleType::name);
+  }
+  for (const std::string& name : names) {
     if (auto item = Look(runtime, modules, name)) catalogue.modules.push_back(std::move(*item));
   }
   JsonObject json(catalogue.message);
@@ -193,10 +178,7 @@ Result<std::string> CompatibleTypes(Runtime& runtime, const Catalogue& catalogue
     if (item.type == own_type) continue;
     Candidate candidate{&item, {}};
     for (const CatalogueItemPort& port : connected) {
-      const bool is_kept = std::ranges::any_of(item.ports, [&](const CatalogueItemPort& each) {
-        return each.name == port.name && each.is_input == port.is_input && each.type == port.type;
-      });
-      if (!is_kept) candidate.lost.push_back(port.name);
+      if (std::ranges::count(item.ports, port) == 0) candidate.lost.push_back(port.name);
     }
     const bool is_stranger = !connected.empty() && candidate.lost.size() == connected.size();
     if (!is_stranger && !connected.empty()) candidates.push_back(std::move(candidate));

@@ -13,7 +13,8 @@ struct CatalogueItemPort {
   std::string name;
   bool is_input = false;
   std::string type;
-  bool is_required = false;
+
+  friend bool operator==(const CatalogueItemPort&, const CatalogueItemPort&) = default;
 };
 
 /// What modules of a type look like.

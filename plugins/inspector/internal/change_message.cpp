@@ -1,5 +1,3 @@
-#include "plugins/inspector/internal/change_message.h"
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -7,41 +5,36 @@
 #include <vector>
 
 #include "core/base/nearest_name.h"
+#include "plugins/inspector/internal/viewer_message.h"
 
 namespace runnel::internal {
 
 namespace {
 
-constexpr std::array<std::pair<const char*, OnFull>, 3> kOnFull{
-    {{"drop_oldest", OnFull::kDropOldest},
-     {"drop_newest", OnFull::kDropNewest},
-     {"refuse", OnFull::kRefuse}}};
-constexpr std::array<std::pair<const char*, Port::Direction>, 2> kDirections{
-    {{"input", Port::Direction::kInput}, {"output", Port::Direction::kOutput}}};
+// Of a Port::Direction, in their order.
+const std::vector<std::string>& DirectionNames() {
+  static const std::vector<std::string> names{"input", "output"};
+  return names;
+}
+
 constexpr std::uint64_t kLargestCount = 1'000'000'000;
 
-template <typename T, std::size_t size>
-T OneOf(JsonMembers& members, const std::string& key,
-        const std::array<std::pair<const char*, T>, size>& words, T otherwise) {
-  const auto word = members.Text(key);
-  if (!word) return otherwise;
-  std::vector<std::string> names;
-  for (const auto& [name, value] : words) {
-    if (*word == name) return value;
-    names.emplace_back(name);
-  }
-  members.Complain("\"" + key + "\" cannot be '" + *word + "'", NearestNameHint(*word, names));
-  return otherwise;
+// `names`: of the values of T, in their order; the first one is meant where nothing is said.
+template <typename T>
+T OneOf(JsonMembers& members, const std::string& key, const std::vector<std::string>& names) {
+  const std::string word = members.Text(key).value_or(names.front());
+  const auto found = std::ranges::find(names, word);
+  if (found != names.end()) return static_cast<T>(found - names.begin());
+  members.Complain("\"" + key + "\" cannot be '" + word + "'", NearestNameHint(word, names));
+  return {};
 }
 
 bool IsTrue(JsonMembers& members, const std::string& key) {
   const JsonPart* const found = members.Find(key);
   if (found == nullptr || found->is_null()) return false;
-  const bool is_true = found->json() == "true";
-  if (!is_true && found->json() != "false") {
-    members.Complain("\"" + key + "\" must be true or false");
-  }
-  return is_true;
+  const auto is_true = found->boolean();
+  if (!is_true) members.Complain("\"" + key + "\" must be true or false");
+  return is_true.value_or(false);
 }
 
 // {"step": "0.1"}: values of parameters in their text format.
@@ -63,7 +56,7 @@ Change ReadCreate(JsonMembers& m) {
 }
 Change ReadCreateGroup(JsonMembers& m) { return CreateGroup{m.NeedText("path")}; }
 Change ReadCreatePort(JsonMembers& m) {
-  return CreatePort{m.NeedText("path"), OneOf(m, "direction", kDirections, Port::Direction::kInput),
+  return CreatePort{m.NeedText("path"), OneOf<Port::Direction>(m, "direction", DirectionNames()),
                     m.NeedText("type"), m.Text("description").value_or("")};
 }
 Change ReadDelete(JsonMembers& m) { return DeleteElement{m.NeedText("path")}; }
@@ -71,7 +64,7 @@ Change ReadConnect(JsonMembers& m) {
   return ConnectPorts{m.NeedText("from"),
                       m.NeedText("to"),
                       {.queue = m.Count("queue", kLargestCount).value_or(0),
-                       .on_full = OneOf(m, "on_full", kOnFull, OnFull::kDropOldest),
+                       .on_full = OneOf<OnFull>(m, "on_full", OnFullNames()),
                        .pull = IsTrue(m, "pull")}};
 }
 Change ReadDisconnect(JsonMembers& m) {
@@ -109,10 +102,8 @@ Result<Change> ParseChange(const JsonPart& json) {
   if (!name) return Error{.message = "\"change\" must be a text that says what to do"};
   const auto kind = std::ranges::find(kKinds, *name, &Kind::name);
   if (kind == kKinds.end()) {
-    std::vector<std::string> names;
-    for (const Kind& each : kKinds) names.emplace_back(each.name);
     return Error{.message = "there is no change '" + *name + "'",
-                 .hint = NearestNameHint(*name, names)};
+                 .hint = NearestNameHint(*name, NamesOf(kKinds, &Kind::name))};
   }
   Change change = kind->read(members);
   members.RefuseOthers();

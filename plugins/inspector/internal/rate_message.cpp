@@ -1,7 +1,6 @@
-#include "plugins/inspector/internal/rate_message.h"
-
 #include <cmath>
 
+#include "plugins/inspector/structure_mirror.h"
 #include "plugins/values/json_writer.h"
 
 namespace runnel::internal {
@@ -65,7 +64,6 @@ std::string RateMessage(const CountSample& before, const CountSample& now, doubl
     json.Add("op", "rates").Add("time", time);
     AppendPorts(before, now, told, json.Key("ports"));
     AppendThreads(before, now, json.Key("threads"));
-    json.AddJson("modules", "{}");
   });
 }
 

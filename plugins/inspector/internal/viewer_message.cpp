@@ -2,9 +2,6 @@
 
 #include <utility>
 
-#include "plugins/inspector/internal/change_message.h"
-#include "plugins/values/json_reader.h"
-
 namespace runnel::internal {
 
 namespace {

@@ -9,6 +9,7 @@
 
 #include "core/base/result.h"
 #include "plugins/structure/change.h"
+#include "plugins/values/json_reader.h"
 
 namespace runnel::internal {
 
@@ -33,6 +34,11 @@ struct ViewerMessage {
   std::size_t elements = 12;
   std::uint64_t cycles = 1;
 };
+
+/// One change as PROTOCOL.md has it: {"change":"connect","from":"/a/out","to":"/b/in","queue":10}.
+/// Errors: it is no object, there is no such change (with the nearest name), a member is missing, unknown
+/// or of another kind.
+[[nodiscard]] Result<Change> ParseChange(const JsonPart& json);
 
 /// Errors: it is no JSON object, is nested deeper than any message is, or a member is of another kind
 /// than the protocol has it.

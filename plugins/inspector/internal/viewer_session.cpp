@@ -9,7 +9,6 @@
 #include "core/lockfree/thread_epoch.h"
 #include "core/types/type_info.h"
 #include "plugins/command_service/caught_error.h"
-#include "plugins/inspector/internal/rate_message.h"
 #include "plugins/structure/change_history.h"
 #include "plugins/values/json_values.h"
 #include "plugins/values/json_writer.h"
@@ -203,11 +202,15 @@ void ViewerSession::SendValues(SteadyTime now) {
 }
 
 std::optional<std::uint64_t> ViewerSession::LookAt(Watch& watch, std::string& item) const {
-  return watch.port.VisitIfNew([&](const void* value, Time timestamp) {
+  return watch.port.VisitIfNew([&](const void* value, ValueTimes times) {
     item = "{\"path\":";
     AppendJsonString(watch.port.path(), item);
     item += ",\"stamp\":";
-    AppendJsonNumber(ToSeconds(timestamp - inspection_.start()), item);
+    AppendJsonNumber(ToSeconds(times.publication_time - inspection_.start()), item);
+    if (times.timestamp != times.publication_time) {
+      item += ",\"measured\":";
+      AppendJsonNumber(ToSeconds(times.timestamp - inspection_.start()), item);
+    }
     item += ",\"value\":";
     const JsonLimits limits{watch.elements, kLongestText, kLargestValue};
     if (!AppendJson(watch.port.type(), value, item, limits)) item += ",\"cut\":true";

@@ -12,13 +12,7 @@ endfunction()
 
 function(give_up reason)
   message("The inspector has no page: ${reason}\nAll else is built; the next build tries again.")
-  write_source("#include \"plugins/inspector/page/inspector_page.h\"
-
-const std::vector<runnel::WebResource>& runnel::InspectorPage() {
-  static const std::vector<WebResource> none;
-  return none;
-}
-")
+  file(COPY_FILE "${SOURCE}/missing_page.cpp" "${OUTPUT}" ONLY_IF_DIFFERENT)
 endfunction()
 
 install_npm_packages("${NPM}" "${SOURCE}" "${BUILD}" problem)

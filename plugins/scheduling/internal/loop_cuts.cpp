@@ -5,18 +5,9 @@
 
 namespace runnel::internal {
 
-namespace {
-
-// Tells the tasks of one call from all others; never used again.
-std::uint64_t NextSet() noexcept {
-  static std::atomic<std::uint64_t> last{0};
-  return last.fetch_add(1, std::memory_order_relaxed) + 1;
-}
-
-}  // namespace
-
 std::uint64_t MarkAsSet(const Tasks& tasks) noexcept {
-  const std::uint64_t set = NextSet();
+  static std::atomic<std::uint64_t> last{0};
+  const std::uint64_t set = last.fetch_add(1, std::memory_order_relaxed) + 1;
   for (OrderedTask* task : tasks) task->set = set;
   return set;
 }

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/base/error.h"
 #include "core/module/executable.h"
 
 namespace runnel {
@@ -124,5 +125,8 @@ class RunningOrder {
   bool is_sorted_ = true;
   bool has_cuts_ = false;
 };
+
+/// Adds a warning for each connection that `order` does not follow; each names both ports.
+void ReportCuts(const RunningOrder& order, std::vector<Error>& warnings);
 
 }  // namespace runnel::internal

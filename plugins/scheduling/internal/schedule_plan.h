@@ -56,14 +56,15 @@ class TasksOfGroups {
   }
   void Clear() { groups_.clear(); }
 
-  /// Calls `visit` for each task that publishes through `port`, or reads it.
+  /// Calls `visit` with each task that publishes through `output` and each that reads `input`, of one thread.
   template <typename Visit>
-  void ForEachWriter(const FrameworkElement& port, Visit&& visit) const {
-    ForEach(port, &Tasks::writers, visit);
-  }
-  template <typename Visit>
-  void ForEachReader(const FrameworkElement& port, Visit&& visit) const {
-    ForEach(port, &Tasks::readers, visit);
+  void ForEachPair(const FrameworkElement& output, const FrameworkElement& input,
+                   const Visit& visit) const {
+    ForEach(output, &Tasks::writers, [&](PlannedTask& writer) {
+      ForEach(input, &Tasks::readers, [&](PlannedTask& reader) {
+        if (writer.element->thread == reader.element->thread) visit(writer, reader);
+      });
+    });
   }
 
  private:

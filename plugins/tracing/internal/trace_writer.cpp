@@ -1,6 +1,10 @@
 #include "plugins/tracing/internal/trace_writer.h"
 
+#include <array>
+#include <iterator>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "plugins/values/json_writer.h"
 
@@ -13,34 +17,15 @@ constexpr int kChanges = 1;
 
 Time TimeAt(std::int64_t count) { return Time(Duration(count)); }
 
-// As a number of events is to be shown.
-std::string CountArgument(const char* name, std::uint64_t count) {
-  std::string text = "\"" + std::string(name) + "\":";
-  AppendJsonNumber(count, text);
-  return text;
-}
-
-const char* PhaseText(Phase phase) {
-  switch (phase) {
-    case Phase::kSense:
-      return " sense";
-    case Phase::kUpdate:
-      return "";
-    case Phase::kControl:
-      return " control";
-  }
-  return "";
-}
+// Of each Phase.
+constexpr std::array kPhaseTexts{" sense", "", " control"};
 
 }  // namespace
 
 void AppendSimulatedTime(Time time, std::string& json) {
   const std::int64_t count = time.time_since_epoch().count();
-  json += "\"simulated_s\":";
-  AppendJsonNumber(count / 1'000'000'000, json);
-  std::string fraction = std::to_string(1'000'000'000 + count % 1'000'000'000);
-  fraction[0] = '.';
-  json += fraction;
+  fmt::format_to(std::back_inserter(json), "\"simulated_s\":{}.{:09}", count / 1'000'000'000,
+                 count % 1'000'000'000);
 }
 
 TraceWriter::TraceWriter(TraceFile file, const std::string& application, bool is_simulated)
@@ -104,12 +89,11 @@ void TraceWriter::WriteEvent(KnownThread& known, const TraceEvent& event) {
       return WriteCycle(known, event);
     case Kind::kUpdate:
       name_ = names_[event.number];
-      if (event.phase != Phase::kUpdate) name_.insert(name_.size() - 1, PhaseText(event.phase));
+      name_.insert(name_.size() - 1, kPhaseTexts[static_cast<std::size_t>(event.phase)]);
       return file_.AddSlice(known.track, name_, "update", TimeAt(event.words[0]),
                             TimeAt(event.words[1]), "");
     case Kind::kPublication:
-      arguments_ = "\"values\":";
-      AppendJsonNumber(event.words[1], arguments_);
+      arguments_ = fmt::format("\"values\":{}", event.words[1]);
       return file_.AddInstant(known.track, names_[event.number], "publish", TimeAt(event.words[0]),
                               arguments_);
     case Kind::kFault:
@@ -121,8 +105,7 @@ void TraceWriter::WriteEvent(KnownThread& known, const TraceEvent& event) {
 }
 
 void TraceWriter::WriteCycle(const KnownThread& known, const TraceEvent& event) {
-  arguments_ = "\"number\":";
-  AppendJsonNumber(event.number, arguments_);
+  arguments_ = fmt::format("\"number\":{}", event.number);
   if (is_simulated_) {
     arguments_ += ',';
     AppendSimulatedTime(TimeAt(event.words[2]), arguments_);
@@ -143,15 +126,15 @@ void TraceWriter::TellOfLost(int track, std::uint64_t lost) {
   if (lost == 0) return;
   lost_ += lost;
   file_.AddInstant(track, "\"lost events\"", "tracing", SteadyClock().Now(),
-                   CountArgument("count", lost));
+                   fmt::format("\"count\":{}", lost));
 }
 
 Result<TraceSummary> TraceWriter::Finish() {
   for (KnownThread& each : threads_) CloseFault(each);
   file_.UseReserve();
-  file_.AddInstant(kChanges, "\"end of the trace\"", "tracing", SteadyClock().Now(),
-                   CountArgument("lost_events", lost_) + "," +
-                       CountArgument("left_out_events", file_.left_out()));
+  file_.AddInstant(
+      kChanges, "\"end of the trace\"", "tracing", SteadyClock().Now(),
+      fmt::format("\"lost_events\":{},\"left_out_events\":{}", lost_, file_.left_out()));
   if (auto closed = file_.Close(); !closed) return closed.error();
   return TraceSummary{file_.events(), lost_, file_.left_out()};
 }

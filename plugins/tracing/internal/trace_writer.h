@@ -7,7 +7,6 @@
 
 #include "plugins/scheduling/trace_track.h"
 #include "plugins/tracing/trace_file.h"
-#include "plugins/tracing/trace_summary.h"
 
 namespace runnel::internal {
 

@@ -134,13 +134,13 @@ void AppendSides(const ValueView& map, std::string& json) {
         AppendVector(place, points.Next());
         const std::size_t here = first + 2 * k, next = first + 2 * ((k + 1) % count);
         for (const std::size_t index : {here, next, here + 1, here + 1, next, next + 1}) {
-          AppendJsonNumber(std::uint64_t{index}, indices.Next());
+          AppendJsonNumber(index, indices.Next());
         }
       }
       if (!HasTop(outlines, i)) ring.clear();
       for (const auto& triangle : TrianglesOf(ring)) {
         for (const std::size_t corner : triangle) {
-          AppendJsonNumber(std::uint64_t{first + 2 * corner + 1}, indices.Next());
+          AppendJsonNumber(first + 2 * corner + 1, indices.Next());
         }
       }
       first += 2 * count;

@@ -14,8 +14,7 @@ namespace runnel::internal {
 /// sure that the type has it.
 class ValueView {
  public:
-  ValueView(const TypeInfo& type, const void* value)
-      : type_(&type), value_(const_cast<void*>(value)) {}  // descriptions hand out ways to write
+  ValueView(const TypeInfo& type, const void* value) : type_(&type), value_(ForLooking(value)) {}
 
   [[nodiscard]] const TypeInfo& type() const noexcept { return *type_; }
   [[nodiscard]] const void* value() const noexcept { return value_; }

@@ -14,7 +14,7 @@ export class Watches {
     this.#send = send;
   }
 
-  /** A signal of {stamp, count, value, cut, drops} or null, and the function that ends it. */
+  /** A signal of {stamp, measured, count, value, cut, drops} or null, and the function that ends it. */
   watch(path, { rate = kRate, elements = kElements, onValue } = {}) {
     if (!this.#watched.has(path)) {
       this.#watched.set(path, { value: signal(null), users: new Set(), asked: '' });
@@ -35,10 +35,7 @@ export class Watches {
 
   /** A new connection knows of no watches. */
   askAgain() {
-    for (const [path, entry] of this.#watched) {
-      entry.asked = '';
-      this.#ask(path, entry);
-    }
+    this.askAgainFor(this.#watched.keys());
   }
 
   /** A value can only be watched once its port is there. */

@@ -3,9 +3,8 @@
 import { useComputed } from '@preact/signals';
 import { html } from 'htm/preact';
 import { memo } from '../panels/memo.js';
-import { OriginsOf } from '../model/origin.js';
 import { selected } from '../state/choices.js';
-import { RateOf, shapeRevision, structure } from '../state/store.js';
+import { FlowRate, shapeRevision, structure } from '../state/store.js';
 
 export const EdgeView = memo(({ edge }) => {
   const state = useComputed(() => {
@@ -14,7 +13,7 @@ export const EdgeView = memo(({ edge }) => {
   });
   const isLive = useComputed(() => {
     shapeRevision.value;
-    return OriginsOf(structure, edge.from).some((origin) => RateOf(origin).value > 0);
+    return FlowRate(edge.from) > 0;
   });
   const isPulled = useComputed(() => {
     shapeRevision.value;

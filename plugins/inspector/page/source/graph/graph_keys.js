@@ -5,10 +5,9 @@ import { announcement, openDialog, selected } from '../state/choices.js';
 import { canChange, structure } from '../state/store.js';
 import { CanBeDeleted, IsGroup, ParentOf } from '../model/structure.js';
 import { DescribeBox } from './box_view.js';
-import { Fit, MoveView, ShowElement, ToggleGroup, connecting, layout, size, view } from './graph_state.js';
+import { Fit, ShowElement, ToggleGroup, Zoom, connecting, layout, view } from './graph_state.js';
 import { StopConnecting } from './pointer.js';
 import { DescribePort } from './port_view.js';
-import { ZoomAt } from './viewport.js';
 
 const kDirections = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
@@ -36,10 +35,6 @@ const kKeys = {
   ContextMenu: OpenMenu,
   F10: OpenMenu,
 };
-
-function Zoom(factor) {
-  MoveView(ZoomAt(view.value, { x: size.value.width / 2, y: size.value.height / 2 }, factor));
-}
 
 function IsSelectedGroup() {
   const element = structure.get(selected.value);

@@ -4,7 +4,7 @@ import { computed, effect, signal } from '@preact/signals';
 import { IsOpen, SetOpen, openGroups } from '../state/choices.js';
 import { shapeRevision, structure } from '../state/store.js';
 import { GraphLayout } from './layout.js';
-import { Contains, FitView, ShowBox, VisibleArea } from './viewport.js';
+import { Contains, FitView, ShowBox, VisibleArea, ZoomAt } from './viewport.js';
 
 const kDetailed = 160; // boxes on the screen; with more of them ports and texts cannot be read anyway
 
@@ -53,6 +53,11 @@ function Overlaps(area, left, top, right, bottom) {
 export function MoveView(next) {
   fits = false;
   view.value = next;
+}
+
+/** About the middle of the screen. */
+export function Zoom(factor) {
+  MoveView(ZoomAt(view.value, { x: size.value.width / 2, y: size.value.height / 2 }, factor));
 }
 
 export function Fit() {

@@ -8,10 +8,9 @@ import { BoxView, GroupFrame, NodeId } from './box_view.js';
 import { EdgeView } from './edge_view.js';
 import { FarView } from './far_view.js';
 import { OnGraphKey } from './graph_keys.js';
-import { Fit, MoveView, StartFitting, connecting, layout, shown, size, view } from './graph_state.js';
+import { Fit, StartFitting, Zoom, connecting, layout, shown, size, view } from './graph_state.js';
 import { HoverCard } from './hover_card.js';
 import { AttachPointer } from './pointer.js';
-import { ZoomAt } from './viewport.js';
 
 export function GraphView() {
   const host = useRef(null);
@@ -79,12 +78,10 @@ function NewEdge() {
 }
 
 function ZoomButtons() {
-  const zoom = (factor) =>
-    MoveView(ZoomAt(view.value, { x: size.value.width / 2, y: size.value.height / 2 }, factor));
   return html`
     <div class="zoom-buttons" role="group" aria-label="Zoom">
-      <button onClick=${() => zoom(1.25)} aria-label="Zoom in" title="Zoom in (+)">+</button>
-      <button onClick=${() => zoom(0.8)} aria-label="Zoom out" title="Zoom out (−)">−</button>
+      <button onClick=${() => Zoom(1.25)} aria-label="Zoom in" title="Zoom in (+)">+</button>
+      <button onClick=${() => Zoom(0.8)} aria-label="Zoom out" title="Zoom out (−)">−</button>
       <button onClick=${Fit} aria-label="Fit the graph" title="Fit (F)">⤢</button>
       <output aria-label="Zoom factor">${Math.round(view.value.scale * 100)} %</output>
     </div>`;

@@ -1,10 +1,10 @@
 // What a port carries, beside the pointer.
 
 import { signal } from '@preact/signals';
-import { useEffect, useState } from 'preact/hooks';
 import { html } from 'htm/preact';
 import { FormatNumber, FormatValue } from '../model/value_format.js';
-import { structure, watches } from '../state/store.js';
+import { useWatched } from '../panels/use_watched.js';
+import { structure } from '../state/store.js';
 import { size } from './graph_state.js';
 
 export const hovered = signal(null); // the port under the pointer: {path, x, y}
@@ -28,8 +28,7 @@ export function HoverCard() {
 }
 
 function LiveValue({ path }) {
-  const [item, setItem] = useState(null);
-  useEffect(() => watches.watch(path, { rate: 5, onValue: setItem }).end, [path]);
+  const item = useWatched(path, { rate: 5 });
   if (!item) return html`<p class="value none">nothing yet</p>`;
   return html`<p class="value">${FormatValue(item.value, 90)}</p>
     <p class="stamp">${item.count} values, the last at ${FormatNumber(item.stamp)} s</p>`;

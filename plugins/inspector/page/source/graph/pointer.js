@@ -13,6 +13,7 @@ const kDragFrom = 4;   // pixels before a press becomes a drag
 
 export function AttachPointer(host) {
   const pointer = new Pointer(host);
+  const attached = new AbortController();
   const handlers = {
     pointerdown: (event) => pointer.down(event),
     pointermove: (event) => pointer.move(event),
@@ -21,14 +22,12 @@ export function AttachPointer(host) {
     pointerleave: () => { hovered.value = null; },
     contextmenu: (event) => pointer.menu(event),
     dblclick: (event) => pointer.doubleClick(event),
+    wheel: (event) => pointer.wheel(event),
   };
-  for (const [name, handler] of Object.entries(handlers)) host.addEventListener(name, handler);
-  const wheel = (event) => pointer.wheel(event);
-  host.addEventListener('wheel', wheel, { passive: false });
-  return () => {
-    for (const [name, handler] of Object.entries(handlers)) host.removeEventListener(name, handler);
-    host.removeEventListener('wheel', wheel);
-  };
+  for (const [name, handler] of Object.entries(handlers)) {
+    host.addEventListener(name, handler, { passive: false, signal: attached.signal });
+  }
+  return () => attached.abort();
 }
 
 class Pointer {
@@ -52,7 +51,8 @@ class Pointer {
     const point = this.#point(event);
     const press = this.#press;
     if (!press) {
-      hovered.value = this.#hover(event, point);
+      const path = PortAt(event.clientX, event.clientY)?.dataset.port;
+      hovered.value = path ? { path, ...point } : null;
       return;
     }
     const [dx, dy] = [point.x - press.start.x, point.y - press.start.y];
@@ -131,11 +131,6 @@ class Pointer {
       }
     }
     return { fold, port, edge, node };
-  }
-
-  #hover(event, point) {
-    const path = PortAt(event.clientX, event.clientY)?.dataset.port;
-    return path ? { path, x: point.x, y: point.y } : null;
   }
 }
 

@@ -3,10 +3,9 @@
 import { useComputed } from '@preact/signals';
 import { html } from 'htm/preact';
 import { memo } from '../panels/memo.js';
-import { OriginsOf } from '../model/origin.js';
 import { FormatRate } from '../model/value_format.js';
 import { selected } from '../state/choices.js';
-import { RateOf, shapeRevision, structure } from '../state/store.js';
+import { FlowRate, shapeRevision } from '../state/store.js';
 import { candidates, connecting } from './graph_state.js';
 
 export const PortView = memo(({ port, x, y, side, inside }) => {
@@ -37,9 +36,8 @@ export const PortView = memo(({ port, x, y, side, inside }) => {
 function Rate({ path }) {
   const text = useComputed(() => {
     shapeRevision.value;
-    const origins = OriginsOf(structure, path);
-    const rates = origins.map((origin) => RateOf(origin).value).filter((rate) => rate !== null);
-    return rates.length === 0 ? '' : FormatRate(rates.reduce((sum, rate) => sum + rate, 0));
+    const rate = FlowRate(path);
+    return rate === null ? '' : FormatRate(rate);
   });
   return html`<text class="rate" x="9" y="-4">${text}</text>`;
 }

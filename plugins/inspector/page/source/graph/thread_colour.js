@@ -5,11 +5,6 @@ import { structure } from '../state/store.js';
 const kColours = 8;
 
 export function ThreadColour(name) {
-  if (!name) return 'var(--no-thread)';
-  let index = 0;
-  for (const thread of structure.ofKind('thread')) {
-    if (thread.name === name) return `var(--thread-${index % kColours})`;
-    ++index;
-  }
-  return 'var(--no-thread)';
+  const index = [...structure.ofKind('thread')].findIndex((thread) => thread.name === name);
+  return index < 0 ? 'var(--no-thread)' : `var(--thread-${index % kColours})`;
 }

@@ -14,14 +14,3 @@ export function OriginsOf(structure, path, seen = new Set()) {
     .filter((connection) => connection.to === path)
     .flatMap((connection) => OriginsOf(structure, connection.from, seen));
 }
-
-/** The inputs of modules that a port feeds, through however many groups. */
-export function ReadersOf(structure, path, seen = new Set()) {
-  return structure.connectionsOf(path)
-    .filter((connection) => connection.from === path && !seen.has(connection.to))
-    .flatMap((connection) => {
-      seen.add(connection.to);
-      const owner = structure.get(structure.get(connection.to)?.owner);
-      return owner && IsGroup(owner) ? ReadersOf(structure, connection.to, seen) : [connection.to];
-    });
-}

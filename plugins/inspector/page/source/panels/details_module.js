@@ -1,11 +1,10 @@
 // A module or a group: what it is, what can be done with it, its parameters, ports and times.
 
 import { html } from 'htm/preact';
-import { FormatMilliseconds } from '../model/value_format.js';
 import { IsGroup, ThreadOf } from '../model/structure.js';
 import { Delete, Reload } from '../state/actions.js';
 import { IsOpen, openDialog } from '../state/choices.js';
-import { DurationOf, canChange, catalogue, revision, structure } from '../state/store.js';
+import { canChange, catalogue, revision, structure } from '../state/store.js';
 import { ThreadColour } from '../graph/thread_colour.js';
 import { ToggleGroup } from '../graph/graph_state.js';
 import { ParameterRow } from './parameter_row.js';
@@ -48,7 +47,6 @@ export function ModuleDetails({ element }) {
           style=${{ background: ThreadColour(thread) }}></i>${thread}${
         element.thread ? '' : html` <small>of its group</small>`}</span>`],
       ['plugin', plugin],
-      ['update takes', DurationOf(path).value === null ? '' : FormatMilliseconds(DurationOf(path).value / 1000)],
     ]} />
     <${Troubles} path=${path} />
     ${parameters.length > 0 && html`<${Section} title="Parameters" count=${parameters.length} id="parameters">

@@ -2,12 +2,11 @@
 
 import { useState } from 'preact/hooks';
 import { html } from 'htm/preact';
-import { OriginsOf } from '../model/origin.js';
 import { NameOf } from '../model/structure.js';
 import { FormatNumber, FormatRate } from '../model/value_format.js';
 import { Disconnect } from '../state/actions.js';
 import { openDialog } from '../state/choices.js';
-import { RateOf, canChange, catalogue, revision, structure } from '../state/store.js';
+import { FlowRate, canChange, catalogue, revision, structure } from '../state/store.js';
 import { ActionButton, Facts, Link, Section, Title } from './parts.js';
 import { useWatched } from './use_watched.js';
 import { ValueTable } from './value_table.js';
@@ -21,7 +20,7 @@ export function PortDetails({ element }) {
   const [elements, setElements] = useState(kFew);
   const item = useWatched(path, { rate: 8, elements });
   const connections = structure.connectionsOf(path);
-  const rates = OriginsOf(structure, path).map((origin) => RateOf(origin).value).filter((rate) => rate !== null);
+  const rate = FlowRate(path);
   const type = catalogue.value.type(element.data_type);
   return html`
     <${Title} kind=${`${element.interface ? 'group ' : ''}${element.direction}`} name=${element.name} path=${path}>
@@ -33,9 +32,10 @@ export function PortDetails({ element }) {
     <${Facts} facts=${[
       ['type', element.data_type],
       ['of', structure.get(element.owner) && html`<${Link} path=${element.owner} />`],
-      ['rate', rates.length > 0 && FormatRate(rates.reduce((a, b) => a + b, 0))],
+      ['rate', rate !== null && FormatRate(rate)],
       ['values', item?.count !== undefined && item?.count !== null && String(item.count)],
       ['last at', item && `${FormatNumber(item.stamp)} s`],
+      ['measured', item?.measured !== undefined && `${FormatNumber(item.stamp - item.measured)} s before`],
       ['lost from its queue', item?.drops ? String(item.drops) : ''],
       ['required', element.required ? 'yes' : ''],
     ]} />

@@ -2,20 +2,19 @@
 
 import { html } from 'htm/preact';
 import { FormatRate, FormatValue } from '../model/value_format.js';
-import { OriginsOf } from '../model/origin.js';
-import { RateOf, revision, structure } from '../state/store.js';
+import { FlowRate, revision, structure } from '../state/store.js';
 import { Link } from './parts.js';
 import { useWatched } from './use_watched.js';
 
 export function PortRow({ port }) {
   revision.value;
   const item = useWatched(port.path, { rate: 4 });
-  const rates = OriginsOf(structure, port.path).map((origin) => RateOf(origin).value).filter((rate) => rate !== null);
+  const rate = FlowRate(port.path);
   const isOpenEnded = port.required && structure.connectionsOf(port.path).length === 0;
   return html`<li class="port-row" data-port-row=${port.path}>
     <div><${Link} path=${port.path} text=${port.name} /> <small class="type">${port.data_type}</small>
       ${isOpenEnded && html`<small class="missing">required, not connected</small>`}
-      <small class="rate">${rates.length > 0 ? FormatRate(rates.reduce((a, b) => a + b, 0)) : ''}</small></div>
+      <small class="rate">${rate === null ? '' : FormatRate(rate)}</small></div>
     <div class="value">${item ? FormatValue(item.value, 80) : html`<span class="none">nothing yet</span>`}</div>
   </li>`;
 }

@@ -3,7 +3,7 @@
 import { useEffect, useState } from 'preact/hooks';
 import { watches } from '../state/store.js';
 
-/** {stamp, count, value, cut, drops} or null. */
+/** {stamp, measured, count, value, cut, drops} or null. */
 export function useWatched(path, options) {
   const [item, setItem] = useState(null);
   useEffect(() => {

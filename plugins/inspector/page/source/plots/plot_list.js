@@ -43,8 +43,7 @@ export function RemoveCurve(plotId, curveId) {
 }
 
 export function RemovePlot(plotId) {
-  for (const plot of plots.value) if (plot.id === plotId) for (const curve of plot.curves) curve.end();
-  plots.value = plots.value.filter((plot) => plot.id !== plotId);
+  for (const plot of plots.value) if (plot.id === plotId) for (const curve of plot.curves) RemoveCurve(plotId, curve.id);
 }
 
 let run = null;

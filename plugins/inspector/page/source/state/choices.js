@@ -24,9 +24,7 @@ export const selectedThread = computed(() => {
 
 const opensByItself = computed(() => {
   revision.value;
-  let count = 0;
-  for (const element of structure.elements.values()) if (element.kind === 'module') ++count;
-  return count < kOpenBelow;
+  return [...structure.ofKind('module')].length < kOpenBelow;
 });
 
 export function IsOpen(path) {

@@ -4,6 +4,7 @@ import { batch, computed, signal } from '@preact/signals';
 import { Link } from '../connection/link.js';
 import { Watches } from '../connection/watches.js';
 import { Catalogue } from '../model/catalogue.js';
+import { OriginsOf } from '../model/origin.js';
 import { Structure } from '../model/structure.js';
 import { AddLogEntries } from './log.js';
 
@@ -23,14 +24,16 @@ export const isReadOnly = computed(() => hello.value?.read_only ?? false);
 export const canChange = computed(() => isConnected.value && !isReadOnly.value);
 
 const rates = new Map();   // port path -> signal of publications per second
-const moduleTimes = new Map(); // module path -> signal of microseconds
 
-export const RateOf = (path) => SignalOf(rates, path);
-export const DurationOf = (path) => SignalOf(moduleTimes, path);
+function RateOf(path) {
+  if (!rates.has(path)) rates.set(path, signal(null));
+  return rates.get(path);
+}
 
-function SignalOf(map, path) {
-  if (!map.has(path)) map.set(path, signal(null));
-  return map.get(path);
+/** Publications per second of what flows through a port, or null if nothing is known of them. */
+export function FlowRate(path) {
+  const known = OriginsOf(structure, path).map((origin) => RateOf(origin).value).filter((rate) => rate !== null);
+  return known.length === 0 ? null : known.reduce((sum, rate) => sum + rate, 0);
 }
 
 let link = null;
@@ -74,7 +77,7 @@ function OnHello(message) {
     threadStatistics.value = {};
   }
   // A new connection is told all rates anew.
-  for (const map of [rates, moduleTimes]) for (const rate of map.values()) rate.value = null;
+  for (const rate of rates.values()) rate.value = null;
   hello.value = message;
 }
 
@@ -101,8 +104,5 @@ function ChangesShape({ gone, connected, disconnected, elements }) {
 
 function OnRates(message) {
   for (const [path, rate] of Object.entries(message.ports ?? {})) RateOf(path).value = rate;
-  for (const [path, module] of Object.entries(message.modules ?? {})) {
-    DurationOf(path).value = module.duration_us ?? null;
-  }
   if (message.threads) threadStatistics.value = { ...threadStatistics.value, ...message.threads };
 }

@@ -47,14 +47,18 @@ function DrawMap(drawing, map) {
   }
 }
 
-function Outline({ context, camera, size }, points) {
+/** Begins a path through places of the world. */
+function Trace({ context, camera, size }, places) {
   context.beginPath();
-  points.forEach((point, index) => {
-    const { x, y } = ToCanvas(camera, size, point);
-    if (index === 0) context.moveTo(x, y);
-    else context.lineTo(x, y);
-  });
-  context.closePath();
+  for (const place of places) {
+    const { x, y } = ToCanvas(camera, size, place);
+    context.lineTo(x, y); // the first one only begins it
+  }
+}
+
+function Outline(drawing, points) {
+  Trace(drawing, points);
+  drawing.context.closePath();
 }
 
 function DrawGrid({ context, colours, camera, size }) {
@@ -77,28 +81,18 @@ function DrawGrid({ context, colours, camera, size }) {
   context.stroke();
 }
 
-function DrawPath({ context, colours, camera, size }, points = []) {
-  context.beginPath();
-  points.forEach((point, index) => {
-    const { x, y } = ToCanvas(camera, size, point);
-    if (index === 0) context.moveTo(x, y);
-    else context.lineTo(x, y);
-  });
+function DrawPath(drawing, points = []) {
+  const { context, colours } = drawing;
+  Trace(drawing, points);
   context.strokeStyle = colours.path;
   context.lineWidth = 2;
   context.stroke();
 }
 
-function DrawScan({ context, colours, camera, size }, scan, pose) {
+function DrawScan(drawing, scan, pose) {
+  const { context, colours, camera, size } = drawing;
   const ends = ScanEnds(scan, pose);
-  const from = ToCanvas(camera, size, pose);
-  context.beginPath();
-  context.moveTo(from.x, from.y);
-  for (const end of ends) {
-    const { x, y } = ToCanvas(camera, size, end);
-    context.lineTo(x, y);
-  }
-  context.closePath();
+  Outline(drawing, [pose, ...ends]);
   context.fillStyle = colours.scan;
   context.fill();
   context.fillStyle = colours.echo;

@@ -1,4 +1,4 @@
-#include "plugins/inspector/inspector_resources.h"
+// In the place of the page where it cannot be bundled: says so, and how to cure it.
 
 #include "plugins/inspector/page/inspector_page.h"
 
@@ -26,9 +26,9 @@ cmake --preset release &amp;&amp; ninja -C &lt;build folder&gt; runnel_program</
 
 }  // namespace
 
-std::vector<WebResource> InspectorResources() {
-  if (!InspectorPage().empty()) return InspectorPage();
-  return {{"/", "text/html; charset=utf-8", kPage}};
+const std::vector<WebResource>& InspectorPage() {
+  static const std::vector<WebResource> files = {{"/", "text/html; charset=utf-8", kPage}};
+  return files;
 }
 
 }  // namespace runnel
