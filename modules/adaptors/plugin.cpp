@@ -1,7 +1,5 @@
 #include "core/plugin/plugin_entry.h"
-#include "modules/adaptors/bumper_to_surroundings.h"
-#include "modules/adaptors/infrared_to_surroundings.h"
-#include "modules/adaptors/laser_to_surroundings.h"
+#include "modules/adaptors/sensors_to_surroundings.h"
 
 RUNNEL_PLUGIN(adaptors, registry) {
   using namespace runnel;

@@ -5,7 +5,6 @@
 #include "core/module/module.h"
 #include "core/port/input.h"
 #include "core/port/output.h"
-#include "modules/motion/algorithm/acceleration_limit.h"
 #include "modules/motion/algorithm/differential_drive.h"
 #include "modules/types/pose.h"
 #include "modules/types/wheel_speeds.h"

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <string>
+
 #include "core/types/type_of.h"
 #include "modules/planning/algorithm/bug_components.h"
 
@@ -11,37 +14,26 @@ inline void Describe(TypeBuilder<BoundaryDirection>& type) {
       .Value("right", BoundaryDirection::kRight);
 }
 
+/// The values of `Kind` bear the names of the components, which are in the same order.
+template <typename Kind, typename Components>
+void DescribeKinds(TypeBuilder<Kind>& type, const char* name, const Components& components) {
+  type.Name(name);
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    type.Value(std::string(components[i]->name()), static_cast<Kind>(i));
+  }
+}
+
 inline void Describe(TypeBuilder<MotionKind>& type) {
-  type.Name("MotionKind")
-      .Value("straight", MotionKind::kStraight)
-      .Value("m_line", MotionKind::kMLine)
-      .Value("tangent", MotionKind::kTangent);
+  DescribeKinds(type, "MotionKind", AllMotions());
 }
-
 inline void Describe(TypeBuilder<DirectionKind>& type) {
-  type.Name("DirectionKind")
-      .Value("left", DirectionKind::kLeft)
-      .Value("right", DirectionKind::kRight)
-      .Value("local", DirectionKind::kLocal)
-      .Value("alternate", DirectionKind::kAlternate);
+  DescribeKinds(type, "DirectionKind", AllDirections());
 }
-
 inline void Describe(TypeBuilder<LeaveKind>& type) {
-  type.Name("LeaveKind")
-      .Value("best_after_lap", LeaveKind::kBestAfterLap)
-      .Value("m_line_closer_than_hit", LeaveKind::kMLineCloserThanHit)
-      .Value("m_line_closest_so_far", LeaveKind::kMLineClosestSoFar)
-      .Value("closest_so_far", LeaveKind::kClosestSoFar)
-      .Value("free_range_step", LeaveKind::kFreeRangeStep)
-      .Value("reach_below_followed", LeaveKind::kReachBelowFollowed)
-      .Value("closer_than_hit", LeaveKind::kCloserThanHit)
-      .Value("free", LeaveKind::kFree);
+  DescribeKinds(type, "LeaveKind", AllLeaveConditions());
 }
-
 inline void Describe(TypeBuilder<RevisitKind>& type) {
-  type.Name("RevisitKind")
-      .Value("none", RevisitKind::kNone)
-      .Value("reverse_at_visited", RevisitKind::kReverseAtVisited);
+  DescribeKinds(type, "RevisitKind", AllRevisits());
 }
 
 }  // namespace runnel

@@ -61,11 +61,9 @@ struct KeptFields {
   }
 };
 
-inline void Describe(TypeBuilder<PointHistory>& type) { KeptFields::Describe(type); }
-inline void Describe(TypeBuilder<FacedHeadings>& type) { KeptFields::Describe(type); }
-inline void Describe(TypeBuilder<WallFollower>& type) { KeptFields::Describe(type); }
-inline void Describe(TypeBuilder<KeptFields::Gate>& type) { KeptFields::Describe(type); }
-inline void Describe(TypeBuilder<Lap>& type) { KeptFields::Describe(type); }
+template <typename T>
+requires requires(TypeBuilder<T>& type) { KeptFields::Describe(type); }
+void Describe(TypeBuilder<T>& type) { KeptFields::Describe(type); }
 
 inline void Describe(TypeBuilder<Approach>& type) {
   type.Name("Approach")

@@ -38,7 +38,7 @@ class ScanFilter final : public Module {
     auto loan = filtered.Loan();
     *loan = *scan;  // into memory that the buffer has kept
     MedianFilter(scan->ranges, reach.Get(), loan->ranges);
-    filtered.Publish(std::move(loan));
+    filtered.Publish(std::move(loan), scan.timestamp());
   }
 
   std::size_t room_ = 0;  // rays

@@ -54,7 +54,7 @@ class Infrared final : public Module {
   void Update() override {
     const auto at = pose.Read();
     const auto seen = scene.Read();
-    if (at.is_new() && seen) ranges.Publish(sensor_->Measure(*seen->rays, *at));
+    if (at.is_new() && seen) ranges.Publish(sensor_->Measure(*seen->rays, *at), at.timestamp());
   }
 
   std::optional<InfraredSensor> sensor_;

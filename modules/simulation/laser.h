@@ -94,7 +94,7 @@ class Laser final : public Module {
     if (!at.is_new() || !seen) return;
     auto loan = scan.Loan();
     scanner_->Scan(*seen->rays, *at, *loan);
-    scan.Publish(std::move(loan));
+    scan.Publish(std::move(loan), at.timestamp());
   }
 
   [[nodiscard]] bool HasFailed() const {

@@ -5,13 +5,15 @@
 #include "core/module/module.h"
 #include "core/port/input.h"
 #include "core/port/output.h"
-#include "modules/simulation/algorithm/noisy_pose.h"
+#include "modules/simulation/algorithm/noise.h"
+#include "modules/types/algorithm/angle.h"
 #include "modules/types/pose.h"
 #include "plugins/parameters/static_parameter.h"
 
 namespace runnel {
 
-/// What tells the robot where it is: the truth, perfect unless noise is asked for.
+/// What tells the robot where it is, as a localisation that does not drift would: the truth with
+/// independent noise at every measurement; without deviations, the truth to the bit.
 class Localisation final : public Module {
  public:
   using Module::Module;
@@ -36,17 +38,22 @@ class Localisation final : public Module {
 
  private:
   Result<void> Prepare() override {
-    noise_.emplace(NoisyPoseOptions{.position_deviation = position_noise.Get(),
-                                    .heading_deviation = heading_noise.Get(),
-                                    .seed = seed.Get()});
+    noise_.emplace(seed.Get());
     return {};
   }
 
   void Update() override {
-    if (const auto real = truth.Read(); real.is_new()) pose.Publish(noise_->Measure(*real));
+    const auto real = truth.Read();
+    if (!real.is_new()) return;
+    Pose2 measured = *real;
+    measured.x += (*noise_)(position_noise.Get());
+    measured.y += (*noise_)(position_noise.Get());
+    const double turned = (*noise_)(heading_noise.Get());
+    if (turned != 0.0) measured.heading = WrapAngle(measured.heading + turned);
+    pose.Publish(measured, real.timestamp());
   }
 
-  std::optional<NoisyPose> noise_;
+  std::optional<GaussianNoise> noise_;
 };
 
 }  // namespace runnel

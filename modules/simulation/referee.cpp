@@ -1,6 +1,7 @@
 #include "modules/simulation/referee.h"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <string_view>
 
@@ -21,41 +22,15 @@ constexpr std::size_t kMostPoints = 1000;
 constexpr std::size_t kMostShown = 1000;
 constexpr double kShownSpacing = 0.05;  // m
 
-std::string_view Words(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kRunning:
-      return "stopped";
-    case Verdict::kReached:
-      return "reached";
-    case Verdict::kUnreachable:
-      return "unreachable";
-    case Verdict::kMistaken:
-      return "mistaken";
-    case Verdict::kTimeout:
-      return "timeout";
-    case Verdict::kCollision:
-      return "collision";
-  }
-  return "stopped";
-}
+// By the value of the enumerations.
+constexpr std::array<std::string_view, 6> kVerdicts{"stopped",  "reached", "unreachable",
+                                                    "mistaken", "timeout", "collision"};
+constexpr std::array<std::string_view, 6> kModes{
+    "driving to the goal", "following a boundary", "going to the leave point",
+    "facing the goal",     "at the goal",          "gave up"};
 
-std::string_view Words(PlannerMode mode) {
-  switch (mode) {
-    case PlannerMode::kMotionToGoal:
-      return "driving to the goal";
-    case PlannerMode::kFollowingBoundary:
-      return "following a boundary";
-    case PlannerMode::kGoingToLeavePoint:
-      return "going to the leave point";
-    case PlannerMode::kFacingGoal:
-      return "facing the goal";
-    case PlannerMode::kReached:
-      return "at the goal";
-    case PlannerMode::kUnreachable:
-      return "gave up";
-  }
-  return "";
-}
+std::string_view Words(Verdict verdict) { return kVerdicts[static_cast<std::size_t>(verdict)]; }
+std::string_view Words(PlannerMode mode) { return kModes[static_cast<std::size_t>(mode)]; }
 
 PathMode LookOf(PlannerMode mode) {
   switch (mode) {
@@ -83,6 +58,17 @@ Ending EndingOf(Verdict verdict) {
   }
   if (verdict == Verdict::kRunning) return {"error", "the run was stopped before it was over"};
   return {Words(verdict)};
+}
+
+// What is said of it then.
+Result<std::string> WriteTo(const StaticParameter<FilePath>& parameter, const std::string& content,
+                            const std::string& what, const std::string& told) {
+  std::ofstream file(parameter.Get().path());
+  file << content;
+  file.close();
+  if (file) return told + parameter.Get().text;
+  return Error{.message = what + " '" + parameter.Get().text + "' could not be written",
+               .path = parameter.path()};
 }
 
 }  // namespace
@@ -246,36 +232,23 @@ Result<std::string> Referee::DrawPicture() const {
                               .length = path_.length()};
   World world = *seen->world;
   if (const auto there = goal.Peek()) world.goal = *there;
-  std::ofstream file(picture.Get().path());
-  file << TrajectorySvg(world, trajectory);
-  file.close();
-  if (!file) {
-    return Error{.message = "the picture '" + picture.Get().text + "' could not be written",
-                 .path = picture.path()};
-  }
-  return "the path is drawn in " + picture.Get().text;
+  return WriteTo(picture, TrajectorySvg(world, trajectory), "the picture", "the path is drawn in ");
 }
 
 Result<std::string> Referee::WriteResult() const {
   if (result.Get().empty()) return std::string();
   const auto seen = scene.Peek();
   const Ending ending = EndingOf(standing_.verdict);
-  std::ofstream file(result.Get().path());
-  file << JsonOf({.outcome = std::string(ending.outcome),
-                  .remark = std::string(ending.remark),
-                  .path_length = path_.length(),
-                  .simulated_time = standing_.elapsed,
-                  .cycles = cycles_,
-                  .robot_radius = seen ? seen->robot_radius : 0.0,
-                  .hits = hit_points_,
-                  .leaves = leave_points_,
-                  .path = ThinnedPath(path_.Samples(), path_step.Get())});
-  file.close();
-  if (!file) {
-    return Error{.message = "the result '" + result.Get().text + "' could not be written",
-                 .path = result.path()};
-  }
-  return "the result is in " + result.Get().text;
+  const RunResult all{.outcome = std::string(ending.outcome),
+                      .remark = std::string(ending.remark),
+                      .path_length = path_.length(),
+                      .simulated_time = standing_.elapsed,
+                      .cycles = cycles_,
+                      .robot_radius = seen ? seen->robot_radius : 0.0,
+                      .hits = hit_points_,
+                      .leaves = leave_points_,
+                      .path = ThinnedPath(path_.Samples(), path_step.Get())};
+  return WriteTo(result, JsonOf(all), "the result", "the result is in ");
 }
 
 }  // namespace runnel

@@ -9,13 +9,6 @@
 
 namespace runnel {
 
-namespace {
-
-// The robot's sensors sit on its lid.
-double EyeHeight(const RobotOptions& robot) { return robot.ground_clearance + robot.height; }
-
-}  // namespace
-
 const ParameterOptions<double> SimulatedWorld::kGoalOfFile{
     .default_value = std::numeric_limits<double>::quiet_NaN(),
     .unit = "m",
@@ -50,8 +43,9 @@ Result<void> SimulatedWorld::Prepare() {
   options.robot.maximum_turn_rate = maximum_turn_rate.Get();
   description_ = std::make_shared<const World>(std::move(*description));
   physics_ = std::make_unique<PhysicsWorld>(*description_, options);
-  scene_ = {description_,
-            std::make_shared<const RayCaster>(OutlineOf(*description_), EyeHeight(options.robot)),
+  // The robot's sensors sit on its lid.
+  const double eye_height = options.robot.ground_clearance + options.robot.height;
+  scene_ = {description_, std::make_shared<const RayCaster>(OutlineOf(*description_), eye_height),
             options.robot.radius};
   map_of_world_ = MapOf(*description_);
   map.PrepareBuffers([this](WorldMap& buffer) { buffer = map_of_world_; });

@@ -16,17 +16,8 @@ Surroundings BumperAdaptor::Update(const Contact& contact, const Pose2& pose) {
     map_.MarkBoundary(ToWorld(pose, local));
   }
   last_ = contact;
-  const BodyFrame frame(pose);
-  map_.ForEachBoundary([&](Point2 point) {
-    const Point2 local = frame.ToBody(point);
-    AddBoundaryPoint(surroundings, {Norm(local), Direction(local)});
-  });
+  map_.AddBoundariesTo(surroundings, pose);
   return surroundings;
-}
-
-void BumperAdaptor::Reset() {
-  map_.Clear();
-  last_ = {};
 }
 
 }  // namespace runnel

@@ -23,8 +23,6 @@ class BumperAdaptor {
 
   /// `contact` felt at `pose` (world). Does not allocate.
   [[nodiscard]] Surroundings Update(const Contact& contact, const Pose2& pose);
-  /// Forgets everything, as after the robot was carried to another place.
-  void Reset();
 
  private:
   BumperAdaptorConfiguration configuration_;

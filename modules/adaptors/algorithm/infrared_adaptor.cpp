@@ -49,11 +49,7 @@ Surroundings InfraredAdaptor::Update(const InfraredRanges& ranges, const Pose2& 
   for (const Cone& each : cones) {
     if (each.has_echo) MarkArc(each, pose);
   }
-  const BodyFrame frame(pose);
-  map_.ForEachBoundary([&](Point2 point) {
-    const Point2 local = frame.ToBody(point);
-    AddBoundaryPoint(surroundings, {Norm(local), Direction(local)});
-  });
+  map_.AddBoundariesTo(surroundings, pose);
   return surroundings;
 }
 

@@ -29,8 +29,6 @@ class InfraredAdaptor {
   /// `ranges` taken from the body's centre at `pose` (world). Nothing is known (is_measured
   /// false) from ranges with range_maximum 0. Does not allocate.
   [[nodiscard]] Surroundings Update(const InfraredRanges& ranges, const Pose2& pose);
-  /// Forgets everything, as after the robot was carried to another place.
-  void Reset() { map_.Clear(); }
 
  private:
   struct Cone {

@@ -29,11 +29,7 @@ Surroundings LaserAdaptor::Update(const RangeScan& scan, const Pose2& pose) {
     }
     bearing += scan.angle_step;
   }
-  const BodyFrame frame(pose);
-  map_.ForEachBoundary([&](Point2 point) {
-    const Point2 local = frame.ToBody(point);
-    AddBoundaryPoint(surroundings, {Norm(local), Direction(local)});
-  });
+  map_.AddBoundariesTo(surroundings, pose);
   return surroundings;
 }
 

@@ -23,8 +23,6 @@ class LaserAdaptor {
   /// `scan` taken from the body's centre at `pose` (world). Nothing is known (is_measured false) from
   /// a scan without rays. Does not allocate.
   [[nodiscard]] Surroundings Update(const RangeScan& scan, const Pose2& pose);
-  /// Forgets everything, as after the robot was carried to another place.
-  void Reset() { map_.Clear(); }
 
  private:
   void ForgetWhatTheScanRefutes(const RangeScan& scan, const Pose2& pose);

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "modules/types/algorithm/point.h"
+#include "modules/types/algorithm/pose.h"
+#include "modules/types/algorithm/surroundings.h"
 
 namespace runnel {
 
@@ -26,10 +28,6 @@ class LocalMap {
     listed_.reserve(cells_.size());
   }
 
-  void Clear() {
-    cells_.assign(cells_.size(), Cell{});
-    listed_.clear();
-  }
   /// Moves the window, m in the world's frame. Call it before the others.
   void SetCentre(Point2 centre) { centre_ = centre; }
   [[nodiscard]] bool Covers(Point2 point) const {
@@ -86,6 +84,14 @@ class LocalMap {
       const Cell& cell = cells_[slot];
       if (cell.state == State::kBoundary && Covers(cell.point)) visit(cell.point);
     }
+  }
+  /// Every boundary point within the window, as it is seen from `pose`.
+  void AddBoundariesTo(Surroundings& surroundings, const Pose2& pose) const {
+    const BodyFrame frame(pose);
+    ForEachBoundary([&](Point2 point) {
+      const Point2 local = frame.ToBody(point);
+      AddBoundaryPoint(surroundings, {Norm(local), Direction(local)});
+    });
   }
 
  private:

@@ -11,21 +11,6 @@
 
 namespace runnel {
 
-// The components there are, by the names that a variant or an application file calls them.
-enum class MotionKind : std::uint8_t { kStraight, kMLine, kTangent };
-enum class DirectionKind : std::uint8_t { kLeft, kRight, kLocal, kAlternate };
-enum class LeaveKind : std::uint8_t {
-  kBestAfterLap,
-  kMLineCloserThanHit,
-  kMLineClosestSoFar,
-  kClosestSoFar,
-  kFreeRangeStep,
-  kReachBelowFollowed,
-  kCloserThanHit,
-  kFree,
-};
-enum class RevisitKind : std::uint8_t { kNone, kReverseAtVisited };
-
 /// A choice of one component of each kind, as data.
 struct BugComposition {
   MotionKind motion = MotionKind::kStraight;
@@ -49,10 +34,18 @@ struct BugComponents {
   [[nodiscard]] std::uint64_t Fingerprint() const;
 };
 
-[[nodiscard]] const MotionToGoal& ComponentFor(MotionKind kind);
-[[nodiscard]] const DirectionChoice& ComponentFor(DirectionKind kind);
-[[nodiscard]] const LeaveCondition& ComponentFor(LeaveKind kind);
-[[nodiscard]] const Revisit& ComponentFor(RevisitKind kind);
+[[nodiscard]] inline const MotionToGoal& ComponentFor(MotionKind kind) {
+  return *AllMotions()[static_cast<std::size_t>(kind)];
+}
+[[nodiscard]] inline const DirectionChoice& ComponentFor(DirectionKind kind) {
+  return *AllDirections()[static_cast<std::size_t>(kind)];
+}
+[[nodiscard]] inline const LeaveCondition& ComponentFor(LeaveKind kind) {
+  return *AllLeaveConditions()[static_cast<std::size_t>(kind)];
+}
+[[nodiscard]] inline const Revisit& ComponentFor(RevisitKind kind) {
+  return *AllRevisits()[static_cast<std::size_t>(kind)];
+}
 
 [[nodiscard]] BugComponents Assemble(const BugComposition& composition);
 

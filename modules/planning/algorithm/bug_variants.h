@@ -61,11 +61,4 @@ inline constexpr std::array<BugVariant, 10> kBugVariants = {{
      {MotionKind::kStraight, DirectionKind::kLeft, LeaveKind::kFree, RevisitKind::kNone}},
 }};
 
-/// The index of the variant called so, size() if there is none.
-[[nodiscard]] constexpr std::size_t VariantIndex(std::string_view name) {
-  std::size_t i = 0;
-  while (i < kBugVariants.size() && kBugVariants[i].name != name) ++i;
-  return i;
-}
-
 }  // namespace runnel

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string_view>
 
 #include "modules/planning/algorithm/bug_view.h"
@@ -17,35 +19,16 @@ class DirectionChoice {
                                                  double contact_bearing) const = 0;
 };
 
-/// Always the same.
-class FixedDirection final : public DirectionChoice {
- public:
-  explicit constexpr FixedDirection(BoundaryDirection direction) : direction_(direction) {}
-  [[nodiscard]] std::string_view name() const override {
-    return direction_ == BoundaryDirection::kLeft ? "left" : "right";
-  }
-  [[nodiscard]] BoundaryDirection Choose(const BugView&, double) const override {
-    return direction_;
-  }
-
- private:
-  BoundaryDirection direction_;
+enum class DirectionKind : std::uint8_t {
+  kLeft,   ///< always
+  kRight,  ///< always
+  /// The side of the tangent node steered at last; if there was none, the side that turns least; if
+  /// both are the same, the first direction configured.
+  kLocal,
+  /// Opposite to the one at the hit point before; the first direction configured at the first.
+  kAlternate,
 };
-
-/// The side of the tangent node steered at last; if there was none, the side that turns least; if
-/// both are the same, the first direction configured.
-class LocalDirection final : public DirectionChoice {
- public:
-  [[nodiscard]] std::string_view name() const override { return "local"; }
-  [[nodiscard]] BoundaryDirection Choose(const BugView& view,
-                                         double contact_bearing) const override;
-};
-
-/// Opposite to the one at the hit point before; the first direction configured at the first.
-class AlternateDirection final : public DirectionChoice {
- public:
-  [[nodiscard]] std::string_view name() const override { return "alternate"; }
-  [[nodiscard]] BoundaryDirection Choose(const BugView& view, double) const override;
-};
+/// By kind.
+[[nodiscard]] std::span<const DirectionChoice* const> AllDirections();
 
 }  // namespace runnel

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "modules/planning/algorithm/bug_view.h"
@@ -43,76 +45,25 @@ class LeaveCondition {
   [[nodiscard]] virtual bool MayMissPassages(const BugView&) const { return false; }
 };
 
-/// After one whole lap the point with the least d, by the shorter way round (Bug1).
-class BestAfterLap final : public LeaveCondition {
- public:
-  [[nodiscard]] std::string_view name() const override { return "best_after_lap"; }
-  [[nodiscard]] std::optional<LeavePoint> Find(const BugView& view) const override;
-  [[nodiscard]] bool ResearchComplete(const BugView& view) const override;
+enum class LeaveKind : std::uint8_t {
+  kBestAfterLap,  ///< after one whole lap the point with the least d, by the shorter way (Bug1)
+  kMLineCloserThanHit,  ///< on the M-line, d(x) < d(H), free towards the goal (Bug2)
+  /// On the M-line, d(x) < d of all points of the M-line visited so far, free (Alg1).
+  kMLineClosestSoFar,
+  kClosestSoFar,  ///< d(x) < d of all points visited so far, free (Alg2)
+  /// With F the free range towards the goal: d(x) - F <= 0 (the goal is in view), or d(x) - F <= d_min
+  /// - STEP with d_min the least d since H (DistBug). Where passages are narrower than STEP and the body
+  /// together, no point may be so.
+  kFreeRangeStep,
+  /// d_reach < d_followed: something seen and free is nearer to the goal than all of the boundary
+  /// sensed since H (TangentBug). The robot first goes there, then moves to the goal again. Works with
+  /// a sensor that only feels, too, with what lies at the leave range ahead. What a vague sensor takes for
+  /// boundary may be nearer to the goal than any is.
+  kReachBelowFollowed,
+  kCloserThanHit,  ///< d(x) < d(H), free (Class1)
+  kFree,           ///< free (Com); the robot may go in circles for ever
 };
-
-/// On the M-line, d(x) < d(H), free towards the goal (Bug2).
-class MLineCloserThanHit final : public LeaveCondition {
- public:
-  [[nodiscard]] std::string_view name() const override { return "m_line_closer_than_hit"; }
-  [[nodiscard]] std::optional<LeavePoint> Find(const BugView& view) const override;
-  [[nodiscard]] bool needs_m_line() const override { return true; }
-};
-
-/// On the M-line, d(x) < d of all points of the M-line visited so far, free (Alg1).
-class MLineClosestSoFar final : public LeaveCondition {
- public:
-  [[nodiscard]] std::string_view name() const override { return "m_line_closest_so_far"; }
-  [[nodiscard]] std::optional<LeavePoint> Find(const BugView& view) const override;
-  [[nodiscard]] bool needs_m_line() const override { return true; }
-};
-
-/// d(x) < d of all points visited so far, free (Alg2).
-class ClosestSoFar final : public LeaveCondition {
- public:
-  [[nodiscard]] std::string_view name() const override { return "closest_so_far"; }
-  [[nodiscard]] std::optional<LeavePoint> Find(const BugView& view) const override;
-};
-
-/// With F the free range towards the goal: d(x) - F <= 0 (the goal is in view), or d(x) - F <= d_min
-/// - STEP with d_min the least d since H (DistBug). Where passages are narrower than STEP and the body
-/// together, no point may be so.
-class FreeRangeStep final : public LeaveCondition {
- public:
-  [[nodiscard]] std::string_view name() const override { return "free_range_step"; }
-  [[nodiscard]] std::optional<LeavePoint> Find(const BugView& view) const override;
-  [[nodiscard]] bool MayLeave(const BugView& view) const override;
-  [[nodiscard]] bool needs_range_sensor() const override { return true; }
-  [[nodiscard]] bool MayMissPassages(const BugView&) const override { return true; }
-};
-
-/// d_reach < d_followed: something seen and free is nearer to the goal than all of the boundary
-/// sensed since H (TangentBug). The robot first goes there, then moves to the goal again. Works with
-/// a sensor that only feels, too, with what lies at the leave range ahead. What a vague sensor takes for
-/// boundary may be nearer to the goal than any is.
-class ReachBelowFollowed final : public LeaveCondition {
- public:
-  [[nodiscard]] std::string_view name() const override { return "reach_below_followed"; }
-  [[nodiscard]] std::optional<LeavePoint> Find(const BugView& view) const override;
-  [[nodiscard]] double FollowedDistance(const BugView& view) const override;
-  [[nodiscard]] bool MayMissPassages(const BugView& view) const override {
-    return view.input.surroundings.is_vague;
-  }
-};
-
-/// d(x) < d(H), free (Class1).
-class CloserThanHit final : public LeaveCondition {
- public:
-  [[nodiscard]] std::string_view name() const override { return "closer_than_hit"; }
-  [[nodiscard]] std::optional<LeavePoint> Find(const BugView& view) const override;
-};
-
-/// Free (Com). The robot may go in circles for ever.
-class FreeToGo final : public LeaveCondition {
- public:
-  [[nodiscard]] std::string_view name() const override { return "free"; }
-  [[nodiscard]] std::optional<LeavePoint> Find(const BugView& view) const override;
-  [[nodiscard]] bool decides_after_lap() const override { return false; }
-};
+/// By kind.
+[[nodiscard]] std::span<const LeaveCondition* const> AllLeaveConditions();
 
 }  // namespace runnel

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "modules/planning/algorithm/bug_view.h"
@@ -27,28 +29,15 @@ class MotionToGoal {
   [[nodiscard]] virtual bool follows_m_line() const { return false; }
 };
 
-/// Straight to the goal, from wherever the robot is.
-class StraightMotion final : public MotionToGoal {
- public:
-  [[nodiscard]] std::string_view name() const override { return "straight"; }
-  [[nodiscard]] Waypoint Target(const BugView& view) const override;
+enum class MotionKind : std::uint8_t {
+  kStraight,  ///< straight to the goal, from wherever the robot is
+  kMLine,     ///< along the line from the start to the goal, and back to it after an error
+  /// To the goal if the way is free as far as the sensors see; else to the node of the local tangent
+  /// graph with the shortest way through it, of those nearer to the goal than the robot is. Without
+  /// such a node straight on, up to the boundary that it then has to follow.
+  kTangent,
 };
-
-/// Along the line from the start to the goal, and back to it after an error.
-class MLineMotion final : public MotionToGoal {
- public:
-  [[nodiscard]] std::string_view name() const override { return "m_line"; }
-  [[nodiscard]] Waypoint Target(const BugView& view) const override;
-  [[nodiscard]] bool follows_m_line() const override { return true; }
-};
-
-/// To the goal if the way is free as far as the sensors see; else to the node of the local tangent
-/// graph with the shortest way through it, of those nearer to the goal than the robot is. Without
-/// such a node straight on, up to the boundary that it then has to follow.
-class TangentMotion final : public MotionToGoal {
- public:
-  [[nodiscard]] std::string_view name() const override { return "tangent"; }
-  [[nodiscard]] Waypoint Target(const BugView& view) const override;
-};
+/// By kind.
+[[nodiscard]] std::span<const MotionToGoal* const> AllMotions();
 
 }  // namespace runnel

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string_view>
 
 #include "modules/planning/algorithm/bug_view.h"
@@ -17,22 +19,13 @@ class Revisit {
   [[nodiscard]] virtual bool ShallReverse(const BugView& view) const = 0;
 };
 
-class NoRevisit final : public Revisit {
- public:
-  [[nodiscard]] std::string_view name() const override { return "none"; }
-  [[nodiscard]] bool ShallReverse(const BugView&) const override { return false; }
+enum class RevisitKind : std::uint8_t {
+  kNone,
+  /// Reverses where it meets an earlier hit or leave point (Alg1, Sankaranarayanan and Vidyasagar
+  /// 1990). Only points of the lists in BugState are known.
+  kReverseAtVisited,
 };
-
-/// Reverses where it meets an earlier hit or leave point (Alg1, Sankaranarayanan and Vidyasagar
-/// 1990). Only points of the lists in BugState are known.
-class ReverseAtVisited final : public Revisit {
- public:
-  [[nodiscard]] std::string_view name() const override { return "reverse_at_visited"; }
-  [[nodiscard]] bool ShallReverse(const BugView& view) const override;
-
-  /// m; less than half of what two grown boundaries are apart that a robot passes between (0.30 m
-  /// with gaps of its diameter and two safe distances), more than two passes of the same one.
-  static constexpr double kMeeting = 0.15;
-};
+/// By kind.
+[[nodiscard]] std::span<const Revisit* const> AllRevisits();
 
 }  // namespace runnel

@@ -60,17 +60,10 @@ RayCaster::RayCaster(const Outline& outline, double eye_height) {
 }
 
 void RayCaster::MeasureExtent() {
-  low_ = {kInfinity, kInfinity};
-  high_ = {-kInfinity, -kInfinity};
-  const auto include = [this](Point2 point) {
-    low_ = {std::min(low_.x, point.x), std::min(low_.y, point.y)};
-    high_ = {std::max(high_.x, point.x), std::max(high_.y, point.y)};
-  };
-  for (const Segment2& flat : flats_) include(flat.from), include(flat.to);
-  for (const Outline::Round& round : rounds_) {
-    include(round.centre + Point2{round.radius, round.radius});
-    include(round.centre - Point2{round.radius, round.radius});
-  }
+  Extent all{{kInfinity, kInfinity}, {-kInfinity, -kInfinity}};
+  for (const Segment2& flat : flats_) all.Include(flat.from), all.Include(flat.to);
+  for (const Outline::Round& round : rounds_) all.Include(round.centre, round.radius);
+  low_ = all.low, high_ = all.high;
   const Point2 extent = high_ - low_;
   cell_size_ = std::max(std::max(extent.x, extent.y) / kCellsPerSide, kSmallestCell);
   low_ = low_ - Point2{0.01 * cell_size_, 0.01 * cell_size_};  // nothing lies on the border

@@ -1,12 +1,12 @@
 #include "modules/simulation/algorithm/trajectory_svg.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
 
 #include "modules/simulation/algorithm/internal/canvas.h"
-#include "modules/simulation/algorithm/internal/path_drawing.h"
-#include "modules/simulation/algorithm/internal/world_drawing.h"
+#include "modules/simulation/algorithm/internal/drawing.h"
 
 namespace runnel {
 
@@ -26,17 +26,8 @@ constexpr std::string_view kLeave = "#6b3fa0";
 constexpr std::string_view kStart = "#1f2733";
 constexpr std::string_view kGoal = "#128a4f";
 
-std::string_view ColourOf(VerdictTone tone) {
-  switch (tone) {
-    case VerdictTone::kGood:
-      return "#128a4f";
-    case VerdictTone::kNeutral:
-      return "#b06a00";
-    case VerdictTone::kBad:
-      return "#c9302c";
-  }
-  return kInk;
-}
+// By VerdictTone.
+constexpr std::array<std::string_view, 3> kTones{"#128a4f", "#b06a00", "#c9302c"};
 
 Extent ExtentOf(const World& world, const Trajectory& trajectory) {
   Extent extent = ExtentOf(world);
@@ -71,7 +62,7 @@ class Drawing {
               Style({"class", "name", "font-size", "22", "font-weight", "bold", "fill", kInk}));
     double x = kMargin;
     if (!trajectory_.verdict.empty()) {
-      const std::string_view colour = ColourOf(trajectory_.tone);
+      const std::string_view colour = kTones[static_cast<std::size_t>(trajectory_.tone)];
       svg_.Circle({x + 5, 54}, 5, Style({"fill", colour}));
       svg_.Text(
           {x + 17, 59}, trajectory_.verdict,
@@ -84,9 +75,8 @@ class Drawing {
 
   std::string Figures() const {
     const double direct = Distance(Position(world_.start), world_.goal);
-    return "path " + Decimal(trajectory_.length.value_or(LengthOf(trajectory_.path))) +
-           " m   ·   straight line " + Decimal(direct) + " m   ·   time " +
-           Decimal(trajectory_.duration, 1) + " s";
+    return "path " + Decimal(trajectory_.length) + " m   ·   straight line " + Decimal(direct) +
+           " m   ·   time " + Decimal(trajectory_.duration, 1) + " s";
   }
 
   void DrawStraightLine() {
@@ -195,15 +185,6 @@ class Drawing {
 };
 
 }  // namespace
-
-double LengthOf(const std::vector<PathSample>& path) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const double step = Distance(path[i - 1].position, path[i].position);
-    if (std::isfinite(step)) length += step;
-  }
-  return length;
-}
 
 std::string TrajectorySvg(const World& world, const Trajectory& trajectory) {
   return Drawing(world, trajectory).Draw();

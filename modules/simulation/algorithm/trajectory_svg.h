@@ -24,12 +24,8 @@ struct Trajectory {
   std::string verdict = {};  ///< for example "goal reached"; "" leaves it out
   VerdictTone tone = VerdictTone::kNeutral;
   double duration = 0.0;  ///< s of simulated time
-  /// m driven, if `path` leaves out points; nothing: as long as `path`.
-  std::optional<double> length = {};
+  double length = 0.0;    ///< m driven
 };
-
-/// The length of the way in m.
-[[nodiscard]] double LengthOf(const std::vector<PathSample>& path);
 
 /// A picture of a world and of what a robot did in it, as a complete SVG file for a light
 /// background: obstacles, start and goal, the path coloured by mode with arrows along it, numbered

@@ -21,8 +21,6 @@ bool AreFinite(const std::vector<Point2>& points) { return std::ranges::all_of(p
 
 bool IsFinite(const Pose2& pose) { return IsFinite(Position(pose)) && std::isfinite(pose.heading); }
 
-bool IsSize(double size) { return std::isfinite(size) && size > 0.0; }
-
 bool Meet(const Segment2& a, const Segment2& b) {
   if (WhereItMeets(a, b)) return true;
   // Parallel ones that overlap meet with an end of one on the other.
@@ -104,7 +102,7 @@ class Checker {
   }
 
   void CheckSize(WorldPart part, std::size_t index, const char* what, double size) {
-    if (IsSize(size)) return;
+    if (std::isfinite(size) && size > 0.0) return;
     Add(part, index, fmt::format("the {} must be more than 0 m, not {:g}", what, size));
   }
 

@@ -32,9 +32,7 @@ class WorldReader {
       return std::nullopt;
     }
     const std::size_t errors_before = diagnostics_.errors().size();
-    CheckAttributes(root, Names{"name"}, diagnostics_);
-    CheckChildren(root, Names{"start", "goal", "polygon", "box", "cylinder", "wall", "bounds"},
-                  diagnostics_);
+    Check(root, {"name"}, {"start", "goal", "polygon", "box", "cylinder", "wall", "bounds"});
     if (const std::string* name = ReadText(root, "name", diagnostics_)) world_.name = *name;
     for (const XmlElement child : root.children()) ReadPart(child);
     if (!Has(WorldPart::kStart))
@@ -63,9 +61,9 @@ class WorldReader {
     if (name == "bounds") ReadBounds(element);
   }
 
-  void CheckLeaf(XmlElement element, const Names& attributes) {
+  void Check(XmlElement element, const Names& attributes, const Names& children = {}) {
     CheckAttributes(element, attributes, diagnostics_);
-    CheckChildren(element, {}, diagnostics_);
+    CheckChildren(element, children, diagnostics_);
   }
 
   /// The element's place becomes known; another one of a kind of which there is one is an error.
@@ -102,7 +100,7 @@ class WorldReader {
     std::vector<Point2> points;
     for (const XmlElement child : element.children()) {
       if (child.name() != "point") continue;
-      CheckLeaf(child, {"x", "y"});
+      Check(child, {"x", "y"});
       points.push_back(ReadPlace(child));
     }
     return points;
@@ -110,25 +108,23 @@ class WorldReader {
 
   void ReadStart(XmlElement element) {
     TakeOnly(element, WorldPart::kStart);
-    CheckLeaf(element, {"x", "y", "heading"});
+    Check(element, {"x", "y", "heading"});
     world_.start = ReadPose(element);
   }
 
   void ReadGoal(XmlElement element) {
     TakeOnly(element, WorldPart::kGoal);
-    CheckLeaf(element, {"x", "y"});
+    Check(element, {"x", "y"});
     world_.goal = ReadPlace(element);
   }
 
   void ReadPolygon(XmlElement element) {
-    CheckAttributes(element, Names{"height"}, diagnostics_);
-    CheckChildren(element, Names{"point", "hole"}, diagnostics_);
+    Check(element, {"height"}, {"point", "hole"});
     PolygonObstacle polygon{.outline = ReadPoints(element), .height = ReadHeight(element)};
     const std::size_t index = world_.polygons.size();
     for (const XmlElement child : element.children()) {
       if (child.name() != "hole") continue;
-      CheckAttributes(child, {}, diagnostics_);
-      CheckChildren(child, Names{"point"}, diagnostics_);
+      Check(child, {}, {"point"});
       places_.emplace(PartKey{WorldPart::kHole, index, polygon.holes.size()}, child);
       polygon.holes.push_back(ReadPoints(child));
     }
@@ -137,7 +133,7 @@ class WorldReader {
   }
 
   void ReadBox(XmlElement element) {
-    CheckLeaf(element, {"x", "y", "heading", "length", "width", "height"});
+    Check(element, {"x", "y", "heading", "length", "width", "height"});
     const Pose2 pose = ReadPose(element);
     const double length = Number(element, "length");
     const double width = Number(element, "width");
@@ -146,7 +142,7 @@ class WorldReader {
   }
 
   void ReadCylinder(XmlElement element) {
-    CheckLeaf(element, {"x", "y", "radius", "height"});
+    Check(element, {"x", "y", "radius", "height"});
     const Point2 centre = ReadPlace(element);
     const double radius = Number(element, "radius");
     places_.emplace(PartKey{WorldPart::kCylinder, world_.cylinders.size(), 0}, element);
@@ -154,8 +150,7 @@ class WorldReader {
   }
 
   void ReadWall(XmlElement element) {
-    CheckAttributes(element, Names{"thickness", "height"}, diagnostics_);
-    CheckChildren(element, Names{"point"}, diagnostics_);
+    Check(element, {"thickness", "height"}, {"point"});
     const double thickness = Number(element, "thickness");
     places_.emplace(PartKey{WorldPart::kWall, world_.walls.size(), 0}, element);
     world_.walls.push_back({ReadPoints(element), thickness, ReadHeight(element)});
@@ -163,8 +158,7 @@ class WorldReader {
 
   void ReadBounds(XmlElement element) {
     TakeOnly(element, WorldPart::kBounds);
-    CheckAttributes(element, {}, diagnostics_);
-    CheckChildren(element, Names{"point"}, diagnostics_);
+    Check(element, {}, {"point"});
     world_.bounds = ReadPoints(element);
   }
 

@@ -1,5 +1,6 @@
 #include "modules/types/algorithm/svg_writer.h"
 
+#include <array>
 #include <charconv>
 #include <utility>
 
@@ -28,24 +29,12 @@ std::string Decimal(double number, int digits) {
 }
 
 std::string EscapedXml(std::string_view text) {
+  constexpr std::string_view kMeant = "&<>\"";
+  constexpr std::array kNames{"&amp;", "&lt;", "&gt;", "&quot;"};
   std::string escaped;
   for (const char character : text) {
-    switch (character) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += character;
-    }
+    const std::size_t named = kMeant.find(character);
+    escaped += named != std::string_view::npos ? kNames[named] : std::string(1, character);
   }
   return escaped;
 }

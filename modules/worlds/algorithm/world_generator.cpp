@@ -1,5 +1,6 @@
 #include "modules/worlds/algorithm/world_generator.h"
 
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -14,11 +15,14 @@ using internal::Rounded;
 
 constexpr double kEnclosureThickness = 0.1;  // m
 
-std::string OutOfRange(const char* what, double value, double low, double high) {
-  return fmt::format("the {} must be between {:g} and {:g}, not {:g}", what, low, high, value);
-}
+// By kind.
+constexpr std::array kMakers{internal::MakeScatter, internal::MakeMaze, internal::MakeSpiral,
+                             internal::MakeComb};
 
-bool IsWithin(double value, double low, double high) { return value >= low && value <= high; }
+struct Range {
+  const char* what;
+  double value, low, high;
+};
 
 /// An eight-sided wall that keeps a robot out, with room for it inside.
 WallObstacle Enclosure(Point2 goal, double gap) {
@@ -33,38 +37,20 @@ WallObstacle Enclosure(Point2 goal, double gap) {
 
 std::string FaultOf(const GeneratorOptions& options) {
   const double least = std::max(kLeastGround, 5.0 * options.gap);
-  if (!IsWithin(options.gap, kLeastGap, kGreatestGap)) {
-    return OutOfRange("gap", options.gap, kLeastGap, kGreatestGap);
-  }
-  if (!IsWithin(options.width, least, kGreatestGround)) {
-    return OutOfRange("width", options.width, least, kGreatestGround);
-  }
-  if (!IsWithin(options.height, least, kGreatestGround)) {
-    return OutOfRange("height", options.height, least, kGreatestGround);
-  }
-  if (!IsWithin(options.count, 0, kGreatestCount)) {
-    return OutOfRange("count", options.count, 0, kGreatestCount);
+  for (const auto& [what, value, low, high] :
+       {Range{"gap", options.gap, kLeastGap, kGreatestGap},
+        Range{"width", options.width, least, kGreatestGround},
+        Range{"height", options.height, least, kGreatestGround},
+        Range{"count", static_cast<double>(options.count), 0, kGreatestCount}}) {
+    if (value >= low && value <= high) continue;  // never so for what is no number
+    return fmt::format("the {} must be between {:g} and {:g}, not {:g}", what, low, high, value);
   }
   return {};
 }
 
 World GenerateWorld(const GeneratorOptions& options) {
   Random random(options.seed);
-  World world;
-  switch (options.kind) {
-    case WorldKind::kScatter:
-      world = internal::MakeScatter(options, random);
-      break;
-    case WorldKind::kMaze:
-      world = internal::MakeMaze(options, random);
-      break;
-    case WorldKind::kSpiral:
-      world = internal::MakeSpiral(options, random);
-      break;
-    case WorldKind::kComb:
-      world = internal::MakeComb(options, random);
-      break;
-  }
+  World world = kMakers[static_cast<std::size_t>(options.kind)](options, random);
   // A maze has walls enough: there, the goal's cell has no door.
   const bool needs_wall = options.is_enclosed && options.kind != WorldKind::kMaze;
   if (needs_wall) world.walls.push_back(Enclosure(world.goal, options.gap));

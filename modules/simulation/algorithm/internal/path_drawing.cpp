@@ -1,6 +1,6 @@
-#include "modules/simulation/algorithm/internal/path_drawing.h"
-
 #include <algorithm>
+
+#include "modules/simulation/algorithm/internal/drawing.h"
 
 namespace runnel::internal {
 

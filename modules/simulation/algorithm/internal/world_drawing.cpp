@@ -1,8 +1,7 @@
-#include "modules/simulation/algorithm/internal/world_drawing.h"
-
 #include <cmath>
 #include <string>
 
+#include "modules/simulation/algorithm/internal/drawing.h"
 #include "modules/simulation/algorithm/world_geometry.h"
 
 namespace runnel::internal {
