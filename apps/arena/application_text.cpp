@@ -3,6 +3,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/base/replace_file.h"
+
 namespace runnel::arena {
 
 namespace {
@@ -54,16 +56,9 @@ Result<std::string> ReadFile(const std::filesystem::path& file) {
 }
 
 Result<void> WriteFile(const std::filesystem::path& file, std::string_view text) {
-  const auto beside = file.string() + ".new";
-  std::ofstream stream(beside, std::ios::binary | std::ios::trunc);
-  stream << text;
-  stream.close();
-  std::error_code error;
-  if (stream) std::filesystem::rename(beside, file, error);
-  if (stream && !error) return {};
-  std::error_code ignored;
-  std::filesystem::remove(beside, ignored);
-  return Error{.message = "the file cannot be written",
+  auto written = ReplaceFile(file, text);
+  if (written) return written;
+  return Error{.message = "the file cannot be written: " + written.error().message,
                .position = {file.string()},
                .hint = "is its folder there, and may you write in it?"};
 }

@@ -60,23 +60,23 @@ void AddOutputs(CLI::App& program, ArenaArguments& arguments) {
   program.add_flag("--quiet", arguments.quiet, "no progress, only the tables");
 }
 
+struct Range {
+  double value, low, high;
+  const char* fault;
+};
+
 std::string FaultOf(const ArenaArguments& arguments) {
   const RunSettings& settings = arguments.settings;
-  const auto is_within = [](double value, double low, double high) {
-    return value >= low && value <= high;  // false for what is no number
-  };
-  if (arguments.jobs < 1 || arguments.jobs > 1000) return "--jobs must be between 1 and 1000";
-  if (!is_within(settings.noise, 0.0, 10.0)) return "--noise must be between 0 and 10 m";
-  if (!is_within(settings.path_step, 0.0, 1000.0)) {
-    return "--path-step must be between 0 and 1000 m";
-  }
-  if (!is_within(settings.safe_distance, 0.16, 10.0)) {
-    return "--safe-distance must be between 0.16 and 10 m";  // the robot's radius is 0.15 m
-  }
-  if (!is_within(settings.time_limit, 0.1, 1e6))
-    return "--time-limit must be between 0.1 and 1e6 s";
-  if (!is_within(arguments.wall_limit, 0.1, 1e6)) {
-    return "--wall-limit must be between 0.1 and 1e6 s";
+  const auto jobs = static_cast<double>(arguments.jobs);
+  for (const auto& [value, low, high, fault] :
+       {Range{jobs, 1, 1000, "--jobs must be between 1 and 1000"},
+        Range{settings.noise, 0, 10, "--noise must be between 0 and 10 m"},
+        Range{settings.path_step, 0, 1000, "--path-step must be between 0 and 1000 m"},
+        // The robot's radius is 0.15 m.
+        Range{settings.safe_distance, 0.16, 10, "--safe-distance must be between 0.16 and 10 m"},
+        Range{settings.time_limit, 0.1, 1e6, "--time-limit must be between 0.1 and 1e6 s"},
+        Range{arguments.wall_limit, 0.1, 1e6, "--wall-limit must be between 0.1 and 1e6 s"}}) {
+    if (!(value >= low && value <= high)) return fault;  // also what is no number
   }
   if (arguments.resume && arguments.json.empty()) {
     return "--resume needs --json, to know what is finished";

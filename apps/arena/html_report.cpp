@@ -15,13 +15,13 @@ struct Column {
   bool is_number;
 };
 
-std::string Head(const std::vector<Column>& columns) {
-  std::string text = "<thead><tr>";
+std::string Table(const std::vector<Column>& columns, const std::string& rows) {
+  std::string text = "<div class=\"scroll\"><table><thead><tr>";
   for (const Column& column : columns) {
     text += std::string("<th scope=\"col\"") + (column.is_number ? " class=\"number\"" : "") +
             "><button type=\"button\">" + column.title + "</button></th>";
   }
-  return text + "</tr></thead>";
+  return text + "</tr></thead><tbody>\n" + rows + "</tbody></table></div>\n";
 }
 
 std::string Cell(const std::string& text) { return "<td>" + EscapedMarkup(text) + "</td>"; }
@@ -36,14 +36,7 @@ std::string OutcomeText(const Row& row) {
 }
 
 std::string SummaryTable(const std::vector<Row>& rows) {
-  std::string text = "<div class=\"scroll\"><table>" +
-                     Head({{"variant", false},
-                           {"runs", true},
-                           {"right", true},
-                           {"success / %", true},
-                           {"mean ratio", true},
-                           {"all paths / m", true}}) +
-                     "<tbody>\n";
+  std::string text;
   for (const Summary& summary : SummariesOf(rows)) {
     text += "<tr>" + Cell(summary.variant) + NumberCell(std::to_string(summary.runs)) +
             NumberCell(std::to_string(summary.right)) +
@@ -51,24 +44,17 @@ std::string SummaryTable(const std::vector<Row>& rows) {
                 100.0 * static_cast<double>(summary.right) / static_cast<double>(summary.runs), 1) +
             NumberCell(summary.mean_ratio, 3) + NumberCell(summary.path_length, 1) + "</tr>\n";
   }
-  return text + "</tbody></table></div>\n";
+  return Table({{"variant", false},
+                {"runs", true},
+                {"right", true},
+                {"success / %", true},
+                {"mean ratio", true},
+                {"all paths / m", true}},
+               text);
 }
 
 std::string RunTable(const std::vector<Row>& rows) {
-  std::string text = "<div class=\"scroll\"><table>" +
-                     Head({{"world", false},
-                           {"variant", false},
-                           {"sensor", false},
-                           {"direction", false},
-                           {"seed", true},
-                           {"outcome", false},
-                           {"length / m", true},
-                           {"ratio", true},
-                           {"bound / m", true},
-                           {"time / s", true},
-                           {"hits", true},
-                           {"remark", false}}) +
-                     "<tbody>\n";
+  std::string text;
   for (const Row& row : rows) {
     const RunKey& key = row.record->key;
     const RunResult& result = row.record->result;
@@ -78,7 +64,19 @@ std::string RunTable(const std::vector<Row>& rows) {
             NumberCell(row.bound, 2) + NumberCell(result.simulated_time, 1) +
             NumberCell(std::to_string(result.hits.size())) + Cell(result.remark) + "</tr>\n";
   }
-  return text + "</tbody></table></div>\n";
+  return Table({{"world", false},
+                {"variant", false},
+                {"sensor", false},
+                {"direction", false},
+                {"seed", true},
+                {"outcome", false},
+                {"length / m", true},
+                {"ratio", true},
+                {"bound / m", true},
+                {"time / s", true},
+                {"hits", true},
+                {"remark", false}},
+               text);
 }
 
 std::string Figure(const Row& row, const std::string& world_id, const Extent& view) {

@@ -91,12 +91,8 @@ const RunRecord* Journal::Find(const PlannedRun& run) const {
 }
 
 Result<void> Journal::Add(const RunRecord& record, const std::string& made_of) {
-  return Append(JournalLineOf(record, made_of) + "\n");
-}
-
-Result<void> Journal::Append(std::string_view line) {
   std::ofstream stream(file_, std::ios::binary | std::ios::app);
-  stream << line;
+  stream << JournalLineOf(record, made_of) + "\n";
   stream.close();
   if (stream) return {};
   return Error{.message = "the journal cannot be written", .position = {file_.string()}};

@@ -29,7 +29,6 @@ class Journal {
 
  private:
   explicit Journal(std::filesystem::path file) : file_(std::move(file)) {}
-  Result<void> Append(std::string_view line);
 
   std::filesystem::path file_;
   std::map<RunKey, JournalEntry> finished_;

@@ -1,9 +1,9 @@
 #include "apps/arena/matrix.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <map>
+
+#include <fmt/format.h>
 
 #include "apps/arena/application_text.h"
 
@@ -17,8 +17,7 @@ std::string HashOf(std::string_view text) {
   for (const char character : text) {
     hash = (hash ^ static_cast<unsigned char>(character)) * 0x100000001b3U;
   }
-  std::array<char, 16> digits{};
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), hash, 16).ptr};
+  return fmt::format("{:x}", hash);
 }
 
 std::vector<std::string> WithoutRepeats(const std::vector<std::string>& words) {

@@ -123,9 +123,7 @@ std::vector<std::string> FindTypes(const std::vector<std::string>& plugins,
   for (const std::string& plugin : plugins) {
     if (auto loaded = manager.Load(plugin); !loaded) diagnostics.Add(loaded.error());
   }
-  std::vector<std::string> types;
-  for (const ModuleType* type : manager.modules().All()) types.push_back(type->name);
-  return types;
+  return NamesOf(manager.modules().All(), &ModuleType::name);
 }
 
 void CheckNames(const std::vector<std::string>& words, const std::vector<std::string>& known,

@@ -8,6 +8,7 @@
 
 namespace runnel::arena {
 
+/// Called one at a time; `finished` by threads of the runs.
 struct RunCallbacks {
   std::function<Result<void>(const PlannedRun&, const RunRecord&)> finished;
   std::function<void()> tick;        ///< a few times a second

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include <CLI/CLI.hpp>
+#include <fmt/ranges.h>
 
 #include "apps/runnel/commands.h"
 #include "apps/runnel/control_command_line.h"
@@ -39,10 +40,7 @@ std::vector<std::string> AllCommands(const CLI::App& program) {
 
 // Of those that are programs of their own; each has its own --help.
 std::string FooterText() {
-  std::string others;
-  for (const std::string& command : OtherCommands()) {
-    others += (others.empty() ? "" : ", ") + command;
-  }
+  const std::string others = fmt::format("{}", fmt::join(OtherCommands(), ", "));
   return (others.empty() ? "" : "Further commands, each with its own --help: " + others + "\n") +
          "Exit codes: 0 done, 1 the run failed, 2 bad input.";
 }
@@ -92,6 +90,9 @@ void AddWhatAccompaniesARun(CLI::App& run, RunArguments& arguments) {
   run.add_flag("--quiet", arguments.quiet, "no progress, only how the run ended");
   run.add_flag("--statistics", arguments.statistics,
                "at the end, how punctual the threads were and how long their cycles took");
+  run.add_option("--log", arguments.log_file,
+                 "writes faults, warnings, changes and what modules say into a file")
+      ->type_name("FILE");
   run.add_flag_callback(
       "--no-control", [&arguments] { arguments.has_control = false; },
       "no other process can look at it or change it");
@@ -209,7 +210,9 @@ Command ParseCommandLine(int count, const char* const* words) {
     return Refuse(error.what(), "see 'runnel --help' or 'runnel run --help'");
   }
   run_arguments.extensions = run_extensions.Chosen();
+  run_arguments.preloads = run_extensions.Preloads();
   replay_arguments.extensions = replay_extensions.Chosen();
+  replay_arguments.preloads = replay_extensions.Preloads();
   replay_arguments.is_paused = replay_arguments.is_paused || replay_arguments.steps;
   if (run.parsed()) return [=] { return Run(run_arguments); };
   if (replay.parsed()) return [=] { return Run(replay_arguments); };

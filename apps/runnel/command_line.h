@@ -34,9 +34,12 @@ struct RunArguments {
   bool is_paused = false;               ///< begins with a pause
   bool quiet = false;
   bool statistics = false;
+  std::string log_file = {};  ///< "": none
   bool has_control = true;  ///< other processes of the user can reach it
   bool steps = false;       ///< a cycle for each line of standard input
   std::vector<ExtensionByName> extensions = {};
+  std::vector<std::string> preloads =
+      {};  ///< libraries that these need from the start of the process
 };
 
 struct ModulesArguments {

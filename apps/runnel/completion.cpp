@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "apps/runnel/commands.h"
+#include "core/base/nearest_name.h"
 #include "plugins/control/control_client.h"
 #include "plugins/control/control_folder.h"
 
@@ -58,14 +59,16 @@ Candidates Paths(ControlClient& client, const std::function<bool(const Element&)
 }
 
 Candidates Types(ControlClient& client) {
-  Candidates types;
-  for (const std::string& line : Lines(client, "types"))
-    types.push_back(line.substr(0, line.find('\t')));
-  return types;
+  return NamesOf(Lines(client, "types"),
+                 [](const std::string& line) { return line.substr(0, line.find('\t')); });
+}
+
+auto OfKind(const char* kind) {
+  return [kind](const Element& each) { return each.kind == kind; };
 }
 
 Candidates Threads(ControlClient& client) {
-  Candidates names = Paths(client, [](const Element& each) { return each.kind == "thread"; });
+  Candidates names = Paths(client, OfKind("thread"));
   for (std::string& each : names) each = each.substr(each.find_last_of('/') + 1);
   return names;
 }
@@ -80,20 +83,16 @@ Candidates Propose(ControlClient& client, const std::string& command, std::size_
   const bool is_first = place == 0;
   if (command == "ls" && is_first) return Paths(client, [](const Element&) { return true; });
   if ((command == "echo" || command == "hz") && is_first) return Paths(client, IsPort);
-  if (command == "set" && is_first) {
-    return Paths(client, [](const Element& each) { return each.kind == "parameter"; });
-  }
+  if (command == "set" && is_first) return Paths(client, OfKind("parameter"));
   if ((command == "connect" || command == "disconnect") && place < 2) {
     return Paths(client, is_first ? Sends : Receives);
   }
   if (command == "delete" && is_first) {
     return Paths(client, [](const Element& each) { return IsPart(each) || each.is_interface; });
   }
-  if (command == "swap" && is_first) {
-    return Paths(client, [](const Element& each) { return each.kind == "module"; });
-  }
+  if (command == "swap" && is_first) return Paths(client, OfKind("module"));
   if (command == "create" && is_first) {
-    Candidates groups = Paths(client, [](const Element& each) { return each.kind == "group"; });
+    Candidates groups = Paths(client, OfKind("group"));
     for (std::string& each : groups) each += '/';
     return groups;
   }
@@ -121,10 +120,8 @@ Candidates WithoutOptions(const Candidates& words, std::string& application) {
 }
 
 Candidates FindCandidates(const Candidates& words, const std::vector<RunningApplication>& running) {
-  Candidates names;
   if (words.size() > 1 && words[words.size() - 2] == "--app") {
-    for (const RunningApplication& each : running) names.push_back(each.hello.application);
-    return names;
+    return NamesOf(running, [](const RunningApplication& each) { return each.hello.application; });
   }
   std::string application;
   const Candidates plain = WithoutOptions(words, application);

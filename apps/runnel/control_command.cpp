@@ -136,20 +136,17 @@ std::string TakeApplication(const std::vector<RunningApplication>& running, Requ
 std::atomic<bool> interrupted{false};
 
 // The first Ctrl-C ends the recording, a second the program.
-class Interruptions {
- public:
-  Interruptions() {
-    struct sigaction action {};
-    action.sa_handler = [](int) { interrupted = true; };
-    action.sa_flags = SA_RESETHAND | SA_RESTART;
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
-  }
-};
+void HeedInterruptions() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { interrupted = true; };
+  action.sa_flags = SA_RESETHAND | SA_RESTART;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaction(signal, &action, nullptr);
+}
 
 // Has a running application record, shows on a terminal how it goes, and says what there is when it has ended,
 // also by Ctrl-C.
 Result<int> AskToRecord(ControlClient& client, const Request& request) {
-  const Interruptions interruptions;
+  HeedInterruptions();
   const bool is_terminal = isatty(STDOUT_FILENO) == 1;
   std::string last;
   const auto go_on = [&] {

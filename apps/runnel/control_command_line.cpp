@@ -138,8 +138,12 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
       ->required(false)
       ->type_name("FACTOR");
 
-  Entry& log = add("log", "shows faults, warnings and changes since the start");
+  Entry& log = add("log", "shows faults, warnings, changes and what modules say, since the start");
   flag(log, "-f,--follow", "follow", "goes on with what comes");
+  option(log, "--level", "level",
+         "instead: from now on, what modules at and below PATH say is logged from this level on: debug, info, "
+         "warning, error, off; without PATH all of them")
+      ->type_name("[PATH=]LEVEL");
 
   Entry& complete = add("complete", "for the completion of shells");
   complete.command->group("");

@@ -59,4 +59,14 @@ std::vector<ExtensionByName> ExtensionCommandLine::Chosen() const {
   return chosen;
 }
 
+std::vector<std::string> ExtensionCommandLine::Preloads() const {
+  std::vector<std::string> libraries;
+  for (const Entry& entry : entries_) {
+    if (!entry.parsed->empty() && !entry.option.preload.empty()) {
+      libraries.push_back(entry.option.preload);
+    }
+  }
+  return libraries;
+}
+
 }  // namespace runnel::program

@@ -19,6 +19,8 @@ class ExtensionCommandLine {
 
   /// After parsing: the extensions of which an option has been given.
   [[nodiscard]] std::vector<ExtensionByName> Chosen() const;
+  /// After parsing: the libraries that the given options need from the start of the process.
+  [[nodiscard]] std::vector<std::string> Preloads() const;
 
  private:
   struct Entry {

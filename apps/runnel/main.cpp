@@ -10,14 +10,9 @@ namespace runnel::program {
 
 namespace {
 
-bool IsOtherCommand(const std::string& word) {
-  const std::vector<std::string> commands = OtherCommands();
-  return std::ranges::find(commands, word) != commands.end();
-}
-
 ExitCode DoWhatIsAsked(int count, char** words) {
   try {
-    if (count > 1 && IsOtherCommand(words[1])) {
+    if (count > 1 && std::ranges::count(OtherCommands(), std::string(words[1])) > 0) {
       const std::string why_not = BecomeProgram(words[1], words + 1);
       std::cerr << "error: " << why_not << '\n';
       return ExitCode::kRunFailed;

@@ -1,6 +1,8 @@
 #pragma once
 
-#include "core/base/error.h"
+#include <string>
+
+#include "core/element/framework_element.h"
 
 namespace runnel::program {
 
@@ -14,5 +16,8 @@ void OutliveReaders();
 /// Writes what is still in stdout's buffer. False if not all output could be written, though there
 /// is somebody to read it: a full disk.
 [[nodiscard]] bool FinishOutput();
+
+/// How the cycles of all threads at and below `root` have gone, one line each under a heading.
+[[nodiscard]] std::string StatisticsTable(FrameworkElement& root);
 
 }  // namespace runnel::program

@@ -5,9 +5,12 @@
 #include <string>
 #include <vector>
 
+#include <fmt/ranges.h>
+
 #include "apps/runnel/commands.h"
 #include "apps/runnel/output.h"
 #include "core/base/characters.h"
+#include "core/base/nearest_name.h"
 #include "core/base/replace_file.h"
 #include "core/element/configurable.h"
 #include "core/port/path_search.h"
@@ -60,11 +63,7 @@ std::vector<Row> Ports(FrameworkElement& module, Port::Direction direction) {
 
 // Of an enumeration: "left, right".
 std::string Choices(const TypeInfo& type) {
-  std::string names;
-  for (const EnumeratorInfo& each : type.enumerators()) {
-    names += (names.empty() ? "" : ", ") + each.name;
-  }
-  return names;
+  return fmt::format("{}", fmt::join(NamesOf(type.enumerators(), &EnumeratorInfo::name), ", "));
 }
 
 std::vector<Row> Parameters(const FrameworkElement& module) {

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -12,9 +13,10 @@
 #include <unistd.h>
 
 #include "apps/runnel/commands.h"
+#include "apps/runnel/log_file.h"
 #include "apps/runnel/output.h"
+#include "apps/runnel/preloading.h"
 #include "apps/runnel/progress_display.h"
-#include "apps/runnel/statistics_table.h"
 #include "apps/runnel/stop_signal.h"
 #include "plugins/application/application.h"
 #include "plugins/application/run_report.h"
@@ -45,9 +47,15 @@ class Session {
       : arguments_(arguments),
         application_(application),
         report_(application.report()),
-        display_(!arguments.quiet) {}
+        display_(!arguments.quiet) {
+    if (!arguments.log_file.empty()) log_file_.emplace(arguments.log_file);
+  }
 
   ExitCode Run() {
+    if (const auto failure = log_file_ ? log_file_->Failure() : std::nullopt) {
+      PrintError(*failure);
+      return ExitCode::kBadInput;
+    }
     const StopSignal stop_signal(application_.scheduler());
     RunOptions options;
     if (arguments_.duration) options.limit = FromSeconds(*arguments_.duration);
@@ -104,6 +112,7 @@ class Session {
       display_.Clear();
       std::cerr << event.text << std::flush;
     }
+    if (log_file_) log_file_->Append(application_.log());
   }
 
   // An extension does, if one of them says when it is over: of a replay.
@@ -132,6 +141,8 @@ class Session {
     std::cout << std::flush;
     const std::string why = WhyItEnded(was_stopped, was_asked);
     application_.NoteEnd(verdict + why);
+    if (log_file_) log_file_->Append(application_.log());
+    if (auto failure = log_file_ ? log_file_->Failure() : std::nullopt) failures.Add(*failure);
     std::cerr << failures.ToString();
     (was_stopped ? std::cerr : std::cout) << why;
     if (!arguments_.quiet) PrintTimes(so_far, real, scheduler.options().clock);
@@ -144,6 +155,7 @@ class Session {
   Application& application_;
   RunReport& report_;
   ProgressDisplay display_;
+  std::optional<LogFile> log_file_;
   bool input_has_ended_ = false;
 };
 
@@ -163,6 +175,10 @@ ApplicationOptions OptionsOf(const RunArguments& arguments) {
 }  // namespace
 
 ExitCode Run(const RunArguments& arguments) {
+  if (const auto preloaded = PreloadAll(arguments.preloads); !preloaded) {
+    PrintError(preloaded.error());
+    return ExitCode::kRunFailed;
+  }
   const LoadedApplication application =
       Application::Load(arguments.application.file, OptionsOf(arguments));
   std::cerr << application.diagnostics().ToString();

@@ -1,10 +1,9 @@
-#include "apps/runnel/statistics_table.h"
-
 #include <algorithm>
 #include <mutex>
 
 #include <fmt/format.h>
 
+#include "apps/runnel/output.h"
 #include "core/element/runtime.h"
 #include "plugins/scheduling/thread_container.h"
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <fstream>
 #include <iostream>
-#include <vector>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "core/base/nearest_name.h"
 #include "modules/simulation/world_file/world_writer.h"
@@ -17,7 +17,7 @@ namespace runnel::world_program {
 namespace {
 
 struct NamedKind {
-  const char* name;
+  std::string_view name;
   WorldKind kind;
 };
 constexpr std::array<NamedKind, 4> kKinds{{{"scatter", WorldKind::kScatter},
@@ -26,18 +26,10 @@ constexpr std::array<NamedKind, 4> kKinds{{{"scatter", WorldKind::kScatter},
                                            {"comb", WorldKind::kComb}}};
 
 Result<WorldKind> KindCalled(const std::string& name) {
-  std::vector<std::string> names;
-  for (const NamedKind& kind : kKinds) {
-    if (kind.name == name) return kind.kind;
-    names.emplace_back(kind.name);
-  }
+  const auto found = std::ranges::find(kKinds, name, &NamedKind::name);
+  if (found != kKinds.end()) return found->kind;
   return Error{.message = "there is no kind of world called '" + name + "'",
-               .hint = NearestNameHint(name, names)};
-}
-
-std::string NumberText(double number) {
-  std::array<char, 32> digits{};
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr};
+               .hint = NearestNameHint(name, NamesOf(kKinds, &NamedKind::name))};
 }
 
 /// Only what differs from the defaults.
@@ -47,7 +39,7 @@ std::string CommandOf(const GeneratorOptions& options) {
   command += std::ranges::find(kKinds, options.kind, &NamedKind::kind)->name;
   command += " --seed " + std::to_string(options.seed);
   const auto add = [&](const char* name, double value, double usual) {
-    if (value != usual) command += std::string(" ") + name + " " + NumberText(value);
+    if (value != usual) command += fmt::format(" {} {}", name, value);
   };
   add("--width", options.width, defaults.width);
   add("--height", options.height, defaults.height);

@@ -1,0 +1,169 @@
+// The command `runnel new`: writes what a plugin, module, application or test begins with.
+
+#include <algorithm>
+#include <array>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/new/names.h"
+#include "apps/new/new_files.h"
+#include "apps/new/own_plugin.h"
+#include "core/base/nearest_name.h"
+#include "core/plugin/plugin_manager.h"
+
+namespace runnel::new_program {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kDone = 0, kFailed = 1, kBadInput = 2;
+
+/// What is to be made, and where.
+struct Wanted {
+  std::string name;
+  fs::path folder;
+};
+using Marks = std::map<std::string, std::string>;
+
+Marks MarksOf(const std::string& name, const std::string& plugin) {
+  return {{"name", name}, {"Class", ClassName(name)}, {"plugin", plugin}};
+}
+
+NewFile Filled(const fs::path& path, const std::string& name, const Marks& marks) {
+  return {path, FilledTemplate(name, marks)};
+}
+
+// What each prints says how to go on.
+Result<std::string> NewPlugin(const Wanted& wanted) {
+  const std::vector<std::string> known = PluginManager().Available();
+  if (std::ranges::find(known, wanted.name) != known.end()) {
+    return Error{.message = "there is a plugin '" + wanted.name +
+                            "' already, and of two of one name only one is found",
+                 .hint = "take another name"};
+  }
+  const fs::path folder = wanted.folder / wanted.name;
+  const Marks marks = MarksOf(wanted.name, wanted.name);
+  auto written =
+      WriteAll({Filled(folder / "CMakeLists.txt", "plugin_CMakeLists.txt", marks),
+                Filled(folder / "plugin.cpp", "plugin.cpp", marks),
+                Filled(folder / (wanted.name + ".h"), "module.h", marks),
+                Filled(folder / (wanted.name + "_test.cpp"), "test.cpp", marks),
+                Filled(folder / (wanted.name + ".xml"), "plugin_application.xml", marks)});
+  if (!written) return written.error();
+  return "cd " + folder.string() +
+         "\ncmake -B build && cmake --build build && ctest --test-dir build\n"
+         "RUNNEL_PLUGIN_PATH=build/lib/runnel/plugins runnel run " +
+         wanted.name + ".xml --duration 5\n";
+}
+
+Result<std::string> NewModule(const Wanted& wanted) {
+  auto plugin = OwnPlugin::Find(wanted.folder);
+  if (!plugin) return plugin.error();
+  const Marks marks = MarksOf(wanted.name, plugin->name());
+  const std::string header = wanted.name + ".h";
+  auto written = WriteAll({Filled(wanted.folder / header, "module.h", marks),
+                           Filled(wanted.folder / (wanted.name + "_test.cpp"), "test.cpp", marks)});
+  if (!written) return written.error();
+  auto added = plugin->Register(header, marks.at("Class"), plugin->name() + "/" + wanted.name);
+  if (!added) return added.error();
+  return "plugin.cpp registers it as " + plugin->name() + "/" + wanted.name + "\n";
+}
+
+Result<std::string> NewTest(const Wanted& wanted) {
+  const auto plugin = OwnPlugin::Find(wanted.folder);
+  if (!plugin) return plugin.error();
+  const Marks marks = MarksOf(wanted.name, plugin->name());
+  const std::string file = wanted.name + "_test.cpp";
+  auto written = WriteAll({Filled(wanted.folder / file, "own_test.cpp", marks)});
+  if (!written) return written.error();
+  return file + " tests modules of the type " + plugin->name() + "/" + wanted.name + "\n";
+}
+
+Result<std::string> NewApplication(const Wanted& wanted) {
+  const fs::path folder = wanted.folder / wanted.name;
+  const Marks marks = MarksOf(wanted.name, "");
+  auto written =
+      WriteAll({Filled(folder / "CMakeLists.txt", "application_CMakeLists.txt", marks),
+                Filled(folder / (wanted.name + ".xml"), "application.xml", marks),
+                Filled(folder / "world.xml", "world.xml", marks),
+                Filled(folder / "main.cpp", "main.cpp", marks),
+                Filled(folder / (wanted.name + "_test.cpp"), "application_test.cpp", marks)});
+  if (!written) return written.error();
+  return "runnel run " + (folder / (wanted.name + ".xml")).string() + " --inspect\n";
+}
+
+struct Kind {
+  const char* name;
+  const char* summary;
+  Result<std::string> (*make)(const Wanted& wanted);
+};
+constexpr std::array<Kind, 4> kKinds{
+    {{"plugin", "a folder with a plugin: one module, its test, an application with it", NewPlugin},
+     {"module", "one more module of the plugin in this folder, and its test", NewModule},
+     {"application", "a folder with a robot in a world, a program that runs it, and a test",
+      NewApplication},
+     {"test", "a test for a module of the plugin in this folder", NewTest}}};
+
+int Make(const Kind& kind, const Wanted& wanted) {
+  const auto report = [](const Error& error) {
+    std::cerr << "error: " << error.ToString() << '\n';
+    return kBadInput;
+  };
+  if (const auto good = CheckName(wanted.name); !good) return report(good.error());
+  const auto made = kind.make(wanted);
+  if (!made) return report(made.error());
+  std::cout << *made << std::flush;
+  return std::cout ? kDone : kFailed;
+}
+
+int Main(int count, char** words) {
+  CLI::App program("Writes what something new begins with: it can be built and tested at once.",
+                   "runnel new");
+  Wanted wanted;
+  program.require_subcommand(1);
+  std::vector<std::string> names;
+  for (const Kind& kind : kKinds) {
+    CLI::App& command = *program.add_subcommand(kind.name, kind.summary);
+    command.add_option("name", wanted.name, "lower-case letters, digits and '_'")
+        ->required()
+        ->type_name("NAME");
+    command.add_option("--in", wanted.folder, "the folder in which it is made; without, this one")
+        ->type_name("FOLDER");
+    names.emplace_back(kind.name);
+  }
+  const std::string wanted_kind = count > 1 ? words[1] : "";
+  const bool is_known = std::ranges::find(names, wanted_kind) != names.end();
+  if (count > 1 && !wanted_kind.starts_with('-') && !is_known) {
+    const std::string hint = NearestNameHint(wanted_kind, names);
+    std::cerr << "error: there is no new '" << wanted_kind << "'; "
+              << (hint.empty() ? "plugin, module, application or test" : hint) << '\n';
+    return kBadInput;
+  }
+  try {
+    program.parse(count, words);
+  } catch (const CLI::Success& help) {
+    return program.exit(help);
+  } catch (const CLI::ParseError& error) {
+    std::cerr << "error: " << error.what() << "; see 'runnel new --help'\n";
+    return kBadInput;
+  }
+  for (const Kind& kind : kKinds) {
+    if (program.got_subcommand(kind.name)) return Make(kind, wanted);
+  }
+  return kBadInput;
+}
+
+}  // namespace
+
+}  // namespace runnel::new_program
+
+int main(int count, char** words) {
+  try {
+    return runnel::new_program::Main(count, words);
+  } catch (const std::exception& error) {
+    std::cerr << "error: " << error.what() << '\n';
+    return runnel::new_program::kFailed;
+  }
+}
