@@ -6,7 +6,7 @@ namespace {
 
 // Bottom to top: each may know those before it.
 const std::vector<std::string> kCoreOrder = {"base",    "xml",  "types",  "lockfree",
-                                             "element", "port", "module", "plugin"};
+                                             "element", "port", "log", "module", "plugin"};
 
 void AddCore(std::vector<IncludeRule>& rules) {
   std::vector<std::string> below;
@@ -38,6 +38,8 @@ void AddApplication(std::vector<IncludeRule>& rules) {
   };
   rules.push_back({"plugins/application", "plugins/application", application});
   attached("the trace of an application", "plugins/tracing/application_", {"plugins/tracing"});
+  attached("the real-time check of an application", "plugins/real_time_check/application_",
+           {"plugins/real_time_check"});
   attached("FINROC's form of an application", "plugins/finroc_files/application_",
            {"plugins/finroc_files"});
   attached("recordings of an application", "plugins/recording/application_",
@@ -62,6 +64,11 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
        "plugins/finroc_files",
        {"core", "plugins/parameters", "plugins/application_files", "plugins/scheduling"}});
   rules.push_back({"plugins/scheduling", "plugins/scheduling", {"core"}});
+  rules.push_back(
+      {"plugins/real_time_check", "plugins/real_time_check", {"core", "plugins/scheduling"}});
+  rules.push_back({"plugins/testing",
+                   "plugins/testing",
+                   {"core", "plugins/real_time_check", "plugins/scheduling"}});
   rules.push_back({"plugins/structure", "plugins/structure", {"core", "plugins/scheduling"}});
   rules.push_back(
       {"plugins/tracing", "plugins/tracing", {"core", "plugins/values", "plugins/scheduling"}});

@@ -71,12 +71,9 @@ ApplicationRun RunApplication(const ApplicationChoice& choice) {
     SchedulerOptions options = SchedulerOptionsOf(application);
     options.speed = 0;
     scheduler.emplace(runtime, options);
-    for (const auto& [rule, position] : FaultRulesOf(application)) {
-      if (auto added = scheduler->AddFaultRule(rule); !added) return added;
-    }
     editor.emplace(runtime, plugins.modules(), &*scheduler);
     supervisor.emplace(runtime, *scheduler, perform);
-    return AddSupervisionRules(application, *supervisor);
+    return AddRules(application, *scheduler, *supervisor);
   };
   const BuildOutcome built = BuildApplication(
       *document, folder, {runtime, plugins, tags, configuration}, BuildMode::kConstruct);

@@ -34,20 +34,24 @@ class FaultyRelay final : public Module {
   std::uint32_t cycles_ = 0;
 };
 
-/// Does nothing, and fails after a while: by throwing, or by never coming back.
+/// Does nothing, and fails after a while: by throwing, by never coming back, or by what no cycle should do.
 class FaultyWorker final : public Module {
  public:
   using Module::Module;
 
   Parameter<std::uint32_t> good_cycles{this, "good_cycles", {.default_value = 1'000'000}};
   StaticParameter<bool> hangs{this, "hangs", {.default_value = false}};
+  StaticParameter<bool> allocates{this, "allocates", {.default_value = false}};
 
  private:
   void Update() override {
+    if (allocates.Get()) kept_ = std::make_unique<std::string>(1000, 'x');
     while (hangs.Get()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     if (++cycles_ > good_cycles.Get()) throw std::runtime_error("the worker is worn out");
+    if (cycles_ == good_cycles.Get()) log().Warn("{} cycles are enough", cycles_);
   }
 
+  std::unique_ptr<std::string> kept_;
   std::uint32_t cycles_ = 0;
 };
 

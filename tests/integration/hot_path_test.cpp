@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "plugins/testing/allocation_guard.h"
 #include "tests/integration/application_run.h"
-#include "tests/support/allocation_guard.h"
 
 namespace runnel::test {
 namespace {

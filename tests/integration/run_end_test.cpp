@@ -55,6 +55,24 @@ TEST_F(RunEnd, ComesAfterWarningsOfWhatRealTimeThreadsWereRefused) {
                                     "was refused"));
 }
 
+TEST_F(RunEnd, LeavesALogIfOneIsWanted) {
+  const std::filesystem::path log = TestFile(".log");
+  const std::string worker =
+      "<module name='a' type='faulty/worker'><parameter name='good_cycles' value='2'/></module>";
+  const std::string file = Write(simulated_, "period='20ms'", worker);
+  const Ended ended = Runnel("run --duration 0.1 --log " + log.string() + " " + file);
+  EXPECT_THAT(ended.text, HasSubstr("20ms  warning  /app/a: 2 cycles are enough\n"));
+  std::ifstream stream(log);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  EXPECT_THAT(text, AllOf(HasSubstr("0.020 s  warning  /app/a: 2 cycles are enough\n"),
+                          HasSubstr("/app/a: has been stopped: the worker is worn out")));
+  std::filesystem::remove(log);
+
+  const Ended refused = Runnel("run --duration 0.1 --log /no/such/folder/log " + file);
+  EXPECT_EQ(refused.code, kBadInput);
+  EXPECT_THAT(refused.text, HasSubstr("/no/such/folder/log: error: the log cannot be written"));
+}
+
 TEST_F(RunEnd, ComesAtOnceWhereThereIsNothingToRun) {
   for (const std::string& clock : {real_, simulated_}) {
     const Ended ended = Runnel("run " + Write(clock, "period='20ms'", ""));

@@ -199,6 +199,7 @@ test('the map is drawn, moves and grows, and layers can be left out', async (t) 
   await page.locator('[aria-label="Layers"]').click();
   for (const box of await page.locator('.layers input').all()) await box.click();
   await page.locator('.goal').waitFor({ state: 'detached' });
+  await inspector.drawn();
   assert.ok(before > 8, `${before} colours`);
   assert.ok(await painted() < before / 2, 'fewer colours without layers');
   await page.locator('[aria-label="Large map"]').click();

@@ -85,7 +85,7 @@ class Client {
         threads[path] = { cycles: this.#rated, period_ms: 50, duration_ms: { mean: 0.18, max: 1.2 }, jitter_ms: 0.01, overruns: 0 };
       }
     }
-    this.send({ op: 'rates', time: this.application.time, ports, threads, modules: {} });
+    this.send({ op: 'rates', time: this.application.time, ports, threads });
   }
 
   #receive(message) {

@@ -74,6 +74,12 @@ class InspectorPage {
     await this.page.locator('#search').fill(words);
     await this.page.locator('#search-found li', { has: this.page.locator(`.path:text-is("${path}")`) }).first().dispatchEvent('pointerdown');
     await this.details.locator('.title').waitFor();
+    await this.drawn();
+  }
+
+  /** Waits until what has been asked for so far is on the screen: keys go to what has the focus then. */
+  drawn() {
+    return this.page.evaluate(() => new Promise((done) => { requestAnimationFrame(() => requestAnimationFrame(done)); }));
   }
 
   /** Waits until a function of the page's document holds; `what` is told if it never does. */

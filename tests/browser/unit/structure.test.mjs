@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { Structure, ThreadOf } from '../../../plugins/inspector/page/source/model/structure.js';
-import { OriginsOf, ReadersOf } from '../../../plugins/inspector/page/source/model/origin.js';
+import { OriginsOf } from '../../../plugins/inspector/page/source/model/origin.js';
 import { Connectable, Partners } from '../../../plugins/inspector/page/source/model/compatibility.js';
 import { FindElements } from '../../../plugins/inspector/page/source/model/element_search.js';
 import { RobotStructure } from '../mock/mock_structures.mjs';
@@ -58,7 +58,6 @@ test('the origin of a port of a group is the output that feeds it, and its reade
   const structure = Robot();
   assert.deepEqual(OriginsOf(structure, '/mock/robot/twist'), ['/mock/robot/planner/twist']);
   assert.deepEqual(OriginsOf(structure, '/mock/robot/planner/scan'), ['/mock/laser/scan']);
-  assert.deepEqual(ReadersOf(structure, '/mock/world/pose').sort(), ['/mock/laser/pose', '/mock/robot/planner/pose']);
 });
 
 test('connections in a circle of groups do not hang the search for an origin', () => {

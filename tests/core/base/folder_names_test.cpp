@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "tests/support/fault_injection.h"
+#include "plugins/testing/fault_injection.h"
 #include "tests/support/temporary_folder.h"
 
 namespace runnel {

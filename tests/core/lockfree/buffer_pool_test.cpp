@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "core/lockfree/buffer_lease.h"
+#include "plugins/testing/allocation_guard.h"
 #include "tests/core/lockfree/counted.h"
-#include "tests/support/allocation_guard.h"
 #include "tests/support/threads.h"
 
 namespace runnel {

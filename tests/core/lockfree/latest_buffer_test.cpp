@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "core/base/check.h"
+#include "plugins/testing/allocation_guard.h"
 #include "tests/core/lockfree/counted.h"
-#include "tests/support/allocation_guard.h"
 #include "tests/support/threads.h"
 #include "tests/support/wait_until.h"
 #include "tests/support/yielding_atomic.h"

@@ -23,7 +23,8 @@ struct LatestValueSuite : rl::test_suite<LatestValueSuite<kCells>, 2> {
   void thread(unsigned index) {
     if (index == 0) {
       for (std::uint64_t i = 1; i <= 4; ++i) {
-        latest.Publish({i, 10 * i}, static_cast<std::int64_t>(100 * i), 1000 * i);
+        latest.Publish({i, 10 * i}, static_cast<std::int64_t>(100 * i),
+                       static_cast<std::int64_t>(200 * i), 1000 * i);
       }
       return;
     }
@@ -35,6 +36,7 @@ struct LatestValueSuite : rl::test_suite<LatestValueSuite<kCells>, 2> {
       RL_ASSERT(pair.b == 10 * pair.a);
       RL_ASSERT(publication.sequence == pair.a);
       RL_ASSERT(publication.timestamp == static_cast<std::int64_t>(100 * pair.a));
+      RL_ASSERT(publication.publication_time == static_cast<std::int64_t>(200 * pair.a));
       RL_ASSERT(publication.order == 1000 * pair.a);
       RL_ASSERT(publication.sequence >= last);
       last = publication.sequence;

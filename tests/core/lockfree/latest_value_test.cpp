@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/allocation_guard.h"
+#include "plugins/testing/allocation_guard.h"
 #include "tests/support/threads.h"
 #include "tests/support/yielding_atomic.h"
 
@@ -29,7 +29,7 @@ TEST(LatestValueTest, HasNothingBeforeTheFirstPublication) {
 
 TEST(LatestValueTest, GivesTheNewestValueWithItsStampNumberAndOrder) {
   LatestValue<Pose> latest;
-  for (int i = 1; i <= 10; ++i) latest.Publish({1.0 * i, 2.0 * i, 0.5F}, 100 * i, 7);
+  for (int i = 1; i <= 10; ++i) latest.Publish({1.0 * i, 2.0 * i, 0.5F}, 100 * i, 200 * i, 7);
   Pose pose{};
   Publication publication;
   ASSERT_TRUE(latest.Read(pose, publication));
@@ -37,6 +37,7 @@ TEST(LatestValueTest, GivesTheNewestValueWithItsStampNumberAndOrder) {
   EXPECT_EQ(pose.y, 20.0);
   EXPECT_EQ(pose.heading, 0.5F);
   EXPECT_EQ(publication.timestamp, 1000);
+  EXPECT_EQ(publication.publication_time, 2000);
   EXPECT_EQ(publication.sequence, 10u);
   EXPECT_EQ(publication.order, 7u);
   EXPECT_EQ(latest.sequence(), 10u);
@@ -72,7 +73,7 @@ void ReadersSeeWholeValuesInOrder(std::uint64_t publications) {
       for (std::uint64_t i = 1; i <= publications; ++i) {
         Words words;
         words.fill(i);
-        latest.Publish(words, static_cast<std::int64_t>(i), i);
+        latest.Publish(words, static_cast<std::int64_t>(i), -static_cast<std::int64_t>(i), i);
       }
       return;
     }
@@ -83,7 +84,8 @@ void ReadersSeeWholeValuesInOrder(std::uint64_t publications) {
       Words expected;
       expected.fill(publication.sequence);
       if (words != expected || publication.order != publication.sequence ||
-          static_cast<std::uint64_t>(publication.timestamp) != publication.sequence) {
+          static_cast<std::uint64_t>(publication.timestamp) != publication.sequence ||
+          publication.publication_time != -publication.timestamp) {
         ++torn;
       }
       if (publication.sequence < last) ++backward;

@@ -7,8 +7,8 @@
 
 #include <gmock/gmock.h>
 
+#include "plugins/testing/allocation_guard.h"
 #include "tests/core/lockfree/pop_all.h"
-#include "tests/support/allocation_guard.h"
 #include "tests/support/threads.h"
 #include "tests/support/wait_until.h"
 #include "tests/support/yielding_atomic.h"

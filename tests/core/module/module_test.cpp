@@ -1,9 +1,9 @@
 #include "core/module/module.h"
 
 #include "core/module/port_group.h"
+#include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/lock_probe.h"
 #include "tests/core/module/module_fixture.h"
-#include "tests/support/allocation_guard.h"
-#include "tests/support/lock_probe.h"
 
 namespace runnel::test {
 namespace {

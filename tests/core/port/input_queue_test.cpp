@@ -90,11 +90,12 @@ TEST(InputQueueTest, EachPolicyCountsWhatIsLostWhateverTheWriters) {
   }
 }
 
-// What waits in a queue keeps what it was published with.
+// What waits in a queue keeps what it was published with, but for the order among sources, which it has by its
+// place.
 TEST(InputQueueTest, EntryTellsSourceAndPublication) {
   for (const Writers writers : {Writers::kOne, Writers::kSeveral}) {
     IntQueue queue(2, OnFull::kRefuse, writers);
-    ASSERT_TRUE(queue.Push(5, {11, 12, 13}, 14));
+    ASSERT_TRUE(queue.Push(5, {11, 12, 13, 15}, 14));
     internal::HeldValue<int> held;
     std::uint64_t source = 0;
     ASSERT_TRUE(queue.Pop(held, source));
@@ -102,7 +103,7 @@ TEST(InputQueueTest, EntryTellsSourceAndPublication) {
     EXPECT_EQ(source, 14u);
     EXPECT_EQ(held.publication().timestamp, 11);
     EXPECT_EQ(held.publication().sequence, 12u);
-    EXPECT_EQ(held.publication().order, 13u);
+    EXPECT_EQ(held.publication().publication_time, 15);
   }
 }
 

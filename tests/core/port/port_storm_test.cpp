@@ -9,8 +9,8 @@
 #include <random>
 #include <thread>
 
+#include "plugins/real_time_check/sanitizer.h"
 #include "tests/core/port/port_fixture.h"
-#include "tests/support/sanitizer.h"
 #include "tests/support/threads.h"
 
 namespace runnel::test {

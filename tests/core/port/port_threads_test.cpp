@@ -4,8 +4,8 @@
 #include <atomic>
 #include <thread>
 
+#include "plugins/real_time_check/sanitizer.h"
 #include "tests/core/port/port_fixture.h"
-#include "tests/support/sanitizer.h"
 #include "tests/support/threads.h"
 
 namespace runnel::test {

@@ -5,10 +5,10 @@
 #include <thread>
 
 #include "core/base/check.h"
+#include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/lock_probe.h"
+#include "plugins/testing/system_call_probe.h"
 #include "tests/core/port/pull_fixture.h"
-#include "tests/support/allocation_guard.h"
-#include "tests/support/lock_probe.h"
-#include "tests/support/system_call_probe.h"
 
 namespace runnel::test {
 namespace {

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "core/port/queued_value.h"
+#include "plugins/real_time_check/sanitizer.h"
 #include "tests/core/port/port_fixture.h"
-#include "tests/support/sanitizer.h"
 #include "tests/support/threads.h"
 
 namespace runnel::test {
@@ -38,7 +38,10 @@ template <>
 QueuedCopy<sizeof(Interrupting), alignof(Interrupting)>::QueuedCopy(Content copied,
                                                                     const Publication& of,
                                                                     std::uint64_t from) noexcept
-    : source(from), publication(of) {
+    : source(from),
+      timestamp(of.timestamp),
+      publication_time(of.publication_time),
+      own_sequence(of.sequence) {
   std::memcpy(value, copied, sizeof value);
   if (Interrupting::interrupt) std::exchange(Interrupting::interrupt, nullptr)();
 }

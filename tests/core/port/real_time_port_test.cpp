@@ -1,10 +1,10 @@
 #include <array>
 #include <utility>
 
+#include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/lock_probe.h"
+#include "plugins/testing/system_call_probe.h"
 #include "tests/core/port/port_fixture.h"
-#include "tests/support/allocation_guard.h"
-#include "tests/support/lock_probe.h"
-#include "tests/support/system_call_probe.h"
 
 namespace runnel::test {
 namespace {
@@ -162,6 +162,41 @@ TEST_F(RealTimePortTest, TakingFromReplacedQueuesNeitherAllocatesNorLocksNorCall
     taken += receiver.in.Drain([](const Lease<Scan>&) {});
   });
   EXPECT_EQ(taken, 500u);
+}
+
+TEST_F(RealTimePortTest, ForwardingAndPublishingInPlaceNeitherAllocateNorLockNorCallTheSystem) {
+  struct Owner final : ValueOwner<Scan> {
+    void TakeBack(const Scan&) noexcept override { ++back; }
+    const Scan scan{{1, 2, 3}, 7};
+    int back = 0;
+  };
+  const auto owner = std::make_shared<Owner>();
+  auto& sender = MakeSender<Scan>();
+  auto& next = MakeSender<Scan>("next");
+  auto& numbers = MakeSender<double>("numbers");
+  auto& receiver = MakeReceiver<Scan>("receiver");
+  auto& last = MakeReceiver<Scan>("last");
+  auto& number = MakeReceiver<double>("number");
+  Connect(sender.out, receiver.in);
+  Connect(next.out, last.in, {.queue = 2});
+  Connect(numbers.out, number.in);
+  int sum = 0;
+  numbers.out.Publish(1.0, Time(Duration(1)));
+  ExpectNothingOfTheSystem([&] {
+    sender.out.PublishInPlace(owner->scan, owner, Time(Duration(1)));
+    next.out.Forward(receiver.in.Read());
+    sender.out.Publish(sender.out.Loan(), Time(Duration(1)));
+    next.out.Forward(receiver.in.Read());
+    last.in.Drain([&](const Lease<Scan>& lease) { sum += lease->number; });
+    numbers.out.Forward(number.in.Read());
+    numbers.out.Publish(1.0, Time(Duration(1)));
+    next.out.ReleaseUnused();
+    sender.out.ReleaseUnused();
+  });
+  EXPECT_EQ(sum, 250 * 7);
+  EXPECT_GT(owner->back, 240);
+  EXPECT_EQ(sender.out.growths(), 0u);
+  EXPECT_EQ(next.out.growths(), 0u);
 }
 
 TEST_F(RealTimePortTest, ExhaustedFixedPoolDoesNotAllocateEither) {

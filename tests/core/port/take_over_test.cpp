@@ -1,9 +1,9 @@
 #include <thread>
 
 #include "core/base/check.h"
+#include "plugins/real_time_check/sanitizer.h"
 #include "tests/core/port/port_fixture.h"
 #include "tests/core/port/pull_fixture.h"
-#include "tests/support/sanitizer.h"
 #include "tests/support/threads.h"
 
 namespace runnel::test {

@@ -7,11 +7,11 @@
 #include <thread>
 
 #include "core/base/check.h"
+#include "plugins/real_time_check/sanitizer.h"
+#include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/lock_probe.h"
+#include "plugins/testing/system_call_probe.h"
 #include "tests/core/port/port_fixture.h"
-#include "tests/support/allocation_guard.h"
-#include "tests/support/lock_probe.h"
-#include "tests/support/sanitizer.h"
-#include "tests/support/system_call_probe.h"
 #include "tests/support/threads.h"
 
 namespace runnel::test {

@@ -170,10 +170,13 @@ TEST(TextFormat, SaysWhatIsWrong) {
   EXPECT_THAT(WhyNot<Side>("lfet"), HasSubstr("there is no Side 'lfet' | did you mean 'left'?"));
   EXPECT_THAT(WhyNot<Point>("{z: 1}"), HasSubstr("Point has no field 'z'"));
   EXPECT_THAT(WhyNot<Point>("{x 1}"), HasSubstr("expected ':' after 'x' before '1}'"));
-  EXPECT_THAT(WhyNot<Point>("{x: 1"), HasSubstr("expected ',' or '}' in a Point at the end"));
+  EXPECT_THAT(WhyNot<Point>("{x: 1"), HasSubstr("expected ',' or '}' at the end"));
   EXPECT_THAT(WhyNot<Point>("{x: 1} y"), HasSubstr("expected the end before 'y'"));
   EXPECT_THAT(WhyNot<std::vector<double>>("[1, , 2]"), HasSubstr("is no number"));
   EXPECT_THAT(WhyNot<std::vector<std::string>>("[a]"), HasSubstr("quotation marks"));
+  EXPECT_THAT(WhyNot<Point>("[1]"), HasSubstr("expected '{' before a Point, found '['"));
+  EXPECT_THAT(WhyNot<Point>("{x: 1, x: 2}"), HasSubstr("'x' is given twice"));
+  EXPECT_THAT(WhyNot<std::vector<Point>>("[{x: 1}, {y: a}]"), HasSubstr("[1].y: 'a' is no number"));
   EXPECT_THAT(WhyNot<Eigen::Vector3d>("[1, 2]"), HasSubstr("too few"));
   EXPECT_THAT(WhyNot<Eigen::Vector3d>("[1, 2, 3, 4]"), HasSubstr("too many"));
   EXPECT_THAT(WhyNot<Eigen::MatrixXd>("[[1, 2], [3]]"), HasSubstr("rows differ"));

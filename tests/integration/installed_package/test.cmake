@@ -18,6 +18,7 @@ run(COMMAND "${CMAKE_COMMAND}" -G Ninja -S "${SOURCE}" -B "${WORK}/outside"
   "-DCMAKE_PREFIX_PATH=${WORK}/prefix" "-DCMAKE_CXX_COMPILER=${COMPILER}"
   "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}" "-DCMAKE_CXX_FLAGS=${FLAGS}")
 run(COMMAND "${CMAKE_COMMAND}" --build "${WORK}/outside")
+run(COMMAND "${CMAKE_CTEST_COMMAND}" --test-dir "${WORK}/outside" --no-tests=error --output-on-failure)
 
 # Loaded from where it was built, and from where it was installed.
 set(program "${WORK}/prefix/bin/runnel")
@@ -37,3 +38,5 @@ run(COMMAND "${WORK}/outside/embedding" "${WORK}/prefix/share/runnel/xml/apps/bu
   EXPECT "swapped at .*the robot is at ")
 # It needs nothing of browsers and recordings.
 run(COMMAND sh -c "if ldd '${WORK}/outside/embedding' | grep -E 'inspector|foxglove|web_server|recording|mcap|tracing'; then exit 1; fi")
+
+include("${CMAKE_CURRENT_LIST_DIR}/new_projects.cmake")

@@ -2,10 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "modules/adaptors/bumper_to_surroundings.h"
-#include "modules/adaptors/infrared_to_surroundings.h"
-#include "modules/adaptors/laser_to_surroundings.h"
-#include "tests/support/module_rig.h"
+#include "modules/adaptors/sensors_to_surroundings.h"
+#include "plugins/testing/module_rig.h"
 
 namespace runnel {
 namespace {
@@ -17,7 +15,7 @@ TEST(LaserToSurroundings, GivesOneViewForEachScan) {
   ASSERT_TRUE(rig.module.safe_distance.SetFromText("0.5"));
   ASSERT_TRUE(rig.Prepare());
   rig.Feed(rig.module.pose, {});
-  rig.Feed(rig.module.scan,
+  rig.Feed(rig.module.measurement,
            RangeScan{-0.1, 0.1, 0.02, 4, {static_cast<float>(kNothing), 1.5F, 1.5F}});
   rig.RunCycle();
   rig.RunCycle();
@@ -31,7 +29,7 @@ TEST(LaserToSurroundings, GivesOneViewForEachScan) {
 TEST(LaserToSurroundings, WaitsUntilItKnowsWhereItIs) {
   test::ModuleRig<LaserToSurroundings> rig;
   ASSERT_TRUE(rig.Prepare());
-  rig.Feed(rig.module.scan, RangeScan{0, 0.1, 0.02, 4, {1.5F}});
+  rig.Feed(rig.module.measurement, RangeScan{0, 0.1, 0.02, 4, {1.5F}});
   rig.RunCycle();
   EXPECT_EQ(rig.module.surroundings.publications(), 0u);
 }
@@ -40,11 +38,11 @@ TEST(InfraredToSurroundings, GivesOneVagueViewForEachMeasurement) {
   test::ModuleRig<InfraredToSurroundings> rig;
   ASSERT_TRUE(rig.Prepare());
   rig.Feed(rig.module.pose, {});
-  rig.Feed(rig.module.ranges, {.front = kNothing,
-                               .left = 0.8,
-                               .right = kNothing,
-                               .range_maximum = 2,
-                               .field_of_view = DegreesToRadians(26)});
+  rig.Feed(rig.module.measurement, {.front = kNothing,
+                                    .left = 0.8,
+                                    .right = kNothing,
+                                    .range_maximum = 2,
+                                    .field_of_view = DegreesToRadians(26)});
   rig.RunCycle();
   rig.RunCycle();
   EXPECT_EQ(rig.module.surroundings.publications(), 1u);
@@ -57,11 +55,11 @@ TEST(BumperToSurroundings, GivesOneViewForEachMessageTouchedOrNot) {
   test::ModuleRig<BumperToSurroundings> rig;
   ASSERT_TRUE(rig.Prepare());
   rig.Feed(rig.module.pose, {});
-  rig.Feed(rig.module.contact, {});
+  rig.Feed(rig.module.measurement, {});
   rig.RunCycle();
   EXPECT_TRUE(rig.Last(rig.module.surroundings).is_measured);
   EXPECT_EQ(rig.Last(rig.module.surroundings).sensor_range, 0.0F);
-  rig.Feed(rig.module.contact, {true, kPi / 2});
+  rig.Feed(rig.module.measurement, {true, kPi / 2});
   rig.RunCycle();
   EXPECT_EQ(rig.module.surroundings.publications(), 2u);
   EXPECT_NEAR(LeftDistance(rig.Last(rig.module.surroundings)), 0.15, 0.01);

@@ -109,13 +109,6 @@ TEST(LaserAdaptor, KeepsTheEdgeOfAnObstacleNextToFreeRays) {
   EXPECT_NEAR(NearestBoundary(surroundings).distance, 1.0, 5e-3);
 }
 
-TEST(LaserAdaptor, ForgetsEverythingOnReset) {
-  LaserAdaptor adaptor;
-  (void)adaptor.Update(ScanOfWall({}), {});
-  adaptor.Reset();
-  EXPECT_EQ(NearestBoundary(adaptor.Update(Scan(kNothing), {0, 0, kPi})).distance, kInfinity);
-}
-
 TEST(InfraredAdaptor, KnowsNothingFromRangersWithoutRange) {
   EXPECT_EQ(InfraredAdaptor().Update(InfraredRanges{}, {}), Surroundings{});
 }

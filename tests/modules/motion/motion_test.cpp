@@ -4,7 +4,7 @@
 
 #include "modules/motion/command_gate.h"
 #include "modules/motion/differential_drive.h"
-#include "tests/support/module_rig.h"
+#include "plugins/testing/module_rig.h"
 
 namespace runnel {
 namespace {

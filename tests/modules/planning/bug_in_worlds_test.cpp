@@ -9,6 +9,7 @@
 
 #include "tests/modules/planning/drive.h"
 #include "tests/modules/planning/sketch.h"
+#include "tests/modules/planning/variant_index.h"
 
 namespace runnel {
 namespace {

@@ -7,7 +7,8 @@
 #include <gmock/gmock.h>
 
 #include "core/types/value_copy.h"
-#include "tests/support/module_rig.h"
+#include "plugins/testing/module_rig.h"
+#include "tests/modules/planning/variant_index.h"
 
 namespace runnel {
 namespace {

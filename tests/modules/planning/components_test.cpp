@@ -5,6 +5,7 @@
 #include "modules/planning/algorithm/bug_components.h"
 #include "modules/planning/algorithm/bug_variants.h"
 #include "modules/planning/algorithm/tangent_graph.h"
+#include "tests/modules/planning/variant_index.h"
 
 namespace runnel {
 namespace {

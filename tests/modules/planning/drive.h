@@ -13,6 +13,7 @@
 #include "modules/planning/algorithm/bug_algorithm.h"
 #include "modules/planning/algorithm/bug_variants.h"
 #include "tests/modules/planning/test_world.h"
+#include "tests/modules/planning/variant_index.h"
 
 namespace runnel {
 

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/modules/planning/drive.h"
+#include "tests/modules/planning/variant_index.h"
 
 namespace runnel {
 namespace {

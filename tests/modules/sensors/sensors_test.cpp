@@ -5,7 +5,7 @@
 
 #include "modules/sensors/algorithm/median_filter.h"
 #include "modules/sensors/scan_filter.h"
-#include "tests/support/module_rig.h"
+#include "plugins/testing/module_rig.h"
 
 namespace runnel {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/module_rig.h"
 #include "tests/modules/simulation/simulation_fixture.h"
-#include "tests/support/allocation_guard.h"
-#include "tests/support/module_rig.h"
 
 namespace runnel {
 namespace {

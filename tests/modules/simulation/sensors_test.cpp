@@ -8,7 +8,6 @@
 #include "modules/simulation/algorithm/infrared_sensor.h"
 #include "modules/simulation/algorithm/laser_scanner.h"
 #include "modules/simulation/algorithm/noise.h"
-#include "modules/simulation/algorithm/noisy_pose.h"
 #include "tests/modules/simulation/rays.h"
 
 namespace runnel {
@@ -149,28 +148,6 @@ TEST(GaussianNoise, WithoutDeviationIsExactlyNothing) {
   GaussianNoise noise(1), other(1);
   for (int i = 0; i < 10; ++i) EXPECT_EQ(noise(0.0), 0.0);
   EXPECT_EQ(noise(1.0), other(1.0));  // nothing was drawn
-}
-
-TEST(NoisyPose, IsTheTruePoseWithoutDeviation) {
-  NoisyPose noisy;
-  const Pose2 pose = {1.1, -2.2, 3.3};
-  EXPECT_EQ(noisy.Measure(pose), pose);
-}
-
-TEST(NoisyPose, SpreadsPositionAndHeadingApart) {
-  NoisyPose noisy({.position_deviation = 0.1, .heading_deviation = 0.02, .seed = 5});
-  double x_square = 0.0, y_square = 0.0, heading_square = 0.0;
-  constexpr int kPoses = 10000;
-  for (int i = 0; i < kPoses; ++i) {
-    const Pose2 pose = noisy.Measure({1, 2, kPi});
-    EXPECT_LE(std::abs(pose.heading), kPi);
-    x_square += std::pow(pose.x - 1, 2);
-    y_square += std::pow(pose.y - 2, 2);
-    heading_square += std::pow(WrapAngle(pose.heading - kPi), 2);
-  }
-  EXPECT_NEAR(std::sqrt(x_square / kPoses), 0.1, 0.004);
-  EXPECT_NEAR(std::sqrt(y_square / kPoses), 0.1, 0.004);
-  EXPECT_NEAR(std::sqrt(heading_square / kPoses), 0.02, 0.001);
 }
 
 }  // namespace

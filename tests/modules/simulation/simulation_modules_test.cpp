@@ -7,9 +7,9 @@
 #include "modules/simulation/laser.h"
 #include "modules/simulation/localisation.h"
 #include "modules/simulation/simulated_world.h"
+#include "plugins/testing/allocation_guard.h"
+#include "plugins/testing/module_rig.h"
 #include "tests/modules/simulation/simulation_fixture.h"
-#include "tests/support/allocation_guard.h"
-#include "tests/support/module_rig.h"
 
 namespace runnel {
 namespace {
@@ -186,6 +186,28 @@ TEST(Bumper, StaysPressedForAWhile) {
   rig.Feed(rig.module.truth, {});
   rig.RunCycle();
   EXPECT_FALSE(rig.Last(rig.module.contact).is_touching);
+}
+
+TEST(Localisation, SpreadsPositionAndHeadingApart) {
+  test::ModuleRig<Localisation> rig;
+  ASSERT_TRUE(rig.module.position_noise.SetFromText("0.1"));
+  ASSERT_TRUE(rig.module.heading_noise.SetFromText("0.02"));
+  ASSERT_TRUE(rig.module.seed.SetFromText("5"));
+  ASSERT_TRUE(rig.Prepare());
+  double x_square = 0.0, y_square = 0.0, heading_square = 0.0;
+  constexpr int kPoses = 10000;
+  for (int i = 0; i < kPoses; ++i) {
+    rig.Feed(rig.module.truth, {1, 2, kPi});
+    rig.RunCycle();
+    const Pose2 pose = rig.Last(rig.module.pose);
+    EXPECT_LE(std::abs(pose.heading), kPi);
+    x_square += std::pow(pose.x - 1, 2);
+    y_square += std::pow(pose.y - 2, 2);
+    heading_square += std::pow(WrapAngle(pose.heading - kPi), 2);
+  }
+  EXPECT_NEAR(std::sqrt(x_square / kPoses), 0.1, 0.004);
+  EXPECT_NEAR(std::sqrt(y_square / kPoses), 0.1, 0.004);
+  EXPECT_NEAR(std::sqrt(heading_square / kPoses), 0.02, 0.001);
 }
 
 }  // namespace

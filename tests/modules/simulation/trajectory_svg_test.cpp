@@ -41,7 +41,8 @@ Trajectory ExampleTrajectory() {
           .end = Pose2{3, 0.5, 0},
           .verdict = "goal reached",
           .tone = VerdictTone::kGood,
-          .duration = 31.25};
+          .duration = 31.25,
+          .length = 8.5};
 }
 
 int Count(const std::string& text, const std::string& part) {
@@ -154,11 +155,6 @@ TEST(SvgDecimal, HasAFixedNumberOfDigits) {
   EXPECT_EQ(Decimal(-1.255, 1), "-1.3");
   EXPECT_EQ(Decimal(-0.001), "0.00");
   EXPECT_EQ(Decimal(1e9, 0), "1000000000");
-}
-
-TEST(LengthOf, AddsUpTheWay) {
-  EXPECT_DOUBLE_EQ(LengthOf(ExampleTrajectory().path), 8.5);
-  EXPECT_EQ(LengthOf({}), 0.0);
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 #include <gmock/gmock.h>
 
 #include "plugins/application/application_extension.h"
+#include "plugins/testing/fault_injection.h"
 #include "tests/plugins/application/counting_modules.h"
-#include "tests/support/fault_injection.h"
 #include "tests/support/temporary_folder.h"
 
 namespace runnel::test {
@@ -112,8 +112,8 @@ TEST(ApplicationLoading, AsksExtensionsAtEachOfItsSteps) {
     ASSERT_TRUE(application->RunCycles(1));
     application->NoteEnd("fine");
   }
-  EXPECT_THAT(notes->calls, ElementsAre("prepare", "hooks", "begin", "start", "end: fine",
-                                        "end", "release"));
+  EXPECT_THAT(notes->calls,
+              ElementsAre("prepare", "hooks", "begin", "start", "end: fine", "end", "release"));
 }
 
 TEST(ApplicationLoading, FailsWithAnExtensionAndGivesBackWhatItHas) {

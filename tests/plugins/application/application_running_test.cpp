@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "core/log/log_sink.h"
 #include "plugins/application/run_report.h"
 #include "plugins/command_service/application_log.h"
 #include "tests/plugins/application/counting_modules.h"
@@ -98,6 +99,38 @@ TEST(ApplicationRunning, EndsWithALimitOrWhenSomebodySaysSo) {
 TEST(ApplicationRunning, WithNothingToRunIsAnError) {
   const auto application = Application::Compose("empty");
   EXPECT_THAT(application->Run().error().ToString(), HasSubstr("there is nothing to run"));
+}
+
+// From loading on, in order, with the times of the application's clock.
+TEST(ApplicationRunning, TellsWhatModulesSay) {
+  const auto lines = [](const std::string& level) {
+    const auto application = LoadCounting(R"(<application name="talk">
+      <clock type="simulated" speed="0"/> <thread name="main" period="10ms"/>)" +
+                                          level + R"(<module name="talker" type="counting/talker"/>
+      </application>)");
+    EXPECT_TRUE(application) << application.diagnostics().ToString();
+    EXPECT_TRUE(application->RunCycles(3));
+    FlushLog();
+    std::string events;
+    for (const auto& event : application->TakeEvents()) {
+      EXPECT_EQ(event.kind, ApplicationEvent::Kind::kMessage);
+      events += event.text;
+    }
+    std::string entries;
+    for (const auto& entry : application->log().ReadEntries(0, 10).entries) {
+      entries += std::string(ApplicationLog::KindName(entry.kind)) + " " + entry.text + "\n";
+    }
+    EXPECT_EQ(application->log().faults(), 0u);
+    return std::pair(events, entries);
+  };
+  EXPECT_EQ(lines(""), std::pair(std::string("       0s  info     /talk/talker: ready\n"
+                                             "     10ms  warning  /talk/talker: no echo for 2.5 s\n"),
+                                 std::string("info /talk/talker: ready\n"
+                                             "warning /talk/talker: no echo for 2.5 s\n")));
+  EXPECT_EQ(lines("<log level='warning' of='talker'/>").second, "warning /talk/talker: no echo for 2.5 s\n");
+  EXPECT_EQ(lines("<log level='debug'/>").second,
+            "info /talk/talker: ready\ndebug /talk/talker: cycle 1\ndebug /talk/talker: cycle 2\n"
+            "warning /talk/talker: no echo for 2.5 s\ndebug /talk/talker: cycle 3\n");
 }
 
 TEST(ApplicationRunning, TellsOfFaults) {

@@ -73,6 +73,23 @@ class CountingJudge final : public Module {
   }
 };
 
+/// Says something when it is made ready, in each cycle, and at its end.
+class CountingTalker final : public Module {
+ public:
+  using Module::Module;
+
+ private:
+  Result<void> Prepare() override {
+    log().Info("ready");
+    return {};
+  }
+  void Update() override {
+    log().Debug("cycle {}", ++cycles_);
+    if (cycles_ == 2) log().Warn("no echo for {} s", 2.5);
+  }
+  int cycles_ = 0;
+};
+
 template <typename M>
 void AddType(PluginManager& plugins, std::string name) {
   const auto added =
@@ -87,6 +104,7 @@ inline void AddCountingTypes(PluginManager& plugins) {
   AddType<CountingSource>(plugins, "counting/source");
   AddType<CountingFilter>(plugins, "counting/filter");
   AddType<CountingJudge>(plugins, "counting/judge");
+  AddType<CountingTalker>(plugins, "counting/talker");
 }
 
 /// An application of these types, from a text that is called "counting.xml" in errors.

@@ -128,6 +128,15 @@ TEST_F(Described, WronglyIsToldWithItsPlace) {
   }
 }
 
+TEST_F(Described, LibrariesToPreloadAreNamedFromWhereTheDescriptionIs) {
+  const auto read = Read(
+      "<extension summary=\"\"><option name=\"a\" preload=\"../b.so\"/><option name=\"c\"/>"
+      "</extension>");
+  ASSERT_TRUE(read) << read.error().ToString();
+  EXPECT_EQ(read->Find("absent")->options[0].preload, folder_.path().parent_path() / "b.so");
+  EXPECT_EQ(read->Find("absent")->options[1].preload, "");
+}
+
 // Else a description promises what the library does not have.
 TEST(Extension, OfThisTreeHasTheWordsOfItsDescription) {
   ApplicationDescription application;
@@ -142,7 +151,8 @@ TEST(Extension, OfThisTreeHasTheWordsOfItsDescription) {
       EXPECT_TRUE(is_form_of_file || application.tags().FindTag(tag) != nullptr) << tag;
     }
   }
-  EXPECT_THAT(names, ElementsAre("finroc_files", "recording", "tracing", "viewers"));
+  EXPECT_THAT(names,
+              ElementsAre("finroc_files", "real_time_check", "recording", "tracing", "viewers"));
 }
 
 // Once for each option, so that one that the library does not read shows.

@@ -14,7 +14,7 @@
 #include "core/plugin/module_type_name.h"
 #include "plugins/command_service/command_service.h"
 #include "plugins/structure/change_history.h"
-#include "tests/support/fault_injection.h"
+#include "plugins/testing/fault_injection.h"
 
 namespace runnel::test {
 namespace {

@@ -1,3 +1,4 @@
+#include "core/log/log_levels.h"
 #include "tests/plugins/control/control_fixture.h"
 
 namespace runnel::test {
@@ -54,6 +55,13 @@ TEST_F(ControlTest, ShowsValuesOneAfterTheOther) {
   EXPECT_EQ(told.code, 0) << told.errors;
   EXPECT_EQ(std::count(told.output.begin(), told.output.end(), '\n'), 3);
   EXPECT_THAT(told.output, HasSubstr(" s  "));
+}
+
+TEST_F(ControlTest, ShowsWhenAValueWasMeasured) {
+  ASSERT_EQ(Change("create /late test/lagging").code, 0);
+  EXPECT_THAT(Ask("echo /late/out count=1").output,
+              ::testing::ContainsRegex("^[0-9.]+ s  \\(measured at -?[0-9.]+ s\\)  7\n"));
+  EXPECT_THAT(Ask("echo /a/out count=1").output, ::testing::Not(HasSubstr("measured")));
 }
 
 TEST_F(ControlTest, ShowsValuesOfInputsAndShortensLongOnes) {
@@ -146,6 +154,15 @@ TEST_F(ControlTest, KeepsALogOfFaultsAndChanges) {
   EXPECT_THAT(told.output, HasSubstr("change   set /a/parameter/speed 4\n"));
   EXPECT_THAT(told.output, HasSubstr("change   refused: set /a/parameter/speed 44\n"));
   EXPECT_THAT(told.output, HasSubstr("change   put in /app/other (test/counter)\n"));
+}
+
+TEST_F(ControlTest, SaysFromWhichLevelOnModulesAreLogged) {
+  EXPECT_EQ(Ask("log level=/a=debug").output, "/app/a: logs debug and more\n");
+  EXPECT_EQ(Ask("log level=error").output, "/: logs error and more\n");
+  EXPECT_THAT(ReadLogLevels(runtime), testing::ElementsAre(testing::Pair("", LogLevel::kError), testing::Pair("/app/a", LogLevel::kDebug)));
+  EXPECT_THAT(Ask("log level=/a=loud").errors, HasSubstr("there is no log level 'loud'"));
+  EXPECT_THAT(Ask("log level=/aa=info").errors, HasSubstr("did you mean 'a'?"));
+  EXPECT_EQ(Ask("log level=/aa=info").code, 2);
 }
 
 TEST_F(ControlTest, FollowsTheLog) {

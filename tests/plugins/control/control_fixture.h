@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <gmock/gmock.h>
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -47,6 +48,16 @@ class Counter : public Module {
 
  private:
   int count_ = 0;
+};
+
+/// Publishes what it has measured a quarter of a second ago.
+class Lagging final : public Module {
+ public:
+  using Module::Module;
+  Output<int> out{this, "out"};
+
+ private:
+  void Update() override { out.Publish(7, now() - std::chrono::milliseconds(250)); }
 };
 
 class Sink final : public Module {
@@ -111,6 +122,7 @@ class ControlTest : public ::testing::Test {
   ControlTest() {
     Register<Counter>("test/counter");
     Register<Sink>("test/sink");
+    Register<Lagging>("test/lagging");
     Register<Failing>("test/failing");
     Register<Image>("test/image");
     auto& app = runtime.Create<Group>(runtime.root(), "app");
@@ -158,7 +170,9 @@ class ControlTest : public ::testing::Test {
   int RawClient() {
     const auto descriptor = ConnectToSocket(server->socket());
     EXPECT_TRUE(descriptor);
-    return descriptor ? *descriptor : -1;
+    if (!descriptor) return -1;
+    fcntl(*descriptor, F_SETFL, O_NONBLOCK);
+    return *descriptor;
   }
   /// What comes until the server closes the connection, or says `until`, or
   /// nothing for too long.

@@ -12,6 +12,7 @@
 #include "plugins/application_files/saving/application_saver.h"
 #include "plugins/scheduling/thread_container.h"
 #include "tests/plugins/application_files/reading/test_application.h"
+#include "tests/plugins/application_files/saving/application_text.h"
 
 namespace runnel::testing {
 namespace {
@@ -256,7 +257,7 @@ TEST_F(FinrocApplication, IsSavedAsOneOfRunnel) {
   <element name="A" group="finroc_projects_test" type="Source"/>
 </Finstructable>)");
   ASSERT_NE(application, nullptr) << said_;
-  const auto text = ApplicationText(*application, {shop_.plugins, shop_.tags}, folder_);
+  const auto text = testing::ApplicationText(*application, {shop_.plugins, shop_.tags}, folder_);
   ASSERT_TRUE(text) << text.error().ToString();
   EXPECT_EQ(*text, R"(<application name="robot" thread="main">
   <thread name="main" period="40ms"/>

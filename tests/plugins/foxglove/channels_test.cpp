@@ -105,6 +105,17 @@ TEST_F(FoxgloveTest, SendsTheNewestValueAndThenEachNewOne) {
   EXPECT_EQ(second[0].json["x"], 4);
 }
 
+TEST_F(FoxgloveTest, TellsWhenAValueWasPublishedAndInItWhenItWasMeasured) {
+  Begin();
+  robot.pose.Publish({1, 2, 3}, clock.Now() - std::chrono::milliseconds(400));
+  Say(Subscribe(7, IdOf("/robot/pose/foxglove")));
+  Turn();
+  const auto values = TakeValues();
+  ASSERT_EQ(values.size(), 1u);
+  EXPECT_EQ(values[0].timestamp, 1'000'000'000u);
+  EXPECT_EQ(values[0].json["timestamp"], (Json{{"sec", 0}, {"nsec", 600'000'000}}));
+}
+
 TEST_F(FoxgloveTest, SendsNoMoreThanAViewerCanShow) {
   Begin();
   Say(Subscribe(7, IdOf("/robot/speed")));

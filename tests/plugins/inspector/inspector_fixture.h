@@ -61,6 +61,16 @@ class FastCounter final : public Counter {
   Output<double> further{this, "further"};
 };
 
+/// Publishes what it has measured a quarter of a second ago.
+class Lagging final : public Module {
+ public:
+  using Module::Module;
+  Output<int> out{this, "out"};
+
+ private:
+  void Update() override { out.Publish(7, now() - std::chrono::milliseconds(250)); }
+};
+
 class Sink final : public Module {
  public:
   using Module::Module;

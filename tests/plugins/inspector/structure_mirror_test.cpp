@@ -4,8 +4,8 @@
 #include <random>
 #include <set>
 
+#include "plugins/testing/fault_injection.h"
 #include "tests/plugins/inspector/inspector_fixture.h"
-#include "tests/support/fault_injection.h"
 
 namespace runnel::test {
 

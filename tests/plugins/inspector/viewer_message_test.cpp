@@ -63,7 +63,7 @@ TEST(ViewerMessage, IsNotReadIntoDepths) {
     for (int i = 0; i < 200'000; ++i) text += bracket;
     const auto message = ParseViewerMessage(text);
     ASSERT_FALSE(message);
-    EXPECT_THAT(message.error().message, HasSubstr("nested too deeply"));
+    EXPECT_THAT(message.error().message, HasSubstr("nested deeper than 4 levels"));
   }
 }
 

@@ -103,6 +103,18 @@ TEST_F(Viewing, TimesOfValuesCountFromTheStart) {
   EXPECT_LT(values["time"], 3600);
 }
 
+TEST_F(Viewing, TellsWhenAValueWasMeasuredIfItsPublisherSaysSo) {
+  Start();
+  auto& late = runtime.Create<Lagging>(**runtime.root().Find("/app"), "late");
+  ASSERT_TRUE(runtime.MakeReady(late));
+  Viewer viewer = View();
+  viewer.Send({{"op", "watch"}, {"path", "/app/late/output/out"}, {"rate", 60}});
+  const Json value = viewer.Value("/app/late/output/out");
+  EXPECT_NEAR(double(value["stamp"]) - double(value["measured"]), 0.25, 1e-6);
+  viewer.Send({{"op", "watch"}, {"path", "/app/a/output/out"}, {"rate", 60}});
+  EXPECT_FALSE(viewer.Value("/app/a/output/out").contains("measured"));
+}
+
 TEST_F(Viewing, ShowsWhatAnInputGets) {
   Start();
   Viewer viewer = View();

@@ -1,7 +1,7 @@
 // Wherever memory runs out, what was written before can be read, and nothing is destroyed twice.
 
+#include "plugins/testing/fault_injection.h"
 #include "tests/plugins/mcap/mcap_fixture.h"
-#include "tests/support/fault_injection.h"
 
 namespace runnel::test {
 namespace {
@@ -21,7 +21,8 @@ class WriterFaultsTest : public McapTest {
       const McapMetadata about{"about", {{"clock", "simulated"}}};
       if (!to.AddMetadata(about)) return false;
       for (std::uint32_t i = 0; i < 10; ++i) {
-        if (!to.AddMessage({*channel, i, i, i, "{\"x\":\"a number of some length\"}"})) return false;
+        if (!to.AddMessage({*channel, i, i, i, "{\"x\":\"a number of some length\"}"}))
+          return false;
       }
       return to.Finish().has_value();
     } catch (const std::bad_alloc&) {

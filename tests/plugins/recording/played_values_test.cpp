@@ -77,6 +77,30 @@ TEST_F(PlayedValuesTest, BeginsAnewIfItLoopsAndTimeNeverGoesBack) {
   EXPECT_FALSE(values->is_over());
 }
 
+TEST_F(PlayedValuesTest, TheTimesOfTheirMeasurementMoveWithThem) {
+  auto writer = Must(McapWriter::Create(Path("a.mcap"), {}));
+  const auto channel = Must(writer->AddChannel(0, "/x", "json", {}));
+  Must(writer->AddMessage({channel, 0, 1000, 400, "1"}));
+  Must(writer->AddMessage({channel, 1, 2000, 2000, "2"}));
+  Must(writer->Finish());
+  const auto measured = [&](bool loops, std::optional<Duration> from, std::int64_t start) {
+    PlayedValues values(Must(McapReader::Open(Path("a.mcap"))), from, {}, loops);
+    values.Want(channel);
+    values.Start(Time(Duration(start)));
+    std::vector<std::int64_t> times;
+    while (times.size() < 2) {
+      const auto value = values.Take(channel, Time(Duration(start + 1000)));
+      if (!value) break;
+      times.push_back(value->timestamp.time_since_epoch().count());
+    }
+    return times;
+  };
+  EXPECT_THAT(measured(false, {}, 1000), ElementsAre(400, 2000));
+  EXPECT_THAT(measured(false, {}, 51'000), ElementsAre(50'400, 52'000));
+  EXPECT_THAT(measured(true, Duration(500), 1500), ElementsAre(900, 2000))
+      << "what is published later than it was is measured later, too";
+}
+
 TEST_F(PlayedValuesTest, ABrokenChunkEndsThePlaying) {
   const std::string file = WriteFile("a.mcap", "", 60);
   std::string bytes = ReadBytes(file);

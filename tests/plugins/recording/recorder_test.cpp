@@ -45,6 +45,28 @@ TEST_F(RecorderTest, RecordsEachValueWithItsTimeAndWhatItIs) {
   }
 }
 
+TEST_F(RecorderTest, TellsApartWhenAValueWasPublishedAndWhenItWasMeasured) {
+  Runtime runtime;
+  auto& source = runtime.Create<Source>(runtime.root(), "source");
+  Must(runtime.MakeReady(runtime.root()));
+  auto recorder =
+      Must(Recorder::Start(runtime, nullptr, {.file = Path("a.mcap"), .ports = {"number"}}));
+  {
+    const CycleScope cycle({.now = Time(milliseconds(30))});
+    source.number.Publish(1, Time(milliseconds(10)));
+    source.number.Publish(2);
+  }
+  Must(recorder->Finish());
+  auto reader = Must(McapReader::Open(Path("a.mcap")));
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> times;
+  Must(reader->ReadMessages([&](const McapMessage& message) -> Result<void> {
+    times.emplace_back(message.log_time, message.publish_time);
+    return {};
+  }));
+  EXPECT_THAT(
+      times, ElementsAre(std::pair(30'000'000u, 10'000'000u), std::pair(30'000'000u, 30'000'000u)));
+}
+
 TEST_F(RecorderTest, OfASimulatedRunNothingIsMissingHoweverFastItGoes) {
   Application application;
   const std::string file = Record("fast.mcap", application, seconds(200));

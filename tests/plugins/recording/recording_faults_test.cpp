@@ -6,8 +6,8 @@
 #include <new>
 #include <optional>
 
+#include "plugins/testing/fault_injection.h"
 #include "tests/plugins/recording/recording_fixture.h"
-#include "tests/support/fault_injection.h"
 
 namespace runnel::test {
 namespace {
@@ -22,15 +22,15 @@ struct Spy {
   int number = 0;
 };
 inline void Describe(TypeBuilder<Spy>& type) {
-  type.Name("test::Spy").Leaf(
-      {[](const void* at) -> std::string {
-         thread_local std::optional<FaultInjection> injection;
-         if (const std::size_t nth = writer_fails_at.exchange(0); nth > 0) {
-           injection.emplace(InjectedFault::kAllocation, nth);
-         }
-         return std::to_string(static_cast<const Spy*>(at)->number);
-       },
-       [](std::string_view, void*) -> Result<void> { return {}; }, true});
+  type.Name("test::Spy")
+      .Leaf({[](const void* at) -> std::string {
+               thread_local std::optional<FaultInjection> injection;
+               if (const std::size_t nth = writer_fails_at.exchange(0); nth > 0) {
+                 injection.emplace(InjectedFault::kAllocation, nth);
+               }
+               return std::to_string(static_cast<const Spy*>(at)->number);
+             },
+             [](std::string_view, void*) -> Result<void> { return {}; }, true});
 }
 
 class SpySource final : public Module {
@@ -49,8 +49,9 @@ TEST_F(RecordingFaults, ARecordingBeginsOrLeavesNothingBehind) {
   const std::string file = Path("a.mcap");
   auto application = std::make_unique<Application>();
   std::unique_ptr<Recorder> recorder;
-  const RecorderOptions options{
-      .file = file, .ports = {"**"}, .about = {.name = "the name of an application", .text = "<a/>"}};
+  const RecorderOptions options{.file = file,
+                                .ports = {"**"},
+                                .about = {.name = "the name of an application", .text = "<a/>"}};
   RecorderOptions given = options;
   const std::size_t points = AtEachPoint(
       InjectedFault::kAllocation,

@@ -34,6 +34,23 @@ TEST_F(RecordingPlayerTest, WhatReadsThePlayedPublishesTheSameBitForBitAtTheSame
   EXPECT_EQ(player->published(), 4000u);
 }
 
+TEST_F(RecordingPlayerTest, PlayedValuesWereMeasuredAsLongBeforeTheirPublicationAsRecorded) {
+  auto writer = Must(McapWriter::Create(Path("lag.mcap"), {}));
+  const auto schema = Must(writer->AddSchema("double", "jsonschema", kNumberSchema));
+  const auto channel = Must(
+      writer->AddChannel(schema, "/source/number", "json", {{kPortKey, "/source/output/number"}}));
+  Must(writer->AddMessage({channel, 0, 20'000'000, 5'000'000, "{\"value\":1}"}));
+  Must(writer->Finish());
+  Application application;
+  auto player = Must(Play(application, Path("lag.mcap")));
+  player->Start(Time(milliseconds(50)));
+  application.Run(milliseconds(100));
+  EXPECT_TRUE(application.sink->number.VisitLatest([](const void*, ValueTimes times) {
+    EXPECT_EQ(times.publication_time, Time(milliseconds(50)));
+    EXPECT_EQ(times.timestamp, Time(milliseconds(35)));
+  }));
+}
+
 TEST_F(RecordingPlayerTest, WithoutThePlayerItWouldBeDifferent) {
   Application recorded, other;
   other.source->factor = 0.7;

@@ -9,7 +9,6 @@
 #include "core/base/error.h"
 #include "core/module/executable.h"
 #include "core/port/port.h"
-#include "plugins/scheduling/internal/cut_report.h"
 #include "plugins/scheduling/internal/running_order.h"
 #include "plugins/scheduling/internal/trigger_binding.h"
 

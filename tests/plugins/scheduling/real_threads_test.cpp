@@ -134,10 +134,8 @@ TEST_F(RealThreads, RunOnWhenAModuleThrows) {
   auto& failing = runtime.Create<Doing>(runtime.root(), "failing");
   failing.action = [](Doing&) { throw std::runtime_error("broken"); };
   CreateThread(runtime, "main", {.period = 1ms});
-  MustSucceed(scheduler.AddFaultRule({.of = "/failing",
-                                      .action = FaultRule::Action::kCall,
-                                      .call = [&](const Fault&) { ++calls; }}));
-  MustSucceed(scheduler.AddFaultRule({.of = "/failing"}));
+  scheduler.AddFaultRule({.of = "/failing", .call = [&](const Fault&) { ++calls; }});
+  scheduler.AddFaultRule({.of = "/failing"});
   Ready();
   const Running running(scheduler);
   WaitUntil("the fault rule requests a stop", [&] { return scheduler.stop_requested(); });
@@ -178,16 +176,15 @@ TEST_F(RealThreads, ApplyFaultRulesInOneThreadOnly) {
   std::atomic<int> runs{0};
   MakeCounter("healthy", runs);  // made after them, so run after them
   CreateThread(runtime, "main", {.period = 1ms});
-  MustSucceed(scheduler.AddFaultRule(
-      {.action = FaultRule::Action::kCall, .call = [&](const Fault&) {
-         ++calls;
-         if (std::this_thread::get_id() == test_thread) {
-           ++calls_by_others;
-           return;
-         }
-         is_inside = true;
-         WaitUntil("the fault rule may go on", [&] { return may_go_on.load(); });
-       }}));
+  scheduler.AddFaultRule({.call = [&](const Fault&) {
+    ++calls;
+    if (std::this_thread::get_id() == test_thread) {
+      ++calls_by_others;
+      return;
+    }
+    is_inside = true;
+    WaitUntil("the fault rule may go on", [&] { return may_go_on.load(); });
+  }});
   Ready();
   const Running running(scheduler);
   WaitUntil("the first cycle is over",

@@ -7,8 +7,8 @@
 #include <pthread.h>
 
 #include "core/lockfree/thread_epoch.h"
+#include "plugins/testing/fault_injection.h"
 #include "tests/plugins/scheduling/real_threads_fixture.h"
-#include "tests/support/fault_injection.h"
 
 namespace runnel {
 namespace {

@@ -3,6 +3,7 @@
 #include "core/module/group.h"
 #include "plugins/scheduling/scheduler.h"
 #include "tests/plugins/scheduling/test_modules.h"
+#include "tests/support/schedule_order.h"
 
 namespace runnel {
 namespace {
@@ -133,14 +134,14 @@ TEST_F(Simulated, AssignsGroupsAndLetsModulesOverride) {
   AssignThread(other, third);
   Ready();
   const auto only = [&](const Module& module) {
-    return ElementsAre(Scheduler::ScheduledTask{module.path(), Phase::kUpdate});
+    return ElementsAre(test::ScheduledTask{module.path(), Phase::kUpdate});
   };
-  EXPECT_THAT(scheduler.Order(main), only(outside));
-  EXPECT_THAT(scheduler.Order(second), only(inner));
-  EXPECT_THAT(scheduler.Order(third), only(other));
+  EXPECT_THAT(test::OrderOf(scheduler, main), only(outside));
+  EXPECT_THAT(test::OrderOf(scheduler, second), only(inner));
+  EXPECT_THAT(test::OrderOf(scheduler, third), only(other));
   AssignThread(other, main);
-  EXPECT_THAT(scheduler.Order(third), IsEmpty());
-  EXPECT_THAT(scheduler.Order(main), SizeIs(2));
+  EXPECT_THAT(test::OrderOf(scheduler, third), IsEmpty());
+  EXPECT_THAT(test::OrderOf(scheduler, main), SizeIs(2));
 }
 
 TEST_F(Simulated, SendsWhatIsAssignedToNobodyToTheDefaultThread) {
@@ -151,8 +152,8 @@ TEST_F(Simulated, SendsWhatIsAssignedToNobodyToTheDefaultThread) {
   auto& second = CreateThread(other, "second");
   other.Create<Relay>(other.root(), "module");
   MustSucceed(other.MakeReady(other.root()));
-  EXPECT_THAT(with_default.Order(first), IsEmpty());
-  EXPECT_THAT(with_default.Order(second), SizeIs(1));
+  EXPECT_THAT(test::OrderOf(with_default, first), IsEmpty());
+  EXPECT_THAT(test::OrderOf(with_default, second), SizeIs(1));
 }
 
 TEST_F(Simulated, GivesTheModulesOfADeletedContainerToAnother) {
@@ -163,7 +164,7 @@ TEST_F(Simulated, GivesTheModulesOfADeletedContainerToAnother) {
   Ready();
   scheduler.Step();
   MustSucceed(runtime.Delete(second));
-  EXPECT_THAT(scheduler.Order(main), SizeIs(1));
+  EXPECT_THAT(test::OrderOf(scheduler, main), SizeIs(1));
   EXPECT_TRUE(scheduler.Step());
 }
 
@@ -172,16 +173,16 @@ TEST_F(Simulated, ReordersWhenAConnectionChanges) {
   auto& b = Make<Relay>("b");
   auto& main = Thread("main", 10ms);
   Ready();
-  const Scheduler::ScheduledTask task_a{"/a", Phase::kUpdate};
-  const Scheduler::ScheduledTask task_b{"/b", Phase::kUpdate};
-  EXPECT_THAT(scheduler.Order(main), ElementsAre(task_a, task_b));
+  const test::ScheduledTask task_a{"/a", Phase::kUpdate};
+  const test::ScheduledTask task_b{"/b", Phase::kUpdate};
+  EXPECT_THAT(test::OrderOf(scheduler, main), ElementsAre(task_a, task_b));
   MustSucceed(Port::Connect(b.out, a.in));
-  EXPECT_THAT(scheduler.Order(main), ElementsAre(task_b, task_a));
+  EXPECT_THAT(test::OrderOf(scheduler, main), ElementsAre(task_b, task_a));
   // What still agrees with the data flow stays as it is.
   MustSucceed(Port::Disconnect(b.out, a.in));
-  EXPECT_THAT(scheduler.Order(main), ElementsAre(task_b, task_a));
+  EXPECT_THAT(test::OrderOf(scheduler, main), ElementsAre(task_b, task_a));
   MustSucceed(Port::Connect(a.out, b.in));
-  EXPECT_THAT(scheduler.Order(main), ElementsAre(task_a, task_b));
+  EXPECT_THAT(test::OrderOf(scheduler, main), ElementsAre(task_a, task_b));
 }
 
 TEST_F(Simulated, TellsOfLoopsThatWereCut) {

@@ -2,6 +2,7 @@
 
 #include "plugins/scheduling/scheduler.h"
 #include "tests/plugins/scheduling/test_modules.h"
+#include "tests/support/schedule_order.h"
 
 namespace runnel {
 namespace {
@@ -172,7 +173,7 @@ TEST_F(Triggered, BecomesPeriodicWhenAssignedToAPeriodicThread) {
   diary.clear();
   scheduler.Step();
   EXPECT_THAT(diary, ElementsAre("source", "listener 10"));
-  EXPECT_THAT(scheduler.Order(waiting), IsEmpty());
+  EXPECT_THAT(test::OrderOf(scheduler, waiting), IsEmpty());
 }
 
 TEST_F(Triggered, RunsForDataThatCameBeforeItMovedToAnotherThread) {

@@ -1,4 +1,5 @@
 #include "tests/plugins/structure/editor_fixture.h"
+#include "tests/support/schedule_order.h"
 
 namespace runnel::test {
 namespace {
@@ -110,12 +111,12 @@ TEST_F(ChangeSetTest, ADeletedGroupGoesWithAllThatIsInItAndItsConnections) {
 TEST_F(ChangeSetTest, ModulesMoveFromThreadToThreadAndBack) {
   Must({CreateModule{"/app/counter", "test/counter"}, AssignToThread{"/app/counter", "slow"}});
   const auto& slow = At<ThreadContainer>("/threads/slow");
-  EXPECT_THAT(scheduler.Order(slow), SizeIs(1));
+  EXPECT_THAT(test::OrderOf(scheduler, slow), SizeIs(1));
   Must({AssignToThread{"/app/counter", "fast"}});
-  EXPECT_THAT(scheduler.Order(slow), IsEmpty());
+  EXPECT_THAT(test::OrderOf(scheduler, slow), IsEmpty());
   Must({AssignToThread{"/app/counter", "/threads/slow"}});
   Must({AssignToThread{"/app/counter", ""}});
-  EXPECT_THAT(scheduler.Order(slow), IsEmpty()) << "unassigned: the first thread runs it";
+  EXPECT_THAT(test::OrderOf(scheduler, slow), IsEmpty()) << "unassigned: the first thread runs it";
 }
 
 TEST_F(ChangeSetTest, WhatIsRequiredAndNotConnectedIsAWarning) {
@@ -162,7 +163,7 @@ TEST_F(ChangeSetTest, WhatCouldNotBeForeseenIsUndone) {
   EXPECT_EQ(counter.out.outgoing().front().options.queue, 6u);
   EXPECT_EQ(OwnThread(counter), &At<ThreadContainer>("/threads/slow"));
   Steps(1);
-  EXPECT_THAT(scheduler.Order(At<ThreadContainer>("/threads/slow")), SizeIs(1));
+  EXPECT_THAT(test::OrderOf(scheduler, At<ThreadContainer>("/threads/slow")), SizeIs(1));
 }
 
 TEST_F(ChangeSetTest, IsRefusedFromWithinACycle) {

@@ -4,8 +4,9 @@
 #include <set>
 
 #include "plugins/structure/change_history.h"
+#include "plugins/testing/fault_injection.h"
 #include "tests/plugins/structure/editor_fixture.h"
-#include "tests/support/fault_injection.h"
+#include "tests/support/schedule_order.h"
 
 namespace runnel::test {
 namespace {
@@ -133,7 +134,7 @@ class World {
       auto& thread =
           dynamic_cast<ThreadContainer&>(**runtime.root().Find(std::string("/threads/") + name));
       text += std::string(name) + ":";
-      for (const auto& task : scheduler.Order(thread)) text += " " + task.path;
+      for (const auto& task : test::OrderOf(scheduler, thread)) text += " " + task.path;
       text += "\n";
     }
     return text + "undo " + history.NextUndo().value_or("-") + ", redo " +

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "plugins/structure/reload.h"
+#include "plugins/testing/fault_injection.h"
 #include "tests/plugins/structure/editor_fixture.h"
-#include "tests/support/fault_injection.h"
 #include "tests/support/temporary_folder.h"
 
 extern "C" void InjectionPointForPlugins() { runnel::test::InjectionPoint(); }

@@ -1,4 +1,5 @@
 #include "tests/plugins/structure/editor_fixture.h"
+#include "tests/support/schedule_order.h"
 
 namespace runnel::test {
 namespace {
@@ -36,7 +37,7 @@ TEST_F(ReplaceTest, WhatTheSameChangeSetHasSetBeforeIsTakenOver) {
         SetParameter{"/app/counter/parameter/own", "10"}});
   EXPECT_EQ(At<OtherCounter>("/app/counter").step.Get(), 1) << "the default value, set on purpose";
   EXPECT_EQ(At<OtherCounter>("/app/counter").own.Get(), 10);
-  EXPECT_THAT(scheduler.Order(At<ThreadContainer>("/threads/slow")), SizeIs(1));
+  EXPECT_THAT(test::OrderOf(scheduler, At<ThreadContainer>("/threads/slow")), SizeIs(1));
 }
 
 TEST_F(ReplaceTest, AReaderIsReplacedWithoutLosingOrRepeatingWhatWaits) {
@@ -52,7 +53,7 @@ TEST_F(ReplaceTest, ItTakesTheOldPlaceAmongItsSiblingsAndItsThread) {
   Must({AssignToThread{"/app/counter", "slow"}});
   Must({ReplaceModule{"/app/counter", "test/other_counter"}});
   EXPECT_EQ(At<Group>("/app").children().front()->name(), "counter");
-  const auto order = scheduler.Order(At<ThreadContainer>("/threads/slow"));
+  const auto order = test::OrderOf(scheduler, At<ThreadContainer>("/threads/slow"));
   ASSERT_THAT(order, SizeIs(1));
   EXPECT_EQ(order[0].path, "/app/counter");
 }
@@ -97,7 +98,7 @@ TEST_F(ReplaceTest, WhatThrowsInItsFirstCyclesMakesRoomForTheOldOne) {
 }
 
 TEST_F(ReplaceTest, NoRuleIsAppliedToAFaultThatWasMended) {
-  ASSERT_TRUE(scheduler.AddFaultRule({.of = "/app"}));
+  scheduler.AddFaultRule({.of = "/app"});
   Must({ReplaceModule{"/app/counter", "test/faulty"}});
   Steps(2);
   EXPECT_FALSE(scheduler.stop_requested());

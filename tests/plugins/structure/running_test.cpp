@@ -1,5 +1,5 @@
+#include "plugins/real_time_check/sanitizer.h"
 #include "tests/plugins/structure/editor_fixture.h"
-#include "tests/support/sanitizer.h"
 
 namespace runnel::test {
 namespace {

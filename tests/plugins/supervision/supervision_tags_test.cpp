@@ -11,8 +11,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 struct SupervisedWorkshop : Workshop {
-  SupervisedWorkshop() {
-  }
+  SupervisedWorkshop() {}
   // What the file says besides two sources and a sink that the first one feeds.
   std::string ErrorsOf(const std::string& words) {
     return Errors(
@@ -45,7 +44,7 @@ TEST_F(SupervisionTags, MakeRulesThatSwitchSetAndReplace) {
     return {};
   });
   const auto application = workshop.runtime.root().Find("/demo");
-  ASSERT_TRUE(AddSupervisionRules(**application, supervisor));
+  ASSERT_TRUE(AddRules(**application, scheduler, supervisor));
   scheduler.RunUntil(Time(std::chrono::milliseconds(100)));  // the source publishes nothing
   ASSERT_EQ(done.size(), 1u);
   ASSERT_EQ(done[0].size(), 3u);

@@ -1,8 +1,8 @@
 #include "core/module/group.h"
 #include "core/plugin/module_registry.h"
 #include "plugins/structure/structure_editor.h"
+#include "plugins/testing/allocation_guard.h"
 #include "tests/plugins/tracing/trace_fixture.h"
-#include "tests/support/allocation_guard.h"
 #include "tests/support/wait_until.h"
 
 namespace runnel::test {

@@ -120,14 +120,15 @@ T Read(std::string_view json) {
   return value;
 }
 
-/// "line:column message | hint".
+/// "message | hint"; of what is no JSON at all, "line:column message".
 template <typename T>
 std::string WhyNot(std::string_view json) {
   T value{};
   const auto read = SetFromJson(TypeOf<T>(), json, &value);
   if (read) return "it could be read";
   const Error& error = read.error();
-  return std::to_string(error.position.line) + ":" + std::to_string(error.position.column) + " " +
+  const SourcePosition& at = error.position;
+  return (at.line == 0 ? "" : std::to_string(at.line) + ":" + std::to_string(at.column) + " ") +
          error.message + (error.hint.empty() ? "" : " | " + error.hint);
 }
 

@@ -14,41 +14,53 @@ using example::Label;
 using example::Point;
 using example::Side;
 using testing::HasSubstr;
+using testing::MatchesRegex;
 using testing::StartsWith;
 
-TEST(WrongJson, IsToldWithPlaceFieldAndCure) {
-  EXPECT_EQ(WhyNot<Point>("{\"x\":1,\n \"z\":2}"),
-            "2:2 Point has no field 'z' | did you mean 'x'?");
+TEST(WrongJson, IsToldWithFieldAndCure) {
+  EXPECT_EQ(WhyNot<Point>("{\"x\":1,\n \"z\":2}"), "Point has no field 'z' | did you mean 'x'?");
   EXPECT_EQ(WhyNot<Everything>(R"({"points":[{},{"x":"1"}]})"),
-            R"(1:20 points[1].x: expected a number, found '\"1\"}]}')");
+            R"(points[1].x: expected a number, found '"1"')");
   EXPECT_EQ(WhyNot<Everything>(R"({"lable":"a"})"),
-            "1:2 Everything has no field 'lable' | did you mean 'label'?");
-  EXPECT_EQ(WhyNot<Side>(R"("lfet")"), "1:1 there is no Side 'lfet' | did you mean 'left'?");
-  EXPECT_EQ(WhyNot<Side>("5"),
-            "1:1 expected the name of a Side in quotation marks, found '5'"
-            " | there is 'left', 'right'");
-  EXPECT_EQ(WhyNot<Label>(R"("bad")"), "1:1 'bad' is no label | try good");
-  EXPECT_EQ(WhyNot<Point>(R"({"x":1,"x":2})"), "1:8 'x' is given twice");
+            "Everything has no field 'lable' | did you mean 'label'?");
+  EXPECT_EQ(WhyNot<Side>(R"("lfet")"), "there is no Side 'lfet' | did you mean 'left'?");
+  EXPECT_EQ(WhyNot<Side>("5"), "there is no Side '5' | there is 'left', 'right'");
+  EXPECT_EQ(WhyNot<Side>(R"("1")"), "there is no Side '1' | there is 'left', 'right'");
+  EXPECT_EQ(WhyNot<Side>("[]"), "expected the name of a Side, found '['");
+  EXPECT_EQ(WhyNot<Label>(R"("bad")"), "'bad' is no label | try good");
+  EXPECT_EQ(WhyNot<Label>("7"), "expected a text in quotation marks, found '7'");
+  EXPECT_EQ(WhyNot<bool>(R"("true")"), R"(expected true or false, found '"true"')");
+  EXPECT_EQ(WhyNot<Point>(R"({"x":1,"x":2})"), "'x' is given twice");
   EXPECT_EQ(WhyNot<std::uint8_t>("256"),
-            "1:1 '256' does not fit into uint8 | allowed are whole numbers 0 .. 255");
-  EXPECT_THAT(WhyNot<int>("1.5"), StartsWith("1:1 '1.5' does not fit into int32"));
-  EXPECT_EQ(WhyNot<float>("1e60"), "1:1 '1e60' does not fit into float");
-  EXPECT_EQ(WhyNot<std::vector<int>>("[1,null]"),
-            "1:4 [1]: expected a whole number, found 'null]'");
-  EXPECT_EQ((WhyNot<std::array<std::int16_t, 2>>("[1]")),
-            "1:4 1 elements are too few for a int16[2]");
+            "'256' does not fit into uint8 | allowed are whole numbers 0 .. 255");
+  EXPECT_THAT(WhyNot<int>("1.5"), StartsWith("'1.5' does not fit into int32"));
+  EXPECT_THAT(WhyNot<std::int64_t>("9223372036854775808"),
+              StartsWith("'9223372036854775808' does not fit into int64"));
+  EXPECT_EQ(WhyNot<float>("1e60"), "'1e60' does not fit into float");
+  EXPECT_EQ(WhyNot<std::vector<int>>("[1,null]"), "[1]: expected a whole number, found 'null'");
+  EXPECT_EQ((WhyNot<std::array<std::int16_t, 2>>("[1]")), "1 elements are too few for a int16[2]");
   EXPECT_EQ((WhyNot<std::array<std::int16_t, 2>>("[1,2,3]")),
-            "1:6 more elements than the 2 that a int16[2] can have");
-  EXPECT_EQ(WhyNot<Eigen::MatrixXd>("[[1,2],[3]]"), "1:11 the rows differ in length: 2 and 1");
-  EXPECT_EQ(WhyNot<Eigen::MatrixXd>("[[1,2],[3,true]]"),
-            "1:11 [1][1]: expected a number, found 'true]]'");
+            "3 elements are too many for a int16[2]");
+  EXPECT_EQ(WhyNot<Eigen::MatrixXd>("[[1,2],[3]]"), "the rows differ in length: 2 and 1");
+  EXPECT_EQ(WhyNot<Eigen::MatrixXd>("[[1,2],[3,true]]"), "[1][1]: expected a number, found 'true'");
   EXPECT_THAT(WhyNot<Everything>(R"({"fixed":[[1]]})"),
               HasSubstr("fixed: 1 rows of 1 are no matrix"));
   EXPECT_EQ(WhyNot<Duration>(R"({"sec":1,"nsec":1000000000})"),
-            "1:17 nsec: expected a whole number, 0 .. 999999999, found '1000000000}'");
+            "'nsec' is a number from 0 to 999999999, not 1000000000");
   EXPECT_EQ(WhyNot<Duration>(R"({"sec":9223372036,"nsec":854775808})"),
-            "1:36 a duration cannot be that long");
-  EXPECT_EQ(WhyNot<Time>(R"({"secs":1})"), "1:2 time has no field 'secs' | did you mean 'sec'?");
+            "a duration cannot be that long");
+  EXPECT_EQ(WhyNot<Duration>(R"({"sec":1,"sec":2})"), "'sec' is given twice");
+  EXPECT_EQ(WhyNot<Time>(R"({"secs":1})"), "time has no field 'secs' | did you mean 'sec'?");
+}
+
+TEST(WrongJson, IsToldWithPlace) {
+  EXPECT_EQ(WhyNot<Point>("{\"x\":1,\n \"y\":02}"),
+            "2:7 syntax error while parsing object - unexpected number literal; expected '}'");
+  EXPECT_THAT(WhyNot<Point>("{\"x\":"), StartsWith("1:6 syntax error while parsing value - "));
+  EXPECT_EQ(WhyNot<double>(std::string_view("1\0 and more", 11)), "a JSON text contains a NUL character");
+  EXPECT_THAT(WhyNot<double>(""), StartsWith("1:1 syntax error while parsing value - "));
+  EXPECT_THAT(WhyNot<double>("1e5000"), StartsWith("1:6 number overflow parsing '1e5000'"));
+  EXPECT_LT(WhyNot<double>("'" + std::string(100000, 'a')).size(), 300U);
 }
 
 TEST(WrongJson, IsWhatTheStandardDoesNotKnow) {
@@ -56,13 +68,12 @@ TEST(WrongJson, IsWhatTheStandardDoesNotKnow) {
        {"",    "+1",       "01",  "1.",  ".5",  "1e", "1e+", "0x10",  "1_000", "NaN",
         "nan", "Infinity", "- 1", "--1", "1 2", "1,", "1a",  "1.5.2", "/**/1", "'1'"}) {
     EXPECT_THAT(WhyNot<double>(number), StartsWith("1:")) << number;
-    EXPECT_FALSE(nlohmann::json::accept(number)) << number;
   }
   for (const char* text :
        {"\"", "\"a", "'a'", "\"\n\"", "\"\\x\"", "\"\\u12\"", "\"\\u12g4\"", "\"\\ud800\"",
         "\"\\ud800\\u0041\"", "\"\\udc00\"", "\"\\", "\"\\u", "\"\x80\"", "\"\xc0\xaf\"",
         "\"\xed\xa0\x80\"", "\"\xf4\x90\x80\x80\"", "\"\xe2\x82\"", "a"}) {
-    EXPECT_THAT(WhyNot<std::string>(text), StartsWith("1:")) << text;
+    EXPECT_THAT(WhyNot<std::string>(text), MatchesRegex("[12]:.*")) << text;
   }
   for (const char* object : {"{", "{\"x\"}", "{\"x\":}", "{\"x\":1,}", "{x:1}", "{\"x\":1 \"y\":2}",
                              "{\"x\":1}}", "[", "{\"x\":1]", "nul", "{,}"}) {
@@ -81,10 +92,10 @@ TEST(Json, KnowsAllEscapes) {
 TEST(WrongJson, MayNotBeNestedWithoutEnd) {
   std::string deep;
   for (int i = 0; i < 100000; ++i) deep += "{\"branches\":[";
-  EXPECT_THAT(WhyNot<Everything>(deep), HasSubstr("more than 100 levels of nesting"));
+  EXPECT_THAT(WhyNot<Everything>(deep), HasSubstr("nested deeper than 100 levels"));
   std::string rows = "{\"free\":[[";
   rows.append(1000000, '[');
-  EXPECT_THAT(WhyNot<Everything>(rows), HasSubstr("free: expected an element"));
+  EXPECT_THAT(WhyNot<Everything>(rows), HasSubstr("nested deeper than 100 levels"));
 }
 
 // A long list must not be copied with each element, whatever it is made of.
@@ -146,12 +157,9 @@ TEST(WrongJson, DoesNoHarm) {
     const auto done = SetFromJson(TypeOf<Everything>(), {exact.data(), exact.size()}, &read);
     if (!done) {
       ASSERT_FALSE(done.error().message.empty());
-      ASSERT_GT(done.error().position.line, 0);
-      ASSERT_GT(done.error().position.column, 0);
       continue;
     }
     ++accepted;
-    ASSERT_TRUE(json.find("1e999") != std::string::npos || nlohmann::json::accept(json)) << json;
     const std::string again = JsonOf(read);
     ASSERT_EQ(JsonOf(Read<Everything>(again)), again) << json;
   }

@@ -3,7 +3,6 @@
 #include <limits>
 
 #include <gmock/gmock.h>
-#include <nlohmann/json.hpp>
 
 namespace runnel::test {
 namespace {
@@ -24,12 +23,15 @@ TEST(JsonPart, KnowsWhatItIs) {
   EXPECT_EQ(items[2].text(), "a\nb");
   EXPECT_EQ(items[2].number(), std::nullopt);
   EXPECT_TRUE(items[3].is_null());
+  EXPECT_EQ(items[3].boolean(), std::nullopt);
+  EXPECT_EQ(JsonPart::Parse("true")->boolean(), true);
+  EXPECT_EQ(JsonPart::Parse("false")->boolean(), false);
   ASSERT_TRUE(items[4].is_object());
   EXPECT_THAT(items[4].items(), IsEmpty());
   const auto members = items[4].members();
   ASSERT_EQ(members.size(), 1U);
   EXPECT_EQ(members[0].first, "a");
-  EXPECT_EQ(members[0].second.json(), "1");
+  EXPECT_EQ(members[0].second.count(), 1U);
   EXPECT_THAT(items[5].members(), IsEmpty());
   EXPECT_EQ(items[6].number(), std::numeric_limits<double>::infinity());
   EXPECT_EQ(items[7].count(), std::nullopt);
@@ -39,7 +41,6 @@ TEST(JsonPart, IsCheckedAsAWhole) {
   for (const char* text : {"", "[", "[1,]", "{\"a\"}", "{\"a\":1,}", "1 2", "nul", "\"\x80\"",
                            "[\"\\x\"]", "{\"a\":01}"}) {
     EXPECT_FALSE(JsonPart::Parse(text)) << text;
-    EXPECT_FALSE(nlohmann::json::accept(text)) << text;
   }
 }
 
@@ -47,7 +48,7 @@ TEST(JsonPart, IsNotReadIntoDepths) {
   EXPECT_TRUE(JsonPart::Parse("[[1]]", 2));
   EXPECT_FALSE(JsonPart::Parse("[[[]]]", 2));
   EXPECT_EQ(JsonPart::Parse(std::string(1'000'000, '[')).error().message,
-            "it is nested too deeply");
+            "it is nested deeper than 100 levels");
 }
 
 TEST(JsonMembers, RememberTheFirstThatIsWrong) {

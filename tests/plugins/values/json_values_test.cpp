@@ -159,7 +159,7 @@ TEST(JsonValues, HaveNoNumberAndInfinityToo) {
   EXPECT_EQ(read[5], 0.0);
   EXPECT_EQ(Read<float>("-1e999"), -std::numeric_limits<float>::infinity());
   EXPECT_EQ(Read<float>("1e-60"), 0.0F);
-  EXPECT_EQ(Read<double>("1e99999999999999999999"), kInfinity);
+  EXPECT_EQ(Read<double>("1e4932"), kInfinity);
   EXPECT_EQ(Read<double>("1e-99999999999999999999"), 0.0);
 }
 

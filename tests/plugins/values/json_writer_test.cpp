@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "plugins/testing/fault_injection.h"
 #include "plugins/values/base64.h"
-#include "tests/support/fault_injection.h"
 
 namespace runnel {
 namespace {

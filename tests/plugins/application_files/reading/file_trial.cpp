@@ -13,6 +13,7 @@
 #include "plugins/application_files/run_description.h"
 #include "plugins/application_files/type_names.h"
 #include "plugins/finroc_files/finroc_application.h"
+#include "tests/plugins/application_files/saving/application_text.h"
 #include "tests/plugins/application_files/saving/saving_workshop.h"
 
 namespace runnel::testing {
@@ -110,7 +111,8 @@ struct FileTrial::World : Workshop {
     const bool is_annotated = root.FindAnnotation<SourcePlace>() != nullptr ||
                               root.FindAnnotation<ApplicationSource>() != nullptr ||
                               root.FindAnnotation<PartInstance>() != nullptr ||
-                              !FaultRulesOf(root).empty() || !FaultRulesOf(*neighbour).empty() ||
+                              root.FindAnnotation<RunRules>() != nullptr ||
+                              neighbour->FindAnnotation<RunRules>() != nullptr ||
                               SchedulerOptionsOf(root).clock != SchedulerOptions{}.clock ||
                               SchedulerOptionsOf(*neighbour).clock != SchedulerOptions{}.clock;
     if (is_annotated) text += "annotated\n";
@@ -135,14 +137,7 @@ struct FileTrial::World : Workshop {
   Result<void> Schedule(FrameworkElement& application) {
     scheduler.emplace(runtime, SchedulerOptionsOf(application));
     supervisor.emplace(runtime, *scheduler, [](const ChangeSet&) -> Result<void> { return {}; });
-    for (const Placed<FaultRule>& placed : FaultRulesOf(application)) {
-      if (auto added = scheduler->AddFaultRule(placed.rule); !added) {
-        Error error = added.error();
-        error.position = placed.position;
-        return error;
-      }
-    }
-    return AddSupervisionRules(application, *supervisor);
+    return AddRules(application, *scheduler, *supervisor);
   }
   // Schedules what was constructed and makes it ready, or deletes it.
   void Run(BuildOutcome& outcome) {
@@ -307,7 +302,7 @@ std::string FileTrial::JudgePlaces(const Diagnostics& diagnostics, const std::st
 std::string FileTrial::TrySaving(World& world, FrameworkElement& application,
                                  const std::string* text) {
   ++counts_.saved;
-  const auto saved = ApplicationText(application, {world.plugins, world.tags}, folder_);
+  const auto saved = testing::ApplicationText(application, {world.plugins, world.tags}, folder_);
   // A new file knows no other application.
   if (!saved && text == nullptr && saved.error().message.starts_with("only another")) return "";
   if (!saved) return "it cannot be saved: " + saved.error().ToString();
@@ -332,7 +327,8 @@ std::string FileTrial::TryAgain(const std::string& saved, const std::string& str
   if (again != structure) {
     fault = "saved and loaded, it is\n" + again + "instead of\n" + structure + "by\n" + saved;
   }
-  const auto second = ApplicationText(*outcome.application, {world.plugins, world.tags}, folder_);
+  const auto second =
+      testing::ApplicationText(*outcome.application, {world.plugins, world.tags}, folder_);
   // Interface ports may change places.
   if (fault.empty() && (!second || SortedLines(*second) != SortedLines(saved))) {
     fault = "saved twice, it is\n" + (second ? *second : second.error().ToString()) +

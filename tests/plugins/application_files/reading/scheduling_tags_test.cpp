@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/log/log_levels.h"
 #include "plugins/application_files/run_description.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/scheduling/thread_container.h"
@@ -88,7 +89,8 @@ TEST_F(SchedulingTags, NameTheNearestThread) {
 }
 
 TEST_F(SchedulingTags, TellWhatIsWrongWithThreads) {
-  EXPECT_EQ(Errors(R"(<application name="demo">
+  EXPECT_EQ(
+      Errors(R"(<application name="demo">
   <thread name="a"/>
   <thread name="b" period="50"/>
   <thread name="c" period="50ms" priority="100"/>
@@ -96,17 +98,17 @@ TEST_F(SchedulingTags, TellWhatIsWrongWithThreads) {
   <thread name="c" period="5ms"/>
   <thread name="e" period="0ms"/>
 </application>)"),
-            "app.xml:2:3: error: /demo/threads/a: <thread> has no 'period'; add period=\"50ms\", or "
-            "activation=\"trigger\" or activation=\"free_running\"\n"
-            "app.xml:3:28: error: /demo/b: '50' is no duration; write a number and a unit: ns, us, "
-            "ms, s or min, as in 20ms\n"
-            "app.xml:4:44: error: /demo/threads/c: priority 100 is out of bounds; 0 is ordinary "
-            "scheduling, 1 .. 99 is SCHED_FIFO\n"
-            "app.xml:5:20: error: /demo/threads/d: a thread that waits for data has no period; leave out "
-            "either period or activation\n"
-            "app.xml:6:17: error: /demo/threads/c: there is already an element called 'c' in "
-            "/demo/threads; the first is in line 4\n"
-            "app.xml:7:28: error: /demo/e: '0ms' is not longer than nothing\n");
+      "app.xml:2:3: error: /demo/threads/a: <thread> has no 'period'; add period=\"50ms\", or "
+      "activation=\"trigger\" or activation=\"free_running\"\n"
+      "app.xml:3:28: error: /demo/b: '50' is no duration; write a number and a unit: ns, us, "
+      "ms, s or min, as in 20ms\n"
+      "app.xml:4:44: error: /demo/threads/c: priority 100 is out of bounds; 0 is ordinary "
+      "scheduling, 1 .. 99 is SCHED_FIFO\n"
+      "app.xml:5:20: error: /demo/threads/d: a thread that waits for data has no period; leave out "
+      "either period or activation\n"
+      "app.xml:6:17: error: /demo/threads/c: there is already an element called 'c' in "
+      "/demo/threads; the first is in line 4\n"
+      "app.xml:7:28: error: /demo/e: '0ms' is not longer than nothing\n");
   EXPECT_TRUE(runtime.root().children().empty());
 }
 
@@ -137,11 +139,12 @@ TEST_F(SchedulingTags, TellWhatIsWrongWithClocks) {
             "app.xml:2:34: error: /demo: time cannot run backwards; 1 is real time, 0 as fast as "
             "it can\n"
             "app.xml:3:3: error: /demo: the clock is chosen twice; the first is in line 2\n");
-  EXPECT_EQ(Errors(R"(<application name="demo">
+  EXPECT_EQ(
+      Errors(R"(<application name="demo">
   <clock type="simulated" speed="1e-300"/>
 </application>)"),
-            "app.xml:2:34: error: /demo: speed 1e-300 is out of bounds; allowed is 0 (as fast as it "
-            "can), or 1e-6 .. 1e6\n");
+      "app.xml:2:34: error: /demo: speed 1e-300 is out of bounds; allowed is 0 (as fast as it "
+      "can), or 1e-6 .. 1e6\n");
   EXPECT_EQ(Errors(R"(<application name="demo">
   <clock type="real" speed="2"/>
 </application>)"),
@@ -166,18 +169,37 @@ TEST_F(SchedulingTags, SayWhatHappensOnFaults) {
     <on_fault of="robot" action="stop_application"/>
   </application>)");
   ASSERT_TRUE(application) << diagnostics.ToString();
-  const auto rules = FaultRulesOf(*application);
-  ASSERT_EQ(rules.size(), 2u);
-  EXPECT_EQ(rules[0].rule.of, "/demo/robot/bomb");
-  EXPECT_EQ(rules[0].rule.target, "/demo/source/parameter/gain");
-  EXPECT_EQ(rules[1].rule.of, "/demo/robot");
-  EXPECT_EQ(rules[1].position.line, 9);
+  const auto* const rules = application->FindAnnotation<RunRules>();
+  ASSERT_TRUE(rules);
+  ASSERT_EQ(rules->fault_rules.size(), 2u);
+  EXPECT_EQ(rules->fault_rules[0].of, "/demo/robot/bomb");
+  EXPECT_EQ(rules->fault_rules[1].of, "/demo/robot");
 
   Scheduler scheduler(runtime, SchedulerOptionsOf(*application));
-  for (const auto& [rule, position] : rules) ASSERT_TRUE(scheduler.AddFaultRule(rule));
+  for (const FaultRule& rule : rules->fault_rules) scheduler.AddFaultRule(rule);
   EXPECT_FALSE(scheduler.RunUntil(Time(std::chrono::seconds(1))));
   EXPECT_TRUE(scheduler.stop_requested());
   EXPECT_EQ(Get<Source>("/demo/source").gain.Get(), 7.0);
+}
+
+TEST_F(SchedulingTags, AFaultRuleWhoseParameterIsGoneIsReported) {
+  FrameworkElement* const application = Build(R"(<application name="demo">
+    <clock type="simulated" speed="0"/>
+    <thread name="control" period="10ms"/>
+    <module name="bomb" type="test/bomb"/>
+    <module name="source" type="test/source"/>
+    <on_fault of="bomb" set="source/gain" value="7"/>
+  </application>)");
+  ASSERT_TRUE(application) << diagnostics.ToString();
+  Scheduler scheduler(runtime, SchedulerOptionsOf(*application));
+  scheduler.AddFaultRule(application->FindAnnotation<RunRules>()->fault_rules.at(0));
+  ASSERT_TRUE(runtime.Delete(Get<Source>("/demo/source")));
+  scheduler.RunUntil(Time(std::chrono::seconds(1)));
+  const auto faults = scheduler.TakeFaults();
+  ASSERT_EQ(faults.size(), 2u);
+  EXPECT_EQ(faults[1].path, "/demo/bomb");
+  EXPECT_EQ(faults[1].message.find("the fault rule failed: "), 0u) << faults[1].message;
+  EXPECT_NE(faults[1].message.find("no 'source' in /demo"), std::string::npos) << faults[1].message;
 }
 
 TEST_F(SchedulingTags, TellWhatIsWrongWithFaultRules) {
@@ -238,6 +260,26 @@ TEST_F(SchedulingTags, KnowAMisspeltThreadOfAModule) {
   <module name="a" type="test/counter" thraed="contrl"/>
 </application>)"),
             "app.xml:3:40: error: /demo/a: <module> knows no 'thraed'; did you mean 'thread'?\n");
+}
+
+TEST_F(SchedulingTags, SayFromWhichLevelOnModulesAreLogged) {
+  ASSERT_TRUE(Build(R"(<application name="demo">
+    <log level="error"/>
+    <group name="g"> <log level="debug"/> <log level="off" of="a"/> <module name="a" type="test/counter"/> </group>
+  </application>)"))
+      << diagnostics.ToString();
+  EXPECT_EQ(ReadLogLevels(runtime), (LogLevels{{"/demo", LogLevel::kError}, {"/demo/g", LogLevel::kDebug},
+                                               {"/demo/g/a", LogLevel::kOff}}));
+}
+
+TEST_F(SchedulingTags, KnowAMisspeltLevelAndWhoIsNotThere) {
+  EXPECT_EQ(Errors(R"(<application name="demo">
+  <log level="debgu"/>
+  <log level="debug" of="b"/>
+  <module name="a" type="test/counter"/>
+</application>)"),
+            "app.xml:2:15: error: /demo: 'debgu' is not possible for level; did you mean 'debug'?\n"
+            "app.xml:3:26: error: /demo: there is no 'b' in /demo; did you mean 'a'?\n");
 }
 
 }  // namespace

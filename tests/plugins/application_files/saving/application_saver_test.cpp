@@ -121,7 +121,7 @@ TEST_F(ApplicationSaver, RefusesWhatWouldNotLoad) {
   Load();
   ASSERT_TRUE(
       Port::Disconnect(Get<Port>("/demo/inner/in"), Get<Port>("/demo/inner/filter/input/value")));
-  const auto text = ApplicationText(*application_, shop_.tools(), folder_.path());
+  const auto text = testing::ApplicationText(*application_, shop_.tools(), folder_.path());
   ASSERT_FALSE(text);
   EXPECT_EQ(text.error().path, "/demo/inner/filter/input/value");
   EXPECT_THAT(text.error().message, HasSubstr("would not load"));
@@ -280,7 +280,7 @@ TEST_F(ApplicationSaver, WritesAWholeFileOfWhatCodeHasBuilt) {
 TEST_F(ApplicationSaver, RefusesAModuleThatNoFileCanName) {
   Load();
   shop_.runtime.Create<Source>(Get<FrameworkElement>("/demo"), "by_code");
-  const auto text = ApplicationText(*application_, shop_.tools(), folder_.path());
+  const auto text = testing::ApplicationText(*application_, shop_.tools(), folder_.path());
   ASSERT_FALSE(text);
   EXPECT_EQ(text.error().path, "/demo/by_code");
   EXPECT_THAT(text.error().message, HasSubstr("no file can name"));

@@ -79,7 +79,7 @@ TEST_F(PartSaving, WritesAValueWithinAGroupForThatGroup) {
 TEST_F(PartSaving, RefusesOtherChangesWithin) {
   ASSERT_TRUE(Port::Disconnect(shop_.Get<Port>("/demo/right/source/output/value"),
                                shop_.Get<Port>("/demo/right/sink/input/value")));
-  const auto text = ApplicationText(*application_, shop_.tools(), folder_.path());
+  const auto text = testing::ApplicationText(*application_, shop_.tools(), folder_.path());
   ASSERT_FALSE(text);
   EXPECT_EQ(text.error().path, "/demo/right");
   EXPECT_THAT(text.error().message, HasSubstr("part.xml says what is in all groups"));
@@ -88,7 +88,7 @@ TEST_F(PartSaving, RefusesOtherChangesWithin) {
 TEST_F(PartSaving, RefusesNewModulesWithin) {
   auto& inner = shop_.Get<FrameworkElement>("/demo/nested/inner");
   ASSERT_TRUE(shop_.plugins.modules().Create("test/sink", inner, "new"));
-  const auto text = ApplicationText(*application_, shop_.tools(), folder_.path());
+  const auto text = testing::ApplicationText(*application_, shop_.tools(), folder_.path());
   ASSERT_FALSE(text);
   EXPECT_EQ(text.error().path, "/demo/nested/inner");
 }

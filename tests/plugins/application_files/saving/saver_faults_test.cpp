@@ -3,8 +3,8 @@
 #include <new>
 
 #include "plugins/application_files/application_source.h"
+#include "plugins/testing/fault_injection.h"
 #include "tests/plugins/application_files/saving/saving_workshop.h"
-#include "tests/support/fault_injection.h"
 
 namespace runnel::testing {
 namespace {

@@ -10,6 +10,7 @@
 #include "plugins/application_files/run_description.h"
 #include "plugins/application_files/saving/application_saver.h"
 #include "tests/plugins/application_files/reading/test_application.h"
+#include "tests/plugins/application_files/saving/application_text.h"
 
 namespace runnel::testing {
 
@@ -68,7 +69,7 @@ struct SavingWorkshop : Workshop {
   }
   [[nodiscard]] SaveTools tools() { return {plugins, tags}; }
   std::string Text(FrameworkElement& application, const std::filesystem::path& folder) {
-    const auto text = ApplicationText(application, tools(), folder);
+    const auto text = testing::ApplicationText(application, tools(), folder);
     return text ? *text : "error: " + text.error().ToString();
   }
 };

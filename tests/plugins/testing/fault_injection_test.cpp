@@ -1,4 +1,4 @@
-#include "tests/support/fault_injection.h"
+#include "plugins/testing/fault_injection.h"
 
 #include <atomic>
 #include <cstdint>
