@@ -23,6 +23,8 @@ async function Create(inspector, type, name) {
   await inspector.page.locator(`[data-choice="${type}"]`).hover();
   await inspector.page.locator('#new-name').fill(name);
   await inspector.page.locator('#create').click();
+  await inspector.closed();
+  await inspector.shows(`/bug_demo/${name}`);
 }
 
 test('a module is made, connected by dragging, undone, made again, saved, and is there after a restart', async (t) => {
@@ -58,6 +60,7 @@ test('a module is made, connected by dragging, undone, made again, saved, and is
     await inspector.select('/bug_demo/second');
     await page.locator('#move').click();
     await page.locator('[data-choice="slow"]').click();
+    await inspector.closed();
     await inspector.details.locator('.thread-name', { hasText: 'slow' }).waitFor();
   });
 
@@ -131,14 +134,18 @@ test('a group is made, given ports, filled, and connected through its border', a
   await page.locator('#port-type').selectOption('Pose2');
   await page.locator('#create-port').click();
   await inspector.port('/bug_demo/group/place').waitFor();
+  await inspector.closed();
   await page.keyboard.press('a');
   await page.locator('.choice-search').fill('simulation/localisation');
   await page.locator('#new-name').fill('inner');
   await page.locator('#create').click();
   await inspector.node('/bug_demo/group/inner').waitFor();
+  await inspector.closed();
+  await inspector.shows('/bug_demo/group/inner');
   for (const [from, to] of [['/bug_demo/world/sensor_output/pose', '/bug_demo/group/place'], ['/bug_demo/group/place', '/bug_demo/group/inner/input/truth']]) {
     await page.keyboard.press('Escape');
     await page.keyboard.press('f');
+    await inspector.drawn();
     const { drop } = await inspector.dragPort(from, to);
     await drop();
     await page.locator(`[data-edge="${from} → ${to}"]`).waitFor({ state: 'attached' });
@@ -173,11 +180,12 @@ test('what the application refuses comes up with its reason, and changes nothing
   await page.locator('#create').click();
   await page.locator('dialog .problem', { hasText: "there is a 'laser'" }).waitFor();
   await page.keyboard.press('Escape');
+  await inspector.closed();
   await page.locator('#save-as').click();
   await page.locator('#save-file').fill('/nowhere/at/all.xml');
   await page.locator('#save-now').click();
   await page.locator('dialog .problem', { hasText: '/nowhere' }).waitFor();
   await page.keyboard.press('Escape');
-  await page.locator('dialog').waitFor({ state: 'detached' });
+  await inspector.closed();
   assert.equal((await inspector.edges()).length, 24);
 });

@@ -64,6 +64,7 @@ class InspectorPage {
   async click(path) {
     const name = this.node(path).locator('.name');
     await name.waitFor();
+    await this.drawn();
     const { x, y, width, height } = await name.boundingBox();
     await this.page.mouse.click(x + width / 2, y + height / 2);
   }
@@ -73,7 +74,18 @@ class InspectorPage {
     const words = path.split('/').filter(Boolean).join(' ');
     await this.page.locator('#search').fill(words);
     await this.page.locator('#search-found li', { has: this.page.locator(`.path:text-is("${path}")`) }).first().dispatchEvent('pointerdown');
-    await this.details.locator('.title').waitFor();
+    await this.shows(path);
+  }
+
+  /** Waits until the details are those of `path`, and keys mean it. */
+  async shows(path) {
+    await this.page.locator(`#details[data-element="${path}"]`).waitFor();
+    await this.drawn();
+  }
+
+  /** Waits until no dialog is open: what it asked for has been answered then, and keys mean the page. */
+  async closed() {
+    await this.page.locator('dialog').waitFor({ state: 'detached' });
     await this.drawn();
   }
 
@@ -101,6 +113,7 @@ class InspectorPage {
   async dragPort(from, to) {
     await this.port(from).waitFor();
     await this.port(to).waitFor();
+    await this.drawn();
     const [a, b] = [this.port(from).locator('circle'), this.port(to).locator('circle')];
     const [start, end] = [await a.boundingBox(), await b.boundingBox()];
     const middle = ({ x, y, width, height }) => [x + width / 2, y + height / 2];

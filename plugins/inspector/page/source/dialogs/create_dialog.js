@@ -4,7 +4,7 @@ import { useState } from 'preact/hooks';
 import { html } from 'htm/preact';
 import { FreeName, NameProblem } from '../model/changes.js';
 import { CreateGroup, CreateModule, ErrorText } from '../state/actions.js';
-import { Reveal } from '../state/choices.js';
+import { Reveal, openDialog, selected } from '../state/choices.js';
 import { catalogue, revision, structure } from '../state/store.js';
 import { Select } from '../graph/graph_keys.js';
 import { ChoiceList } from './choice_list.js';
@@ -21,10 +21,10 @@ export function CreateDialog({ group }) {
     const free = typed ?? FreeName(structure, group, wanted);
     const wrong = NameProblem(structure, group, free);
     if (wrong) return setProblem(wrong);
+    const dialog = openDialog.value;
     const reply = await CreateModule(wanted, group, free);
     if (!reply.ok) return setProblem((reply.errors ?? []).map(ErrorText).join('\n'));
-    CloseDialog();
-    ShowNew(`${group}/${free}`);
+    if (CloseDialog(dialog)) ShowNew(`${group}/${free}`, selected.value);
   };
   const find = (text) => catalogue.value.search(text).map((module) => ({
     key: module.type, title: module.type, note: Ports(module), detail: module.summary,
@@ -52,12 +52,13 @@ function Ports({ ports = [] }) {
   return `${count('input')} in, ${count('output')} out`;
 }
 
-/** Selects a new element as soon as the structure has it. */
-function ShowNew(path, attempts = 40) {
+/** Selects a new element as soon as the structure has it, unless the user has selected another since. */
+function ShowNew(path, before, attempts = 40) {
+  if (selected.value !== before) return;
   if (structure.get(path)) {
     Reveal(path);
     Select(path);
   } else if (attempts > 0) {
-    setTimeout(() => ShowNew(path, attempts - 1), 50);
+    setTimeout(() => ShowNew(path, before, attempts - 1), 50);
   }
 }

@@ -4,8 +4,14 @@ import { useEffect, useRef } from 'preact/hooks';
 import { html } from 'htm/preact';
 import { openDialog } from '../state/choices.js';
 
-export function CloseDialog() {
-  openDialog.value = null;
+/**
+ * Closes `dialog`, unless the user has closed it meanwhile: an answer that comes late must not close
+ * another one, or move what is selected. Returns whether it was still open.
+ */
+export function CloseDialog(dialog = openDialog.value) {
+  const isOpen = openDialog.value === dialog;
+  if (isOpen) openDialog.value = null;
+  return isOpen;
 }
 
 export function Dialog({ title, children, className = '', style }) {
@@ -17,7 +23,7 @@ export function Dialog({ title, children, className = '', style }) {
     return () => before?.focus?.();
   }, []);
   const onPointerDown = (event) => { if (event.target === element.current) CloseDialog(); };
-  return html`<dialog ref=${element} class=${className} style=${style} aria-label=${title} onClose=${CloseDialog}
+  return html`<dialog ref=${element} class=${className} style=${style} aria-label=${title} onClose=${() => CloseDialog()}
       onPointerDown=${onPointerDown} onKeyDown=${(event) => event.stopPropagation()}>
     <div class="dialog-body">${children}</div></dialog>`;
 }

@@ -4,6 +4,7 @@ import { useState } from 'preact/hooks';
 import { html } from 'htm/preact';
 import { NameProblem } from '../model/changes.js';
 import { CreatePort, ErrorText } from '../state/actions.js';
+import { openDialog } from '../state/choices.js';
 import { catalogue, structure } from '../state/store.js';
 import { CloseDialog, Dialog } from './dialog.js';
 
@@ -16,8 +17,9 @@ export function PortDialog({ path }) {
   const create = async () => {
     const wrong = NameProblem(structure, path, name);
     if (wrong) return setProblem(wrong);
+    const dialog = openDialog.value;
     const reply = await CreatePort(path, name, direction, type || types[0]);
-    if (reply.ok) CloseDialog();
+    if (reply.ok) CloseDialog(dialog);
     else setProblem((reply.errors ?? []).map(ErrorText).join('\n'));
   };
   return html`
@@ -36,7 +38,7 @@ export function PortDialog({ path }) {
           ${types.map((each) => html`<option key=${each} value=${each}>${each}</option>`)}</select>
       </div>
       ${problem && html`<p class="problem" role="alert">${problem}</p>`}
-      <div class="dialog-foot"><button onClick=${CloseDialog}>Cancel</button>
+      <div class="dialog-foot"><button onClick=${() => CloseDialog()}>Cancel</button>
         <button class="primary" id="create-port" disabled=${name === '' || types.length === 0}
             onClick=${create}>Add</button></div>
     <//>`;

@@ -4,6 +4,7 @@ import { useState } from 'preact/hooks';
 import { html } from 'htm/preact';
 import { IsGroup } from '../model/structure.js';
 import { ErrorText, MoveToThread, Save } from '../state/actions.js';
+import { openDialog } from '../state/choices.js';
 import { hello, structure } from '../state/store.js';
 import { ChoiceList } from './choice_list.js';
 import { CloseDialog, Dialog } from './dialog.js';
@@ -27,8 +28,9 @@ export function SaveDialog() {
   const [file, setFile] = useState(hello.value?.file ?? '');
   const [problem, setProblem] = useState('');
   const save = async () => {
+    const dialog = openDialog.value;
     const reply = await Save(file.trim(), { quiet: true });
-    if (reply.ok) CloseDialog();
+    if (reply.ok) CloseDialog(dialog);
     else setProblem((reply.errors ?? []).map(ErrorText).join('\n'));
   };
   return html`
@@ -39,7 +41,7 @@ export function SaveDialog() {
         onKeyDown=${(event) => { if (event.key === 'Enter') save(); }} />
       <p class="note">A file on the machine that runs the application.</p>
       ${problem && html`<p class="problem" role="alert">${problem}</p>`}
-      <div class="dialog-foot"><button onClick=${CloseDialog}>Cancel</button>
+      <div class="dialog-foot"><button onClick=${() => CloseDialog()}>Cancel</button>
         <button class="primary" id="save-now" disabled=${file.trim() === ''} onClick=${save}>Save</button></div>
     <//>`;
 }
@@ -64,6 +66,6 @@ export function HelpDialog() {
       <div class="columns">${kKeys.map(([title, keys]) => html`<section key=${title}><h3>${title}</h3>
         <dl>${keys.map(([key, what]) => html`<div key=${key}><dt><kbd>${key}</kbd></dt><dd>${what}</dd></div>`)}</dl></section>`)}</div>
       <p class="note">Drag from port to port to connect; drag the background to move, turn the wheel to zoom; right-click for a menu.</p>
-      <div class="dialog-foot"><button class="primary" onClick=${CloseDialog}>Close</button></div>
+      <div class="dialog-foot"><button class="primary" onClick=${() => CloseDialog()}>Close</button></div>
     <//>`;
 }

@@ -3,6 +3,7 @@
 import { useEffect, useState } from 'preact/hooks';
 import { html } from 'htm/preact';
 import { CompatibleTypes, Swap } from '../state/actions.js';
+import { openDialog } from '../state/choices.js';
 import { structure } from '../state/store.js';
 import { ChoiceList } from './choice_list.js';
 import { CloseDialog, Dialog } from './dialog.js';
@@ -11,7 +12,8 @@ export function SwapDialog({ path }) {
   const [types, setTypes] = useState(null);
   const module = structure.get(path);
   useEffect(() => {
-    CompatibleTypes(path).then((reply) => { if (reply.ok) setTypes(reply.types); else CloseDialog(); });
+    const dialog = openDialog.value;
+    CompatibleTypes(path).then((reply) => { if (reply.ok) setTypes(reply.types); else CloseDialog(dialog); });
   }, [path]);
   const find = (text) => {
     const words = text.toLowerCase().split(/\s+/).filter(Boolean);

@@ -15,7 +15,8 @@ export function Details() {
   const path = selected.value;
   const element = structure.get(path);
   const connection = structure.connections.get(path);
-  return html`<section class="details" aria-label="Details" id="details" tabindex="-1">
+  return html`<section class="details" aria-label="Details" id="details" tabindex="-1"
+      data-element=${path}>
     ${connection ? html`<${ConnectionDetails} key=${path} connection=${connection} />`
       : element ? html`<${kViews[element.kind] ?? ApplicationDetails} key=${path} element=${element} />`
       : path ? html`<p class="empty">${path} is not there any more.</p>`
