@@ -19,6 +19,12 @@ Result<void> CheckElementName(std::string_view name);
 /// began at the root is for the caller to look at.
 [[nodiscard]] std::vector<std::string_view> SplitPath(std::string_view path);
 
+/// Whether the element at `path` is that at `subtree` or lies below it; "" and "/" are the root.
+[[nodiscard]] inline bool IsAtOrBelow(std::string_view path, std::string_view subtree) {
+  while (subtree.ends_with('/')) subtree.remove_suffix(1);
+  return path.starts_with(subtree) && (path.size() == subtree.size() || path[subtree.size()] == '/');
+}
+
 [[nodiscard]] inline bool IsAbsolutePath(std::string_view path) {
   return !path.empty() && path.front() == '/';
 }

@@ -4,10 +4,12 @@
 
 namespace runnel {
 
+std::string LogMessage::TextWithCount() const {
+  return left_out > 0 ? fmt::format("{} ({} more left out)", text, left_out) : text;
+}
+
 std::string LogMessage::BodyText() const {
-  std::string body = fmt::format("{}{}{}", path, path.empty() ? "" : ": ", text);
-  if (left_out > 0) body += fmt::format(" ({} more left out)", left_out);
-  return body;
+  return fmt::format("{}{}{}", path, path.empty() ? "" : ": ", TextWithCount());
 }
 
 std::string LogMessage::ToString() const {

@@ -17,6 +17,8 @@ struct LogMessage {
   /// How many messages of this element and level the rate limit has left out since the one before.
   std::uint64_t left_out = 0;
 
+  /// "no echo for 2.5 s (3 more left out)"
+  [[nodiscard]] std::string TextWithCount() const;
   /// "/robot/sonar: no echo for 2.5 s (3 more left out)"
   [[nodiscard]] std::string BodyText() const;
   /// "warning  /robot/sonar: no echo for 2.5 s (3 more left out)"

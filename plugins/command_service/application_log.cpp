@@ -29,6 +29,22 @@ ApplicationLog::Kind KindOf(LogLevel level) {
   return ApplicationLog::Kind::kError;
 }
 
+LogLevel LevelOf(ApplicationLog::Kind kind) {
+  switch (kind) {
+    case ApplicationLog::Kind::kDebug:
+      return LogLevel::kDebug;
+    case ApplicationLog::Kind::kInfo:
+    case ApplicationLog::Kind::kChange:
+      return LogLevel::kInfo;
+    case ApplicationLog::Kind::kWarning:
+      return LogLevel::kWarning;
+    case ApplicationLog::Kind::kFault:
+    case ApplicationLog::Kind::kError:
+      break;
+  }
+  return LogLevel::kError;
+}
+
 }  // namespace
 
 // What has been done must be told as done, whatever the log does.
@@ -85,6 +101,16 @@ std::uint64_t ApplicationLog::faults() const {
 const char* ApplicationLog::KindName(Kind kind) noexcept {
   static constexpr std::array kNames{"fault", "warning", "change", "error", "info", "debug"};
   return kNames[static_cast<std::size_t>(kind)];
+}
+
+// The path that a text begins with is told apart.
+LogMessage ApplicationLog::MessageOf(const Entry& entry) const {
+  const std::string prefix = entry.module + ": ";
+  const bool has_prefix = !entry.module.empty() && entry.text.starts_with(prefix);
+  return {.time = start_ + entry.time,
+          .level = LevelOf(entry.kind),
+          .path = entry.module,
+          .text = has_prefix ? entry.text.substr(prefix.size()) : entry.text};
 }
 
 std::string ApplicationLog::LineOf(const Entry& entry) {

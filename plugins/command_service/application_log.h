@@ -58,6 +58,9 @@ class ApplicationLog {
   /// How often a module has thrown.
   [[nodiscard]] std::uint64_t faults() const;
 
+  /// The entry as who reads messages of modules sees it: a change is of level info, a fault an error.
+  [[nodiscard]] LogMessage MessageOf(const Entry& entry) const;
+
   /// "14:31:05  12.350 s  fault    /robot/arm: …"
   [[nodiscard]] static std::string LineOf(const Entry& entry);
 

@@ -23,6 +23,8 @@ namespace runnel {
 
 namespace {
 
+constexpr std::size_t kMostWaitingMessages = 10'000;
+
 /// Below which the probes of a recorder are. Beside the tree: no part of the application, so that nobody
 /// finds or saves it, and modules need not be held back when it goes.
 class RecorderElement final : public FrameworkElement {
@@ -111,6 +113,7 @@ Result<void> Recorder::Begin() {
     runtime_.AddListener(*this);
   }
   if (scheduler_ != nullptr) scheduler_->backpressure().Add(*this);
+  log_sink_.emplace(runtime_, [this](const LogMessage& message) { Keep(message); });
   thread_ = std::thread([this] { Write(); });
   has_begun_ = true;
   return {};
@@ -183,6 +186,7 @@ Result<void> Recorder::Finish() {
   }
   if (scheduler_ != nullptr) scheduler_->backpressure().Remove(*this);
   runtime_.RemoveListener(*this);
+  log_sink_.reset();  // hands on what has been said so far
   DisconnectProbes();
   EndWriting();
   {
@@ -213,6 +217,15 @@ void Recorder::EndWriting() noexcept {
   is_ending_ = true;
   Wake();
   if (thread_.joinable()) thread_.join();
+}
+
+void Recorder::Keep(const LogMessage& message) {
+  const std::lock_guard lock(mutex_);
+  if (said_.size() < kMostWaitingMessages) {
+    said_.push_back(message);
+  } else {
+    ++lost_messages_;
+  }
 }
 
 void Recorder::Wake() noexcept {

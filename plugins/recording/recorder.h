@@ -3,6 +3,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -14,6 +15,7 @@
 #include "core/base/result.h"
 #include "core/element/element_listener.h"
 #include "core/element/runtime.h"
+#include "core/log/log_sink.h"
 #include "core/port/probe_port.h"
 #include "plugins/mcap/mcap_records.h"
 #include "plugins/recording/port_patterns.h"
@@ -57,7 +59,8 @@ struct RecordingStatus {
 };
 
 /// Records the values of outputs into an MCAP file: as JSON, with the times at which each value was published
-/// (log_time) and measured (publish_time), with JSON schemas, and with what the application was; what Foxglove can draw also in its own schemas. Ports that come later are recorded from their first
+/// (log_time) and measured (publish_time), with JSON schemas, and with what the application was; what Foxglove can draw also in its own schemas. What
+/// modules say is recorded in its schema for logs, as "/log". Ports that come later are recorded from their first
 /// value on, as soon as they fit; those that go just end.
 ///
 /// Publishers pay what a queue costs (ProbePort). A thread of the recorder takes the values, makes text of them
@@ -118,6 +121,8 @@ class Recorder final : public ElementListener, public BackpressureSource {
   void EndWriting() noexcept;
   void Wake() noexcept;
 
+  void Keep(const LogMessage& message);
+
   // By the writing thread, or by Finish() when that has ended.
   void Write() noexcept;
   void WriteUntilEnd();
@@ -125,6 +130,8 @@ class Recorder final : public ElementListener, public BackpressureSource {
   std::uint64_t WriteWaitingOf(Recorded& recorded);
   Result<void> WriteValue(Recorded& recorded, ValueTimes times);
   Result<void> AddChannels(Recorded& recorded);
+  std::uint64_t WriteLog();
+  Result<std::uint16_t> ChannelFor(const FoxgloveChannel& form, const std::string& port, bool is_view);
   Result<void> WriteDrops();
   void Note(const Result<void>& done);
   void NoteException() noexcept;
@@ -140,6 +147,8 @@ class Recorder final : public ElementListener, public BackpressureSource {
   std::vector<std::shared_ptr<Recorded>> recorded_;  // guarded by mutex_
   RecordingStatus status_;                           // likewise
   std::vector<std::pair<std::string, std::uint64_t>> drops_of_gone_;
+  std::deque<LogMessage> said_;  // and is not written yet; guarded by mutex_
+  std::uint64_t lost_messages_ = 0;  // likewise
   bool failure_is_told_ = false;
   bool is_finishing_ = false;      // guarded by mutex_: nothing is taken out of recorded_ any more
   std::uint64_t made_probes_ = 0;  // under the structure lock
@@ -150,6 +159,7 @@ class Recorder final : public ElementListener, public BackpressureSource {
   bool has_begun_ = false;  // else its file goes with it
   bool has_finished_ = false;
   std::uint64_t written_drops_ = 0;
+  std::uint32_t written_messages_ = 0;
   std::chrono::steady_clock::time_point last_flush_{};
 
   std::atomic<bool> has_failed_{false};
@@ -159,6 +169,7 @@ class Recorder final : public ElementListener, public BackpressureSource {
   std::condition_variable wake_;
   bool is_woken_ = false;  // guarded by wake_mutex_
   std::thread thread_;
+  std::optional<LogSink> log_sink_;
 };
 
 }  // namespace runnel

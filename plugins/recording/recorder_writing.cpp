@@ -9,6 +9,7 @@
 #include "plugins/mcap/mcap_writer.h"
 #include "plugins/recording/recorder.h"
 #include "plugins/recording/recording_names.h"
+#include "plugins/values/foxglove_log.h"
 
 namespace runnel {
 
@@ -72,10 +73,32 @@ bool Recorder::WriteWaiting() {
     if (has_failed_) break;
     count += WriteWaitingOf(*each);
   }
+  const bool has_written_log = WriteLog() > 0;
   const std::lock_guard lock(mutex_);
   status_.values += count;
   status_.bytes = writer_->written_bytes();
-  return count > 0;
+  return count > 0 || has_written_log;
+}
+
+// A view, since nobody replays it.
+std::uint64_t Recorder::WriteLog() {
+  std::deque<LogMessage> said;
+  {
+    const std::lock_guard lock(mutex_);
+    said.swap(said_);
+  }
+  if (said.empty()) return 0;
+  static const FoxgloveChannel form = LogChannel();
+  const auto channel = ChannelFor(form, "log", true);
+  Note(channel ? Result<void>() : channel.error());
+  for (const LogMessage& message : said) {
+    if (has_failed_) break;
+    std::string json;
+    form.Append(&message, message.time, json);
+    const std::uint64_t time = Nanoseconds(message.time);
+    Note(writer_->AddMessage({*channel, ++written_messages_, time, time, json}));
+  }
+  return said.size();
 }
 
 // No more than a queue full, so that all ports have their turn.
@@ -130,20 +153,23 @@ Result<void> Recorder::WriteValue(Recorded& recorded, ValueTimes times) {
 // A port that has come back goes on in its channels, if it has its type.
 Result<void> Recorder::AddChannels(Recorded& recorded) {
   for (std::size_t i = 0; i < recorded.forms.size(); ++i) {
-    const FoxgloveChannel& form = recorded.forms[i];
-    const auto schema = FindOrMake(schemas_, form.schema_name, [&] {
-      return writer_->AddSchema(form.schema_name, kSchemaEncoding, form.schema);
-    });
-    if (!schema) return schema.error();
-    const std::string of = recorded.path + " " + form.topic + " " + form.schema_name;
-    const auto channel = FindOrMake(channels_, of, [&] {
-      return writer_->AddChannel(*schema, form.topic, kMessageEncoding,
-                                 {{i == 0 ? kPortKey : kViewOfKey, recorded.path}});
-    });
+    const auto channel = ChannelFor(recorded.forms[i], recorded.path, i > 0);
     if (!channel) return channel.error();
     recorded.channels.push_back(*channel);
   }
   return {};
+}
+
+Result<std::uint16_t> Recorder::ChannelFor(const FoxgloveChannel& form, const std::string& port,
+                                           bool is_view) {
+  const auto schema = FindOrMake(schemas_, form.schema_name, [&] {
+    return writer_->AddSchema(form.schema_name, kSchemaEncoding, form.schema);
+  });
+  if (!schema) return schema.error();
+  return FindOrMake(channels_, port + " " + form.topic + " " + form.schema_name, [&] {
+    return writer_->AddChannel(*schema, form.topic, kMessageEncoding,
+                               {{is_view ? kViewOfKey : kPortKey, port}});
+  });
 }
 
 // Written anew whenever there are more, so that the file of a killed process knows of them.
@@ -156,6 +182,10 @@ Result<void> Recorder::WriteDrops() {
   };
   for (const auto& [path, count] : drops_of_gone_) add(path, count);
   for (const auto& each : All()) add(each->path, each->probe->dropped());
+  {
+    const std::lock_guard lock(mutex_);
+    add("log", lost_messages_);
+  }
   if (sum == written_drops_) return {};
   written_drops_ = sum;
   return writer_->AddMetadata(drops);

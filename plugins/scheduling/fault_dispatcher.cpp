@@ -7,17 +7,9 @@
 
 #include "core/base/exception_text.h"
 #include "core/base/retry.h"
+#include "core/element/element_path.h"
 
 namespace runnel {
-
-namespace {
-
-bool Covers(std::string_view of, std::string_view path) {
-  while (of.ends_with('/')) of.remove_suffix(1);
-  return path.starts_with(of) && (path.size() == of.size() || path[of.size()] == '/');
-}
-
-}  // namespace
 
 FaultRecord::FaultRecord(std::string path) {
   fault_.path = std::move(path);
@@ -81,7 +73,7 @@ void FaultDispatcher::Report(const Fault& fault) {
     rules = rules_;
   }
   for (const FaultRule& rule : rules) {
-    if (Covers(rule.of, fault.path)) Apply(rule, fault);
+    if (IsAtOrBelow(fault.path, rule.of)) Apply(rule, fault);
   }
 }
 

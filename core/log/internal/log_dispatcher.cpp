@@ -6,6 +6,7 @@
 #include <exception>
 #include <new>
 
+#include "core/element/element_path.h"
 #include "core/element/framework_element.h"
 #include "core/log/internal/encoded_message.h"
 #include "core/log/internal/log_ring.h"
@@ -15,11 +16,6 @@ namespace runnel::internal {
 namespace {
 
 constexpr auto kEach = std::chrono::milliseconds(50);
-
-bool IsAtOrBelow(std::string_view path, std::string_view subtree) {
-  if (!path.starts_with(subtree)) return false;
-  return path.size() == subtree.size() || subtree.empty() || path[subtree.size()] == '/';
-}
 
 }  // namespace
 

@@ -126,27 +126,28 @@ Directory::SteadyTime Directory::Look(SteadyTime now) {
 
 void Directory::AddChannels(const Search& search, const Port* robot_pose,
                             DirectoryContent& content) {
+  if (!search.shown_topics.contains(log_->topic)) AddChannel(log_->topic, "", nullptr, log_, content);
   for (const Search::FoundPort& port : search.ports) {
     if (port.port != robot_pose) continue;
     const Encoding& encoding = TransformOf(*port.type);
-    if (encoding) AddChannel("/tf", port.path, *port.type, encoding, content);
+    if (encoding) AddChannel("/tf", port.path, port.type, encoding, content);
   }
   for (const Search::FoundPort& port : search.ports) {
     if (!port.is_shown) continue;
     const std::string& topic = NameIn(search.shown_topics, port.topic, port.path);
     const std::vector<Encoding>& encodings = EncodingsOf(*port.type);
     for (const Encoding& encoding : encodings) {
-      AddChannel(topic + encoding->topic, port.path, *port.type, encoding, content);
+      AddChannel(topic + encoding->topic, port.path, port.type, encoding, content);
     }
     if (!encodings.empty()) content.graph[topic] = {{port.owner}, port.readers};
   }
 }
 
-void Directory::AddChannel(std::string topic, const std::string& port, const TypeInfo& type,
+void Directory::AddChannel(std::string topic, const std::string& port, const TypeInfo* type,
                            const Encoding& encoding, DirectoryContent& content) {
   const auto next = static_cast<std::uint32_t>(ids_.size() + 1);
   const auto [place, is_new] = ids_.try_emplace({topic, encoding.get()}, next);
-  content.channels[place->second] = {place->second, std::move(topic), port, &type, encoding};
+  content.channels[place->second] = {place->second, std::move(topic), port, type, encoding};
 }
 
 const std::vector<Directory::Encoding>& Directory::EncodingsOf(const TypeInfo& type) {

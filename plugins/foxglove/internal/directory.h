@@ -15,6 +15,7 @@
 #include "core/port/port.h"
 #include "plugins/command_service/structure_walk.h"
 #include "plugins/values/foxglove_channel.h"
+#include "plugins/values/foxglove_log.h"
 
 namespace runnel::internal {
 
@@ -25,8 +26,8 @@ class BroughtByClient final : public Annotation {};
 struct DirectoryChannel {
   std::uint32_t id;
   std::string topic;
-  std::string port;  ///< path
-  const TypeInfo* type;
+  std::string port;      ///< path; "" for the log
+  const TypeInfo* type;  ///< nullptr for the log
   std::shared_ptr<const FoxgloveChannel> encoding;  ///< of its type, without the topic
 };
 
@@ -85,7 +86,7 @@ class Directory {
   struct Search;
 
   void AddChannels(const Search& search, const Port* robot_pose, DirectoryContent& content);
-  void AddChannel(std::string topic, const std::string& port, const TypeInfo& type,
+  void AddChannel(std::string topic, const std::string& port, const TypeInfo* type,
                   const Encoding& encoding, DirectoryContent& content);
   [[nodiscard]] const std::vector<Encoding>& EncodingsOf(const TypeInfo& type);
   [[nodiscard]] const Encoding& TransformOf(const TypeInfo& type);
@@ -95,6 +96,7 @@ class Directory {
   std::unique_ptr<Search> search_;  // while the walk is under way
   SteadyTime look_at_{};
   std::shared_ptr<const DirectoryContent> content_ = std::make_shared<DirectoryContent>();
+  const Encoding log_ = std::make_shared<const FoxgloveChannel>(LogChannel());
   std::unordered_map<const TypeInfo*, std::vector<Encoding>> encodings_;
   std::unordered_map<const TypeInfo*, Encoding> transforms_;
   // Numbers that have been given: a topic that comes back in the same form has its old one.

@@ -31,7 +31,7 @@ FoxgloveSession::FoxgloveSession(std::shared_ptr<FoxgloveShared> shared, WebClie
     : shared_(std::move(shared)),
       client_(client),
       send_queue_(client),
-      subscriptions_(shared_->runtime(), client),
+      subscriptions_(shared_->application.service.application(), client),
       parameters_(*shared_, send_queue_, client.Waker()) {
   send_queue_.Send(ServerInfoMessage(*shared_));
 }

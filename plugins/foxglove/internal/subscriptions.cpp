@@ -13,6 +13,7 @@ namespace {
 
 // So much may wait for a client before values are skipped: half a second of a slow network.
 constexpr std::size_t kMuchWaiting = 1 << 20;
+constexpr std::size_t kLogEntriesAtOnce = 500;
 
 }  // namespace
 
@@ -35,10 +36,15 @@ std::vector<Error> Subscriptions::Add(const SubscribeMessage& message,
                           : "subscribe: the id " + std::to_string(id) + " is in use"});
       continue;
     }
-    by_id_[id] = {channel->second, std::make_unique<WatchedPort>(channel->second.port)};
+    by_id_[id] = To(channel->second);
     is_any_lost_ = true;
   }
   return errors;
+}
+
+Subscriptions::Subscription Subscriptions::To(const DirectoryChannel& channel) {
+  const bool is_log = channel.type == nullptr;
+  return {channel, is_log ? nullptr : std::make_unique<WatchedPort>(channel.port)};
 }
 
 std::vector<Error> Subscriptions::Remove(const UnsubscribeMessage& message) {
@@ -57,7 +63,7 @@ void Subscriptions::Retain(const DirectoryContent& content) {
     const DirectoryChannel& now = content.channels.at(subscription.channel.id);
     if (now.port == subscription.channel.port) continue;
     // The same topic of another port: the robot's pose, for example.
-    subscription = {now, std::make_unique<WatchedPort>(now.port)};
+    subscription = To(now);
     is_any_lost_ = true;
   }
 }
@@ -66,23 +72,42 @@ bool Subscriptions::Sample() {
   if (by_id_.empty() || client_.waiting_bytes() > kMuchWaiting) return true;
   const EpochGuard guard;  // what is found stays in memory so long
   {
-    const std::unique_lock lock(runtime_.structure_mutex(), std::try_to_lock);
+    Runtime& runtime = application_.runtime;
+    const std::unique_lock lock(runtime.structure_mutex(), std::try_to_lock);
     if (!lock) return false;
     // What has been found in this structure is still there.
-    if (is_any_lost_ || found_at_ != runtime_.revision()) {
+    if (is_any_lost_ || found_at_ != runtime.revision()) {
       is_any_lost_ = false;
       for (auto& [id, each] : by_id_) {
-        each.is_found = each.port->Find(runtime_) && &each.port->type() == each.channel.type;
+        if (each.port == nullptr) continue;
+        each.is_found = each.port->Find(runtime) && &each.port->type() == each.channel.type;
       }
-      found_at_ = runtime_.revision();
+      found_at_ = runtime.revision();
     }
   }
   for (auto each = by_id_.begin(); each != by_id_.end();) {
     const auto subscription = each++;
+    if (subscription->second.port == nullptr) ShowLog(subscription->first, subscription->second);
     if (!subscription->second.is_found || Show(subscription->first, subscription->second)) continue;
     by_id_.erase(subscription);
   }
   return true;
+}
+
+// All that is kept, then what comes.
+void Subscriptions::ShowLog(std::uint32_t id, Subscription& subscription) {
+  const ApplicationLog& log = application_.log;
+  std::uint64_t& next = subscription.next_in_log;
+  const auto read = log.ReadEntries(next, kLogEntriesAtOnce);
+  next += read.lost;
+  for (const ApplicationLog::Entry& entry : read.entries) {
+    const LogMessage message = log.MessageOf(entry);
+    std::string bytes;
+    AppendMessageHead(id, message.time, bytes);
+    subscription.channel.encoding->Append(&message, message.time, bytes);
+    if (!client_.SendBinary(std::move(bytes))) return;
+    ++next;
+  }
 }
 
 bool Subscriptions::Show(std::uint32_t id, Subscription& subscription) {

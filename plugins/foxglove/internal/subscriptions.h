@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "plugins/command_service/command_service.h"
 #include "plugins/foxglove/internal/client_message.h"
 #include "plugins/foxglove/internal/directory.h"
 #include "plugins/values/watched_port.h"
@@ -18,7 +19,8 @@ namespace runnel::internal {
 /// Sample(), and nothing while much is waiting for a client that is slow.
 class Subscriptions {
  public:
-  Subscriptions(Runtime& runtime, WebClient& client) : runtime_(runtime), client_(client) {}
+  Subscriptions(const ServedApplication& application, WebClient& client)
+      : application_(application), client_(client) {}
 
   /// Returns what is wrong with it; the rest is done.
   std::vector<Error> Add(const SubscribeMessage& message, const DirectoryContent& content);
@@ -36,14 +38,18 @@ class Subscriptions {
  private:
   struct Subscription {
     DirectoryChannel channel;
-    std::unique_ptr<WatchedPort> port;
+    std::unique_ptr<WatchedPort> port;  // nullptr for the log
     bool is_found = false;
+    std::uint64_t next_in_log = 0;
   };
+
+  [[nodiscard]] static Subscription To(const DirectoryChannel& channel);
+  void ShowLog(std::uint32_t id, Subscription& subscription);
 
   // False if its type has thrown.
   bool Show(std::uint32_t id, Subscription& subscription);
 
-  Runtime& runtime_;
+  const ServedApplication& application_;
   WebClient& client_;
   std::map<std::uint32_t, Subscription> by_id_;
   std::vector<Error> failures_;

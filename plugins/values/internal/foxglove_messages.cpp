@@ -27,13 +27,14 @@ constexpr std::array<Entry, 7> kLeaves{{
 }};
 
 // The names of the values, from 0.
-constexpr std::array<Entry, 2> kChoices{{
+constexpr std::array<Entry, 3> kChoices{{
+    {"LogLevel", "UNKNOWN DEBUG INFO WARNING ERROR FATAL"},
     {"SceneEntityDeletionType", "MATCHING_ID ALL"},
     {"LineType", "LINE_STRIP LINE_LOOP LINE_LIST"},
 }};
 
 // Members and their types in turn.
-constexpr std::array<Entry, 22> kMessages{{
+constexpr std::array<Entry, 23> kMessages{{
     {"Vector3", "x number y number z number"},
     {"Point3", "x number y number z number"},
     {"Quaternion", "x number y number z number w number"},
@@ -41,6 +42,8 @@ constexpr std::array<Entry, 22> kMessages{{
     {"Color", "r number g number b number a number"},
     {"PoseInFrame", "timestamp time frame_id string pose Pose"},
     {"PosesInFrame", "timestamp time frame_id string poses Pose[]"},
+    {"Log",
+     "timestamp time level LogLevel message string name string file string line count"},
     {"FrameTransform",
      "timestamp time parent_frame_id string child_frame_id string translation Vector3 "
      "rotation Quaternion"},

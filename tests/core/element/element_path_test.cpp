@@ -40,5 +40,14 @@ TEST(CheckElementNameTest, RefusesWhatNoFileCanCarry) {
   EXPECT_FALSE(CheckElementName(std::string_view("a\0b", 3)));
 }
 
+TEST(IsAtOrBelowTest, TakesWholeNamesOnly) {
+  EXPECT_TRUE(IsAtOrBelow("/robot/laser", "/robot"));
+  EXPECT_TRUE(IsAtOrBelow("/robot", "/robot"));
+  EXPECT_TRUE(IsAtOrBelow("/robot", "/robot/"));
+  EXPECT_FALSE(IsAtOrBelow("/robot_arm", "/robot"));
+  EXPECT_FALSE(IsAtOrBelow("/robot", "/robot/laser"));
+  for (const char* root : {"", "/"}) EXPECT_TRUE(IsAtOrBelow("/robot", root));
+}
+
 }  // namespace
 }  // namespace runnel

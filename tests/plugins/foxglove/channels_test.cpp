@@ -37,7 +37,7 @@ TEST_F(FoxgloveTest, AdvertisesAllThatComesOut) {
   Begin();
   std::vector<std::string> topics;
   for (const auto& [topic, channel] : Channels()) topics.push_back(topic);
-  EXPECT_THAT(topics, ElementsAre("/robot/pose", "/robot/pose/foxglove", "/robot/scan",
+  EXPECT_THAT(topics, ElementsAre("/log", "/robot/pose", "/robot/pose/foxglove", "/robot/scan",
                                   "/robot/scan/foxglove", "/robot/speed", "/tf"));
   const Json pose = channels["/robot/pose/foxglove"];
   EXPECT_EQ(pose["encoding"], "json");
@@ -45,6 +45,46 @@ TEST_F(FoxgloveTest, AdvertisesAllThatComesOut) {
   EXPECT_EQ(pose["schemaName"], "foxglove.PoseInFrame");
   EXPECT_EQ(Json::parse(pose["schema"].get<std::string>())["title"], "foxglove.PoseInFrame");
   EXPECT_EQ(channels["/robot/speed"]["schemaName"], "double");
+}
+
+TEST_F(FoxgloveTest, TellsTheLogInItsOwnSchema) {
+  log.Add({.time = Time(std::chrono::milliseconds(1500)),
+           .level = LogLevel::kWarning,
+           .path = "/robot/sonar",
+           .text = "no echo",
+           .left_out = 3});
+  Begin();
+  const Json channel = Channels().at("/log");
+  EXPECT_EQ(channel["schemaName"], "foxglove.Log");
+  Say(Subscribe(7, channel["id"]));
+  log.Add(ApplicationLog::Kind::kChange, "set speed to 3");
+  Turn();
+  const auto values = TakeValues();
+  ASSERT_EQ(values.size(), 3u);
+  EXPECT_EQ(values[0].json["message"], "put in /application");
+  EXPECT_EQ(values[1].subscription, 7u);
+  EXPECT_EQ(values[1].timestamp, 1'500'000'000u);
+  EXPECT_EQ(values[1].json, Json::parse(R"--({"timestamp":{"sec":1,"nsec":500000000},"level":3,
+      "message":"no echo (3 more left out)","name":"/robot/sonar","file":"","line":0})--"));
+  EXPECT_EQ(values[2].json["message"], "set speed to 3");
+  EXPECT_EQ(values[2].json["level"], 2);
+  Turn();
+  EXPECT_THAT(TakeValues(), IsEmpty());
+}
+
+TEST_F(FoxgloveTest, SendsTheRestOfTheLogToWhoWasSlow) {
+  Begin();
+  Say(Subscribe(7, IdOf("/log")));
+  Turn();
+  TakeValues();
+  for (int i = 0; i < 3; ++i) log.Add(ApplicationLog::Kind::kInfo, std::to_string(i));
+  client.is_slow = true;
+  Turn();
+  client.is_slow = false;
+  Turn();
+  const auto values = TakeValues();
+  ASSERT_EQ(values.size(), 3u);
+  EXPECT_EQ(values[2].json["message"], "2");
 }
 
 TEST_F(FoxgloveTest, FollowsTheStructure) {

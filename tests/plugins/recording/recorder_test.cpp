@@ -45,6 +45,35 @@ TEST_F(RecorderTest, RecordsEachValueWithItsTimeAndWhatItIs) {
   }
 }
 
+/// Says what it has counted to.
+class Talker final : public Module {
+ public:
+  using Module::Module;
+
+ private:
+  void Update() override { log().Warn("cycle {}", ++count_); }
+  int count_ = 0;
+};
+
+TEST_F(RecorderTest, RecordsWhatModulesSay) {
+  Application application;
+  auto& talker = application.runtime.Create<Talker>(application.runtime.root(), "talker");
+  Must(application.runtime.MakeReady(talker));
+  const std::string file = Record("a.mcap", application, milliseconds(30), {"number"});
+  auto reader = Must(McapReader::Open(file));
+  std::vector<std::string> said;
+  Must(reader->ReadMessages([&](const McapMessage& message) -> Result<void> {
+    const McapChannel& channel = reader->contents().channels.at(message.channel);
+    if (channel.topic != "/log") return {};
+    EXPECT_TRUE(IsView(channel)) << "nobody replays what was said";
+    said.push_back(std::to_string(message.log_time) + " " + std::string(message.data));
+    return {};
+  }));
+  ASSERT_THAT(said, SizeIs(3));
+  EXPECT_EQ(said[1], R"(10000000 {"timestamp":{"sec":0,"nsec":10000000},"level":3,)"
+                     R"("message":"cycle 2","name":"/talker","file":"","line":0})");
+}
+
 TEST_F(RecorderTest, TellsApartWhenAValueWasPublishedAndWhenItWasMeasured) {
   Runtime runtime;
   auto& source = runtime.Create<Source>(runtime.root(), "source");
