@@ -142,7 +142,7 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   flag(log, "-f,--follow", "follow", "goes on with what comes");
   option(log, "--level", "level",
          "instead: from now on, what modules at and below PATH say is logged from this level on: debug, info, "
-         "warning, error, off; without PATH all of them")
+         "warning, error, off, or again as around them: inherit; without PATH all of them")
       ->type_name("[PATH=]LEVEL");
 
   Entry& complete = add("complete", "for the completion of shells");

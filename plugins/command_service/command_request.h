@@ -32,10 +32,15 @@ struct SaveRequest {
 struct ReloadRequest {
   std::string plugin;
 };
+/// From which level on modules at and below a path are logged.
+struct LogLevelRequest {
+  std::string path = {};  ///< "" or "/": all
+  std::string level;      ///< as LogLevelName() says it, or "inherit": as above it
+};
 
 /// What a client may ask a CommandService for.
-using CommandRequest =
-    std::variant<ChangeRequest, UndoRequest, RedoRequest, SaveRequest, ReloadRequest>;
+using CommandRequest = std::variant<ChangeRequest, UndoRequest, RedoRequest, SaveRequest,
+                                    ReloadRequest, LogLevelRequest>;
 
 /// What has come of a request.
 struct CommandAnswer {

@@ -1,10 +1,13 @@
 #include "plugins/command_service/command_service.h"
 
+#include <mutex>
 #include <type_traits>
 #include <utility>
 #include <variant>
 
+#include "core/log/log_levels.h"
 #include "core/plugin/module_type_name.h"
+#include "core/port/path_search.h"
 #include "plugins/command_service/caught_error.h"
 #include "plugins/command_service/change_task.h"
 #include "plugins/command_service/save_place.h"
@@ -103,6 +106,27 @@ CommandAnswer CommandService::Do(const SaveRequest& request) const {
 
 CommandAnswer CommandService::Do(const ReloadRequest& request) const {
   return Call(application_.hooks.reload, request.plugin, "load plugins anew");
+}
+
+CommandAnswer CommandService::Do(const LogLevelRequest& request) const {
+  const bool inherits = request.level == "inherit";
+  const auto level = inherits ? LogLevel::kInfo : LogLevelOf(request.level);
+  if (!level) return CommandAnswer::Refused(level.error());
+  Runtime& runtime = application_.runtime;
+  std::string path;
+  if (!request.path.empty() && request.path != "/") {
+    const std::lock_guard lock(runtime.structure_mutex());
+    const auto found = PathSearch(runtime).Find(request.path);
+    if (!found) return CommandAnswer::Refused(found.error());
+    path = (*found)->path();
+  }
+  const std::string whose = path.empty() ? "/" : path;
+  if (inherits) {
+    ResetLogLevel(runtime, path);
+    return CommandAnswer::Done(whose + ": logs as what is around it");
+  }
+  SetLogLevel(runtime, path, *level);
+  return CommandAnswer::Done(whose + ": logs " + LogLevelName(*level) + " and more");
 }
 
 CommandAnswer CommandService::TakeHistoryStep(bool goes_back) const {

@@ -118,6 +118,7 @@ class CommandService {
   [[nodiscard]] CommandAnswer Do(const RedoRequest& request) const;
   [[nodiscard]] CommandAnswer Do(const SaveRequest& request) const;
   [[nodiscard]] CommandAnswer Do(const ReloadRequest& request) const;
+  [[nodiscard]] CommandAnswer Do(const LogLevelRequest& request) const;
   [[nodiscard]] CommandAnswer TakeHistoryStep(bool goes_back) const;
 
   const ServedApplication application_;

@@ -24,12 +24,20 @@ PlacedChanges ReadChanges(const Request& request, Diagnostics& diagnostics) {
   return placed;
 }
 
+// "/robot=debug", or "debug" for all.
+LogLevelRequest LevelOf(const std::string& wish) {
+  const std::size_t equals = wish.rfind('=');
+  if (equals == std::string::npos) return {.level = wish};
+  return {wish.substr(0, equals), wish.substr(equals + 1)};
+}
+
 CommandRequest RequestOf(const Request& request, PlacedChanges placed) {
   const std::string argument = request.arguments.empty() ? "" : request.arguments[0];
   if (request.command == "undo") return UndoRequest{};
   if (request.command == "redo") return RedoRequest{};
   if (request.command == "save") return SaveRequest{argument};
   if (request.command == "reload") return ReloadRequest{argument};
+  if (request.command == "log") return LevelOf(request.Option("level"));
   return ChangeRequest{std::move(placed)};
 }
 

@@ -76,6 +76,7 @@ CommandOrErrors CommandOf(const Inspection& inspection, ViewerMessage& message) 
   if (message.op == "undo") return CommandRequest(UndoRequest{});
   if (message.op == "redo") return CommandRequest(RedoRequest{});
   if (message.op == "reload") return CommandRequest(ReloadRequest{message.plugin});
+  if (message.op == "log_level") return CommandRequest(LogLevelRequest{message.path, message.level});
   return CommandRequest(SaveRequest{
       .file = message.file, .is_confined = true, .application_file = inspection.options().file});
 }
@@ -131,7 +132,7 @@ std::string Refusal(std::optional<std::uint64_t> request, const std::vector<Requ
 const std::vector<std::string>& AllOperations() {
   static const std::vector<std::string> all{
       "watch", "unwatch", "watch_rates", "change", "undo",  "redo",  "compatible",
-      "save",  "pause",   "resume",      "step",   "speed", "reload"};
+      "save",  "pause",   "resume",      "step",   "speed", "reload", "log_level"};
   return all;
 }
 

@@ -35,6 +35,7 @@ Result<ViewerMessage> ParseViewerMessage(std::string_view text) {
   if (const auto changes = members.List("changes")) ReadChanges(*changes, message);
   message.file = members.Text("file").value_or("");
   message.plugin = members.Text("plugin").value_or("");
+  message.level = members.Text("level").value_or("");
   message.rate = members.Number("rate");
   message.speed = members.Number("speed");
   message.request = members.Count("request", kLargestWhole);

@@ -29,6 +29,7 @@ struct ViewerMessage {
   std::vector<RequestError> wrong_changes;  ///< of what is no change; then `changes` has not all
   std::string file;
   std::string plugin;
+  std::string level;
   std::optional<double> rate;
   std::optional<double> speed;
   std::size_t elements = 12;

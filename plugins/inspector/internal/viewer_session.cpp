@@ -7,6 +7,7 @@
 
 #include "core/base/nearest_name.h"
 #include "core/lockfree/thread_epoch.h"
+#include "core/log/log_levels.h"
 #include "core/types/type_info.h"
 #include "plugins/command_service/caught_error.h"
 #include "plugins/structure/change_history.h"
@@ -111,6 +112,12 @@ void ViewerSession::SendState(SteadyTime now) {
     json.AddTextOrNull("undo", NextStep(&ChangeHistory::NextUndo));
     json.AddTextOrNull("redo", NextStep(&ChangeHistory::NextRedo));
     json.Add("faults", inspection_.application().log.faults());
+    {
+      JsonObject levels(json.Key("log_levels"));
+      for (const auto& [path, level] : ReadLogLevels(inspection_.application().runtime)) {
+        levels.Add(path.empty() ? "/" : path, LogLevelName(level));
+      }
+    }
     json.Add("ended", verdict.has_value());
     json.AddTextOrNull("verdict", verdict.value_or(""));
   });

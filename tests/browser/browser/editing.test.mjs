@@ -154,6 +154,16 @@ test('a group is made, given ports, filled, and connected through its border', a
   await page.locator('#value [data-field="heading"]').waitFor();
 });
 
+test('from which level on a module logs is chosen, and stays after a reload', async (t) => {
+  const { inspector, page } = await Demo(t);
+  await inspector.select('/bug_demo/robot/planner');
+  await page.locator('#log-level').selectOption('debug');
+  await inspector.until('the level', () => document.querySelector('#log-level').value === 'debug');
+  await page.reload();
+  await inspector.select('/bug_demo/robot/planner');
+  await inspector.until('the level again', () => document.querySelector('#log-level').value === 'debug');
+});
+
 test('what a full queue loses is counted', async (t) => {
   const { file } = await DemoFile(t, (text) => Replaced(kSlow(text), '<connect from="world/pose" to="laser/pose localisation/truth referee/pose"/>',
     '<connect from="world/pose" to="laser/pose referee/pose"/> <connect from="world/pose" to="localisation/truth" queue="2"/>'));

@@ -160,6 +160,8 @@ TEST_F(ControlTest, SaysFromWhichLevelOnModulesAreLogged) {
   EXPECT_EQ(Ask("log level=/a=debug").output, "/app/a: logs debug and more\n");
   EXPECT_EQ(Ask("log level=error").output, "/: logs error and more\n");
   EXPECT_THAT(ReadLogLevels(runtime), testing::ElementsAre(testing::Pair("", LogLevel::kError), testing::Pair("/app/a", LogLevel::kDebug)));
+  EXPECT_EQ(Ask("log level=/a=inherit").output, "/app/a: logs as what is around it\n");
+  EXPECT_THAT(ReadLogLevels(runtime), testing::ElementsAre(testing::Pair("", LogLevel::kError)));
   EXPECT_THAT(Ask("log level=/a=loud").errors, HasSubstr("there is no log level 'loud'"));
   EXPECT_THAT(Ask("log level=/aa=info").errors, HasSubstr("did you mean 'a'?"));
   EXPECT_EQ(Ask("log level=/aa=info").code, 2);

@@ -42,6 +42,25 @@ TEST_F(Changing, IsAllOrNothingAndSaysWhichChangeIsWrong) {
   EXPECT_EQ(View().Element("/app/a/parameter/speed")["value"], "1");
 }
 
+TEST_F(Changing, LogLevelsAreSetAndToldToAllViewers) {
+  Start();
+  Viewer viewer = View();
+  Viewer other = View();
+  const auto levels = [](const Json& expected) {
+    return [expected](const Json& each) {
+      return each["op"] == "state" && each["log_levels"] == expected;
+    };
+  };
+  other.Next(levels(Json::object()), "state without levels");
+  const Json reply = viewer.Ask({{"op", "log_level"}, {"path", "/app/a"}, {"level", "debug"}});
+  EXPECT_EQ(reply["text"], "/app/a: logs debug and more");
+  other.Next(levels({{"/app/a", "debug"}}), "state with the level");
+  viewer.Ask({{"op", "log_level"}, {"path", "/app/a"}, {"level", "inherit"}});
+  other.Next(levels(Json::object()), "state without levels again");
+  const Json wrong = viewer.Ask({{"op", "log_level"}, {"path", "/app/a"}, {"level", "debgu"}});
+  EXPECT_THAT(wrong["errors"][0]["message"], HasSubstr("debug"));
+}
+
 TEST_F(Changing, WordsThatAreNoneAreToldWithTheNearest) {
   Start();
   const Json reply = View().ChangeAsTold(

@@ -2,9 +2,9 @@
 
 import { html } from 'htm/preact';
 import { IsGroup, ThreadOf } from '../model/structure.js';
-import { Delete, Reload } from '../state/actions.js';
+import { Delete, Reload, SetLogLevel } from '../state/actions.js';
 import { IsOpen, openDialog } from '../state/choices.js';
-import { canChange, catalogue, revision, structure } from '../state/store.js';
+import { canChange, catalogue, revision, run, structure } from '../state/store.js';
 import { ThreadColour } from '../graph/thread_colour.js';
 import { ToggleGroup } from '../graph/graph_state.js';
 import { ParameterRow } from './parameter_row.js';
@@ -47,6 +47,7 @@ export function ModuleDetails({ element }) {
           style=${{ background: ThreadColour(thread) }}></i>${thread}${
         element.thread ? '' : html` <small>of its group</small>`}</span>`],
       ['plugin', plugin],
+      ['logs', html`<${LogLevel} path=${path} />`],
     ]} />
     <${Troubles} path=${path} />
     ${parameters.length > 0 && html`<${Section} title="Parameters" count=${parameters.length} id="parameters">
@@ -60,4 +61,15 @@ export function ModuleDetails({ element }) {
     ${members.length > 0 && html`<${Section} title="Contains" count=${members.length}>
       <ul class="members">${members.slice(0, 200).map((member) => html`<li key=${member}><${Link} path=${member} />
         <small>${structure.get(member).type ?? 'group'}</small></li>`)}</ul><//>`}`;
+}
+
+const kLogLevels = { inherit: 'as around it', debug: 'debug and more', info: 'info and more',
+  warning: 'warnings and errors', error: 'errors', off: 'nothing' };
+
+/** From which level on is logged what the module, or those in the group, say. */
+function LogLevel({ path }) {
+  const level = run.value.log_levels[path] ?? 'inherit';
+  return html`<select id="log-level" aria-label="Log" value=${level} disabled=${!canChange.value}
+      onChange=${(event) => SetLogLevel(path, event.target.value)}>
+    ${Object.entries(kLogLevels).map(([name, text]) => html`<option key=${name} value=${name}>${text}</option>`)}</select>`;
 }

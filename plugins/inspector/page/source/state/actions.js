@@ -73,6 +73,8 @@ export function MoveToThread(path, thread) {
     thread ? `move ${NameOf(path)} to ${thread}` : `have ${NameOf(path)} run with its group`);
 }
 
+/** `level`: debug, info, warning, error, off, or inherit. */
+export const SetLogLevel = (path, level) => Ask({ op: 'log_level', path, level }, `Could not set what ${NameOf(path)} logs`);
 export const Undo = () => Ask({ op: 'undo' }, `Could not undo “${run.value.undo}”`);
 export const Redo = () => Ask({ op: 'redo' }, `Could not redo “${run.value.redo}”`);
 export const Pause = () => Ask({ op: 'pause' }, 'Could not pause');

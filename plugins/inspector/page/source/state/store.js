@@ -14,7 +14,7 @@ export const catalogue = signal(new Catalogue());
 export const structure = new Structure();
 export const revision = signal(0);      // counts the changes of `structure`
 export const shapeRevision = signal(0); // the same, but for changes of parameters' values alone
-export const run = signal({ time: 0, paused: false, speed: null, undo: null, redo: null, faults: 0, ended: false, verdict: null });
+export const run = signal({ time: 0, paused: false, speed: null, undo: null, redo: null, faults: 0, ended: false, verdict: null, log_levels: {} });
 export const log = signal([]);
 export const threadStatistics = signal({});
 
