@@ -93,6 +93,9 @@ void AddWhatAccompaniesARun(CLI::App& run, RunArguments& arguments) {
   run.add_option("--log", arguments.log_file,
                  "writes faults, warnings, changes and what modules say into a file")
       ->type_name("FILE");
+  run.add_option("--crash-report", arguments.crash_file,
+                 "where a crash is told besides (runnel_crash_PROCESS.txt); '': nowhere")
+      ->type_name("FILE");
   run.add_flag_callback(
       "--no-control", [&arguments] { arguments.has_control = false; },
       "no other process can look at it or change it");

@@ -35,6 +35,7 @@ struct RunArguments {
   bool quiet = false;
   bool statistics = false;
   std::string log_file = {};  ///< "": none
+  std::optional<std::string> crash_file = {};  ///< "": none; without, one that is named after the process
   bool has_control = true;  ///< other processes of the user can reach it
   bool steps = false;       ///< a cycle for each line of standard input
   std::vector<ExtensionByName> extensions = {};

@@ -138,6 +138,12 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
       ->required(false)
       ->type_name("FACTOR");
 
+  Entry& deadline = add("deadline", "shows who does not return from its cycle, and says how long modules may take");
+  word(deadline, "path", "module or group; without, only shows")->required(false)->type_name(kElement);
+  word(deadline, "time", "200ms, for example; off: as long as they like")
+      ->required(false)
+      ->type_name("TIME");
+
   Entry& log = add("log", "shows faults, warnings, changes and what modules say, since the start");
   flag(log, "-f,--follow", "follow", "goes on with what comes");
   option(log, "--level", "level",

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdlib>
 #include <iostream>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -18,8 +20,11 @@
 #include "apps/runnel/preloading.h"
 #include "apps/runnel/progress_display.h"
 #include "apps/runnel/stop_signal.h"
+#include "core/log/log_sink.h"
 #include "plugins/application/application.h"
 #include "plugins/application/run_report.h"
+#include "plugins/command_service/application_log.h"
+#include "plugins/crash_report/crash_report.h"
 
 namespace runnel::program {
 
@@ -64,7 +69,7 @@ class Session {
       return false;
     };
     const auto real_start = std::chrono::steady_clock::now();
-    const auto ran = application_.Run(options);
+    const auto ran = RunReportingCrashes(options);
     const auto real = std::chrono::steady_clock::now() - real_start;
     PrintEvents();
     display_.Clear();
@@ -82,6 +87,13 @@ class Session {
   }
 
  private:
+  Result<Duration> RunReportingCrashes(const RunOptions& options) {
+    const CrashReport report({.file = arguments_.crash_file.value_or(
+                                  fmt::format("runnel_crash_{}.txt", getpid())),
+                              .rescue = [this](const Crash& crash) { Rescue(crash); }});
+    return application_.Run(options);
+  }
+
   // What has come of the run can still be looked at.
   static void Hold(const StopSignal& stop_signal) {
     std::cout << "held for viewers; Ctrl-C ends it\n" << std::flush;
@@ -112,7 +124,23 @@ class Session {
       display_.Clear();
       std::cerr << event.text << std::flush;
     }
+    AppendToLogFile();
+  }
+
+  void AppendToLogFile() {
+    const std::lock_guard lock(log_file_mutex_);
     if (log_file_) log_file_->Append(application_.log());
+  }
+
+  // In a thread of its own, while this one may be the one that has crashed.
+  void Rescue(const Crash& crash) {
+    application_.log().Add(ApplicationLog::Kind::kFault,
+                           (crash.module.empty() ? "the program" : crash.module) +
+                               " has crashed: " + crash.signal,
+                           crash.module);
+    FlushLog();
+    AppendToLogFile();
+    for (const auto& extension : application_.extensions()) extension->OnCrash();
   }
 
   // An extension does, if one of them says when it is over: of a replay.
@@ -141,7 +169,7 @@ class Session {
     std::cout << std::flush;
     const std::string why = WhyItEnded(was_stopped, was_asked);
     application_.NoteEnd(verdict + why);
-    if (log_file_) log_file_->Append(application_.log());
+    AppendToLogFile();
     if (auto failure = log_file_ ? log_file_->Failure() : std::nullopt) failures.Add(*failure);
     std::cerr << failures.ToString();
     (was_stopped ? std::cerr : std::cout) << why;
@@ -155,6 +183,7 @@ class Session {
   Application& application_;
   RunReport& report_;
   ProgressDisplay display_;
+  std::mutex log_file_mutex_;
   std::optional<LogFile> log_file_;
   bool input_has_ended_ = false;
 };
@@ -166,10 +195,22 @@ ApplicationOptions OptionsOf(const RunArguments& arguments) {
   options.speed_words = "--fast and --speed";
   options.pause_words = "--paused";
   options.has_control = arguments.has_control;
+  options.notes_running_modules = true;
   // Of what was recorded, replayed for viewers alone.
   if (arguments.application.file.empty()) options.clock = ClockKind::kSimulated;
   options.extensions_by_name = arguments.extensions;
   return options;
+}
+
+// A thread that does not end can be left, but what it uses cannot be destroyed: the process ends without.
+void LeaveIfStuck(Application& application, ExitCode code) {
+  const auto stuck = application.scheduler().StuckModules();
+  if (stuck.empty()) return;
+  for (const StuckModule& each : stuck) {
+    PrintError({.message = "has still not returned; the program ends without it", .path = each.path});
+  }
+  const bool is_written = FinishOutput();
+  std::_Exit(static_cast<int>(is_written || code != ExitCode::kDone ? code : ExitCode::kRunFailed));
 }
 
 }  // namespace
@@ -185,7 +226,9 @@ ExitCode Run(const RunArguments& arguments) {
   if (!application) return ExitCode::kBadInput;
   for (const auto& extension : application->extensions()) std::cout << extension->StartText();
   std::cout << std::flush;
-  return Session(arguments, *application).Run();
+  const ExitCode code = Session(arguments, *application).Run();
+  LeaveIfStuck(*application, code);
+  return code;
 }
 
 }  // namespace runnel::program

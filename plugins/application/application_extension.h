@@ -58,6 +58,9 @@ class ApplicationExtension {
   virtual std::string Finish(Diagnostics& /*problems*/) { return {}; }
   /// After that; `verdict` is what has come of the run, for people.
   virtual void OnEnd(const std::string& /*verdict*/) {}
+  /// The process is about to end by a crash: brings to the disk what can be. Called by a thread that is none of the
+  /// application's, while cycles may run on, and while the thread that has crashed may hold any lock.
+  virtual void OnCrash() {}
   /// The user wants to look at what has come of the run before the application goes.
   [[nodiscard]] virtual bool IsHeld() const { return false; }
 

@@ -67,6 +67,9 @@ struct ApplicationOptions {
   const char* speed_words = "the speed";
   const char* pause_words = "the pause";
 
+  /// Which module runs is noted, so that a CrashReport can name it.
+  bool notes_running_modules = false;
+
   /// Other processes of the same user reach it: `runnel ls`, `runnel swap`. That they cannot is a warning.
   bool has_control = false;
   /// What the program itself adds, in the order in which they begin. Each is of one application.

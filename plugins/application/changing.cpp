@@ -160,7 +160,8 @@ CommandService& Application::service() {
   };
   return parts_->service.emplace(ServedApplication{parts_->runtime(), parts_->plugins().modules(),
                                                    *parts_->editor, *parts_->log, std::move(hooks),
-                                                   &*parts_->history, &parts_->scheduler->pace()});
+                                                   &*parts_->history, &parts_->scheduler->pace(),
+                                                   &*parts_->scheduler});
 }
 
 }  // namespace runnel

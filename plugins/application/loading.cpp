@@ -56,6 +56,7 @@ Error Application::Parts::Placed(Error error) const {
 Result<void> Application::Parts::Schedule() {
   SchedulerOptions made = SchedulerOptionsOf(*element_);
   if (options().clock) made.clock = *options().clock;
+  made.notes_running_tasks = options().notes_running_modules;
   for (const auto& extension : extensions()) {
     ++prepared_extensions;
     if (auto prepared = extension->Prepare(*element_, made); !prepared) return prepared;

@@ -83,7 +83,7 @@ std::string RunReport::Progress() {
 }
 
 void RunReport::Hear(const Fault& fault) {
-  if (fault.is_mended) return;
+  if (fault.is_mended || fault.kind != Fault::Kind::kThrown) return;
   const std::lock_guard lock(runtime_.structure_mutex());
   for (Source& source : sources_) {
     if (source.path == fault.path) source.has_failed = true;
@@ -137,7 +137,9 @@ std::string RunReport::Finish(Diagnostics& diagnostics) {
 }
 
 std::string FaultText(const Fault& fault, Time start, FrameworkElement& root) {
-  return EventText({.message = "has been stopped: " + fault.message, .path = fault.path},
+  const bool is_stopped = fault.kind == Fault::Kind::kThrown;
+  return EventText({.message = (is_stopped ? "has been stopped: " : "") + fault.message,
+                    .path = fault.path},
                    fault.time, start, fault.is_mended, root);
 }
 

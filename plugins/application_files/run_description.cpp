@@ -17,6 +17,7 @@ Result<void> AddRules(const FrameworkElement& application, Scheduler& scheduler,
     }
   }
   for (const FaultReaction& reaction : rules->fault_reactions) supervisor.Add(reaction);
+  for (const StuckReaction& reaction : rules->stuck_reactions) supervisor.Add(reaction);
   return {};
 }
 

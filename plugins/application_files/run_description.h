@@ -14,10 +14,11 @@ namespace runnel {
 
 // What an application file says of how the application is run. It has been checked; paths in it are absolute.
 
-/// Kept with the application by <on_fault> and <on_stale>; in the order of the file.
+/// Kept with the application by <on_fault>, <on_stale> and <on_stuck>; in the order of the file.
 struct RunRules final : Annotation {
   std::vector<FaultRule> fault_rules;
   std::vector<FaultReaction> fault_reactions;
+  std::vector<StuckReaction> stuck_reactions;
   std::vector<std::pair<StaleRule, SourcePosition>> stale_rules;
 };
 

@@ -18,6 +18,7 @@ namespace runnel {
 
 class ChangeHistory;
 class Pace;
+class Scheduler;
 
 /// What a client wants to be recorded.
 struct RecordingRequest {
@@ -67,6 +68,7 @@ struct ServedApplication {
   ChangeHistory* history = nullptr;
   /// Of the scheduler that runs the application. Optional.
   Pace* pace = nullptr;
+  Scheduler* scheduler = nullptr;  ///< the same's; optional
 };
 
 /// A request while it is carried out. Destroyed before it has begun, it is not done.

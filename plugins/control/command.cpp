@@ -17,8 +17,9 @@ struct CommandKind {
   std::size_t most_arguments;
   std::vector<std::string> options;
   CommandMaker* make;
-  bool needs_pace = false;
+  enum class Needs { kNothing, kPace, kScheduler } needs = Needs::kNothing;
 };
+using Needs = CommandKind::Needs;
 
 constexpr std::size_t kMostPatterns = 1000;
 
@@ -34,10 +35,11 @@ const std::vector<CommandKind>& Kinds() {
       {"undo", 0, 0, {}, MakeServiceCommand},
       {"redo", 0, 0, {}, MakeServiceCommand},
       {"save", 0, 1, {}, MakeServiceCommand},
-      {"pause", 0, 0, {}, MakePauseCommand, true},
-      {"resume", 0, 0, {}, MakeResumeCommand, true},
-      {"step", 0, 1, {}, MakeStepCommand, true},
-      {"speed", 0, 1, {}, MakeSpeedCommand, true},
+      {"pause", 0, 0, {}, MakePauseCommand, Needs::kPace},
+      {"resume", 0, 0, {}, MakeResumeCommand, Needs::kPace},
+      {"step", 0, 1, {}, MakeStepCommand, Needs::kPace},
+      {"speed", 0, 1, {}, MakeSpeedCommand, Needs::kPace},
+      {"deadline", 0, 2, {}, MakeDeadlineCommand, Needs::kScheduler},
       {"reload", 1, 1, {}, MakeServiceCommand},
       {"record", 0, kMostPatterns, {"file", "count", "compression"}, MakeRecordCommand},
   };
@@ -71,11 +73,14 @@ CommandResult MakeCommand(const std::string& text, CommandService& service, Task
                  .hint = NearestNameHint(request->command, NamesOf(Kinds(), &CommandKind::name))};
   }
   if (auto good = CheckArguments(*request, *kind); !good) return good.error();
-  if (kind->needs_pace && service.application().pace == nullptr) {
-    return Error{.message =
-                     "the program that runs this application cannot pause it or change its speed"};
+  const ServedApplication& application = service.application();
+  if ((kind->needs == Needs::kPace && application.pace == nullptr) ||
+      (kind->needs == Needs::kScheduler && application.scheduler == nullptr)) {
+    return Error{.message = kind->needs == Needs::kPace
+                                ? "the program that runs this application cannot pause it or change its speed"
+                                : "the program that runs this application does not say how it does so"};
   }
-  return kind->make(*request, {service.application(), service, tasks});
+  return kind->make(*request, {application, service, tasks});
 }
 
 std::optional<ControlCode> Command::Continue(Answer& answer) {

@@ -74,7 +74,7 @@ using CommandResult = Result<Command>;
 using CommandMaker = CommandResult(const Request& request, const CommandContext& context);
 CommandMaker MakeListCommand, MakePathsCommand, MakeTypesCommand, MakeEchoCommand, MakeRateCommand,
     MakeLogCommand, MakePauseCommand, MakeResumeCommand, MakeStepCommand, MakeSpeedCommand,
-    MakeRecordCommand;
+    MakeRecordCommand, MakeDeadlineCommand;
 /// Of those that the service carries out.
 CommandMaker MakeServiceCommand;
 

@@ -90,10 +90,14 @@ void StructureMirror::NoteFaults() {
   const auto news = log_.ReadEntries(next_in_log_, ApplicationLog::kMostEntries);
   next_in_log_ = news.next;
   for (const ApplicationLog::Entry& entry : news.entries) {
-    if (entry.cause.empty()) continue;
+    if (entry.module.empty()) continue;
     const auto found = runtime_.root().Find(entry.module);
     if (!found) continue;  // it has been deleted since
-    around_.stopped[(*found)->id()] = entry.cause;
+    if (entry.cause.empty()) {  // it goes on
+      if (around_.stopped.erase((*found)->id()) == 0) continue;
+    } else {
+      around_.stopped[(*found)->id()] = entry.cause;
+    }
     walk_.Forget();
   }
 }

@@ -28,6 +28,9 @@ class ApplicationRecording final : public ApplicationExtension {
   Result<void> Begin(Application& application, Diagnostics& diagnostics) override;
   std::optional<Error> TakeFailure() override;
   std::string Finish(Diagnostics& problems) override;
+  void OnCrash() override {
+    if (recorder_ != nullptr) recorder_->FinishFile();
+  }
   void End() noexcept override { recorder_.reset(); }
 
  private:

@@ -83,6 +83,9 @@ class Recorder final : public ElementListener, public BackpressureSource {
 
   /// Writes what waits and ends the file. Idempotent. Errors: as RecordingStatus::failure.
   Result<void> Finish();
+  /// Writes what waits and ends the file, without the structure lock: when the process is about to end by a crash. Once;
+  /// nothing but destroying may follow.
+  void FinishFile() noexcept { EndWriting(); }
   [[nodiscard]] RecordingStatus status() const;
   [[nodiscard]] const std::string& file() const noexcept { return options_.file; }
   /// The failure, once.

@@ -17,6 +17,10 @@ namespace {
 thread_local constinit const Schedule* in_cycle_of __attribute__((tls_model("initial-exec"))) =
     nullptr;
 
+// Of the cycle that this thread is in, if anything is noted of it.
+thread_local constinit const CycleRunner* noting_runner
+    __attribute__((tls_model("initial-exec"))) = nullptr;
+
 bool IsToldAtTheEnd(const CycleRunner& runner) noexcept {
   return in_cycle_of != nullptr &&
          std::ranges::find(*in_cycle_of->waiting, &runner) != in_cycle_of->waiting->end();
@@ -36,39 +40,13 @@ void RunInTurn(std::span<const Schedule::Entry> entries, CycleMoment now,
   while (entry != entries.end()) {
     try {
       for (; entry != entries.end(); ++entry) {
-        if (!entry->element->is_stopped()) entry->run();
+        if (!entry->element->is_at_rest()) entry->run();
       }
     } catch (const std::exception& exception) {
       fail(exception.what());
     } catch (...) {
       fail(DescribeException().c_str());
     }
-  }
-}
-
-// The same, of one element after the other, with what is written down of it.
-[[gnu::cold, gnu::noinline]] void RunTraced(std::span<const Schedule::Entry> entries,
-                                            CycleMoment now, FaultDispatcher& faults,
-                                            TraceTrack& track) noexcept {
-  for (const Schedule::Entry& entry : entries) {
-    TracedElement* const traced = entry.element->traced();
-    if (traced == nullptr || entry.element->is_stopped()) {
-      RunInTurn({&entry, 1}, now, faults);
-      continue;
-    }
-    traced->track = &track;
-    const Time began = track.Now();
-    RunInTurn({&entry, 1}, now, faults);
-    track.NoteUpdate(began, entry.phase, traced->number, traced->ports);
-  }
-}
-
-void Run(std::span<const Schedule::Entry> entries, const Schedule& schedule, CycleMoment now,
-         FaultDispatcher& faults) noexcept {
-  if (schedule.track != nullptr) [[unlikely]] {
-    RunTraced(entries, now, faults, *schedule.track);
-  } else {
-    RunInTurn(entries, now, faults);
   }
 }
 
@@ -89,6 +67,8 @@ void CycleRunner::Install(std::unique_ptr<const Schedule> schedule) {
   Retire([previous] { delete previous; });
 }
 
+const CycleRunner* CycleRunner::OfThisThread() noexcept { return noting_runner; }
+
 bool CycleRunner::RunCycle(Cycle cycle, FaultDispatcher& faults) noexcept {
   const EpochGuard guard;
   if (gate_.is_closed()) [[unlikely]]
@@ -101,20 +81,59 @@ bool CycleRunner::RunCycle(Cycle cycle, FaultDispatcher& faults) noexcept {
   const std::uint64_t number = cycles_begun_.load(std::memory_order_relaxed) + 1;
   cycles_begun_.store(number, std::memory_order_relaxed);
   const CycleMoment now{cycle.now, number};
-  TraceTrack* const track = schedule->track;
-  const Time began = track != nullptr ? track->Now() : Time{};
+  noted_ = instruments_.load(std::memory_order_relaxed);
+  const Time began = noted_ != 0 ? BeginNoting() : Time{};
   if (waits_for_data()) {
     RunActivated(*schedule, now, faults);
   } else {
     RunAll(*schedule, now, faults);
   }
-  if (track != nullptr) track->NoteCycle(began, now.time, now.number);
+  if (noted_ != 0) [[unlikely]]
+    EndNoting(*schedule, began, now);
   in_cycle_of = nullptr;
   NotificationBatch notifications;
   for (CycleRunner* const waiting : *schedule->waiting) {
     if (waiting->is_activated()) notifications.Add(waiting->event_);
   }
   return true;
+}
+
+Time CycleRunner::BeginNoting() noexcept {
+  noting_runner = this;
+  return (noted_ & Instruments::kTrace) != 0 ? clock_.Now() : Time{};
+}
+
+void CycleRunner::EndNoting(const Schedule& schedule, Time began, CycleMoment now) noexcept {
+  noting_runner = nullptr;
+  if ((noted_ & Instruments::kTrace) == 0 || schedule.track == nullptr) return;
+  schedule.track->NoteCycle({began, clock_.Now()}, now.time, now.number);
+}
+
+void CycleRunner::Run(std::span<const Schedule::Entry> entries, const Schedule& schedule,
+                      CycleMoment now, FaultDispatcher& faults) noexcept {
+  if (noted_ == 0) [[likely]]
+    return RunInTurn(entries, now, faults);
+  for (const Schedule::Entry& entry : entries) RunNoted(entry, schedule, now, faults);
+}
+
+void CycleRunner::RunNoted(const Schedule::Entry& entry, const Schedule& schedule, CycleMoment now,
+                           FaultDispatcher& faults) noexcept {
+  ScheduledElement& element = *entry.element;
+  if (element.is_at_rest()) return;
+  TraceTrack* const track = (noted_ & Instruments::kTrace) != 0 ? schedule.track : nullptr;
+  TracedElement* const traced = track != nullptr ? element.traced() : nullptr;
+  const bool is_measured = traced != nullptr || (noted_ & Instruments::kProfile) != 0;
+  const Time began = is_measured ? clock_.Now() : Time{};
+  if (traced != nullptr) traced->track = track;
+  running_.Begin(element);
+  RunInTurn({&entry, 1}, now, faults);
+  running_.End();
+  if (!is_measured) return;
+  const Time ended = clock_.Now();
+  if ((noted_ & Instruments::kProfile) != 0) element.meter(entry.phase).Add(ended - began);
+  if (traced != nullptr) {
+    track->NoteUpdate({began, ended}, entry.phase, traced->number, traced->ports);
+  }
 }
 
 // Whether nothing need be asked of its elements any more.

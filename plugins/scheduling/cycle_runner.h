@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -10,10 +11,20 @@
 #include "core/lockfree/wake_event.h"
 #include "core/port/cycle.h"
 #include "plugins/scheduling/cycle_statistics.h"
+#include "plugins/scheduling/running_task.h"
 #include "plugins/scheduling/schedule.h"
 #include "plugins/scheduling/thread_options.h"
+#include "plugins/scheduling/tick_clock.h"
 
 namespace runnel {
+
+/// What is noted of cycles, beside their statistics, while they run: bits of a set. Without any, a cycle pays for one
+/// branch.
+struct Instruments {
+  static constexpr std::uint8_t kTrace = 1;    ///< on the schedule's TraceTrack
+  static constexpr std::uint8_t kRunning = 2;  ///< which element is just running
+  static constexpr std::uint8_t kProfile = 4;  ///< how long each task takes, and the latency of chains
+};
 
 /// Runs the cycles of one thread container; both executors are built on it. It outlives the
 /// container until its last cycle has ended.
@@ -25,15 +36,42 @@ namespace runnel {
 class CycleRunner {
  public:
   CycleRunner(std::string path, const ThreadOptions& options)
-      : path_(std::move(path)), options_(options) {}
+      : path_(std::move(path)),
+        activation_(options.activation),
+        period_(options.period.count()),
+        priority_(options.priority),
+        on_overrun_(options.on_overrun) {}
   ~CycleRunner();
 
   /// Of its container.
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
-  [[nodiscard]] const ThreadOptions& options() const noexcept { return options_; }
-  [[nodiscard]] bool waits_for_data() const noexcept {
-    return options_.activation == ThreadOptions::Activation::kTrigger;
+  [[nodiscard]] ThreadOptions options() const noexcept {
+    return {activation_, period(), priority_.load(std::memory_order_relaxed),
+            on_overrun_.load(std::memory_order_relaxed)};
   }
+  [[nodiscard]] Duration period() const noexcept {
+    // relaxed: a number, which holds from some cycle on.
+    return Duration(period_.load(std::memory_order_relaxed));
+  }
+  /// All but how its cycles are activated, which stays. From one of the next cycles on.
+  void set_options(const ThreadOptions& options) noexcept {
+    period_.store(options.period.count(), std::memory_order_relaxed);
+    priority_.store(options.priority, std::memory_order_relaxed);
+    on_overrun_.store(options.on_overrun, std::memory_order_relaxed);
+  }
+  [[nodiscard]] bool waits_for_data() const noexcept {
+    return activation_ == ThreadOptions::Activation::kTrigger;
+  }
+
+  /// What is noted from the next cycle on. Any thread.
+  void set_instruments(std::uint8_t instruments) noexcept {
+    instruments_.store(instruments, std::memory_order_relaxed);
+  }
+  /// Only with Instruments::kRunning.
+  [[nodiscard]] const RunningTask& running() const noexcept { return running_; }
+  /// Whose cycle the calling thread is in; nullptr: none, or nothing is noted of it. May be called by the handler of a
+  /// signal.
+  [[nodiscard]] static const CycleRunner* OfThisThread() noexcept;
 
   /// Takes effect from the next cycle on; a runner that waits for data has one at once if data have
   /// come for any element of the schedule.
@@ -79,6 +117,13 @@ class CycleRunner {
   [[nodiscard]] WakeEvent& event() noexcept { return event_; }
 
  private:
+  void Run(std::span<const Schedule::Entry> entries, const Schedule& schedule, CycleMoment now,
+           FaultDispatcher& faults) noexcept;
+  [[gnu::cold, gnu::noinline]] Time BeginNoting() noexcept;
+  [[gnu::cold, gnu::noinline]] void EndNoting(const Schedule& schedule, Time began,
+                                              CycleMoment now) noexcept;
+  [[gnu::noinline]] void RunNoted(const Schedule::Entry& entry, const Schedule& schedule, CycleMoment now,
+                FaultDispatcher& faults) noexcept;
   [[nodiscard]] bool IsSettled(const Schedule& schedule) noexcept;
   void RunAll(const Schedule& schedule, CycleMoment now, FaultDispatcher& faults) noexcept;
   void RunActivated(const Schedule& schedule, CycleMoment now, FaultDispatcher& faults) noexcept;
@@ -86,7 +131,14 @@ class CycleRunner {
                       CycleMoment now, FaultDispatcher& faults) noexcept;
 
   const std::string path_;
-  const ThreadOptions options_;
+  const ThreadOptions::Activation activation_;
+  std::atomic<Duration::rep> period_;
+  std::atomic<int> priority_;
+  std::atomic<ThreadOptions::OnOverrun> on_overrun_;
+  std::atomic<std::uint8_t> instruments_{0};
+  std::uint8_t noted_ = 0;  // of the cycle that is under way
+  RunningTask running_;
+  TickClock clock_;  // for what is measured of tasks
   const std::shared_ptr<CycleQuiescence> quiescence_ = std::make_shared<CycleQuiescence>();
   CycleGate gate_;
   std::atomic<const Schedule*> schedule_{nullptr};

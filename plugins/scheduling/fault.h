@@ -8,18 +8,25 @@
 
 namespace runnel {
 
-/// A module has thrown in its cycle and has been stopped.
+/// A module has thrown in its cycle and has been stopped, or does not return from it.
 struct Fault {
+  enum class Kind {
+    kThrown,
+    kStuck,     ///< it has not returned in time, and may still do so
+    kReturned,  ///< it has, too late
+  };
+
   std::string path;         ///< of the module
   std::string message;      ///< what it threw; cut off after kLongestFaultMessage characters
   Time time{};              ///< of the cycle in which it happened
   std::uint64_t cycle = 0;  ///< of its thread, the first is 1; 0 if it is no cycle's fault
   bool is_mended = false;   ///< the scheduler's fault handler has seen to it; no rule is applied
+  Kind kind = Kind::kThrown;
 };
 
 inline constexpr std::size_t kLongestFaultMessage = 500;
 
-/// What the application does when a module is stopped by a fault. Rules are applied in the order of
+/// What the application does when a module is stopped by a fault (Fault::Kind::kThrown; for others, see StuckRule). Rules are applied in the order of
 /// their adding, never in the cycle that failed: after it (simulated clock) or by the supervising
 /// thread (real clock).
 struct FaultRule {

@@ -51,7 +51,7 @@ void FaultDispatcher::Dispatch() {
   while (oldest != nullptr) {
     std::unique_ptr<FaultRecord> record(std::exchange(oldest, oldest->next_));
     try {
-      Report(record->fault());
+      Answer(*record);
     } catch (...) {  // what is not told now is told the next time
       Raise(std::move(record));
       while (oldest != nullptr)
@@ -59,6 +59,13 @@ void FaultDispatcher::Dispatch() {
       throw;
     }
   }
+}
+
+// What has its own answer is told first, for that may take a while.
+void FaultDispatcher::Answer(const FaultRecord& record) {
+  if (record.fault().kind == Fault::Kind::kThrown) return Report(record.fault());
+  Log(record.fault());
+  if (record.call_) Apply({.of = record.fault().path, .call = record.call_}, record.fault());
 }
 
 void FaultDispatcher::Report(const Fault& fault) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/ordered_mutex.h"
@@ -22,6 +23,9 @@ class Runtime;
 class FaultRecord {
  public:
   explicit FaultRecord(std::string path);
+  /// One that is known already, with what is to be done about it in the place of the rules.
+  FaultRecord(Fault fault, std::function<void(const Fault&)> call)
+      : fault_(std::move(fault)), call_(std::move(call)) {}
   /// Cuts `message` off where the room ends.
   void Fill(std::string_view message, Time time, std::uint64_t cycle) noexcept;
   [[nodiscard]] const Fault& fault() const noexcept { return fault_; }
@@ -29,6 +33,7 @@ class FaultRecord {
  private:
   friend class FaultDispatcher;
   Fault fault_;
+  std::function<void(const Fault&)> call_;
   FaultRecord* next_ = nullptr;
 };
 
@@ -78,6 +83,7 @@ class FaultDispatcher {
   [[nodiscard]] WakeEvent& event() noexcept { return event_; }
 
  private:
+  void Answer(const FaultRecord& record);
   void Log(Fault fault);
   [[nodiscard]] std::optional<std::string> Handle(const Fault& fault);
   void Apply(const FaultRule& rule, const Fault& fault);

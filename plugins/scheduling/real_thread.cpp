@@ -9,6 +9,7 @@
 #include "core/log/logger.h"
 #include "plugins/scheduling/due_time.h"
 #include "plugins/scheduling/realtime_setup.h"
+#include "plugins/scheduling/signal_stack.h"
 #include "plugins/scheduling/tick_clock.h"
 
 namespace runnel {
@@ -62,6 +63,7 @@ void RealThread::RequestStop() noexcept {
 }
 
 void RealThread::Run(Time first) {
+  const SignalStack for_handlers;
   runner_->quiescence()->Take();
   PrefaultStack();
   PrepareLogging();

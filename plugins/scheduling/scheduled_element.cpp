@@ -1,5 +1,7 @@
 #include "plugins/scheduling/scheduled_element.h"
 
+#include <mutex>
+#include <unordered_set>
 #include <utility>
 
 #include "plugins/scheduling/cycle_runner.h"
@@ -7,12 +9,41 @@
 
 namespace runnel {
 
+namespace {
+
+// All that there are, so that whoever has the address of one learns whether it is still there. Never destroyed, as
+// elements may be retired until the end of the process.
+struct LivingElements {
+  std::mutex mutex;
+  std::unordered_set<const ScheduledElement*> all;
+  static LivingElements& OfProcess() {
+    static auto& elements = *new LivingElements;
+    return elements;
+  }
+};
+
+}  // namespace
+
 ScheduledElement::ScheduledElement(std::string path, std::unique_ptr<TracedElement> traced)
     : path_(std::move(path)),
       traced_(std::move(traced)),
-      record_(std::make_unique<FaultRecord>(path_)) {}
+      record_(std::make_unique<FaultRecord>(path_)) {
+  LivingElements& living = LivingElements::OfProcess();
+  const std::lock_guard lock(living.mutex);
+  living.all.insert(this);
+}
 
-ScheduledElement::~ScheduledElement() = default;
+ScheduledElement::~ScheduledElement() {
+  LivingElements& living = LivingElements::OfProcess();
+  const std::lock_guard lock(living.mutex);
+  living.all.erase(this);
+}
+
+std::optional<std::string> ScheduledElement::PathOf(const ScheduledElement* element) {
+  LivingElements& living = LivingElements::OfProcess();
+  const std::lock_guard lock(living.mutex);
+  return living.all.contains(element) ? std::optional(element->path()) : std::nullopt;
+}
 
 BoundCall ScheduledElement::Watched(const Task& task, TaskWatch& watch) {
   watched_.push_back(watch.Watch(task));

@@ -1,18 +1,22 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/port/waker.h"
 #include "plugins/scheduling/fault_dispatcher.h"
+#include "plugins/scheduling/task_meter.h"
 #include "plugins/scheduling/task_watch.h"
 
 namespace runnel {
 
+class ChainSteps;
 class CycleRunner;
 struct TracedElement;
 
@@ -38,14 +42,43 @@ class ScheduledElement final : public Waker {
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
 
   /// Stops the element for good, whatever schedule has it. Any thread.
-  void Stop() noexcept { stopped_.store(true, std::memory_order_relaxed); }
+  void Stop() noexcept { rest_.fetch_or(kStopped, std::memory_order_relaxed); }
+  /// Has it left out of cycles, or lets it run again. Any thread.
+  void SetPaused(bool is_paused) noexcept {
+    is_paused ? rest_.fetch_or(kPaused, std::memory_order_relaxed)
+              : rest_.fetch_and(static_cast<std::uint8_t>(~kPaused), std::memory_order_relaxed);
+  }
+  [[nodiscard]] bool is_paused() const noexcept {
+    return (rest_.load(std::memory_order_relaxed) & kPaused) != 0;
+  }
+  /// Whether cycles leave it out.
+  [[nodiscard]] bool is_at_rest() const noexcept {
+    // relaxed: as is_stopped(); one that is paused may run once more.
+    return rest_.load(std::memory_order_relaxed) != 0;
+  }
   /// Stops it, too, and hands the fault in.
   void Fail(std::string_view message, CycleMoment now, FaultDispatcher& faults) noexcept;
   [[nodiscard]] bool is_stopped() const noexcept {
     // relaxed: the hand-over from thread to thread orders a fault, and the epoch that is waited for before
     // an element is destroyed, Stop(); elsewhere it only informs.
-    return stopped_.load(std::memory_order_relaxed);
+    return (rest_.load(std::memory_order_relaxed) & kStopped) != 0;
   }
+
+  /// How long its runs of this phase take, while that is measured.
+  [[nodiscard]] TaskMeter& meter(Phase phase) noexcept {
+    return meters_[static_cast<std::size_t>(phase)];
+  }
+  /// What it has to do with chains whose latency is measured; nullptr: nothing. Set under the structure lock; what
+  /// was there before is to be retired.
+  [[nodiscard]] const ChainSteps* chains() const noexcept {
+    return chains_.load(std::memory_order_acquire);
+  }
+  void set_chains(const ChainSteps* chains) noexcept {
+    chains_.store(chains, std::memory_order_release);
+  }
+
+  /// The path of an element that may be gone by now; nullopt if it is.
+  [[nodiscard]] static std::optional<std::string> PathOf(const ScheduledElement* element);
 
   /// nullptr: nothing is written down of it. By the thread whose cycle has it.
   [[nodiscard]] TracedElement* traced() noexcept { return traced_.get(); }
@@ -79,10 +112,14 @@ class ScheduledElement final : public Waker {
   const std::unique_ptr<TracedElement> traced_;
   std::vector<std::unique_ptr<WatchedTask>> watched_;  // cycles may be running any of them
   std::unique_ptr<FaultRecord> record_;                // until the element has failed
-  std::atomic<bool> stopped_{false};
+  static constexpr std::uint8_t kStopped = 1;
+  static constexpr std::uint8_t kPaused = 2;
+  std::atomic<std::uint8_t> rest_{0};
   std::atomic<bool> activated_{false};
   std::atomic<bool> in_pass_{false};
   std::atomic<CycleRunner*> runner_{nullptr};
+  std::atomic<const ChainSteps*> chains_{nullptr};
+  std::array<TaskMeter, 3> meters_;  // one for each phase
 };
 
 }  // namespace runnel

@@ -33,6 +33,12 @@ Scheduler::Scheduler(Runtime& runtime, SchedulerOptions options)
 
 Scheduler::~Scheduler() {
   Stop();
+  RealThreads stuck;
+  {
+    const std::lock_guard lock(runtime_.structure_mutex());
+    stuck.swap(ending_);
+  }
+  stuck.clear();
   {
     const std::lock_guard lock(runtime_.structure_mutex());
     runtime_.RemoveListener(*this);
@@ -103,6 +109,7 @@ void Scheduler::BringUpToDate() {
       }
       runners_ = compiler_.runners();
       has_other_runners_ = true;
+      UpdateInstruments();
     }
     if (compiler_.has_changes()) {
       compiler_.Install();
@@ -113,97 +120,6 @@ void Scheduler::BringUpToDate() {
     compiler_.NeedAll();
     throw;
   }
-}
-
-// Room comes first: a thread that could not be kept would be waited for here, under the lock that its cycle
-// may need.
-void Scheduler::StartThreads(Time first) {
-  ending_.reserve(ending_.size() + threads_.size());
-  threads_.reserve(threads_.size() + runners_.size());
-  const auto is_gone = [this](const auto& thread) {
-    return std::ranges::find(runners_, thread->runner()) == runners_.end();
-  };
-  for (auto& thread : threads_) {
-    if (!is_gone(thread)) continue;
-    thread->RequestStop();
-    ending_.push_back(std::move(thread));
-  }
-  std::erase(threads_, nullptr);
-  std::erase_if(ending_, [](const auto& thread) { return thread->has_ended(); });
-  for (const auto& runner : runners_) {
-    const bool has_thread = std::ranges::any_of(
-        threads_, [&](const auto& thread) { return thread->runner() == runner; });
-    if (has_thread) continue;
-    threads_.push_back(std::make_unique<RealThread>(runner, faults_, first));
-    if (auto warning = threads_.back()->Prioritize()) {
-      realtime_warnings_.push_back(std::move(*warning));
-    }
-  }
-  has_other_runners_ = false;
-}
-
-Result<void> Scheduler::Start() {
-  if (IsSimulated(options_)) {
-    return Error{.message = "an application on a simulated clock has no threads to start",
-                 .hint = "use Step() or RunUntil()"};
-  }
-  const std::lock_guard start_lock(start_mutex_);
-  if (is_running()) return {};
-  try {
-    StartAll();
-    return {};
-  } catch (...) {
-    EndAll();
-    return Error{.message = "the threads could not be started: " + DescribeException()};
-  }
-}
-
-void Scheduler::StartAll() {
-  const std::lock_guard lock(runtime_.structure_mutex());
-  if (std::exchange(has_run_, false)) faults_.ClearStop();
-  realtime_warnings_.clear();
-  compiler_.NeedAll();
-  BringUpToDate();
-  const bool has_priorities = std::ranges::any_of(
-      runners_, [](const auto& runner) { return runner->options().priority > 0; });
-  if (has_priorities && options_.lock_memory) {
-    if (auto warning = LockMemory()) realtime_warnings_.push_back(std::move(*warning));
-  }
-  supervises_.store(true, std::memory_order_release);
-  supervisor_ = std::thread([this] { Supervise(); });
-  StartThreads(machine_.Now());
-  is_running_ = true;
-}
-
-void Scheduler::Stop() {
-  RUNNEL_CHECK(std::this_thread::get_id() != supervisor_.get_id(),
-               "a fault rule cannot stop the scheduler itself; call RequestStop()");
-  const std::lock_guard start_lock(start_mutex_);
-  if (EndAll()) has_run_ = true;
-}
-
-// Whether it was running. Without allocating, so that nothing is left half running.
-bool Scheduler::EndAll() noexcept {
-  bool was_running = false;
-  RealThreads ended[2];
-  {
-    const std::lock_guard lock(runtime_.structure_mutex());
-    was_running = std::exchange(is_running_, false);
-    ended[0].swap(threads_);
-    ended[1].swap(ending_);
-  }
-  // The structure lock is free meanwhile, so that a cycle that needs it can come to its end.
-  for (const RealThreads& threads : ended) {
-    for (const auto& thread : threads) thread->RequestStop();
-  }
-  for (RealThreads& threads : ended) threads.clear();
-  EndSupervision();
-  return was_running;
-}
-
-bool Scheduler::is_running() const {
-  const std::lock_guard lock(runtime_.structure_mutex());
-  return is_running_;
 }
 
 // What is changed after the look is for the next step.
@@ -269,12 +185,24 @@ std::vector<Fault> Scheduler::TakeFaults() {
   return faults_.Take();
 }
 
-Result<CycleHold> Scheduler::HoldCycles(const std::vector<std::string>& paths, Duration timeout) {
+Result<CycleHold> Scheduler::HoldCycles(const std::vector<std::string>& paths, Duration timeout,
+                                        const std::vector<std::string>& at_rest) {
   RUNNEL_CHECK(
       !runtime_.structure_mutex().HeldByThisThread(),
       "threads cannot be kept between cycles under the structure lock, which a cycle might "
       "be waiting for");
-  return CycleHold::Take(RunnersOf(paths), timeout, options_.tracer);
+  Runners runners = RunnersOf(paths);
+  if (!cycle_watchdog_.has_rules()) {
+    return CycleHold::Take(std::move(runners), timeout, options_.tracer);
+  }
+  const auto stuck = [this](const auto& runner) { return cycle_watchdog_.IsStuck(*runner); };
+  for (const auto& runner : RunnersOf(at_rest)) {
+    if (!stuck(runner)) continue;
+    return Error{.message = "one of its modules does not return from its cycle",
+                 .path = runner->path()};
+  }
+  std::erase_if(runners, stuck);
+  return CycleHold::Take(std::move(runners), timeout, options_.tracer);
 }
 
 Scheduler::Runners Scheduler::RunnersOf(const std::vector<std::string>& paths) {

@@ -14,6 +14,7 @@
 #include "core/element/runtime.h"
 #include "plugins/scheduling/backpressure.h"
 #include "plugins/scheduling/cycle_hold.h"
+#include "plugins/scheduling/cycle_watchdog.h"
 #include "plugins/scheduling/fault.h"
 #include "plugins/scheduling/fault_dispatcher.h"
 #include "plugins/scheduling/pace.h"
@@ -46,6 +47,8 @@ struct SchedulerOptions {
   CycleTracer* tracer = nullptr;
   /// Is there whenever a task runs. Must outlive both, too. nullptr: nobody.
   TaskWatch* watch = nullptr;
+  /// Has RunningModulePath() know what runs, for who answers crashes.
+  bool notes_running_tasks = false;
   /// If there is something to run but no container, one called "main" is made with these.
   ThreadOptions default_options = {};
 };
@@ -69,7 +72,8 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   /// kReal: starts a thread for each container. What the system does not permit becomes a warning.
   /// Errors: a simulated clock; a thread that the system does not give, and nothing runs then.
   Result<void> Start();
-  /// Ends all threads after their current cycle and waits for them. Idempotent.
+  /// Ends all threads after their current cycle and waits for them, but not for one that a StuckRule has found stuck:
+  /// that ends when its module returns, and Start() fails until then; so long waits who destroys this. Idempotent.
   void Stop();
   [[nodiscard]] bool is_running() const;
 
@@ -123,14 +127,28 @@ class Scheduler final : public ElementListener, public AssignmentListener {
 
   /// Keeps the threads that run anything at or below one of `paths` between two of their cycles, so
   /// that what is changed until the hold goes takes effect as a whole. Errors, threads: see CycleHold;
-  /// not under the structure lock.
-  Result<CycleHold> HoldCycles(const std::vector<std::string>& paths, Duration timeout);
+  /// not under the structure lock. A thread that a StuckRule has found stuck is not waited for: an error if it runs
+  /// anything of `at_rest`; else it is left out.
+  Result<CycleHold> HoldCycles(const std::vector<std::string>& paths, Duration timeout,
+                               const std::vector<std::string>& at_rest);
+  Result<CycleHold> HoldCycles(const std::vector<std::string>& paths, Duration timeout) {
+    return HoldCycles(paths, timeout, paths);
+  }
   /// Of the thread that runs the element; nullopt if none does.
   struct Progress {
     std::uint64_t cycles = 0;  ///< that have begun
     bool is_stopped = false;   ///< the element has thrown
   };
   [[nodiscard]] std::optional<Progress> ProgressOf(const std::string& path);
+
+  /// kReal: names modules that do not return from their cycles in time; see CycleWatchdog. On a simulated clock nothing
+  /// comes of it.
+  void AddStuckRule(StuckRule rule);
+  /// Names all at or below `of` that take longer than `after`; zero: no more. Errors: a negative time.
+  Result<void> SetStuckLimit(const std::string& of, Duration after);
+  [[nodiscard]] std::vector<StuckRule> StuckRules() const { return cycle_watchdog_.rules(); }
+  /// Those that are stuck now, also after Stop().
+  [[nodiscard]] std::vector<StuckModule> StuckModules() const { return cycle_watchdog_.Stuck(); }
 
   /// Is asked first about each fault, outside of cycles and without locks. What it says it has done
   /// about it is added to the fault's message, and no rule is applied then; nullopt: not its business. Who
@@ -163,12 +181,15 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   void StartAll();
   bool EndAll() noexcept;
 
+  void EndThreads(RealThreads& threads) noexcept;
+  void UpdateInstruments();
+
   [[nodiscard]] Runners RunnersOf(const std::vector<std::string>& paths);
 
   // Simulated clock.
   void FollowChanges();
 
-  // All six under the structure lock.
+  // All under the structure lock.
   // Whether a cycle may begin at any time.
   [[nodiscard]] bool is_live() const noexcept { return is_running_ || has_stepped_; }
   [[nodiscard]] bool is_up_to_date() const noexcept {
@@ -189,6 +210,7 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   FaultDispatcher faults_;
   SimulatedExecutor simulation_{faults_};
   SteadyClock machine_;
+  CycleWatchdog cycle_watchdog_{faults_, clock_before_};
   Pace pace_;
   Backpressure backpressure_;
 
@@ -202,7 +224,8 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   Runners runners_;
   std::vector<Error> realtime_warnings_;
   RealThreads threads_;
-  RealThreads ending_;  // their containers are gone
+  RealThreads ending_;  // their containers are gone, or their modules have not returned
+  bool is_profiled_ = false;
 
   // Simulated clock: set under the structure lock when something has changed, and taken back under
   // it by the thread that steps, which need not lock where nothing has.

@@ -57,7 +57,7 @@ ThreadContainer::ThreadContainer(const Placement& placement, const ThreadOptions
 
 ThreadContainer::~ThreadContainer() = default;
 
-const ThreadOptions& ThreadContainer::options() const noexcept { return runner_->options(); }
+ThreadOptions ThreadContainer::options() const noexcept { return runner_->options(); }
 
 CycleStatistics ThreadContainer::statistics() const noexcept { return runner_->statistics(); }
 

@@ -23,7 +23,7 @@ class ThreadContainer final : public FrameworkElement {
   explicit ThreadContainer(const Placement& placement, const ThreadOptions& options = {});
   ~ThreadContainer() override;
 
-  [[nodiscard]] const ThreadOptions& options() const noexcept;
+  [[nodiscard]] ThreadOptions options() const noexcept;
   /// Of all cycles so far. Lock-free.
   [[nodiscard]] CycleStatistics statistics() const noexcept;
 

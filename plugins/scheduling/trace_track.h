@@ -54,19 +54,24 @@ class TraceTrack {
 
   [[nodiscard]] Time Now() noexcept { return clock_.Now(); }
 
-  void NoteCycle(Time began, Time application_time, std::uint64_t number) noexcept {
+  /// From when to when, on the machine's clock.
+  struct Span {
+    Time began;
+    Time ended;
+  };
+  void NoteCycle(Span span, Time application_time, std::uint64_t number) noexcept {
     Add({.kind = TraceEvent::Kind::kCycle,
          .number = number,
-         .words = {Count(began), Count(Now()), Count(application_time)}});
+         .words = {Count(span.began), Count(span.ended), Count(application_time)}});
   }
-  /// An update that ends now, and what has been published since the one before.
-  void NoteUpdate(Time began, Phase phase, std::uint64_t element,
+  /// An update that has just ended, and what has been published since the one before.
+  void NoteUpdate(Span span, Phase phase, std::uint64_t element,
                   std::vector<TracedPort>& ports) noexcept {
-    const std::int64_t now = Count(Now());
+    const std::int64_t now = Count(span.ended);
     Add({.kind = TraceEvent::Kind::kUpdate,
          .phase = phase,
          .number = element,
-         .words = {Count(began), now, 0}});
+         .words = {Count(span.began), now, 0}});
     for (TracedPort& each : ports) {
       const std::uint64_t before = each.publications;
       each.publications = each.port->publications();

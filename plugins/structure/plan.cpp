@@ -232,6 +232,7 @@ void Plan::AddReplacement(FrameworkElement& before, UnlistedElement after,
     bool is_noted = false;
   };
   Concern(before);
+  going_.push_back(before.path());
   FrameworkElement& next = *after;
   auto done = std::make_shared<Done>();
   done->after = std::move(after);

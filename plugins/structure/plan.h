@@ -50,6 +50,8 @@ class Plan {
 
   /// The elements whose threads shall stand between two cycles meanwhile.
   [[nodiscard]] const std::vector<std::string>& concerned() const noexcept { return concerned_; }
+  /// Those of them that no thread may be within, not even one that does not return: they go.
+  [[nodiscard]] const std::vector<std::string>& going() const noexcept { return going_; }
   /// After Commit(): what is out of the tree now, and is to be destroyed.
   [[nodiscard]] std::vector<UnlistedElement>& removed() noexcept { return removed_; }
   [[nodiscard]] std::vector<Replaced>& replaced() noexcept { return replaced_; }
@@ -98,6 +100,7 @@ class Plan {
   std::vector<Step> steps_;
   bool has_failed_ = false;  // in carrying it out, so that others may have seen what is new
   std::vector<std::string> concerned_;
+  std::vector<std::string> going_;
   std::vector<FrameworkElement*> made_;
   std::vector<Error> further_errors_;  // of a change that has more than one
   std::vector<Error> warnings_;

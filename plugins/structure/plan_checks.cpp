@@ -96,6 +96,7 @@ Result<void> Plan::Check(const DeleteElement& change) {
                  .path = element.path()};
   }
   Concern(element);
+  going_.push_back(element.path());
   for (const Connection& tie : ExternalConnectionsOf(element)) {
     Concern(*tie.from);
     Concern(*tie.to);

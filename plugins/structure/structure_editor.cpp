@@ -108,7 +108,7 @@ StructureEditor::Attempt StructureEditor::Try(const ChangeRequest& request,
   if (outcome.is_refused) return Attempt::kFailed;
   std::optional<CycleHold> hold;
   if (scheduler_ != nullptr) {
-    auto held = scheduler_->HoldCycles(plan.concerned(), options_.timeout);
+    auto held = scheduler_->HoldCycles(plan.concerned(), options_.timeout, plan.going());
     if (!held) {
       outcome.diagnostics.Add(held.error());
       return Attempt::kFailed;

@@ -33,6 +33,14 @@ struct FaultReaction {
   Reaction reaction;
 };
 
+/// A module that does not return from its cycle, on the real clock. It goes on when it returns.
+struct StuckReaction {
+  std::string of;    ///< path: this element and all below it
+  Duration after{};  ///< stuck when one run of a task takes longer, on the machine's clock; > 0
+  Reaction on_stuck = {};
+  Reaction on_return = {};
+};
+
 /// Something that has been done by a rule, or could not be.
 struct Notice {
   std::string path;  ///< of what the rule watches

@@ -104,14 +104,24 @@ Result<void> Supervisor::Add(StaleRule rule) {
   return {};
 }
 
-void Supervisor::Add(FaultReaction rule) {
-  // Weakly, for the scheduler keeps its rules longer than this.
-  const auto call = [shared = std::weak_ptr(shared_), rule](const Fault& fault) {
-    if (const auto there = shared.lock()) {
-      there->React(rule.reaction, fault.path, "has failed", fault.time);
-    }
+// Weakly, for the scheduler keeps its rules longer than this.
+std::function<void(const Fault&)> Supervisor::CallOf(const Reaction& reaction,
+                                                     const std::string& why) const {
+  return [shared = std::weak_ptr(shared_), reaction, why](const Fault& fault) {
+    if (const auto there = shared.lock()) there->React(reaction, fault.path, why, fault.time);
   };
-  scheduler_.AddFaultRule({.of = rule.of, .call = call});
+}
+
+void Supervisor::Add(FaultReaction rule) {
+  scheduler_.AddFaultRule({.of = rule.of, .call = CallOf(rule.reaction, "has failed")});
+}
+
+// One without a reaction is told of by the fault alone.
+void Supervisor::Add(StuckReaction rule) {
+  StuckRule watched{.of = rule.of, .after = rule.after};
+  if (!rule.on_stuck.is_empty()) watched.on_stuck = CallOf(rule.on_stuck, "is stuck");
+  if (!rule.on_return.is_empty()) watched.on_return = CallOf(rule.on_return, "has returned");
+  scheduler_.AddStuckRule(std::move(watched));
 }
 
 std::vector<Notice> Supervisor::TakeNotices() {

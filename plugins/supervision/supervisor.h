@@ -34,12 +34,17 @@ class Supervisor {
   /// Errors: no such port; nothing is connected to it; a time-out that is not positive.
   Result<void> Add(StaleRule rule);
   void Add(FaultReaction rule);
+  /// What is to be done must not delete or replace what the thread that is stuck runs: that fails, as it would have to
+  /// wait for it.
+  void Add(StuckReaction rule);
 
   /// What has been done since the last call, oldest first.
   [[nodiscard]] std::vector<Notice> TakeNotices();
 
  private:
   struct Shared;
+  [[nodiscard]] std::function<void(const Fault&)> CallOf(const Reaction& reaction,
+                                                         const std::string& why) const;
 
   Scheduler& scheduler_;
   const std::shared_ptr<Shared> shared_;  // with the rules that the scheduler keeps

@@ -69,6 +69,7 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/testing",
                    "plugins/testing",
                    {"core", "plugins/real_time_check", "plugins/scheduling"}});
+  rules.push_back({"plugins/crash_report", "plugins/crash_report", {"core", "plugins/scheduling"}});
   rules.push_back({"plugins/structure", "plugins/structure", {"core", "plugins/scheduling"}});
   rules.push_back(
       {"plugins/tracing", "plugins/tracing", {"core", "plugins/values", "plugins/scheduling"}});

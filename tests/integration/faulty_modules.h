@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -34,7 +35,41 @@ class FaultyRelay final : public Module {
   std::uint32_t cycles_ = 0;
 };
 
-/// Does nothing, and fails after a while: by throwing, by never coming back, or by what no cycle should do.
+/// Counts, a value a cycle.
+class Counter final : public Module {
+ public:
+  using Module::Module;
+
+  Output<double> count{this, "count"};
+  StaticParameter<double> first{this, "first", {.default_value = 0}};
+
+ private:
+  void Update() override { count.Publish(first.Get() + cycles_++); }
+
+  double cycles_ = 0;
+};
+
+/// Says what it reads first, and what it reads after a jump.
+class Listener final : public Module {
+ public:
+  using Module::Module;
+
+  Input<double> in{this, "in"};
+
+ private:
+  void Update() override {
+    const auto value = in.Read();
+    if (!value) return;
+    if (!has_read_ || *value > last_ + 500) log().Info("reads {}", *value);
+    has_read_ = true;
+    last_ = *value;
+  }
+
+  bool has_read_ = false;
+  double last_ = 0;
+};
+
+/// Does nothing, and fails after a while: by throwing, by never coming back, by a crash, or by what no cycle should do.
 class FaultyWorker final : public Module {
  public:
   using Module::Module;
@@ -42,16 +77,35 @@ class FaultyWorker final : public Module {
   Parameter<std::uint32_t> good_cycles{this, "good_cycles", {.default_value = 1'000'000}};
   StaticParameter<bool> hangs{this, "hangs", {.default_value = false}};
   StaticParameter<bool> allocates{this, "allocates", {.default_value = false}};
+  StaticParameter<std::string> crashes{this, "crashes", {.default_value = ""}};
 
  private:
+  [[gnu::noinline]] int Overflow(int depth) {
+    if (depth < 0) return 0;
+    volatile char kept[10'000];
+    kept[0] = static_cast<char>(depth);
+    return Overflow(depth + 1) + kept[0];
+  }
+  [[gnu::noinline]] void Crash() {
+    const std::string way = crashes.Get();
+    if (way == "segmentation") *static_cast<volatile int*>(nowhere_) = 1;
+    if (way == "abort") std::abort();
+    if (way == "overflow") cycles_ += static_cast<std::uint32_t>(Overflow(0));
+    if (way == "illegal") __builtin_trap();
+  }
+
   void Update() override {
+    if (cycles_ > good_cycles.Get()) Crash();
     if (allocates.Get()) kept_ = std::make_unique<std::string>(1000, 'x');
     while (hangs.Get()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    if (++cycles_ > good_cycles.Get()) throw std::runtime_error("the worker is worn out");
+    if (++cycles_ > good_cycles.Get() && crashes.Get().empty()) {
+      throw std::runtime_error("the worker is worn out");
+    }
     if (cycles_ == good_cycles.Get()) log().Warn("{} cycles are enough", cycles_);
   }
 
   std::unique_ptr<std::string> kept_;
+  void* volatile nowhere_ = nullptr;
   std::uint32_t cycles_ = 0;
 };
 

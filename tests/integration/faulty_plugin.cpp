@@ -9,6 +9,8 @@ RUNNEL_PLUGIN(faulty, registry) {
   registry.Add<FaultyRelay>("faulty/relay", "hands on, and fails after a while");
   registry.Add<FaultyWorker>("faulty/worker", "does nothing, and fails after a while");
   registry.Add<FaultyMonitor>("faulty/monitor", "judges the run, and fails at it");
+  registry.Add<Counter>("faulty/counter", "counts, a value a cycle");
+  registry.Add<Listener>("faulty/listener", "says what it reads first, and after a jump");
   registry.Add<CountingProvider>("faulty/provider", "counts for those who pull");
   registry.Add<CountReader>("faulty/reader", "tells what it reads");
 }

@@ -5,7 +5,8 @@ namespace runnel {
 void AddBuiltInTags(XmlTagRegistry& tags) {
   for (const auto& make :
        {ApplicationTag, GroupTypeTag, LoadTag, ClockTag, ThreadTag, PortTag, ModuleTag,
-        ParameterTag, GroupTag, ConnectTag, LogTag, OnFaultTag, OnStaleTag, OtherwiseTag}) {
+        ParameterTag, GroupTag, ConnectTag, LogTag, OnFaultTag, OnStaleTag, OnStuckTag,
+        OtherwiseTag}) {
     tags.AddTag(make());
   }
   for (XmlTag& tag : internal::ReactionTags()) tags.AddTag(std::move(tag));

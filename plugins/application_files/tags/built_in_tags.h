@@ -20,6 +20,7 @@ void AddBuiltInTags(XmlTagRegistry& tags);
 [[nodiscard]] XmlTag ModuleTag();
 [[nodiscard]] XmlTag OnFaultTag();
 [[nodiscard]] XmlTag OnStaleTag();
+[[nodiscard]] XmlTag OnStuckTag();
 [[nodiscard]] XmlTag OtherwiseTag();
 [[nodiscard]] XmlTag ParameterTag();
 [[nodiscard]] XmlTag PortTag();

@@ -73,8 +73,8 @@ XmlTag OnStaleTag() {
 
 XmlTag OtherwiseTag() {
   return {.name = "otherwise",
-          .summary = "what happens when the input is fresh again",
-          .parents = {"on_stale"}};
+          .summary = "what happens when the input is fresh again, or the module has returned",
+          .parents = {"on_stale", "on_stuck"}};
 }
 
 }  // namespace runnel

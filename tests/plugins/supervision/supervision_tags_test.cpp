@@ -55,6 +55,32 @@ TEST_F(SupervisionTags, MakeRulesThatSwitchSetAndReplace) {
   EXPECT_EQ(std::get<SetParameter>(done[0][2]).value, "2");
 }
 
+TEST_F(SupervisionTags, MakeRulesOfModulesThatDoNotReturn) {
+  ASSERT_THAT(workshop.ErrorsOf(
+                  "<on_stuck of=\"a\" after=\"20ms\"><set parameter=\"b/gain\" value=\"2\"/>"
+                  "  <otherwise><set parameter=\"b/gain\" value=\"1\"/></otherwise></on_stuck>"
+                  "<on_stuck of=\".\" after=\"1s\"/>"),
+              IsEmpty());
+  Scheduler scheduler(workshop.runtime);
+  std::vector<ChangeSet> done;
+  Supervisor supervisor(workshop.runtime, scheduler, [&](const ChangeSet& changes) -> Result<void> {
+    done.push_back(changes);
+    return {};
+  });
+  ASSERT_TRUE(AddRules(**workshop.runtime.root().Find("/demo"), scheduler, supervisor));
+  const auto rules = scheduler.StuckRules();
+  ASSERT_EQ(rules.size(), 2u);
+  EXPECT_EQ(rules[0].of, "/demo/a");
+  EXPECT_EQ(rules[0].after, std::chrono::milliseconds(20));
+  EXPECT_FALSE(rules[1].on_stuck) << "it is only told of";
+  rules[0].on_stuck(Fault{"/demo/a", "is stuck"});
+  rules[0].on_return(Fault{"/demo/a", "is stuck"});
+  ASSERT_EQ(done.size(), 2u);
+  EXPECT_EQ(std::get<SetParameter>(done[0][0]).value, "2");
+  EXPECT_EQ(std::get<SetParameter>(done[1][0]).value, "1");
+  EXPECT_EQ(supervisor.TakeNotices().size(), 2u);
+}
+
 TEST_F(SupervisionTags, TellWhatIsWrongWithTheirPlace) {
   EXPECT_THAT(workshop.ErrorsOf("<on_stale input=\"sink/valve\" after=\"30ms\"><stop/></on_stale>"),
               AllOf(HasSubstr("app.xml:1:"), HasSubstr("did you mean 'value'?")));
@@ -79,6 +105,8 @@ TEST_F(SupervisionTags, TellWhatIsWrongWithTheirPlace) {
   EXPECT_THAT(
       workshop.ErrorsOf("<on_fault of=\"a\"><replace module=\"b\" by=\"test/sorce\"/></on_fault>"),
       HasSubstr("test/source"));
+  EXPECT_THAT(workshop.ErrorsOf("<on_stuck of=\"nobody\" after=\"1s\"/>"), HasSubstr("nobody"));
+  EXPECT_THAT(workshop.ErrorsOf("<on_stuck of=\"a\" after=\"0s\"/>"), HasSubstr("not longer"));
   EXPECT_THAT(workshop.ErrorsOf("<on_fault of=\"nobody\"><stop/></on_fault>"), HasSubstr("nobody"));
   EXPECT_THAT(
       workshop.ErrorsOf("<on_fault of=\"a\" action=\"stop_application\"><stop/></on_fault>"),

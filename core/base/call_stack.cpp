@@ -1,4 +1,4 @@
-#include "plugins/real_time_check/call_stack.h"
+#include "core/base/call_stack.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,0 +1,183 @@
+#include "plugins/scheduling/cycle_watchdog.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/element/element_path.h"
+#include "core/types/duration_text.h"
+#include "plugins/scheduling/fault_dispatcher.h"
+#include "plugins/scheduling/scheduled_element.h"
+
+namespace runnel {
+
+namespace {
+
+constexpr Duration kShortestInterval = std::chrono::milliseconds(1);
+constexpr Duration kLongestInterval = std::chrono::milliseconds(250);
+constexpr int kLooksInTime = 4;
+
+Time Now() { return SteadyClock().Now(); }
+
+}  // namespace
+
+void CycleWatchdog::Add(StuckRule rule) {
+  {
+    const std::lock_guard lock(mutex_);
+    rules_.push_back(std::make_shared<KnownRule>(KnownRule{std::move(rule), false}));
+  }
+  Change();
+}
+
+void CycleWatchdog::SetLimit(const std::string& of, Duration after) {
+  {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(rules_, [&](const auto& each) { return each->is_limit && each->rule.of == of; });
+    if (after > Duration{}) {
+      rules_.push_back(
+          std::make_shared<KnownRule>(KnownRule{{.of = of, .after = after}, true}));
+    }
+  }
+  Change();
+}
+
+std::vector<StuckRule> CycleWatchdog::rules() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<StuckRule> rules;
+  for (const auto& each : rules_) rules.push_back(each->rule);
+  return rules;
+}
+
+bool CycleWatchdog::has_rules() const {
+  const std::lock_guard lock(mutex_);
+  return !rules_.empty();
+}
+
+void CycleWatchdog::Change() {
+  {
+    const std::lock_guard lock(mutex_);
+    looks_anew_ = true;
+    StartIfNeeded();
+  }
+  has_changed_.notify_all();
+}
+
+void CycleWatchdog::Begin() {
+  const std::lock_guard lock(mutex_);
+  is_running_ = true;
+  StartIfNeeded();
+}
+
+// Under the mutex. Whom nobody asks for anything has no thread.
+void CycleWatchdog::StartIfNeeded() {
+  if (!is_running_ || rules_.empty() || thread_.joinable()) return;
+  thread_ = std::thread([this] { Run(); });
+}
+
+void CycleWatchdog::Follow(Runners runners) {
+  const std::lock_guard lock(mutex_);
+  std::vector<Watched> watched;
+  for (auto& runner : runners) {
+    const auto known = std::ranges::find(watched_, runner, &Watched::runner);
+    watched.push_back(known != watched_.end() ? std::move(*known)
+                                              : Watched{.runner = std::move(runner)});
+  }
+  watched_ = std::move(watched);
+}
+
+void CycleWatchdog::End() {
+  std::thread ended;
+  {
+    const std::lock_guard lock(mutex_);
+    is_running_ = false;
+    ended.swap(thread_);
+  }
+  has_changed_.notify_all();
+  if (ended.joinable()) ended.join();
+}
+
+// Under the mutex.
+Duration CycleWatchdog::Interval() const {
+  Duration shortest = kLongestInterval * kLooksInTime;
+  for (const auto& each : rules_) shortest = std::min(shortest, each->rule.after);
+  return std::max(shortest / kLooksInTime, kShortestInterval);
+}
+
+void CycleWatchdog::Run() {
+  std::unique_lock lock(mutex_);
+  while (is_running_) {
+    const auto is_woken = [this] { return !is_running_ || std::exchange(looks_anew_, false); };
+    if (rules_.empty()) {
+      has_changed_.wait(lock, is_woken);
+    } else if (!has_changed_.wait_for(lock, Interval(), is_woken)) {
+      Look(Now());
+    }
+  }
+}
+
+void CycleWatchdog::Look(Time now) {
+  for (Watched& each : watched_) Look(each, now);
+}
+
+void CycleWatchdog::Look(Watched& watched, Time now) {
+  const RunningTask::State state = watched.runner->running().Look();
+  if (state.element == nullptr || state != watched.state) {
+    Return(watched, now);
+    watched.state = state;
+    watched.seen = now;
+    return;
+  }
+  const Duration since = now - watched.seen;
+  for (const auto& known : rules_) {
+    if (since < known->rule.after || std::ranges::count(watched.fired, known) > 0) continue;
+    const auto path = ScheduledElement::PathOf(state.element);
+    if (!path || !IsAtOrBelow(*path, known->rule.of)) continue;
+    watched.path = *path;
+    watched.fired.push_back(known);
+    Tell(watched, Fault::Kind::kStuck,
+         "has not returned from its cycle for " + DurationText(since) + "; at most " +
+             DurationText(known->rule.after) + " is allowed",
+         known->rule.on_stuck);
+  }
+}
+
+void CycleWatchdog::Return(Watched& watched, Time now) {
+  const std::string message =
+      "has returned from its cycle, after " + DurationText(now - watched.seen);
+  bool is_told = false;
+  for (const auto& known : std::exchange(watched.fired, {})) {
+    if (std::exchange(is_told, true) && !known->rule.on_return) continue;
+    Tell(watched, Fault::Kind::kReturned, message, known->rule.on_return);
+  }
+  watched.path.clear();
+}
+
+void CycleWatchdog::Tell(const Watched& watched, Fault::Kind kind, std::string message,
+                         const std::function<void(const Fault&)>& call) {
+  faults_.Raise(std::make_unique<FaultRecord>(Fault{.path = watched.path,
+                                                    .message = std::move(message),
+                                                    .time = clock_.Now(),
+                                                    .cycle = watched.runner->cycles_begun(),
+                                                    .is_mended = kind == Fault::Kind::kReturned,
+                                                    .kind = kind},
+                                              call));
+}
+
+std::vector<StuckModule> CycleWatchdog::Stuck() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<StuckModule> stuck;
+  for (const Watched& each : watched_) {
+    if (each.fired.empty() || each.runner->running().Look() != each.state) continue;
+    stuck.push_back({each.path, each.runner->path(), Now() - each.seen});
+  }
+  return stuck;
+}
+
+bool CycleWatchdog::IsStuck(const CycleRunner& runner) const {
+  const std::lock_guard lock(mutex_);
+  return std::ranges::any_of(watched_, [&](const Watched& each) {
+    return each.runner.get() == &runner && !each.fired.empty() &&
+           runner.running().Look() == each.state;
+  });
+}
+
+}  // namespace runnel

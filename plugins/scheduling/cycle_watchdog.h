@@ -1,0 +1,104 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/base/clock.h"
+#include "plugins/scheduling/cycle_runner.h"
+#include "plugins/scheduling/fault.h"
+
+namespace runnel {
+
+/// How long a module may take for one run of a task, and what is done when it takes longer.
+struct StuckRule {
+  std::string of = "/";  ///< path: this element and all below it
+  Duration after{};      ///< of the machine's clock; > 0
+  /// Called as a FaultRule's are, once for each run that takes too long ...
+  std::function<void(const Fault&)> on_stuck = {};
+  /// ... and when it has come to its end after all.
+  std::function<void(const Fault&)> on_return = {};
+};
+
+/// A module that has not returned from its cycle within its time.
+struct StuckModule {
+  std::string path;
+  std::string thread;  ///< path of its container
+  Duration since{};    ///< at least
+};
+
+/// Looks at what the threads of real time are running, and names who does not return: as a fault (kStuck) for each
+/// rule, while it is stuck.
+///
+/// Cycles note the element that they run by plain stores. A thread of this class compares what it finds from look to
+/// look, four times in the shortest allowed time, and so needs no clock in the cycle: a module is named between its
+/// time and a quarter more after it has begun.
+///
+/// Threads:    any, but not within a cycle.
+/// Ownership:  `faults` and `clock` outlive it.
+class CycleWatchdog {
+ public:
+  using Runners = std::vector<std::shared_ptr<CycleRunner>>;
+
+  CycleWatchdog(FaultDispatcher& faults, const Clock& clock) : faults_(faults), clock_(clock) {}
+  ~CycleWatchdog() { End(); }
+
+  /// Counts from the next look on. Precondition: after > 0.
+  void Add(StuckRule rule);
+  /// A time for all at and below `of` that is only told of, in the place of one that was set so before; zero: none.
+  void SetLimit(const std::string& of, Duration after);
+  /// All of the rules, those of SetLimit() too.
+  [[nodiscard]] std::vector<StuckRule> rules() const;
+  [[nodiscard]] bool has_rules() const;
+
+  /// Whom to look at.
+  void Follow(Runners runners);
+  /// Looks, until End().
+  void Begin();
+  void End();
+
+  [[nodiscard]] std::vector<StuckModule> Stuck() const;
+  [[nodiscard]] bool IsStuck(const CycleRunner& runner) const;
+
+ private:
+  struct KnownRule {
+    StuckRule rule;
+    bool is_limit = false;  // by SetLimit()
+  };
+  // What one runner runs, as of the last look.
+  struct Watched {
+    std::shared_ptr<CycleRunner> runner;
+    RunningTask::State state = {};
+    Time seen{};  // first
+    std::string path = {};
+    std::vector<std::shared_ptr<const KnownRule>> fired = {};
+  };
+
+  void Run();
+  void Look(Time now);
+  void Look(Watched& watched, Time now);
+  void Return(Watched& watched, Time now);
+  void Tell(const Watched& watched, Fault::Kind kind, std::string message,
+            const std::function<void(const Fault&)>& call);
+  [[nodiscard]] Duration Interval() const;
+  void Change();
+  void StartIfNeeded();
+
+  FaultDispatcher& faults_;
+  const Clock& clock_;
+  mutable std::mutex mutex_;  // a leaf but for the dispatcher's
+  std::condition_variable has_changed_;
+  // Guarded by mutex_:
+  std::vector<std::shared_ptr<const KnownRule>> rules_;
+  std::vector<Watched> watched_;
+  bool is_running_ = false;
+  bool looks_anew_ = false;
+  std::thread thread_;
+};
+
+}  // namespace runnel

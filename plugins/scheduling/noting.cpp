@@ -1,0 +1,35 @@
+// What a Scheduler has noted of cycles besides, and who looks at it.
+
+#include <mutex>
+#include <utility>
+
+#include "plugins/scheduling/scheduler.h"
+
+namespace runnel {
+
+void Scheduler::UpdateInstruments() {
+  std::uint8_t instruments = options_.tracer != nullptr ? Instruments::kTrace : 0;
+  if (options_.notes_running_tasks || cycle_watchdog_.has_rules()) {
+    instruments |= Instruments::kRunning;
+  }
+  if (is_profiled_) instruments |= Instruments::kProfile;
+  for (const auto& runner : runners_) runner->set_instruments(instruments);
+}
+
+void Scheduler::AddStuckRule(StuckRule rule) {
+  cycle_watchdog_.Add(std::move(rule));
+  const std::lock_guard lock(runtime_.structure_mutex());
+  UpdateInstruments();
+}
+
+Result<void> Scheduler::SetStuckLimit(const std::string& of, Duration after) {
+  if (after < Duration::zero()) {
+    return Error{.message = "a time that a module may take is positive", .path = of};
+  }
+  cycle_watchdog_.SetLimit(of, after);
+  const std::lock_guard lock(runtime_.structure_mutex());
+  UpdateInstruments();
+  return {};
+}
+
+}  // namespace runnel
