@@ -52,12 +52,11 @@ std::string NameOf(const Port& port) {
 
 std::vector<Row> Ports(FrameworkElement& module, Port::Direction direction) {
   std::vector<Row> rows;
-  module.Visit([&](FrameworkElement& element) {
-    const auto* const port = dynamic_cast<const Port*>(&element);
-    if (port == nullptr || port->direction() != direction) return;
+  for (const Port* port : PortsOf(module)) {
+    if (port->direction() != direction) continue;
     rows.push_back({NameOf(*port), port->type().name(), port->is_required() ? "required" : "",
                     port->description()});
-  });
+  }
   return rows;
 }
 
@@ -85,7 +84,7 @@ std::vector<Row> Parameters(const FrameworkElement& module) {
 // made.
 Result<void> ListModule(const ModuleType& type, ApplicationDescription& surroundings) {
   Runtime& runtime = surroundings.runtime();
-  const auto module = surroundings.plugins().modules().Create(type.name, runtime.root(), "module");
+  const auto module = surroundings.plugins().modules().CreateSample(type.name, runtime.root());
   if (!module) return module.error();
   std::cout << type.name << (type.summary.empty() ? "" : "  " + type.summary) << '\n';
   WriteTable("inputs", Ports(**module, Port::Direction::kInput));

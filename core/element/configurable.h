@@ -9,6 +9,7 @@
 
 namespace runnel {
 
+class Port;
 class TypeInfo;
 
 /// What is to be said about something that can be set: for error messages, listings and viewers.
@@ -41,6 +42,10 @@ class Configurable {
   [[nodiscard]] virtual std::shared_ptr<void> Value() const = 0;
   [[nodiscard]] virtual const TypeInfo& type() const = 0;
   [[nodiscard]] virtual const ConfigurableInfo& info() const = 0;
+
+  /// The input by which an output may set it, made when it is first asked for; nullptr: none may. Under the structure
+  /// lock.
+  [[nodiscard]] virtual Port* Feed() { return nullptr; }
 
   // The same by the text format.
   Result<void> SetFromText(std::string_view text);

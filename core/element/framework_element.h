@@ -86,6 +86,9 @@ class FrameworkElement {
   /// Calls `visit` for this element and all below it, parents before children.
   void Visit(const std::function<void(FrameworkElement&)>& visit);
 
+  /// Whether Construct() has made something, so that what it went by can no longer be set.
+  [[nodiscard]] bool has_constructed() const noexcept { return has_constructed_; }
+
   /// Keeps one annotation of each type; a later one takes the place of the earlier.
   template <typename T>
   T& Annotate(std::unique_ptr<T> annotation) {
@@ -104,6 +107,11 @@ class FrameworkElement {
   }
 
  protected:
+  /// Called once, when the parameters are set and before anybody looks for ports: make here the ports, and in
+  /// a composite the modules and connections, whose number, names or types follow from static parameters.
+  /// As a constructor it has no effect on the world: tools call it with the values of default, just to list what
+  /// there is. An error or an exception keeps the element from being used.
+  virtual Result<void> Construct() { return {}; }
   /// Called when the element becomes ready, and again after it could not: parameters are set, ports
   /// are there. Open files and reserve memory here. An error or an exception keeps the whole new
   /// structure from becoming ready.
@@ -134,6 +142,8 @@ class FrameworkElement {
   Runtime* runtime_ = nullptr;
   std::uint64_t id_ = 0;
   bool is_listed_ = false;  // among the children of its parent
+  bool is_whole_ = false;   // Construct() has been called
+  bool has_constructed_ = false;
   std::vector<FrameworkElement*> children_;
   std::map<std::string, FrameworkElement*, std::less<>> children_by_name_;
   std::vector<std::unique_ptr<FrameworkElement>> owned_;

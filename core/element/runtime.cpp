@@ -36,9 +36,35 @@ FrameworkElement* Runtime::Adopt(UnlistedElement&& element) {
   return adopted;
 }
 
+Result<void> Runtime::Construct(FrameworkElement& element) {
+  Runtime& runtime = element.runtime();
+  const std::lock_guard lock(runtime.structure_mutex());
+  Result<void> result;
+  // What is made on the way comes later in the same visit.
+  element.Visit([&](FrameworkElement& each) {
+    if (!result || each.is_whole_ || each.life_cycle_ != LifeCycle::kConstructed) return;
+    const std::uint64_t made_before = runtime.next_id_;
+    try {
+      result = each.Construct();
+    } catch (const ElementError& error) {
+      result = error.error();
+    } catch (...) {
+      result = Error{.message = DescribeException()};
+    }
+    each.is_whole_ = true;
+    each.has_constructed_ = runtime.next_id_ != made_before;
+    if (result) return;
+    Error error = result.error();
+    if (error.path.empty()) error.path = each.path();
+    result = std::move(error);
+  });
+  return result;
+}
+
 Result<void> Runtime::MakeReady(FrameworkElement& element) {
   const std::lock_guard lock(structure_mutex_);
   if (auto prepared = PrepareAll(element); !prepared) return prepared;
+  if (!element.IsInTree()) return {};
   ForEachListener([&](ElementListener& listener) { listener.OnReady(element); });
   return {};
 }
@@ -50,7 +76,8 @@ Result<void> Runtime::Prepare(UnlistedElement& element) {
 
 Result<void> Runtime::PrepareAll(FrameworkElement& element) {
   std::vector<FrameworkElement*> prepared;
-  Result<void> result;
+  Result<void> result = Construct(element);
+  if (!result) return result;
   element.Visit([&](FrameworkElement& each) {
     if (!result || each.life_cycle_ != LifeCycle::kConstructed) return;
     try {

@@ -46,7 +46,12 @@ class Runtime {
   void Adopt(std::unique_ptr<FrameworkElement> element);
   FrameworkElement* Adopt(UnlistedElement&& element);
 
-  /// Calls Prepare() of the element and all below that are not ready yet, parents first; if all
+  /// Calls Construct() of the element and all below for which that has not been done, parents first, so that
+  /// all ports are there: who connects ports before MakeReady() calls it when the parameters are set. Locks.
+  /// Errors: what an element says, with its path; the element is to be deleted then.
+  static Result<void> Construct(FrameworkElement& element);
+  /// Calls Prepare() of the element and all below that are not ready yet, parents first, and Construct() before if
+  /// that has not been done; if all
   /// succeed they are ready and the listeners told, else none is. Exceptions become errors.
   Result<void> MakeReady(FrameworkElement& element);
 
@@ -55,7 +60,7 @@ class Runtime {
   /// of another object; the root.
   Result<void> Delete(FrameworkElement& element);
 
-  /// Calls Prepare() as MakeReady() does, for an element beside the tree.
+  /// Calls Construct() and Prepare() as MakeReady() does, for an element beside the tree.
   static Result<void> Prepare(UnlistedElement& element);
   /// Puts the element where it belongs, before the child `place` of its parent (nullptr: after all).
   /// If it has been prepared, or has been in the tree before, it is ready then, and the listeners are

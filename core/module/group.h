@@ -7,7 +7,10 @@ namespace runnel {
 /// A composite: modules and other groups that serve one purpose, behind an interface of ports of
 /// its own (ProxyPort, made below the group). What is inside can be exchanged without the outside
 /// knowing.
-class Group final : public FrameworkElement {
+///
+/// Written in C++, a composite derives from it: what never varies are members, what follows from static
+/// parameters is made in Construct(); both as for modules, and it is registered as they are.
+class Group : public FrameworkElement {
  public:
   explicit Group(const Placement& placement) : FrameworkElement(placement, ElementKind::kGroup) {}
 };

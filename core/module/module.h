@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
 
 #include "core/base/clock.h"
@@ -28,8 +29,9 @@ class PortGroup;
 ///     };
 ///
 /// Life:        constructed (no side effects, please: tools make instances just to list the ports), then
-///              Prepare(): parameters are set; open files, reserve memory, say what is wrong; then
-///              Update() again and again; then the destructor.
+///              Construct(): static parameters are set; make the ports that depend on them; then
+///              Prepare(): open files, reserve memory, say what is wrong; then
+///              OnParametersChanged() and Update(), the latter again and again; then the destructor.
 /// Threads:     Update() is called by one thread at a time. Prepare() and the destructor never run
 ///              at the same time as Update().
 /// Errors:      an exception out of Update() stops this module alone and is reported with its path.
@@ -43,8 +45,24 @@ class Module : public FrameworkElement, public PortOwner {
   [[nodiscard]] FrameworkElement& InputGroup() override;
   [[nodiscard]] FrameworkElement& OutputGroup() override;
 
+  /// A parameter of this module has got another value: OnParametersChanged() is due. Any thread, wait-free. For
+  /// those who make kinds of parameters.
+  void NoteParameterChange() noexcept {
+    // release: pairs with the acquire in TellOfParameters(): the new value is there.
+    parameters_have_changed_.store(true, std::memory_order_release);
+  }
+
  protected:
   virtual void Update() = 0;
+
+  /// Called before the first cycle, and then before the cycle that follows a change of parameters, once for all
+  /// that have changed since (whichever: their HasChanged()): compute here what depends on several. By the thread
+  /// of the cycle and as part of it, so the rules for Update() hold. Modules without one pay nothing.
+  virtual void OnParametersChanged();
+  /// For module kinds that annotate their own tasks: calls OnParametersChanged() if it is due.
+  void TellOfParameters();
+  /// Whether there is an OnParametersChanged() to be called. Other compilers than GCC cannot tell: true.
+  [[nodiscard]] bool ListensToParameters();
 
   /// The time of the current cycle; outside of one, that of the runtime's clock.
   [[nodiscard]] Time now() const noexcept;
@@ -72,6 +90,9 @@ class Module : public FrameworkElement, public PortOwner {
   Module(const Placement& placement, NoTasks);
 
  private:
+  void TellAndUpdate();
+
+  std::atomic<bool> parameters_have_changed_{true};
   Logger log_{*this};
   std::unique_ptr<PortGroup> input_group_;
   std::unique_ptr<PortGroup> output_group_;

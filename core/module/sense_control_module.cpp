@@ -8,14 +8,21 @@ namespace runnel {
 
 SenseControlModule::SenseControlModule(const Placement& placement) : Module(placement, NoTasks{}) {
   Annotate(std::make_unique<Executable>([this]() -> std::vector<Task> {
-    return {{this, Phase::kSense, BoundCall::To<&SenseControlModule::Sense>(*this), AsTaskGroups(groups_[0]),
-             AsTaskGroups(groups_[1])},
-            {this, Phase::kControl, BoundCall::To<&SenseControlModule::Control>(*this), AsTaskGroups(groups_[2]),
-             AsTaskGroups(groups_[3])}};
+    const BoundCall sense = ListensToParameters()
+                                ? BoundCall::To<&SenseControlModule::TellAndSense>(*this)
+                                : BoundCall::To<&SenseControlModule::Sense>(*this);
+    return {{this, Phase::kSense, sense, AsTaskGroups(groups_[0]), AsTaskGroups(groups_[1])},
+            {this, Phase::kControl, BoundCall::To<&SenseControlModule::Control>(*this),
+             AsTaskGroups(groups_[2]), AsTaskGroups(groups_[3])}};
   }));
 }
 
 SenseControlModule::~SenseControlModule() = default;
+
+void SenseControlModule::TellAndSense() {
+  TellOfParameters();
+  Sense();
+}
 
 FrameworkElement& SenseControlModule::InputGroup() {
   ThrowProgrammingError("an input of a sense/control module is one of two kinds",

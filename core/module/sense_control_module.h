@@ -39,6 +39,7 @@ class SenseControlModule : public Module {
 
  private:
   void Update() final {}  // never called: Sense() and Control() are the tasks
+  void TellAndSense();
 
   std::unique_ptr<PortGroup> groups_[4];
 };

@@ -82,4 +82,13 @@ Result<FrameworkElement*> ModuleRegistry::Create(std::string_view type, Framewor
   return runtime.Adopt(std::move(*made));
 }
 
+Result<FrameworkElement*> ModuleRegistry::CreateSample(std::string_view type,
+                                                       FrameworkElement& parent) const {
+  const std::lock_guard lock(parent.runtime().structure_mutex());
+  auto made = Make(type, {parent, "module_" + std::to_string(parent.children().size()), false});
+  if (!made) return made.error();
+  if (auto constructed = Runtime::Construct(**made); !constructed) return constructed.error();
+  return parent.runtime().List(std::move(*made));
+}
+
 }  // namespace runnel

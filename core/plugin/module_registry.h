@@ -52,6 +52,10 @@ class ModuleRegistry {
   Result<FrameworkElement*> Create(std::string_view type, FrameworkElement& parent,
                                    std::string name) const;
 
+  /// The same just to look at it, with the ports that it has by default. Errors: besides, that these cannot be made;
+  /// nothing is left then.
+  Result<FrameworkElement*> CreateSample(std::string_view type, FrameworkElement& parent) const;
+
  private:
   using Types = std::map<std::string, ModuleType, std::less<>>;
   Types types_;

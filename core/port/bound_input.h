@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/lockfree/thread_epoch.h"
 #include "core/port/channel_base.h"
 #include "core/port/input_base.h"
 #include "core/port/input_binding.h"
@@ -22,6 +23,11 @@ class BoundInput : public InputBase {
   [[nodiscard]] std::uint64_t publications() const noexcept override;
   /// How many queues that others have replaced still hold values, or may still get some. Any thread.
   [[nodiscard]] std::size_t replaced_queues() const noexcept;
+  /// Whether values wait for Take(), since a connection has a queue or has had one. By the reader.
+  [[nodiscard]] bool has_queue() const noexcept {
+    const EpochGuard guard;
+    return binding()->queue != nullptr || !binding()->older_queues.empty();
+  }
 
  protected:
   using Link = internal::InputLink;

@@ -20,6 +20,9 @@ namespace internal {
 template <typename T>
 std::unique_ptr<Port> MakeOutput(FrameworkElement& group, std::string&& name,
                                  OutputOptions&& options);
+/// typed_ports.h
+template <typename T>
+void MakeTypedPortsKnown();
 }  // namespace internal
 
 /// Where a module publishes values of type T.
@@ -50,7 +53,9 @@ class Output final : public OutputBase {
          Factory factory = {})
       : OutputBase(
             group, std::move(name), TypeOf<T>(), std::move(options),
-            std::make_unique<Channel<T>>(options.pool, std::move(factory), options.pullable)) {}
+            std::make_unique<Channel<T>>(options.pool, std::move(factory), options.pullable)) {
+    internal::MakeTypedPortsKnown<T>();
+  }
 
   /// A buffer to fill; empty if a pool of fixed size is exhausted.
   [[nodiscard, gnu::always_inline]] runnel::Loan<T> Loan() { return own().MakeLoan(); }
@@ -215,3 +220,5 @@ template <typename T>
 }
 
 }  // namespace runnel
+
+#include "core/port/typed_ports.h"  // which needs all of the above

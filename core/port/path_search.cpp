@@ -73,8 +73,10 @@ PathEnd PathSearch::FollowFrom(FrameworkElement& start, std::string_view path,
     if (name == ".") next = at;
     if (name == "..") next = at->parent();
     if (next == nullptr) {
-      const bool may_be_short = at->kind() == ElementKind::kModule && &name == &names.back();
-      if (may_be_short) return FollowShort(*at, name, kind);
+      const bool is_last = &name == &names.back();
+      const bool is_of_group = kind == PathKind::kParameter && FindConfigurable(*at, name);
+      if (is_last && (at->kind() == ElementKind::kModule || is_of_group))
+        return FollowShort(*at, name, kind);
       return Missing(*at, name, NamesOf(Children(*at), PathKind::kElement));
     }
     at = next;
@@ -87,6 +89,9 @@ PathEnd PathSearch::FollowShort(FrameworkElement& module, std::string_view name,
   const std::vector<FrameworkElement*> parts = PartsOf(module, kind);
   std::vector<FrameworkElement*> called = parts;
   std::erase_if(called, [&](const auto* part) { return part->name() != name; });
+  if (called.empty() && kind == PathKind::kInput) {
+    if (const auto fed = FindConfigurable(module, name)) return {fed.element, fed.element};
+  }
   if (called.empty()) return Missing(module, name, NamesOf(parts, kind));
   const bool is_ambiguous =
       kind != PathKind::kElement && called.size() > 1 && Fits(*called[1], kind);
@@ -110,6 +115,12 @@ Result<Port*> PathSearch::FindPort(std::string_view path, PathKind kind) const {
   const auto found = Find(path, kind);
   if (!found) return found.error();
   if (auto* const port = dynamic_cast<Port*>(*found)) return port;
+  auto* const parameter = dynamic_cast<Configurable*>(*found);
+  if (parameter != nullptr && kind == PathKind::kInput) {
+    if (Port* const feed = parameter->Feed()) return feed;
+    return Error{.message = (*found)->path() + " is a parameter that no output can set",
+                 .path = (*found)->path()};
+  }
   const std::vector<std::string> ports = NamesOf(PartsOf(**found, kind), kind);
   return Error{.message = (*found)->path() + " is not a port",
                .path = (*found)->path(),
@@ -152,6 +163,25 @@ ConfigurableElement FindConfigurable(const FrameworkElement& module, std::string
     if (each.element->name() == name) return each;
   }
   return {};
+}
+
+std::vector<Port*> PortsOf(const FrameworkElement& module) {
+  std::vector<Port*> ports;
+  const auto add = [&](FrameworkElement* element) {
+    if (auto* const port = dynamic_cast<Port*>(element)) ports.push_back(port);
+  };
+  for (FrameworkElement* child : module.children()) {
+    add(child);
+    if (child->kind() != ElementKind::kPortGroup) continue;
+    for (FrameworkElement* inner : child->children()) add(inner);
+  }
+  return ports;
+}
+
+const std::string& LastingPath(const Port& port) {
+  const FrameworkElement* const parameter = port.parent()->parent();
+  const bool is_feed = parameter != nullptr && parameter->kind() == ElementKind::kParameter;
+  return is_feed ? parameter->path() : port.path();
 }
 
 std::string FreeName(const FrameworkElement& parent, const std::string& name) {

@@ -51,6 +51,7 @@ class PathSearch {
   /// Errors: which name is not there, and the nearest.
   [[nodiscard]] Result<FrameworkElement*> Find(std::string_view path,
                                                PathKind kind = PathKind::kElement) const;
+  /// As an input, a parameter is the input by which it is fed (Configurable::Feed()).
   /// Errors: besides, that it is no port; that two ports fit. If none fits the kind, one that does not is
   /// found: connecting says why not.
   [[nodiscard]] Result<Port*> FindPort(std::string_view path, PathKind kind) const;
@@ -86,6 +87,13 @@ struct ConfigurableElement {
 [[nodiscard]] std::vector<ConfigurableElement> ConfigurablesOf(const FrameworkElement& module);
 [[nodiscard]] ConfigurableElement FindConfigurable(const FrameworkElement& module,
                                                    std::string_view name);
+
+/// The ports of a module, or of the interface of a group: directly below it or in one of its groups.
+[[nodiscard]] std::vector<Port*> PortsOf(const FrameworkElement& module);
+
+/// The path by which the port is found again, even after what it is part of has been made anew: of the input by
+/// which a parameter is fed, that of the parameter; else its own.
+[[nodiscard]] const std::string& LastingPath(const Port& port);
 
 /// `name`, or with a number behind it, such that nothing in `parent` is called so.
 [[nodiscard]] std::string FreeName(const FrameworkElement& parent, const std::string& name);

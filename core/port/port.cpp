@@ -148,6 +148,7 @@ Result<void> Port::Connect(Port& from, Port& to, const ConnectOptions& options) 
   const std::lock_guard lock(from.runtime().structure_mutex());
   if (auto possible = CheckConnection(from, to, options); !possible) return possible;
   from.outgoing_.push_back({&from, &to, options});
+  from.NoteOutgoing();
   try {
     to.incoming_.push_back(&from);
     to.RebindSinks();
@@ -165,6 +166,7 @@ bool Port::RemoveEdge(Port& from, Port& to) {
   const auto connection = FindConnection(from.outgoing_, to);
   if (connection == from.outgoing_.end()) return false;
   from.outgoing_.erase(connection);
+  from.NoteOutgoing();
   std::erase(to.incoming_, &from);
   return true;
 }
@@ -182,6 +184,7 @@ Result<void> Port::Disconnect(Port& from, Port& to) {
   } catch (...) {
     // Both lists have the room that it has just left.
     from.outgoing_.insert(from.outgoing_.begin() + outgoing_place, removed);
+    from.NoteOutgoing();
     to.incoming_.insert(to.incoming_.begin() + incoming_place, &from);
     to.RebindSinks();
     return Refusal(from, "cannot be disconnected from " + to.path() + ": " + DescribeException());
@@ -240,6 +243,8 @@ void Port::ExchangeConnections(Port& from, const std::vector<Port*>& sinks) noex
     }
   }
   outgoing_.swap(from.outgoing_);
+  NoteOutgoing();
+  from.NoteOutgoing();
   incoming_.swap(from.incoming_);
   for (Port* sink : sinks) {
     if (sink != &from && sink != this) sink->ReplaceSource(from, *this);

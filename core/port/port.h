@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -47,6 +48,18 @@ class Port : public FrameworkElement {
   [[nodiscard]] virtual bool is_required() const noexcept { return false; }
   /// Outputs: whether it may have a provider. Interface ports: yes, they pass on what is asked of them.
   [[nodiscard]] virtual bool is_pullable() const noexcept { return is_proxy(); }
+
+  /// Outputs: whether it is worth while to publish what nobody but a person wants to see: something is connected, or
+  /// somebody has looked since the last call. Who looks again and again, as viewers do, is shown each value. Once a
+  /// cycle, by the publisher; wait-free.
+  [[nodiscard]] bool is_watched() noexcept {
+    // relaxed, all: it only informs.
+    return has_outgoing_.load(std::memory_order_relaxed) ||
+           (is_looked_at_.load(std::memory_order_relaxed) &&
+            is_looked_at_.exchange(false, std::memory_order_relaxed));
+  }
+  /// Who looks at the port without being connected to it says so. Any thread.
+  void NoteLook() const noexcept { is_looked_at_.store(true, std::memory_order_relaxed); }
 
   [[nodiscard]] const std::vector<Connection>& outgoing() const noexcept { return outgoing_; }
   [[nodiscard]] const std::vector<Port*>& incoming() const noexcept { return incoming_; }
@@ -144,8 +157,15 @@ class Port : public FrameworkElement {
   const Direction direction_;
   const TypeInfo& type_;
   const std::string description_;
+  // After each change of `outgoing_`.
+  void NoteOutgoing() noexcept {
+    has_outgoing_.store(!outgoing_.empty(), std::memory_order_relaxed);
+  }
+
   std::vector<Connection> outgoing_;
   std::vector<Port*> incoming_;
+  std::atomic<bool> has_outgoing_{false};
+  mutable std::atomic<bool> is_looked_at_{false};
 };
 
 inline Time Port::PublicationTime() const noexcept {

@@ -63,6 +63,7 @@ Result<void> Application::Assign(std::string_view path, const std::string& threa
 Result<void> Application::Connect(std::string_view from, std::string_view to,
                                   const ConnectOptions& options) {
   const std::lock_guard lock(parts_->runtime().structure_mutex());
+  if (auto constructed = Runtime::Construct(element()); !constructed) return constructed;
   const PathSearch structure(parts_->runtime());
   const auto source = structure.FindPort(from, PathKind::kOutput);
   if (!source) return source.error();
@@ -158,10 +159,9 @@ CommandService& Application::service() {
     if (!outcome) return outcome.diagnostics.errors().front();
     return done;
   };
-  return parts_->service.emplace(ServedApplication{parts_->runtime(), parts_->plugins().modules(),
-                                                   *parts_->editor, *parts_->log, std::move(hooks),
-                                                   &*parts_->history, &parts_->scheduler->pace(),
-                                                   &*parts_->scheduler});
+  return parts_->service.emplace(ServedApplication{
+      parts_->runtime(), parts_->plugins().modules(), *parts_->editor, *parts_->log,
+      std::move(hooks), &*parts_->history, &parts_->scheduler->pace(), &*parts_->scheduler});
 }
 
 }  // namespace runnel

@@ -95,6 +95,9 @@ void BuildContext::MarkMissing(const FrameworkElement& parent, const XmlAttribut
 
 bool BuildContext::IsNews(const FrameworkElement& parent, std::string_view name,
                           const std::vector<std::string>& candidates) const {
+  for (const FrameworkElement* at = &parent; at != nullptr; at = at->parent()) {
+    if (unbuilt_.contains(at)) return false;
+  }
   if (missing_.contains({&parent, std::string(name)})) return false;
   return !incomplete_.contains(&parent) || !NearestName(name, candidates).empty();
 }

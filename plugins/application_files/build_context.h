@@ -32,11 +32,12 @@ struct BuildTools {
 /// What is done once all tags have been handled, in this order. Within a stage the order is that of
 /// the file.
 enum class BuildStage {
-  kInterfaces,   ///< interface ports, which may take their type from modules; from the last to the
-                 ///< first, so that the inner groups' come before the outer ones'
-  kParameters,   ///< parameters are set
-  kConnections,  ///< ports are connected, threads assigned
-  kChecks,       ///< what can be said of the whole only
+  kParameters,    ///< parameters are set
+  kConstruction,  ///< modules make the ports that follow from them
+  kInterfaces,    ///< interface ports, which may take their type from modules; from the last to the
+                  ///< first, so that the inner groups' come before the outer ones'
+  kConnections,   ///< ports are connected, threads assigned
+  kChecks,        ///< what can be said of the whole only
 };
 
 /// One build, as those who handle tags see it: where errors go, what is put off, and what is known
@@ -89,6 +90,11 @@ class BuildContext {
   /// A tag directly in `parent` made nothing, or what it made goes by another name, and an error says
   /// so: whoever refers to it need not complain again. `name`: of the tag, nullptr if it has none.
   void MarkMissing(const FrameworkElement& parent, const XmlAttribute* name);
+  /// The element has not got what is said of it, and an error says so: nothing that is missing in it is news.
+  void MarkUnbuilt(const FrameworkElement& element) {
+    unbuilt_.insert(&element);
+    MarkUnfed(element);
+  }
   /// Whether to complain that there is no `name` in `parent`, which has `candidates`.
   [[nodiscard]] bool IsNews(const FrameworkElement& parent, std::string_view name,
                             const std::vector<std::string>& candidates) const;
@@ -133,6 +139,7 @@ class BuildContext {
   std::set<std::pair<const FrameworkElement*, std::string>> missing_;
   std::set<const FrameworkElement*>
       incomplete_;  // in which something is missing, whatever its name
+  std::set<const FrameworkElement*> unbuilt_;
   std::set<const FrameworkElement*> unfed_;
   std::set<const FrameworkElement*> faulty_;
   std::map<std::string, std::string, std::less<>> values_;

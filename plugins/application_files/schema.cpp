@@ -31,11 +31,7 @@ void LookAt(const ModuleType& type, FrameworkElement& module, Known& known) {
   for (const auto& [element, configurable] : ConfigurablesOf(module)) {
     Join(known.parameters[element->name()], type.name);
   }
-  module.Visit([&](FrameworkElement& element) {
-    if (const auto* const port = dynamic_cast<const Port*>(&element)) {
-      known.port_types.try_emplace(port->type().name());
-    }
-  });
+  for (const Port* port : PortsOf(module)) known.port_types.try_emplace(port->type().name());
 }
 
 Known LookAtAll(const ModuleRegistry& modules, Diagnostics& diagnostics) {
@@ -43,7 +39,7 @@ Known LookAtAll(const ModuleRegistry& modules, Diagnostics& diagnostics) {
   Runtime runtime;
   for (const ModuleType* type : modules.All()) {
     known.types[type->name] = type->summary;
-    const auto module = modules.Create(type->name, runtime.root(), "module");
+    const auto module = modules.CreateSample(type->name, runtime.root());
     if (!module) {
       diagnostics.Add(module.error());
       continue;

@@ -54,8 +54,7 @@ void MakePortTypesKnown(const ModuleRegistry& modules) {
     Runtime scratch;
     for (const ModuleType* type : modules.All()) {
       // One that cannot be made here brings no type; if the application asks for it, that is told.
-      (void)modules.Create(type->name, scratch.root(),
-                           std::to_string(scratch.root().children().size()));
+      (void)modules.CreateSample(type->name, scratch.root());
     }
   }).join();
 }

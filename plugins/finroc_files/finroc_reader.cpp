@@ -40,8 +40,8 @@ std::string StaticParameter(XmlElement element, std::string_view name) {
 // Whether a path is a URI, "tcp:host/path": names of elements may hold a ':' further on.
 bool HasScheme(std::string_view path) {
   const auto is_of_scheme = [](char character) {
-    return (character >= 'a' && character <= 'z') || (character >= '0' && character <= '9') || character == '+' ||
-           character == '-' || character == '.';
+    return (character >= 'a' && character <= 'z') || (character >= '0' && character <= '9') ||
+           character == '+' || character == '-' || character == '.';
   };
   const auto end = std::ranges::find_if_not(path, is_of_scheme);
   return end != path.begin() && end != path.end() && *end == ':';
@@ -187,6 +187,9 @@ void FinrocReader::ReadModule(XmlElement element, FrameworkElement& parent) {
   if (!made) return context_.Report(made.error(), element.position(), parent);
   (*made)->Annotate(std::make_unique<SourcePlace>(element.position()));
   ReadStaticParameters(element, **made);
+  if (const auto whole = Runtime::Construct(**made); !whole) {
+    context_.Report(whole.error(), element.position(), parent);
+  }
 }
 
 // A port passes on, so that it needs no more than a direction, which the interface is called after,
@@ -262,8 +265,7 @@ void FinrocReader::ReadEdge(XmlElement edge, FrameworkElement& group) {
     Warn("<" + child.name() + "> of an edge has no counterpart", "put a module between the two",
          child.position(), group);
   }
-  if (!IsRightWay(*from, PathKind::kOutput, *to) ||
-      !IsRightWay(*to, PathKind::kInput, *from)) {
+  if (!IsRightWay(*from, PathKind::kOutput, *to) || !IsRightWay(*to, PathKind::kInput, *from)) {
     Warn("goes against the direction of an interface port", "", edge.position(), group);
   } else if (auto connected = Port::Connect(*from, *to); !connected) {
     Warn(connected.error().message, connected.error().hint, edge.position(), group);

@@ -1,56 +1,130 @@
 #pragma once
 
+#include <atomic>
+#include <concepts>
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "core/lockfree/latest_value.h"
-#include "core/port/lease.h"
+#include "core/lockfree/thread_epoch.h"
+#include "core/port/channel.h"
 #include "plugins/parameters/parameter_base.h"
 
 namespace runnel {
 
-/// A number, a switch, a small structure that can be changed while the module runs.
+/// Whether parameters of T are copied when they are read; others are held.
+template <typename T>
+inline constexpr bool kIsCopiedParameter = std::is_trivially_copyable_v<T> && sizeof(T) <= 256;
+
+/// Read access to the value of a parameter that is held and not copied: a text, a list. The value does not change
+/// while it is held. Threads: one at a time.
+template <typename T>
+class ParameterValue {
+ public:
+  [[nodiscard]] const T& operator*() const noexcept { return held_.value(); }
+  [[nodiscard]] const T* operator->() const noexcept { return &held_.value(); }
+
+ private:
+  template <typename>
+  friend class Parameter;
+  explicit ParameterValue(internal::HeldValue<T>&& held) noexcept : held_(std::move(held)) {}
+
+  internal::HeldValue<T> held_;
+};
+
+/// A value that can be changed while the module runs.
 ///
 ///     Parameter<double> stop_distance{this, "stop_distance",
 ///                                     {.default_value = 0.3, .bounds = {0.05, 5.0}, .unit = "m",
 ///                                      .description = "obstacles nearer than this stop the
 ///                                      robot"}};
+///     Parameter<std::string> greeting{this, "greeting", {.default_value = "hello"}};
+///     …
+///     if (nearest < stop_distance.Get()) Say(*greeting.Get());
 ///
-/// Threads:     Get() from any thread, at any time; setting under the structure lock, which
-///              SetFrom(), SetFromText() and Set() take.
+/// Threads:     Get() from any thread, at any time; HasChanged() by the module's; setting under the
+///              structure lock, which SetFrom(), SetFromText() and Set() take.
 /// Progress:    Get() is lock-free and sees a whole value, the old or the new.
-/// Allocation:  Get() none.
-/// For texts, vectors and other large values there is StaticParameter.
+/// Allocation:  Get() and HasChanged() none.
 template <typename T>
 class Parameter final : public ParameterBase {
-  static_assert(std::is_trivially_copyable_v<T> && sizeof(T) <= 256,
-                "a Parameter is copied as bytes while the module runs; "
-                "for this type use StaticParameter");
-
  public:
   /// Errors: throws ElementError if the default value is out of the bounds.
   Parameter(FrameworkElement* module, std::string name, const ParameterOptions<T>& options = {})
       : ParameterBase(module, std::move(name), internal::DescriptionOf(options, false),
                       &options.default_value) {
-    value_.Publish(options.default_value, 0);
+    Publish(options.default_value);
   }
 
-  [[nodiscard]] T Get() const noexcept {
+  /// A copy of numbers and small structures.
+  [[nodiscard]] T Get() const noexcept requires kIsCopiedParameter<T> {
     T value{};
-    Publication publication;
-    value_.Read(value, publication);
+    value_.Read(value);
     return value;
+  }
+  /// Other types are held: `*name.Get()`.
+  [[nodiscard]] ParameterValue<T> Get() const noexcept requires(!kIsCopiedParameter<T>) {
+    const EpochGuard guard;
+    return ParameterValue<T>(value_->Read());
+  }
+  /// Whether it has got another value since the last call; true the first time. In OnParametersChanged() or in a
+  /// cycle: what Get() gives afterwards is at least as new. A value that equals the one before is no change, if
+  /// the type can be compared.
+  [[nodiscard]] bool HasChanged() noexcept {
+    const std::uint64_t published = Publications();
+    return std::exchange(seen_, published) != published;
   }
   /// Errors: out of bounds.
   Result<void> Set(const T& value) { return SetFrom(&value); }
 
-  [[nodiscard]] std::shared_ptr<void> Value() const override { return std::make_shared<T>(Get()); }
+  [[nodiscard]] std::shared_ptr<void> Value() const override {
+    if constexpr (kIsCopiedParameter<T>) {
+      return std::make_shared<T>(Get());
+    } else {
+      return std::make_shared<T>(*Get());
+    }
+  }
 
  private:
-  void Assign(const void* value) override { value_.Publish(*static_cast<const T*>(value), 0); }
+  struct CloseChannel {
+    void operator()(Channel<T>* channel) const { ChannelBase::DeleteLater(channel); }
+  };
+  using Storage = std::conditional_t<kIsCopiedParameter<T>, LatestValue<T>,
+                                     std::unique_ptr<Channel<T>, CloseChannel>>;
 
-  LatestValue<T> value_;
+  bool Assign(const void* value) override {
+    const T& wanted = *static_cast<const T*>(value);
+    if constexpr (std::equality_comparable<T>) {
+      if constexpr (kIsCopiedParameter<T>) {
+        if (Get() == wanted) return false;
+      } else {
+        if (*Get() == wanted) return false;
+      }
+    }
+    Publish(wanted);
+    return true;
+  }
+  void Publish(const T& value) {
+    if constexpr (kIsCopiedParameter<T>) {
+      value_.Publish(value, 0);
+    } else {
+      if (!value_) value_.reset(new Channel<T>({.buffers = 2}, {}));
+      auto loan = value_->MakeLoan();
+      *loan = value;
+      value_->Publish(std::move(loan), {});
+    }
+  }
+  [[nodiscard]] std::uint64_t Publications() const noexcept {
+    if constexpr (kIsCopiedParameter<T>) {
+      return value_.sequence();
+    } else {
+      return value_->publications();
+    }
+  }
+
+  Storage value_;
+  std::uint64_t seen_ = 0;  // the reader's own
 };
 
 }  // namespace runnel

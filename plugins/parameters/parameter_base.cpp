@@ -1,11 +1,15 @@
 #include "plugins/parameters/parameter_base.h"
 
 #include <mutex>
+#include <thread>
 #include <utility>
 
 #include "core/base/characters.h"
 #include "core/element/runtime.h"
+#include "core/module/executable.h"
+#include "core/module/module.h"
 #include "core/module/port_group.h"
+#include "core/port/typed_ports.h"
 #include "plugins/parameters/units.h"
 
 namespace runnel {
@@ -33,7 +37,8 @@ Result<void> CheckCharacters(std::string_view text) {
 ParameterBase::ParameterBase(FrameworkElement* module, std::string name,
                              internal::ParameterDescription description, const void* default_value)
     : FrameworkElement({ParameterGroup(*module), std::move(name)}, ElementKind::kParameter),
-      description_(std::move(description)) {
+      description_(std::move(description)),
+      module_(dynamic_cast<Module*>(module)) {
   if (!description_.is_within_bounds || description_.is_within_bounds(default_value)) return;
   const std::string unit = info().unit.empty() ? "" : " " + info().unit;
   throw ElementError(
@@ -41,6 +46,8 @@ ParameterBase::ParameterBase(FrameworkElement* module, std::string name,
        .path = path(),
        .hint = "they are " + info().bounds + unit});
 }
+
+ParameterBase::~ParameterBase() = default;
 
 Result<std::shared_ptr<const void>> ParameterBase::Parse(std::string_view text) const {
   if (auto good = CheckCharacters(text); !good) return good.error();
@@ -65,8 +72,7 @@ Result<void> ParameterBase::Check(const void* value) const {
     return Error{.message = runnel::ToText(type(), value) + unit + " is out of bounds",
                  .hint = "allowed is " + info().bounds + unit};
   }
-  // Only a static one can have texts in it.
-  if (info().is_static) return CheckCharacters(runnel::ToText(type(), value));
+  if (!description_.is_number) return CheckCharacters(runnel::ToText(type(), value));
   return {};
 }
 
@@ -76,15 +82,75 @@ Result<void> ParameterBase::SetFrom(const void* value) {
     return Error{
         .message = "the parameter is static: it can be set only before its module is ready",
         .path = path(),
-        .hint = "set it in the application file"};
+        .hint =
+            "set it in the application file, or have a change do it, which makes the module anew"};
+  }
+  if (info().is_static && parent()->parent()->has_constructed()) {
+    return Error{.message = "the parameter is static, and ports have been made by it already",
+                 .path = path(),
+                 .hint = "set it before anything is connected"};
   }
   if (auto good = Check(value); !good) {
     Error error = good.error();
     error.path = path();
     return error;
   }
-  Assign(value);
+  TakeOver(value);
   return {};
+}
+
+// A cycle in which an output feeds the parameter may be about to do the same: that tries, and this waits.
+void ParameterBase::TakeOver(const void* value) {
+  // acquire and release: what belongs to the one who assigns is handed over.
+  while (is_assigning_.test_and_set(std::memory_order_acquire)) std::this_thread::yield();
+  const bool has_changed = Assign(value);
+  is_assigning_.clear(std::memory_order_release);
+  if (has_changed && module_ != nullptr) module_->NoteParameterChange();
+}
+
+// A task of its own, run where the module is, so that parameters that nothing feeds cost no cycle anything.
+class ParameterBase::Feeder final : public FrameworkElement {
+ public:
+  Feeder(const Placement& placement, ParameterBase& parameter, const TypedPorts& ports)
+      : FrameworkElement(placement, ElementKind::kPortGroup),
+        parameter_(parameter),
+        held_(ports.MakeHeldValues(1)),
+        input_(ports.MakeInput(*this, parameter.name(),
+                               {.description = "sets the parameter", .trigger = true})) {
+    Annotate(std::make_unique<Executable>([this]() -> std::vector<Task> {
+      return {{this, Phase::kSense, BoundCall::To<&Feeder::Take>(*this), {this}, {}}};
+    }));
+  }
+
+  [[nodiscard]] Port& input() noexcept { return *input_; }
+
+ private:
+  void Take() {
+    if (!held_->Read(*input_, 0) && !is_left_) return;
+    is_left_ = parameter_.is_assigning_.test_and_set(std::memory_order_acquire);
+    if (is_left_) return;  // somebody sets it just now: in the next cycle
+    const void* const value = held_->Find(0);
+    const auto& is_good = parameter_.description_.is_within_bounds;
+    const bool has_changed =
+        value != nullptr && (!is_good || is_good(value)) && parameter_.Assign(value);
+    parameter_.is_assigning_.clear(std::memory_order_release);
+    held_->Drop(0);
+    if (has_changed && parameter_.module_ != nullptr) parameter_.module_->NoteParameterChange();
+  }
+
+  ParameterBase& parameter_;
+  const std::unique_ptr<HeldValues> held_;
+  const std::unique_ptr<Port> input_;
+  bool is_left_ = false;  // a value that has not been taken over yet
+};
+
+Port* ParameterBase::Feed() {
+  if (feeder_ != nullptr) return &feeder_->input();
+  const TypedPorts* const ports = FindTypedPorts(type());
+  if (ports == nullptr || info().is_static || life_cycle() == LifeCycle::kDeleted) return nullptr;
+  feeder_ = &runtime().Create<Feeder>(*this, "feed", *this, *ports);
+  if (life_cycle() == LifeCycle::kReady) (void)runtime().MakeReady(*feeder_);
+  return &feeder_->input();
 }
 
 }  // namespace runnel

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <string>
@@ -11,6 +12,9 @@
 #include "plugins/parameters/bounds.h"
 
 namespace runnel {
+
+class HeldValues;
+class Module;
 
 /// What an author says of a parameter.
 template <typename T>
@@ -67,18 +71,28 @@ class ParameterBase : public FrameworkElement, public Configurable {
   [[nodiscard]] Result<std::shared_ptr<const void>> Parse(std::string_view text) const final;
   [[nodiscard]] Result<void> Check(const void* value) const final;
   Result<void> SetFrom(const void* value) final;
+  /// In the group "feed" below: a task of its own, run where the module is, takes over what comes there, unless
+  /// it is out of bounds. None of static parameters, and of types that no port has.
+  [[nodiscard]] Port* Feed() final;
   [[nodiscard]] const TypeInfo& type() const final { return description_.type; }
   [[nodiscard]] const ConfigurableInfo& info() const final { return description_.info; }
 
  protected:
   ParameterBase(FrameworkElement* module, std::string name,
                 internal::ParameterDescription description, const void* default_value);
+  ~ParameterBase() override;
 
-  /// Takes over a value that Check() has accepted.
-  virtual void Assign(const void* value) = 0;
+  /// Takes over a value that Check() has accepted; whether it is another one. One at a time.
+  virtual bool Assign(const void* value) = 0;
 
  private:
+  class Feeder;
+  void TakeOver(const void* value);
+
   const internal::ParameterDescription description_;
+  Module* const module_;  // nullptr: of something else
+  std::atomic_flag is_assigning_ = ATOMIC_FLAG_INIT;
+  Feeder* feeder_ = nullptr;  // once somebody has asked for it; a child
 };
 
 }  // namespace runnel

@@ -23,11 +23,16 @@ class StaticParameter final : public ParameterBase {
         value_(options.default_value) {}
 
   [[nodiscard]] const T& Get() const noexcept { return value_; }
+  /// Errors: out of bounds; the module is ready, or its ports have been made by the value before.
+  Result<void> Set(const T& value) { return SetFrom(&value); }
 
   [[nodiscard]] std::shared_ptr<void> Value() const override { return std::make_shared<T>(value_); }
 
  private:
-  void Assign(const void* value) override { value_ = *static_cast<const T*>(value); }
+  bool Assign(const void* value) override {
+    value_ = *static_cast<const T*>(value);
+    return true;
+  }
 
   T value_;
 };

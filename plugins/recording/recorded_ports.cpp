@@ -43,10 +43,8 @@ class KnownTypes {
       // What cannot be loaded has its say where it is asked for.
       (void)tools.plugins.Load(plugin);
     }
-    int count = 0;
     for (const ModuleType* type : tools.plugins.modules().All()) {
-      const auto module = tools.plugins.modules().Create(type->name, runtime_.root(),
-                                                         "module_" + std::to_string(++count));
+      const auto module = tools.plugins.modules().CreateSample(type->name, runtime_.root());
       if (!module) continue;
       (*module)->Visit([this](FrameworkElement& element) {
         const auto* const port = dynamic_cast<const Port*>(&element);

@@ -67,7 +67,7 @@ void AddCreation(const FrameworkElement& element, ChangeSet& changes,
 
 void AddConnections(FrameworkElement& element, ChangeSet& changes) {
   const auto add = [&](const Connection& edge) {
-    changes.push_back(ConnectPorts{edge.from->path(), edge.to->path(), edge.options});
+    changes.push_back(ConnectPorts{edge.from->path(), LastingPath(*edge.to), edge.options});
   };
   element.Visit([&](FrameworkElement& each) {
     const auto* const port = dynamic_cast<const Port*>(&each);

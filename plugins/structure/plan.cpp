@@ -7,6 +7,7 @@
 #include "core/base/exception_text.h"
 #include "core/base/retry.h"
 #include "core/lockfree/thread_epoch.h"
+#include "core/port/path_search.h"
 #include "plugins/structure/replacement.h"
 
 namespace runnel::internal {
@@ -154,8 +155,10 @@ Result<void> Plan::CheckTie(const std::string& from_path, const std::string& to_
   if (!found_from) return found_from.error();
   const auto found_to = overlay_.FindPort(to_path, PathKind::kInput);
   if (!found_to) return found_to.error();
-  Port& from = **found_from;
-  Port& to = **found_to;
+  return CheckTie(**found_from, **found_to, wanted);
+}
+
+Result<void> Plan::CheckTie(Port& from, Port& to, const std::optional<ConnectOptions>& wanted) {
   auto possible = wanted ? overlay_.Connect(from, to, *wanted) : overlay_.Disconnect(from, to);
   if (!possible) return possible;
   Concern(from);
@@ -179,8 +182,8 @@ Result<void> Plan::CheckTie(const std::string& from_path, const std::string& to_
                       done->is_done = false;
                     },
                     [=, &from, &to](auto&) -> ChangeSet {
-                      if (wanted) return {DisconnectPorts{from.path(), to.path()}};
-                      return {ConnectPorts{from.path(), to.path(), OptionsOf(from, to)}};
+                      if (wanted) return {DisconnectPorts{from.path(), LastingPath(to)}};
+                      return {ConnectPorts{from.path(), LastingPath(to), OptionsOf(from, to)}};
                     }});
   return {};
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/diagnostics.h"
+#include "core/element/configurable.h"
 #include "core/element/unlisted_element.h"
 #include "core/plugin/module_registry.h"
 #include "plugins/structure/change.h"
@@ -77,12 +78,22 @@ class Plan {
     return CheckTie(change.from, change.to, std::nullopt);
   }
   Result<void> Check(const SetParameter& change);
-  Result<void> Check(const ReplaceModule& change);
+  Result<void> Check(const ReplaceModule& change) {
+    return CheckReplacement(change, Misfits::kAreRefused);
+  }
   Result<void> Check(const AssignToThread& change);
+
+  // What becomes of connections that a module which takes another one's place has no port for.
+  enum class Misfits { kAreRefused, kAreCut };
+  Result<void> CheckReplacement(const ReplaceModule& change, Misfits misfits);
+  Result<void> CheckStatic(const FrameworkElement& element, const Configurable& parameter,
+                           const void* value);
+  Result<void> Cut(const std::vector<Port*>& ports);
 
   // `wanted`: of the connection that is to be; nullopt: none is to be.
   Result<void> CheckTie(const std::string& from_path, const std::string& to_path,
                         const std::optional<ConnectOptions>& wanted);
+  Result<void> CheckTie(Port& from, Port& to, const std::optional<ConnectOptions>& wanted);
   Result<void> Apply(UndoRecord* back, std::size_t& begun);
   Result<UnlistedElement> MakeModule(const std::string& type, const Placement& placement);
   void WarnOfMissingSources(Diagnostics& diagnostics) const;

@@ -8,6 +8,7 @@
 #include "core/module/group.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/proxy_port.h"
+#include "core/types/text_format.h"
 #include "core/types/type_info.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/structure/plan.h"
@@ -113,17 +114,15 @@ Result<void> Plan::Check(const SetParameter& change) {
   if (parameter == nullptr) {
     return Error{.message = (*found)->path() + " is not a parameter", .path = (*found)->path()};
   }
-  if (parameter->info().is_static && (*found)->life_cycle() == LifeCycle::kReady) {
-    return Error{.message = "can be set only before its module is ready",
-                 .path = (*found)->path(),
-                 .hint = "replace the module, by the same type, with the new value"};
-  }
+  const bool is_settled =
+      parameter->info().is_static && (*found)->life_cycle() == LifeCycle::kReady;
   const auto value = ValueIn(change, *parameter);
   if (!value) {
     Error error = value.error();
     if (error.path.empty()) error.path = (*found)->path();
     return error;
   }
+  if (is_settled) return CheckStatic(**found, *parameter, value->get());
   Concern(**found);
   auto before = std::make_shared<std::shared_ptr<const void>>();
   steps_.push_back({[parameter, before, value = *value] {
@@ -141,11 +140,39 @@ Result<void> Plan::Check(const SetParameter& change) {
   return {};
 }
 
-Result<void> Plan::Check(const ReplaceModule& change) {
+// The module is made anew by its own type, and keeps what fits: connections of ports that it has no more are cut.
+Result<void> Plan::CheckStatic(const FrameworkElement& element, const Configurable& parameter,
+                               const void* value) {
+  const FrameworkElement* const module = FindModuleAround(element);
+  const std::string type = module != nullptr ? FindModuleType(*module) : "";
+  if (type.empty()) {
+    return Error{.message = "can be set only before its module is ready",
+                 .path = element.path(),
+                 .hint = "its module was made by code, of a class that no change can make anew"};
+  }
+  const std::string text = runnel::ToText(parameter.type(), value);
+  if (text == parameter.ToText()) return {};
+  return CheckReplacement({module->path(), type, {{element.name(), text}}}, Misfits::kAreCut);
+}
+
+// Cuts the connections of `ports`, which nothing takes over.
+Result<void> Plan::Cut(const std::vector<Port*>& ports) {
+  for (Port* port : ports) {
+    for (const auto& [from, to] : overlay_.EdgesOf(*port)) {
+      if (auto cut = CheckTie(*from, *to, std::nullopt); !cut) return cut;
+      warnings_.push_back({.message = "is not connected to " + to->path() +
+                                      " any more: the module made anew has no such port",
+                           .path = from->path()});
+    }
+  }
+  return {};
+}
+
+Result<void> Plan::CheckReplacement(const ReplaceModule& change, Misfits misfits) {
   const auto found = overlay_.Find(change.path);
   if (!found) return found.error();
   FrameworkElement& before = **found;
-  if (before.kind() != ElementKind::kModule) {
+  if (!IsModule(before)) {
     return Error{.message = "is not a module and cannot be replaced by one", .path = before.path()};
   }
   auto made = MakeModule(change.type, {*before.parent(), before.name(), false});
@@ -154,10 +181,15 @@ Result<void> Plan::Check(const ReplaceModule& change) {
   for (const Setting& each : change.settings) {
     if (auto set = Configure(**made, each); !set) return set;
   }
+  if (auto constructed = Runtime::Construct(**made); !constructed) return constructed;
   (*made)->InheritAnnotations(before);
   if (auto prepared = Runtime::Prepare(*made); !prepared) return prepared;
   PortMatch match =
       MatchPorts(before, **made, [this](const Port& port) { return overlay_.IsConnected(port); });
+  if (misfits == Misfits::kAreCut && !match.errors.empty()) {
+    if (auto cut = Cut(match.misfits); !cut) return cut;
+    match.errors.clear();
+  }
   if (!match.errors.empty()) {
     for (std::size_t i = 1; i < match.errors.size(); ++i)
       further_errors_.push_back(match.errors[i]);

@@ -21,7 +21,12 @@ Result<void> Refused(const Result<void>& refusal, const FrameworkElement& parame
 // The element below `after` that is called as `port` is below `before`.
 Port* Counterpart(const Port& port, const FrameworkElement& before, FrameworkElement& after) {
   const auto found = after.Find(port.path().substr(before.path().size() + 1));
-  return found ? dynamic_cast<Port*>(*found) : nullptr;
+  if (found) return dynamic_cast<Port*>(*found);
+  // By which an output sets a parameter: it is made when it is asked for.
+  const FrameworkElement* const parameter = port.parent()->parent();
+  if (parameter == nullptr || parameter->kind() != ElementKind::kParameter) return nullptr;
+  const ConfigurableElement same = FindConfigurable(after, parameter->name());
+  return same && !port.incoming().empty() ? same.configurable->Feed() : nullptr;
 }
 
 Error NoCounterpart(const Port& port, const FrameworkElement& before, FrameworkElement& after) {
@@ -95,6 +100,7 @@ PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after,
       result.ports.push_back({port, match});
     } else if (is_connected(*port)) {
       result.errors.push_back(possible.error());
+      result.misfits.push_back(port);
     }
   });
   return result;

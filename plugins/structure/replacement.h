@@ -34,7 +34,8 @@ Result<void> CopySettings(const FrameworkElement& before, FrameworkElement& afte
 /// The ports of a module, each with that which takes over from it.
 struct PortMatch {
   std::vector<std::pair<Port*, Port*>> ports;
-  std::vector<Error> errors;  ///< what is connected and has no counterpart, with the nearest name
+  std::vector<Error> errors;   ///< what is connected and has no counterpart, with the nearest name
+  std::vector<Port*> misfits;  ///< these, in the same order
 };
 [[nodiscard]] PortMatch MatchPorts(FrameworkElement& before, FrameworkElement& after,
                                    const std::function<bool(const Port&)>& is_connected);

@@ -152,6 +152,26 @@ Result<void> StructureOverlay::Disconnect(Port& from, Port& to) {
   return {};
 }
 
+std::vector<std::pair<Port*, Port*>> StructureOverlay::EdgesOf(Port& port) const {
+  std::vector<Edge> edges;
+  for (Port* to : Targets(port)) edges.push_back({&port, to});
+  const auto add_from = [&](const std::vector<Port*>& sources) {
+    for (Port* source : sources) {
+      Port& now = NowFor(*source);
+      if (!IsGone(now) && std::ranges::count(Targets(now), &port) > 0)
+        edges.push_back({&now, &port});
+    }
+  };
+  add_from(port.incoming());
+  for (const auto& [before, after] : replaced_) {
+    if (&NowFor(*after) == &port) add_from(before->incoming());
+  }
+  for (const Edge& edge : connected_) {
+    if (edge.second == &port && std::ranges::count(edges, edge) == 0) edges.push_back(edge);
+  }
+  return edges;
+}
+
 bool StructureOverlay::HasSource(const Port& port) const {
   const auto feeds = [&](const std::vector<Port*>& sources) {
     return std::ranges::any_of(sources, [&](Port* source) {

@@ -35,6 +35,8 @@ class StructureOverlay final : public PathSearch {
   Result<void> Disconnect(Port& from, Port& to);
 
   [[nodiscard]] bool HasSource(const Port& port) const;
+  /// From and to the port.
+  [[nodiscard]] std::vector<std::pair<Port*, Port*>> EdgesOf(Port& port) const;
   /// Who only probes the port does not count: a recorder can do without.
   [[nodiscard]] bool IsConnected(const Port& port) const;
 

@@ -49,6 +49,7 @@ Result<void> ModuleRigBase::Prepare() { return runtime.MakeReady(*module_); }
 
 Port& ModuleRigBase::FindPort(std::string_view name, Port::Direction direction) {
   const std::lock_guard lock(runtime.structure_mutex());
+  Need(Runtime::Construct(*module_));
   const bool is_input = direction == Port::Direction::kInput;
   return *Need(
       PathSearch(*module_).FindPort(name, is_input ? PathKind::kInput : PathKind::kOutput));

@@ -40,6 +40,7 @@ Result<void> WatchedPort::Find(Runtime& runtime) {
 }
 
 std::optional<std::uint64_t> WatchedPort::VisitIfNew(const Port::Visitor& look) {
+  for (const Port* source : sources_) source->NoteLook();
   std::uint64_t count = CountOf(sources_);
   if (shown_ == count) return {};
   for (int looks = kLooks; looks > 0; --looks) {

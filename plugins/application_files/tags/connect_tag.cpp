@@ -109,12 +109,15 @@ void ConnectAll(const TagUse& use) {
 
 // As short as it may be, seen from `home`.
 std::string PathFrom(FrameworkElement& home, const Port& port, PathKind kind) {
-  const std::string full = port.path().substr(home.path().size() + 1);
-  const FrameworkElement* const group = port.parent();
+  const std::string full = LastingPath(port).substr(home.path().size() + 1);
+  const FrameworkElement* group = port.parent();
+  const FrameworkElement* const fed = group->parent();
+  const bool is_feed = fed != nullptr && fed->kind() == ElementKind::kParameter;
+  if (is_feed) group = fed->parent();
   if (group->kind() != ElementKind::kPortGroup) return full;
   std::string module = group->parent()->path().substr(home.path().size());
   if (!module.empty()) module.erase(0, 1);
-  const std::string shorter = module + "/" + port.name();
+  const std::string shorter = module + "/" + (is_feed ? *fed : port).name();
   return FindPort({home, shorter, {}}, kind) == &port ? shorter : full;
 }
 

@@ -11,7 +11,15 @@ FrameworkElement* MakeModule(const TagUse& use) {
   if (!use.HasFreeName(use.parent)) return nullptr;
   const auto made = use.context.plugins().modules().Create(use.Get("type").value, use.parent,
                                                            use.Get("name").value);
-  if (made) return *made;
+  if (made) {
+    use.context.Defer(BuildStage::kConstruction, [use, module = *made] {
+      const auto constructed = Runtime::Construct(*module);
+      if (constructed) return;
+      use.context.MarkUnbuilt(*module);
+      use.context.Report(constructed.error(), use.xml.position(), *module);
+    });
+    return *made;
+  }
   Error error = made.error();
   error.path = use.path();
   use.Report(std::move(error), use.xml.position());

@@ -126,6 +126,8 @@ void SetValue(const TagUse& use, const FrameworkElement& module, const Framework
     error.path = path;
     use.context.Report(std::move(error), candidate.position, use.parent);
   }
+  // Ports may follow from it.
+  if (!all_are_good && configurable->info().is_static) use.context.MarkUnbuilt(module);
   if (!all_are_good) return;
   if (candidates.empty()) return use.context.NoteValue(path, configurable->ToText());
   const Candidate& strongest = candidates.back();

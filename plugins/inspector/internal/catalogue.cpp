@@ -9,6 +9,7 @@
 #include "core/base/nearest_name.h"
 #include "core/element/configurable.h"
 #include "core/plugin/module_type_name.h"
+#include "core/port/path_search.h"
 #include "core/port/port.h"
 #include "core/types/type_info.h"
 #include "plugins/inspector/element_json.h"
@@ -77,15 +78,13 @@ CatalogueItem Describe(const ModuleType& type, const Result<UnlistedElement>& mo
   std::vector<ParameterOfType> parameters;
   CatalogueItem item{type.name, type.summary, {}, {}};
   if (module) {
-    (*module)->Visit([&](FrameworkElement& element) {
-      if (const auto* const port = dynamic_cast<const Port*>(&element)) {
-        ports.push_back(port);
-        item.ports.push_back(ItemOf(*port));
-      }
-      if (const auto* const parameter = dynamic_cast<const Configurable*>(&element)) {
-        parameters.push_back({element.name(), parameter});
-      }
-    });
+    for (const Port* port : PortsOf(**module)) {
+      ports.push_back(port);
+      item.ports.push_back(ItemOf(*port));
+    }
+    for (const ConfigurableElement& each : ConfigurablesOf(**module)) {
+      parameters.push_back({each.element->name(), each.configurable});
+    }
   }
   JsonObject json(item.json);
   json.Add("type", type.name).Add("summary", type.summary).Add("plugin", type.plugin);
@@ -105,6 +104,9 @@ std::optional<CatalogueItem> Look(Runtime& runtime, const ModuleRegistry& module
     const ModuleType* const type = modules.Find(name);
     if (type == nullptr) return {};
     auto module = modules.Make(name, {runtime.root(), "module", false});
+    if (module) {
+      if (auto whole = Runtime::Construct(**module); !whole) module = whole.error();
+    }
     item = Describe(*type, module);
     if (!module) return item;
     made = std::move(*module);

@@ -144,7 +144,8 @@ TEST_F(ParameterTest, CannotBeSetAnyMoreIfStatic) {
   const auto set = guard_.label.SetFromText("left");
   ASSERT_FALSE(set);
   EXPECT_EQ(set.error().path, "/guard/parameter/label");
-  EXPECT_EQ(set.error().hint, "set it in the application file");
+  EXPECT_EQ(set.error().hint,
+            "set it in the application file, or have a change do it, which makes the module anew");
   EXPECT_EQ(guard_.label.Get(), "rear");
 }
 

@@ -43,16 +43,16 @@ TEST_F(ChangeSetTest, AllMistakesAreToldAtOnce) {
        CreateModule{"/app/counter/g", "test/counter"}, CreateGroup{"/app/ h"},
        CreatePort{"/app/i", Port::Direction::kInput, "ints"},
        SetParameter{"/app/counter/parameter/stepp", "1"}, SetParameter{"/app/counter", "1"},
-       SetParameter{"/app/counter/parameter/label", "late"}, ReplaceModule{"/app", "test/counter"},
+       SetParameter{"/app/counter/parameter/label", "\x01"}, ReplaceModule{"/app", "test/counter"},
        AssignToThread{"/app/counter", "fest"},
        DisconnectPorts{"/app/counter/out", "/app/counter/out"},
        DeleteElement{"/app/counter/output/out"}, DeleteElement{"/"}});
   for (const char* part :
        {"did you mean 'test/counter'?", "cannot be made", "has no device", "already an element",
         "no parameter 'stap'", "much", "no 'nowhere' in /", "is not a group", "' h'",
-        "no data type 'ints'", "did you mean 'step'?", "is not a parameter",
-        "only before its module is ready", "is not a module", "did you mean 'fast'?",
-        "is not connected", "a part of a module", "the root cannot be deleted"}) {
+        "no data type 'ints'", "did you mean 'step'?", "is not a parameter", "the value contains",
+        "is not a module", "did you mean 'fast'?", "is not connected", "a part of a module",
+        "the root cannot be deleted"}) {
     EXPECT_THAT(told, HasSubstr(part));
   }
 }

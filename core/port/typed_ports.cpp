@@ -1,0 +1,35 @@
+#include "core/port/typed_ports.h"
+
+#include <map>
+#include <mutex>
+
+namespace runnel {
+
+namespace {
+
+// Ports of several runtimes are made at once; a leaf among the locks.
+struct KnownPorts {
+  std::mutex mutex;
+  std::map<const TypeInfo*, const TypedPorts*> by_type;
+};
+
+KnownPorts& Known() {
+  static KnownPorts known;
+  return known;
+}
+
+}  // namespace
+
+// The first library that makes such ports makes them for all: it is never unloaded.
+void internal::AddTypedPorts(const TypeInfo& type, const TypedPorts& ports) {
+  const std::lock_guard lock(Known().mutex);
+  Known().by_type.try_emplace(&type, &ports);
+}
+
+const TypedPorts* FindTypedPorts(const TypeInfo& type) {
+  const std::lock_guard lock(Known().mutex);
+  const auto found = Known().by_type.find(&type);
+  return found == Known().by_type.end() ? nullptr : found->second;
+}
+
+}  // namespace runnel

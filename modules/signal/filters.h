@@ -1,0 +1,100 @@
+#pragma once
+
+#include <optional>
+
+#include "core/module/module.h"
+#include "core/port/input.h"
+#include "core/port/output.h"
+#include "modules/signal/algorithm/dead_band.h"
+#include "modules/signal/algorithm/low_pass.h"
+#include "modules/signal/algorithm/rate_limiter.h"
+#include "plugins/parameters/parameter.h"
+
+namespace runnel::signal {
+
+/// What small modules for one number have in common: each new value gives one, with the timestamp that it had.
+class Filter : public Module {
+ public:
+  using Module::Module;
+
+  Input<double> in{this, "in", {.required = true}};
+  Output<double> out{this, "out"};
+
+ protected:
+  /// `seconds`: from the value before to this one, by their timestamps; 0 for the first, and where time goes back.
+  [[nodiscard]] virtual double Next(double value, double seconds) noexcept = 0;
+
+ private:
+  void Update() final {
+    if (in.has_queue()) {
+      for (auto each = in.Take(); each; each = in.Take()) Pass(each);
+    } else if (const auto read = in.Read(); read.is_new()) {
+      Pass(read);
+    }
+  }
+  void Pass(const Lease<double>& value) {
+    const Time time = value.timestamp();
+    const double seconds = last_ && time > *last_ ? ToSeconds(time - *last_) : 0;
+    last_ = time;
+    out.Publish(Next(*value, seconds), time);
+  }
+
+  std::optional<Time> last_;
+};
+
+class LowPassFilter final : public Filter {
+ public:
+  explicit LowPassFilter(const Placement& placement) : Filter(placement) { KeepState(state_); }
+  Parameter<double> time_constant{this,
+                                  "time_constant",
+                                  {.default_value = 0.1,
+                                   .bounds = {0, 1e6},
+                                   .unit = "s",
+                                   .description = "after it, 63 % of a step are done; 0: all"}};
+
+ private:
+  double Next(double value, double seconds) noexcept override {
+    return state_.Next(value, seconds, time_constant.Get());
+  }
+  LowPass state_;
+};
+
+class RateLimiterFilter final : public Filter {
+ public:
+  explicit RateLimiterFilter(const Placement& placement) : Filter(placement) { KeepState(state_); }
+  Parameter<double> rise{
+      this, "rise", {.default_value = 1, .bounds = {0, {}}, .description = "per second at most"}};
+  Parameter<double> fall{
+      this, "fall", {.default_value = 1, .bounds = {0, {}}, .description = "per second at most"}};
+
+ private:
+  double Next(double value, double seconds) noexcept override {
+    return state_.Next(value, seconds, rise.Get(), fall.Get());
+  }
+  RateLimiter state_;
+};
+
+class DeadBandFilter final : public Filter {
+ public:
+  using Filter::Filter;
+  Parameter<double> width{this,
+                          "width",
+                          {.default_value = 0.1,
+                           .bounds = {0, {}},
+                           .description = "up to which on either side of 0 it is 0"}};
+
+ private:
+  double Next(double value, double) noexcept override { return DeadBand(value, width.Get()); }
+};
+
+class LinearFilter final : public Filter {
+ public:
+  using Filter::Filter;
+  Parameter<double> gain{this, "gain", {.default_value = 1, .description = "times the value"}};
+  Parameter<double> offset{this, "offset", {.description = "is added then"}};
+
+ private:
+  double Next(double value, double) noexcept override { return value * gain.Get() + offset.Get(); }
+};
+
+}  // namespace runnel::signal

@@ -1,0 +1,85 @@
+#include <cmath>
+
+#include <gmock/gmock.h>
+
+#include "modules/signal/filters.h"
+#include "plugins/testing/matchers.h"
+#include "plugins/testing/module_rig.h"
+
+namespace runnel::signal {
+namespace {
+
+using test::KeepsRealTime;
+using test::ModuleRig;
+using ::testing::DoubleNear;
+using namespace std::chrono_literals;
+
+template <typename Filter>
+double After(ModuleRig<Filter>& rig, double value) {
+  rig.Feed(rig.module.in, value);
+  rig.RunCycle();
+  return rig.Last(rig.module.out);
+}
+
+TEST(LowPassTest, GoesTheWayOfAnExponential) {
+  ModuleRig<LowPassFilter> rig(100ms);
+  rig.Set("time_constant", "200ms");
+  EXPECT_EQ(After(rig, 1), 1) << "begins where the values begin";
+  (void)After(rig, 2);
+  EXPECT_THAT(After(rig, 2), DoubleNear(2 - std::exp(-1), 1e-12)) << "after one time constant";
+  rig.Set("time_constant", "0");
+  EXPECT_EQ(After(rig, 7), 7);
+}
+
+TEST(LowPassTest, TakesTimeFromTimestamps) {
+  LowPass fine, coarse;
+  (void)fine.Next(0, 0, 1);
+  (void)coarse.Next(0, 0, 1);
+  for (int i = 0; i < 9; ++i) (void)fine.Next(1, 0.1, 1);
+  EXPECT_THAT(fine.Next(1, 0.1, 1), DoubleNear(coarse.Next(1, 1, 1), 1e-12));
+}
+
+TEST(RateLimiterTest, FollowsNoFasterThanAllowed) {
+  ModuleRig<RateLimiterFilter> rig(100ms);
+  rig.Set("rise", "2");
+  rig.Set("fall", "5");
+  EXPECT_EQ(After(rig, 1), 1);
+  EXPECT_THAT(After(rig, 10), DoubleNear(1.2, 1e-12));
+  EXPECT_THAT(After(rig, 10), DoubleNear(1.4, 1e-12));
+  EXPECT_THAT(After(rig, -10), DoubleNear(0.9, 1e-12));
+  EXPECT_THAT(After(rig, 1), DoubleNear(1.0, 1e-12)) << "what is near enough is reached";
+}
+
+TEST(DeadBandTest, IsZeroNearZeroWithoutAJump) {
+  ModuleRig<DeadBandFilter> rig;
+  rig.Set("width", "0.5");
+  EXPECT_EQ(After(rig, 0.4), 0);
+  EXPECT_EQ(After(rig, -0.5), 0);
+  EXPECT_EQ(After(rig, 0.75), 0.25);
+  EXPECT_EQ(After(rig, -0.75), -0.25);
+  EXPECT_TRUE(std::isnan(After(rig, std::nan(""))));
+}
+
+TEST(LinearTest, IsAFactorAndAnOffset) {
+  ModuleRig<LinearFilter> rig;
+  rig.Set("gain", "-2");
+  rig.Set("offset", "0.5");
+  EXPECT_EQ(After(rig, 3), -5.5);
+}
+
+TEST(FilterTest, LosesNothingOfAQueueAndKeepsTimestamps) {
+  ModuleRig<LinearFilter> rig;
+  rig.UseQueue(rig.module.in, 10);
+  auto& follower = rig.Follow(rig.module.out);
+  const Time first = rig.now();
+  rig.Feed(rig.module.in, 1);
+  rig.Wait(1s);
+  rig.Feed(rig.module.in, 2);
+  rig.RunCycle();
+  EXPECT_EQ(follower.Take().timestamp(), first);
+  EXPECT_EQ(*follower.Take(), 2);
+  EXPECT_THAT(rig, KeepsRealTime(3));
+}
+
+}  // namespace
+}  // namespace runnel::signal

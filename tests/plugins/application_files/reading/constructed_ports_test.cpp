@@ -1,0 +1,115 @@
+// Ports that follow from static parameters, and outputs that set parameters.
+
+#include <deque>
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/plugins/application_files/reading/test_application.h"
+
+namespace runnel::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+class Adder final : public Module {
+ public:
+  using Module::Module;
+  StaticParameter<std::uint32_t> count{this, "count", {.default_value = 1, .bounds = {0, 8}}};
+  std::deque<Input<double>> inputs;
+  Output<double> sum{this, "sum"};
+
+ private:
+  Result<void> Construct() override {
+    if (count.Get() == 7) return Error{.message = "seven is not to be had"};
+    for (std::uint32_t i = 1; i <= count.Get(); ++i)
+      inputs.emplace_back(this, "in" + std::to_string(i));
+    return {};
+  }
+  void Update() override {}
+};
+
+class ConstructedPorts : public ::testing::Test {
+ protected:
+  ConstructedPorts() { workshop_.Add<Adder>("test/adder"); }
+
+  static std::string With(const std::string& parameter) {
+    return R"(<application name="demo">
+      <connect from="group/out" to="adder/in3"/>
+      <module name="source" type="test/source"/>
+      <module name="adder" type="test/adder"><parameter name="count" )" +
+           parameter + R"(/></module>
+      <group name="group">
+        <port name="out" direction="output"/>
+        <module name="inner" type="test/adder"/>
+        <connect from="inner/sum" to="out"/>
+      </group>
+      <connect from="source/value" to="adder/in1 group/inner/in1"/>
+    </application>)";
+  }
+  Workshop workshop_;
+};
+
+TEST_F(ConstructedPorts, AreThereWhenPortsAreConnected) {
+  ASSERT_TRUE(workshop_.Build(With("value=\"3\""))) << workshop_.diagnostics.ToString();
+  auto& adder = workshop_.Get<Adder>("/demo/adder");
+  ASSERT_THAT(adder.inputs, SizeIs(3));
+  EXPECT_THAT(adder.inputs[0].Sources(), SizeIs(1));
+  EXPECT_THAT(adder.inputs[1].Sources(), SizeIs(0));
+  EXPECT_THAT(adder.inputs[2].Sources(), SizeIs(1));
+}
+
+TEST_F(ConstructedPorts, FollowFromTheCommandLineToo) {
+  ASSERT_TRUE(workshop_.configuration.AddArgument("inputs=5"));
+  ASSERT_TRUE(workshop_.Build(With("value=\"3\" command_line=\"inputs\"")));
+  EXPECT_THAT(workshop_.Get<Adder>("/demo/adder").inputs, SizeIs(5));
+}
+
+TEST_F(ConstructedPorts, OfAWrongNumberAreNotAskedForTwice) {
+  const std::string few = workshop_.Errors(With("value=\"2\""));
+  EXPECT_THAT(few, HasSubstr("there is no 'in3' in /demo/adder; did you mean 'in1'?"));
+  for (const char* wrong : {"many", "9", "7"}) {
+    const std::string told = workshop_.Errors(With("value=\"" + std::string(wrong) + "\""));
+    EXPECT_THAT(told, HasSubstr(wrong == std::string("7") ? "seven is not" : wrong));
+    EXPECT_EQ(workshop_.diagnostics.errors().size(), 1u) << told;
+  }
+}
+
+TEST_F(ConstructedPorts, FollowFromTheParameterOfAPart) {
+  const std::string file = ::testing::TempDir() + "runnel_constructed_part.xml";
+  std::ofstream(file) << R"(<group_type>
+    <parameter name="size"/>
+    <module name="adder" type="test/adder"><parameter name="count" from="size"/></module>
+  </group_type>)";
+  EXPECT_TRUE(workshop_.Build(R"(<application name="demo">
+    <group name="a" type=")" + file +
+                              R"("><parameter name="size" value="4"/></group>
+    <connect from="a/adder/sum" to="a/adder/in4"/>
+  </application>)"))
+      << workshop_.diagnostics.ToString();
+  std::filesystem::remove(file);
+}
+
+TEST_F(ConstructedPorts, AnOutputMaySetAParameter) {
+  ASSERT_TRUE(workshop_.Build(R"(<application name="demo">
+    <module name="source" type="test/source"/><module name="other" type="test/source"/>
+    <connect from="source/value" to="other/gain"/>
+  </application>)"))
+      << workshop_.diagnostics.ToString();
+  const auto& feeds = workshop_.Get<Port>("/demo/source/output/value").outgoing();
+  ASSERT_THAT(feeds, SizeIs(1));
+  EXPECT_EQ(feeds[0].to->path(), "/demo/other/parameter/gain/feed/gain");
+  EXPECT_THAT(workshop_.Errors(R"(<application name="more">
+    <module name="source" type="test/source"/><module name="other" type="test/source"/>
+    <connect from="source/label" to="other/gain"/>
+    <connect from="source/label" to="other/text"/>
+  </application>)"),
+              ::testing::AllOf(HasSubstr("carries string, but"),
+                               HasSubstr("is a parameter that no output can set")));
+}
+
+}  // namespace
+}  // namespace runnel::testing
