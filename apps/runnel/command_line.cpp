@@ -175,7 +175,10 @@ Command ParseCommandLine(int count, const char* const* words) {
   CLI::App& modules = *program.add_subcommand("modules", "lists module types, ports, parameters");
   modules.add_option("plugins", modules_arguments.plugins, "only of these; without, of all")
       ->type_name("PLUGIN");
-  modules.add_flag("--names", modules_arguments.names_only, "only the names of the types");
+  CLI::Option* const names =
+      modules.add_flag("--names", modules_arguments.names_only, "only the names of the types");
+  modules.add_flag("--json", modules_arguments.as_json, "all that is known of them, as JSON")
+      ->excludes(names);
   CLI::App& schema = *program.add_subcommand(
       "schema", "writes the XML schema of application files, for editors and checkers");
   schema.add_option("plugins", schema_arguments.plugins, "only of these; without, of all")

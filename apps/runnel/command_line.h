@@ -46,6 +46,7 @@ struct RunArguments {
 struct ModulesArguments {
   std::vector<std::string> plugins = {};  ///< none: all that can be found
   bool names_only = false;
+  bool as_json = false;
 };
 
 struct SchemaArguments {

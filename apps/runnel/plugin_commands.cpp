@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -10,14 +11,11 @@
 #include "apps/runnel/commands.h"
 #include "apps/runnel/output.h"
 #include "core/base/characters.h"
-#include "core/base/nearest_name.h"
 #include "core/base/replace_file.h"
-#include "core/element/configurable.h"
-#include "core/port/path_search.h"
-#include "core/port/port.h"
-#include "core/types/type_info.h"
 #include "plugins/application/application_description.h"
 #include "plugins/application_files/schema.h"
+#include "plugins/manifest/description_json.h"
+#include "plugins/manifest/plugin_manifest.h"
 
 namespace runnel::program {
 
@@ -44,54 +42,60 @@ void WriteTable(const std::string& title, const std::vector<Row>& rows) {
   }
 }
 
-// Modules with other groups than "input" and "output" need the group's name in paths now and then.
-std::string NameOf(const Port& port) {
-  const std::string& group = port.parent()->name();
-  return group == "input" || group == "output" ? port.name() : group + "/" + port.name();
-}
-
-std::vector<Row> Ports(FrameworkElement& module, Port::Direction direction) {
+std::vector<Row> Ports(const ModuleDescription& module, bool are_inputs) {
   std::vector<Row> rows;
-  for (const Port* port : PortsOf(module)) {
-    if (port->direction() != direction) continue;
-    rows.push_back({NameOf(*port), port->type().name(), port->is_required() ? "required" : "",
-                    port->description()});
+  for (const ModuleDescription::Port& port : module.ports) {
+    if (port.is_input != are_inputs) continue;
+    rows.push_back({port.PathInModule(), port.type, port.is_required ? "required" : "",
+                    port.description});
   }
   return rows;
 }
 
-// Of an enumeration: "left, right".
-std::string Choices(const TypeInfo& type) {
-  return fmt::format("{}", fmt::join(NamesOf(type.enumerators(), &EnumeratorInfo::name), ", "));
-}
-
-std::vector<Row> Parameters(const FrameworkElement& module) {
+std::vector<Row> Parameters(const ModuleDescription& module) {
   std::vector<Row> rows;
-  for (const auto& [element, configurable] : ConfigurablesOf(module)) {
-    const ConfigurableInfo& info = configurable->info();
-    const std::string unit = info.unit.empty() ? "" : " " + info.unit;
-    const std::string value = info.default_value.empty() ? "" : "= " + info.default_value + unit;
-    const std::string bounds = info.bounds.empty() ? "" : "in " + info.bounds + unit;
-    const std::string choices = Choices(configurable->type());
-    rows.push_back({element->name(), configurable->type().name(), value,
-                    bounds.empty() ? choices : bounds, info.is_static ? "static" : "",
-                    info.description});
+  for (const ModuleDescription::Parameter& each : module.parameters) {
+    const std::string unit = each.unit.empty() ? "" : " " + each.unit;
+    const std::string value = each.default_value.empty() ? "" : "= " + each.default_value + unit;
+    const std::string choices = fmt::format("{}", fmt::join(each.choices, ", "));
+    rows.push_back({each.name, each.type, value,
+                    each.bounds.empty() ? choices : "in " + each.bounds + unit,
+                    each.is_static ? "static" : "", each.description});
   }
   return rows;
 }
 
-// Makes a module of the type, writes down its ports and parameters, and deletes it again. Errors: it cannot be
-// made.
-Result<void> ListModule(const ModuleType& type, ApplicationDescription& surroundings) {
-  Runtime& runtime = surroundings.runtime();
-  const auto module = surroundings.plugins().modules().CreateSample(type.name, runtime.root());
-  if (!module) return module.error();
-  std::cout << type.name << (type.summary.empty() ? "" : "  " + type.summary) << '\n';
-  WriteTable("inputs", Ports(**module, Port::Direction::kInput));
-  WriteTable("outputs", Ports(**module, Port::Direction::kOutput));
-  WriteTable("parameters", Parameters(**module));
+void WriteModule(const ModuleDescription& module) {
+  std::cout << module.type << (module.summary.empty() ? "" : "  " + module.summary) << '\n';
+  WriteTable("inputs", Ports(module, true));
+  WriteTable("outputs", Ports(module, false));
+  WriteTable("parameters", Parameters(module));
   std::cout << '\n';
-  return runtime.Delete(**module);
+}
+
+// What the plugins have, or all that can be found if none is named: by their manifests, and by loading those that
+// have none. Says which could not be looked at, and why; then `all_are_there` is false.
+std::vector<ModuleDescription> DescribeModules(const std::vector<std::string>& chosen,
+                                               bool& all_are_there) {
+  ApplicationDescription surroundings;
+  PluginManager& plugins = surroundings.plugins();
+  std::vector<ModuleDescription> modules;
+  for (const std::string& plugin : chosen.empty() ? plugins.Available() : chosen) {
+    const auto file = plugins.FindFile(plugin);
+    auto manifest = file ? ReadManifest(*file) : file.error();
+    if (manifest) {
+      std::ranges::move(manifest->modules, std::back_inserter(modules));
+    } else if (const auto loaded = plugins.Load(plugin); !loaded) {
+      PrintError(loaded.error());
+      all_are_there = false;
+    }
+  }
+  for (const ModuleType* type : plugins.modules().All()) {
+    auto module = DescribeByMaking(surroundings.runtime(), plugins.modules(), type->name);
+    if (module) modules.push_back(std::move(*module));
+  }
+  std::ranges::sort(modules, {}, &ModuleDescription::type);
+  return modules;
 }
 
 // Loads the plugins, or all that can be found if none is named. False after saying which could not
@@ -111,18 +115,21 @@ bool LoadChosenPlugins(const std::vector<std::string>& chosen,
 }  // namespace
 
 ExitCode ListModules(const ModulesArguments& arguments) {
-  ApplicationDescription surroundings;
-  ExitCode code =
-      LoadChosenPlugins(arguments.plugins, surroundings) ? ExitCode::kDone : ExitCode::kBadInput;
-  for (const ModuleType* type : surroundings.plugins().modules().All()) {
+  bool all_are_there = true;
+  const auto modules = DescribeModules(arguments.plugins, all_are_there);
+  if (arguments.as_json) std::cout << JsonText(modules) << '\n';
+  for (const ModuleDescription& module : modules) {
+    if (arguments.as_json) continue;
     if (arguments.names_only) {
-      std::cout << type->name << '\n';
-    } else if (auto listed = ListModule(*type, surroundings); !listed) {
-      PrintError(listed.error());
-      code = ExitCode::kBadInput;
+      std::cout << module.type << '\n';
+    } else if (module.problem.empty()) {
+      WriteModule(module);
+    } else {
+      std::cerr << module.problem << '\n';
+      all_are_there = false;
     }
   }
-  return code;
+  return all_are_there ? ExitCode::kDone : ExitCode::kBadInput;
 }
 
 ExitCode WriteSchema(const SchemaArguments& arguments) {

@@ -51,8 +51,27 @@ function(runnel_library name)
     FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/runnel)
 endfunction()
 
+# runnel_write_manifest(<plugin>)
+# Has what the plugin's modules look like written beside its library each time that is linked. Where its code cannot
+# be run, that is left out.
+function(runnel_write_manifest name)
+  if(CMAKE_CROSSCOMPILING AND NOT CMAKE_CROSSCOMPILING_EMULATOR)
+    return()
+  endif()
+  set(program runnel::manifest_program)
+  if(TARGET runnel_warnings)
+    set(program runnel_manifest_program)
+    add_dependencies(runnel_plugin_${name} ${program})
+  endif()
+  target_link_options(runnel_plugin_${name} PRIVATE LINKER:--build-id)
+  add_custom_command(TARGET runnel_plugin_${name} POST_BUILD
+    COMMAND ${program} "$<TARGET_FILE:runnel_plugin_${name}>" VERBATIM)
+  install(FILES "${CMAKE_BINARY_DIR}/lib/runnel/plugins/${name}.manifest.xml"
+    DESTINATION ${CMAKE_INSTALL_LIBDIR}/runnel/plugins)
+endfunction()
+
 # runnel_plugin(<name> SOURCES ... [DEPENDS ...])
-# A loadable library lib/runnel/plugins/<name>.so, which the runtime finds by <name>. Works in this
+# A loadable library lib/runnel/plugins/<name>.so, which the runtime finds by <name>, with its manifest. Works in this
 # tree and, after find_package(runnel), in any other. The target runnel_plugins builds all of them.
 function(runnel_plugin name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPENDS")
@@ -74,6 +93,7 @@ function(runnel_plugin name)
   add_dependencies(runnel_plugins runnel_plugin_${name})
   install(TARGETS runnel_plugin_${name}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/runnel/plugins)
+  runnel_write_manifest(${name})
 endfunction()
 
 # runnel_extension(<name> SOURCES ... [DEPENDS ...])

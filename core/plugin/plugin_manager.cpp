@@ -189,6 +189,7 @@ Result<PluginReload> PluginManager::ReloadKnown(std::string_view name) {
 
 Result<fs::path> PluginManager::FindFile(std::string_view name) const {
   std::error_code ignored;
+  if (const auto known = files_.find(name); known != files_.end()) return known->second;
   if (name.find('/') != std::string_view::npos) {
     if (fs::exists(name, ignored)) return fs::path(name);
     return Error{.message = "there is no plugin file '" + std::string(name) + "'"};

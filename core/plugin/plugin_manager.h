@@ -79,9 +79,10 @@ class PluginManager {
   /// The names of the plugins that could be loaded from the search path, sorted.
   [[nodiscard]] std::vector<std::string> Available() const;
   [[nodiscard]] const std::vector<std::string>& loaded() const noexcept { return loaded_; }
+  /// The file of a plugin that is loaded, or would be. Errors: there is none, with the nearest name.
+  [[nodiscard]] Result<std::filesystem::path> FindFile(std::string_view name) const;
 
  private:
-  [[nodiscard]] Result<std::filesystem::path> FindFile(std::string_view name) const;
   using Files = std::map<std::string, std::filesystem::path, std::less<>>;
 
   Result<void> LoadUnlessKnown(std::string_view name);

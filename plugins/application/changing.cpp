@@ -148,6 +148,10 @@ CommandService& Application::service() {
   if (parts_->service) return *parts_->service;
   ServiceHooks hooks = parts_->hooks;
   hooks.load_plugin = [this](const std::string& plugin) { return LoadPlugin(plugin); };
+  hooks.library_of = [this](const std::string& plugin) -> std::string {
+    const auto file = plugins().FindFile(plugin);
+    return file ? file->string() : "";
+  };
   hooks.save = [this](const std::string& file) -> Result<std::string> {
     std::string done = "saved " + parts_->path() + (file.empty() ? "" : " to " + file);
     if (auto saved = Save(file); !saved) return saved.error();

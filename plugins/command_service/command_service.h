@@ -53,6 +53,8 @@ struct ServiceHooks {
   std::function<Result<std::string>(const std::string& file)> save = {};
   /// Loads a plugin anew, makes its modules anew, and says what was done.
   std::function<Result<std::string>(const std::string& plugin)> reload = {};
+  /// The library of a plugin that is loaded; "" if that is unknown.
+  std::function<std::string(const std::string& plugin)> library_of = {};
   /// Records ports until the client goes.
   RecordingHook record = {};
 };

@@ -80,6 +80,7 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
                    "plugins/control",
                    {"core", "plugins/command_service", "plugins/scheduling", "plugins/structure",
                     "plugins/values/watched_port.h"}});
+  rules.push_back({"plugins/manifest", "plugins/manifest", {"core", "plugins/values"}});
   rules.push_back({"plugins/mcap", "plugins/mcap", {"core"}});
   rules.push_back({"plugins/recording",
                    "plugins/recording",
@@ -92,8 +93,8 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
        {"core", "plugins/inspector", "plugins/application_files", "plugins/web_server"}});
   rules.push_back({"plugins/inspector",
                    "plugins/inspector",
-                   {"core", "plugins/command_service", "plugins/values", "plugins/scheduling",
-                    "plugins/structure", "plugins/web_server"}});
+                   {"core", "plugins/command_service", "plugins/manifest", "plugins/values",
+                    "plugins/scheduling", "plugins/structure", "plugins/web_server"}});
   rules.push_back({"plugins/supervision",
                    "plugins/supervision",
                    {"core", "plugins/scheduling", "plugins/structure"}});

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include "tests/integration/program.h"
@@ -125,6 +126,17 @@ TEST_F(CommandLine, ModulesListsTypesWithPortsAndParameters) {
   EXPECT_THAT(ended.text,
               AllOf(HasSubstr("motion/command_gate"), HasSubstr("wanted"), HasSubstr("Twist2"),
                     HasSubstr("timeout"), HasSubstr("0.01 .. 60"), Not(HasSubstr("planning/"))));
+}
+
+TEST_F(CommandLine, ModulesAreToldToProgramsAsJson) {
+  const Ended ended = Runnel("modules motion --json");
+  EXPECT_EQ(ended.code, kDone);
+  const auto json = nlohmann::json::parse(ended.text);
+  ASSERT_EQ(json.size(), 2u);
+  EXPECT_EQ(json[0]["type"], "motion/command_gate");
+  EXPECT_EQ(json[0]["plugin"], "motion");
+  EXPECT_FALSE(json[0]["ports"].empty());
+  EXPECT_EQ(Runnel("modules motion --json --names").code, kBadInput);
 }
 
 TEST_F(CommandLine, HelpAndVersionAreDone) {

@@ -7,12 +7,13 @@
 #include <optional>
 
 #include "core/base/nearest_name.h"
-#include "core/element/configurable.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/path_search.h"
 #include "core/port/port.h"
 #include "core/types/type_info.h"
 #include "plugins/inspector/element_json.h"
+#include "plugins/manifest/description_json.h"
+#include "plugins/manifest/plugin_manifest.h"
 #include "plugins/values/json_writer.h"
 
 namespace runnel::internal {
@@ -46,72 +47,12 @@ void AppendType(const TypeInfo* type, std::string& text) {
   }
 }
 
-void AppendPort(const Port* port, std::string& text) {
-  JsonObject object(text);
-  object.Add("name", port->name());
-  object.Add("direction", port->direction() == Port::Direction::kInput ? "input" : "output");
-  object.Add("type", port->type().name()).Add("required", port->is_required());
-  object.Add("description", port->description());
-}
-
-struct ParameterOfType {
-  std::string name;
-  const Configurable* parameter;
-};
-
-void AppendParameter(const ParameterOfType& each, std::string& text) {
-  const ConfigurableInfo& info = each.parameter->info();
-  JsonObject object(text);
-  object.Add("name", each.name).Add("type", each.parameter->type().name());
-  object.Add("unit", info.unit).Add("default", info.default_value);
-  object.AddOrNull("minimum", info.minimum).AddOrNull("maximum", info.maximum);
-  object.Add("description", info.description);
-}
-
-CatalogueItemPort ItemOf(const Port& port) {
-  return {port.name(), port.direction() == Port::Direction::kInput, port.type().name()};
-}
-
-// `module`: one that has been made, or why none can be.
-CatalogueItem Describe(const ModuleType& type, const Result<UnlistedElement>& module) {
-  std::vector<const Port*> ports;
-  std::vector<ParameterOfType> parameters;
-  CatalogueItem item{type.name, type.summary, {}, {}};
-  if (module) {
-    for (const Port* port : PortsOf(**module)) {
-      ports.push_back(port);
-      item.ports.push_back(ItemOf(*port));
-    }
-    for (const ConfigurableElement& each : ConfigurablesOf(**module)) {
-      parameters.push_back({each.element->name(), each.configurable});
-    }
+CatalogueItem ItemOf(const ModuleDescription& module) {
+  CatalogueItem item{module.type, module.summary, {}, {}};
+  for (const ModuleDescription::Port& port : module.ports) {
+    item.ports.push_back({port.name, port.is_input, port.type});
   }
-  JsonObject json(item.json);
-  json.Add("type", type.name).Add("summary", type.summary).Add("plugin", type.plugin);
-  AppendList(ports, json.Key("ports"), AppendPort);
-  AppendList(parameters, json.Key("parameters"), AppendParameter);
-  if (!module) json.Add("problem", module.error().ToString());
-  return item;
-}
-
-// Nothing if the type has just gone.
-std::optional<CatalogueItem> Look(Runtime& runtime, const ModuleRegistry& modules,
-                                  const std::string& name) {
-  std::optional<UnlistedElement> made;
-  std::optional<CatalogueItem> item;
-  {
-    const std::lock_guard lock(runtime.structure_mutex());
-    const ModuleType* const type = modules.Find(name);
-    if (type == nullptr) return {};
-    auto module = modules.Make(name, {runtime.root(), "module", false});
-    if (module) {
-      if (auto whole = Runtime::Construct(**module); !whole) module = whole.error();
-    }
-    item = Describe(*type, module);
-    if (!module) return item;
-    made = std::move(*module);
-  }
-  runtime.Destroy(std::move(*made));
+  AppendJson(module, item.json);
   return item;
 }
 
@@ -121,22 +62,25 @@ std::vector<CatalogueItemPort> ConnectedPorts(FrameworkElement& module) {
   module.Visit([&](FrameworkElement& element) {
     const auto* const port = dynamic_cast<const Port*>(&element);
     if (port == nullptr || (port->outgoing().empty() && port->incoming().empty())) return;
-    ports.push_back(ItemOf(*port));
+    ports.push_back({port->name(), port->direction() == Port::Direction::kInput,
+                     port->type().name()});
   });
   return ports;
 }
 
 }  // namespace
 
-Catalogue MakeCatalogue(Runtime& runtime, const ModuleRegistry& modules) {
+Catalogue MakeCatalogue(const ServedApplication& application) {
   Catalogue catalogue;
   std::vector<std::string> names;
   {
-    const std::lock_guard lock(runtime.structure_mutex());
-    names = NamesOf(modules.All(), &ModuleType::name);
+    const std::lock_guard lock(application.runtime.structure_mutex());
+    names = NamesOf(application.modules.All(), &ModuleType::name);
   }
+  ModuleDescriber describer(application.runtime, application.modules,
+                            application.hooks.library_of);
   for (const std::string& name : names) {
-    if (auto item = Look(runtime, modules, name)) catalogue.modules.push_back(std::move(*item));
+    if (const auto module = describer.Describe(name)) catalogue.modules.push_back(ItemOf(*module));
   }
   JsonObject json(catalogue.message);
   json.Add("op", "catalogue");
@@ -147,7 +91,7 @@ Catalogue MakeCatalogue(Runtime& runtime, const ModuleRegistry& modules) {
 }
 
 std::uint64_t RegistryFingerprint(const ModuleRegistry& modules) {
-  std::uint64_t hash = 1;
+  std::uint64_t hash = RegisteredTypes().size();  // described when their ports are there
   for (const ModuleType* type : modules.All()) {
     hash = hash * 31 + std::hash<std::string>{}(type->name);
     hash = hash * 31 + std::hash<const void*>{}(type);  // made anew when its plugin is loaded anew

@@ -5,6 +5,7 @@
 
 #include "core/element/runtime.h"
 #include "core/plugin/module_registry.h"
+#include "plugins/command_service/command_service.h"
 
 namespace runnel::internal {
 
@@ -30,14 +31,14 @@ struct Catalogue {
   std::string message;  ///< of the protocol, with all modules and types
 };
 
-/// Looks at all module types by making one of each beside the tree, under the structure lock, which is
-/// let go between any two. Types whose modules cannot be made have no ports in it, and "problem" says
-/// why.
+/// All module types, as the manifests of their plugins describe them; where there is none, by making a module
+/// beside the tree, under the structure lock, which is let go between any two. Types whose modules cannot be made
+/// have no ports in it, and "problem" says why.
 ///
 /// Threads:  one that may wait.
-[[nodiscard]] Catalogue MakeCatalogue(Runtime& runtime, const ModuleRegistry& modules);
+[[nodiscard]] Catalogue MakeCatalogue(const ServedApplication& application);
 
-/// Another number if other types are registered. Under the structure lock.
+/// Another number if other module types, or types of values, are registered. Under the structure lock.
 [[nodiscard]] std::uint64_t RegistryFingerprint(const ModuleRegistry& modules);
 
 /// The types that could stand in for the module at `path`, as a JSON list: those that take over all of

@@ -70,7 +70,7 @@ void Inspection::LookAtRegistry(SteadyTime now) {
   // Modules are made for it, some of which take their time.
   cataloguing_ = tasks_.Post([this] {
     auto made = std::make_shared<const Catalogue>(
-        MakeCatalogue(application_.runtime, application_.modules));
+        MakeCatalogue(application_));
     const std::lock_guard guard(mutex_);
     catalogue_ = std::move(made);
   });

@@ -20,6 +20,9 @@ run(COMMAND "${CMAKE_COMMAND}" -G Ninja -S "${SOURCE}" -B "${WORK}/outside"
 run(COMMAND "${CMAKE_COMMAND}" --build "${WORK}/outside")
 run(COMMAND "${CMAKE_CTEST_COMMAND}" --test-dir "${WORK}/outside" --no-tests=error --output-on-failure)
 
+if(NOT EXISTS "${WORK}/outside/lib/runnel/plugins/outside.manifest.xml")
+  message(FATAL_ERROR "the plugin has no manifest")
+endif()
 # Loaded from where it was built, and from where it was installed.
 set(program "${WORK}/prefix/bin/runnel")
 set(ENV{RUNNEL_PLUGIN_PATH} "${WORK}/outside/lib/runnel/plugins")

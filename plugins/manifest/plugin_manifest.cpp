@@ -1,0 +1,186 @@
+#include "plugins/manifest/plugin_manifest.h"
+
+#include <algorithm>
+#include <mutex>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/diagnostics.h"
+#include "core/base/number_text.h"
+#include "core/xml/xml_document.h"
+#include "core/xml/xml_reading.h"
+#include "core/xml/xml_writing.h"
+
+namespace runnel {
+
+namespace {
+
+constexpr char kBetweenChoices = ' ';
+
+void Add(const char* name, const std::string& value, std::string& text) {
+  if (!value.empty()) text += fmt::format(" {}=\"{}\"", name, EscapedAttribute(value));
+}
+
+void Add(const char* name, const std::optional<double>& value, std::string& text) {
+  if (value) text += fmt::format(" {}=\"{}\"", name, *value);
+}
+
+void Add(const char* name, bool value, std::string& text) {
+  if (value) text += fmt::format(" {}=\"true\"", name);
+}
+
+void AppendPortTag(const ModuleDescription::Port& port, std::string& text) {
+  text += "    <port";
+  Add("name", port.name, text);
+  Add("group", port.group, text);
+  Add("is_input", port.is_input, text);
+  Add("type", port.type, text);
+  Add("is_required", port.is_required, text);
+  Add("description", port.description, text);
+  text += "/>\n";
+}
+
+void AppendParameterTag(const ModuleDescription::Parameter& parameter, std::string& text) {
+  text += "    <parameter";
+  Add("name", parameter.name, text);
+  Add("type", parameter.type, text);
+  Add("unit", parameter.unit, text);
+  Add("default", parameter.default_value, text);
+  Add("bounds", parameter.bounds, text);
+  Add("minimum", parameter.minimum, text);
+  Add("maximum", parameter.maximum, text);
+  Add("choices", fmt::format("{}", fmt::join(parameter.choices, std::string(1, kBetweenChoices))), text);
+  Add("is_static", parameter.is_static, text);
+  Add("description", parameter.description, text);
+  text += "/>\n";
+}
+
+std::string TextIn(XmlElement element, std::string_view name) {
+  const XmlAttribute* const found = element.Attribute(name);
+  return found != nullptr ? found->value : "";
+}
+
+bool IsTrue(XmlElement element, std::string_view name) { return TextIn(element, name) == "true"; }
+
+std::vector<std::string> WordsIn(const std::string& text) {
+  std::vector<std::string> words;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(kBetweenChoices, at), text.size());
+    words.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return words;
+}
+
+ModuleDescription::Port ReadPort(XmlElement element) {
+  return {.name = TextIn(element, "name"),
+          .group = TextIn(element, "group"),
+          .is_input = IsTrue(element, "is_input"),
+          .type = TextIn(element, "type"),
+          .is_required = IsTrue(element, "is_required"),
+          .description = TextIn(element, "description")};
+}
+
+ModuleDescription::Parameter ReadParameter(XmlElement element) {
+  return {.name = TextIn(element, "name"),
+          .type = TextIn(element, "type"),
+          .unit = TextIn(element, "unit"),
+          .default_value = TextIn(element, "default"),
+          .bounds = TextIn(element, "bounds"),
+          .minimum = NumberIn<double>(TextIn(element, "minimum")),
+          .maximum = NumberIn<double>(TextIn(element, "maximum")),
+          .choices = WordsIn(TextIn(element, "choices")),
+          .is_static = IsTrue(element, "is_static"),
+          .description = TextIn(element, "description")};
+}
+
+ModuleDescription ReadModule(XmlElement element, const std::string& plugin,
+                             Diagnostics& problems) {
+  CheckChildren(element, std::vector<std::string>{"parameter", "port"}, problems);
+  ModuleDescription module{.type = TextIn(element, "type"),
+                           .summary = TextIn(element, "summary"),
+                           .plugin = plugin,
+                           .problem = TextIn(element, "problem")};
+  for (const XmlElement child : element.children()) {
+    if (child.name() == "port") module.ports.push_back(ReadPort(child));
+    if (child.name() == "parameter") module.parameters.push_back(ReadParameter(child));
+  }
+  return module;
+}
+
+}  // namespace
+
+std::filesystem::path ManifestFileOf(const std::filesystem::path& library) {
+  std::filesystem::path file = library;
+  return file.replace_extension(".manifest.xml");
+}
+
+std::string ManifestText(const PluginManifest& manifest) {
+  std::string text = "<plugin";
+  Add("name", manifest.plugin, text);
+  Add("build_id", manifest.build_id, text);
+  text += ">\n";
+  for (const ModuleDescription& module : manifest.modules) {
+    text += "  <module";
+    Add("type", module.type, text);
+    Add("summary", module.summary, text);
+    Add("problem", module.problem, text);
+    text += ">\n";
+    for (const auto& port : module.ports) AppendPortTag(port, text);
+    for (const auto& parameter : module.parameters) AppendParameterTag(parameter, text);
+    text += "  </module>\n";
+  }
+  return text + "</plugin>\n";
+}
+
+Result<PluginManifest> ReadManifest(const std::filesystem::path& library) {
+  const auto document = XmlDocument::Load(ManifestFileOf(library));
+  if (!document) return document.error();
+  const XmlElement root = document->root();
+  PluginManifest manifest{
+      .plugin = TextIn(root, "name"), .build_id = TextIn(root, "build_id"), .modules = {}};
+  const auto build_id = BuildIdOf(library);
+  if (!build_id) return build_id.error();
+  if (*build_id != manifest.build_id) {
+    return Error{.message = "is the manifest of another build of " + library.string(),
+                 .position = root.position(),
+                 .hint = "write it anew: runnel manifest " + library.string()};
+  }
+  Diagnostics problems;
+  CheckChildren(root, std::vector<std::string>{"module"}, problems);
+  for (const XmlElement child : root.children()) {
+    manifest.modules.push_back(ReadModule(child, manifest.plugin, problems));
+  }
+  if (!problems.ok()) return problems.errors().front();
+  return manifest;
+}
+
+const PluginManifest* ModuleDescriber::ManifestOf(const std::string& plugin) {
+  const auto [place, is_new] = manifests_.try_emplace(plugin);
+  if (is_new && library_of_) {
+    const std::string library = library_of_(plugin);
+    if (auto read = library.empty() ? Error{.message = "no library"} : ReadManifest(library)) {
+      place->second = std::move(*read);
+    }
+  }
+  return place->second ? &*place->second : nullptr;
+}
+
+std::optional<ModuleDescription> ModuleDescriber::Describe(const std::string& name) {
+  std::string plugin;
+  {
+    const std::lock_guard lock(runtime_.structure_mutex());
+    const ModuleType* const type = modules_.Find(name);
+    if (type == nullptr) return {};
+    plugin = type->plugin;
+  }
+  if (const PluginManifest* const manifest = ManifestOf(plugin)) {
+    const auto found = std::ranges::find(manifest->modules, name, &ModuleDescription::type);
+    if (found != manifest->modules.end()) return *found;
+  }
+  return DescribeByMaking(runtime_, modules_, name);
+}
+
+}  // namespace runnel
