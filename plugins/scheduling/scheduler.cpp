@@ -233,6 +233,7 @@ std::vector<Error> Scheduler::Warnings() {
   const std::lock_guard lock(runtime_.structure_mutex());
   BringUpToDate();
   std::vector<Error> warnings = compiler_.Warnings();
+  if (auto forgotten = NeverReady()) warnings.push_back(std::move(*forgotten));
   std::ranges::copy(realtime_warnings_, std::back_inserter(warnings));
   return warnings;
 }

@@ -70,7 +70,8 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   [[nodiscard]] const SchedulerOptions& options() const noexcept { return options_; }
 
   /// kReal: starts a thread for each container. What the system does not permit becomes a warning.
-  /// Errors: a simulated clock; a thread that the system does not give, and nothing runs then.
+  /// Errors: a simulated clock; a module that nobody has made ready; a thread that the system does not give; nothing
+  /// runs then.
   Result<void> Start();
   /// Ends all threads after their current cycle and waits for them, but not for one that a StuckRule has found stuck:
   /// that ends when its module returns, and Start() fails until then; so long waits who destroys this. Idempotent.
@@ -121,7 +122,7 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   [[nodiscard]] bool HasTasks();
 
   /// What a person should know of the application as it stands: loops that were cut, modules that
-  /// never run or that name no thread where there are several, and, once started, real-time rights
+  /// never run, that have not been made ready, or that name no thread where there are several, and, once started, real-time rights
   /// that are missing. Brings the schedules up to date.
   [[nodiscard]] std::vector<Error> Warnings();
 
@@ -178,6 +179,7 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   using RealThreads = std::vector<std::unique_ptr<RealThread>>;
 
   // Under start_mutex_.
+  [[nodiscard]] std::optional<Error> NeverReady() const;
   void StartAll();
   bool EndAll() noexcept;
 

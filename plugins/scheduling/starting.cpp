@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "core/base/check.h"
 #include "core/base/exception_text.h"
+#include "core/module/executable.h"
 #include "plugins/scheduling/realtime_setup.h"
 #include "plugins/scheduling/scheduler.h"
 
@@ -39,6 +41,21 @@ void Scheduler::StartThreads(Time first) {
   cycle_watchdog_.Follow(runners_);
 }
 
+// Something with tasks that nobody has made ready would be there, connected, and silent for ever.
+std::optional<Error> Scheduler::NeverReady() const {
+  const std::lock_guard lock(runtime_.structure_mutex());
+  const FrameworkElement* found = nullptr;
+  runtime_.root().Visit([&](FrameworkElement& element) {
+    const bool is_silent = element.life_cycle() == LifeCycle::kConstructed &&
+                           element.FindAnnotation<Executable>() != nullptr;
+    if (is_silent && found == nullptr) found = &element;
+  });
+  if (found == nullptr) return {};
+  return Error{.message = "has not been made ready, and would never run",
+               .path = found->path(),
+               .hint = "runtime.MakeReady(runtime.root()) before the start"};
+}
+
 Result<void> Scheduler::Start() {
   if (options_.clock == SchedulerOptions::ClockKind::kSimulated) {
     return Error{.message = "an application on a simulated clock has no threads to start",
@@ -49,6 +66,7 @@ Result<void> Scheduler::Start() {
   if (const auto stuck = StuckModules(); !stuck.empty()) {
     return Error{.message = "has not returned from its last cycle yet", .path = stuck[0].path};
   }
+  if (auto forgotten = NeverReady()) return *forgotten;
   try {
     StartAll();
     return {};

@@ -132,7 +132,7 @@ TEST_F(Handover, OfAThreadThatIsDeletedWaitsForItsCycle) {
 TEST_F(Handover, DoesNotForgetTheDataThatCameMeanwhile) {
   auto& a = MakeThread("a", cycles_of_a);
   auto& waiting = CreateThread(runtime, "waiting", kTrigger);
-  auto& source = runtime.Create<Relay>(runtime.root(), "source");
+  auto& source = runtime.Create<testing::Feeder>(runtime.root(), "source");
   auto& module = runtime.Create<Doing>(runtime.root(), "module");
   std::atomic<double> received{0};
   module.action = [&](Doing& each) {

@@ -35,6 +35,20 @@ TEST_F(RealThreads, RunPeriodically) {
   EXPECT_EQ(thread.statistics().cycles, static_cast<std::uint64_t>(runs));
 }
 
+TEST_F(RealThreads, DoNotStartBeforeAllIsReady) {
+  std::atomic<int> runs{0};
+  MakeCounter("module", runs);
+  CreateThread(runtime, "main", {.period = 1ms});
+  const auto refused = scheduler.Start();
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().path, "/module");
+  EXPECT_NE(refused.error().hint.find("MakeReady"), std::string::npos);
+  EXPECT_FALSE(scheduler.is_running());
+  Ready();
+  MustSucceed(scheduler.Start());
+  WaitUntil("it runs", [&] { return runs > 0; });
+}
+
 TEST_F(RealThreads, StandStillAfterStopAndGoOnAfterStart) {
   std::atomic<int> runs{0};
   MakeCounter("module", runs);

@@ -198,6 +198,17 @@ TEST_F(Simulated, TellsOfLoopsThatWereCut) {
   EXPECT_THAT(warnings[0].message, HasSubstr("/a/input/in"));
 }
 
+TEST_F(Simulated, WarnsOfWhatHasNotBeenMadeReady) {
+  Make<Relay>("a");
+  Thread("main", 10ms);
+  const auto warnings = scheduler.Warnings();
+  ASSERT_THAT(warnings, SizeIs(1));
+  EXPECT_EQ(warnings[0].path, "/a");
+  EXPECT_THAT(warnings[0].message, HasSubstr("has not been made ready"));
+  Ready();
+  EXPECT_THAT(scheduler.Warnings(), SizeIs(0));
+}
+
 TEST_F(Simulated, RefusesToStartThreads) {
   const auto started = scheduler.Start();
   ASSERT_FALSE(started);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/element/runtime.h"
+#include "core/module/group.h"
 #include "core/module/module.h"
 #include "core/module/sense_control_module.h"
 #include "core/port/input.h"
@@ -14,6 +15,13 @@ namespace runnel::testing {
 
 /// Who ran, in which order.
 using Diary = std::vector<std::string>;
+
+/// No module: a test publishes by it.
+class Feeder final : public Group {
+ public:
+  using Group::Group;
+  Output<double> out{*this, "out"};
+};
 
 /// Adds what it reads and one, publishes the sum, and notes its name.
 class Relay final : public Module {

@@ -26,7 +26,7 @@ class TriggeredByAChange : public RealThreads {
 
   ThreadContainer& waiting =
       CreateThread(runtime, "waiting", {.activation = ThreadOptions::Activation::kTrigger});
-  Relay& source = runtime.Create<Relay>(runtime.root(), "source");
+  testing::Feeder& source = runtime.Create<testing::Feeder>(runtime.root(), "source");
 };
 
 TEST_F(TriggeredByAChange, AModuleThatIsAddedFindsTheDataThatIsThere) {
@@ -110,7 +110,7 @@ TEST_F(TriggeredByAChange, AModuleThatTakesOverTheConnectionsOfAnotherIsSetOff) 
 TEST_F(TriggeredByAChange, AModuleThatIsAddedDuringACycleIsNotForgottenAtTheEndOfThat) {
   std::atomic<bool> is_inside{false};
   std::atomic<bool> may_end{false};
-  auto& feeder = runtime.Create<Relay>(runtime.root(), "feeder");
+  auto& feeder = runtime.Create<testing::Feeder>(runtime.root(), "feeder");
   auto& slow = runtime.Create<Doing>(runtime.root(), "slow");
   slow.action = [&](Doing&) {
     is_inside = true;
