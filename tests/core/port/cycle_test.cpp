@@ -2,6 +2,7 @@
 
 #include <thread>
 
+#include "core/port/own_cycle.h"
 #include "tests/core/port/port_fixture.h"
 
 namespace runnel::test {
@@ -46,6 +47,25 @@ TEST_F(CycleTest, CyclesMayBeNestedAndBelongToTheirThread) {
     std::thread([] { EXPECT_EQ(CurrentCycle(), nullptr); }).join();
   }
   EXPECT_EQ(CurrentCycle(), nullptr);
+}
+
+TEST_F(CycleTest, AThreadOfTheUsersOwnOpensOneForItself) {
+  auto& sender = MakeSender<int>();
+  auto& receiver = MakeReceiver<int>();
+  Connect(sender.out, receiver.in);
+  std::thread([&] {
+    {
+      const OwnCycle cycle(Time(5s), 20ms);
+      EXPECT_TRUE(EpochGuard::HeldByThisThread());
+      EXPECT_EQ(CurrentCycle()->period, 20ms);
+      sender.out.Publish(1, Time(4s));
+    }
+    EXPECT_EQ(CurrentCycle(), nullptr);
+    EXPECT_FALSE(EpochGuard::HeldByThisThread());
+  }).join();
+  const auto read = receiver.in.Read();
+  EXPECT_EQ(read.publication_time(), Time(5s));
+  EXPECT_EQ(read.timestamp(), Time(4s));
 }
 
 }  // namespace
