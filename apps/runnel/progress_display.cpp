@@ -41,7 +41,7 @@ void ProgressDisplay::Show(Duration time, bool is_paused, const std::string& tex
   const auto now = std::chrono::steady_clock::now();
   const double factor = ToSeconds(time - shown_time_) / ToSeconds(Duration(now - shown_at_));
   shown_at_ = now;
-  const bool stands_still = is_paused && time == std::exchange(shown_time_, time);
+  const bool stands_still = time == std::exchange(shown_time_, time) && is_paused;
   if (std::exchange(has_shown_pause_, is_paused) && stands_still && !is_terminal_) return;
   if (is_terminal_) std::cout << "\r\x1b[K";
   const std::string pace = is_paused ? "paused" : "x" + NumberText(factor);

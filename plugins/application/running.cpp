@@ -165,6 +165,7 @@ Result<void> Application::MakeReady() {
 }
 
 void Application::NoteStart() {
+  parts_->scheduler->pace().Begin();
   if (std::exchange(parts_->has_started, true)) return;
   for (const auto& extension : parts_->extensions()) extension->OnStart();
 }
@@ -292,6 +293,7 @@ std::vector<ApplicationEvent> Application::TakeEvents() {
 }
 
 void Application::NoteEnd(const std::string& verdict) {
+  parts_->scheduler->pace().End();
   for (const auto& extension : parts_->extensions()) extension->OnEnd(verdict);
 }
 

@@ -54,6 +54,15 @@ std::vector<Parts> Forms(std::string_view path) {
   return forms;
 }
 
+// Names have no commas, so that these stand between patterns.
+void AppendParts(const std::string& list, std::vector<std::string>& patterns) {
+  for (std::size_t at = 0; at <= list.size();) {
+    const std::size_t end = std::min(list.find(',', at), list.size());
+    patterns.push_back(list.substr(at, end - at));
+    at = end + 1;
+  }
+}
+
 std::string Join(std::span<const std::string> parts) {
   std::string text;
   for (const std::string& part : parts) text += "/" + part;
@@ -64,8 +73,8 @@ std::string Join(std::span<const std::string> parts) {
 
 Result<PortPatterns> PortPatterns::Make(const std::vector<std::string>& patterns) {
   PortPatterns made;
-  made.texts_ = patterns;
-  for (const std::string& text : patterns) {
+  for (const std::string& list : patterns) AppendParts(list, made.texts_);
+  for (const std::string& text : made.texts_) {
     const bool is_excluded = text.starts_with('!');
     const std::string_view path = std::string_view(text).substr(is_excluded ? 1 : 0);
     Parts parts = PartsOf(path);

@@ -16,7 +16,7 @@ namespace runnel {
 ///     /robot/**          ** for any number of parts: all below
 ///     !**/scan           but not that
 ///
-/// A pattern without a '/' in front fits at any depth. Without a pattern, all ports are meant.
+/// Several may stand in one text, with commas between. A pattern without a '/' in front fits at any depth. Without a pattern, all ports are meant.
 /// Threads: never changed once made; any.
 class PortPatterns {
  public:

@@ -20,8 +20,9 @@ Pace::Pace(bool is_simulated, double speed, bool is_paused, const Clock& machine
       is_paused_(is_simulated && is_paused),
       is_free_(speed == 0 && !is_paused) {}
 
-Result<void> Pace::CheckClock(const char* what) const {
-  if (is_simulated_) return {};
+Result<void> Pace::Check(const char* what) const {
+  if (is_simulated_ && !has_ended_.load(std::memory_order_acquire)) return {};
+  if (is_simulated_) return Error{.message = "the run has ended", .hint = "start it again"};
   return Error{
       .message = "real time cannot be " + std::string(what),
       .hint = "only of simulated time: <clock type=\"simulated\"/> in the application file"};
@@ -33,7 +34,7 @@ void Pace::Changed() {
 }
 
 Result<void> Pace::Pause() {
-  if (auto simulated = CheckClock("paused"); !simulated) return simulated;
+  if (auto simulated = Check("paused"); !simulated) return simulated;
   const std::lock_guard lock(mutex_);
   is_paused_.store(true, std::memory_order_release);
   cycles_to_step_.store(0, std::memory_order_release);
@@ -43,7 +44,7 @@ Result<void> Pace::Pause() {
 }
 
 Result<void> Pace::Resume() {
-  if (auto simulated = CheckClock("resumed"); !simulated) return simulated;
+  if (auto simulated = Check("resumed"); !simulated) return simulated;
   const std::lock_guard lock(mutex_);
   if (is_paused()) pacing_.Untie();
   is_paused_.store(false, std::memory_order_release);
@@ -53,7 +54,7 @@ Result<void> Pace::Resume() {
 }
 
 Result<void> Pace::StepCycles(std::uint64_t count) {
-  if (auto simulated = CheckClock("stepped"); !simulated) return simulated;
+  if (auto simulated = Check("stepped"); !simulated) return simulated;
   if (count < 1 || count > kMostCycles) {
     return Error{.message = std::to_string(count) + " cycles cannot be stepped",
                  .hint = "allowed is 1 .. " + std::to_string(kMostCycles)};
@@ -67,7 +68,7 @@ Result<void> Pace::StepCycles(std::uint64_t count) {
 }
 
 Result<void> Pace::SetSpeed(double speed) {
-  if (auto simulated = CheckClock("made faster or slower"); !simulated) return simulated;
+  if (auto simulated = Check("made faster or slower"); !simulated) return simulated;
   if (!Pacing::Takes(speed)) {
     return Error{.message = "speed " + std::to_string(speed) + " is out of bounds",
                  .hint = "allowed is 0 (as fast as it can), or 1e-6 .. 1e6"};
@@ -78,6 +79,15 @@ Result<void> Pace::SetSpeed(double speed) {
   Changed();
   return {};
 }
+
+void Pace::End() {
+  const std::lock_guard lock(mutex_);
+  has_ended_.store(true, std::memory_order_release);
+  cycles_to_step_.store(0, std::memory_order_release);
+  Changed();
+}
+
+void Pace::Begin() { has_ended_.store(false, std::memory_order_release); }
 
 bool Pace::MayGoOnNow(Time due) {
   const std::lock_guard lock(mutex_);

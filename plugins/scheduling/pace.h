@@ -32,6 +32,11 @@ class Pace {
   /// At most so many times real time; 0: as fast as it can. Errors: not in Pacing's bounds.
   Result<void> SetSpeed(double speed);
 
+  /// The run has ended: what would wait for further cycles is refused from now on, and what waits for some is over.
+  void End();
+  /// There is another run.
+  void Begin();
+
   [[nodiscard]] bool is_simulated() const noexcept { return is_simulated_; }
   /// Also while cycles are stepped.
   [[nodiscard]] bool is_paused() const noexcept {
@@ -64,7 +69,8 @@ class Pace {
  private:
   [[nodiscard]] bool MayGoOnNow(Time due);
   void CountStep() noexcept;
-  Result<void> CheckClock(const char* what) const;
+  // Errors: a real clock; the run has ended.
+  Result<void> Check(const char* what) const;
   // Under the mutex. Has the scheduler look again.
   void Changed();
 
@@ -77,6 +83,7 @@ class Pace {
   std::atomic<bool> is_paused_;
   std::atomic<std::uint64_t> cycles_to_step_{0};
   std::atomic<bool> is_free_;
+  std::atomic<bool> has_ended_{false};
   WakeEvent event_;
   // The scheduler's own:
   bool is_a_step_ = false;

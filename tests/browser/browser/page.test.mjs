@@ -92,6 +92,25 @@ test('the colours are chosen by hand, and kept', async (t) => {
   assert.notEqual(await ground(), light);
 });
 
+test('only Enter sets a value: Escape and leaving the field drop what was typed, and say so', async (t) => {
+  const { inspector, page } = await Robot(t);
+  await inspector.select('/mock/robot/planner');
+  const field = inspector.parameter('speed');
+  const before = await field.inputValue();
+  const typed = before === '2' ? '3' : '2';
+  for (const leave of [() => field.press('Escape'), () => page.locator('#graph').focus()]) {
+    await field.fill(typed);
+    await leave();
+    await page.locator('[data-parameter$="/speed"] .dropped', { hasText: `“${typed}” was not set` }).waitFor();
+    assert.equal(await field.inputValue(), before);
+  }
+  await field.fill(typed);
+  await field.press('Enter');
+  await inspector.until('the value', (wanted) => document.querySelector('[data-parameter$="/speed"] input').value === wanted &&
+    !document.querySelector('[data-parameter$="/speed"].edited'), typed);
+  assert.equal(await page.locator('[data-parameter$="/speed"] .dropped').count(), 0);
+});
+
 test('what the application says of a wrong value stands at its field', async (t) => {
   const { inspector, page } = await Robot(t);
   await inspector.select('/mock/robot/planner');

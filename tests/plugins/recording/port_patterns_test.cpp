@@ -41,6 +41,14 @@ TEST(PortPatterns, OneOfSeveralIsEnoughAndExclusionsWin) {
   EXPECT_FALSE(Fits({"!scan"}, "/app/laser/output/scan"));
 }
 
+TEST(PortPatterns, MayStandInAListWithCommas) {
+  const std::vector<std::string> patterns{"/laser/*,/robot/**", "!**/points"};
+  EXPECT_TRUE(Fits(patterns, "/app/laser/output/scan"));
+  EXPECT_TRUE(Fits(patterns, "/app/robot/planner/output/twist"));
+  EXPECT_FALSE(Fits(patterns, "/app/robot/planner/output/points"));
+  EXPECT_FALSE(PortPatterns::Make({"/laser/*,"}));
+}
+
 TEST(PortPatterns, KnowsWhichNameOnePort) {
   const auto patterns = PortPatterns::Make({"/laser/scan", "**/pose", "!x/y"});
   EXPECT_THAT(patterns->Names(), testing::ElementsAre("/laser/scan"));

@@ -73,6 +73,21 @@ TEST_F(Paced, ForgetsWhatItWasToStepWhenItIsPausedOrResumed) {
   EXPECT_EQ(scheduler.Advance({}, 0ms), StepResult::kCycle);
 }
 
+TEST_F(Paced, RefusesWhatWouldWaitForCyclesOfARunThatHasEnded) {
+  Make("module");
+  MustSucceed(scheduler.pace().StepCycles(3));
+  scheduler.pace().End();
+  EXPECT_EQ(scheduler.pace().cycles_to_step(), 0u);
+  for (const auto& refused : {scheduler.pace().StepCycles(), scheduler.pace().Pause(),
+                              scheduler.pace().Resume(), scheduler.pace().SetSpeed(2)}) {
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message, HasSubstr("the run has ended"));
+  }
+  scheduler.pace().Begin();
+  MustSucceed(scheduler.pace().StepCycles());
+  EXPECT_EQ(scheduler.Advance(At(100), 0ms), StepResult::kCycle);
+}
+
 TEST_F(Paced, MayBeginWithAPause) {
   Runtime other;
   Scheduler waiting(other, {.clock = kSimulated, .is_paused = true});

@@ -14,7 +14,10 @@ export class Watches {
     this.#send = send;
   }
 
-  /** A signal of {stamp, measured, count, value, cut, drops} or null, and the function that ends it. */
+  /**
+   * A signal of {stamp, measured, count, value, cut, drops} or null, and the function that ends it. `onValue` gets the
+   * same, null when the application has begun anew.
+   */
   watch(path, { rate = kRate, elements = kElements, onValue } = {}) {
     if (!this.#watched.has(path)) {
       this.#watched.set(path, { value: signal(null), users: new Set(), asked: '' });
@@ -45,6 +48,15 @@ export class Watches {
       if (!entry) continue;
       entry.asked = '';
       this.#ask(path, entry);
+    }
+  }
+
+  /** The values are those of a run that is over: users that look at one are told that there is none. */
+  forget() {
+    for (const entry of this.#watched.values()) {
+      if (entry.value.peek() === null) continue;
+      entry.value.value = null;
+      for (const user of entry.users) user.onValue?.(null);
     }
   }
 

@@ -35,5 +35,5 @@ const kPlain = {
 };
 
 function CanPace() {
-  return canChange.value && hello.value?.clock === 'simulated';
+  return canChange.value && hello.value?.clock === 'simulated' && !run.value.ended;
 }

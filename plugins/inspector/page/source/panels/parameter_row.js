@@ -11,11 +11,13 @@ import { canChange, catalogue } from '../state/store.js';
 export function ParameterRow({ parameter }) {
   const [draft, setDraft] = useState(null);   // what is being typed, or null
   const [problem, setProblem] = useState('');
-  const sent = useRef(null); // until it has become the value: leaving the field must not send it again
+  const [dropped, setDropped] = useState(''); // what was typed and not set
+  const sent = useRef(null); // until it has become the value: it is not sent again
   const id = `parameter:${parameter.path}`;
   const locked = !parameter.settable || !canChange.value;
   useEffect(() => {
     setProblem('');
+    setDropped('');
     sent.current = null;
   }, [parameter.value]);
 
@@ -31,7 +33,13 @@ export function ParameterRow({ parameter }) {
     sent.current = null;
     setProblem((reply.errors ?? []).map(ErrorText).join('\n') || 'it was refused');
   };
-  const drop = () => { setDraft(null); setProblem(''); };
+  // A value that nobody has confirmed must not reach a robot.
+  const drop = () => {
+    if (draft !== null && draft !== parameter.value && draft !== sent.current) setDropped(draft);
+    setDraft(null);
+    setProblem('');
+  };
+  const type = (text) => { setDraft(text); setDropped(''); };
   const bounds = FormatBounds(parameter);
   const isChanged = (parameter.default ?? null) !== null && parameter.value !== parameter.default;
   const isEdited = draft !== null && draft !== parameter.value;
@@ -40,7 +48,7 @@ export function ParameterRow({ parameter }) {
       <label for=${id} title=${parameter.description}>${parameter.name}</label>
       <div class="field">
         <${Field} id=${id} parameter=${parameter} text=${draft ?? parameter.value ?? ''} locked=${locked}
-          wrong=${problem !== ''} onDraft=${setDraft} onSend=${send} onDrop=${drop} />
+          wrong=${problem !== ''} onDraft=${type} onSend=${send} onDrop=${drop} />
         ${parameter.unit && html`<span class="unit">${parameter.unit}</span>`}
         ${isChanged && parameter.settable && html`<button class="reset" disabled=${locked}
             title=${`Back to ${parameter.default}`}
@@ -49,6 +57,7 @@ export function ParameterRow({ parameter }) {
       </div>
       <p class="note" id=${`${id}:note`}>
         ${[bounds, !parameter.settable && 'fixed while it runs'].filter(Boolean).join(' · ')}</p>
+      ${dropped && html`<p class="note dropped" role="status">“${dropped}” was not set: Enter sets a value</p>`}
       ${problem && html`<p class="problem" role="alert" id=${`${id}:problem`}>${problem}</p>`}
     </div>`;
 }
@@ -69,10 +78,10 @@ function Field({ id, parameter, text, locked, wrong, onDraft, onSend, onDrop }) 
   }
   const onKey = (event) => {
     if (event.key === 'Enter') onSend(event.target.value);
-    else if (event.key === 'Escape') { onDrop(); input.current.blur(); } else return;
+    else if (event.key === 'Escape') input.current.blur(); else return;
     event.stopPropagation();
   };
   return html`<input type="text" ref=${input} spellcheck="false" autocomplete="off" ...${common} value=${text}
     onInput=${(event) => onDraft(event.target.value)} onKeyDown=${onKey}
-    onBlur=${(event) => onSend(event.target.value === parameter.value ? null : event.target.value)} />`;
+    onBlur=${onDrop} />`;
 }

@@ -37,9 +37,9 @@ function ConnectionState() {
 }
 
 function Pace() {
-  const { time, paused, speed } = run.value;
+  const { time, paused, speed, ended } = run.value;
   const isSimulated = hello.value?.clock === 'simulated';
-  const locked = !canChange.value;
+  const locked = !canChange.value || ended;
   const [cycles, setCycles] = useState(1);
   if (!hello.value) return null;
   return html`

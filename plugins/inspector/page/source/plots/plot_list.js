@@ -4,7 +4,7 @@ import { signal } from '@preact/signals';
 import { NumberAt, FieldText } from '../model/value_rows.js';
 import { NameOf } from '../model/structure.js';
 import { SetPanels } from '../state/choices.js';
-import { hello, structure, watches } from '../state/store.js';
+import { structure, watches } from '../state/store.js';
 import { Series } from './series.js';
 
 const kRate = 30;      // values a second that are asked for
@@ -46,14 +46,9 @@ export function RemovePlot(plotId) {
   for (const plot of plots.value) if (plot.id === plotId) for (const curve of plot.curves) RemoveCurve(plotId, curve.id);
 }
 
-let run = null;
-
 function Collect(curve, item) {
-  if (hello.value && hello.value.run !== run) {
-    run = hello.value.run;
-    for (const plot of plots.value) for (const each of plot.curves) each.series.clear();
-  }
-  curve.series.add(item.stamp, NumberAt(item.value, curve.field));
+  if (item) curve.series.add(item.stamp, NumberAt(item.value, curve.field));
+  else curve.series.clear();
   pulse.value += 1;
 }
 

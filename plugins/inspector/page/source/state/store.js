@@ -75,6 +75,7 @@ function OnHello(message) {
     run.value = { ...run.value, ended: false, verdict: null };
     log.value = [];
     threadStatistics.value = {};
+    watches.forget();
   }
   // A new connection is told all rates anew.
   for (const rate of rates.values()) rate.value = null;

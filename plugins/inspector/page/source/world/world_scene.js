@@ -2,7 +2,7 @@
 
 import { batch, effect, signal } from '@preact/signals';
 import { isDark } from '../state/choices.js';
-import { hello, isConnected, structure, watches } from '../state/store.js';
+import { isConnected, structure, watches } from '../state/store.js';
 import { AreaOf, FitCamera, ZoomCamera } from './camera.js';
 import { DrawWorld } from './draw.js';
 import { RobotRadius } from './layers.js';
@@ -38,20 +38,22 @@ export class WorldScene {
     observer.observe(host);
     const detach = this.attachPointer();
     const stop = effect(() => { isDark.value; isConnected.value; this.colours = null; this.askForFrame(); });
-    let run = hello.peek()?.run;
-    const stopRun = effect(() => {
-      if (hello.value?.run !== run) this.trail = [];
-      run = hello.value?.run;
-    });
     return () => {
-      for (const end of [...this.watched.values(), detach, stop, stopRun]) end();
+      for (const end of [...this.watched.values(), detach, stop]) end();
       this.watched.clear();
       observer.disconnect();
       cancelAnimationFrame(this.frame);
     };
   }
 
-  receive(layer, value) {
+  receive(layer, item) {
+    if (item === null) {
+      this.values.delete(layer.port);
+      if (layer.port === this.pose) this.trail = [];
+      if (layer.goal) this.tellGoals();
+      return this.askForFrame();
+    }
+    const { value } = item;
     this.values.set(layer.port, value);
     if (layer.port === this.pose) this.onPose(value);
     if (layer.goal) this.tellGoals();
@@ -85,7 +87,7 @@ export class WorldScene {
       if (this.watched.has(port)) continue;
       const layer = this.layers.find((each) => each.port === port) ?? { port };
       this.watched.set(port, watches.watch(port, {
-        rate: kRate, elements: kElements, onValue: (item) => this.receive(layer, item.value) }).end);
+        rate: kRate, elements: kElements, onValue: (item) => this.receive(layer, item) }).end);
     }
   }
 
