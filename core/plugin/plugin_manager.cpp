@@ -200,8 +200,11 @@ Result<fs::path> PluginManager::FindFile(std::string_view name) const {
     if (fs::exists(file, ignored)) return file;
     folders += (folders.empty() ? "" : ", ") + folder.string();
   }
+  const std::string nearest = NearestNameHint(name, Available());
   return Error{.message = "no plugin '" + std::string(name) + "' in " + folders,
-               .hint = NearestNameHint(name, Available())};
+               .hint = nearest + (nearest.empty() ? "" : "; ") +
+                       "one of your own is found by RUNNEL_PLUGIN_PATH=FOLDER, or installed "
+                       "beside these"};
 }
 
 std::vector<std::string> PluginManager::Available() const {

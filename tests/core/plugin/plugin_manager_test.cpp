@@ -94,7 +94,8 @@ TEST_F(PluginManagerTest, NameWithASlashIsAFile) {
 TEST_F(PluginManagerTest, MissingPluginIsToldWithTheFoldersAndTheNearestName) {
   const Error error = RefusalOf("goood");
   EXPECT_THAT(error.message, HasSubstr("no plugin 'goood' in " + kFolder.string()));
-  EXPECT_EQ(error.hint, "did you mean 'good'?");
+  EXPECT_THAT(error.hint, testing::StartsWith("did you mean 'good'?; "));
+  EXPECT_THAT(error.hint, HasSubstr("RUNNEL_PLUGIN_PATH"));
 }
 
 TEST_F(PluginManagerTest, LibraryWithoutEntryIsRefused) {
