@@ -15,10 +15,10 @@ namespace {
 
 using internal::Drawing;
 
-constexpr std::array<const Drawing*, 7> kDrawings{
-    &internal::kPoseDrawing,    &internal::kPathDrawing,  &internal::kRangeScanDrawing,
-    &internal::kImageDrawing,   &internal::kPointDrawing, &internal::kHitAndLeavePointsDrawing,
-    &internal::kWorldMapDrawing};
+constexpr std::array<const Drawing*, 8> kDrawings{
+    &internal::kPoseDrawing,    &internal::kPathDrawing,    &internal::kRangeScanDrawing,
+    &internal::kImageDrawing,   &internal::kPointDrawing,   &internal::kHitAndLeavePointsDrawing,
+    &internal::kDrawingDrawing, &internal::kWorldMapDrawing};
 
 bool IsList(const TypeInfo& type) {
   return type.kind() == TypeKind::kSequence || type.kind() == TypeKind::kMatrix;

@@ -43,7 +43,7 @@ struct FoxgloveOptions {
 ///                      what is no structure stands in "value"
 ///     topic/foxglove   if its meaning (TypeInfo::meaning) is one that Foxglove can draw: pose
 ///                      (PoseInFrame), path (PosesInFrame), range_scan (LaserScan), image (RawImage),
-///                      point, hit_and_leave_points, world_map (SceneUpdate)
+///                      point, hit_and_leave_points, drawing, world_map (SceneUpdate)
 ///
 /// Empty for a type that is not transparent.
 [[nodiscard]] std::vector<FoxgloveChannel> ChannelsFor(const TypeInfo& type, std::string_view topic,

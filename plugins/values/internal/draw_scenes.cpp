@@ -31,9 +31,13 @@ class Scene {
   /// `fill` adds to a thing what it is made of.
   template <typename Fill>
   void Add(std::string_view id, const Fill& fill) {
+    Add(id, at_.options.world_frame, fill);
+  }
+  template <typename Fill>
+  void Add(std::string_view id, std::string_view frame, const Fill& fill) {
     JsonObject entity(entities_.Next());
     AppendTime(at_.timestamp, entity.Key("timestamp"));
-    entity.Add("frame_id", at_.options.world_frame).Add("id", id);
+    entity.Add("frame_id", frame).Add("id", id);
     entity.AddJson("lifetime", R"({"sec":0,"nsec":0})");  // until it is replaced
     entity.Add("frame_locked", true).AddJson("metadata", "[]");
     fill(entity);
@@ -186,6 +190,109 @@ bool HasHitsAndLeaves(const TypeInfo& type) {
   return HasPlaces(type, "hits") && HasPlaces(type, "leaves");
 }
 
+// What a drawing says of one of its items.
+struct Item {
+  std::string_view kind;
+  ValueView points;
+  Colour colour;
+  double size;
+  std::string_view text;
+};
+
+std::string_view TextOf(const ValueView& value) {
+  return *static_cast<const std::string*>(value.value());
+}
+
+Item ItemOf(const ValueView& value) {
+  const ValueView kind = value.Field("kind");
+  const ValueView colour = value.Field("colour");
+  const std::int64_t number = kind.type().enumeration().get(kind.value());
+  std::string_view name;
+  for (const EnumeratorInfo& each : kind.type().enumerators()) {
+    if (each.value == number) name = each.name;
+  }
+  return {name,
+          value.Field("points"),
+          {colour.Field("red").number(), colour.Field("green").number(),
+           colour.Field("blue").number(), colour.Field("alpha").number()},
+          value.Field("size").number(),
+          TextOf(value.Field("text"))};
+}
+
+bool IsText(const TypeInfo& type, std::string_view name) {
+  const FieldInfo* const field = type.FindField(name);
+  return field != nullptr && field->type == &TypeOf<std::string>();
+}
+
+bool HasItems(const TypeInfo& type) {
+  const TypeInfo* const item = ElementsOf(type, "items");
+  if (item == nullptr || !IsText(type, "frame") || !HasPlaces(*item, "points")) return false;
+  const FieldInfo* const kind = item->FindField("kind");
+  const FieldInfo* const colour = item->FindField("colour");
+  return kind != nullptr && kind->type->kind() == TypeKind::kEnumeration && colour != nullptr &&
+         HasNumbers(*colour->type, {"red", "green", "blue", "alpha"}) &&
+         HasNumbers(*item, {"size"}) && IsText(*item, "text");
+}
+
+void AppendItemLine(const Item& item, std::string& json) {
+  JsonObject line(json);
+  line.Add("type", item.kind == "closed_line" ? 1 : 0);  // LINE_LOOP, LINE_STRIP
+  AppendPose({}, line.Key("pose"));
+  line.Add("thickness", item.size).Add("scale_invariant", false);
+  {
+    JsonArray list(line.Key("points"));
+    for (std::size_t i = 0; i < item.points.size(); ++i) {
+      AppendVector(PlaceOf(item.points[i]), list.Next());
+    }
+  }
+  AppendColour(item.colour, line.Key("color"));
+  line.AddJson("colors", "[]").AddJson("indices", "[]");
+}
+
+void AppendItemText(const Item& item, std::string& json) {
+  JsonObject label(json);
+  AppendPose({PlaceOf(item.points[0]), 0.0}, label.Key("pose"));
+  label.Add("billboard", true).Add("font_size", item.size).Add("scale_invariant", false);
+  AppendColour(item.colour, label.Key("color"));
+  label.Add("text", item.text);
+}
+
+void AppendDrawing(const ValueView& drawing, const DrawnAt& at, std::string& json) {
+  const std::string_view frame = TextOf(drawing.Field("frame"));
+  const ValueView values = drawing.Field("items");
+  std::vector<Item> items;
+  for (std::size_t i = 0; i < values.size(); ++i) items.push_back(ItemOf(values[i]));
+  const auto add = [&](std::string& list, std::string_view kind, std::string_view or_kind,
+                       void (*append)(const Item&, std::string&)) {
+    JsonArray array(list);
+    for (const Item& each : items) {
+      const bool is_it = each.kind == kind || each.kind == or_kind;
+      if (is_it && each.points.size() > 0) append(each, array.Next());
+    }
+  };
+  Scene scene(json, at);
+  scene.Add("drawing",
+            frame.empty()      ? std::string_view(at.options.world_frame)
+            : frame == "robot" ? std::string_view(at.options.body_frame)
+                               : frame,
+            [&](JsonObject& entity) {
+              {
+                JsonArray balls(entity.Key("spheres"));
+                for (const Item& each : items) {
+                  if (each.kind != "points") continue;
+                  for (std::size_t i = 0; i < each.points.size(); ++i) {
+                    JsonObject ball(balls.Next());
+                    AppendPose({PlaceOf(each.points[i]), 0.0}, ball.Key("pose"));
+                    AppendVector({each.size, each.size, each.size}, ball.Key("size"));
+                    AppendColour(each.colour, ball.Key("color"));
+                  }
+                }
+              }
+              add(entity.Key("lines"), "line", "closed_line", AppendItemLine);
+              add(entity.Key("texts"), "text", "text", AppendItemText);
+            });
+}
+
 // Of what else a map may have, nothing is drawn if it is not there.
 bool HasOutlines(const TypeInfo& type) {
   const TypeInfo* const outline = ElementsOf(type, "outlines");
@@ -226,6 +333,7 @@ void AppendWorldMap(const ValueView& map, const DrawnAt& at, std::string& json) 
 const Drawing kPointDrawing{"point", "SceneUpdate", IsPlace, AppendPoint};
 const Drawing kHitAndLeavePointsDrawing{"hit_and_leave_points", "SceneUpdate", HasHitsAndLeaves,
                                         AppendHitAndLeavePoints};
+const Drawing kDrawingDrawing{"drawing", "SceneUpdate", HasItems, AppendDrawing};
 const Drawing kWorldMapDrawing{"world_map", "SceneUpdate", HasOutlines, AppendWorldMap};
 
 }  // namespace runnel::internal

@@ -26,7 +26,7 @@ struct Drawing {
 
 extern const Drawing kPoseDrawing, kTransformDrawing, kPathDrawing;
 extern const Drawing kRangeScanDrawing, kImageDrawing;
-extern const Drawing kPointDrawing, kHitAndLeavePointsDrawing, kWorldMapDrawing;
+extern const Drawing kPointDrawing, kHitAndLeavePointsDrawing, kDrawingDrawing, kWorldMapDrawing;
 
 /// The JSON Schema of one of Foxglove's messages (github.com/foxglove/schemas), without the descriptions.
 [[nodiscard]] std::string FoxgloveSchema(std::string_view name);

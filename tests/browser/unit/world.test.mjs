@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { AreaOf, FitCamera, GridStep, ToCanvas, ToWorld, ZoomCamera } from '../../../plugins/inspector/page/source/world/camera.js';
-import { ScanEnds } from '../../../plugins/inspector/page/source/world/draw.js';
+import { DrawItems, ScanEnds, SeenFrom } from '../../../plugins/inspector/page/source/world/draw.js';
 import { FindLayers, RobotRadius } from '../../../plugins/inspector/page/source/world/layers.js';
 import { Catalogue } from '../../../plugins/inspector/page/source/model/catalogue.js';
 import { Structure } from '../../../plugins/inspector/page/source/model/structure.js';
@@ -95,4 +95,26 @@ test('rays end where they meet something, or as far as the laser sees', () => {
   assert.deepEqual(ends.map(({ isEcho }) => isEcho), [true, false, false, false]);
   assert.ok(Math.abs(ends[0].x - 2) < 1e-9 && Math.abs(ends[0].y - 1) < 1e-9);
   assert.ok(Math.abs(ends[1].y - 5) < 1e-9, 'nothing seen: the whole range');
+});
+
+test('what is drawn as seen from the robot lies where the robot is', () => {
+  const { x, y } = SeenFrom({ x: 1, y: 2, heading: Math.PI / 2 }, { x: 3, y: 1 });
+  assert.ok(Math.abs(x - 0) < 1e-9 && Math.abs(y - 5) < 1e-9);
+});
+
+test('a drawing is drawn item by item, and not without the pose that it is seen from', () => {
+  const calls = [];
+  const context = new Proxy({}, { set: () => true, get: (_, name) => (...args) => calls.push([name, ...args]) });
+  const drawing = { context, camera: { x: 0, y: 0, scale: 10 }, size };
+  const colour = { red: 1, green: 0, blue: 0, alpha: 1 };
+  const items = [
+    { kind: 'points', points: [{ x: 0, y: 0 }, { x: 1, y: 0 }], colour, size: 0.1, text: '' },
+    { kind: 'closed_line', points: [{ x: 0, y: 0 }, { x: 1, y: 0 }], colour, size: 0.1, text: '' },
+    { kind: 'text', points: [{ x: 0, y: 0 }], colour, size: 1, text: 'near' },
+    { kind: 'line', points: [], colour, size: 1, text: '' }];
+  DrawItems(drawing, { frame: 'robot', items }, null);
+  assert.equal(calls.length, 0);
+  DrawItems(drawing, { frame: '', items }, null);
+  const count = (name) => calls.filter(([called]) => called === name).length;
+  assert.deepEqual([count('arc'), count('closePath'), count('stroke'), count('fillText')], [2, 1, 1, 1]);
 });

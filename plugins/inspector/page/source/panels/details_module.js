@@ -8,6 +8,7 @@ import { canChange, catalogue, revision, run, structure } from '../state/store.j
 import { ThreadColour } from '../graph/thread_colour.js';
 import { ToggleGroup } from '../graph/graph_state.js';
 import { ParameterRow } from './parameter_row.js';
+import { DrawingPicture } from './drawing_picture.js';
 import { ActionButton, Facts, Link, Section, Title } from './parts.js';
 import { PortRow } from './port_row.js';
 import { Troubles } from './troubles.js';
@@ -52,6 +53,8 @@ export function ModuleDetails({ element }) {
     <${Troubles} path=${path} />
     ${parameters.length > 0 && html`<${Section} title="Parameters" count=${parameters.length} id="parameters">
       ${parameters.map((parameter) => html`<${ParameterRow} key=${parameter.path} parameter=${parameter} />`)}<//>`}
+    ${ports.filter((port) => port.direction === 'output' && catalogue.value.meaning(port.data_type) === 'drawing')
+      .map((port) => html`<${DrawingPicture} key=${port.path} path=${port.path} />`)}
     ${['input', 'output'].map((direction) => {
       const some = ports.filter((port) => port.direction === direction);
       return some.length > 0 && html`<${Section} title=${`${direction === 'input' ? 'Inputs' : 'Outputs'}`}

@@ -21,6 +21,7 @@ export function DrawWorld(drawing, layers, values, trail) {
     if (layer.meaning === 'path') DrawPath(drawing, value.points);
     if (layer.meaning === 'hit_and_leave_points') DrawHitsAndLeaves(drawing, value);
     if (layer.meaning === 'range_scan' && from) DrawScan(drawing, value, from);
+    if (layer.meaning === 'drawing') DrawItems(drawing, value, from);
     if (layer.meaning === 'point') DrawPoint(drawing, value);
     if (layer.meaning === 'pose') DrawPose(drawing, value, pose++);
     if (layer.meaning === 'contact' && from) DrawContact(drawing, value, from);
@@ -111,6 +112,44 @@ export function ScanEnds(scan, pose) {
     const angle = pose.heading + scan.start_angle + index * scan.angle_step;
     return { x: pose.x + reach * Math.cos(angle), y: pose.y + reach * Math.sin(angle), isEcho };
   });
+}
+
+/** What a module draws: in the world, or, as its frame says, as seen from the robot's pose. */
+export function DrawItems(drawing, { frame, items = [] }, pose) {
+  if (frame && !pose) return;
+  const { context, camera, size } = drawing;
+  for (const item of items) {
+    const places = frame ? item.points.map((point) => SeenFrom(pose, point)) : item.points;
+    if (places.length === 0) continue;
+    const { red, green, blue, alpha } = item.colour;
+    const colour = `rgba(${[red, green, blue].map((part) => Math.round(255 * part)).join(',')},${alpha})`;
+    context.fillStyle = context.strokeStyle = colour;
+    const extent = Math.max(1, item.size * camera.scale);
+    if (item.kind === 'points') {
+      for (const place of places) {
+        const { x, y } = ToCanvas(camera, size, place);
+        context.beginPath();
+        context.arc(x, y, Math.max(1.5, extent / 2), 0, 2 * Math.PI);
+        context.fill();
+      }
+    } else if (item.kind === 'text') {
+      const { x, y } = ToCanvas(camera, size, places[0]);
+      context.font = `${Math.max(9, extent)}px system-ui, sans-serif`;
+      context.textAlign = 'left';
+      context.fillText(item.text, x, y);
+    } else {
+      Trace(drawing, places);
+      if (item.kind === 'closed_line') context.closePath();
+      context.lineWidth = extent;
+      context.stroke();
+    }
+  }
+}
+
+/** A place that is told as seen from a pose, x ahead and y to the left, in the world. */
+export function SeenFrom(pose, { x, y }) {
+  const [cos, sin] = [Math.cos(pose.heading), Math.sin(pose.heading)];
+  return { x: pose.x + cos * x - sin * y, y: pose.y + sin * x + cos * y };
 }
 
 function DrawHitsAndLeaves({ context, colours, camera, size }, { hits = [], leaves = [] }) {

@@ -7,7 +7,7 @@ import { IsGroup, NameOf } from '../model/structure.js';
 const kAtFirst = 3; // of a kind that are shown until the user chooses others; an application may have hundreds
 
 // From the bottom to the top of the drawing.
-const kDrawable = ['world_map', 'path', 'hit_and_leave_points', 'range_scan', 'point', 'pose', 'contact'];
+const kDrawable = ['world_map', 'path', 'hit_and_leave_points', 'range_scan', 'drawing', 'point', 'pose', 'contact'];
 
 /**
  * Layers {port, meaning, label, pose, goal, atFirst}; pose: the port that says where it is seen from;
@@ -25,7 +25,7 @@ export function FindLayers(structure, catalogue) {
   }
   const pose = MainPose(layers);
   for (const layer of layers) {
-    if (layer.meaning === 'range_scan' || layer.meaning === 'contact') {
+    if (['range_scan', 'contact', 'drawing'].includes(layer.meaning)) {
       layer.pose = PoseSeenBy(structure, catalogue, layer.owner) ?? pose;
     }
     if (layer.meaning === 'point') layer.goal = GoalParameters(structure, layer);

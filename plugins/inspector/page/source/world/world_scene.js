@@ -119,6 +119,7 @@ export class WorldScene {
       if (layer.meaning === 'world_map') for (const outline of value.outlines ?? []) yield* outline.points;
       if (layer.meaning === 'pose' || layer.meaning === 'point') yield value;
       if (layer.meaning === 'path') yield* value.points;
+      if (layer.meaning === 'drawing' && !value.frame) for (const item of value.items ?? []) yield* item.points;
     }
   }
 

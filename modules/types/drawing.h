@@ -1,0 +1,49 @@
+#pragma once
+
+#include "core/types/builtin_types.h"
+#include "core/types/type_of.h"
+#include "modules/types/algorithm/drawing.h"
+#include "modules/types/pose.h"
+
+namespace runnel {
+
+inline void Describe(TypeBuilder<DrawnKind>& type) {
+  type.Name("DrawnKind")
+      .Value("points", DrawnKind::kPoints)
+      .Value("line", DrawnKind::kLine)
+      .Value("closed_line", DrawnKind::kClosedLine)
+      .Value("text", DrawnKind::kText);
+}
+
+inline void Describe(TypeBuilder<DrawnColour>& type) {
+  type.Name("DrawnColour")
+      .Field("red", &DrawnColour::red)
+      .Field("green", &DrawnColour::green)
+      .Field("blue", &DrawnColour::blue)
+      .Field("alpha", &DrawnColour::alpha);
+}
+
+inline void Describe(TypeBuilder<DrawnItem>& type) {
+  type.Name("DrawnItem")
+      .Field("kind", &DrawnItem::kind)
+      .Field("points", &DrawnItem::points, {.unit = "m"})
+      .Field("colour", &DrawnItem::colour)
+      .Field("size", &DrawnItem::size, {.unit = "m"})
+      .Field("text", &DrawnItem::text);
+}
+
+/// A module publishes one only while somebody looks, since it takes time and memory to make:
+///
+///     if (drawing.is_watched()) {
+///       Drawing seen{.frame = "robot"};
+///       seen.AddLine({{0, 0}, nearest}, {.red = 1});
+///       drawing.Publish(std::move(seen));
+///     }
+inline void Describe(TypeBuilder<Drawing>& type) {
+  type.Name("Drawing")
+      .SemanticTag("drawing")
+      .Field("frame", &Drawing::frame)
+      .Field("items", &Drawing::items);
+}
+
+}  // namespace runnel
