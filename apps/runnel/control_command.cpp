@@ -54,7 +54,10 @@ std::optional<std::string> ChangeTextOf(const ControlArguments& arguments) {
     return text + OptionsText(arguments);
   }
   if (command == "move") return "move " + AsArgument(words[0]) + " to " + AsArgument(words[1]);
-  if (command == "create") return command + WordsText(words, words[0] == "port" ? 4 : 2);
+  if (command == "create")
+    return command + WordsText(words, words[0] == "parameter" ? words.size()
+                                      : words[0] == "port"    ? 4
+                                                              : 2);
   if (command == "set" || command == "disconnect" || command == "delete") {
     return command + WordsText(words, words.size());
   }

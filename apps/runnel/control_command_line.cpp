@@ -80,8 +80,9 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   word(disconnect, "from", "output")->type_name(kPort);
   word(disconnect, "to", "input")->type_name(kPort);
 
-  Entry& create =
-      add("create", "makes a module; 'create group PATH'; 'create port PATH input TYPE'");
+  Entry& create = add("create",
+                      "makes a module; 'create group PATH'; 'create port PATH input TYPE'; 'create "
+                      "parameter PATH PARAMETER ...'");
   create.command
       ->add_option("words", create.arguments.words, "path, module type and values of parameters")
       ->required()
@@ -110,6 +111,9 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
 
   Entry& save = add("save", "saves the application as it is now");
   word(save, "file", "instead of the one that it came from")->required(false)->type_name("FILE");
+  save.command->add_flag_callback(
+      "--config", [&save] { save.arguments.options["config"] = "yes"; },
+      "values of parameters, back into the configuration that the application was loaded with");
 
   Entry& reload = add("reload", "loads a plugin anew and makes its modules anew by it");
   word(reload, "plugin", "its name, as in <load>; build its library first")->type_name("PLUGIN");
@@ -138,8 +142,11 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
       ->required(false)
       ->type_name("FACTOR");
 
-  Entry& deadline = add("deadline", "shows who does not return from its cycle, and says how long modules may take");
-  word(deadline, "path", "module or group; without, only shows")->required(false)->type_name(kElement);
+  Entry& deadline = add(
+      "deadline", "shows who does not return from its cycle, and says how long modules may take");
+  word(deadline, "path", "module or group; without, only shows")
+      ->required(false)
+      ->type_name(kElement);
   word(deadline, "time", "200ms, for example; off: as long as they like")
       ->required(false)
       ->type_name("TIME");
@@ -147,7 +154,8 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   Entry& log = add("log", "shows faults, warnings, changes and what modules say, since the start");
   flag(log, "-f,--follow", "follow", "goes on with what comes");
   option(log, "--level", "level",
-         "instead: from now on, what modules at and below PATH say is logged from this level on: debug, info, "
+         "instead: from now on, what modules at and below PATH say is logged from this level on: "
+         "debug, info, "
          "warning, error, off, or again as around them: inherit; without PATH all of them")
       ->type_name("[PATH=]LEVEL");
 

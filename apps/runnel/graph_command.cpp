@@ -13,7 +13,7 @@
 #include "core/base/nearest_name.h"
 #include "core/base/replace_file.h"
 #include "plugins/application/application_description.h"
-#include "plugins/application_files/dot_text.h"
+#include "plugins/application/dot_text.h"
 
 namespace runnel::program {
 

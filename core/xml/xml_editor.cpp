@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "core/base/markup.h"
 #include "core/xml/internal/text_cursor.h"
 
 namespace runnel {
@@ -50,6 +51,33 @@ void XmlEditor::RemoveAttribute(XmlElement element, std::string_view name) {
   std::size_t begin = known->span.begin;
   while (internal::IsXmlSpace(text_[begin - 1])) --begin;
   Cut({begin, known->span.end});
+}
+
+void XmlEditor::SetText(XmlElement element, std::string_view text) {
+  if (element.text() == text) return;
+  const ElementSpans& spans = element.spans();
+  const std::string escaped = EscapedMarkup(text);
+  if (spans.end_tag.size() == 0) {
+    const std::size_t slash = spans.start_tag.end - 2;
+    return Replace({slash, spans.start_tag.end}, ">" + escaped + "</" + element.name() + ">");
+  }
+  bool is_set = false;
+  std::size_t place = spans.start_tag.end;
+  while (place < spans.end_tag.begin) {
+    constexpr std::string_view kComment = "<!--", kCommentEnd = "-->";
+    if (text_.substr(place).starts_with(kComment)) {
+      place = text_.find(kCommentEnd, place) + kCommentEnd.size();
+      continue;
+    }
+    TextSpan piece{place, std::min(text_.find(kComment, place), spans.end_tag.begin)};
+    place = piece.end;
+    while (piece.size() > 0 && internal::IsXmlSpace(text_[piece.begin])) ++piece.begin;
+    while (piece.size() > 0 && internal::IsXmlSpace(text_[piece.end - 1])) --piece.end;
+    if (piece.size() == 0) continue;
+    is_set ? Cut(piece) : Replace(piece, escaped);
+    is_set = true;
+  }
+  if (!is_set) Insert(spans.end_tag.begin, escaped);
 }
 
 void XmlEditor::RemoveWords(const XmlAttribute& list, const std::set<std::size_t>& words) {

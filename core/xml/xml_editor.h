@@ -24,6 +24,8 @@ class XmlEditor {
   void SetAttribute(XmlElement element, std::string_view name, std::string_view value);
   /// Nothing if there is none.
   void RemoveAttribute(XmlElement element, std::string_view name);
+  /// What stands between the tags of an element that has no children; comments stay.
+  void SetText(XmlElement element, std::string_view text);
   /// Takes words out of an attribute that is a list of them. `words` counts from 0.
   void RemoveWords(const XmlAttribute& list, const std::set<std::size_t>& words);
   /// With its line, if nothing else stands there.

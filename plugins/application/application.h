@@ -163,6 +163,9 @@ class Application {
   [[nodiscard]] Result<std::string> Get(std::string_view path);
   /// Saves what it is now to the file; "": the one that it came from.
   Result<void> Save(const std::filesystem::path& file = {});
+  /// Writes values of parameters that have changed back to the configuration files; with a `file`, all that the
+  /// configuration may set into that one. Errors: as configuration_saver.h. Says what was done.
+  Result<std::string> SaveConfiguration(const std::filesystem::path& file = {});
   /// Loads a plugin, or loads it anew and makes its modules anew by it.
   Result<void> LoadPlugin(std::string_view plugin);
   ChangeOutcome Reload(const std::string& plugin);

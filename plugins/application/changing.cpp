@@ -6,7 +6,9 @@
 
 #include "core/port/path_search.h"
 #include "plugins/application/internal/application_parts.h"
+#include "plugins/application_files/application_source.h"
 #include "plugins/application_files/saving/application_saver.h"
+#include "plugins/parameters/configuration_saver.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/structure/change_text.h"
 #include "plugins/structure/reload.h"
@@ -36,6 +38,12 @@ void Application::Parts::LoadPluginOf(std::string_view type) {
   (void)plugins().Load(plugin);
 }
 
+void Application::Parts::LoadPluginOf(const Change& change) {
+  if (const auto* const create = std::get_if<runnel::CreateModule>(&change))
+    LoadPluginOf(create->type);
+  if (const auto* const replace = std::get_if<ReplaceModule>(&change)) LoadPluginOf(replace->type);
+}
+
 Result<FrameworkElement*> Application::CreateModule(std::string_view type,
                                                     const std::string& name) {
   return CreateModule(type, element(), name);
@@ -63,11 +71,15 @@ Result<void> Application::Assign(std::string_view path, const std::string& threa
 Result<void> Application::Connect(std::string_view from, std::string_view to,
                                   const ConnectOptions& options) {
   const std::lock_guard lock(parts_->runtime().structure_mutex());
-  if (auto constructed = Runtime::Construct(element()); !constructed) return constructed;
   const PathSearch structure(parts_->runtime());
-  const auto source = structure.FindPort(from, PathKind::kOutput);
+  auto source = structure.FindPort(from, PathKind::kOutput);
+  auto sink = structure.FindPort(to, PathKind::kInput);
+  if (!source || !sink) {  // perhaps it is made only when parameters are set
+    if (auto constructed = Runtime::Construct(element()); !constructed) return constructed;
+    if (!source) source = structure.FindPort(from, PathKind::kOutput);
+    if (!sink) sink = structure.FindPort(to, PathKind::kInput);
+  }
   if (!source) return source.error();
-  const auto sink = structure.FindPort(to, PathKind::kInput);
   if (!sink) return sink.error();
   return Port::Connect(**source, **sink, options);
 }
@@ -134,6 +146,15 @@ Result<void> Application::Save(const std::filesystem::path& file) {
   return SaveApplication(**found, tools, file);
 }
 
+Result<std::string> Application::SaveConfiguration(const std::filesystem::path& file) {
+  const std::lock_guard lock(parts_->runtime().structure_mutex());
+  const auto found = parts_->FindAgain();
+  if (!found) return found.error();
+  LoadedValues none;  // composed in code
+  auto* const source = (*found)->FindAnnotation<ApplicationSource>();
+  return runnel::SaveConfiguration(**found, source != nullptr ? source->values : none, file);
+}
+
 Result<void> Application::LoadPlugin(std::string_view plugin) {
   const std::lock_guard lock(parts_->runtime().structure_mutex());
   return parts_->plugins().Load(plugin);
@@ -157,6 +178,7 @@ CommandService& Application::service() {
     if (auto saved = Save(file); !saved) return saved.error();
     return done;
   };
+  hooks.save_configuration = [this](const std::string& file) { return SaveConfiguration(file); };
   hooks.reload = [this](const std::string& plugin) -> Result<std::string> {
     std::string done = "loaded " + plugin + " anew";
     const auto outcome = Reload(plugin);

@@ -12,6 +12,7 @@
 #include "plugins/application_files/application_source.h"
 #include "plugins/application_files/part_files.h"
 #include "plugins/application_files/required_inputs.h"
+#include "plugins/parameters/configuration_saver.h"
 
 namespace runnel {
 
@@ -47,6 +48,12 @@ FrameworkElement* Build(XmlElement root, const BuildTools& tools, BuildContext& 
   return application;
 }
 
+void KeepConfiguration(FrameworkElement& application, const Configuration& configuration) {
+  auto source = std::make_unique<ConfigurationSource>();
+  for (const auto& [file, text] : configuration.files()) source->files.push_back({file, text});
+  application.Annotate(std::move(source));
+}
+
 void KeepSource(FrameworkElement& application, const ApplicationFile& file, BuildContext& context) {
   auto source = std::make_unique<ApplicationSource>();
   source->file = file.file;
@@ -65,6 +72,7 @@ BuildOutcome BuildFrom(const XmlDocument& document, const std::filesystem::path&
     outcome.application = Build(document.root(), tools, context, outcome.diagnostics);
     if (outcome.application != nullptr && file != nullptr) {
       KeepSource(*outcome.application, *file, context);
+      KeepConfiguration(*outcome.application, tools.configuration);
     }
   }
   FinishBuild(outcome, mode);

@@ -114,6 +114,12 @@ class BuildContext {
     return std::move(values_);
   }
 
+  /// The command line has set the parameter, which beats all else.
+  void NoteCommandLine(const FrameworkElement& parameter) { from_command_line_.insert(&parameter); }
+  [[nodiscard]] bool IsFromCommandLine(const FrameworkElement& parameter) const {
+    return from_command_line_.contains(&parameter);
+  }
+
   /// A plugin could not be loaded: what is unknown may come with it.
   void MarkPluginMissing() noexcept { plugin_is_missing_ = true; }
   /// Whether to complain about an unknown name of a kind that plugins bring.
@@ -142,6 +148,7 @@ class BuildContext {
   std::set<const FrameworkElement*> unbuilt_;
   std::set<const FrameworkElement*> unfed_;
   std::set<const FrameworkElement*> faulty_;
+  std::set<const FrameworkElement*> from_command_line_;
   std::map<std::string, std::string, std::less<>> values_;
   bool plugin_is_missing_ = false;
 };

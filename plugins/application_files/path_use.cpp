@@ -56,8 +56,8 @@ std::vector<PathUse> PathsIn(const XmlAttribute& attribute, FrameworkElement& ba
   return paths;
 }
 
-FrameworkElement* SearchElement(const PathUse& use, BuildContext& context) {
-  return Search(use, PathKind::kElement, context);
+FrameworkElement* SearchElement(const PathUse& use, BuildContext& context, PathKind kind) {
+  return Search(use, kind, context);
 }
 
 Port* SearchPort(const PathUse& use, PathKind kind, BuildContext& context) {

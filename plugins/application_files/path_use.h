@@ -23,7 +23,8 @@ struct PathUse {
 
 // What a path names, or nullptr after reporting what is not there or is something else.
 
-[[nodiscard]] FrameworkElement* SearchElement(const PathUse& use, BuildContext& context);
+[[nodiscard]] FrameworkElement* SearchElement(const PathUse& use, BuildContext& context,
+                                              PathKind kind = PathKind::kElement);
 [[nodiscard]] Port* SearchPort(const PathUse& use, PathKind kind, BuildContext& context);
 /// What can be set while the application runs, and would take `value`.
 [[nodiscard]] FrameworkElement* SearchSettable(const XmlAttribute& path, const XmlAttribute& value,

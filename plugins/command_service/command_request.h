@@ -27,6 +27,8 @@ struct SaveRequest {
   /// Whether the file must be one that SavePlace() allows: for clients that are not this user's own.
   bool is_confined = false;
   std::string application_file = {};  ///< for SavePlace(): that the application came from
+  /// Values of parameters into the configuration instead; "": into the files that it was loaded with.
+  bool is_configuration = false;
 };
 /// Loads a plugin as it is now on disk, and makes its modules anew.
 struct ReloadRequest {

@@ -101,6 +101,9 @@ CommandAnswer CommandService::Do(const SaveRequest& request) const {
     if (!place) return CommandAnswer::Refused(place.error());
     file = *place;
   }
+  if (request.is_configuration) {
+    return Call(application_.hooks.save_configuration, file, "save its configuration");
+  }
   return Call(application_.hooks.save, file, "save it");
 }
 

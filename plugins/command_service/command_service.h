@@ -51,6 +51,8 @@ struct ServiceHooks {
   std::function<Result<void>(const std::string& plugin)> load_plugin = {};
   /// Saves the structure into the file ("": the one that it came from) and says what was done.
   std::function<Result<std::string>(const std::string& file)> save = {};
+  /// Writes values of parameters back to the configuration, or all of them into the file, and says what was done.
+  std::function<Result<std::string>(const std::string& file)> save_configuration = {};
   /// Loads a plugin anew, makes its modules anew, and says what was done.
   std::function<Result<std::string>(const std::string& plugin)> reload = {};
   /// The library of a plugin that is loaded; "" if that is unknown.

@@ -34,7 +34,7 @@ const std::vector<CommandKind>& Kinds() {
       {"change", 0, 0, {"file"}, MakeServiceCommand},
       {"undo", 0, 0, {}, MakeServiceCommand},
       {"redo", 0, 0, {}, MakeServiceCommand},
-      {"save", 0, 1, {}, MakeServiceCommand},
+      {"save", 0, 1, {"config"}, MakeServiceCommand},
       {"pause", 0, 0, {}, MakePauseCommand, Needs::kPace},
       {"resume", 0, 0, {}, MakeResumeCommand, Needs::kPace},
       {"step", 0, 1, {}, MakeStepCommand, Needs::kPace},
@@ -76,9 +76,11 @@ CommandResult MakeCommand(const std::string& text, CommandService& service, Task
   const ServedApplication& application = service.application();
   if ((kind->needs == Needs::kPace && application.pace == nullptr) ||
       (kind->needs == Needs::kScheduler && application.scheduler == nullptr)) {
-    return Error{.message = kind->needs == Needs::kPace
-                                ? "the program that runs this application cannot pause it or change its speed"
-                                : "the program that runs this application does not say how it does so"};
+    return Error{
+        .message =
+            kind->needs == Needs::kPace
+                ? "the program that runs this application cannot pause it or change its speed"
+                : "the program that runs this application does not say how it does so"};
   }
   return kind->make(*request, {application, service, tasks});
 }

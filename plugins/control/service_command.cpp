@@ -35,7 +35,9 @@ CommandRequest RequestOf(const Request& request, PlacedChanges placed) {
   const std::string argument = request.arguments.empty() ? "" : request.arguments[0];
   if (request.command == "undo") return UndoRequest{};
   if (request.command == "redo") return RedoRequest{};
-  if (request.command == "save") return SaveRequest{argument};
+  if (request.command == "save") {
+    return SaveRequest{.file = argument, .is_configuration = request.Option("config") == "yes"};
+  }
   if (request.command == "reload") return ReloadRequest{argument};
   if (request.command == "log") return LevelOf(request.Option("level"));
   return ChangeRequest{std::move(placed)};

@@ -53,6 +53,9 @@ void AddParameter(const FrameworkElement& element, const Configurable& parameter
   json.AddOrNull("minimum", info.minimum).AddOrNull("maximum", info.maximum);
   json.Add("description", info.description).Add("value", ParameterText(parameter));
   json.Add("default", info.default_value).Add("settable", !info.is_static);
+  // One that is static is set by making its module anew.
+  const bool has_type = owner != nullptr && !FindModuleType(*owner).empty();
+  json.Add("remakes", info.is_static && has_type);
   json.Add("owner", owner != nullptr ? owner->path() : "");
 }
 

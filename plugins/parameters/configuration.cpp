@@ -104,7 +104,12 @@ class FileReader {
 }  // namespace
 
 void Configuration::Load(const std::string& file, Diagnostics& diagnostics) {
-  const auto document = XmlDocument::Load(file);
+  const auto text = XmlDocument::ReadText(file);
+  if (!text) {
+    diagnostics.Add(text.error());
+    return;
+  }
+  const auto document = XmlDocument::Parse(*text, file);
   if (!document) {
     diagnostics.Add(document.error());
     return;
@@ -119,6 +124,7 @@ void Configuration::Load(const std::string& file, Diagnostics& diagnostics) {
   }
   if (!problems.ok() && !is_warning) return;
   for (const auto& [path, entry] : reader.entries()) entries_[path] = entry;
+  files_.push_back({file, *text});
 }
 
 Result<void> Configuration::AddArgument(std::string_view argument) {

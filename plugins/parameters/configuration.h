@@ -37,6 +37,12 @@ class Configuration {
   /// Adds what the file says; of two files that name a value, the later wins. Errors go to
   /// `diagnostics`, all of them; then nothing has been added.
   void Load(const std::string& file, Diagnostics& diagnostics);
+  /// What has been loaded, in the order of loading.
+  struct File {
+    std::string name;
+    std::string text;  ///< byte for byte
+  };
+  [[nodiscard]] const std::vector<File>& files() const noexcept { return files_; }
   /// Adds "name=value". Errors: no '=', no name, given twice.
   Result<void> AddArgument(std::string_view argument);
 
@@ -53,6 +59,7 @@ class Configuration {
  private:
   std::map<std::string, Entry, std::less<>> entries_;
   std::map<std::string, Entry, std::less<>> arguments_;
+  std::vector<File> files_;
 };
 
 }  // namespace runnel

@@ -42,6 +42,13 @@ struct CreatePort {
   std::string description = {};
 };
 
+/// A parameter of a group that stands for some of what is within (GroupParameter).
+struct CreateParameter {
+  std::string path;
+  std::vector<std::string> targets;  ///< parameters as seen from the group: "motor/radius"
+  std::string description = {};
+};
+
 /// With all that is below it and all its connections.
 struct DeleteElement {
   std::string path;
@@ -84,8 +91,9 @@ struct AssignToThread {
   std::string thread;  ///< name of the container; "" takes the assignment back
 };
 
-using Change = std::variant<CreateModule, CreateGroup, CreatePort, DeleteElement, ConnectPorts,
-                            DisconnectPorts, SetParameter, ReplaceModule, AssignToThread>;
+using Change =
+    std::variant<CreateModule, CreateGroup, CreatePort, CreateParameter, DeleteElement,
+                 ConnectPorts, DisconnectPorts, SetParameter, ReplaceModule, AssignToThread>;
 
 /// Changes that belong together, in the order in which they build on one another.
 using ChangeSet = std::vector<Change>;

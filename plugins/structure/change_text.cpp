@@ -51,6 +51,12 @@ class Arguments {
                "write: " + usage_);
     }
   }
+  /// All that is left, one at least, but for options.
+  std::vector<std::string> TakeWords(const char* what) {
+    std::vector<std::string> words{Take(what)};
+    while (at_ < line_.size() && !line_[at_].equals) words.push_back(line_[at_++].text);
+    return words;
+  }
   std::size_t TakeOneOf(const char* what, const std::vector<std::string>& names) {
     const ChangeArgument* argument = at_ < line_.size() ? &line_[at_] : nullptr;
     const std::string found = Take(what);
@@ -121,6 +127,16 @@ Change ReadCreate(Arguments& arguments) {
                            ? Port::Direction::kInput
                            : Port::Direction::kOutput;
     change.type = arguments.Take("a data type");
+    arguments.TakeOptions({"description"}, [&](const ChangeArgument& argument) {
+      if (argument.name() == "description") change.description = argument.value();
+      return argument.name() == "description";
+    });
+    return change;
+  }
+  if (arguments.IsNext("parameter")) {
+    arguments.Take("parameter");
+    CreateParameter change{arguments.Take("a path"), {}};
+    change.targets = arguments.TakeWords("a parameter that it stands for");
     arguments.TakeOptions({"description"}, [&](const ChangeArgument& argument) {
       if (argument.name() == "description") change.description = argument.value();
       return argument.name() == "description";
@@ -205,7 +221,7 @@ struct Verb {
 constexpr std::array<Verb, 7> kVerbs{{
     {"create",
      "create [group] PATH TYPE [NAME=VALUE ...], or create port PATH input|output TYPE "
-     "[description=TEXT]",
+     "[description=TEXT], or create parameter PATH PARAMETER ... [description=TEXT]",
      ReadCreate},
     {"delete", "delete PATH", ReadDelete},
     {"connect", "connect FROM TO [queue=N] [on_full=drop_oldest|drop_newest|refuse] [pull=true]",
@@ -237,8 +253,9 @@ std::string SettingsText(const std::vector<Setting>& settings) {
 }
 
 std::string Text(const CreateModule& change) {
-  // Relative paths and absolute ones are the same; these two would be taken for the other arguments.
-  const bool is_keyword = change.path == "group" || change.path == "port";
+  // Relative paths and absolute ones are the same; these three would be taken for the other arguments.
+  const bool is_keyword =
+      change.path == "group" || change.path == "port" || change.path == "parameter";
   return std::string("create ") + (is_keyword ? "/" : "") + AsArgument(change.path) + " " +
          AsArgument(change.type) + SettingsText(change.settings);
 }
@@ -247,6 +264,12 @@ std::string Text(const CreatePort& change) {
   const bool is_input = change.direction == Port::Direction::kInput;
   return "create port " + AsArgument(change.path) + " " + kDirections[is_input ? 0 : 1] + " " +
          AsArgument(change.type) +
+         (change.description.empty() ? "" : " description=" + AsArgument(change.description));
+}
+std::string Text(const CreateParameter& change) {
+  std::string text = "create parameter " + AsArgument(change.path);
+  for (const std::string& target : change.targets) text += " " + AsArgument(target);
+  return text +
          (change.description.empty() ? "" : " description=" + AsArgument(change.description));
 }
 std::string Text(const DeleteElement& change) { return "delete " + AsArgument(change.path); }

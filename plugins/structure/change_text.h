@@ -16,6 +16,7 @@ namespace runnel {
 ///     create /robot/filter sensors/scan_filter window=5
 ///     create group /robot/left
 ///     create port /robot/left/scan input RangeScan description="of the front laser"
+///     create parameter /robot/radius left/radius right/radius    # sets both
 ///     delete /robot/filter
 ///     connect /laser/scan /robot/filter/scan queue=10 on_full=refuse
 ///     connect /camera/image /robot/filter/image pull=true

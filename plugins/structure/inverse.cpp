@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "core/module/group_parameter.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/path_search.h"
 #include "core/port/port.h"
@@ -55,6 +56,8 @@ void AddCreation(const FrameworkElement& element, ChangeSet& changes,
   } else if (port != nullptr && port->is_proxy()) {
     changes.push_back(
         CreatePort{element.path(), port->direction(), port->type().name(), port->description()});
+  } else if (const auto* const group = dynamic_cast<const GroupParameter*>(&element)) {
+    changes.push_back(CreateParameter{group->path(), group->targets(), group->info().description});
   } else if (!why_not) {
     why_not = CannotBeMade(element);
   }
@@ -65,8 +68,19 @@ void AddCreation(const FrameworkElement& element, ChangeSet& changes,
   for (const FrameworkElement* each : element.children()) AddCreation(*each, changes, why_not);
 }
 
+// Whether a composite has made it, and makes it again by itself.
+bool IsWithinComposite(const Connection& edge) {
+  const FrameworkElement* const composite = FindModuleAround(*edge.from);
+  if (composite == nullptr || composite->kind() != ElementKind::kGroup) return false;
+  if (FindModuleAround(*edge.to) != composite) return false;
+  const bool leads_round_it = edge.from->parent() == composite && edge.to->parent() == composite &&
+                              edge.from->direction() == Port::Direction::kOutput;
+  return !leads_round_it;
+}
+
 void AddConnections(FrameworkElement& element, ChangeSet& changes) {
   const auto add = [&](const Connection& edge) {
+    if (IsWithinComposite(edge)) return;
     changes.push_back(ConnectPorts{edge.from->path(), LastingPath(*edge.to), edge.options});
   };
   element.Visit([&](FrameworkElement& each) {
@@ -83,6 +97,7 @@ void AddConnections(FrameworkElement& element, ChangeSet& changes) {
 std::string WhatItIs(const FrameworkElement& element) {
   const std::string type = FindModuleType(element);
   if (!type.empty()) return type;
+  if (element.kind() == ElementKind::kParameter) return "parameter";
   return element.kind() == ElementKind::kGroup ? "group" : "port";
 }
 

@@ -15,6 +15,10 @@
 #include "plugins/structure/inverse.h"
 #include "plugins/structure/structure_overlay.h"
 
+namespace runnel {
+class GroupParameter;
+}
+
 namespace runnel::internal {
 
 /// A module that has made room for another one.
@@ -70,6 +74,7 @@ class Plan {
   Result<void> Check(const CreateModule& change);
   Result<void> Check(const CreateGroup& change);
   Result<void> Check(const CreatePort& change);
+  Result<void> Check(const CreateParameter& change);
   Result<void> Check(const DeleteElement& change);
   Result<void> Check(const ConnectPorts& change) {
     return CheckTie(change.from, change.to, change.options);
@@ -86,6 +91,8 @@ class Plan {
   // What becomes of connections that a module which takes another one's place has no port for.
   enum class Misfits { kAreRefused, kAreCut };
   Result<void> CheckReplacement(const ReplaceModule& change, Misfits misfits);
+  Result<void> ExchangeComposite(FrameworkElement& before, UnlistedElement after, Misfits misfits);
+  Result<void> CheckAll(const GroupParameter& group, const SetParameter& change);
   Result<void> CheckStatic(const FrameworkElement& element, const Configurable& parameter,
                            const void* value);
   Result<void> Cut(const std::vector<Port*>& ports);

@@ -6,6 +6,7 @@
 #include "core/base/nearest_name.h"
 #include "core/element/configurable.h"
 #include "core/module/group.h"
+#include "core/module/group_parameter.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/proxy_port.h"
 #include "core/types/text_format.h"
@@ -45,9 +46,7 @@ Result<void> Plan::Check(const CreateModule& change) {
   if (!place) return place.error();
   auto made = MakeModule(change.type, *place);
   if (!made) return made.error();
-  for (const Setting& each : change.settings) {
-    if (auto set = Configure(**made, each); !set) return set;
-  }
+  if (auto set = ConfigureNew(**made, nullptr, change.settings); !set) return set;
   if (auto prepared = Runtime::Prepare(*made); !prepared) return prepared;
   AddCreation(std::move(*made));
   return {};
@@ -76,6 +75,27 @@ Result<void> Plan::Check(const CreatePort& change) {
   }
   UnlistedElement made(
       std::make_unique<ProxyPort>(*place, change.direction, *type, change.description));
+  if (auto prepared = Runtime::Prepare(made); !prepared) return prepared;
+  AddCreation(std::move(made));
+  return {};
+}
+
+Result<void> Plan::Check(const CreateParameter& change) {
+  const auto place = overlay_.PlaceFor(change.path);
+  if (!place) return place.error();
+  for (const std::string& target : change.targets) {
+    const bool is_absolute = !target.empty() && target.front() == '/';
+    const auto found = overlay_.Find(is_absolute ? target : place->parent.path() + "/" + target,
+                                     PathKind::kParameter);
+    if (!found) return found.error();
+    if (dynamic_cast<Configurable*>(*found) != nullptr) continue;
+    return Error{.message = (*found)->path() + " is not a parameter", .path = change.path};
+  }
+  if (const std::string fault = UnwritableCharacter(change.description); !fault.empty()) {
+    return Error{.message = "the description contains " + fault, .path = change.path};
+  }
+  UnlistedElement made(
+      std::make_unique<GroupParameter>(*place, change.targets, change.description));
   if (auto prepared = Runtime::Prepare(made); !prepared) return prepared;
   AddCreation(std::move(made));
   return {};
@@ -114,6 +134,9 @@ Result<void> Plan::Check(const SetParameter& change) {
   if (parameter == nullptr) {
     return Error{.message = (*found)->path() + " is not a parameter", .path = (*found)->path()};
   }
+  if (const auto* const group = dynamic_cast<const GroupParameter*>(*found)) {
+    return CheckAll(*group, change);
+  }
   const bool is_settled =
       parameter->info().is_static && (*found)->life_cycle() == LifeCycle::kReady;
   const auto value = ValueIn(change, *parameter);
@@ -137,6 +160,24 @@ Result<void> Plan::Check(const SetParameter& change) {
                       if (parameter->info().is_static) return {};
                       return {SetParameter{path, parameter->ToText()}};
                     }});
+  return {};
+}
+
+// What stands for others is set by setting them, each as its kind is set.
+Result<void> Plan::CheckAll(const GroupParameter& group, const SetParameter& change) {
+  const auto targets = group.Find();
+  if (targets.empty()) {
+    return Error{.message = "nothing is there any more that could be set by it",
+                 .path = group.path()};
+  }
+  for (const ConfigurableElement& each : targets) {
+    SetParameter one{each.element->path(), change.value, change.object, change.type};
+    if (change.object && change.type != &each.configurable->type()) {
+      one.value = runnel::ToText(*change.type, change.object.get());
+      one.object.reset();
+    }
+    if (auto set = Check(one); !set) return set;
+  }
   return {};
 }
 
@@ -177,13 +218,12 @@ Result<void> Plan::CheckReplacement(const ReplaceModule& change, Misfits misfits
   }
   auto made = MakeModule(change.type, {*before.parent(), before.name(), false});
   if (!made) return made.error();
-  if (auto copied = CopySettings(before, **made); !copied) return copied;
-  for (const Setting& each : change.settings) {
-    if (auto set = Configure(**made, each); !set) return set;
-  }
-  if (auto constructed = Runtime::Construct(**made); !constructed) return constructed;
+  if (auto set = ConfigureNew(**made, &before, change.settings); !set) return set;
   (*made)->InheritAnnotations(before);
   if (auto prepared = Runtime::Prepare(*made); !prepared) return prepared;
+  if (before.kind() == ElementKind::kGroup || (*made)->kind() == ElementKind::kGroup) {
+    return ExchangeComposite(before, std::move(*made), misfits);
+  }
   PortMatch match =
       MatchPorts(before, **made, [this](const Port& port) { return overlay_.IsConnected(port); });
   if (misfits == Misfits::kAreCut && !match.errors.empty()) {
@@ -203,6 +243,40 @@ Result<void> Plan::CheckReplacement(const ReplaceModule& change, Misfits misfits
   overlay_.Replace(before, **made, match.ports);
   made_.push_back(made->get());
   AddReplacement(before, std::move(*made), std::move(match.ports), change);
+  return {};
+}
+
+// What a composite consists of is its own: only its interface is connected anew, and there is no state to be kept.
+Result<void> Plan::ExchangeComposite(FrameworkElement& before, UnlistedElement after,
+                                     Misfits misfits) {
+  FrameworkElement& made = *after;
+  std::vector<Connection> ties;
+  for (const Connection& tie : ExternalConnectionsOf(before)) {
+    Port& own = tie.from->IsAtOrBelow(before) ? *tie.from : *tie.to;
+    // A module has its ports in groups, a composite has not.
+    const auto found = PathSearch(made).FindPort(
+        own.name(), &own == tie.from ? PathKind::kOutput : PathKind::kInput);
+    Port* const port = found && own.IsAtOrBelow(before) ? *found : nullptr;
+    if (auto cut = CheckTie(*tie.from, *tie.to, std::nullopt); !cut) return cut;
+    if (port != nullptr) {
+      ties.push_back(&own == tie.from ? Connection{port, tie.to, tie.options}
+                                      : Connection{tie.from, port, tie.options});
+    } else if (misfits == Misfits::kAreRefused) {
+      return Error{.message = "the new module has no port '" + own.name() + "', which is connected",
+                   .path = own.path()};
+    } else {
+      warnings_.push_back({.message = "is not connected to " + tie.to->path() +
+                                      " any more: the module made anew has no such port",
+                           .path = tie.from->path()});
+    }
+  }
+  Concern(before);
+  overlay_.Remove(before);
+  AddRemoval(before);
+  AddCreation(std::move(after));
+  for (const Connection& tie : ties) {
+    if (auto tied = CheckTie(*tie.from, *tie.to, tie.options); !tied) return tied;
+  }
   return {};
 }
 

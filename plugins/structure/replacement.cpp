@@ -5,6 +5,8 @@
 
 #include "core/base/exception_text.h"
 #include "core/base/nearest_name.h"
+#include "core/element/runtime.h"
+#include "core/module/group_parameter.h"
 #include "core/module/kept_state.h"
 #include "core/port/path_search.h"
 
@@ -40,7 +42,15 @@ Error NoCounterpart(const Port& port, const FrameworkElement& before, FrameworkE
 
 }  // namespace
 
-Result<void> Configure(FrameworkElement& module, const Setting& setting) {
+namespace {
+
+bool StandsForOthers(const ConfigurableElement& parameter) {
+  return dynamic_cast<const GroupParameter*>(parameter.element) != nullptr;
+}
+
+// Those that stand for others, or those that do not. Errors: no such parameter, with the nearest name; a value it
+// refuses.
+Result<void> Configure(FrameworkElement& module, const Setting& setting, bool stand_for_others) {
   const ConfigurableElement parameter = FindConfigurable(module, setting.parameter);
   if (!parameter) {
     const auto name_of = [](const auto& each) { return each.element->name(); };
@@ -49,17 +59,38 @@ Result<void> Configure(FrameworkElement& module, const Setting& setting) {
         .path = module.path(),
         .hint = NearestNameHint(setting.parameter, NamesOf(ConfigurablesOf(module), name_of))};
   }
+  if (StandsForOthers(parameter) != stand_for_others) return {};
   const auto set = parameter.configurable->SetFromText(setting.value);
   return set ? set : Refused(set, *parameter.element);
 }
 
-Result<void> CopySettings(const FrameworkElement& before, FrameworkElement& after) {
+Result<void> CopySettings(const FrameworkElement& before, FrameworkElement& after,
+                          bool stand_for_others) {
   for (const auto& [element, target] : ConfigurablesOf(after)) {
+    if (StandsForOthers({element, target}) != stand_for_others) continue;
     const ConfigurableElement source = FindConfigurable(before, element->name());
     if (!source) continue;
     const std::string value = source.configurable->ToText();
     if (value == source.configurable->info().default_value) continue;
     if (const auto set = target->SetFromText(value); !set) return Refused(set, *element);
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<void> ConfigureNew(FrameworkElement& made, const FrameworkElement* before,
+                          const std::vector<Setting>& settings) {
+  for (const bool stand_for_others : {false, true}) {
+    if (stand_for_others) {
+      if (auto constructed = Runtime::Construct(made); !constructed) return constructed;
+    }
+    if (before != nullptr) {
+      if (auto copied = CopySettings(*before, made, stand_for_others); !copied) return copied;
+    }
+    for (const Setting& each : settings) {
+      if (auto set = Configure(made, each, stand_for_others); !set) return set;
+    }
   }
   return {};
 }

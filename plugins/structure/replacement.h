@@ -13,9 +13,11 @@
 
 namespace runnel::internal {
 
-/// The parameter `name` of a module is set to the value. Errors: no such parameter, with the nearest
-/// name; a value it refuses.
-Result<void> Configure(FrameworkElement& module, const Setting& setting);
+/// Sets the parameters of a module that has just been made: to the values that parameters of the same name have in
+/// `before`, if there is one, where these are not the default ones, then to `settings`; and has it make the ports that
+/// follow from them. What stands for parameters within (GroupParameter) is set when these are there.
+Result<void> ConfigureNew(FrameworkElement& made, const FrameworkElement* before,
+                          const std::vector<Setting>& settings);
 
 /// The values of a module's parameters as they are now, for CopyLateSettings().
 using Values = std::map<std::string, std::string>;
@@ -26,10 +28,6 @@ using Values = std::map<std::string, std::string>;
 /// Errors: a value that is refused.
 Result<void> CopyLateSettings(const FrameworkElement& before, const Values& values,
                               const std::vector<Setting>& settings, FrameworkElement& after);
-
-/// Gives `after` the values that parameters of the same name have in `before`, if they are not the default
-/// ones. Errors: a value that is refused.
-Result<void> CopySettings(const FrameworkElement& before, FrameworkElement& after);
 
 /// The ports of a module, each with that which takes over from it.
 struct PortMatch {

@@ -6,11 +6,20 @@
 
 #include "core/port/port.h"
 #include "core/types/duration_text.h"
+#include "plugins/structure/change_text.h"
+#include "plugins/structure/structure_request.h"
 #include "plugins/supervision/stale_watch.h"
 
 namespace runnel {
 
 using internal::StaleWatch;
+
+namespace {
+
+// How often modules are asked for what they want.
+constexpr Duration kLookForRequests = std::chrono::milliseconds(50);
+
+}  // namespace
 
 struct Supervisor::Shared {
   Shared(Runtime& of_runtime, Scheduler& of_scheduler, Perform how)
@@ -22,6 +31,7 @@ struct Supervisor::Shared {
   }
   void React(const Reaction& reaction, const std::string& path, const std::string& why, Time now);
   Time Watch(Time now);
+  void ServeRequests(Time now);
 
   Runtime& runtime;
   Scheduler& scheduler;
@@ -49,10 +59,49 @@ void Supervisor::Shared::React(const Reaction& reaction, const std::string& path
   Note(std::move(notice));
 }
 
-Time Supervisor::Shared::Watch(Time now) {
-  std::vector<std::pair<const StaleWatch*, StaleWatch::Turn>> turns;
-  Time next = Time::max();
+// What modules ask for, in the order in which they were made. A request may delete who has asked.
+void Supervisor::Shared::ServeRequests(Time now) {
+  struct Asked {
+    std::uint64_t id;
+    std::string path;
+    std::string text;
+  };
+  std::vector<Asked> all;
+  const auto find = [this](std::uint64_t id) -> StructureRequest* {
+    for (StructureRequest* each : StructureRequests::Of(runtime)->all()) {
+      if (each->element().id() == id && each->is_asked()) return each;
+    }
+    return nullptr;
+  };
   {
+    const std::lock_guard lock(runtime.structure_mutex());
+    const StructureRequests* const requests = StructureRequests::Of(runtime);
+    if (requests == nullptr) return;
+    for (const StructureRequest* each : requests->all()) {
+      // Beside the tree nobody runs, and asks for nothing.
+      if (!each->is_asked() || each->element().life_cycle() != LifeCycle::kReady) continue;
+      all.push_back({each->element().id(), each->element().path(), std::string(each->text())});
+    }
+  }
+  for (const Asked& each : all) {
+    Diagnostics diagnostics;
+    const PlacedChanges placed = ParseChanges(each.text, {each.path}, diagnostics);
+    const Result<void> done =
+        diagnostics.ok() ? perform(placed.changes) : Result<void>(diagnostics.errors().front());
+    Note({each.path,
+          done ? "has had it done: " + each.text
+               : "asked in vain for: " + each.text + ": " + done.error().ToString(),
+          now, !done});
+    const std::lock_guard lock(runtime.structure_mutex());
+    if (StructureRequest* const request = find(each.id)) request->Answer(done);
+  }
+}
+
+Time Supervisor::Shared::Watch(Time now) {
+  ServeRequests(now);
+  std::vector<std::pair<const StaleWatch*, StaleWatch::Turn>> turns;
+  Time next = now + kLookForRequests;
+  if (!watches.empty()) {
     const std::lock_guard lock(runtime.structure_mutex());
     for (StaleWatch& watch : watches) {
       const auto turn = watch.Look(runtime, now);

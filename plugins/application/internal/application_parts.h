@@ -30,7 +30,8 @@ struct Application::Parts final : ApplicationDescription {
   using ApplicationDescription::ApplicationDescription;
   ~Parts() override;
 
-  std::vector<LogMessage> early_messages;  // what modules say while it is loaded; guarded by events_mutex
+  std::vector<LogMessage>
+      early_messages;  // what modules say while it is loaded; guarded by events_mutex
 
   bool is_composed = false;  // in code: whoever composes it makes it ready
   std::optional<Scheduler> scheduler;
@@ -70,6 +71,7 @@ struct Application::Parts final : ApplicationDescription {
 
   RecordingHook RecordingOnDemand(Application& application);
   void LoadPluginOf(std::string_view type);
+  void LoadPluginOf(const Change& change);
 
   // Asked now and then for how long it has run. True: it is over.
   using LookAround = std::function<bool(Duration so_far)>;

@@ -28,6 +28,9 @@ void AddBuiltInTags(XmlTagRegistry& tags);
 /// thread="control", of <application>, <group> and <module>.
 [[nodiscard]] AddedAttribute ThreadAttribute(std::string tag);
 
+/// config="/car/left", of the same.
+[[nodiscard]] AddedAttribute ConfigurationAttribute(std::string tag);
+
 namespace internal {
 
 /// The tags <switch>, <set>, <replace> and <stop>, which are read by the tag that they stand in.

@@ -59,12 +59,11 @@ CatalogueItem ItemOf(const ModuleDescription& module) {
 // A module's connected ports, those of its other faces included.
 std::vector<CatalogueItemPort> ConnectedPorts(FrameworkElement& module) {
   std::vector<CatalogueItemPort> ports;
-  module.Visit([&](FrameworkElement& element) {
-    const auto* const port = dynamic_cast<const Port*>(&element);
-    if (port == nullptr || (port->outgoing().empty() && port->incoming().empty())) return;
+  for (const Port* port : PortsOf(module)) {
+    if (port->outgoing().empty() && port->incoming().empty()) continue;
     ports.push_back({port->name(), port->direction() == Port::Direction::kInput,
                      port->type().name()});
-  });
+  }
   return ports;
 }
 

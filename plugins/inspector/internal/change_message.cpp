@@ -59,6 +59,20 @@ Change ReadCreatePort(JsonMembers& m) {
   return CreatePort{m.NeedText("path"), OneOf<Port::Direction>(m, "direction", DirectionNames()),
                     m.NeedText("type"), m.Text("description").value_or("")};
 }
+// Texts, of which there must be some.
+std::vector<std::string> NeedTexts(JsonMembers& m, const std::string& name) {
+  std::vector<std::string> texts;
+  for (const JsonPart& each : m.NeedList(name)) {
+    auto text = each.text();
+    if (!text) m.Complain("\"" + name + "\" must be a list of texts");
+    texts.push_back(std::move(text).value_or(""));
+  }
+  return texts;
+}
+Change ReadCreateParameter(JsonMembers& m) {
+  return CreateParameter{m.NeedText("path"), NeedTexts(m, "targets"),
+                         m.Text("description").value_or("")};
+}
 Change ReadDelete(JsonMembers& m) { return DeleteElement{m.NeedText("path")}; }
 Change ReadConnect(JsonMembers& m) {
   return ConnectPorts{m.NeedText("from"),
@@ -82,15 +96,16 @@ struct Kind {
   std::string_view name;
   Change (*read)(JsonMembers& members);
 };
-constexpr std::array<Kind, 9> kKinds{{{"create", ReadCreate},
-                                      {"create_group", ReadCreateGroup},
-                                      {"create_port", ReadCreatePort},
-                                      {"delete", ReadDelete},
-                                      {"connect", ReadConnect},
-                                      {"disconnect", ReadDisconnect},
-                                      {"set", ReadSet},
-                                      {"replace", ReadReplace},
-                                      {"move", ReadMove}}};
+constexpr std::array<Kind, 10> kKinds{{{"create", ReadCreate},
+                                       {"create_group", ReadCreateGroup},
+                                       {"create_port", ReadCreatePort},
+                                       {"create_parameter", ReadCreateParameter},
+                                       {"delete", ReadDelete},
+                                       {"connect", ReadConnect},
+                                       {"disconnect", ReadDisconnect},
+                                       {"set", ReadSet},
+                                       {"replace", ReadReplace},
+                                       {"move", ReadMove}}};
 
 }  // namespace
 

@@ -78,7 +78,10 @@ CommandOrErrors CommandOf(const Inspection& inspection, ViewerMessage& message) 
   if (message.op == "reload") return CommandRequest(ReloadRequest{message.plugin});
   if (message.op == "log_level") return CommandRequest(LogLevelRequest{message.path, message.level});
   return CommandRequest(SaveRequest{
-      .file = message.file, .is_confined = true, .application_file = inspection.options().file});
+      .file = message.file,
+      .is_confined = true,
+      .application_file = inspection.options().file,
+      .is_configuration = message.what == "configuration"});
 }
 
 std::string FindCompatible(Inspection& inspection, const ViewerMessage& message) {

@@ -34,6 +34,7 @@ Result<ViewerMessage> ParseViewerMessage(std::string_view text) {
   message.label = members.Text("label").value_or("");
   if (const auto changes = members.List("changes")) ReadChanges(*changes, message);
   message.file = members.Text("file").value_or("");
+  message.what = members.Text("what").value_or("");
   message.plugin = members.Text("plugin").value_or("");
   message.level = members.Text("level").value_or("");
   message.rate = members.Number("rate");

@@ -28,6 +28,7 @@ struct ViewerMessage {
   ChangeSet changes;
   std::vector<RequestError> wrong_changes;  ///< of what is no change; then `changes` has not all
   std::string file;
+  std::string what;  ///< is to be saved
   std::string plugin;
   std::string level;
   std::optional<double> rate;

@@ -41,6 +41,20 @@ TEST(XmlSpans, AreThoseOfTheBytesOfTheFile) {
   EXPECT_EQ(of(root.children()[1].spans().end_tag), "</c >");
 }
 
+TEST(XmlEditor, SetsTextsAndLeavesComments) {
+  const auto set = [](const std::string& text) {
+    return Edited(text, [](XmlEditor& editor, XmlElement root) {
+      for (const XmlElement child : root.children()) editor.SetText(child, "a<b");
+    });
+  };
+  EXPECT_EQ(set("<r><v> 1 </v></r>"), "<r><v> a&lt;b </v></r>");
+  EXPECT_EQ(set("<r><v/><v></v></r>"), "<r><v>a&lt;b</v><v>a&lt;b</v></r>");
+  EXPECT_EQ(set("<r><v><!-- x -->1<!-- y -->2</v></r>"),
+            "<r><v><!-- x -->a&lt;b<!-- y --></v></r>");
+  EXPECT_EQ(set("<r><v><![CDATA[1]]></v></r>"), "<r><v>a&lt;b</v></r>");
+  EXPECT_EQ(set("<r><v>a&lt;b<!-- x --></v></r>"), "<r><v>a&lt;b<!-- x --></v></r>");
+}
+
 TEST(XmlEditor, LeavesWhatIsNotChangedAsItIs) {
   const std::string text =
       "\xEF\xBB\xBF<?xml version='1.0'?>\r\n<!-- ä -->\r\n<a  x = '&#65;' >\r\n\t<b/></a>\r\n\r\n";

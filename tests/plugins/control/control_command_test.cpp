@@ -159,7 +159,9 @@ TEST_F(ControlTest, KeepsALogOfFaultsAndChanges) {
 TEST_F(ControlTest, SaysFromWhichLevelOnModulesAreLogged) {
   EXPECT_EQ(Ask("log level=/a=debug").output, "/app/a: logs debug and more\n");
   EXPECT_EQ(Ask("log level=error").output, "/: logs error and more\n");
-  EXPECT_THAT(ReadLogLevels(runtime), testing::ElementsAre(testing::Pair("", LogLevel::kError), testing::Pair("/app/a", LogLevel::kDebug)));
+  EXPECT_THAT(ReadLogLevels(runtime),
+              testing::ElementsAre(testing::Pair("", LogLevel::kError),
+                                   testing::Pair("/app/a", LogLevel::kDebug)));
   EXPECT_EQ(Ask("log level=/a=inherit").output, "/app/a: logs as what is around it\n");
   EXPECT_THAT(ReadLogLevels(runtime), testing::ElementsAre(testing::Pair("", LogLevel::kError)));
   EXPECT_THAT(Ask("log level=/a=loud").errors, HasSubstr("there is no log level 'loud'"));
@@ -189,10 +191,14 @@ TEST_F(ControlTest, SavesIfItsProgramCan) {
     if (file == "bad") return Error{.message = "disk full"};
     return "saved to " + file;
   };
+  hooks.save_configuration = [](const std::string& file) -> Result<std::string> {
+    return "saved values to " + file;
+  };
   StartServer({.application = "app", .folder = folder.path() / "runnel"});
   EXPECT_EQ(Ask("save good").output, "saved to good\n");
   EXPECT_EQ(Ask("save bad").code, 1);
   EXPECT_THAT(Ask("save bad").errors, HasSubstr("disk full"));
+  EXPECT_EQ(Ask("save car config=yes").output, "saved values to car\n");
 }
 
 TEST_F(ControlTest, LoadsThePluginThatATypeNeeds) {

@@ -199,9 +199,13 @@ TEST_F(Changing, SavesAndReloadsByTheProgramsMeans) {
   hooks.reload = [](const std::string& plugin) -> Result<std::string> {
     return Error{.message = "no plugin " + plugin};
   };
+  hooks.save_configuration = [](const std::string& file) -> Result<std::string> {
+    return "saved values to '" + file + "'";
+  };
   Start();
   Viewer viewer = View();
   EXPECT_EQ(viewer.Ask({{"op", "save"}, {"file", "x.xml"}})["text"], "saved to x.xml");
+  EXPECT_EQ(viewer.Ask({{"op", "save"}, {"what", "configuration"}})["text"], "saved values to ''");
   const Json reply = viewer.Ask({{"op", "reload"}, {"plugin", "test"}});
   EXPECT_EQ(reply["ok"], false);
   EXPECT_EQ(reply["errors"][0]["message"], "no plugin test");

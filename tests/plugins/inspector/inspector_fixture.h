@@ -126,6 +126,9 @@ inline Json ChangeMessage(const std::string& text) {
               {"direction", is_input ? "input" : "output"},
               {"type", change.type}};
     }
+    Json operator()(const CreateParameter& change) const {
+      return {{"change", "create_parameter"}, {"path", change.path}, {"targets", change.targets}};
+    }
     Json operator()(const DeleteElement& change) const {
       return {{"change", "delete"}, {"path", change.path}};
     }

@@ -66,6 +66,7 @@ TEST_F(Viewing, TellsTheWholeStructureParentsFirst) {
   EXPECT_EQ(by_path["/app"]["kind"], "application");
   EXPECT_EQ(by_path["/app/a"]["thread"], "main");
   EXPECT_EQ(by_path["/app/a/parameter/title"]["settable"], false);
+  EXPECT_EQ(by_path["/app/a/parameter/title"]["remakes"], true);
   EXPECT_EQ(by_path["/threads/main"]["period"], 0.001);
   EXPECT_EQ(port["kind"], "port");
   EXPECT_EQ(port["direction"], "output");
@@ -77,6 +78,7 @@ TEST_F(Viewing, TellsTheWholeStructureParentsFirst) {
   EXPECT_EQ(parameter["maximum"], 9);
   EXPECT_EQ(parameter["unit"], "m/s");
   EXPECT_EQ(parameter["settable"], true);
+  EXPECT_EQ(parameter["remakes"], false);
   ASSERT_EQ(structure["connections"].size(), 1U);
   EXPECT_EQ(structure["connections"][0]["from"], "/app/a/output/out");
   EXPECT_EQ(structure["connections"][0]["to"], "/app/b/input/in");

@@ -58,6 +58,18 @@ TEST(ChangeText, ReadsTheCreationOfGroupsAndPorts) {
   EXPECT_EQ(port.type, "RangeScan");
 }
 
+TEST(ChangeText, ReadsTheCreationOfParametersOfGroups) {
+  const char* const text =
+      "create parameter /robot/radius left/radius right/radius description=\"of both wheels\"";
+  const auto parameter = ParseOne<CreateParameter>(text);
+  EXPECT_EQ(parameter.path, "/robot/radius");
+  EXPECT_THAT(parameter.targets, ElementsAre("left/radius", "right/radius"));
+  EXPECT_EQ(parameter.description, "of both wheels");
+  EXPECT_EQ(ChangeText(parameter), text);
+  EXPECT_THAT(ErrorOf("create parameter /robot/radius"),
+              HasSubstr("a parameter that it stands for"));
+}
+
 TEST(ChangeText, WritesModulesThatAreCalledLikeAWordSoThatTheyAreReadBack) {
   EXPECT_EQ(ParseOne<CreateModule>(ChangeText(CreateModule{"group", "t"})).path, "/group");
 }

@@ -162,6 +162,8 @@ class StructureModel {
     elements_[change.path] = {.kind = Kind::kPort, .type = is_output ? "output" : "input"};
     return true;
   }
+  // Parameters of groups are no part of it.
+  static bool Do(const CreateParameter&) { return false; }
   bool Do(const DeleteElement& change) {
     if (Find(change.path) == nullptr) return false;
     std::erase_if(elements_, [&](const auto& each) { return IsBelow(each.first, change.path); });

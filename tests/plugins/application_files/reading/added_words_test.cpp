@@ -131,7 +131,7 @@ TEST(AddedWords, GoWithARefusedPlugin) {
   tags.set_plugin("");
   (void)tags.SetAside("beacons");
   EXPECT_EQ(tags.FindTag("beacon"), nullptr);
-  EXPECT_EQ(tags.AddedAttributes("module").size(), 1u) << "thread";
+  EXPECT_EQ(tags.AddedAttributes("module").size(), 2u) << "thread and config";
   EXPECT_NE(tags.FindTag("module"), nullptr);
 }
 

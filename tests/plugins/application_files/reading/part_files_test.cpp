@@ -251,8 +251,8 @@ TEST_F(PartFilesTest, ThatAreNotThereOrAreSomethingElse) {
       "file for <group type=\"…\"> begins with <group_type>\n"
       "app.xml:4:35: error: /demo/c: <module> in a group whose type is a file; write it into "
       "part.xml, or leave out type\n"
-      "app.xml:5:19: error: /demo/d: a group without a type has no parameters; write it into "
-      "a module\n");
+      "app.xml:5:19: error: /demo/d: a parameter of a group without a type says what it "
+      "stands for; add to=\"module/parameter\", or write it into a module\n");
 }
 
 TEST_F(PartFilesTest, AreNoApplications) {

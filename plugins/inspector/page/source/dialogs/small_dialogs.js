@@ -3,7 +3,7 @@
 import { useState } from 'preact/hooks';
 import { html } from 'htm/preact';
 import { IsGroup } from '../model/structure.js';
-import { ErrorText, MoveToThread, Save } from '../state/actions.js';
+import { ErrorText, MoveToThread, Save, SaveConfiguration } from '../state/actions.js';
 import { openDialog } from '../state/choices.js';
 import { hello, structure } from '../state/store.js';
 import { ChoiceList } from './choice_list.js';
@@ -27,9 +27,9 @@ export function MoveDialog({ path }) {
 export function SaveDialog() {
   const [file, setFile] = useState(hello.value?.file ?? '');
   const [problem, setProblem] = useState('');
-  const save = async () => {
+  const save = async (what) => {
     const dialog = openDialog.value;
-    const reply = await Save(file.trim(), { quiet: true });
+    const reply = await (what === 'values' ? SaveConfiguration({ quiet: true }) : Save(file.trim(), { quiet: true }));
     if (reply.ok) CloseDialog(dialog);
     else setProblem((reply.errors ?? []).map(ErrorText).join('\n'));
   };
@@ -42,7 +42,9 @@ export function SaveDialog() {
       <p class="note">A file on the machine that runs the application.</p>
       ${problem && html`<p class="problem" role="alert">${problem}</p>`}
       <div class="dialog-foot"><button onClick=${() => CloseDialog()}>Cancel</button>
-        <button class="primary" id="save-now" disabled=${file.trim() === ''} onClick=${save}>Save</button></div>
+        <button id="save-configuration" onClick=${() => save('values')}
+          title="Values of parameters, back into the configuration that it was loaded with">Values into configuration</button>
+        <button class="primary" id="save-now" disabled=${file.trim() === ''} onClick=${() => save()}>Save</button></div>
     <//>`;
 }
 

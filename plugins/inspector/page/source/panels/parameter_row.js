@@ -14,7 +14,8 @@ export function ParameterRow({ parameter }) {
   const [dropped, setDropped] = useState(''); // what was typed and not set
   const sent = useRef(null); // until it has become the value: it is not sent again
   const id = `parameter:${parameter.path}`;
-  const locked = !parameter.settable || !canChange.value;
+  const canBeSet = parameter.settable || parameter.remakes;
+  const locked = !canBeSet || !canChange.value;
   useEffect(() => {
     setProblem('');
     setDropped('');
@@ -50,13 +51,14 @@ export function ParameterRow({ parameter }) {
         <${Field} id=${id} parameter=${parameter} text=${draft ?? parameter.value ?? ''} locked=${locked}
           wrong=${problem !== ''} onDraft=${type} onSend=${send} onDrop=${drop} />
         ${parameter.unit && html`<span class="unit">${parameter.unit}</span>`}
-        ${isChanged && parameter.settable && html`<button class="reset" disabled=${locked}
+        ${isChanged && canBeSet && html`<button class="reset" disabled=${locked}
             title=${`Back to ${parameter.default}`}
           aria-label=${`Set ${parameter.name} back to ${parameter.default}`}
           onClick=${() => send(parameter.default)}>↺</button>`}
       </div>
       <p class="note" id=${`${id}:note`}>
-        ${[bounds, !parameter.settable && 'fixed while it runs'].filter(Boolean).join(' · ')}</p>
+        ${[bounds, parameter.remakes ? 'makes the module anew' : !parameter.settable && 'fixed while it runs']
+          .filter(Boolean).join(' · ')}</p>
       ${dropped && html`<p class="note dropped" role="status">“${dropped}” was not set: Enter sets a value</p>`}
       ${problem && html`<p class="problem" role="alert" id=${`${id}:problem`}>${problem}</p>`}
     </div>`;

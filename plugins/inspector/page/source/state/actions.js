@@ -89,6 +89,13 @@ export async function Save(file = '', options) {
   return reply;
 }
 
+/** Values of parameters, back into the configuration that the application was loaded with. */
+export async function SaveConfiguration(options) {
+  const reply = await Ask({ op: 'save', what: 'configuration' }, 'Could not save the configuration', options);
+  if (reply.ok) Toast('done', reply.text || 'Saved');
+  return reply;
+}
+
 export async function Reload(plugin) {
   const reply = await Ask({ op: 'reload', plugin }, `Could not load ${plugin} anew`);
   if (reply.ok) Toast('done', reply.text || `${plugin} has been loaded anew`);

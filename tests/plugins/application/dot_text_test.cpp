@@ -1,6 +1,6 @@
 // What is drawn of an application.
 
-#include "plugins/application_files/dot_text.h"
+#include "plugins/application/dot_text.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "plugins/application_files/dot_text.h"
+#include "plugins/application/dot_text.h"
 
 #include <algorithm>
 #include <array>

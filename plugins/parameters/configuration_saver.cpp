@@ -1,0 +1,241 @@
+#include "plugins/parameters/configuration_saver.h"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "core/base/characters.h"
+#include "core/base/replace_file.h"
+#include "core/element/configurable.h"
+#include "core/element/element_path.h"
+#include "core/element/runtime.h"
+#include "core/xml/xml_document.h"
+#include "core/xml/xml_editor.h"
+#include "plugins/parameters/configuration_entry.h"
+#include "plugins/parameters/file_path.h"
+
+namespace runnel {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Entry {
+  std::string path;       ///< "/safety/distance"
+  std::string parameter;  ///< its path
+  std::string text;       ///< the value as it is now
+  bool is_file = false;   ///< the name of one
+  bool has_changed = false;
+};
+
+Error NoEntries(const FrameworkElement& application) {
+  return {.message = "no parameter of the application names an entry of a configuration",
+          .path = application.path(),
+          .hint = "add config=\"/…\" to parameters, modules or groups"};
+}
+
+// In the order of the tree; an entry for several parameters is that of the first that has changed.
+Result<std::vector<Entry>> EntriesOf(FrameworkElement& application, const LoadedValues& values) {
+  std::vector<Entry> entries;
+  std::optional<Error> error;
+  application.Visit([&](FrameworkElement& element) {
+    const auto* const annotation = element.FindAnnotation<ConfigurationEntry>();
+    const auto* const parameter = dynamic_cast<const Configurable*>(&element);
+    if (annotation == nullptr || parameter == nullptr) return;
+    std::string normalized;
+    for (const auto name : SplitPath(annotation->path)) normalized.append("/").append(name);
+    Entry entry{normalized, element.path(), parameter->ToText(),
+                &parameter->type() == &TypeOf<FilePath>()};
+    if (const std::string fault = UnwritableCharacter(entry.text); !fault.empty() && !error) {
+      error = Error{.message = "its value contains " + fault, .path = element.path()};
+    }
+    const auto loaded = values.find(entry.parameter);
+    entry.has_changed =
+        entry.text != (loaded != values.end() ? loaded->second : parameter->info().default_value);
+    const auto same = std::ranges::find(entries, entry.path, &Entry::path);
+    if (same == entries.end()) {
+      entries.push_back(std::move(entry));
+    } else if (!same->has_changed && entry.has_changed) {
+      *same = std::move(entry);
+    }
+  });
+  if (error) return *error;
+  if (entries.empty()) return NoEntries(application);
+  return entries;
+}
+
+// Relative names of files start in the folder of the configuration.
+std::string TextIn(const fs::path& folder, const Entry& entry) {
+  if (!entry.is_file || entry.text.empty() || fs::path(entry.text).is_absolute()) return entry.text;
+  std::error_code ignored;
+  const fs::path moved =
+      fs::absolute(entry.text, ignored).lexically_relative(fs::absolute(folder, ignored));
+  return moved.empty() ? entry.text : moved.string();
+}
+
+std::string NameOf(XmlElement element) {
+  const XmlAttribute* const name = element.Attribute("name");
+  return name != nullptr ? name->value : "";
+}
+
+bool IsSection(XmlElement element) {
+  return element.name() == "section" || element.name() == "node";
+}
+
+std::optional<XmlElement> Child(XmlElement parent, std::string_view name, bool is_section) {
+  for (const XmlElement child : parent.children()) {
+    const bool is_kind = is_section ? IsSection(child) : child.name() == "value";
+    if (is_kind && NameOf(child) == name) return child;
+  }
+  return {};
+}
+
+// As far as the sections of the path are there: the innermost, and how many names have been used.
+std::pair<XmlElement, std::size_t> Innermost(XmlElement root,
+                                             const std::vector<std::string_view>& names) {
+  XmlElement at = root;
+  std::size_t used = 0;
+  while (used + 1 < names.size()) {
+    const auto inner = Child(at, names[used], true);
+    if (!inner) break;
+    at = *inner;
+    ++used;
+  }
+  return {at, used};
+}
+
+NewElement Value(std::string_view name, const std::string& text) {
+  return {.name = "value",
+          .attributes = {{"name", std::string(name)}},
+          .children = {},
+          .after_blank_line = false,
+          .text = text};
+}
+
+// Into `parent`, below sections of the names from `from` on: those that are made for one entry serve the next.
+void AddTo(std::vector<NewElement>& contents, const std::string& section,
+           const std::vector<std::string_view>& names, std::size_t from, const std::string& text) {
+  if (from + 1 == names.size()) return contents.push_back(Value(names[from], text));
+  const auto is_it = [&](const NewElement& each) {
+    return each.name == section && each.attributes[0].second == names[from];
+  };
+  auto found = std::ranges::find_if(contents, is_it);
+  if (found == contents.end()) {
+    contents.push_back({.name = section, .attributes = {{"name", std::string(names[from])}}});
+    found = std::prev(contents.end());
+  }
+  AddTo(found->children, section, names, from + 1, text);
+}
+
+/// One configuration file on its way to what it should be.
+class FileChange {
+ public:
+  static Result<std::unique_ptr<FileChange>> Of(const ConfigurationSource::File& source) {
+    const auto now = XmlDocument::ReadText(source.file);
+    if (!now) return now.error();
+    if (*now != source.text) {
+      return Error{.message = "the file has been changed since it was loaded",
+                   .position = {source.file.string()},
+                   .hint = "name another file, and compare the two"};
+    }
+    auto document = XmlDocument::Parse(source.text, source.file.string());
+    if (!document) return document.error();
+    return std::make_unique<FileChange>(source, std::move(*document));
+  }
+  FileChange(const ConfigurationSource::File& source, XmlDocument document)
+      : source_(source), document_(std::move(document)), editor_(document_, source_.text) {}
+
+  /// Whether the entry is there; then it has the value.
+  bool Set(const Entry& entry) {
+    const auto names = SplitPath(entry.path);
+    const auto [section, used] = Innermost(document_.root(), names);
+    if (used + 1 < names.size()) return false;
+    const auto value = Child(section, names.back(), false);
+    if (value) editor_.SetText(*value, TextIn(source_.file.parent_path(), entry));
+    return value.has_value();
+  }
+  void Add(const Entry& entry) {
+    const auto names = SplitPath(entry.path);
+    const auto [section, used] = Innermost(document_.root(), names);
+    auto& lacking =
+        lacking_.try_emplace(section.spans().whole.begin, section, Contents{}).first->second;
+    const bool is_of_finroc = document_.root().name() != "configuration";
+    AddTo(lacking.second, is_of_finroc ? "node" : "section", names, used,
+          TextIn(source_.file.parent_path(), entry));
+  }
+  Result<std::string> Write() {
+    for (auto& [place, lacking] : lacking_) {
+      for (NewElement& each : lacking.second) editor_.Append(lacking.first, std::move(each));
+    }
+    if (!editor_.has_changes()) return source_.text;
+    std::string text = editor_.Finish();
+    if (auto written = ReplaceFile(source_.file, text); !written) return written.error();
+    return text;
+  }
+  [[nodiscard]] const fs::path& file() const noexcept { return source_.file; }
+
+ private:
+  using Contents = std::vector<NewElement>;
+  ConfigurationSource::File source_;
+  XmlDocument document_;
+  XmlEditor editor_;
+  std::map<std::size_t, std::pair<XmlElement, Contents>> lacking_;
+};
+
+Result<std::string> WriteAll(const std::vector<Entry>& entries, const fs::path& to) {
+  NewElement root{.name = "configuration"};
+  for (const Entry& each : entries) {
+    AddTo(root.children, "section", SplitPath(each.path), 0, TextIn(to.parent_path(), each));
+  }
+  if (auto written = ReplaceFile(to, ElementText(root)); !written) return written.error();
+  return "saved " + std::to_string(entries.size()) + " values to " + to.string();
+}
+
+}  // namespace
+
+Result<std::string> SaveConfiguration(FrameworkElement& application, LoadedValues& loaded,
+                                      const fs::path& to) {
+  const std::lock_guard lock(application.runtime().structure_mutex());
+  const auto entries = EntriesOf(application, loaded);
+  if (!entries) return entries.error();
+  if (!to.empty()) return WriteAll(*entries, to);
+  auto* const source = application.FindAnnotation<ConfigurationSource>();
+  if (source == nullptr || source->files.empty()) {
+    return Error{.message = "the application was loaded without a configuration file",
+                 .path = application.path(),
+                 .hint = "name the file that is to be written"};
+  }
+  std::vector<std::unique_ptr<FileChange>> files;
+  for (const ConfigurationSource::File& each : source->files) {
+    auto change = FileChange::Of(each);
+    if (!change) return change.error();
+    files.push_back(std::move(*change));
+  }
+  std::size_t count = 0;
+  for (const Entry& each : *entries) {
+    if (!each.has_changed) continue;
+    ++count;
+    // Of several files that have the entry, the last has been read last.
+    const bool is_set = std::any_of(files.rbegin(), files.rend(),
+                                    [&](const auto& file) { return file->Set(each); });
+    if (!is_set) files.back()->Add(each);
+  }
+  std::string names;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    auto text = files[i]->Write();
+    if (!text) return text.error();
+    if (*text != source->files[i].text)
+      names += (names.empty() ? "" : ", ") + files[i]->file().string();
+    source->files[i].text = std::move(*text);
+  }
+  for (const Entry& each : *entries) {
+    if (each.has_changed) loaded[each.parameter] = each.text;
+  }
+  if (count == 0) return std::string("no value has changed");
+  return "saved " + std::to_string(count) + (count == 1 ? " value" : " values") + " to " + names;
+}
+
+}  // namespace runnel

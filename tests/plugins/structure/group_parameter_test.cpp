@@ -1,0 +1,74 @@
+#include "core/module/group_parameter.h"
+
+#include "plugins/structure/change_history.h"
+#include "tests/plugins/structure/editor_fixture.h"
+
+namespace runnel::test {
+namespace {
+
+class GroupParameterTest : public EditorTest {
+ protected:
+  GroupParameterTest() {
+    Must({CreateGroup{"/app/group"}, CreateModule{"/app/group/left", "test/counter"},
+          CreateModule{"/app/group/right", "test/counter"},
+          CreateParameter{"/app/group/step", {"left/step", "right/step"}, "of both"},
+          CreateParameter{"/app/group/label", {"left/label"}}});
+  }
+  int Step(const std::string& side) { return At<Counter>("/app/group/" + side).step.Get(); }
+  std::string Label() { return At<Counter>("/app/group/left").label.Get(); }
+  ChangeHistory history_{editor};
+};
+
+TEST_F(GroupParameterTest, SetsAllThatItStandsFor) {
+  ASSERT_TRUE(history_.Apply({SetParameter{"/app/group/step", "7"}}));
+  EXPECT_EQ(Step("left"), 7);
+  EXPECT_EQ(Step("right"), 7);
+  const auto& parameter = At<GroupParameter>("/app/group/step");
+  EXPECT_EQ(parameter.ToText(), "7");
+  EXPECT_EQ(&parameter.type(), &TypeOf<int>());
+  EXPECT_EQ(parameter.info().description, "of both");
+  ASSERT_TRUE(history_.Undo());
+  EXPECT_EQ(Step("left"), 1);
+  EXPECT_EQ(Step("right"), 1);
+}
+
+TEST_F(GroupParameterTest, AllOrNothing) {
+  EXPECT_THAT(Refusal({SetParameter{"/app/group/step", "many"}}), HasSubstr("no whole number"));
+  EXPECT_THAT(Refusal({CreateParameter{"/app/group/more", {"left/stap"}}}),
+              HasSubstr("did you mean 'step'?"));
+  EXPECT_THAT(Refusal({CreateParameter{"/app/group/more", {"left/out"}}}),
+              HasSubstr("no 'out' in /app/group/left"));
+}
+
+TEST_F(GroupParameterTest, OfAStaticOneMakesTheModuleAnew) {
+  Steps(2);
+  const auto before = At<Counter>("/app/group/left").id();
+  ASSERT_TRUE(history_.Apply({SetParameter{"/app/group/label", "front"}}));
+  EXPECT_EQ(Label(), "front");
+  EXPECT_NE(At<Counter>("/app/group/left").id(), before);
+  EXPECT_EQ(At<Counter>("/app/group/left").count.value, 2) << "and it goes on where it was";
+  ASSERT_TRUE(history_.Undo());
+  EXPECT_EQ(Label(), "none");
+}
+
+TEST_F(GroupParameterTest, OutlivesSwapsOfWhatItStandsFor) {
+  Must({ReplaceModule{"/app/group/left", "test/other_counter"}, DeleteElement{"/app/group/right"}});
+  Must({SetParameter{"/app/group/step", "3"}});
+  EXPECT_EQ(Step("left"), 3);
+  Must({DeleteElement{"/app/group/left"}});
+  EXPECT_THAT(Refusal({SetParameter{"/app/group/step", "4"}}),
+              HasSubstr("nothing is there any more"));
+}
+
+TEST_F(GroupParameterTest, ComesBackWithItsGroup) {
+  Must({SetParameter{"/app/group/step", "7"}});
+  ASSERT_TRUE(history_.Apply({DeleteElement{"/app/group"}}));
+  ASSERT_TRUE(history_.Undo());
+  Must({SetParameter{"/app/group/step", "8"}});
+  EXPECT_EQ(Step("right"), 8);
+  ASSERT_TRUE(history_.Apply({DeleteElement{"/app/group/step"}}));
+  EXPECT_FALSE(Exists("/app/group/step"));
+}
+
+}  // namespace
+}  // namespace runnel::test
