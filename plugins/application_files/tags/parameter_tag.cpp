@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/base/nearest_name.h"
-#include "core/element/not_saved.h"
 #include "core/element/source_place.h"
 #include "core/module/group_parameter.h"
 #include "core/plugin/module_type_name.h"
@@ -190,11 +189,12 @@ void UpdateGroupParameter(XmlElement tag, FrameworkElement& group, internal::Fil
   if (value != *loaded) update.editor().SetAttribute(tag, "value", value);
 }
 
+// Also of one that a file has described, where all is written into one.
 std::vector<NewElement> MissingGroupParameters(const XmlElement* tag, FrameworkElement& group) {
   std::vector<NewElement> missing;
   for (const FrameworkElement* child : group.children()) {
     const auto* const parameter = dynamic_cast<const GroupParameter*>(child);
-    if (parameter == nullptr || child->FindAnnotation<NotSaved>() != nullptr) continue;
+    if (parameter == nullptr) continue;
     if (tag != nullptr && HasTag(*tag, child->name())) continue;
     std::string targets;
     for (const std::string& each : parameter->targets())

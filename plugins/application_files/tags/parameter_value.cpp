@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/base/nearest_name.h"
-#include "core/element/not_saved.h"
 #include "core/element/source_place.h"
 #include "core/module/group_parameter.h"
 #include "core/plugin/module_type_name.h"
@@ -134,7 +133,6 @@ GroupParameter* ParameterOf(PartUse& part, const std::string& name, const TagUse
   const auto declared = part.declared.find(name);
   if (declared == part.declared.end()) return nullptr;
   auto& made = use.context.runtime().Create<GroupParameter>(part.group, name);
-  made.Annotate(std::make_unique<NotSaved>());  // its file says it
   made.Annotate(std::make_unique<SourcePlace>(declared->second.xml.position()));
   return &made;
 }
