@@ -14,7 +14,7 @@
 #include "core/base/nearest_name.h"
 #include "core/plugin/plugin_manager.h"
 #include "core/xml/xml_reading.h"
-#include "plugins/scheduling/pacing.h"
+#include "plugins/timing/pacing.h"
 
 namespace runnel::program {
 
@@ -90,6 +90,8 @@ void AddWhatAccompaniesARun(CLI::App& run, RunArguments& arguments) {
   run.add_flag("--quiet", arguments.quiet, "no progress, only how the run ended");
   run.add_flag("--statistics", arguments.statistics,
                "at the end, how punctual the threads were and how long their cycles took");
+  run.add_flag("--profile", arguments.is_profiled,
+               "measures how long each module takes, and says so at the end");
   run.add_option("--log", arguments.log_file,
                  "writes faults, warnings, changes and what modules say into a file")
       ->type_name("FILE");

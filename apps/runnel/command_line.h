@@ -34,6 +34,7 @@ struct RunArguments {
   bool is_paused = false;               ///< begins with a pause
   bool quiet = false;
   bool statistics = false;
+  bool is_profiled = false;
   std::string log_file = {};  ///< "": none
   std::optional<std::string> crash_file = {};  ///< "": none; without, one that is named after the process
   bool has_control = true;  ///< other processes of the user can reach it

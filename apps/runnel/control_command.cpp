@@ -58,6 +58,7 @@ std::optional<std::string> ChangeTextOf(const ControlArguments& arguments) {
     return command + WordsText(words, words[0] == "parameter" ? words.size()
                                       : words[0] == "port"    ? 4
                                                               : 2);
+  if (command == "schedule") return command + WordsText(words, 1) + OptionsText(arguments);
   if (command == "set" || command == "disconnect" || command == "delete") {
     return command + WordsText(words, words.size());
   }
@@ -184,9 +185,12 @@ Result<int> Ask(const ControlArguments& arguments, Request request) {
   auto client = ControlClient::Connect(chosen->socket);
   if (!client) return client.error();
   if (arguments.command == "record") return AskToRecord(*client, request);
-  const auto show = [](std::ostream& stream) {
-    return [&stream](std::string_view text) {
-      stream << text << std::flush;
+  // One table in the place of the other, where somebody looks on.
+  const bool redraws = arguments.command == "top" && !arguments.options.contains("once") &&
+                       isatty(STDOUT_FILENO) == 1;
+  const auto show = [redraws](std::ostream& stream) {
+    return [&stream, redraws](std::string_view text) {
+      stream << (redraws ? "\x1b[H\x1b[2J" : "") << text << std::flush;
       return stream.good();
     };
   };

@@ -82,7 +82,7 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
 
   Entry& create = add("create",
                       "makes a module; 'create group PATH'; 'create port PATH input TYPE'; 'create "
-                      "parameter PATH PARAMETER ...'");
+                      "parameter PATH PARAMETER ...'; 'create thread NAME period=10ms'");
   create.command
       ->add_option("words", create.arguments.words, "path, module type and values of parameters")
       ->required()
@@ -131,8 +131,10 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
          "zstd, lz4 or none; without, the first that is there")
       ->type_name("WORD");
 
-  add("pause", "lets simulated time stand still");
-  add("resume", "lets simulated time go on");
+  Entry& pause = add("pause", "lets simulated time stand still; with a path, leaves modules or a thread out, on any clock");
+  word(pause, "path", "module, group or thread")->required(false)->type_name(kElement);
+  Entry& resume = add("resume", "lets simulated time, or what is at the path, go on");
+  word(resume, "path", "that was paused")->required(false)->type_name(kElement);
 
   Entry& step = add("step", "lets a paused application run one cycle, or some");
   word(step, "cycles", "how many; without, one")->required(false)->type_name("N");
@@ -141,6 +143,23 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   word(speed, "factor", "1 is real time, 0 as fast as it can")
       ->required(false)
       ->type_name("FACTOR");
+
+  Entry& top = add("top", "shows how long modules take, and the latency of chains of them, once a second");
+  flag(top, "--once", "once", "one table, of one second");
+  count(top, "ends after so many tables");
+
+  Entry& profile = add("profile", "says how long modules have taken; on, off: begins and ends measuring");
+  word(profile, "on|off", "without: what has been measured")->required(false)->type_name("WORD");
+
+  Entry& latency = add("latency", "how old what a command goes back to is: measures between two ports");
+  latency.command->add_option("ports", latency.arguments.words, "from a sensor's output to a command's; off: no more")
+      ->type_name("FROM TO [off]");
+
+  Entry& schedule = add("schedule", "gives a thread another period or priority");
+  word(schedule, "thread", "its name")->type_name("THREAD");
+  option(schedule, "--period", "period", "20ms, for example")->type_name("TIME");
+  option(schedule, "--priority", "priority", "0: ordinary; 1 .. 99: real-time")->type_name("N");
+  option(schedule, "--on-overrun", "on_overrun", "skip, catch_up")->type_name("WORD");
 
   Entry& deadline = add(
       "deadline", "shows who does not return from its cycle, and says how long modules may take");

@@ -175,6 +175,9 @@ class Session {
     (was_stopped ? std::cerr : std::cout) << why;
     if (!arguments_.quiet) PrintTimes(so_far, real, scheduler.options().clock);
     if (arguments_.statistics) std::cout << StatisticsTable(application_.runtime().root());
+    if (const auto measured = application_.scheduler().profiled_for()) {
+      std::cout << ProfileText(application_.scheduler().ReadProfile(), *measured);
+    }
     const bool is_well_judged = report_.IsGood() || !MonitorsDecide();
     return !was_stopped && is_well_judged && failures.ok() ? ExitCode::kDone : ExitCode::kRunFailed;
   }
@@ -196,6 +199,7 @@ ApplicationOptions OptionsOf(const RunArguments& arguments) {
   options.pause_words = "--paused";
   options.has_control = arguments.has_control;
   options.notes_running_modules = true;
+  options.is_profiled = arguments.is_profiled;
   // Of what was recorded, replayed for viewers alone.
   if (arguments.application.file.empty()) options.clock = ClockKind::kSimulated;
   options.extensions_by_name = arguments.extensions;

@@ -17,7 +17,7 @@
 #include "core/port/cycle.h"
 #include "core/port/input.h"
 #include "core/port/output.h"
-#include "plugins/scheduling/cycle_tracer.h"
+#include "plugins/timing/cycle_tracer.h"
 #include "plugins/scheduling/scheduler.h"
 
 namespace runnel {
@@ -129,6 +129,7 @@ class Discarding final : public CycleTracer {
     if (auto* const stage = dynamic_cast<Stage*>(&element)) traced->ports = {{&stage->out, 1, 0}};
     return traced;
   }
+  std::uint64_t NumberOf(const std::string&) override { return 1; }
   void OnHold(const std::string&, Time, Time) noexcept override {}
   void Empty() {
     track_.events().consume_all([](const TraceEvent&) {});

@@ -133,6 +133,13 @@ class Application {
   /// Lets so many further cycles run and then pauses.
   Result<void> Step(std::uint64_t cycles = 1);
   Result<void> SetSpeed(double speed);
+  /// What the clock shows that `<clock type="outside"/>` follows. Errors: see Pace::SetTime().
+  Result<void> SetTime(Time time);
+  /// Leaves all at or below the path, or all that a thread of this path runs, out of cycles, on either clock; then does
+  /// what the file says (`<on_pause>`). Errors: no such element; a cycle that does not end.
+  Result<void> Pause(std::string_view path);
+  /// Takes that back. Errors: it is not what has been paused.
+  Result<void> Resume(std::string_view path);
   /// Any thread, also from a signal handler.
   void RequestStop() noexcept;
 
@@ -255,6 +262,7 @@ class Application {
   void NoteStart();
   // Gathers what has happened.
   void Attend();
+  void LogProfile();
   [[nodiscard]] bool IsOver();
 
   const std::unique_ptr<Parts> parts_;

@@ -69,6 +69,8 @@ struct ApplicationOptions {
 
   /// Which module runs is noted, so that a CrashReport can name it.
   bool notes_running_modules = false;
+  /// How long each module takes is measured from the start, and logged at the end of a run.
+  bool is_profiled = false;
 
   /// Other processes of the same user reach it: `runnel ls`, `runnel swap`. That they cannot is a warning.
   bool has_control = false;

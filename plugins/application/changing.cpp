@@ -179,6 +179,9 @@ CommandService& Application::service() {
     return done;
   };
   hooks.save_configuration = [this](const std::string& file) { return SaveConfiguration(file); };
+  hooks.set_paused = [this](const std::string& path, bool is_paused) {
+    return is_paused ? Pause(path) : Resume(path);
+  };
   hooks.reload = [this](const std::string& plugin) -> Result<std::string> {
     std::string done = "loaded " + plugin + " anew";
     const auto outcome = Reload(plugin);

@@ -63,6 +63,7 @@ Result<void> Application::Parts::Schedule() {
   }
   if (auto possible = Choose(options(), made); !possible) return possible;
   scheduler.emplace(runtime(), made);
+  if (options().is_profiled) scheduler->SetProfiled(true);
   editor.emplace(runtime(), plugins().modules(), &*scheduler);
   history.emplace(*editor);
   supervisor.emplace(runtime(), *scheduler, [this](const ChangeSet& changes) -> Result<void> {

@@ -127,8 +127,10 @@ void Application::Attend() {
   for (const Fault& fault : parts.scheduler->TakeFaults()) {
     parts.report->Hear(fault);
     std::string text = FaultText(fault, parts.start, root);
-    parts.log->Add(ApplicationLog::Kind::kFault, text, fault.path,
-                   fault.is_mended ? "" : fault.message);
+    const bool is_fault =
+        fault.kind == Fault::Kind::kThrown || fault.kind == Fault::Kind::kStuck;
+    parts.log->Add(is_fault ? ApplicationLog::Kind::kFault : ApplicationLog::Kind::kWarning, text,
+                   fault.path, fault.is_mended ? "" : fault.message);
     parts.Add({Kind::kFault, std::move(text), fault});
   }
   for (const auto& extension : parts.extensions()) {
@@ -143,6 +145,17 @@ void Application::Attend() {
     std::string text = NoticeText(notice, parts.start, root);
     parts.log->Add(ApplicationLog::Kind::kFault, text);
     parts.Add({Kind::kNotice, std::move(text)});
+  }
+}
+
+// For those who read the log later, at the end of a run.
+void Application::LogProfile() {
+  const auto measured = parts_->scheduler->profiled_for();
+  const Profile profile = parts_->scheduler->ReadProfile();
+  std::string_view text;
+  const std::string table = ProfileText(profile, measured.value_or(Duration{}));
+  for (text = table; !text.empty(); text.remove_prefix(std::min(text.size(), text.find('\n') + 1))) {
+    parts_->log->Add(ApplicationLog::Kind::kInfo, std::string(text.substr(0, text.find('\n'))));
   }
 }
 
@@ -193,6 +206,7 @@ Result<void> Application::Start() {
     try {
       is_real ? (void)parts_->RunThreads({}, look) : (void)parts_->RunCycles({}, true, look);
       Attend();
+      LogProfile();
     } catch (...) {
       parts_->Add({ApplicationEvent::Kind::kFailure,
                    "error: the run has ended: " + DescribeException() + "\n"});
@@ -235,6 +249,7 @@ Result<Duration> Application::Run(const RunOptions& options) {
   parts.ends = false;
   auto ran = is_real ? parts.RunThreads(limit, look) : parts.RunCycles(limit, false, look);
   Attend();
+  LogProfile();
   return ran;
 }
 
@@ -276,6 +291,13 @@ Result<void> Application::RunCycles(std::uint64_t count) {
 
 Result<void> Application::Pause() { return parts_->scheduler->pace().Pause(); }
 Result<void> Application::Resume() { return parts_->scheduler->pace().Resume(); }
+Result<void> Application::SetTime(Time time) { return parts_->scheduler->pace().SetTime(time); }
+Result<void> Application::Pause(std::string_view path) {
+  return parts_->supervisor->SetPaused(path, true);
+}
+Result<void> Application::Resume(std::string_view path) {
+  return parts_->supervisor->SetPaused(path, false);
+}
 Result<void> Application::Step(std::uint64_t cycles) {
   return parts_->scheduler->pace().StepCycles(cycles);
 }

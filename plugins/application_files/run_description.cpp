@@ -18,6 +18,11 @@ Result<void> AddRules(const FrameworkElement& application, Scheduler& scheduler,
   }
   for (const FaultReaction& reaction : rules->fault_reactions) supervisor.Add(reaction);
   for (const StuckReaction& reaction : rules->stuck_reactions) supervisor.Add(reaction);
+  for (const PauseReaction& reaction : rules->pause_reactions) supervisor.Add(reaction);
+  for (const LatencyRequest& each : rules->latencies) {
+    if (auto added = scheduler.AddLatency(each); !added) return added;
+  }
+  if (rules->is_profiled) scheduler.SetProfiled(true);
   return {};
 }
 

@@ -40,9 +40,15 @@ struct LogLevelRequest {
   std::string level;      ///< as LogLevelName() says it, or "inherit": as above it
 };
 
+/// Leaves modules, or what a thread runs, out of cycles, with what the application does then; or no more.
+struct PauseRequest {
+  std::string path;
+  bool is_paused = true;
+};
+
 /// What a client may ask a CommandService for.
 using CommandRequest = std::variant<ChangeRequest, UndoRequest, RedoRequest, SaveRequest,
-                                    ReloadRequest, LogLevelRequest>;
+                                    ReloadRequest, LogLevelRequest, PauseRequest>;
 
 /// What has come of a request.
 struct CommandAnswer {

@@ -111,6 +111,22 @@ CommandAnswer CommandService::Do(const ReloadRequest& request) const {
   return Call(application_.hooks.reload, request.plugin, "load plugins anew");
 }
 
+CommandAnswer CommandService::Do(const PauseRequest& request) const {
+  if (!application_.hooks.set_paused) {
+    return CommandAnswer::Refused(
+        {.message = "the program that runs this application cannot pause its modules"});
+  }
+  const std::string what = (request.is_paused ? "paused " : "resumed ") + request.path;
+  try {
+    const auto done = application_.hooks.set_paused(request.path, request.is_paused);
+    if (!done) return CommandAnswer::Refused(done.error());
+  } catch (...) {
+    return CommandAnswer::Failed(CaughtError());
+  }
+  application_.log.Add(ApplicationLog::Kind::kChange, what);
+  return CommandAnswer::Done(what);
+}
+
 CommandAnswer CommandService::Do(const LogLevelRequest& request) const {
   const bool inherits = request.level == "inherit";
   const auto level = inherits ? LogLevel::kInfo : LogLevelOf(request.level);

@@ -57,6 +57,8 @@ struct ServiceHooks {
   std::function<Result<std::string>(const std::string& plugin)> reload = {};
   /// The library of a plugin that is loaded; "" if that is unknown.
   std::function<std::string(const std::string& plugin)> library_of = {};
+  /// Pauses what is at or below the path, or lets it go on.
+  std::function<Result<void>(const std::string& path, bool is_paused)> set_paused = {};
   /// Records ports until the client goes.
   RecordingHook record = {};
 };
@@ -123,6 +125,7 @@ class CommandService {
   [[nodiscard]] CommandAnswer Do(const UndoRequest& request) const;
   [[nodiscard]] CommandAnswer Do(const RedoRequest& request) const;
   [[nodiscard]] CommandAnswer Do(const SaveRequest& request) const;
+  [[nodiscard]] CommandAnswer Do(const PauseRequest& request) const;
   [[nodiscard]] CommandAnswer Do(const ReloadRequest& request) const;
   [[nodiscard]] CommandAnswer Do(const LogLevelRequest& request) const;
   [[nodiscard]] CommandAnswer TakeHistoryStep(bool goes_back) const;

@@ -74,7 +74,8 @@ using CommandResult = Result<Command>;
 using CommandMaker = CommandResult(const Request& request, const CommandContext& context);
 CommandMaker MakeListCommand, MakePathsCommand, MakeTypesCommand, MakeEchoCommand, MakeRateCommand,
     MakeLogCommand, MakePauseCommand, MakeResumeCommand, MakeStepCommand, MakeSpeedCommand,
-    MakeRecordCommand, MakeDeadlineCommand;
+    MakeRecordCommand, MakeDeadlineCommand, MakeTopCommand,
+    MakeProfileCommand, MakeLatencyCommand;
 /// Of those that the service carries out.
 CommandMaker MakeServiceCommand;
 

@@ -40,11 +40,13 @@ CommandResult Do(const ServedApplication& application, const Result<void>& done,
 
 }  // namespace
 
-CommandResult MakePauseCommand(const Request&, const CommandContext& context) {
+CommandResult MakePauseCommand(const Request& request, const CommandContext& context) {
+  if (!request.arguments.empty()) return MakeServiceCommand(request, context);
   return Do(context.application, context.application.pace->Pause(), "paused");
 }
 
-CommandResult MakeResumeCommand(const Request&, const CommandContext& context) {
+CommandResult MakeResumeCommand(const Request& request, const CommandContext& context) {
+  if (!request.arguments.empty()) return MakeServiceCommand(request, context);
   return Do(context.application, context.application.pace->Resume(), "resumed");
 }
 

@@ -39,6 +39,8 @@ CommandRequest RequestOf(const Request& request, PlacedChanges placed) {
     return SaveRequest{.file = argument, .is_configuration = request.Option("config") == "yes"};
   }
   if (request.command == "reload") return ReloadRequest{argument};
+  if (request.command == "pause") return PauseRequest{argument, true};
+  if (request.command == "resume") return PauseRequest{argument, false};
   if (request.command == "log") return LevelOf(request.Option("level"));
   return ChangeRequest{std::move(placed)};
 }

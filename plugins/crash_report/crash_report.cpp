@@ -17,7 +17,7 @@
 #include "core/base/check.h"
 #include "plugins/crash_report/crash_text.h"
 #include "plugins/scheduling/running_task.h"
-#include "plugins/scheduling/signal_stack.h"
+#include "core/base/signal_stack.h"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define RUNNEL_CRASHES_ARE_REPORTED 1

@@ -1,8 +1,10 @@
 #include "plugins/inspector/element_json.h"
 
+#include <algorithm>
 #include <functional>
 
 #include "core/element/configurable.h"
+#include "core/element/element_path.h"
 #include "core/plugin/module_type_name.h"
 #include "core/types/type_info.h"
 #include "plugins/command_service/caught_error.h"
@@ -25,13 +27,21 @@ std::string_view StoppedBy(const FrameworkElement& element, const ElementSurroun
   return found == around.stopped.end() ? std::string_view() : found->second;
 }
 
-void AddThread(const ThreadContainer& thread, JsonObject& json) {
+bool IsPaused(const FrameworkElement& element, const ElementSurroundings& around) {
+  if (around.paused.empty()) return false;
+  const std::string path = element.path();
+  return std::ranges::any_of(around.paused,
+                             [&](const std::string& each) { return IsAtOrBelow(path, each); });
+}
+
+void AddThread(const ThreadContainer& thread, const ElementSurroundings& around, JsonObject& json) {
   const ThreadOptions& options = thread.options();
   const bool has_period = options.activation == ThreadOptions::Activation::kPeriod;
   json.Add("kind", "thread").Add("name", thread.name());
   json.AddOrNull("period", has_period ? std::optional(ToSeconds(options.period)) : std::nullopt);
   json.Add("activation", ActivationNames()[static_cast<std::size_t>(options.activation)]);
   json.Add("priority", options.priority).Add("order", thread.id());
+  if (IsPaused(thread, around)) json.Add("paused", true);
 }
 
 void AddPort(const Port& port, JsonObject& json) {
@@ -68,12 +78,14 @@ void AddOther(const FrameworkElement& element, const ElementSurroundings& around
     json.Add("type", name).Add("summary", type != nullptr ? type->summary : "");
     json.AddTextOrNull("thread", ThreadName(element, around));
     json.AddTextOrNull("stopped", StoppedBy(element, around));
+    if (IsPaused(element, around)) json.Add("paused", true);
     return;
   }
   const bool is_group = element.kind() == ElementKind::kGroup;
   const bool is_top = element.parent() != nullptr && element.parent()->parent() == nullptr;
   json.Add("kind", is_group && is_top ? "application" : "group");
   json.Add("name", element.name());
+  if (IsPaused(element, around)) json.Add("paused", true);
   if (!is_group) json.Add("is_plain", true);
   const ThreadContainer* const thread = OwnThread(element);
   if (thread != nullptr) json.Add("thread", thread->name());
@@ -97,7 +109,7 @@ std::string ElementJson(const FrameworkElement& element, const ElementSurroundin
     } else if (const auto* const parameter = dynamic_cast<const Configurable*>(&element)) {
       AddParameter(element, *parameter, json);
     } else if (const auto* const thread = dynamic_cast<const ThreadContainer*>(&element)) {
-      AddThread(*thread, json);
+      AddThread(*thread, around, json);
     } else {
       AddOther(element, around, json);
     }
@@ -107,7 +119,14 @@ std::string ElementJson(const FrameworkElement& element, const ElementSurroundin
 std::uint64_t ElementFingerprint(const FrameworkElement& element,
                                  const ElementSurroundings& around) {
   std::uint64_t hash = element.id();
-  if (element.kind() == ElementKind::kPort || element.kind() == ElementKind::kThread) return hash;
+  if (element.kind() == ElementKind::kPort) return hash;
+  if (IsPaused(element, around)) Mix(1, hash);
+  if (const auto* const thread = dynamic_cast<const ThreadContainer*>(&element)) {
+    const ThreadOptions options = thread->options();
+    Mix(static_cast<std::uint64_t>(options.period.count()), hash);
+    Mix(static_cast<std::uint64_t>(options.priority) + 2, hash);
+    return hash;
+  }
   if (element.kind() == ElementKind::kParameter) {
     if (const auto* const parameter = dynamic_cast<const Configurable*>(&element)) {
       Mix(ParameterText(*parameter), hash);

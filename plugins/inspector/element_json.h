@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
 #include "core/element/framework_element.h"
 #include "core/plugin/module_registry.h"
@@ -18,6 +19,7 @@ struct ElementSurroundings {
   std::map<std::uint64_t, std::string> thread_names;       ///< by id
   std::uint64_t default_thread = 0;                        ///< for what is assigned to none
   std::unordered_map<std::uint64_t, std::string> stopped;  ///< modules, and what they threw
+  std::vector<std::string> paused;                         ///< paths of elements, of threads
 };
 
 /// The element as the protocol has it: {"path":…,"kind":…,…}. Under the structure lock.

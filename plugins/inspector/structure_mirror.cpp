@@ -87,6 +87,10 @@ bool StructureMirror::LookOn() {
 }
 
 void StructureMirror::NoteFaults() {
+  if (auto paused = scheduler_.PausedPaths(); paused != around_.paused) {
+    around_.paused = std::move(paused);
+    walk_.Forget();
+  }
   const auto news = log_.ReadEntries(next_in_log_, ApplicationLog::kMostEntries);
   next_in_log_ = news.next;
   for (const ApplicationLog::Entry& entry : news.entries) {

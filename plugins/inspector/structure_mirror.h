@@ -36,6 +36,9 @@ struct CountSample {
 [[nodiscard]] std::string RateMessage(const CountSample& before, const CountSample& now,
                                       double time, std::vector<double>& told);
 
+/// What has been measured of modules, as the protocol has it; `measured`: for how long, if it is.
+[[nodiscard]] std::string ProfileMessage(const Profile& profile, std::optional<Duration> measured);
+
 /// The structure of an application as viewers have been told it, once for all of them: what has changed
 /// since is found by walking through everything again whenever the structure has another revision; the
 /// values of parameters, whose changes nobody announces, by looking at some of them in turn.

@@ -6,7 +6,8 @@
 
 #include "core/base/exception_text.h"
 #include "core/lockfree/thread_epoch.h"
-#include "plugins/scheduling/trace_track.h"
+#include "plugins/timing/latency_chain.h"
+#include "plugins/timing/trace_track.h"
 
 namespace runnel {
 
@@ -122,14 +123,20 @@ void CycleRunner::RunNoted(const Schedule::Entry& entry, const Schedule& schedul
   if (element.is_at_rest()) return;
   TraceTrack* const track = (noted_ & Instruments::kTrace) != 0 ? schedule.track : nullptr;
   TracedElement* const traced = track != nullptr ? element.traced() : nullptr;
+  const ChainSteps* const chains =
+      (noted_ & Instruments::kLatency) != 0 ? element.chains() : nullptr;
   const bool is_measured = traced != nullptr || (noted_ & Instruments::kProfile) != 0;
   const Time began = is_measured ? clock_.Now() : Time{};
   if (traced != nullptr) traced->track = track;
+  if (chains != nullptr) chains->Begin();
   running_.Begin(element);
   RunInTurn({&entry, 1}, now, faults);
   running_.End();
+  const Time ended = is_measured ? clock_.Now() : Time{};
+  if (chains != nullptr) {
+    chains->End(began + (ended - began) / 2, traced != nullptr ? track : nullptr);
+  }
   if (!is_measured) return;
-  const Time ended = clock_.Now();
   if ((noted_ & Instruments::kProfile) != 0) element.meter(entry.phase).Add(ended - began);
   if (traced != nullptr) {
     track->NoteUpdate({began, ended}, entry.phase, traced->number, traced->ports);

@@ -10,11 +10,11 @@
 #include "core/base/clock.h"
 #include "core/lockfree/wake_event.h"
 #include "core/port/cycle.h"
-#include "plugins/scheduling/cycle_statistics.h"
+#include "plugins/timing/cycle_statistics.h"
 #include "plugins/scheduling/running_task.h"
 #include "plugins/scheduling/schedule.h"
 #include "plugins/scheduling/thread_options.h"
-#include "plugins/scheduling/tick_clock.h"
+#include "plugins/timing/tick_clock.h"
 
 namespace runnel {
 
@@ -23,7 +23,8 @@ namespace runnel {
 struct Instruments {
   static constexpr std::uint8_t kTrace = 1;    ///< on the schedule's TraceTrack
   static constexpr std::uint8_t kRunning = 2;  ///< which element is just running
-  static constexpr std::uint8_t kProfile = 4;  ///< how long each task takes, and the latency of chains
+  static constexpr std::uint8_t kProfile = 4;  ///< how long each task takes
+  static constexpr std::uint8_t kLatency = 8;  ///< how old what chains publish is
 };
 
 /// Runs the cycles of one thread container; both executors are built on it. It outlives the

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "core/base/clock.h"
 #include "core/base/saturating_sum.h"
 #include "plugins/scheduling/thread_options.h"
@@ -27,6 +29,14 @@ class DueTime {
       next_ = SaturatingSum(next_ + missed_whole * period_, period_);
     }
     return true;
+  }
+
+  [[nodiscard]] Duration period() const noexcept { return period_; }
+  /// The next cycle is due no later than a new period after `now`.
+  void Change(Duration period, ThreadOptions::OnOverrun on_overrun, Time now) noexcept {
+    period_ = period;
+    on_overrun_ = on_overrun;
+    next_ = std::min(next_, SaturatingSum(now, period));
   }
 
  private:

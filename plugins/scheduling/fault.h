@@ -14,6 +14,7 @@ struct Fault {
     kThrown,
     kStuck,     ///< it has not returned in time, and may still do so
     kReturned,  ///< it has, too late
+    kNote,      ///< nothing but what a person should know
   };
 
   std::string path;         ///< of the module

@@ -124,6 +124,13 @@ void FaultDispatcher::Log(Fault fault) {
   log_.push_back(std::move(fault));
 }
 
+void FaultDispatcher::Note(Fault fault) noexcept {
+  try {
+    Log(std::move(fault));
+  } catch (...) {
+  }
+}
+
 std::vector<Fault> FaultDispatcher::Take() {
   const std::lock_guard lock(mutex_);
   return std::exchange(log_, {});

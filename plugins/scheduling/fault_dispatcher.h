@@ -52,6 +52,8 @@ class FaultDispatcher {
   void Dispatch();
   /// Logs the fault and applies the rules to it, at once. Outside of cycles.
   void Report(const Fault& fault);
+  /// Logs it, and applies no rule. Whatever there is no memory for is not logged.
+  void Note(Fault fault) noexcept;
   /// What has been logged since the last call, oldest first.
   [[nodiscard]] std::vector<Fault> Take();
 

@@ -12,7 +12,8 @@ void Scheduler::UpdateInstruments() {
   if (options_.notes_running_tasks || cycle_watchdog_.has_rules()) {
     instruments |= Instruments::kRunning;
   }
-  if (is_profiled_) instruments |= Instruments::kProfile;
+  if (profile_began_) instruments |= Instruments::kProfile;
+  if (!chains_.empty()) instruments |= Instruments::kLatency;
   for (const auto& runner : runners_) runner->set_instruments(instruments);
 }
 

@@ -12,13 +12,15 @@ constexpr Time kNever = Time::max();
 
 }  // namespace
 
-Pace::Pace(bool is_simulated, double speed, bool is_paused, const Clock& machine)
+Pace::Pace(bool is_simulated, double speed, bool is_paused, const Clock& machine,
+           bool follows_outside)
     : is_simulated_(is_simulated),
+      follows_outside_(follows_outside),
       machine_(machine),
       pacing_(speed, machine),
       speed_(is_simulated ? speed : 1),
       is_paused_(is_simulated && is_paused),
-      is_free_(speed == 0 && !is_paused) {}
+      is_free_(speed == 0 && !is_paused && !follows_outside) {}
 
 Result<void> Pace::Check(const char* what) const {
   if (is_simulated_ && !has_ended_.load(std::memory_order_acquire)) return {};
@@ -29,7 +31,7 @@ Result<void> Pace::Check(const char* what) const {
 }
 
 void Pace::Changed() {
-  is_free_.store(!is_paused() && pacing_.speed() == 0, std::memory_order_release);
+  is_free_.store(!is_paused() && pacing_.speed() == 0 && !follows_outside_, std::memory_order_release);
   event_.Notify();
 }
 
@@ -69,6 +71,9 @@ Result<void> Pace::StepCycles(std::uint64_t count) {
 
 Result<void> Pace::SetSpeed(double speed) {
   if (auto simulated = Check("made faster or slower"); !simulated) return simulated;
+  if (follows_outside_) {
+    return Error{.message = "time passes as fast as the clock that it follows"};
+  }
   if (!Pacing::Takes(speed)) {
     return Error{.message = "speed " + std::to_string(speed) + " is out of bounds",
                  .hint = "allowed is 0 (as fast as it can), or 1e-6 .. 1e6"};
@@ -89,9 +94,26 @@ void Pace::End() {
 
 void Pace::Begin() { has_ended_.store(false, std::memory_order_release); }
 
+Result<void> Pace::SetTime(Time time) {
+  if (!follows_outside_) {
+    return Error{.message = "this application follows no clock from outside",
+                 .hint = "<clock type=\"outside\"/> in the application file has it do so"};
+  }
+  const std::lock_guard lock(mutex_);
+  if (const auto before = outside_time(); before && time < *before) {
+    return Error{.message = "the clock that is followed goes back, from " +
+                            std::to_string(ToSeconds(before->time_since_epoch())) + " s to " +
+                            std::to_string(ToSeconds(time.time_since_epoch())) + " s"};
+  }
+  outside_time_.store(time.time_since_epoch().count(), std::memory_order_release);
+  event_.Notify();
+  return {};
+}
+
 bool Pace::MayGoOnNow(Time due) {
   const std::lock_guard lock(mutex_);
   may_go_on_at_ = kNever;
+  if (follows_outside_ && due > outside_time().value_or(Time::min())) return false;
   if (is_paused() && cycles_to_step() == 0) return false;
   may_go_on_at_ = pacing_.Deadline(due);
   if (machine_.Now() < may_go_on_at_) return false;

@@ -2,12 +2,13 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 
 #include "core/base/clock.h"
 #include "core/base/ordered_mutex.h"
 #include "core/base/result.h"
 #include "core/lockfree/wake_event.h"
-#include "plugins/scheduling/pacing.h"
+#include "plugins/timing/pacing.h"
 
 namespace runnel {
 
@@ -19,7 +20,19 @@ namespace runnel {
 class Pace {
  public:
   /// `machine` must outlive this. Precondition: Pacing::Takes(speed).
-  Pace(bool is_simulated, double speed, bool is_paused, const Clock& machine);
+  /// `follows_outside`: simulated time passes as SetTime() says.
+  Pace(bool is_simulated, double speed, bool is_paused, const Clock& machine,
+       bool follows_outside = false);
+
+  /// What the clock shows that this one follows: cycles that are due until then run, one after the other, at their times.
+  /// The first time is where it begins. Errors: it follows none; time goes back.
+  Result<void> SetTime(Time time);
+  [[nodiscard]] bool follows_outside() const noexcept { return follows_outside_; }
+  /// Nothing before the first.
+  [[nodiscard]] std::optional<Time> outside_time() const noexcept {
+    const auto time = outside_time_.load(std::memory_order_acquire);
+    return time == kNoTime ? std::nullopt : std::optional(Time(Duration(time)));
+  }
 
   /// No further cycle begins; one that is under way comes to its end.
   Result<void> Pause();
@@ -74,7 +87,11 @@ class Pace {
   // Under the mutex. Has the scheduler look again.
   void Changed();
 
+  static constexpr Duration::rep kNoTime = Duration::min().count();
+
   const bool is_simulated_;
+  const bool follows_outside_;
+  std::atomic<Duration::rep> outside_time_{kNoTime};
   const Clock& machine_;
   OrderedMutex mutex_{LockLevel::kLeaf};
   Pacing pacing_;  // guarded by mutex_

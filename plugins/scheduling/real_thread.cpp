@@ -9,8 +9,8 @@
 #include "core/log/logger.h"
 #include "plugins/scheduling/due_time.h"
 #include "plugins/scheduling/realtime_setup.h"
-#include "plugins/scheduling/signal_stack.h"
-#include "plugins/scheduling/tick_clock.h"
+#include "core/base/signal_stack.h"
+#include "plugins/timing/tick_clock.h"
 
 namespace runnel {
 
@@ -51,8 +51,8 @@ RealThread::~RealThread() {
 
 std::optional<Error> RealThread::Prioritize() {
   const int priority = runner_->options().priority;
-  if (priority == 0) return {};
-  auto warning = UseFifoScheduling(thread_.native_handle(), priority);
+  if (priority == std::exchange(priority_, priority)) return {};
+  auto warning = UseScheduling(thread_.native_handle(), priority);
   if (warning) warning->path = runner_->path();
   return warning;
 }
@@ -84,9 +84,17 @@ void RealThread::RunCycles(Time first) {
 
 void RealThread::RunPeriodically(Time first) {
   const SteadyClock clock;
-  const ThreadOptions& options = runner_->options();
+  ThreadOptions options = runner_->options();
   DueTime due(first, options.period, options.on_overrun);
-  while (SleepUntil(due.next(), [this] { return stopping(); })) {
+  const auto is_disturbed = [&] { return stopping() || runner_->period() != options.period; };
+  for (;;) {
+    const bool is_due = SleepUntil(due.next(), is_disturbed);
+    if (stopping()) return;
+    if (runner_->period() != options.period) {
+      options = runner_->options();
+      due.Change(options.period, options.on_overrun, clock.Now());
+    }
+    if (!is_due) continue;
     const Time planned = due.next();
     Time now = clock.Now();
     for (; !runner_->RunCycle({now, options.period}, faults_); now = clock.Now()) {

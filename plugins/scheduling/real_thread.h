@@ -38,6 +38,7 @@ class RealThread {
   [[nodiscard]] bool stopping() const noexcept { return stopping_.load(std::memory_order_acquire); }
 
   const std::shared_ptr<CycleRunner> runner_;
+  int priority_ = 0;  // as last asked for
   FaultDispatcher& faults_;
   std::atomic<bool> stopping_{false};
   std::atomic<bool> ended_{false};

@@ -10,10 +10,11 @@
 
 namespace runnel {
 
-std::optional<Error> UseFifoScheduling(pthread_t thread, int priority) {
+std::optional<Error> UseScheduling(pthread_t thread, int priority) {
   sched_param parameters{};
   parameters.sched_priority = priority;
-  const int failure = pthread_setschedparam(thread, SCHED_FIFO, &parameters);
+  const int failure =
+      pthread_setschedparam(thread, priority > 0 ? SCHED_FIFO : SCHED_OTHER, &parameters);
   if (failure == 0) return {};
   return Error{.message = "SCHED_FIFO with priority " + std::to_string(priority) +
                           " was refused (" + std::strerror(failure) +

@@ -11,8 +11,8 @@ namespace runnel {
 /// Asks the system for what a real-time thread needs. None of it is needed to run: what is not
 /// permitted comes back as a warning, and the thread runs all the same, less punctually.
 
-/// Puts `thread` under SCHED_FIFO. Precondition: 1 <= priority <= 99.
-[[nodiscard]] std::optional<Error> UseFifoScheduling(pthread_t thread, int priority);
+/// Puts `thread` under SCHED_FIFO; with 0 under ordinary scheduling. Precondition: 0 <= priority <= 99.
+[[nodiscard]] std::optional<Error> UseScheduling(pthread_t thread, int priority);
 
 /// Keeps the memory of the process from being paged out. Memory that is allocated later is included
 /// only where that cannot make allocations fail: without a limit on locked memory.

@@ -7,7 +7,7 @@
 #include "core/lockfree/thread_epoch.h"
 #include "core/port/port.h"
 #include "plugins/scheduling/cycle_runner.h"
-#include "plugins/scheduling/cycle_tracer.h"
+#include "plugins/timing/cycle_tracer.h"
 #include "plugins/scheduling/internal/trigger_binding.h"
 
 namespace runnel {
@@ -186,6 +186,7 @@ void ScheduleCompiler::Plan(FrameworkElement& element) {
   }
   HandOver(planned, *ChooseThread(element));
   AddTasks(planned);
+  planned.state->SetPaused(IsToBePaused(planned));
   std::vector<Task> tasks;
   for (const auto& each : planned.tasks) tasks.push_back(each->task);
   CycleRunner& runner = *planned.thread->runner;

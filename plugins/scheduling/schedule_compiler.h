@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/element/runtime.h"
 #include "plugins/scheduling/internal/schedule_plan.h"
+#include "plugins/timing/profile.h"
 #include "plugins/scheduling/schedule.h"
 #include "plugins/scheduling/thread_container.h"
 
@@ -68,6 +69,19 @@ class ScheduleCompiler {
   [[nodiscard]] bool IsStopped(const FrameworkElement& element) const;
   /// Adds those that run anything at or below `element`, as planned, and are not in `runners` yet.
   void AddRunnersOf(FrameworkElement& element, Runners& runners) const;
+
+  /// All tasks with their times, thread by thread, as Install() has them run.
+  [[nodiscard]] std::vector<ProfiledTask> Tasks() const;
+  void ResetMeters();
+  /// By the ids of elements; those that are not named have none from now on.
+  void SetChains(std::map<std::uint64_t, std::unique_ptr<ChainSteps>> steps);
+  /// Leaves what is at or below the path out of cycles, or all that a thread of this path runs, also what comes later;
+  /// or no more.
+  void SetPaused(const std::string& path, bool is_paused);
+  [[nodiscard]] const std::vector<std::string>& paused() const noexcept { return paused_; }
+  /// Whether anything at or below the element is to be left out, by another path than `but_for`.
+  [[nodiscard]] bool IsPaused(FrameworkElement& element, const std::string& but_for = {}) const;
+
   /// Loops that were cut, modules that never run or that name no thread where there are several.
   [[nodiscard]] std::vector<Error> Warnings() const;
 
@@ -90,6 +104,8 @@ class ScheduleCompiler {
   void NoteChange(internal::ThreadSchedule& thread);
   [[nodiscard]] internal::ThreadSchedule* ChooseThread(const FrameworkElement& element) const;
   [[nodiscard]] bool IsAChoiceMissing(const FrameworkElement& element) const;
+  [[nodiscard]] bool IsToBePaused(const internal::PlannedElement& planned,
+                                  const std::string& but_for = {}) const;
   std::unique_ptr<Schedule> MakeSchedule(internal::ThreadSchedule& thread);
 
   const std::string default_thread_;
@@ -106,6 +122,7 @@ class ScheduleCompiler {
   std::shared_ptr<const std::vector<CycleRunner*>> waiting_;
   std::shared_ptr<Installation> installation_ = std::make_shared<Installation>();  // the next one
   std::uint64_t schedules_made_ = 0;
+  std::vector<std::string> paused_;
 };
 
 }  // namespace runnel

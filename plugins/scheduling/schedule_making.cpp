@@ -100,8 +100,10 @@ bool ScheduleCompiler::IsStopped(const FrameworkElement& element) const {
 void ScheduleCompiler::AddRunnersOf(FrameworkElement& element, Runners& runners) const {
   element.Visit([&](const FrameworkElement& each) {
     const auto known = elements_.find(each.id());
-    if (known == elements_.end() || known->second.thread == nullptr) return;
-    const auto& runner = known->second.thread->runner;
+    const auto thread = threads_.find(each.id());
+    const bool is_run = known != elements_.end() && known->second.thread != nullptr;
+    if (!is_run && thread == threads_.end()) return;
+    const auto& runner = is_run ? known->second.thread->runner : thread->second->runner;
     if (std::ranges::find(runners, runner) == runners.end()) runners.push_back(runner);
   });
 }

@@ -5,7 +5,8 @@
 #include <utility>
 
 #include "plugins/scheduling/cycle_runner.h"
-#include "plugins/scheduling/trace_track.h"
+#include "plugins/timing/latency_chain.h"
+#include "plugins/timing/trace_track.h"
 
 namespace runnel {
 
@@ -34,6 +35,7 @@ ScheduledElement::ScheduledElement(std::string path, std::unique_ptr<TracedEleme
 }
 
 ScheduledElement::~ScheduledElement() {
+  delete chains();
   LivingElements& living = LivingElements::OfProcess();
   const std::lock_guard lock(living.mutex);
   living.all.erase(this);

@@ -11,7 +11,7 @@
 
 #include "core/port/waker.h"
 #include "plugins/scheduling/fault_dispatcher.h"
-#include "plugins/scheduling/task_meter.h"
+#include "plugins/timing/task_meter.h"
 #include "plugins/scheduling/task_watch.h"
 
 namespace runnel {
@@ -68,8 +68,8 @@ class ScheduledElement final : public Waker {
   [[nodiscard]] TaskMeter& meter(Phase phase) noexcept {
     return meters_[static_cast<std::size_t>(phase)];
   }
-  /// What it has to do with chains whose latency is measured; nullptr: nothing. Set under the structure lock; what
-  /// was there before is to be retired.
+  /// What it has to do with chains whose latency is measured; nullptr: nothing. Owned by this; set under the structure
+  /// lock, and what was there before is the caller's to retire.
   [[nodiscard]] const ChainSteps* chains() const noexcept {
     return chains_.load(std::memory_order_acquire);
   }

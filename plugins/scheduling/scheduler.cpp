@@ -15,6 +15,8 @@ namespace runnel {
 
 namespace {
 
+constexpr Duration kLookAtClock = std::chrono::milliseconds(1);
+
 bool IsSimulated(const SchedulerOptions& options) {
   return options.clock == SchedulerOptions::ClockKind::kSimulated;
 }
@@ -25,7 +27,8 @@ Scheduler::Scheduler(Runtime& runtime, SchedulerOptions options)
     : runtime_(runtime),
       options_(std::move(options)),
       clock_before_(runtime.clock()),
-      pace_(IsSimulated(options_), options_.speed, options_.is_paused, machine_),
+      pace_(IsSimulated(options_), options_.speed, options_.is_paused, machine_,
+            IsSimulated(options_) && options_.follows_outside_clock),
       compiler_(options_.default_thread, options_.tracer, options_.watch) {
   if (IsSimulated(options_)) runtime_.set_clock(simulation_.clock());
   runtime_.AddListener(*this);
@@ -53,22 +56,41 @@ Scheduler::~Scheduler() {
 
 void Scheduler::OnReady(FrameworkElement& element) {
   compiler_.Add(element);
+  NoteChainChange();
   Changed();
 }
 
 void Scheduler::OnDeleted(FrameworkElement& element) {
   compiler_.Release(element);
+  NoteChainChange();
   Changed();
 }
 
 void Scheduler::OnConnected(FrameworkElement& from, FrameworkElement& to) {
   compiler_.Connect(static_cast<Port&>(from), static_cast<Port&>(to));
+  NoteChainChange();
   Changed();
 }
 
 void Scheduler::OnDisconnected(FrameworkElement& from, FrameworkElement& to) {
   compiler_.Disconnect(static_cast<Port&>(from), static_cast<Port&>(to));
+  NoteChainChange();
   Changed();
+}
+
+// On the simulated clock the thread that steps looks for it.
+void Scheduler::OnOptionsChanged(ThreadContainer& thread) {
+  has_changes_.store(true, std::memory_order_relaxed);
+  for (const auto& each : threads_) {
+    if (each->runner() != thread.runner()) continue;
+    if (auto warning = each->Prioritize()) {
+      faults_.Note({.path = warning->path,
+                    .message = warning->message,
+                    .time = runtime_.clock().Now(),
+                    .is_mended = true,
+                    .kind = Fault::Kind::kNote});
+    }
+  }
 }
 
 void Scheduler::OnAssigned(FrameworkElement& element) {
@@ -110,11 +132,13 @@ void Scheduler::BringUpToDate() {
       runners_ = compiler_.runners();
       has_other_runners_ = true;
       UpdateInstruments();
+      NoteChainChange();
     }
     if (compiler_.has_changes()) {
       compiler_.Install();
       has_changes_.store(true, std::memory_order_relaxed);  // as in Changed()
     }
+    if (std::exchange(have_chains_changed_, false)) FollowChains();
     if (is_running_ && has_other_runners_) StartThreads(machine_.Now());
   } catch (...) {
     compiler_.NeedAll();
@@ -129,6 +153,7 @@ void Scheduler::FollowChanges() {
   has_stepped_ = true;
   BringUpToDate();
   if (std::exchange(has_other_runners_, false)) simulation_.SetRunners(runners_);
+  simulation_.FollowOptions();
   has_changes_.store(false, std::memory_order_relaxed);
 }
 
@@ -144,10 +169,11 @@ Scheduler::StepResult Scheduler::Advance(std::optional<Time> end, Duration timeo
   PrepareLogging();  // this thread runs cycles from here on
   std::optional<Time> latest;
   while (!stop_requested()) {
+    const bool has_time = FollowOutsideClock();
     const auto due = NextDue();
     const bool is_cycle = due && (!end || *due < *end);
     if (!is_cycle && !end) return StepResult::kEnd;
-    if (pace_.MayGoOnTo(is_cycle ? *due : *end)) {
+    if (has_time && pace_.MayGoOnTo(is_cycle ? *due : *end)) {
       if (stop_requested()) break;
       if (!is_cycle) {
         simulation_.clock().Set(*end);
@@ -160,8 +186,13 @@ Scheduler::StepResult Scheduler::Advance(std::optional<Time> end, Duration timeo
       return StepResult::kCycle;
     }
     if (!latest) latest = SaturatingSum(machine_.Now(), timeout);
+    if (pace_.follows_outside()) ShowOutsideTime();
     if (machine_.Now() >= *latest) return StepResult::kTimeout;
-    pace_.Wait(*latest);
+    if (pace_.follows_outside()) {
+      pace_.Wait(options_.clock_port.empty() ? *latest : machine_.Now() + kLookAtClock);
+    } else {
+      pace_.Wait(*latest);
+    }
   }
   return StepResult::kStopped;
 }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -18,6 +19,7 @@
 #include "plugins/scheduling/fault.h"
 #include "plugins/scheduling/fault_dispatcher.h"
 #include "plugins/scheduling/pace.h"
+#include "plugins/timing/profile.h"
 #include "plugins/scheduling/real_thread.h"
 #include "plugins/scheduling/schedule_compiler.h"
 #include "plugins/scheduling/simulated_executor.h"
@@ -39,6 +41,11 @@ struct SchedulerOptions {
   double speed = 0;
   /// kSimulated: begins with a pause (Pace).
   bool is_paused = false;
+  /// kSimulated: time passes as Pace::SetTime() says, from another simulator or ROS's /clock.
+  bool follows_outside_clock = false;
+  /// Path of the output that says it instead, of type double (seconds) or int64 (nanoseconds); what publishes there is
+  /// no cycle of this scheduler's. "": none.
+  std::string clock_port = {};
   /// kReal: lock the memory of the process, if any thread has a priority.
   bool lock_memory = true;
   /// Name of the container for what is assigned to none; "" or unknown: the one made first.
@@ -151,6 +158,42 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   /// Those that are stuck now, also after Stop().
   [[nodiscard]] std::vector<StuckModule> StuckModules() const { return cycle_watchdog_.Stuck(); }
 
+  /// How long each task takes is measured from now on, or no more unless a ProfileUse lives. What is measured begins at
+  /// nothing whenever the measuring begins.
+  void SetProfiled(bool is_profiled);
+  /// Has it measured while it lives; the scheduler outlives it.
+  class ProfileUse {
+   public:
+    explicit ProfileUse(Scheduler& scheduler);
+    ~ProfileUse();
+    ProfileUse(const ProfileUse&) = delete;
+    ProfileUse& operator=(const ProfileUse&) = delete;
+
+   private:
+    Scheduler& scheduler_;
+  };
+  /// Since when, if it is measured.
+  [[nodiscard]] std::optional<Duration> profiled_for() const;
+  /// No tasks if nothing is measured. Takes the structure lock, as all of these.
+  [[nodiscard]] Profile ReadProfile();
+
+  /// Measures how old what `to` publishes is, along the modules in between, also after those are replaced. Errors: no
+  /// such port, no data flow.
+  Result<void> AddLatency(const LatencyRequest& request);
+  /// Errors: there is none between these two.
+  Result<void> RemoveLatency(const LatencyRequest& request);
+  [[nodiscard]] std::vector<Latency> ReadLatencies();
+
+  /// Leaves all at or below the path out of cycles, on either clock, or all that a thread of this path runs; what comes
+  /// there later, too. When it returns none of them runs any more, but for one that a StuckRule has found stuck. Not
+  /// within a cycle, nor under the structure lock. Errors: no such element; a cycle that does not end in 5 s.
+  Result<void> SetPaused(std::string_view path, bool is_paused);
+  [[nodiscard]] std::vector<std::string> PausedPaths() const;
+  /// Whether cycles leave out any module at or below the element; what this path pauses does not count, if it is given.
+  [[nodiscard]] bool IsPaused(FrameworkElement& element, std::string_view but_for = {}) const;
+  /// Errors: no such element; it is not this path that has been paused.
+  [[nodiscard]] Result<void> CheckPaused(std::string_view path) const;
+
   /// Is asked first about each fault, outside of cycles and without locks. What it says it has done
   /// about it is added to the fault's message, and no rule is applied then; nullopt: not its business. Who
   /// throws std::bad_alloc is asked again.
@@ -172,6 +215,7 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   void OnConnected(FrameworkElement& from, FrameworkElement& to) override;
   void OnDisconnected(FrameworkElement& from, FrameworkElement& to) override;
   void OnAssigned(FrameworkElement& element) override;
+  void OnOptionsChanged(ThreadContainer& thread) override;
   void OnChangesEnd() override;
 
  private:
@@ -185,17 +229,26 @@ class Scheduler final : public ElementListener, public AssignmentListener {
 
   void EndThreads(RealThreads& threads) noexcept;
   void UpdateInstruments();
+  void BeginOrEndProfile();
+  Result<std::shared_ptr<LatencyChain>> MakeChain(const LatencyRequest& request);
+  static void FollowPath(const DataPath& path, LatencyChain& chain);
+  void FollowChains();
+  void TieChains();
+  void NoteChainChange() noexcept { have_chains_changed_ = !chains_.empty(); }
 
   [[nodiscard]] Runners RunnersOf(const std::vector<std::string>& paths);
 
   // Simulated clock.
   void FollowChanges();
+  void LookAtClockPort();
+  [[nodiscard]] bool FollowOutsideClock();
+  void ShowOutsideTime();
 
   // All under the structure lock.
   // Whether a cycle may begin at any time.
   [[nodiscard]] bool is_live() const noexcept { return is_running_ || has_stepped_; }
   [[nodiscard]] bool is_up_to_date() const noexcept {
-    return !compiler_.needs_all() && !compiler_.has_changes();
+    return !compiler_.needs_all() && !compiler_.has_changes() && !have_chains_changed_;
   }
   void Changed();
   void BringUpToDate();
@@ -227,11 +280,17 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   std::vector<Error> realtime_warnings_;
   RealThreads threads_;
   RealThreads ending_;  // their containers are gone, or their modules have not returned
-  bool is_profiled_ = false;
+  bool is_profiled_ = false;  // whether or not somebody uses it
+  int profile_uses_ = 0;
+  std::optional<Time> profile_began_;  // by the machine
+  std::vector<std::shared_ptr<LatencyChain>> chains_;
+  bool have_chains_changed_ = false;
 
   // Simulated clock: set under the structure lock when something has changed, and taken back under
   // it by the thread that steps, which need not lock where nothing has.
   std::atomic<bool> has_changes_{true};
+  bool outside_clock_has_begun_ = false;
+  bool outside_clock_went_back_ = false;
 
   Watchdog watchdog_;
   Time next_watch_{};  // by it

@@ -21,6 +21,22 @@ void SimulatedExecutor::SetRunners(const std::vector<std::shared_ptr<CycleRunner
   }
 }
 
+void SimulatedExecutor::BeginAt(Time first) {
+  clock_.Set(first);
+  for (PeriodicThread& each : periodic_) {
+    const ThreadOptions options = each.runner->options();
+    each.due = DueTime(first, options.period, options.on_overrun);
+  }
+}
+
+void SimulatedExecutor::FollowOptions() {
+  for (PeriodicThread& each : periodic_) {
+    const ThreadOptions options = each.runner->options();
+    if (options.period == each.due.period()) continue;
+    each.due.Change(options.period, options.on_overrun, clock_.Now());
+  }
+}
+
 SimulatedExecutor::PeriodicThread* SimulatedExecutor::NextPeriodic() {
   // The first of several smallest: that of the container that was made first.
   const auto next = std::ranges::min_element(

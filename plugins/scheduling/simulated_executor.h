@@ -7,7 +7,7 @@
 #include "core/base/clock.h"
 #include "plugins/scheduling/cycle_runner.h"
 #include "plugins/scheduling/due_time.h"
-#include "plugins/scheduling/tick_clock.h"
+#include "plugins/timing/tick_clock.h"
 
 namespace runnel {
 
@@ -26,6 +26,11 @@ class SimulatedExecutor {
 
   /// Runs these from now on, in this order. New ones are due at once, the others when they were.
   void SetRunners(const std::vector<std::shared_ptr<CycleRunner>>& runners);
+
+  /// Time begins there, and all are due then.
+  void BeginAt(Time first);
+  /// Their periods may be others now.
+  void FollowOptions();
 
   /// When something is to be run next: now, if data waits for a module; nullopt if nothing ever.
   [[nodiscard]] std::optional<Time> NextDue();

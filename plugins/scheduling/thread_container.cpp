@@ -23,21 +23,6 @@ struct ThreadAssignment final : Annotation {
   std::uint64_t id;
 };
 
-void CheckOptions(const FrameworkElement& container, const ThreadOptions& options) {
-  if (options.activation != ThreadOptions::Activation::kTrigger &&
-      options.period <= Duration::zero()) {
-    throw ElementError({.message = "the period of a thread must be positive",
-                        .path = container.path(),
-                        .hint = "for example 0.01 s"});
-  }
-  if (options.priority < 0 || options.priority > kHighestPriority) {
-    throw ElementError({.message = "priority " + std::to_string(options.priority) +
-                                   " of a thread is out of bounds",
-                        .path = container.path(),
-                        .hint = "0 is ordinary scheduling, 1 .. 99 is SCHED_FIFO"});
-  }
-}
-
 void SetAssignment(FrameworkElement& element, std::uint64_t thread) {
   Runtime& runtime = element.runtime();
   const std::lock_guard lock(runtime.structure_mutex());
@@ -52,17 +37,55 @@ void SetAssignment(FrameworkElement& element, std::uint64_t thread) {
 ThreadContainer::ThreadContainer(const Placement& placement, const ThreadOptions& options)
     : FrameworkElement(placement, ElementKind::kThread),
       runner_(std::make_shared<CycleRunner>(path(), options)) {
-  CheckOptions(*this, options);
+  if (auto good = Check(options, path()); !good) throw ElementError(good.error());
 }
 
 ThreadContainer::~ThreadContainer() = default;
 
 ThreadOptions ThreadContainer::options() const noexcept { return runner_->options(); }
 
+Result<void> ThreadContainer::Check(const ThreadOptions& options, const std::string& path) {
+  if (options.activation != ThreadOptions::Activation::kTrigger &&
+      options.period <= Duration::zero()) {
+    return Error{.message = "the period of a thread must be positive",
+                 .path = path,
+                 .hint = "for example 0.01 s"};
+  }
+  if (options.priority < 0 || options.priority > kHighestPriority) {
+    return Error{.message = "priority " + std::to_string(options.priority) +
+                            " of a thread is out of bounds",
+                 .path = path,
+                 .hint = "0 is ordinary scheduling, 1 .. 99 is SCHED_FIFO"};
+  }
+  return {};
+}
+
+Result<void> ThreadContainer::SetOptions(const ThreadOptions& options) {
+  if (options.activation != this->options().activation) {
+    return Error{.message = "what begins the cycles of a thread cannot be changed",
+                 .path = path(),
+                 .hint = "make another thread, and move its modules there"};
+  }
+  if (auto good = Check(options, path()); !good) return good;
+  const std::lock_guard lock(runtime().structure_mutex());
+  runner_->set_options(options);
+  runtime().ForEachListener([&](ElementListener& listener) {
+    if (auto* const told = dynamic_cast<AssignmentListener*>(&listener)) {
+      told->OnOptionsChanged(*this);
+    }
+  });
+  return {};
+}
+
 CycleStatistics ThreadContainer::statistics() const noexcept { return runner_->statistics(); }
 
 const std::vector<std::string>& ActivationNames() {
   static const std::vector<std::string> names{"period", "free_running", "trigger"};
+  return names;
+}
+
+const std::vector<std::string>& OverrunNames() {
+  static const std::vector<std::string> names{"skip", "catch_up"};
   return names;
 }
 

@@ -4,8 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "core/base/result.h"
 #include "core/element/framework_element.h"
-#include "plugins/scheduling/cycle_statistics.h"
+#include "plugins/timing/cycle_statistics.h"
 #include "plugins/scheduling/thread_options.h"
 
 namespace runnel {
@@ -24,6 +25,11 @@ class ThreadContainer final : public FrameworkElement {
   ~ThreadContainer() override;
 
   [[nodiscard]] ThreadOptions options() const noexcept;
+  /// Errors: a period that is not positive, a priority out of 0 .. 99; `path`: whose.
+  [[nodiscard]] static Result<void> Check(const ThreadOptions& options, const std::string& path);
+  /// From one of the next cycles on, all but the activation, which stays as it is. Takes the structure lock. Errors: as
+  /// of the constructor; another activation.
+  Result<void> SetOptions(const ThreadOptions& options);
   /// Of all cycles so far. Lock-free.
   [[nodiscard]] CycleStatistics statistics() const noexcept;
 
@@ -36,6 +42,9 @@ class ThreadContainer final : public FrameworkElement {
 
 /// In the order of ThreadOptions::Activation: "period", "free_running", "trigger".
 [[nodiscard]] const std::vector<std::string>& ActivationNames();
+
+/// In the order of ThreadOptions::OnOverrun: "skip", "catch_up".
+[[nodiscard]] const std::vector<std::string>& OverrunNames();
 
 /// When cycles begin, for people: "every 20ms", "free-running", "when data comes".
 [[nodiscard]] std::string ActivationText(const ThreadOptions& options);
@@ -69,6 +78,8 @@ class AssignmentListener {
  public:
   /// To another thread or to none, under the structure lock. Must not throw.
   virtual void OnAssigned(FrameworkElement& element) = 0;
+  /// The container has other options, under the structure lock. Must not throw.
+  virtual void OnOptionsChanged(ThreadContainer& /*thread*/) {}
 
  protected:
   ~AssignmentListener() = default;

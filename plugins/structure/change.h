@@ -9,6 +9,7 @@
 
 #include "core/port/port.h"
 #include "core/port/port_options.h"
+#include "plugins/scheduling/thread_options.h"
 
 namespace runnel {
 
@@ -91,9 +92,24 @@ struct AssignToThread {
   std::string thread;  ///< name of the container; "" takes the assignment back
 };
 
-using Change =
-    std::variant<CreateModule, CreateGroup, CreatePort, CreateParameter, DeleteElement,
-                 ConnectPorts, DisconnectPorts, SetParameter, ReplaceModule, AssignToThread>;
+/// Makes a thread container.
+struct AddThread {
+  std::string name;  ///< or its path
+  ThreadOptions options = {};
+};
+
+/// Gives a thread other options, from one of its next cycles on; what is not said stays. A thread is deleted as other
+/// elements are.
+struct ScheduleThread {
+  std::string thread;  ///< its name or path
+  std::optional<Duration> period = {};
+  std::optional<int> priority = {};
+  std::optional<ThreadOptions::OnOverrun> on_overrun = {};
+};
+
+using Change = std::variant<CreateModule, CreateGroup, CreatePort, CreateParameter, DeleteElement, ConnectPorts,
+                            DisconnectPorts, SetParameter, ReplaceModule, AssignToThread,
+                            AddThread, ScheduleThread>;
 
 /// Changes that belong together, in the order in which they build on one another.
 using ChangeSet = std::vector<Change>;

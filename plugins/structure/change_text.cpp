@@ -7,7 +7,8 @@
 
 #include "core/base/nearest_name.h"
 #include "core/base/number_text.h"
-#include "core/types/text_format.h"
+#include "core/types/duration_text.h"
+#include "plugins/scheduling/thread_container.h"
 #include "plugins/structure/change_arguments.h"
 
 namespace runnel {
@@ -115,10 +116,42 @@ class Arguments {
   std::optional<Error> error_;
 };
 
+// period=20ms priority=10 on_overrun=skip; of a new thread activation=trigger, too.
+template <typename Thread>
+void ReadThreadOptions(Arguments& arguments, Thread& thread, ThreadOptions* made) {
+  const auto read = [&](const ChangeArgument& argument) {
+    if (argument.name() == "period") {
+      const auto period = ParseDuration(argument.value());
+      if (!period) arguments.Complain(argument.position, period.error().message, period.error().hint);
+      if (period) thread.period = *period;
+    } else if (argument.name() == "priority") {
+      thread.priority = arguments.ReadCount<int>(argument, 99);
+    } else if (argument.name() == "on_overrun") {
+      thread.on_overrun = static_cast<ThreadOptions::OnOverrun>(
+          arguments.Choose(argument, argument.value(), OverrunNames()));
+    } else if (argument.name() == "activation" && made != nullptr) {
+      made->activation = static_cast<ThreadOptions::Activation>(
+          arguments.Choose(argument, argument.value(), ActivationNames()));
+    } else {
+      return false;
+    }
+    return true;
+  };
+  std::vector<std::string> names{"period", "priority", "on_overrun"};
+  if (made != nullptr) names.emplace_back("activation");
+  arguments.TakeOptions(names, read);
+}
+
 Change ReadCreate(Arguments& arguments) {
   if (arguments.IsNext("group")) {
     arguments.Take("group");
     return CreateGroup{arguments.Take("a path")};
+  }
+  if (arguments.IsNext("thread")) {
+    arguments.Take("thread");
+    AddThread change{.name = arguments.Take("a name")};
+    ReadThreadOptions(arguments, change.options, &change.options);
+    return change;
   }
   if (arguments.IsNext("port")) {
     arguments.Take("port");
@@ -213,15 +246,22 @@ Change ReadMove(Arguments& arguments) {
   return change;
 }
 
+Change ReadSchedule(Arguments& arguments) {
+  ScheduleThread change{.thread = arguments.Take("a thread")};
+  ReadThreadOptions(arguments, change, nullptr);
+  return change;
+}
+
 struct Verb {
   const char* name;
   const char* usage;
   Change (*read)(Arguments& arguments);
 };
-constexpr std::array<Verb, 7> kVerbs{{
+constexpr std::array<Verb, 8> kVerbs{{
     {"create",
      "create [group] PATH TYPE [NAME=VALUE ...], or create port PATH input|output TYPE "
-     "[description=TEXT], or create parameter PATH PARAMETER ... [description=TEXT]",
+     "[description=TEXT], or create parameter PATH PARAMETER ... [description=TEXT], or create thread NAME "
+     "[period=TIME] [activation=period|free_running|trigger] [priority=N]",
      ReadCreate},
     {"delete", "delete PATH", ReadDelete},
     {"connect", "connect FROM TO [queue=N] [on_full=drop_oldest|drop_newest|refuse] [pull=true]",
@@ -230,6 +270,7 @@ constexpr std::array<Verb, 7> kVerbs{{
     {"set", "set PATH VALUE, with a VALUE that has blanks in quotation marks", ReadSet},
     {"replace", "replace PATH with TYPE [NAME=VALUE ...] [probation=CYCLES]", ReadReplace},
     {"move", "move PATH to THREAD", ReadMove},
+    {"schedule", "schedule THREAD [period=TIME] [priority=N] [on_overrun=skip|catch_up]", ReadSchedule},
 }};
 
 Result<Change> ReadChange(const ChangeLine& line) {
@@ -244,58 +285,6 @@ Result<Change> ReadChange(const ChangeLine& line) {
   arguments.End();
   if (arguments.error()) return *arguments.error();
   return change;
-}
-
-std::string SettingsText(const std::vector<Setting>& settings) {
-  std::string text;
-  for (const Setting& each : settings) text += " " + each.parameter + "=" + AsArgument(each.value);
-  return text;
-}
-
-std::string Text(const CreateModule& change) {
-  // Relative paths and absolute ones are the same; these three would be taken for the other arguments.
-  const bool is_keyword =
-      change.path == "group" || change.path == "port" || change.path == "parameter";
-  return std::string("create ") + (is_keyword ? "/" : "") + AsArgument(change.path) + " " +
-         AsArgument(change.type) + SettingsText(change.settings);
-}
-std::string Text(const CreateGroup& change) { return "create group " + AsArgument(change.path); }
-std::string Text(const CreatePort& change) {
-  const bool is_input = change.direction == Port::Direction::kInput;
-  return "create port " + AsArgument(change.path) + " " + kDirections[is_input ? 0 : 1] + " " +
-         AsArgument(change.type) +
-         (change.description.empty() ? "" : " description=" + AsArgument(change.description));
-}
-std::string Text(const CreateParameter& change) {
-  std::string text = "create parameter " + AsArgument(change.path);
-  for (const std::string& target : change.targets) text += " " + AsArgument(target);
-  return text +
-         (change.description.empty() ? "" : " description=" + AsArgument(change.description));
-}
-std::string Text(const DeleteElement& change) { return "delete " + AsArgument(change.path); }
-std::string Text(const ConnectPorts& change) {
-  std::string text = "connect " + AsArgument(change.from) + " " + AsArgument(change.to);
-  if (change.options.pull) text += " pull=true";
-  if (change.options.queue == 0) return text;
-  text += " queue=" + std::to_string(change.options.queue);
-  if (change.options.on_full == OnFull::kDropOldest) return text;
-  return text + " on_full=" + OnFullNames()[static_cast<std::size_t>(change.options.on_full)];
-}
-std::string Text(const DisconnectPorts& change) {
-  return "disconnect " + AsArgument(change.from) + " " + AsArgument(change.to);
-}
-std::string Text(const SetParameter& change) {
-  return "set " + AsArgument(change.path) + " " +
-         AsArgument(change.object ? ToText(*change.type, change.object.get()) : change.value);
-}
-std::string Text(const ReplaceModule& change) {
-  std::string text = "replace " + AsArgument(change.path) + " with " + AsArgument(change.type) +
-                     SettingsText(change.settings);
-  if (change.probation_cycles == ReplaceModule{}.probation_cycles) return text;
-  return text + " probation=" + std::to_string(change.probation_cycles);
-}
-std::string Text(const AssignToThread& change) {
-  return "move " + AsArgument(change.path) + " to " + AsArgument(change.thread);
 }
 
 }  // namespace
@@ -313,10 +302,6 @@ PlacedChanges ParseChanges(std::string_view text, const SourcePosition& begins,
     placed.positions.push_back(line.front().position);
   }
   return placed;
-}
-
-std::string ChangeText(const Change& change) {
-  return std::visit([](const auto& each) { return Text(each); }, change);
 }
 
 }  // namespace runnel

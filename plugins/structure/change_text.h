@@ -25,6 +25,8 @@ namespace runnel {
 ///     replace /robot/planner with planning/tangent_bug step=0.1 probation=10
 ///     move /robot/planner to control
 ///     move /robot/planner to ""                     # back to where its group is run
+///     create thread fast period=5ms priority=20     # activation=trigger, free_running; on_overrun=catch_up
+///     schedule fast period=2ms                      # delete /threads/fast
 ///
 /// Arguments are separated by whitespace. What has whitespace or a ';' in it stands in quotation marks, in which
 /// the escapes are those of C++ (\" and \\, \n, \t, \r); a value in brackets, as the text format of

@@ -51,6 +51,8 @@ void AddCreation(const FrameworkElement& element, ChangeSet& changes,
   const auto* const port = dynamic_cast<const Port*>(&element);
   if (!type.empty()) {
     changes.push_back(CreateModule{element.path(), type, Settings(element)});
+  } else if (const auto* const container = dynamic_cast<const ThreadContainer*>(&element)) {
+    AddThreadAgain(*container, changes);
   } else if (element.kind() == ElementKind::kGroup) {
     changes.push_back(CreateGroup{element.path()});
   } else if (port != nullptr && port->is_proxy()) {
@@ -98,6 +100,7 @@ std::string WhatItIs(const FrameworkElement& element) {
   const std::string type = FindModuleType(element);
   if (!type.empty()) return type;
   if (element.kind() == ElementKind::kParameter) return "parameter";
+  if (element.kind() == ElementKind::kThread) return "thread";
   return element.kind() == ElementKind::kGroup ? "group" : "port";
 }
 

@@ -10,6 +10,10 @@
 #include "core/element/framework_element.h"
 #include "plugins/structure/change.h"
 
+namespace runnel {
+class ThreadContainer;
+}
+
 namespace runnel::internal {
 
 // What would take a change set back is noted step by step while it is carried out, each step just before it takes
@@ -19,6 +23,9 @@ namespace runnel::internal {
 /// ones, its assignments to threads and its connections. Under the structure lock.
 /// `why_not` is set if there is something that no change can make.
 [[nodiscard]] ChangeSet MakeAgain(FrameworkElement& element, std::optional<Error>& why_not);
+
+/// The same for a thread, with what is assigned to it.
+void AddThreadAgain(const ThreadContainer& thread, ChangeSet& changes);
 
 /// Puts a module like `before` in the place of `after`, with the values that it has now.
 [[nodiscard]] ChangeSet ReplaceBack(const FrameworkElement& before, const FrameworkElement& after,

@@ -87,6 +87,8 @@ class Plan {
     return CheckReplacement(change, Misfits::kAreRefused);
   }
   Result<void> Check(const AssignToThread& change);
+  Result<void> Check(const AddThread& change);
+  Result<void> Check(const ScheduleThread& change);
 
   // What becomes of connections that a module which takes another one's place has no port for.
   enum class Misfits { kAreRefused, kAreCut };

@@ -41,6 +41,13 @@ struct StuckReaction {
   Reaction on_return = {};
 };
 
+/// Modules that somebody has paused (Supervisor::SetPaused()): safe values, once they stand still.
+struct PauseReaction {
+  std::string of;  ///< path; done when what is paused is at or above it, or its thread is
+  Reaction on_pause = {};
+  Reaction on_resume = {};
+};
+
 /// Something that has been done by a rule, or could not be.
 struct Notice {
   std::string path;  ///< of what the rule watches

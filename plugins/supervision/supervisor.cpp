@@ -36,7 +36,15 @@ struct Supervisor::Shared {
   Runtime& runtime;
   Scheduler& scheduler;
   const Perform perform;
+  // Whether a rule of modules that are paused has been applied.
+  struct KnownPause {
+    PauseReaction rule;
+    bool is_applied = false;
+  };
+
   std::vector<StaleWatch> watches;  // of the thread that looks out
+  std::mutex pausing;               // one after the other; before all others
+  std::vector<KnownPause> pauses;   // guarded by pausing
   OrderedMutex mutex{LockLevel::kLeaf};
   std::vector<Notice> notices;  // guarded by mutex
 };
@@ -171,6 +179,35 @@ void Supervisor::Add(StuckReaction rule) {
   if (!rule.on_stuck.is_empty()) watched.on_stuck = CallOf(rule.on_stuck, "is stuck");
   if (!rule.on_return.is_empty()) watched.on_return = CallOf(rule.on_return, "has returned");
   scheduler_.AddStuckRule(std::move(watched));
+}
+
+void Supervisor::Add(PauseReaction rule) {
+  const std::lock_guard lock(shared_->pausing);
+  shared_->pauses.push_back({std::move(rule)});
+}
+
+// Who goes on finds what the rules have taken back.
+Result<void> Supervisor::SetPaused(std::string_view path, bool is_paused) {
+  const std::lock_guard lock(shared_->pausing);
+  if (is_paused) {
+    if (auto paused = scheduler_.SetPaused(path, true); !paused) return paused;
+  } else if (auto known = scheduler_.CheckPaused(path); !known) {
+    return known;
+  }
+  Runtime& runtime = shared_->runtime;
+  for (Shared::KnownPause& each : shared_->pauses) {
+    bool applies = false;
+    {
+      const std::lock_guard structure(runtime.structure_mutex());
+      const auto found = runtime.root().Find(each.rule.of);
+      applies = found && scheduler_.IsPaused(**found, is_paused ? "" : path);
+    }
+    if (applies == std::exchange(each.is_applied, applies)) continue;
+    const Reaction& reaction = applies ? each.rule.on_pause : each.rule.on_resume;
+    if (reaction.is_empty()) continue;
+    shared_->React(reaction, each.rule.of, applies ? "is paused" : "goes on", runtime.clock().Now());
+  }
+  return is_paused ? Result<void>() : scheduler_.SetPaused(path, false);
 }
 
 std::vector<Notice> Supervisor::TakeNotices() {

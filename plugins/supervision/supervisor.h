@@ -2,6 +2,8 @@
 
 #include <functional>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/result.h"
@@ -37,6 +39,10 @@ class Supervisor {
   /// What is to be done must not delete or replace what the thread that is stuck runs: that fails, as it would have to
   /// wait for it.
   void Add(StuckReaction rule);
+
+  void Add(PauseReaction rule);
+  /// As Scheduler::SetPaused(), and then what the rules say. Errors: the same.
+  Result<void> SetPaused(std::string_view path, bool is_paused);
 
   /// What has been done since the last call, oldest first.
   [[nodiscard]] std::vector<Notice> TakeNotices();

@@ -90,6 +90,15 @@ void TraceFile::AddInstant(int track, std::string_view name, const char* categor
   End(arguments);
 }
 
+void TraceFile::AddArrow(int track, std::string_view name, char phase, Time when,
+                         std::string_view id) {
+  if (!Begin(phase, track, name)) return;
+  fmt::format_to(std::back_inserter(text_), ",\"cat\":\"latency\",\"id\":\"{}\"{}", id,
+                 phase == 's' ? "" : ",\"bp\":\"e\"");
+  AppendTime("ts", when - start_, text_);
+  End("");
+}
+
 void TraceFile::Flush() {
   Write(text_);
   if (error_) {

@@ -53,6 +53,10 @@ class TraceFile {
   void AddInstant(int track, std::string_view name, const char* category, Time when,
                   std::string_view arguments);
 
+  /// One end of an arrow, or a place that it passes: 's', 't' or 'f' (Chrome's phases). It goes from the slice that is
+  /// there at its time to the next one of the same name and id.
+  void AddArrow(int track, std::string_view name, char phase, Time when, std::string_view id);
+
   /// From now on the room may be used that was left for the last events.
   void UseReserve() noexcept { reserve_ = 0; }
   /// Writes down what has been added.

@@ -105,11 +105,7 @@ TraceTrack& TraceRecorder::TrackOf(std::uint64_t id, const std::string& path) {
 std::unique_ptr<TracedElement> TraceRecorder::Watch(FrameworkElement& element) {
   auto traced = std::make_unique<TracedElement>();
   const std::lock_guard lock(mutex_);
-  const auto number_for = [this](const std::string& name) {
-    new_names_.push_back(JsonText(name));
-    return names_given_++;
-  };
-  traced->number = number_for(element.path());
+  traced->number = GiveNumber(element.path());
   for (FrameworkElement* group : element.children()) {
     if (group->kind() != ElementKind::kPortGroup) continue;
     for (FrameworkElement* each : group->children()) {
@@ -117,10 +113,21 @@ std::unique_ptr<TracedElement> TraceRecorder::Watch(FrameworkElement& element) {
       if (port == nullptr || port->is_proxy() || port->direction() != Port::Direction::kOutput) {
         continue;
       }
-      traced->ports.push_back({port, number_for("publish " + port->path()), port->publications()});
+      traced->ports.push_back({port, GiveNumber("publish " + port->path()), port->publications()});
     }
   }
   return traced;
+}
+
+// Under the mutex.
+std::uint64_t TraceRecorder::GiveNumber(const std::string& name) {
+  new_names_.push_back(JsonText(name));
+  return names_given_++;
+}
+
+std::uint64_t TraceRecorder::NumberOf(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  return GiveNumber(name);
 }
 
 void TraceRecorder::OnHold(const std::string& path, Time began, Time ended) noexcept {

@@ -11,7 +11,7 @@
 
 #include "core/element/element_listener.h"
 #include "core/element/runtime.h"
-#include "plugins/scheduling/cycle_tracer.h"
+#include "plugins/timing/cycle_tracer.h"
 #include "plugins/tracing/trace_file.h"
 
 namespace runnel {
@@ -57,6 +57,7 @@ class TraceRecorder final : public CycleTracer, private ElementListener {
 
   TraceTrack& TrackOf(std::uint64_t id, const std::string& path) override;
   std::unique_ptr<TracedElement> Watch(FrameworkElement& element) override;
+  std::uint64_t NumberOf(const std::string& name) override;
   void OnHold(const std::string& path, Time began, Time ended) noexcept override;
 
  private:
@@ -68,6 +69,7 @@ class TraceRecorder final : public CycleTracer, private ElementListener {
   void OnDisconnected(FrameworkElement& from, FrameworkElement& to) override;
 
   void Add(internal::TraceSpan span);
+  std::uint64_t GiveNumber(const std::string& name);
   void AddChange(const std::string& what);
   [[nodiscard]] internal::PendingTrace TakePending();
   void Work() noexcept;

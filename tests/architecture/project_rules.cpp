@@ -26,7 +26,7 @@ void AddApplication(std::vector<IncludeRule>& rules) {
                                                 "plugins/command_service",
                                                 "plugins/control",
                                                 "plugins/parameters",
-                                                "plugins/scheduling",
+                                                "plugins/scheduling", "plugins/timing",
                                                 "plugins/structure",
                                                 "plugins/supervision",
                                                 "plugins/values/watched_port.h"};
@@ -57,35 +57,36 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
                     "plugins/web_server"}});
   rules.push_back({"plugins/application_files",
                    "plugins/application_files",
-                   {"core", "plugins/parameters", "plugins/scheduling", "plugins/structure",
+                   {"core", "plugins/parameters", "plugins/scheduling", "plugins/timing", "plugins/structure",
                     "plugins/supervision"}});
   rules.push_back(
       {"plugins/finroc_files",
        "plugins/finroc_files",
-       {"core", "plugins/parameters", "plugins/application_files", "plugins/scheduling"}});
-  rules.push_back({"plugins/scheduling", "plugins/scheduling", {"core"}});
+       {"core", "plugins/parameters", "plugins/application_files", "plugins/scheduling", "plugins/timing"}});
+  rules.push_back({"plugins/timing", "plugins/timing", {"core"}});
+  rules.push_back({"plugins/scheduling", "plugins/scheduling", {"core", "plugins/timing"}});
   rules.push_back(
-      {"plugins/real_time_check", "plugins/real_time_check", {"core", "plugins/scheduling"}});
+      {"plugins/real_time_check", "plugins/real_time_check", {"core", "plugins/scheduling", "plugins/timing"}});
   rules.push_back({"plugins/testing",
                    "plugins/testing",
-                   {"core", "plugins/real_time_check", "plugins/scheduling"}});
-  rules.push_back({"plugins/crash_report", "plugins/crash_report", {"core", "plugins/scheduling"}});
-  rules.push_back({"plugins/structure", "plugins/structure", {"core", "plugins/scheduling"}});
+                   {"core", "plugins/real_time_check", "plugins/scheduling", "plugins/timing"}});
+  rules.push_back({"plugins/crash_report", "plugins/crash_report", {"core", "plugins/scheduling", "plugins/timing"}});
+  rules.push_back({"plugins/structure", "plugins/structure", {"core", "plugins/scheduling", "plugins/timing"}});
   rules.push_back(
-      {"plugins/tracing", "plugins/tracing", {"core", "plugins/values", "plugins/scheduling"}});
+      {"plugins/tracing", "plugins/tracing", {"core", "plugins/values", "plugins/scheduling", "plugins/timing"}});
   rules.push_back({"plugins/command_service",
                    "plugins/command_service",
-                   {"core", "plugins/scheduling", "plugins/structure"}});
+                   {"core", "plugins/scheduling", "plugins/timing", "plugins/structure"}});
   rules.push_back({"plugins/control",
                    "plugins/control",
-                   {"core", "plugins/command_service", "plugins/scheduling", "plugins/structure",
+                   {"core", "plugins/command_service", "plugins/scheduling", "plugins/timing", "plugins/structure",
                     "plugins/values/watched_port.h"}});
   rules.push_back({"plugins/manifest", "plugins/manifest", {"core", "plugins/values"}});
   rules.push_back({"plugins/mcap", "plugins/mcap", {"core"}});
   rules.push_back({"plugins/recording",
                    "plugins/recording",
                    {"core", "plugins/values", "plugins/mcap", "plugins/application_files",
-                    "plugins/parameters", "plugins/scheduling"}});
+                    "plugins/parameters", "plugins/scheduling", "plugins/timing"}});
   rules.push_back({"plugins/web_server", "plugins/web_server", {"core"}});
   rules.push_back(
       {"the tags of the inspector",
@@ -94,10 +95,10 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/inspector",
                    "plugins/inspector",
                    {"core", "plugins/command_service", "plugins/manifest", "plugins/values",
-                    "plugins/scheduling", "plugins/structure", "plugins/web_server"}});
+                    "plugins/scheduling", "plugins/timing", "plugins/structure", "plugins/web_server"}});
   rules.push_back({"plugins/supervision",
                    "plugins/supervision",
-                   {"core", "plugins/scheduling", "plugins/structure"}});
+                   {"core", "plugins/scheduling", "plugins/timing", "plugins/structure"}});
 }
 
 // A family of modules knows the framework, the types that all share, and itself. Neighbours that a

@@ -20,7 +20,7 @@
 #include "bench/core/workloads/workloads.h"
 #include "core/module/module.h"
 #include "plugins/scheduling/scheduler.h"
-#include "plugins/scheduling/tick_clock.h"
+#include "plugins/timing/tick_clock.h"
 
 namespace runnel::bench {
 

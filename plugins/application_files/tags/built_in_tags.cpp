@@ -5,7 +5,7 @@ namespace runnel {
 void AddBuiltInTags(XmlTagRegistry& tags) {
   for (const auto& make : {ApplicationTag, GroupTypeTag, LoadTag, ClockTag, ThreadTag, PortTag,
                            ModuleTag, ParameterTag, GroupTag, ConnectTag, LogTag, OnFaultTag,
-                           OnStaleTag, OnStuckTag, OtherwiseTag}) {
+                           OnStaleTag, OnStuckTag, OnPauseTag, LatencyTag, ProfileTag, OtherwiseTag}) {
     tags.AddTag(make());
   }
   for (XmlTag& tag : internal::ReactionTags()) tags.AddTag(std::move(tag));

@@ -3,6 +3,7 @@
 #include "core/types/type_of.h"
 #include "core/xml/xml_reading.h"
 #include "plugins/application_files/build_context.h"
+#include "plugins/application_files/path_use.h"
 #include "plugins/application_files/run_description.h"
 #include "plugins/application_files/tags/built_in_tags.h"
 
@@ -39,6 +40,32 @@ void ReadSpeed(const TagUse& use, ClockChoice& choice) {
   RefuseInRealTime(*speed, "the speed of real time cannot be chosen", use, choice);
 }
 
+void CheckPort(const TagUse& use, ClockChoice& choice) {
+  const XmlAttribute& named = use.Get("port");
+  const Port* const port = SearchPort(PathIn(named, use.parent), PathKind::kOutput, use.context);
+  if (port == nullptr) return;
+  if (&port->type() == &TypeOf<double>() || &port->type() == &TypeOf<std::int64_t>()) {
+    choice.options.clock_port = port->path();
+    return;
+  }
+  use.context.Report({.message = "carries " + port->type().name() + ", which is no time",
+                      .path = port->path(),
+                      .hint = "a time is a double in seconds, or an int64 in nanoseconds"},
+                     named.value_position, use.parent);
+}
+
+void ReadPort(const TagUse& use, ClockChoice& choice) {
+  const XmlAttribute* const port = use.Find("port");
+  if (choice.options.follows_outside_clock) {
+    if (port == nullptr) return;
+    use.context.Defer(BuildStage::kChecks, [use, &choice] { CheckPort(use, choice); });
+  } else if (port != nullptr) {
+    use.context.Report({.message = "only a clock from outside is said by a port",
+                        .hint = "leave out port, or write type=\"outside\""},
+                       port->position, use.parent);
+  }
+}
+
 void ReadPaused(const TagUse& use, ClockChoice& choice) {
   const XmlAttribute* const paused = use.Find("paused");
   if (paused == nullptr) return;
@@ -55,11 +82,14 @@ FrameworkElement* ChooseClock(const TagUse& use) {
   }
   auto& choice = use.parent.Annotate(std::make_unique<ClockChoice>());
   choice.line = use.xml.position().line;
-  const bool is_simulated = use.Get("type").value == "simulated";
+  const bool is_outside = use.Get("type").value == "outside";
+  const bool is_simulated = is_outside || use.Get("type").value == "simulated";
   choice.options.clock =
       is_simulated ? SchedulerOptions::ClockKind::kSimulated : SchedulerOptions::ClockKind::kReal;
-  if (is_simulated) choice.options.speed = 1;
+  choice.options.follows_outside_clock = is_outside;
+  if (is_simulated && !is_outside) choice.options.speed = 1;
   ReadSpeed(use, choice);
+  ReadPort(use, choice);
   ReadPaused(use, choice);
   return &use.parent;
 }
@@ -68,9 +98,14 @@ std::vector<SavedTag> SavedClock(const FrameworkElement& application) {
   const auto* const choice = application.FindAnnotation<ClockChoice>();
   if (choice == nullptr) return {};
   const bool is_simulated = choice->options.clock == SchedulerOptions::ClockKind::kSimulated;
-  std::vector<SavedAttribute> tag{{"type", is_simulated ? "simulated" : "real"}};
-  if (is_simulated) {
+  const bool is_outside = choice->options.follows_outside_clock;
+  std::vector<SavedAttribute> tag{
+      {"type", is_outside ? "outside" : (is_simulated ? "simulated" : "real")}};
+  if (is_outside) tag.push_back({.name = "port", .value = "", .is_default = true, .is_kept = true});
+  if (is_simulated && !is_outside) {
     tag.push_back({"speed", TextOf(choice->options.speed), choice->options.speed == 1});
+  }
+  if (is_simulated) {
     tag.push_back(
         {"paused", choice->options.is_paused ? "true" : "false", !choice->options.is_paused});
   }
@@ -91,7 +126,13 @@ XmlTag ClockTag() {
           .attributes = {{.name = "type",
                           .kind = AttributeKind::kChoice,
                           .required = true,
-                          .choices = {"real", "simulated"}},
+                          .summary = "outside: simulated time that another simulator's or ROS's clock says",
+                          .choices = {"real", "simulated", "outside"}},
+                         {.name = "port",
+                          .kind = AttributeKind::kPath,
+                          .summary = "of a clock from outside: the output that says it, in seconds "
+                                     "(double) or nanoseconds (int64); without, the program does",
+                          .names_element = true},
                          {.name = "speed",
                           .kind = AttributeKind::kNumber,
                           .summary = "of simulated time, at most; 1 (which it is by default) is "

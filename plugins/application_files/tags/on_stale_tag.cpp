@@ -73,8 +73,8 @@ XmlTag OnStaleTag() {
 
 XmlTag OtherwiseTag() {
   return {.name = "otherwise",
-          .summary = "what happens when the input is fresh again, or the module has returned",
-          .parents = {"on_stale", "on_stuck"}};
+          .summary = "what happens when the input is fresh again, the module has returned or goes on",
+          .parents = {"on_stale", "on_stuck", "on_pause"}};
 }
 
 }  // namespace runnel

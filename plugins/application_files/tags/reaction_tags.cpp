@@ -89,7 +89,7 @@ void ReadReplace(const ReactionUse& use) {
 }  // namespace
 
 std::vector<XmlTag> ReactionTags() {
-  const std::vector<std::string> parents{"on_stale", "on_stuck", "on_fault", "otherwise"};
+  const std::vector<std::string> parents{"on_stale", "on_stuck", "on_pause", "on_fault", "otherwise"};
   return {{.name = "switch",
            .summary = "feeds an input from another source",
            .parents = parents,

@@ -24,9 +24,6 @@ constexpr std::size_t kHighestPriority = 99;
 
 using Activation = ThreadOptions::Activation;
 
-// In the order of OnOverrun.
-const std::vector<std::string> kOverruns{"skip", "catch_up"};
-
 // Which of the words the tag says; the first if none.
 template <typename Kind>
 Kind Chosen(const TagUse& use, const char* name, const std::vector<std::string>& words) {
@@ -78,7 +75,7 @@ FrameworkElement* MakeThread(const TagUse& use) {
   options.activation = Chosen<Activation>(use, "activation", ActivationNames());
   ReadPeriod(inside, options);
   ReadPriority(inside, options);
-  options.on_overrun = Chosen<ThreadOptions::OnOverrun>(use, "on_overrun", kOverruns);
+  options.on_overrun = Chosen<ThreadOptions::OnOverrun>(use, "on_overrun", OverrunNames());
   return &runtime.Create<ThreadContainer>(*threads, inside.Get("name").value, options);
 }
 
@@ -114,7 +111,7 @@ SavedTag SavedThread(const ThreadContainer& thread) {
   tag.push_back({"activation", ActivationNames()[static_cast<std::size_t>(options.activation)],
                  options.activation == Activation::kPeriod});
   tag.push_back({"priority", std::to_string(options.priority), options.priority == 0});
-  tag.push_back({"on_overrun", kOverruns[static_cast<std::size_t>(options.on_overrun)],
+  tag.push_back({"on_overrun", OverrunNames()[static_cast<std::size_t>(options.on_overrun)],
                  options.on_overrun == ThreadOptions::OnOverrun::kSkip});
   return SavedTag{std::move(tag)};
 }
@@ -179,7 +176,7 @@ XmlTag ThreadTag() {
                 .kind = AttributeKind::kChoice,
                 .summary = "what happens to cycles that were missed: left out (by default), or run "
                            "at once",
-                .choices = kOverruns}},
+                .choices = OverrunNames()}},
           .is_structure = true,
           .handle = MakeThread,
           .saved = SavedThreads};

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/nearest_name.h"
+#include "plugins/scheduling/thread_container.h"
 #include "plugins/inspector/internal/viewer_message.h"
 
 namespace runnel::internal {
@@ -92,11 +93,32 @@ Change ReadReplace(JsonMembers& m) {
 }
 Change ReadMove(JsonMembers& m) { return AssignToThread{m.NeedText("path"), m.NeedText("thread")}; }
 
+// In seconds.
+std::optional<Duration> PeriodIn(JsonMembers& m) {
+  const auto seconds = m.Number("period");
+  return seconds ? std::optional(FromSeconds(*seconds)) : std::nullopt;
+}
+std::optional<int> PriorityIn(JsonMembers& m) {
+  const auto priority = m.Count("priority", 99);
+  return priority ? std::optional(static_cast<int>(*priority)) : std::nullopt;
+}
+Change ReadCreateThread(JsonMembers& m) {
+  AddThread change{m.NeedText("path")};
+  change.options.activation =
+      OneOf<ThreadOptions::Activation>(m, "activation", ActivationNames());
+  change.options.period = PeriodIn(m).value_or(change.options.period);
+  change.options.priority = PriorityIn(m).value_or(0);
+  return change;
+}
+Change ReadSchedule(JsonMembers& m) {
+  return ScheduleThread{.thread = m.NeedText("path"), .period = PeriodIn(m), .priority = PriorityIn(m)};
+}
+
 struct Kind {
   std::string_view name;
   Change (*read)(JsonMembers& members);
 };
-constexpr std::array<Kind, 10> kKinds{{{"create", ReadCreate},
+constexpr std::array<Kind, 12> kKinds{{{"create", ReadCreate},
                                        {"create_group", ReadCreateGroup},
                                        {"create_port", ReadCreatePort},
                                        {"create_parameter", ReadCreateParameter},
@@ -105,7 +127,9 @@ constexpr std::array<Kind, 10> kKinds{{{"create", ReadCreate},
                                        {"disconnect", ReadDisconnect},
                                        {"set", ReadSet},
                                        {"replace", ReadReplace},
-                                       {"move", ReadMove}}};
+                                       {"move", ReadMove},
+                                       {"create_thread", ReadCreateThread},
+                                       {"schedule", ReadSchedule}}};
 
 }  // namespace
 

@@ -76,6 +76,8 @@ CommandOrErrors CommandOf(const Inspection& inspection, ViewerMessage& message) 
   if (message.op == "undo") return CommandRequest(UndoRequest{});
   if (message.op == "redo") return CommandRequest(RedoRequest{});
   if (message.op == "reload") return CommandRequest(ReloadRequest{message.plugin});
+  if (message.op == "pause") return CommandRequest(PauseRequest{message.path, true});
+  if (message.op == "resume") return CommandRequest(PauseRequest{message.path, false});
   if (message.op == "log_level") return CommandRequest(LogLevelRequest{message.path, message.level});
   return CommandRequest(SaveRequest{
       .file = message.file,
@@ -135,7 +137,8 @@ std::string Refusal(std::optional<std::uint64_t> request, const std::vector<Requ
 const std::vector<std::string>& AllOperations() {
   static const std::vector<std::string> all{
       "watch", "unwatch", "watch_rates", "change", "undo",  "redo",  "compatible",
-      "save",  "pause",   "resume",      "step",   "speed", "reload", "log_level"};
+      "save",  "pause",   "resume",      "step",   "speed", "reload", "log_level",
+      "profile"};
   return all;
 }
 
@@ -150,7 +153,11 @@ ViewerRequest BeginRequest(Inspection& inspection, ViewerMessage message,
                            std::function<void()> on_done) {
   const auto request = message.request;
   // At once, whatever the worker is waiting for.
-  if (IsOneOf(message.op, {"pause", "resume", "step", "speed"})) {
+  if (message.op == "profile") {
+    inspection.scheduler().SetProfiled(message.is_on);
+    return {nullptr, [reply = Reply(request, "done")] { return reply; }};
+  }
+  if (message.path.empty() && IsOneOf(message.op, {"pause", "resume", "step", "speed"})) {
     return {nullptr, [reply = SetPace(inspection, message)] { return reply; }};
   }
   if (message.op == "compatible") {

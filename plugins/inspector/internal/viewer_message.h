@@ -35,6 +35,7 @@ struct ViewerMessage {
   std::optional<double> speed;
   std::size_t elements = 12;
   std::uint64_t cycles = 1;
+  bool is_on = true;
 };
 
 /// One change as PROTOCOL.md has it: {"change":"connect","from":"/a/out","to":"/b/in","queue":10}.

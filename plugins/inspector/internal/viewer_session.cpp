@@ -242,6 +242,19 @@ void ViewerSession::SendRates(SteadyTime now) {
   }
   std::string text = RateMessage(*counted_, *sample, ToSeconds(inspection_.running_for()), rates_);
   if (client_.SendText(std::move(text))) counted_ = std::move(sample);
+  SendProfile();
+}
+
+// Once more when it has ended.
+void ViewerSession::SendProfile() {
+  Scheduler& scheduler = inspection_.scheduler();
+  const std::unique_lock lock(inspection_.application().runtime.structure_mutex(), std::try_to_lock);
+  if (!lock) return;
+  const auto measured = scheduler.profiled_for();
+  const Profile profile = scheduler.ReadProfile();
+  const bool is_any = measured || !profile.latencies.empty();
+  if (!is_any && !has_profile_) return;
+  if (client_.SendText(ProfileMessage(profile, measured))) has_profile_ = is_any;
 }
 
 void ViewerSession::OnBinary(std::string_view /*message*/) {

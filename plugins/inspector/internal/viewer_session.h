@@ -44,6 +44,7 @@ class ViewerSession final : public WebSession {
   // How many values there have been, and the newest as JSON; nothing if there is no new one.
   std::optional<std::uint64_t> LookAt(Watch& watch, std::string& item) const;
   void SendRates(SteadyTime now);
+  void SendProfile();
   void BeginWatching(const ViewerMessage& message);
   void BeginRequest(ViewerMessage message);
   void Refuse(const ViewerMessage& message, Error error);
@@ -63,6 +64,7 @@ class ViewerSession final : public WebSession {
   Duration rates_interval_{};  // 0: not wanted
   SteadyTime rates_due_{};
   std::optional<CountSample> counted_;
+  bool has_profile_ = false;  // that the viewer has been told
   std::vector<double> rates_;  // as they were told, of counted_
 };
 

@@ -73,7 +73,7 @@ void TraceWriter::WriteEvents(KnownThread& known) {
 
 bool TraceWriter::HasName(const TraceEvent& event) {
   return event.kind == TraceEvent::Kind::kUpdate || event.kind == TraceEvent::Kind::kPublication ||
-         event.kind == TraceEvent::Kind::kFault;
+         event.kind == TraceEvent::Kind::kFault || event.kind == TraceEvent::Kind::kArrow;
 }
 
 void TraceWriter::WriteEvent(KnownThread& known, const TraceEvent& event) {
@@ -99,6 +99,11 @@ void TraceWriter::WriteEvent(KnownThread& known, const TraceEvent& event) {
     case Kind::kFault:
       known.fault = OpenFault{TimeAt(event.words[0]), names_[event.number], {}};
       return;
+    case Kind::kArrow:
+      return file_.AddArrow(known.track, names_[event.number],
+                            std::array{'s', 't', 'f'}.at(static_cast<std::size_t>(event.words[1])),
+                            TimeAt(event.words[0]),
+                            fmt::format("{}.{}", event.number, event.words[2]));
     case Kind::kText:
       return;
   }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "plugins/scheduling/trace_track.h"
+#include "plugins/timing/trace_track.h"
 #include "plugins/tracing/trace_file.h"
 
 namespace runnel::internal {

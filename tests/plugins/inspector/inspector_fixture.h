@@ -153,6 +153,19 @@ inline Json ChangeMessage(const std::string& text) {
     Json operator()(const AssignToThread& change) const {
       return {{"change", "move"}, {"path", change.path}, {"thread", change.thread}};
     }
+    Json operator()(const AddThread& change) const {
+      return {{"change", "create_thread"},
+              {"path", change.name},
+              {"activation", ActivationNames()[static_cast<std::size_t>(change.options.activation)]},
+              {"period", ToSeconds(change.options.period)},
+              {"priority", change.options.priority}};
+    }
+    Json operator()(const ScheduleThread& change) const {
+      Json json{{"change", "schedule"}, {"path", change.thread}};
+      if (change.period) json["period"] = ToSeconds(*change.period);
+      if (change.priority) json["priority"] = *change.priority;
+      return json;
+    }
   };
   return std::visit(Writer{}, placed.changes.front());
 }

@@ -2,9 +2,9 @@
 
 #include <gmock/gmock.h>
 
-#include "plugins/scheduling/cycle_statistics.h"
+#include "plugins/timing/cycle_statistics.h"
 #include "plugins/scheduling/due_time.h"
-#include "plugins/scheduling/pacing.h"
+#include "plugins/timing/pacing.h"
 #include "plugins/scheduling/realtime_setup.h"
 #include "plugins/scheduling/scheduler.h"
 #include "tests/plugins/scheduling/test_modules.h"
@@ -206,7 +206,7 @@ TEST(Pacing, TakesOnlySpeedsWhoseDeadlinesATimeCanHold) {
 TEST(RealtimeSetup, WarnsButNeverFails) {
   std::thread thread([] {
     PrefaultStack();
-    if (const auto warning = UseFifoScheduling(pthread_self(), 10)) {
+    if (const auto warning = UseScheduling(pthread_self(), 10)) {
       EXPECT_THAT(warning->message, ::testing::HasSubstr("SCHED_FIFO with priority 10"));
     } else {
       int policy = 0;

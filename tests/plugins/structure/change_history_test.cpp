@@ -61,6 +61,34 @@ TEST_F(ChangeHistoryTest, MakesWhatWasDeletedAsItWas) {
   EXPECT_THAT(At<Sink>("/app/b").taken, ElementsAre(4, 8, 12));
 }
 
+TEST_F(ChangeHistoryTest, ThreadsComeGoAndChange) {
+  MustDo({CreateModule{"/app/a", "test/counter"}});
+  MustDo({AddThread{"brisk", {.period = 5ms}}, AssignToThread{"/app/a", "brisk"}});
+  const auto thread = [&]() -> ThreadContainer& { return At<ThreadContainer>("/threads/brisk"); };
+  EXPECT_EQ(thread().options().period, 5ms);
+  EXPECT_EQ(OwnThread(At<Counter>("/app/a"))->name(), "brisk");
+  MustDo({ScheduleThread{.thread = "brisk", .period = 2ms, .priority = 7}});
+  EXPECT_EQ(thread().options().period, 2ms);
+  EXPECT_EQ(thread().options().priority, 7);
+  MustDo({DeleteElement{"/threads/brisk"}});
+  EXPECT_FALSE(Exists("/threads/brisk"));
+  MustBe(history.Undo());
+  EXPECT_EQ(thread().options().period, 2ms);
+  EXPECT_EQ(OwnThread(At<Counter>("/app/a"))->name(), "brisk") << "runs what it ran";
+  MustBe(history.Undo());
+  EXPECT_EQ(thread().options().period, 5ms);
+  EXPECT_EQ(thread().options().priority, 0);
+  MustBe(history.Undo());
+  EXPECT_FALSE(Exists("/threads/brisk"));
+  MustBe(history.Redo());
+  MustBe(history.Redo());
+  EXPECT_EQ(thread().options().priority, 7);
+  EXPECT_FALSE(history.Apply({ScheduleThread{.thread = "brisk", .period = 0ms}}));
+  EXPECT_FALSE(history.Apply({ScheduleThread{.thread = "brisl", .period = 1ms}}));
+  EXPECT_FALSE(history.Apply({AddThread{"brisk", {}}})) << "there is one";
+  EXPECT_FALSE(history.Apply({AddThread{"/app/other", {}}})) << "threads are among threads";
+}
+
 TEST_F(ChangeHistoryTest, PutsTheOldTypeBackWithItsValues) {
   MustDo({CreateModule{"/app/a", "test/other_counter", {{"own", "9"}}},
           CreateModule{"/app/b", "test/sink"}, ConnectPorts{"/app/a/out", "/app/b/in"}});

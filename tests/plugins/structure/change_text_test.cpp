@@ -50,6 +50,23 @@ TEST(ChangeText, ReadsTheCreationOfModulesWithTheirSettings) {
   EXPECT_EQ(change.settings[1].value, "a b");
 }
 
+TEST(ChangeText, ReadsWhatIsSaidOfThreads) {
+  const std::string text = "create thread fast activation=free_running period=5ms priority=20 on_overrun=catch_up";
+  const auto thread = ParseOne<AddThread>(text);
+  EXPECT_EQ(thread.name, "fast");
+  EXPECT_EQ(thread.options.activation, ThreadOptions::Activation::kFreeRunning);
+  EXPECT_EQ(thread.options.period, std::chrono::milliseconds(5));
+  EXPECT_EQ(thread.options.priority, 20);
+  EXPECT_EQ(ChangeText(thread), text);
+  const auto schedule = ParseOne<ScheduleThread>("schedule /threads/fast period=2ms");
+  EXPECT_EQ(schedule.period, std::chrono::milliseconds(2));
+  EXPECT_FALSE(schedule.priority);
+  EXPECT_EQ(ChangeText(schedule), "schedule /threads/fast period=2ms");
+  EXPECT_THAT(ErrorOf("schedule fast perod=2ms"), HasSubstr("did you mean 'period'?"));
+  EXPECT_THAT(ErrorOf("schedule fast priority=100"), HasSubstr("from 0 to 99"));
+  EXPECT_THAT(ErrorOf("create thread fast activation=always"), HasSubstr("'always'"));
+}
+
 TEST(ChangeText, ReadsTheCreationOfGroupsAndPorts) {
   EXPECT_EQ(ParseOne<CreateGroup>("create group /robot/left").path, "/robot/left");
   const auto port = ParseOne<CreatePort>("create port /robot/left/scan output RangeScan");

@@ -209,6 +209,9 @@ class StructureModel {
     element.type = change.type;
     return SetAll(element, change.settings);
   }
+  // Threads are the tests' own.
+  bool Do(const AddThread&) { return false; }
+  bool Do(const ScheduleThread&) { return false; }
   bool Do(const AssignToThread& change) {
     const auto found = elements_.find(change.path);
     if (found == elements_.end() || found->second.kind == Kind::kPort) return false;

@@ -107,7 +107,7 @@ TEST_F(Loading, LeavesNothingOfARefusedPlugin) {
   <ruin/>
 </application>)"),
             "app.xml:2:3: error: /demo: no <ruin> may stand in <application>; there is 'clock', "
-            "'connect', 'group', 'load', 'log', 'module', 'on_fault', 'on_stale', 'on_stuck', 'thread'\n");
+            "'connect', 'group', 'latency', 'load', 'log', 'module', 'on_fault', 'on_pause', 'on_stale', 'on_stuck', 'profile' and 1 more\n");
 }
 
 TEST_F(Loading, KeepsThePluginAfterAFailedBuild) {

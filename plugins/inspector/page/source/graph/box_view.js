@@ -19,7 +19,7 @@ export const BoxView = memo(({ box }) => {
   }).value;
   const isFaint = useComputed(() => selectedThread.value !== null && selectedThread.value !== thread);
   const isGroup = element.kind !== 'module';
-  const classes = ['box', element.kind, isSelected.value && 'selected', element.stopped && 'stopped',
+  const classes = ['box', element.kind, isSelected.value && 'selected', element.stopped && 'stopped', element.paused && 'paused',
     isFaint.value && 'faint'].filter(Boolean).join(' ');
   return html`
     <g class=${classes} transform=${`translate(${box.x},${box.y})`} data-node=${path} id=${NodeId(path)}

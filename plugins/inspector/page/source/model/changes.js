@@ -9,6 +9,8 @@ export const Change = {
   disconnect: (from, to) => ({ change: 'disconnect', from, to }),
   set: (path, value) => ({ change: 'set', path, value }),
   replace: (path, type) => ({ change: 'replace', path, type }),
+  createThread: (path, options = {}) => ({ change: 'create_thread', path, ...options }),
+  schedule: (path, options) => ({ change: 'schedule', path, ...options }),
   move: (path, thread) => ({ change: 'move', path, thread }),
 };
 

@@ -29,6 +29,10 @@ export function FormatMilliseconds(milliseconds) {
   return `${Digits(milliseconds * 1000)} µs`;
 }
 
+export function FormatMicroseconds(microseconds) {
+  return FormatMilliseconds(microseconds === null || microseconds === undefined ? null : microseconds / 1000);
+}
+
 /** Seconds as a clock: "12.35 s", "1:02:03.4". */
 export function FormatTime(seconds) {
   if (seconds === null || seconds === undefined) return '–';

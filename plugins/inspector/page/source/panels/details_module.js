@@ -2,9 +2,10 @@
 
 import { html } from 'htm/preact';
 import { IsGroup, ThreadOf } from '../model/structure.js';
-import { Delete, Reload, SetLogLevel } from '../state/actions.js';
+import { FormatMicroseconds } from '../model/value_format.js';
+import { Delete, PauseElement, Reload, ResumeElement, SetLogLevel } from '../state/actions.js';
 import { IsOpen, openDialog } from '../state/choices.js';
-import { canChange, catalogue, revision, run, structure } from '../state/store.js';
+import { canChange, catalogue, profile, revision, run, structure } from '../state/store.js';
 import { ThreadColour } from '../graph/thread_colour.js';
 import { ToggleGroup } from '../graph/graph_state.js';
 import { ParameterRow } from './parameter_row.js';
@@ -28,7 +29,7 @@ export function ModuleDetails({ element }) {
     <${Title} kind=${isGroup ? 'group' : element.type} name=${element.name} path=${path}>
       ${(element.summary || element.description) && html`<p class="summary">${element.summary || element.description}</p>`}
     <//>
-    ${element.stopped && html`<p class="trouble" role="alert"><strong>Stopped:</strong> ${element.stopped}</p>`}
+    ${element.stopped && html`<p class="trouble" role="alert"><strong>Fault:</strong> ${element.stopped}</p>`}
     <div class="actions">
       ${!isGroup && html`<${ActionButton} id="swap" icon="swap" text="Swap" disabled=${locked}
           onClick=${open('swap')} title="Put a module of another type in its place (S)" />`}
@@ -38,6 +39,9 @@ export function ModuleDetails({ element }) {
             title="Give it a port for others" />`}
       <${ActionButton} id="move" icon="follow" text="Thread" disabled=${locked} onClick=${open('move')}
           title="Have another thread run it (M)" />
+      <${ActionButton} id="pause-module" icon="pause" text=${element.paused ? 'Go on' : 'Pause'} disabled=${locked}
+          onClick=${() => (element.paused ? ResumeElement(path) : PauseElement(path))}
+          title="Leave it out of cycles for a while" />
       ${plugin && html`<${ActionButton} id="reload" icon="reset" text="Reload" disabled=${locked}
           onClick=${() => Reload(plugin)}
         title=${`Load the plugin ${plugin} anew, with all its modules`} />`}
@@ -48,6 +52,9 @@ export function ModuleDetails({ element }) {
           style=${{ background: ThreadColour(thread) }}></i>${thread}${
         element.thread ? '' : html` <small>of its group</small>`}</span>`],
       ['plugin', plugin],
+      ...profile.value.tasks.filter((task) => task.path === path).map((task) => [`takes${task.name.slice(path.length)}`,
+        `${FormatMicroseconds(task.last_us)} last, ${FormatMicroseconds(task.mean_us)} mean, at most ${
+          FormatMicroseconds(task.max_us)}; runs as number ${task.order} of its thread`]),
       ['logs', html`<${LogLevel} path=${path} />`],
     ]} />
     <${Troubles} path=${path} />

@@ -1,20 +1,37 @@
 // A thread: its period, how well it keeps it, and what it runs.
 
 import { html } from 'htm/preact';
+import { FreeName } from '../model/changes.js';
 import { ThreadOf } from '../model/structure.js';
 import { FormatMilliseconds } from '../model/value_format.js';
-import { revision, structure, threadStatistics } from '../state/store.js';
-import { Facts, Link, Section, Title } from './parts.js';
+import { CreateThread, Delete, PauseElement, ResumeElement, Schedule } from '../state/actions.js';
+import { canChange, revision, structure, threadStatistics } from '../state/store.js';
+import { ActionButton, Facts, Link, Section, Title } from './parts.js';
 
 export function ThreadDetails({ element }) {
   revision.value;
   const statistics = threadStatistics.value[element.path];
   const duration = statistics?.duration_ms;
+  const locked = !canChange.value;
   const modules = [...structure.ofKind('module')].filter((module) => ThreadOf(structure, module.path) === element.name);
   return html`
     <${Title} kind="thread" name=${element.name} path=${element.path} />
+    <div class="actions">
+      <${ActionButton} id="pause-thread" icon="pause" text=${element.paused ? 'Go on' : 'Pause'} disabled=${locked}
+          onClick=${() => (element.paused ? ResumeElement(element.path) : PauseElement(element.path))}
+          title="Leave out all that it runs" />
+      <${ActionButton} id="new-thread" icon="add" text="New thread" disabled=${locked}
+          onClick=${() => CreateThread(FreeThreadName(element), { period: element.period ?? 0.01 })} />
+      <${ActionButton} id="delete" icon="trash" text="Delete" disabled=${locked} onClick=${() => Delete(element.path)} />
+    </div>
     <${Facts} facts=${[
-      ['period', element.period ? FormatMilliseconds(element.period * 1000) : 'by data, or free-running'],
+      ['period', element.period ? html`<input id="thread-period" type="number" min="0.001" step="any" aria-label="Period in ms"
+          value=${element.period * 1000} disabled=${locked}
+          onChange=${(event) => Schedule(element.path, { period: Number(event.target.value) / 1000 })} /> ms`
+        : 'by data, or free-running'],
+      ['priority', html`<input id="thread-priority" type="number" min="0" max="99" aria-label="Priority"
+          value=${element.priority} disabled=${locked}
+          onChange=${(event) => Schedule(element.path, { priority: Number(event.target.value) })} />`],
       ['cycles', statistics && String(statistics.cycles)],
       ['cycle takes', duration && `${FormatMilliseconds(duration.mean)}, at most ${FormatMilliseconds(duration.max)}`],
       ['measured period', statistics && FormatMilliseconds(statistics.period_ms)],
@@ -23,4 +40,8 @@ export function ThreadDetails({ element }) {
     ]} />
     <${Section} title="Runs" count=${modules.length}><ul class="members">${modules.slice(0, 200).map((module) =>
       html`<li key=${module.path}><${Link} path=${module.path} /> <small>${module.type}</small></li>`)}</ul><//>`;
+}
+
+function FreeThreadName(thread) {
+  return FreeName(structure, thread.path.slice(0, thread.path.lastIndexOf('/')), thread.name);
 }

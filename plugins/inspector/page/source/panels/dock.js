@@ -1,4 +1,4 @@
-// The panel at the bottom: plots, log, threads.
+// The panel at the bottom: plots, log, threads, profile.
 
 import { html } from 'htm/preact';
 import { Plots } from '../plots/plots.js';
@@ -6,9 +6,11 @@ import { plots } from '../plots/plot_list.js';
 import { SetPanels, panels } from '../state/choices.js';
 import { log } from '../state/store.js';
 import { LogView } from './log_view.js';
+import { ProfileTable } from './profile_table.js';
 import { ThreadTable } from './thread_table.js';
 
-const kTabs = [['plots', 'Plots', Plots], ['log', 'Log', LogView], ['threads', 'Threads', ThreadTable]];
+const kTabs = [['plots', 'Plots', Plots], ['log', 'Log', LogView], ['threads', 'Threads', ThreadTable],
+  ['profile', 'Profile', ProfileTable]];
 
 export function Dock() {
   const current = kTabs.find(([id]) => id === panels.value.tab) ?? kTabs[0];
@@ -22,7 +24,7 @@ export function Dock() {
     requestAnimationFrame(() => document.getElementById(`tab-${next}`)?.focus());
   };
   return html`
-    <section class="dock" aria-label="Plots, log and threads">
+    <section class="dock" aria-label="Plots, log, threads and profile">
       <div class="tabs" role="tablist" onKeyDown=${onKey}>
         ${kTabs.map(([tab, title]) => html`<button key=${tab} role="tab" id=${`tab-${tab}`}
             aria-selected=${tab === id}

@@ -75,6 +75,13 @@ export function MoveToThread(path, thread) {
 
 /** `level`: debug, info, warning, error, off, or inherit. */
 export const SetLogLevel = (path, level) => Ask({ op: 'log_level', path, level }, `Could not set what ${NameOf(path)} logs`);
+export const SetProfiled = (on) => Ask({ op: 'profile', on }, `Could not ${on ? 'begin' : 'end'} measuring`);
+/** Modules, or what a thread runs, are left out of cycles, or no more. */
+export const PauseElement = (path) => Ask({ op: 'pause', path }, `Could not pause ${NameOf(path)}`);
+export const ResumeElement = (path) => Ask({ op: 'resume', path }, `Could not let ${NameOf(path)} go on`);
+/** `options`: { period, priority }, of which one may be left out; the period in seconds. */
+export const Schedule = (path, options) => Apply([Change.schedule(path, options)], `schedule ${NameOf(path)}`);
+export const CreateThread = (name, options) => Apply([Change.createThread(name, options)], `create thread ${name}`);
 export const Undo = () => Ask({ op: 'undo' }, `Could not undo “${run.value.undo}”`);
 export const Redo = () => Ask({ op: 'redo' }, `Could not redo “${run.value.redo}”`);
 export const Pause = () => Ask({ op: 'pause' }, 'Could not pause');

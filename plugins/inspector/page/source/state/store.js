@@ -37,6 +37,8 @@ export function FlowRate(path) {
 }
 
 let link = null;
+/** How long modules take: the server's message, and of each task its share of the time since the message before. */
+export const profile = signal({ on: false, seconds: 0, tasks: [], latencies: [] });
 export const watches = new Watches((message) => link?.send(message) ?? false);
 
 export function Request(message) {
@@ -61,6 +63,7 @@ const kReceivers = {
   structure_change: OnStructureChange,
   state: ({ op, ...told }) => { run.value = { ...run.value, ...told }; },
   rates: OnRates,
+  profile: (message) => { profile.value = WithShares(message, profile.value); },
   values: (message) => watches.receive(message),
   log: (message) => { log.value = AddLogEntries(log.value, message.entries); },
 };
@@ -106,4 +109,13 @@ function ChangesShape({ gone, connected, disconnected, elements }) {
 function OnRates(message) {
   for (const [path, rate] of Object.entries(message.ports ?? {})) RateOf(path).value = rate;
   if (message.threads) threadStatistics.value = { ...threadStatistics.value, ...message.threads };
+}
+
+function WithShares(message, before) {
+  const passed = message.seconds - before.seconds;
+  const totals = new Map(passed > 0 ? before.tasks.map((task) => [task.name, task.total_us]) : []);
+  const seconds = passed > 0 ? passed : message.seconds;
+  const tasks = message.tasks.map((task) => ({ ...task,
+    share: seconds > 0 ? (task.total_us - (totals.get(task.name) ?? 0)) / (seconds * 1e4) : 0 }));
+  return { ...message, tasks };
 }

@@ -1,4 +1,4 @@
-#include "plugins/scheduling/pacing.h"
+#include "plugins/timing/pacing.h"
 
 #include <algorithm>
 

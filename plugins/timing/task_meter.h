@@ -33,6 +33,11 @@ class TaskMeter {
                  std::memory_order_relaxed);
     runs_.store(runs_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   }
+  /// While nobody adds; what is just being added may count yet.
+  void Reset() noexcept {
+    for (auto* each : {&last_, &max_, &total_}) each->store(0, std::memory_order_relaxed);
+    runs_.store(0, std::memory_order_relaxed);
+  }
   [[nodiscard]] TaskTimes times() const noexcept {
     return {runs_.load(std::memory_order_relaxed), Duration(last_.load(std::memory_order_relaxed)),
             Duration(max_.load(std::memory_order_relaxed)),

@@ -1,4 +1,4 @@
-#include "plugins/scheduling/cycle_statistics.h"
+#include "plugins/timing/cycle_statistics.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,4 +1,4 @@
-#include "plugins/scheduling/tick_clock.h"
+#include "plugins/timing/tick_clock.h"
 
 #if defined(__x86_64__)
 #include <cpuid.h>

@@ -1,4 +1,4 @@
-#include "plugins/scheduling/signal_stack.h"
+#include "core/base/signal_stack.h"
 
 #include <sys/mman.h>
 

@@ -13,7 +13,7 @@
 
 #include "core/module/executable.h"
 #include "core/port/port.h"
-#include "plugins/scheduling/tick_clock.h"
+#include "plugins/timing/tick_clock.h"
 
 namespace runnel {
 
@@ -25,9 +25,12 @@ struct TraceEvent {
     kUpdate,       ///< words: begin, end; number: the element's
     kPublication,  ///< words: when it was noticed, how many values; number: the port's
     kFault,        ///< words: when; number: the element's; its text follows
-    kText,  ///< the bytes of `words`, as far as `length` says: goes on with the fault's message
+    kArrow,  ///< words: when, which Arrow, the number of what goes along; number: the name's
+    kText,   ///< the bytes of `words`, as far as `length` says: goes on with the fault's message
   };
   static constexpr std::size_t kTextBytes = 24;
+  /// From one update to another: what a value goes back to.
+  enum class Arrow : std::uint8_t { kBegins, kPasses, kEnds };
 
   Kind kind = Kind::kCycle;
   Phase phase = Phase::kUpdate;
@@ -80,6 +83,13 @@ class TraceTrack {
            .number = each.number,
            .words = {now, static_cast<std::int64_t>(each.publications - before), 0}});
     }
+  }
+  void NoteArrow(TraceEvent::Arrow arrow, std::uint64_t name, std::uint64_t number,
+                 Time when) noexcept {
+    Add({.kind = TraceEvent::Kind::kArrow,
+         .number = name,
+         .words = {Count(when), static_cast<std::int64_t>(arrow),
+                   static_cast<std::int64_t>(number)}});
   }
   void NoteFault(std::uint64_t element, std::string_view message) noexcept {
     Add({.kind = TraceEvent::Kind::kFault, .number = element, .words = {Count(Now()), 0, 0}});

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/base/clock.h"
-#include "plugins/scheduling/trace_track.h"
+#include "plugins/timing/trace_track.h"
 
 namespace runnel {
 
@@ -20,6 +20,8 @@ class CycleTracer {
   [[nodiscard]] virtual TraceTrack& TrackOf(std::uint64_t id, const std::string& path) = 0;
   /// An element is going to be run. Under the structure lock.
   [[nodiscard]] virtual std::unique_ptr<TracedElement> Watch(FrameworkElement& element) = 0;
+  /// By which arrows of this name are noted. Any thread.
+  [[nodiscard]] virtual std::uint64_t NumberOf(const std::string& name) = 0;
   /// A thread has been kept between two cycles, from about `began` to `ended` of the machine's clock.
   /// Outside of cycles, by whoever has kept it.
   virtual void OnHold(const std::string& path, Time began, Time ended) noexcept = 0;

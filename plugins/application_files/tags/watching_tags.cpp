@@ -1,0 +1,85 @@
+// What is done about modules that are stuck or paused, and what is measured of them.
+
+#include "core/types/duration_text.h"
+#include "plugins/application_files/path_use.h"
+#include "plugins/application_files/run_description.h"
+#include "plugins/application_files/tags/built_in_tags.h"
+
+namespace runnel {
+
+namespace {
+
+AttributeRule PathRule(const char* name, const char* summary) {
+  return {.name = name, .kind = AttributeKind::kPath, .required = true, .summary = summary, .names_element = true};
+}
+
+template <void (*kRead)(const TagUse& use)>
+FrameworkElement* InTheEnd(const TagUse& use) {
+  use.context.Defer(BuildStage::kChecks, [use] { kRead(use); });
+  return &use.parent;
+}
+
+void AddWatch(const TagUse& use) {
+  const FrameworkElement* const of = SearchElement(PathIn(use.Get("of"), use.parent), use.context);
+  const Reaction first = internal::ReadReaction(use.xml, use.parent, use.context);
+  Reaction otherwise;
+  for (const XmlElement child : use.xml.children()) {
+    if (child.name() == "otherwise") otherwise = internal::ReadReaction(child, use.parent, use.context);
+  }
+  if (of == nullptr) return;
+  RunRules& rules = internal::RunRulesAround(use.parent);
+  if (const XmlAttribute* const after = use.Find("after")) {
+    rules.stuck_reactions.push_back({of->path(), ParseDuration(after->value).value(), first, otherwise});
+  } else {
+    rules.pause_reactions.push_back({of->path(), first, otherwise});
+  }
+}
+
+void AddLatency(const TagUse& use) {
+  const Port* const from = SearchPort(PathIn(use.Get("from"), use.parent), PathKind::kOutput, use.context);
+  const Port* const to = SearchPort(PathIn(use.Get("to"), use.parent), PathKind::kOutput, use.context);
+  if (from == nullptr || to == nullptr) return;
+  const LatencyRequest request{from->path(), to->path()};
+  const auto path = FindDataPath(use.context.runtime().root(), request);
+  if (!path) return use.Report(path.error(), use.Get("to").value_position);
+  internal::RunRulesAround(use.parent).latencies.push_back(request);
+}
+
+void BeginProfile(const TagUse& use) { internal::RunRulesAround(use.parent).is_profiled = true; }
+
+}  // namespace
+
+XmlTag OnStuckTag() {
+  return {.name = "on_stuck",
+          .summary = "what happens when a module does not return from its cycle, on the real clock; it is told of in any case",
+          .parents = {"application", "group"},
+          .attributes = {PathRule("of", "a module, or a group of which any module may be stuck"),
+                         {.name = "after",
+                          .kind = AttributeKind::kDuration,
+                          .required = true,
+                          .summary = "the longest time in one cycle, by the machine's clock"}},
+          .handle = InTheEnd<AddWatch>};
+}
+XmlTag OnPauseTag() {
+  return {.name = "on_pause",
+          .summary = "what happens when somebody pauses modules, once they stand still",
+          .parents = {"application", "group"},
+          .attributes = {PathRule("of", "a module, or a group of which any module may be paused")},
+          .handle = InTheEnd<AddWatch>};
+}
+XmlTag LatencyTag() {
+  return {.name = "latency",
+          .summary = "measures how old what a command goes back to is, along the modules in between",
+          .parents = {"application", "group"},
+          .attributes = {PathRule("from", "a sensor's output; its values say when they were measured"),
+                         PathRule("to", "a command's output")},
+          .handle = InTheEnd<AddLatency>};
+}
+XmlTag ProfileTag() {
+  return {.name = "profile",
+          .summary = "measures from the start how long each module takes",
+          .parents = {"application"},
+          .handle = InTheEnd<BeginProfile>};
+}
+
+}  // namespace runnel

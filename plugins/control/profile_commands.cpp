@@ -1,0 +1,93 @@
+// How long modules and chains of them take.
+
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "plugins/control/command.h"
+#include "plugins/scheduling/scheduler.h"
+
+namespace runnel {
+
+namespace {
+
+constexpr Duration kFrame = std::chrono::seconds(1);
+
+// What one client looks at; modules are measured meanwhile.
+struct Top {
+  explicit Top(Scheduler& of) : scheduler(of), use(of) {}
+  Scheduler& scheduler;
+  Scheduler::ProfileUse use;
+  Profile before = {};
+  Time taken{};
+  bool has_begun = false;
+};
+
+CommandResult Say(std::string text) {
+  return Command([text = std::move(text)](Answer& answer) -> CommandStep {
+    answer.Write(text);
+    return ControlCode::kDone;
+  });
+}
+
+}  // namespace
+
+// Shares are of the time from one table to the next; all else is since the measuring began.
+CommandResult MakeTopCommand(const Request& request, const CommandContext& context) {
+  auto count = ReadCountOption(request);
+  if (!count) return count.error();
+  if (request.Has("once")) *count = 1;
+  auto& runtime = context.application.runtime;
+  return Command(UnderLock(runtime, [&runtime, left = *count,
+                            top = std::make_shared<Top>(*context.application.scheduler)](
+                               Answer& answer) mutable -> CommandStep {
+    const Time now = SteadyClock().Now();
+    Profile profile = top->scheduler.ReadProfile();
+    if (std::exchange(top->has_begun, true)) {
+      answer.Write(fmt::format("{:.3f} s; measured for {:.1f} s\n",
+                               ToSeconds(runtime.clock().Now()),
+                               ToSeconds(top->scheduler.profiled_for().value_or(Duration{}))) +
+                   ProfileText(profile, now - top->taken, top->before));
+      if (left && --*left == 0) return ControlCode::kDone;
+    }
+    top->before = std::move(profile);
+    top->taken = now;
+    return kFrame;
+  }));
+}
+
+CommandResult MakeProfileCommand(const Request& request, const CommandContext& context) {
+  Scheduler& scheduler = *context.application.scheduler;
+  const std::string word = request.arguments.empty() ? "" : request.arguments[0];
+  if (word == "on" || word == "off") {
+    scheduler.SetProfiled(word == "on");
+    return Say(word == "on" ? "measures how long modules take\n" : "measures no more\n");
+  }
+  if (!word.empty()) return Error{.message = "'" + word + "' is neither 'on' nor 'off'"};
+  const auto measured = scheduler.profiled_for();
+  if (!measured) return Say("nothing is measured; 'profile on' begins\n");
+  return Say(fmt::format("measured for {:.1f} s\n", ToSeconds(*measured)) +
+             ProfileText(scheduler.ReadProfile(), *measured));
+}
+
+CommandResult MakeLatencyCommand(const Request& request, const CommandContext& context) {
+  Scheduler& scheduler = *context.application.scheduler;
+  const auto& words = request.arguments;
+  if (words.empty()) {
+    const std::string text = ProfileText({.tasks = {}, .latencies = scheduler.ReadLatencies()}, {});
+    return Say(text.empty() ? "no latency is measured\n" : text);
+  }
+  const bool ends = words.size() == 3 && words[2] == "off";
+  if (words.size() == 1 || (words.size() == 3 && !ends)) {
+    return Error{.message = "two ports are wanted, from which to which",
+                 .hint = "for example: latency /laser/scan /planner/twist [off]"};
+  }
+  const auto done = ends ? scheduler.RemoveLatency({words[0], words[1]})
+                         : scheduler.AddLatency({words[0], words[1]});
+  if (!done) return done.error();
+  return Say(ends ? "measured no more\n"
+                  : ProfileText({.tasks = {}, .latencies = {scheduler.ReadLatencies().back()}}, {}));
+}
+
+}  // namespace runnel

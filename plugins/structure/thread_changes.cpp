@@ -1,0 +1,85 @@
+// Threads that come, go and change while the application runs.
+
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include "core/element/runtime.h"
+#include "plugins/scheduling/thread_container.h"
+#include "plugins/structure/plan.h"
+
+namespace runnel::internal {
+
+namespace {
+
+constexpr const char* kThreads = "/threads";
+
+std::string PathOfThread(const std::string& name) {
+  return name.find('/') != std::string::npos ? name : std::string(kThreads) + "/" + name;
+}
+
+}  // namespace
+
+Result<void> Plan::Check(const AddThread& change) {
+  const std::string path = PathOfThread(change.name);
+  if (path.starts_with(std::string(kThreads) + "/") && !overlay_.Find(kThreads)) {
+    if (auto made = Check(CreateGroup{kThreads}); !made) return made;
+  }
+  const auto place = overlay_.PlaceFor(path);
+  if (!place) return place.error();
+  // Who decides which threads run what looks there.
+  if (place->parent.name() != "threads") {
+    return Error{.message = "threads are made in the application's group 'threads'",
+                 .path = path,
+                 .hint = "leave out the path"};
+  }
+  UnlistedElement made(std::make_unique<ThreadContainer>(*place, change.options));
+  if (auto prepared = Runtime::Prepare(made); !prepared) return prepared;
+  AddCreation(std::move(made));
+  return {};
+}
+
+Result<void> Plan::Check(const ScheduleThread& change) {
+  const auto found = overlay_.Find(PathOfThread(change.thread));
+  if (!found) return found.error();
+  auto* const thread = dynamic_cast<ThreadContainer*>(*found);
+  if (thread == nullptr) {
+    return Error{.message = (*found)->path() + " is not a thread", .path = (*found)->path()};
+  }
+  ThreadOptions wanted = thread->options();
+  wanted.period = change.period.value_or(wanted.period);
+  wanted.priority = change.priority.value_or(wanted.priority);
+  wanted.on_overrun = change.on_overrun.value_or(wanted.on_overrun);
+  if (change.period && wanted.activation == ThreadOptions::Activation::kTrigger) {
+    return Error{.message = "a thread that waits for data has no period", .path = thread->path()};
+  }
+  if (auto good = ThreadContainer::Check(wanted, thread->path()); !good) return good;
+  auto before = std::make_shared<std::optional<ThreadOptions>>();
+  steps_.push_back({[=]() -> Result<void> {
+                      *before = thread->options();
+                      return thread->SetOptions(wanted);
+                    },
+                    [=] {
+                      if (*before) (void)thread->SetOptions(**before);
+                    },
+                    [=](auto&) -> ChangeSet {
+                      const ThreadOptions now = thread->options();
+                      ScheduleThread back{.thread = thread->path()};
+                      if (change.period) back.period = now.period;
+                      if (change.priority) back.priority = now.priority;
+                      if (change.on_overrun) back.on_overrun = now.on_overrun;
+                      return {back};
+                    }});
+  return {};
+}
+
+void AddThreadAgain(const ThreadContainer& thread, ChangeSet& changes) {
+  changes.push_back(AddThread{thread.path(), thread.options()});
+  thread.runtime().root().Visit([&](FrameworkElement& each) {
+    if (OwnThreadId(each) == thread.id()) {
+      changes.push_back(AssignToThread{each.path(), thread.path()});
+    }
+  });
+}
+
+}  // namespace runnel::internal
