@@ -82,7 +82,8 @@ bool Receives(const Element& each) { return each.kind == "input" || each.is_inte
 Candidates Propose(ControlClient& client, const std::string& command, std::size_t place) {
   const bool is_first = place == 0;
   if (command == "ls" && is_first) return Paths(client, [](const Element&) { return true; });
-  if ((command == "echo" || command == "hz") && is_first) return Paths(client, IsPort);
+  const bool is_of_port = command == "echo" || command == "hz" || command == "publish" || command == "release";
+  if (is_of_port && is_first) return Paths(client, IsPort);
   if (command == "set" && is_first) return Paths(client, OfKind("parameter"));
   if ((command == "connect" || command == "disconnect") && place < 2) {
     return Paths(client, is_first ? Sends : Receives);
@@ -106,7 +107,7 @@ Candidates Propose(ControlClient& client, const std::string& command, std::size_
 // The words that are no options; what follows an option that has a value is left out.
 Candidates WithoutOptions(const Candidates& words, std::string& application) {
   static const Candidates kWithValue{"--app",       "-n", "--queue",  "--on-full",
-                                     "--probation", "-o", "--output", "--compression"};
+                                     "--probation", "-o", "--output", "--compression", "--rate", "--convert"};
   Candidates plain;
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (std::ranges::count(kWithValue, words[i]) > 0 && i + 1 < words.size()) {

@@ -65,8 +65,19 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   word(set, "parameter", "its path")->type_name(kElement);
   word(set, "value", "in its text format")->type_name("VALUE");
 
+  Entry& publish = add("publish", "sets the value at a port by hand, until it is released");
+  word(publish, "port", "input or output")->type_name(kPort);
+  word(publish, "value", "in its text format")->type_name("VALUE");
+  option(publish, "--rate", "rate", "publishes it again so often, in Hz of the application's time")
+      ->type_name("HZ");
+
+  Entry& release = add("release", "lets readers of a port find again what is published");
+  word(release, "port", "one that is set by hand; without, all of them")
+      ->required(false)
+      ->type_name(kPort);
+
   Entry& connect = add("connect", "connects two ports");
-  word(connect, "from", "output")->type_name(kPort);
+  word(connect, "from", "output; PORT.x, PORT[0]: that part of its values")->type_name(kPort);
   word(connect, "to", "input")->type_name(kPort);
   option(connect, "--queue", "queue", "so many values may wait")->type_name("N");
   option(connect, "--on-full", "on_full",
@@ -75,6 +86,15 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   connect.command->add_flag_callback(
       "--pull", [&connect] { connect.arguments.options["pull"] = "true"; },
       "reading the input has the output make a value");
+  option(connect, "--convert", "convert",
+         "by which conversion: round, truncate, parse, or what a plugin has registered")
+      ->type_name("NAME");
+  connect.command->add_flag_callback(
+      "--when-present", [&connect] { connect.arguments.options["when"] = "present"; },
+      "as soon as both are there, and again after one went");
+  connect.command->add_flag_callback(
+      "--late", [&connect] { connect.arguments.options["late"] = "true"; },
+      "in a loop of modules, values come one cycle late by this one");
 
   Entry& disconnect = add("disconnect", "takes the connection of two ports back");
   word(disconnect, "from", "output")->type_name(kPort);
@@ -199,7 +219,9 @@ std::vector<const char*> WithNegativeValues(int count, const char* const* words)
   const bool is_number =
       last.size() > 1 && last[0] == '-' && (last[1] == '.' || (last[1] >= '0' && last[1] <= '9'));
   const auto dashes = [](const char* word) { return std::string_view(word) == "--"; };
-  if (count > 3 && std::string_view(all[1]) == "set" && is_number &&
+  const bool wants_value =
+      count > 3 && (std::string_view(all[1]) == "set" || std::string_view(all[1]) == "publish");
+  if (wants_value && std::string_view(all[static_cast<std::size_t>(count) - 2]) != "--rate" && is_number &&
       std::none_of(all.begin(), all.end(), dashes)) {
     all.insert(all.end() - 1, "--");
   }

@@ -13,7 +13,7 @@
 #include "core/base/characters.h"
 #include "core/base/replace_file.h"
 #include "plugins/application/application_description.h"
-#include "plugins/application_files/schema.h"
+#include "plugins/application/schema.h"
 #include "plugins/manifest/description_json.h"
 #include "plugins/manifest/plugin_manifest.h"
 

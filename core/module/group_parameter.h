@@ -8,7 +8,7 @@
 
 #include "core/element/configurable.h"
 #include "core/element/framework_element.h"
-#include "core/port/path_search.h"
+#include "core/paths/path_search.h"
 
 namespace runnel {
 

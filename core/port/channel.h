@@ -141,6 +141,34 @@ class Channel final : public ChannelBase {
       if (storage_.pool_for_pulls) storage_.pool_for_pulls->Reserve(buffers);
     }
   }
+  bool VisitLatest(
+      const std::function<void(const void* value, ValueTimes times)>& visit) const override {
+    // Reading changes nothing but counts of leases.
+    const auto held = const_cast<Channel*>(this)->ReadForViewer();
+    if (!held.has_value()) return false;
+    visit(&held.value(), ValueTimes::Of(held.publication()));
+    return true;
+  }
+  std::optional<PublishStatus> PublishFilled(bool (*fill)(void* context, void* value),
+                                             void* context, ValueTimes times) override {
+    if constexpr (kCanPull) {
+      Loan<T> loan = MakeLoan();
+      if (!loan) return PublishStatus::kNoBuffer;
+      if (!fill(context, &*loan)) return std::nullopt;
+      return Publish(std::move(loan), times);
+    } else {
+      return std::nullopt;
+    }
+  }
+  [[nodiscard]] bool can_be_filled() const noexcept override { return kCanPull; }
+  /// An empty one; nullptr if only a module can make such values.
+  [[nodiscard]] static std::unique_ptr<ChannelBase> Make() {
+    if constexpr (std::is_default_constructible_v<T>) {
+      return std::make_unique<Channel>(PoolOptions{}, typename BufferPool<T>::Factory{});
+    } else {
+      return nullptr;
+    }
+  }
   void DeliverNewest(QueueSink& sink) override {
     const auto held = ReadForViewer();
     if (!held.has_value()) return;

@@ -3,12 +3,16 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
 
 #include "core/base/clock.h"
 #include "core/lockfree/asymmetric_fence.h"
+#include "core/port/port_options.h"
 #include "core/port/pull_point.h"
 #include "core/port/subscribers.h"
+#include "core/port/value_times.h"
 
 namespace runnel {
 
@@ -45,6 +49,15 @@ class ChannelBase {
   /// Pushes the newest value, if there is one, into a probe's queue, or into that of an input of this
   /// channel's type, see InputQueue::PutFirst(). Call inside an EpochGuard.
   virtual void DeliverNewest(QueueSink& sink) = 0;
+  /// Shows the newest value; false if there is none. Any thread.
+  virtual bool VisitLatest(
+      const std::function<void(const void* value, ValueTimes times)>& visit) const = 0;
+  /// Has `fill(context, value)` write a value into a free buffer, and publishes it; nothing if that says that
+  /// there is none. For the publisher. Precondition: can_be_filled().
+  virtual std::optional<PublishStatus> PublishFilled(bool (*fill)(void* context, void* value),
+                                                     void* context, ValueTimes times) = 0;
+  /// Whether others than the module that publishes can make values: T{}, or what lies in a buffer.
+  [[nodiscard]] virtual bool can_be_filled() const noexcept = 0;
   /// Whether a queue that refuses is full.
   [[nodiscard]] bool WouldRefuse() const noexcept;
   /// Has the provider, if there is one and nobody is publishing just now, make

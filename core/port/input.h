@@ -36,7 +36,9 @@ class Input final : public BoundInput {
       : Input(owner->InputGroup(), std::move(name), std::move(options)) {}
   /// Into a certain group.
   Input(FrameworkElement& group, std::string name, InputOptions options = {})
-      : BoundInput(group, std::move(name), TypeOf<T>(), std::move(options)) {}
+      : BoundInput(group, std::move(name), TypeOf<T>(), std::move(options)) {
+    internal::MakeTypedPortsKnown<T>();
+  }
   ~Input() override { DisconnectForEver(); }
 
   /// The newest value, with whether it is new since the last Read().
@@ -99,10 +101,6 @@ class Input final : public BoundInput {
     const Lease<T> lease = PeekForViewer();
     if (lease) visit(&*lease, lease.times());
     return lease.has_value();
-  }
-  [[nodiscard]] std::unique_ptr<Port> MakeOutput(FrameworkElement& group, std::string name,
-                                                 OutputOptions options) const override {
-    return internal::MakeOutput<T>(group, std::move(name), std::move(options));
   }
 
  private:

@@ -8,6 +8,7 @@
 #include "core/element/runtime.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/port/channel_base.h"
+#include "core/port/given_limits.h"
 
 namespace runnel {
 
@@ -47,6 +48,18 @@ void InputBase::SetWaker(Waker* waker) {
     throw;
   }
   if (waker_ != nullptr && HasValue(*this)) Wake(*waker_);
+}
+
+Result<void> InputBase::Prepare() {
+  InputLimits limits = options_.limits;
+  if (const auto* const given = FindAnnotation<GivenLimits>()) {
+    const InputLimits& from = given->limits;
+    if (from.default_value) limits.default_value = from.default_value;
+    if (from.minimum) limits.minimum = from.minimum;
+    if (from.maximum) limits.maximum = from.maximum;
+    if (from.out_of_bounds != OutOfBounds::kDiscard) limits.out_of_bounds = from.out_of_bounds;
+  }
+  return limits.has_some() ? SetLimits(std::move(limits)) : Result<void>();
 }
 
 void InputBase::SetStrategy(Strategy strategy) {
@@ -123,6 +136,12 @@ void InputBase::TakeOverFlow(Port& from) {
   }
   if (arrival_) arrival_->Wake();
   if (waker_ != nullptr && HasValue(*this)) Wake(*waker_);
+  // What holds values to the limits of the one has come over; each has limits of its own.
+  if (!limits().has_some() && !other.limits().has_some()) return;
+  const InputLimits own = other.limits();
+  const InputLimits others = limits();
+  (void)SetLimits(own);
+  (void)other.SetLimits(others);
 }
 
 // Whether publishers have to do anything for this input.
@@ -137,7 +156,7 @@ void InputBase::UpdateChannel(Port& output) {
   Subscribers subscribers;
   std::size_t waiting = 0;
   bool shares_an_input = false;
-  for (Port* port : output.Sinks()) {
+  for (Port* port : output.BoundSinks()) {
     // A sink is an input that is no interface port, and all of those derive from InputBase.
     auto& input = static_cast<InputBase&>(*port);
     if (input.sink_ != nullptr) {

@@ -17,6 +17,7 @@ class InputBase : public Port {
  public:
   [[nodiscard]] bool is_required() const noexcept override { return options_.required; }
   [[nodiscard]] bool is_trigger() const noexcept { return options_.trigger; }
+  [[nodiscard]] const std::string& unit() const noexcept override { return options_.unit; }
 
   ~InputBase() override;
 
@@ -51,6 +52,10 @@ class InputBase : public Port {
  protected:
   InputBase(const Placement& placement, const TypeInfo& type, InputOptions options);
 
+  /// What it is bound to. Under the structure lock.
+  [[nodiscard]] const std::vector<Source>& sources() const noexcept { return sources_; }
+
+  Result<void> Prepare() override;
   void Rebind(const std::vector<Source>& sources) final;
   void TakeOverFlow(Port& from) final;
   void ReplaceSource(const Port& from, Port& to) noexcept final;

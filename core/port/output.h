@@ -16,10 +16,6 @@
 namespace runnel {
 
 namespace internal {
-/// Port::MakeOutput() of inputs and outputs.
-template <typename T>
-std::unique_ptr<Port> MakeOutput(FrameworkElement& group, std::string&& name,
-                                 OutputOptions&& options);
 /// typed_ports.h
 template <typename T>
 void MakeTypedPortsKnown();
@@ -157,30 +153,6 @@ class Output final : public OutputBase {
   /// How often the pool had to allocate since the start.
   [[nodiscard]] std::uint64_t growths() const noexcept { return own().growths(); }
 
-  bool VisitLatest(const Visitor& visit) const override {
-    const auto held = own().ReadForViewer();
-    if (!held.has_value()) return false;
-    visit(&held.value(), ValueTimes::Of(held.publication()));
-    return true;
-  }
-  Result<PublishStatus> PublishFilled(const Fill& fill,
-                                      std::optional<Time> timestamp = {}) override {
-    if constexpr (Channel<T>::kCanPull) {
-      auto loan = Loan();
-      return FillAndPublish(loan ? &*loan : nullptr, fill, timestamp, &loan,
-                            [](Port& self, void* filled, ValueTimes times) {
-                              return static_cast<Output&>(self).own().Publish(
-                                  std::move(*static_cast<runnel::Loan<T>*>(filled)), times);
-                            });
-    } else {
-      return CannotPublish("only its module can make values of its type");
-    }
-  }
-  [[nodiscard]] std::unique_ptr<Port> MakeOutput(FrameworkElement& group, std::string name,
-                                                 OutputOptions options) const override {
-    return internal::MakeOutput<T>(group, std::move(name), std::move(options));
-  }
-
  private:
   template <typename Value>
   [[gnu::always_inline]] PublishStatus PublishAt(Value&& value, ValueTimes times) {
@@ -207,17 +179,6 @@ class Output final : public OutputBase {
     return static_cast<Channel<T>&>(own_channel());
   }
 };
-
-template <typename T>
-[[gnu::noinline]] std::unique_ptr<Port> internal::MakeOutput(FrameworkElement& group,
-                                                             std::string&& name,
-                                                             OutputOptions&& options) {
-  if constexpr (std::is_default_constructible_v<T>) {
-    return std::make_unique<Output<T>>(group, std::move(name), std::move(options));
-  } else {
-    return nullptr;
-  }
-}
 
 }  // namespace runnel
 

@@ -24,6 +24,12 @@ class OutputBase : public Port {
   [[nodiscard]] std::uint64_t pull_failures() const noexcept;
   [[nodiscard]] std::uint64_t publications() const noexcept override;
   [[nodiscard]] bool is_pullable() const noexcept override;
+  [[nodiscard]] const std::string& unit() const noexcept override { return unit_; }
+  bool VisitLatest(const Visitor& visit) const override { return own_channel().VisitLatest(visit); }
+  Result<PublishStatus> PublishFilled(const Fill& fill,
+                                      std::optional<Time> timestamp = {}) override {
+    return PublishInto(own_channel(), fill, timestamp);
+  }
 
  protected:
   // By reference, so that typed outputs move nothing themselves.
@@ -43,6 +49,7 @@ class OutputBase : public Port {
   void TakeOverFlow(Port& from) override;
   void EndPulls();
 
+  const std::string unit_;
   std::atomic<ChannelBase*> channel_;  // owned
 };
 

@@ -1,18 +1,28 @@
 #include "core/port/port.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
-#include <iterator>
 #include <mutex>
 #include <thread>
-#include <unordered_set>
 
 #include "core/base/check.h"
 #include "core/base/exception_text.h"
+#include "core/base/retry.h"
 #include "core/element/runtime.h"
+#include "core/port/channel_base.h"
+#include "core/port/connection_rules.h"
+#include "core/port/connection_search.h"
+#include "core/conversion/conversion.h"
+#include "core/port/converted_flow.h"
+#include "core/port/late_edge.h"
+#include "core/port/port_extras.h"
+#include "core/port/typed_ports.h"
 #include "core/types/type_info.h"
 
 namespace runnel {
+
+using internal::FindConnection;
 
 namespace {
 
@@ -36,30 +46,12 @@ bool IsConnected(const Port& from, const Port& to) {
                              [&](const Connection& each) { return each.to == &to; });
 }
 
-// From the end, since what has been connected last is asked for most.
-template <typename Connections>
-auto FindConnection(Connections& outgoing, const Port& to) {
-  const auto found = std::find_if(outgoing.rbegin(), outgoing.rend(),
-                                  [&](const Connection& each) { return each.to == &to; });
-  return found == outgoing.rend() ? outgoing.end() : std::prev(found.base());
-}
-
 // Only interface ports pass data on, so only through them a cycle can close.
 bool Reaches(const Port& from, const Port& to) {
   if (&from == &to) return true;
   return std::ranges::any_of(from.outgoing(), [&](const Connection& each) {
     return each.to == &to || (each.to->is_proxy() && Reaches(*each.to, to));
   });
-}
-
-void CollectSinks(const Port& port, std::vector<Port*>& sinks) {
-  for (const Connection& each : port.outgoing()) {
-    if (each.to->is_proxy()) {
-      CollectSinks(*each.to, sinks);
-    } else {
-      sinks.push_back(each.to);
-    }
-  }
 }
 
 // A connection that is to be cut since one end goes must not stay for lack of memory, so it waits until there is
@@ -72,19 +64,25 @@ void CutOrWait(Port& from, Port& to) noexcept {
   std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
-// Keeps the first of each.
-void DropRepetitions(std::vector<Port*>& ports) {
-  std::unordered_set<const Port*> seen;
-  std::erase_if(ports, [&](const Port* port) { return !seen.insert(port).second; });
+// With what would lead from the one to the other.
+Error NoConversion(const Port& from, const Port& to, const ConnectOptions& options,
+                   const Error& why) {
+  Error error = Refusal(from, "carries " + from.type().name() + ", but " + to.path() + " takes " +
+                                  to.type().name());
+  const bool is_plain = options.part.empty() && options.convert.empty();
+  if (!is_plain || &from.type() == &to.type()) error.message += ": " + why.message;
+  error.hint = why.hint;
+  const auto candidates = ConversionCandidates(
+      {from.type(), to.type(), options.part, options.convert, from.unit(), to.unit()});
+  if (!candidates.empty()) error.hint.clear();
+  for (const std::string& each : candidates) {
+    error.hint += (error.hint.empty() ? "what would fit: " : ", or ") + each;
+  }
+  return error;
 }
 
-// Of two stretches of one way, or two ways from one source, the one that asks for a queue decides;
-// of two queues, the longer. If one pulls, all of it does.
-ConnectOptions Stronger(const ConnectOptions& a, const ConnectOptions& b) {
-  ConnectOptions stronger = b.queue > a.queue ? b : a;
-  stronger.pull = a.pull || b.pull;
-  return stronger;
-}
+// relaxed: whoever looks has the structure lock, as who sets it.
+std::atomic<bool> some_are_late{false};
 
 Error CannotBePulled(const Port& output) {
   return Refusal(output, "cannot be pulled: it has no provider",
@@ -92,6 +90,22 @@ Error CannotBePulled(const Port& output) {
 }
 
 }  // namespace
+
+bool IsLate(const Port& from, const Port& to) {
+  if (!some_are_late.load(std::memory_order_relaxed)) return false;
+  const auto edge = FindConnection(from.outgoing(), to);
+  return edge != from.outgoing().end() && edge->options.late;
+}
+
+std::string Connection::SourceText() const {
+  const std::string& part = options.part;
+  return from->path() + (part.empty() || part.front() == '[' ? "" : ".") + part;
+}
+
+const std::vector<std::string>& OutOfBoundsNames() {
+  static const std::vector<std::string> names{"discard", "clamp", "default"};
+  return names;
+}
 
 const std::vector<std::string>& OnFullNames() {
   static const std::vector<std::string> names{"drop_oldest", "drop_newest", "refuse"};
@@ -122,11 +136,14 @@ Result<void> Port::CheckEnds(const Port& from, const Port& to, const ConnectOpti
                    CanSend(to) ? "did you mean to write 'from' and 'to' the other way round?" : "");
   }
   if (!CanReceive(to)) return Refusal(to, "is an output and cannot receive");
-  if (&from.type() != &to.type()) {
-    return Refusal(from, "carries " + from.type().name() + ", but " + to.path() + " takes " +
-                             to.type().name());
-  }
+  const auto conversion = internal::ConversionBetween(from, to, options.part, options.convert);
+  if (!conversion) return NoConversion(from, to, options, conversion.error());
+  if (auto allowed = CheckConnectionRules(from, to); !allowed) return allowed;
   if (!options.pull) return {};
+  if (*conversion != nullptr) {
+    return Refusal(from, "cannot be pulled through a conversion to " + to.type().name(),
+                   "leave out one of the two");
+  }
   if (options.queue > 0) {
     return Refusal(from, "a connection that pulls cannot have a queue",
                    "what is pulled is the newest value; leave out one of the two");
@@ -147,9 +164,15 @@ Result<void> Port::CheckConnection(const Port& from, const Port& to,
 Result<void> Port::Connect(Port& from, Port& to, const ConnectOptions& options) {
   const std::lock_guard lock(from.runtime().structure_mutex());
   if (auto possible = CheckConnection(from, to, options); !possible) return possible;
-  from.outgoing_.push_back({&from, &to, options});
-  from.NoteOutgoing();
+  const auto conversion = internal::ConversionBetween(from, to, options.part, options.convert);
+  if (!conversion) return conversion.error();
   try {
+    from.outgoing_.push_back({&from, &to, options});
+    from.NoteOutgoing();
+    if (*conversion) {
+      from.outgoing_.back().converted = std::make_shared<internal::ConvertedFlow>(*conversion, to);
+    }
+    if (options.late) some_are_late.store(true, std::memory_order_relaxed);
     to.incoming_.push_back(&from);
     to.RebindSinks();
   } catch (...) {  // no memory for the queue
@@ -181,6 +204,7 @@ Result<void> Port::Disconnect(Port& from, Port& to) {
   RemoveEdge(from, to);
   try {
     to.RebindSinks();
+    to.PruneConversions();
   } catch (...) {
     // Both lists have the room that it has just left.
     from.outgoing_.insert(from.outgoing_.begin() + outgoing_place, removed);
@@ -189,129 +213,34 @@ Result<void> Port::Disconnect(Port& from, Port& to) {
     to.RebindSinks();
     return Refusal(from, "cannot be disconnected from " + to.path() + ": " + DescribeException());
   }
+  if (removed.converted) removed.converted->KeepOnly({});
   from.runtime().ForEachListener(
       [&](ElementListener& listener) { listener.OnDisconnected(from, to); });
   return {};
 }
 
-Result<void> Port::CheckTakeOver(const Port& port, const Port& from) {
-  const auto kind = [](const Port& each) {
-    return std::string(each.is_proxy() ? "an interface port" : "") +
-           (each.direction() == Direction::kInput ? "an input" : "an output");
-  };
-  if (kind(port) != kind(from)) {
-    return Refusal(port, "cannot take over from " + from.path() + ": one is " + kind(port) +
-                             ", the other is " + kind(from));
-  }
-  if (&port.type() != &from.type()) {
-    return Refusal(port, "carries " + port.type().name() + " and cannot take over from " +
-                             from.path() + ", which carries " + from.type().name());
-  }
-  if (!port.incoming_.empty() || !port.outgoing_.empty()) {
-    return Refusal(port, "is connected and cannot take over from " + from.path());
-  }
-  const auto pulls = [](const Connection& each) { return each.options.pull; };
-  if (!port.is_pullable() && std::ranges::any_of(from.outgoing_, pulls))
-    return CannotBePulled(port);
-  return {};
-}
-
-void Port::TakeOver(Port& from) {
-  const std::lock_guard lock(runtime().structure_mutex());
-  const auto possible = CheckTakeOver(*this, from);
-  RUNNEL_CHECK(possible, "a port cannot take over from another one");
-  const std::vector<Port*> sinks = from.Sinks();
-  ExchangeConnections(from, sinks);
-  try {
-    TakeOverFlow(from);
-  } catch (...) {
-    // Each as it was, and what has been exchanged by then is exchanged again.
-    from.ExchangeConnections(*this, sinks);
-    from.TakeOverFlow(*this);
-    throw;
-  }
-}
-
-void Port::ExchangeConnections(Port& from, const std::vector<Port*>& sinks) noexcept {
-  for (Connection& each : from.outgoing_) {
-    each.from = this;
-    std::ranges::replace(each.to->incoming_, &from, this);
-  }
-  for (Port* port : from.incoming_) {
-    for (Connection& each : port->outgoing_) {
-      if (each.to == &from) each.to = this;
-    }
-  }
-  outgoing_.swap(from.outgoing_);
-  NoteOutgoing();
-  from.NoteOutgoing();
-  incoming_.swap(from.incoming_);
-  for (Port* sink : sinks) {
-    if (sink != &from && sink != this) sink->ReplaceSource(from, *this);
-  }
-}
-
 void Port::DisconnectAll() {
   const std::lock_guard lock(runtime().structure_mutex());
+  if (is_set_by_hand()) Retry([this] { Release(); });
   while (!outgoing_.empty()) CutOrWait(*this, *outgoing_.back().to);
   while (!incoming_.empty()) CutOrWait(*incoming_.back(), *this);
 }
 
 void Port::Detach() noexcept { DisconnectAll(); }
 
-void Port::CollectSources(const ConnectOptions& options, std::vector<Source>& sources) const {
-  for (Port* from : incoming_) {
-    const auto edge = FindConnection(from->outgoing_, *this);
-    const ConnectOptions stronger = Stronger(options, edge->options);
-    if (from->is_proxy()) {
-      from->CollectSources(stronger, sources);
-      continue;
-    }
-    const auto known = std::ranges::find(sources, from, &Source::output);
-    if (known == sources.end()) {
-      sources.push_back({from, stronger});
-    } else {
-      known->options = Stronger(known->options, stronger);
-    }
-  }
-}
-
-void Port::RebindSinks() {
-  for (Port* sink : Sinks()) {
-    std::vector<Source> sources;
-    sink->CollectSources({}, sources);
-    sink->Rebind(sources);
-  }
-}
-
-std::vector<Port*> Port::Sources() const {
-  if (!is_proxy() && direction_ == Direction::kOutput) return {const_cast<Port*>(this)};
-  std::vector<Source> sources;
-  CollectSources({}, sources);
-  std::vector<Port*> ports;
-  for (const Source& source : sources) ports.push_back(source.output);
-  return ports;
-}
-
-std::vector<Port*> Port::Sinks() const {
-  if (!is_proxy() && direction_ == Direction::kInput) return {const_cast<Port*>(this)};
-  std::vector<Port*> sinks;
-  CollectSinks(*this, sinks);
-  const bool has_detours =
-      std::ranges::any_of(outgoing_, [](const Connection& each) { return each.to->is_proxy(); });
-  if (has_detours) DropRepetitions(sinks);
-  return sinks;
-}
-
 bool Port::VisitLatest(const Visitor& visit) const {
   const std::lock_guard lock(runtime().structure_mutex());
-  return std::ranges::any_of(Sources(), [&](Port* source) { return source->VisitLatest(visit); });
+  return std::ranges::any_of(ValueSources(), [&](const Port* each) {
+    return each != this && each->VisitLatest(visit);
+  });
 }
 
 std::uint64_t Port::publications() const noexcept {
   const std::lock_guard lock(runtime().structure_mutex());
   std::uint64_t all = 0;
-  for (const Port* source : Sources()) all += source->publications();
+  for (const Port* each : ValueSources()) {
+    if (each != this) all += each->publications();
+  }
   return all;
 }
 
@@ -319,22 +248,39 @@ Result<PublishStatus> Port::PublishFilled(const Fill&, std::optional<Time>) {
   return CannotPublish(is_proxy() ? "is an interface port" : "is an input");
 }
 
-Result<PublishStatus> Port::FillAndPublish(void* value, const Fill& fill,
-                                           std::optional<Time> timestamp, void* loan,
-                                           PublishStatus (*publish)(Port& self, void* loan,
-                                                                    ValueTimes times)) {
-  if (value == nullptr) return CannotPublish("its pool has no free buffer");
-  if (auto filled = fill(value); !filled) return filled.error();
+Result<PublishStatus> Port::PublishInto(ChannelBase& channel, const Fill& fill,
+                                        std::optional<Time> timestamp) {
+  if (!channel.can_be_filled()) return CannotPublish("only its module can make values of its type");
+  struct Filling {
+    const Fill& fill;
+    Result<void> filled = {};
+  } filling{fill};
   const Time now = PublicationTime();
-  return publish(*this, loan, {timestamp.value_or(now), now});
+  const auto published = channel.PublishFilled(
+      [](void* context, void* value) {
+        auto& by = *static_cast<Filling*>(context);
+        by.filled = by.fill(value);
+        return by.filled.has_value();
+      },
+      &filling, {timestamp.value_or(now), now});
+  if (!published) return filling.filled.error();
+  if (*published == PublishStatus::kNoBuffer) return CannotPublish("its pool has no free buffer");
+  return *published;
 }
 
 Error Port::CannotPublish(const char* why) const {
   return Refusal(*this, std::string("cannot publish: ") + why);
 }
 
-std::unique_ptr<Port> Port::MakeOutput(FrameworkElement&, std::string, OutputOptions) const {
-  return nullptr;
+std::unique_ptr<Port> Port::MakeOutput(FrameworkElement& group, std::string name,
+                                       OutputOptions options) const {
+  const TypedPorts* const ports = FindTypedPorts(type_);
+  return ports != nullptr ? ports->MakeOutput(group, std::move(name), std::move(options)) : nullptr;
+}
+
+const std::string& Port::unit() const noexcept {
+  static const std::string none;
+  return none;
 }
 
 void Port::Rebind(const std::vector<Source>&) {}

@@ -21,11 +21,21 @@ class ChannelBase;
 class Port;
 class TypeInfo;
 
+namespace internal {
+class ConvertedFlow;
+struct PortExtras;
+}  // namespace internal
+
 /// One edge of the data-flow graph, as it was made.
 struct Connection {
   Port* from;
   Port* to;
   ConnectOptions options;
+  /// What converts the values on their way; nullptr if they pass as they are.
+  std::shared_ptr<internal::ConvertedFlow> converted = {};
+
+  /// The path of `from`, with the part of its values that is meant: "/world/pose.x".
+  [[nodiscard]] std::string SourceText() const;
 };
 
 /// What every port has: a direction, a type, connections. Data flows from outputs to inputs,
@@ -43,6 +53,8 @@ class Port : public FrameworkElement {
   [[nodiscard]] Direction direction() const noexcept { return direction_; }
   [[nodiscard]] const TypeInfo& type() const noexcept { return type_; }
   [[nodiscard]] const std::string& description() const noexcept { return description_; }
+  /// Of numbers; "" if nobody said.
+  [[nodiscard]] virtual const std::string& unit() const noexcept;
   /// An interface port of a group, which only passes on.
   [[nodiscard]] virtual bool is_proxy() const noexcept { return false; }
   [[nodiscard]] virtual bool is_required() const noexcept { return false; }
@@ -68,17 +80,47 @@ class Port : public FrameworkElement {
   /// that publishes), and the inputs that it feeds. In the order of connecting.
   [[nodiscard]] std::vector<Port*> Sources() const;
   [[nodiscard]] std::vector<Port*> Sinks() const;
+  /// Those whose values readers find here now: what is set by hand, or converted, instead of what it stands
+  /// for. Of an input nothing but itself, which shows what it reads.
+  [[nodiscard]] std::vector<const Port*> ShownPorts() const;
+  /// Outputs: the inputs that are bound to this one's channel: Sinks() but for those that read something else
+  /// for now, and what takes values to convert them.
+  [[nodiscard]] std::vector<Port*> BoundSinks() const;
 
-  /// Lets data flow between two ports of one runtime and one type. Works while both are in use.
-  /// Errors: wrong types, wrong directions, a second connection between the same two, a cycle of
-  /// interface ports, ports being deleted, options that contradict each other, pulling from an output
-  /// that cannot be pulled; nothing has changed then.
+  /// Lets data flow between two ports of one runtime. Works while both are in use. Where their types, or
+  /// units, differ, or a part of the values is meant, they are converted (conversion.h), in the publisher's
+  /// thread, once for all readers behind the connection.
+  /// Errors: types that no conversion leads between, wrong directions, a second connection between the same
+  /// two, a cycle of interface ports, ports being deleted, options that contradict each other, pulling from
+  /// an output that cannot be pulled, a rule that somebody has set up (connection_rules.h); nothing has
+  /// changed then.
   static Result<void> Connect(Port& from, Port& to, const ConnectOptions& options = {});
   static Result<void> Disconnect(Port& from, Port& to);
   void DisconnectAll();
   /// What Connect() would say, but for `from` and `to` being connected already or for a cycle.
   [[nodiscard]] static Result<void> CheckEnds(const Port& from, const Port& to,
                                               const ConnectOptions& options = {});
+
+  /// Has readers of this port find the value that `fill` writes, in place of whatever else is published, until
+  /// Release(); the next time, a new value. Inputs: this one alone; outputs and interface ports: all that
+  /// reads from them. Modules publish on, and are not read. It goes over to a module that takes the place of
+  /// this port's.
+  /// Threads: locks, allocates. Errors: those of `fill`; a type that only its module can make.
+  using Fill = std::function<Result<void>(void* value)>;
+  Result<void> PublishByHand(const Fill& fill);
+  /// Readers find again what is published. False: it was not set by hand.
+  bool Release();
+  /// Under the structure lock.
+  [[nodiscard]] bool is_set_by_hand() const noexcept { return by_hand() != nullptr; }
+
+  /// Inputs: which values it takes from now on, and what its readers find while there is none. Values are
+  /// looked at in the publisher's thread, as those that are converted; inputs without limits pay nothing.
+  /// Errors: no input; bounds of what is no number; a default of another type, or out of the bounds.
+  Result<void> SetLimits(InputLimits limits);
+  /// Under the structure lock.
+  [[nodiscard]] const InputLimits& limits() const noexcept;
+  /// How many values have come that were out of the bounds. Under the structure lock.
+  [[nodiscard]] std::uint64_t out_of_bounds() const noexcept;
 
   /// Takes the place of `from` in all its connections, without a value being lost, repeated, or seen
   /// anew: an input goes on reading where the other has stopped, an output publishes into the channel
@@ -102,13 +144,12 @@ class Port : public FrameworkElement {
   /// is known. For who knows the type by its TypeInfo
   /// only. Threads: as Output::Publish(). Errors: those of `fill`, a fixed pool without a free buffer,
   /// a type that only its module can make, a port that is no output; nothing is published then.
-  using Fill = std::function<Result<void>(void* value)>;
   virtual Result<PublishStatus> PublishFilled(const Fill& fill, std::optional<Time> timestamp = {});
   /// Another output for values of the type of this one, which the caller owns; nullptr if only a module
-  /// can make such values (no default constructor), and for ports that know no C++ type: interface ports
-  /// and probes. Throws what the constructor of an element throws.
-  [[nodiscard]] virtual std::unique_ptr<Port> MakeOutput(FrameworkElement& group, std::string name,
-                                                         OutputOptions options) const;
+  /// can make such values (no default constructor), and if no module has ports of the type (typed_ports.h).
+  /// Throws what the constructor of an element throws.
+  [[nodiscard]] std::unique_ptr<Port> MakeOutput(FrameworkElement& group, std::string name,
+                                                 OutputOptions options) const;
 
  protected:
   Port(const Placement& placement, Direction direction, const TypeInfo& type,
@@ -128,12 +169,11 @@ class Port : public FrameworkElement {
   virtual void ReplaceSource(const Port& /*from*/, Port& /*to*/) noexcept {}
   /// Binds all inputs at the far end anew.
   void RebindSinks();
-  /// PublishFilled() of an output: fills `value`, unless it is nullptr for want of a buffer, and has
-  /// `publish(*this, loan, times)` publish it.
-  Result<PublishStatus> FillAndPublish(void* value, const Fill& fill, std::optional<Time> timestamp,
-                                       void* loan,
-                                       PublishStatus (*publish)(Port& self, void* loan,
-                                                                ValueTimes times));
+  /// PublishFilled() of ports that have a channel.
+  Result<PublishStatus> PublishInto(ChannelBase& channel, const Fill& fill,
+                                    std::optional<Time> timestamp);
+  /// Outputs that publish in the place of somebody else: at which port it goes on.
+  [[nodiscard]] virtual const Port* goes_on_at() const noexcept { return nullptr; }
   /// What PublishFilled() says when it cannot.
   [[nodiscard]] Error CannotPublish(const char* why) const;
   /// Outputs: the channel that inputs are bound to; nullptr for other ports.
@@ -147,10 +187,27 @@ class Port : public FrameworkElement {
   void Detach() noexcept override;
 
  private:
+  friend class internal::ConvertedFlow;
+  enum class Links { kKeep, kMake };
+
   [[nodiscard]] Time TimeOutsideOfCycles() const noexcept;
+  [[nodiscard]] Port* by_hand() const noexcept;
+  internal::PortExtras& Extras();
   static Result<void> CheckConnection(const Port& from, const Port& to,
                                       const ConnectOptions& options);
-  void CollectSources(const ConnectOptions& options, std::vector<Source>& sources) const;
+  /// What this port passes on to who is connected to it: itself, or what it receives.
+  void CollectPassedOn(const ConnectOptions& options, Links links,
+                       std::vector<Source>& sources) const;
+  void CollectSources(const ConnectOptions& options, Links links,
+                      std::vector<Source>& sources) const;
+  [[nodiscard]] std::vector<Source> BoundSources(Links links) const;
+  static void CollectBound(const Port& port, const Port& source, std::vector<Port*>& sinks);
+  /// What takes the values of `source` for this input: itself, or what looks whether they are in its limits.
+  [[nodiscard]] Port* TakerOf(const Port& source) const;
+  void HoldToLimits(Links links, std::vector<Source>& sources) const;
+  void PruneConversions() const;
+  /// Ports without values of their own: whose values they show.
+  [[nodiscard]] std::vector<const Port*> ValueSources() const;
   static bool RemoveEdge(Port& from, Port& to);
   void ExchangeConnections(Port& from, const std::vector<Port*>& sinks) noexcept;
 
@@ -166,6 +223,7 @@ class Port : public FrameworkElement {
   std::vector<Port*> incoming_;
   std::atomic<bool> has_outgoing_{false};
   mutable std::atomic<bool> is_looked_at_{false};
+  std::unique_ptr<internal::PortExtras> extras_;  // what few ports have
 };
 
 inline Time Port::PublicationTime() const noexcept {

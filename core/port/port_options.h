@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/lockfree/buffer_pool.h"
+#include "core/types/any_value.h"
 
 namespace runnel {
 
@@ -30,6 +32,12 @@ struct ConnectOptions {
   std::size_t queue = 0;  ///< how many values may wait at the input; 0: only the latest counts
   OnFull on_full = OnFull::kDropOldest;
   bool pull = false;  ///< the input pulls, see Strategy::kPull; not with a queue
+  /// Made as soon as both ends are there, and again after one went; LateConnections sees to it.
+  bool when_present = false;
+  /// In a loop of modules, this is the connection by which values come one cycle late.
+  bool late = false;
+  std::string part = {};     ///< of the values at `from`: "x", "ranges[0]"; "" for all of them
+  std::string convert = {};  ///< the name of a conversion; "" for the usual one, if one is needed
 };
 
 /// Who sees to it that a value comes.
@@ -38,18 +46,45 @@ enum class Strategy {
   kPull,  ///< the reader, when it wants one: reading first has the sources' providers make one
 };
 
+/// What an input does with a number that is out of its bounds. Counted in any case.
+enum class OutOfBounds {
+  kDiscard,  ///< the value before stays
+  kClamp,    ///< takes the nearest that is in the bounds
+  kDefault,  ///< takes the default value
+};
+
+/// How files, commands and messages write it: discard, clamp, default. In its order.
+[[nodiscard]] const std::vector<std::string>& OutOfBoundsNames();
+
+/// Which values an input takes, and what it reads when there is none.
+struct InputLimits {
+  AnyValue default_value = {};  ///< of the input's type: read while nothing is connected or has come
+  std::optional<double> minimum = {};  ///< of numbers only
+  std::optional<double> maximum = {};
+  OutOfBounds out_of_bounds = OutOfBounds::kDiscard;
+
+  [[nodiscard]] bool has_bounds() const noexcept { return minimum || maximum; }
+  [[nodiscard]] bool has_some() const noexcept { return has_bounds() || default_value; }
+};
+
+/// "0.1 .. 5", "0 ..", ".. 5"; "" for none.
+[[nodiscard]] std::string BoundsText(const InputLimits& limits);
+
 struct InputOptions {
   std::string description = {};
   bool required = false;  ///< an application in which nothing is connected to it is wrong
   bool trigger = false;   ///< new data here is what an event-driven thread waits for
   bool waits = false;     ///< its reader will call Wait(): prepares for that at once
   Strategy strategy = Strategy::kPush;
+  std::string unit = {};  ///< SI, of numbers: what comes from a connection in another unit is converted
+  InputLimits limits = {};
 };
 
 struct OutputOptions {
   std::string description = {};
   PoolOptions pool = {};  ///< for types that travel in buffers; others have none
   bool pullable = false;  ///< may have a provider; the provider's buffers are a second such pool
+  std::string unit = {};  ///< SI, of numbers
 };
 
 enum class PublishStatus {

@@ -53,6 +53,8 @@ class TypedPorts {
   [[nodiscard]] virtual std::unique_ptr<Port> MakeOutput(FrameworkElement& group, std::string name,
                                                          OutputOptions options = {}) const = 0;
   [[nodiscard]] virtual std::unique_ptr<HeldValues> MakeHeldValues(std::size_t places) const = 0;
+  /// What an output and its readers share, without the output; nullptr as MakeOutput().
+  [[nodiscard]] virtual std::unique_ptr<ChannelBase> MakeChannel() const = 0;
 
  protected:
   ~TypedPorts() = default;
@@ -105,7 +107,14 @@ class TypedPortsOf final : public TypedPorts {
   }
   [[nodiscard]] std::unique_ptr<Port> MakeOutput(FrameworkElement& group, std::string name,
                                                  OutputOptions options) const override {
-    return internal::MakeOutput<T>(group, std::move(name), std::move(options));
+    if constexpr (std::is_default_constructible_v<T>) {
+      return std::make_unique<Output<T>>(group, std::move(name), std::move(options));
+    } else {
+      return nullptr;
+    }
+  }
+  [[nodiscard]] std::unique_ptr<ChannelBase> MakeChannel() const override {
+    return Channel<T>::Make();
   }
   [[nodiscard]] std::unique_ptr<HeldValues> MakeHeldValues(std::size_t places) const override {
     return std::make_unique<HeldValuesOf<T>>(places);

@@ -168,6 +168,11 @@ class Application {
   /// Parameters in text format. Errors: no such parameter, with the nearest; not a value of it.
   Result<void> Set(std::string_view path, std::string_view value);
   [[nodiscard]] Result<std::string> Get(std::string_view path);
+  /// Sets the value at a port by hand, in text format: readers find it instead of what is published, until it is
+  /// released. Errors: no such port, with the nearest; not a value of its type.
+  Result<void> PublishByHand(std::string_view port, std::string_view value);
+  /// Errors: no such port; it is not set by hand.
+  Result<void> Release(std::string_view port);
   /// Saves what it is now to the file; "": the one that it came from.
   Result<void> Save(const std::filesystem::path& file = {});
   /// Writes values of parameters that have changed back to the configuration files; with a `file`, all that the

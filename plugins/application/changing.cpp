@@ -4,10 +4,12 @@
 #include <mutex>
 #include <utility>
 
-#include "core/port/path_search.h"
+#include "core/paths/late_connections.h"
+#include "core/paths/path_search.h"
 #include "plugins/application/internal/application_parts.h"
 #include "plugins/application_files/application_source.h"
 #include "plugins/application_files/saving/application_saver.h"
+#include "plugins/command_service/hand_settings.h"
 #include "plugins/parameters/configuration_saver.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/structure/change_text.h"
@@ -72,16 +74,21 @@ Result<void> Application::Connect(std::string_view from, std::string_view to,
                                   const ConnectOptions& options) {
   const std::lock_guard lock(parts_->runtime().structure_mutex());
   const PathSearch structure(parts_->runtime());
-  auto source = structure.FindPort(from, PathKind::kOutput);
+  if (options.when_present) {
+    return LateConnections::Of(parts_->runtime()).Add(std::string(from), std::string(to), options);
+  }
+  auto source = structure.FindPortPart(from, PathKind::kOutput);
   auto sink = structure.FindPort(to, PathKind::kInput);
   if (!source || !sink) {  // perhaps it is made only when parameters are set
     if (auto constructed = Runtime::Construct(element()); !constructed) return constructed;
-    if (!source) source = structure.FindPort(from, PathKind::kOutput);
+    if (!source) source = structure.FindPortPart(from, PathKind::kOutput);
     if (!sink) sink = structure.FindPort(to, PathKind::kInput);
   }
   if (!source) return source.error();
   if (!sink) return sink.error();
-  return Port::Connect(**source, **sink, options);
+  ConnectOptions wanted = options;
+  if (!source->part.empty()) wanted.part = source->part;
+  return Port::Connect(*source->port, **sink, wanted);
 }
 
 ChangeOutcome Application::Apply(const ChangeSet& changes) {
@@ -109,6 +116,17 @@ ChangeOutcome Application::Swap(const std::string& path, const std::string& type
 
 ChangeOutcome Application::Undo() { return parts_->history->Undo(); }
 ChangeOutcome Application::Redo() { return parts_->history->Redo(); }
+
+Result<void> Application::PublishByHand(std::string_view port, std::string_view value) {
+  const auto set = SetPortByHand(parts_->runtime(), std::string(port), std::string(value));
+  return set ? Result<void>() : set.error();
+}
+
+Result<void> Application::Release(std::string_view port) {
+  if (port.empty()) return Error{.message = "which port is to be released is missing"};
+  const auto released = ReleasePort(parts_->runtime(), std::string(port));
+  return released ? Result<void>() : released.error();
+}
 
 Result<void> Application::Set(std::string_view path, std::string_view value) {
   {

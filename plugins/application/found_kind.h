@@ -4,7 +4,7 @@
 
 #include "core/port/input.h"
 #include "core/port/output.h"
-#include "core/port/path_search.h"
+#include "core/paths/path_search.h"
 #include "plugins/parameters/parameter.h"
 #include "plugins/parameters/static_parameter.h"
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/lockfree/epoch.h"
-#include "core/port/path_search.h"
+#include "core/paths/path_search.h"
 #include "plugins/application/internal/application_parts.h"
 #include "plugins/values/watched_port.h"
 

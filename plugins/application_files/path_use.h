@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/port/path_search.h"
+#include "core/paths/path_search.h"
 #include "core/xml/xml_document.h"
 #include "plugins/application_files/build_context.h"
 

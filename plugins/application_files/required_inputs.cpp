@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/element/source_place.h"
+#include "core/paths/late_connections.h"
 #include "core/port/port.h"
 #include "core/types/type_info.h"
 
@@ -36,6 +37,7 @@ void CheckRequiredInputs(FrameworkElement& application, BuildContext& context) {
   application.Visit([&](FrameworkElement& element) {
     auto* const port = dynamic_cast<Port*>(&element);
     if (port == nullptr || !port->is_required() || !port->Sources().empty()) return;
+    if (LateConnections::Awaits(*port)) return;
     if (context.IsUnfedUnnoticed(*port)) unconnected.push_back(port);
   });
   for (Port* port : unconnected) {

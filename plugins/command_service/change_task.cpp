@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-#include "core/port/path_search.h"
+#include "core/paths/path_search.h"
 #include "plugins/command_service/caught_error.h"
 #include "plugins/scheduling/pace.h"
 #include "plugins/structure/change_history.h"

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -39,6 +40,19 @@ struct LogLevelRequest {
   std::string path = {};  ///< "" or "/": all
   std::string level;      ///< as LogLevelName() says it, or "inherit": as above it
 };
+/// Sets the value at a port by hand: readers find it instead of what is published, until a ReleaseRequest.
+struct PublishRequest {
+  static constexpr double kFastestRate = 1000;
+
+  std::string port;
+  std::string value;  ///< text format
+  /// Publishes it again so often, in seconds of the application's clock; without, once.
+  std::optional<double> rate = {};
+};
+/// Readers of the port find again what is published.
+struct ReleaseRequest {
+  std::string port = {};  ///< "": all that are set by hand
+};
 
 /// Leaves modules, or what a thread runs, out of cycles, with what the application does then; or no more.
 struct PauseRequest {
@@ -48,7 +62,8 @@ struct PauseRequest {
 
 /// What a client may ask a CommandService for.
 using CommandRequest = std::variant<ChangeRequest, UndoRequest, RedoRequest, SaveRequest,
-                                    ReloadRequest, LogLevelRequest, PauseRequest>;
+                                    ReloadRequest, LogLevelRequest, PauseRequest, PublishRequest,
+                                    ReleaseRequest>;
 
 /// What has come of a request.
 struct CommandAnswer {

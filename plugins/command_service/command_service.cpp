@@ -7,10 +7,11 @@
 
 #include "core/log/log_levels.h"
 #include "core/plugin/module_type_name.h"
-#include "core/port/path_search.h"
+#include "core/paths/path_search.h"
 #include "plugins/command_service/caught_error.h"
 #include "plugins/command_service/change_task.h"
 #include "plugins/command_service/save_place.h"
+#include "plugins/structure/change_arguments.h"
 #include "plugins/structure/change_history.h"
 
 namespace runnel {
@@ -63,7 +64,8 @@ CommandAnswer Call(const Hook& hook, const std::string& argument, const char* wh
 
 CommandService::CommandService(ServedApplication application)
     : application_(std::move(application)),
-      recorder_(std::make_unique<StructureRecorder>(application_.runtime, application_.log)) {}
+      recorder_(std::make_unique<StructureRecorder>(application_.runtime, application_.log)),
+      hand_settings_(application_.runtime, worker_) {}
 
 CommandAnswer PendingCommand::Take() {
   if (task_->failure()) return CommandAnswer::Failed(*task_->failure());
@@ -146,6 +148,21 @@ CommandAnswer CommandService::Do(const LogLevelRequest& request) const {
   }
   SetLogLevel(runtime, path, *level);
   return CommandAnswer::Done(whose + ": logs " + LogLevelName(*level) + " and more");
+}
+
+CommandAnswer CommandService::Do(const PublishRequest& request) {
+  const auto set = hand_settings_.Publish(request);
+  if (!set) return CommandAnswer::Refused(set.error());
+  application_.log.Add(ApplicationLog::Kind::kChange,
+                       "publish " + *set + " " + internal::AsArgument(request.value));
+  return CommandAnswer::Done(*set + " is set by hand; 'runnel release " + *set + "' ends that");
+}
+
+CommandAnswer CommandService::Do(const ReleaseRequest& request) {
+  const auto released = hand_settings_.Release(request);
+  if (!released) return CommandAnswer::Refused(released.error());
+  application_.log.Add(ApplicationLog::Kind::kChange, "release " + *released);
+  return CommandAnswer::Done("released " + *released);
 }
 
 CommandAnswer CommandService::TakeHistoryStep(bool goes_back) const {

@@ -12,6 +12,7 @@
 #include "plugins/command_service/application_log.h"
 #include "plugins/command_service/command_request.h"
 #include "plugins/command_service/command_worker.h"
+#include "plugins/command_service/hand_settings.h"
 #include "plugins/structure/structure_editor.h"
 
 namespace runnel {
@@ -128,11 +129,14 @@ class CommandService {
   [[nodiscard]] CommandAnswer Do(const PauseRequest& request) const;
   [[nodiscard]] CommandAnswer Do(const ReloadRequest& request) const;
   [[nodiscard]] CommandAnswer Do(const LogLevelRequest& request) const;
+  [[nodiscard]] CommandAnswer Do(const PublishRequest& request);
+  [[nodiscard]] CommandAnswer Do(const ReleaseRequest& request);
   [[nodiscard]] CommandAnswer TakeHistoryStep(bool goes_back) const;
 
   const ServedApplication application_;
   const std::unique_ptr<ElementListener> recorder_;  // of what others than clients change
-  CommandWorker worker_;                             // first to go: its tasks use the rest
+  CommandWorker worker_;                             // its tasks use the rest
+  HandSettings hand_settings_;                       // first to go: tasks of the worker
 };
 
 }  // namespace runnel

@@ -44,6 +44,8 @@ const std::vector<CommandKind>& Kinds() {
       {"latency", 0, 3, {}, MakeLatencyCommand, Needs::kScheduler},
       {"deadline", 0, 2, {}, MakeDeadlineCommand, Needs::kScheduler},
       {"reload", 1, 1, {}, MakeServiceCommand},
+      {"publish", 2, 2, {"rate"}, MakeServiceCommand},
+      {"release", 0, 1, {}, MakeServiceCommand},
       {"record", 0, kMostPatterns, {"file", "count", "compression"}, MakeRecordCommand},
   };
   return kinds;
@@ -51,7 +53,8 @@ const std::vector<CommandKind>& Kinds() {
 
 Result<void> CheckArguments(const Request& request, const CommandKind& kind) {
   if (request.arguments.size() < kind.least_arguments) {
-    return Error{.message = "'" + kind.name + "' wants a path"};
+    const bool lacks_value = kind.least_arguments > 1 && !request.arguments.empty();
+    return Error{.message = "'" + kind.name + "' wants " + (lacks_value ? "a value" : "a path")};
   }
   if (request.arguments.size() > kind.most_arguments) {
     return Error{.message = "'" + request.arguments[kind.most_arguments] +

@@ -1,4 +1,4 @@
-#include "core/port/path_search.h"
+#include "core/paths/path_search.h"
 #include "core/types/duration_text.h"
 #include "plugins/control/command.h"
 #include "plugins/scheduling/scheduler.h"

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/lockfree/thread_epoch.h"
-#include "core/port/path_search.h"
+#include "core/paths/path_search.h"
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
 #include "plugins/control/command.h"

@@ -8,8 +8,12 @@
 
 #include "core/base/characters.h"
 #include "core/element/configurable.h"
+#include "core/element/tags.h"
 #include "core/plugin/module_type_name.h"
+#include "core/port/converted_flow.h"
+#include "core/paths/late_connections.h"
 #include "core/port/port.h"
+#include "core/types/text_format.h"
 #include "core/types/type_info.h"
 #include "plugins/command_service/caught_error.h"
 #include "plugins/scheduling/thread_container.h"
@@ -62,8 +66,54 @@ std::string ThreadText(const ThreadContainer& thread, bool is_long) {
          Milliseconds(all.execution_max) + ")";
 }
 
+// " = 0.5"; "" where values have no text format.
+std::string HandValue(const Port& port) {
+  if (!port.type().is_transparent()) return {};
+  std::string text;
+  const auto shown = port.ShownPorts();
+  if (shown.empty()) return {};
+  shown.front()->VisitLatest([&](const void* value, ValueTimes) {
+    text = " = " + Shortened(ToText(port.type(), value), kLongestValue);
+  });
+  return text;
+}
+
+std::string ConversionText(const internal::ConvertedFlow& flow) {
+  std::string text = "converted";
+  if (!flow.conversion().text().empty()) text += ": " + flow.conversion().text();
+  if (flow.failures() > 0) text += ", " + std::to_string(flow.failures()) + " lost";
+  return text;
+}
+
+std::string LimitsText(const Port& port) {
+  const InputLimits& limits = port.limits();
+  std::string text;
+  if (limits.default_value) {
+    text += ", default " + ToText(limits.default_value.type(), limits.default_value.get(),
+                                  {.all = kLongestValue});
+  }
+  if (!limits.has_bounds()) return text;
+  text += ", in " + BoundsText(limits);
+  const std::uint64_t outside = port.out_of_bounds();
+  if (outside == 0) return text;
+  return text + " (" + std::to_string(outside) + " out of bounds, " +
+         OutOfBoundsNames()[static_cast<std::size_t>(limits.out_of_bounds)] + ")";
+}
+
+// What is to be connected with the port when it is there.
+std::string AwaitedText(const Port& port) {
+  std::string text;
+  for (const LateConnection* each : AwaitedBy(port)) {
+    text += ", waits for " + (each->from == port.path() ? each->to : each->SourceText());
+  }
+  return text;
+}
+
 std::string PortText(const Port& port, const ListingOptions& options) {
   std::string text = port.type().name();
+  if (!port.unit().empty()) text += " in " + port.unit();
+  if (port.is_set_by_hand()) text += ", set by hand" + HandValue(port);
+  text += LimitsText(port) + AwaitedText(port);
   if (!options.is_long) return text + (port.is_required() ? ", required" : "");
   const std::uint64_t count = port.publications();
   text += ", " + std::to_string(count) + " values";
@@ -73,12 +123,25 @@ std::string PortText(const Port& port, const ListingOptions& options) {
     const std::uint64_t passed = count >= before->second ? count - before->second : count;
     text += ", " + RateText(static_cast<double>(passed) / ToSeconds(options.since)) + " Hz";
   }
-  for (const Port* from : port.incoming()) text += ", from " + from->path();
+  for (const Port* from : port.incoming()) {
+    const auto edge = std::ranges::find(from->outgoing(), &port, &Connection::to);
+    text += ", from " + edge->SourceText();
+  }
   for (const Connection& each : port.outgoing()) {
     text += ", to " + each.to->path();
     if (each.options.queue > 0) text += " (queue " + std::to_string(each.options.queue) + ")";
     if (each.options.pull) text += " (pulled)";
+    if (each.converted) text += " (" + ConversionText(*each.converted) + ")";
+    if (each.options.when_present) text += " (when present)";
+    if (each.options.late) text += " (late)";
   }
+  return text;
+}
+
+// " #safety #hidden"
+std::string TagMarks(const FrameworkElement& element) {
+  std::string text;
+  for (const std::string& tag : TagsOf(element)) text += " #" + tag;
   return text;
 }
 
@@ -109,7 +172,8 @@ void AddRows(const FrameworkElement& element, std::size_t depth, const ListingOp
   if (is_shown) {
     const std::string name = depth == 0 ? element.path() : element.name();
     rows.push_back(
-        {std::string(2 * depth, ' ') + name, KindName(element), About(element, options)});
+        {std::string(2 * depth, ' ') + name, KindName(element),
+         About(element, options) + TagMarks(element)});
   }
   for (const FrameworkElement* child : element.children()) {
     AddRows(*child, is_shown ? depth + 1 : depth, options, rows);
@@ -144,6 +208,12 @@ std::string ListElements(FrameworkElement& start, const ListingOptions& options)
   for (const Row& row : rows) {
     name_width = std::max(name_width, CharacterCount(row.name));
     kind_width = std::max(kind_width, row.kind.size());
+  }
+  for (const LateConnection* each : AwaitedBelow(start)) {
+    rows.push_back({each->SourceText() + " -> " + each->to, "connection",
+                    "waits: " + *each->waits_for});
+    name_width = std::max(name_width, CharacterCount(rows.back().name));
+    kind_width = std::max(kind_width, rows.back().kind.size());
   }
   std::string text;
   for (const Row& row : rows) {

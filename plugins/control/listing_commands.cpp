@@ -2,7 +2,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/port/path_search.h"
+#include "core/paths/path_search.h"
 #include "plugins/control/command.h"
 #include "plugins/control/element_listing.h"
 

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/port/path_search.h"
+#include "core/paths/path_search.h"
 #include "plugins/control/command.h"
 #include "plugins/control/element_listing.h"
 

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <optional>
 #include <utility>
 
+#include "core/base/number_text.h"
 #include "plugins/control/command.h"
 #include "plugins/structure/change_text.h"
 
@@ -42,6 +44,13 @@ CommandRequest RequestOf(const Request& request, PlacedChanges placed) {
   if (request.command == "pause") return PauseRequest{argument, true};
   if (request.command == "resume") return PauseRequest{argument, false};
   if (request.command == "log") return LevelOf(request.Option("level"));
+  if (request.command == "release") return ReleaseRequest{argument};
+  if (request.command == "publish") {
+    // What is no number is out of the bounds.
+    const auto rate = request.Has("rate") ? std::optional(NumberIn<double>(request.Option("rate")).value_or(0))
+                                          : std::nullopt;
+    return PublishRequest{argument, request.arguments[1], rate};
+  }
   return ChangeRequest{std::move(placed)};
 }
 

@@ -9,6 +9,8 @@
 #include "core/base/nearest_name.h"
 #include "core/element/source_place.h"
 #include "core/module/group.h"
+#include "core/conversion/conversion.h"
+#include "core/paths/late_connections.h"
 #include "core/port/proxy_port.h"
 #include "core/types/duration_text.h"
 #include "core/types/type_info.h"
@@ -253,32 +255,79 @@ void FinrocReader::ReadEdge(XmlElement edge, FrameworkElement& group) {
                 "record there and play here, or run both in one application", end->value_position,
                 group);
   }
-  WarnOfFlags(edge, group);
+  ConnectOptions options = ReadFlags(edge, group);
   Port* const from = FindEnd(*source, group, PathKind::kOutput);
   Port* const to = FindEnd(*target, group, PathKind::kInput);
+  for (const XmlElement child : edge.children()) ReadConversion(child, group, options);
+  if ((from == nullptr || to == nullptr) && options.when_present) {
+    const std::string base = group.path() + "/";
+    (void)LateConnections::Of(context_.runtime())
+        .Add(from != nullptr ? from->path() : base + SnakeCasePath(source->value),
+             to != nullptr ? to->path() : base + SnakeCasePath(target->value), options);
+    return;
+  }
   if (from == nullptr || to == nullptr) {
     const XmlAttribute& lost = from == nullptr ? *source : *target;
     const std::string path = SnakeCasePath(lost.value);
     return Warn("there is no port '" + path + "'", "", lost.value_position, group);
   }
-  for (const XmlElement child : edge.children()) {
-    Warn("<" + child.name() + "> of an edge has no counterpart", "put a module between the two",
-         child.position(), group);
+  if (!IsRightWay(*from, PathKind::kOutput, *to) ||
+      !IsRightWay(*to, PathKind::kInput, *from)) {
+    return Warn("goes against the direction of an interface port", "", edge.position(), group);
   }
-  if (!IsRightWay(*from, PathKind::kOutput, *to) || !IsRightWay(*to, PathKind::kInput, *from)) {
-    Warn("goes against the direction of an interface port", "", edge.position(), group);
-  } else if (auto connected = Port::Connect(*from, *to); !connected) {
-    Warn(connected.error().message, connected.error().hint, edge.position(), group);
+  if (options.when_present) (void)LateConnections::Of(context_.runtime());
+  auto connected = Port::Connect(*from, *to, options);
+  if (!connected && options.convert.empty()) {
+    // FINROC casts any number into any.
+    ConnectOptions casting = options;
+    casting.convert = "truncate";
+    if (Port::Connect(*from, *to, casting)) return;
+  }
+  if (!connected) Warn(connected.error().message, connected.error().hint, edge.position(), group);
+}
+
+// <conversion operation="[]" parameter="2"/>, or with operation1, parameter1, operation2 and parameter2.
+void FinrocReader::ReadConversion(XmlElement conversion, FrameworkElement& group,
+                                  ConnectOptions& options) {
+  if (conversion.name() != "conversion") {
+    return Warn("<" + conversion.name() + "> of an edge has no counterpart",
+                "put a module between the two", conversion.position(), group);
+  }
+  for (const char* number : {"", "1", "2"}) {
+    const std::string operation = TextOfAttribute(conversion, std::string("operation") + number);
+    const std::string parameter = TextOfAttribute(conversion, std::string("parameter") + number);
+    // What needs no name here.
+    if (operation.empty() || operation == "static_cast" || operation == "ToString") continue;
+    if (operation == "[]") {
+      options.part += "[" + parameter + "]";
+      continue;
+    }
+    const auto known = RegisteredConversions();
+    if (std::ranges::count(known, operation, &RegisteredConversion::name) > 0) {
+      options.convert = operation;
+      continue;
+    }
+    Warn("the conversion '" + operation + "' of an edge has no counterpart",
+         "register one of this name (core/conversion/conversion.h), or put a module between the two",
+         conversion.position(), group);
   }
 }
 
 // "Optional", "Reconnect" and the like.
-void FinrocReader::WarnOfFlags(XmlElement edge, FrameworkElement& group) {
+ConnectOptions FinrocReader::ReadFlags(XmlElement edge, FrameworkElement& group) {
+  ConnectOptions options;
   for (const XmlAttribute& each : edge.attributes()) {
     if (each.name == "src" || each.name == "dest") continue;
+    const std::string flags = SnakeCase(each.value);
+    const auto has = [&](const char* flag) { return flags.find(flag) != std::string::npos; };
+    const bool is_flags = each.name == "flags";
+    options.when_present = is_flags && (has("optional") || has("reconnect"));
+    options.late = is_flags && has("neutral");
+    if (options.when_present || options.late) continue;
     Warn("'" + each.name + "' of an edge has no counterpart: '" + each.value + "' is left out", "",
          each.position, group);
   }
+  return options;
 }
 
 }  // namespace runnel::internal

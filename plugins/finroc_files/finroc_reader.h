@@ -43,7 +43,8 @@ class FinrocReader {
   void MakeInterfacePorts(XmlElement root, FrameworkElement& group);
   void ReadEdge(XmlElement edge, FrameworkElement& group);
   Port* FindEnd(const XmlAttribute& path, FrameworkElement& group, PathKind end);
-  void WarnOfFlags(XmlElement edge, FrameworkElement& group);
+  void ReadConversion(XmlElement conversion, FrameworkElement& group, ConnectOptions& options);
+  ConnectOptions ReadFlags(XmlElement edge, FrameworkElement& group);
   void ReadParameterLinks(XmlElement links, const std::string& path, FrameworkElement& group);
   // `module` and `name` seen from the group.
   void ReadParameter(XmlElement parameter, const std::string& module, const std::string& name,

@@ -5,7 +5,11 @@
 
 #include "core/element/configurable.h"
 #include "core/element/element_path.h"
+#include "core/element/tags.h"
 #include "core/plugin/module_type_name.h"
+#include "core/port/converted_flow.h"
+#include "core/paths/late_connections.h"
+#include "core/types/text_format.h"
 #include "core/types/type_info.h"
 #include "plugins/command_service/caught_error.h"
 #include "plugins/scheduling/thread_container.h"
@@ -44,13 +48,27 @@ void AddThread(const ThreadContainer& thread, const ElementSurroundings& around,
   if (IsPaused(thread, around)) json.Add("paused", true);
 }
 
+void AddAwaited(const std::vector<const LateConnection*>& awaited, JsonObject& json) {
+  AppendList(awaited, json.Key("awaits"), [](const LateConnection* each, std::string& text) {
+    JsonObject object(text);
+    object.Add("from", each->SourceText()).Add("to", each->to).Add("why", *each->waits_for);
+  });
+}
+
 void AddPort(const Port& port, JsonObject& json) {
   const FrameworkElement* const owner = FindOwner(port);
   json.Add("kind", "port").Add("name", port.name());
   json.Add("direction", port.direction() == Port::Direction::kInput ? "input" : "output");
   json.Add("data_type", port.type().name()).Add("interface", port.is_proxy());
   json.Add("required", port.is_required()).Add("pullable", port.is_pullable());
-  json.Add("description", port.description());
+  json.Add("description", port.description()).Add("unit", port.unit());
+  json.Add("by_hand", port.is_set_by_hand());
+  const InputLimits& limits = port.limits();
+  json.Add("bounds", BoundsText(limits));
+  json.AddTextOrNull("default", limits.default_value ? ToText(limits.default_value.type(),
+                                                              limits.default_value.get())
+                                                     : std::string());
+  AddAwaited(AwaitedBy(port), json);
   json.Add("owner", owner != nullptr ? owner->path() : "");
 }
 
@@ -87,6 +105,7 @@ void AddOther(const FrameworkElement& element, const ElementSurroundings& around
   json.Add("name", element.name());
   if (IsPaused(element, around)) json.Add("paused", true);
   if (!is_group) json.Add("is_plain", true);
+  if (is_group && is_top) AddAwaited(AwaitedBelow(element), json);
   const ThreadContainer* const thread = OwnThread(element);
   if (thread != nullptr) json.Add("thread", thread->name());
 }
@@ -99,11 +118,21 @@ void Mix(std::string_view text, std::uint64_t& hash) {
   Mix(std::hash<std::string_view>{}(text), hash);
 }
 
+void MixAwaited(const std::vector<const LateConnection*>& awaited, std::uint64_t& hash) {
+  for (const LateConnection* each : awaited) {
+    Mix(each->from, hash);
+    Mix(each->to, hash);
+    Mix(*each->waits_for, hash);
+  }
+}
+
 }  // namespace
 
 std::string ElementJson(const FrameworkElement& element, const ElementSurroundings& around) {
   return JsonObjectText([&](JsonObject& json) {
     json.Add("path", element.path());
+    const std::string tags = TagsText(element);
+    if (!tags.empty()) json.Add("tags", tags);
     if (const auto* const port = dynamic_cast<const Port*>(&element)) {
       AddPort(*port, json);
     } else if (const auto* const parameter = dynamic_cast<const Configurable*>(&element)) {
@@ -119,7 +148,14 @@ std::string ElementJson(const FrameworkElement& element, const ElementSurroundin
 std::uint64_t ElementFingerprint(const FrameworkElement& element,
                                  const ElementSurroundings& around) {
   std::uint64_t hash = element.id();
-  if (element.kind() == ElementKind::kPort) return hash;
+  if (element.kind() == ElementKind::kPort) {
+    const auto* const port = dynamic_cast<const Port*>(&element);
+    if (port == nullptr) return hash;
+    Mix(port->is_set_by_hand() ? 1 : 0, hash);
+    Mix(BoundsText(port->limits()), hash);
+    MixAwaited(AwaitedBy(*port), hash);
+    return hash;
+  }
   if (IsPaused(element, around)) Mix(1, hash);
   if (const auto* const thread = dynamic_cast<const ThreadContainer*>(&element)) {
     const ThreadOptions options = thread->options();
@@ -133,16 +169,34 @@ std::uint64_t ElementFingerprint(const FrameworkElement& element,
     }
     return hash;
   }
+  Mix(TagsText(element), hash);
   Mix(ThreadName(element, around), hash);
   Mix(StoppedBy(element, around), hash);
+  const bool is_application = element.kind() == ElementKind::kGroup &&
+                              element.parent() != nullptr && element.parent()->parent() == nullptr;
+  if (is_application) MixAwaited(AwaitedBelow(element), hash);
   const ThreadContainer* const own = OwnThread(element);
   Mix(own != nullptr ? own->id() : 0, hash);
   return hash;
 }
 
+namespace {
+
+std::string ConversionName(const ConvertedFlow& flow) {
+  const std::string& text = flow.conversion().text();
+  return text.empty() ? "converted" : text;
+}
+
+}  // namespace
+
 std::string ConnectionJson(const Connection& connection) {
   return JsonObjectText([&](JsonObject& json) {
+    const ConnectOptions& options = connection.options;
     json.Add("from", connection.from->path()).Add("to", connection.to->path());
+    json.Add("part", options.part).Add("convert", options.convert);
+    json.AddTextOrNull("conversion",
+                       connection.converted ? ConversionName(*connection.converted) : "");
+    json.Add("when_present", options.when_present).Add("late", options.late);
     json.Add("queue", connection.options.queue);
     json.Add("on_full", OnFullNames()[static_cast<std::size_t>(connection.options.on_full)]);
     json.Add("pull", connection.options.pull);

@@ -168,6 +168,8 @@ std::uint64_t StructureMirror::Fingerprint(const FrameworkElement& element) cons
     hash = hash * 31 + each.options.queue * 8 +
            static_cast<std::uint64_t>(each.options.on_full) * 2 +
            static_cast<std::uint64_t>(each.options.pull);
+    hash = hash * 31 + std::hash<std::string>{}(each.options.part + ' ' + each.options.convert) +
+           (each.options.when_present ? 2U : 0U) + (each.options.late ? 1U : 0U);
   }
   return hash;
 }

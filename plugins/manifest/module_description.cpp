@@ -5,7 +5,7 @@
 
 #include "core/base/nearest_name.h"
 #include "core/element/configurable.h"
-#include "core/port/path_search.h"
+#include "core/paths/path_search.h"
 #include "core/port/port.h"
 #include "core/types/type_info.h"
 

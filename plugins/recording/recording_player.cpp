@@ -9,7 +9,7 @@
 #include "core/element/not_saved.h"
 #include "core/element/runtime.h"
 #include "core/module/run_monitor.h"
-#include "core/port/path_search.h"
+#include "core/paths/path_search.h"
 #include "core/port/probe_port.h"
 #include "core/types/type_info.h"
 #include "plugins/recording/recording_names.h"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/lockfree/thread_epoch.h"
-#include "core/port/path_search.h"
+#include "core/paths/path_search.h"
 #include "plugins/timing/cycle_tracer.h"
 #include "plugins/scheduling/scheduler.h"
 

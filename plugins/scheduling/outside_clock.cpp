@@ -3,7 +3,7 @@
 #include <cmath>
 #include <mutex>
 
-#include "core/port/path_search.h"
+#include "core/paths/path_search.h"
 #include "core/types/type_of.h"
 #include "plugins/scheduling/scheduler.h"
 

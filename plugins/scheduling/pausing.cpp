@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <mutex>
 
-#include "core/port/path_search.h"
+#include "core/paths/path_search.h"
 #include "plugins/scheduling/scheduler.h"
 
 namespace runnel {

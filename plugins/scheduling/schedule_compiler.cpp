@@ -5,6 +5,7 @@
 
 #include "core/base/retry.h"
 #include "core/lockfree/thread_epoch.h"
+#include "core/port/late_edge.h"
 #include "core/port/port.h"
 #include "plugins/scheduling/cycle_runner.h"
 #include "plugins/timing/cycle_tracer.h"
@@ -42,13 +43,12 @@ Found Search(FrameworkElement& top) {
   return found;
 }
 
-// Whether data still go from the one to the other, by another way.
-bool StillFeeds(const Port& output, const Port& input) {
-  const auto& incoming = input.incoming();
-  const bool may_be_indirect =
-      std::ranges::any_of(incoming, [](const Port* each) { return each->is_proxy(); });
-  const auto sources = may_be_indirect ? input.Sources() : incoming;
-  return std::ranges::find(sources, &output) != sources.end();
+// Whether data go from the one to the other by a way on which they do not come late.
+bool FeedsInTime(const Port& output, const Port& input) {
+  return std::ranges::any_of(input.incoming(), [&](const Port* from) {
+    const bool is_on_the_way = from == &output || (from->is_proxy() && FeedsInTime(output, *from));
+    return is_on_the_way && !IsLate(*from, input);
+  });
 }
 
 // Each output at one end with each input at the other.
@@ -168,7 +168,7 @@ void ScheduleCompiler::Connect(const Port& from, const Port& to) noexcept {
 void ScheduleCompiler::Disconnect(const Port& from, const Port& to) noexcept {
   Follow([&] {
     ForEachPair(from, to, [&](const Port& output, const Port& input) {
-      if (StillFeeds(output, input)) return;
+      if (FeedsInTime(output, input)) return;
       tasks_of_groups_.ForEachPair(output, input, [&](PlannedTask& writer, PlannedTask& reader) {
         writer.element->thread->order.Disconnect(writer, reader, {&output, &input});
         Touch(*writer.element->thread);
@@ -245,6 +245,8 @@ void ScheduleCompiler::ConnectTasks(PlannedElement& planned) {
 }
 
 void ScheduleCompiler::ConnectPair(const Port& output, const Port& input) {
+  // One that is late says nothing of who runs first.
+  if (!FeedsInTime(output, input)) return;
   tasks_of_groups_.ForEachPair(output, input, [&](PlannedTask& writer, PlannedTask& reader) {
     writer.element->thread->order.Connect(writer, reader, {&output, &input});
     Touch(*writer.element->thread);

@@ -56,7 +56,7 @@ struct DeleteElement {
 };
 
 struct ConnectPorts {
-  std::string from;
+  std::string from;  ///< may name a part of the values: "/world/pose.x", "/laser/scan.ranges[0]"
   std::string to;
   ConnectOptions options = {};
 };

@@ -190,7 +190,7 @@ Change ReadConnect(Arguments& arguments) {
   ConnectPorts change{arguments.Take("the output"), arguments.Take("the input")};
   const ChangeArgument* on_full = nullptr;
   const ChangeArgument* pull = nullptr;
-  arguments.TakeOptions({"queue", "on_full", "pull"}, [&](const ChangeArgument& argument) {
+  arguments.TakeOptions({"queue", "on_full", "pull", "convert", "when", "late"}, [&](const ChangeArgument& argument) {
     if (argument.name() == "queue") {
       change.options.queue = arguments.ReadCount<std::size_t>(argument, kLongestQueue);
     } else if (argument.name() == "on_full") {
@@ -200,6 +200,13 @@ Change ReadConnect(Arguments& arguments) {
     } else if (argument.name() == "pull") {
       pull = &argument;
       change.options.pull = arguments.Choose(argument, argument.value(), kNoOrYes) == 1;
+    } else if (argument.name() == "late") {
+      change.options.late = arguments.Choose(argument, argument.value(), kNoOrYes) == 1;
+    } else if (argument.name() == "when") {
+      (void)arguments.Choose(argument, argument.value(), {"present"});
+      change.options.when_present = true;
+    } else if (argument.name() == "convert") {
+      change.options.convert = argument.value();
     } else {
       return false;
     }
@@ -264,7 +271,9 @@ constexpr std::array<Verb, 8> kVerbs{{
      "[period=TIME] [activation=period|free_running|trigger] [priority=N]",
      ReadCreate},
     {"delete", "delete PATH", ReadDelete},
-    {"connect", "connect FROM TO [queue=N] [on_full=drop_oldest|drop_newest|refuse] [pull=true]",
+    {"connect",
+     "connect FROM[.PART] TO [queue=N] [on_full=drop_oldest|drop_newest|refuse] [pull=true] "
+     "[convert=NAME] [when=present] [late=true]",
      ReadConnect},
     {"disconnect", "disconnect FROM TO", ReadDisconnect},
     {"set", "set PATH VALUE, with a VALUE that has blanks in quotation marks", ReadSet},

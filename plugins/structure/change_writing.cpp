@@ -40,8 +40,14 @@ std::string Text(const CreateParameter& change) {
 }
 std::string Text(const DeleteElement& change) { return "delete " + AsArgument(change.path); }
 std::string Text(const ConnectPorts& change) {
-  std::string text = "connect " + AsArgument(change.from) + " " + AsArgument(change.to);
-  if (change.options.pull) text += " pull=true";
+  const ConnectOptions& options = change.options;
+  const bool has_dot = !options.part.empty() && options.part.front() != '[';
+  std::string text = "connect " + AsArgument(change.from + (has_dot ? "." : "") + options.part) +
+                     " " + AsArgument(change.to);
+  if (options.pull) text += " pull=true";
+  if (!options.convert.empty()) text += " convert=" + AsArgument(options.convert);
+  if (options.when_present) text += " when=present";
+  if (options.late) text += " late=true";
   if (change.options.queue == 0) return text;
   text += " queue=" + std::to_string(change.options.queue);
   if (change.options.on_full == OnFull::kDropOldest) return text;

@@ -6,7 +6,7 @@
 
 #include "core/module/group_parameter.h"
 #include "core/plugin/module_type_name.h"
-#include "core/port/path_search.h"
+#include "core/paths/path_search.h"
 #include "core/port/port.h"
 #include "core/types/type_info.h"
 #include "plugins/scheduling/thread_container.h"

@@ -7,7 +7,8 @@
 #include "core/base/exception_text.h"
 #include "core/base/retry.h"
 #include "core/lockfree/thread_epoch.h"
-#include "core/port/path_search.h"
+#include "core/paths/late_connections.h"
+#include "core/paths/path_search.h"
 #include "plugins/structure/replacement.h"
 
 namespace runnel::internal {
@@ -128,6 +129,7 @@ void Plan::WarnOfMissingSources(Diagnostics& diagnostics) const {
     each->Visit([&](FrameworkElement& element) {
       const auto* const port = dynamic_cast<const Port*>(&element);
       if (port == nullptr || !port->is_required() || overlay_.HasSource(*port)) return;
+      if (LateConnections::Awaits(*port)) return;
       diagnostics.AddWarning(
           {.message = "is required, and nothing is connected to it", .path = port->path()});
     });
@@ -147,45 +149,6 @@ void Plan::AddCreation(UnlistedElement element) {
                       if (!*kept) *kept = runtime_.Unlist(made).value();
                     },
                     [&made](auto&) -> ChangeSet { return {DeleteElement{made.path()}}; }});
-}
-
-Result<void> Plan::CheckTie(const std::string& from_path, const std::string& to_path,
-                            const std::optional<ConnectOptions>& wanted) {
-  const auto found_from = overlay_.FindPort(from_path, PathKind::kOutput);
-  if (!found_from) return found_from.error();
-  const auto found_to = overlay_.FindPort(to_path, PathKind::kInput);
-  if (!found_to) return found_to.error();
-  return CheckTie(**found_from, **found_to, wanted);
-}
-
-Result<void> Plan::CheckTie(Port& from, Port& to, const std::optional<ConnectOptions>& wanted) {
-  auto possible = wanted ? overlay_.Connect(from, to, *wanted) : overlay_.Disconnect(from, to);
-  if (!possible) return possible;
-  Concern(from);
-  Concern(to);
-  const auto tie = [&from, &to](const std::optional<ConnectOptions>& options) {
-    return options ? Port::Connect(from, to, *options) : Port::Disconnect(from, to);
-  };
-  struct Done {
-    std::optional<ConnectOptions> before;  // of a connection that is cut
-    bool is_done = false;
-  };
-  auto done = std::make_shared<Done>();
-  steps_.push_back({[=, &from, &to] {
-                      if (!wanted) done->before = OptionsOf(from, to);
-                      auto tied = tie(wanted);
-                      done->is_done = tied.has_value();
-                      return tied;
-                    },
-                    [=] {
-                      if (done->is_done) Must(tie(done->before));
-                      done->is_done = false;
-                    },
-                    [=, &from, &to](auto&) -> ChangeSet {
-                      if (wanted) return {DisconnectPorts{from.path(), LastingPath(to)}};
-                      return {ConnectPorts{from.path(), LastingPath(to), OptionsOf(from, to)}};
-                    }});
-  return {};
 }
 
 // What goes with it stays as it is among itself; what ties it to others is cut.

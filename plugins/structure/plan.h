@@ -99,6 +99,9 @@ class Plan {
                            const void* value);
   Result<void> Cut(const std::vector<Port*>& ports);
 
+  // One that is to be when its ends are there, and at least one is not; or that has been to be until now.
+  Result<void> CheckLateTie(const std::string& from, const std::string& to,
+                            const std::optional<ConnectOptions>& wanted);
   // `wanted`: of the connection that is to be; nullopt: none is to be.
   Result<void> CheckTie(const std::string& from_path, const std::string& to_path,
                         const std::optional<ConnectOptions>& wanted);

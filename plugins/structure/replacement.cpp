@@ -8,7 +8,7 @@
 #include "core/element/runtime.h"
 #include "core/module/group_parameter.h"
 #include "core/module/kept_state.h"
-#include "core/port/path_search.h"
+#include "core/paths/path_search.h"
 
 namespace runnel::internal {
 

@@ -8,7 +8,7 @@
 
 #include "core/base/result.h"
 #include "core/element/runtime.h"
-#include "core/port/path_search.h"
+#include "core/paths/path_search.h"
 
 namespace runnel::internal {
 

@@ -2,7 +2,7 @@
 
 #include "core/base/exception_text.h"
 #include "core/module/executable.h"
-#include "core/port/path_search.h"
+#include "core/paths/path_search.h"
 #include "core/types/type_info.h"
 
 namespace runnel::test {

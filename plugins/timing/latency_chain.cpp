@@ -7,7 +7,7 @@
 
 #include "core/element/runtime.h"
 #include "core/module/executable.h"
-#include "core/port/path_search.h"
+#include "core/paths/path_search.h"
 #include "plugins/timing/trace_track.h"
 
 namespace runnel {

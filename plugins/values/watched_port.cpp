@@ -30,12 +30,7 @@ Result<void> WatchedPort::Find(Runtime& runtime) {
   id_ = port->id();
   type_ = &port->type();
   input_ = dynamic_cast<const InputBase*>(port);
-  if (port->is_proxy()) {
-    const auto ends = port->Sources();
-    sources_.assign(ends.begin(), ends.end());
-  } else {
-    sources_.push_back(port);
-  }
+  sources_ = port->ShownPorts();
   return {};
 }
 

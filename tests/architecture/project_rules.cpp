@@ -5,8 +5,9 @@ namespace runnel::test {
 namespace {
 
 // Bottom to top: each may know those before it.
-const std::vector<std::string> kCoreOrder = {"base", "xml", "types",  "lockfree", "element",
-                                             "port", "log", "module", "plugin"};
+const std::vector<std::string> kCoreOrder = {
+    "base", "xml", "types", "conversion", "lockfree", "element", "port", "paths",
+    "log",  "module", "plugin"};
 
 void AddCore(std::vector<IncludeRule>& rules) {
   std::vector<std::string> below;

@@ -48,6 +48,30 @@ TEST_F(CommandLine, RunEndsWithVerdictPathAndTime) {
   std::filesystem::remove(picture);
 }
 
+TEST_F(CommandLine, CheckKnowsConversionsAndNamesWhatWouldFit) {
+  const char* const head = R"(<application name="app">
+  <load plugin="simulation"/> <load plugin="motion"/>
+  <thread name="main" period="10ms"/>
+  <module name="world" type="simulation/world"/>
+  <module name="laser" type="simulation/laser"/>
+  <module name="drive" type="motion/differential_drive"/>
+  <connect from="world/scene" to="laser/scene"/>
+  <connect from="world/pose" to="laser/pose"/>
+  <connect from="drive/wheels" to="world/wheels" late="true"/>
+)";
+  const Ended good = Runnel("check " + Write(std::string(head) + R"(
+  <module name="bumper" type="simulation/bumper" tags="safety"/>
+  <connect from="world/contact" to="bumper/truth"/>
+  <connect from="driver/twist" to="drive/twist" when="present"/>
+</application>)"));
+  EXPECT_EQ(good.code, kDone) << good.text;
+  const Ended wrong = Runnel("check " + Write(std::string(head) + R"(
+  <connect from="world/pose" to="drive/twist"/>
+</application>)"));
+  EXPECT_EQ(wrong.code, kBadInput);
+  EXPECT_THAT(wrong.text, HasSubstr("carries Pose2, but /app/drive/input/twist takes Twist2"));
+}
+
 TEST_F(CommandLine, RunThatFailsEndsWithOne) {
   const Ended ended =
       Runnel("run --fast " + kDemo +

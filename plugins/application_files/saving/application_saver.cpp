@@ -8,6 +8,7 @@
 #include "core/base/replace_file.h"
 #include "core/base/retry.h"
 #include "core/element/runtime.h"
+#include "core/paths/late_connections.h"
 #include "core/port/proxy_port.h"
 #include "core/xml/xml_editor.h"
 #include "plugins/application_files/application_builder.h"
@@ -63,7 +64,7 @@ void CheckRequiredInputs(Saving& saving, bool is_new_file) {
     const auto* const port = dynamic_cast<const Port*>(&element);
     if (port == nullptr || !port->is_required()) return;
     const std::vector<Port*> sources = port->Sources();
-    if (std::ranges::any_of(sources, feeds)) return;
+    if (std::ranges::any_of(sources, feeds) || LateConnections::Awaits(*port)) return;
     const std::string what = sources.empty() ? "nothing is connected to this input"
                                              : "only another application feeds this input";
     saving.Fail(

@@ -5,7 +5,7 @@
 
 #include "core/base/diagnostics.h"
 #include "core/element/source_place.h"
-#include "core/port/path_search.h"
+#include "core/paths/path_search.h"
 #include "core/types/duration_text.h"
 #include "core/types/type_info.h"
 #include "core/xml/xml_reading.h"

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/plugin/module_type_name.h"
-#include "core/port/path_search.h"
+#include "core/paths/path_search.h"
 #include "plugins/application_files/part_files.h"
 #include "plugins/application_files/saving/file_update.h"
 #include "plugins/parameters/file_path.h"

@@ -1,7 +1,9 @@
 #include <algorithm>
 
+#include "core/element/element_path.h"
 #include "core/element/not_saved.h"
 #include "core/plugin/module_type_name.h"
+#include "core/paths/late_connections.h"
 #include "plugins/application_files/saving/saving.h"
 
 namespace runnel::internal {
@@ -37,6 +39,23 @@ FrameworkElement* Home(const Port& from, const Port& to, const FrameworkElement&
   return home;
 }
 
+// The same of paths that nothing may be at; nullptr if that group has gone, too, or is none of the application.
+FrameworkElement* HomeOfPaths(const std::string& from, const std::string& to,
+                              FrameworkElement& application) {
+  std::string common;
+  const auto from_names = SplitPath(from);
+  const auto to_names = SplitPath(to);
+  for (std::size_t i = 0; i < from_names.size() && i < to_names.size(); ++i) {
+    if (from_names[i] != to_names[i]) break;
+    common += "/" + std::string(from_names[i]);
+  }
+  const auto found = application.runtime().root().Find(common);
+  if (!found) return nullptr;
+  FrameworkElement* home = *found;
+  while (home != nullptr && home->kind() != ElementKind::kGroup) home = home->parent();
+  return home != nullptr && home->IsAtOrBelow(application) ? home : nullptr;
+}
+
 }  // namespace
 
 std::vector<SavedEdge> EdgesOf(FrameworkElement& application) {
@@ -50,6 +69,19 @@ std::vector<SavedEdge> EdgesOf(FrameworkElement& application) {
       edges.push_back({connection.from, connection.to, connection.options, home});
     }
   });
+  const LateConnections* const late = LateConnections::FindIn(application.runtime());
+  if (late == nullptr) return edges;
+  for (const LateConnection& each : late->all()) {
+    if (!each.waits_for) continue;
+    FrameworkElement* const home = HomeOfPaths(each.from, each.to, application);
+    if (home == nullptr) continue;
+    edges.push_back({.from = nullptr,
+                     .to = nullptr,
+                     .options = each.options,
+                     .home = home,
+                     .from_path = each.from,
+                     .to_path = each.to});
+  }
   return edges;
 }
 

@@ -17,11 +17,13 @@ namespace runnel::internal {
 
 /// A connection that a file has to say: not one within a module, nor one that leads out of the application.
 struct SavedEdge {
-  Port* from;
+  Port* from;  ///< nullptr, as `to`: of a connection that waits for its ends (LateConnections)
   Port* to;
   ConnectOptions options;
-  FrameworkElement* home;  ///< the innermost group that has both ends
-  bool is_saved = false;   ///< a tag says it
+  FrameworkElement* home;      ///< the innermost group that has both ends
+  bool is_saved = false;       ///< a tag says it
+  std::string from_path = {};  ///< if it waits
+  std::string to_path = {};
 };
 /// In the order in which they were made.
 [[nodiscard]] std::vector<SavedEdge> EdgesOf(FrameworkElement& application);

@@ -1,10 +1,13 @@
 #include "plugins/application_files/tags/built_in_tags.h"
 
+#include "core/element/tags.h"
+#include "plugins/application_files/build_context.h"
+
 namespace runnel {
 
 void AddBuiltInTags(XmlTagRegistry& tags) {
   for (const auto& make : {ApplicationTag, GroupTypeTag, LoadTag, ClockTag, ThreadTag, PortTag,
-                           ModuleTag, ParameterTag, GroupTag, ConnectTag, LogTag, OnFaultTag,
+                           ModuleTag, ParameterTag, InputTag, GroupTag, ConnectTag, LogTag, OnFaultTag,
                            OnStaleTag, OnStuckTag, OnPauseTag, LatencyTag, ProfileTag, OtherwiseTag}) {
     tags.AddTag(make());
   }
@@ -12,7 +15,20 @@ void AddBuiltInTags(XmlTagRegistry& tags) {
   for (const char* tag : {"application", "group", "module"}) {
     tags.AddAttribute(ThreadAttribute(tag));
     tags.AddAttribute(ConfigurationAttribute(tag));
+    tags.AddAttribute(TagsAttribute(tag));
   }
+}
+
+AddedAttribute TagsAttribute(std::string tag) {
+  return {.tag = std::move(tag),
+          .rule = {.name = "tags",
+                   .summary = "words for viewers and plugins, separated by blanks: \"safety\""},
+          .handle =
+              [](const XmlAttribute& words, FrameworkElement& element, BuildContext& context) {
+                const auto set = SetTags(element, TagsInText(words.value));
+                if (!set) context.Report(set.error(), words.value_position, element);
+              },
+          .saved = TagsText};
 }
 
 }  // namespace runnel

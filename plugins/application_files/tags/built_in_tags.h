@@ -15,6 +15,7 @@ void AddBuiltInTags(XmlTagRegistry& tags);
 [[nodiscard]] XmlTag ConnectTag();
 [[nodiscard]] XmlTag GroupTag();
 [[nodiscard]] XmlTag GroupTypeTag();
+[[nodiscard]] XmlTag InputTag();
 [[nodiscard]] XmlTag LoadTag();
 [[nodiscard]] XmlTag LogTag();
 [[nodiscard]] XmlTag ModuleTag();
@@ -30,6 +31,8 @@ void AddBuiltInTags(XmlTagRegistry& tags);
 [[nodiscard]] XmlTag ThreadTag();
 /// thread="control", of <application>, <group> and <module>.
 [[nodiscard]] AddedAttribute ThreadAttribute(std::string tag);
+/// tags="safety hidden", of the same.
+[[nodiscard]] AddedAttribute TagsAttribute(std::string tag);
 
 /// config="/car/left", of the same.
 [[nodiscard]] AddedAttribute ConfigurationAttribute(std::string tag);

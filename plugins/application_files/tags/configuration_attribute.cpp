@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/module/group_parameter.h"
-#include "core/port/path_search.h"
+#include "core/paths/path_search.h"
 #include "plugins/application_files/build_context.h"
 #include "plugins/application_files/tags/built_in_tags.h"
 #include "plugins/parameters/configuration_entry.h"

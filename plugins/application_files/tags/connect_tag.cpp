@@ -5,12 +5,15 @@
 #include <utility>
 #include <vector>
 
+#include "core/element/element_path.h"
 #include "core/plugin/module_type_name.h"
+#include "core/paths/late_connections.h"
 #include "core/types/type_info.h"
 #include "plugins/application_files/build_context.h"
 #include "plugins/application_files/path_use.h"
 #include "plugins/application_files/saving/file_update.h"
 #include "plugins/application_files/tags/built_in_tags.h"
+#include "plugins/application_files/tags/connect_paths.h"
 
 namespace runnel {
 
@@ -39,6 +42,10 @@ ConnectOptions ReadOptions(const TagUse& use) {
                pull->position);
     options.pull = false;
   }
+  if (const XmlAttribute* const convert = use.Find("convert")) options.convert = convert->value;
+  const XmlAttribute* const late = use.Find("late");
+  options.late = late != nullptr && late->value == "true";
+  options.when_present = use.Find("when") != nullptr;
   const XmlAttribute* const on_full = use.Find("on_full");
   if (on_full == nullptr) return options;
   const auto name = std::ranges::find(OnFullNames(), on_full->value);
@@ -72,29 +79,52 @@ void Connect(Port& from, const PathUse& from_use, Port& to, const PathUse& to_us
              const ConnectOptions& options, BuildContext& context) {
   CheckInterfaceDirection(from, from_use, PathKind::kOutput, to, context);
   CheckInterfaceDirection(to, to_use, PathKind::kInput, from, context);
+  if (options.when_present) (void)LateConnections::Of(from.runtime());
   const auto connected = Port::Connect(from, to, options);
   if (connected) return;
   const bool cannot_send = !from.is_proxy() && from.direction() == Port::Direction::kInput;
   MarkUnfed(to, context);
   if (cannot_send) MarkUnfed(from, context);
   Error error = connected.error();
-  if (error.hint.empty() && &from.type() != &to.type()) error.hint = FittingInputs(from, to);
+  if (&from.type() != &to.type() && options.part.empty() && options.convert.empty()) {
+    const std::string fitting = FittingInputs(from, to);
+    if (!fitting.empty()) error.hint = fitting + (error.hint.empty() ? "" : "; ") + error.hint;
+  }
   const bool cannot_be_pulled = options.pull && !from.is_pullable();
-  const PathUse& wrong = cannot_send || cannot_be_pulled ? from_use : to_use;
+  const bool is_source = cannot_send || cannot_be_pulled || !options.part.empty();
+  const PathUse& wrong = is_source ? from_use : to_use;
   context.Report(std::move(error), wrong.position, wrong.base);
+}
+
+// Of a connection that is to be when its ends are there, one that is not.
+bool AwaitsEnd(const TagUse& use, const PathUse& from, const PathUse& to,
+               const ConnectOptions& options) {
+  Port* const target = FindPort(to, PathKind::kInput);
+  if (FindPort(from, PathKind::kOutput) != nullptr && target != nullptr) return false;
+  if (target != nullptr) use.context.MarkUnfed(*target);
+  const auto added = LateConnections::Of(use.context.runtime())
+                         .Add(internal::AbsolutePath(from), internal::AbsolutePath(to), options);
+  if (!added) use.context.Report(added.error(), to.position, to.base);
+  return true;
 }
 
 void ConnectAll(const TagUse& use) {
   BuildContext& context = use.context;
-  const ConnectOptions options = ReadOptions(use);
-  const std::vector<PathUse> sources = PathsIn(use.Get("from"), use.parent);
+  ConnectOptions options = ReadOptions(use);
+  std::vector<PathUse> sources = PathsIn(use.Get("from"), use.parent);
   if (sources.size() > 1) {
     use.Report(
         {.message = "a connection comes from one port", .hint = "write a <connect> for each"},
         sources[1].position);
   }
+  options.part = internal::TakePart(sources[0]);
+  std::vector<PathUse> targets;
+  for (const PathUse& to : PathsIn(use.Get("to"), use.parent)) {
+    if (!options.when_present || !AwaitsEnd(use, sources[0], to, options)) targets.push_back(to);
+  }
+  if (targets.empty()) return;
   Port* const from = SearchPort(sources[0], PathKind::kOutput, context);
-  for (const PathUse& to_use : PathsIn(use.Get("to"), use.parent)) {
+  for (const PathUse& to_use : targets) {
     Port* const to = SearchPort(to_use, PathKind::kInput, context);
     if (to == nullptr) continue;
     if (from == nullptr) {
@@ -103,114 +133,6 @@ void ConnectAll(const TagUse& use) {
       Connect(*from, sources[0], *to, to_use, options, context);
     }
   }
-}
-
-// Saving.
-
-// As short as it may be, seen from `home`.
-std::string PathFrom(FrameworkElement& home, const Port& port, PathKind kind) {
-  const std::string full = LastingPath(port).substr(home.path().size() + 1);
-  const FrameworkElement* group = port.parent();
-  const FrameworkElement* const fed = group->parent();
-  const bool is_feed = fed != nullptr && fed->kind() == ElementKind::kParameter;
-  if (is_feed) group = fed->parent();
-  if (group->kind() != ElementKind::kPortGroup) return full;
-  std::string module = group->parent()->path().substr(home.path().size());
-  if (!module.empty()) module.erase(0, 1);
-  const std::string shorter = module + "/" + (is_feed ? *fed : port).name();
-  return FindPort({home, shorter, {}}, kind) == &port ? shorter : full;
-}
-
-struct OptionText {
-  AttributeRule rule;
-  std::string usual;
-  std::string value;
-  friend bool operator==(const OptionText& a, const OptionText& b) { return a.value == b.value; }
-};
-
-// What a file says of a connection; it need not say what is usual.
-std::array<OptionText, 3> TextsOf(const ConnectOptions& options) {
-  const OnFull on_full = options.queue > 0 ? options.on_full : OnFull::kDropOldest;
-  return {
-      {{{.name = "queue", .kind = AttributeKind::kCount}, "0", std::to_string(options.queue)},
-       {{.name = "on_full"}, OnFullNames()[0], OnFullNames()[static_cast<std::size_t>(on_full)]},
-       {{.name = "pull"}, "false", options.pull ? "true" : "false"}}};
-}
-
-bool SaysOptions(XmlElement tag, const ConnectOptions& options) {
-  return std::ranges::all_of(TextsOf(options), [&](const OptionText& each) {
-    const XmlAttribute* const said = tag.Attribute(each.rule.name);
-    return internal::MeanTheSame(each.rule, said != nullptr ? said->value : each.usual, each.value);
-  });
-}
-
-// Whether a tag says it already; if not, and the tag may be changed, the tag says it from now on.
-bool SaysConnection(XmlElement tag, Port* from, Port* to, bool is_only_one,
-                    internal::FileUpdate& update) {
-  const bool is_there = from != nullptr && to != nullptr;
-  std::vector<internal::SavedEdge>& edges = update.saving().edges;
-  const auto edge = std::ranges::find_if(
-      edges, [&](const auto& each) { return each.from == from && each.to == to; });
-  // One that leads out of the application is left to whoever wrote it.
-  if (edge == edges.end() && is_there &&
-      std::ranges::find(from->outgoing(), to, &Connection::to) != from->outgoing().end()) {
-    return true;
-  }
-  if (edge == edges.end() || edge->is_saved) {
-    update.Touch(from);
-    update.Touch(to);
-    return false;
-  }
-  if (!SaysOptions(tag, edge->options)) {
-    if (!is_only_one) return false;
-    for (const auto& [rule, usual, value] : TextsOf(edge->options)) {
-      value == usual ? update.editor().RemoveAttribute(tag, rule.name)
-                     : update.editor().SetAttribute(tag, rule.name, value);
-    }
-  }
-  edge->is_saved = true;
-  return true;
-}
-
-void UpdateConnect(XmlElement tag, FrameworkElement& group, internal::FileUpdate& update) {
-  const XmlAttribute& to_list = *tag.Attribute("to");
-  Port* const from = FindPort(PathIn(*tag.Attribute("from"), group), PathKind::kOutput);
-  const std::vector<PathUse> targets = PathsIn(to_list, group);
-  std::set<std::size_t> gone;
-  for (std::size_t i = 0; i < targets.size(); ++i) {
-    Port* const to = FindPort(targets[i], PathKind::kInput);
-    if (!SaysConnection(tag, from, to, targets.size() == 1, update)) gone.insert(i);
-  }
-  if (gone.size() == targets.size()) {
-    update.editor().Remove(tag);
-  } else {
-    update.editor().RemoveWords(to_list, gone);
-  }
-}
-
-// Of the connections that no tag says yet; those of one port together.
-std::vector<NewElement> MissingConnections(FrameworkElement& home, internal::Saving& saving) {
-  std::vector<NewElement> elements;
-  const internal::SavedEdge* last = nullptr;
-  for (internal::SavedEdge& edge : saving.edges) {
-    if (edge.is_saved || edge.home != &home) continue;
-    edge.is_saved = true;
-    const std::string to = PathFrom(home, *edge.to, PathKind::kInput);
-    const bool goes_on = last != nullptr && last->from == edge.from &&
-                         TextsOf(last->options) == TextsOf(edge.options);
-    last = &edge;
-    if (goes_on) {
-      elements.back().attributes[1].second += " " + to;
-      continue;
-    }
-    NewElement& made = elements.emplace_back(NewElement{
-        .name = "connect",
-        .attributes = {{"from", PathFrom(home, *edge.from, PathKind::kOutput)}, {"to", to}}});
-    for (const auto& [rule, usual, value] : TextsOf(edge.options)) {
-      if (value != usual) made.attributes.emplace_back(rule.name, value);
-    }
-  }
-  return elements;
 }
 
 }  // namespace
@@ -239,15 +161,29 @@ XmlTag ConnectTag() {
                       .kind = AttributeKind::kChoice,
                       .summary = "whether reading the input first has its sources make a value; "
                                  "false by default, and not with a queue",
+                      .choices = {"false", "true"}},
+                     {.name = "convert",
+                      .summary = "by which conversion values become those of the input: round, "
+                                 "truncate, parse, or what a plugin has registered; needed only "
+                                 "where something is lost, or several lead there"},
+                     {.name = "when",
+                      .kind = AttributeKind::kChoice,
+                      .summary = "present: made as soon as both ends are there, and again after "
+                                 "one went; without, they must be there from the start",
+                      .choices = {"present"}},
+                     {.name = "late",
+                      .kind = AttributeKind::kChoice,
+                      .summary = "true: in a loop of modules, the connection by which values come "
+                                 "one cycle late",
                       .choices = {"false", "true"}}},
       .is_structure = true,
       .handle = [](const TagUse& use) -> FrameworkElement* {
         use.context.Defer(BuildStage::kConnections, [use] { ConnectAll(use); });
         return &use.parent;
       },
-      .update = UpdateConnect,
+      .update = internal::UpdateConnect,
       .missing = [](const XmlElement*, FrameworkElement& home, internal::Saving& saving,
-                    internal::FileUpdate*) { return MissingConnections(home, saving); },
+                    internal::FileUpdate*) { return internal::MissingConnections(home, saving); },
       .place = 4};
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/element/source_place.h"
 #include "core/port/proxy_port.h"
+#include "core/conversion/value_part.h"
 #include "core/types/type_info.h"
 #include "plugins/application_files/build_context.h"
 #include "plugins/application_files/path_use.h"
@@ -33,9 +34,11 @@ std::optional<std::pair<PathUse, PathKind>> FarEnd(XmlElement connect, Framework
 const TypeInfo* TypeAmong(XmlElement element, FrameworkElement& base, const std::string& own) {
   for (const XmlElement child : element.children()) {
     const auto far_end = FarEnd(child, base, own);
-    if (!far_end) continue;
-    const Port* const port = FindPort(far_end->first, far_end->second);
-    if (port != nullptr) return &port->type();
+    // What comes out of a conversion cannot be told from what goes in.
+    if (!far_end || child.Attribute("convert") != nullptr) continue;
+    const auto found = PathSearch(base).FindPortPart(far_end->first.path, far_end->second);
+    const auto part = found ? ValuePart::In(found->port->type(), found->part) : Result<ValuePart>(Error{});
+    if (part) return &part->type();
   }
   return nullptr;
 }

@@ -29,14 +29,14 @@ ConnectOptions OptionsOf(const Port& from, const Port& input) {
   return found == from.outgoing().end() ? ConnectOptions{} : found->options;
 }
 
-bool HaveOneType(const Port& source, const Port& input, const XmlAttribute& at,
+bool CanFeed(const Port& source, const Port& input, const XmlAttribute& at,
                  const ReactionUse& use) {
-  if (&source.type() == &input.type()) return true;
-  use.Report({.message = "carries " + source.type().name() + ", but " + input.path() + " takes " +
-                         input.type().name(),
-              .path = source.path()},
-             at.value_position);
-  return false;
+  // What the connection that is left, or is there already, makes of the values.
+  const ConnectOptions options = OptionsOf(source, input);
+  const auto possible = Port::CheckEnds(
+      source, input, {.part = options.part, .convert = options.convert});
+  if (!possible) use.Report(possible.error(), at.value_position);
+  return possible.has_value();
 }
 
 void ReadSwitch(const ReactionUse& use) {
@@ -52,8 +52,8 @@ void ReadSwitch(const ReactionUse& use) {
   Port* const from = from_name ? use.FindPortAt(*from_name, PathKind::kOutput) : nullptr;
   Port* const to = to_name ? use.FindPortAt(*to_name, PathKind::kOutput) : nullptr;
   if (input == nullptr || (from_name && !from) || (to_name && !to)) return;
-  if (from != nullptr && !HaveOneType(*from, *input, *from_name, use)) return;
-  if (to != nullptr && !HaveOneType(*to, *input, *to_name, use)) return;
+  if (from != nullptr && !CanFeed(*from, *input, *from_name, use)) return;
+  if (to != nullptr && !CanFeed(*to, *input, *to_name, use)) return;
   ConnectOptions options;
   for (const Port* source : input->incoming()) {
     const ConnectOptions each = OptionsOf(*source, *input);
@@ -62,6 +62,11 @@ void ReadSwitch(const ReactionUse& use) {
   if (from != nullptr) use.reaction.changes.push_back(DisconnectPorts{from->path(), input->path()});
   if (to != nullptr) {
     options.pull = options.pull && to->is_pullable();
+    options.when_present = false;  // who says when it is switched is this rule
+    if (&to->type() == &input->type()) {
+      options.part.clear();
+      options.convert.clear();
+    }
     use.reaction.changes.push_back(ConnectPorts{to->path(), input->path(), options});
   }
   use.Describe("switched " + input->path() + (from ? " from " + from->path() : "") +

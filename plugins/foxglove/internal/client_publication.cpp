@@ -49,20 +49,18 @@ Result<void> ClientPublication::Make(FoxgloveShared& shared, const DirectoryInpu
   if (port == nullptr || &port->type() != input.type) {
     return Error{.message = "this is another port by now", .path = input.path};
   }
-  // An interface port knows no C++ type; the inputs behind it do.
-  const auto sinks = port->Sinks();
-  const Port& maker = port->is_proxy() && !sinks.empty() ? *sinks.front() : *port;
+  if (port->is_proxy() && port->Sinks().empty()) {
+    return Error{.message = "nothing is connected to this port that could read it",
+                 .path = input.path};
+  }
   auto& place =
       runtime.Create<Place>(runtime.root(), "foxglove_client_" + std::to_string(++number));
   shared.places.insert(place.path());
   pending.place = &place;
   pending.path = place.path();
-  place.output = maker.MakeOutput(place, port->name(), {});
+  place.output = port->MakeOutput(place, port->name(), {});
   if (!place.output) {
-    return Error{.message = maker.is_proxy()
-                                ? "nothing is connected to this port that could read it"
-                                : "only a module can make a " + input.type->name(),
-                 .path = input.path};
+    return Error{.message = "only a module can make a " + input.type->name(), .path = input.path};
   }
   if (auto ready = runtime.MakeReady(place); !ready) return ready;
   return Port::Connect(*place.output, *port);

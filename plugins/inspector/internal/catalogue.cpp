@@ -8,7 +8,7 @@
 
 #include "core/base/nearest_name.h"
 #include "core/plugin/module_type_name.h"
-#include "core/port/path_search.h"
+#include "core/paths/path_search.h"
 #include "core/port/port.h"
 #include "core/types/type_info.h"
 #include "plugins/inspector/element_json.h"

@@ -80,7 +80,10 @@ Change ReadConnect(JsonMembers& m) {
                       m.NeedText("to"),
                       {.queue = m.Count("queue", kLargestCount).value_or(0),
                        .on_full = OneOf<OnFull>(m, "on_full", OnFullNames()),
-                       .pull = IsTrue(m, "pull")}};
+                       .pull = IsTrue(m, "pull"),
+                       .when_present = IsTrue(m, "when_present"),
+                       .late = IsTrue(m, "late"),
+                       .convert = m.Text("convert").value_or("")}};
 }
 Change ReadDisconnect(JsonMembers& m) {
   return DisconnectPorts{m.NeedText("from"), m.NeedText("to")};

@@ -79,6 +79,10 @@ CommandOrErrors CommandOf(const Inspection& inspection, ViewerMessage& message) 
   if (message.op == "pause") return CommandRequest(PauseRequest{message.path, true});
   if (message.op == "resume") return CommandRequest(PauseRequest{message.path, false});
   if (message.op == "log_level") return CommandRequest(LogLevelRequest{message.path, message.level});
+  if (message.op == "release") return CommandRequest(ReleaseRequest{message.path});
+  if (message.op == "publish") {
+    return CommandRequest(PublishRequest{message.path, message.value, message.rate});
+  }
   return CommandRequest(SaveRequest{
       .file = message.file,
       .is_confined = true,
@@ -138,7 +142,7 @@ const std::vector<std::string>& AllOperations() {
   static const std::vector<std::string> all{
       "watch", "unwatch", "watch_rates", "change", "undo",  "redo",  "compatible",
       "save",  "pause",   "resume",      "step",   "speed", "reload", "log_level",
-      "profile"};
+      "profile", "publish", "release"};
   return all;
 }
 

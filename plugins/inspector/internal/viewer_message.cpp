@@ -38,6 +38,7 @@ Result<ViewerMessage> ParseViewerMessage(std::string_view text) {
   message.plugin = members.Text("plugin").value_or("");
   message.level = members.Text("level").value_or("");
   if (const JsonPart* const on = members.Find("on")) message.is_on = on->boolean().value_or(true);
+  message.value = members.Text("value").value_or("");
   message.rate = members.Number("rate");
   message.speed = members.Number("speed");
   message.request = members.Count("request", kLargestWhole);

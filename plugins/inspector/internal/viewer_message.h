@@ -31,6 +31,7 @@ struct ViewerMessage {
   std::string what;  ///< is to be saved
   std::string plugin;
   std::string level;
+  std::string value;
   std::optional<double> rate;
   std::optional<double> speed;
   std::size_t elements = 12;

@@ -91,7 +91,7 @@ TEST_F(ApplicationAccess, TiesNothingToWhatIsNotThere) {
   const std::size_t before = application_.runtime().root().children().size();
   EXPECT_THAT(application_.InputFrom<double>("/judge/outt").error().ToString(),
               HasSubstr("did you mean 'out'?"));
-  EXPECT_FALSE(application_.OutputTo<int>("/judge/in")) << "another type";
+  EXPECT_FALSE(application_.OutputTo<std::string>("/judge/in")) << "a text is read by name only";
   EXPECT_EQ(application_.runtime().root().children().size(), before);
 }
 

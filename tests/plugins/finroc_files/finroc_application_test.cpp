@@ -7,6 +7,7 @@
 
 #include <gmock/gmock.h>
 
+#include "core/paths/late_connections.h"
 #include "core/port/proxy_port.h"
 #include "plugins/application_files/run_description.h"
 #include "plugins/application_files/saving/application_saver.h"
@@ -118,7 +119,7 @@ TEST_F(FinrocApplication, TellsOfEachThatHasNoCounterpart) {
   <element name="B" group="finroc_projects_test" type="Snk"/>
   <element name="C" group="finroc_projects_test" type="Sink"/>
   <edge src="A/Output/Value" dest="B/Input/Value"/>
-  <edge src="A/Output/Value" dest="C/Input/Value"><conversion operation="ToString"/></edge>
+  <edge src="A/Output/Value" dest="C/Input/Value"><conversion operation="For Each"/></edge>
   <edge src="A/Output/Label" dest="C/Input/Second"/>
   <parameter link="A/Parameters/Gian" default="2"/>
   <unknown/>
@@ -132,7 +133,7 @@ TEST_F(FinrocApplication, TellsOfEachThatHasNoCounterpart) {
            "robot.finroc:7:3: warning: /robot: there is no module type 'test/snk' for 'B'; did you "
            "mean 'test/sink'?",
            "robot.finroc:9:36: warning: /robot: there is no port 'b/input/value'",
-           "robot.finroc:10:51: warning: /robot: <conversion> of an edge has no counterpart",
+           "robot.finroc:10:51: warning: /robot: the conversion 'For Each' of an edge has no counterpart",
            "robot.finroc:11:3: warning",
            "robot.finroc:12:3: warning: /robot: there is no parameter 'a/gian'; did you "
            "mean 'gain'?",
@@ -189,16 +190,21 @@ TEST_F(FinrocApplication, TellsOfEdgesToOtherProcessesAndOfFlags) {
   <edge src="tcp:other-host:4444/Robot/X" dest="B/Input/Value"/>
   <edge src="A/Output/Value" dest="tcp:/Robot/Y" flags="Reconnect"/>
   <edge src="A/Output/Value" dest="B/Input/Second" flags="Optional"/>
+  <edge src="C/Output/Value" dest="B/Input/Label" flags="Reconnect"><conversion operation="ToString"/></edge>
+  <edge src="A/Output/Value" dest="B/Input/Label" flags="Compressed"><conversion operation="ToString"/></edge>
 </Finstructable>)");
   ASSERT_NE(application, nullptr) << said_;
   for (const char* expected :
        {"robot.finroc:4:14: warning: /robot: 'tcp:other-host:4444/Robot/X' is a port of another "
         "process",
         "robot.finroc:5:36: warning: /robot: 'tcp:/Robot/Y' is a port of another process",
-        "robot.finroc:6:52: warning: /robot: 'flags' of an edge has no counterpart: 'Optional'"}) {
+        "robot.finroc:8:51: warning: /robot: 'flags' of an edge has no counterpart: 'Compressed'"}) {
     EXPECT_THAT(said_, HasSubstr(expected));
   }
   EXPECT_EQ(shop_.Get<Port>("/robot/b/input/second").Sources().size(), 1u);
+  EXPECT_EQ(shop_.Get<Port>("/robot/b/input/label").Sources().size(), 1u) << "as a text";
+  ASSERT_EQ(LateConnections::Of(shop_.runtime).all().size(), 2u);
+  EXPECT_TRUE(LateConnections::Of(shop_.runtime).all()[1].waits_for);
   EXPECT_TRUE(shop_.Get<Port>("/robot/b/input/value").Sources().empty());
 }
 

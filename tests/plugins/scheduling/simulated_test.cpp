@@ -35,7 +35,7 @@ class Simulated : public ::testing::Test {
 };
 
 TEST_F(Simulated, RunsConnectedModulesInTheOrderOfTheData) {
-  Diary diary;
+  std::vector<std::string> diary;
   auto& last = Make<Relay>("last");
   auto& first = Make<Relay>("first");
   first.diary = last.diary = &diary;
@@ -207,6 +207,23 @@ TEST_F(Simulated, WarnsOfWhatHasNotBeenMadeReady) {
   EXPECT_THAT(warnings[0].message, HasSubstr("has not been made ready"));
   Ready();
   EXPECT_THAT(scheduler.Warnings(), SizeIs(0));
+}
+
+TEST_F(Simulated, AConnectionThatIsLateSaysNothingOfTheOrder) {
+  std::vector<std::string> diary;
+  auto& a = Make<Relay>("a");
+  auto& b = Make<Relay>("b");
+  a.diary = b.diary = &diary;
+  MustSucceed(Port::Connect(a.out, b.in, {.late = true}));
+  MustSucceed(Port::Connect(b.out, a.in));
+  Thread("main", 10ms);
+  Ready();
+  EXPECT_THAT(scheduler.Warnings(), IsEmpty()) << "the file says which one is late";
+  scheduler.Step();
+  EXPECT_THAT(diary, ElementsAre("b", "a"));
+  MustSucceed(Port::Disconnect(a.out, b.in));
+  MustSucceed(Port::Connect(a.out, b.in));
+  EXPECT_THAT(scheduler.Warnings(), SizeIs(1));
 }
 
 TEST_F(Simulated, RefusesToStartThreads) {

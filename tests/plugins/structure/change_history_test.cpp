@@ -1,3 +1,4 @@
+#include "core/paths/late_connections.h"
 #include "plugins/structure/change_history.h"
 
 #include "tests/plugins/structure/editor_fixture.h"
@@ -34,6 +35,51 @@ TEST_F(ChangeHistoryTest, SaysWhatIsNextByALabel) {
   EXPECT_EQ(TextOf("/app/a/parameter/step"), "3");
   EXPECT_EQ(history.NextUndo(), "three at a time");
   EXPECT_FALSE(history.NextRedo());
+}
+
+TEST_F(ChangeHistoryTest, ConversionsComeBackAsTheyWere) {
+  MustDo({CreateModule{"/app/a", "test/text_counter"}, CreateModule{"/app/b", "test/sink"},
+          ConnectPorts{"/app/a/out", "/app/b/in", {.queue = 5, .convert = "parse"}}});
+  MustDo({DisconnectPorts{"/app/a/out", "/app/b/in"}});
+  EXPECT_THAT(At<Port>("/app/a/output/out").outgoing(), IsEmpty());
+  MustBe(history.Undo());
+  const auto& edges = At<Port>("/app/a/output/out").outgoing();
+  ASSERT_THAT(edges, SizeIs(1));
+  EXPECT_EQ(edges[0].options.convert, "parse");
+  EXPECT_TRUE(edges[0].converted);
+  MustBe(history.Undo());
+  MustBe(history.Redo());
+}
+
+TEST_F(ChangeHistoryTest, ConnectionsThatWaitAreUndoneAndMadeAgain) {
+  MustDo({CreateModule{"/app/b", "test/sink"}});
+  MustDo({ConnectPorts{"/app/a/out", "/app/b/in", {.queue = 5, .when_present = true}}});
+  const auto& late = LateConnections::Of(runtime).all();
+  ASSERT_THAT(late, SizeIs(1));
+  EXPECT_TRUE(late[0].waits_for);
+  MustBe(history.Undo());
+  EXPECT_THAT(late, IsEmpty());
+  MustBe(history.Redo());
+  MustDo({CreateModule{"/app/a", "test/counter"}});
+  ASSERT_THAT(late, SizeIs(1));
+  EXPECT_FALSE(late[0].waits_for);
+  ASSERT_THAT(At<Port>("/app/a/output/out").outgoing(), SizeIs(1));
+  // Swapping keeps it, deleting has it wait, undoing that connects it again.
+  MustDo({ReplaceModule{"/app/a", "test/other_counter"}});
+  ASSERT_THAT(At<Port>("/app/a/output/out").outgoing(), SizeIs(1));
+  MustDo({DeleteElement{"/app/a"}});
+  ASSERT_THAT(late, SizeIs(1));
+  EXPECT_TRUE(late[0].waits_for);
+  MustBe(history.Undo());
+  ASSERT_THAT(late, SizeIs(1));
+  EXPECT_FALSE(late[0].waits_for);
+  EXPECT_EQ(At<Port>("/app/a/output/out").outgoing().front().options.queue, 5U);
+  // What is disconnected stays so, until that is undone.
+  MustDo({DisconnectPorts{"/app/a/out", "/app/b/in"}});
+  EXPECT_THAT(late, IsEmpty());
+  MustBe(history.Undo());
+  ASSERT_THAT(late, SizeIs(1));
+  EXPECT_FALSE(late[0].waits_for);
 }
 
 TEST_F(ChangeHistoryTest, MakesWhatWasDeletedAsItWas) {

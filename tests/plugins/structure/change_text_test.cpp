@@ -104,6 +104,13 @@ TEST(ChangeText, ReadsConnections) {
   EXPECT_FALSE(ParseOne<ConnectPorts>("connect /a/x /b/y queue=1 pull=false").options.pull);
   EXPECT_EQ(ChangeText(ConnectPorts{"/a/x", "/b/y", {.pull = true}}),
             "connect /a/x /b/y pull=true");
+  const auto late = ParseOne<ConnectPorts>("connect /a/x.y /b/y convert=round when=present late=true");
+  EXPECT_EQ(late.from, "/a/x.y");
+  EXPECT_EQ(late.options.convert, "round");
+  EXPECT_TRUE(late.options.when_present && late.options.late);
+  EXPECT_EQ(ChangeText(late), "connect /a/x.y /b/y convert=round when=present late=true");
+  EXPECT_EQ(ChangeText(ConnectPorts{"/a/x", "/b/y", {.part = "y"}}), "connect /a/x.y /b/y");
+  EXPECT_EQ(ChangeText(ConnectPorts{"/a/x", "/b/y", {.part = "[0]"}}), "connect /a/x[0] /b/y");
   EXPECT_EQ(ParseOne<DisconnectPorts>("disconnect /a/x /b/y").to, "/b/y");
 }
 

@@ -131,7 +131,7 @@ TEST(AddedWords, GoWithARefusedPlugin) {
   tags.set_plugin("");
   (void)tags.SetAside("beacons");
   EXPECT_EQ(tags.FindTag("beacon"), nullptr);
-  EXPECT_EQ(tags.AddedAttributes("module").size(), 2u) << "thread and config";
+  EXPECT_EQ(tags.AddedAttributes("module").size(), 3u) << "thread, config, tags";
   EXPECT_NE(tags.FindTag("module"), nullptr);
 }
 

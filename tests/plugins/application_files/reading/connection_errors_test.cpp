@@ -56,6 +56,33 @@ TEST(ConnectionErrors, TellWhichPortsTakeAType) {
             "takes double; string is taken by 'label'\n");
 }
 
+TEST(ConnectionErrors, TellWhatWouldFitAWrongPair) {
+  Workshop workshop;
+  EXPECT_EQ(workshop.Errors(R"(<application name="demo">
+  <module name="a" type="test/source"/>
+  <module name="b" type="test/sink"/>
+  <connect from="a/value.x" to="b/value"/>
+  <connect from="a/label" to="b/value" convert="pars"/>
+</application>)"),
+            "app.xml:4:18: error: /demo/a/output/value: carries double, but /demo/b/input/value "
+            "takes double: double has no fields\n"
+            "app.xml:5:31: error: /demo/a/output/label: carries string, but /demo/b/input/value "
+            "takes double: a string does not become a double by 'pars'; did you mean 'parse'?\n");
+}
+
+TEST(ConnectionErrors, EndsThatComeLaterAreNone) {
+  Workshop workshop;
+  EXPECT_EQ(workshop.Errors(R"(<application name="demo">
+  <module name="f" type="test/filter"/>
+  <module name="source" type="test/source"/>
+  <connect from="driver/value" to="f/value" when="present"/>
+  <connect from="source/label" to="f/value" when="present" convert="pars"/>
+</application>)"),
+            "app.xml:5:36: error: /demo/source/output/label: carries string, but "
+            "/demo/f/input/value takes double: a string does not become a double by 'pars'; did "
+            "you mean 'parse'?\n");
+}
+
 TEST(ConnectionErrors, TellWrongDirections) {
   Workshop workshop;
   EXPECT_EQ(workshop.Errors(R"(<application name="demo">

@@ -223,7 +223,7 @@ TEST(Mistakes, OfThreeElementsAreThree) {
   <connect from="filter/value" to="sink/vlaue"/>
 </application>)"),
       "app.xml:3:22: error: /demo/a: there is no parameter 'gian'; did you mean 'gain'?\n"
-      "app.xml:5:44: error: /demo/filter: <module> knows no 'colour'; there is 'thread', 'config'\n"
+      "app.xml:5:44: error: /demo/filter: <module> knows no 'colour'; there is 'thread', 'config', 'tags'\n"
       "app.xml:7:3: error: /demo: <group> has no 'name'; add name=\"…\"\n"
       "app.xml:8:32: error: /demo/inner: there is no module type 'test/sinc'; did you mean "
       "'test/sink'?\n"

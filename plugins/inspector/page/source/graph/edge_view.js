@@ -19,8 +19,13 @@ export const EdgeView = memo(({ edge }) => {
     shapeRevision.value;
     return structure.connections.get(edge.key)?.pull === true;
   });
-  return html`<path class=${`edge ${state.value} ${isLive.value ? 'live' : ''} ${isPulled.value ? 'pulled' : ''}`} data-edge=${edge.key}
-    d=${edge.path} transform=${edge.dx || edge.dy ? `translate(${edge.dx},${edge.dy})` : undefined} />`;
+  const conversion = useComputed(() => {
+    shapeRevision.value;
+    return structure.connections.get(edge.key)?.conversion ?? '';
+  });
+  return html`<path class=${`edge ${state.value} ${isLive.value ? 'live' : ''} ${isPulled.value ? 'pulled' : ''} ${conversion.value ? 'converted' : ''}`} data-edge=${edge.key}
+    d=${edge.path} transform=${edge.dx || edge.dy ? `translate(${edge.dx},${edge.dy})` : undefined}>
+    ${conversion.value && html`<title>${conversion.value}</title>`}</path>`;
 });
 
 /** Whether a connection begins or ends at what is selected: a port, or a box. */

@@ -19,7 +19,7 @@ export const PortView = memo(({ port, x, y, side, inside }) => {
   const labelRight = inside ? !isLeft : isLeft; // on which side of the dot there is room for the name
   const label = inside ? isLeft : labelRight;
   return html`
-    <g class=${`port ${port.direction} ${role.value} ${isSelected.value ? 'selected' : ''}`}
+    <g class=${`port ${port.direction} ${port.by_hand ? 'by-hand' : ''} ${role.value} ${isSelected.value ? 'selected' : ''}`}
        data-port=${port.path} id=${`port:${port.path}`} transform=${`translate(${x},${y})`}
        role="treeitem" aria-label=${DescribePort(port)} aria-selected=${isSelected.value}>
       <rect class="grip" x=${label ? -9 : -(port.name.length * 6.3 + 12)} y="-10" height="20"
@@ -43,5 +43,5 @@ function Rate({ path }) {
 }
 
 export function DescribePort(port) {
-  return `${port.direction} ${port.name}, ${port.data_type}${port.required ? ', required' : ''}`;
+  return `${port.direction} ${port.name}, ${port.data_type}${port.required ? ', required' : ''}${port.by_hand ? ', set by hand' : ''}`;
 }

@@ -10,12 +10,12 @@ export function Connectable(structure, first, second) {
   const a = structure.get(first);
   const b = structure.get(second);
   if (!a || !b || a === b || a.kind !== 'port' || b.kind !== 'port') return null;
-  if (!SameType(a.data_type, b.data_type)) return null;
   const ordered = Gives(structure, a, b) && Takes(structure, b, a) ? [a, b]
     : Gives(structure, b, a) && Takes(structure, a, b) ? [b, a]
     : null;
   if (!ordered) return null;
   const [from, to] = ordered;
+  if (!Becomes(from.data_type, to.data_type)) return null;
   const exists = structure.connectionsOf(from.path).some((connection) =>
     connection.from === from.path && connection.to === to.path);
   return exists ? null : { from: from.path, to: to.path };
@@ -33,8 +33,17 @@ export function Partners(structure, path) {
   return partners.sort((a, b) => distance(a) - distance(b));
 }
 
-function SameType(a, b) {
-  return a === b || !a || !b;
+// How many bits a number has for its digits; a sign is one more.
+const kDigits = { bool: 1, int8: 7, int16: 15, int32: 31, int64: 63, uint8: 8, uint16: 16, uint32: 32, uint64: 64, float: 24, double: 53 };
+
+/** Whether values are of one type, or become the other's without being told how. */
+function Becomes(from, to) {
+  if (from === to || !from || !to || to === 'signal' || to === 'string') return true;
+  if (!(from in kDigits) || !(to in kDigits)) return false;
+  const isWhole = to !== 'float' && to !== 'double';
+  const isSigned = from.startsWith('int') || from === 'float' || from === 'double';
+  if (isWhole && (from === 'float' || from === 'double' || (isSigned && !to.startsWith('int')))) return false;
+  return kDigits[from] <= kDigits[to];
 }
 
 function IsInside(structure, port, other) {

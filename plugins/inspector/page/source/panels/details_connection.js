@@ -28,6 +28,9 @@ export function ConnectionDetails({ connection }) {
       ['type', type], ['queue', connection.queue > 0 ? `${connection.queue} values` : 'the newest value only'],
       ['if it is full', connection.queue > 0 ? (connection.on_full ?? '').replace('_', ' ') : ''],
       ['pulled', pull ? 'made when the input is read' : ''],
+      ['converted', connection.conversion],
+      ['made', connection.when_present ? 'when both ends are there' : ''],
+      ['in a loop', connection.late ? 'values come one cycle late by it' : ''],
       ['lost', drops ? String(drops) : ''],
     ]} />
     <${Section} title="Value">${item ? html`<${ValueTable} port=${from} type=${type} value=${item.value} />`

@@ -51,7 +51,7 @@ export function ModuleDetails({ element }) {
       ['thread', thread && html`<span class="thread-name"><i
           style=${{ background: ThreadColour(thread) }}></i>${thread}${
         element.thread ? '' : html` <small>of its group</small>`}</span>`],
-      ['plugin', plugin],
+      ['plugin', plugin], ['tags', element.tags],
       ...profile.value.tasks.filter((task) => task.path === path).map((task) => [`takes${task.name.slice(path.length)}`,
         `${FormatMicroseconds(task.last_us)} last, ${FormatMicroseconds(task.mean_us)} mean, at most ${
           FormatMicroseconds(task.max_us)}; runs as number ${task.order} of its thread`]),

@@ -7,7 +7,8 @@ import { FormatNumber, FormatRate } from '../model/value_format.js';
 import { Disconnect } from '../state/actions.js';
 import { openDialog } from '../state/choices.js';
 import { FlowRate, canChange, catalogue, revision, structure } from '../state/store.js';
-import { ActionButton, Facts, Link, Section, Title } from './parts.js';
+import { ByHand } from './by_hand.js';
+import { ActionButton, Awaited, Facts, Link, Section, Title } from './parts.js';
 import { useWatched } from './use_watched.js';
 import { ValueTable } from './value_table.js';
 
@@ -38,6 +39,8 @@ export function PortDetails({ element }) {
       ['measured', item?.measured !== undefined && `${FormatNumber(item.stamp - item.measured)} s before`],
       ['lost from its queue', item?.drops ? String(item.drops) : ''],
       ['required', element.required ? 'yes' : ''],
+      ['unit', element.unit], ['in', element.bounds], ['default', element.default],
+      ['set by hand', element.by_hand ? 'what is published is not read' : ''],
     ]} />
     <${Section} title="Value" id="value">
       ${item ? html`<${ValueTable} port=${path} type=${element.data_type} value=${item.value} />`
@@ -46,10 +49,12 @@ export function PortDetails({ element }) {
           onClick=${() => setElements(kMany)}>show up to ${kMany} elements of lists</button>`}
       ${item?.cut && elements === kMany && html`<p class="note">longer lists are cut</p>`}
     <//>
+    ${type?.kind !== 'opaque' && html`<${ByHand} key=${path} port=${element} />`}
     <${Section} title="Connections" count=${connections.length}>
       ${connections.length === 0 && html`<p class="none">none</p>`}
       <ul class="connections">${connections.map((connection) => html`<${ConnectionRow}
           key=${connection.from + connection.to} port=${path} connection=${connection} />`)}</ul>
+      <${Awaited} awaits=${element.awaits} />
     <//>`;
 }
 
@@ -62,6 +67,9 @@ function ConnectionRow({ port, connection }) {
     <${Link} path=${other} text=${`${owner ? NameOf(owner) : ''}/${NameOf(other)}`} />
     ${connection.queue > 0 && html`<small>queue of ${connection.queue}</small>`}
     ${connection.pull && html`<small>pulled</small>`}
+    ${connection.conversion && html`<small>${connection.conversion}</small>`}
+    ${connection.when_present && html`<small>when present</small>`}
+    ${connection.late && html`<small>late</small>`}
     <button class="remove" disabled=${!canChange.value} title="Disconnect" aria-label=${`Disconnect ${other}`}
       onClick=${() => Disconnect(connection.from, connection.to)}>✕</button></li>`;
 }

@@ -28,6 +28,13 @@ export function Link({ path, text }) {
   return html`<button class="link" onClick=${go} title=${path}>${text ?? NameOf(path)}</button>`;
 }
 
+/** Connections that wait for an end. */
+export function Awaited({ awaits }) {
+  if (!awaits?.length) return null;
+  return html`<ul class="connections">${awaits.map(({ from, to, why }) => html`<li key=${`${from} ${to}`} class="awaited">
+    <span class="arrow">waits</span> ${from} → ${to} <small>${why}</small></li>`)}</ul>`;
+}
+
 export function ActionButton({ icon, text, onClick, disabled, id, title }) {
   return html`<button class="action" id=${id} disabled=${disabled} onClick=${onClick} title=${title}>
     <${Icon} name=${icon} size=${15} />${text}</button>`;

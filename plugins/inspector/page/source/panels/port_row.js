@@ -14,6 +14,7 @@ export function PortRow({ port }) {
   return html`<li class="port-row" data-port-row=${port.path}>
     <div><${Link} path=${port.path} text=${port.name} /> <small class="type">${port.data_type}</small>
       ${isOpenEnded && html`<small class="missing">required, not connected</small>`}
+      ${port.by_hand && html`<small class="missing">set by hand</small>`}
       <small class="rate">${rate === null ? '' : FormatRate(rate)}</small></div>
     <div class="value">${item ? FormatValue(item.value, 80) : html`<span class="none">nothing yet</span>`}</div>
   </li>`;

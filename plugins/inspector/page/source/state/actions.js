@@ -27,6 +27,11 @@ export function SetParameter(path, value, options) {
   return Apply([Change.set(path, value)], `set ${NameOf(path)} to ${value}`, options);
 }
 
+export function PublishByHand(path, value, rate) {
+  return Ask({ op: 'publish', path, value, ...(rate === null ? {} : { rate }) }, `Could not set ${Brief(path)}`, { quiet: true });
+}
+export const Release = (path) => Ask({ op: 'release', path }, `Could not release ${Brief(path)}`);
+
 export async function Connect(from, to) {
   const reply = await Apply([Change.connect(from, to)], `connect ${Brief(from)} to ${Brief(to)}`);
   if (reply.ok) Toast('done', `Connected ${Brief(from)} to ${Brief(to)}`);
@@ -39,7 +44,8 @@ export function Disconnect(from, to) {
 
 /** Whether a connection pulls is said when it is made, so it is made anew. */
 export function SetPull(from, to, pull) {
-  return Apply([Change.disconnect(from, to), Change.connect(from, to, { pull })],
+  const { when_present, late } = structure.connectionsOf(from).find((each) => each.from === from && each.to === to) ?? {};
+  return Apply([Change.disconnect(from, to), Change.connect(from, to, { pull, when_present, late })],
     `${pull ? 'pull' : 'push'} from ${Brief(from)} to ${Brief(to)}`);
 }
 

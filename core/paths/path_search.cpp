@@ -1,6 +1,7 @@
-#include "core/port/path_search.h"
+#include "core/paths/path_search.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "core/base/nearest_name.h"
@@ -127,6 +128,23 @@ Result<Port*> PathSearch::FindPort(std::string_view path, PathKind kind) const {
                .hint = !ports.empty() ? "write one of its ports after it, like '" + ports[0] + "'"
                        : kind == PathKind::kOutput ? "it has no outputs"
                                                    : "it has no inputs"};
+}
+
+Result<PortPart> PathSearch::FindPortPart(std::string_view path, PathKind kind) const {
+  auto whole = FindPort(path, kind);
+  if (whole) return PortPart{*whole};
+  const std::size_t slash = path.rfind('/');
+  const std::size_t begin = slash == std::string_view::npos ? 0 : slash + 1;
+  std::optional<Error> error;
+  for (std::size_t at = path.size(); at > begin + 1;) {
+    at = path.find_last_of(".[", at - 1);
+    if (at == std::string_view::npos || at <= begin) break;
+    const auto found = FindPort(path.substr(0, at), kind);
+    const std::string_view part = path.substr(path[at] == '.' ? at + 1 : at);
+    if (found && !part.empty()) return PortPart{*found, std::string(part)};
+    if (!found) error = found.error();
+  }
+  return error ? *error : whole.error();
 }
 
 FrameworkElement* PathSearch::Child(const FrameworkElement& parent, std::string_view name) const {

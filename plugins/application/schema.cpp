@@ -1,4 +1,4 @@
-#include "plugins/application_files/schema.h"
+#include "plugins/application/schema.h"
 
 #include <map>
 #include <set>

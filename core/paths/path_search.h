@@ -28,6 +28,12 @@ struct PathEnd {
   Error error = {};                          ///< if nothing was found; its path is that of `at`
 };
 
+/// A port, and which part of its values is meant: "x", "ranges[0]"; "" for all of them (value_part.h).
+struct PortPart {
+  Port* port = nullptr;
+  std::string part = {};
+};
+
 /// Finds what people name by paths, in files, on command lines, in browsers and in code. In all of them
 ///
 ///     robot/laser    begins at the base, ".." being the parent; with a '/' in front at the root
@@ -55,6 +61,9 @@ class PathSearch {
   /// Errors: besides, that it is no port; that two ports fit. If none fits the kind, one that does not is
   /// found: connecting says why not.
   [[nodiscard]] Result<Port*> FindPort(std::string_view path, PathKind kind) const;
+  /// The same for "world/pose.x" and "laser/scan.ranges[0]", too. Names may have dots and brackets: of two ways
+  /// to understand a path, the one with the longer name counts. Whether there is such a part is not looked at.
+  [[nodiscard]] Result<PortPart> FindPortPart(std::string_view path, PathKind kind) const;
 
  protected:
   /// What the search sees of the tree.

@@ -1,0 +1,61 @@
+#include "core/element/tags.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "core/element/element_path.h"
+
+namespace runnel {
+
+namespace {
+
+struct Tags final : Annotation {
+  explicit Tags(std::vector<std::string> all) : names(std::move(all)) {}
+  [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override {
+    return std::make_unique<Tags>(names);
+  }
+  std::vector<std::string> names;
+};
+
+}  // namespace
+
+Result<void> SetTags(FrameworkElement& element, std::vector<std::string> tags) {
+  for (const std::string& tag : tags) {
+    if (const auto good = CheckElementName(tag); !good) {
+      return Error{.message = "'" + tag + "' is no tag: " + good.error().message,
+                   .path = element.path()};
+    }
+  }
+  element.Annotate(std::make_unique<Tags>(std::move(tags)));
+  return {};
+}
+
+std::vector<std::string> TagsOf(const FrameworkElement& element) {
+  const auto* const tags = element.FindAnnotation<Tags>();
+  return tags != nullptr ? tags->names : std::vector<std::string>();
+}
+
+bool HasTag(const FrameworkElement& element, std::string_view tag) {
+  const auto* const tags = element.FindAnnotation<Tags>();
+  return tags != nullptr && std::ranges::find(tags->names, tag) != tags->names.end();
+}
+
+std::string TagsText(const FrameworkElement& element) {
+  std::string text;
+  for (const std::string& tag : TagsOf(element)) text += (text.empty() ? "" : " ") + tag;
+  return text;
+}
+
+std::vector<std::string> TagsInText(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r\n";
+  std::vector<std::string> tags;
+  for (std::size_t at = text.find_first_not_of(kBlanks); at != std::string_view::npos;) {
+    const std::size_t end = std::min(text.find_first_of(kBlanks, at), text.size());
+    tags.emplace_back(text.substr(at, end - at));
+    at = text.find_first_not_of(kBlanks, end);
+  }
+  return tags;
+}
+
+}  // namespace runnel

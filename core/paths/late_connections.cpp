@@ -1,0 +1,241 @@
+#include "core/paths/late_connections.h"
+
+#include <algorithm>
+#include <mutex>
+#include <utility>
+
+#include "core/base/exception_text.h"
+#include "core/element/element_path.h"
+#include "core/paths/path_search.h"
+
+namespace runnel {
+
+namespace {
+
+struct Ends {
+  Port* from = nullptr;
+  Port* to = nullptr;
+  std::string missing = {};  // which is not there, and why
+};
+
+Ends FindEnds(Runtime& runtime, const std::string& from, const std::string& to) {
+  Ends ends;
+  const PathSearch search(runtime);
+  const auto find = [&](const std::string& path, PathKind kind) -> Port* {
+    const auto found = search.FindPort(path, kind);
+    if (found && (*found)->life_cycle() != LifeCycle::kDeleted) return *found;
+    if (ends.missing.empty()) {
+      ends.missing = path + (found ? "" : ": " + found.error().message);
+    }
+    return nullptr;
+  };
+  ends.from = find(from, PathKind::kOutput);
+  ends.to = find(to, PathKind::kInput);
+  return ends;
+}
+
+// Without the group of ports, which may be left out: "/a/laser/output/scan" is "/a/laser/scan".
+std::string ShortPath(std::string_view path) {
+  std::vector<std::string_view> names = SplitPath(path);
+  const auto is_group = [](std::string_view name) { return name == "output" || name == "input"; };
+  if (names.size() > 2 && is_group(names[names.size() - 2])) names.erase(names.end() - 2);
+  std::string text;
+  for (const std::string_view name : names) text += "/" + std::string(name);
+  return text;
+}
+
+bool AreConnected(const Port& from, const Port& to) {
+  return std::ranges::find(from.outgoing(), &to, &Connection::to) != from.outgoing().end();
+}
+
+}  // namespace
+
+std::string LateConnection::SourceText() const {
+  const std::string& part = options.part;
+  return from + (part.empty() || part.front() == '[' ? "" : ".") + part;
+}
+
+LateConnections& LateConnections::Of(Runtime& runtime) {
+  if (LateConnections* const known = FindIn(runtime)) return *known;
+  return runtime.root().Annotate(std::make_unique<LateConnections>(runtime));
+}
+
+LateConnections* LateConnections::FindIn(Runtime& runtime) {
+  return runtime.root().FindAnnotation<LateConnections>();
+}
+
+// Lives as long as the root, and so as the runtime.
+LateConnections::LateConnections(Runtime& runtime) : runtime_(runtime) {
+  runtime.AddListener(*this);
+}
+
+const LateConnection* LateConnections::Find(std::string_view from, std::string_view to) const {
+  return const_cast<LateConnections*>(this)->FindOwn(from, to);
+}
+
+LateConnection* LateConnections::FindOwn(std::string_view from, std::string_view to) {
+  const std::string short_from = ShortPath(WholePath(from));
+  const std::string short_to = ShortPath(WholePath(to));
+  const auto found = std::ranges::find_if(all_, [&](const LateConnection& each) {
+    return ShortPath(each.from) == short_from && ShortPath(each.to) == short_to;
+  });
+  return found == all_.end() ? nullptr : &*found;
+}
+
+// As much of it as is there, by its whole path.
+std::string LateConnections::WholePath(std::string_view path) const {
+  const PathSearch search(runtime_);
+  for (std::size_t end = path.size(); end != std::string_view::npos && end > 0;
+       end = path.rfind('/', end - 1)) {
+    const auto found = search.Find(path.substr(0, end));
+    const bool is_there = found && (*found)->parent() != nullptr;
+    if (is_there) return (*found)->path() + std::string(path.substr(end));
+  }
+  return (path.starts_with('/') ? "" : "/") + std::string(path);
+}
+
+bool LateConnections::Awaits(const Port& input) {
+  const LateConnections* const late = FindIn(input.runtime());
+  return late != nullptr && std::ranges::any_of(late->all_, [&](const LateConnection& each) {
+           return ShortPath(each.to) == ShortPath(input.path());
+         });
+}
+
+Result<void> LateConnections::Add(const std::string& from, const std::string& to,
+                                  ConnectOptions options) {
+  options.when_present = true;
+  const Ends ends = FindEnds(runtime_, from, to);
+  // Notes itself.
+  if (ends.missing.empty()) return Port::Connect(*ends.from, *ends.to, options);
+  if (Find(from, to) != nullptr) {
+    return Error{.message = "is to be connected to " + to + " already", .path = from};
+  }
+  all_.push_back({WholePath(from), WholePath(to), std::move(options), ends.missing});
+  // So that viewers look again.
+  runtime_.ForEachListener([](ElementListener&) {});
+  return {};
+}
+
+bool LateConnections::Remove(std::string_view from, std::string_view to) {
+  const LateConnection* const found = Find(from, to);
+  if (found == nullptr) return false;
+  const Ends ends = FindEnds(runtime_, found->from, found->to);
+  const bool is_connected = ends.missing.empty() && AreConnected(*ends.from, *ends.to);
+  all_.erase(all_.begin() + (found - all_.data()));
+  if (is_connected) (void)Port::Disconnect(*ends.from, *ends.to);
+  runtime_.ForEachListener([](ElementListener&) {});
+  return true;
+}
+
+void LateConnections::OnReady(FrameworkElement&) {
+  must_look_ = true;
+  if (!runtime_.is_in_change_scope()) LookAgain();
+}
+
+// With an application go the connections that are its own, also if it is one that could not be built.
+void LateConnections::OnDeleted(FrameworkElement& element) {
+  must_look_ = true;
+  if (element.parent() == nullptr || element.parent()->parent() != nullptr) return;
+  const std::string begin = element.path() + "/";
+  std::erase_if(all_, [&](const LateConnection& each) {
+    return each.from.starts_with(begin) && each.to.starts_with(begin);
+  });
+}
+
+void LateConnections::OnConnected(FrameworkElement& from, FrameworkElement& to) {
+  std::erase_if(cuts_, [&](const Cut& cut) { return cut.from == from.path() && cut.to == to.path(); });
+  const auto& outgoing = dynamic_cast<const Port&>(from).outgoing();
+  const auto edge = std::ranges::find(outgoing, &to, [](const Connection& each) -> FrameworkElement* {
+    return each.to;
+  });
+  LateConnection* const known = FindOwn(from.path(), to.path());
+  if (edge == outgoing.end() || (known == nullptr && !edge->options.when_present)) return;
+  if (known == nullptr) {
+    all_.push_back({from.path(), to.path(), edge->options, {}});
+  } else {
+    known->options = edge->options;
+    known->waits_for.reset();
+  }
+}
+
+void LateConnections::OnDisconnected(FrameworkElement& from, FrameworkElement& to) {
+  if (FindOwn(from.path(), to.path()) == nullptr) return;
+  cuts_.push_back({from.path(), to.path(), from.id(), to.id()});
+  must_look_ = true;
+  if (!runtime_.is_in_change_scope()) LookAgain();
+}
+
+void LateConnections::OnChangesEnd() {
+  if (must_look_) LookAgain();
+}
+
+// A connection that has been cut while both its ends stay is one that somebody does not want any more.
+void LateConnections::LookAgain() {
+  must_look_ = false;
+  for (const Cut& cut : std::exchange(cuts_, {})) {
+    const Ends ends = FindEnds(runtime_, cut.from, cut.to);
+    const bool are_the_same =
+        ends.missing.empty() && ends.from->id() == cut.from_id && ends.to->id() == cut.to_id;
+    if (are_the_same && !AreConnected(*ends.from, *ends.to)) {
+      std::erase_if(all_, [&](const LateConnection& each) {
+        return each.from == cut.from && each.to == cut.to;
+      });
+    } else if (LateConnection* const known = FindOwn(cut.from, cut.to)) {
+      known->waits_for = ends.missing;
+    }
+  }
+  // By paths: connecting tells this listener, too, and may change the list.
+  std::vector<std::pair<std::string, std::string>> waiting;
+  for (const LateConnection& each : all_) {
+    if (each.waits_for) waiting.emplace_back(each.from, each.to);
+  }
+  for (const auto& [from, to] : waiting) Try(from, to);
+}
+
+void LateConnections::Try(const std::string& from, const std::string& to) {
+  LateConnection* const late = FindOwn(from, to);
+  if (late == nullptr) return;
+  const Ends ends = FindEnds(runtime_, from, to);
+  late->waits_for = ends.missing;
+  if (!ends.missing.empty()) return;
+  late->from = ends.from->path();
+  late->to = ends.to->path();
+  const ConnectOptions options = late->options;
+  try {
+    const auto connected = Port::Connect(*ends.from, *ends.to, options);
+    LateConnection* const tried = FindOwn(from, to);
+    if (tried == nullptr) return;
+    tried->waits_for.reset();
+    if (!connected) tried->waits_for = connected.error().message;
+  } catch (...) {
+    if (LateConnection* const tried = FindOwn(from, to)) tried->waits_for = DescribeException();
+  }
+}
+
+namespace {
+
+template <typename IsMeant>
+std::vector<const LateConnection*> Waiting(Runtime& runtime, const IsMeant& is_meant) {
+  std::vector<const LateConnection*> waiting;
+  const LateConnections* const late = LateConnections::FindIn(runtime);
+  if (late == nullptr) return waiting;
+  for (const LateConnection& each : late->all()) {
+    if (each.waits_for && (is_meant(each.from) || is_meant(each.to))) waiting.push_back(&each);
+  }
+  return waiting;
+}
+
+}  // namespace
+
+std::vector<const LateConnection*> AwaitedBy(const Port& port) {
+  const std::string path = ShortPath(port.path());
+  return Waiting(port.runtime(), [&](const std::string& end) { return ShortPath(end) == path; });
+}
+
+std::vector<const LateConnection*> AwaitedBelow(const FrameworkElement& element) {
+  const bool is_root = element.parent() == nullptr;
+  const std::string begin = is_root ? "/" : element.path() + "/";
+  return Waiting(element.runtime(), [&](const std::string& end) { return end.starts_with(begin); });
+}
+
+}  // namespace runnel

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+
+#include "core/port/converted_flow.h"
+#include "core/port/port_options.h"
+#include "core/port/stand_in.h"
+
+namespace runnel::internal {
+
+/// Of an input that looks at what comes.
+struct HeldToLimits {
+  InputLimits limits;
+  std::unique_ptr<ConvertedFlow> flow;  // on the way of each of its sources
+  // By publishers. A statistic.
+  std::shared_ptr<std::atomic<std::uint64_t>> out_of_bounds;
+  std::unique_ptr<StandIn> default_value;  // what readers find while there is no source; made when it is needed
+};
+
+/// What few ports have.
+struct PortExtras {
+  std::unique_ptr<HeldToLimits> limits;
+  std::unique_ptr<StandIn> by_hand;  // what readers find instead of what is published
+
+  /// `port` has them now.
+  void StandFor(const Port& port) const noexcept {
+    if (by_hand) by_hand->set_goes_on_at(port);
+    if (!limits) return;
+    limits->flow->set_target(port);
+    if (limits->default_value) limits->default_value->set_goes_on_at(port);
+  }
+};
+
+/// That the value, one of the port's type, is within the limits.
+[[nodiscard]] Result<void> CheckWithin(const Port& port, const InputLimits& limits,
+                                       const void* value);
+
+}  // namespace runnel::internal

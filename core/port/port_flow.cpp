@@ -1,0 +1,197 @@
+// Between which ports data flows: Sources(), Sinks(), and what inputs are bound to.
+
+#include <algorithm>
+#include <unordered_set>
+#include <utility>
+
+#include "core/port/connection_search.h"
+#include "core/port/converted_flow.h"
+#include "core/port/port.h"
+#include "core/port/port_extras.h"
+
+namespace runnel {
+
+using internal::FindConnection;
+
+namespace {
+
+void CollectSinks(const Port& port, std::vector<Port*>& sinks) {
+  for (const Connection& each : port.outgoing()) {
+    if (each.to->is_proxy()) {
+      CollectSinks(*each.to, sinks);
+    } else {
+      sinks.push_back(each.to);
+    }
+  }
+}
+
+// Keeps the first of each.
+void DropRepetitions(std::vector<Port*>& ports) {
+  std::unordered_set<const Port*> seen;
+  std::erase_if(ports, [&](const Port* port) { return !seen.insert(port).second; });
+}
+
+// Of two stretches of one way, or two ways from one source, the one that asks for a queue decides;
+// of two queues, the longer. If one pulls, all of it does.
+ConnectOptions Stronger(const ConnectOptions& a, const ConnectOptions& b) {
+  ConnectOptions stronger = b.queue > a.queue ? b : a;
+  stronger.pull = a.pull || b.pull;
+  return stronger;
+}
+
+}  // namespace
+
+void Port::CollectPassedOn(const ConnectOptions& options, Links links,
+                           std::vector<Source>& sources) const {
+  Port* passed_on = by_hand();
+  if (passed_on == nullptr && is_proxy()) return CollectSources(options, links, sources);
+  if (passed_on == nullptr) passed_on = const_cast<Port*>(this);
+  const auto known = std::ranges::find(sources, passed_on, &Source::output);
+  if (known == sources.end()) {
+    sources.push_back({passed_on, options});
+  } else {
+    known->options = Stronger(known->options, options);
+  }
+}
+
+void Port::CollectSources(const ConnectOptions& options, Links links,
+                          std::vector<Source>& sources) const {
+  for (Port* from : incoming_) {
+    const auto edge = FindConnection(from->outgoing_, *this);
+    const ConnectOptions stronger = Stronger(options, edge->options);
+    if (!edge->converted) {
+      from->CollectPassedOn(stronger, links, sources);
+      continue;
+    }
+    std::vector<Source> converted;
+    from->CollectPassedOn(stronger, links, converted);
+    for (Source& each : converted) {
+      each.output = edge->converted->OutputFor(*each.output, links == Links::kMake);
+      if (each.output != nullptr) sources.push_back(std::move(each));
+    }
+  }
+}
+
+std::vector<Port::Source> Port::BoundSources(Links links) const {
+  std::vector<Source> sources;
+  if (Port* const by_hand = this->by_hand()) {
+    sources.push_back({by_hand, {}});
+    // Its queue stays as long as its connections ask for.
+    std::vector<Source> others;
+    CollectSources({}, Links::kKeep, others);
+    for (const Source& each : others) {
+      sources.front().options = Stronger(sources.front().options, each.options);
+    }
+  } else {
+    CollectSources({}, links, sources);
+    if (extras_ && extras_->limits) HoldToLimits(links, sources);
+  }
+  return sources;
+}
+
+void Port::RebindSinks() {
+  for (Port* sink : Sinks()) sink->Rebind(sink->BoundSources(Links::kMake));
+}
+
+// Of conversions on the way from here to the inputs, the links of sources that do not reach them any more.
+void Port::PruneConversions() const {
+  if (extras_ && extras_->limits) {
+    std::vector<Source> sources;
+    if (!is_set_by_hand()) CollectSources({}, Links::kKeep, sources);
+    std::vector<Port*> outputs;
+    for (const Source& source : sources) outputs.push_back(source.output);
+    extras_->limits->flow->KeepOnly(outputs);
+  }
+  for (const Connection& each : outgoing_) {
+    // Those behind it first: they may take the values of one that goes.
+    each.to->PruneConversions();
+    if (!each.converted) continue;
+    std::vector<Source> sources;
+    CollectPassedOn({}, Links::kKeep, sources);
+    std::vector<Port*> outputs;
+    for (const Source& source : sources) outputs.push_back(source.output);
+    each.converted->KeepOnly(outputs);
+  }
+}
+
+void Port::CollectBound(const Port& port, const Port& source, std::vector<Port*>& sinks) {
+  for (const Connection& each : port.outgoing_) {
+    if (each.converted) {
+      if (Port* const input = each.converted->InputFor(source)) sinks.push_back(input);
+    } else if (each.to->is_set_by_hand()) {
+      continue;
+    } else if (each.to->is_proxy()) {
+      CollectBound(*each.to, source, sinks);
+    } else if (Port* const taker = each.to->TakerOf(source)) {
+      sinks.push_back(taker);
+    }
+  }
+}
+
+std::vector<Port*> Port::BoundSinks() const {
+  const Port* at = goes_on_at();
+  // What is published by hand goes on where it is set, all else only where nothing is.
+  const bool is_covered = at == nullptr ? is_set_by_hand() : at->is_set_by_hand() && at->by_hand() != this;
+  if (is_covered) return {};
+  if (at == nullptr) at = this;
+  if (!at->is_proxy() && at->direction() == Direction::kInput) {
+    Port* const taker = at->TakerOf(*this);
+    return taker != nullptr ? std::vector<Port*>{taker} : std::vector<Port*>{};
+  }
+  std::vector<Port*> sinks;
+  CollectBound(*at, *this, sinks);
+  const bool has_detours = std::ranges::any_of(
+      at->outgoing_, [](const Connection& each) { return each.to->is_proxy(); });
+  if (has_detours) DropRepetitions(sinks);
+  return sinks;
+}
+
+namespace {
+
+void CollectEnds(const Port& port, std::vector<Port*>& ends) {
+  for (Port* from : port.incoming()) {
+    if (from->is_proxy()) {
+      CollectEnds(*from, ends);
+    } else if (std::ranges::find(ends, from) == ends.end()) {
+      ends.push_back(from);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Port*> Port::Sources() const {
+  if (!is_proxy() && direction_ == Direction::kOutput) return {const_cast<Port*>(this)};
+  std::vector<Port*> ends;
+  CollectEnds(*this, ends);
+  return ends;
+}
+
+std::vector<const Port*> Port::ShownPorts() const {
+  const bool shows_itself = !is_proxy() && direction_ == Direction::kInput;
+  return shows_itself ? std::vector<const Port*>{this} : ValueSources();
+}
+
+std::vector<const Port*> Port::ValueSources() const {
+  std::vector<Source> sources;
+  if (is_proxy() || direction_ == Direction::kOutput) {
+    CollectPassedOn({}, Links::kKeep, sources);
+  } else {
+    sources = BoundSources(Links::kKeep);
+  }
+  std::vector<const Port*> ports;
+  for (const Source& each : sources) ports.push_back(each.output);
+  return ports;
+}
+
+std::vector<Port*> Port::Sinks() const {
+  if (!is_proxy() && direction_ == Direction::kInput) return {const_cast<Port*>(this)};
+  std::vector<Port*> sinks;
+  CollectSinks(*this, sinks);
+  const bool has_detours =
+      std::ranges::any_of(outgoing_, [](const Connection& each) { return each.to->is_proxy(); });
+  if (has_detours) DropRepetitions(sinks);
+  return sinks;
+}
+
+}  // namespace runnel

@@ -1,0 +1,87 @@
+// One port in the place of another (Port::TakeOver()).
+
+#include <algorithm>
+#include <mutex>
+#include <utility>
+
+#include "core/base/check.h"
+#include "core/element/runtime.h"
+#include "core/port/converted_flow.h"
+#include "core/port/port.h"
+#include "core/port/port_extras.h"
+#include "core/types/type_info.h"
+
+namespace runnel {
+
+namespace {
+
+Error CannotTakeOver(const Port& port, std::string message) {
+  return {.message = std::move(message), .path = port.path()};
+}
+
+}  // namespace
+
+Result<void> Port::CheckTakeOver(const Port& port, const Port& from) {
+  const auto kind = [](const Port& each) {
+    return std::string(each.is_proxy() ? "an interface port" : "") +
+           (each.direction() == Direction::kInput ? "an input" : "an output");
+  };
+  if (kind(port) != kind(from)) {
+    return CannotTakeOver(port, "cannot take over from " + from.path() + ": one is " + kind(port) +
+                             ", the other is " + kind(from));
+  }
+  if (&port.type() != &from.type()) {
+    return CannotTakeOver(port, "carries " + port.type().name() + " and cannot take over from " +
+                             from.path() + ", which carries " + from.type().name());
+  }
+  if (!port.incoming_.empty() || !port.outgoing_.empty()) {
+    return CannotTakeOver(port, "is connected and cannot take over from " + from.path());
+  }
+  const auto pulls = [](const Connection& each) { return each.options.pull; };
+  if (!port.is_pullable() && std::ranges::any_of(from.outgoing_, pulls))
+    return CannotTakeOver(port, "cannot be pulled, and is to take over from one that is");
+  return {};
+}
+
+void Port::TakeOver(Port& from) {
+  const std::lock_guard lock(runtime().structure_mutex());
+  const auto possible = CheckTakeOver(*this, from);
+  RUNNEL_CHECK(possible, "a port cannot take over from another one");
+  const std::vector<Port*> sinks = from.BoundSinks();
+  ExchangeConnections(from, sinks);
+  try {
+    TakeOverFlow(from);
+  } catch (...) {
+    // Each as it was, and what has been exchanged by then is exchanged again.
+    from.ExchangeConnections(*this, sinks);
+    from.TakeOverFlow(*this);
+    throw;
+  }
+}
+
+void Port::ExchangeConnections(Port& from, const std::vector<Port*>& sinks) noexcept {
+  for (Connection& each : from.outgoing_) {
+    each.from = this;
+    std::ranges::replace(each.to->incoming_, &from, this);
+  }
+  for (Port* port : from.incoming_) {
+    for (Connection& each : port->outgoing_) {
+      if (each.to != &from) continue;
+      each.to = this;
+      if (each.converted) each.converted->set_target(*this);
+    }
+  }
+  extras_.swap(from.extras_);
+  for (const Port* port : {static_cast<const Port*>(this), static_cast<const Port*>(&from)}) {
+    if (port->extras_) port->extras_->StandFor(*port);
+  }
+  outgoing_.swap(from.outgoing_);
+  NoteOutgoing();
+  from.NoteOutgoing();
+  incoming_.swap(from.incoming_);
+  for (Port* sink : sinks) {
+    if (sink != &from && sink != this) sink->ReplaceSource(from, *this);
+  }
+}
+
+}  // namespace runnel

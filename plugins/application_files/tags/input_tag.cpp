@@ -1,0 +1,116 @@
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/number_text.h"
+#include "core/port/given_limits.h"
+#include "core/types/text_format.h"
+#include "core/types/type_info.h"
+#include "core/types/type_of.h"
+#include "plugins/application_files/build_context.h"
+#include "plugins/application_files/path_use.h"
+#include "plugins/application_files/tags/built_in_tags.h"
+
+namespace runnel {
+
+namespace {
+
+// A value of the input's type; nothing after reporting that the text is none.
+AnyValue ReadDefault(const TagUse& use, const XmlAttribute& text, const Port& input) {
+  const TypeInfo& type = input.type();
+  const std::shared_ptr<void> value = type.is_transparent() ? type.Make() : nullptr;
+  if (!value) {
+    use.Report({.message = "values of type " + type.name() + " cannot be written", .path = input.path()},
+               text.value_position);
+    return {};
+  }
+  if (auto set = SetFromText(type, text.value, value.get()); !set) {
+    use.Report({.message = set.error().message, .path = input.path(), .hint = set.error().hint}, text.value_position);
+    return {};
+  }
+  return {type, value};
+}
+
+void SetInputLimits(const TagUse& use) {
+  Port* const input =
+      SearchPort(PathIn(use.Get("name"), use.parent), PathKind::kInput, use.context);
+  if (input == nullptr) return;
+  InputLimits limits;
+  const auto number = [&](const char* name) -> std::optional<double> {
+    const XmlAttribute* const said = use.Find(name);
+    return said != nullptr ? NumberIn<double>(said->value) : std::nullopt;
+  };
+  limits.minimum = number("minimum");
+  limits.maximum = number("maximum");
+  if (const XmlAttribute* const default_value = use.Find("default")) {
+    limits.default_value = ReadDefault(use, *default_value, *input);
+    if (!limits.default_value) return;
+  }
+  if (const XmlAttribute* const out = use.Find("out_of_bounds")) {
+    const auto name = std::ranges::find(OutOfBoundsNames(), out->value);
+    limits.out_of_bounds = static_cast<OutOfBounds>(name - OutOfBoundsNames().begin());
+  }
+  if (!limits.has_some()) {
+    use.Report({.message = "<input> says nothing of its values",
+                .hint = "add default=\"…\", minimum=\"…\" or maximum=\"…\""},
+               use.xml.position());
+    return;
+  }
+  if (auto set = input->SetLimits(limits); !set) {
+    use.Report(set.error(), use.xml.position());
+    return;
+  }
+  input->Annotate(std::make_unique<GivenLimits>(std::move(limits)));
+}
+
+std::vector<SavedTag> SavedLimits(FrameworkElement& module) {
+  std::vector<SavedTag> tags;
+  module.Visit([&](FrameworkElement& element) {
+    const auto* const given = element.FindAnnotation<GivenLimits>();
+    const auto* const port = dynamic_cast<const Port*>(&element);
+    if (given == nullptr || port == nullptr) return;
+    const InputLimits& limits = given->limits;
+    const auto bound = [](const std::optional<double>& value) {
+      return value ? TextOf(*value) : std::string();
+    };
+    const std::string text = limits.default_value ? ToText(port->type(), limits.default_value.get())
+                                                  : std::string();
+    const auto out = static_cast<std::size_t>(limits.out_of_bounds);
+    tags.push_back({{{"name", port->name()},
+                     {"default", text, !limits.default_value},
+                     {"minimum", bound(limits.minimum), !limits.minimum},
+                     {"maximum", bound(limits.maximum), !limits.maximum},
+                     {"out_of_bounds", OutOfBoundsNames()[out], out == 0}},
+                    nullptr});
+  });
+  return tags;
+}
+
+}  // namespace
+
+XmlTag InputTag() {
+  return {.name = "input",
+          .summary = "which values an input of the module takes, and what it reads while there is none",
+          .parents = {"module"},
+          .attributes = {{.name = "name", .kind = AttributeKind::kPath, .required = true},
+                         {.name = "default",
+                          .summary = "read while nothing is connected, or nothing has come"},
+                         {.name = "minimum", .kind = AttributeKind::kNumber},
+                         {.name = "maximum", .kind = AttributeKind::kNumber},
+                         {.name = "out_of_bounds",
+                          .kind = AttributeKind::kChoice,
+                          .summary = "what becomes of a value that is not between them: discard "
+                                     "(by default), clamp, or default",
+                          .choices = OutOfBoundsNames()}},
+          .handle = [](const TagUse& use) -> FrameworkElement* {
+            use.context.Defer(BuildStage::kParameters, [use] { SetInputLimits(use); });
+            return &use.parent;
+          },
+          .saved = SavedLimits,
+          .place = 1};
+}
+
+}  // namespace runnel

@@ -1,0 +1,41 @@
+// The value at a port, set by hand: a field that is sent with Enter, and the word that gives the port back.
+
+import { useState } from 'preact/hooks';
+import { html } from 'htm/preact';
+import { ErrorText, PublishByHand, Release } from '../state/actions.js';
+import { canChange } from '../state/store.js';
+
+export function ByHand({ port }) {
+  const [text, setText] = useState('');
+  const [rate, setRate] = useState('');
+  const [problem, setProblem] = useState('');
+  const id = `by-hand:${port.path}`;
+  const send = async () => {
+    if (text === '') return;
+    const reply = await PublishByHand(port.path, text, rate === '' ? null : Number(rate));
+    setProblem(reply.ok ? '' : (reply.errors ?? []).map(ErrorText).join('\n') || 'it was refused');
+  };
+  const onKey = (event) => {
+    if (event.key === 'Enter') send();
+    else if (event.key === 'Escape') event.target.blur();
+    else return;
+    event.stopPropagation();
+  };
+  return html`
+    <div class=${`parameter by-hand ${problem ? 'wrong' : ''}`} data-by-hand=${port.path}>
+      <label for=${id} title="What readers find instead of what is published">by hand</label>
+      <div class="field">
+        <input id=${id} type="text" spellcheck="false" autocomplete="off" disabled=${!canChange.value}
+          placeholder=${port.data_type} value=${text} aria-invalid=${problem !== ''}
+          onInput=${(event) => setText(event.target.value)} onKeyDown=${onKey} />
+        ${port.unit && html`<span class="unit">${port.unit}</span>`}
+        <input class="rate" type="text" inputmode="decimal" size="4" disabled=${!canChange.value} placeholder="once"
+          aria-label="How often a second it is published again; empty: once" title="Hz; empty: once" value=${rate}
+          onInput=${(event) => setRate(event.target.value)} onKeyDown=${onKey} />
+        <button disabled=${!canChange.value || text === ''} onClick=${send}>Publish</button>
+        ${port.by_hand && html`<button class="release" disabled=${!canChange.value} title="Readers find again what is published"
+            onClick=${() => Release(port.path)}>Release</button>`}
+      </div>
+      ${problem && html`<p class="problem" role="alert">${problem}</p>`}
+    </div>`;
+}

@@ -1,0 +1,127 @@
+// Connections of a change set.
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "core/paths/late_connections.h"
+#include "plugins/structure/plan.h"
+
+namespace runnel::internal {
+
+namespace {
+
+ConnectOptions TieOptions(const Port& from, const Port& to) {
+  const auto found = std::ranges::find(from.outgoing(), &to, &Connection::to);
+  return found != from.outgoing().end() ? found->options : ConnectOptions{};
+}
+
+// What takes a step back succeeds, but for lack of memory; then it is tried again.
+template <typename Outcome>
+void MustTie(const Outcome& outcome) {
+  if (!outcome) throw ElementError(outcome.error());
+}
+
+struct PortPathPart {
+  std::string path;
+  std::string part;
+};
+
+// The path without the part of the values that is meant, as far as that can be told when the port is not there.
+PortPathPart SplitPortPath(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  const std::size_t begin = slash == std::string::npos ? 0 : slash + 1;
+  const std::size_t end = path.find_first_of(".[", begin + 1);
+  if (end == std::string::npos) return {path, {}};
+  return {path.substr(0, end), path.substr(path[end] == '.' ? end + 1 : end)};
+}
+
+}  // namespace
+
+Result<void> Plan::CheckLateTie(const std::string& from_path, const std::string& to,
+                                const std::optional<ConnectOptions>& wanted) {
+  const auto [from, part] = SplitPortPath(from_path);
+  const LateConnections* const late = LateConnections::FindIn(runtime_);
+  const LateConnection* const known = late != nullptr ? late->Find(from, to) : nullptr;
+  if (wanted && known != nullptr) {
+    return Error{.message = "is to be connected to " + to + " already", .path = from};
+  }
+  std::optional<ConnectOptions> next = wanted;
+  if (next && next->part.empty()) next->part = part;
+  const std::optional<ConnectOptions> before =
+      known != nullptr ? std::optional(known->options) : std::nullopt;
+  const auto tie = [this, from = from, to](const std::optional<ConnectOptions>& options) -> Result<void> {
+    LateConnections& all = LateConnections::Of(runtime_);
+    if (options) return all.Add(from, to, *options);
+    if (all.Remove(from, to)) return {};
+    return Error{.message = "is not connected to " + to, .path = from};
+  };
+  auto is_done = std::make_shared<bool>(false);
+  steps_.push_back({[=] {
+                      auto tied = tie(next);
+                      *is_done = tied.has_value();
+                      return tied;
+                    },
+                    [=] {
+                      if (*is_done) MustTie(tie(before));
+                      *is_done = false;
+                    },
+                    [=, from = from](auto&) -> ChangeSet {
+                      if (next) return {DisconnectPorts{from, to}};
+                      return {ConnectPorts{from, to, *before}};
+                    }});
+  return {};
+}
+
+Result<void> Plan::CheckTie(const std::string& from_path, const std::string& to_path,
+                            const std::optional<ConnectOptions>& asked) {
+  const auto found_from = overlay_.FindPortPart(from_path, PathKind::kOutput);
+  const auto found_to = overlay_.FindPort(to_path, PathKind::kInput);
+  const bool are_there = found_from && found_to;
+  if (!are_there && asked && asked->when_present) return CheckLateTie(from_path, to_path, asked);
+  if (!asked) {
+    const LateConnections* const late = LateConnections::FindIn(runtime_);
+    const std::string from = found_from ? found_from->port->path() : SplitPortPath(from_path).path;
+    const LateConnection* const known = late != nullptr ? late->Find(from, to_path) : nullptr;
+    if (known != nullptr && known->waits_for) return CheckLateTie(from_path, to_path, asked);
+  }
+  if (!found_from) return found_from.error();
+  if (!found_to) return found_to.error();
+  std::optional<ConnectOptions> wanted = asked;
+  if (wanted && !found_from->part.empty()) wanted->part = found_from->part;
+  return CheckTie(*found_from->port, **found_to, wanted);
+}
+
+Result<void> Plan::CheckTie(Port& from, Port& to, const std::optional<ConnectOptions>& wanted) {
+  auto possible = wanted ? overlay_.Connect(from, to, *wanted) : overlay_.Disconnect(from, to);
+  if (!possible) return possible;
+  Concern(from);
+  Concern(to);
+  const auto tie = [&from, &to](const std::optional<ConnectOptions>& options) {
+    if (options && options->when_present) (void)LateConnections::Of(from.runtime());
+    return options ? Port::Connect(from, to, *options) : Port::Disconnect(from, to);
+  };
+  struct Done {
+    std::optional<ConnectOptions> before;  // of a connection that is cut
+    bool is_done = false;
+  };
+  auto done = std::make_shared<Done>();
+  steps_.push_back({[=, &from, &to] {
+                      if (!wanted) done->before = TieOptions(from, to);
+                      auto tied = tie(wanted);
+                      done->is_done = tied.has_value();
+                      return tied;
+                    },
+                    [=] {
+                      if (done->is_done) MustTie(tie(done->before));
+                      done->is_done = false;
+                    },
+                    [=, &from, &to](auto&) -> ChangeSet {
+                      if (wanted) return {DisconnectPorts{from.path(), LastingPath(to)}};
+                      return {ConnectPorts{from.path(), LastingPath(to), TieOptions(from, to)}};
+                    }});
+  return {};
+}
+
+}  // namespace runnel::internal
