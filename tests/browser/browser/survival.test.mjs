@@ -67,7 +67,7 @@ test('a module that throws is marked, counted, and told with its reason', async 
   await page.locator('#faults', { hasText: '1 fault' }).click();
   await page.locator('#log li.fault', { hasText: '/bug_demo/laser' }).waitFor();
   await inspector.select('/bug_demo/laser');
-  await page.locator('.trouble', { hasText: 'Stopped' }).waitFor();
+  await page.locator('.trouble', { hasText: 'Fault:' }).waitFor();
   await page.locator('#troubles li.fault').waitFor();
 });
 

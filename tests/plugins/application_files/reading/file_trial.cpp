@@ -11,7 +11,7 @@
 #include "core/types/type_info.h"
 #include "plugins/application_files/application_source.h"
 #include "plugins/application_files/run_description.h"
-#include "plugins/application_files/type_names.h"
+#include "plugins/structure/type_names.h"
 #include "plugins/finroc_files/finroc_application.h"
 #include "tests/plugins/application_files/saving/application_text.h"
 #include "tests/plugins/application_files/saving/saving_workshop.h"
