@@ -76,14 +76,14 @@ test("the channels' schemas are good, and Foxglove's are Foxglove's", async () =
     assert.deepEqual(schema, withoutWords(JSON.parse(readFileSync(file, "utf8"))), topic);
   }
   assert.deepEqual([...drawn].sort(), ["foxglove.FrameTransform", "foxglove.LaserScan",
-    "foxglove.PoseInFrame", "foxglove.PosesInFrame", "foxglove.SceneUpdate"]);
+    "foxglove.Log", "foxglove.PoseInFrame", "foxglove.PosesInFrame", "foxglove.SceneUpdate"]);
   viewer.close();
 });
 
 test("every channel has values that its schema allows, stamped with the application's time", async () => {
   const viewer = await Viewer.connect(application.address, "foxglove.websocket.v1");
   await viewer.until("all channels", () => viewer.channels.has("/referee/path/foxglove"));
-  const topics = [...viewer.channels.keys()];
+  const topics = [...viewer.channels.keys()].filter((topic) => topic !== "/log");  // in which nothing may have happened
   topics.forEach((topic) => viewer.subscribe(topic));
   await viewer.until("a value of each", () => topics.every((topic) => viewer.values.has(topic)));
   for (const topic of topics) {
@@ -106,6 +106,17 @@ test("every channel has values that its schema allows, stamped with the applicat
   await viewer.until("the next pose", () => viewer.values.get("/world/pose").stamp > stamp);
   await viewer.until("time", () => viewer.times.length > 5);
   for (let i = 1; i < viewer.times.length; ++i) assert.ok(viewer.times[i] > viewer.times[i - 1]);
+  viewer.close();
+});
+
+test("what is changed is told in the log, as its schema allows", async () => {
+  const viewer = await Viewer.connect(application.address, "foxglove.websocket.v1");
+  await viewer.until("the log", () => viewer.channels.has("/log"));
+  viewer.subscribe("/log");
+  viewer.client.setParameters([{ name: "/robot/planner/cruise_speed", value: 0.31 }], "log");
+  await viewer.until("the change", () => viewer.values.get("/log")?.json.message.includes("cruise_speed"));
+  const validate = ajv.compile(JSON.parse(viewer.channels.get("/log").schema));
+  assert.ok(validate(viewer.values.get("/log").json), ajv.errorsText(validate.errors));
   viewer.close();
 });
 
