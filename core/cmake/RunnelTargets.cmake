@@ -19,7 +19,7 @@ endfunction()
 # A library runnel_<name>, known to others as runnel::<name>. Without SOURCES it is header-only.
 # APART are sources, too, that cannot be compiled together with the others.
 # STATIC is what belongs to one plugin, and comes and goes with it when that is loaded anew.
-# Its headers are installed under their path from the root of the tree, and each must compile alone
+# Its headers are installed as <runnel/path from the root of the tree>, and each must compile alone
 # (target all_verify_interface_header_sets).
 function(runnel_library name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "STATIC" "" "SOURCES;APART;HEADERS;DEPENDS;PRIVATE_DEPENDS")
@@ -41,14 +41,26 @@ function(runnel_library name)
     set(scope INTERFACE)
   endif()
   add_library(runnel::${name} ALIAS runnel_${name})
-  target_sources(runnel_${name} ${scope}
-    FILE_SET HEADERS BASE_DIRS "${RUNNEL_ROOT}" FILES ${arg_HEADERS})
+  target_include_directories(runnel_${name} ${scope}
+    "$<BUILD_INTERFACE:${RUNNEL_ROOT}>" "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
   target_compile_features(runnel_${name} ${scope} cxx_std_20)
   target_link_libraries(runnel_${name} ${scope} ${arg_DEPENDS})
-  set_target_properties(runnel_${name} PROPERTIES EXPORT_NAME ${name} VERIFY_INTERFACE_HEADER_SETS ON)
+  set_target_properties(runnel_${name} PROPERTIES EXPORT_NAME ${name})
   install(TARGETS runnel_${name} EXPORT runnelTargets
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/runnel)
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  runnel_public_headers(${name} ${arg_HEADERS})
+endfunction()
+
+# runnel_public_headers(<library> <header> ...): what InstallHeaders.cmake is to install. A set of their own, since
+# a library's set would be installed as it is, and told to those who use the package.
+function(runnel_public_headers name)
+  list(TRANSFORM ARGN PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/" OUTPUT_VARIABLE headers)
+  set_property(GLOBAL APPEND PROPERTY RUNNEL_PUBLIC_HEADERS ${headers})
+  add_library(runnel_${name}_headers INTERFACE)
+  target_link_libraries(runnel_${name}_headers INTERFACE runnel_${name})
+  target_sources(runnel_${name}_headers INTERFACE
+    FILE_SET HEADERS BASE_DIRS "${RUNNEL_ROOT}" FILES ${headers})
+  set_target_properties(runnel_${name}_headers PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
 endfunction()
 
 # runnel_write_manifest(<plugin>)

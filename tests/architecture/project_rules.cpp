@@ -142,6 +142,7 @@ std::vector<IncludeRule> MakeProjectRules() {
                      {"core", "modules/types/algorithm", "modules/simulation/algorithm",
                       "modules/simulation/world_file", "modules/worlds/algorithm"}});
   }
+  rules.push_back({"apps/headers", "apps/headers", {"core", "plugins", "modules/types"}});
   rules.push_back({"apps", "apps", {"core", "plugins"}});
   // Apart, since a benchmark of whole applications runs them as the tests do.
   rules.push_back({"tests/bench", "tests/bench", {"core", "bench", "tests/support"}});

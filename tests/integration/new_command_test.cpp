@@ -62,12 +62,12 @@ TEST_F(NewCommand, NothingIsOverwritten) {
 TEST_F(NewCommand, ModulesAreAddedToThePluginOfTheFolder) {
   EXPECT_EQ(New("module leader").code, kBadInput);
   EXPECT_THAT(New("module leader").text, HasSubstr("there is no plugin in this folder"));
-  std::ofstream(folder_ / "plugin.cpp") << "#include \"core/plugin/plugin_entry.h\"\n"
+  std::ofstream(folder_ / "plugin.cpp") << "#include <runnel/plugin.h>\n"
                                            "RUNNEL_PLUGIN(my_robot, types) {}\n";
   EXPECT_THAT(New("module leader").text, HasSubstr("my_robot/leader"));
   EXPECT_EQ(
       TextOf(folder_ / "plugin.cpp"),
-      "#include \"core/plugin/plugin_entry.h\"\n"
+      "#include <runnel/plugin.h>\n"
       "#include \"leader.h\"\n"
       "RUNNEL_PLUGIN(my_robot, types) {\n"
       "  types.Add<Leader>(\"my_robot/leader\", \"follows its input, no faster than it may\");}\n");

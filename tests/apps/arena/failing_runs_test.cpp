@@ -51,5 +51,12 @@ TEST_F(FailingRuns, OfTooMuchSimulatedTimeAreTimeouts) {
   EXPECT_GT(runs[0]["path"].size(), 10u);
 }
 
+TEST_F(FailingRuns, OfAVariantWithoutATypeAreRefusedWithItsPlace) {
+  Write("mine.xml", "<module>\n</module>\n");
+  const Ended ended = Arena("--world open --variant " + File("mine.xml"));
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.text, HasSubstr("mine.xml:1:1: error: a variant is a <module> tag"));
+}
+
 }  // namespace
 }  // namespace runnel::test

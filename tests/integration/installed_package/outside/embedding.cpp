@@ -3,8 +3,8 @@
 #include <iostream>
 #include <thread>
 
-#include "modules/types/pose.h"
-#include "plugins/application/application.h"
+#include <runnel/application.h>
+#include <runnel/types.h>
 
 using namespace runnel;
 

@@ -1,12 +1,8 @@
 #include <algorithm>
 
-#include "core/module/module.h"
-#include "core/plugin/plugin_entry.h"
-#include "core/port/input.h"
-#include "core/port/output.h"
-#include "modules/types/pose.h"
-#include "modules/types/range_scan.h"
-#include "plugins/parameters/parameter.h"
+#include <runnel/module.h>
+#include <runnel/plugin.h>
+#include <runnel/types.h>
 
 using namespace runnel;
 

@@ -1,9 +1,6 @@
 #include <gmock/gmock.h>
-
-#include "modules/types/pose.h"
-#include "modules/types/range_scan.h"
-#include "plugins/testing/matchers.h"
-#include "plugins/testing/module_rig.h"
+#include <runnel/testing.h>
+#include <runnel/types.h>
 
 using namespace runnel;
 using namespace runnel::test;
