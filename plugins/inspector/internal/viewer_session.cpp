@@ -13,6 +13,7 @@
 #include "plugins/structure/change_history.h"
 #include "plugins/values/json_values.h"
 #include "plugins/values/json_writer.h"
+#include "plugins/values/value_bytes.h"
 
 namespace runnel::internal {
 
@@ -221,6 +222,7 @@ std::optional<std::uint64_t> ViewerSession::LookAt(Watch& watch, std::string& it
     item += ",\"value\":";
     const JsonLimits limits{watch.elements, kLongestText, kLargestValue};
     if (!AppendJson(watch.port.type(), value, item, limits)) item += ",\"cut\":true";
+    item += ",\"bytes\":" + std::to_string(BytesOf(watch.port.type(), value));
   });
 }
 

@@ -9,7 +9,7 @@ const kTypes = { '/': ['index.html', 'text/html'], '/page.js': ['page.js', 'text
   '/page.css': ['page.css', 'text/css'], '/icon.svg': ['icon.svg', 'image/svg+xml'] };
 let runs = 0;
 
-/** {url, port, close(), application}; `page`: the folder of the bundle. */
+/** {url, port, close(), application, watched()}; watched(): the ports that pages look at; `page`: the folder of the bundle. */
 export async function ServeMock(application, { page, port = 0, readOnly = false }) {
   const http = createServer(async (request, response) => {
     const entry = kTypes[request.url.split('?')[0]];
@@ -31,6 +31,7 @@ export async function ServeMock(application, { page, port = 0, readOnly = false 
   await new Promise((done) => { http.listen(port, '127.0.0.1', done); });
   return {
     application, port: http.address().port, url: `http://127.0.0.1:${http.address().port}/`,
+    watched: () => [...clients].flatMap((client) => client.watched),
     close: async () => {
       clearInterval(timer);
       for (const socket of sockets.clients) socket.terminate();
@@ -54,6 +55,10 @@ class Client {
     this.send({ op: 'structure', revision: application.revision, ...application.structure });
     this.send({ op: 'log', entries: application.log });
     this.turn();
+  }
+
+  get watched() {
+    return [...this.#watched.keys()];
   }
 
   send(message) {

@@ -93,6 +93,7 @@ TEST_F(Viewing, ShowsNewValuesOfWatchedPorts) {
   EXPECT_GT(second["value"], first["value"]);
   EXPECT_GT(second["count"], first["count"]);
   EXPECT_FALSE(first.contains("cut"));
+  EXPECT_GT(first["bytes"], 0);
 }
 
 TEST_F(Viewing, TimesOfValuesCountFromTheStart) {

@@ -1,4 +1,4 @@
-// The panel at the bottom: plots, log, threads, profile.
+// The panel at the bottom: plots, ports, log, threads, profile.
 
 import { html } from 'htm/preact';
 import { Plots } from '../plots/plots.js';
@@ -6,10 +6,11 @@ import { plots } from '../plots/plot_list.js';
 import { SetPanels, panels } from '../state/choices.js';
 import { log } from '../state/store.js';
 import { LogView } from './log_view.js';
+import { PortTable } from './port_table.js';
 import { ProfileTable } from './profile_table.js';
 import { ThreadTable } from './thread_table.js';
 
-const kTabs = [['plots', 'Plots', Plots], ['log', 'Log', LogView], ['threads', 'Threads', ThreadTable],
+const kTabs = [['plots', 'Plots', Plots], ['ports', 'Ports', PortTable], ['log', 'Log', LogView], ['threads', 'Threads', ThreadTable],
   ['profile', 'Profile', ProfileTable]];
 
 export function Dock() {
@@ -24,7 +25,7 @@ export function Dock() {
     requestAnimationFrame(() => document.getElementById(`tab-${next}`)?.focus());
   };
   return html`
-    <section class="dock" aria-label="Plots, log, threads and profile">
+    <section class="dock" aria-label="Plots, ports, log, threads and profile">
       <div class="tabs" role="tablist" onKeyDown=${onKey}>
         ${kTabs.map(([tab, title]) => html`<button key=${tab} role="tab" id=${`tab-${tab}`}
             aria-selected=${tab === id}

@@ -26,6 +26,7 @@ const kIcons = {
   trash: 'M5 7h14M10 7V4h4v3M7 7l1 13h8l1-13',
   plug: 'M4 12h6M20 12h-6M10 8v8a2 2 0 0 0 2-2v-4a2 2 0 0 0-2-2zM14 9v6',
   reset: 'M5 4v5h5M5.5 9a8 8 0 1 1-1 6',
+  edit: 'M4 20l1-5L16 4l4 4L9 19zM14 6l4 4',
   layers: 'M12 4l9 5-9 5-9-5zM3 14l9 5 9-5',
 };
 
