@@ -44,6 +44,7 @@ endmacro()
 
 embed(index.html "/" "text/html; charset=utf-8")
 embed(page.js "/page.js" "text/javascript; charset=utf-8")
+embed(world_3d.js "/world_3d.js" "text/javascript; charset=utf-8")
 embed(page.css "/page.css" "text/css; charset=utf-8")
 embed(icon.svg "/icon.svg" "image/svg+xml")
 embed(licences.txt "/licences.txt" "text/plain; charset=utf-8")

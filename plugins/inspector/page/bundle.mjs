@@ -13,12 +13,14 @@ await mkdir(folder, { recursive: true });
 // Packages lie in the build tree, not beside the sources.
 const options = { outdir: folder, bundle: true, minify: true, nodePaths: [packages], logLevel: 'warning', logLimit: 5 };
 await esbuild.build({ ...options, entryPoints: { page: join(here, 'source/main.js') }, format: 'esm', target: ['es2022'] });
+// Apart: the page fetches it when somebody wants to look in three dimensions.
+await esbuild.build({ ...options, entryPoints: { world_3d: join(here, 'source/world_3d/main.js') }, format: 'esm', target: ['es2022'] });
 await esbuild.build({ ...options, entryPoints: { page: join(here, 'source/style.css') } });
 for (const file of ['index.html', 'icon.svg']) await copyFile(join(here, file), join(folder, file));
 
 // What the licences of the packages ask for: their notices go with the copy.
 const licences = [];
-for (const name of ['@dagrejs/dagre', '@dagrejs/graphlib', '@preact/signals', '@preact/signals-core', 'htm', 'preact', 'uplot']) {
+for (const name of ['@dagrejs/dagre', '@dagrejs/graphlib', '@preact/signals', '@preact/signals-core', 'htm', 'preact', 'three', 'uplot']) {
   const { version, license } = JSON.parse(await readFile(join(packages, name, 'package.json'), 'utf8'));
   const text = await readFile(join(packages, name, 'LICENSE'), 'utf8');
   licences.push(`${name} ${version} (${license})\n\n${text.trim()}\n`);

@@ -6,7 +6,7 @@ import { join } from 'node:path';
 import { WebSocketServer } from 'ws';
 
 const kTypes = { '/': ['index.html', 'text/html'], '/page.js': ['page.js', 'text/javascript'],
-  '/page.css': ['page.css', 'text/css'], '/icon.svg': ['icon.svg', 'image/svg+xml'] };
+  '/page.css': ['page.css', 'text/css'], '/world_3d.js': ['world_3d.js', 'text/javascript'], '/icon.svg': ['icon.svg', 'image/svg+xml'] };
 let runs = 0;
 
 /** {url, port, close(), application, watched()}; watched(): the ports that pages look at; `page`: the folder of the bundle. */
@@ -42,6 +42,7 @@ export async function ServeMock(application, { page, port = 0, readOnly = false 
 
 class Client {
   #watched = new Map(); // path -> how many values have been sent
+  #told = new Map();    // path -> what has been sent last, and when that was
   #lastState = '';
   #rated = 0;
 
@@ -74,6 +75,10 @@ class Client {
     for (const [path, count] of this.#watched) {
       const value = application.values[path]?.(application.time);
       if (value === undefined) continue;
+      // Nothing is published while the application stands still, unless somebody has set another value.
+      const told = `${application.time} ${JSON.stringify(value)}`;
+      if (this.#told.get(path) === told) continue;
+      this.#told.set(path, told);
       this.#watched.set(path, count + 1);
       items.push({ path, stamp: application.time, count: count + 1, value });
     }
@@ -94,8 +99,10 @@ class Client {
   }
 
   #receive(message) {
-    if (message.op === 'watch') this.#watched.set(message.path, 0);
-    else if (message.op === 'unwatch') this.#watched.delete(message.path);
+    if (message.op === 'watch') {
+      this.#watched.set(message.path, 0);
+      this.#told.delete(message.path);
+    } else if (message.op === 'unwatch') this.#watched.delete(message.path);
     else if (message.op === 'watch_rates') this.rates = message.rate > 0;
     else this.#answer(message);
   }

@@ -10,7 +10,7 @@ const kPatience = 20000; // ms that a condition may take to come true; nothing w
 
 /** Opens a page, which is closed after the test. */
 export async function OpenPage(t, url, { width = 1280, height = 800, colours = 'light', lost = false } = {}) {
-  const browser = await chromium.launch({ executablePath: process.env.RUNNEL_BROWSER, args: ['--no-sandbox'] });
+  const browser = await chromium.launch({ executablePath: process.env.RUNNEL_BROWSER, args: ['--no-sandbox', '--enable-unsafe-swiftshader'] });
   const page = await browser.newPage({ viewport: { width, height }, colorScheme: colours, reducedMotion: 'reduce' });
   page.setDefaultTimeout(kPatience);
   const complaints = [];
@@ -19,6 +19,8 @@ export async function OpenPage(t, url, { width = 1280, height = 800, colours = '
     if (message.type() !== 'error' && message.type() !== 'warning') return;
     // A browser itself complains of a server that is away; `lost` says that the test takes it away.
     if (lost && /WebSocket connection to .* failed/.test(message.text())) return;
+    // Without a graphics card a browser says how it draws.
+    if (/GPU stall due to ReadPixels/.test(message.text())) return;
     complaints.push(message.text());
   });
   Cleanup(t, async () => {

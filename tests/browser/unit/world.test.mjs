@@ -1,7 +1,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { AreaOf, FitCamera, GridStep, ToCanvas, ToWorld, ZoomCamera } from '../../../plugins/inspector/page/source/world/camera.js';
-import { DrawItems, ScanEnds, SeenFrom } from '../../../plugins/inspector/page/source/world/draw.js';
+import { DrawItems } from '../../../plugins/inspector/page/source/world/draw.js';
+import { ScanEnds, SeenFrom } from '../../../plugins/inspector/page/source/world/scan_geometry.js';
 import { FindLayers, RobotRadius } from '../../../plugins/inspector/page/source/world/layers.js';
 import { Catalogue } from '../../../plugins/inspector/page/source/model/catalogue.js';
 import { Structure } from '../../../plugins/inspector/page/source/model/structure.js';

@@ -8,9 +8,10 @@ const kShown = 120;
 
 /**
  * `find(text)` gives entries {key, title, note, detail, disabled}; `onChoose(entry)`. `label` is for
- * screen readers. `onCurrent` is told which entry is marked.
+ * screen readers. `onCurrent` is told which entry is marked; `onMore(entry)`: the other way to choose one for which
+ * hasMore(entry), to give parameters first.
  */
-export function ChoiceList({ label, placeholder, find, onChoose, onCurrent, empty }) {
+export function ChoiceList({ label, placeholder, find, onChoose, onCurrent, onMore, hasMore, empty }) {
   const text = useSignal('');
   const at = useSignal(0);
   const list = useRef(null);
@@ -42,6 +43,8 @@ export function ChoiceList({ label, placeholder, find, onChoose, onCurrent, empt
             aria-disabled=${entry.disabled ?? false} onPointerMove=${() => { at.value = index; }}
             onClick=${() => { if (!entry.disabled) onChoose(entry); }}>
           <span class="choice-title">${entry.title}</span>${entry.note && html` <small>${entry.note}</small>`}
+          ${entry === current && onMore && hasMore(entry) && html`<button class="more" onClick=${(event) => { event.stopPropagation(); onMore(entry); }}
+            aria-label=${`Parameters of ${entry.title}`}>Parameters …</button>`}
           ${entry.detail && html`<p>${entry.detail}</p>`}</li>`)}
       ${entries.length === 0 && html`<li class="none" role="option"
           aria-selected="false">${empty ?? 'nothing suits'}</li>`}

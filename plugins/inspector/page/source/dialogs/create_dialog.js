@@ -1,4 +1,5 @@
-// A new module from the catalogue, or a new group.
+// A new module from the catalogue, or a new group. First what it is; its parameters are a second step for whoever
+// wants to give them.
 
 import { useState } from 'preact/hooks';
 import { html } from 'htm/preact';
@@ -9,37 +10,56 @@ import { catalogue, revision, structure } from '../state/store.js';
 import { Select } from '../graph/graph_keys.js';
 import { ChoiceList } from './choice_list.js';
 import { CloseDialog, Dialog } from './dialog.js';
+import { HasParameters, SettingsForm, SettingsOf, SettingsProblem } from './settings_form.js';
 
 export function CreateDialog({ group }) {
   revision.value;
   const [type, setType] = useState(null);
-  const [typed, setTyped] = useState(null);
+  const [typed, setTyped] = useState(null);     // the name
+  const [chosen, setChosen] = useState(null);   // the type whose parameters are given
+  const [settings, setSettings] = useState({});
   const [problem, setProblem] = useState('');
   const name = typed ?? (type ? FreeName(structure, group, type) : '');
+  const parameters = catalogue.value.module(chosen ?? type)?.parameters ?? [];
 
   const create = async (wanted) => {
     const free = typed ?? FreeName(structure, group, wanted);
-    const wrong = NameProblem(structure, group, free);
+    const wrong = NameProblem(structure, group, free) || (chosen && SettingsProblem(parameters, settings));
     if (wrong) return setProblem(wrong);
     const dialog = openDialog.value;
-    const reply = await CreateModule(wanted, group, free);
+    const reply = await CreateModule(wanted, group, free, chosen ? SettingsOf(parameters, {}, settings) : {});
     if (!reply.ok) return setProblem((reply.errors ?? []).map(ErrorText).join('\n'));
     if (CloseDialog(dialog)) ShowNew(`${group}/${free}`, selected.value);
   };
+  const give = (wanted) => { setType(wanted); setChosen(wanted); setSettings({}); setProblem(''); };
   const find = (text) => catalogue.value.search(text).map((module) => ({
     key: module.type, title: module.type, note: Ports(module), detail: module.summary,
   }));
+  const nameField = html`<label>Name <input id="new-name" value=${name} spellcheck="false" autocomplete="off"
+    onInput=${(event) => { setTyped(event.target.value); setProblem(''); }}
+    onKeyDown=${(event) => { if (event.key === 'Enter' && type) create(chosen ?? type); }} /></label>`;
+  if (chosen) {
+    return html`
+      <${Dialog} key="parameters" title=${`Add ${chosen}`} className="wide">
+        <h2>Add ${chosen} <small>to ${group}</small></h2>
+        <${SettingsForm} parameters=${parameters} typed=${settings} onEnter=${() => create(chosen)}
+          onType=${(which, text) => { setSettings({ ...settings, [which]: text }); setProblem(''); }} />
+        ${problem && html`<p class="problem" role="alert">${problem}</p>`}
+        <div class="dialog-foot">${nameField}
+          <button id="back" onClick=${() => { setChosen(null); setProblem(''); }}>Back</button>
+          <button class="primary" id="create" onClick=${() => create(chosen)}>Add</button></div>
+      <//>`;
+  }
   return html`
-    <${Dialog} title="Add a module" className="wide">
+    <${Dialog} key="types" title="Add a module" className="wide">
       <h2>Add a module <small>to ${group}</small></h2>
       <${ChoiceList} label="Module types" placeholder="What shall it do?" find=${find}
           onChoose=${(entry) => create(entry.key)}
-        onCurrent=${(entry) => { setType(entry?.key ?? null); setProblem(''); }}
+        onCurrent=${(entry) => { setType(entry?.key ?? null); setProblem(''); }} onMore=${(entry) => give(entry.key)}
+        hasMore=${HasParameters}
         empty="no module type is like that" />
       <div class="dialog-foot">
-        <label>Name <input id="new-name" value=${name} spellcheck="false" autocomplete="off"
-          onInput=${(event) => { setTyped(event.target.value); setProblem(''); }}
-          onKeyDown=${(event) => { if (event.key === 'Enter' && type) create(type); }} /></label>
+        ${nameField}
         <button onClick=${() => { CloseDialog(); CreateGroup(group); }}>New group</button>
         <button class="primary" id="create" disabled=${!type} onClick=${() => create(type)}>Add ${type ?? ''}</button>
       </div>

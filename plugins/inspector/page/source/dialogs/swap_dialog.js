@@ -1,15 +1,18 @@
-// Another module in the place of one: the types whose ports suit come first.
+// Another module in the place of one: its own type, made anew with other parameters, or another one; the types whose ports
+// suit come first.
 
 import { useEffect, useState } from 'preact/hooks';
 import { html } from 'htm/preact';
-import { CompatibleTypes, Swap } from '../state/actions.js';
+import { CompatibleTypes, ErrorText, Swap } from '../state/actions.js';
 import { openDialog } from '../state/choices.js';
-import { structure } from '../state/store.js';
+import { catalogue, structure } from '../state/store.js';
 import { ChoiceList } from './choice_list.js';
 import { CloseDialog, Dialog } from './dialog.js';
+import { HasParameters, SettingsForm, SettingsOf, SettingsProblem } from './settings_form.js';
 
 export function SwapDialog({ path }) {
   const [types, setTypes] = useState(null);
+  const [chosen, setChosen] = useState(null); // {key, lost}: the type whose parameters are given
   const module = structure.get(path);
   useEffect(() => {
     const dialog = openDialog.value;
@@ -17,18 +20,51 @@ export function SwapDialog({ path }) {
   }, [path]);
   const find = (text) => {
     const words = text.toLowerCase().split(/\s+/).filter(Boolean);
-    return (types ?? []).filter(({ type, summary }) => words.every((word) => `${type} ${summary}`.toLowerCase().includes(word)))
+    const found = (types ?? []).filter(({ type, summary }) => words.every((word) => `${type} ${summary}`.toLowerCase().includes(word)))
       .map(({ type, summary, lost = [] }) => ({
-        key: type, title: type, detail: summary,
-        note: type === module?.type ? 'as it is' : lost.length > 0 ? `loses ${lost.join(', ')}` : 'all connections stay',
+        key: type, title: type, detail: summary, lost,
+        note: type === module?.type ? 'its own type, made anew' : lost.length > 0 ? `loses ${lost.join(', ')}` : 'all connections stay',
       }));
+    const isOwn = ({ key }) => key === module?.type;
+    return [...found.filter(isOwn), ...found.filter((each) => !isOwn(each))];
   };
-  const choose = (entry) => { CloseDialog(); Swap(path, entry.key); };
+  const choose = (entry) => {
+    if (entry.key === module?.type && HasParameters(entry)) return setChosen(entry);
+    CloseDialog();
+    return Swap(path, entry.key);
+  };
+  if (chosen) return html`<${Parameters} path=${path} type=${chosen.key} onBack=${() => setChosen(null)} />`;
   return html`
-    <${Dialog} title=${`Swap ${module?.name}`}>
+    <${Dialog} key="types" title=${`Swap ${module?.name}`}>
       <h2>Swap ${module?.name} <small>now ${module?.type}</small></h2>
       ${types === null ? html`<p class="none">asking the application …</p>`
         : html`<${ChoiceList} label="Module types" placeholder="For which type?" find=${find} onChoose=${choose}
-            empty="no type suits" />`}
+            onMore=${setChosen} hasMore=${HasParameters} empty="no type suits" />`}
+    <//>`;
+}
+
+/** The second step: what the parameters of the new module are to be; they begin as those of the old one. */
+function Parameters({ path, type, onBack }) {
+  const [settings, setSettings] = useState({});
+  const [problem, setProblem] = useState('');
+  const parameters = catalogue.value.module(type)?.parameters ?? [];
+  const given = Object.fromEntries(structure.parametersOf(path).map(({ name, value }) => [name, value ?? undefined]));
+  const swap = async () => {
+    const wrong = SettingsProblem(parameters, settings);
+    if (wrong) return setProblem(wrong);
+    const dialog = openDialog.value;
+    const reply = await Swap(path, type, SettingsOf(parameters, given, settings), { quiet: true });
+    if (!reply.ok) return setProblem((reply.errors ?? []).map(ErrorText).join('\n'));
+    return CloseDialog(dialog);
+  };
+  const name = structure.get(path)?.name;
+  return html`
+    <${Dialog} key="parameters" title=${`Swap ${name} for ${type}`} className="wide">
+      <h2>Swap ${name} <small>for ${type}</small></h2>
+      <${SettingsForm} parameters=${parameters} given=${given} typed=${settings} onEnter=${swap}
+        onType=${(which, text) => { setSettings({ ...settings, [which]: text }); setProblem(''); }} />
+      ${problem && html`<p class="problem" role="alert">${problem}</p>`}
+      <div class="dialog-foot"><button id="back" onClick=${onBack}>Back</button>
+        <button class="primary" id="swap-now" onClick=${swap}>Swap</button></div>
     <//>`;
 }

@@ -1,18 +1,20 @@
 // Changes as the server reads them (PROTOCOL.md).
 
 export const Change = {
-  create: (path, type) => ({ change: 'create', path, type }),
+  create: (path, type, settings) => ({ change: 'create', path, type, ...Given(settings) }),
   createGroup: (path) => ({ change: 'create_group', path }),
   createPort: (path, direction, type) => ({ change: 'create_port', path, direction, type }),
   delete: (path) => ({ change: 'delete', path }),
   connect: (from, to, options = {}) => ({ change: 'connect', from, to, ...options }),
   disconnect: (from, to) => ({ change: 'disconnect', from, to }),
   set: (path, value) => ({ change: 'set', path, value }),
-  replace: (path, type) => ({ change: 'replace', path, type }),
+  replace: (path, type, settings) => ({ change: 'replace', path, type, ...Given(settings) }),
   createThread: (path, options = {}) => ({ change: 'create_thread', path, ...options }),
   schedule: (path, options) => ({ change: 'schedule', path, ...options }),
   move: (path, thread) => ({ change: 'move', path, thread }),
 };
+
+const Given = (settings) => (Object.keys(settings ?? {}).length > 0 ? { settings } : {});
 
 /** A name for a new element that no sibling has: bug2, bug2_2, bug2_3 … */
 export function FreeName(structure, group, wanted) {

@@ -27,6 +27,7 @@ const kIcons = {
   plug: 'M4 12h6M20 12h-6M10 8v8a2 2 0 0 0 2-2v-4a2 2 0 0 0-2-2zM14 9v6',
   reset: 'M5 4v5h5M5.5 9a8 8 0 1 1-1 6',
   edit: 'M4 20l1-5L16 4l4 4L9 19zM14 6l4 4',
+  cube: 'M12 3l8 4.5v9L12 21l-8-4.5v-9zM4 7.5l8 4.5 8-4.5M12 12v9',
   layers: 'M12 4l9 5-9 5-9-5zM3 14l9 5 9-5',
 };
 

@@ -55,8 +55,9 @@ export async function Delete(path) {
   return reply;
 }
 
-export function CreateModule(type, group, name) {
-  return Apply([Change.create(`${group}/${name}`, type)], `create ${name}`, { quiet: true });
+/** `settings`: texts of parameters by their names. */
+export function CreateModule(type, group, name, settings) {
+  return Apply([Change.create(`${group}/${name}`, type, settings)], `create ${name}`, { quiet: true });
 }
 
 export function CreatePort(group, name, direction, type) {
@@ -68,8 +69,8 @@ export function CreateGroup(group) {
   return Apply([Change.createGroup(path)], `create ${NameOf(path)}`);
 }
 
-export async function Swap(path, type) {
-  const reply = await Apply([Change.replace(path, type)], `swap ${NameOf(path)} for ${type}`);
+export async function Swap(path, type, settings, options) {
+  const reply = await Apply([Change.replace(path, type, settings)], `swap ${NameOf(path)} for ${type}`, options);
   if (reply.ok) Toast('done', `${NameOf(path)} is now ${type}`);
   return reply;
 }
@@ -82,6 +83,8 @@ export function MoveToThread(path, thread) {
 /** `level`: debug, info, warning, error, off, or inherit. */
 export const SetLogLevel = (path, level) => Ask({ op: 'log_level', path, level }, `Could not set what ${NameOf(path)} logs`);
 export const SetProfiled = (on) => Ask({ op: 'profile', on }, `Could not ${on ? 'begin' : 'end'} measuring`);
+/** How old what comes of one output at another one is: measured, or no more. */
+export const SetLatency = (from, to, on) => Ask({ op: 'latency', from, to, on }, `Could not ${on ? 'measure' : 'end measuring'} from ${Brief(from)} to ${Brief(to)}`);
 /** Modules, or what a thread runs, are left out of cycles, or no more. */
 export const PauseElement = (path) => Ask({ op: 'pause', path }, `Could not pause ${NameOf(path)}`);
 export const ResumeElement = (path) => Ask({ op: 'resume', path }, `Could not let ${NameOf(path)} go on`);
@@ -95,6 +98,9 @@ export const Resume = () => Ask({ op: 'resume' }, 'Could not go on');
 export const Step = (cycles) => Ask({ op: 'step', cycles }, 'Could not step');
 export const SetSpeed = (speed) => Ask({ op: 'speed', speed }, 'Could not set the speed');
 export const CompatibleTypes = (path) => Ask({ op: 'compatible', path }, 'Could not ask for other types');
+
+/** What saving would make of the application's file: {file, before, after}. */
+export const PreviewSave = (file = '') => Ask({ op: 'preview', file }, 'Could not tell what saving would change', { quiet: true });
 
 export async function Save(file = '', options) {
   const reply = await Ask({ op: 'save', file }, 'Could not save', options);

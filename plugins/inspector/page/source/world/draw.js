@@ -1,6 +1,7 @@
 // Draws what the layers of a world hold, on a canvas. Colours come from style.css.
 
 import { GridStep, ToCanvas, ToWorld } from './camera.js';
+import { ScanEnds, SeenFrom } from './scan_geometry.js';
 
 /** `context` of the canvas, `colours` by name, `camera`, `size`, `radius` of the robot. */
 export function DrawWorld(drawing, layers, values, trail) {
@@ -104,16 +105,6 @@ function DrawScan(drawing, scan, pose) {
   }
 }
 
-/** Where the rays of a scan end; isEcho: at something. */
-export function ScanEnds(scan, pose) {
-  return scan.ranges.map((range, index) => {
-    const isEcho = Number.isFinite(range) && range >= scan.range_minimum && range < scan.range_maximum;
-    const reach = isEcho ? range : scan.range_maximum;
-    const angle = pose.heading + scan.start_angle + index * scan.angle_step;
-    return { x: pose.x + reach * Math.cos(angle), y: pose.y + reach * Math.sin(angle), isEcho };
-  });
-}
-
 /** What a module draws: in the world, or, as its frame says, as seen from the robot's pose. */
 export function DrawItems(drawing, { frame, items = [] }, pose) {
   if (frame && !pose) return;
@@ -144,12 +135,6 @@ export function DrawItems(drawing, { frame, items = [] }, pose) {
       context.stroke();
     }
   }
-}
-
-/** A place that is told as seen from a pose, x ahead and y to the left, in the world. */
-export function SeenFrom(pose, { x, y }) {
-  const [cos, sin] = [Math.cos(pose.heading), Math.sin(pose.heading)];
-  return { x: pose.x + cos * x - sin * y, y: pose.y + sin * x + cos * y };
 }
 
 function DrawHitsAndLeaves({ context, colours, camera, size }, { hits = [], leaves = [] }) {

@@ -30,13 +30,15 @@ export function FindLayers(structure, catalogue) {
     }
     if (layer.meaning === 'point') layer.goal = GoalParameters(structure, layer);
   }
+  const cameras = FindCameras(structure, catalogue, pose);
   const counts = {};
   for (const layer of layers) {
     counts[layer.meaning] = (counts[layer.meaning] ?? 0) + 1;
     layer.atFirst = counts[layer.meaning] <= kAtFirst;
   }
   layers.sort((a, b) => kDrawable.indexOf(a.meaning) - kDrawable.indexOf(b.meaning));
-  return { layers, pose, key: layers.map((layer) => `${layer.port} ${layer.pose} ${layer.goal?.x}`).join('\n') };
+  return { layers, cameras, pose, key: [...layers, ...cameras].map((layer) =>
+    `${layer.port} ${layer.pose} ${layer.goal?.x} ${layer.camera?.fov} ${layer.camera?.aspect}`).join('\n') };
 }
 
 /** The pose of the robot: that of the module which has the map, or else the first. */
@@ -54,6 +56,22 @@ function PoseSeenBy(structure, catalogue, owner) {
     if (origin) return origin;
   }
   return null;
+}
+
+/** Where pictures are taken, and how much of the world is on them, if their modules say so by parameters. */
+function FindCameras(structure, catalogue, pose) {
+  const cameras = [];
+  for (const port of structure.ofKind('port')) {
+    const owner = structure.get(port.owner);
+    if (port.direction !== 'output' || !owner || IsGroup(owner) || catalogue.meaning(port.data_type) !== 'image') continue;
+    const number = (name) => Number(structure.parametersOf(port.owner).find((parameter) => parameter.name === name)?.value);
+    const fov = number('field_of_view');
+    const from = PoseSeenBy(structure, catalogue, port.owner) ?? pose;
+    if (!(fov > 0) || !from) continue;
+    const aspect = number('width') / number('height');
+    cameras.push({ port: port.path, meaning: 'camera', pose: from, camera: { fov, aspect: aspect > 0 ? aspect : 4 / 3 } });
+  }
+  return cameras.slice(0, kAtFirst);
 }
 
 /** A point <name> can be dragged if its module has the parameters <name>_x and <name>_y. */

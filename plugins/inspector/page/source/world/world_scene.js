@@ -15,8 +15,9 @@ const kTrail = 4000;
 const kept = { camera: null, chosen: new Map(), following: false }; // chosen: port -> whether it is shown
 
 export class WorldScene {
-  constructor({ layers, pose }) {
+  constructor({ layers, cameras, pose }) {
     this.layers = layers;
+    this.cameras = cameras;
     this.pose = pose;
     this.values = new Map();
     this.trail = [];
@@ -28,6 +29,7 @@ export class WorldScene {
     this.watched = new Map(); // port -> the end of its watch
     this.fitted = kept.camera !== null;
     this.frame = 0;
+    this.solid = null; // what shows it in three dimensions, while somebody looks
   }
 
   attach(host, canvas) {
@@ -76,7 +78,8 @@ export class WorldScene {
   /** Only what is drawn is watched, and the poses that it is seen from. */
   watchShown() {
     const shown = this.layers.filter((layer) => this.isShown(layer));
-    const wanted = new Set([this.pose, ...shown.flatMap((layer) => [layer.port, layer.pose])].filter(Boolean));
+    const wanted = new Set([this.pose, ...shown.flatMap((layer) => [layer.port, layer.pose]),
+      ...this.cameras.map((camera) => camera.pose)].filter(Boolean));
     for (const [port, end] of this.watched) {
       if (wanted.has(port)) continue;
       end();
@@ -95,6 +98,12 @@ export class WorldScene {
     kept.following = this.following.value = following;
     const pose = this.values.get(this.pose);
     if (following && pose) this.move({ ...this.camera.value, x: pose.x, y: pose.y });
+  }
+
+  /** Map and room. */
+  fitAll() {
+    this.fit();
+    this.solid?.fit();
   }
 
   /** Shows all that there is; `byUser` keeps it so. */
@@ -200,19 +209,29 @@ export class WorldScene {
     this.move(views[event.key]);
   }
 
+  /** Has `view` shown all that there is, from now on; the function ends it. */
+  showIn(view) {
+    this.solid = view;
+    this.askForFrame();
+    return () => { if (this.solid === view) this.solid = null; };
+  }
+
   askForFrame() {
     if (this.frame === 0 && this.canvas) this.frame = requestAnimationFrame(() => { this.frame = 0; this.draw(); });
   }
 
   draw() {
+    const layers = this.layers.filter((layer) => this.isShown(layer));
+    const hasPath = layers.some((layer) => layer.meaning === 'path' && this.values.get(layer.port)?.points?.length > 0);
+    const trail = hasPath ? [] : this.trail;
+    const radius = RobotRadius(structure, this.pose);
+    this.solid?.show({ layers: [...layers, ...this.cameras], values: this.values, trail, pose: this.pose, radius });
+    if (this.size.value.width === 0) return;
     const context = this.canvas.getContext('2d');
     const ratio = devicePixelRatio || 1;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     this.colours ??= Colours(this.host);
-    const layers = this.layers.filter((layer) => this.isShown(layer));
-    const hasPath = layers.some((layer) => layer.meaning === 'path' && this.values.get(layer.port)?.points?.length > 0);
-    DrawWorld({ context, colours: this.colours, camera: this.camera.value, size: this.size.value,
-      radius: RobotRadius(structure, this.pose) }, layers, this.values, hasPath ? [] : this.trail);
+    DrawWorld({ context, colours: this.colours, camera: this.camera.value, size: this.size.value, radius }, layers, this.values, trail);
   }
 }
 

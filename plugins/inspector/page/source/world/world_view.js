@@ -9,6 +9,7 @@ import { Icon } from '../panels/icon.js';
 import { ToCanvas } from './camera.js';
 import { GoalHandle } from './goal_handle.js';
 import { FindLayers } from './layers.js';
+import { SolidView } from './solid_view.js';
 import { WorldScene } from './world_scene.js';
 
 const kListed = 100;
@@ -34,18 +35,24 @@ function World({ found }) {
   useEffect(() => scene.current.attach(host.current, canvas.current), []);
   const { camera, size, following, goals, choices } = scene.current;
   choices.value;
+  const isSolid = panels.value.worldSolid ?? false;
   return html`
-    <section class="world" aria-label="World" id="world">
+    <section class=${`world ${isSolid ? 'solid' : ''}`} aria-label="World" id="world">
+      ${isSolid && html`<${SolidView} scene=${scene.current} />`}
+      <div class="world-map">
       <div class="world-canvas" ref=${host} tabindex="0" aria-label="Map: drag to move, wheel to zoom" role="img"
            onKeyDown=${(event) => scene.current.onKey(event)}>
         <canvas ref=${canvas}></canvas></div>
       ${goals.value.map(({ layer, place }) => html`<${GoalHandle} key=${layer.port} layer=${layer}
         point=${ToCanvas(camera.value, size.value, place)} place=${place} scene=${scene.current} />`)}
+      </div>
       <div class="world-tools" role="group" aria-label="Map">
         <button aria-pressed=${following.value} onClick=${() => scene.current.follow(!following.value)}
             title="Follow the robot"
           aria-label="Follow the robot" id="follow"><${Icon} name="follow" size=${16} /></button>
-        <button onClick=${() => scene.current.fit()} title="Show all"
+        <button aria-pressed=${isSolid} onClick=${() => SetPanels({ worldSolid: !isSolid })} title="Three dimensions" id="solid"
+          aria-label="Three dimensions"><${Icon} name="cube" size=${16} /></button>
+        <button onClick=${() => scene.current.fitAll()} title="Show all"
             aria-label="Show all of the world"><${Icon} name="fit" size=${16} /></button>
         <button aria-pressed=${showsLayers.value} onClick=${() => { showsLayers.value = !showsLayers.value; }}
             title="Layers"
