@@ -1,7 +1,7 @@
 # Sourced by ./demo and ./check: what both need before they can start. Says what it does, one line
 # a step; what the tools say goes to a log that is shown when something fails.
 
-packages=(g++ cmake ninja-build ccache libeigen3-dev libboost-dev libtinyxml2-dev libbullet-dev
+packages=(g++ cmake ninja-build ccache libeigen3-dev libboost-dev libssl-dev libtinyxml2-dev libbullet-dev
   libgtest-dev libgmock-dev libbenchmark-dev libcli11-dev libfmt-dev nlohmann-json3-dev graphviz
   libxml2-utils liblz4-dev libzstd-dev zlib1g-dev relacy-dev libconcurrentqueue-dev)
 # For the inspector's page; one that comes from elsewhere than Debian will do.

@@ -5,6 +5,21 @@
 
 namespace runnel {
 
+Result<std::vector<AccessToken>> TokensOf(const InspectorPlace& place) {
+  std::vector<AccessToken> tokens;
+  if (!place.token.empty()) {
+    auto said = ParseAccessTokens(place.token);
+    if (!said) return said.error();
+    tokens = std::move(*said);
+  }
+  if (!place.token_file.empty()) {
+    auto read = ReadAccessTokens(place.token_file);
+    if (!read) return read.error();
+    tokens.insert(tokens.end(), read->begin(), read->end());
+  }
+  return tokens;
+}
+
 Result<std::uint16_t> ParseNetworkPort(std::string_view text) {
   if (const auto port = NumberIn<std::uint16_t>(text)) return *port;
   return Error{.message = "'" + std::string(text) + "' is not a port",

@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/base/result.h"
+#include "plugins/web_server/access_tokens.h"
 
 namespace runnel {
 
@@ -12,9 +14,17 @@ namespace runnel {
 struct InspectorPlace {
   std::string address = "127.0.0.1";
   std::uint16_t port = 8765;  ///< 0: any that is free
-  std::string token = {};     ///< "": see WebServerOptions
+  std::string token = {};       ///< one or more, as ParseAccessTokens() has them; "": see WebServerOptions
+  std::string token_file = {};  ///< that has more of them; "": none
+  bool is_for_all_users = false;
+  std::string certificate = {};  ///< file; "": nothing is encrypted
+  std::string key = {};          ///< file; "": it is in the certificate's
+  bool is_insecure = false;
   bool is_read_only = false;
 };
+
+/// The tokens that `place` names, and those of its file. Errors: those of ParseAccessTokens() and ReadAccessTokens().
+[[nodiscard]] Result<std::vector<AccessToken>> TokensOf(const InspectorPlace& place);
 
 /// Reads "[ADDRESS:]PORT": "8765", "0.0.0.0:8765", "[::]:0". Errors: no such address or port, and how
 /// to write them.

@@ -24,6 +24,11 @@ void Check(const Result<T>& read, const TagUse& use, const XmlAttribute& attribu
                      attribute.value_position, use.parent);
 }
 
+bool IsTrue(const TagUse& use, std::string_view name) {
+  const XmlAttribute* const attribute = use.Find(name);
+  return attribute != nullptr && attribute->value == "true";
+}
+
 void ReadPlace(const TagUse& use, InspectorPlace& place) {
   if (const XmlAttribute* const port = use.Find("port")) {
     const auto number = ParseNetworkPort(port->value);
@@ -36,10 +41,14 @@ void ReadPlace(const TagUse& use, InspectorPlace& place) {
   }
   if (const XmlAttribute* const token = use.Find("token")) {
     place.token = token->value;
-    Check(CheckToken(place.token), use, *token);
+    Check(ParseAccessTokens(place.token), use, *token);
   }
-  const XmlAttribute* const read_only = use.Find("read_only");
-  place.is_read_only = read_only != nullptr && read_only->value == "true";
+  if (const XmlAttribute* const file = use.Find("token_file")) place.token_file = file->value;
+  if (const XmlAttribute* const file = use.Find("certificate")) place.certificate = file->value;
+  if (const XmlAttribute* const file = use.Find("key")) place.key = file->value;
+  place.is_insecure = IsTrue(use, "insecure");
+  place.is_for_all_users = IsTrue(use, "all_users");
+  place.is_read_only = IsTrue(use, "read_only");
 }
 
 FrameworkElement* ChooseInspector(const TagUse& use) {
@@ -63,7 +72,20 @@ std::vector<SavedTag> SavedInspector(const FrameworkElement& application) {
   return {SavedTag{{{"port", std::to_string(place.port), place.port == normal.port},
                     {"address", place.address, place.address == normal.address},
                     {"read_only", place.is_read_only ? "true" : "false", !place.is_read_only},
-                    {"token", place.token, place.token.empty()}}}};
+                    {"token", place.token, place.token.empty()},
+                    {"token_file", place.token_file, place.token_file.empty()},
+                    {"all_users", place.is_for_all_users ? "true" : "false",
+                     !place.is_for_all_users},
+                    {"certificate", place.certificate, place.certificate.empty()},
+                    {"key", place.key, place.key.empty()},
+                    {"insecure", place.is_insecure ? "true" : "false", !place.is_insecure}}}};
+}
+
+AttributeRule Choice(const char* name, const char* summary) {
+  return {.name = name,
+          .kind = AttributeKind::kChoice,
+          .summary = summary,
+          .choices = {"true", "false"}};
 }
 
 }  // namespace
@@ -82,14 +104,24 @@ void AddInspectorTag(XmlTagRegistry& tags) {
                                .summary = "8765 by default; 0 for any that is free"},
                               {.name = "address",
                                .summary = "of this machine; 127.0.0.1 by default, which only it "
-                                          "reaches; others need a token"},
-                              {.name = "read_only",
-                               .kind = AttributeKind::kChoice,
-                               .summary = "true: viewers look, and change nothing",
-                               .choices = {"true", "false"}},
+                                          "reaches; others need a certificate and a token"},
+                              Choice("read_only", "true: viewers look, and change nothing"),
                               {.name = "token",
                                .summary = "what viewers must show; without, one is made if the "
-                                          "address is reached by others"}},
+                                          "address is reached by others; ROLE:TOKEN for more than "
+                                          "one: look, drive (publish, pause), change"},
+                              {.name = "token_file",
+                               .summary = "with more of them, which not everybody may read"},
+                              Choice("all_users",
+                                     "true: every user of this machine may, without a token, and "
+                                     "not only who has started the program"),
+                              {.name = "certificate",
+                               .summary = "file (PEM) by which it encrypts: https, wss"},
+                              {.name = "key",
+                               .summary = "file (PEM) with its key, if that is in another one"},
+                              Choice("insecure",
+                                     "true: other addresses are served without a certificate, "
+                                     "where nobody else listens or a proxy encrypts")},
                .handle = ChooseInspector,
                .saved = SavedInspector});
 }

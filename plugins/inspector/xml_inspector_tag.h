@@ -9,7 +9,8 @@ namespace runnel {
 
 /// Adds what application files say of the inspector:
 ///
-///     <inspector port="8765" address="127.0.0.1" read_only="false" token="…"/>
+///     <inspector port="8765" address="127.0.0.1" read_only="false" token="…" token_file="…" all_users="false"
+///                certificate="…" key="…" insecure="false"/>
 void AddInspectorTag(XmlTagRegistry& tags);
 
 /// What the application file says; nothing without <inspector>.

@@ -1,11 +1,14 @@
 // Shows an application to browsers (the inspector) and to whatever speaks Foxglove's protocol, if options or file
 // (`<inspector>`) ask for it.
 
+#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <unistd.h>
 
 #include "core/plugin/plugin_entry.h"
 #include "plugins/application/application.h"
@@ -14,12 +17,15 @@
 #include "plugins/inspector/inspector_place.h"
 #include "plugins/inspector/page/inspector_page.h"
 #include "plugins/inspector/xml_inspector_tag.h"
-#include "plugins/web_server/access_rules.h"
+#include "plugins/viewers/kept_token.h"
+#include "plugins/web_server/access_tokens.h"
 #include "plugins/web_server/web_server.h"
 
 namespace runnel {
 
 namespace {
+
+constexpr const char* kTokenVariable = "RUNNEL_INSPECT_TOKEN";
 
 struct ViewerOptions {
   bool is_wanted = false;   // also if the application file does not say so
@@ -27,8 +33,14 @@ struct ViewerOptions {
   bool is_held = false;     // after the run, until Ctrl-C
   // "[ADDRESS:]PORT"; "": what the file says, or else port 8765 of this machine, or any that is free.
   std::string place = {};
-  std::string token = {};                 // "": the file's, or see WebServerOptions
+  std::string token = {};       // one or more; "": the environment's or the file's, or see WebServerOptions
+  std::string token_file = {};  // with more of them
   std::vector<std::string> origins = {};  // of pages of other places that may connect
+  std::vector<std::string> names = {};    // by which browsers may call it
+  bool is_for_all_users = false;
+  std::string certificate = {};  // "": the file's
+  std::string key = {};
+  bool is_insecure = false;
   bool is_read_only = false;
 };
 
@@ -50,20 +62,42 @@ Result<std::optional<ViewerRequest>> RequestOf(const ViewerOptions& options,
     request.place.port = place->port;
     request.is_exact = true;
   }
-  if (!options.token.empty()) request.place.token = options.token;
+  // What is said last counts: the command line, or else the environment, or else the file.
+  const char* const environment = std::getenv(kTokenVariable);
+  if (!options.token.empty() || !options.token_file.empty()) {
+    request.place.token = options.token;
+    request.place.token_file = options.token_file;
+  } else if (environment != nullptr && *environment != '\0') {
+    request.place.token = environment;
+    request.place.token_file.clear();
+  }
+  request.place.is_for_all_users = request.place.is_for_all_users || options.is_for_all_users;
+  if (!options.certificate.empty()) {
+    request.place.certificate = options.certificate;
+    request.place.key.clear();  // the file's belongs to the file's
+  }
+  if (!options.key.empty()) request.place.key = options.key;
+  request.place.is_insecure = request.place.is_insecure || options.is_insecure;
   request.place.is_read_only = request.place.is_read_only || options.is_read_only;
   return std::optional(request);
 }
 
 Result<std::unique_ptr<WebServer>> StartServer(const ViewerRequest& request,
-                                               const std::vector<std::string>& origins,
+                                               const ViewerOptions& asked,
                                                const std::vector<WebProtocol>& protocols,
                                                Diagnostics& diagnostics) {
   const auto& resources = InspectorPage();
+  auto tokens = TokensOf(request.place);
+  if (!tokens) return tokens.error();
   WebServerOptions options{.address = request.place.address,
                            .port = request.place.port,
-                           .token = request.place.token,
-                           .origins = origins};
+                           .certificate_file = request.place.certificate,
+                           .key_file = request.place.key,
+                           .is_insecure = request.place.is_insecure,
+                           .tokens = std::move(*tokens),
+                           .is_for_all_users = request.place.is_for_all_users,
+                           .origins = asked.origins,
+                           .host_names = asked.names};
   auto server = WebServer::Start(options, resources, protocols);
   if (server || request.is_exact || options.port == 0) return server;
   Error notice = server.error();
@@ -81,7 +115,7 @@ class Viewers final : public ApplicationExtension {
 
   Result<void> Begin(Application& application, Diagnostics& diagnostics) override;
   std::string StartText() const override {
-    return web_ != nullptr ? "inspector: " + web_->url() + "\n" : "";
+    return web_ == nullptr ? "" : "inspector: " + web_->url() + token_text_ + "\n";
   }
   void OnEnd(const std::string& verdict) override {
     if (inspector_ != nullptr) inspector_->NoteEnd(verdict);
@@ -90,10 +124,15 @@ class Viewers final : public ApplicationExtension {
   void End() noexcept override {
     web_.reset();
     inspector_.reset();
+    kept_token_.reset();
   }
 
  private:
+  Result<void> TellToken(bool is_given);
+
   const ViewerOptions options_;
+  std::string token_text_;  // what follows the address where people read it
+  std::unique_ptr<KeptToken> kept_token_;
   std::unique_ptr<Inspector> inspector_;
   std::unique_ptr<WebServer> web_;  // uses the inspector
 };
@@ -109,7 +148,7 @@ Result<void> Viewers::Begin(Application& application, Diagnostics& diagnostics) 
                                                             .version = Application::Version(),
                                                             .is_read_only = is_read_only});
   auto web =
-      StartServer(**request, options_.origins,
+      StartServer(**request, options_,
                   {inspector_->Protocol(), FoxgloveProtocol({.service = application.service(),
                                                              .name = application.name(),
                                                              .version = Application::Version(),
@@ -121,6 +160,22 @@ Result<void> Viewers::Begin(Application& application, Diagnostics& diagnostics) 
     return error;
   }
   web_ = std::move(*web);
+  return TellToken((*request)->place.token.size() + (*request)->place.token_file.size() > 0);
+}
+
+// A token that was made is shown to who sits at the terminal. What is written elsewhere is a log, which others read.
+Result<void> Viewers::TellToken(bool is_given) {
+  const std::string& made = web_->made_token();
+  if (is_given) token_text_ = "  (and #token=…)";
+  if (made.empty()) return {};
+  if (isatty(STDOUT_FILENO) != 0) {
+    token_text_ = "#token=" + made;
+    return {};
+  }
+  auto kept = KeptToken::Write(made, web_->port());
+  if (!kept) return kept.error();
+  kept_token_ = std::move(*kept);
+  token_text_ = "  (and #token=…, which is in " + kept_token_->file().string() + ")";
   return {};
 }
 
@@ -130,7 +185,13 @@ Result<Extensions> MakeViewers(const ExtensionArguments& arguments) {
                         .is_held = arguments.Has("hold"),
                         .place = arguments.Find("inspect"),
                         .token = arguments.Find("inspect-token"),
+                        .token_file = arguments.Find("inspect-token-file"),
                         .origins = arguments.All("inspect-origin"),
+                        .names = arguments.All("inspect-name"),
+                        .is_for_all_users = arguments.Has("inspect-all-users"),
+                        .certificate = arguments.Find("inspect-certificate"),
+                        .key = arguments.Find("inspect-key"),
+                        .is_insecure = arguments.Has("inspect-insecure"),
                         .is_read_only = arguments.Has("inspect-read-only")};
   if (options.is_held && options.is_refused) {
     return Error{.message = "--hold is for viewers, and --no-inspect refuses them"};
@@ -139,7 +200,7 @@ Result<Extensions> MakeViewers(const ExtensionArguments& arguments) {
     if (const auto place = ParseInspectorPlace(options.place); !place) return place.error();
   }
   if (arguments.Has("inspect-token")) {
-    if (const auto good = CheckToken(options.token); !good) return good.error();
+    if (const auto good = ParseAccessTokens(options.token); !good) return good.error();
   }
   return Extensions{std::make_shared<Viewers>(std::move(options))};
 }

@@ -1,23 +1,21 @@
 #include "plugins/web_server/access_rules.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
+#include <cstdlib>
 #include <locale>
-#include <utility>
 
 #include <boost/algorithm/string/case_conv.hpp>
 #include <boost/asio/ip/address.hpp>
 #include <boost/asio/ip/host_name.hpp>
-#include <fmt/format.h>
-#include <sys/random.h>
+#include <unistd.h>
+
+#include "core/base/number_text.h"
 
 namespace runnel {
 
 namespace {
 
-constexpr std::size_t kShortestToken = 8;
-constexpr std::size_t kLongestToken = 128;
+constexpr std::string_view kTokenProtocol = "runnel.token.";
 
 std::string Lower(std::string_view text) {
   return boost::algorithm::to_lower_copy(std::string(text), std::locale::classic());
@@ -29,23 +27,15 @@ std::string_view Trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
 }
 
-/// The value of `name` among "name=value" that `separator` keeps apart; "" if there is none.
-std::string_view ValueOf(std::string_view name, std::string_view pairs, char separator) {
-  while (!pairs.empty()) {
-    const std::size_t end = std::min(pairs.find(separator), pairs.size());
-    const std::string_view pair = Trimmed(pairs.substr(0, end));
-    if (pair.size() > name.size() && pair.starts_with(name) && pair[name.size()] == '=') {
-      return pair.substr(name.size() + 1);
-    }
-    pairs.remove_prefix(std::min(end + 1, pairs.size()));
+/// What follows `start` in the first of the parts between separators that begins so; "" if none does.
+std::string_view RestOfPart(std::string_view start, std::string_view parts, char separator) {
+  while (!parts.empty()) {
+    const std::size_t end = std::min(parts.find(separator), parts.size());
+    const std::string_view part = Trimmed(parts.substr(0, end));
+    if (part.starts_with(start)) return part.substr(start.size());
+    parts.remove_prefix(std::min(end + 1, parts.size()));
   }
   return {};
-}
-
-std::string_view TokenInAddress(const WebRequest& request) {
-  const std::size_t question = request.target.find('?');
-  if (question == std::string_view::npos) return {};
-  return ValueOf("token", request.target.substr(question + 1), '&');
 }
 
 std::string_view TokenInAuthorization(const WebRequest& request) {
@@ -55,9 +45,26 @@ std::string_view TokenInAuthorization(const WebRequest& request) {
 }
 
 bool IsAddress(std::string_view text) {
+  // A zone ("fe80::1%eth0") may be any text, and stands in no address that browsers send.
+  if (text.find('%') != std::string_view::npos) return false;
   boost::system::error_code error;
   boost::asio::ip::make_address(std::string(text), error);
   return !error;
+}
+
+// This process's, the system's, and who has asked the system's to start it.
+std::vector<std::uint32_t> OwnUsers() {
+  std::vector<std::uint32_t> users{geteuid(), 0};
+  const char* const caller = geteuid() == 0 ? std::getenv("SUDO_UID") : nullptr;
+  if (const auto user = NumberIn<std::uint32_t>(caller != nullptr ? caller : "")) {
+    users.push_back(*user);
+  }
+  return users;
+}
+
+bool IsReachedFromElsewhere(const std::string& address) {
+  const auto is_loopback = IsLoopback(address);
+  return !is_loopback || !*is_loopback;
 }
 
 }  // namespace
@@ -84,37 +91,14 @@ std::string_view HostNameOf(std::string_view host) {
   return is_port ? name : std::string_view();
 }
 
-bool AreEqualSecrets(std::string_view a, std::string_view b) {
-  // Lengths may be told apart; they are no secret.
-  if (a.size() != b.size()) return false;
-  volatile unsigned char difference = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    difference = static_cast<unsigned char>(difference | (a[i] ^ b[i]));
+std::string_view TokenIn(const WebRequest& request) {
+  const std::size_t question = request.target.find('?');
+  if (question != std::string_view::npos) {
+    const auto token = RestOfPart("token=", request.target.substr(question + 1), '&');
+    if (!token.empty()) return token;
   }
-  return difference == 0;
-}
-
-Result<std::string> MakeToken() {
-  std::array<unsigned char, 16> bytes{};
-  if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
-    return Error{.message = "no token can be made: the system has no random numbers",
-                 .hint = "give one"};
-  }
-  std::string text;
-  for (const unsigned char byte : bytes) text += fmt::format("{:02x}", byte);
-  return text;
-}
-
-Result<void> CheckToken(std::string_view token) {
-  const bool has_letters_of_addresses = std::ranges::all_of(token, [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.' || c == '_' ||
-           c == '~';
-  });
-  if (has_letters_of_addresses && token.size() >= kShortestToken && token.size() <= kLongestToken) {
-    return {};
-  }
-  return Error{.message = "the token cannot be used",
-               .hint = "take 8 to 128 letters, digits and any of '-', '.', '_', '~'"};
+  const auto token = RestOfPart(kTokenProtocol, request.protocols, ',');
+  return token.empty() ? TokenInAuthorization(request) : token;
 }
 
 Result<bool> IsLoopback(const std::string& address) {
@@ -125,18 +109,21 @@ Result<bool> IsLoopback(const std::string& address) {
                .hint = "write 127.0.0.1 for this machine only, or 0.0.0.0 for all networks"};
 }
 
-AccessRules::AccessRules(std::string token, std::vector<std::string> names,
-                         std::vector<std::string> origins, std::uint16_t port)
-    : token_(std::move(token)),
-      cookie_name_("runnel_token_" + std::to_string(port)),
-      origins_(std::move(origins)) {
+AccessRules::AccessRules(const WebServerOptions& options)
+    : tokens_(options.tokens), origins_(options.origins) {
   names_.emplace_back("localhost");
-  boost::system::error_code ignored;
-  if (const std::string name = Lower(boost::asio::ip::host_name(ignored)); !name.empty()) {
-    names_.push_back(name);
-    names_.push_back(name + ".local");
+  if (IsReachedFromElsewhere(options.address)) {
+    // Not on a loopback address, where nobody needs them: who is asked for them on a network can let them lead
+    // here.
+    boost::system::error_code ignored;
+    if (const std::string name = Lower(boost::asio::ip::host_name(ignored)); !name.empty()) {
+      names_.push_back(name);
+      names_.push_back(name + ".local");
+    }
+  } else if (!options.is_for_all_users) {
+    users_ = OwnUsers();
   }
-  for (const std::string& name : names) names_.push_back(Lower(name));
+  for (const std::string& name : options.host_names) names_.push_back(Lower(name));
 }
 
 bool AccessRules::IsKnownName(std::string_view host) const {
@@ -145,38 +132,49 @@ bool AccessRules::IsKnownName(std::string_view host) const {
          (IsAddress(name) || std::ranges::find(names_, Lower(name)) != names_.end());
 }
 
-bool AccessRules::ShowsToken(const WebRequest& request) const {
-  return AreEqualSecrets(TokenInAddress(request), token_) ||
-         AreEqualSecrets(TokenInAuthorization(request), token_);
+std::optional<WebRole> AccessRules::RoleOf(std::string_view secret) const {
+  std::optional<WebRole> role;
+  // All are compared, so that the time does not tell which.
+  for (const AccessToken& token : tokens_) {
+    if (AreEqualSecrets(secret, token.secret)) role = token.role;
+  }
+  return role;
 }
 
 std::optional<AccessRules::Refusal> AccessRules::Check(const WebRequest& request) const {
   if (request.host.empty()) return Refusal{400, "the request does not say whom it asks (Host)"};
   if (!IsKnownName(request.host)) {
     return Refusal{421, "this server is not called '" + std::string(HostNameOf(request.host)) +
-                            "'; call it by its address"};
+                            "'; call it by its address, or have it started with that name"};
   }
-  if (token_.empty() || ShowsToken(request) ||
-      AreEqualSecrets(ValueOf(cookie_name_, request.cookie, ';'), token_)) {
-    return {};
+  if (!AsksForUser()) return {};
+  if (!request.user) {
+    return Refusal{403,
+                   "the system does not say which user of this machine asks; start the program with "
+                   "a token (--inspect-token-file)"};
   }
-  return Refusal{401, "a token is needed: open the address with ?token=… that the program printed"};
+  if (std::ranges::find(users_, *request.user) != users_.end()) return {};
+  return Refusal{403,
+                 "this belongs to another user of this machine, who can start it with a token "
+                 "(--inspect-token-file), or for all users (--inspect-all-users)"};
 }
 
-std::optional<AccessRules::Refusal> AccessRules::CheckOrigin(const WebRequest& request) const {
-  if (request.origin.empty() || (!token_.empty() && ShowsToken(request))) return {};
+std::variant<WebRole, AccessRules::Refusal> AccessRules::Admit(const WebRequest& request) const {
+  if (!tokens_.empty()) {
+    if (const auto role = RoleOf(TokenIn(request))) return *role;
+    return Refusal{401, TokenIn(request).empty()
+                            ? "a token is needed: it stands behind #token= in the address that the "
+                              "program has printed"
+                            : "this token is not known here"};
+  }
+  if (request.origin.empty()) return WebRole::kChange;
   const std::string origin = Lower(request.origin);
   const std::string host = Lower(request.host);
-  if (origin == "http://" + host || origin == "https://" + host) return {};
-  if (std::ranges::find(origins_, origin) != origins_.end()) return {};
+  const bool is_own = origin == "http://" + host || origin == "https://" + host;
+  if (is_own || std::ranges::find(origins_, origin) != origins_.end()) return WebRole::kChange;
   return Refusal{403,
                  "pages of '" + std::string(request.origin) +
                      "' may not talk to this server; it can be started with that origin allowed"};
-}
-
-std::string AccessRules::CookieFor(const WebRequest& request) const {
-  if (token_.empty() || !AreEqualSecrets(TokenInAddress(request), token_)) return {};
-  return cookie_name_ + "=" + token_ + "; Path=/; HttpOnly; SameSite=Strict";
 }
 
 }  // namespace runnel

@@ -11,6 +11,8 @@
 
 #include "plugins/web_server/access_rules.h"
 #include "plugins/web_server/internal/beast_connections.h"
+#include "plugins/web_server/internal/peer_user.h"
+#include "plugins/web_server/internal/tls_relay.h"
 
 namespace runnel {
 
@@ -19,6 +21,7 @@ namespace {
 namespace asio = boost::asio;
 using asio::ip::tcp;
 using internal::ConnectionRegistry;
+using internal::TlsIdentity;
 using internal::WebConnection;
 
 // After accepting has failed, for want of descriptors.
@@ -46,27 +49,27 @@ Error CannotListen(const WebServerOptions& options, const boost::system::error_c
 }
 
 // 0.0.0.0 stands for all addresses, and is none to open.
-std::string UrlOf(const std::string& address, std::uint16_t port, const std::string& token) {
-  std::string host = address;
-  if (address == "0.0.0.0" || address == "::") host = asio::ip::host_name();
+std::string UrlOf(const WebServerOptions& options, std::uint16_t port) {
+  std::string host = options.address;
+  if (host == "0.0.0.0" || host == "::") host = asio::ip::host_name();
   if (host.find(':') != std::string::npos) host = "[" + host + "]";
-  return "http://" + host + ":" + std::to_string(port) + "/" +
-         (token.empty() ? "" : "?token=" + token);
+  return (options.certificate_file.empty() ? "http://" : "https://") + host + ":" + std::to_string(port) + "/";
 }
 
-// With a token where one is needed. Errors: address or token are none.
-Result<WebServerOptions> Completed(WebServerOptions options) {
+// The token that is made where one is needed and there is none; "" elsewhere. Errors: the address is
+// none, or none to serve in the clear.
+Result<std::string> TokenFor(const WebServerOptions& options) {
   const auto is_loopback = IsLoopback(options.address);
   if (!is_loopback) return is_loopback.error();
-  if (options.token.empty() && !*is_loopback) {
-    auto token = MakeToken();
-    if (!token) return token.error();
-    options.token = std::move(*token);
+  if (*is_loopback) return std::string();
+  if (options.certificate_file.empty() && !options.is_insecure) {
+    return Error{.message = "at " + options.address +
+                            " others on the network could read along and take part: nothing is encrypted",
+                 .hint = "give it a certificate (--inspect-certificate, --inspect-key); "
+                         "--inspect-insecure where nobody else listens, or a proxy encrypts"};
   }
-  if (!options.token.empty()) {
-    if (auto checked = CheckToken(options.token); !checked) return checked.error();
-  }
-  return options;
+  if (!options.tokens.empty()) return std::string();
+  return MakeToken();
 }
 
 // Before the thread that serves is there.
@@ -88,11 +91,14 @@ Result<tcp::acceptor> Listen(asio::io_context& context, const WebServerOptions& 
 
 class WebServer::Running {
  public:
-  Running(std::unique_ptr<ConnectionRegistry> registry, tcp::acceptor acceptor, std::string url)
+  Running(std::unique_ptr<ConnectionRegistry> registry, std::shared_ptr<TlsIdentity> identity,
+          tcp::acceptor acceptor, std::string url, std::string made_token)
       : registry_(std::move(registry)),
+        identity_(std::move(identity)),
         acceptor_(std::move(acceptor)),
         pause_(registry_->context()),
         url_(std::move(url)),
+        made_token_(std::move(made_token)),
         port_(acceptor_.local_endpoint().port()),
         thread_([this] {
           Accept();
@@ -113,6 +119,7 @@ class WebServer::Running {
   }
 
   [[nodiscard]] const std::string& url() const noexcept { return url_; }
+  [[nodiscard]] const std::string& made_token() const noexcept { return made_token_; }
   [[nodiscard]] std::uint16_t port() const noexcept { return port_; }
   [[nodiscard]] std::size_t clients() const noexcept { return registry_->sessions(); }
 
@@ -123,7 +130,7 @@ class WebServer::Running {
       if (!error) {
         boost::system::error_code ignored;
         socket.set_option(tcp::no_delay(true), ignored);
-        internal::ServeHttp(*registry_, std::move(socket));
+        Serve(std::move(socket));
         return Accept();
       }
       if (error == asio::error::connection_aborted) return Accept();
@@ -132,6 +139,16 @@ class WebServer::Running {
         if (!cancelled) Accept();
       });
     });
+  }
+
+  void Serve(tcp::socket socket) {
+    std::optional<std::uint32_t> user;
+    if (registry_->rules().AsksForUser()) user = internal::UserOfPeer(socket);
+    if (identity_ != nullptr) {
+      internal::ServeTls(*registry_, identity_, std::move(socket), user);
+    } else {
+      internal::ServeHttp(*registry_, std::move(socket), user);
+    }
   }
 
   void AwaitEnd(std::shared_ptr<asio::steady_timer> timer,
@@ -144,9 +161,11 @@ class WebServer::Running {
   }
 
   const std::unique_ptr<ConnectionRegistry> registry_;
+  const std::shared_ptr<TlsIdentity> identity_;  // nullptr: nothing is encrypted
   tcp::acceptor acceptor_;
   asio::steady_timer pause_;
   const std::string url_;
+  const std::string made_token_;
   const std::uint16_t port_;
   std::thread thread_;
 };
@@ -154,27 +173,34 @@ class WebServer::Running {
 Result<std::unique_ptr<WebServer>> WebServer::Start(WebServerOptions options,
                                                     const std::vector<WebResource>& resources,
                                                     std::vector<WebProtocol> protocols) {
-  auto completed = Completed(std::move(options));
-  if (!completed) return completed.error();
-  // The rules name the port, which is known only when it has been had.
+  auto made_token = TokenFor(options);
+  if (!made_token) return made_token.error();
+  if (!made_token->empty()) options.tokens.push_back({WebRole::kChange, *made_token});
+  std::shared_ptr<TlsIdentity> identity;
+  if (!options.certificate_file.empty() || !options.key_file.empty()) {
+    auto loaded = internal::LoadTlsIdentity(options.certificate_file, options.key_file);
+    if (!loaded) return loaded.error();
+    identity = std::move(*loaded);
+  }
+  AccessRules rules(options);
+  // It is listened to before there is a thread that serves.
   asio::io_context unused;
-  auto probe = Listen(unused, *completed);
+  auto probe = Listen(unused, options);
   if (!probe) return probe.error();
-  const std::uint16_t port = probe->local_endpoint().port();
   const auto protocol = probe->local_endpoint().protocol();
-  AccessRules rules(completed->token, completed->host_names, completed->origins, port);
-  const std::string url = UrlOf(completed->address, port, completed->token);
-  auto registry = std::make_unique<ConnectionRegistry>(std::move(*completed), std::move(rules),
+  const std::string url = UrlOf(options, probe->local_endpoint().port());
+  auto registry = std::make_unique<ConnectionRegistry>(std::move(options), std::move(rules),
                                                        resources, std::move(protocols));
   tcp::acceptor acceptor(registry->context(), protocol, probe->release());
-  return std::unique_ptr<WebServer>(
-      new WebServer(std::make_unique<Running>(std::move(registry), std::move(acceptor), url)));
+  return std::unique_ptr<WebServer>(new WebServer(std::make_unique<Running>(
+      std::move(registry), std::move(identity), std::move(acceptor), url, std::move(*made_token))));
 }
 
 WebServer::WebServer(std::unique_ptr<Running> running) : running_(std::move(running)) {}
 WebServer::~WebServer() = default;
 
 const std::string& WebServer::url() const noexcept { return running_->url(); }
+const std::string& WebServer::made_token() const noexcept { return running_->made_token(); }
 std::uint16_t WebServer::port() const noexcept { return running_->port(); }
 std::size_t WebServer::clients() const noexcept { return running_->clients(); }
 

@@ -28,8 +28,10 @@ class WebServer {
   /// Tells clients that it ends, and waits for them for a moment.
   ~WebServer();
 
-  /// What to open in a browser, the token included: "http://127.0.0.1:8765/".
+  /// What to open in a browser: "http://127.0.0.1:8765/".
   [[nodiscard]] const std::string& url() const noexcept;
+  /// The token that has been made because there was none; "" if none was needed.
+  [[nodiscard]] const std::string& made_token() const noexcept;
   [[nodiscard]] std::uint16_t port() const noexcept;
   /// WebSockets that are open.
   [[nodiscard]] std::size_t clients() const noexcept;

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "plugins/web_server/web_role.h"
+
 namespace runnel {
 
 /// One peer at the other end of a WebSocket, as a session sees it.
@@ -28,6 +30,8 @@ class WebClient {
   [[nodiscard]] virtual std::function<void()> Waker() = 0;
   /// The subprotocol that was agreed on.
   [[nodiscard]] virtual const std::string& protocol() const = 0;
+  /// What it may do; the session sees to that.
+  [[nodiscard]] virtual WebRole role() const = 0;
 
  protected:
   ~WebClient() = default;

@@ -28,6 +28,12 @@ std::uint16_t PortIn(const std::string& text) {
   return static_cast<std::uint16_t>(std::stoul(text.substr(found + before.size())));
 }
 
+std::uint16_t FreePort() {
+  const auto probe = WebServer::Start({.port = 0}, {}, {});
+  EXPECT_TRUE(probe);
+  return (*probe)->port();
+}
+
 class Inspect : public testing::Test {
  protected:
   std::string Write(const std::string& inspector) {
@@ -67,12 +73,7 @@ TEST_F(Inspect, TheEndCanStillBeSeenIfTheProgramIsHeld) {
 
 TEST_F(Inspect, AVerdictIsSentToViewers) {
   // A fixed port, so that the test knows it before the program says it; free a moment ago.
-  std::uint16_t port = 0;
-  {
-    const auto probe = WebServer::Start({.port = 0}, {}, {});
-    ASSERT_TRUE(probe);
-    port = (*probe)->port();
-  }
+  const std::uint16_t port = FreePort();
   Program program("run --fast --hold --inspect=" + std::to_string(port) + " " + kUndrawnDemo);
   ASSERT_TRUE(program.WaitFor("held for viewers"));
   RawClient page(port);
@@ -147,10 +148,56 @@ TEST_F(Inspect, PlacesThatAreNoneAreRefused) {
   }
 }
 
-TEST_F(Inspect, ATokenIsPartOfTheAddressThatIsPrinted) {
+TEST_F(Inspect, TokensComeFromAFileAndHaveRoles) {
+  const std::string file = file_.string() + ".tokens";
+  std::ofstream(file) << "look:just-look-7\ndrive:green-car-7\n";
+  std::filesystem::permissions(file, std::filesystem::perms::owner_read);
+  const std::uint16_t port = FreePort();
+  Program program("run --fast --hold --inspect=" + std::to_string(port) +
+                  " --inspect-token-file=" + file + " " + kUndrawnDemo);
+  ASSERT_TRUE(program.WaitFor("held for viewers"));
+  const auto access = [&](const std::string& token) {
+    return RawClient(port).Get("/access", "Authorization: Bearer " + token + "\r\n");
+  };
+  EXPECT_THAT(access("just-look-7"), HasSubstr("\r\n\r\nlook"));
+  EXPECT_THAT(access("green-car-7"), HasSubstr("\r\n\r\ndrive"));
+  EXPECT_THAT(access("other-car-7"), HasSubstr(" 401 "));
+  program.Send(SIGINT);
+  const Ended ended = program.Wait();
+  EXPECT_EQ(ended.code, 0) << ended.text;
+  EXPECT_THAT(ended.text, Not(HasSubstr("-7")));
+  std::filesystem::permissions(file, std::filesystem::perms::others_read,
+                               std::filesystem::perm_options::add);
+  const Ended refused =
+      Runnel("run --fast --inspect=0 --inspect-token-file=" + file + " " + kUndrawnDemo);
+  EXPECT_EQ(refused.code, 2) << refused.text;
+  EXPECT_THAT(refused.text, AllOf(HasSubstr(file), HasSubstr("chmod 600")));
+  std::filesystem::remove(file);
+}
+
+TEST_F(Inspect, ATokenThatIsMadeStandsInAFileAndNotInTheOutput) {
+  const Ended ended =
+      Runnel("run --fast --inspect=0.0.0.0:0 --inspect-insecure " + kUndrawnDemo);
+  EXPECT_EQ(ended.code, 0) << ended.text;
+  const std::string before = "(and #token=…, which is in ";
+  const std::size_t found = ended.text.find(before);
+  ASSERT_NE(found, std::string::npos) << ended.text;
+  const std::size_t begin = found + before.size();
+  const std::string file = ended.text.substr(begin, ended.text.find(')', begin) - begin);
+  EXPECT_FALSE(std::filesystem::exists(file)) << "it is there for as long as the program runs";
+}
+
+TEST_F(Inspect, OtherAddressesAreNotServedInTheClear) {
+  const Ended ended = Runnel("run --fast --inspect=0.0.0.0:0 " + kUndrawnDemo);
+  EXPECT_EQ(ended.code, 2) << ended.text;
+  EXPECT_THAT(ended.text, AllOf(HasSubstr("nothing is encrypted"), HasSubstr("--inspect-insecure")));
+}
+
+TEST_F(Inspect, ATokenThatIsGivenIsNotPrinted) {
   const Ended ended = Runnel("run --fast --inspect=0 --inspect-token=open-sesame " + kUndrawnDemo);
   EXPECT_EQ(ended.code, 0);
-  EXPECT_THAT(ended.text, HasSubstr("/?token=open-sesame\n"));
+  EXPECT_THAT(ended.text, HasSubstr("/  (and #token=…)\n"));
+  EXPECT_THAT(ended.text, Not(HasSubstr("sesame")));
 }
 
 }  // namespace

@@ -9,10 +9,13 @@
 
 #include "core/base/result.h"
 #include "plugins/values/json_reader.h"
+#include "plugins/web_server/web_role.h"
 
 namespace runnel::internal {
 
 struct SubscribeMessage {
+  static constexpr std::string_view kName = "subscribe";
+  static constexpr WebRole kRole = WebRole::kLook;
   struct Item {
     std::uint32_t id;
     std::uint32_t channel;
@@ -20,9 +23,13 @@ struct SubscribeMessage {
   std::vector<Item> subscriptions;
 };
 struct UnsubscribeMessage {
+  static constexpr std::string_view kName = "unsubscribe";
+  static constexpr WebRole kRole = WebRole::kLook;
   std::vector<std::uint32_t> ids;
 };
 struct AdvertiseMessage {
+  static constexpr std::string_view kName = "advertise";
+  static constexpr WebRole kRole = WebRole::kDrive;
   struct Channel {
     std::uint32_t id;
     std::string topic;
@@ -31,13 +38,19 @@ struct AdvertiseMessage {
   std::vector<Channel> channels;
 };
 struct UnadvertiseMessage {
+  static constexpr std::string_view kName = "unadvertise";
+  static constexpr WebRole kRole = WebRole::kDrive;
   std::vector<std::uint32_t> ids;
 };
 struct GetParametersMessage {
+  static constexpr std::string_view kName = "getParameters";
+  static constexpr WebRole kRole = WebRole::kLook;
   std::vector<std::string> names;  ///< none: all
   std::optional<std::string> id;
 };
 struct SetParametersMessage {
+  static constexpr std::string_view kName = "setParameters";
+  static constexpr WebRole kRole = WebRole::kChange;
   struct Item {
     std::string name;
     std::optional<JsonPart> value;
@@ -47,14 +60,18 @@ struct SetParametersMessage {
   std::optional<std::string> id;
 };
 struct SubscribeParametersMessage {
+  static constexpr std::string_view kName = "subscribeParameterUpdates";
+  static constexpr WebRole kRole = WebRole::kLook;
   std::vector<std::string> names;  ///< none: all
   bool is_wanted;
 };
 struct SubscribeGraphMessage {
+  static constexpr std::string_view kName = "subscribeConnectionGraph";
+  static constexpr WebRole kRole = WebRole::kLook;
   bool is_wanted;
 };
 
-/// What a client says in text.
+/// What a client says in text; kName: how errors call it, kRole: that is needed for it.
 using ClientMessage = std::variant<SubscribeMessage, UnsubscribeMessage, AdvertiseMessage,
                                    UnadvertiseMessage, GetParametersMessage, SetParametersMessage,
                                    SubscribeParametersMessage, SubscribeGraphMessage>;

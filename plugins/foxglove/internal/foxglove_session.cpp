@@ -33,7 +33,7 @@ FoxgloveSession::FoxgloveSession(std::shared_ptr<FoxgloveShared> shared, WebClie
       send_queue_(client),
       subscriptions_(shared_->application.service.application(), client),
       parameters_(*shared_, send_queue_, client.Waker()) {
-  send_queue_.Send(ServerInfoMessage(*shared_));
+  send_queue_.Send(ServerInfoMessage(*shared_, shared_->RoleOf(client)));
 }
 
 void FoxgloveSession::SendStatus(StatusLevel level, const Error& error) {
@@ -41,10 +41,22 @@ void FoxgloveSession::SendStatus(StatusLevel level, const Error& error) {
   if (!send_queue_.is_long()) send_queue_.Send(StatusMessage(level, error.ToString()));
 }
 
+bool FoxgloveSession::MayDo(WebRole needed, std::string_view what) {
+  const WebRole role = shared_->RoleOf(client_);
+  if (role >= needed) return true;
+  SendError({.message = std::string(what) + ": viewers may only " + std::string(WebRoleName(role)),
+             .hint = "it takes a token for the role '" + std::string(WebRoleName(needed)) + "'"});
+  return false;
+}
+
 void FoxgloveSession::OnText(std::string_view message) {
   const auto parsed = ParseClientMessage(message);
   if (!parsed) return SendError(parsed.error());
-  std::visit([this](const auto& each) { Handle(each); }, *parsed);
+  std::visit(
+      [this](const auto& each) {
+        if (MayDo(each.kRole, each.kName)) Handle(each);
+      },
+      *parsed);
 }
 
 void FoxgloveSession::OnBinary(std::string_view message) {
@@ -54,6 +66,7 @@ void FoxgloveSession::OnBinary(std::string_view message) {
     return SendError({.message = "there is no binary message of this kind here",
                       .hint = "byte 1: the value of a client's channel, then the channel's id"});
   }
+  if (!MayDo(WebRole::kDrive, "publishing")) return;
   const std::uint32_t id = ReadNumber(message.substr(1));
   const auto found = publications_.find(id);
   if (found == publications_.end()) {
@@ -78,9 +91,6 @@ void FoxgloveSession::Handle(const UnsubscribeMessage& message) {
 }
 
 void FoxgloveSession::Handle(const AdvertiseMessage& message) {
-  if (shared_->application.is_read_only) {
-    return SendError({.message = "advertise: viewers may look, and publish nothing"});
-  }
   bool may_search = true;
   for (const AdvertiseMessage::Channel& channel : message.channels) Advertise(channel, may_search);
 }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <string_view>
 
 #include "plugins/foxglove/internal/client_publication.h"
 #include "plugins/foxglove/internal/foxglove_shared.h"
@@ -36,6 +37,8 @@ class FoxgloveSession final : public WebSession {
   /// `may_search`: for the nearest name, which takes time; once in a message.
   void Advertise(const AdvertiseMessage::Channel& channel, bool& may_search);
 
+  /// Whether the client may do what takes `needed`; if not, it is told.
+  bool MayDo(WebRole needed, std::string_view what);
   void SendStatus(StatusLevel level, const Error& error);
   void SendError(const Error& error) { SendStatus(StatusLevel::kError, error); }
   void FollowStructure();

@@ -22,6 +22,10 @@ struct FoxgloveShared {
     return application.service.application().runtime;
   }
 
+  [[nodiscard]] WebRole RoleOf(const WebClient& client) const {
+    return application.is_read_only ? WebRole::kLook : client.role();
+  }
+
   [[nodiscard]] WebSession::SteadyTime Now() const {
     const Clock* const clock = application.steady_clock;
     return clock != nullptr ? WebSession::SteadyTime(clock->Now().time_since_epoch())

@@ -53,9 +53,6 @@ void ParameterHandler::Get(const GetParametersMessage& message) {
 }
 
 void ParameterHandler::Set(const SetParametersMessage& message) {
-  if (shared_.application.is_read_only) {
-    return SendError({.message = "setParameters: viewers may look, and change nothing"});
-  }
   if (sets_.size() >= kMostWaiting) {
     return SendError({.message = "setParameters: too many requests are waiting"});
   }

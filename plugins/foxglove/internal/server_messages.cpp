@@ -31,8 +31,8 @@ void AddTopics(JsonObject& message, const char* field, const char* ids,
 
 }  // namespace
 
-std::string ServerInfoMessage(const FoxgloveShared& shared) {
-  const bool is_read_only = shared.application.is_read_only;
+std::string ServerInfoMessage(const FoxgloveShared& shared, WebRole role) {
+  const bool may_publish = role >= WebRole::kDrive;
   return JsonObjectText([&](JsonObject& message) {
     message.Add("op", "serverInfo").Add("name", shared.application.name);
     {
@@ -40,9 +40,9 @@ std::string ServerInfoMessage(const FoxgloveShared& shared) {
       for (const char* each : {"time", "parameters", "parametersSubscribe", "connectionGraph"}) {
         capabilities.Add(each);
       }
-      if (!is_read_only) capabilities.Add("clientPublish");
+      if (may_publish) capabilities.Add("clientPublish");
     }
-    if (!is_read_only) message.AddJson("supportedEncodings", R"(["json"])");
+    if (may_publish) message.AddJson("supportedEncodings", R"(["json"])");
     JsonObject(message.Key("metadata")).Add("runnel", shared.application.version);
     message.Add("sessionId", shared.session);
   });

@@ -1,6 +1,7 @@
 #include "plugins/inspector/internal/requests.h"
 
 #include <algorithm>
+#include <array>
 #include <initializer_list>
 #include <memory>
 #include <utility>
@@ -138,20 +139,41 @@ std::string Refusal(std::optional<std::uint64_t> request, const std::vector<Requ
   });
 }
 
-const std::vector<std::string>& AllOperations() {
-  static const std::vector<std::string> all{
-      "watch", "unwatch", "watch_rates", "change", "undo",  "redo",  "compatible",
-      "save",  "pause",   "resume",      "step",   "speed", "reload", "log_level",
-      "profile", "publish", "release"};
-  return all;
+std::span<const Operation> AllOperations() {
+  using enum Operation::Kind;
+  using enum WebRole;
+  static constexpr std::array kAll{
+      Operation("watch", kTold, kLook),
+      Operation("unwatch", kTold, kLook),
+      Operation("watch_rates", kTold, kLook),
+      Operation("compatible", kRequest, kLook),
+      Operation("publish", kRequest, kDrive),
+      Operation("release", kRequest, kDrive),
+      // Who drives may stop all of it and let it go on, but not leave out one module, which may be what
+      // keeps the robot from colliding.
+      Operation("pause", kRequest, kDrive, kChange),
+      Operation("resume", kRequest, kDrive, kChange),
+      Operation("change", kRequest, kChange),
+      Operation("undo", kRequest, kChange),
+      Operation("redo", kRequest, kChange),
+      Operation("save", kRequest, kChange),
+      Operation("step", kRequest, kChange),
+      Operation("speed", kRequest, kChange),
+      Operation("reload", kRequest, kChange),
+      Operation("log_level", kRequest, kChange),
+      Operation("profile", kRequest, kChange)};
+  return kAll;
 }
 
-bool IsRequest(const std::string& op) {
-  const auto found = std::ranges::find(AllOperations(), op);
-  return found - AllOperations().begin() >= 3 && found != AllOperations().end();
+const Operation* FindOperation(std::string_view name) {
+  const auto found = std::ranges::find(AllOperations(), name, &Operation::name);
+  return found == AllOperations().end() ? nullptr : &*found;
 }
 
-bool OnlyLooks(const std::string& op) { return op == "compatible"; }
+WebRole RoleFor(const Operation& operation, const ViewerMessage& message) {
+  return message.path.empty() ? operation.role
+                              : std::max(operation.role, operation.role_of_modules);
+}
 
 ViewerRequest BeginRequest(Inspection& inspection, ViewerMessage message,
                            std::function<void()> on_done) {

@@ -4,11 +4,14 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/base/error.h"
 #include "plugins/inspector/internal/inspection.h"
 #include "plugins/inspector/internal/viewer_message.h"
+#include "plugins/web_server/web_role.h"
 
 namespace runnel::internal {
 
@@ -18,12 +21,28 @@ namespace runnel::internal {
 [[nodiscard]] std::string Refusal(std::optional<std::uint64_t> request,
                                   const std::vector<RequestError>& errors);
 
-/// Whether messages of this kind are requests, each of which gets one reply.
-[[nodiscard]] bool IsRequest(const std::string& op);
-/// Whether it leaves the application as it is.
-[[nodiscard]] bool OnlyLooks(const std::string& op);
-/// All that viewers may say, for the hint to one that says something else.
-[[nodiscard]] const std::vector<std::string>& AllOperations();
+/// What viewers may say, and who may say it.
+struct Operation {
+  enum class Kind {
+    kTold,     ///< is not answered
+    kRequest,  ///< gets one reply
+  };
+  // Not an aggregate: what has no role does not compile.
+  constexpr Operation(std::string_view its_name, Kind its_kind, WebRole of_all, WebRole of_modules)
+      : name(its_name), kind(its_kind), role(of_all), role_of_modules(of_modules) {}
+  constexpr Operation(std::string_view its_name, Kind its_kind, WebRole its_role)
+      : Operation(its_name, its_kind, its_role, its_role) {}
+
+  std::string_view name;
+  Kind kind;
+  WebRole role;             ///< that is needed for it
+  WebRole role_of_modules;  ///< the same, if the message names a path
+};
+[[nodiscard]] std::span<const Operation> AllOperations();
+/// nullptr: there is none.
+[[nodiscard]] const Operation* FindOperation(std::string_view name);
+/// That is needed for what `message` asks for.
+[[nodiscard]] WebRole RoleFor(const Operation& operation, const ViewerMessage& message);
 
 /// A request while it is being carried out; a change that is destroyed before it has begun is not done.
 ///

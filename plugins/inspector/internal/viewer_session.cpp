@@ -43,6 +43,10 @@ ViewerSession::ViewerSession(Inspection& inspection, WebClient& client)
   SendHello();
 }
 
+WebRole ViewerSession::role() const {
+  return inspection_.options().is_read_only ? WebRole::kLook : client_.role();
+}
+
 bool ViewerSession::IsSlow() const { return client_.waiting_bytes() > kSlow; }
 
 void ViewerSession::SendHello() {
@@ -53,7 +57,7 @@ void ViewerSession::SendHello() {
     json.Add("op", "hello").Add("protocol", 1);
     json.Add("application", options.application).Add("file", options.file);
     json.Add("run", inspection_.run()).Add("clock", is_simulated ? "simulated" : "real");
-    json.Add("read_only", options.is_read_only).Add("runnel", options.version);
+    json.Add("read_only", role() == WebRole::kLook).Add("role", WebRoleName(role())).Add("runnel", options.version);
   }));
 }
 
@@ -270,21 +274,35 @@ void ViewerSession::OnText(std::string_view text) {
     return;
   }
   ViewerMessage& message = *parsed;
-  if (IsRequest(message.op)) return BeginRequest(std::move(message));
+  const Operation* const operation = FindOperation(message.op);
+  if (operation == nullptr) {
+    return Refuse(message, {.message = "there is no operation '" + message.op + "'",
+                            .hint = NearestNameHint(message.op,
+                                                    NamesOf(AllOperations(), &Operation::name))});
+  }
+  const WebRole needed = RoleFor(*operation, message);
+  if (role() < needed) return RefuseRole(message, needed);
+  if (operation->kind == Operation::Kind::kRequest) return BeginRequest(std::move(message));
   if (message.op == "watch") return BeginWatching(message);
   if (message.op == "unwatch") {
     watches_.erase(message.path);
     return;
   }
-  if (message.op == "watch_rates") {
-    const double rate = std::min(message.rate.value_or(1), kFastestRates);
-    rates_interval_ = rate > 0 ? IntervalOf(std::max(rate, 0.01)) : Duration{};
-    rates_due_ = {};
-    counted_.reset();
-    return;
+  const double rate = std::min(message.rate.value_or(1), kFastestRates);
+  rates_interval_ = rate > 0 ? IntervalOf(std::max(rate, 0.01)) : Duration{};
+  rates_due_ = {};
+  counted_.reset();
+}
+
+void ViewerSession::RefuseRole(const ViewerMessage& message, WebRole needed) {
+  if (inspection_.options().is_read_only) {
+    return Refuse(message,
+                  {.message = "this inspector is read-only: '" + message.op + "' is not allowed"});
   }
-  Refuse(message, {.message = "there is no operation '" + message.op + "'",
-                   .hint = NearestNameHint(message.op, AllOperations())});
+  Refuse(message, {.message = "'" + message.op + "' is not allowed to who may only " +
+                              std::string(WebRoleName(role())),
+                   .path = message.path,
+                   .hint = "it takes a token for the role '" + std::string(WebRoleName(needed)) + "'"});
 }
 
 void ViewerSession::Refuse(const ViewerMessage& message, Error error) {
@@ -306,10 +324,6 @@ void ViewerSession::BeginWatching(const ViewerMessage& message) {
 }
 
 void ViewerSession::BeginRequest(ViewerMessage message) {
-  if (inspection_.options().is_read_only && !OnlyLooks(message.op)) {
-    return Refuse(message,
-                  {.message = "this inspector is read-only: '" + message.op + "' is not allowed"});
-  }
   if (pending_.size() + replies_.size() >= kMostPending) {
     return Refuse(message, {.message = "too many requests are waiting already"});
   }

@@ -48,7 +48,9 @@ class ViewerSession final : public WebSession {
   void BeginWatching(const ViewerMessage& message);
   void BeginRequest(ViewerMessage message);
   void Refuse(const ViewerMessage& message, Error error);
+  void RefuseRole(const ViewerMessage& message, WebRole needed);
   [[nodiscard]] bool IsSlow() const;
+  [[nodiscard]] WebRole role() const;
 
   Inspection& inspection_;
   WebClient& client_;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include <boost/asio/ip/tcp.hpp>
@@ -12,12 +14,15 @@ namespace runnel::internal {
 
 using HttpRequest = boost::beast::http::request<boost::beast::http::empty_body>;
 
-/// Serves one connection that has been accepted, until it ends or becomes a session.
-void ServeHttp(ConnectionRegistry& registry, boost::asio::ip::tcp::socket socket);
+/// Serves one connection that has been accepted, until it ends or becomes a session. `user`: whose process of this
+/// machine is at the other end, if the rules ask for that and the system says.
+void ServeHttp(ConnectionRegistry& registry, boost::asio::ip::tcp::socket socket,
+               std::optional<std::uint32_t> user);
 
 /// Goes on with a connection whose request for a WebSocket has been granted. `name`: of the protocol,
-/// as it is answered.
+/// as it is answered. `role`: what the client may do.
 void ServeWebSocket(ConnectionRegistry& registry, boost::asio::ip::tcp::socket socket,
-                    HttpRequest request, const WebProtocol& protocol, std::string name);
+                    HttpRequest request, const WebProtocol& protocol, std::string name,
+                    WebRole role);
 
 }  // namespace runnel::internal

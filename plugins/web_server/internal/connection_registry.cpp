@@ -65,6 +65,23 @@ void ConnectionRegistry::EvictOldest() {
   Remove(oldest);
 }
 
+bool ConnectionRegistry::MakeRoomFor(WebRole role) {
+  if (sessions_.load() < limits().clients) return true;
+  std::shared_ptr<WebConnection> least;
+  for (const auto& each : connections_) {
+    if (!each->is_session() || each->role() >= role) continue;
+    if (least == nullptr || std::pair(each->role(), each->since()) <
+                                std::pair(least->role(), least->since())) {
+      least = each;
+    }
+  }
+  if (least == nullptr) return false;
+  least->End("somebody who may do more needs the place");
+  least->Detach();
+  Remove(least);
+  return true;
+}
+
 void ConnectionRegistry::ForEach(const std::function<void(WebConnection&)>& use) {
   const std::vector<std::shared_ptr<WebConnection>> now(connections_.begin(), connections_.end());
   for (const auto& each : now) use(*each);

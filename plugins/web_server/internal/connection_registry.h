@@ -4,6 +4,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
@@ -33,14 +34,17 @@ class WebConnection {
   /// No other thread reaches it any more: the server ends.
   virtual void Detach() noexcept {}
 
-  [[nodiscard]] bool is_session() const noexcept { return is_session_; }
+  [[nodiscard]] bool is_session() const noexcept { return role_.has_value(); }
+  /// Of a session.
+  [[nodiscard]] WebRole role() const noexcept { return role_.value_or(WebRole::kLook); }
   [[nodiscard]] SteadyTime since() const noexcept { return since_; }
 
  protected:
-  explicit WebConnection(bool is_session) : is_session_(is_session) {}
+  /// `role`: of a session; nothing: it is none.
+  explicit WebConnection(std::optional<WebRole> role) : role_(role) {}
 
  private:
-  const bool is_session_;
+  const std::optional<WebRole> role_;
   const SteadyTime since_ = std::chrono::steady_clock::now();
 };
 
@@ -63,7 +67,8 @@ class ConnectionRegistry {
   void Remove(const std::shared_ptr<WebConnection>& connection) noexcept;
   /// The plain connection that has been there for the longest time goes, if there are too many.
   void EvictOldest();
-  [[nodiscard]] bool IsFull() const noexcept { return sessions_.load() >= limits().clients; }
+  /// Whether there is a place for one more session; if there is none, the oldest that may do less makes room.
+  bool MakeRoomFor(WebRole role);
   [[nodiscard]] std::size_t sessions() const noexcept { return sessions_.load(); }
   [[nodiscard]] std::size_t connections() const noexcept { return connections_.size(); }
 

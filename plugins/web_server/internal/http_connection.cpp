@@ -9,7 +9,7 @@
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/rfc7230.hpp>
-#include <boost/beast/http/string_body.hpp>
+#include <boost/beast/http/span_body.hpp>
 #include <boost/beast/http/write.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 
@@ -33,9 +33,12 @@ WebRequest RequestOf(const HttpRequest& request) {
   return {.target = View(request.target()),
           .host = View(request[http::field::host]),
           .origin = View(request[http::field::origin]),
-          .cookie = View(request[http::field::cookie]),
-          .authorization = View(request[http::field::authorization])};
+          .authorization = View(request[http::field::authorization]),
+          .protocols = View(request[http::field::sec_websocket_protocol])};
 }
+
+// Which role somebody has is told to who asks for this.
+constexpr std::string_view kAccessPath = "/access";
 
 /// What browsers are to allow the page: its own files and this server, and no frame round it.
 std::string ContentPolicy(const HttpRequest& request) {
@@ -50,8 +53,9 @@ std::string ContentPolicy(const HttpRequest& request) {
 class HttpConnection final : public WebConnection,
                              public std::enable_shared_from_this<HttpConnection> {
  public:
-  HttpConnection(ConnectionRegistry& registry, tcp::socket socket)
-      : WebConnection(false), registry_(registry), stream_(std::move(socket)) {}
+  HttpConnection(ConnectionRegistry& registry, tcp::socket socket,
+                 std::optional<std::uint32_t> user)
+      : WebConnection(std::nullopt), registry_(registry), user_(user), stream_(std::move(socket)) {}
 
   void Read() {
     parser_.emplace();
@@ -94,25 +98,39 @@ class HttpConnection final : public WebConnection,
     if (request_.count(http::field::host) > 1 || request_.count(http::field::origin) > 1) {
       return Refuse(http::status::bad_request, "a field is there twice");
     }
-    if (const auto refusal = registry_.rules().Check(RequestOf(request_))) return Refuse(*refusal);
+    WebRequest asked = RequestOf(request_);
+    asked.user = user_;
+    if (const auto refusal = registry_.rules().Check(asked)) return Refuse(*refusal);
     if (beast::websocket::is_upgrade(request_)) return Upgrade();
     if (request_.method() != http::verb::get && request_.method() != http::verb::head) {
       return Refuse(http::status::method_not_allowed, "this server only answers GET and HEAD");
     }
+    if (PathOf(View(request_.target())) == kAccessPath) return TellAccess();
     const WebResource* const resource = registry_.FindResource(PathOf(View(request_.target())));
     if (resource == nullptr) return Refuse(http::status::not_found, "there is no such page");
-    Send(http::status::ok, resource->content_type, std::string(resource->content),
-         request_.keep_alive());
+    Send(http::status::ok, resource->content_type, resource->content, request_.keep_alive());
+  }
+
+  void TellAccess() {
+    const auto access = registry_.rules().Admit(RequestOf(request_));
+    if (const auto* const refusal = std::get_if<AccessRules::Refusal>(&access)) {
+      return Refuse(*refusal);
+    }
+    text_ = WebRoleName(std::get<WebRole>(access));
+    Send(http::status::ok, "text/plain; charset=utf-8", text_, request_.keep_alive());
   }
 
   void Upgrade() {
-    if (const auto refusal = registry_.rules().CheckOrigin(RequestOf(request_)))
+    const auto access = registry_.rules().Admit(RequestOf(request_));
+    if (const auto* const refusal = std::get_if<AccessRules::Refusal>(&access)) {
       return Refuse(*refusal);
+    }
+    const WebRole role = std::get<WebRole>(access);
     const auto offered = View(request_[http::field::sec_websocket_protocol]);
     for (const auto& each : http::token_list(request_[http::field::sec_websocket_protocol])) {
       const WebProtocol* const protocol = registry_.FindProtocol(View(each));
       if (protocol == nullptr) continue;
-      if (registry_.IsFull()) {
+      if (!registry_.MakeRoomFor(role)) {
         return Refuse(http::status::service_unavailable, "there are " +
                                                              std::to_string(registry_.sessions()) +
                                                              " clients already; close one of them");
@@ -121,7 +139,7 @@ class HttpConnection final : public WebConnection,
       const auto self = shared_from_this();
       registry_.Remove(self);
       return ServeWebSocket(registry_, stream_.release_socket(), std::move(request_), *protocol,
-                            std::move(name));
+                            std::move(name), role);
     }
     Refuse(http::status::bad_request,
            (offered.empty() ? "no protocol is asked for (Sec-WebSocket-Protocol)"
@@ -133,10 +151,12 @@ class HttpConnection final : public WebConnection,
     Refuse(static_cast<http::status>(refusal.status), refusal.text);
   }
   void Refuse(http::status status, std::string text) {
-    Send(status, "text/plain; charset=utf-8", std::move(text) + "\n", false);
+    text_ = std::move(text) + "\n";
+    Send(status, "text/plain; charset=utf-8", text_, false);
   }
 
-  void Send(http::status status, std::string_view type, std::string body, bool keep_alive) {
+  // `body` stays until it has been sent.
+  void Send(http::status status, std::string_view type, std::string_view body, bool keep_alive) {
     const bool is_head = request_.method() == http::verb::head;
     response_ = {};
     response_.version(11);
@@ -151,15 +171,13 @@ class HttpConnection final : public WebConnection,
     response_.set("Cross-Origin-Opener-Policy", "same-origin");
     if (status == http::status::ok) {
       response_.set("Content-Security-Policy", ContentPolicy(request_));
-      const std::string cookie = registry_.rules().CookieFor(RequestOf(request_));
-      if (!cookie.empty()) response_.set(http::field::set_cookie, cookie);
     }
     if (status == http::status::method_not_allowed) response_.set(http::field::allow, "GET, HEAD");
     if (status == http::status::unauthorized) {
       response_.set(http::field::www_authenticate, "Bearer realm=\"runnel\"");
     }
     response_.content_length(body.size());
-    if (!is_head) response_.body() = std::move(body);
+    if (!is_head) response_.body() = {body.data(), body.size()};
     stream_.expires_after(registry_.limits().request_time);
     http::async_write(stream_, response_,
                       beast::bind_front_handler(&HttpConnection::OnSent, shared_from_this()));
@@ -187,20 +205,23 @@ class HttpConnection final : public WebConnection,
   }
 
   ConnectionRegistry& registry_;
+  const std::optional<std::uint32_t> user_;
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::empty_body>> parser_;
   HttpRequest request_;
-  http::response<http::string_body> response_;
+  http::response<http::span_body<const char>> response_;
+  std::string text_;  // that is sent, if it is none of the resources
   std::array<char, 4096> drain_{};
   std::size_t drained_ = 0;
 };
 
 }  // namespace
 
-void ServeHttp(ConnectionRegistry& registry, tcp::socket socket) {
+void ServeHttp(ConnectionRegistry& registry, tcp::socket socket,
+               std::optional<std::uint32_t> user) {
   registry.EvictOldest();
-  const auto connection = std::make_shared<HttpConnection>(registry, std::move(socket));
+  const auto connection = std::make_shared<HttpConnection>(registry, std::move(socket), user);
   registry.Add(connection);
   connection->Read();
 }

@@ -8,10 +8,8 @@
 
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
-#include <boost/beast/core/bind_handler.hpp>
 #include <boost/beast/core/buffers_to_string.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/websocket/stream.hpp>
 
 #include "core/base/characters.h"
@@ -71,8 +69,8 @@ class WebSocketConnection final : public WebConnection,
                                   public std::enable_shared_from_this<WebSocketConnection> {
  public:
   WebSocketConnection(ConnectionRegistry& registry, tcp::socket socket, HttpRequest request,
-                      const WebProtocol& protocol, std::string name)
-      : WebConnection(true),
+                      const WebProtocol& protocol, std::string name, WebRole role)
+      : WebConnection(role),
         registry_(registry),
         request_(std::move(request)),
         start_(protocol.start),
@@ -85,7 +83,6 @@ class WebSocketConnection final : public WebConnection,
 
   void Accept() {
     const WebLimits& limits = registry_.limits();
-    beast::get_lowest_layer(socket_).expires_never();
     socket_.set_option(
         websocket::stream_base::timeout{limits.request_time, limits.idle_time, true});
     socket_.set_option(
@@ -108,6 +105,7 @@ class WebSocketConnection final : public WebConnection,
   bool SendBinary(std::string bytes) override { return Send({std::move(bytes), false}); }
   [[nodiscard]] std::size_t waiting_bytes() const override { return waiting_bytes_; }
   [[nodiscard]] const std::string& protocol() const override { return name_; }
+  [[nodiscard]] WebRole role() const override { return WebConnection::role(); }
   void Close(std::string reason) override { Close(websocket::close_code::policy_error, reason); }
 
   void Poll() override {
@@ -133,7 +131,7 @@ class WebSocketConnection final : public WebConnection,
   }
   void Cut() noexcept override {
     beast::error_code ignored;
-    beast::get_lowest_layer(socket_).socket().close(ignored);
+    socket_.next_layer().close(ignored);
   }
 
  private:
@@ -269,7 +267,8 @@ class WebSocketConnection final : public WebConnection,
   HttpRequest request_;
   const std::function<std::unique_ptr<WebSession>(WebClient&)> start_;
   const std::string name_;
-  websocket::stream<beast::tcp_stream, false> socket_;  // false: nothing is compressed
+  // Over a plain socket: a stream of WebSockets minds the time itself. false: nothing is compressed.
+  websocket::stream<tcp::socket, false> socket_;
   boost::asio::steady_timer poll_timer_;
   boost::asio::steady_timer read_timer_;
   boost::asio::steady_timer write_timer_;
@@ -287,9 +286,9 @@ class WebSocketConnection final : public WebConnection,
 }  // namespace
 
 void ServeWebSocket(ConnectionRegistry& registry, tcp::socket socket, HttpRequest request,
-                    const WebProtocol& protocol, std::string name) {
+                    const WebProtocol& protocol, std::string name, WebRole role) {
   const auto connection = std::make_shared<WebSocketConnection>(
-      registry, std::move(socket), std::move(request), protocol, std::move(name));
+      registry, std::move(socket), std::move(request), protocol, std::move(name), role);
   registry.Add(connection);
   connection->Accept();
 }

@@ -71,12 +71,39 @@ test('a module that throws is marked, counted, and told with its reason', async 
   await page.locator('#troubles li.fault').waitFor();
 });
 
-test('with a token the address that is printed opens the page, and another does not', async (t) => {
+test('a token stands behind # in the address, is taken out of it, and is asked for where it is missing', async (t) => {
   const { file } = await DemoFile(t, kSlow);
-  const application = await RunApplication(t, file, { options: ['--inspect-token', 'open_sesame_42'] });
-  const inspector = await OpenPage(t, application.url);
+  const application = await RunApplication(t, file, { options: ['--inspect-token', 'open_sesame_42 look:only_look_42'] });
+  assert.doesNotMatch(application.url, /sesame/);
+  const inspector = await OpenPage(t, `${application.url}#token=open_sesame_42`);
   await inspector.node('/bug_demo/world').waitFor();
-  assert.match(application.url, /token=open_sesame_42/);
-  assert.equal((await fetch(new URL('/', application.url))).status, 401);
-  assert.equal((await fetch(new URL('/?token=open_sesame_43', application.url))).status, 401);
+  assert.equal(inspector.page.url(), application.url);
+  assert.equal(await inspector.page.locator('#save').isDisabled(), false);
+  await inspector.page.reload();
+  await inspector.node('/bug_demo/world').waitFor();
+  const access = (token) => fetch(new URL('/access', application.url), { headers: { Authorization: `Bearer ${token}` } });
+  assert.equal((await fetch(new URL('/access', application.url))).status, 401);
+  assert.equal((await access('open_sesame_43')).status, 401);
+  assert.equal(await (await access('only_look_42')).text(), 'look');
+
+  await inspector.page.evaluate(() => localStorage.clear());
+  inspector.forgive(/401|WebSocket/);
+  await inspector.page.reload();
+  await inspector.page.locator('#token-field').fill('only_look_42');
+  await inspector.page.locator('#token button').click();
+  await inspector.page.locator('.state.read-only').waitFor();
+  assert.equal(await inspector.page.locator('#save').isDisabled(), true);
+});
+
+test('who drives may pause and set values by hand, and change nothing else', async (t) => {
+  const { file } = await DemoFile(t, kSlow);
+  const application = await RunApplication(t, file, { options: ['--inspect-token', 'drive:green_car_7'] });
+  const inspector = await OpenPage(t, `${application.url}#token=green_car_7`);
+  const { page } = inspector;
+  await page.locator('.state.read-only', { hasText: 'drive' }).waitFor();
+  for (const id of ['step', 'speed', 'add', 'undo', 'save']) {
+    assert.equal(await page.locator(`#${id}`).isDisabled(), true, id);
+  }
+  await page.locator('#pause').click();
+  await page.locator('#pause[aria-pressed="true"]').waitFor();
 });

@@ -14,13 +14,15 @@ export async function OpenPage(t, url, { width = 1280, height = 800, colours = '
   const page = await browser.newPage({ viewport: { width, height }, colorScheme: colours, reducedMotion: 'reduce' });
   page.setDefaultTimeout(kPatience);
   const complaints = [];
+  const forgiven = [];
   page.on('pageerror', (error) => complaints.push(error.stack));
   page.on('console', (message) => {
     if (message.type() !== 'error' && message.type() !== 'warning') return;
     // A browser itself complains of a server that is away; `lost` says that the test takes it away.
-    if (lost && /WebSocket connection to .* failed/.test(message.text())) return;
+    if (lost && /WebSocket connection to .* failed|ERR_CONNECTION_REFUSED/.test(message.text())) return;
     // Without a graphics card a browser says how it draws.
     if (/GPU stall due to ReadPixels/.test(message.text())) return;
+    if (forgiven.some((each) => each.test(message.text()))) return;
     complaints.push(message.text());
   });
   Cleanup(t, async () => {
@@ -30,14 +32,20 @@ export async function OpenPage(t, url, { width = 1280, height = 800, colours = '
   await page.goto(url);
   await page.locator('#connection-state', { hasText: 'connected' }).waitFor();
   await page.locator('[data-node]').first().waitFor();
-  return new InspectorPage(page);
+  return new InspectorPage(page, forgiven);
 }
 
 /** What a user does with the page, in words. */
 class InspectorPage {
-  constructor(page) {
+  constructor(page, forgiven) {
     this.page = page;
+    this.forgiven = forgiven;
     this.details = page.locator('#details');
+  }
+
+  /** From now on the browser may complain of this: the test means it to. */
+  forgive(pattern) {
+    this.forgiven.push(pattern);
   }
 
   node(path) {

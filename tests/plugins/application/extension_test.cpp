@@ -165,6 +165,11 @@ TEST(Extension, OfThisTreeRefusesWhatItsOptionsCannotBe) {
   };
   EXPECT_THAT(message("viewers", "inspect", "x"), HasSubstr("'x' is not a port"));
   EXPECT_THAT(message("viewers", "inspect-token", "short"), HasSubstr("the token cannot be used"));
+  EXPECT_THAT(message("viewers", "inspect-token", "look:"), HasSubstr("the token cannot be used"));
+  EXPECT_THAT(message("viewers", "inspect-token-file", "/no/file"), HasSubstr("/no/file"));
+  EXPECT_THAT(message("viewers", "inspect-certificate", "/no/file"), HasSubstr("/no/file"));
+  EXPECT_THAT(message("viewers", "inspect-key", "/no/file"), HasSubstr("/no/file"));
+  EXPECT_THAT(message("viewers", "inspect", "0.0.0.0:0"), HasSubstr("nothing is encrypted"));
   EXPECT_THAT(message("recording", "record-ports", "a"), HasSubstr("--record-ports needs"));
   EXPECT_THAT(message("recording", "record-compression", "a"), HasSubstr("--record-compression"));
   EXPECT_THAT(message("recording", "record", "/no/folder/a.mcap"), HasSubstr("its folder"));

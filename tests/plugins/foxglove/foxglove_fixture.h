@@ -80,6 +80,7 @@ class FakeWebClient final : public WebClient {
     return [this] { wakes.release(); };
   }
   [[nodiscard]] const std::string& protocol() const override { return name; }
+  [[nodiscard]] WebRole role() const override { return its_role; }
 
   std::counting_semaphore<> wakes{0};
   bool is_slow = false;
@@ -88,6 +89,7 @@ class FakeWebClient final : public WebClient {
   std::vector<std::string> binaries;
   std::string closed;
   std::string name = "foxglove.websocket.v1";
+  WebRole its_role = WebRole::kChange;
 };
 
 enum class Side { kLeft, kRight };

@@ -100,7 +100,7 @@ TEST_F(FoxgloveParametersTest, AreSetEachForItself) {
 TEST_F(FoxgloveParametersTest, AreNotSetByThoseWhoMayOnlyLook) {
   Begin(/*is_read_only=*/true);
   Say({{"op", "setParameters"}, {"parameters", Setting("/robot/gain", 1)}});
-  EXPECT_THAT(Complaint(), HasSubstr("change nothing"));
+  EXPECT_THAT(Complaint(), HasSubstr("setParameters: viewers may only look"));
   Turn();
   EXPECT_EQ(robot.gain.Get(), 0.5);
   EXPECT_EQ(Get({"/robot/gain"}).at(0)["value"], 0.5) << "but they may look";

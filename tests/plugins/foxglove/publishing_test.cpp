@@ -185,7 +185,7 @@ TEST_F(FoxglovePublishingTest, WaitsForTheStructureWithoutStandingStill) {
 TEST_F(FoxglovePublishingTest, IsNotForThoseWhoMayOnlyLook) {
   Begin(/*is_read_only=*/true);
   Advertise(1, "/robot/goal");
-  EXPECT_THAT(Complaint(), HasSubstr("publish nothing"));
+  EXPECT_THAT(Complaint(), HasSubstr("advertise: viewers may only look"));
   Turn();
   EXPECT_THAT(Brought(), IsEmpty());
 }

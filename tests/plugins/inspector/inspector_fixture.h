@@ -173,8 +173,10 @@ inline Json ChangeMessage(const std::string& text) {
 /// A viewer as the protocol has it.
 class Viewer {
  public:
-  explicit Viewer(std::uint16_t port) : client_(port) {
-    EXPECT_THAT(client_.Upgrade("runnel.inspector.v1"), HasSubstr("101 "));
+  /// `token`: as a protocol of its own; "": none.
+  explicit Viewer(std::uint16_t port, const std::string& token = {}) : client_(port) {
+    EXPECT_THAT(client_.Upgrade("runnel.inspector.v1" + (token.empty() ? "" : ", " + token)),
+                HasSubstr("101 "));
   }
   void Send(const Json& message) const { client_.SendText(message.dump()); }
   RawClient& raw() { return client_; }

@@ -24,13 +24,15 @@ class InspectorTag : public ::testing::Test {
 
 TEST_F(InspectorTag, SaysWhereTheInspectorIs) {
   FrameworkElement* const application =
-      Load(R"(<inspector port="9000" address="0.0.0.0" read_only="true" token="open-sesame"/>)");
+      Load(R"(<inspector port="9000" address="0.0.0.0" read_only="true" token="look:open-sesame" token_file="/t" all_users="true"/>)");
   ASSERT_NE(application, nullptr);
   const auto place = InspectorPlaceOf(*application);
   ASSERT_TRUE(place);
   EXPECT_EQ(place->port, 9000);
   EXPECT_EQ(place->address, "0.0.0.0");
-  EXPECT_EQ(place->token, "open-sesame");
+  EXPECT_EQ(place->token, "look:open-sesame");
+  EXPECT_EQ(place->token_file, "/t");
+  EXPECT_TRUE(place->is_for_all_users);
   EXPECT_TRUE(place->is_read_only);
 }
 

@@ -44,7 +44,8 @@ struct Met {
   std::vector<std::function<void()>> wakers;  // guarded by mutex
 };
 
-/// Says what it is told. Some words have a meaning: "throw", "close", "much", "soon".
+/// Says what it is told. Some words have a meaning: "throw", "close", "role", "much",
+/// "soon".
 class Echo final : public WebSession {
  public:
   Echo(WebClient& client, Met& met) : client_(client), met_(met) { ++met_.begun; }
@@ -55,6 +56,10 @@ class Echo final : public WebSession {
     if (message == "throw a number") throw 1;
     if (message == "keep the waker") met_.Keep(client_.Waker());
     if (message == "throw") throw std::runtime_error("the session has thrown");
+    if (message == "role") {
+      client_.SendText(std::string(WebRoleName(client_.role())));
+      return;
+    }
     if (message == "close") return client_.Close("as you wish");
     if (message == "much") {
       for (int i = 0; i < 100; ++i) {

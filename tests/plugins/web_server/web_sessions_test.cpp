@@ -204,10 +204,40 @@ TEST_F(WebSessions, AreNotBegunByPagesOfOthers) {
 }
 
 TEST_F(WebSessions, NeedTheToken) {
-  Start({.token = "open-sesame"});
+  Start({.tokens = {{WebRole::kChange, "open-sesame"}}});
   EXPECT_THAT(Client().Upgrade("echo.v1"), StartsWith("HTTP/1.1 401 "));
   EXPECT_THAT(Client().Upgrade("echo.v1", "", "/?token=wrong-sesame"), StartsWith("HTTP/1.1 401 "));
   EXPECT_THAT(Client().Upgrade("echo.v1", "", "/?token=open-sesame"), StartsWith("HTTP/1.1 101 "));
+}
+
+TEST_F(WebSessions, TakeTheTokenAmongTheProtocolsAndDoNotRepeatIt) {
+  Start({.tokens = {{WebRole::kLook, "just-look-7"}}});
+  RawClient client = Client();
+  const std::string answer = client.Upgrade("echo.v1, runnel.token.just-look-7");
+  EXPECT_THAT(answer, StartsWith("HTTP/1.1 101 "));
+  EXPECT_THAT(answer, Not(HasSubstr("just-look-7")));
+  client.SendText("role");
+  EXPECT_EQ(client.Receive().value().payload, "look");
+}
+
+TEST_F(WebSessions, ThatMayDoMoreFindAPlace) {
+  Start({.tokens = {{WebRole::kChange, "open-sesame"}, {WebRole::kLook, "just-look-7"}},
+         .limits = {.clients = 2}});
+  std::vector<RawClient> lookers;
+  for (int i = 0; i < 2; ++i) {
+    lookers.push_back(Client());
+    EXPECT_THAT(lookers.back().Upgrade("echo.v1", "", "/?token=just-look-7"), HasSubstr("101 "));
+  }
+  EXPECT_THAT(Client().Upgrade("echo.v1", "", "/?token=just-look-7"), StartsWith("HTTP/1.1 503 "));
+  RawClient owner = Client();
+  EXPECT_THAT(owner.Upgrade("echo.v1", "", "/?token=open-sesame"), StartsWith("HTTP/1.1 101 "));
+  const auto closing = lookers[0].Receive(8);
+  ASSERT_TRUE(closing);
+  EXPECT_EQ(closing->reason(), "somebody who may do more needs the place");
+  owner.SendText("there");
+  EXPECT_EQ(owner.Receive().value().payload, "there");
+  lookers[1].SendText("the other one stays");
+  EXPECT_TRUE(lookers[1].Receive(1));
 }
 
 TEST_F(WebSessions, AreLimitedInNumber) {

@@ -9,6 +9,7 @@ import { Details } from './panels/details.js';
 import { Dock } from './panels/dock.js';
 import { Splitter } from './panels/splitter.js';
 import { Toasts } from './panels/toast_view.js';
+import { TokenBanner } from './panels/token_banner.js';
 import { LostBanner, Toolbar } from './panels/toolbar.js';
 import { StartKeeping, panels } from './state/choices.js';
 import { Start, isConnected } from './state/store.js';
@@ -22,6 +23,7 @@ function Page() {
         style=${{ '--side': `${side}px`, '--dock': `${dock}px`, '--world': `${world}px` }}>
       <${Toolbar} />
       <${LostBanner} />
+      <${TokenBanner} />
       <main class="main" aria-label="Data flow">
         ${showsWorld && worldLarge ? html`<${WorldView} />` : html`<${GraphView} />`}
         <${Splitter} name="dock" axis="y" sign=${-1} least=${80} most=${700} label="Height of the lower panel" />
@@ -41,6 +43,6 @@ function Page() {
 
 StartKeeping();
 AttachKeys();
-const { protocol, host, pathname, search } = location;
-Start(`${protocol === 'https:' ? 'wss' : 'ws'}://${host}${pathname}${search}`);
+const { protocol, host, pathname } = location;
+Start(`${protocol === 'https:' ? 'wss' : 'ws'}://${host}${pathname}`);
 render(html`<${Page} />`, document.getElementById('page'));

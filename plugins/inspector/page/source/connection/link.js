@@ -1,5 +1,7 @@
 // The WebSocket to the application: made anew whenever it is lost, with requests that are answered.
 
+import { Refusal, TokenProtocols } from './token.js';
+
 const kProtocol = 'runnel.inspector.v1';
 const kFirstPause = 250;   // ms before the next attempt
 const kLongestPause = 2000;
@@ -11,21 +13,31 @@ export class Link {
   #next = 1;
   #onMessage;
   #onState;
+  #timer = null;
 
-  /** `onState` is told 'connecting', 'open' or 'lost', and why. */
-  constructor(url, { onMessage, onState }) {
+  /** `onState` is told 'connecting', 'open', 'lost' or 'refused' (then it is for show() to go on), and why. */
+  constructor(url, token, { onMessage, onState }) {
     this.url = url;
+    this.token = token;
     this.#onMessage = onMessage;
     this.#onState = onState;
   }
 
   open() {
+    clearTimeout(this.#timer);
     this.#onState('connecting', '');
-    const socket = new WebSocket(this.url, [kProtocol]);
+    const socket = new WebSocket(this.url, [kProtocol, ...TokenProtocols(this.token)]);
     this.#socket = socket;
-    socket.onopen = () => { this.#pause = kFirstPause; this.#onState('open', ''); };
+    let wasOpen = false;
+    socket.onopen = () => { wasOpen = true; this.#pause = kFirstPause; this.#onState('open', ''); };
     socket.onmessage = (event) => this.#receive(event.data);
-    socket.onclose = (event) => this.#lost(event.reason);
+    socket.onclose = (event) => this.#lost(event.reason, wasOpen);
+  }
+
+  /** Tries again with another token. */
+  show(token) {
+    this.token = token;
+    this.open();
   }
 
   /** Without waiting for an answer; false if there is no connection. */
@@ -55,11 +67,14 @@ export class Link {
     this.#requests.delete(number);
   }
 
-  #lost(reason) {
+  async #lost(reason, wasOpen) {
     this.#socket = null;
     for (const number of [...this.#requests.keys()]) this.#answer(number, NotConnected());
+    // Browsers do not say why a WebSocket is refused.
+    const refusal = wasOpen ? '' : await Refusal(this.token);
+    if (refusal) return this.#onState('refused', refusal);
     this.#onState('lost', reason);
-    setTimeout(() => this.open(), this.#pause);
+    this.#timer = setTimeout(() => this.open(), this.#pause);
     this.#pause = Math.min(kLongestPause, this.#pause * 2);
   }
 }

@@ -3,7 +3,7 @@
 import { useState } from 'preact/hooks';
 import { html } from 'htm/preact';
 import { ErrorText, PublishByHand, Release } from '../state/actions.js';
-import { canChange } from '../state/store.js';
+import { canDrive } from '../state/store.js';
 
 export function ByHand({ port }) {
   const [text, setText] = useState('');
@@ -25,15 +25,15 @@ export function ByHand({ port }) {
     <div class=${`parameter by-hand ${problem ? 'wrong' : ''}`} data-by-hand=${port.path}>
       <label for=${id} title="What readers find instead of what is published">by hand</label>
       <div class="field">
-        <input id=${id} type="text" spellcheck="false" autocomplete="off" disabled=${!canChange.value}
+        <input id=${id} type="text" spellcheck="false" autocomplete="off" disabled=${!canDrive.value}
           placeholder=${port.data_type} value=${text} aria-invalid=${problem !== ''}
           onInput=${(event) => setText(event.target.value)} onKeyDown=${onKey} />
         ${port.unit && html`<span class="unit">${port.unit}</span>`}
-        <input class="rate" type="text" inputmode="decimal" size="4" disabled=${!canChange.value} placeholder="once"
+        <input class="rate" type="text" inputmode="decimal" size="4" disabled=${!canDrive.value} placeholder="once"
           aria-label="How often a second it is published again; empty: once" title="Hz; empty: once" value=${rate}
           onInput=${(event) => setRate(event.target.value)} onKeyDown=${onKey} />
-        <button disabled=${!canChange.value || text === ''} onClick=${send}>Publish</button>
-        ${port.by_hand && html`<button class="release" disabled=${!canChange.value} title="Readers find again what is published"
+        <button disabled=${!canDrive.value || text === ''} onClick=${send}>Publish</button>
+        ${port.by_hand && html`<button class="release" disabled=${!canDrive.value} title="Readers find again what is published"
             onClick=${() => Release(port.path)}>Release</button>`}
       </div>
       ${problem && html`<p class="problem" role="alert">${problem}</p>`}

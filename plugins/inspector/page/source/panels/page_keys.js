@@ -2,7 +2,7 @@
 
 import { Pause, Redo, Resume, Save, Step, Undo } from '../state/actions.js';
 import { GroupForNew, openDialog } from '../state/choices.js';
-import { canChange, hello, run, structure } from '../state/store.js';
+import { canChange, canDrive, hello, run, structure } from '../state/store.js';
 
 export function AttachKeys() {
   document.addEventListener('keydown', (event) => {
@@ -30,10 +30,10 @@ const kPlain = {
   a: () => { if (canChange.value && structure.root) openDialog.value = { kind: 'create', group: GroupForNew() }; },
   g: () => document.getElementById('graph')?.focus(),
   d: () => document.getElementById('details')?.focus(),
-  p: () => { if (CanPace()) (run.value.paused ? Resume() : Pause()); },
-  '.': () => { if (CanPace()) Step(1); },
+  p: () => { if (HasPace() && canDrive.value) (run.value.paused ? Resume() : Pause()); },
+  '.': () => { if (HasPace() && canChange.value) Step(1); },
 };
 
-function CanPace() {
-  return canChange.value && hello.value?.clock === 'simulated' && !run.value.ended;
+function HasPace() {
+  return hello.value?.clock === 'simulated' && !run.value.ended;
 }

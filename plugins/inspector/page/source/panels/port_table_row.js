@@ -8,7 +8,7 @@ import { FormatRate } from '../model/value_format.js';
 import { ErrorText, PublishByHand, Release } from '../state/actions.js';
 import { Reveal } from '../state/choices.js';
 import { MeasuresOf, Remember, kElements } from '../state/port_measures.js';
-import { canChange, catalogue, structure, watches } from '../state/store.js';
+import { canDrive, catalogue, structure, watches } from '../state/store.js';
 import { Select } from '../graph/graph_keys.js';
 import { Icon } from './icon.js';
 import { memo } from './memo.js';
@@ -30,7 +30,7 @@ export const PortTableRow = memo(({ row, number, top, stood, isFrozen, isSelecte
   }, [path, isFrozen]);
   const { item = null, rate = null, bandwidth = null, age = null } = isFrozen ? stood ?? {} : untracked(() => MeasuresOf(row));
   const known = catalogue.value.type(type);
-  const canSet = canChange.value && known?.kind !== 'opaque';
+  const canSet = canDrive.value && known?.kind !== 'opaque';
   const byHand = structure.get(path)?.by_hand ?? false;
   const edit = () => { if (canSet) { onProblem(''); onEdit(path); } };
   const unit = structure.get(path)?.unit;
@@ -50,7 +50,7 @@ export const PortTableRow = memo(({ row, number, top, stood, isFrozen, isSelecte
       <span role="gridcell" class="bandwidth">${FormatBandwidth(bandwidth)}</span>
       <span role="gridcell" class="age">${FormatAge(age)}</span>
       <span role="gridcell" class="tools">
-        ${byHand && html`<button class="release" disabled=${!canChange.value} onClick=${() => Release(path)}
+        ${byHand && html`<button class="release" disabled=${!canDrive.value} onClick=${() => Release(path)}
             title="Readers find again what is published" aria-label=${`Release ${path}`}>Release</button>`}
         <button class="edit" disabled=${!canSet} onClick=${edit} title="Set by hand (F2)"
             aria-label=${`Set ${path} by hand`}><${Icon} name="edit" size=${13} /></button></span>

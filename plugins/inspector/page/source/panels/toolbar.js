@@ -5,12 +5,17 @@ import { html } from 'htm/preact';
 import { FormatTime } from '../model/value_format.js';
 import { Pause, Redo, Resume, Save, SetSpeed, Step, Undo } from '../state/actions.js';
 import { GroupForNew, SetPanels, openDialog, panels, theme } from '../state/choices.js';
-import { canChange, connection, hello, isConnected, isReadOnly, run } from '../state/store.js';
+import { canChange, canDrive, connection, hello, isConnected, role, run } from '../state/store.js';
 import { hasWorld } from '../world/world_view.js';
 import { Icon } from './icon.js';
 import { SearchBox } from './search_box.js';
 
 const kSpeeds = [0.1, 0.25, 0.5, 1, 2, 5, 10, 20, 50, 100, 0];
+
+const kRoleTitles = {
+  look: 'This page may look, and change nothing',
+  drive: 'This page may set values by hand, pause and go on, and change nothing else',
+};
 
 export function Toolbar() {
   return html`
@@ -32,8 +37,8 @@ function ConnectionState() {
     : state === 'connecting' && !hello.value ? ['wait', 'connecting'] : ['bad', 'disconnected'];
   return html`<span class=${`state ${kind}`} role="status" id="connection-state"
       title=${hello.value ? `${hello.value.file}, Runnel ${hello.value.runnel}` : ''}>${text}</span>
-    ${isReadOnly.value && html`<span class="state read-only"
-        title="The application was started so that it can be watched only">read-only</span>`}`;
+    ${hello.value && role.value !== 'change' && html`<span class="state read-only" title=${kRoleTitles[role.value]}>${
+      role.value === 'look' ? 'read-only' : role.value}</span>`}`;
 }
 
 function Pace() {
@@ -46,7 +51,7 @@ function Pace() {
     <div class="cluster" role="group" aria-label="Time">
       <output class="time" aria-label="Time of the application" id="time">${FormatTime(time)}</output>
       ${isSimulated && html`
-        <button class="primary-icon" id="pause" disabled=${locked} aria-pressed=${paused}
+        <button class="primary-icon" id="pause" disabled=${!canDrive.value || ended} aria-pressed=${paused}
           onClick=${() => (paused ? Resume() : Pause())}
           title=${paused ? 'Go on (Space outside the graph)' : 'Pause'} aria-label=${paused ? 'Go on' : 'Pause'}>
           <${Icon} name=${paused ? 'play' : 'pause'} /></button>
@@ -119,7 +124,7 @@ export function LostBanner() {
     const timer = setTimeout(() => setLong(true), 400);
     return () => clearTimeout(timer);
   }, [lost]);
-  if (!lost || !isLong) return null;
+  if (!lost || !isLong || connection.value.state === 'refused') return null;
   const { ended, verdict } = run.value;
   return html`<div class=${`lost ${ended ? 'ended' : ''}`} role="alert" id="lost">
     ${!hello.value ? 'Trying to reach the application …'

@@ -2,6 +2,7 @@
 
 import { batch, computed, signal } from '@preact/signals';
 import { Link } from '../connection/link.js';
+import { Keep, TakeToken } from '../connection/token.js';
 import { Watches } from '../connection/watches.js';
 import { Catalogue } from '../model/catalogue.js';
 import { OriginsOf } from '../model/origin.js';
@@ -19,9 +20,12 @@ export const log = signal([]);
 export const threadStatistics = signal({});
 
 export const isConnected = computed(() => connection.value.state === 'open' && hello.value !== null);
-export const isReadOnly = computed(() => hello.value?.read_only ?? false);
+/** What this page may: look, drive (publish by hand, pause), change. */
+export const role = computed(() => hello.value?.role ?? (hello.value?.read_only ? 'look' : 'change'));
 /** Whether changes may be asked for now. */
-export const canChange = computed(() => isConnected.value && !isReadOnly.value);
+export const canChange = computed(() => isConnected.value && role.value === 'change');
+/** Whether values may be set by hand now, and all of it be stopped. */
+export const canDrive = computed(() => isConnected.value && role.value !== 'look');
 
 const rates = new Map();   // port path -> signal of publications per second
 
@@ -47,9 +51,15 @@ export function Request(message) {
 
 /** Begins to talk with the application that has sent this page. */
 export function Start(url) {
-  link = new Link(url, { onMessage: Receive, onState: OnState });
+  link = new Link(url, TakeToken(location, history, localStorage), { onMessage: Receive, onState: OnState });
   link.open();
   return link;
+}
+
+/** Shows the server another token. */
+export function UseToken(token) {
+  Keep(token, localStorage);
+  link.show(token);
 }
 
 function OnState(state, reason) {
