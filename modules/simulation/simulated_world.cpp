@@ -58,8 +58,13 @@ void SimulatedWorld::Sense() {
   PublishTruth();
 }
 
+// What is disconnected for less than the time-out, as in a swap that takes several steps, is not noticed.
 void SimulatedWorld::Control() {
-  if (const auto wanted = wheels.Read()) physics_->SetWheelSpeeds(*wanted);
+  if (const auto wanted = wheels.Read()) {
+    commanded_ = wanted.timestamp();
+    physics_->SetWheelSpeeds(*wanted);
+  }
+  if (now() - commanded_ > FromSeconds(timeout.Get())) physics_->SetWheelSpeeds({});
 }
 
 void SimulatedWorld::PublishTruth() {

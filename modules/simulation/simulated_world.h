@@ -21,7 +21,8 @@ namespace runnel {
 
 /// A world from a file, with a robot in it: wheel speeds go in, the truth about the robot comes
 /// out. Sense() lets the time since the last cycle pass, with the wheel speeds that Control() took
-/// over in the last cycle.
+/// over in the last cycle. A base whose commands fail to come, because what gives them is silent, gone or not
+/// connected any more, comes to rest.
 ///
 /// Frames:   all in the world's. Determinism: same file, parameters and cycle times, same bits.
 /// Errors:   Prepare() says all that is wrong with the world file, with lines.
@@ -46,6 +47,12 @@ class SimulatedWorld final : public SenseControlModule {
   StaticParameter<FilePath> world{this, "world", {.description = "the world file"}};
   Parameter<double> goal_x{this, "goal_x", kGoalOfFile};
   Parameter<double> goal_y{this, "goal_y", kGoalOfFile};
+  Parameter<double> timeout{this,
+                            "timeout",
+                            {.default_value = 0.5,
+                             .bounds = {0.01, 3600.0},
+                             .unit = "s",
+                             .description = "without newer wheel speeds for so long, the wheels come to rest"}};
   StaticParameter<double> robot_radius{
       this,
       "robot_radius",
@@ -77,6 +84,7 @@ class SimulatedWorld final : public SenseControlModule {
   std::shared_ptr<const World> description_;
   std::unique_ptr<PhysicsWorld> physics_;
   std::optional<Time> last_;
+  Time commanded_{};  // the stamp of the wheel speeds that came last
   Scene scene_;
   WorldMap map_of_world_;
   std::optional<Point2> goal_on_map_;

@@ -29,6 +29,7 @@ TEST(SimulatedWorld, LetsTheRobotDriveAndStopsItAtAWall) {
   test::ModuleRig<SimulatedWorld> rig;
   ASSERT_TRUE(rig.module.world.SetFromText(file.path()));
   ASSERT_TRUE(rig.Prepare());
+  ASSERT_TRUE(rig.module.timeout.Set(60));
   rig.Feed(rig.module.wheels, {6, 6});
   rig.RunCycle();
   EXPECT_EQ(rig.Last(rig.module.pose), Pose2{}) << "no time has passed yet";
@@ -40,6 +41,59 @@ TEST(SimulatedWorld, LetsTheRobotDriveAndStopsItAtAWall) {
   EXPECT_NEAR(rig.Last(rig.module.pose).x, 1.5 - 0.15, 0.01);
   EXPECT_TRUE(rig.Last(rig.module.contact).is_touching);
   EXPECT_EQ(rig.module.scene.publications(), 1u);
+}
+
+// Drives for a second, at the end of which the robot has its speed.
+void DriveFor1s(test::ModuleRig<SimulatedWorld>& rig) {
+  for (int i = 0; i < 20; ++i) {
+    rig.Feed(rig.module.wheels, {2, 2});
+    rig.RunCycle();
+  }
+}
+
+class SimulatedWorldWithoutCommands : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(rig.module.world.SetFromText(file.path()));
+    ASSERT_TRUE(rig.Prepare());
+    DriveFor1s(rig);
+    ASSERT_NEAR(rig.Last(rig.module.twist).forward, 0.1, 1e-6);
+  }
+
+  const TemporaryFile file{".xml", kOneWall};
+  test::ModuleRig<SimulatedWorld> rig;  // a cycle takes 50 ms; wheels have a radius of 50 mm
+};
+
+TEST_F(SimulatedWorldWithoutCommands, ComesToRestWhenTheTimeOutHasPassed) {
+  rig.RunCycles(10);  // 0.5 s after the last command, in the last of them
+  EXPECT_NEAR(rig.Last(rig.module.twist).forward, 0.1, 1e-6);
+  rig.RunCycles(3);
+  EXPECT_NEAR(rig.Last(rig.module.twist).forward, 0.0, 1e-6);
+}
+
+TEST_F(SimulatedWorldWithoutCommands, ComesToRestWhenDisconnected) {
+  rig.module.wheels.DisconnectAll();
+  rig.RunCycles(14);
+  EXPECT_NEAR(rig.Last(rig.module.twist).forward, 0.0, 1e-6);
+}
+
+TEST_F(SimulatedWorldWithoutCommands, DoesNotNoticeASourceThatIsGoneForLessThanTheTimeOut) {
+  Port& feeder = *rig.module.wheels.Sources().at(0);
+  ASSERT_TRUE(Port::Disconnect(feeder, rig.module.wheels));
+  for (int i = 0; i < 8; ++i) {
+    rig.RunCycle();
+    ASSERT_NEAR(rig.Last(rig.module.twist).forward, 0.1, 1e-6) << i;
+  }
+  ASSERT_TRUE(Port::Connect(feeder, rig.module.wheels));
+  DriveFor1s(rig);
+  EXPECT_NEAR(rig.Last(rig.module.twist).forward, 0.1, 1e-6);
+}
+
+TEST_F(SimulatedWorldWithoutCommands, GoesOnWhenCommandsComeAgain) {
+  rig.RunCycles(20);
+  ASSERT_NEAR(rig.Last(rig.module.twist).forward, 0.0, 1e-6);
+  DriveFor1s(rig);
+  EXPECT_NEAR(rig.Last(rig.module.twist).forward, 0.1, 1e-6);
 }
 
 TEST(SimulatedWorld, TakesTheGoalFromParametersIfTheyAreSet) {
