@@ -107,7 +107,7 @@ Candidates Propose(ControlClient& client, const std::string& command, std::size_
 // The words that are no options; what follows an option that has a value is left out.
 Candidates WithoutOptions(const Candidates& words, std::string& application) {
   static const Candidates kWithValue{"--app",       "-n", "--queue",  "--on-full",
-                                     "--probation", "-o", "--output", "--compression", "--rate", "--convert"};
+                                     "--probation", "-o", "--output", "--compression", "--rate", "--deadline", "--convert"};
   Candidates plain;
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (std::ranges::count(kWithValue, words[i]) > 0 && i + 1 < words.size()) {

@@ -67,9 +67,14 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
 
   Entry& publish = add("publish", "sets the value at a port by hand, until it is released");
   word(publish, "port", "input or output")->type_name(kPort);
-  word(publish, "value", "in its text format")->type_name("VALUE");
+  word(publish, "value", "in its text format; none with --stop")->required(false)->type_name("VALUE");
   option(publish, "--rate", "rate", "publishes it again so often, in Hz of the application's time")
       ->type_name("HZ");
+  option(publish, "--deadline", "deadline",
+         "if nothing new has come by then, readers find the safe value, until it is released: 300ms")
+      ->type_name("TIME");
+  flag(publish, "--stop", "stop",
+       "instead of a value: the safe one, and nobody may set another, until it is released");
 
   Entry& release = add("release", "lets readers of a port find again what is published");
   word(release, "port", "one that is set by hand; without, all of them")

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <chrono>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
 #include <variant>
 
+#include "core/base/clock.h"
 #include "core/base/diagnostics.h"
 #include "plugins/structure/change_text.h"
 
@@ -43,11 +46,23 @@ struct LogLevelRequest {
 /// Sets the value at a port by hand: readers find it instead of what is published, until a ReleaseRequest.
 struct PublishRequest {
   static constexpr double kFastestRate = 1000;
+  static constexpr Duration kShortestDeadline = std::chrono::milliseconds(10);
+  static constexpr Duration kLongestDeadline = std::chrono::minutes(1);
+  static constexpr std::size_t kLongestLease = 100;
 
   std::string port;
-  std::string value;  ///< text format
+  std::string value = {};  ///< text format
   /// Publishes it again so often, in seconds of the application's clock; without, once.
   std::optional<double> rate = {};
+  /// By the machine's clock: if nothing new has come by then, readers find the safe value until it is released
+  /// (HandSettings).
+  std::optional<Duration> deadline = {};
+  /// Who drives gives each hold another name: see HandLeases. "": none.
+  std::string lease = {};
+  /// Readers find the safe value until it is released, and nobody may set another one; instead of a value.
+  bool is_stop = false;
+  /// By the machine's clock, from which the deadline counts; CommandService::Begin() says so.
+  std::optional<Time> received = {};
 };
 /// Readers of the port find again what is published.
 struct ReleaseRequest {

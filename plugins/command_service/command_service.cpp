@@ -8,6 +8,7 @@
 #include "core/log/log_levels.h"
 #include "core/plugin/module_type_name.h"
 #include "core/paths/path_search.h"
+#include "core/types/duration_text.h"
 #include "plugins/command_service/caught_error.h"
 #include "plugins/command_service/change_task.h"
 #include "plugins/command_service/save_place.h"
@@ -65,7 +66,7 @@ CommandAnswer Call(const Hook& hook, const std::string& argument, const char* wh
 CommandService::CommandService(ServedApplication application)
     : application_(std::move(application)),
       recorder_(std::make_unique<StructureRecorder>(application_.runtime, application_.log)),
-      hand_settings_(application_.runtime, worker_) {}
+      hand_settings_(application_.runtime, worker_, application_.log) {}
 
 CommandAnswer PendingCommand::Take() {
   if (task_->failure()) return CommandAnswer::Failed(*task_->failure());
@@ -76,6 +77,9 @@ CommandAnswer PendingCommand::Take() {
 std::unique_ptr<PendingCommand> CommandService::Begin(CommandRequest request, TaskGroup& tasks,
                                                       std::function<void()> on_done) {
   auto pending = std::make_unique<PendingCommand>();
+  if (auto* const publish = std::get_if<PublishRequest>(&request)) {
+    if (!publish->received) publish->received = hand_settings_.Now();
+  }
   const std::shared_ptr<CommandAnswer>& answer = pending->answer_;
   TaskStep step = std::visit(
       [&](auto& each) -> TaskStep {
@@ -150,12 +154,24 @@ CommandAnswer CommandService::Do(const LogLevelRequest& request) const {
   return CommandAnswer::Done(whose + ": logs " + LogLevelName(*level) + " and more");
 }
 
+// Who drives says so many times a second, which is told once.
 CommandAnswer CommandService::Do(const PublishRequest& request) {
   const auto set = hand_settings_.Publish(request);
   if (!set) return CommandAnswer::Refused(set.error());
-  application_.log.Add(ApplicationLog::Kind::kChange,
-                       "publish " + *set + " " + internal::AsArgument(request.value));
-  return CommandAnswer::Done(*set + " is set by hand; 'runnel release " + *set + "' ends that");
+  const std::string& port = set->port;
+  if (!set->goes_on) {
+    std::string text = "publish " + port + " " +
+                       (request.is_stop ? "--stop" : internal::AsArgument(request.value));
+    if (request.deadline) text += " --deadline " + DurationText(*request.deadline);
+    application_.log.Add(ApplicationLog::Kind::kChange, std::move(text));
+  }
+  const std::string ends = "'runnel release " + port + "' ends that";
+  if (request.is_stop) return CommandAnswer::Done(port + " is stopped; " + ends);
+  if (request.deadline) {
+    return CommandAnswer::Done(port + " is set by hand for " + DurationText(*request.deadline) +
+                               ", then at rest; " + ends);
+  }
+  return CommandAnswer::Done(port + " is set by hand; " + ends);
 }
 
 CommandAnswer CommandService::Do(const ReleaseRequest& request) {

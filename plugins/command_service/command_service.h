@@ -116,6 +116,8 @@ class CommandService {
   [[nodiscard]] const ServedApplication& application() const noexcept { return application_; }
   /// For what else a transport has to do that may wait.
   [[nodiscard]] CommandWorker& worker() noexcept { return worker_; }
+  /// What clients have set by hand. Any thread.
+  [[nodiscard]] const HandSettings& hand_settings() const noexcept { return hand_settings_; }
 
   /// Carries it out behind what was asked for before. `on_done` is called by the worker when the answer is
   /// there; without it, that of the tasks.

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "core/paths/path_search.h"
+#include "core/types/any_value.h"
+#include "core/types/duration_text.h"
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
 #include "core/types/value_copy.h"
@@ -46,28 +48,48 @@ Result<void> Publish(Port& port, const void* value) {
   });
 }
 
-struct HandSet {
-  std::string path;
-  std::shared_ptr<const void> value;
-};
+// What readers shall find when nobody drives any more.
+Result<std::shared_ptr<const void>> SafeValueOf(const Port& port) {
+  if (const AnyValue& value = port.limits().default_value) {
+    // The limits may be set anew while it is used: the value is shared.
+    const auto kept = std::make_shared<AnyValue>(value);
+    return std::shared_ptr<const void>(kept, kept->get());
+  }
+  const std::shared_ptr<const void> value = port.type().Make();
+  if (!value) return At(port, "only a module can make values of type " + port.type().name());
+  return value;
+}
 
-Result<HandSet> SetPort(Runtime& runtime, const std::string& path, const std::string& text) {
-  const std::lock_guard lock(runtime.structure_mutex());
-  const auto found = PathSearch(runtime).FindPort(path, PathKind::kElement);
-  if (!found) return found.error();
-  const auto value = ValueOf(**found, text);
-  if (!value) return value.error();
-  if (auto published = Publish(**found, value->get()); !published) return published.error();
-  return HandSet{(*found)->path(), *value};
+Result<void> CheckRequest(const PublishRequest& request) {
+  if (request.rate && (*request.rate <= 0 || *request.rate > PublishRequest::kFastestRate)) {
+    return Error{.message = "the rate must be above 0 and at most 1000 Hz"};
+  }
+  if (request.deadline && (*request.deadline < PublishRequest::kShortestDeadline ||
+                           *request.deadline > PublishRequest::kLongestDeadline)) {
+    return Error{.message = "the deadline must be from " +
+                            DurationText(PublishRequest::kShortestDeadline) + " to " +
+                            DurationText(PublishRequest::kLongestDeadline)};
+  }
+  if (request.lease.size() > PublishRequest::kLongestLease) {
+    return Error{.message = "the name of the lease is too long"};
+  }
+  if (request.is_stop && (request.deadline || !request.value.empty())) {
+    return Error{.message = "a stop has no value and no deadline: it lasts until it is released"};
+  }
+  return {};
 }
 
 }  // namespace
 
 Result<std::string> SetPortByHand(Runtime& runtime, const std::string& path,
                                   const std::string& value) {
-  const auto set = SetPort(runtime, path, value);
-  if (!set) return set.error();
-  return set->path;
+  const std::lock_guard lock(runtime.structure_mutex());
+  const auto found = PathSearch(runtime).FindPort(path, PathKind::kElement);
+  if (!found) return found.error();
+  const auto made = ValueOf(**found, value);
+  if (!made) return made.error();
+  if (auto published = Publish(**found, made->get()); !published) return published.error();
+  return (*found)->path();
 }
 
 Result<std::string> ReleasePort(Runtime& runtime, const std::string& path) {
@@ -87,22 +109,69 @@ Result<std::string> ReleasePort(Runtime& runtime, const std::string& path) {
   return released;
 }
 
-Result<std::string> HandSettings::Publish(const PublishRequest& request) {
-  if (request.rate && (*request.rate <= 0 || *request.rate > PublishRequest::kFastestRate)) {
-    return Error{.message = "the rate must be above 0 and at most 1000 Hz"};
+HandSettings::HandSettings(Runtime& runtime, CommandWorker& worker, ApplicationLog& log,
+                           const Clock* watched_clock)
+    : runtime_(runtime),
+      log_(log),
+      clock_(watched_clock != nullptr ? *watched_clock : machine_clock_),
+      watches_(watched_clock == nullptr),
+      tasks_(worker) {}
+
+HandSettings::~HandSettings() {
+  {
+    const std::lock_guard lock(mutex_);
+    ends_ = true;
   }
-  const auto set = SetPort(runtime_, request.port, request.value);
-  if (!set) return set.error();
-  const std::uint64_t number = last_[set->path] = ++count_;
-  if (!request.rate) return set->path;
-  const Duration period = FromSeconds(1 / *request.rate);
-  tasks_.PostSteps([this, set = *set, number, period,
+  has_changed_.notify_all();
+  if (watch_.joinable()) watch_.join();
+}
+
+std::vector<std::pair<std::string, HandState>> HandSettings::All() const {
+  const std::lock_guard lock(mutex_);
+  return leases_.All();
+}
+
+Result<HandSettings::Published> HandSettings::Publish(const PublishRequest& request) {
+  if (auto good = CheckRequest(request); !good) return good.error();
+  const HandLeases::Request wish{request.lease, request.deadline, request.is_stop,
+                                 request.received.value_or(Now())};
+  const std::lock_guard structure(runtime_.structure_mutex());
+  const auto found = PathSearch(runtime_).FindPort(request.port, PathKind::kElement);
+  if (!found) return found.error();
+  Port& port = **found;
+  const auto value = request.is_stop ? SafeValueOf(port) : ValueOf(port, request.value);
+  if (!value) return value.error();
+  // Who asks for a deadline is told at once if nothing could be done when it has passed.
+  if (request.deadline) {
+    if (const auto safe = SafeValueOf(port); !safe) return safe.error();
+  }
+  Published published{port.path()};
+  const std::lock_guard lock(mutex_);
+  if (!port.is_set_by_hand()) leases_.Forget(published.port);  // released by others, or another port
+  if (auto allowed = leases_.Check(published.port, wish, Now()); !allowed) return allowed.error();
+  if (auto done = runnel::Publish(port, value->get()); !done) return done.error();
+  published.goes_on = leases_.Note(published.port, wish);
+  const std::uint64_t number = last_[published.port] = ++count_;
+  if (request.rate) PublishAgainAndAgain({published.port, *value}, number, *request.rate);
+  if (request.deadline && watches_ && !watch_.joinable()) {
+    watch_ = std::thread([this] { Watch(); });
+  }
+  if (request.deadline) has_changed_.notify_all();
+  return published;
+}
+
+void HandSettings::PublishAgainAndAgain(HandSet set, std::uint64_t number, double rate) {
+  const Duration period = FromSeconds(1 / rate);
+  tasks_.PostSteps([this, set = std::move(set), number, period,
                     due = runtime_.clock().Now() + period]() mutable -> std::optional<Duration> {
-    const auto last = last_.find(set.path);
-    if (last == last_.end() || last->second != number) return {};
     const Time now = runtime_.clock().Now();
-    if (now >= due) {
-      const std::lock_guard lock(runtime_.structure_mutex());
+    if (now < due) {
+      const std::lock_guard lock(mutex_);
+      if (!IsLast(set.path, number)) return {};
+    } else {
+      const std::lock_guard structure(runtime_.structure_mutex());
+      const std::lock_guard lock(mutex_);
+      if (!IsLast(set.path, number)) return {};
       const auto found = PathSearch(runtime_).FindPort(set.path, PathKind::kElement);
       if (!found || !(*found)->is_set_by_hand()) return {};  // released, or gone
       if (!runnel::Publish(**found, set.value.get())) return {};
@@ -110,18 +179,66 @@ Result<std::string> HandSettings::Publish(const PublishRequest& request) {
     }
     return std::clamp(due - now, kShortestLook, kLongestLook);
   });
-  return set->path;
+}
+
+bool HandSettings::IsLast(const std::string& port, std::uint64_t number) const {
+  const auto last = last_.find(port);
+  return last != last_.end() && last->second == number;
 }
 
 Result<std::string> HandSettings::Release(const ReleaseRequest& request) {
+  const std::lock_guard structure(runtime_.structure_mutex());
   auto released = ReleasePort(runtime_, request.port);
   if (!released) return released;
+  const std::lock_guard lock(mutex_);
   if (request.port.empty()) {
     last_.clear();
+    leases_.ForgetAll();
   } else {
     last_.erase(*released);
+    leases_.Forget(*released);
   }
   return released;
+}
+
+void HandSettings::Watch() {
+  std::unique_lock lock(mutex_);
+  while (!ends_) {
+    const auto next = leases_.next();
+    if (!next) {
+      has_changed_.wait(lock);
+    } else if (const Duration left = *next - Now(); left > Duration::zero()) {
+      has_changed_.wait_for(lock, left);
+    } else {
+      lock.unlock();
+      LookAtDeadlines();
+      lock.lock();
+    }
+  }
+}
+
+// The structure lock first: what is published by hand is so under it, and a value that has just come in time counts.
+void HandSettings::LookAtDeadlines() {
+  const std::lock_guard structure(runtime_.structure_mutex());
+  const std::lock_guard lock(mutex_);
+  for (const auto& [path, deadline] : leases_.Expire(Now())) {
+    last_.erase(path);
+    const auto found = PathSearch(runtime_).FindPort(path, PathKind::kElement);
+    if (!found || !(*found)->is_set_by_hand()) {
+      leases_.Forget(path);
+      continue;
+    }
+    std::string text = path + ": nobody has been heard of for " + DurationText(deadline) + "; ";
+    const auto safe = SafeValueOf(**found);
+    if (safe && runnel::Publish(**found, safe->get())) {
+      text += "it is at rest until it is released";
+    } else {  // what is published must do
+      (*found)->Release();
+      leases_.Forget(path);
+      text += "it has no safe value, and is released";
+    }
+    log_.Add(ApplicationLog::Kind::kWarning, std::move(text));
+  }
 }
 
 }  // namespace runnel

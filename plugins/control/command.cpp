@@ -44,7 +44,7 @@ const std::vector<CommandKind>& Kinds() {
       {"latency", 0, 3, {}, MakeLatencyCommand, Needs::kScheduler},
       {"deadline", 0, 2, {}, MakeDeadlineCommand, Needs::kScheduler},
       {"reload", 1, 1, {}, MakeServiceCommand},
-      {"publish", 2, 2, {"rate"}, MakeServiceCommand},
+      {"publish", 1, 2, {"rate", "deadline", "stop"}, MakeServiceCommand},
       {"release", 0, 1, {}, MakeServiceCommand},
       {"record", 0, kMostPatterns, {"file", "count", "compression"}, MakeRecordCommand},
   };

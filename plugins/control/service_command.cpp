@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/base/number_text.h"
+#include "core/types/duration_text.h"
 #include "plugins/control/command.h"
 #include "plugins/structure/change_text.h"
 
@@ -49,7 +50,14 @@ CommandRequest RequestOf(const Request& request, PlacedChanges placed) {
     // What is no number is out of the bounds.
     const auto rate = request.Has("rate") ? std::optional(NumberIn<double>(request.Option("rate")).value_or(0))
                                           : std::nullopt;
-    return PublishRequest{argument, request.arguments[1], rate};
+    PublishRequest publish{argument, request.arguments.size() > 1 ? request.arguments[1] : "", rate};
+    publish.is_stop = request.Has("stop");
+    // So is what is no duration.
+    if (request.Has("deadline")) {
+      const auto deadline = ParseDuration(request.Option("deadline"));
+      publish.deadline = deadline ? *deadline : Duration::zero();
+    }
+    return publish;
   }
   return ChangeRequest{std::move(placed)};
 }
@@ -68,6 +76,9 @@ CommandResult MakeServiceCommand(const Request& request, const CommandContext& c
         return ControlCode::kBadInput;
       });
     }
+  }
+  if (request.command == "publish" && request.arguments.size() < 2 && !request.Has("stop")) {
+    return Error{.message = "'publish' wants a value", .hint = "or --stop"};
   }
   const std::shared_ptr<PendingCommand> pending =
       context.service.Begin(RequestOf(request, std::move(placed)), context.tasks);
