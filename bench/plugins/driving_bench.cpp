@@ -50,18 +50,18 @@ void Drive(CommandService& service, TaskGroup& tasks, const std::string& lease) 
   if (const CommandAnswer answer = pending->Take(); !answer) Fail(answer.diagnostics.ToString());
 }
 
-void Measure(const char* name, CommandService& service, const Base& base) {
+void Measure(const std::string& name, CommandService& service, const Base& base) {
   TaskGroup tasks(service.worker());
   std::vector<double> late;
   for (int round = 0; round < kRounds; ++round) {
     const auto last_heard = Clock::now();
-    Drive(service, tasks, std::to_string(round));
+    Drive(service, tasks, name + std::to_string(round));
     while (base.speed.Get() != 0) std::this_thread::sleep_for(100us);
     late.push_back(Milliseconds(Clock::now() - last_heard).count());
     if (!service.Begin(ReleaseRequest{}, tasks)) Fail("cannot release");
   }
   std::ranges::sort(late);
-  std::printf("%-24s %8.1f %8.1f %8.1f\n", name, late.front(), late[late.size() / 2], late.back());
+  std::printf("%-24s %8.1f %8.1f %8.1f\n", name.c_str(), late.front(), late[late.size() / 2], late.back());
 }
 
 int Main() {

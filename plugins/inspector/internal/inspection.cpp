@@ -32,6 +32,7 @@ Inspection::Inspection(CommandService& service, Scheduler& scheduler, InspectorO
       run_(RunName()),
       start_(application_.runtime.clock().Now()),
       mirror_(application_.runtime, application_.modules, scheduler, application_.log),
+      panel_(options_.file),
       tasks_(service.worker()) {}
 
 std::shared_ptr<const Catalogue> Inspection::catalogue() const {

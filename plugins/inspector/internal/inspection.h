@@ -9,6 +9,7 @@
 #include "plugins/command_service/command_service.h"
 #include "plugins/inspector/inspector.h"
 #include "plugins/inspector/internal/catalogue.h"
+#include "plugins/inspector/panel_file.h"
 #include "plugins/inspector/structure_mirror.h"
 
 namespace runnel::internal {
@@ -32,6 +33,7 @@ class Inspection {
   [[nodiscard]] Time start() const noexcept { return start_; }
   [[nodiscard]] Duration running_for() const { return application_.runtime.clock().Now() - start_; }
   [[nodiscard]] StructureMirror& mirror() noexcept { return mirror_; }
+  [[nodiscard]] PanelFile& panel() noexcept { return panel_; }
   [[nodiscard]] TaskGroup& tasks() noexcept { return tasks_; }
   /// nullptr until it has been made. Any thread.
   [[nodiscard]] std::shared_ptr<const Catalogue> catalogue() const;
@@ -55,6 +57,7 @@ class Inspection {
   const std::string run_;
   const Time start_;
   StructureMirror mirror_;
+  PanelFile panel_;
   SteadyTime look_at_{};
   SteadyTime look_at_registry_{};
   std::uint64_t registry_ = 0;  // the fingerprint that the catalogue is of

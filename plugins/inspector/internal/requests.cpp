@@ -82,7 +82,12 @@ CommandOrErrors CommandOf(const Inspection& inspection, ViewerMessage& message) 
   if (message.op == "log_level") return CommandRequest(LogLevelRequest{message.path, message.level});
   if (message.op == "release") return CommandRequest(ReleaseRequest{message.path});
   if (message.op == "publish") {
-    return CommandRequest(PublishRequest{message.path, message.value, message.rate});
+    PublishRequest publish{message.path, message.value, message.rate};
+    // Of what no duration can hold the service says so.
+    if (message.deadline) publish.deadline = FromSeconds(std::min(*message.deadline, 1e6));
+    publish.lease = message.lease;
+    publish.is_stop = message.is_stop;
+    return CommandRequest(std::move(publish));
   }
   return CommandRequest(SaveRequest{
       .file = message.file,
@@ -103,6 +108,29 @@ std::string FindCompatible(Inspection& inspection, const ViewerMessage& message)
     AddHead(message.request, true, json);
     json.AddJson("types", *types);
   });
+}
+
+std::string ReadPanel(Inspection& inspection, const ViewerMessage& message) {
+  const auto text = inspection.panel().Read();
+  if (!text) return Refusal(message.request, {{text.error()}});
+  return JsonObjectText([&](JsonObject& json) {
+    AddHead(message.request, true, json);
+    json.Add("text", *text).AddTextOrNull("file", inspection.panel().file().string());
+  });
+}
+
+std::string SavePanel(Inspection& inspection, const ViewerMessage& message) {
+  const auto done = inspection.panel().Save(message.value);
+  if (!done) return Refusal(message.request, {{done.error()}});
+  inspection.application().log.Add(ApplicationLog::Kind::kChange, *done);
+  return Reply(message.request, *done);
+}
+
+// What the worker does for this viewer alone, because it may wait.
+std::string AnswerOf(Inspection& inspection, const ViewerMessage& message) {
+  if (message.op == "panel") return ReadPanel(inspection, message);
+  if (message.op == "save_panel") return SavePanel(inspection, message);
+  return FindCompatible(inspection, message);
 }
 
 std::string SetPace(Inspection& inspection, const ViewerMessage& message) {
@@ -147,6 +175,7 @@ std::span<const Operation> AllOperations() {
       Operation("unwatch", kTold, kLook),
       Operation("watch_rates", kTold, kLook),
       Operation("compatible", kRequest, kLook),
+      Operation("panel", kRequest, kLook),
       Operation("publish", kRequest, kDrive),
       Operation("release", kRequest, kDrive),
       // Who drives may stop all of it and let it go on, but not leave out one module, which may be what
@@ -157,6 +186,7 @@ std::span<const Operation> AllOperations() {
       Operation("undo", kRequest, kChange),
       Operation("redo", kRequest, kChange),
       Operation("save", kRequest, kChange),
+      Operation("save_panel", kRequest, kChange),
       Operation("step", kRequest, kChange),
       Operation("speed", kRequest, kChange),
       Operation("reload", kRequest, kChange),
@@ -186,12 +216,11 @@ ViewerRequest BeginRequest(Inspection& inspection, ViewerMessage message,
   if (message.path.empty() && IsOneOf(message.op, {"pause", "resume", "step", "speed"})) {
     return {nullptr, [reply = SetPace(inspection, message)] { return reply; }};
   }
-  if (message.op == "compatible") {
-    // Waits for the structure.
+  if (IsOneOf(message.op, {"compatible", "panel", "save_panel"})) {
     const auto reply = std::make_shared<std::string>();
     auto task = inspection.tasks().Post(
         [&inspection, reply, message = std::move(message)] {
-          *reply = FindCompatible(inspection, message);
+          *reply = AnswerOf(inspection, message);
         },
         std::move(on_done));
     return {task, [request, reply, task = task.get()] {

@@ -40,6 +40,12 @@ Result<ViewerMessage> ParseViewerMessage(std::string_view text) {
   if (const JsonPart* const on = members.Find("on")) message.is_on = on->boolean().value_or(true);
   message.value = members.Text("value").value_or("");
   message.rate = members.Number("rate");
+  message.deadline = members.Number("deadline");
+  message.lease = members.Text("lease").value_or("");
+  if (const JsonPart* const stop = members.Find("stop"); stop != nullptr && !stop->is_null()) {
+    if (!stop->boolean()) members.Complain("\"stop\" is neither true nor false");
+    message.is_stop = stop->boolean().value_or(false);
+  }
   message.speed = members.Number("speed");
   message.request = members.Count("request", kLargestWhole);
   message.elements = members.Count("elements", kLargestWhole).value_or(message.elements);

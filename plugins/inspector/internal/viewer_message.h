@@ -33,6 +33,9 @@ struct ViewerMessage {
   std::string level;
   std::string value;
   std::optional<double> rate;
+  std::optional<double> deadline;  ///< s
+  std::string lease;
+  bool is_stop = false;
   std::optional<double> speed;
   std::size_t elements = 12;
   std::uint64_t cycles = 1;

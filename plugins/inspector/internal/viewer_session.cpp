@@ -123,6 +123,10 @@ void ViewerSession::SendState(SteadyTime now) {
         levels.Add(path.empty() ? "/" : path, LogLevelName(level));
       }
     }
+    AppendList(inspection_.service().hand_settings().All(), json.Key("hands"),
+               [](const std::pair<std::string, HandState>& each, std::string& to) {
+                 JsonObject(to).Add("path", each.first).Add("state", HandStateName(each.second));
+               });
     json.Add("ended", verdict.has_value());
     json.AddTextOrNull("verdict", verdict.value_or(""));
   });

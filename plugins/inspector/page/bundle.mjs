@@ -12,11 +12,13 @@ const { default: esbuild } = await import(pathToFileURL(join(packages, 'esbuild/
 await mkdir(folder, { recursive: true });
 // Packages lie in the build tree, not beside the sources.
 const options = { outdir: folder, bundle: true, minify: true, nodePaths: [packages], logLevel: 'warning', logLimit: 5 };
-await esbuild.build({ ...options, entryPoints: { page: join(here, 'source/main.js') }, format: 'esm', target: ['es2022'] });
-// Apart: the page fetches it when somebody wants to look in three dimensions.
-await esbuild.build({ ...options, entryPoints: { world_3d: join(here, 'source/world_3d/main.js') }, format: 'esm', target: ['es2022'] });
-await esbuild.build({ ...options, entryPoints: { page: join(here, 'source/style.css') } });
+const panel = join(here, '../panel'); // the operator's, which shares this page's sources
+// world_3d apart: the page fetches it when somebody wants to look in three dimensions.
+await esbuild.build({ ...options, format: 'esm', target: ['es2022'], entryPoints: { page: join(here, 'source/main.js'),
+  panel: join(panel, 'source/main.js'), world_3d: join(here, 'source/world_3d/main.js') } });
+await esbuild.build({ ...options, entryPoints: { page: join(here, 'source/style.css'), panel: join(panel, 'source/style.css') } });
 for (const file of ['index.html', 'icon.svg']) await copyFile(join(here, file), join(folder, file));
+await copyFile(join(panel, 'index.html'), join(folder, 'panel.html'));
 
 // What the licences of the packages ask for: their notices go with the copy.
 const licences = [];

@@ -9,9 +9,9 @@ import { Cleanup } from './cleanup.mjs';
 const kPatience = 20000; // ms that a condition may take to come true; nothing waits longer than it has to
 
 /** Opens a page, which is closed after the test. */
-export async function OpenPage(t, url, { width = 1280, height = 800, colours = 'light', lost = false } = {}) {
+export async function OpenPage(t, url, { width = 1280, height = 800, colours = 'light', lost = false, touch = false, shows = '[data-node]' } = {}) {
   const browser = await chromium.launch({ executablePath: process.env.RUNNEL_BROWSER, args: ['--no-sandbox', '--enable-unsafe-swiftshader'] });
-  const page = await browser.newPage({ viewport: { width, height }, colorScheme: colours, reducedMotion: 'reduce' });
+  const page = await browser.newPage({ viewport: { width, height }, colorScheme: colours, reducedMotion: 'reduce', hasTouch: touch });
   page.setDefaultTimeout(kPatience);
   const complaints = [];
   const forgiven = [];
@@ -31,7 +31,7 @@ export async function OpenPage(t, url, { width = 1280, height = 800, colours = '
   });
   await page.goto(url);
   await page.locator('#connection-state', { hasText: 'connected' }).waitFor();
-  await page.locator('[data-node]').first().waitFor();
+  await page.locator(shows).first().waitFor();
   return new InspectorPage(page, forgiven);
 }
 

@@ -71,20 +71,6 @@ TEST_F(ControlTest, ShowsValuesOfInputsAndShortensLongOnes) {
   EXPECT_GT(Ask("echo /image/image count=1 full=yes").output.size(), 300'000U);
 }
 
-TEST_F(ControlTest, SetsAPortByHandAndReleasesIt) {
-  ASSERT_EQ(Change("connect /a/out /b/in").code, 0);
-  const Told set = Ask("publish /b/in -5");
-  EXPECT_EQ(set.code, 0) << set.errors;
-  EXPECT_THAT(set.output, HasSubstr("'runnel release /app/b/input/in' ends that"));
-  EXPECT_THAT(Ask("echo /b/in count=1").output, HasSubstr("  -5\n"));
-  EXPECT_THAT(Ask("ls /b").output, HasSubstr("set by hand = -5"));
-  EXPECT_THAT(Ask("log").output, HasSubstr("publish /app/b/input/in -5"));
-  EXPECT_EQ(Ask("release /b/in").code, 0);
-  EXPECT_THAT(Ask("ls /b").output, ::testing::Not(HasSubstr("by hand")));
-  EXPECT_THAT(Ask("release /b/in").errors, HasSubstr("is not set by hand"));
-  EXPECT_THAT(Ask("release").errors, HasSubstr("no port is set by hand"));
-}
-
 TEST_F(ControlTest, TellsOfConnectionsThatWaitAndOfConversions) {
   EXPECT_EQ(Change("connect /driver/out /b/in when=present").code, 0);
   EXPECT_THAT(Ask("ls").output, HasSubstr("connection  waits: "));
@@ -93,23 +79,6 @@ TEST_F(ControlTest, TellsOfConnectionsThatWaitAndOfConversions) {
   EXPECT_THAT(Ask("ls").output, ::testing::Not(HasSubstr("waits")));
   ASSERT_EQ(Change("create /image test/image").code, 0);
   EXPECT_THAT(Change("connect /image/image /b/in").errors, HasSubstr("what would fit: from="));
-}
-
-TEST_F(ControlTest, PublishesByHandAgainAndAgain) {
-  ASSERT_EQ(Ask("publish /a/out 9 rate=500").code, 0);
-  const Told told = Ask("echo /a/out count=3");
-  EXPECT_EQ(std::count(told.output.begin(), told.output.end(), '\n'), 3);
-  EXPECT_THAT(told.output, HasSubstr("  9"));
-  EXPECT_THAT(Ask("ls /a").output, HasSubstr("set by hand = 9"));
-  EXPECT_THAT(Ask("release").output, HasSubstr("released /app/a/output/out"));
-}
-
-TEST_F(ControlTest, RefusesWhatCannotBeSetByHand) {
-  EXPECT_THAT(Ask("publish /b/in many").errors, HasSubstr("many"));
-  EXPECT_THAT(Ask("publish /b/inn 5").errors, HasSubstr("did you mean 'in'?"));
-  EXPECT_THAT(Ask("publish /b/in 5 rate=often").errors, HasSubstr("rate"));
-  EXPECT_THAT(Ask("publish /b/in").errors, HasSubstr("wants a value"));
-  EXPECT_THAT(Ask("publish /b 5").errors, HasSubstr("is not a port"));
 }
 
 TEST_F(ControlTest, EndsShowingWhenThePortIsDeleted) {

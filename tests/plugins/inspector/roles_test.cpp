@@ -53,6 +53,8 @@ const std::map<std::string, std::pair<WebRole, WebRole>, std::less<>> kNeeded{
     {"unwatch", {WebRole::kLook, WebRole::kLook}},
     {"watch_rates", {WebRole::kLook, WebRole::kLook}},
     {"compatible", {WebRole::kLook, WebRole::kLook}},
+    {"panel", {WebRole::kLook, WebRole::kLook}},
+    {"save_panel", {WebRole::kChange, WebRole::kChange}},
     {"publish", {WebRole::kDrive, WebRole::kDrive}},
     {"release", {WebRole::kDrive, WebRole::kDrive}},
     {"pause", {WebRole::kDrive, WebRole::kChange}},

@@ -25,6 +25,7 @@ const kIcons = {
   swap: 'M4 8h14l-4-4M20 16H6l4 4',
   trash: 'M5 7h14M10 7V4h4v3M7 7l1 13h8l1-13',
   plug: 'M4 12h6M20 12h-6M10 8v8a2 2 0 0 0 2-2v-4a2 2 0 0 0-2-2zM14 9v6',
+  drive: 'M12 10V17M12 4a3 3 0 1 0 0 6 3 3 0 0 0 0-6zM5 20a7 3.4 0 0 1 14 0z',
   reset: 'M5 4v5h5M5.5 9a8 8 0 1 1-1 6',
   edit: 'M4 20l1-5L16 4l4 4L9 19zM14 6l4 4',
   cube: 'M12 3l8 4.5v9L12 21l-8-4.5v-9zM4 7.5l8 4.5 8-4.5M12 12v9',

@@ -108,6 +108,8 @@ function Looks() {
       <button disabled=${!hasWorld.value} onClick=${() => SetPanels({ worldShown: !panels.value.worldShown, worldLarge: false })} id="show-world"
         aria-pressed=${panels.value.worldShown} title="World view" aria-label="World view"><${Icon}
         name="world" /></button>
+      <a class="button-like" id="panel-link" href=${`/panel${location.search}`} title="The operator's panel: drive by hand, stop"
+        aria-label="The operator's panel"><${Icon} name="drive" /></a>
       <button id="theme" onClick=${() => { theme.value = next; }} title=${`Colours: ${theme.value}; next: ${next}`}
         aria-label=${`Colours: ${theme.value}`}><${Icon} name=${theme.value} /></button>
       <button id="help" onClick=${() => { openDialog.value = { kind: 'help' }; }} title="Keys (?)"

@@ -1,0 +1,86 @@
+// Who of this page drives what, how it stands with the ports, and the stop.
+
+import { computed, effect, signal } from '@preact/signals';
+import { ErrorText, Release } from '../../../page/source/state/actions.js';
+import { Request, canDrive, isConnected, run } from '../../../page/source/state/store.js';
+import { Hold } from './hold.js';
+
+const holds = new Map(); // port -> {widget, hold, rest}
+export const held = signal({});     // port -> id of the widget that holds it
+export const problems = signal({}); // id of a widget -> why its hold has ended by itself
+
+/** How it stands with ports that are set by hand: path -> 'set', 'driven', 'lost', 'stopped'. */
+export const hands = computed(() => Object.fromEntries((run.value.hands ?? []).map(({ path, state }) => [path, state])));
+
+/** Takes hold, or says what is wanted now. False: another widget has the port, or it cannot be had. */
+export function Drive(port, widget, text, rest) {
+  const known = holds.get(port);
+  if (known) {
+    if (known.widget !== widget) return false;
+    known.hold.set(text);
+    return true;
+  }
+  if (!canDrive.value || !port) return false;
+  Note(problems, widget, undefined);
+  const onEnd = (errors) => {
+    Forget(port);
+    Note(problems, widget, errors.map(ErrorText).join('\n') || 'it was refused');
+  };
+  holds.set(port, { widget, rest, hold: new Hold(port, text, { request: Request, onEnd }) });
+  Note(held, port, widget);
+  return true;
+}
+
+export function LetGo(port, widget) {
+  const known = holds.get(port);
+  if (known?.widget !== widget) return;
+  known.hold.end(known.rest);
+  Forget(port);
+}
+
+export function LetGoOfAll() {
+  for (const [port, { widget }] of [...holds]) LetGo(port, widget);
+}
+
+function Forget(port) {
+  holds.delete(port);
+  Note(held, port, undefined);
+}
+
+function Note(of, name, value) {
+  const { [name]: _, ...others } = of.value;
+  of.value = value === undefined ? others : { ...others, [name]: value };
+}
+
+/** Ports that are to be stopped as soon as there is a connection. */
+export const stopsWaiting = signal([]);
+
+export function Stop(ports) {
+  LetGoOfAll();
+  stopsWaiting.value = [...new Set([...stopsWaiting.value, ...ports])];
+  SendStops();
+}
+
+async function SendStops() {
+  if (!isConnected.value) return;
+  for (const path of stopsWaiting.value) {
+    const reply = await Request({ op: 'publish', path, stop: true });
+    // What the application refuses it refuses again; what the connection has lost is sent again.
+    if (reply.ok || isConnected.value) stopsWaiting.value = stopsWaiting.value.filter((each) => each !== path);
+    if (!reply.ok && isConnected.value) Note(problems, 'stop', (reply.errors ?? []).map(ErrorText).join('\n'));
+  }
+}
+
+/** Gives ports back to what is connected to them. */
+export async function GiveBack(ports) {
+  stopsWaiting.value = stopsWaiting.value.filter((each) => !ports.includes(each));
+  for (const port of ports) await Release(port);
+}
+
+/** A page that nobody looks at drives nothing. */
+export function WatchThePage() {
+  window.addEventListener('blur', LetGoOfAll);
+  window.addEventListener('pagehide', LetGoOfAll);
+  document.addEventListener('visibilitychange', () => { if (document.hidden) LetGoOfAll(); });
+  effect(() => { if (isConnected.value && stopsWaiting.value.length > 0) SendStops(); });
+}

@@ -1,0 +1,81 @@
+// The card around a widget; while the panel is arranged it is moved by its bar and resized by its corner, in steps of
+// the grid, by mouse or by arrow keys.
+
+import { useEffect, useRef } from 'preact/hooks';
+import { html } from 'htm/preact';
+import { NameOf } from '../../../page/source/model/structure.js';
+import { Icon } from '../../../page/source/panels/icon.js';
+import { kColumns } from '../model/grid.js';
+import { kKinds } from '../model/kinds.js';
+import { MoveWidget, RemoveWidget, chosen, isEditing, isStopSeen, widgets } from '../panel_state.js';
+import { WidgetView } from '../widgets/widget.js';
+
+const kTitledByThemselves = ['button', 'switch', 'stop', 'text', 'map'];
+
+export function TitleOf(widget) {
+  if (widget.title) return widget.title;
+  const label = kKinds[widget.kind]?.label ?? widget.kind;
+  return ['slider', 'gauge', 'value'].includes(widget.kind) && widget.target ? NameOf(widget.target).replaceAll('_', ' ') : label;
+}
+
+/** Where the pointer has been moved to, in columns and rows of the grid around the card. */
+function Cells(card, dx, dy) {
+  const grid = card.parentElement;
+  const style = getComputedStyle(grid);
+  const gap = parseFloat(style.rowGap);
+  const column = (grid.clientWidth - parseFloat(style.paddingLeft) - parseFloat(style.paddingRight) + gap) / kColumns;
+  const row = parseFloat(style.gridAutoRows) + gap;
+  return { columns: Math.round(dx / column), rows: Math.round(dy / row) };
+}
+
+/** Where the stop has been scrolled away, the bar on top has one. */
+function WatchSeen(card) {
+  const observer = new IntersectionObserver(([entry]) => { isStopSeen.value = entry.intersectionRatio > 0.6; }, { threshold: [0.6] });
+  observer.observe(card);
+  return () => { observer.disconnect(); isStopSeen.value = true; };
+}
+
+export function Frame({ widget }) {
+  const card = useRef(null);
+  const { id, kind, x, y, w, h } = widget;
+  const editing = isEditing.value;
+  useEffect(() => (kind === 'stop' ? WatchSeen(card.current) : undefined), [kind]);
+  const drag = (event, place) => {
+    if (!editing || event.button !== 0 || event.target.closest('.card-tools')) return;
+    event.preventDefault();
+    chosen.value = id;
+    const before = widgets.value;
+    const [startX, startY] = [event.clientX, event.clientY];
+    const handle = event.currentTarget;
+    handle.setPointerCapture(event.pointerId);
+    handle.focus({ preventScroll: true });
+    handle.onpointermove = (move) => {
+      const { columns, rows } = Cells(card.current, move.clientX - startX, move.clientY - startY);
+      MoveWidget(before, id, place(columns, rows));
+    };
+    handle.onpointerup = handle.onpointercancel = () => { handle.onpointermove = handle.onpointerup = handle.onpointercancel = null; };
+  };
+  const byKey = (event, place) => {
+    const [dx, dy] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key] ?? [];
+    if (event.key === 'Delete') RemoveWidget(id);
+    if (dx === undefined) return;
+    event.preventDefault();
+    MoveWidget(widgets.value, id, place(dx, dy));
+  };
+  const move = (columns, rows) => ({ x: x + columns, y: y + rows });
+  const resize = (columns, rows) => ({ w: w + columns, h: h + rows });
+  const hasBar = editing || widget.title || !kTitledByThemselves.includes(kind);
+  return html`
+    <section class=${`card card-${kind} ${editing ? 'editing' : ''} ${chosen.value === id && editing ? 'chosen' : ''}`} ref=${card} data-widget=${id}
+        aria-label=${TitleOf(widget)} style=${{ gridArea: `${y + 1} / ${x + 1} / span ${h} / span ${w}`, '--rows': h }}>
+      ${hasBar && html`<header class="card-bar" tabindex=${editing ? 0 : undefined} title=${editing ? 'Drag, or use arrow keys' : undefined}
+          onPointerDown=${(event) => drag(event, move)} onKeyDown=${editing && ((event) => byKey(event, move))}>
+        <h2>${TitleOf(widget)}</h2>
+        ${editing && html`<span class="card-tools"><button class="remove" aria-label=${`Remove ${TitleOf(widget)}`} title="Remove"
+          onClick=${() => RemoveWidget(id)}><${Icon} name="trash" size=${14} /></button></span>`}</header>`}
+      <div class="card-body" inert=${editing} onPointerDown=${undefined}><${WidgetView} widget=${widget} /></div>
+      ${editing && html`<div class="card-cover" onPointerDown=${(event) => drag(event, move)}></div>
+        <button class="card-corner" aria-label=${`Size of ${TitleOf(widget)}: arrow keys change it`} title="Size"
+          onPointerDown=${(event) => drag(event, resize)} onKeyDown=${(event) => byKey(event, resize)}></button>`}
+    </section>`;
+}

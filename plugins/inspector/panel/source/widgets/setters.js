@@ -1,0 +1,74 @@
+// Slider, button, switch.
+
+import { useEffect, useState } from 'preact/hooks';
+import { html } from 'htm/preact';
+import { FormatNumber } from '../../../page/source/model/value_format.js';
+import { canDrive } from '../../../page/source/state/store.js';
+import { Drive, LetGo, held } from '../driving/driving.js';
+import { useTarget } from './target.js';
+
+/** From where to where, and in which steps; what the widget does not say, the parameter's bounds do. */
+export function RangeOf(widget, element) {
+  const [minimum, maximum] = [widget.minimum ?? element?.minimum ?? 0, widget.maximum ?? element?.maximum ?? 1];
+  const isWhole = /^u?int/.test(element?.data_type ?? '');
+  const step = widget.step ?? (isWhole ? 1 : Nice((maximum - minimum) / 100));
+  return { minimum, maximum: Math.max(minimum, maximum), step };
+}
+
+function Nice(width) {
+  const power = 10 ** Math.floor(Math.log10(Math.max(1e-9, width)));
+  return [1, 2, 5, 10].map((factor) => factor * power).find((each) => each >= width * 0.999);
+}
+
+export function Slider({ widget }) {
+  const { element, value, locked, set, note } = useTarget(widget);
+  const [draft, setDraft] = useState(null); // while it is dragged, and until the application says so, too
+  useEffect(() => setDraft(null), [value]);
+  const { minimum, maximum, step } = RangeOf(widget, element);
+  const shown = draft ?? (typeof value === 'number' ? value : minimum);
+  const part = maximum > minimum ? (shown - minimum) / (maximum - minimum) : 0;
+  const send = async (number) => { if (!await set(String(number))) setDraft(null); };
+  return html`
+    <div class="slider">
+      <output>${typeof value === 'number' || draft !== null ? FormatNumber(shown) : '–'} <small>${element?.unit ?? ''}</small></output>
+      <input type="range" min=${minimum} max=${maximum} step=${step} value=${shown} disabled=${locked} aria-label=${widget.title ?? element?.name ?? 'Slider'}
+        style=${{ '--part': `${Math.round(Math.min(1, Math.max(0, part)) * 1000) / 10}%` }}
+        onInput=${(event) => setDraft(event.target.valueAsNumber)} onChange=${(event) => send(event.target.valueAsNumber)} />
+      <div class="slider-ends"><span>${FormatNumber(minimum)}</span><span>${FormatNumber(maximum)}</span></div>
+      ${note}
+    </div>`;
+}
+
+export function Button({ widget }) {
+  const { element, isPort, locked, set, note } = useTarget(widget);
+  const text = widget.pressed ?? (element?.data_type === 'bool' ? 'true' : '');
+  const isHeld = held.value[widget.target] === widget.id;
+  const letGo = () => LetGo(widget.target, widget.id);
+  useEffect(() => letGo, [widget.target, widget.id]);
+  // Held, it is sent again and again, as driving is: the server has the port rest when it is not heard of.
+  const holding = widget.held && isPort ? {
+    onPointerDown: (event) => {
+      if (!canDrive.value) return;
+      event.currentTarget.setPointerCapture(event.pointerId);
+      Drive(widget.target, widget.id, text, widget.off ?? Rest(element?.data_type));
+    },
+    onPointerUp: letGo, onPointerCancel: letGo,
+  } : { onClick: () => set(text) };
+  return html`
+    <div class="push"><button class=${`push-button ${isHeld ? 'down' : ''}`} disabled=${locked || text === ''} ...${holding}
+        onContextMenu=${(event) => event.preventDefault()}>${widget.title ?? element?.name ?? 'Button'}</button>${note}</div>`;
+}
+
+function Rest(type) {
+  return type === 'bool' ? 'false' : /^(double|float|u?int\w*)$/.test(type ?? '') ? '0' : '{}';
+}
+
+export function Switch({ widget }) {
+  const { element, value, locked, set, note } = useTarget(widget);
+  const [on, off] = [widget.on ?? 'true', widget.off ?? 'false'];
+  const isOn = String(value) === on;
+  return html`
+    <div class="flip"><label><span>${widget.title ?? element?.name ?? 'Switch'}</span>
+      <input type="checkbox" class="switch" role="switch" checked=${isOn} disabled=${locked} onChange=${(event) => set(event.target.checked ? on : off)} /></label>
+      ${note}</div>`;
+}

@@ -1,0 +1,19 @@
+// What is in the frame of a widget.
+
+import { html } from 'htm/preact';
+import { Gamepad } from './gamepad.js';
+import { Joystick } from './joystick.js';
+import { Keys } from './keys.js';
+import { Gauge, Text, Value } from './readings.js';
+import { Button, Slider, Switch } from './setters.js';
+import { StopButton } from './stop.js';
+import { Plot, WorldMap } from './views.js';
+
+const kViews = { joystick: Joystick, keys: Keys, gamepad: Gamepad, slider: Slider, button: Button, switch: Switch,
+  gauge: Gauge, plot: Plot, map: WorldMap, value: Value, text: Text, stop: StopButton };
+
+export function WidgetView({ widget }) {
+  const View = kViews[widget.kind];
+  return View ? html`<${View} key=${`${widget.id} ${widget.target ?? ''}`} widget=${widget} />`
+    : html`<p class="none widget-problem">this page has no “${widget.kind}”</p>`;
+}
