@@ -1,4 +1,6 @@
 #include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
 
 #include "tests/plugins/control/control_fixture.h"
 #include "tests/support/wait_until.h"
@@ -14,7 +16,43 @@ std::uint64_t PublicationsOf(Runtime& runtime, const std::string& path) {
   return port ? dynamic_cast<Port&>(**port).publications() : 0;
 }
 
+/// What another user of this machine hears from a server's socket; "": nothing, since he does not get there.
+std::string HeardByAnotherUser(const std::filesystem::path& socket) {
+  constexpr uid_t kNobody = 65534;
+  int ends[2];
+  EXPECT_EQ(pipe(ends), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    if (setgid(kNobody) != 0 || setuid(kNobody) != 0) _exit(1);
+    const auto connected = ConnectToSocket(socket);
+    char heard[4096];
+    const ssize_t count = connected ? recv(*connected, heard, sizeof heard, 0) : 0;
+    if (count > 0) (void)!write(ends[1], heard, static_cast<std::size_t>(count));
+    _exit(0);
+  }
+  close(ends[1]);
+  std::string heard(4096, ' ');
+  heard.resize(static_cast<std::size_t>(std::max<ssize_t>(0, read(ends[0], heard.data(), heard.size()))));
+  close(ends[0]);
+  int status = 1;
+  EXPECT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0);
+  return heard;
+}
+
 }  // namespace
+
+// Each of the three would do: the folder, the mode of the socket, the question whose process it is.
+TEST_F(ControlTest, HearsNoOtherUser) {
+  if (geteuid() != 0) GTEST_SKIP() << "only the superuser can become another user";
+  const std::filesystem::path socket = server->socket();
+  EXPECT_EQ(HeardByAnotherUser(socket), "");
+  for (const auto& each : {folder.path(), folder.path() / "runnel"}) chmod(each.c_str(), 0755);
+  EXPECT_EQ(HeardByAnotherUser(socket), "");
+  chmod(socket.c_str(), 0666);
+  EXPECT_EQ(HeardByAnotherUser(socket), "");
+  EXPECT_EQ(Ask("ls").code, 0) << "its own user goes on";
+}
 
 TEST_F(ControlTest, AnswersOthersWhileOneHasSentHalfARequest) {
   const int half = RawClient();
