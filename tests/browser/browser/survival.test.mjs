@@ -93,6 +93,12 @@ test('a token stands behind # in the address, is taken out of it, and is asked f
   await inspector.page.locator('#token button').click();
   await inspector.page.locator('.state.read-only').waitFor();
   assert.equal(await inspector.page.locator('#save').isDisabled(), true);
+
+  await inspector.page.evaluate(() => localStorage.clear());
+  await inspector.page.goto(new URL('/panel', application.url).href);
+  await inspector.page.locator('#token-field').fill('only_look_42');
+  await inspector.page.locator('#token button').click();
+  await inspector.page.locator('.state.read-only').waitFor();
 });
 
 test('who drives may pause and set values by hand, and change nothing else', async (t) => {

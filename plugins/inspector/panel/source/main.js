@@ -4,6 +4,7 @@ import { render } from 'preact';
 import { effect, signal } from '@preact/signals';
 import { html } from 'htm/preact';
 import { Toasts } from '../../page/source/panels/toast_view.js';
+import { TokenBanner } from '../../page/source/panels/token_banner.js';
 import { LostBanner } from '../../page/source/panels/toolbar.js';
 import { StartKeeping } from '../../page/source/state/choices.js';
 import { Start, catalogue, hello, isConnected, revision } from '../../page/source/state/store.js';
@@ -29,6 +30,7 @@ function Page() {
     <div class=${`panel ${isConnected.value ? '' : 'stale'} ${editing ? 'is-editing' : ''} ${isNarrow.value ? 'narrow' : ''}`}>
       <${Header} />
       <${LostBanner} />
+      <${TokenBanner} />
       <${StopBanner} />
       ${editing && html`<${Palette} />`}
       <div class="panel-main">${isLoaded.value && (isNarrow.value && !editing ? html`<${Column} />` : html`<${Grid} />`)}
@@ -66,6 +68,6 @@ effect(() => {
   const name = hello.value?.application;
   if (name) document.title = `${isConnected.value ? '' : '(away) '}${name} – panel`;
 });
-const { protocol, host, search } = location;
-Start(`${protocol === 'https:' ? 'wss' : 'ws'}://${host}/${search}`);
+const { protocol, host } = location;
+Start(`${protocol === 'https:' ? 'wss' : 'ws'}://${host}/`);
 render(html`<${Page} />`, document.getElementById('panel'));
