@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "apps/arena/application_text.h"
+#include "modules/simulation/world_file/world_search.h"
 
 namespace runnel::arena {
 
@@ -28,11 +29,10 @@ std::vector<std::string> WithoutRepeats(const std::vector<std::string>& words) {
   return single;
 }
 
-void ReadCourses(const ArenaArguments& arguments, const Product& product, Matrix& matrix,
-                 Diagnostics& diagnostics) {
+void ReadCourses(const ArenaArguments& arguments, Matrix& matrix, Diagnostics& diagnostics) {
   std::vector<std::filesystem::path> files;
   for (const std::string& word : arguments.worlds) {
-    const auto file = FindWorld(word, product);
+    const auto file = FindWorldFile(word);
     if (!file) {
       diagnostics.Add(file.error());
     } else if (std::ranges::find(files, *file) == files.end()) {
@@ -58,7 +58,7 @@ using Applications = std::map<std::pair<std::string, std::string>, std::string>;
 
 Applications ReadApplications(const ArenaArguments& arguments, const Product& product,
                               const Matrix& matrix, Diagnostics& diagnostics) {
-  CheckNames(arguments.sensors, NamesIn(product.applications), "sensor", diagnostics);
+  CheckNames(arguments.sensors, XmlNamesIn(product.applications), "sensor", diagnostics);
   Applications applications;
   if (!diagnostics.ok()) return applications;
   for (const std::string& sensor : WithoutRepeats(arguments.sensors)) {
@@ -101,7 +101,7 @@ void AddRuns(const ArenaArguments& arguments, const Applications& applications, 
 std::optional<Matrix> MakeMatrix(const ArenaArguments& arguments, const Product& product,
                                  Diagnostics& diagnostics) {
   Matrix matrix;
-  ReadCourses(arguments, product, matrix, diagnostics);
+  ReadCourses(arguments, matrix, diagnostics);
   const auto types = FindTypes(arguments.plugins, diagnostics);
   matrix.variants = FindVariants(WithoutRepeats(arguments.variants), types, diagnostics);
   CheckNames(arguments.directions, {"left", "right"}, "direction", diagnostics);

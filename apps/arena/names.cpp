@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "core/base/folder_names.h"
 #include "core/base/nearest_name.h"
 #include "core/plugin/plugin_manager.h"
 #include "core/xml/xml_document.h"
 #include "core/xml/xml_writing.h"
+#include "modules/simulation/world_file/world_search.h"
 
 namespace runnel::arena {
 
@@ -61,33 +61,7 @@ Result<Variant> FindVariant(const std::string& word, const std::vector<std::stri
 
 Product FindProduct() {
   const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-  auto xml = folder.parent_path() / "share" / "runnel" / "xml";
-  if (!std::filesystem::is_directory(xml)) xml = RUNNEL_XML;
-  return {folder / "runnel", xml / "worlds", xml / "apps" / "arena"};
-}
-
-std::vector<std::string> NamesIn(const std::filesystem::path& folder) {
-  std::vector<std::string> names;
-  for (const std::filesystem::path name : NamesInFolder(folder)) {
-    if (name.extension() == ".xml") names.push_back(name.stem().string());
-  }
-  return names;
-}
-
-Result<std::filesystem::path> FindWorld(const std::string& word, const Product& product) {
-  std::error_code error;
-  if (std::filesystem::is_regular_file(word, error)) return std::filesystem::absolute(word);
-  const auto known = product.worlds / (word + ".xml");
-  if (std::filesystem::is_regular_file(known, error)) return known;
-  std::vector<std::string> names = NamesIn(product.worlds);
-  const std::filesystem::path path(word);
-  if (path.has_parent_path()) {  // a misspelt file: what is beside it?
-    names.clear();
-    for (const std::string& name : NamesIn(path.parent_path())) {
-      names.push_back((path.parent_path() / (name + ".xml")).string());
-    }
-  }
-  return Error{.message = "there is no world '" + word + "'", .hint = NearestNameHint(word, names)};
+  return {folder / "runnel", XmlFolder() / "apps" / "arena"};
 }
 
 std::vector<Variant> FindVariants(const std::vector<std::string>& words,

@@ -13,13 +13,9 @@ namespace runnel::arena {
 /// that it has been built from.
 struct Product {
   std::filesystem::path program;       ///< runnel, beside this one
-  std::filesystem::path worlds;        ///< xml/worlds
   std::filesystem::path applications;  ///< xml/apps/arena: one for each sensor
 };
 [[nodiscard]] Product FindProduct();
-
-/// The names of the files in the folder that end in .xml, without that, sorted.
-[[nodiscard]] std::vector<std::string> NamesIn(const std::filesystem::path& folder);
 
 /// A planner to be compared.
 struct Variant {
@@ -27,10 +23,6 @@ struct Variant {
   std::string type;             ///< of the module: "planning/bug1"
   std::string parameters = {};  ///< <parameter> tags, as they stand in an application
 };
-
-/// The file that the word names: a file, or a world that comes with Runnel.
-[[nodiscard]] Result<std::filesystem::path> FindWorld(const std::string& word,
-                                                      const Product& product);
 
 /// The variants that the words name. `types`: all module types there are. Errors are added.
 [[nodiscard]] std::vector<Variant> FindVariants(const std::vector<std::string>& words,

@@ -11,6 +11,7 @@
 #include "core/base/folder_names.h"
 #include "core/base/nearest_name.h"
 #include "core/base/retry.h"
+#include "core/plugin/abi_difference.h"
 #include "core/plugin/outdated_dependency.h"
 #include "core/plugin/plugin_entry.h"
 #include "core/plugin/temporary_copy.h"
@@ -73,10 +74,8 @@ Result<const PluginEntry*> Handshake(void* library, const fs::path& file) {
     return Refusal(file, "its entry has another size than this core's", "rebuild the plugin");
   }
   if (std::strcmp(entry->fingerprint, CoreAbiFingerprint()) != 0) {
-    return Refusal(file,
-                   std::string("it was built with '") + entry->fingerprint + "', this core with '" +
-                       CoreAbiFingerprint() + "'",
-                   "rebuild the plugin with the compiler of the core");
+    AbiDifference difference = FindAbiDifference(entry->fingerprint, CoreAbiFingerprint());
+    return Refusal(file, std::move(difference.why), std::move(difference.cure));
   }
   return entry;
 }

@@ -6,6 +6,7 @@
 #include "modules/simulation/algorithm/map_of_world.h"
 #include "modules/simulation/algorithm/world_geometry.h"
 #include "modules/simulation/world_file/world_reader.h"
+#include "modules/simulation/world_file/world_search.h"
 
 namespace runnel {
 
@@ -22,8 +23,14 @@ Result<void> SimulatedWorld::Prepare() {
     return Error{
         .message = "no world file is named", .path = path(), .hint = "set the parameter 'world'"};
   }
+  const auto file = FindWorldFile(world.Get().text);
+  if (!file) {
+    Error error = file.error();
+    error.path = path();
+    return error;
+  }
   Diagnostics diagnostics;
-  auto description = ReadWorldFile(world.Get().path(), diagnostics);
+  auto description = ReadWorldFile(*file, diagnostics);
   if (!description) {
     return Error{.message = "the world cannot be used:\n" + diagnostics.ToString(), .path = path()};
   }

@@ -44,7 +44,7 @@ class SimulatedWorld final : public SenseControlModule {
                        {.description = "start, goal and obstacles, for those who draw",
                         .pool = {.buffers = 4, .may_grow = false}}};
 
-  StaticParameter<FilePath> world{this, "world", {.description = "the world file"}};
+  StaticParameter<FilePath> world{this, "world", {.description = "the world file, or the name of one that comes with Runnel"}};
   Parameter<double> goal_x{this, "goal_x", kGoalOfFile};
   Parameter<double> goal_y{this, "goal_y", kGoalOfFile};
   Parameter<double> timeout{this,

@@ -188,6 +188,7 @@ void CheckParameters(PartUse& part, BuildContext& context) {
                    part.tag.position(), part.group);
   }
   context.Defer(BuildStage::kChecks, [&part, &context] {
+    if (!context.IsWhole(part.group)) return;  // what is missing may take it
     for (const auto& [name, declared] : part.declared) {
       if (part.used.contains(name)) continue;
       context.Warn({.message = "nothing takes its value from the parameter '" + name + "'",

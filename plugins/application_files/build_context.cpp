@@ -93,6 +93,12 @@ void BuildContext::MarkMissing(const FrameworkElement& parent, const XmlAttribut
   }
 }
 
+bool BuildContext::IsWhole(const FrameworkElement& element) const {
+  const auto is_in_it = [&](const FrameworkElement* each) { return each->IsAtOrBelow(element); };
+  return std::ranges::none_of(missing_, [&](const auto& each) { return is_in_it(each.first); }) &&
+         std::ranges::none_of(incomplete_, is_in_it) && std::ranges::none_of(unbuilt_, is_in_it);
+}
+
 bool BuildContext::IsNews(const FrameworkElement& parent, std::string_view name,
                           const std::vector<std::string>& candidates) const {
   for (const FrameworkElement* at = &parent; at != nullptr; at = at->parent()) {

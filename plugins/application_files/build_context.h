@@ -95,6 +95,8 @@ class BuildContext {
     unbuilt_.insert(&element);
     MarkUnfed(element);
   }
+  /// Whether all that the file says of the inside of the element has been made.
+  [[nodiscard]] bool IsWhole(const FrameworkElement& element) const;
   /// Whether to complain that there is no `name` in `parent`, which has `candidates`.
   [[nodiscard]] bool IsNews(const FrameworkElement& parent, std::string_view name,
                             const std::vector<std::string>& candidates) const;

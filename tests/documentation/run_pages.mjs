@@ -1,17 +1,20 @@
 // Does what pages ask their readers to do, in an empty folder and one shell, and fails at the first thing that
-// is not as they say: node run_pages.mjs FOLDER PAGE …
+// is not as they say: node run_pages.mjs FOLDER [--with FOLDER] PAGE …
+// --with: a copy of that folder is there from the start, for READMEs speak of what lies beside them.
 
 import { spawnSync } from 'node:child_process';
-import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { cpSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { basename, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { BlocksOf, FirstMissing } from './page_blocks.mjs';
+import { BlocksOf, FirstMissing, FirstUnknown } from './page_blocks.mjs';
 
 const kStep = '@@@ step ';
 // Whoever reads takes longer to come to the next command than an application to start.
 const kStarted = 'for attempt in $(seq 600); do runnel ls >/dev/null 2>&1 && break; sleep 0.1; done\n';
-const [folder, ...pages] = process.argv.slice(2);
+const [folder, ...words] = process.argv.slice(2);
+const beside = words[0] === '--with' ? words.splice(0, 2)[1] : undefined;
+const pages = words;
 
 function Fail(place, what, printed = '') {
   console.error(`${place}: ${what}\n${printed}`);
@@ -28,12 +31,15 @@ function StepOf(block, index) {
 }
 
 const blocks = pages.flatMap((page) => BlocksOf(readFileSync(page, 'utf8')).map((block) => ({ ...block, place: `${basename(page)}:${block.line}` })));
-const unknown = blocks.find((block) => block.kind === 'unknown');
-if (unknown) Fail(unknown.place, 'nobody runs this block; see page_blocks.mjs');
+for (const page of pages) {
+  const unknown = FirstUnknown(readFileSync(page, 'utf8'), basename(page) === 'README.md');
+  if (unknown) Fail(`${basename(page)}:${unknown.line}`, 'nobody runs this block; see page_blocks.mjs');
+}
 if (!blocks.some((block) => block.kind === 'run' || block.kind === 'file')) Fail(pages.join(' '), 'there is nothing to run');
 
 rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
+if (beside) cpSync(beside, join(folder, basename(beside)), { recursive: true });
 const script = `${folder}.sh`;
 writeFileSync(script, `set -eu\ntrap 'kill $(jobs -p) 2>/dev/null || true' EXIT\n${blocks.map(StepOf).join('')}`);
 // A folder of its own for sockets: only the page's applications are running then.

@@ -28,6 +28,7 @@ void AddStaleRule(const TagUse& use) {
   const Port* const port = SearchPort(PathIn(input, use.parent), PathKind::kInput, use.context);
   if (port == nullptr) return;
   if (port->Sources().empty()) {
+    if (!use.context.ok() && !use.context.IsUnfedUnnoticed(*port)) return;
     use.context.Report({.message = "cannot become stale, as nothing is connected to it",
                         .path = port->path(),
                         .hint = "connect it, or leave out <on_stale>"},

@@ -30,28 +30,40 @@ std::optional<std::pair<PathUse, PathKind>> FarEnd(XmlElement connect, Framework
   return std::pair(PathIn(*from, base), PathKind::kOutput);
 }
 
-// Of the first connection between the tags of `element` that leads to a port that is there.
-const TypeInfo* TypeAmong(XmlElement element, FrameworkElement& base, const std::string& own) {
+// What the connections of a port say of its type.
+struct Told {
+  const TypeInfo* type = nullptr;  // of the first that leads to a port that is there
+  bool misses_end = false;         // another end is not there
+};
+
+Told TypeAmong(XmlElement element, FrameworkElement& base, const std::string& own) {
+  Told told;
   for (const XmlElement child : element.children()) {
     const auto far_end = FarEnd(child, base, own);
     // What comes out of a conversion cannot be told from what goes in.
     if (!far_end || child.Attribute("convert") != nullptr) continue;
     const auto found = PathSearch(base).FindPortPart(far_end->first.path, far_end->second);
     const auto part = found ? ValuePart::In(found->port->type(), found->part) : Result<ValuePart>(Error{});
-    if (part) return &part->type();
+    if (part) return {.type = &part->type()};
+    const bool may_be_missing = child.Attribute("when") != nullptr;
+    told.misses_end = told.misses_end || (!found && !may_be_missing);
   }
-  return nullptr;
+  return told;
 }
 
 const TypeInfo* ConnectedType(const TagUse& use) {
   const std::string& name = use.Get("name").value;
   XmlElement group = *use.xml.parent();
-  if (const TypeInfo* type = TypeAmong(group, use.parent, name)) return type;
+  const Told inside = TypeAmong(group, use.parent, name);
+  if (inside.type != nullptr) return inside.type;
   // What is outside of a part stands where the part is used.
   if (const PartUse* part = use.context.parts().Find(use.parent)) group = part->tag;
   FrameworkElement& outside = *use.parent.parent();
   const std::string seen_from_outside = use.parent.name() + "/" + name;
-  if (const TypeInfo* type = TypeAmong(*group.parent(), outside, seen_from_outside)) return type;
+  const Told around = TypeAmong(*group.parent(), outside, seen_from_outside);
+  if (around.type != nullptr) return around.type;
+  // The error that has been told already is why; without one, nobody else would tell that the port is missing.
+  if (!use.context.ok() && (inside.misses_end || around.misses_end)) return nullptr;
   use.Report({.message = "the type of this port cannot be told from its connections",
               .hint = "add type=\"…\""},
              use.xml.position());

@@ -17,13 +17,23 @@ run(COMMAND "${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${WORK}/prefix")
 include("${CMAKE_CURRENT_LIST_DIR}/headers.cmake")
 run(COMMAND "${CMAKE_COMMAND}" -G Ninja -S "${SOURCE}" -B "${WORK}/outside"
   "-DCMAKE_PREFIX_PATH=${WORK}/prefix" "-DCMAKE_CXX_COMPILER=${COMPILER}"
-  "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}" "-DCMAKE_CXX_FLAGS=${FLAGS}")
+  "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}" "-DCMAKE_CXX_FLAGS=${FLAGS}"
+  EXPECT "no CMAKE_BUILD_TYPE is set, so it is RelWithDebInfo")
 run(COMMAND "${CMAKE_COMMAND}" --build "${WORK}/outside")
 run(COMMAND "${CMAKE_CTEST_COMMAND}" --test-dir "${WORK}/outside" --no-tests=error --output-on-failure)
 
 if(NOT EXISTS "${WORK}/outside/lib/runnel/plugins/outside.manifest.xml")
   message(FATAL_ERROR "the plugin has no manifest")
 endif()
+file(READ "${WORK}/prefix/share/man/man1/runnel.1" manual)
+if(NOT manual MATCHES "SS runnel swap.*probation.*SS runnel log.*RUNNEL_PLUGIN_PATH")
+  message(FATAL_ERROR "the manual page is not whole: ${manual}")
+endif()
+foreach(document LICENSE CHANGELOG.md pages/index.md)
+  if(NOT EXISTS "${WORK}/prefix/share/doc/runnel/${document}")
+    message(FATAL_ERROR "${document} is not installed")
+  endif()
+endforeach()
 # Loaded from where it was built, and from where it was installed.
 set(program "${WORK}/prefix/bin/runnel")
 set(ENV{RUNNEL_PLUGIN_PATH} "${WORK}/outside/lib/runnel/plugins")
@@ -32,7 +42,7 @@ unset(ENV{RUNNEL_PLUGIN_PATH})
 run(COMMAND "${CMAKE_COMMAND}" --install "${WORK}/outside" --prefix "${WORK}/prefix")
 run(COMMAND "${program}" modules outside EXPECT "outside/wanderer.*drives ahead")
 run(COMMAND "${program}" modules simulation EXPECT "simulation/world")
-set(world "world=${WORK}/prefix/share/runnel/xml/worlds/rooms.xml")
+set(world "world=rooms")
 run(COMMAND "${program}" check "${SOURCE}/wander.xml" "${world}")
 run(COMMAND "${program}" run --fast --duration 5 "${SOURCE}/wander.xml" "${world}"
   --trace "${WORK}/trace.json" EXPECT "traced [0-9]+ events")

@@ -185,6 +185,27 @@ TEST(ApplicationErrors, OfPluginsNameWhereTheyWereLookedFor) {
   EXPECT_EQ(workshop.diagnostics.errors().size(), 1u) << workshop.diagnostics.ToString();
 }
 
+TEST(ApplicationErrors, OfAPluginAreTheOnlyOnesOfWhatItWouldHaveBrought) {
+  Workshop workshop;
+  EXPECT_THAT(workshop.Errors(R"(<application name="demo">
+  <load plugin="simulatoin"/>
+  <group name="robot">
+    <port name="scan" direction="input"/>
+    <port name="twist" direction="output"/>
+    <module name="planner" type="simulation/planner"/>
+    <module name="sink" type="test/sink"/>
+    <connect from="scan" to="planner/scan"/>
+    <connect from="planner/twist" to="twist"/>
+    <connect from="planner/value" to="sink/value sink/second"/>
+  </group>
+  <module name="drive" type="simulation/drive"/>
+  <connect from="robot/twist" to="drive/twist"/>
+  <on_stale input="robot/sink/value" after="1s"><stop module="robot/sink"/></on_stale>
+</application>)"),
+              ::testing::StartsWith("app.xml:2:17: error: /demo: no plugin 'simulatoin' in "));
+  EXPECT_EQ(workshop.diagnostics.errors().size(), 1u) << workshop.diagnostics.ToString();
+}
+
 TEST(ApplicationErrors, NameTheModuleTypesThatEndAlike) {
   Workshop workshop;
   workshop.Add<Source>("other/source");

@@ -192,6 +192,20 @@ TEST_F(PartFilesTest, KnowTheirParameters) {
                                 "the parameter 'idle'"));
 }
 
+TEST_F(PartFilesTest, DoNotTellOfParametersThatMissingModulesMayTake) {
+  Write("part.xml", R"(<group_type>
+  <load plugin="missing"/>
+  <parameter name="strength" value="1"/>
+  <module name="a" type="missing/source"><parameter name="gain" from="strength"/></module>
+</group_type>)");
+  Write("app.xml", R"(<application name="demo">
+  <group name="one" type="part.xml"/>
+</application>)");
+  const std::string errors = Errors();
+  EXPECT_THAT(errors, HasSubstr("no plugin 'missing'"));
+  EXPECT_THAT(errors, ::testing::Not(HasSubstr("nothing takes its value")));
+}
+
 TEST_F(PartFilesTest, SetParametersOnlyWithinThemselves) {
   ASSERT_NE(shop_.Build(R"(<application name="other"><module name="m" type="test/source"/>
     </application>)"),
