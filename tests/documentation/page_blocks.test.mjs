@@ -57,7 +57,7 @@ const readmes = ['.', ...['apps', 'bench', 'core', 'modules', 'plugins', 'tests'
 
 test('each command of a README is run, or says why not', () => {
   assert.ok(readmes.length > 40);
-  const run = process.env.RUNNEL_READMES.split(';');
+  const run = process.env.RUNNEL_READMES.split(',');
   for (const folder of readmes) {
     const page = readFileSync(join(root, folder, 'README.md'), 'utf8');
     const unknown = FirstUnknown(page, true);
