@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "modules/planning/bug_drawing.h"
+
 namespace runnel {
 
 namespace {
@@ -73,6 +75,7 @@ void BugPlanner::Update() {
   twist.Publish(output.twist);
   status.Publish(output.status);
   PublishPoints();
+  if (drawing.is_watched()) drawing.Publish(DrawBugState(state_, *here, *view));
 }
 
 void BugPlanner::CheckSensors(const Surroundings& view) {

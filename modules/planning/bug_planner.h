@@ -10,6 +10,7 @@
 #include "modules/planning/algorithm/bug_variants.h"
 #include "modules/planning/bug_components.h"
 #include "modules/planning/kept_bug_state.h"
+#include "modules/types/drawing.h"
 #include "modules/types/hit_and_leave_points.h"
 #include "modules/types/planner_status.h"
 #include "modules/types/pose.h"
@@ -48,6 +49,8 @@ class BugPlanner : public Module {
       this,
       "points",
       {.description = "all hit and leave points so far, whenever there is another one"}};
+  Output<Drawing> drawing{
+      this, "drawing", {.description = "what it has in mind, while somebody looks"}};
 
   Parameter<BoundaryDirection> first_direction{
       this,

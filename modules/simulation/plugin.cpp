@@ -1,5 +1,6 @@
 #include "core/plugin/plugin_entry.h"
 #include "modules/simulation/bumper.h"
+#include "modules/simulation/camera.h"
 #include "modules/simulation/infrared.h"
 #include "modules/simulation/laser.h"
 #include "modules/simulation/localisation.h"
@@ -10,6 +11,7 @@ RUNNEL_PLUGIN(simulation, registry) {
   using namespace runnel;
   registry.Add<SimulatedWorld>("simulation/world", "a world from a file, with a robot in it");
   registry.Add<Laser>("simulation/laser", "a laser that looks ahead");
+  registry.Add<Camera>("simulation/camera", "a camera that looks ahead");
   registry.Add<Infrared>("simulation/infrared", "infrared rangers ahead, to the left and right");
   registry.Add<Localisation>("simulation/localisation", "tells the robot where it is");
   registry.Add<Bumper>("simulation/bumper", "tells the robot that it touches something");

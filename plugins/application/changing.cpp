@@ -9,6 +9,7 @@
 #include "plugins/application/internal/application_parts.h"
 #include "plugins/application_files/application_source.h"
 #include "plugins/application_files/saving/application_saver.h"
+#include "plugins/application_files/saving/save_preview.h"
 #include "plugins/command_service/hand_settings.h"
 #include "plugins/parameters/configuration_saver.h"
 #include "plugins/scheduling/thread_container.h"
@@ -195,6 +196,16 @@ CommandService& Application::service() {
     std::string done = "saved " + parts_->path() + (file.empty() ? "" : " to " + file);
     if (auto saved = Save(file); !saved) return saved.error();
     return done;
+  };
+  using SaveDifference = ServiceHooks::SaveDifference;
+  hooks.preview_save = [this](const std::string& file) -> Result<SaveDifference> {
+    const std::lock_guard lock(parts_->runtime().structure_mutex());
+    const auto found = parts_->FindAgain();
+    if (!found) return found.error();
+    auto preview = PreviewSave(**found, {parts_->plugins(), parts_->tags()}, file);
+    if (!preview) return preview.error();
+    return SaveDifference{preview->file.string(), std::move(preview->before),
+                          std::move(preview->after)};
   };
   hooks.save_configuration = [this](const std::string& file) { return SaveConfiguration(file); };
   hooks.set_paused = [this](const std::string& path, bool is_paused) {

@@ -52,6 +52,13 @@ struct ServiceHooks {
   std::function<Result<void>(const std::string& plugin)> load_plugin = {};
   /// Saves the structure into the file ("": the one that it came from) and says what was done.
   std::function<Result<std::string>(const std::string& file)> save = {};
+  /// What saving would make of the file, of which nothing is written.
+  struct SaveDifference {
+    std::string file;
+    std::string before;
+    std::string after;
+  };
+  std::function<Result<SaveDifference>(const std::string& file)> preview_save = {};
   /// Writes values of parameters back to the configuration, or all of them into the file, and says what was done.
   std::function<Result<std::string>(const std::string& file)> save_configuration = {};
   /// Loads a plugin anew, makes its modules anew, and says what was done.

@@ -120,13 +120,13 @@ Result<std::string> CompatibleTypes(Runtime& runtime, const Catalogue& catalogue
   };
   std::vector<Candidate> candidates;
   for (const CatalogueItem& item : catalogue.modules) {
-    if (item.type == own_type) continue;
     Candidate candidate{&item, {}};
     for (const CatalogueItemPort& port : connected) {
       if (std::ranges::count(item.ports, port) == 0) candidate.lost.push_back(port.name);
     }
     const bool is_stranger = !connected.empty() && candidate.lost.size() == connected.size();
-    if (!is_stranger && !connected.empty()) candidates.push_back(std::move(candidate));
+    const bool is_own = item.type == own_type;
+    if (is_own || (!is_stranger && !connected.empty())) candidates.push_back(std::move(candidate));
   }
   std::ranges::stable_sort(candidates, {}, [](const Candidate& each) { return each.lost.size(); });
   std::string text;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "plugins/command_service/save_place.h"
 #include "plugins/values/json_writer.h"
 
 namespace runnel::internal {
@@ -126,10 +127,41 @@ std::string SavePanel(Inspection& inspection, const ViewerMessage& message) {
   return Reply(message.request, *done);
 }
 
+std::string PreviewSave(Inspection& inspection, const ViewerMessage& message) {
+  std::string file = message.file;
+  if (!file.empty()) {
+    const auto place = SavePlace(inspection.options().file, file);
+    if (!place) return Refusal(message.request, {{place.error()}});
+    file = *place;
+  }
+  const auto& preview_save = inspection.application().hooks.preview_save;
+  if (!preview_save) {
+    return Refusal(message.request,
+                   {{Error{.message = "the program that runs this application cannot save it"}}});
+  }
+  const auto difference = preview_save(file);
+  if (!difference) return Refusal(message.request, {{difference.error()}});
+  return JsonObjectText([&](JsonObject& json) {
+    AddHead(message.request, true, json);
+    json.Add("file", difference->file);
+    json.Add("before", difference->before).Add("after", difference->after);
+  });
+}
+
+std::string SetLatency(Inspection& inspection, const ViewerMessage& message) {
+  const LatencyRequest latency{message.from, message.to};
+  Scheduler& scheduler = inspection.scheduler();
+  const auto done =
+      message.is_on ? scheduler.AddLatency(latency) : scheduler.RemoveLatency(latency);
+  return done ? Reply(message.request, "done") : Refusal(message.request, {{done.error()}});
+}
+
 // What the worker does for this viewer alone, because it may wait.
 std::string AnswerOf(Inspection& inspection, const ViewerMessage& message) {
   if (message.op == "panel") return ReadPanel(inspection, message);
   if (message.op == "save_panel") return SavePanel(inspection, message);
+  if (message.op == "latency") return SetLatency(inspection, message);
+  if (message.op == "preview") return PreviewSave(inspection, message);
   return FindCompatible(inspection, message);
 }
 
@@ -191,7 +223,9 @@ std::span<const Operation> AllOperations() {
       Operation("speed", kRequest, kChange),
       Operation("reload", kRequest, kChange),
       Operation("log_level", kRequest, kChange),
-      Operation("profile", kRequest, kChange)};
+      Operation("profile", kRequest, kChange),
+      Operation("latency", kRequest, kChange),
+      Operation("preview", kRequest, kChange)};
   return kAll;
 }
 
@@ -216,7 +250,7 @@ ViewerRequest BeginRequest(Inspection& inspection, ViewerMessage message,
   if (message.path.empty() && IsOneOf(message.op, {"pause", "resume", "step", "speed"})) {
     return {nullptr, [reply = SetPace(inspection, message)] { return reply; }};
   }
-  if (IsOneOf(message.op, {"compatible", "panel", "save_panel"})) {
+  if (IsOneOf(message.op, {"compatible", "latency", "panel", "preview", "save_panel"})) {
     const auto reply = std::make_shared<std::string>();
     auto task = inspection.tasks().Post(
         [&inspection, reply, message = std::move(message)] {

@@ -37,6 +37,9 @@ Result<ViewerMessage> ParseViewerMessage(std::string_view text) {
   message.what = members.Text("what").value_or("");
   message.plugin = members.Text("plugin").value_or("");
   message.level = members.Text("level").value_or("");
+  message.from = members.Text("from").value_or("");
+  message.to = members.Text("to").value_or("");
+  message.wants_image = members.Text("as").value_or("") == "image";
   if (const JsonPart* const on = members.Find("on")) message.is_on = on->boolean().value_or(true);
   message.value = members.Text("value").value_or("");
   message.rate = members.Number("rate");

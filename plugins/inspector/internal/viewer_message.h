@@ -31,6 +31,9 @@ struct ViewerMessage {
   std::string what;  ///< is to be saved
   std::string plugin;
   std::string level;
+  std::string from;  ///< where a latency begins, and where it ends
+  std::string to;
+  bool wants_image = false;  ///< a picture as a browser takes it
   std::string value;
   std::optional<double> rate;
   std::optional<double> deadline;  ///< s

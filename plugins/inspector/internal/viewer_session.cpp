@@ -33,6 +33,8 @@ constexpr double kFastestRates = 10;
 constexpr std::size_t kMostElements = 1'000'000;
 constexpr std::size_t kLongestText = 2'000;
 constexpr std::size_t kLargestValue = 4'000'000;  // bytes
+constexpr std::size_t kLargestImage = 16'000'000;
+constexpr double kFastestImages = 15;
 
 Duration IntervalOf(double rate) { return FromSeconds(1 / rate); }
 
@@ -217,6 +219,23 @@ void ViewerSession::SendValues(SteadyTime now) {
   client_.SendText(text + ",\"items\":[" + items + "]}");
 }
 
+bool ViewerSession::AppendValue(Watch& watch, const void* value, Time time, std::string& json) {
+  const TypeInfo& type = watch.port.type();
+  if (watch.wants_image && type.semantic_tag() == "image") {
+    if (watch.pictured != &type) {
+      std::vector<FoxgloveChannel> channels = ChannelsFor(type, watch.port.path(), {});
+      watch.picture.reset();
+      if (channels.size() > 1) watch.picture = std::move(channels.back());
+      watch.pictured = &type;
+    }
+    if (watch.picture && BytesOf(type, value) <= kLargestImage) {
+      watch.picture->append(value, time, json);
+      return true;
+    }
+  }
+  return AppendJson(type, value, json, {watch.elements, kLongestText, kLargestValue});
+}
+
 std::optional<std::uint64_t> ViewerSession::LookAt(Watch& watch, std::string& item) const {
   return watch.port.VisitIfNew([&](const void* value, ValueTimes times) {
     item = "{\"path\":";
@@ -228,8 +247,7 @@ std::optional<std::uint64_t> ViewerSession::LookAt(Watch& watch, std::string& it
       AppendJsonNumber(ToSeconds(times.timestamp - inspection_.start()), item);
     }
     item += ",\"value\":";
-    const JsonLimits limits{watch.elements, kLongestText, kLargestValue};
-    if (!AppendJson(watch.port.type(), value, item, limits)) item += ",\"cut\":true";
+    if (!AppendValue(watch, value, times.timestamp, item)) item += ",\"cut\":true";
     item += ",\"bytes\":" + std::to_string(BytesOf(watch.port.type(), value));
   });
 }
@@ -314,7 +332,8 @@ void ViewerSession::Refuse(const ViewerMessage& message, Error error) {
 }
 
 void ViewerSession::BeginWatching(const ViewerMessage& message) {
-  const double rate = std::clamp(message.rate.value_or(10), 1.0, kFastestWatch);
+  const double fastest = message.wants_image ? kFastestImages : kFastestWatch;
+  const double rate = std::clamp(message.rate.value_or(10), 1.0, fastest);
   const std::size_t elements = std::min(message.elements, kMostElements);
   const auto found = watches_.find(message.path);
   if (found != watches_.end())
@@ -324,7 +343,7 @@ void ViewerSession::BeginWatching(const ViewerMessage& message) {
                                        " ports cannot be watched at once",
                             .path = message.path});
   }
-  watches_.emplace(message.path, Watch{WatchedPort(message.path), IntervalOf(rate), elements});
+  watches_.emplace(message.path, Watch{WatchedPort(message.path), IntervalOf(rate), elements, message.wants_image});
 }
 
 void ViewerSession::BeginRequest(ViewerMessage message) {

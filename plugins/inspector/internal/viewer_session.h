@@ -10,6 +10,7 @@
 #include "plugins/inspector/internal/inspection.h"
 #include "plugins/inspector/internal/requests.h"
 #include "plugins/inspector/internal/viewer_message.h"
+#include "plugins/values/foxglove_channel.h"
 #include "plugins/values/watched_port.h"
 #include "plugins/web_server/web_session.h"
 
@@ -31,7 +32,10 @@ class ViewerSession final : public WebSession {
     WatchedPort port;
     Duration interval;
     std::size_t elements;
+    bool wants_image = false;
     SteadyTime due{};
+    const TypeInfo* pictured = nullptr;           // the type that `picture` is of
+    std::optional<FoxgloveChannel> picture = {};  // as Foxglove has it, which browsers can show
   };
   void SendHello();
   void SendStructure();
@@ -41,6 +45,8 @@ class ViewerSession final : public WebSession {
                                          const) const;
   void SendReplies();
   void SendValues(SteadyTime now);
+  // The value as JSON; false if not all of it.
+  static bool AppendValue(Watch& watch, const void* value, Time time, std::string& json);
   // How many values there have been, and the newest as JSON; nothing if there is no new one.
   std::optional<std::uint64_t> LookAt(Watch& watch, std::string& item) const;
   void SendRates(SteadyTime now);

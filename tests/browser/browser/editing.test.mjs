@@ -117,10 +117,18 @@ test('a key saves into the file that was loaded, which keeps its comments', asyn
   await page.locator('#undo:not([disabled])').waitFor();
   await page.locator('#graph').focus();
   await page.keyboard.press('Control+s');
+  await page.locator('.difference .new', { hasText: '0.33' }).waitFor();
+  assert.equal(await page.locator('.difference .gone').count(), 0, 'a line has come, none has gone');
+  assert.doesNotMatch(await readFile(file, 'utf8'), /0\.33/, 'it is only shown what would be');
+  await inspector.picture('save_difference');
+  await page.locator('#save-now').click();
   await page.locator('.toast.done, .toast.error').first().waitFor();
+  await inspector.closed();
   const text = await readFile(file, 'utf8');
   assert.match(text, /cruise_speed" value="0.33"/);
   assert.match(text, /Another planner is one word away/);
+  await page.locator('#save').click();
+  await page.locator('dialog h2', { hasText: 'Nothing to save' }).waitFor();
 });
 
 test('a group is made, given ports, filled, and connected through its border', async (t) => {

@@ -46,6 +46,24 @@ test('a module is added with static parameters, whose bounds, units and defaults
   await Has(inspector, 'range_maximum', '4');
 });
 
+test('a module is swapped by its own type, with another static parameter, and this is undone', async (t) => {
+  const inspector = await Demo(t);
+  const { page } = inspector;
+  await inspector.click('/bug_demo/laser');
+  await page.locator('#swap').click();
+  await page.locator('[data-choice="simulation/laser"] small', { hasText: 'its own type' }).waitFor();
+  await page.locator('[data-choice="simulation/laser"]').click();
+  const rays = page.locator('[id="setting:rays"]');
+  const before = await rays.inputValue();
+  await rays.fill('61');
+  await rays.press('Enter');
+  await inspector.closed();
+  await Has(inspector, 'rays', '61');
+  assert.equal((await inspector.edges()).filter((edge) => edge.includes('/laser/')).length, 3, 'its connections stay');
+  await page.locator('#undo').click();
+  await Has(inspector, 'rays', before);
+});
+
 test('a static parameter of a module that runs is set where its others are', async (t) => {
   const inspector = await Demo(t);
   await inspector.click('/bug_demo/laser');

@@ -9,7 +9,10 @@ const kTypes = { '/': ['index.html', 'text/html'], '/page.js': ['page.js', 'text
   '/page.css': ['page.css', 'text/css'], '/world_3d.js': ['world_3d.js', 'text/javascript'], '/icon.svg': ['icon.svg', 'image/svg+xml'] };
 let runs = 0;
 
-/** {url, port, close(), application, watched()}; watched(): the ports that pages look at; `page`: the folder of the bundle. */
+/**
+ * {url, port, close(), application, watched(), asked(path)}; watched(): the ports that pages look at; asked(): how one was asked for
+ * last; `page`: the folder of the bundle.
+ */
 export async function ServeMock(application, { page, port = 0, readOnly = false }) {
   const http = createServer(async (request, response) => {
     const entry = kTypes[request.url.split('?')[0]];
@@ -32,6 +35,7 @@ export async function ServeMock(application, { page, port = 0, readOnly = false 
   return {
     application, port: http.address().port, url: `http://127.0.0.1:${http.address().port}/`,
     watched: () => [...clients].flatMap((client) => client.watched),
+    asked: (path) => [...clients].map((client) => client.asked.get(path)).find(Boolean),
     close: async () => {
       clearInterval(timer);
       for (const socket of sockets.clients) socket.terminate();
@@ -49,6 +53,7 @@ class Client {
   constructor(socket, application, { run, readOnly, tellAll }) {
     Object.assign(this, { socket, application, readOnly, tellAll });
     this.rates = false;
+    this.asked = new Map(); // port path -> the message that asked for its values
     socket.on('message', (text) => this.#receive(JSON.parse(text)));
     this.send({ op: 'hello', protocol: 1, application: application.name, file: `/mock/${application.name}.xml`, run,
       clock: 'simulated', read_only: readOnly, runnel: '0.0.0' });
@@ -102,6 +107,7 @@ class Client {
     if (message.op === 'watch') {
       this.#watched.set(message.path, 0);
       this.#told.delete(message.path);
+      this.asked.set(message.path, message);
     } else if (message.op === 'unwatch') this.#watched.delete(message.path);
     else if (message.op === 'watch_rates') this.rates = message.rate > 0;
     else this.#answer(message);

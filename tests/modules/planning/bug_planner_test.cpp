@@ -65,6 +65,28 @@ TEST_F(BugPlannerTest, DrivesToTheGoalInTheOpen) {
   EXPECT_NEAR(status().distance_to_goal, 2.99, 1e-9);
 }
 
+TEST_F(BugPlannerTest, DrawsWhatItHasInMindWhileSomebodyLooks) {
+  rig.Feed(rig.module.goal, {3, 0});
+  Step({});
+  EXPECT_EQ(rig.module.drawing.publications(), 0u);
+  rig.module.drawing.NoteLook();
+  rig.Feed(rig.module.pose, {1, 0, kPi / 2});
+  Surroundings view{.sensor_range = 4, .safe_distance = 0.35F, .is_measured = true};
+  AddBoundaryPoint(view, {.distance = 2, .bearing = 0});
+  rig.Feed(rig.module.surroundings, view);
+  rig.RunCycle();
+  ASSERT_EQ(rig.module.drawing.publications(), 1u);
+  Step({1.1, 0});
+  EXPECT_EQ(rig.module.drawing.publications(), 1u) << "nobody has looked since";
+  const Drawing drawing = rig.Last(rig.module.drawing);
+  ASSERT_GE(drawing.items.size(), 2u);
+  EXPECT_EQ(drawing.items[0].kind, DrawnKind::kLine);
+  EXPECT_EQ(drawing.items[0].points, (std::vector<Point2>{{0, 0}, {3, 0}}));
+  ASSERT_EQ(drawing.items[1].points.size(), 1u) << "as it is in the world";
+  EXPECT_NEAR(drawing.items[1].points[0].x, 1, 1e-3);
+  EXPECT_NEAR(drawing.items[1].points[0].y, 2, 1e-3);
+}
+
 TEST_F(BugPlannerTest, StandsStillAtTheGoalAndTakesANewOne) {
   rig.Feed(rig.module.goal, {0.05, 0});
   Step({});

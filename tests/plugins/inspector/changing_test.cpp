@@ -184,7 +184,7 @@ TEST_F(Changing, NamesTheTypesThatCouldStandIn) {
   ASSERT_EQ(reply["ok"], true) << reply.dump();
   std::vector<std::string> types;
   for (const Json& each : reply["types"]) types.push_back(each["type"]);
-  EXPECT_THAT(types, ElementsAre("test/failing", "test/fast_counter"));
+  EXPECT_THAT(types, ElementsAre("test/counter", "test/failing", "test/fast_counter"));
   EXPECT_THAT(reply["types"][0]["lost"], IsEmpty());
   EXPECT_EQ(
       viewer.Change({"replace /app/a with test/fast_counter", "create /app/s test/sink"})["ok"],

@@ -16,14 +16,15 @@ export class Watches {
 
   /**
    * A signal of {stamp, measured, count, value, cut, drops} or null, and the function that ends it. `onValue` gets the
-   * same, null when the application has begun anew.
+   * same, null when the application has begun anew. `as`: 'image' has pictures come whole, as browsers take them; for whoever else
+   * looks at the port, too.
    */
-  watch(path, { rate = kRate, elements = kElements, onValue } = {}) {
+  watch(path, { rate = kRate, elements = kElements, as = '', onValue } = {}) {
     if (!this.#watched.has(path)) {
       this.#watched.set(path, { value: signal(null), users: new Set(), asked: '' });
     }
     const entry = this.#watched.get(path);
-    const user = { rate, elements, onValue };
+    const user = { rate, elements, as, onValue };
     entry.users.add(user);
     this.#ask(path, entry);
     if (onValue && entry.value.peek()) onValue(entry.value.peek());
@@ -73,8 +74,9 @@ export class Watches {
     const users = [...entry.users];
     const rate = Math.max(...users.map((user) => user.rate));
     const elements = Math.max(...users.map((user) => user.elements));
-    const asked = `${rate} ${elements}`;
+    const as = users.some((user) => user.as === 'image') ? { as: 'image' } : {};
+    const asked = `${rate} ${elements} ${as.as}`;
     if (asked === entry.asked) return;
-    if (this.#send({ op: 'watch', path, rate, elements })) entry.asked = asked;
+    if (this.#send({ op: 'watch', path, rate, elements, ...as })) entry.asked = asked;
   }
 }

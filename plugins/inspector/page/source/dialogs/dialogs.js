@@ -7,11 +7,12 @@ import { CreateDialog } from './create_dialog.js';
 import { Menu } from './menu.js';
 import { PortDialog } from './port_dialog.js';
 import { HelpDialog, MoveDialog, SaveDialog } from './small_dialogs.js';
+import { SaveDifference } from './save_difference.js';
 import { SwapDialog } from './swap_dialog.js';
 
 const kDialogs = {
   create: CreateDialog, connect: ConnectDialog, swap: SwapDialog, move: MoveDialog, port: PortDialog,
-  save: SaveDialog, help: HelpDialog, menu: Menu,
+  difference: SaveDifference, save: SaveDialog, help: HelpDialog, menu: Menu,
 };
 
 export function OpenDialog() {

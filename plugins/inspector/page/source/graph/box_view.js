@@ -6,7 +6,9 @@ import { memo } from '../panels/memo.js';
 import { ThreadOf } from '../model/structure.js';
 import { selected, selectedThread } from '../state/choices.js';
 import { revision, structure } from '../state/store.js';
+import { BoxPicture, PictureSign } from './box_picture.js';
 import { BoxTime } from './box_time.js';
+import { DrawingOf } from '../state/pictured.js';
 import { PortHeight, kHeader } from './measure.js';
 import { PortView } from './port_view.js';
 import { ThreadColour } from './thread_colour.js';
@@ -33,7 +35,8 @@ export const BoxView = memo(({ box }) => {
         html`<path class="rule" d=${`M8,${kHeader - 3}H${box.width - 8}`} />`}
       <text class="name" x="14" y="18" style=${{ '--most': `${MostSize(box)}px` }}>${Cut(element.name, (box.width - 44) / 7.4)}</text>
       <text class="type" x="14" y="32">${Cut(Detail(box), (box.width - 26) / 6)}</text>
-      ${!isGroup && html`<${BoxTime} path=${path} x=${box.width - 10} y=${18} />`}
+      ${!isGroup && html`<${BoxTime} path=${path} x=${box.width - (DrawingOf(path) ? 32 : 10)} y=${18} />
+        <${PictureSign} box=${box} /><${BoxPicture} box=${box} />`}
       ${isGroup && html`<g class="fold" data-fold=${path}><rect x=${box.width - 28} y="5" width="22" height="22"
           rx="4" />
         <path d=${`M${box.width - 20},${11}l5,5l-5,5`} /></g>`}

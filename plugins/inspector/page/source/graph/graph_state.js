@@ -2,6 +2,7 @@
 
 import { computed, effect, signal } from '@preact/signals';
 import { IsOpen, SetOpen, openGroups } from '../state/choices.js';
+import { IsPictured } from '../state/pictured.js';
 import { shapeRevision, structure } from '../state/store.js';
 import { GraphLayout } from './layout.js';
 import { Contains, FitView, ShowBox, VisibleArea, ZoomAt } from './viewport.js';
@@ -12,7 +13,7 @@ const layouter = new GraphLayout();
 export const layout = computed(() => {
   shapeRevision.value;
   openGroups.value;
-  return layouter.compute(structure, IsOpen);
+  return layouter.compute(structure, IsOpen, IsPictured);
 });
 
 export const size = signal({ width: 0, height: 0 });

@@ -5,13 +5,14 @@ import { IsGroup } from '../model/structure.js';
 import { BowPath, ForwardPath } from './edge_path.js';
 import { ClosingEdges, ConnectionsByLevel, IsDistant, kInside, kOutside } from './levels.js';
 import { LevelLayout } from './level_layout.js';
-import { BoxSize, PortHeight } from './measure.js';
+import { BoxSize, PortHeight, kPicture } from './measure.js';
 
 const kPatience = 150; // boxes at once; dagre takes half a second for as many
 const kRateWidth = 40; // of the rate beside the ports of the last box
 
 export class GraphLayout {
   #kept = new Map(); // group -> {signature, layout}
+  #isPictured = () => false;
   #placed = 0;       // boxes that dagre has placed in this computation
 
   /**
@@ -19,12 +20,14 @@ export class GraphLayout {
    * box:  {path, element, x, y, width, height, depth, open, inputs, outputs, hidden}; hidden: number of
    *       modules in a folded group
    * edge: {key, from, to, start, end, path, left, top, right, bottom, depth}
+   * `isPictured(path)`: the box has room for what its module draws.
    * ports: Map port path -> {x, y, side}
    */
-  compute(structure, isOpen) {
+  compute(structure, isOpen, isPictured = () => false) {
     const result = { boxes: new Map(), edges: [], ports: new Map(), width: 0, height: 0 };
     if (structure.root === null) return result;
     this.#placed = 0;
+    this.#isPictured = isPictured;
     const levels = ConnectionsByLevel(structure);
     const level = this.#level(structure, levels, structure.root, isOpen);
     result.width = level.width + kRateWidth;
@@ -74,7 +77,9 @@ export class GraphLayout {
     box.hidden = IsGroup(element) ? CountModules(structure, path) : 0;
     const detail = IsGroup(element) ? `${box.hidden} modules` : element.type ?? '';
     Object.assign(box, BoxSize(element.name, detail, inputs, outputs));
-    box.signature = `${path} ${detail} ${ports.map((port) => port.path)}`;
+    box.picture = this.#isPictured(path);
+    if (box.picture) Object.assign(box, { width: Math.max(box.width, 200), height: box.height + kPicture });
+    box.signature = `${path} ${detail} ${box.picture} ${ports.map((port) => port.path)}`;
     return box;
   }
 }

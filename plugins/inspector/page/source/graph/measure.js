@@ -4,6 +4,7 @@ export const kRow = 20;         // a row of ports
 export const kHeader = 42;      // name and type
 export const kGroupHeader = 30; // of a group that is open
 export const kPadding = 18;
+export const kPicture = 130;    // of what a module draws, below its ports
 const kLetter = 6.2;            // mean width of a letter of a port's name
 const kNameLetter = 7.4;
 

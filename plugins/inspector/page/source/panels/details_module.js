@@ -10,6 +10,7 @@ import { ThreadColour } from '../graph/thread_colour.js';
 import { ToggleGroup } from '../graph/graph_state.js';
 import { ParameterRow } from './parameter_row.js';
 import { DrawingPicture } from './drawing_picture.js';
+import { ImagePicture } from './image_picture.js';
 import { ActionButton, Facts, Link, Section, Title } from './parts.js';
 import { PortRow } from './port_row.js';
 import { Troubles } from './troubles.js';
@@ -62,6 +63,8 @@ export function ModuleDetails({ element }) {
       ${parameters.map((parameter) => html`<${ParameterRow} key=${parameter.path} parameter=${parameter} />`)}<//>`}
     ${ports.filter((port) => port.direction === 'output' && catalogue.value.meaning(port.data_type) === 'drawing')
       .map((port) => html`<${DrawingPicture} key=${port.path} path=${port.path} />`)}
+    ${ports.filter((port) => port.direction === 'output' && catalogue.value.meaning(port.data_type) === 'image')
+      .map((port) => html`<${ImagePicture} key=${port.path} path=${port.path} />`)}
     ${['input', 'output'].map((direction) => {
       const some = ports.filter((port) => port.direction === direction);
       return some.length > 0 && html`<${Section} title=${`${direction === 'input' ? 'Inputs' : 'Outputs'}`}

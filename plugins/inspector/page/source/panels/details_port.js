@@ -8,6 +8,7 @@ import { Disconnect } from '../state/actions.js';
 import { openDialog } from '../state/choices.js';
 import { FlowRate, canChange, catalogue, revision, structure } from '../state/store.js';
 import { ByHand } from './by_hand.js';
+import { ImagePicture } from './image_picture.js';
 import { ActionButton, Awaited, Facts, Link, Section, Title } from './parts.js';
 import { useWatched } from './use_watched.js';
 import { ValueTable } from './value_table.js';
@@ -43,9 +44,10 @@ export function PortDetails({ element }) {
       ['set by hand', element.by_hand ? 'what is published is not read' : ''],
     ]} />
     <${Section} title="Value" id="value">
-      ${item ? html`<${ValueTable} port=${path} type=${element.data_type} value=${item.value} />`
+      ${type?.meaning === 'image' ? html`<${ImagePicture} path=${path} />`
+        : item ? html`<${ValueTable} port=${path} type=${element.data_type} value=${item.value} />`
         : html`<p class="none">${type?.kind === 'opaque' ? 'values of this type cannot be shown' : 'nothing has come yet'}</p>`}
-      ${item?.cut && elements === kFew && html`<button class="link"
+      ${item?.cut && type?.meaning !== 'image' && elements === kFew && html`<button class="link"
           onClick=${() => setElements(kMany)}>show up to ${kMany} elements of lists</button>`}
       ${item?.cut && elements === kMany && html`<p class="note">longer lists are cut</p>`}
     <//>

@@ -1,6 +1,6 @@
 // Keys that work wherever one is, but in a field that takes text.
 
-import { Pause, Redo, Resume, Save, Step, Undo } from '../state/actions.js';
+import { Pause, Redo, Resume, Step, Undo } from '../state/actions.js';
 import { GroupForNew, openDialog } from '../state/choices.js';
 import { canChange, canDrive, hello, run, structure } from '../state/store.js';
 
@@ -17,7 +17,7 @@ export function AttachKeys() {
 }
 
 function WithControl(key, shift, isField) {
-  if (key === 's') return () => { if (canChange.value) Save(); };
+  if (key === 's') return () => { if (canChange.value) openDialog.value = { kind: 'difference' }; };
   if (isField || !canChange.value) return null; // fields have an undo of their own
   if (key === 'z' && !shift) return () => { if (run.value.undo) Undo(); };
   if (key === 'y' || (key === 'z' && shift)) return () => { if (run.value.redo) Redo(); };

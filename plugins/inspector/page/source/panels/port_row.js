@@ -1,8 +1,9 @@
 // One port in a list: name, type, what it carries now.
 
 import { html } from 'htm/preact';
-import { FormatRate, FormatValue } from '../model/value_format.js';
-import { FlowRate, revision, structure } from '../state/store.js';
+import { FormatRate } from '../model/value_format.js';
+import { FormatPortValue } from '../model/port_table.js';
+import { FlowRate, catalogue, revision, structure } from '../state/store.js';
 import { Link } from './parts.js';
 import { useWatched } from './use_watched.js';
 
@@ -16,6 +17,6 @@ export function PortRow({ port }) {
       ${isOpenEnded && html`<small class="missing">required, not connected</small>`}
       ${port.by_hand && html`<small class="missing">set by hand</small>`}
       <small class="rate">${rate === null ? '' : FormatRate(rate)}</small></div>
-    <div class="value">${item ? FormatValue(item.value, 80) : html`<span class="none">nothing yet</span>`}</div>
+    <div class="value">${item ? FormatPortValue(catalogue.value.meaning(port.data_type), item.value) : html`<span class="none">nothing yet</span>`}</div>
   </li>`;
 }

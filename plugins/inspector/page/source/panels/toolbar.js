@@ -3,7 +3,7 @@
 import { useEffect, useState } from 'preact/hooks';
 import { html } from 'htm/preact';
 import { FormatTime } from '../model/value_format.js';
-import { Pause, Redo, Resume, Save, SetSpeed, Step, Undo } from '../state/actions.js';
+import { Pause, Redo, Resume, SetSpeed, Step, Undo } from '../state/actions.js';
 import { GroupForNew, SetPanels, openDialog, panels, theme } from '../state/choices.js';
 import { canChange, canDrive, connection, hello, isConnected, role, run } from '../state/store.js';
 import { hasWorld } from '../world/world_view.js';
@@ -89,7 +89,8 @@ function Changes() {
           title=${redo ? `Redo “${redo}” (Ctrl+Shift+Z)` : 'Nothing to redo'}
         aria-label=${redo ? `Redo ${redo}` : 'Redo'}><${Icon} name="redo" /></button>
       <span class="joined">
-        <button id="save" disabled=${locked} onClick=${() => Save()} title="Save into the application's file (Ctrl+S)"
+        <button id="save" disabled=${locked} onClick=${() => { openDialog.value = { kind: 'difference' }; }}
+          title="Save into the application's file (Ctrl+S)"
           aria-label="Save"><${Icon} name="save" /></button>
         <button id="save-as" class="narrow" disabled=${locked}
             onClick=${() => { openDialog.value = { kind: 'save' }; }}

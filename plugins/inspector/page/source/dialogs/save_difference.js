@@ -1,0 +1,56 @@
+// Before the application's file is written: what of it will be another.
+
+import { useEffect, useState } from 'preact/hooks';
+import { html } from 'htm/preact';
+import { CountChanges, TextDifference } from '../model/text_difference.js';
+import { ErrorText, PreviewSave, Save } from '../state/actions.js';
+import { openDialog } from '../state/choices.js';
+import { CloseDialog, Dialog } from './dialog.js';
+
+export function SaveDifference() {
+  const [told, setTold] = useState(null); // {file, lines, isNew}
+  const [problem, setProblem] = useState('');
+  useEffect(() => {
+    PreviewSave().then((reply) => {
+      if (!reply.ok) return setProblem(Problem(reply));
+      return setTold({ file: reply.file, isNew: reply.before === '', lines: TextDifference(reply.before, reply.after) });
+    });
+  }, []);
+  const save = async () => {
+    const dialog = openDialog.value;
+    const reply = await Save('', { quiet: true });
+    if (reply.ok) CloseDialog(dialog);
+    else setProblem(Problem(reply));
+  };
+  const { added, removed } = CountChanges(told?.lines ?? []);
+  const isSame = told !== null && added + removed === 0;
+  const name = told?.file.replace(/.*\//, '') ?? '';
+  return html`
+    <${Dialog} key=${told === null ? 'asks' : 'told'} title="Save" className="wide difference-dialog">
+      <h2>${isSame ? 'Nothing to save' : html`Save ${name} ${told && html`<small class="counts"><span class="added">+${added}</span>
+        <span class="removed">−${removed}</span> line${added + removed === 1 ? '' : 's'}</small>`}`}</h2>
+      ${told && html`<p class="note path" title=${told.file}>${told.file}</p>`}
+      ${told === null && !problem && html`<p class="none">asking the application …</p>`}
+      ${isSame && html`<p>The file says all that the application is.</p>`}
+      ${told && !isSame && html`<${Difference} lines=${told.lines} />`}
+      ${problem && html`<p class="problem" role="alert">${problem}</p>`}
+      <div class="dialog-foot"><button onClick=${() => CloseDialog()} autofocus=${isSame}>${isSame ? 'Close' : 'Cancel'}</button>
+        ${!isSame && html`<button class="primary" id="save-now" disabled=${told === null} autofocus onClick=${save}>Save</button>`}</div>
+    <//>`;
+}
+
+const kSigns = { same: ' ', gone: '−', new: '+', skipped: ' ' };
+
+/** A unified difference, by lines. */
+export function Difference({ lines }) {
+  return html`<div class="difference" role="table" aria-label="What will change" tabindex="0">
+    ${lines.map(({ kind, text, before, after, count }, index) => (kind === 'skipped'
+      ? html`<p key=${index} class="skipped">${count} line${count === 1 ? '' : 's'} as before</p>`
+      : html`<p key=${index} class=${kind} role="row"><span class="number" aria-hidden="true">${before ?? ''}</span><span
+          class="number" aria-hidden="true">${after ?? ''}</span><span class="sign" aria-label=${kind}>${kSigns[kind]}</span><code>${text}</code></p>`))}
+  </div>`;
+}
+
+function Problem(reply) {
+  return (reply.errors ?? []).map(ErrorText).join('\n') || 'it was refused';
+}
