@@ -67,7 +67,9 @@ const std::map<std::string, std::pair<WebRole, WebRole>, std::less<>> kNeeded{
     {"speed", {WebRole::kChange, WebRole::kChange}},
     {"reload", {WebRole::kChange, WebRole::kChange}},
     {"log_level", {WebRole::kChange, WebRole::kChange}},
-    {"profile", {WebRole::kChange, WebRole::kChange}}};
+    {"profile", {WebRole::kChange, WebRole::kChange}},
+    {"latency", {WebRole::kChange, WebRole::kChange}},
+    {"preview", {WebRole::kChange, WebRole::kChange}}};
 
 TEST_F(Roles, MayDoOfEveryOperationWhatTheyMay) {
   hooks.save = [](const std::string&) -> Result<std::string> { return std::string("saved"); };
