@@ -11,7 +11,6 @@
 #include "core/types/type_info.h"
 #include "plugins/command_service/caught_error.h"
 #include "plugins/structure/change_history.h"
-#include "plugins/values/json_values.h"
 #include "plugins/values/json_writer.h"
 #include "plugins/values/value_bytes.h"
 
@@ -31,9 +30,6 @@ constexpr auto kTimeAlone = milliseconds(200);
 constexpr double kFastestWatch = 60;
 constexpr double kFastestRates = 10;
 constexpr std::size_t kMostElements = 1'000'000;
-constexpr std::size_t kLongestText = 2'000;
-constexpr std::size_t kLargestValue = 4'000'000;  // bytes
-constexpr std::size_t kLargestImage = 16'000'000;
 constexpr double kFastestImages = 15;
 
 Duration IntervalOf(double rate) { return FromSeconds(1 / rate); }
@@ -217,23 +213,6 @@ void ViewerSession::SendValues(SteadyTime now) {
   std::string text = "{\"op\":\"values\",\"time\":";
   AppendJsonNumber(ToSeconds(inspection_.running_for()), text);
   client_.SendText(text + ",\"items\":[" + items + "]}");
-}
-
-bool ViewerSession::AppendValue(Watch& watch, const void* value, Time time, std::string& json) {
-  const TypeInfo& type = watch.port.type();
-  if (watch.wants_image && type.semantic_tag() == "image") {
-    if (watch.pictured != &type) {
-      std::vector<FoxgloveChannel> channels = ChannelsFor(type, watch.port.path(), {});
-      watch.picture.reset();
-      if (channels.size() > 1) watch.picture = std::move(channels.back());
-      watch.pictured = &type;
-    }
-    if (watch.picture && BytesOf(type, value) <= kLargestImage) {
-      watch.picture->append(value, time, json);
-      return true;
-    }
-  }
-  return AppendJson(type, value, json, {watch.elements, kLongestText, kLargestValue});
 }
 
 std::optional<std::uint64_t> ViewerSession::LookAt(Watch& watch, std::string& item) const {

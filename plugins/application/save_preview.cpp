@@ -1,4 +1,4 @@
-#include "plugins/application_files/saving/save_preview.h"
+#include "plugins/application/save_preview.h"
 
 #include <mutex>
 #include <system_error>
