@@ -1,10 +1,19 @@
 #include "core/base/clock.h"
 
+#include <time.h>
+
 namespace runnel {
 
 Time SteadyClock::Now() const noexcept {
   return Time(
       std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch()));
+}
+
+Time SteadyClock::CoarseNow() const noexcept {
+  // The same time line as std::chrono::steady_clock, which is CLOCK_MONOTONIC.
+  timespec tick{};
+  clock_gettime(CLOCK_MONOTONIC_COARSE, &tick);
+  return Time(std::chrono::seconds(tick.tv_sec) + std::chrono::nanoseconds(tick.tv_nsec));
 }
 
 void ManualClock::Set(Time time) noexcept {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -16,10 +17,12 @@ namespace runnel {
 /// A first-in-first-out queue of fixed capacity for any number of writers and readers.
 ///
 /// Each cell counts sequence numbers: 2k when it is free for its k-th use, 2k + 1 while it is filled for the
-/// k-th time (after D. Vyukov's bounded queue, with the laps of E. Rigtorp's).
+/// k-th time (after D. Vyukov's bounded queue, with the laps of E. Rigtorp's). A position is a lap and an index in
+/// one number, the index in its low bits, so that nobody divides.
 ///
 /// Ownership:   the queue owns what lies in it, and destroys the rest in its destructor.
-/// Threads:     all members but the constructor and the destructor, from any thread, at any time.
+/// Threads:     all members but the constructor and the destructor, from any thread, at any time;
+///              TryEmplaceAlone() by the only writer, if there is one.
 /// Progress:    a call repeats only if another call has claimed a cell. A thread stopped between
 ///              claiming and filling a cell hides that cell and those behind it from readers, who
 ///              are told "empty" and do not wait.
@@ -32,7 +35,9 @@ class BoundedQueue {
  public:
   /// Precondition: capacity > 0.
   explicit BoundedQueue(std::size_t capacity)
-      : capacity_(capacity), cells_(MakeQueueCells<Cell>(capacity)) {
+      : capacity_(capacity),
+        index_bits_(static_cast<unsigned>(std::bit_width(capacity - 1))),
+        cells_(MakeQueueCells<Cell>(capacity)) {
     RUNNEL_CHECK(capacity > 0, "a queue needs room for one value at least");
   }
   ~BoundedQueue() {
@@ -51,13 +56,13 @@ class BoundedQueue {
     // relaxed: the position alone orders nothing; the cell's sequence does.
     std::uint64_t position = tail_.load(std::memory_order_relaxed);
     for (;;) {
-      Cell& cell = cells_[position % capacity_];
-      const std::uint64_t free_sequence = 2 * (position / capacity_);
+      Cell& cell = cells_[Index(position)];
+      const std::uint64_t free_sequence = 2 * Lap(position);
       // acquire: pairs with the release in TryConsume(): the old value is gone.
       const std::uint64_t sequence = cell.sequence.load(std::memory_order_acquire);
       if (sequence == free_sequence) {
         // relaxed: claims the position, publishes nothing.
-        if (tail_.compare_exchange_weak(position, position + 1, std::memory_order_relaxed,
+        if (tail_.compare_exchange_weak(position, Next(position), std::memory_order_relaxed,
                                         std::memory_order_relaxed)) {
           std::construct_at(&cell.value, std::forward<Parts>(parts)...);
           // release: pairs with the acquire in TryConsume(): the value is in place.
@@ -70,6 +75,22 @@ class BoundedQueue {
         position = tail_.load(std::memory_order_relaxed);  // another writer was faster
       }
     }
+  }
+  /// The same by the only writer, who has nobody to claim a position from: a store in place of a
+  /// compare-and-swap, which would cost as much as all the rest.
+  template <typename... Parts>
+  [[nodiscard]] bool TryEmplaceAlone(Parts&&... parts) noexcept {
+    static_assert(std::is_nothrow_constructible_v<T, Parts&&...>);
+    // relaxed: the writer's own, and for size().
+    const std::uint64_t position = tail_.load(std::memory_order_relaxed);
+    Cell& cell = cells_[Index(position)];
+    const std::uint64_t free_sequence = 2 * Lap(position);
+    // acquire, release: as in TryEmplace().
+    if (cell.sequence.load(std::memory_order_acquire) != free_sequence) return false;
+    tail_.store(Next(position), std::memory_order_relaxed);
+    std::construct_at(&cell.value, std::forward<Parts>(parts)...);
+    cell.sequence.store(free_sequence + 1, std::memory_order_release);
+    return true;
   }
 
   /// Moves the oldest value out to `value`; returns false if there is none.
@@ -89,14 +110,14 @@ class BoundedQueue {
   [[nodiscard]] bool TryConsumeIf(May&& may, Use&& use) noexcept {
     std::uint64_t position = head_.load(std::memory_order_relaxed);
     for (;;) {
-      Cell& cell = cells_[position % capacity_];
-      const std::uint64_t full_sequence = 2 * (position / capacity_) + 1;
+      Cell& cell = cells_[Index(position)];
+      const std::uint64_t full_sequence = 2 * Lap(position) + 1;
       // acquire: pairs with the release in TryEmplace().
       const std::uint64_t sequence = cell.sequence.load(std::memory_order_acquire);
       if (sequence == full_sequence) {
         if (!may()) return false;
         // Fails if another reader took the value meanwhile; the next one needs an answer of its own.
-        if (head_.compare_exchange_weak(position, position + 1, std::memory_order_relaxed,
+        if (head_.compare_exchange_weak(position, Next(position), std::memory_order_relaxed,
                                         std::memory_order_relaxed)) {
           use(cell.value);
           std::destroy_at(&cell.value);  // gives back at once what the value held
@@ -116,10 +137,10 @@ class BoundedQueue {
   [[nodiscard]] bool HasOldest() const noexcept {
     for (;;) {
       const std::uint64_t position = head_.load(std::memory_order_relaxed);
-      const std::uint64_t full_sequence = 2 * (position / capacity_) + 1;
+      const std::uint64_t full_sequence = 2 * Lap(position) + 1;
       // acquire: as in TryConsume(), so that a later sequence shows a later head.
       const std::uint64_t sequence =
-          cells_[position % capacity_].sequence.load(std::memory_order_acquire);
+          cells_[Index(position)].sequence.load(std::memory_order_acquire);
       if (sequence <= full_sequence) return sequence == full_sequence;
     }
   }
@@ -129,21 +150,35 @@ class BoundedQueue {
   [[nodiscard]] std::size_t size() const noexcept {
     const std::uint64_t head = head_.load(std::memory_order_relaxed);
     const std::uint64_t tail = tail_.load(std::memory_order_relaxed);
-    return tail > head ? static_cast<std::size_t>(tail - head) : 0;
+    if (tail <= head) return 0;
+    return (Lap(tail) - Lap(head)) * capacity_ + Index(tail) - Index(head);
   }
 
  private:
+  // The sequence lies behind the value, where the writer ends: else a reader that asks for it would take the
+  // first line away while the writer is at the others.
   struct alignas(kCacheLineSize) Cell {
     Cell() noexcept {}
     ~Cell() {}
 
-    Atomic<std::uint64_t> sequence{0};
     union {
       T value;  // there while the sequence is odd
     };
+    Atomic<std::uint64_t> sequence{0};
   };
 
+  [[nodiscard]] std::size_t Index(std::uint64_t position) const noexcept {
+    return position & ((std::uint64_t{1} << index_bits_) - 1);
+  }
+  [[nodiscard]] std::uint64_t Lap(std::uint64_t position) const noexcept {
+    return position >> index_bits_;
+  }
+  [[nodiscard]] std::uint64_t Next(std::uint64_t position) const noexcept {
+    return Index(position) + 1 != capacity_ ? position + 1 : (Lap(position) + 1) << index_bits_;
+  }
+
   const std::size_t capacity_;
+  const unsigned index_bits_;
   const std::unique_ptr<Cell[]> cells_;
   alignas(kCacheLineSize) Atomic<std::uint64_t> head_{0};
   alignas(kCacheLineSize) Atomic<std::uint64_t> tail_{0};

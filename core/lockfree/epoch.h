@@ -28,11 +28,10 @@ namespace runnel {
 template <template <typename> class Atomic = std::atomic>
 class EpochDomain {
  public:
-  /// One thread's part. Nested entries are counted, and only the outermost pays.
+  /// One thread's part. Entries do not nest: EpochGuard counts them.
   struct alignas(kCacheLineSize) Participant {
     Atomic<std::uint64_t> entered{kOutside};
     Participant* next = nullptr;  // written before the participant is added, then constant
-    std::uint32_t depth = 0;      // the thread's own
   };
 
   /// Makes the domain look at `participant` for ever after.
@@ -47,7 +46,6 @@ class EpochDomain {
   }
 
   void Enter(Participant& participant) noexcept {
-    if (participant.depth++ > 0) return;
     // acquire: pairs with the release in Advance(): who enters in a new epoch finds the new
     // pointer. release: who sees that this thread has entered anew sees as done what it did before
     // it left the last time. The fence stands between this store and the load of the pointer.
@@ -55,7 +53,6 @@ class EpochDomain {
     Fences<Atomic>::Light();
   }
   void Leave(Participant& participant) noexcept {
-    if (--participant.depth > 0) return;
     // release: what the reader did with the old parts is done before a writer sees it outside.
     participant.entered.store(kOutside, std::memory_order_release);
   }

@@ -14,19 +14,36 @@ namespace runnel {
 ///              start of a real-time thread.
 class EpochGuard {
  public:
-  EpochGuard() : participant_(ThisThread().epoch) { ProcessEpochs().Enter(participant_); }
-  ~EpochGuard() { ProcessEpochs().Leave(participant_); }
+  EpochGuard() : participant_(ThisThread().epoch) {
+    if (internal::guard_depth++ == 0) ProcessEpochs().Enter(participant_);
+  }
+  ~EpochGuard() {
+    if (--internal::guard_depth == 0) ProcessEpochs().Leave(participant_);
+  }
   EpochGuard(const EpochGuard&) = delete;
   EpochGuard& operator=(const EpochGuard&) = delete;
 
   /// True if the calling thread holds a guard.
   [[nodiscard]] static bool HeldByThisThread() noexcept {
-    return internal::thread_record->epoch.depth > 0;
+    return internal::guard_depth > 0;
   }
 
   /// By which others can tell what the calling thread has left; registers the thread, if this is
   /// its first. Never freed; the thread's only as long as it lives.
   [[nodiscard]] static EpochDomain<>::Participant& Participant() { return ThisThread().epoch; }
+
+ private:
+  EpochDomain<>::Participant& participant_;
+};
+
+/// A guard for one short look, inside which no other guard is made: it is not counted, which costs a thread that
+/// looks again and again more than all the rest. Precondition: the thread holds none.
+class BriefEpochGuard {
+ public:
+  BriefEpochGuard() : participant_(ThisThread().epoch) { ProcessEpochs().Enter(participant_); }
+  ~BriefEpochGuard() { ProcessEpochs().Leave(participant_); }
+  BriefEpochGuard(const BriefEpochGuard&) = delete;
+  BriefEpochGuard& operator=(const BriefEpochGuard&) = delete;
 
  private:
   EpochDomain<>::Participant& participant_;

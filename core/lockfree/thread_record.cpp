@@ -11,6 +11,7 @@ template class HazardDomain<>;
 namespace internal {
 constinit ThreadRecord no_record;
 thread_local constinit ThreadRecord* thread_record = &no_record;
+thread_local constinit std::uint32_t guard_depth = 0;
 constinit EpochDomain<> process_epochs;
 constinit HazardDomain<> process_hazards;
 }  // namespace internal

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 
 #include "core/lockfree/epoch.h"
 #include "core/lockfree/hazard.h"
@@ -25,12 +26,14 @@ extern template class HazardDomain<>;
 namespace internal {
 extern constinit EpochDomain<> process_epochs;
 extern constinit HazardDomain<> process_hazards;
-// What a thread has before its first look at a port: nobody's record, in which nothing is ever
-// changed, so that "is this thread inside a guard?" needs no look at whether it has a record.
+// What a thread has before its first look at a port: nobody's record, in which nothing is ever changed.
 extern constinit ThreadRecord no_record;
 // initial-exec: one load instead of a call, also from plugins; the variable lives in the core,
 // which is there from the start of the program.
 extern thread_local constinit ThreadRecord* thread_record
+    __attribute__((tls_model("initial-exec")));
+// How many guards the thread holds. Apart from the record, so that "is this thread inside a guard?" is one look.
+extern thread_local constinit std::uint32_t guard_depth
     __attribute__((tls_model("initial-exec")));
 ThreadRecord& RegisterThread();
 }  // namespace internal

@@ -138,6 +138,7 @@ void BoundInput::Bound() {
   if (!binding->queue) return;
   const EpochGuard guard;
   for (ChannelBase* channel : fresh_) channel->DeliverNewest(*binding->queue);
+  binding->queue->EndConnecting();
   fresh_.clear();
 }
 

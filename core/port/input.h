@@ -43,13 +43,12 @@ class Input final : public BoundInput {
 
   /// The newest value, with whether it is new since the last Read().
   [[nodiscard, gnu::always_inline]] Lease<T> Read() noexcept {
-    ThreadRecord& thread = *internal::thread_record;
     const Binding* const binding = this->binding();
-    if (thread.epoch.depth == 0 || binding->channel == nullptr) [[unlikely]] {
+    if (!EpochGuard::HeldByThisThread() || binding->channel == nullptr) [[unlikely]] {
       Lease<T> lease = ReadOnSlowPath();
       return Lease<T>(std::move(lease), internal::NoCopy{});
     }
-    return Lease<T>(Typed(*binding->channel), thread.hazards, *binding->only);
+    return Lease<T>(Typed(*binding->channel), internal::thread_record->hazards, *binding->only);
   }
   /// The newest value without marking it as read. Any thread.
   [[nodiscard]] Lease<T> Peek() const noexcept {
@@ -111,11 +110,12 @@ class Input final : public BoundInput {
   };
 
   [[gnu::always_inline]] bool CopyNewest(T& value) const noexcept {
-    ThreadRecord& thread = *internal::thread_record;
+    if (!EpochGuard::HeldByThisThread()) [[unlikely]]
+      return CopyOutsideOfGuards(value);
     const Binding* const binding = this->binding();
-    if (thread.epoch.depth == 0 || binding->channel == nullptr) [[unlikely]]
+    if (binding->channel == nullptr) [[unlikely]]
       return CopyOnSlowPath(value);
-    return Typed(*binding->channel).Copy(value, thread.hazards);
+    return Typed(*binding->channel).Copy(value, internal::thread_record->hazards);
   }
   [[gnu::noinline]] Lease<T> PeekForViewer() const noexcept { return Peek(); }
   // The ways that are seldom taken, outside of a guard, from several sources or none, and with
@@ -128,6 +128,15 @@ class Input final : public BoundInput {
     Lease<T> lease = Newest(binding, link);
     if (lease) lease.last_ = const_cast<Link*>(link)->Note(lease.sequence());
     return lease;
+  }
+  [[gnu::noinline]] bool CopyOutsideOfGuards(T& value) const noexcept {
+    {
+      const BriefEpochGuard guard;
+      const Binding* const binding = this->binding();
+      if (binding->channel != nullptr) [[likely]]
+        return Typed(*binding->channel).Copy(value, internal::thread_record->hazards);
+    }
+    return CopyOnSlowPath(value);
   }
   [[gnu::noinline]] bool CopyOnSlowPath(T& value) const noexcept {
     const EpochGuard guard;

@@ -107,7 +107,10 @@ class InputQueue final : public InputQueueBase {
                                     std::uint64_t source) noexcept {
     Shared& queue = *shared_;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
-      if (queue.TryEmplace(std::move(content), publication, source)) return true;
+      const bool pushed = publisher_is_alone()
+                              ? queue.TryEmplaceAlone(std::move(content), publication, source)
+                              : queue.TryEmplace(std::move(content), publication, source);
+      if (pushed) return true;
       if (on_full_ != OnFull::kDropOldest) break;
       // Not full and yet no capacity: a reader is at work there, and dropping others would not help.
       if (queue.size() < queue.capacity()) continue;

@@ -35,7 +35,9 @@ void MakeTypedPortsKnown();
 /// Progress:    Publish() is lock-free, and does not visit inputs that read only the latest value.
 /// Allocation:  none, unless a growing pool has run out of buffers (growths() counts it).
 /// Time:        values bear the time of the cycle; outside of a cycle, that of the runtime's clock; and
-///              beside it that of their measurement, if Publish() is told.
+///              beside it that of their measurement, if Publish() is told. Outside of a cycle what is published with
+///              a time of measurement bears the clock's coarse time (Clock::CoarseNow()), which is cheaper than the
+///              rest of publishing together; OwnCycle gives it an exact one.
 template <typename T>
 class Output final : public OutputBase {
  public:
@@ -79,14 +81,14 @@ class Output final : public OutputBase {
   /// The same with the time at which the value was measured, on the application's clock: what readers
   /// see as timestamp(). Values need not come in the order of their timestamps.
   [[gnu::always_inline]] PublishStatus Publish(runnel::Loan<T>&& loan, Time timestamp) {
-    return own().Publish(std::move(loan), {timestamp, PublicationTime()});
+    return own().Publish(std::move(loan), {timestamp, PublicationTime(timestamp)});
   }
   PublishStatus Publish(const T& value,
                         Time timestamp) requires(kIsInlined<T> || std::is_copy_assignable_v<T>) {
-    return PublishAt(value, {timestamp, PublicationTime()});
+    return PublishAt(value, {timestamp, PublicationTime(timestamp)});
   }
   PublishStatus Publish(T&& value, Time timestamp) requires(!kIsInlined<T>) {
-    return PublishAt(std::move(value), {timestamp, PublicationTime()});
+    return PublishAt(std::move(value), {timestamp, PublicationTime(timestamp)});
   }
 
   /// Publishes what has come by an input, from whatever output: of types that travel in buffers the very value,
@@ -112,7 +114,7 @@ class Output final : public OutputBase {
   }
   PublishStatus PublishInPlace(const T& value, std::shared_ptr<ValueOwner<T>> owner,
                                Time timestamp) {
-    return PublishInPlaceAt(value, std::move(owner), {timestamp, PublicationTime()});
+    return PublishInPlaceAt(value, std::move(owner), {timestamp, PublicationTime(timestamp)});
   }
   /// Gives back what has been forwarded or published in place and nobody holds any more. By the publisher.
   void ReleaseUnused() noexcept {

@@ -183,6 +183,9 @@ class Port : public FrameworkElement {
 
   /// The time that a value published now by the calling thread bears.
   [[nodiscard]] inline Time PublicationTime() const noexcept;
+  /// The same of a value that was measured at `timestamp`, for which the clock's coarse time is good enough outside
+  /// of cycles: not before the measurement.
+  [[nodiscard]] inline Time PublicationTime(Time timestamp) const noexcept;
 
   void Detach() noexcept override;
 
@@ -191,6 +194,7 @@ class Port : public FrameworkElement {
   enum class Links { kKeep, kMake };
 
   [[nodiscard]] Time TimeOutsideOfCycles() const noexcept;
+  [[nodiscard]] Time CoarseTimeOutsideOfCycles(Time timestamp) const noexcept;
   [[nodiscard]] Port* by_hand() const noexcept;
   internal::PortExtras& Extras();
   static Result<void> CheckConnection(const Port& from, const Port& to,
@@ -230,6 +234,12 @@ inline Time Port::PublicationTime() const noexcept {
   const Cycle* cycle = CurrentCycle();
   if (cycle == nullptr) [[unlikely]]
     return TimeOutsideOfCycles();
+  return cycle->now;
+}
+inline Time Port::PublicationTime(Time timestamp) const noexcept {
+  const Cycle* cycle = CurrentCycle();
+  if (cycle == nullptr) [[unlikely]]
+    return CoarseTimeOutsideOfCycles(timestamp);
   return cycle->now;
 }
 

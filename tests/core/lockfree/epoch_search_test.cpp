@@ -58,25 +58,6 @@ TEST(EpochSearch, PartIsDestroyedOnlyWhenNobodyLooks) {
   EXPECT_TRUE(Search<EpochSuite>(kIterations, 1));
 }
 
-// Entering and leaving once more inside changes nothing.
-struct NestedSuite : rl::test_suite<NestedSuite, 2>, Parts {
-  Domain::Participant participant;
-
-  NestedSuite() { domain.Add(participant); }
-  void thread(unsigned index) {
-    if (index == 1) return ReplaceAndDestroy(2);
-    domain.Enter(participant);
-    const Part& part = Current();
-    domain.Enter(participant);
-    ExpectAlive(part);
-    domain.Leave(participant);
-    ExpectAlive(part);
-    domain.Leave(participant);
-  }
-};
-
-TEST(EpochSearch, InnerGuardChangesNothing) { EXPECT_TRUE(Search<NestedSuite>(kIterations, 4)); }
-
 // A thread that ends hands its participant to the next one: who sees that one inside, in a new
 // epoch, sees as done what the first one did.
 struct HandedOverSuite : rl::test_suite<HandedOverSuite, 3>, Parts {

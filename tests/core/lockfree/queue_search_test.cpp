@@ -188,6 +188,49 @@ struct SharedQueueSuite : rl::test_suite<SharedQueueSuite, 4> {
   }
 };
 
+// The only writer makes room for itself, as a reader beside the queue's own; somebody else puts in the first value
+// before it says that the writer is alone.
+struct LonelyWriterSuite : rl::test_suite<LonelyWriterSuite, 3> {
+  Grounds grounds;
+  BoundedQueue<Grounded, SearchedAtomic> queue{1};
+  SearchedAtomic<int> is_alone{0};
+  SearchedAtomic<int> seen[4];
+
+  void See(Grounded& oldest) {
+    RL_ASSERT(oldest.Get() >= 1 && oldest.Get() <= 3);
+    RL_ASSERT(seen[oldest.Get()].fetch_add(1, std::memory_order_relaxed) == 0);
+  }
+  bool Push(int value) {
+    if (is_alone.load(std::memory_order_acquire) == 0) return queue.TryPush(Grounded(value));
+    return queue.TryEmplaceAlone(value);
+  }
+  void thread(unsigned index) {
+    if (index == 0) {
+      for (int i = 2; i <= 3; ++i) {
+        if (Push(i)) continue;
+        (void)queue.TryConsume([this](Grounded& oldest) { See(oldest); });
+        (void)Push(i);
+      }
+    } else if (index == 1) {
+      (void)queue.TryPush(Grounded(1));
+      is_alone.store(1, std::memory_order_release);
+    } else {
+      int last = 0;
+      for (int i = 0; i < 2; ++i) {
+        (void)queue.TryConsume([&](Grounded& oldest) {
+          See(oldest);
+          RL_ASSERT(oldest.Get() == 1 || oldest.Get() > last);  // the first may come at any time
+          if (oldest.Get() != 1) last = oldest.Get();
+        });
+      }
+    }
+  }
+};
+
+TEST(BoundedQueueSearch, OnlyWriterNeedsNoClaim) {
+  EXPECT_TRUE(Search<LonelyWriterSuite>(kIterations, 1));
+}
+
 TEST(BoundedQueueSearch, EachCellBelongsToOneAtATime) {
   EXPECT_TRUE(Search<SharedQueueSuite>(kIterations, 1));
 }

@@ -31,17 +31,27 @@ TEST(EpochDomainTest, HasPassedOnceWhoEnteredBeforeHasLeft) {
   domain.Leave(late);
 }
 
-TEST(EpochDomainTest, OnlyTheOutermostLeaveCounts) {
-  EpochDomain<> domain;
-  EpochDomain<>::Participant participant;
-  domain.Add(participant);
-  domain.Enter(participant);
-  const std::uint64_t epoch = domain.Advance();
-  domain.Enter(participant);
-  domain.Leave(participant);
-  EXPECT_FALSE(domain.HasPassed(epoch));
-  domain.Leave(participant);
-  EXPECT_TRUE(domain.HasPassed(epoch));
+TEST(EpochGuardTest, OnlyTheOutermostOneEntersAndLeaves) {
+  std::uint64_t epoch = 0;
+  {
+    const EpochGuard outer;
+    epoch = ProcessEpochs().Advance();
+    { const EpochGuard inner; }
+    EXPECT_FALSE(ProcessEpochs().HasPassed(EpochGuard::Participant(), epoch));
+    const EpochGuard another;
+    EXPECT_FALSE(ProcessEpochs().HasPassed(EpochGuard::Participant(), epoch));
+  }
+  EXPECT_TRUE(ProcessEpochs().HasPassed(EpochGuard::Participant(), epoch));
+}
+
+TEST(BriefEpochGuardTest, KeepsWhatIsTakenOutMeanwhile) {
+  std::uint64_t epoch = 0;
+  {
+    const BriefEpochGuard guard;
+    epoch = ProcessEpochs().Advance();
+    EXPECT_FALSE(ProcessEpochs().HasPassed(EpochGuard::Participant(), epoch));
+  }
+  EXPECT_TRUE(ProcessEpochs().HasPassed(EpochGuard::Participant(), epoch));
 }
 
 TEST(EpochGuardTest, IsKnownToItsThreadOnly) {
