@@ -21,8 +21,7 @@ namespace runnel {
 /// one number, the index in its low bits, so that nobody divides.
 ///
 /// Ownership:   the queue owns what lies in it, and destroys the rest in its destructor.
-/// Threads:     all members but the constructor and the destructor, from any thread, at any time;
-///              TryEmplaceAlone() by the only writer, if there is one.
+/// Threads:     all members but the constructor and the destructor, from any thread, at any time.
 /// Progress:    a call repeats only if another call has claimed a cell. A thread stopped between
 ///              claiming and filling a cell hides that cell and those behind it from readers, who
 ///              are told "empty" and do not wait.
@@ -75,22 +74,6 @@ class BoundedQueue {
         position = tail_.load(std::memory_order_relaxed);  // another writer was faster
       }
     }
-  }
-  /// The same by the only writer, who has nobody to claim a position from: a store in place of a
-  /// compare-and-swap, which would cost as much as all the rest.
-  template <typename... Parts>
-  [[nodiscard]] bool TryEmplaceAlone(Parts&&... parts) noexcept {
-    static_assert(std::is_nothrow_constructible_v<T, Parts&&...>);
-    // relaxed: the writer's own, and for size().
-    const std::uint64_t position = tail_.load(std::memory_order_relaxed);
-    Cell& cell = cells_[Index(position)];
-    const std::uint64_t free_sequence = 2 * Lap(position);
-    // acquire, release: as in TryEmplace().
-    if (cell.sequence.load(std::memory_order_acquire) != free_sequence) return false;
-    tail_.store(Next(position), std::memory_order_relaxed);
-    std::construct_at(&cell.value, std::forward<Parts>(parts)...);
-    cell.sequence.store(free_sequence + 1, std::memory_order_release);
-    return true;
   }
 
   /// Moves the oldest value out to `value`; returns false if there is none.

@@ -138,7 +138,6 @@ void BoundInput::Bound() {
   if (!binding->queue) return;
   const EpochGuard guard;
   for (ChannelBase* channel : fresh_) channel->DeliverNewest(*binding->queue);
-  binding->queue->EndConnecting();
   fresh_.clear();
 }
 

@@ -40,13 +40,6 @@ class InputQueueBase : public QueueSink {
     waiting_before_.store(count, std::memory_order_relaxed);
   }
 
-  /// The new connections have delivered their first values: from now on the publisher of the one source, if
-  /// there is only one, has no other writer beside it. By who connects.
-  void EndConnecting() noexcept {
-    // release: pairs with the acquire in publisher_is_alone(); what has been put in first is in the queue.
-    if (writers_ == Writers::kOne) publisher_is_alone_.store(true, std::memory_order_release);
-  }
-
   /// The epoch since which no publisher that enters finds the queue; 0 while they can. Under the
   /// structure lock.
   std::uint64_t left_in_epoch = 0;
@@ -59,10 +52,6 @@ class InputQueueBase : public QueueSink {
   [[nodiscard]] bool IsCrowdedOut() const noexcept {
     const std::size_t before = waiting_before_.load(std::memory_order_relaxed);
     return before > 0 && on_full_ != OnFull::kDropOldest && before + size() >= capacity_;
-  }
-  // acquire: pairs with the release in EndConnecting().
-  [[nodiscard]] bool publisher_is_alone() const noexcept {
-    return publisher_is_alone_.load(std::memory_order_acquire);
   }
   // Counts a value that is not taken in; false if its publisher is to know.
   [[gnu::noinline]] bool Drop() noexcept {
@@ -77,7 +66,6 @@ class InputQueueBase : public QueueSink {
   const Writers writers_;
 
  private:
-  std::atomic<bool> publisher_is_alone_{false};
   std::atomic<std::size_t> waiting_before_{0};
   alignas(kCacheLineSize) std::atomic<std::uint64_t> dropped_{0};
 };

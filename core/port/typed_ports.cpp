@@ -26,6 +26,12 @@ void internal::AddTypedPorts(const TypeInfo& type, const TypedPorts& ports) {
   Known().by_type.try_emplace(&type, &ports);
 }
 
+template void internal::MakeTypedPortsKnown<bool>();
+template void internal::MakeTypedPortsKnown<int>();
+template void internal::MakeTypedPortsKnown<float>();
+template void internal::MakeTypedPortsKnown<double>();
+template void internal::MakeTypedPortsKnown<std::string>();
+
 const TypedPorts* FindTypedPorts(const TypeInfo& type) {
   const std::lock_guard lock(Known().mutex);
   const auto found = Known().by_type.find(&type);

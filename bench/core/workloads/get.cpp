@@ -41,6 +41,19 @@ void GetRunnel(benchmark::State& state) {
   }
 }
 
+// By a thread of the user's own, which is in no cycle.
+template <typename T>
+void GetOutsideOfCycles(benchmark::State& state) {
+  Star<T> star(1);
+  const Input<T>& input = star.input(0);
+  star.output().Publish(T{});
+  for (auto _ : state) {
+    T value = input.Get();
+    benchmark::DoNotOptimize(&value);
+    benchmark::ClobberMemory();
+  }
+}
+
 template <typename T, typename Cell>
 void ReadCell(benchmark::State& state) {
   Cell cell;
@@ -62,6 +75,7 @@ template <typename T>
 void AddSubjects(Suite& suite) {
   suite.Add(Role::kRunnel, "Get", GetRunnel<T>);
   suite.Add(Role::kRunnel, "Read", ReadRunnel<T>);
+  suite.Add(Role::kRunnel, "Get, outside of cycles", GetOutsideOfCycles<T>);
   AddCell<T, Seqlock>(suite);
   AddCell<T, TripleBuffer>(suite);
   AddCell<T, MutexValue>(suite);

@@ -24,6 +24,20 @@ void PublishRunnel(benchmark::State& state, std::size_t readers) {
   for (auto _ : state) star.output().Publish(value += 1);
 }
 
+// By a thread of the user's own, which is in no cycle: a driver that knows when it measured.
+void PublishMeasured(benchmark::State& state, std::size_t readers) {
+  Star<double> star(readers);
+  const Time measured = star.runtime().clock().Now();
+  double value = 0;
+  for (auto _ : state) star.output().Publish(value += 1, measured);
+}
+// The same without a time: the clock is read for each value.
+void PublishOutsideOfCycles(benchmark::State& state, std::size_t readers) {
+  Star<double> star(readers);
+  double value = 0;
+  for (auto _ : state) star.output().Publish(value += 1);
+}
+
 // One place for all readers, as Runnel has it.
 template <typename Cell>
 void WriteOnce(benchmark::State& state) {
@@ -71,6 +85,12 @@ void AddReaders(Suite& suite, std::size_t readers) {
                .position = static_cast<double>(readers)});
   suite.Add(Role::kRunnel, "Publish",
             [readers](benchmark::State& state) { PublishRunnel(state, readers); });
+  if (readers == 1) {
+    suite.Add(Role::kRunnel, "Publish with its time, outside of cycles",
+              [readers](benchmark::State& state) { PublishMeasured(state, readers); });
+    suite.Add(Role::kRunnel, "Publish, outside of cycles",
+              [readers](benchmark::State& state) { PublishOutsideOfCycles(state, readers); });
+  }
   const std::string one = ", one for all";
   suite.Add(Role::kRival, Seqlock<double>::kName + one, WriteOnce<Seqlock<double>>);
   suite.Add(Role::kRival, MutexValue<double>::kName + one, WriteOnce<MutexValue<double>>);

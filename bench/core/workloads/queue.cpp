@@ -1,5 +1,6 @@
 // Messages of 128 bytes from one thread to another, each of them once and in order, through a queue
-// that holds 1024: a full queue refuses, and the producer tries again.
+// that holds 1024: a full queue refuses, and the producer tries again. The queue that drops the oldest, the
+// usual one of connections, is filled as far as it goes and no farther, too, so that both do the same.
 
 #include <atomic>
 #include <memory>
@@ -21,22 +22,37 @@ namespace {
 constexpr std::uint64_t kMessagesPerRound = 100'000;
 constexpr std::size_t kCapacity = 1024;
 
+template <OnFull kOnFull>
 class RunnelQueue {
  public:
-  static constexpr const char* kName = "queued input";
+  static constexpr const char* kName =
+      kOnFull == OnFull::kRefuse ? "queued input" : "queued input, drop oldest";
 
   bool Push(const Message& message) {
-    return !star_.output().WouldRefuse() &&
-           star_.output().Publish(message) == PublishStatus::kPublished;
+    if constexpr (kOnFull == OnFull::kRefuse) {
+      if (star_.output().WouldRefuse()) return false;
+    } else if (++sent_ - seen_taken_ > kCapacity) {
+      // Nothing is lost as long as no more are on their way than the queue holds.
+      seen_taken_ = taken_.load(std::memory_order_acquire);
+      if (sent_ - seen_taken_ > kCapacity) return --sent_, false;
+    }
+    return star_.output().Publish(message) == PublishStatus::kPublished;
   }
   bool Take(Message& message) {
     const auto lease = star_.input(0).Take();
     if (lease) message = *lease;
+    if constexpr (kOnFull != OnFull::kRefuse) {
+      if (lease) taken_.store(++taken_here_, std::memory_order_release);
+    }
     return lease.has_value();
   }
 
  private:
-  Star<Message> star_{1, {.queue = kCapacity, .on_full = OnFull::kRefuse}};
+  Star<Message> star_{1, {.queue = kCapacity, .on_full = kOnFull}};
+  std::uint64_t sent_ = 0;  // the producer's
+  std::uint64_t seen_taken_ = 0;
+  alignas(64) std::atomic<std::uint64_t> taken_{0};
+  alignas(64) std::uint64_t taken_here_ = 0;  // the consumer's
 };
 
 // The thread that takes; tells when a round is complete, and whether nothing was lost.
@@ -99,7 +115,10 @@ void RunQueue(benchmark::State& state) {
 
 void AddQueue(Suite& suite) {
   suite.Start({.name = "queue of 128 B, two threads", .quantities = {{"throughput", "M/s", true}}});
-  suite.Add(Role::kRunnel, RunnelQueue::kName, RunQueue<RunnelQueue>);
+  suite.Add(Role::kRunnel, RunnelQueue<OnFull::kRefuse>::kName,
+            RunQueue<RunnelQueue<OnFull::kRefuse>>);
+  suite.Add(Role::kRunnel, RunnelQueue<OnFull::kDropOldest>::kName,
+            RunQueue<RunnelQueue<OnFull::kDropOldest>>);
   using SpscQueue = BoostSpscQueue<Message, kCapacity>;
   suite.Add(Role::kRival, SpscQueue::kName, RunQueue<SpscQueue>);
 #ifdef RUNNEL_BENCH_HAS_MOODYCAMEL

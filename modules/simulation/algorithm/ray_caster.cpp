@@ -10,7 +10,10 @@ namespace runnel {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kCellsPerSide = 48.0;
+/// Few surfaces need few cells: a ray through an empty one has walked for nothing. That many for each surface, and no
+/// more than so many along a side.
+constexpr double kCellsPerSurface = 4.0;
+constexpr double kMostCellsPerSide = 48.0;
 constexpr double kSmallestCell = 0.1;  // m
 /// A flat reaches this part of its length past its ends, so that no ray slips through a corner.
 constexpr double kOverlap = 1e-12;
@@ -65,7 +68,9 @@ void RayCaster::MeasureExtent() {
   for (const Outline::Round& round : rounds_) all.Include(round.centre, round.radius);
   low_ = all.low, high_ = all.high;
   const Point2 extent = high_ - low_;
-  cell_size_ = std::max(std::max(extent.x, extent.y) / kCellsPerSide, kSmallestCell);
+  const auto surfaces = static_cast<double>(flats_.size() + rounds_.size());
+  const double cells_per_side = std::min(std::sqrt(kCellsPerSurface * surfaces), kMostCellsPerSide);
+  cell_size_ = std::max(std::max(extent.x, extent.y) / cells_per_side, kSmallestCell);
   low_ = low_ - Point2{0.01 * cell_size_, 0.01 * cell_size_};  // nothing lies on the border
   columns_ = static_cast<std::ptrdiff_t>((high_.x - low_.x) / cell_size_ + 1.01);
   rows_ = static_cast<std::ptrdiff_t>((high_.y - low_.y) / cell_size_ + 1.01);

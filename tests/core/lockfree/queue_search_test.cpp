@@ -5,6 +5,7 @@
 // The search must come first: it renames what the standard headers below use.
 
 #include "core/lockfree/bounded_queue.h"
+#include "core/lockfree/overwriting_queue.h"
 #include "core/lockfree/stream_queue.h"
 
 namespace runnel::test {
@@ -168,6 +169,75 @@ TEST(StreamQueueSearch, WritersMayTakeTurns) {
   EXPECT_TRUE(Search<HandingOverSuite>(kIterations, 2));
 }
 
+using SearchedOverwriting = OverwritingQueue<Grounded, SearchedAtomic, SearchedNote>;
+
+// A writer that never waits, over several laps, and a reader that works in the cell: what comes out is what went
+// in, whole, once and in order, and no cell is touched by both.
+template <int kValues, int kTaken>
+struct OverwritingSuite : rl::test_suite<OverwritingSuite<kValues, kTaken>, 2> {
+  Grounds grounds;
+  SearchedOverwriting queue{1};
+
+  void thread(unsigned index) {
+    if (index == 0) {
+      for (int i = 1; i <= kValues; ++i) {
+        if (queue.TryEmplace(i)) continue;
+        // Full, or the reader is at the cell: then this one is left out.
+        if (queue.size() == 1) (void)queue.DropOldest();
+        (void)queue.TryEmplace(i);
+      }
+      return;
+    }
+    int last = 0;
+    for (int attempt = 0; attempt < kTaken; ++attempt) {
+      Grounded* const front = queue.Front();
+      if (front == nullptr) continue;
+      RL_ASSERT(front == queue.Front());
+      const int value = front->Get();
+      RL_ASSERT(value > last);
+      last = value;
+      front->Set(-value);
+      RL_ASSERT(front->Get() == -value);
+      queue.PopFront();
+    }
+  }
+};
+
+TEST(OverwritingQueueSearch, ReaderKeepsWhatItHasClaimed) {
+  EXPECT_TRUE((Search<OverwritingSuite<6, 3>>(kIterations, 2)));
+}
+
+// Somebody else drops, too, as who exchanges a queue does.
+struct DroppedFromOutsideSuite : rl::test_suite<DroppedFromOutsideSuite, 3> {
+  Grounds grounds;
+  SearchedOverwriting queue{2};
+
+  void thread(unsigned index) {
+    if (index == 0) {
+      for (int i = 1; i <= 6; ++i) {
+        if (queue.TryEmplace(i)) continue;
+        if (queue.size() == 2) (void)queue.DropOldest();
+        (void)queue.TryEmplace(i);
+      }
+    } else if (index == 1) {
+      (void)queue.DropOldestFromOutside();
+    } else {
+      int last = 0;
+      for (int attempt = 0; attempt < 3; ++attempt) {
+        Grounded* const front = queue.Front();
+        if (front == nullptr) continue;
+        RL_ASSERT(front->Get() > last);
+        last = front->Get();
+        queue.PopFront();
+      }
+    }
+  }
+};
+
+TEST(OverwritingQueueSearch, WhatOthersDropIsTheirsUntilTheyAreDone) {
+  EXPECT_TRUE(Search<DroppedFromOutsideSuite>(kIterations, 1));
+}
+
 // The queue for many, with a capacity that two laps need.
 struct SharedQueueSuite : rl::test_suite<SharedQueueSuite, 4> {
   Grounds grounds;
@@ -187,49 +257,6 @@ struct SharedQueueSuite : rl::test_suite<SharedQueueSuite, 4> {
     }
   }
 };
-
-// The only writer makes room for itself, as a reader beside the queue's own; somebody else puts in the first value
-// before it says that the writer is alone.
-struct LonelyWriterSuite : rl::test_suite<LonelyWriterSuite, 3> {
-  Grounds grounds;
-  BoundedQueue<Grounded, SearchedAtomic> queue{1};
-  SearchedAtomic<int> is_alone{0};
-  SearchedAtomic<int> seen[4];
-
-  void See(Grounded& oldest) {
-    RL_ASSERT(oldest.Get() >= 1 && oldest.Get() <= 3);
-    RL_ASSERT(seen[oldest.Get()].fetch_add(1, std::memory_order_relaxed) == 0);
-  }
-  bool Push(int value) {
-    if (is_alone.load(std::memory_order_acquire) == 0) return queue.TryPush(Grounded(value));
-    return queue.TryEmplaceAlone(value);
-  }
-  void thread(unsigned index) {
-    if (index == 0) {
-      for (int i = 2; i <= 3; ++i) {
-        if (Push(i)) continue;
-        (void)queue.TryConsume([this](Grounded& oldest) { See(oldest); });
-        (void)Push(i);
-      }
-    } else if (index == 1) {
-      (void)queue.TryPush(Grounded(1));
-      is_alone.store(1, std::memory_order_release);
-    } else {
-      int last = 0;
-      for (int i = 0; i < 2; ++i) {
-        (void)queue.TryConsume([&](Grounded& oldest) {
-          See(oldest);
-          RL_ASSERT(oldest.Get() == 1 || oldest.Get() > last);  // the first may come at any time
-          if (oldest.Get() != 1) last = oldest.Get();
-        });
-      }
-    }
-  }
-};
-
-TEST(BoundedQueueSearch, OnlyWriterNeedsNoClaim) {
-  EXPECT_TRUE(Search<LonelyWriterSuite>(kIterations, 1));
-}
 
 TEST(BoundedQueueSearch, EachCellBelongsToOneAtATime) {
   EXPECT_TRUE(Search<SharedQueueSuite>(kIterations, 1));
