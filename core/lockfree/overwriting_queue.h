@@ -24,11 +24,12 @@ namespace runnel {
 ///
 /// The reader and whoever drops the oldest claim it by moving `head` past it, so that each value is taken by one of
 /// them. The reader then uses it where it lies, and writes to no cell: the writer finds the cells as it left them
-/// (as in StreamQueue). Two cells more than the capacity let the writer go on while the reader is at one (after
-/// iceoryx's overflowing queue, whose reader copies first and claims then).
+/// (as in StreamQueue). Where many lie in the queue the reader claims several at once: a claim is an atomic step on
+/// a line that the writer looks at, and costs more than all the rest. Some cells more than the capacity let the
+/// writer go on meanwhile (after iceoryx's overflowing queue, whose reader copies first and claims then).
 ///
 /// Invariants:  a position is claimed once, by a step of `head`. The writer fills a cell again when the value that
-///              lay there has been released by the reader, or dropped. The reader claims no further position
+///              lay there has been released by the reader, or dropped. The reader claims no further positions
 ///              before it has released the last: so `released` past a position says that this one is free, if the
 ///              reader had it.
 /// Ownership:   the queue owns what lies in it, and destroys the rest in its destructor.
@@ -48,13 +49,17 @@ class OverwritingQueue {
  public:
   /// Precondition: capacity > 0.
   explicit OverwritingQueue(std::size_t capacity)
+      : OverwritingQueue(capacity, std::clamp<std::size_t>(capacity / 64, 1, 16)) {}
+  /// The reader claims up to `at_once` values (> 0), which are not dropped any more.
+  OverwritingQueue(std::size_t capacity, std::size_t at_once)
       : capacity_(capacity),
-        cells_(MakeQueueCells<Cell>(CellsFor(capacity))),
+        at_once_(at_once),
+        cells_(MakeQueueCells<Cell>(CellsFor(capacity, at_once))),
         writable_(capacity) {
     RUNNEL_CHECK(capacity > 0, "a queue needs room for one value at least");
   }
   ~OverwritingQueue() {
-    if (is_claimed()) PopFront();
+    while (claimed() > 0) PopFront();
     while (DropOldest()) {
     }
   }
@@ -73,7 +78,7 @@ class OverwritingQueue {
     const std::size_t index = write_index_;
     Cell& cell = cells_[index];
     std::construct_at(&cell.value, std::forward<Parts>(parts)...);
-    // release: pairs with the acquire in Front() and Drop(): the value is in place.
+    // release: pairs with the acquire in Claim() and Drop(): the value is in place.
     cell.sequence.store(position + 1, std::memory_order_release);
     // relaxed: for the writer itself and for size().
     tail_.store(position + 1, std::memory_order_relaxed);
@@ -84,42 +89,20 @@ class OverwritingQueue {
   /// Claims the oldest value, which is the reader's until PopFront(), and stays where it is; the one claimed last, if
   /// that is still there. nullptr if there is none. The reader may change it, or move from it.
   [[nodiscard, gnu::always_inline]] T* Front() noexcept {
-    // relaxed: the reader's own, and for size().
-    if (Cell* const claimed = claimed_.load(std::memory_order_relaxed); claimed != nullptr)
-      return &claimed->value;
-    // relaxed: who claims compares it.
-    std::uint64_t position = head_.load(std::memory_order_relaxed);
-    for (;;) {
-      if (position != read_position_) [[unlikely]] {  // others have dropped some
-        read_position_ = position;
-        read_index_ = position % cells();
-      }
-      Cell& cell = cells_[read_index_];
-      // acquire: pairs with the release in TryEmplace().
-      const std::uint64_t sequence = cell.sequence.load(std::memory_order_acquire);
-      if (sequence == position + 1) {
-        // acquire: pairs with the release in DropOldestFromOutside(): who sees this position released sees those
-        // who are still dropping one before it. What lies here has been seen by its sequence.
-        if (head_.compare_exchange_weak(position, position + 1, std::memory_order_acquire,
-                                        std::memory_order_relaxed)) {
-          claimed_.store(&cell, std::memory_order_relaxed);
-          read_position_ = position + 1;
-          read_index_ = read_index_ + 1 == cells() ? 0 : read_index_ + 1;
-          return &cell.value;
-        }
-      } else if (sequence < position + 1) {
-        return nullptr;
-      } else {
-        position = head_.load(std::memory_order_relaxed);  // dropped and overwritten meanwhile
-      }
-    }
+    if (claimed() == 0 && !Claim()) return nullptr;
+    return &cells_[read_index_].value;
   }
   /// Destroys the value that Front() has claimed. Precondition: Front() is not nullptr.
   void PopFront() noexcept {
-    std::destroy_at(&claimed_.load(std::memory_order_relaxed)->value);
-    claimed_.store(nullptr, std::memory_order_relaxed);
+    const std::size_t index = read_index_;
+    std::destroy_at(&cells_[index].value);
+    read_index_ = index + 1 == cells() ? 0 : index + 1;
+    const std::uint64_t position = read_position_ + 1;
+    read_position_ = position;
+    // relaxed: the reader's own, and for who asks how many.
+    claimed_.store(claimed() - 1, std::memory_order_relaxed);
     // release: pairs with the acquire in LookForRoom(): the reader is done with the cell.
-    released_.store(read_position_, std::memory_order_release);
+    released_.store(position, std::memory_order_release);
   }
 
   /// Takes the oldest value out and destroys it; false if there is none. By the writer.
@@ -136,7 +119,7 @@ class OverwritingQueue {
 
   /// Whether the reader has a value, or would find one to claim. For the reader.
   [[nodiscard]] bool HasNext() const noexcept {
-    if (is_claimed()) return true;
+    if (claimed() > 0) return true;
     for (;;) {
       const std::uint64_t position = head_.load(std::memory_order_relaxed);
       // acquire: so that a later sequence shows a later head.
@@ -144,12 +127,12 @@ class OverwritingQueue {
       if (sequence <= position + 1) return sequence == position + 1;
     }
   }
-  /// Whether the reader has claimed a value that it has not let go. Any thread.
-  [[nodiscard]] bool is_claimed() const noexcept {
-    return claimed_.load(std::memory_order_relaxed) != nullptr;
+  /// How many the reader has claimed and not yet let go. Any thread.
+  [[nodiscard]] std::size_t claimed() const noexcept {
+    return claimed_.load(std::memory_order_relaxed);
   }
   [[nodiscard]] std::size_t capacity() const noexcept { return capacity_; }
-  /// How many values lie in the queue, without the one that the reader has claimed; already outdated when other
+  /// How many values lie in the queue, without those that the reader has claimed; already outdated when other
   /// threads use it.
   [[nodiscard]] std::size_t size() const noexcept {
     const std::uint64_t head = head_.load(std::memory_order_relaxed);
@@ -158,8 +141,6 @@ class OverwritingQueue {
   }
 
  private:
-  static constexpr std::size_t kSpareCells = 2;
-
   struct alignas(kCacheLineSize) Cell {
     Cell() noexcept {}
     ~Cell() {}
@@ -172,20 +153,56 @@ class OverwritingQueue {
     Atomic<std::uint64_t> dropped{0};  // position + 1 of what was dropped here last
   };
 
-  static std::size_t CellsFor(std::size_t capacity) {
-    constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max() - kSpareCells;
-    return capacity > kMost ? capacity : capacity + kSpareCells;
+  // One more than the reader may be at: what is written after the oldest has been dropped.
+  static std::size_t CellsFor(std::size_t capacity, std::size_t at_once) {
+    const std::size_t most = std::numeric_limits<std::size_t>::max() - at_once - 1;
+    return capacity > most ? capacity : capacity + at_once + 1;
   }
-  [[nodiscard]] std::size_t cells() const noexcept { return capacity_ + kSpareCells; }
+  [[nodiscard]] std::size_t cells() const noexcept { return capacity_ + at_once_ + 1; }
   [[nodiscard]] Cell& CellAt(std::uint64_t position) const noexcept {
     return cells_[position % cells()];
+  }
+  // Claims the oldest values for the reader, which has none; false if there are none.
+  [[gnu::noinline]] bool Claim() noexcept {
+    // relaxed: who claims compares it.
+    std::uint64_t position = head_.load(std::memory_order_relaxed);
+    for (;;) {
+      if (position != read_position_) [[unlikely]] {  // others have dropped some
+        read_position_ = position;
+        read_index_ = position % cells();
+      }
+      // acquire: pairs with the release in TryEmplace(), of the last that is claimed with those before it.
+      const std::uint64_t sequence =
+          cells_[read_index_].sequence.load(std::memory_order_acquire);
+      if (sequence == position + 1) {
+        const std::size_t count = Follow(position) ? at_once_ : 1;
+        // acquire: pairs with the release in DropOldestFromOutside(): who sees these positions released sees those
+        // who are still dropping one before them. What lies here has been seen by its sequence.
+        if (head_.compare_exchange_weak(position, position + count, std::memory_order_acquire,
+                                        std::memory_order_relaxed)) {
+          claimed_.store(count, std::memory_order_relaxed);
+          return true;
+        }
+      } else if (sequence < position + 1) {
+        return false;
+      } else {
+        position = head_.load(std::memory_order_relaxed);  // dropped and overwritten meanwhile
+      }
+    }
+  }
+  // Whether as many as can be claimed at once lie in the queue from this position on.
+  [[nodiscard]] bool Follow(std::uint64_t position) const noexcept {
+    if (at_once_ == 1) return true;
+    const std::size_t index = read_index_ + at_once_ - 1;
+    const Cell& last = cells_[index < cells() ? index : index - cells()];
+    return last.sequence.load(std::memory_order_acquire) == position + at_once_;
   }
   // `claiming`: the order of the claim.
   bool Drop(std::memory_order claiming) noexcept {
     std::uint64_t position = head_.load(std::memory_order_relaxed);
     for (;;) {
       Cell& cell = CellAt(position);
-      // acquire: as in Front().
+      // acquire: as in Claim().
       const std::uint64_t sequence = cell.sequence.load(std::memory_order_acquire);
       if (sequence < position + 1) return false;
       if (sequence > position + 1) {
@@ -199,7 +216,7 @@ class OverwritingQueue {
       }
     }
   }
-  // For the writer, that has no leave for this position yet. A look at the others' line, and leave for all that
+  // For the writer, who has no leave for this position yet. A look at the others' line, and leave for all that
   // is known to be free.
   [[gnu::noinline]] bool LookForRoom(std::uint64_t position) noexcept {
     // relaxed: a claim only makes room; whether the cell is free is another question.
@@ -222,13 +239,14 @@ class OverwritingQueue {
   }
 
   const std::size_t capacity_;
+  const std::size_t at_once_;
   const std::unique_ptr<Cell[]> cells_;
   alignas(kCacheLineSize) Atomic<std::uint64_t> tail_{0};  // the writer's line
   Plain<std::uint64_t> writable_;  // positions before it need no look
   Plain<std::size_t> write_index_{0};
   alignas(kCacheLineSize) Atomic<std::uint64_t> head_{0};  // the reader's line, and of who drops
   Atomic<std::uint64_t> released_{0};
-  Atomic<Cell*> claimed_{nullptr};         // the reader's own
+  Atomic<std::size_t> claimed_{0};         // the reader's own
   Plain<std::uint64_t> read_position_{0};  // the next one, as far as the reader knows
   Plain<std::size_t> read_index_{0};       // of its cell
   Atomic<std::uint32_t> from_outside_{0};  // how many drop who are neither reader nor writer

@@ -1,7 +1,9 @@
 #include "core/port/bound_input.h"
 
+#include <mutex>
 #include <utility>
 
+#include "core/element/runtime.h"
 #include "core/lockfree/thread_epoch.h"
 
 namespace runnel {
@@ -34,6 +36,10 @@ std::uint64_t BoundInput::publications() const noexcept {
 void BoundInput::DisconnectForEver() {
   SetWaker(nullptr);
   DisconnectAll();
+  // What is read while there is nothing else, a default value, is no connection.
+  if (binding_.load(std::memory_order_relaxed) == &kUnbound) return;
+  const std::lock_guard lock(runtime().structure_mutex());
+  Rebind({});
 }
 
 void BoundInput::PullInto(const Binding& binding) const noexcept {

@@ -96,7 +96,7 @@ class InputQueue final : public InputQueueBase {
   [[nodiscard]] std::size_t size() const noexcept override {
     const std::size_t first = first_waits_.load(std::memory_order_relaxed) ? 1 : 0;
     if (overwriting_ != nullptr)
-      return first + overwriting_->size() + (overwriting_->is_claimed() ? 1 : 0);
+      return first + overwriting_->size() + overwriting_->claimed();
     return first + (stream_ != nullptr ? stream_->size() : shared_->size());
   }
   bool DropOldest() noexcept override {
