@@ -34,16 +34,17 @@ class Clock {
  public:
   virtual ~Clock() = default;
   [[nodiscard]] virtual Time Now() const noexcept = 0;
-  /// Not later than Now(), and cheaper where a clock has such a reading: how much earlier, the clock says.
-  [[nodiscard]] virtual Time CoarseNow() const noexcept { return Now(); }
+  /// Not later than Now(), and cheaper where a clock has such a reading: how much earlier, the clock says; but not
+  /// before `event`, which has just happened by this clock.
+  [[nodiscard]] virtual Time CoarseNow(Time /*event*/) const noexcept { return Now(); }
 };
 
 /// The machine's monotonic clock.
 class SteadyClock final : public Clock {
  public:
   [[nodiscard]] Time Now() const noexcept override;
-  /// The kernel's last timer tick, 1 to 10 ms ago at most, for a sixth of the cost.
-  [[nodiscard]] Time CoarseNow() const noexcept override;
+  /// The kernel's last timer tick, 1 to 10 ms ago at most, for a fifth of the cost.
+  [[nodiscard]] Time CoarseNow(Time event) const noexcept override;
 };
 
 /// A clock that moves only when told to: simulated time, and time in tests.

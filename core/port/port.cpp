@@ -288,7 +288,7 @@ void Port::Rebind(const std::vector<Source>&) {}
 Time Port::TimeOutsideOfCycles() const noexcept { return runtime().clock().Now(); }
 
 Time Port::CoarseTimeOutsideOfCycles(Time timestamp) const noexcept {
-  return std::max(runtime().clock().CoarseNow(), timestamp);
+  return runtime().clock().CoarseNow(timestamp);
 }
 
 }  // namespace runnel

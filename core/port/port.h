@@ -184,7 +184,7 @@ class Port : public FrameworkElement {
   /// The time that a value published now by the calling thread bears.
   [[nodiscard]] inline Time PublicationTime() const noexcept;
   /// The same of a value that was measured at `timestamp`, for which the clock's coarse time is good enough outside
-  /// of cycles: not before the measurement.
+  /// of cycles.
   [[nodiscard]] inline Time PublicationTime(Time timestamp) const noexcept;
 
   void Detach() noexcept override;
