@@ -27,6 +27,16 @@ TEST(SteadyClockTest, DoesNotGoBackwards) {
   EXPECT_GE(clock.Now(), first);
 }
 
+TEST(SteadyClockTest, CoarseTimeIsNoLaterButNotBeforeWhatHasJustHappened) {
+  const SteadyClock clock;
+  EXPECT_LE(clock.CoarseNow(Time{}), clock.Now());
+  const Time event = clock.Now();
+  EXPECT_GE(clock.CoarseNow(event), event);
+  EXPECT_LE(clock.CoarseNow(event), clock.Now());
+  const Time future = clock.Now() + std::chrono::hours(1);
+  EXPECT_LT(clock.CoarseNow(future), future);
+}
+
 TEST(FromSecondsTest, RoundsToTheNearestNanosecond) {
   EXPECT_EQ(FromSeconds(0.1).count(), 100'000'000);
   EXPECT_EQ(FromSeconds(-0.1).count(), -100'000'000);
