@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const char* const kFile = R"(<?xml version="1.0"?>
+const char* const kNamedFile = R"(<?xml version="1.0"?>
 <!-- of the whole -->
 <application   name='demo' >
 
@@ -41,7 +41,7 @@ const char* const kFile = R"(<?xml version="1.0"?>
 
 class RenamedFile : public ::testing::Test {
  protected:
-  FrameworkElement& Load(const std::string& text = kFile) {
+  FrameworkElement& Load(const std::string& text = kNamedFile) {
     WriteAll(file_, text);
     application_ = shop_.Load(file_);
     return *application_;
@@ -49,7 +49,7 @@ class RenamedFile : public ::testing::Test {
   std::string Text() { return shop_.Text(*application_, folder_.path()); }
   // What the file is after `from` has become `to`.
   static std::string With(const std::string& from, const std::string& to,
-                          std::string text = kFile) {
+                          std::string text = kNamedFile) {
     const std::size_t place = text.find(from);
     EXPECT_NE(place, std::string::npos) << from;
     return text.replace(place, from.size(), to);
@@ -79,10 +79,10 @@ TEST_F(RenamedFile, KeepsWhatItsOwnFileWas) {
   ASSERT_TRUE(Get<Source>("/demo/source").gain.Set(3.5));
   ASSERT_TRUE(SaveApplication(*application_, shop_.tools(), file_)) << "its own, however it is named";
   const std::filesystem::path backup = file_.string() + "~";
-  EXPECT_EQ(ReadAll(backup), kFile);
+  EXPECT_EQ(ReadAll(backup), kNamedFile);
   EXPECT_EQ(std::filesystem::status(backup).permissions(), std::filesystem::status(file_).permissions());
   ASSERT_TRUE(SaveApplication(*application_, shop_.tools()));
-  EXPECT_EQ(ReadAll(backup), kFile) << "nothing was to be written";
+  EXPECT_EQ(ReadAll(backup), kNamedFile) << "nothing was to be written";
 }
 
 TEST_F(RenamedFile, WithoutABackupNothingIsReplaced) {
@@ -92,7 +92,7 @@ TEST_F(RenamedFile, WithoutABackupNothingIsReplaced) {
   const auto saved = SaveApplication(*application_, shop_.tools());
   ASSERT_FALSE(saved);
   EXPECT_THAT(saved.error().message, HasSubstr("cannot be kept as app.xml~"));
-  EXPECT_EQ(ReadAll(file_), kFile);
+  EXPECT_EQ(ReadAll(file_), kNamedFile);
 }
 
 TEST_F(RenamedFile, WhatIsRenamedIsRenamedInPlaceWithAllThatNamesIt) {
@@ -122,11 +122,11 @@ TEST_F(RenamedFile, WhatIsRenamedIsRenamedInPlaceWithAllThatNamesIt) {
 TEST_F(RenamedFile, RulesThatNameWhatIsRenamedAreTold) {
   Load();
   const std::lock_guard lock(shop_.runtime.structure_mutex());
-  const auto rules = RulesThatName(Get<FrameworkElement>("/demo/inner"), kFile, "app.xml", PathAttributesIn(shop_.tags));
+  const auto rules = RulesThatName(Get<FrameworkElement>("/demo/inner"), kNamedFile, "app.xml", PathAttributesIn(shop_.tags));
   ASSERT_EQ(rules.size(), 1U);
   EXPECT_THAT(rules[0].message, HasSubstr("<on_fault of=\"inner/filter\">"));
   EXPECT_EQ(rules[0].position.line, 22);
-  EXPECT_TRUE(RulesThatName(Get<FrameworkElement>("/demo/source"), kFile, "app.xml", PathAttributesIn(shop_.tags)).empty());
+  EXPECT_TRUE(RulesThatName(Get<FrameworkElement>("/demo/source"), kNamedFile, "app.xml", PathAttributesIn(shop_.tags)).empty());
 }
 
 }  // namespace
