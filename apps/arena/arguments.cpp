@@ -1,9 +1,12 @@
 #include "apps/arena/arguments.h"
 
+#include <algorithm>
 #include <cmath>
 #include <thread>
 
 #include <CLI/CLI.hpp>
+
+#include "core/base/nearest_name.h"
 
 namespace runnel::arena {
 
@@ -103,7 +106,15 @@ Result<ArenaArguments> ParseArguments(int count, const char* const* words) {
     program.exit(help);
     return Error{};
   } catch (const CLI::ParseError& error) {
-    return Error{.message = error.what(), .hint = "see 'runnel arena --help'"};
+    const std::vector<std::string> left = program.remaining();
+    const auto unknown = std::ranges::find_if(left, [](const std::string& each) { return each.starts_with("--"); });
+    if (unknown == left.end()) return Error{.message = error.what(), .hint = "see 'runnel arena --help'"};
+    std::vector<std::string> names;
+    for (const CLI::Option* each : program.get_options()) {
+      for (const std::string& name : each->get_lnames()) names.push_back("--" + name);
+    }
+    const std::string option = unknown->substr(0, unknown->find('='));
+    return Error{.message = "there is no option '" + option + "'", .hint = NearestNameHint(option, names)};
   }
   if (const std::string fault = FaultOf(arguments); !fault.empty()) return Error{.message = fault};
   return arguments;

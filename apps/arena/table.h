@@ -20,6 +20,10 @@ struct Row {
   bool is_over_bound = false;
 };
 
+/// Whether the variant is one that guarantees nothing: planning/com leaves obstacles wherever the way is free, and may go in
+/// circles for ever.
+[[nodiscard]] bool MayFailByDesign(const std::string& variant);
+
 /// In the order of the records.
 [[nodiscard]] std::vector<Row> RowsOf(const Matrix& matrix, const std::vector<RunRecord>& records);
 

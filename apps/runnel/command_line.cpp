@@ -1,6 +1,7 @@
 #include "apps/runnel/command_line.h"
 
 #include <algorithm>
+#include <array>
 #include <iostream>
 
 #include <CLI/CLI.hpp>
@@ -36,6 +37,65 @@ std::vector<std::string> AllCommands(const CLI::App& program) {
   for (const CLI::App* each : program.get_subcommands({})) commands.push_back(each->get_name());
   for (const std::string& command : OtherCommands()) commands.push_back(command);
   return commands;
+}
+
+// "--app NAME ls" for "ls --app NAME".
+std::vector<const char*> WithCommandFirst(int count, const char* const* words) {
+  std::vector<const char*> all(words, words + count);
+  const std::string_view first = count > 1 ? words[1] : "";
+  const std::ptrdiff_t taken = first == "--app" ? 2 : first.starts_with("--app=") ? 1 : 0;
+  if (taken > 0 && count > taken + 1) std::rotate(all.begin() + 1, all.begin() + 1 + taken, all.begin() + 2 + taken);
+  return all;
+}
+
+// Long ones, as they are written.
+std::vector<std::string> OptionNames(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* each : command.get_options()) {
+    for (const std::string& name : each->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+const CLI::App* FindCommand(const CLI::App& program, const std::string& name) {
+  for (const CLI::App* each : program.get_subcommands({})) {
+    if (each->get_name() == name) return each;
+  }
+  return nullptr;
+}
+
+// For the completion of shells that have no rules of their own.
+std::vector<std::string> OptionsFor(const CLI::App& program, const std::string& command) {
+  const CLI::App* const known = FindCommand(program, command);
+  return known != nullptr ? OptionNames(*known) : std::vector<std::string>();
+}
+
+ExitCode CompleteAll(const std::vector<std::string>& typed, const std::vector<std::string>& commands,
+                     const std::vector<std::string>& options) {
+  const std::string& last = typed.back();
+  if (typed.size() > 1 && !last.starts_with('-')) return Complete({.command = "complete", .words = typed});
+  for (const std::string& each : typed.size() == 1 ? commands : options) {
+    if (each.starts_with(last) && each != "complete") std::cout << each << '\n';
+  }
+  return ExitCode::kDone;
+}
+
+// What is wrong, in the words of somebody who knows what was meant.
+Command RefuseParsing(const CLI::App& program, const CLI::ParseError& error) {
+  const std::vector<CLI::App*> parsed = program.get_subcommands();
+  const std::string name = parsed.empty() ? "" : parsed.front()->get_name();
+  const std::string help = name.empty() ? "see 'runnel help'" : "see 'runnel help " + name + "'";
+  if (parsed.empty()) return Refuse(error.what(), help);
+  const std::vector<std::string> left = parsed.front()->remaining();
+  const auto unknown = std::ranges::find_if(left, [](const std::string& each) { return each.starts_with('-'); });
+  if (unknown != left.end()) {
+    const std::string option = unknown->substr(0, unknown->find('='));
+    const std::string nearest = NearestName(option, OptionNames(*parsed.front()));
+    return Refuse("'" + name + "' has no option '" + option + "'",
+                  nearest.empty() ? help : "did you mean '" + nearest + "'?");
+  }
+  if (!left.empty()) return Refuse("'" + left.front() + "' is one word too many for '" + name + "'", help);
+  return Refuse("'" + name + "': " + error.what(), help);
 }
 
 // Of those that are programs of their own; each has its own --help.
@@ -197,8 +257,43 @@ Command ParseCommandLine(int count, const char* const* words) {
   program.add_subcommand("version", "says which version this is");
   const ControlCommandLine control(program);
 
+  run.footer("For example: runnel run xml/apps/bug_demo.xml --inspect goal_x=4");
+  replay.footer("For example: runnel replay run.mcap robot.xml --ports '/laser/*'");
+  check.footer("For example: runnel check robot.xml");
+  modules.footer("For example: runnel modules motion");
+  schema.footer("For example: runnel schema -o runnel.xsd");
+  graph.footer("For example: runnel graph robot.xml -o robot.svg");
+  for (CLI::App* each : {&run, &replay, &check, &graph}) each->group("Applications");
+  for (CLI::App* each : {&modules, &schema}) each->group("Modules");
+
+  const std::vector<const char*> ordered = WithCommandFirst(count, words);
+  count = static_cast<int>(ordered.size());
+  words = ordered.data();
   const std::string command = count > 1 ? words[1] : "";
   const std::vector<std::string> all_commands = AllCommands(program);
+  if (command == "complete" && count > 3 && std::string_view(words[2]) == "--all") {
+    return [=, names = all_commands, options = OptionsFor(program, words[3]),
+            typed = std::vector<std::string>(words + 3, words + count)] {
+      return CompleteAll(typed, names, options);
+    };
+  }
+  if (command == "help") {
+    const std::string about = count > 2 ? words[2] : "";
+    if (about.empty()) {
+      std::cout << program.help();
+      return Ends(ExitCode::kDone);
+    }
+    if (std::ranges::count(OtherCommands(), about) > 0) {
+      std::array<char*, 3> other{const_cast<char*>(words[2]), const_cast<char*>("--help"), nullptr};
+      return Refuse(BecomeProgram(about, other.data()), "see 'runnel help'");
+    }
+    const CLI::App* const known = FindCommand(program, about);
+    if (known == nullptr) {
+      return Refuse("there is no command '" + about + "'", NearestNameHint(about, all_commands));
+    }
+    std::cout << known->help("runnel");
+    return Ends(ExitCode::kDone);
+  }
   const bool is_known = std::ranges::count(all_commands, command) > 0;
   if (count > 1 && !command.starts_with('-') && !is_known) {
     if (const auto* const extension = catalogue->FindCommand(command)) {
@@ -215,7 +310,11 @@ Command ParseCommandLine(int count, const char* const* words) {
     program.exit(help);
     return Ends(ExitCode::kDone);
   } catch (const CLI::ParseError& error) {
-    return Refuse(error.what(), "see 'runnel --help' or 'runnel run --help'");
+    return RefuseParsing(program, error);
+  }
+  const std::string& file = run_arguments.application.file;
+  if (run.parsed() && file.ends_with(".mcap")) {
+    return Refuse(file + " is a recording, and no application", "play it by 'runnel replay " + file + "'");
   }
   run_arguments.extensions = run_extensions.Chosen();
   run_arguments.preloads = run_extensions.Preloads();

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <functional>
 #include <iostream>
+#include <iterator>
+#include <map>
 #include <sstream>
 
 #include "apps/runnel/commands.h"
@@ -19,6 +21,9 @@ struct Element {
   std::string kind;
   std::string path;
   bool is_interface = false;
+  std::string type = {};
+  std::string choices = {};  // values that have names, separated by blanks
+  std::string short_path = {};  // without the application and the group of ports, as far as that names it
 };
 
 std::vector<std::string> Lines(ControlClient& client, const std::string& request) {
@@ -36,6 +41,24 @@ std::vector<std::string> Lines(ControlClient& client, const std::string& request
   return lines;
 }
 
+// "/robot/planner/twist" for "/bug_demo/robot/planner/output/twist", as all documents write them.
+void Shorten(std::vector<Element>& elements, const std::string& application) {
+  std::map<std::string, int> uses;
+  for (Element& each : elements) {
+    std::string& path = each.short_path = each.path;
+    if (path.starts_with(application + "/")) path.erase(0, application.size());
+    const std::size_t name = path.rfind('/');
+    const std::size_t group = name == 0 || name == std::string::npos ? name : path.rfind('/', name - 1);
+    const bool is_in_group = !each.type.empty() && !each.is_interface && group != std::string::npos && group != name;
+    const std::string group_name = is_in_group ? path.substr(group + 1, name - group - 1) : "";
+    if (group_name == "input" || group_name == "output" || group_name == "parameter") path.erase(group, name - group);
+    ++uses[path];
+  }
+  for (Element& each : elements) {
+    if (uses[each.short_path] > 1) each.short_path = each.path;
+  }
+}
+
 std::vector<Element> Elements(ControlClient& client) {
   std::vector<Element> elements;
   for (const std::string& line : Lines(client, "paths")) {
@@ -44,18 +67,45 @@ std::vector<Element> Elements(ControlClient& client) {
     std::string interface;
     std::getline(parts, element.kind, '\t');
     std::getline(parts, element.path, '\t');
-    element.is_interface = static_cast<bool>(std::getline(parts, interface, '\t'));
+    std::getline(parts, interface, '\t');
+    std::getline(parts, element.type, '\t');
+    std::getline(parts, element.choices, '\t');
+    element.is_interface = interface == "interface";
     elements.push_back(std::move(element));
   }
+  Shorten(elements, "/" + client.hello().application);
   return elements;
+}
+
+const Element* FindElement(const std::vector<Element>& elements, const std::string& path) {
+  const auto is_it = [&](const Element& each) { return each.path == path || each.short_path == path; };
+  const auto found = std::ranges::find_if(elements, is_it);
+  return found != elements.end() ? &*found : nullptr;
 }
 
 Candidates Paths(ControlClient& client, const std::function<bool(const Element&)>& fits) {
   Candidates paths;
   for (const Element& each : Elements(client)) {
-    if (fits(each)) paths.push_back(each.path);
+    if (!fits(each)) continue;
+    paths.push_back(each.short_path);
+    if (each.path != each.short_path) paths.push_back(each.path);
   }
   return paths;
+}
+
+// The short ones, unless what has been typed can only be the beginning of a full one.
+Candidates WithBeginning(const Candidates& candidates, const std::string& beginning, const std::string& application) {
+  Candidates fitting;
+  for (const std::string& each : candidates) {
+    if (each.starts_with(beginning)) fitting.push_back(each);
+  }
+  const auto is_short = [&](const std::string& each) { return !each.starts_with(application + "/"); };
+  const bool are_all_full = std::ranges::none_of(fitting, is_short);
+  if (!are_all_full) std::erase_if(fitting, [&](const std::string& each) { return !is_short(each); });
+  std::ranges::sort(fitting);
+  const auto [begin, end] = std::ranges::unique(fitting);
+  fitting.erase(begin, end);
+  return fitting;
 }
 
 Candidates Types(ControlClient& client) {
@@ -78,13 +128,55 @@ bool IsPart(const Element& each) { return each.kind == "module" || each.kind == 
 bool Sends(const Element& each) { return each.kind == "output" || each.is_interface; }
 bool Receives(const Element& each) { return each.kind == "input" || each.is_interface; }
 
+// The inputs that take what the output gives: those of its type, if there are any.
+Candidates Takers(ControlClient& client, const std::string& from) {
+  const std::vector<Element> elements = Elements(client);
+  const Element* const output = FindElement(elements, from);
+  Candidates same = output == nullptr ? Candidates{} : Paths(client, [&](const Element& each) {
+    return Receives(each) && each.type == output->type && each.path != output->path;
+  });
+  return same.empty() ? Paths(client, Receives) : same;
+}
+
+Candidates ValuesOf(ControlClient& client, const std::string& path) {
+  const std::vector<Element> elements = Elements(client);
+  const Element* const found = FindElement(elements, path);
+  std::istringstream words(found != nullptr ? found->choices : "");
+  return {std::istream_iterator<std::string>(words), {}};
+}
+
+// "step=" for each parameter of the module.
+Candidates SettingsOf(ControlClient& client, const std::string& path) {
+  const std::vector<Element> elements = Elements(client);
+  const Element* const module = FindElement(elements, path);
+  Candidates names;
+  for (const Element& each : elements) {
+    if (module == nullptr || each.kind != "parameter" || !each.path.starts_with(module->path + "/")) continue;
+    names.push_back(each.path.substr(each.path.rfind('/') + 1) + "=");
+  }
+  return names;
+}
+
 // What can be the word number `place` (from 0) after the command.
-Candidates Propose(ControlClient& client, const std::string& command, std::size_t place) {
+Candidates Propose(ControlClient& client, const Candidates& plain) {
+  const std::string& command = plain.front();
+  const std::size_t place = plain.size() - 2;
+  const auto word = [&](std::size_t number) { return plain[number + 1]; };
   const bool is_first = place == 0;
   if (command == "ls" && is_first) return Paths(client, [](const Element&) { return true; });
   const bool is_of_port = command == "echo" || command == "hz" || command == "publish" || command == "release";
   if (is_of_port && is_first) return Paths(client, IsPort);
   if (command == "set" && is_first) return Paths(client, OfKind("parameter"));
+  if (command == "set" && place == 1) return ValuesOf(client, word(0));
+  if (command == "get" && is_first) {
+    return Paths(client, [](const Element& each) { return IsPort(each) || each.kind == "parameter"; });
+  }
+  if ((command == "rename" || command == "copy" || command == "restart") && is_first) return Paths(client, IsPart);
+  if (command == "connect" && place == 1) return Takers(client, word(0));
+  if (command == "swap" && place > 1) return SettingsOf(client, word(0));
+  if ((command == "pause" || command == "resume" || command == "stop") && is_first) {
+    return Paths(client, [](const Element& each) { return IsPart(each) || each.kind == "thread"; });
+  }
   if ((command == "connect" || command == "disconnect") && place < 2) {
     return Paths(client, is_first ? Sends : Receives);
   }
@@ -120,6 +212,15 @@ Candidates WithoutOptions(const Candidates& words, std::string& application) {
   return plain;
 }
 
+// The name of the application with which a path begins, if several are running.
+std::string NameIn(const Candidates& words, const std::vector<RunningApplication>& running) {
+  for (const RunningApplication& each : running) {
+    const auto begins = [&](const std::string& word) { return word.starts_with("/" + each.hello.application + "/"); };
+    if (running.size() > 1 && std::ranges::any_of(words, begins)) return each.hello.application;
+  }
+  return {};
+}
+
 Candidates FindCandidates(const Candidates& words, const std::vector<RunningApplication>& running) {
   if (words.size() > 1 && words[words.size() - 2] == "--app") {
     return NamesOf(running, [](const RunningApplication& each) { return each.hello.application; });
@@ -127,10 +228,13 @@ Candidates FindCandidates(const Candidates& words, const std::vector<RunningAppl
   std::string application;
   const Candidates plain = WithoutOptions(words, application);
   if (plain.size() < 2) return {};
-  const auto chosen = ChooseApplication(running, application);
-  if (!chosen) return {};
+  const auto chosen = ChooseApplication(running, application.empty() ? NameIn(plain, running) : application);
+  if (!chosen) {
+    return NamesOf(running, [](const RunningApplication& each) { return "/" + each.hello.application + "/"; });
+  }
   auto client = ControlClient::Connect(chosen->socket);
-  return client ? Propose(*client, plain.front(), plain.size() - 2) : Candidates{};
+  if (!client) return {};
+  return WithBeginning(Propose(*client, plain), plain.back(), "/" + chosen->hello.application);
 }
 
 }  // namespace

@@ -1,12 +1,14 @@
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <thread>
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include "apps/runnel/commands.h"
@@ -39,7 +41,8 @@ std::string WordsText(const std::vector<std::string>& words, std::size_t plain) 
 
 std::string OptionsText(const ControlArguments& arguments) {
   std::string text;
-  for (const auto& [name, value] : arguments.options) text += " " + name + "=" + AsArgument(value);
+  for (const auto& [name, value] : arguments.options)
+    text += " " + name + "=" + AsArgument(value);
   return text;
 }
 
@@ -59,7 +62,10 @@ std::optional<std::string> ChangeTextOf(const ControlArguments& arguments) {
                                       : words[0] == "port"    ? 4
                                                               : 2);
   if (command == "schedule") return command + WordsText(words, 1) + OptionsText(arguments);
-  if (command == "set" || command == "disconnect" || command == "delete") {
+  if (command == "copy") {
+    return command + WordsText({words.begin(), words.begin() + (words.size() > 1 && !words[1].empty() ? 2 : 1)}, 2);
+  }
+  if (command == "set" || command == "disconnect" || command == "delete" || command == "rename") {
     return command + WordsText(words, words.size());
   }
   return {};
@@ -77,7 +83,9 @@ Result<std::string> ReadChanges(const std::string& file) {
 
 Result<Request> RequestOf(const ControlArguments& arguments) {
   if (const auto change = ChangeTextOf(arguments)) {
-    return Request{.command = "change", .arguments = {}, .options = {}, .body = *change};
+    Request request{.command = "change", .arguments = {}, .options = {}, .body = *change};
+    if (arguments.options.contains("yes")) request.options["yes"] = "yes";
+    return request;
   }
   Request request{
       .command = arguments.command, .arguments = {}, .options = arguments.options, .body = {}};
@@ -115,13 +123,18 @@ ExitCode ListApplications() {
     PrintError(applications.error());
     return ExitCode::kRunFailed;
   }
-  std::printf("%8s  %-20s  %12s  %s\n", "process", "application", "running for", "file");
+  std::size_t states = 5;
+  for (const RunningApplication& each : *applications) states = std::max(states, each.hello.state.size());
+  std::cout << fmt::format("{:>8}  {:<20}  {:>12}  {:>12}  {:<{}}  {}\n", "process", "application", "running for",
+                           "its time", "state", states, "file");
   for (const RunningApplication& each : *applications) {
-    std::printf("%8d  %-20s  %10.2f s  %s\n", static_cast<int>(each.hello.process),
-                each.hello.application.c_str(), ToSeconds(each.hello.time),
-                each.hello.file.c_str());
+    const Hello& hello = each.hello;
+    std::cout << Coloured(fmt::format("{:>8}  {:<20}  {:>10.2f} s  {:>10.2f} s  {:<{}}  {}\n", hello.process,
+                                      hello.application, ToSeconds(hello.real), ToSeconds(hello.time), hello.state,
+                                      states, hello.file),
+                          STDOUT_FILENO);
   }
-  std::fflush(stdout);
+  std::cout << std::flush;
   return ExitCode::kDone;
 }
 
@@ -135,6 +148,18 @@ std::string TakeApplication(const std::vector<RunningApplication>& running, Requ
   if (!is_one) return {};
   request.arguments.erase(request.arguments.begin());
   return first;
+}
+
+// "/bug_demo/robot" is of the application bug_demo: the first word that begins with the name of one that runs.
+std::string ApplicationInPaths(const std::vector<RunningApplication>& running,
+                               const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    if (!word.starts_with('/')) continue;
+    const std::string first = word.substr(1, word.find('/', 1) - 1);
+    const auto is_called = [&](const RunningApplication& each) { return each.hello.application == first; };
+    if (std::ranges::any_of(running, is_called)) return first;
+  }
+  return {};
 }
 
 std::atomic<bool> interrupted{false};
@@ -175,26 +200,65 @@ Result<int> AskToRecord(ControlClient& client, const Request& request) {
   return code;
 }
 
+// Where somebody sits who can be asked.
+bool IsMeant(const std::string& what) {
+  std::cerr << what << "? [y/N] " << std::flush;
+  std::string answer;
+  return std::getline(std::cin, answer) && (answer == "y" || answer == "yes");
+}
+
+// "/bug_demo" of the application bug_demo.
+bool IsWhole(std::string_view path, const std::string& application) {
+  while (path.ends_with('/')) path.remove_suffix(1);
+  if (path.starts_with('/')) path.remove_prefix(1);
+  return path == application;
+}
+
+// Until it can be reached again, as it loads its file; so that the next command finds it.
+void WaitForProcess(pid_t process) {
+  constexpr auto kLongest = std::chrono::seconds(30);
+  const auto until = std::chrono::steady_clock::now() + kLongest;
+  while (kill(process, 0) == 0 && std::chrono::steady_clock::now() < until) {
+    const auto running = FindRunningApplications(ControlFolder());
+    const auto is_it = [&](const RunningApplication& each) { return each.hello.process == process; };
+    if (running && std::ranges::any_of(*running, is_it)) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
 Result<int> Ask(const ControlArguments& arguments, Request request) {
   const auto applications = FindThem();
   if (!applications) return applications.error();
   std::string wanted = arguments.application;
   if (wanted.empty()) wanted = TakeApplication(*applications, request);
+  if (wanted.empty() && applications->size() > 1) wanted = ApplicationInPaths(*applications, arguments.words);
   const auto chosen = ChooseApplication(*applications, wanted);
   if (!chosen) return chosen.error();
   auto client = ControlClient::Connect(chosen->socket);
   if (!client) return client.error();
+  if (arguments.command == "delete" && IsWhole(arguments.words[0], chosen->hello.application) &&
+      isatty(STDIN_FILENO) == 1 && !request.Has("yes")) {
+    if (!IsMeant("delete the whole application /" + chosen->hello.application + " and end its run")) {
+      return static_cast<int>(ExitCode::kBadInput);
+    }
+    request.options["yes"] = "yes";
+  }
   if (arguments.command == "record") return AskToRecord(*client, request);
   // One table in the place of the other, where somebody looks on.
   const bool redraws = arguments.command == "top" && !arguments.options.contains("once") &&
                        isatty(STDOUT_FILENO) == 1;
-  const auto show = [redraws](std::ostream& stream) {
-    return [&stream, redraws](std::string_view text) {
-      stream << (redraws ? "\x1b[H\x1b[2J" : "") << text << std::flush;
+  const auto show = [redraws](std::ostream& stream, int descriptor) {
+    return [&stream, redraws, descriptor](std::string_view text) {
+      stream << (redraws ? "\x1b[H\x1b[2J" : "") << Coloured(text, descriptor) << std::flush;
       return stream.good();
     };
   };
-  return client->Ask(request.ToText(), show(std::cout), show(std::cerr));
+  const auto code = client->Ask(request.ToText(), show(std::cout, STDOUT_FILENO), show(std::cerr, STDERR_FILENO));
+  const bool ends = code && *code == 0 && request.arguments.empty() &&
+                    (request.command == "restart" || request.command == "stop");
+  if (ends) client->WaitForEnd();
+  if (ends && request.command == "restart") WaitForProcess(chosen->hello.process);
+  return code;
 }
 
 }  // namespace

@@ -55,7 +55,11 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   Entry& echo = add("echo", "shows the values of a port, until Ctrl-C");
   word(echo, "port", "input or output")->type_name(kPort);
   count(echo, "ends after so many values");
-  flag(echo, "--full", "full", "does not shorten long lists and texts");
+  flag(echo, "--full", "full", "all digits, and all of long lists and texts");
+
+  Entry& get = add("get", "says the value of a parameter, or the newest at a port, once");
+  word(get, "path", "parameter or port")->type_name(kElement);
+  flag(get, "--full", "full", "with all digits");
 
   Entry& hz = add("hz", "shows each second how often a port publishes, until Ctrl-C");
   word(hz, "port", "input or output")->type_name(kPort);
@@ -115,6 +119,7 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
 
   Entry& remove = add("delete", "deletes a module, a group or an interface port");
   word(remove, "path", "of what is to go")->type_name(kElement);
+  flag(remove, "--yes", "yes", "also if it is the whole application, which ends its run");
 
   Entry& swap = add("swap", "puts another module in the place of one, with its connections");
   swap.command->add_option("words", swap.arguments.words, "path, new type and values of parameters")
@@ -124,12 +129,21 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
          "the old one comes back if the new one throws in so many first cycles (10)")
       ->type_name("CYCLES");
 
+  Entry& rename = add("rename", "gives a module or group another name; connections and state stay");
+  word(rename, "path", "module or group")->type_name(kElement);
+  word(rename, "name", "the new one")->type_name("NAME");
+
+  Entry& copy = add("copy", "makes another module or group like one, beside it, with its values");
+  word(copy, "path", "module or group")->type_name(kElement);
+  word(copy, "name", "of the copy; without, the first that is free")->required(false)->type_name("NAME");
+
   Entry& move = add("move", "has a module or group run by another thread");
   word(move, "path", "module or group")->type_name(kElement);
   word(move, "thread", "its name; \"\": that of the group again")->type_name("THREAD");
 
   Entry& change = add("change", "carries out a file of changes, all or none");
   word(change, "file", "one change a line; -: standard input")->type_name("FILE|-");
+  flag(change, "--yes", "yes", "also if they delete the whole application, which ends its run");
 
   add("undo", "takes back what was changed last");
   add("redo", "does again what was undone last");
@@ -140,8 +154,16 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
       "--config", [&save] { save.arguments.options["config"] = "yes"; },
       "values of parameters, back into the configuration that the application was loaded with");
 
+  flag(save, "--overwrite", "overwrite",
+       "also over the file of another application, which is kept as FILE~");
+
   Entry& reload = add("reload", "loads a plugin anew and makes its modules anew by it");
   word(reload, "plugin", "its name, as in <load>; build its library first")->type_name("PLUGIN");
+
+  Entry& restart = add("restart", "runs the application again from its file; with a path, makes a module anew, as after a fault");
+  word(restart, "path", "module; group: those that faults have stopped")->required(false)->type_name(kElement);
+  Entry& stop = add("stop", "ends the run; with a path, leaves modules out of cycles until 'resume'");
+  word(stop, "path", "module, group or thread")->required(false)->type_name(kElement);
 
   Entry& record =
       add("record", "records what ports of a running application publish, until Ctrl-C");
@@ -203,9 +225,66 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
          "warning, error, off, or again as around them: inherit; without PATH all of them")
       ->type_name("[PATH=]LEVEL");
 
+  Group();
+
   Entry& complete = add("complete", "for the completion of shells");
   complete.command->group("");
   complete.command->prefix_command();
+}
+
+// In which order they are listed, with an example of each.
+void ControlCommandLine::Group() {
+  struct Kind {
+    const char* name;
+    std::vector<std::pair<const char*, const char*>> examples;
+  };
+  static const std::vector<Kind> kinds{
+      {"Looking at a running application",
+       {{"ps", "runnel ps"},
+        {"ls", "runnel ls /robot -l"},
+        {"get", "runnel get /robot/planner/cruise_speed"},
+        {"echo", "runnel echo /robot/planner/twist -n 5"},
+        {"hz", "runnel hz /laser/scan"},
+        {"top", "runnel top"},
+        {"log", "runnel log -f"},
+        {"profile", "runnel profile on"},
+        {"latency", "runnel latency /laser/scan /robot/planner/twist"},
+        {"record", "runnel record /robot/pose -o run.mcap"}}},
+      {"Changing it",
+       {{"set", "runnel set /robot/planner/cruise_speed 0.3"},
+        {"publish", "runnel publish /robot/goal '{x: 2, y: 1}'"},
+        {"release", "runnel release /robot/goal"},
+        {"connect", "runnel connect /laser/scan /robot/planner/scan --queue 10"},
+        {"disconnect", "runnel disconnect /laser/scan /robot/planner/scan"},
+        {"create", "runnel create /robot/filter sensors/scan_filter window=5"},
+        {"delete", "runnel delete /robot/filter"},
+        {"swap", "runnel swap /robot/planner planning/tangent_bug"},
+        {"rename", "runnel rename /robot/planner old_planner"},
+        {"copy", "runnel copy /robot/planner second_planner"},
+        {"move", "runnel move /robot/planner control"},
+        {"schedule", "runnel schedule control --period 10ms"},
+        {"change", "runnel change changes.txt"},
+        {"reload", "runnel reload planning"},
+        {"undo", "runnel undo"},
+        {"redo", "runnel redo"},
+        {"save", "runnel save robot.xml"}}},
+      {"Its run",
+       {{"pause", "runnel pause"},
+        {"resume", "runnel resume"},
+        {"step", "runnel step 5"},
+        {"speed", "runnel speed 4"},
+        {"restart", "runnel restart /robot/planner"},
+        {"stop", "runnel stop"},
+        {"deadline", "runnel deadline /robot 50ms"}}}};
+  for (const Kind& kind : kinds) {
+    for (const auto& [name, example] : kind.examples) {
+      for (Entry& entry : entries_) {
+        if (entry.command->get_name() != name) continue;
+        entry.command->group(kind.name);
+        entry.command->footer(std::string("For example: ") + example);
+      }
+    }
+  }
 }
 
 std::optional<ControlArguments> ControlCommandLine::Parsed() const {

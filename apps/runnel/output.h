@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "core/element/framework_element.h"
 
@@ -8,6 +9,9 @@ namespace runnel::program {
 
 /// Writes it to stderr, in one line: "app.xml:3:5: error: /demo/x: …".
 void PrintError(const Error& error);
+
+/// The text with what matters in colours ("error:" in red), if a terminal shows it and NO_COLOR is not set.
+[[nodiscard]] std::string Coloured(std::string_view text, int descriptor);
 
 /// Lets what is written to a pipe that nobody reads any more be lost ("| head -1"), rather than end
 /// the program: a run shall end in order.

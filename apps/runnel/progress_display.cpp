@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 namespace runnel::program {
@@ -15,6 +16,23 @@ constexpr auto kOnTerminal = std::chrono::milliseconds(200);
 constexpr auto kElsewhere = std::chrono::seconds(1);
 
 std::string SecondsText(double seconds) { return fmt::format("{:8.2f} s", seconds); }
+
+// Of stdout. A line that is as long would wrap on some.
+std::size_t TerminalWidth() {
+  winsize size{};
+  const bool is_known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
+  return is_known ? size.ws_col - 1U : std::string::npos;
+}
+
+// So many characters, where one may have several bytes.
+std::string CutTo(const std::string& line, std::size_t width) {
+  std::size_t characters = 0;
+  for (std::size_t at = 0; at < line.size(); ++at) {
+    const bool begins = (static_cast<unsigned char>(line[at]) & 0xc0) != 0x80;
+    if (begins && ++characters > width) return line.substr(0, at);
+  }
+  return line;
+}
 
 std::string Padded(std::string text, std::size_t width) {
   text.resize(std::max(width, text.size()), ' ');
@@ -45,7 +63,8 @@ void ProgressDisplay::Show(Duration time, bool is_paused, const std::string& tex
   if (std::exchange(has_shown_pause_, is_paused) && stands_still && !is_terminal_) return;
   if (is_terminal_) std::cout << "\r\x1b[K";
   const std::string pace = is_paused ? "paused" : "x" + NumberText(factor);
-  std::cout << SecondsText(ToSeconds(time)) << "  " << Padded(pace, 7) << text;
+  const std::string line = SecondsText(ToSeconds(time)) + "  " + Padded(pace, 7) + text;
+  std::cout << (is_terminal_ ? CutTo(line, TerminalWidth()) : line);
   if (!is_terminal_) std::cout << '\n';
   std::cout << std::flush;
   has_line_ = is_terminal_;

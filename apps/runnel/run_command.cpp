@@ -19,9 +19,13 @@
 #include "apps/runnel/output.h"
 #include "apps/runnel/preloading.h"
 #include "apps/runnel/progress_display.h"
+#include "apps/runnel/run_control.h"
 #include "apps/runnel/stop_signal.h"
 #include "core/log/log_sink.h"
+#include "core/plugin/plugin_manager.h"
 #include "plugins/application/application.h"
+#include "plugins/application/application_description.h"
+#include "plugins/application/extension_description.h"
 #include "plugins/application/run_report.h"
 #include "plugins/command_service/application_log.h"
 #include "plugins/crash_report/crash_report.h"
@@ -48,9 +52,10 @@ void PrintTimes(Duration so_far, std::chrono::steady_clock::duration real, Clock
 // One run of an application that has been loaded.
 class Session {
  public:
-  Session(const RunArguments& arguments, Application& application)
+  Session(const RunArguments& arguments, Application& application, const RunControl& control)
       : arguments_(arguments),
         application_(application),
+        control_(control),
         report_(application.report()),
         display_(!arguments.quiet) {
     if (!arguments.log_file.empty()) log_file_.emplace(arguments.log_file);
@@ -79,7 +84,7 @@ class Session {
       PrintError(error);
       return ExitCode::kBadInput;
     }
-    const bool was_asked = stop_signal.has_come();
+    const bool was_asked = stop_signal.has_come() || control_.is_asked();
     const ExitCode code = Conclude(*ran, real, was_asked);
     const auto is_held = [](const auto& extension) { return extension->IsHeld(); };
     if (!was_asked && std::ranges::any_of(application_.extensions(), is_held)) Hold(stop_signal);
@@ -95,9 +100,9 @@ class Session {
   }
 
   // What has come of the run can still be looked at.
-  static void Hold(const StopSignal& stop_signal) {
-    std::cout << "held for viewers; Ctrl-C ends it\n" << std::flush;
-    while (!stop_signal.has_come()) std::this_thread::sleep_for(kLookForSignal);
+  void Hold(const StopSignal& stop_signal) const {
+    std::cout << "held for viewers; Ctrl-C ends it, 'runnel restart' runs it again\n" << std::flush;
+    while (!stop_signal.has_come() && !control_.is_asked()) std::this_thread::sleep_for(kLookForSignal);
   }
 
   void LookAround(Duration so_far) {
@@ -122,7 +127,7 @@ class Session {
   void PrintEvents() {
     for (const ApplicationEvent& event : application_.TakeEvents()) {
       display_.Clear();
-      std::cerr << event.text << std::flush;
+      std::cerr << Coloured(event.text, STDERR_FILENO) << std::flush;
     }
     AppendToLogFile();
   }
@@ -151,6 +156,8 @@ class Session {
 
   std::string WhyItEnded(bool was_stopped, bool was_asked) {
     if (was_stopped) return "the run was stopped because of a fault\n";
+    if (application_.is_deleted()) return "the application has been deleted\n";
+    if (control_.shall_restart()) return "the run ends, to begin again\n";
     if (was_asked) return "stopped by the user\n";
     return report_.IsOver() || !MonitorsDecide() ? "" : "the time is up\n";
   }
@@ -171,7 +178,7 @@ class Session {
     application_.NoteEnd(verdict + why);
     AppendToLogFile();
     if (auto failure = log_file_ ? log_file_->Failure() : std::nullopt) failures.Add(*failure);
-    std::cerr << failures.ToString();
+    std::cerr << Coloured(failures.ToString(), STDERR_FILENO);
     (was_stopped ? std::cerr : std::cout) << why;
     if (!arguments_.quiet) PrintTimes(so_far, real, scheduler.options().clock);
     if (arguments_.statistics) std::cout << StatisticsTable(application_.runtime().root());
@@ -184,6 +191,7 @@ class Session {
 
   const RunArguments& arguments_;
   Application& application_;
+  const RunControl& control_;
   RunReport& report_;
   ProgressDisplay display_;
   std::mutex log_file_mutex_;
@@ -217,6 +225,52 @@ void LeaveIfStuck(Application& application, ExitCode code) {
   std::_Exit(static_cast<int>(is_written || code != ExitCode::kDone ? code : ExitCode::kRunFailed));
 }
 
+// What the file would be refused for, if it were loaded now.
+Result<void> CheckFile(const RunArguments& arguments) {
+  if (arguments.application.file.empty()) return {};
+  ApplicationDescription description(arguments.application.Options());
+  (void)description.Read(arguments.application.file);
+  if (description.diagnostics().ok()) return {};
+  return description.diagnostics().errors().front();
+}
+
+// What a run before has written stays.
+RunArguments ArgumentsOfNextRun(RunArguments arguments) {
+  if (!arguments.log_file.empty()) arguments.log_file = FileOfNextRun(arguments.log_file);
+  const auto catalogue = ExtensionCatalogue::Read(PluginManager().search_path());
+  for (ExtensionByName& extension : arguments.extensions) {
+    const ExtensionDescription* const known = catalogue ? catalogue->Find(extension.name) : nullptr;
+    for (auto& given : extension.arguments.values) {
+      const auto is_output = [&](const ExtensionOption& each) {
+        return each.name == given.first && each.is_output;
+      };
+      if (known != nullptr && std::ranges::any_of(known->options, is_output)) {
+        given.second = FileOfNextRun(given.second);
+      }
+    }
+  }
+  return arguments;
+}
+
+struct RunOutcome {
+  ExitCode code;
+  bool shall_restart = false;
+};
+
+RunOutcome RunOnce(const RunArguments& arguments) {
+  const auto control = std::make_shared<RunControl>([&arguments] { return CheckFile(arguments); });
+  ApplicationOptions options = OptionsOf(arguments);
+  options.extensions.push_back(control);
+  const LoadedApplication application = Application::Load(arguments.application.file, std::move(options));
+  std::cerr << Coloured(application.diagnostics().ToString(), STDERR_FILENO);
+  if (!application) return {ExitCode::kBadInput};
+  for (const auto& extension : application->extensions()) std::cout << extension->StartText();
+  std::cout << std::flush;
+  const ExitCode code = Session(arguments, *application, *control).Run();
+  LeaveIfStuck(*application, code);
+  return {code, control->shall_restart()};
+}
+
 }  // namespace
 
 ExitCode Run(const RunArguments& arguments) {
@@ -224,15 +278,9 @@ ExitCode Run(const RunArguments& arguments) {
     PrintError(preloaded.error());
     return ExitCode::kRunFailed;
   }
-  const LoadedApplication application =
-      Application::Load(arguments.application.file, OptionsOf(arguments));
-  std::cerr << application.diagnostics().ToString();
-  if (!application) return ExitCode::kBadInput;
-  for (const auto& extension : application->extensions()) std::cout << extension->StartText();
-  std::cout << std::flush;
-  const ExitCode code = Session(arguments, *application).Run();
-  LeaveIfStuck(*application, code);
-  return code;
+  RunOutcome outcome = RunOnce(arguments);
+  while (outcome.shall_restart) outcome = RunOnce(ArgumentsOfNextRun(arguments));
+  return outcome.code;
 }
 
 }  // namespace runnel::program

@@ -90,6 +90,32 @@ FrameworkElement* FrameworkElement::FindChild(std::string_view child_name) const
   return found == children_by_name_.end() ? nullptr : found->second;
 }
 
+namespace {
+
+// "planner/twist" for "planner/output/twist": what is in a group of ports or parameters, outputs first.
+const FrameworkElement* FindInGroups(const FrameworkElement& at, std::string_view name) {
+  const FrameworkElement* found = nullptr;
+  for (const FrameworkElement* group : at.children()) {
+    if (group->kind() != ElementKind::kPortGroup) continue;
+    const FrameworkElement* const inner = group->FindChild(name);
+    if (inner != nullptr && (found == nullptr || group->name() == "output")) found = inner;
+  }
+  return found;
+}
+
+// "/robot" for "/application/robot", if there is one application only.
+const FrameworkElement* FindInOnlyApplication(const FrameworkElement& root, std::string_view name) {
+  const FrameworkElement* only = nullptr;
+  for (const FrameworkElement* each : root.children()) {
+    if (each->kind() != ElementKind::kGroup || each->name() == "threads") continue;
+    if (only != nullptr) return nullptr;
+    only = each;
+  }
+  return only != nullptr ? only->FindChild(name) : nullptr;
+}
+
+}  // namespace
+
 Result<FrameworkElement*> FrameworkElement::Find(std::string_view path) const {
   const FrameworkElement* at = this;
   if (IsAbsolutePath(path)) at = &runtime_->root();
@@ -97,6 +123,9 @@ Result<FrameworkElement*> FrameworkElement::Find(std::string_view path) const {
     const FrameworkElement* next = at->FindChild(part);
     if (part == ".") next = at;
     if (part == "..") next = at->parent_;
+    if (next == nullptr) {
+      next = at->parent_ == nullptr ? FindInOnlyApplication(*at, part) : FindInGroups(*at, part);
+    }
     if (next == nullptr) {
       std::vector<std::string> names;
       for (const FrameworkElement* child : at->children_) names.push_back(child->name_);

@@ -45,10 +45,28 @@ std::vector<std::string> NamesOf(const std::vector<FrameworkElement*>& elements,
   return names;
 }
 
-PathEnd Missing(FrameworkElement& at, std::string_view name, std::vector<std::string> candidates) {
+// The paths of what is called so elsewhere, for who has left out what stands before, in words: "/robot/planner".
+std::string ElsewhereHint(FrameworkElement& at, std::string_view name, std::string_view rest) {
+  constexpr std::size_t kMost = 3;
+  std::vector<std::string> paths;
+  at.runtime().root().Visit([&](FrameworkElement& each) {
+    const bool is_part = each.parent() != nullptr && (each.kind() == ElementKind::kModule ||
+                                                      each.kind() == ElementKind::kGroup);
+    if (is_part && each.name() == name) paths.push_back(each.path() + std::string(rest));
+  });
+  if (paths.empty() || paths.size() > kMost) return {};
+  std::string hint = "did you mean ";
+  for (std::size_t i = 0; i < paths.size(); ++i) hint += (i > 0 ? " or " : "") + paths[i];
+  return hint + "?";
+}
+
+PathEnd Missing(FrameworkElement& at, std::string_view name, std::vector<std::string> candidates,
+                std::string_view rest = {}) {
+  std::string hint = NearestName(name, candidates).empty() ? ElsewhereHint(at, name, rest) : "";
+  if (hint.empty()) hint = NearestNameHint(name, candidates);
   Error error{.message = "there is no '" + std::string(name) + "' in " + at.path(),
               .path = at.path(),
-              .hint = NearestNameHint(name, candidates)};
+              .hint = std::move(hint)};
   return {nullptr, &at, std::string(name), std::move(candidates), std::move(error)};
 }
 
@@ -78,7 +96,8 @@ PathEnd PathSearch::FollowFrom(FrameworkElement& start, std::string_view path,
       const bool is_of_group = kind == PathKind::kParameter && FindConfigurable(*at, name);
       if (is_last && (at->kind() == ElementKind::kModule || is_of_group))
         return FollowShort(*at, name, kind);
-      return Missing(*at, name, NamesOf(Children(*at), PathKind::kElement));
+      const std::string_view rest = path.substr(static_cast<std::size_t>(name.data() + name.size() - path.data()));
+      return Missing(*at, name, NamesOf(Children(*at), PathKind::kElement), rest);
     }
     at = next;
   }

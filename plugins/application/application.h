@@ -173,11 +173,14 @@ class Application {
   Result<void> PublishByHand(std::string_view port, std::string_view value);
   /// Errors: no such port; it is not set by hand.
   Result<void> Release(std::string_view port);
-  /// Saves what it is now to the file; "": the one that it came from.
-  Result<void> Save(const std::filesystem::path& file = {});
+  /// Saves what it is now to the file; "": the one that it came from. What is replaced is kept as FILE~. Errors: the
+  /// file is there and not its own, unless it `overwrites`; what cannot be saved.
+  Result<void> Save(const std::filesystem::path& file = {}, bool overwrites = false);
   /// Writes values of parameters that have changed back to the configuration files; with a `file`, all that the
   /// configuration may set into that one. Errors: as configuration_saver.h. Says what was done.
   Result<std::string> SaveConfiguration(const std::filesystem::path& file = {});
+  /// Whether somebody has deleted the whole of it, so that nothing is left to run.
+  [[nodiscard]] bool is_deleted();
   /// Loads a plugin, or loads it anew and makes its modules anew by it.
   Result<void> LoadPlugin(std::string_view plugin);
   ChangeOutcome Reload(const std::string& plugin);

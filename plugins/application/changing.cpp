@@ -12,9 +12,11 @@
 #include "plugins/application_files/saving/application_saver.h"
 #include "plugins/command_service/hand_settings.h"
 #include "plugins/parameters/configuration_saver.h"
+#include "plugins/parameters/moved_file_name.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/structure/change_text.h"
 #include "plugins/structure/reload.h"
+#include "plugins/structure/renamed_text.h"
 
 namespace runnel {
 
@@ -23,6 +25,28 @@ namespace {
 Result<void> ResultOf(const ChangeOutcome& outcome) {
   if (outcome) return {};
   return outcome.diagnostics.errors().front();
+}
+
+// What would be lost if something else were written there; nothing if there is no such file.
+std::optional<Error> WhatIsLost(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) return {};
+  std::string what = "is there already";
+  const auto document = XmlDocument::Load(file);
+  if (document && document->root().name() == "application") {
+    const XmlAttribute* const name = document->root().Attribute("name");
+    what = "is the file of the application '" + (name != nullptr ? name->value : "") + "'";
+  }
+  return Error{.message = what + ", and would be lost",
+               .position = {file.string()},
+               .hint = "choose another name, or say --overwrite"};
+}
+
+// The same, unless the application came from it.
+std::optional<Error> FindOverwritten(const FrameworkElement& application, const std::filesystem::path& file) {
+  const auto* const source = application.FindAnnotation<ApplicationSource>();
+  const bool is_own = source != nullptr && Whole(source->file) == Whole(file);
+  return is_own || file.empty() ? std::nullopt : WhatIsLost(file);
 }
 
 // "planning" of "planning/bug1"; "" if there is none.
@@ -157,11 +181,14 @@ Result<std::string> Application::Get(std::string_view path) {
   return parameter->ToText();
 }
 
-Result<void> Application::Save(const std::filesystem::path& file) {
+Result<void> Application::Save(const std::filesystem::path& file, bool overwrites) {
   const std::lock_guard lock(parts_->runtime().structure_mutex());
   const auto found = parts_->FindAgain();
   if (!found) return found.error();
   const SaveTools tools{parts_->plugins(), parts_->tags()};
+  if (!overwrites) {
+    if (auto lost = FindOverwritten(**found, file)) return *lost;
+  }
   return SaveApplication(**found, tools, file);
 }
 
@@ -172,6 +199,11 @@ Result<std::string> Application::SaveConfiguration(const std::filesystem::path& 
   LoadedValues none;  // composed in code
   auto* const source = (*found)->FindAnnotation<ApplicationSource>();
   return runnel::SaveConfiguration(**found, source != nullptr ? source->values : none, file);
+}
+
+bool Application::is_deleted() {
+  const std::lock_guard lock(parts_->runtime().structure_mutex());
+  return !parts_->FindAgain();
 }
 
 Result<void> Application::LoadPlugin(std::string_view plugin) {
@@ -194,7 +226,7 @@ CommandService& Application::service() {
   };
   hooks.save = [this](const std::string& file) -> Result<std::string> {
     std::string done = "saved " + parts_->path() + (file.empty() ? "" : " to " + file);
-    if (auto saved = Save(file); !saved) return saved.error();
+    if (auto saved = Save(file, true); !saved) return saved.error();
     return done;
   };
   using SaveDifference = ServiceHooks::SaveDifference;
@@ -207,10 +239,30 @@ CommandService& Application::service() {
     return SaveDifference{preview->file.string(), std::move(preview->before),
                           std::move(preview->after)};
   };
+  hooks.find_overwritten = [this](const SaveRequest& request) -> std::optional<Error> {
+    const std::lock_guard lock(parts_->runtime().structure_mutex());
+    const auto found = parts_->FindAgain();
+    if (!found) return {};
+    return request.is_configuration ? WhatIsLost(request.file) : FindOverwritten(**found, request.file);
+  };
+  hooks.find_rules = [this](const std::string& path) -> std::vector<Error> {
+    const std::lock_guard lock(parts_->runtime().structure_mutex());
+    const auto found = PathSearch(parts_->runtime()).Find(path);
+    const auto application = parts_->FindAgain();
+    const auto* const source = application ? (*application)->FindAnnotation<ApplicationSource>() : nullptr;
+    if (!found || source == nullptr) return {};
+    return RulesThatName(**found, source->text, source->file.string(), PathAttributesIn(parts_->tags()));
+  };
   hooks.save_configuration = [this](const std::string& file) { return SaveConfiguration(file); };
   hooks.set_paused = [this](const std::string& path, bool is_paused) {
     return is_paused ? Pause(path) : Resume(path);
   };
+  if (!hooks.stop) {
+    hooks.stop = [this]() -> Result<std::string> {
+      RequestStop();
+      return std::string("stops");
+    };
+  }
   hooks.reload = [this](const std::string& plugin) -> Result<std::string> {
     std::string done = "loaded " + plugin + " anew";
     const auto outcome = Reload(plugin);

@@ -45,7 +45,8 @@ ExtensionOption ReadOption(XmlElement element, const std::string& name, const fs
           .value_name = TextOr(element, "value", "VALUE"),
           .summary = TextOr(element, "summary", ""),
           .command = TextOr(element, "command", ""),
-          .preload = PathFrom(file, TextOr(element, "preload", ""))};
+          .preload = PathFrom(file, TextOr(element, "preload", "")),
+          .is_output = TextOr(element, "writes", "false") == "true"};
 }
 
 void ReadPart(XmlElement element, const fs::path& file, ExtensionDescription& extension,
@@ -53,7 +54,7 @@ void ReadPart(XmlElement element, const fs::path& file, ExtensionDescription& ex
   const bool is_option = element.name() == "option";
   CheckAttributes(
       element,
-      is_option ? std::vector<std::string>{"command", "kind", "name", "preload", "summary", "value"}
+      is_option ? std::vector<std::string>{"command", "kind", "name", "preload", "summary", "value", "writes"}
                 : std::vector<std::string>{"name"},
       problems);
   const std::string* const name = ReadText(element, "name", problems);
@@ -122,6 +123,17 @@ const ExtensionDescription* ExtensionCatalogue::FindTag(std::string_view tag) co
 
 const ExtensionDescription* ExtensionCatalogue::FindCommand(std::string_view command) const {
   return FindIn(all_, &ExtensionDescription::commands, command);
+}
+
+std::string FileOfNextRun(const std::string& file) {
+  const fs::path first(file);
+  fs::path next;
+  std::error_code ignored;
+  for (int run = 2; next.empty() || fs::exists(next, ignored); ++run) {
+    next = first.parent_path() /
+           (first.stem().string() + "_" + std::to_string(run) + first.extension().string());
+  }
+  return next.string();
 }
 
 }  // namespace runnel

@@ -26,7 +26,12 @@ struct ExtensionOption {
   std::string command = {};  ///< only of this one; "": of all that run an application
   /// A library that must be in the process from its start if the option is given, as a path; "": none.
   std::string preload = {};
+  /// The value is a file that is written, another one for each run.
+  bool is_output = false;
 };
+
+/// The file that a further run of the same program writes instead of `file`: run_2.mcap, or the first that is free.
+[[nodiscard]] std::string FileOfNextRun(const std::string& file);
 
 /// What a plugin adds to applications that can do without it, known before its library is loaded: the file
 /// <name>.extension.xml beside <name>.so. It may be there although the library is not installed.

@@ -100,7 +100,11 @@ Result<Duration> Application::Parts::RunCycles(std::optional<Duration> limit, bo
   const Time begun = clock.Now();
   const auto end = limit ? std::optional(begun + *limit) : std::nullopt;
   for (;;) {
-    if (!waits_for_tasks && !scheduler->NextDue()) return NothingToRun();
+    if (!waits_for_tasks && !scheduler->NextDue()) {
+      const std::lock_guard lock(runtime().structure_mutex());
+      if (FindAgain()) return NothingToRun();
+      return clock.Now() - begun;  // somebody has deleted it
+    }
     const auto result = scheduler->Advance(end, kLookAround);
     const Duration so_far = clock.Now() - begun;
     const bool is_idle = result == Scheduler::StepResult::kEnd;

@@ -18,6 +18,9 @@ namespace runnel {
 /// Kept with a group whose inside another file describes.
 struct PartInstance final : Annotation {
   explicit PartInstance(std::string file_name) : file(std::move(file_name)) {}
+  [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override {
+    return std::make_unique<PartInstance>(file);
+  }
   std::string file;  ///< as errors call it
 };
 

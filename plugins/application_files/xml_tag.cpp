@@ -127,4 +127,19 @@ std::vector<std::string> XmlTagRegistry::TagsIn(std::string_view parent) const {
   return names;
 }
 
+PathAttributesOf PathAttributesIn(const XmlTagRegistry& tags) {
+  return [&tags](XmlElement tag) {
+    using enum PathAttribute::Kind;
+    std::vector<PathAttribute> found;
+    const XmlTag* const known = tags.FindTag(tag.name());
+    for (const AttributeRule& rule : known != nullptr ? tags.Rules(*known) : std::vector<AttributeRule>()) {
+      const bool is_other = tag.name() == "load" || rule.name == "type" || rule.name == "config";  // of a file
+      if (rule.kind == AttributeKind::kNewName) found.push_back({rule.name, kNewName});
+      if (rule.kind == AttributeKind::kPathList) found.push_back({rule.name, kPathList, rule.names_element});
+      if (rule.kind == AttributeKind::kPath && !is_other) found.push_back({rule.name, kPath, rule.names_element});
+    }
+    return found;
+  };
+}
+
 }  // namespace runnel

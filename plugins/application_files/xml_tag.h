@@ -13,6 +13,7 @@
 #include "core/xml/xml_document.h"
 #include "core/xml/xml_writing.h"
 #include "plugins/application_files/attribute_rule.h"
+#include "plugins/structure/renamed_text.h"
 
 namespace runnel {
 
@@ -147,5 +148,8 @@ class XmlTagRegistry final : public OfferedRegistry {
   std::string plugin_;
   Source source_;
 };
+
+/// By which attributes the tags name elements. The registry must outlive it.
+[[nodiscard]] PathAttributesOf PathAttributesIn(const XmlTagRegistry& tags);
 
 }  // namespace runnel

@@ -55,6 +55,8 @@ class ApplicationLog {
   [[nodiscard]] Entries ReadEntries(std::uint64_t from, std::size_t most) const;
   /// The number that the next entry will have.
   [[nodiscard]] std::uint64_t end() const;
+  /// The zero of the times that people see.
+  [[nodiscard]] Time start() const noexcept { return start_; }
   /// How often a module has thrown.
   [[nodiscard]] std::uint64_t faults() const;
 

@@ -14,7 +14,9 @@
 
 #include "core/paths/path_search.h"
 #include "plugins/command_service/caught_error.h"
+#include "core/plugin/module_type_name.h"
 #include "plugins/scheduling/pace.h"
+#include "plugins/scheduling/scheduler.h"
 #include "plugins/structure/change_history.h"
 #include "plugins/structure/change_text.h"
 
@@ -33,6 +35,21 @@ std::uint64_t IdOf(Runtime& runtime, const std::string& path) {
   const std::lock_guard lock(runtime.structure_mutex());
   const auto found = PathSearch(runtime).Find(path);
   return found ? (*found)->id() : 0;
+}
+
+// The application that the changes would delete, as a whole; "" if none.
+std::string DeletedApplication(Runtime& runtime, const ChangeSet& changes) {
+  const std::lock_guard lock(runtime.structure_mutex());
+  for (const Change& change : changes) {
+    const auto* const each = std::get_if<DeleteElement>(&change);
+    if (each == nullptr) continue;
+    const auto found = PathSearch(runtime).Find(each->path);
+    if (found && (*found)->parent() == &runtime.root() && (*found)->kind() == ElementKind::kGroup &&
+        (*found)->name() != "threads") {
+      return (*found)->path();
+    }
+  }
+  return {};
 }
 
 std::string TypeIn(const Change& change) {
@@ -82,8 +99,10 @@ struct Swap {
 
 struct ChangeTask {
   std::optional<Duration> Step();
+  [[nodiscard]] bool IsMeant();
   void Apply();
   void FindSwaps();
+  [[nodiscard]] std::vector<Error> FindRules() const;
   void LookAfterProbation();
   [[nodiscard]] bool IsOver() const;
   void Conclude();
@@ -101,6 +120,7 @@ struct ChangeTask {
 
 std::optional<Duration> ChangeTask::Step() {
   if (!std::exchange(has_begun, true)) {
+    if (!IsMeant()) return {};
     Apply();
     if (!is_on_probation) return {};
     until = std::chrono::steady_clock::now() + kLongestProbation;
@@ -123,6 +143,18 @@ std::optional<Duration> ChangeTask::Step() {
   return {};
 }
 
+// Nothing brings a deleted application back: its run ends.
+bool ChangeTask::IsMeant() {
+  if (request.may_end_application) return true;
+  const std::string deleted = DeletedApplication(application.runtime, request.placed.changes);
+  if (deleted.empty()) return true;
+  *answer = CommandAnswer::Asks({.message = "is the whole application: deleting it ends its run, and cannot be undone",
+                                 .path = deleted,
+                                 .hint = "say --yes if that is meant"},
+                                "yes");
+  return false;
+}
+
 // What the answer and the log need comes first: nothing may fail between doing it and saying that it is done.
 void ChangeTask::Apply() {
   const PlacedChanges& placed = request.placed;
@@ -132,11 +164,15 @@ void ChangeTask::Apply() {
   try {
     LoadMissingPlugins(placed.changes, application);
     FindSwaps();
+    const std::vector<Error> rules = FindRules();
     outcome = application.history != nullptr
                   ? application.history->Apply(placed.changes, placed.positions, request.label)
                   : application.editor.Apply(placed.changes, placed.positions);
     answer->outcome = outcome ? CommandAnswer::Outcome::kDone : CommandAnswer::Outcome::kRefused;
     answer->diagnostics = std::move(outcome.diagnostics);
+    for (const Error& each : rules) {
+      if (outcome) answer->diagnostics.AddWarning(each);
+    }
   } catch (...) {
     *answer = CommandAnswer::Failed(CaughtError());
   }
@@ -144,6 +180,17 @@ void ChangeTask::Apply() {
   if (*answer) answer->text = DoneText(outcome.hold_time, std::move(text));
   application.log.Add(ApplicationLog::Kind::kChange,
                       *answer ? std::move(entry) : "refused: " + entry);
+}
+
+std::vector<Error> ChangeTask::FindRules() const {
+  std::vector<Error> all;
+  for (const Change& each : request.placed.changes) {
+    const auto* const rename = std::get_if<RenameElement>(&each);
+    if (rename == nullptr || !application.hooks.find_rules) continue;
+    const std::vector<Error> found = application.hooks.find_rules(rename->path);
+    all.insert(all.end(), found.begin(), found.end());
+  }
+  return all;
 }
 
 void ChangeTask::FindSwaps() {
@@ -185,6 +232,60 @@ void ChangeTask::Conclude() {
 }
 
 }  // namespace
+
+namespace {
+
+// What makes the module anew, or those below that have been stopped. Errors: nothing is there to be made anew.
+Result<ChangeSet> MadeAnew(const ServedApplication& application, const std::string& path) {
+  std::vector<std::pair<std::string, std::string>> modules;  // paths and types
+  bool is_module = false;
+  {
+    const std::lock_guard lock(application.runtime.structure_mutex());
+    const auto found = PathSearch(application.runtime).Find(path);
+    if (!found) return found.error();
+    is_module = IsModule(**found);
+    if (!is_module && (*found)->kind() != ElementKind::kGroup) {
+      return Error{.message = "is neither a module nor a group, and cannot be restarted",
+                   .path = (*found)->path()};
+    }
+    (*found)->Visit([&](FrameworkElement& each) {
+      if (IsModule(each) && (!is_module || &each == *found))
+        modules.emplace_back(each.path(), FindModuleType(each));
+    });
+  }
+  ChangeSet changes;
+  for (const auto& [module, type] : modules) {
+    const auto progress = application.scheduler != nullptr ? application.scheduler->ProgressOf(module)
+                                                           : std::nullopt;
+    const bool is_wanted = is_module || (progress && progress->is_stopped);
+    if (is_wanted) changes.push_back(ReplaceModule{module, type});
+  }
+  if (!changes.empty()) return changes;
+  return Error{.message = "nothing in it has been stopped by a fault",
+               .path = path,
+               .hint = "name the module that is to be made anew"};
+}
+
+}  // namespace
+
+TaskStep RestartSteps(std::string path, const ServedApplication& application,
+                      std::shared_ptr<CommandAnswer> answer) {
+  auto steps = std::make_shared<TaskStep>();
+  return [=, path = std::move(path), &application,
+          answer = std::move(answer)]() -> std::optional<Duration> {
+    if (!*steps) {
+      auto changes = MadeAnew(application, path);
+      if (!changes) {
+        *answer = CommandAnswer::Refused(changes.error());
+        return {};
+      }
+      ChangeRequest request{.placed = {.changes = std::move(*changes), .positions = {}},
+                            .label = "restart " + path};
+      *steps = ChangeSteps(std::move(request), application, answer);
+    }
+    return (*steps)();
+  };
+}
 
 TaskStep ChangeSteps(ChangeRequest request, const ServedApplication& application,
                      std::shared_ptr<CommandAnswer> answer) {

@@ -12,4 +12,8 @@ namespace runnel {
 [[nodiscard]] TaskStep ChangeSteps(ChangeRequest request, const ServedApplication& application,
                                    std::shared_ptr<CommandAnswer> answer);
 
+/// The same for modules that are made anew: the one at the path, or those at or below it that faults have stopped.
+[[nodiscard]] TaskStep RestartSteps(std::string path, const ServedApplication& application,
+                                    std::shared_ptr<CommandAnswer> answer);
+
 }  // namespace runnel

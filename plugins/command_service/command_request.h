@@ -21,6 +21,8 @@ struct ChangeRequest {
 
   PlacedChanges placed;
   std::string label = {};  ///< for the history; "": the changes in their text format
+  /// Whether the whole application may be deleted, which ends its run and cannot be undone.
+  bool may_end_application = false;
 };
 /// Takes back what was changed last.
 struct UndoRequest {};
@@ -33,6 +35,8 @@ struct SaveRequest {
   std::string application_file = {};  ///< for SavePlace(): that the application came from
   /// Values of parameters into the configuration instead; "": into the files that it was loaded with.
   bool is_configuration = false;
+  /// Whether `file` may take the place of another application's.
+  bool overwrites = false;
 };
 /// Loads a plugin as it is now on disk, and makes its modules anew.
 struct ReloadRequest {
@@ -75,10 +79,19 @@ struct PauseRequest {
   bool is_paused = true;
 };
 
+/// Makes a module anew by its own type, as after a fault; of a group, all that have been stopped by faults. Without a
+/// path, the whole application is built anew from its file and run again, with the same settings, also when its run has
+/// ended and is held.
+struct RestartRequest {
+  std::string path = {};
+};
+/// Ends the run in order, as Ctrl-C does, also one that has ended and is held.
+struct StopRequest {};
+
 /// What a client may ask a CommandService for.
 using CommandRequest = std::variant<ChangeRequest, UndoRequest, RedoRequest, SaveRequest,
                                     ReloadRequest, LogLevelRequest, PauseRequest, PublishRequest,
-                                    ReleaseRequest>;
+                                    ReleaseRequest, RestartRequest, StopRequest>;
 
 /// What has come of a request.
 struct CommandAnswer {
@@ -90,19 +103,27 @@ struct CommandAnswer {
   Outcome outcome = Outcome::kDone;
   std::string text;         ///< what was done, for people: "done; threads stood still for 0.110 ms"
   Diagnostics diagnostics;  ///< errors if it was not done; warnings of what was
+  /// What has to be said besides for it to be done: "overwrite", "yes"; "": that would not help.
+  std::string needs = {};
 
   explicit operator bool() const noexcept { return outcome == Outcome::kDone; }
 
   [[nodiscard]] static CommandAnswer Done(std::string text) {
-    return {.outcome = Outcome::kDone, .text = std::move(text), .diagnostics = {}};
+    return {.outcome = Outcome::kDone, .text = std::move(text), .diagnostics = {}, .needs = {}};
   }
   [[nodiscard]] static CommandAnswer Failed(Error error, Outcome outcome = Outcome::kFailed) {
-    CommandAnswer answer{.outcome = outcome, .text = {}, .diagnostics = {}};
+    CommandAnswer answer{.outcome = outcome, .text = {}, .diagnostics = {}, .needs = {}};
     answer.diagnostics.Add(std::move(error));
     return answer;
   }
   [[nodiscard]] static CommandAnswer Refused(Error error) {
     return Failed(std::move(error), Outcome::kRefused);
+  }
+  /// Not done until somebody says that it is meant.
+  [[nodiscard]] static CommandAnswer Asks(Error error, std::string needs) {
+    CommandAnswer answer = Refused(std::move(error));
+    answer.needs = std::move(needs);
+    return answer;
   }
 };
 

@@ -52,13 +52,17 @@ class StructureRecorder final : public ElementListener {
 
 using Hook = std::function<Result<std::string>(const std::string&)>;
 
-CommandAnswer Call(const Hook& hook, const std::string& argument, const char* what) {
-  if (!hook) {
-    return CommandAnswer::Refused(
-        {.message = std::string("the program that runs this application cannot ") + what});
-  }
-  auto done = hook(argument);
+CommandAnswer Cannot(const char* what) {
+  return CommandAnswer::Refused(
+      {.message = std::string("the program that runs this application cannot ") + what});
+}
+
+CommandAnswer AnswerOf(Result<std::string> done) {
   return done ? CommandAnswer::Done(std::move(*done)) : CommandAnswer::Failed(done.error());
+}
+
+CommandAnswer Call(const Hook& hook, const std::string& argument, const char* what) {
+  return hook ? AnswerOf(hook(argument)) : Cannot(what);
 }
 
 }  // namespace
@@ -85,6 +89,12 @@ std::unique_ptr<PendingCommand> CommandService::Begin(CommandRequest request, Ta
       [&](auto& each) -> TaskStep {
         if constexpr (std::is_same_v<decltype(each), ChangeRequest&>) {
           return ChangeSteps(std::move(each), application_, answer);
+        } else if constexpr (std::is_same_v<decltype(each), RestartRequest&>) {
+          if (!each.path.empty()) return RestartSteps(std::move(each.path), application_, answer);
+          return [this, each, answer]() -> std::optional<Duration> {
+            *answer = Do(each);
+            return {};
+          };
         } else {
           return [this, each, answer]() -> std::optional<Duration> {
             *answer = Do(each);
@@ -107,6 +117,13 @@ CommandAnswer CommandService::Do(const SaveRequest& request) const {
     if (!place) return CommandAnswer::Refused(place.error());
     file = *place;
   }
+  if (!request.overwrites && !file.empty() && application_.hooks.find_overwritten) {
+    SaveRequest placed = request;
+    placed.file = file;
+    if (auto lost = application_.hooks.find_overwritten(placed)) {
+      return CommandAnswer::Asks(std::move(*lost), "overwrite");
+    }
+  }
   if (request.is_configuration) {
     return Call(application_.hooks.save_configuration, file, "save its configuration");
   }
@@ -115,6 +132,20 @@ CommandAnswer CommandService::Do(const SaveRequest& request) const {
 
 CommandAnswer CommandService::Do(const ReloadRequest& request) const {
   return Call(application_.hooks.reload, request.plugin, "load plugins anew");
+}
+
+CommandAnswer CommandService::Do(const RestartRequest&) const {
+  const auto& restart = application_.hooks.restart;
+  if (!restart) return Cannot("run it again");
+  application_.log.Add(ApplicationLog::Kind::kChange, "restart");
+  return AnswerOf(restart());
+}
+
+CommandAnswer CommandService::Do(const StopRequest&) const {
+  const auto& stop = application_.hooks.stop;
+  if (!stop) return Cannot("end its run");
+  application_.log.Add(ApplicationLog::Kind::kChange, "stop");
+  return AnswerOf(stop());
 }
 
 CommandAnswer CommandService::Do(const PauseRequest& request) const {

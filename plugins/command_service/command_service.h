@@ -61,12 +61,19 @@ struct ServiceHooks {
   std::function<Result<SaveDifference>(const std::string& file)> preview_save = {};
   /// Writes values of parameters back to the configuration, or all of them into the file, and says what was done.
   std::function<Result<std::string>(const std::string& file)> save_configuration = {};
+  /// What would be lost by saving like that; nothing if the file is the application's own, or not there.
+  std::function<std::optional<Error>(const SaveRequest& request)> find_overwritten = {};
+  /// What else goes on with the name of before when what is at the path is renamed, as warnings.
+  std::function<std::vector<Error>(const std::string& path)> find_rules = {};
   /// Loads a plugin anew, makes its modules anew, and says what was done.
   std::function<Result<std::string>(const std::string& plugin)> reload = {};
   /// The library of a plugin that is loaded; "" if that is unknown.
   std::function<std::string(const std::string& plugin)> library_of = {};
   /// Pauses what is at or below the path, or lets it go on.
   std::function<Result<void>(const std::string& path, bool is_paused)> set_paused = {};
+  /// Ends the run, or ends it and runs the application again from its file, and says so; both after the answer.
+  std::function<Result<std::string>()> stop = {};
+  std::function<Result<std::string>()> restart = {};
   /// Records ports until the client goes.
   RecordingHook record = {};
 };
@@ -140,6 +147,8 @@ class CommandService {
   [[nodiscard]] CommandAnswer Do(const LogLevelRequest& request) const;
   [[nodiscard]] CommandAnswer Do(const PublishRequest& request);
   [[nodiscard]] CommandAnswer Do(const ReleaseRequest& request);
+  [[nodiscard]] CommandAnswer Do(const RestartRequest& request) const;
+  [[nodiscard]] CommandAnswer Do(const StopRequest& request) const;
   [[nodiscard]] CommandAnswer TakeHistoryStep(bool goes_back) const;
 
   const ServedApplication application_;

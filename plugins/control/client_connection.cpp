@@ -130,6 +130,18 @@ void ClientConnection::Work(CommandService& service, TaskGroup& tasks) {
 }
 
 void ClientConnection::Finish() {
+  try {
+    // What has been done is done, though it is what has ended the application.
+    const auto code = command_ && command_->waits_for_task() && command_->due() == SteadyTime::min()
+                          ? command_->Continue(*this)
+                          : std::nullopt;
+    if (code) {
+      command_.reset();
+      SendEnd(*code);
+    }
+  } catch (...) {
+    WriteError(ErrorLine(CaughtError()));
+  }
   if (command_) {
     command_.reset();
     WriteError("the application has ended\n");

@@ -54,6 +54,8 @@ class Command {
     return task_->is_done() ? SteadyTime::min() : SteadyTime::max();
   }
 
+  [[nodiscard]] bool waits_for_task() const noexcept { return task_ != nullptr; }
+
  private:
   Step step_;
   SteadyTime due_{};
@@ -72,7 +74,7 @@ struct CommandContext {
 };
 using CommandResult = Result<Command>;
 using CommandMaker = CommandResult(const Request& request, const CommandContext& context);
-CommandMaker MakeListCommand, MakePathsCommand, MakeTypesCommand, MakeEchoCommand, MakeRateCommand,
+CommandMaker MakeGetCommand, MakeListCommand, MakePathsCommand, MakeTypesCommand, MakeEchoCommand, MakeRateCommand,
     MakeLogCommand, MakePauseCommand, MakeResumeCommand, MakeStepCommand, MakeSpeedCommand,
     MakeRecordCommand, MakeDeadlineCommand, MakeTopCommand,
     MakeProfileCommand, MakeLatencyCommand;

@@ -109,6 +109,11 @@ Result<int> ControlClient::Ask(const std::string& request, const Use& output, co
   }
 }
 
+void ControlClient::WaitForEnd() {
+  while (Receive()) {
+  }
+}
+
 void ControlClient::EndRequests() noexcept { shutdown(descriptor_, SHUT_WR); }
 
 Result<std::vector<RunningApplication>> FindRunningApplications(const std::filesystem::path& folder,
@@ -136,10 +141,11 @@ Result<RunningApplication> ChooseApplication(const std::vector<RunningApplicatio
   std::string list;
   for (const RunningApplication& each : applications) {
     names.push_back(each.hello.application);
-    list += (list.empty() ? "" : ", ") + Described(each);
     const bool is_meant = wanted.empty() || wanted == each.hello.application ||
                           wanted == std::to_string(each.hello.process);
-    if (is_meant) meant.push_back(each);
+    if (!is_meant) continue;
+    list += (list.empty() ? "" : ", ") + Described(each);
+    meant.push_back(each);
   }
   if (meant.size() == 1) return meant.front();
   if (applications.empty()) {
@@ -150,8 +156,10 @@ Result<RunningApplication> ChooseApplication(const std::vector<RunningApplicatio
     return Error{.message = "no running application is called '" + wanted + "'",
                  .hint = NearestNameHint(wanted, names)};
   }
-  return Error{.message = std::to_string(meant.size()) + " applications are running: " + list,
-               .hint = "choose one by --app NAME or --app PROCESS"};
+  const std::string called = wanted.empty() ? "" : " called '" + wanted + "'";
+  return Error{.message = std::to_string(meant.size()) + " applications" + called + " are running: " + list,
+               .hint = wanted.empty() ? "choose one by --app NAME or --app PROCESS, or by a path that begins with its name"
+                                      : "choose one by --app PROCESS"};
 }
 
 }  // namespace runnel

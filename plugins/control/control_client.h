@@ -32,6 +32,8 @@ class ControlClient {
   Result<int> Ask(const std::string& request, const Use& output, const Use& errors);
   /// There will be no more requests, and one that goes on until its client has enough ends in order.
   void EndRequests() noexcept;
+  /// Waits until the application has gone, or ends the connection.
+  void WaitForEnd();
 
  private:
   explicit ControlClient(int descriptor);

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <mutex>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -15,10 +16,14 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "core/port/port.h"
 #include "core/types/duration_text.h"
 #include "plugins/control/client_connection.h"
 #include "plugins/control/control_folder.h"
+#include "plugins/control/element_listing.h"
 #include "plugins/control/protocol.h"
+#include "plugins/scheduling/pace.h"
+#include "plugins/scheduling/scheduler.h"
 
 namespace runnel {
 
@@ -148,7 +153,32 @@ class ControlServer::Loop {
     hello.application = options_.application;
     hello.file = options_.file;
     hello.time = service_.application().runtime.clock().Now() - start_;
+    hello.real = SteadyClock().Now() - started_;
+    hello.state = StateText();
     return hello.ToText();
+  }
+
+  // What is wrong with it is left out while somebody changes its structure.
+  [[nodiscard]] std::string StateText() const {
+    const ServedApplication& application = service_.application();
+    std::string text = "running";
+    if (application.pace != nullptr && application.pace->is_paused()) text = "paused";
+    if (application.pace != nullptr && application.pace->has_ended()) text = "ended, held";
+    const std::unique_lock lock(application.runtime.structure_mutex(), std::try_to_lock);
+    if (!lock || application.scheduler == nullptr) return text;
+    FrameworkElement& root = application.runtime.root();
+    const std::size_t stopped = StoppedModules(root, *application.scheduler, nullptr).size();
+    std::size_t unfed = 0;
+    root.Visit([&](FrameworkElement& each) {
+      const auto* const port = dynamic_cast<const Port*>(&each);
+      if (port != nullptr && LacksSource(*port)) ++unfed;
+    });
+    const auto add = [&](std::size_t count, const char* one, const char* many) {
+      if (count > 0) text += ", " + std::to_string(count) + (count == 1 ? one : many);
+    };
+    add(stopped, " module STOPPED", " modules STOPPED");
+    add(unfed, " required input NOT CONNECTED", " required inputs NOT CONNECTED");
+    return text;
   }
 
   CommandService& service_;
@@ -156,6 +186,7 @@ class ControlServer::Loop {
   const ListeningSocket listening_;
   const int wake_;
   const Time start_ = service_.application().runtime.clock().Now();
+  const Time started_ = SteadyClock().Now();
   std::vector<std::unique_ptr<ClientConnection>> clients_;
   std::vector<pollfd> polled_;
   bool must_pause_ = false;

@@ -1,5 +1,6 @@
 #include <memory>
 #include <mutex>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -8,6 +9,7 @@
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
 #include "plugins/control/command.h"
+#include "plugins/control/readable_text.h"
 #include "plugins/values/watched_port.h"
 
 namespace runnel {
@@ -21,11 +23,13 @@ constexpr TextLimits kFull{.text = 4'000'000, .all = 4'000'000};
 /// kLookAgain. Publishers do not notice: values are leased, and made text here.
 class Echo {
  public:
-  Echo(Runtime& runtime, std::string path, std::optional<std::uint64_t> count, bool is_full)
-      : runtime_(runtime),
+  Echo(const ServedApplication& application, std::string path, std::optional<std::uint64_t> count,
+       bool is_full)
+      : runtime_(application.runtime),
+        zero_(application.log.start()),
         path_(std::move(path)),
         left_(count),
-        limits_(is_full ? kFull : kUsual) {}
+        is_full_(is_full) {}
 
   CommandStep operator()(Answer& answer) {
     const EpochGuard guard;  // what is found stays in memory so long
@@ -45,9 +49,9 @@ class Echo {
 
  private:
   // Of a value that says when it was measured.
-  static std::string Measured(ValueTimes times) {
+  [[nodiscard]] std::string Measured(ValueTimes times) const {
     if (times.timestamp == times.publication_time) return {};
-    return fmt::format("(measured at {:.3f} s)  ", ToSeconds(times.timestamp));
+    return fmt::format("(measured at {:.3f} s)  ", ToSeconds(times.timestamp - zero_));
   }
   Result<void> Find() {
     const auto found = PathSearch(runtime_).FindPort(path_, PathKind::kOutput);
@@ -66,9 +70,13 @@ class Echo {
   void Show(Answer& answer) {
     std::string text;
     const auto count = port_->VisitIfNew([&](const void* value, ValueTimes times) {
-      text = fmt::format("{:.3f} s  {}{}", ToSeconds(times.publication_time), Measured(times),
-                         ToText(port_->type(), value, limits_));
+      const std::string shown = ToText(port_->type(), value, is_full_ ? kFull : kUsual);
+      text = fmt::format("{:.3f} s  {}{}", ToSeconds(times.publication_time - zero_), Measured(times),
+                         is_full_ ? shown : ReadableNumbers(shown));
     });
+    if (!count && !shown_ && !std::exchange(has_said_nothing_, true)) {
+      answer.WriteError(port_->path() + ": nothing has been published there yet; waits\n");
+    }
     if (!count) return;
     if (shown_ && *count > *shown_ + 1) {
       text += "  (" + std::to_string(*count - *shown_ - 1) + " not shown)";
@@ -79,9 +87,11 @@ class Echo {
   }
 
   Runtime& runtime_;
+  const Time zero_;
   const std::string path_;
   std::optional<std::uint64_t> left_;
-  const TextLimits limits_;
+  const bool is_full_;
+  bool has_said_nothing_ = false;  // told, that is
   std::shared_ptr<WatchedPort> port_;
   bool has_found_ = false;
   std::optional<std::uint64_t> shown_;  // the count with the last value
@@ -93,7 +103,7 @@ CommandResult MakeEchoCommand(const Request& request, const CommandContext& cont
   const auto count = ReadCountOption(request);
   if (!count) return count.error();
   return Command(
-      Echo(context.application.runtime, request.arguments[0], *count, request.Has("full")));
+      Echo(context.application, request.arguments[0], *count, request.Has("full")));
 }
 
 }  // namespace runnel

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -16,6 +17,8 @@
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
 #include "plugins/command_service/caught_error.h"
+#include "plugins/command_service/application_log.h"
+#include "plugins/scheduling/scheduler.h"
 #include "plugins/scheduling/thread_container.h"
 
 namespace runnel {
@@ -109,14 +112,26 @@ std::string AwaitedText(const Port& port) {
   return text;
 }
 
+// ", newest 3.2 s old"; "" if there is none.
+std::string AgeText(const Port& port, Time now) {
+  std::optional<Time> published;
+  for (const auto* const shown : port.ShownPorts()) {
+    shown->VisitLatest([&](const void*, ValueTimes times) { published = times.publication_time; });
+    if (published) return fmt::format(", newest {:.3g} s old", std::max(0.0, ToSeconds(now - *published)));
+  }
+  return {};
+}
+
 std::string PortText(const Port& port, const ListingOptions& options) {
   std::string text = port.type().name();
   if (!port.unit().empty()) text += " in " + port.unit();
+  if (LacksSource(port)) text += ", NOT CONNECTED, though its module requires it";
   if (port.is_set_by_hand()) text += ", set by hand" + HandValue(port);
   text += LimitsText(port) + AwaitedText(port);
-  if (!options.is_long) return text + (port.is_required() ? ", required" : "");
+  if (!options.is_long) return text + (port.is_required() && !LacksSource(port) ? ", required" : "");
   const std::uint64_t count = port.publications();
   text += ", " + std::to_string(count) + " values";
+  if (count > 0 && options.now != Time{}) text += AgeText(port, options.now);
   const auto before = options.before.find(port.path());
   if (before != options.before.end() && options.since > Duration{}) {
     // A port that was made anew since counts from 0 again.
@@ -145,6 +160,15 @@ std::string TagMarks(const FrameworkElement& element) {
   return text;
 }
 
+// ", STOPPED by a fault: sensor gone"
+std::string StateText(FrameworkElement& element, const ListingOptions& options,
+                      const std::map<std::string, std::string>& stopped) {
+  const auto found = stopped.find(element.path());
+  if (found != stopped.end()) return ", STOPPED by a fault" + (found->second.empty() ? "" : ": " + found->second);
+  if (options.scheduler != nullptr && IsModule(element) && options.scheduler->IsPaused(element)) return ", PAUSED";
+  return {};
+}
+
 std::string About(const FrameworkElement& element, const ListingOptions& options) {
   if (const auto* const port = dynamic_cast<const Port*>(&element)) return PortText(*port, options);
   if (const auto* const parameter = dynamic_cast<const Configurable*>(&element)) {
@@ -165,18 +189,18 @@ struct Row {
   std::string about;
 };
 
-void AddRows(const FrameworkElement& element, std::size_t depth, const ListingOptions& options,
-             std::vector<Row>& rows) {
+void AddRows(FrameworkElement& element, std::size_t depth, const ListingOptions& options,
+             const std::map<std::string, std::string>& stopped, std::vector<Row>& rows) {
   // The groups of ports say nothing that the ports do not say.
   const bool is_shown = element.kind() != ElementKind::kPortGroup || depth == 0;
   if (is_shown) {
     const std::string name = depth == 0 ? element.path() : element.name();
     rows.push_back(
         {std::string(2 * depth, ' ') + name, KindName(element),
-         About(element, options) + TagMarks(element)});
+         About(element, options) + StateText(element, options, stopped) + TagMarks(element)});
   }
-  for (const FrameworkElement* child : element.children()) {
-    AddRows(*child, is_shown ? depth + 1 : depth, options, rows);
+  for (FrameworkElement* child : element.children()) {
+    AddRows(*child, is_shown ? depth + 1 : depth, options, stopped, rows);
   }
 }
 
@@ -184,6 +208,31 @@ void AddRows(const FrameworkElement& element, std::size_t depth, const ListingOp
 
 std::string RateText(double hertz) {
   return hertz >= 10'000 ? fmt::format("{:.0f}", hertz) : fmt::format("{:.5g}", hertz);
+}
+
+bool LacksSource(const Port& port) {
+  return port.is_required() && port.Sources().empty() && !port.is_set_by_hand() &&
+         !LateConnections::Awaits(port);
+}
+
+std::map<std::string, std::string> StoppedModules(FrameworkElement& start, Scheduler& scheduler,
+                                                  const ApplicationLog* log) {
+  std::map<std::string, std::string> stopped;
+  try {
+    start.Visit([&](FrameworkElement& each) {
+      if (!IsModule(each)) return;
+      const auto progress = scheduler.ProgressOf(each.path());
+      if (progress && progress->is_stopped) stopped.emplace(each.path(), "");
+    });
+  } catch (const ElementError&) {  // the threads are such that nothing can be run; the scheduler tells
+    return {};
+  }
+  if (stopped.empty() || log == nullptr) return stopped;
+  for (const auto& entry : log->ReadEntries(0, ApplicationLog::kMostEntries).entries) {
+    const auto found = stopped.find(entry.module);
+    if (found != stopped.end() && !entry.cause.empty()) found->second = entry.cause;
+  }
+  return stopped;
 }
 
 PublicationCounts CountPublications(FrameworkElement& start) {
@@ -198,10 +247,12 @@ PublicationCounts CountPublications(FrameworkElement& start) {
 
 std::string ListElements(FrameworkElement& start, const ListingOptions& options) {
   std::vector<Row> rows;
+  const auto stopped = options.scheduler != nullptr ? StoppedModules(start, *options.scheduler, options.log)
+                                                    : std::map<std::string, std::string>();
   if (start.kind() == ElementKind::kRuntime) {
-    for (const FrameworkElement* child : start.children()) AddRows(*child, 0, options, rows);
+    for (FrameworkElement* child : start.children()) AddRows(*child, 0, options, stopped, rows);
   } else {
-    AddRows(start, 0, options, rows);
+    AddRows(start, 0, options, stopped, rows);
   }
   std::size_t name_width = 0;
   std::size_t kind_width = 0;
@@ -230,10 +281,19 @@ std::string ListPaths(FrameworkElement& start) {
   std::string text;
   start.Visit([&](FrameworkElement& element) {
     if (element.parent() == nullptr) return;
+    text += KindName(element) + ("\t" + element.path());
     const auto* const port = dynamic_cast<const Port*>(&element);
-    const bool is_interface = port != nullptr && port->is_proxy();
-    text +=
-        KindName(element) + ("\t" + element.path()) + (is_interface ? "\tinterface" : "") + "\n";
+    const auto* const parameter = dynamic_cast<const Configurable*>(&element);
+    if (port != nullptr) text += (port->is_proxy() ? "\tinterface\t" : "\t\t") + port->type().name();
+    if (parameter != nullptr) {
+      const TypeInfo& type = parameter->type();
+      text += "\t\t" + type.name() + "\t";
+      if (type.name() == "bool") text += "false true";
+      for (const EnumeratorInfo& each : type.enumerators()) {
+        text += (&each == &type.enumerators().front() ? "" : " ") + each.name;
+      }
+    }
+    text += "\n";
   });
   return text;
 }

@@ -13,8 +13,15 @@ namespace runnel {
 using PublicationCounts = std::map<std::string, std::uint64_t, std::less<>>;
 [[nodiscard]] PublicationCounts CountPublications(FrameworkElement& start);
 
+class ApplicationLog;
+class Port;
+class Scheduler;
+
 /// What a listing tells besides names and types.
 struct ListingOptions {
+  Scheduler* scheduler = nullptr;       ///< which modules are stopped and paused; optional
+  const ApplicationLog* log = nullptr;  ///< and why; optional
+  Time now{};                           ///< for how old values are
   bool is_long = false;  ///< connections, threads, counts, rates, statistics
   /// Counts of a moment ago, for rates; empty: no rates.
   PublicationCounts before = {};
@@ -24,8 +31,16 @@ struct ListingOptions {
 /// `start` and all below it as a tree, one line each. Under the structure lock.
 [[nodiscard]] std::string ListElements(FrameworkElement& start, const ListingOptions& options);
 
-/// One line for each element: kind (of ports "input" or "output"), path, and "interface" for ports of
-/// groups; separated by tabulators. For programs. Under the structure lock.
+/// Whether nothing feeds the input although its module requires it.
+[[nodiscard]] bool LacksSource(const Port& port);
+
+/// Modules that faults have stopped, by path, with what they have thrown. Under the structure lock.
+[[nodiscard]] std::map<std::string, std::string> StoppedModules(FrameworkElement& start, Scheduler& scheduler,
+                                                                const ApplicationLog* log);
+
+/// One line for each element: kind (of ports "input" or "output"), path; of ports and parameters also "interface" for
+/// those of groups, their type, and the values that they may have, if these have names; separated by tabulators. For
+/// programs. Under the structure lock.
 [[nodiscard]] std::string ListPaths(FrameworkElement& start);
 
 /// "12.3"; "0" for none. Five digits.

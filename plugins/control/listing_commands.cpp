@@ -28,7 +28,9 @@ CommandResult MakeListCommand(const Request& request, const CommandContext& cont
       UnderLock(context.application.runtime,
                 [&runtime = context.application.runtime,
                  path = request.arguments.empty() ? "" : request.arguments[0],
-                 options = ListingOptions{.is_long = request.Has("long")},
+                 options = ListingOptions{.scheduler = context.application.scheduler,
+                                          .log = &context.application.log,
+                                          .is_long = request.Has("long")},
                  counted_at = std::optional<Time>()](Answer& answer) mutable -> CommandStep {
                   const auto start = PathSearch(runtime).Find(path);
                   if (!start) return Refuse(answer, start.error());
@@ -39,6 +41,7 @@ CommandResult MakeListCommand(const Request& request, const CommandContext& cont
                     return kRateWindow;
                   }
                   if (counted_at) options.since = now - *counted_at;
+                  if (options.is_long) options.now = now;
                   answer.Write(ListElements(**start, options));
                   return ControlCode::kDone;
                 }));

@@ -13,7 +13,7 @@ namespace {
 constexpr Duration kLookWhetherDone = std::chrono::milliseconds(5);
 
 std::string TimeText(const ServedApplication& application) {
-  return fmt::format("{:.3f} s", ToSeconds(application.runtime.clock().Now()));
+  return fmt::format("{:.3f} s", ToSeconds(application.runtime.clock().Now() - application.log.start()));
 }
 
 std::string SpeedText(double speed) {
@@ -74,6 +74,9 @@ CommandResult MakeStepCommand(const Request& request, const CommandContext& cont
 CommandResult MakeSpeedCommand(const Request& request, const CommandContext& context) {
   Pace& pace = *context.application.pace;
   if (request.arguments.empty()) {
+    if (pace.has_ended()) {
+      return Error{.message = "the run has ended", .hint = "'runnel restart' runs the application again"};
+    }
     return Say(SpeedText(pace.speed()) + (pace.is_paused() ? ", but paused" : ""));
   }
   const auto speed = NumberIn<double>(request.arguments[0]);

@@ -39,14 +39,14 @@ CommandResult MakeTopCommand(const Request& request, const CommandContext& conte
   if (!count) return count.error();
   if (request.Has("once")) *count = 1;
   auto& runtime = context.application.runtime;
-  return Command(UnderLock(runtime, [&runtime, left = *count,
+  return Command(UnderLock(runtime, [&runtime, zero = context.application.log.start(), left = *count,
                             top = std::make_shared<Top>(*context.application.scheduler)](
                                Answer& answer) mutable -> CommandStep {
     const Time now = SteadyClock().Now();
     Profile profile = top->scheduler.ReadProfile();
     if (std::exchange(top->has_begun, true)) {
       answer.Write(fmt::format("{:.3f} s; measured for {:.1f} s\n",
-                               ToSeconds(runtime.clock().Now()),
+                               ToSeconds(runtime.clock().Now() - zero),
                                ToSeconds(top->scheduler.profiled_for().value_or(Duration{}))) +
                    ProfileText(profile, now - top->taken, top->before));
       if (left && --*left == 0) return ControlCode::kDone;

@@ -109,7 +109,9 @@ std::string Hello::ToText() const {
                              {"process", std::to_string(process)},
                              {"application", application},
                              {"file", file},
-                             {"nanoseconds", std::to_string(time.count())}},
+                             {"nanoseconds", std::to_string(time.count())},
+                             {"real", std::to_string(real.count())},
+                             {"state", state}},
                  .body = {}}
       .ToText();
 }
@@ -130,6 +132,8 @@ Result<Hello> Hello::Parse(std::string_view text) {
   hello.application = arguments->Option("application");
   hello.file = arguments->Option("file");
   hello.time = Duration(NumberIn<std::int64_t>(arguments->Option("nanoseconds")).value_or(0));
+  hello.real = Duration(NumberIn<std::int64_t>(arguments->Option("real")).value_or(hello.time.count()));
+  hello.state = arguments->Option("state");
   return hello;
 }
 

@@ -72,6 +72,8 @@ struct Hello {
   std::string application = {};
   std::string file = {};
   Duration time{};  ///< that the application has been running, on its own clock
+  Duration real{};  ///< the same on the machine's
+  std::string state = {};  ///< "running", "paused", "ended", "running, 2 modules stopped"; "": not known
 
   [[nodiscard]] std::string ToText() const;
   /// Errors: another protocol, or no hello at all.

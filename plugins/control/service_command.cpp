@@ -39,9 +39,14 @@ CommandRequest RequestOf(const Request& request, PlacedChanges placed) {
   if (request.command == "undo") return UndoRequest{};
   if (request.command == "redo") return RedoRequest{};
   if (request.command == "save") {
-    return SaveRequest{.file = argument, .is_configuration = request.Option("config") == "yes"};
+    return SaveRequest{.file = argument,
+                       .is_configuration = request.Option("config") == "yes",
+                       .overwrites = request.Option("overwrite") == "yes"};
   }
   if (request.command == "reload") return ReloadRequest{argument};
+  if (request.command == "restart") return RestartRequest{argument};
+  if (request.command == "stop" && argument.empty()) return StopRequest{};
+  if (request.command == "stop") return PauseRequest{argument, true};
   if (request.command == "pause") return PauseRequest{argument, true};
   if (request.command == "resume") return PauseRequest{argument, false};
   if (request.command == "log") return LevelOf(request.Option("level"));
@@ -59,7 +64,8 @@ CommandRequest RequestOf(const Request& request, PlacedChanges placed) {
     }
     return publish;
   }
-  return ChangeRequest{std::move(placed)};
+  return ChangeRequest{.placed = std::move(placed),
+                       .may_end_application = request.Option("yes") == "yes"};
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/characters.h"
+#include "core/base/file_backup.h"
 #include "core/base/replace_file.h"
 #include "core/element/configurable.h"
 #include "core/element/element_path.h"
@@ -172,6 +173,7 @@ class FileChange {
     }
     if (!editor_.has_changes()) return source_.text;
     std::string text = editor_.Finish();
+    if (auto kept = KeepBackup(source_.file); !kept) return kept.error();
     if (auto written = ReplaceFile(source_.file, text); !written) return written.error();
     return text;
   }
@@ -190,6 +192,7 @@ Result<std::string> WriteAll(const std::vector<Entry>& entries, const fs::path& 
   for (const Entry& each : entries) {
     AddTo(root.children, "section", SplitPath(each.path), 0, TextIn(to.parent_path(), each));
   }
+  if (auto kept = KeepBackup(to); !kept) return kept.error();
   if (auto written = ReplaceFile(to, ElementText(root)); !written) return written.error();
   return "saved " + std::to_string(entries.size()) + " values to " + to.string();
 }

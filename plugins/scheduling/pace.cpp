@@ -24,7 +24,7 @@ Pace::Pace(bool is_simulated, double speed, bool is_paused, const Clock& machine
 
 Result<void> Pace::Check(const char* what) const {
   if (is_simulated_ && !has_ended_.load(std::memory_order_acquire)) return {};
-  if (is_simulated_) return Error{.message = "the run has ended", .hint = "start it again"};
+  if (is_simulated_) return Error{.message = "the run has ended", .hint = "'runnel restart' runs the application again"};
   return Error{
       .message = "real time cannot be " + std::string(what),
       .hint = "only of simulated time: <clock type=\"simulated\"/> in the application file"};

@@ -52,6 +52,8 @@ class Pace {
 
   [[nodiscard]] bool is_simulated() const noexcept { return is_simulated_; }
   /// Also while cycles are stepped.
+  /// After End(), until Begin(): nothing of it can be changed.
+  [[nodiscard]] bool has_ended() const noexcept { return has_ended_.load(std::memory_order_acquire); }
   [[nodiscard]] bool is_paused() const noexcept {
     return is_paused_.load(std::memory_order_acquire);
   }

@@ -86,6 +86,21 @@ struct ReplaceModule {
   std::uint64_t probation_cycles = 10;
 };
 
+/// Gives a module or group another name, at the same place. Connections (with what waits in queues), values, kept states
+/// and threads stay: its modules are made anew by their types and take over, as a replacement of the same type does. What
+/// names it by its path follows: connections that wait, parameters of groups, the file when it is saved.
+struct RenameElement {
+  std::string path;
+  std::string name;  ///< the last part of the new path
+};
+
+/// Makes another module or group like one, beside it, with its values and threads, and what is connected within. To
+/// others it is connected nowhere, and it remembers nothing.
+struct CopyElement {
+  std::string path;
+  std::string name = {};  ///< "": the first that is free
+};
+
 /// Has the element, and what is below it and not assigned otherwise, run by another thread container.
 struct AssignToThread {
   std::string path;
@@ -109,7 +124,7 @@ struct ScheduleThread {
 
 using Change = std::variant<CreateModule, CreateGroup, CreatePort, CreateParameter, DeleteElement, ConnectPorts,
                             DisconnectPorts, SetParameter, ReplaceModule, AssignToThread,
-                            AddThread, ScheduleThread>;
+                            AddThread, ScheduleThread, RenameElement, CopyElement>;
 
 /// Changes that belong together, in the order in which they build on one another.
 using ChangeSet = std::vector<Change>;

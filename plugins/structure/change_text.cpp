@@ -41,6 +41,7 @@ class Arguments {
              "write: " + usage_);
     return {};
   }
+  [[nodiscard]] bool IsAtEnd() const { return at_ == line_.size(); }
   [[nodiscard]] bool IsNext(std::string_view text) const {
     return at_ < line_.size() && line_[at_].text == text;
   }
@@ -246,6 +247,16 @@ Change ReadReplace(Arguments& arguments) {
   return change;
 }
 
+Change ReadRename(Arguments& arguments) {
+  return RenameElement{arguments.Take("a path"), arguments.Take("the new name")};
+}
+
+Change ReadCopy(Arguments& arguments) {
+  CopyElement change{arguments.Take("a path")};
+  if (!arguments.IsAtEnd()) change.name = arguments.Take("a name");
+  return change;
+}
+
 Change ReadMove(Arguments& arguments) {
   AssignToThread change{arguments.Take("a path"), {}};
   arguments.Expect("to");
@@ -264,7 +275,7 @@ struct Verb {
   const char* usage;
   Change (*read)(Arguments& arguments);
 };
-constexpr std::array<Verb, 8> kVerbs{{
+constexpr std::array<Verb, 10> kVerbs{{
     {"create",
      "create [group] PATH TYPE [NAME=VALUE ...], or create port PATH input|output TYPE "
      "[description=TEXT], or create parameter PATH PARAMETER ... [description=TEXT], or create thread NAME "
@@ -278,6 +289,8 @@ constexpr std::array<Verb, 8> kVerbs{{
     {"disconnect", "disconnect FROM TO", ReadDisconnect},
     {"set", "set PATH VALUE, with a VALUE that has blanks in quotation marks", ReadSet},
     {"replace", "replace PATH with TYPE [NAME=VALUE ...] [probation=CYCLES]", ReadReplace},
+    {"rename", "rename PATH NAME", ReadRename},
+    {"copy", "copy PATH [NAME]", ReadCopy},
     {"move", "move PATH to THREAD", ReadMove},
     {"schedule", "schedule THREAD [period=TIME] [priority=N] [on_overrun=skip|catch_up]", ReadSchedule},
 }};

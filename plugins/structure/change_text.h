@@ -23,6 +23,8 @@ namespace runnel {
 ///     disconnect /laser/scan /robot/planner/scan
 ///     set /robot/base/target {x: 1, y: 2}
 ///     replace /robot/planner with planning/tangent_bug step=0.1 probation=10
+///     rename /robot/planner old_planner
+///     copy /robot/planner                           # as planner_2; or: copy /robot/planner second
 ///     move /robot/planner to control
 ///     move /robot/planner to ""                     # back to where its group is run
 ///     create thread fast period=5ms priority=20     # activation=trigger, free_running; on_overrun=catch_up

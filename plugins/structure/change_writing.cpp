@@ -66,6 +66,12 @@ std::string Text(const ReplaceModule& change) {
   if (change.probation_cycles == ReplaceModule{}.probation_cycles) return text;
   return text + " probation=" + std::to_string(change.probation_cycles);
 }
+std::string Text(const RenameElement& change) {
+  return "rename " + AsArgument(change.path) + " " + AsArgument(change.name);
+}
+std::string Text(const CopyElement& change) {
+  return "copy " + AsArgument(change.path) + (change.name.empty() ? "" : " " + AsArgument(change.name));
+}
 std::string Text(const AssignToThread& change) {
   return "move " + AsArgument(change.path) + " to " + AsArgument(change.thread);
 }

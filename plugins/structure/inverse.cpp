@@ -4,6 +4,7 @@
 #include <set>
 #include <utility>
 
+#include "core/element/element_path.h"
 #include "core/module/group_parameter.h"
 #include "core/plugin/module_type_name.h"
 #include "core/paths/path_search.h"
@@ -80,20 +81,43 @@ bool IsWithinComposite(const Connection& edge) {
   return !leads_round_it;
 }
 
-void AddConnections(FrameworkElement& element, ChangeSet& changes) {
-  const auto add = [&](const Connection& edge) {
-    if (IsWithinComposite(edge)) return;
-    changes.push_back(ConnectPorts{edge.from->path(), LastingPath(*edge.to), edge.options});
-  };
+void AddConnection(const Connection& edge, ChangeSet& changes) {
+  if (IsWithinComposite(edge)) return;
+  changes.push_back(ConnectPorts{edge.from->path(), LastingPath(*edge.to), edge.options});
+}
+
+void AddInnerConnections(FrameworkElement& element, ChangeSet& changes) {
   element.Visit([&](FrameworkElement& each) {
     const auto* const port = dynamic_cast<const Port*>(&each);
     if (port == nullptr) return;
     for (const Connection& edge : port->outgoing()) {
-      if (edge.to->IsAtOrBelow(element)) add(edge);
+      if (edge.to->IsAtOrBelow(element)) AddConnection(edge, changes);
     }
   });
-  for (const Connection& tie : ExternalConnectionsOf(element)) add(tie);
 }
+
+// Has the change be about what is at or below `to`, as it has been about what is at or below `from`.
+struct Rebase {
+  const std::string& from;
+  const std::string& to;
+
+  void Move(std::string& path) const {
+    if (IsAtOrBelow(path, from)) path = to + path.substr(from.size());
+  }
+  void operator()(ConnectPorts& change) const {
+    Move(change.from);
+    Move(change.to);
+  }
+  void operator()(CreateParameter& change) const {
+    Move(change.path);
+    for (std::string& each : change.targets) Move(each);
+  }
+  // Of all others that something is made again by.
+  template <typename Other>
+  void operator()(Other& change) const {
+    if constexpr (requires { change.path; }) Move(change.path);
+  }
+};
 
 // In which it would show if somebody had made something else of it.
 std::string WhatItIs(const FrameworkElement& element) {
@@ -104,10 +128,11 @@ std::string WhatItIs(const FrameworkElement& element) {
   return element.kind() == ElementKind::kGroup ? "group" : "port";
 }
 
-// The path of what a change deletes or replaces; nullptr for other changes.
+// The path of what a change deletes, replaces or renames; nullptr for other changes.
 const std::string* Takes(const Change& change) {
   if (const auto* const each = std::get_if<DeleteElement>(&change)) return &each->path;
   if (const auto* const each = std::get_if<ReplaceModule>(&change)) return &each->path;
+  if (const auto* const each = std::get_if<RenameElement>(&change)) return &each->path;
   return nullptr;
 }
 
@@ -121,7 +146,18 @@ std::string OwnThreadPath(const FrameworkElement& element) {
 ChangeSet MakeAgain(FrameworkElement& element, std::optional<Error>& why_not) {
   ChangeSet changes;
   AddCreation(element, changes, why_not);
-  AddConnections(element, changes);
+  AddInnerConnections(element, changes);
+  for (const Connection& tie : ExternalConnectionsOf(element)) AddConnection(tie, changes);
+  return changes;
+}
+
+ChangeSet MakeLike(FrameworkElement& element, const std::string& path,
+                   std::optional<Error>& why_not) {
+  ChangeSet changes;
+  AddCreation(element, changes, why_not);
+  AddInnerConnections(element, changes);
+  const Rebase rebase{element.path(), path};
+  for (Change& each : changes) std::visit(rebase, each);
   return changes;
 }
 

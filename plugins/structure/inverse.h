@@ -24,6 +24,10 @@ namespace runnel::internal {
 /// `why_not` is set if there is something that no change can make.
 [[nodiscard]] ChangeSet MakeAgain(FrameworkElement& element, std::optional<Error>& why_not);
 
+/// Makes another one like it at `path`: the same, but for connections with others. All paths are absolute.
+[[nodiscard]] ChangeSet MakeLike(FrameworkElement& element, const std::string& path,
+                                 std::optional<Error>& why_not);
+
 /// The same for a thread, with what is assigned to it.
 void AddThreadAgain(const ThreadContainer& thread, ChangeSet& changes);
 

@@ -136,13 +136,14 @@ void Plan::WarnOfMissingSources(Diagnostics& diagnostics) const {
   }
 }
 
-void Plan::AddCreation(UnlistedElement element) {
+void Plan::AddCreation(UnlistedElement element, const FrameworkElement* sibling) {
   FrameworkElement& made = *element;
   overlay_.Add(made);
   made_.push_back(&made);
   auto kept = std::make_shared<UnlistedElement>(std::move(element));
-  steps_.push_back({[this, kept]() -> Result<void> {
-                      const auto listed = runtime_.List(std::move(*kept));
+  steps_.push_back({[this, kept, sibling]() -> Result<void> {
+                      const FrameworkElement* const place = sibling != nullptr ? NextSibling(*sibling) : nullptr;
+                      const auto listed = runtime_.List(std::move(*kept), place);
                       return listed ? Result<void>() : listed.error();
                     },
                     [this, kept, &made] {
@@ -193,8 +194,8 @@ void Plan::AddReplacement(FrameworkElement& before, UnlistedElement after,
   struct Done {
     UnlistedElement after;   // until it is listed
     UnlistedElement before;  // once it is not
-    const FrameworkElement* place = nullptr;
-    std::size_t moved = 0;  // of the ports
+    const FrameworkElement* place = nullptr;  // of `before`
+    std::size_t moved = 0;                    // of the ports
     bool is_noted = false;
   };
   Concern(before);
@@ -218,7 +219,9 @@ void Plan::AddReplacement(FrameworkElement& before, UnlistedElement after,
                         to->TakeOver(*from);
                         ++done->moved;
                       }
-                      if (auto listed = runtime_.List(std::move(done->after), done->place);
+                      const bool is_same_place = next.parent() == before.parent();
+                      if (auto listed = runtime_.List(std::move(done->after),
+                                                      is_same_place ? done->place : nullptr);
                           !listed) {
                         return listed.error();
                       }
@@ -227,7 +230,7 @@ void Plan::AddReplacement(FrameworkElement& before, UnlistedElement after,
                       done->is_noted = true;
                       return {};
                     },
-                    [=, this, &next] {
+                    [=, this, &before, &next] {
                       if (done->is_noted) {
                         done->before = std::move(replaced_.back().before);
                         replaced_.pop_back();
@@ -235,7 +238,7 @@ void Plan::AddReplacement(FrameworkElement& before, UnlistedElement after,
                       }
                       if (!done->before) return;
                       if (!done->after) {
-                        done->place = NextSibling(next);
+                        if (next.parent() == before.parent()) done->place = NextSibling(next);
                         done->after = runtime_.Unlist(next).value();
                       }
                       for (; done->moved > 0; --done->moved) {

@@ -89,10 +89,22 @@ class Plan {
   Result<void> Check(const AssignToThread& change);
   Result<void> Check(const AddThread& change);
   Result<void> Check(const ScheduleThread& change);
+  Result<void> Check(const RenameElement& change);
+  Result<void> Check(const CopyElement& change);
 
   // What becomes of connections that a module which takes another one's place has no port for.
   enum class Misfits { kAreRefused, kAreCut };
   Result<void> CheckReplacement(const ReplaceModule& change, Misfits misfits);
+  // By a module at `place`, beside the tree, which may be another one than that of `before`.
+  Result<void> CheckReplacement(FrameworkElement& before, const Placement& place,
+                                const ReplaceModule& change, Misfits misfits);
+  // In the group `parent`, under another name or the same.
+  Result<void> MoveTo(const Placement& place, FrameworkElement& element);
+  Result<void> MoveGroup(const Placement& place, FrameworkElement& group);
+  Result<void> MovePort(const Placement& place, Port& port);
+  // What else names it by its path.
+  Result<void> MoveTargets(const FrameworkElement& renamed, const std::string& path);
+  void AddExchange(FrameworkElement& before, UnlistedElement after);
   Result<void> ExchangeComposite(FrameworkElement& before, UnlistedElement after, Misfits misfits);
   Result<void> CheckAll(const GroupParameter& group, const SetParameter& change);
   Result<void> CheckStatic(const FrameworkElement& element, const Configurable& parameter,
@@ -110,7 +122,8 @@ class Plan {
   Result<UnlistedElement> MakeModule(const std::string& type, const Placement& placement);
   void WarnOfMissingSources(Diagnostics& diagnostics) const;
 
-  void AddCreation(UnlistedElement element);
+  // Behind `sibling`; without, after all.
+  void AddCreation(UnlistedElement element, const FrameworkElement* sibling = nullptr);
   void AddRemoval(FrameworkElement& element);
   void AddReplacement(FrameworkElement& before, UnlistedElement after,
                       std::vector<std::pair<Port*, Port*>> ports, const ReplaceModule& change);

@@ -12,6 +12,7 @@
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
 #include "plugins/scheduling/thread_container.h"
+#include "plugins/structure/name_in_file.h"
 #include "plugins/structure/plan.h"
 #include "plugins/structure/replacement.h"
 
@@ -216,10 +217,16 @@ Result<void> Plan::CheckReplacement(const ReplaceModule& change, Misfits misfits
   if (!IsModule(before)) {
     return Error{.message = "is not a module and cannot be replaced by one", .path = before.path()};
   }
-  auto made = MakeModule(change.type, {*before.parent(), before.name(), false});
+  return CheckReplacement(before, {*before.parent(), before.name(), false}, change, misfits);
+}
+
+Result<void> Plan::CheckReplacement(FrameworkElement& before, const Placement& place,
+                                    const ReplaceModule& change, Misfits misfits) {
+  auto made = MakeModule(change.type, place);
   if (!made) return made.error();
   if (auto set = ConfigureNew(**made, &before, change.settings); !set) return set;
   (*made)->InheritAnnotations(before);
+  NameInFile::Note(**made, before);
   if (auto prepared = Runtime::Prepare(*made); !prepared) return prepared;
   if (before.kind() == ElementKind::kGroup || (*made)->kind() == ElementKind::kGroup) {
     return ExchangeComposite(before, std::move(*made), misfits);

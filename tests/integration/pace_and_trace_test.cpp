@@ -84,6 +84,50 @@ TEST_F(RunningTime, EndsInOrderByASignalInAPause) {
   EXPECT_THAT(ended.text, HasSubstr("stopped by the user\nsimulated 0.00 s"));
 }
 
+TEST_F(RunningTime, IsOverAtTheEndAndBeginsAgainWhenAsked) {
+  Program program("run --fast --hold --inspect=0 --duration 2 --trace " + trace() + " " + kPacedDemo);
+  EXPECT_TRUE(program.WaitFor("held for viewers"));
+  for (const std::string command : {"step", "pause", "resume", "speed 2", "speed"}) {
+    const Ended refused = Runnel(command);
+    EXPECT_EQ(refused.code, kBadInput) << command;
+    EXPECT_THAT(refused.text, HasSubstr("the run has ended; 'runnel restart' runs")) << command;
+  }
+  EXPECT_THAT(Runnel("ps").text, HasSubstr("ended, held"));
+  const std::string first = TraceText();
+  const Ended again = Runnel("restart");
+  EXPECT_EQ(again.code, kDone) << again.text;
+  EXPECT_THAT(Runnel("ls /robot").text, HasSubstr("planner"));
+  EXPECT_EQ(TraceText(), first) << "of the run before";
+  EXPECT_EQ(Runnel("stop").code, kDone);
+  const Ended ended = program.Wait();
+  EXPECT_EQ(ended.code, kDone) << ended.text;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "trace_2.json"));
+}
+
+TEST_F(RunningTime, EndsWhenTheApplicationIsDeletedAndThatIsMeant) {
+  Program program("run --paused " + kPacedDemo);
+  EXPECT_TRUE(program.WaitFor("paused"));
+  const Ended refused = Runnel("delete /bug_demo < /dev/null");
+  EXPECT_EQ(refused.code, kBadInput);
+  EXPECT_THAT(refused.text, HasSubstr("is the whole application"));
+  const Ended deleted = Runnel("delete /bug_demo --yes");
+  EXPECT_EQ(deleted.code, kDone) << deleted.text;
+  EXPECT_THAT(program.Wait().text, HasSubstr("the application has been deleted"));
+}
+
+TEST_F(RunningTime, OnlySaysSoWhenAnotherFileWouldBeOverwritten) {
+  Program program("run --paused " + kPacedDemo);
+  EXPECT_TRUE(program.WaitFor("paused"));
+  const std::string other = folder_ / "other.xml";
+  std::ofstream(other) << "<application name=\"other\"/>";
+  const Ended refused = Runnel("save " + other);
+  EXPECT_EQ(refused.code, kBadInput);
+  EXPECT_THAT(refused.text, HasSubstr("is the file of the application 'other', and would be lost"));
+  EXPECT_EQ(Runnel("save " + other + " --overwrite").code, kDone);
+  EXPECT_TRUE(std::filesystem::exists(other + "~"));
+  EXPECT_EQ(Runnel("stop").code, kDone);
+}
+
 TEST_F(RunningTime, OfTheMachineCannotBePaused) {
   const std::filesystem::path file = folder_ / "real.xml";
   std::ofstream(file) << "<application name=\"app\"><load plugin=\"faulty\"/>\n"

@@ -35,6 +35,10 @@ Error NoSuchWorld(const std::string& word, std::vector<std::string> names) {
       names.push_back((path.parent_path() / (name + ".xml")).string());
     }
   }
+  if (names.empty()) {
+    return {.message = "there is no world '" + word + "'",
+            .hint = "nor any other in that folder; those that come with Runnel are named without one, like 'rooms'"};
+  }
   return {.message = "there is no world '" + word + "'", .hint = NearestNameHint(word, names)};
 }
 

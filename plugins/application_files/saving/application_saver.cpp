@@ -5,6 +5,7 @@
 #include <thread>
 #include <utility>
 
+#include "core/base/file_backup.h"
 #include "core/base/replace_file.h"
 #include "core/base/retry.h"
 #include "core/element/runtime.h"
@@ -16,6 +17,7 @@
 #include "plugins/application_files/saving/file_update.h"
 #include "plugins/application_files/saving/saving.h"
 #include "plugins/structure/plan.h"
+#include "plugins/structure/renamed_text.h"
 
 namespace runnel {
 
@@ -37,7 +39,13 @@ std::string WholeText(Saving& saving) {
   return ElementText(root);
 }
 
-Result<std::string> UpdatedText(Saving& saving, const ApplicationSource& source) {
+Result<std::string> UpdatedText(Saving& saving, const ApplicationSource& loaded) {
+  ApplicationSource source = loaded;
+  const NewNames names = NewNamesIn(saving.application);
+  auto renamed = RenamedText(loaded.text, loaded.file, names, PathAttributesIn(saving.tools.tags));
+  if (!renamed) return renamed.error();
+  source.text = std::move(*renamed);
+  for (const auto& [path, value] : std::exchange(source.values, {})) source.values.emplace(RenamedPath(path, "", names), value);
   const auto document = XmlDocument::Parse(source.text, source.file.string());
   if (!document) return document.error();
   XmlEditor editor(*document, source.text);
@@ -139,7 +147,7 @@ Result<void> SaveApplication(FrameworkElement& application, const SaveTools& too
   }
   const fs::path file = to.empty() ? source->file : to;
   const bool is_its_own =
-      source == nullptr || internal::Whole(source->file) == internal::Whole(file);
+      source == nullptr || Whole(source->file) == Whole(file);
   if (source != nullptr && is_its_own) {
     if (auto unchanged = CheckUnchanged(*source); !unchanged) return unchanged;
   }
@@ -156,9 +164,11 @@ Result<void> SaveApplication(FrameworkElement& application, const SaveTools& too
   if (!is_on_disk) {
     auto good = CheckSavedText(application, saved->text, file, tools);
     if (!good) return good;
+    if (auto kept = KeepBackup(file); !kept) return kept;
     if (auto written = ReplaceFile(file, saved->text); !written) return written;
   }
   if (!is_its_own) return {};
+  ForgetNewNames(application);
   if (source != nullptr) {
     *source = std::move(*now);
   } else {

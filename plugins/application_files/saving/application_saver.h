@@ -23,7 +23,7 @@ struct SaveTools {
 /// configuration are left to these, unless they have been changed since.
 ///
 /// An application that came from no file is from now on that of `file`; one that came from another remains that
-/// file's, and `file` is a copy. One that is connected with another application cannot be built alone; then only
+/// file's, and `file` is a copy. What is replaced is kept as FILE~. One that is connected with another application cannot be built alone; then only
 /// what can be known of the text itself is checked.
 ///
 /// Threads: any outside of cycles; holds the structure lock as long as building the application takes.

@@ -12,6 +12,7 @@
 #include "core/port/port.h"
 #include "core/xml/xml_writing.h"
 #include "plugins/application_files/saving/application_saver.h"
+#include "plugins/parameters/moved_file_name.h"
 
 namespace runnel::internal {
 
@@ -54,19 +55,6 @@ struct Saving {
 
 /// The value as text that gives it again when it stands in the file: names of files start there.
 [[nodiscard]] std::string SavedValue(const Configurable& configurable, const Saving& saving);
-
-/// The file or folder, whatever name it goes by.
-[[nodiscard]] std::filesystem::path Whole(const std::filesystem::path& path);
-
-/// `name` of a file, written in one folder, as it must be written in another.
-[[nodiscard]] std::string MovedFileName(const std::string& name, const std::filesystem::path& from,
-                                        const std::filesystem::path& to);
-
-/// The first attribute that says what `tag` is called; "" if there is none.
-[[nodiscard]] inline std::string NameOf(XmlElement tag) {
-  const XmlAttribute* const name = tag.Attribute("name");
-  return name != nullptr ? name->value : "";
-}
 
 struct SavedText {
   std::string text;

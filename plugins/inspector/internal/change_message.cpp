@@ -95,6 +95,8 @@ Change ReadReplace(JsonMembers& m) {
   return change;
 }
 Change ReadMove(JsonMembers& m) { return AssignToThread{m.NeedText("path"), m.NeedText("thread")}; }
+Change ReadRename(JsonMembers& m) { return RenameElement{m.NeedText("path"), m.NeedText("name")}; }
+Change ReadCopy(JsonMembers& m) { return CopyElement{m.NeedText("path"), m.Text("name").value_or("")}; }
 
 // In seconds.
 std::optional<Duration> PeriodIn(JsonMembers& m) {
@@ -121,7 +123,7 @@ struct Kind {
   std::string_view name;
   Change (*read)(JsonMembers& members);
 };
-constexpr std::array<Kind, 12> kKinds{{{"create", ReadCreate},
+constexpr std::array<Kind, 14> kKinds{{{"create", ReadCreate},
                                        {"create_group", ReadCreateGroup},
                                        {"create_port", ReadCreatePort},
                                        {"create_parameter", ReadCreateParameter},
@@ -131,6 +133,8 @@ constexpr std::array<Kind, 12> kKinds{{{"create", ReadCreate},
                                        {"set", ReadSet},
                                        {"replace", ReadReplace},
                                        {"move", ReadMove},
+                                       {"rename", ReadRename},
+                                       {"copy", ReadCopy},
                                        {"create_thread", ReadCreateThread},
                                        {"schedule", ReadSchedule}}};
 

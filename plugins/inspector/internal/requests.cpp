@@ -45,7 +45,7 @@ std::vector<RequestError> ErrorsOf(const Diagnostics& diagnostics) {
 }
 
 std::string ReplyTo(std::optional<std::uint64_t> request, const CommandAnswer& answer) {
-  if (!answer) return Refusal(request, ErrorsOf(answer.diagnostics));
+  if (!answer) return Refusal(request, ErrorsOf(answer.diagnostics), answer.needs);
   std::string text = answer.text;
   for (const Error& warning : answer.diagnostics.warnings()) text += "\n" + warning.ToString();
   return Reply(request, text);
@@ -65,7 +65,7 @@ CommandOrErrors ReadChanges(ViewerMessage& message) {
                                     " changes at once"}}};
   }
   ChangeRequest request{{.changes = std::move(message.changes), .positions = {}},
-                        std::move(message.label)};
+                        std::move(message.label), message.may_end_application};
   for (std::size_t i = 0; i < request.placed.changes.size(); ++i) {
     request.placed.positions.push_back({"changes", static_cast<int>(i + 1), 1});
   }
@@ -78,6 +78,8 @@ CommandOrErrors CommandOf(const Inspection& inspection, ViewerMessage& message) 
   if (message.op == "undo") return CommandRequest(UndoRequest{});
   if (message.op == "redo") return CommandRequest(RedoRequest{});
   if (message.op == "reload") return CommandRequest(ReloadRequest{message.plugin});
+  if (message.op == "restart") return CommandRequest(RestartRequest{message.path});
+  if (message.op == "stop") return CommandRequest(StopRequest{});
   if (message.op == "pause") return CommandRequest(PauseRequest{message.path, true});
   if (message.op == "resume") return CommandRequest(PauseRequest{message.path, false});
   if (message.op == "log_level") return CommandRequest(LogLevelRequest{message.path, message.level});
@@ -94,7 +96,8 @@ CommandOrErrors CommandOf(const Inspection& inspection, ViewerMessage& message) 
       .file = message.file,
       .is_confined = true,
       .application_file = inspection.options().file,
-      .is_configuration = message.what == "configuration"});
+      .is_configuration = message.what == "configuration",
+      .overwrites = message.overwrites});
 }
 
 std::string FindCompatible(Inspection& inspection, const ViewerMessage& message) {
@@ -192,9 +195,11 @@ std::string Reply(std::optional<std::uint64_t> request, const std::string& text)
   });
 }
 
-std::string Refusal(std::optional<std::uint64_t> request, const std::vector<RequestError>& errors) {
+std::string Refusal(std::optional<std::uint64_t> request, const std::vector<RequestError>& errors,
+                    const std::string& needs) {
   return JsonObjectText([&](JsonObject& json) {
     AddHead(request, false, json);
+    if (!needs.empty()) json.Add("needs", needs);
     AppendList(errors, json.Key("errors"), AppendError);
   });
 }
@@ -225,7 +230,9 @@ std::span<const Operation> AllOperations() {
       Operation("log_level", kRequest, kChange),
       Operation("profile", kRequest, kChange),
       Operation("latency", kRequest, kChange),
-      Operation("preview", kRequest, kChange)};
+      Operation("preview", kRequest, kChange),
+      Operation("restart", kRequest, kChange),
+      Operation("stop", kRequest, kChange)};
   return kAll;
 }
 

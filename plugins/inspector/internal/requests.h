@@ -19,7 +19,8 @@ namespace runnel::internal {
 [[nodiscard]] std::string Reply(std::optional<std::uint64_t> request, const std::string& text);
 
 [[nodiscard]] std::string Refusal(std::optional<std::uint64_t> request,
-                                  const std::vector<RequestError>& errors);
+                                  const std::vector<RequestError>& errors,
+                                  const std::string& needs = {});
 
 /// What viewers may say, and who may say it.
 struct Operation {

@@ -41,6 +41,12 @@ Result<ViewerMessage> ParseViewerMessage(std::string_view text) {
   message.to = members.Text("to").value_or("");
   message.wants_image = members.Text("as").value_or("") == "image";
   if (const JsonPart* const on = members.Find("on")) message.is_on = on->boolean().value_or(true);
+  if (const JsonPart* const overwrite = members.Find("overwrite")) {
+    message.overwrites = overwrite->boolean().value_or(false);
+  }
+  if (const JsonPart* const yes = members.Find("yes")) {
+    message.may_end_application = yes->boolean().value_or(false);
+  }
   message.value = members.Text("value").value_or("");
   message.rate = members.Number("rate");
   message.deadline = members.Number("deadline");

@@ -43,6 +43,8 @@ struct ViewerMessage {
   std::size_t elements = 12;
   std::uint64_t cycles = 1;
   bool is_on = true;
+  bool overwrites = false;           ///< another application's file
+  bool may_end_application = false;  ///< by deleting it
 };
 
 /// One change as PROTOCOL.md has it: {"change":"connect","from":"/a/out","to":"/b/in","queue":10}.

@@ -128,6 +128,38 @@ TEST_F(CommandServiceTest, ConfinesWhereClientsOfOthersMaySave) {
   EXPECT_EQ(saved, "/etc/passwd.xml");
 }
 
+TEST_F(CommandServiceTest, DeletesTheWholeApplicationOnlyWhenThatIsMeant) {
+  CommandService service(application);
+  ASSERT_TRUE(Ask(service, ChangeRequest{{.changes = {CreateGroup{"/app"}, CreateModule{"/app/a", "test/idle"}},
+                                          .positions = {}}}));
+  const ChangeSet deletion{DeleteElement{"app"}};
+  const CommandAnswer refused = Ask(service, ChangeRequest{{.changes = deletion, .positions = {}}});
+  EXPECT_EQ(refused.outcome, Outcome::kRefused);
+  EXPECT_EQ(refused.needs, "yes");
+  EXPECT_THAT(ErrorOf(refused), HasSubstr("is the whole application"));
+  EXPECT_TRUE(Has("/app"));
+  EXPECT_TRUE(Ask(service, ChangeRequest{{.changes = {DeleteElement{"/app/a"}}, .positions = {}}}));
+  EXPECT_TRUE(Ask(service, ChangeRequest{.placed = {.changes = deletion, .positions = {}},
+                                         .may_end_application = true}));
+  EXPECT_FALSE(Has("/app"));
+}
+
+TEST_F(CommandServiceTest, AsksBeforeAnotherFileIsOverwritten) {
+  std::string saved;
+  application.hooks.save = [&](const std::string& file) -> Result<std::string> { return saved = file; };
+  application.hooks.find_overwritten = [](const SaveRequest& request) -> std::optional<Error> {
+    if (request.file != "/x/other.xml") return {};
+    return Error{.message = "is another one"};
+  };
+  const CommandAnswer refused = Ask(SaveRequest{.file = "/x/other.xml"});
+  EXPECT_EQ(refused.outcome, Outcome::kRefused);
+  EXPECT_EQ(refused.needs, "overwrite");
+  EXPECT_THAT(saved, IsEmpty());
+  EXPECT_TRUE(Ask(SaveRequest{.file = "/x/other.xml", .overwrites = true}));
+  EXPECT_EQ(saved, "/x/other.xml");
+  EXPECT_TRUE(Ask(SaveRequest{.file = "/x/new.xml"}));
+}
+
 TEST_F(CommandServiceTest, ReloadsOfTwoTransportsNeverRunAtOnce) {
   std::atomic<int> at_once{0};
   std::atomic<bool> have_met{false};

@@ -46,7 +46,7 @@ TEST_F(ControlTest, ListsConnectionsRatesAndCyclesToo) {
 }
 
 TEST_F(ControlTest, ListsPathsAndTypesForPrograms) {
-  EXPECT_THAT(Ask("paths").output, HasSubstr("output\t/app/a/output/out\n"));
+  EXPECT_THAT(Ask("paths").output, HasSubstr("output\t/app/a/output/out\t\tint32\n"));
   EXPECT_THAT(Ask("types").output, HasSubstr("test/counter\tdoes it\n"));
 }
 

@@ -149,7 +149,8 @@ class ControlTest : public ::testing::Test {
   void StartServer(ControlOptions options) {
     server.reset();
     service = std::make_unique<CommandService>(
-        ServedApplication{runtime, modules, editor, log, hooks, &history, &scheduler.pace()});
+        ServedApplication{runtime, modules, editor, log, hooks, &history, &scheduler.pace(),
+                          &scheduler});
     auto started = ControlServer::Start(*service, std::move(options));
     ASSERT_TRUE(started) << started.error().ToString();
     server = std::move(*started);

@@ -153,6 +153,12 @@ inline Json ChangeMessage(const std::string& text) {
     Json operator()(const AssignToThread& change) const {
       return {{"change", "move"}, {"path", change.path}, {"thread", change.thread}};
     }
+    Json operator()(const RenameElement& change) const {
+      return {{"change", "rename"}, {"path", change.path}, {"name", change.name}};
+    }
+    Json operator()(const CopyElement& change) const {
+      return {{"change", "copy"}, {"path", change.path}, {"name", change.name}};
+    }
     Json operator()(const AddThread& change) const {
       return {{"change", "create_thread"},
               {"path", change.name},

@@ -69,7 +69,9 @@ const std::map<std::string, std::pair<WebRole, WebRole>, std::less<>> kNeeded{
     {"log_level", {WebRole::kChange, WebRole::kChange}},
     {"profile", {WebRole::kChange, WebRole::kChange}},
     {"latency", {WebRole::kChange, WebRole::kChange}},
-    {"preview", {WebRole::kChange, WebRole::kChange}}};
+    {"preview", {WebRole::kChange, WebRole::kChange}},
+    {"restart", {WebRole::kChange, WebRole::kChange}},
+    {"stop", {WebRole::kChange, WebRole::kChange}}};
 
 TEST_F(Roles, MayDoOfEveryOperationWhatTheyMay) {
   hooks.save = [](const std::string&) -> Result<std::string> { return std::string("saved"); };

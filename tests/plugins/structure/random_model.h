@@ -212,6 +212,8 @@ class StructureModel {
   // Threads are the tests' own.
   bool Do(const AddThread&) { return false; }
   bool Do(const ScheduleThread&) { return false; }
+  static bool Do(const RenameElement&) { return false; }
+  static bool Do(const CopyElement&) { return false; }
   bool Do(const AssignToThread& change) {
     const auto found = elements_.find(change.path);
     if (found == elements_.end() || found->second.kind == Kind::kPort) return false;

@@ -1,0 +1,268 @@
+// Modules and groups that get another name, and others like them.
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "core/element/element_path.h"
+#include "core/element/source_place.h"
+#include "core/module/group.h"
+#include "core/module/group_parameter.h"
+#include "core/paths/late_connections.h"
+#include "core/paths/path_search.h"
+#include "core/plugin/module_type_name.h"
+#include "core/port/proxy_port.h"
+#include "core/types/type_info.h"
+#include "plugins/structure/name_in_file.h"
+#include "plugins/structure/plan.h"
+
+namespace runnel::internal {
+
+namespace {
+
+// Who can be renamed and copied.
+Result<void> CheckWhatItIs(const FrameworkElement& element, const char* what) {
+  const auto refusal = [&](const std::string& why) {
+    return Error{.message = why, .path = element.path()};
+  };
+  if (element.kind() != ElementKind::kModule && element.kind() != ElementKind::kGroup) {
+    return refusal(std::string("is neither a module nor a group, and cannot be ") + what);
+  }
+  if (element.parent() == nullptr || element.parent()->kind() == ElementKind::kRuntime) {
+    return refusal(std::string("is the whole application, which cannot be ") + what + " while it runs");
+  }
+  if (const FrameworkElement* const module = FindModuleAround(*element.parent())) {
+    return refusal("is a part of the module " + module->path() + ", and cannot be " + what + " by itself");
+  }
+  return {};
+}
+
+std::string Sibling(const FrameworkElement& element, const std::string& name) {
+  return element.parent()->path() + "/" + name;
+}
+
+// `path` of something at or below `from`, as it is below `to`; nullopt for others.
+std::optional<std::string> Moved(const std::string& path, const std::string& from,
+                                 const std::string& to) {
+  if (!IsAtOrBelow(path, from)) return {};
+  return to + path.substr(from.size());
+}
+
+// A target of a group's parameter, which may name the renamed element on its way.
+std::string MovedTarget(FrameworkElement& group, const std::string& target,
+                        const FrameworkElement& renamed, const std::string& name) {
+  std::string moved;
+  for (std::size_t begin = 0; begin <= target.size();) {
+    const std::size_t end = std::min(target.find('/', begin), target.size());
+    const auto found = PathSearch(group).Find(target.substr(0, end));
+    const bool is_it = end > begin && found && *found == &renamed;
+    moved += (begin > 0 ? "/" : "") + (is_it ? name : target.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return moved;
+}
+
+// Where in the file it stands.
+void KeepPlace(FrameworkElement& made, const FrameworkElement& before) {
+  const auto* const place = before.FindAnnotation<SourcePlace>();
+  if (place != nullptr) made.Annotate(std::make_unique<SourcePlace>(place->position));
+}
+
+}  // namespace
+
+Result<void> Plan::Check(const CopyElement& change) {
+  const auto found = overlay_.Find(change.path);
+  if (!found) return found.error();
+  FrameworkElement& element = **found;
+  if (auto good = CheckWhatItIs(element, "copied"); !good) return good;
+  std::string name = change.name.empty() ? element.name() : change.name;
+  for (int i = 2; change.name.empty() && overlay_.Find(Sibling(element, name)); ++i) {
+    name = element.name() + "_" + std::to_string(i);
+  }
+  if (name.find('/') != std::string::npos) {
+    return Error{.message = "'" + name + "' is a path, where the name of the copy is wanted",
+                 .path = element.path()};
+  }
+  std::optional<Error> why_not;
+  const ChangeSet changes = MakeLike(element, Sibling(element, name), why_not);
+  if (why_not) return *why_not;
+  for (const Change& each : changes) {
+    const auto check = [this](const auto& one) { return Check(one); };
+    if (auto possible = std::visit(check, each); !possible) return possible;
+  }
+  return {};
+}
+
+Result<void> Plan::Check(const RenameElement& change) {
+  const auto found = overlay_.Find(change.path);
+  if (!found) return found.error();
+  FrameworkElement& element = **found;
+  if (auto good = CheckWhatItIs(element, "renamed"); !good) return good;
+  if (change.name.find('/') != std::string::npos) {
+    return Error{.message = "'" + change.name + "' is a path, where the new name is wanted",
+                 .path = element.path()};
+  }
+  const std::string before = element.path();
+  const std::string after = Sibling(element, change.name);
+  const auto place = overlay_.PlaceFor(after);
+  if (!place) return place.error();
+  const std::size_t first = steps_.size();
+  // Those that wait for their ends are noted by their paths.
+  std::vector<LateConnection> late;
+  if (const LateConnections* const all = LateConnections::FindIn(runtime_)) {
+    for (const LateConnection& each : all->all()) {
+      if (Moved(each.from, before, after) || Moved(each.to, before, after)) late.push_back(each);
+    }
+  }
+  for (const LateConnection& each : late) {
+    if (auto cut = Check(DisconnectPorts{each.from, each.to}); !cut) return cut;
+  }
+  if (auto targets = MoveTargets(element, change.name); !targets) return targets;
+  if (auto moved = MoveTo(*place, element); !moved) return moved;
+  for (const LateConnection& each : late) {
+    const ConnectPorts tie{Moved(each.from, before, after).value_or(each.from),
+                           Moved(each.to, before, after).value_or(each.to), each.options};
+    if (auto tied = Check(tie); !tied) return tied;
+  }
+  // The name of before takes all of it back.
+  for (std::size_t i = first; i < steps_.size(); ++i) {
+    steps_[i].inverse = [](auto&) { return ChangeSet(); };
+  }
+  steps_[first].inverse = [after, name = element.name()](auto&) -> ChangeSet {
+    return {RenameElement{after, name}};
+  };
+  return {};
+}
+
+Result<void> Plan::MoveTo(const Placement& place, FrameworkElement& element) {
+  if (IsModule(element)) {
+    const std::string type = FindModuleType(element);
+    if (type.empty()) {
+      return Error{.message = "was made by code, of a class that no change can make anew under another name",
+                   .path = element.path()};
+    }
+    if (element.kind() == ElementKind::kGroup) {
+      warnings_.push_back({.message = "is a composite, and begins afresh under its new name",
+                           .path = element.path()});
+    }
+    return CheckReplacement(element, place, {.path = element.path(), .type = type, .probation_cycles = 0},
+                            Misfits::kAreRefused);
+  }
+  if (auto* const port = dynamic_cast<Port*>(&element)) return MovePort(place, *port);
+  if (const auto* const parameter = dynamic_cast<const GroupParameter*>(&element)) {
+    UnlistedElement made(std::make_unique<GroupParameter>(place, parameter->targets(),
+                                                          parameter->info().description));
+    made->InheritAnnotations(element);
+    if (auto prepared = Runtime::Prepare(made); !prepared) return prepared;
+    AddCreation(std::move(made));
+    return {};
+  }
+  if (element.kind() == ElementKind::kGroup) return MoveGroup(place, element);
+  return Error{.message = "cannot be moved with its group", .path = element.path()};
+}
+
+// One after the other goes into a new group; what ties them stays.
+Result<void> Plan::MoveGroup(const Placement& place, FrameworkElement& group) {
+  UnlistedElement made(std::make_unique<Group>(place));
+  FrameworkElement& after = *made;
+  after.InheritAnnotations(group);
+  NameInFile::Note(after, group);
+  KeepPlace(after, group);
+  if (auto prepared = Runtime::Prepare(made); !prepared) return prepared;
+  AddCreation(std::move(made), &place.parent == group.parent() ? &group : nullptr);
+  for (FrameworkElement* child : std::vector(group.children())) {
+    if (auto moved = MoveTo({after, child->name(), false}, *child); !moved) return moved;
+  }
+  going_.push_back(group.path());
+  overlay_.Remove(group);
+  AddRemoval(group);
+  return {};
+}
+
+Result<void> Plan::MovePort(const Placement& place, Port& port) {
+  if (!port.is_proxy()) return Error{.message = "cannot be moved with its group", .path = port.path()};
+  auto kept = std::make_shared<UnlistedElement>(
+      std::make_unique<ProxyPort>(place, port.direction(), port.type(), port.description()));
+  auto& made = dynamic_cast<Port&>(**kept);
+  made.InheritAnnotations(port);
+  KeepPlace(made, port);
+  if (auto prepared = Runtime::Prepare(*kept); !prepared) return prepared;
+  Concern(port);
+  overlay_.Replace(port, made, {{&port, &made}});
+  auto has_taken = std::make_shared<bool>(false);
+  steps_.push_back({[=, this, &port, &made]() -> Result<void> {
+                      if (auto listed = runtime_.List(std::move(*kept)); !listed) return listed.error();
+                      made.TakeOver(port);
+                      *has_taken = true;
+                      return {};
+                    },
+                    [=, this, &port, &made] {
+                      if (*has_taken) port.TakeOver(made);
+                      *has_taken = false;
+                      if (!*kept) *kept = runtime_.Unlist(made).value();
+                    },
+                    [](auto&) { return ChangeSet(); }});
+  return {};
+}
+
+// Parameters of groups around it, which stand for some within.
+Result<void> Plan::MoveTargets(const FrameworkElement& renamed, const std::string& name) {
+  std::vector<GroupParameter*> all;
+  runtime_.root().Visit([&](FrameworkElement& each) {
+    auto* const parameter = dynamic_cast<GroupParameter*>(&each);
+    // Those within go with it, and look no further.
+    if (parameter != nullptr && !each.IsAtOrBelow(renamed)) all.push_back(parameter);
+  });
+  for (GroupParameter* before : all) {
+    std::vector<std::string> targets;
+    for (const std::string& each : before->targets()) {
+      targets.push_back(MovedTarget(*before->parent(), each, renamed, name));
+    }
+    if (targets == before->targets()) continue;
+    UnlistedElement made(std::make_unique<GroupParameter>(
+        Placement{*before->parent(), before->name(), false}, targets, before->info().description));
+    made->InheritAnnotations(*before);
+    if (auto prepared = Runtime::Prepare(made); !prepared) return prepared;
+    AddExchange(*before, std::move(made));
+  }
+  return {};
+}
+
+// One takes the other's place, under the same name.
+void Plan::AddExchange(FrameworkElement& before, UnlistedElement after) {
+  struct Done {
+    UnlistedElement after;
+    UnlistedElement before;
+    const FrameworkElement* place = nullptr;
+    bool is_removed = false;
+  };
+  FrameworkElement& next = *after;
+  overlay_.Remove(before);
+  overlay_.Add(next);
+  auto done = std::make_shared<Done>();
+  done->after = std::move(after);
+  steps_.push_back({[=, this, &before]() -> Result<void> {
+                      removed_.reserve(removed_.size() + 1);
+                      const auto& siblings = before.parent()->children();
+                      const auto behind = std::next(std::ranges::find(siblings, &before));
+                      done->place = behind == siblings.end() ? nullptr : *behind;
+                      auto taken = runtime_.Unlist(before);
+                      if (!taken) return taken.error();
+                      removed_.push_back(std::move(*taken));
+                      done->is_removed = true;
+                      auto listed = runtime_.List(std::move(done->after), done->place);
+                      return listed ? Result<void>() : listed.error();
+                    },
+                    [=, this, &next] {
+                      if (!done->is_removed) return;
+                      if (!done->after) done->after = runtime_.Unlist(next).value();
+                      if (auto listed = runtime_.List(std::move(removed_.back()), done->place); !listed)
+                        throw ElementError(listed.error());
+                      removed_.pop_back();
+                      done->is_removed = false;
+                    },
+                    [](auto&) { return ChangeSet(); }});
+}
+
+}  // namespace runnel::internal

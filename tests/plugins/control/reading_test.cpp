@@ -1,0 +1,96 @@
+// What people read of values and states: numbers, ages, what is stopped, what lacks a connection.
+
+#include "plugins/control/readable_text.h"
+#include "tests/plugins/control/control_fixture.h"
+#include "tests/support/wait_until.h"
+
+namespace runnel::test {
+namespace {
+
+using ::testing::Not;
+
+TEST(ReadableNumbersTest, HaveSixDigitsOutsideOfQuotationMarks) {
+  EXPECT_EQ(ReadableNumbers("{forward: 0.39933782972553455, turn: -0.00397302164679287}"),
+            "{forward: 0.399338, turn: -0.00397302}");
+  EXPECT_EQ(ReadableNumbers("[1234567890123, 0.1, 1e-07, 1.23456789e+22]"),
+            "[1234567890123, 0.1, 1e-07, 1.23457e+22]");
+  EXPECT_EQ(ReadableNumbers("{name: \"v0.123456789 \\\"0.123456789\\\"\", x: 2}"),
+            "{name: \"v0.123456789 \\\"0.123456789\\\"\", x: 2}");
+  EXPECT_EQ(ReadableNumbers("left_0.12345678 v1.23456789"), "left_0.12345678 v1.23456789");
+  EXPECT_EQ(ReadableNumbers("1.23456789s"), "1.23457s");
+  EXPECT_EQ(ReadableNumbers(""), "");
+  EXPECT_EQ(ReadableNumbers("\""), "\"");
+}
+
+TEST_F(ControlTest, GetsOneValue) {
+  ASSERT_EQ(Change("set /a/speed 0.123456789").code, 0);
+  EXPECT_EQ(Ask("get /a/speed").output, "0.123457\n");
+  EXPECT_EQ(Ask("get /app/a/parameter/speed full=yes").output, "0.123456789\n");
+  EXPECT_THAT(Ask("get /a/out").output, ::testing::ContainsRegex("^[0-9]+\n$"));
+  EXPECT_THAT(Ask("get /a/spede").errors, HasSubstr("did you mean 'speed'?"));
+  ASSERT_EQ(Change("create /silent test/failing").code, 0);
+  const Told nothing = Ask("get /silent/out");
+  EXPECT_NE(nothing.code, 0);
+  EXPECT_THAT(nothing.errors, HasSubstr("nothing has been published there yet"));
+}
+
+TEST_F(ControlTest, ListsWhatIsStoppedPausedOrNotConnected) {
+  EXPECT_THAT(Ask("ls").output, Not(HasSubstr("STOPPED")));
+  ASSERT_EQ(Change("create /worn test/failing").code, 0);
+  const auto is_stopped = [&] {
+    for (const Fault& fault : scheduler.TakeFaults()) {
+      log.Add(ApplicationLog::Kind::kFault, fault.path + " is worn", fault.path, fault.message);
+    }
+    return Ask("ls /worn").output.find("STOPPED by a fault: is worn out") != std::string::npos;
+  };
+  WaitUntil("the module is stopped", is_stopped);
+  EXPECT_THAT(Client().hello().state, HasSubstr("1 module STOPPED"));
+}
+
+TEST_F(ControlTest, MakesAStoppedModuleAnew) {
+  ASSERT_EQ(Change("create /worn test/failing").code, 0);
+  const auto is_stopped = [&] { return Ask("ls /worn").output.find("STOPPED") != std::string::npos; };
+  WaitUntil("the module is stopped", is_stopped);
+  const auto id = [&] {
+    const std::lock_guard lock(runtime.structure_mutex());
+    return (*runtime.root().Find("/app/worn"))->id();
+  };
+  const auto before = id();
+  // It fails again, so the one before comes back: what counts is that it was made anew.
+  EXPECT_THAT(Ask("restart /worn").errors, HasSubstr("the old one is back"));
+  EXPECT_EQ(id(), before);
+  EXPECT_EQ(Ask("restart /a").code, 0);
+  EXPECT_THAT(Ask("restart /app/b/in").errors, HasSubstr("neither a module nor a group"));
+  EXPECT_THAT(Ask("restart").errors, HasSubstr("cannot run it again"));
+  EXPECT_THAT(Ask("stop").errors, HasSubstr("cannot end its run"));
+}
+
+TEST_F(ControlTest, RenamesAndCopies) {
+  EXPECT_EQ(Change("rename /a first; copy /first").code, 0);
+  EXPECT_THAT(Ask("ls").output, HasSubstr("first_2"));
+  EXPECT_THAT(Ask("ls /a").errors, HasSubstr("no 'a' in /app"));
+  EXPECT_EQ(Ask("undo").code, 0);
+  EXPECT_EQ(Ask("ls /a").code, 0);
+}
+
+TEST_F(ControlTest, SaysWhereANameIsDeeperInTheTree) {
+  ASSERT_EQ(Change("create group /deep; create /deep/inner test/counter").code, 0);
+  EXPECT_THAT(Ask("echo inner/out count=1").errors, HasSubstr("did you mean /app/deep/inner/out?"));
+}
+
+TEST_F(ControlTest, CountsTimesFromTheStartOfTheApplication) {
+  const Told told = Ask("echo /a/out count=1");
+  EXPECT_LT(std::stod(told.output), 3600) << "not since the machine has started";
+}
+
+TEST_F(ControlTest, SaysHowEvenlyValuesCome) {
+  EXPECT_THAT(Ask("hz /a/out count=1").output, HasSubstr(" Hz, "));
+  const RunningApplication first{"a.sock", {.process = 1, .application = "one"}};
+  const RunningApplication second{"b.sock", {.process = 2, .application = "one"}};
+  const RunningApplication third{"c.sock", {.process = 3, .application = "two"}};
+  EXPECT_THAT(ChooseApplication({first, second, third}, "one").error().message,
+              HasSubstr("2 applications called 'one' are running: one (1), one (2)"));
+}
+
+}  // namespace
+}  // namespace runnel::test
