@@ -37,7 +37,6 @@ void BoundInput::DisconnectForEver() {
   SetWaker(nullptr);
   DisconnectAll();
   // What is read while there is nothing else, a default value, is no connection.
-  if (binding_.load(std::memory_order_relaxed) == &kUnbound) return;
   const std::lock_guard lock(runtime().structure_mutex());
   Rebind({});
 }

@@ -22,6 +22,8 @@
 
 namespace runnel {
 
+thread_local constinit const Cycle* internal::current_cycle = nullptr;
+
 using internal::FindConnection;
 
 namespace {

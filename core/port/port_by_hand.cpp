@@ -9,14 +9,10 @@
 
 namespace runnel {
 
-namespace {
-
 // So that viewers look again.
-void TellOfChange(Runtime& runtime) {
+static void TellOfChange(Runtime& runtime) {
   runtime.ForEachListener([](ElementListener&) {});
 }
-
-}  // namespace
 
 Port* Port::by_hand() const noexcept { return extras_ ? extras_->by_hand.get() : nullptr; }
 

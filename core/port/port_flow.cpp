@@ -8,6 +8,7 @@
 #include "core/port/converted_flow.h"
 #include "core/port/port.h"
 #include "core/port/port_extras.h"
+#include "core/port/proxy_port.h"
 
 namespace runnel {
 
@@ -193,5 +194,9 @@ std::vector<Port*> Port::Sinks() const {
   if (has_detours) DropRepetitions(sinks);
   return sinks;
 }
+
+ProxyPort::ProxyPort(const Placement& placement, Direction direction, const TypeInfo& type,
+                     std::string description)
+    : Port(placement, direction, type, std::move(description)) {}
 
 }  // namespace runnel

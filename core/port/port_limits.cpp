@@ -15,7 +15,6 @@
 namespace runnel {
 
 namespace {
-
 bool IsWithin(const InputLimits& limits, double number) {
   // What is no number is in no bounds.
   return !(limits.minimum && !(number >= *limits.minimum)) &&
@@ -49,7 +48,6 @@ Result<void> CheckLimits(const Port& port, const InputLimits& limits) {
   }
   return {};
 }
-
 }  // namespace
 
 Result<void> internal::CheckWithin(const Port& port, const InputLimits& limits, const void* value) {
