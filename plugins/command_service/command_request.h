@@ -18,6 +18,7 @@ struct ChangeRequest {
 
   PlacedChanges placed;
   std::string label = {};  ///< for the history; "": the changes in their text format
+  std::string client = {};  ///< who wants it, for people: "a terminal", "viewer 2"
 };
 /// Takes back what was changed last.
 struct UndoRequest {};
@@ -75,6 +76,7 @@ struct CommandAnswer {
   Outcome outcome = Outcome::kDone;
   std::string text;         ///< what was done, for people: "done; threads stood still for 0.110 ms"
   Diagnostics diagnostics;  ///< errors if it was not done; warnings of what was
+  std::string client = {};  ///< of what was undone or redone: who had wanted it
 
   explicit operator bool() const noexcept { return outcome == Outcome::kDone; }
 

@@ -51,7 +51,9 @@ CommandRequest RequestOf(const Request& request, PlacedChanges placed) {
                                           : std::nullopt;
     return PublishRequest{argument, request.arguments[1], rate};
   }
-  return ChangeRequest{std::move(placed)};
+  ChangeRequest change{std::move(placed)};
+  change.client = "a terminal";
+  return change;
 }
 
 }  // namespace

@@ -23,11 +23,12 @@ export class MockApplication {
 
   get state() {
     return { time: this.time, paused: this.paused, speed: this.speed, faults: 0, ended: false,
-      undo: this.past.at(-1)?.label ?? null, redo: this.future.at(-1)?.label ?? null };
+      undo: this.past.at(-1)?.label ?? null, redo: this.future.at(-1)?.label ?? null,
+      undo_client: this.past.at(-1)?.client ?? null, redo_client: this.future.at(-1)?.client ?? null };
   }
 
   /** All changes or none; returns errors. What is new is told by `difference`. */
-  change(changes, label) {
+  change(changes, label = LabelOf(changes), client = 'a terminal') {
     const before = this.#snapshot();
     for (const [index, change] of changes.entries()) {
       const error = this.#apply(change);
@@ -36,7 +37,7 @@ export class MockApplication {
         return [{ ...error, change: index }];
       }
     }
-    this.past.push({ label, state: before });
+    this.past.push({ label, client, state: before });
     this.future = [];
     this.log.push({ number: this.log.length + 1, time: this.time, kind: 'change', text: label });
     return [];
@@ -44,10 +45,10 @@ export class MockApplication {
 
   travel(from, to) {
     const step = from.pop();
-    if (!step) return false;
-    to.push({ label: step.label, state: this.#snapshot() });
+    if (!step) return null;
+    to.push({ label: step.label, client: step.client, state: this.#snapshot() });
     this.#restore(step.state);
-    return true;
+    return step;
   }
 
   /** What has changed since an earlier structure, as the protocol tells it. */
@@ -74,7 +75,7 @@ export class MockApplication {
     this.connections = connections;
   }
 
-  #apply({ change, path, value, from, to, pull = false, type, thread }) {
+  #apply({ change, path, value, from, to, pull = false, queue = 0, on_full = 'drop_oldest', type, thread }) {
     const missing = [path, from, to].find((each) =>
       each !== undefined && !this.elements.has(each) && !change.startsWith('create'));
     if (missing) return { message: `there is no '${missing}'`, path: missing, hint: '' };
@@ -85,7 +86,7 @@ export class MockApplication {
       }
       this.elements.set(path, { ...parameter, value });
     } else if (change === 'connect') {
-      this.connections = [...this.connections, { from, to, queue: 0, on_full: 'drop_oldest', pull }];
+      this.connections = [...this.connections, { from, to, queue, on_full, pull }];
     } else if (change === 'disconnect') {
       this.connections = this.connections.filter((each) => each.from !== from || each.to !== to);
     } else if (change === 'delete') {
@@ -106,6 +107,10 @@ export class MockApplication {
   }
 }
 
+function LabelOf([{ change, path, value, from, to, type }]) {
+  return [change, path ?? from, value ?? to ?? type].filter((word) => word !== undefined).join(' ');
+}
+
 /** A module as the catalogue has it, with its ports and parameters. */
 export function ModuleElements(catalogue, type, path, { thread = null } = {}) {
   const module = catalogue.modules.find((candidate) => candidate.type === type);
@@ -119,7 +124,7 @@ export function ModuleElements(catalogue, type, path, { thread = null } = {}) {
   for (const parameter of module.parameters) {
     elements.push({ path: `${path}/${parameter.name}`, kind: 'parameter', name: parameter.name, data_type: parameter.type,
       unit: parameter.unit ?? '', minimum: parameter.minimum ?? null, maximum: parameter.maximum ?? null,
-      description: '', value: parameter.default, default: parameter.default, settable: true, owner: path });
+      description: parameter.description ?? '', value: parameter.default, default: parameter.default, settable: true, owner: path });
   }
   return elements;
 }

@@ -15,7 +15,7 @@ import { Start, isConnected } from './state/store.js';
 import { WorldView, hasWorld } from './world/world_view.js';
 
 function Page() {
-  const { side, dock, world, worldShown, worldLarge } = panels.value;
+  const { side, dock, dockOpen, world, worldShown, worldLarge } = panels.value;
   const showsWorld = worldShown && hasWorld.value;
   return html`
     <div class=${`page ${isConnected.value ? '' : 'stale'}`}
@@ -24,7 +24,7 @@ function Page() {
       <${LostBanner} />
       <main class="main" aria-label="Data flow">
         ${showsWorld && worldLarge ? html`<${WorldView} />` : html`<${GraphView} />`}
-        <${Splitter} name="dock" axis="y" sign=${-1} least=${80} most=${700} label="Height of the lower panel" />
+        ${dockOpen && html`<${Splitter} name="dock" axis="y" sign=${-1} least=${80} most=${700} label="Height of the lower panel" />`}
         <${Dock} />
       </main>
       <${Splitter} name="side" axis="x" sign=${-1} least=${280} most=${900} label="Width of the side panel" />

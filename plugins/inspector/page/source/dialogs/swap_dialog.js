@@ -2,7 +2,8 @@
 
 import { useEffect, useState } from 'preact/hooks';
 import { html } from 'htm/preact';
-import { CompatibleTypes, Swap } from '../state/actions.js';
+import { CompatibleTypes } from '../state/actions.js';
+import { SwapCarefully } from '../state/careful.js';
 import { openDialog } from '../state/choices.js';
 import { structure } from '../state/store.js';
 import { ChoiceList } from './choice_list.js';
@@ -19,11 +20,11 @@ export function SwapDialog({ path }) {
     const words = text.toLowerCase().split(/\s+/).filter(Boolean);
     return (types ?? []).filter(({ type, summary }) => words.every((word) => `${type} ${summary}`.toLowerCase().includes(word)))
       .map(({ type, summary, lost = [] }) => ({
-        key: type, title: type, detail: summary,
+        key: type, title: type, detail: summary, lost,
         note: type === module?.type ? 'as it is' : lost.length > 0 ? `loses ${lost.join(', ')}` : 'all connections stay',
       }));
   };
-  const choose = (entry) => { CloseDialog(); Swap(path, entry.key); };
+  const choose = (entry) => { CloseDialog(); SwapCarefully(path, entry.key, entry.lost); };
   return html`
     <${Dialog} title=${`Swap ${module?.name}`}>
       <h2>Swap ${module?.name} <small>now ${module?.type}</small></h2>

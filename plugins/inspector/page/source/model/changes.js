@@ -1,7 +1,8 @@
 // Changes as the server reads them (PROTOCOL.md).
 
 export const Change = {
-  create: (path, type) => ({ change: 'create', path, type }),
+  create: (path, type, settings = {}) =>
+    ({ change: 'create', path, type, ...(Object.keys(settings).length > 0 ? { settings } : {}) }),
   createGroup: (path) => ({ change: 'create_group', path }),
   createPort: (path, direction, type) => ({ change: 'create_port', path, direction, type }),
   delete: (path) => ({ change: 'delete', path }),
