@@ -9,6 +9,7 @@ export class MockApplication {
     this.elements = new Map(structure.elements.map((element) => [element.path, element]));
     this.connections = [...structure.connections];
     this.revision = 1;
+    this.layout = {}; // what viewers have arranged
     this.time = 0;
     this.paused = false;
     this.speed = 1;
@@ -75,7 +76,7 @@ export class MockApplication {
     this.connections = connections;
   }
 
-  #apply({ change, path, value, from, to, pull = false, queue = 0, on_full = 'drop_oldest', type, thread }) {
+  #apply({ change, path, value, from, to, pull = false, queue = 0, on_full = 'drop_oldest', type, thread, name, direction, settings = {} }) {
     const missing = [path, from, to].find((each) =>
       each !== undefined && !this.elements.has(each) && !change.startsWith('create'));
     if (missing) return { message: `there is no '${missing}'`, path: missing, hint: '' };
@@ -93,8 +94,24 @@ export class MockApplication {
       const isIn = (each) => each === path || each.startsWith(`${path}/`);
       this.connections = this.connections.filter((each) => !isIn(each.from) && !isIn(each.to));
       for (const each of [...this.elements.keys()]) if (isIn(each)) this.elements.delete(each);
+    } else if (change === 'rename') {
+      const next = `${path.slice(0, path.lastIndexOf('/'))}/${name}`;
+      const put = (each) => (each === path || each?.startsWith(`${path}/`) ? next + each.slice(path.length) : each);
+      this.elements = new Map([...this.elements.values()].map((each) => (put(each.path) === each.path ? each
+        : { ...each, path: put(each.path), owner: put(each.owner), ...(each.path === path ? { name } : {}) })).map((each) => [each.path, each]));
+      this.connections = this.connections.map((each) => (put(each.from) + put(each.to) === each.from + each.to ? each
+        : { ...each, from: put(each.from), to: put(each.to) }));
+    } else if (change === 'create_group') {
+      this.elements.set(path, { path, kind: 'group', thread: null });
+    } else if (change === 'create_port') {
+      const owner = path.slice(0, path.lastIndexOf('/'));
+      this.elements.set(path, { path, kind: 'port', name: path.slice(owner.length + 1), direction, data_type: type, interface: true,
+        required: false, description: '', owner });
     } else if (change === 'create') {
-      for (const element of ModuleElements(this.catalogue, type, path)) this.elements.set(element.path, element);
+      for (const element of ModuleElements(this.catalogue, type, path)) {
+        const value = settings[element.name];
+        this.elements.set(element.path, element.kind === 'parameter' && value !== undefined ? { ...element, value } : element);
+      }
     } else if (change === 'move') {
       this.elements.set(path, { ...this.elements.get(path), thread: thread || null });
     } else if (change === 'replace') {

@@ -55,6 +55,7 @@ class Client {
       clock: 'simulated', viewer: this.name, read_only: readOnly, runnel: '0.0.0' });
     this.send({ op: 'catalogue', ...application.catalogue });
     this.send({ op: 'structure', revision: application.revision, ...application.structure });
+    this.send({ op: 'layout', entries: application.layout });
     this.send({ op: 'log', entries: application.log });
     this.turn();
   }
@@ -128,6 +129,11 @@ class Client {
     if (op === 'compatible') {
       const types = application.catalogue.modules.map(({ type, summary }) => ({ type, summary, lost: application.lost ?? [] }));
       return reply({ ok: true, text: '', types });
+    }
+    if (op === 'arrange') {
+      Object.assign(application.layout, asked.entries);
+      this.tellAll({ op: 'layout', entries: asked.entries });
+      return reply({ ok: true, text: '' });
     }
     if (op === 'pause') application.paused = true;
     else if (op === 'resume') application.paused = false;

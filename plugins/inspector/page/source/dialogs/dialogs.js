@@ -8,12 +8,13 @@ import { CreateDialog } from './create_dialog.js';
 import { Menu } from './menu.js';
 import { NoteDialog } from './note_dialog.js';
 import { PortDialog } from './port_dialog.js';
+import { RenameDialog } from './rename_dialog.js';
 import { HelpDialog, MoveDialog, SaveDialog } from './small_dialogs.js';
 import { SwapDialog } from './swap_dialog.js';
 
 const kDialogs = {
   confirm: ConfirmDialog, create: CreateDialog, connect: ConnectDialog, swap: SwapDialog, move: MoveDialog, port: PortDialog,
-  save: SaveDialog, help: HelpDialog, menu: Menu, note: NoteDialog,
+  save: SaveDialog, help: HelpDialog, menu: Menu, note: NoteDialog, rename: RenameDialog,
 };
 
 export function OpenDialog() {

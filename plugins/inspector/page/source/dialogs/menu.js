@@ -61,6 +61,7 @@ function ModuleItems({ path, type }, open) {
   return [
     { text: 'Swap …', changes: true, action: open('swap') },
     { text: 'Move to thread …', changes: true, action: open('move') },
+    { text: 'Rename …', changes: true, action: open('rename') },
     { text: 'Note …', changes: true, action: open('note') },
     { text: 'Copy', action: CopyChosen },
     { text: 'Duplicate', changes: true, action: () => DuplicateChosen(ParentOf(path)) },
@@ -84,6 +85,7 @@ function GroupItems({ path }, open) {
       { text: IsOpen(path) ? 'Fold' : 'Open', action: () => ToggleGroup(path) },
       { text: 'Add a port …', changes: true, action: open('port') },
       { text: 'Move to thread …', changes: true, action: open('move') },
+      { text: 'Rename …', changes: true, action: open('rename') },
       { text: 'Note …', changes: true, action: open('note') },
       { text: 'Copy', action: CopyChosen },
       { text: 'Duplicate', changes: true, action: () => DuplicateChosen(ParentOf(path)) },

@@ -56,7 +56,7 @@ const kKeys = [
   ['In the graph', [
     ['← ↑ → ↓', 'to the next module in that direction'], ['Shift + arrows', 'along the ports of a module'],
     ['Enter, Space', 'open or fold a group'], ['C', 'connect the selected port'], ['S', 'swap the module'],
-    ['M', 'move to another thread'], ['N', 'write a note'], ['Shift + click, drag', 'choose several'], ['Delete', 'delete or disconnect'], ['Shift + F10', 'menu'],
+    ['M', 'move to another thread'], ['N', 'write a note'], ['F2', 'rename'], ['Shift + click, drag', 'choose several'], ['Delete', 'delete or disconnect'], ['Shift + F10', 'menu'],
     ['F', 'fit'], ['+ −', 'zoom'], ['Escape', 'select nothing'],
   ]],
   ['Everywhere', [

@@ -41,7 +41,7 @@ export const BoxView = memo(({ box }) => {
       ${(element.stopped || count > 0) && html`<g class="fault" transform=${`translate(${box.width - (isGroup ? 40 : 18)},16)`}>
         <circle r="8.5" /><text y="4" text-anchor="middle">!</text><title>${AlarmsAt(path).map(({ text }) => text).join('\n')}</title></g>`}
       ${box.note.length > 0 && html`<g class="note-on" transform=${`translate(0,${box.height - NoteHeight(box.note)})`}>
-        <path d=${`M1,0H${box.width - 1}V${NoteHeight(box.note) - 6}a5,5 0 0 1 -5,5H6a5,5 0 0 1 -5,-5z`} />
+        <path d=${`M6,0H${box.width - 1}V${NoteHeight(box.note) - 6}a5,5 0 0 1 -5,5H6z`} />
         ${box.note.map((line, index) => html`<text key=${index} x="14" y=${14 + index * kNoteRow}>${line}</text>`)}</g>`}
       ${box.inputs.map((port, index) =>
         html`<${PortView} key=${port.path} port=${port} x=${0} y=${PortHeight(index)} side="left" />`)}

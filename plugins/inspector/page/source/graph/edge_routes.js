@@ -52,16 +52,21 @@ export function RouteEdges(connections, { closing, placed, border, bends, lanes,
   const shares = new Map();  // bent edges between the same boxes run beside each other
   const beside = new Map();  // of columns: the ports whose lines run up and down beside them
   const isOneRow = bottoms.length === 1;
-  const number = (key, port) => {
-    if (!beside.has(key)) beside.set(key, new Map());
-    const ports = beside.get(key);
-    if (!ports.has(port)) ports.set(port, ports.size);
-    return ports.get(port);
+  // Lines beside a column that run past each other have another number; those of one port are one line.
+  const number = (key, port, from, to) => {
+    if (!beside.has(key)) beside.set(key, []);
+    const lines = beside.get(key);
+    const [low, high] = [Math.min(from, to), Math.max(from, to)];
+    const isFree = (at) => lines.every((line) => line.at !== at || line.port === port || line.high < low || line.low > high);
+    let at = lines.find((line) => line.port === port)?.at ?? 0;
+    while (!isFree(at)) ++at;
+    lines.push({ port, at, low, high });
+    return at;
   };
-  const column = (member, which, port, at) => {
+  const column = (member, which, port, x, y, lane) => {
     const sign = which === 'right' ? 1 : -1;
-    const edge = placed.has(member) ? ColumnEdge(placed, rowOf, member, which) : at;
-    return edge + sign * (kBeside + kApart * number(`${which} ${Math.round(edge)}`, port));
+    const edge = placed.has(member) ? ColumnEdge(placed, rowOf, member, which) : x;
+    return edge + sign * (kBeside + kApart * number(`${which} ${Math.round(edge)}`, port, y, lane));
   };
   for (const connection of connections) {
     const { key, from, to, source, target } = connection;
@@ -79,12 +84,13 @@ export function RouteEdges(connections, { closing, placed, border, bends, lanes,
         points.length > 0 ? points[Math.floor(points.length / 2)] : undefined));
       continue;
     }
-    const right = column(source, 'right', from, start.x);
-    const beforeTarget = column(target, 'left', from, end.x);
-    const left = Math.abs(beforeTarget - right) < 2 * kBeside && end.x > start.x ? right : beforeTarget; // no step for a hair
-    const laneY = (gap) => (isOneRow ? BottomBetween(placed, left, right, start.y, end.y) : bottoms[gap] + top) +
-      kFirstLane + lanes.gaps[gap].get(from) * kLane;
     const [first, second = first] = way.gaps;
+    const belowRow = (gap) => (isOneRow ? Infinity : bottoms[gap] + top + kFirstLane + lanes.gaps[gap].get(from) * kLane);
+    const right = column(source, 'right', from, start.x, start.y, belowRow(first));
+    const beforeTarget = column(target, 'left', from, end.x, end.y, belowRow(second));
+    const left = Math.abs(beforeTarget - right) < 2 * kBeside && end.x > start.x ? right : beforeTarget; // no step for a hair
+    const laneY = (gap) => (isOneRow ? BottomBetween(placed, left, right, start.y, end.y) + kFirstLane +
+      lanes.gaps[gap].get(from) * kLane : belowRow(gap));
     lowest = Math.max(lowest, laneY(first), laneY(second));
     if (isOneRow) {
       const lane = laneY(first);

@@ -33,6 +33,7 @@ const kKeys = {
   '-': () => Zoom(0.8),
   c: () => OpenFor('connect', (element) => element.kind === 'port'),
   s: () => OpenFor('swap', (element) => element.kind === 'module'),
+  F2: () => OpenFor('rename', (element) => structure.isNode(element.path) && element.path !== structure.root),
   n: () => OpenFor('note', (element) => structure.isNode(element.path)),
   m: () => OpenFor('move', (element) => element.kind === 'module' || element.kind === 'group'),
   ContextMenu: OpenMenu,

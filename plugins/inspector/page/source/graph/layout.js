@@ -11,6 +11,7 @@ import { PlacedLevel } from './placed_level.js';
 const kPatience = 150; // boxes at once; dagre takes half a second for as many
 const kParts = [0.9, 0.62, 0.4]; // of the window's width: how wide open groups may be
 const kFew = 80;       // boxes; with more of them only one width is tried
+const kMany = 60;      // members of a group
 const kWorthIt = 1.04;
 const kNowhere = () => undefined;
 const kRateWidth = 40; // of the rate beside the ports of the last box
@@ -50,7 +51,7 @@ export class GraphLayout {
     for (const part of area ? kParts : [1]) {
       this.#placed = 0;
       const inner = area && { width: area.width * part, isWhole: false };
-      const level = this.#level(structure, levels, structure.root, isOpen, { area: area && { ...area, isWhole: true }, inner });
+      const level = this.#level(structure, levels, structure.root, isOpen, { area: area && { ...area, isWhole: true }, inner, window: area });
       const scale = area ? Math.min(1, area.width / level.width, area.height / level.height) : 1;
       if (!best || scale > best.scale * kWorthIt) best = { level, scale };
       if (scale === 1 || this.#placed > kFew || level.boxes.every((box) => !box.open)) break;
@@ -58,8 +59,10 @@ export class GraphLayout {
     return best.level;
   }
 
-  #level(structure, levels, group, isOpen, { area, inner }) {
-    const boxes = structure.membersOf(group).map((path) => this.#box(structure, levels, path, isOpen, inner));
+  #level(structure, levels, group, isOpen, { area: wanted, inner, window }) {
+    const boxes = structure.membersOf(group).map((path) => this.#box(structure, levels, path, isOpen, inner, window));
+    // What fills a window by itself has its shape.
+    const area = wanted && boxes.length > kMany ? { ...window, isWhole: true } : wanted;
     const connections = levels.get(group) ?? [];
     const ports = group === structure.root ? [] : structure.portsOf(group);
     const signature = JSON.stringify([boxes.map((box) => box.signature),
@@ -90,14 +93,14 @@ export class GraphLayout {
     return layout;
   }
 
-  #box(structure, levels, path, isOpen, inner) {
+  #box(structure, levels, path, isOpen, inner, window) {
     const element = structure.get(path);
     const ports = structure.portsOf(path);
     const inputs = ports.filter((port) => port.direction === 'input');
     const outputs = ports.filter((port) => port.direction === 'output');
     const box = { path, element, inputs, outputs, open: IsGroup(element) && isOpen(path) };
     if (box.open) {
-      box.level = this.#level(structure, levels, path, isOpen, { area: inner, inner });
+      box.level = this.#level(structure, levels, path, isOpen, { area: inner, inner, window });
       box.width = box.level.width;
       box.height = box.level.height;
       box.signature = `${path} ${box.level.signature}`;

@@ -62,7 +62,7 @@ function BendsInRows(bends, { rowOf, shifts }) {
   for (const [pair, points] of bends) {
     const [source, target] = pair.split(' ');
     const row = rowOf.get(source);
-    if (row !== rowOf.get(target)) continue;
+    if (row !== rowOf.get(target) || shifts[row].isLoose) continue;
     moved.set(pair, points.map(({ x, y }) => ({ x: x + shifts[row].x, y: y + shifts[row].y })));
   }
   return moved;

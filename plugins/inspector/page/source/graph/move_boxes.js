@@ -26,9 +26,9 @@ export function BeginMoving(path) {
 }
 
 export function MoveTo({ moved, before }, dx, dy) {
-  const snap = (at) => Math.round(at / kGrid) * kGrid;
+  const [x, y] = [dx, dy].map((by) => Math.round(by / kGrid) * kGrid);
   draft.value = new Map([...before].map(([path, place]) =>
-    [path, moved.has(path) ? { x: snap(place.x + dx), y: snap(place.y + dy) } : place]));
+    [path, moved.has(path) ? { x: place.x + x, y: place.y + y } : place]));
 }
 
 export function FinishMoving() {

@@ -4,12 +4,14 @@ import { Outermost } from '../model/copies.js';
 import { Partners, WhyNot } from '../model/compatibility.js';
 import { Connect } from '../state/actions.js';
 import { canChange, structure } from '../state/store.js';
-import { Choose, chosen, openDialog, selected } from '../state/choices.js';
+import { Choose, SetPanels, chosen, openDialog, selected } from '../state/choices.js';
+import { isNarrow } from '../state/window.js';
 import { Toast } from '../state/toasts.js';
 import { BoxAt, MoveView, ToggleGroup, band, candidates, connecting, layout, shown, view } from './graph_state.js';
 import { hovered } from './hover_card.js';
 import { kGroupHeader } from './measure.js';
 import { BeginMoving, FinishMoving, MoveTo, StopMoving } from './move_boxes.js';
+import { Pinch } from './pinch.js';
 import { ToGraph, ZoomAt } from './viewport.js';
 
 const kReach = 26;     // pixels from a port at which a new edge snaps to it
@@ -22,7 +24,7 @@ export function AttachPointer(host) {
     pointerdown: (event) => pointer.down(event),
     pointermove: (event) => pointer.move(event),
     pointerup: (event) => pointer.up(event),
-    pointercancel: () => pointer.end(),
+    pointercancel: (event) => pointer.cancel(event),
     pointerleave: () => { hovered.value = null; },
     contextmenu: (event) => pointer.menu(event),
     dblclick: (event) => pointer.doubleClick(event),
@@ -36,6 +38,7 @@ export function AttachPointer(host) {
 
 class Pointer {
   #host;
+  #pinch = new Pinch();
   #press = null; // {kind: 'pan' | 'connect', start, view}
 
   constructor(host) {
@@ -43,6 +46,7 @@ class Pointer {
   }
 
   down(event) {
+    if (event.pointerType === 'touch' && this.#pinch.down(event.pointerId, this.#point(event))) return this.end();
     if (event.button > 1 || event.target.closest('button, output, input, .minimap')) return;
     const point = this.#point(event);
     const hit = this.#hit(event);
@@ -63,6 +67,8 @@ class Pointer {
 
   move(event) {
     const point = this.#point(event);
+    const pinched = this.#pinch.move(event.pointerId, point);
+    if (pinched) return MoveView(pinched(view.value));
     const press = this.#press;
     if (!press) {
       const path = PortAt(event.clientX, event.clientY)?.dataset.port;
@@ -83,7 +89,8 @@ class Pointer {
     else MoveView({ ...press.view, x: press.view.x + dx, y: press.view.y + dy });
   }
 
-  up() {
+  up(event) {
+    this.#pinch.up(event.pointerId);
     const press = this.#press;
     this.#press = null;
     if (!press) return;
@@ -96,7 +103,15 @@ class Pointer {
     const { fold, port, edge, node } = press.hit;
     if (fold) ToggleGroup(fold);
     else if (press.adds && node && !port && !edge) Choose(Toggled(chosen.value, node));
-    else selected.value = port ?? edge ?? node ?? null;
+    else {
+      selected.value = port ?? edge ?? node ?? null;
+      if (selected.value && isNarrow.value) SetPanels({ sideOpen: true });
+    }
+  }
+
+  cancel(event) {
+    this.#pinch.up(event.pointerId);
+    this.end();
   }
 
   end() {

@@ -2,6 +2,8 @@
 
 const kBetweenRows = 34;   // without lanes
 const kUsualLanes = 30;    // what lanes between two rows may take, before they are known
+const kLoose = 1.5;        // times as high as its tallest column: a row that is put together
+const kStackGap = 26;
 const kMostRows = 60;
 const kWorthIt = 1.08;     // by how much larger all must become for another row
 
@@ -39,11 +41,14 @@ export function PlaceRows(ranks, rows, gaps, left) {
   let y = 0;
   let width = 0;
   rows.forEach((row, number) => {
-    const shift = { x: rows.length > 1 ? left - row[0].left : 0, y: rows.length > 1 ? y - TopOf(row, ranks) : 0 };
+    const isLoose = rows.length > 1 && SpreadOf(row, ranks) > kLoose * TallestOf(row);
+    const shift = { x: rows.length > 1 ? left - row[0].left : 0, y: rows.length > 1 ? y - TopOf(row, ranks) : 0, isLoose };
     for (const column of row) {
-      for (const box of column.boxes) {
+      let stacked = y + (TallestOf(row) - StackOf(column)) / 2;
+      for (const box of InOrder(column, ranks)) {
         const place = ranks.places.get(box.id);
-        places.set(box.id, { x: place.x + shift.x, y: place.y + shift.y });
+        places.set(box.id, { x: place.x + shift.x, y: isLoose ? stacked : place.y + shift.y });
+        stacked += box.height + kStackGap;
         rowOf.set(box.id, number);
         width = Math.max(width, place.x + shift.x + box.width);
       }
@@ -101,7 +106,26 @@ function TopOf(row, ranks) {
   return Math.min(...row.flatMap((column) => column.boxes.map((box) => ranks.places.get(box.id).y)));
 }
 
+/** What was apart only because of boxes in other rows is put together. */
 function HeightOf(row, ranks) {
+  const spread = SpreadOf(row, ranks);
+  const tallest = TallestOf(row);
+  return spread > kLoose * tallest ? tallest : spread;
+}
+
+function TallestOf(row) {
+  return Math.max(...row.map(StackOf));
+}
+
+function StackOf(column) {
+  return column.boxes.reduce((sum, box) => sum + box.height + kStackGap, -kStackGap);
+}
+
+function InOrder(column, ranks) {
+  return [...column.boxes].sort((a, b) => ranks.places.get(a.id).y - ranks.places.get(b.id).y);
+}
+
+function SpreadOf(row, ranks) {
   const bottom = Math.max(...row.flatMap((column) => column.boxes.map((box) => ranks.places.get(box.id).y + box.height)));
   return bottom - TopOf(row, ranks);
 }

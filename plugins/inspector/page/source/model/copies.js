@@ -3,10 +3,11 @@
 import { Change, FreeName } from './changes.js';
 import { ConnectionKey, IsGroup, NameOf } from './structure.js';
 
-/** What is needed to make elements again: {parts: [{name, path, ...}], connections}. Those within others are left out. */
+/** What is needed to make elements again: {roots, parts, connections}; `root` of a part is the
+ * path that it was copied with. Those within others are left out. */
 export function CopyOf(structure, paths) {
   const roots = Outermost(paths).filter((path) => structure.isNode(path) && path !== structure.root);
-  const parts = roots.flatMap((root) => PartsOf(structure, root, NameOf(root)));
+  const parts = roots.flatMap((root) => PartsOf(structure, root));
   const rootOf = (port) => roots.find((root) => port.startsWith(`${root}/`));
   const keys = new Map();
   for (const root of roots) {
@@ -15,8 +16,8 @@ export function CopyOf(structure, paths) {
       for (const connection of structure.connectionsOf(port.path)) {
         const [from, to] = [rootOf(connection.from), rootOf(connection.to)];
         if (!from || !to) continue;
-        keys.set(ConnectionKey(connection), { ...connection, from: [NameOf(from), connection.from.slice(from.length)],
-          to: [NameOf(to), connection.to.slice(to.length)] });
+        keys.set(ConnectionKey(connection), { ...connection, from: [from, connection.from.slice(from.length)],
+          to: [to, connection.to.slice(to.length)] });
       }
     }
   }
@@ -27,11 +28,11 @@ export function CopyOf(structure, paths) {
 export function PasteChanges(structure, copy, group) {
   const names = new Map();
   const used = new Set();
-  for (const { name } of copy.roots) {
+  for (const { name, path } of copy.roots) {
     let free = FreeName(structure, group, name);
     for (let number = 2; used.has(free); ++number) free = FreeName(structure, group, `${name}_${number}`);
     used.add(free);
-    names.set(name, free);
+    names.set(path, free);
   }
   const place = (root, rest) => `${group}/${names.get(root)}${rest}`;
   const changes = copy.parts.map(({ root, rest, kind, type, settings, direction }) => {
@@ -44,7 +45,7 @@ export function PasteChanges(structure, copy, group) {
     const options = { pull, late, when_present: whenPresent, ...(convert ? { convert } : {}), ...(queue > 0 ? { queue, on_full: onFull } : {}) };
     changes.push(Change.connect(place(...from) + (part ? `.${part}` : ''), place(...to), options));
   }
-  return { changes, paths: copy.roots.map(({ name }) => place(name, '')) };
+  return { changes, paths: copy.roots.map(({ path }) => place(path, '')) };
 }
 
 /** The paths that lie within none of the others. */
@@ -52,16 +53,16 @@ export function Outermost(paths) {
   return paths.filter((path) => !paths.some((other) => path.startsWith(`${other}/`)));
 }
 
-function PartsOf(structure, root, name) {
+function PartsOf(structure, root) {
   const parts = [];
   const walk = (path) => {
     const element = structure.get(path);
-    const at = { root: name, rest: path.slice(root.length), thread: element.thread ?? null };
+    const at = { root, rest: path.slice(root.length), thread: element.thread ?? null };
     if (element.kind === 'module') return parts.push({ ...at, kind: 'module', type: element.type, settings: SettingsOf(structure, path) });
     if (!IsGroup(element)) return undefined;
     parts.push({ ...at, kind: 'group' });
     for (const port of structure.portsOf(path)) {
-      parts.push({ root: name, rest: port.path.slice(root.length), kind: 'port', type: port.data_type, direction: port.direction });
+      parts.push({ root, rest: port.path.slice(root.length), kind: 'port', type: port.data_type, direction: port.direction });
     }
     for (const member of structure.membersOf(path)) walk(member);
     return undefined;

@@ -6,6 +6,7 @@ import { FormatTime } from '../model/value_format.js';
 import { Pause, Redo, Resume, Save, SetSpeed, Step, Undo, WhoseChange } from '../state/actions.js';
 import { GroupForNew, SetPanels, openDialog, panels, theme } from '../state/choices.js';
 import { canChange, connection, hello, isConnected, isReadOnly, run } from '../state/store.js';
+import { isNarrow, isPhone } from '../state/window.js';
 import { hasWorld } from '../world/world_view.js';
 import { AlarmCounter } from './alarms.js';
 import { Icon } from './icon.js';
@@ -103,6 +104,9 @@ function Looks() {
       <${AlarmCounter} />
       ${faults > 0 && html`<button id="faults" class="faults" onClick=${() => SetPanels({ tab: 'log', dockOpen: true })}
         title="Faults since the start: see the log">${faults} fault${faults === 1 ? '' : 's'}</button>`}
+      ${isNarrow.value && !isPhone.value && html`<button id="show-side" aria-pressed=${panels.value.sideOpen === true}
+        onClick=${() => SetPanels({ sideOpen: !panels.value.sideOpen })} title="Map and details" aria-label="Map and details"><${Icon}
+        name="panel" /></button>`}
       <button disabled=${!hasWorld.value} onClick=${() => SetPanels({ worldShown: !panels.value.worldShown, worldLarge: false })} id="show-world"
         aria-pressed=${panels.value.worldShown} title="World view" aria-label="World view"><${Icon}
         name="world" /></button>

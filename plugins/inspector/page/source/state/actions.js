@@ -4,8 +4,8 @@
 import { Change, FreeName } from '../model/changes.js';
 import { PasteChanges } from '../model/copies.js';
 import { ConnectionKey, NameOf, ParentOf } from '../model/structure.js';
-import { selected } from './choices.js';
-import { TakeArrangement } from './arrangement.js';
+import { openGroups, selected } from './choices.js';
+import { Renamed, RenamedEntries, TakeArrangement } from './arrangement.js';
 import { Request, hello, isReadOnly, run, structure } from './store.js';
 import { CloseDone, Toast } from './toasts.js';
 
@@ -94,6 +94,19 @@ export async function Arrange(entries) {
   const reply = await Ask({ op: 'arrange', entries }, '', { quiet: true });
   if (!reply.ok) Toast('refused', 'The layout is kept by this page only', (reply.errors ?? []).map(ErrorText));
   return undefined;
+}
+
+/** What is arranged and open goes with the name. */
+export async function Rename(path, name) {
+  const next = `${ParentOf(path)}/${name}`;
+  const entries = RenamedEntries(path, next);
+  const before = selected.value;
+  const reply = await Apply([Change.rename(path, name)], `rename ${NameOf(path)} to ${name}`, { quiet: true });
+  if (!reply.ok) return reply;
+  if (Object.keys(entries).length > 0) Arrange(entries);
+  if (selected.value === before && before === path) selected.value = next;
+  openGroups.value = Object.fromEntries(Object.entries(openGroups.value).map(([each, isOpen]) => [Renamed(each, path, next), isOpen]));
+  return reply;
 }
 
 export function CreatePort(group, name, direction, type) {

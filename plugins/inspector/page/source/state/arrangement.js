@@ -36,6 +36,27 @@ export function NoteEntries(path, text) {
   return { [kNote + path]: text.trim() };
 }
 
+/** `path`, or the end of a connection, as it is called once `from` is called `to`. */
+export function Renamed(path, from, to) {
+  return path.split(' → ').map((end) => (end === from || end.startsWith(`${from}/`) ? to + end.slice(from.length) : end)).join(' → ');
+}
+
+/** What is known of an element and of all in it under its new name, and no more under the old one. */
+export function RenamedEntries(from, to) {
+  const entries = {};
+  const move = (prefix, map, text) => {
+    for (const [path, value] of map) {
+      const next = Renamed(path, from, to);
+      if (next === path) continue;
+      entries[prefix + path] = '';
+      entries[prefix + next] = text(value);
+    }
+  };
+  move(kPlace, places.value, ({ x, y }) => `${x} ${y}`);
+  move(kNote, notes.value, (text) => text);
+  return entries;
+}
+
 function Put(map, key, value) {
   if (value === null) map.delete(key);
   else map.set(key, value);

@@ -66,7 +66,7 @@ export function GroupForNew() {
 /** Opens the groups around an element, so that it can be seen. */
 export function Reveal(path) {
   const open = { ...openGroups.value };
-  for (let at = ParentOf(path); at; at = ParentOf(at)) open[at] = true;
+  for (let at = ParentOf(path); at; at = ParentOf(at)) if (!IsOpen(at) && at !== structure.root) open[at] = true;
   openGroups.value = open;
 }
 
@@ -109,7 +109,7 @@ export function StartKeeping() {
     if (!name) return;
     if (name !== application) {
       application = name;
-      openGroups.value = Kept(`open.${name}`, {});
+      openGroups.value = { ...Kept(`open.${name}`, {}), ...openGroups.peek() }; // the address is right
     } else {
       Keep(`open.${name}`, openGroups.value);
     }
