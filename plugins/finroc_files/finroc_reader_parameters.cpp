@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string& NameOf(const ConfigurableElement& each) { return each.element->name(); }
+const std::string& ParameterName(const ConfigurableElement& each) { return each.element->name(); }
 
 // As everywhere, names of files start in the folder of the file that they stand in.
 std::string TextFor(const Configurable& configurable, const std::string& text,
@@ -41,7 +41,7 @@ void FinrocReader::ReadStaticParameters(XmlElement element, FrameworkElement& mo
           parameter ? parameter.configurable->SetFromText(
                           TextFor(*parameter.configurable, each.text(), open_.back().parent_path()))
                     : Result<void>(Error{.message = "there is no parameter '" + name + "'",
-                                         .hint = NearestNameHint(name, NamesOf(all, NameOf))});
+                                         .hint = NearestNameHint(name, NamesOf(all, ParameterName))});
       if (!set) Warn(set.error().message, set.error().hint, each.position(), module);
     }
   }
@@ -86,7 +86,7 @@ void FinrocReader::ReadParameter(XmlElement parameter, const std::string& path,
   }
   if (!found) {
     return Warn("there is no parameter '" + (path.empty() ? name : path + "/" + name) + "'",
-                NearestNameHint(name, NamesOf(all, NameOf)), parameter.position(), group);
+                NearestNameHint(name, NamesOf(all, ParameterName)), parameter.position(), group);
   }
   if (candidates.empty()) return;
   const auto& [text, position] = candidates.back();
