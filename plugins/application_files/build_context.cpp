@@ -65,22 +65,11 @@ void BuildContext::Defer(BuildStage stage, std::function<void()> action) {
   deferred_[stage].push_back({cause_, std::move(action)});
 }
 
-// Inner groups come first; the ports of each stay in the order of the file.
-void BuildContext::ReverseGroups(std::vector<Deferred>& all) {
-  std::ranges::reverse(all);
-  for (auto begin = all.begin(); begin != all.end();) {
-    const auto end = std::find_if(begin, all.end(), [&](const Deferred& each) {
-      return each.cause.element != begin->cause.element;
-    });
-    std::reverse(begin, end);
-    begin = end;
-  }
-}
-
 void BuildContext::RunDeferred() {
   while (!deferred_.empty()) {
     auto first = deferred_.extract(deferred_.begin());
-    if (first.key() == BuildStage::kInterfaces) ReverseGroups(first.mapped());
+    const auto depth = [](const Deferred& each) { return std::ranges::count(each.cause.element->path(), '/'); };
+    if (first.key() == BuildStage::kInterfaces) std::ranges::stable_sort(first.mapped(), std::greater(), depth);
     for (const Deferred& each : first.mapped()) Attempt(each.cause, each.action);
   }
 }

@@ -34,8 +34,8 @@ struct BuildTools {
 enum class BuildStage {
   kParameters,    ///< parameters are set
   kConstruction,  ///< modules make the ports that follow from them
-  kInterfaces,    ///< interface ports, which may take their type from modules; from the last group to the
-                  ///< first, so that the inner groups' come before the outer ones'
+  kInterfaces,    ///< interface ports, which may take their type from modules; the inner groups' come
+                  ///< before the outer ones', those of one group in the order of the file
   kConnections,   ///< ports are connected, threads assigned
   kChecks,        ///< what can be said of the whole only
 };
@@ -133,7 +133,6 @@ class BuildContext {
     Cause cause;
     std::function<void()> action;
   };
-  static void ReverseGroups(std::vector<Deferred>& all);
 
   const BuildTools tools_;
   // The error with its place, path and where a part is used; false if it has been told of another

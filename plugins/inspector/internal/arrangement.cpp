@@ -55,6 +55,14 @@ Arrangement::Entries Arrangement::Since(std::uint64_t revision) const {
   return changed;
 }
 
+std::string Arrangement::MessageSince(std::uint64_t revision) const {
+  return JsonObjectText([&](JsonObject& json) {
+    json.Add("op", "layout");
+    JsonObject entries(json.Key("entries"));
+    for (const auto& [name, text] : Since(revision)) entries.Add(name, text);
+  });
+}
+
 std::string Arrangement::Text() const {
   std::string text;
   for (const auto& [name, entry] : entries_) {

@@ -33,6 +33,8 @@ class Arrangement {
   [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
   /// What has become of the entries that were changed after `revision`: "" is gone. After 0: all there are.
   [[nodiscard]] Entries Since(std::uint64_t revision) const;
+  /// The same as viewers are told it.
+  [[nodiscard]] std::string MessageSince(std::uint64_t revision) const;
 
   /// As a file has it: an entry a line, in order of their names.
   [[nodiscard]] std::string Text() const;

@@ -51,8 +51,7 @@ bool ViewerSession::IsSlow() const { return client_.waiting_bytes() > kSlow; }
 
 void ViewerSession::SendHello() {
   const InspectorOptions& options = inspection_.options();
-  const bool is_simulated =
-      inspection_.scheduler().options().clock == SchedulerOptions::ClockKind::kSimulated;
+  const bool is_simulated = inspection_.scheduler().pace().is_simulated();
   client_.SendText(JsonObjectText([&](JsonObject& json) {
     json.Add("op", "hello").Add("protocol", 1);
     json.Add("application", options.application).Add("file", options.file);
@@ -104,12 +103,7 @@ void ViewerSession::SendStructure() {
 void ViewerSession::SendArrangement() {
   const Arrangement& arrangement = inspection_.arrangement();
   if (structure_ == 0 || arrangement_ >= arrangement.revision() || IsSlow()) return;
-  const bool is_told = client_.SendText(JsonObjectText([&](JsonObject& json) {
-    json.Add("op", "layout");
-    JsonObject entries(json.Key("entries"));
-    for (const auto& [name, text] : arrangement.Since(arrangement_)) entries.Add(name, text);
-  }));
-  if (is_told) arrangement_ = arrangement.revision();
+  if (client_.SendText(arrangement.MessageSince(arrangement_))) arrangement_ = arrangement.revision();
 }
 
 std::string ViewerSession::NextStep(std::optional<std::string> (ChangeHistory::*next)()
