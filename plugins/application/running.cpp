@@ -147,7 +147,8 @@ void Application::Attend() {
   }
   for (const Notice& notice : parts.supervisor->TakeNotices()) {
     std::string text = NoticeText(notice, parts.start, root);
-    parts.log->Add(ApplicationLog::Kind::kFault, text);
+    const bool is_good = notice.is_recovery && !notice.is_failure;
+    parts.log->Add(is_good ? ApplicationLog::Kind::kInfo : ApplicationLog::Kind::kFault, text);
     parts.Add({Kind::kNotice, std::move(text)});
   }
 }

@@ -68,7 +68,8 @@ void BuildContext::Defer(BuildStage stage, std::function<void()> action) {
 void BuildContext::RunDeferred() {
   while (!deferred_.empty()) {
     auto first = deferred_.extract(deferred_.begin());
-    if (first.key() == BuildStage::kInterfaces) std::ranges::reverse(first.mapped());
+    const auto depth = [](const Deferred& each) { return std::ranges::count(each.cause.element->path(), '/'); };
+    if (first.key() == BuildStage::kInterfaces) std::ranges::stable_sort(first.mapped(), std::greater(), depth);
     for (const Deferred& each : first.mapped()) Attempt(each.cause, each.action);
   }
 }

@@ -34,8 +34,8 @@ struct BuildTools {
 enum class BuildStage {
   kParameters,    ///< parameters are set
   kConstruction,  ///< modules make the ports that follow from them
-  kInterfaces,    ///< interface ports, which may take their type from modules; from the last to the
-                  ///< first, so that the inner groups' come before the outer ones'
+  kInterfaces,    ///< interface ports, which may take their type from modules; the inner groups' come
+                  ///< before the outer ones', those of one group in the order of the file
   kConnections,   ///< ports are connected, threads assigned
   kChecks,        ///< what can be said of the whole only
 };

@@ -81,13 +81,14 @@ std::string DoneText(Duration hold_time, std::string room) {
   return room;
 }
 
-std::string EntryOf(const ChangeSet& changes) {
+// As the history will call it when it is undone, and what that is.
+std::string EntryOf(const ChangeSet& changes, const std::string& label) {
   std::string text;
   for (const Change& each : changes) {
     text += (text.empty() ? "" : "; ") + ChangeText(each);
     if (text.size() > ApplicationLog::kLongestText) break;
   }
-  return text;
+  return label.empty() ? text : label + ": " + text;
 }
 
 // A replaced module, to find out whether the new one is still there a moment later.
@@ -158,7 +159,7 @@ bool ChangeTask::IsMeant() {
 // What the answer and the log need comes first: nothing may fail between doing it and saying that it is done.
 void ChangeTask::Apply() {
   const PlacedChanges& placed = request.placed;
-  std::string entry = EntryOf(placed.changes);
+  std::string entry = EntryOf(placed.changes, request.label);
   std::string text(kRoomForText, ' ');
   ChangeOutcome outcome;
   try {
@@ -166,7 +167,7 @@ void ChangeTask::Apply() {
     FindSwaps();
     const std::vector<Error> rules = FindRules();
     outcome = application.history != nullptr
-                  ? application.history->Apply(placed.changes, placed.positions, request.label)
+                  ? application.history->Apply(placed.changes, placed.positions, request.label, request.client)
                   : application.editor.Apply(placed.changes, placed.positions);
     answer->outcome = outcome ? CommandAnswer::Outcome::kDone : CommandAnswer::Outcome::kRefused;
     answer->diagnostics = std::move(outcome.diagnostics);

@@ -21,6 +21,7 @@ struct ChangeRequest {
 
   PlacedChanges placed;
   std::string label = {};  ///< for the history; "": the changes in their text format
+  std::string client = {};  ///< who wants it, for people: "a terminal", "viewer 2"
   /// Whether the whole application may be deleted, which ends its run and cannot be undone.
   bool may_end_application = false;
 };
@@ -103,6 +104,7 @@ struct CommandAnswer {
   Outcome outcome = Outcome::kDone;
   std::string text;         ///< what was done, for people: "done; threads stood still for 0.110 ms"
   Diagnostics diagnostics;  ///< errors if it was not done; warnings of what was
+  std::string client = {};  ///< of what was undone or redone: who had wanted it
   /// What has to be said besides for it to be done: "overwrite", "yes"; "": that would not help.
   std::string needs = {};
 

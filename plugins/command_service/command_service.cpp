@@ -219,6 +219,7 @@ CommandAnswer CommandService::TakeHistoryStep(bool goes_back) const {
   }
   ChangeHistory& history = *application_.history;
   const auto label = goes_back ? history.NextUndo() : history.NextRedo();
+  std::string client = goes_back ? history.UndoClient() : history.RedoClient();
   std::string what;
   if (label) what = (goes_back ? "undone: " : "redone: ") + *label;
   std::string entry = what;
@@ -233,7 +234,9 @@ CommandAnswer CommandService::TakeHistoryStep(bool goes_back) const {
   if (!label) return answer;
   application_.log.Add(ApplicationLog::Kind::kChange,
                        answer ? std::move(entry) : "could not be " + what);
-  if (answer) answer.text = std::move(what);
+  if (!answer) return answer;
+  answer.text = std::move(what);
+  answer.client = std::move(client);
   return answer;
 }
 

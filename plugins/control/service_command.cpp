@@ -65,6 +65,7 @@ CommandRequest RequestOf(const Request& request, PlacedChanges placed) {
     return publish;
   }
   return ChangeRequest{.placed = std::move(placed),
+                       .client = "a terminal",
                        .may_end_application = request.Option("yes") == "yes"};
 }
 

@@ -29,11 +29,12 @@ ChangeOutcome NotDone(Error error, bool is_refused) {
 }  // namespace
 
 ChangeOutcome ChangeHistory::Apply(const ChangeSet& changes,
-                                   const std::vector<SourcePosition>& places, std::string label) {
+                                   const std::vector<SourcePosition>& places, std::string label,
+                                   std::string client) {
   const std::lock_guard one_after_the_other(applying_);
   Entries entry;
   try {
-    entry.push_back({label.empty() ? LabelOf(changes) : std::move(label), {}});
+    entry.push_back({label.empty() ? LabelOf(changes) : std::move(label), std::move(client), {}});
   } catch (...) {
     return NotDone({.message = DescribeException()}, false);
   }
@@ -61,7 +62,7 @@ ChangeOutcome ChangeHistory::Take(Entries& from, Entries& to, const char* what) 
         return NotDone({.message = "there is nothing to be " + std::string(what)}, true);
       entry = from.back();
     }
-    back.push_back({entry.label, {}});
+    back.push_back({entry.label, entry.client, {}});
     ChangeOutcome outcome =
         entry.undo_record.why_not
             ? NotDone(*entry.undo_record.why_not, true)
@@ -94,6 +95,16 @@ std::optional<std::string> ChangeHistory::NextUndo() const {
 std::optional<std::string> ChangeHistory::NextRedo() const {
   const std::lock_guard lock(entries_);
   return undone_.empty() ? std::nullopt : std::optional(undone_.back().label);
+}
+
+std::string ChangeHistory::UndoClient() const {
+  const std::lock_guard lock(entries_);
+  return done_.empty() ? "" : done_.back().client;
+}
+
+std::string ChangeHistory::RedoClient() const {
+  const std::lock_guard lock(entries_);
+  return undone_.empty() ? "" : undone_.back().client;
 }
 
 }  // namespace runnel

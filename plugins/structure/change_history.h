@@ -34,9 +34,10 @@ class ChangeHistory {
       : editor_(editor), most_entries_(most_entries) {}
 
   /// As StructureEditor::Apply(); what is done can be undone, and nothing be redone any more. `label` is
-  /// what people read of it; "": the change in its text format, and how many more there are.
+  /// what people read of it; "": the change in its text format, and how many more there are. `client`: who
+  /// wants it, for people.
   ChangeOutcome Apply(const ChangeSet& changes, const std::vector<SourcePosition>& places = {},
-                      std::string label = {});
+                      std::string label = {}, std::string client = {});
   /// Takes back what was done last. Errors: nothing to undo; what makes it impossible.
   ChangeOutcome Undo();
   /// Does again what was undone last.
@@ -45,10 +46,14 @@ class ChangeHistory {
   /// What Undo() would take back, and Redo() do again; nullopt: nothing.
   [[nodiscard]] std::optional<std::string> NextUndo() const;
   [[nodiscard]] std::optional<std::string> NextRedo() const;
+  /// Who wanted that; "": nothing, or nobody has said so.
+  [[nodiscard]] std::string UndoClient() const;
+  [[nodiscard]] std::string RedoClient() const;
 
  private:
   struct Entry {
     std::string label;
+    std::string client;
     internal::UndoRecord undo_record;  // back
   };
   using Entries = std::list<Entry>;  // whose entries go from one to the other without memory

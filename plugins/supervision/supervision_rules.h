@@ -54,6 +54,7 @@ struct Notice {
   std::string message;
   Time time{};
   bool is_failure = false;  ///< the reaction could not be carried out
+  bool is_recovery = false;  ///< what was wrong is so no more
 };
 
 }  // namespace runnel

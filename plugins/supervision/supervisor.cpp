@@ -29,7 +29,7 @@ struct Supervisor::Shared {
     const std::lock_guard lock(mutex);
     notices.push_back(std::move(notice));
   }
-  void React(const Reaction& reaction, const std::string& path, const std::string& why, Time now);
+  void React(const Reaction& reaction, const std::string& path, const std::string& why, Time now, bool is_recovery = false);
   Time Watch(Time now);
   void ServeRequests(Time now);
 
@@ -52,9 +52,9 @@ struct Supervisor::Shared {
 // What can be said of a reaction that failed is told; the application runs on as it is, and stops if
 // it was to stop.
 void Supervisor::Shared::React(const Reaction& reaction, const std::string& path,
-                               const std::string& why, Time now) {
+                               const std::string& why, Time now, bool is_recovery) {
   const auto done = reaction.changes.empty() ? Result<void>{} : perform(reaction.changes);
-  Notice notice{path, why, now, !done};
+  Notice notice{path, why, now, !done, is_recovery};
   if (!done) {
     notice.message += "; what was to be done about it failed: " + done.error().ToString();
   } else if (!reaction.description.empty()) {
@@ -127,7 +127,7 @@ Time Supervisor::Shared::Watch(Time now) {
             now);
     } else {
       React(rule.on_fresh, rule.input,
-            "values come again, for " + DurationText(rule.fresh_after) + " now", now);
+            "values come again, for " + DurationText(rule.fresh_after) + " now", now, true);
     }
   }
   return next;

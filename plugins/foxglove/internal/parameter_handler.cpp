@@ -180,8 +180,8 @@ bool ParameterHandler::BeginSet(PendingSet& set) {
           return;
         }
         set.changes.push_back(shared_.application.service.Begin(
-            ChangeRequest{{.changes = {std::move(*setting)}, .positions = {}}}, *shared_.tasks,
-            wake_));
+            ChangeRequest{{.changes = {std::move(*setting)}, .positions = {}}, {}, "Foxglove"},
+            *shared_.tasks, wake_));
       });
   return set.has_begun;
 }

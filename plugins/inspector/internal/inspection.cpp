@@ -33,7 +33,10 @@ Inspection::Inspection(CommandService& service, Scheduler& scheduler, InspectorO
       start_(application_.runtime.clock().Now()),
       mirror_(application_.runtime, application_.modules, scheduler, application_.log),
       panel_(options_.file),
-      tasks_(service.worker()) {}
+      tasks_(service.worker()) {
+  const auto read = arrangement_.Read(Arrangement::FileOf(options_.file));
+  if (!read) application_.log.Add(ApplicationLog::Kind::kWarning, read.error().ToString());
+}
 
 std::shared_ptr<const Catalogue> Inspection::catalogue() const {
   const std::lock_guard lock(mutex_);

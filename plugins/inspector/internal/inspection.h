@@ -8,6 +8,7 @@
 
 #include "plugins/command_service/command_service.h"
 #include "plugins/inspector/inspector.h"
+#include "plugins/inspector/internal/arrangement.h"
 #include "plugins/inspector/internal/catalogue.h"
 #include "plugins/inspector/panel_file.h"
 #include "plugins/inspector/structure_mirror.h"
@@ -27,6 +28,8 @@ class Inspection {
   [[nodiscard]] const ServedApplication& application() const noexcept { return application_; }
   [[nodiscard]] Scheduler& scheduler() const noexcept { return scheduler_; }
   [[nodiscard]] const InspectorOptions& options() const noexcept { return options_; }
+  /// How viewers are called in what they change: the first is 1.
+  [[nodiscard]] std::uint64_t NumberViewer() noexcept { return ++viewers_; }
   /// Another one with each start.
   [[nodiscard]] const std::string& run() const noexcept { return run_; }
   /// On the application's clock; viewers count from here.
@@ -34,6 +37,8 @@ class Inspection {
   [[nodiscard]] Duration running_for() const { return application_.runtime.clock().Now() - start_; }
   [[nodiscard]] StructureMirror& mirror() noexcept { return mirror_; }
   [[nodiscard]] PanelFile& panel() noexcept { return panel_; }
+  /// Of the server's thread.
+  [[nodiscard]] Arrangement& arrangement() noexcept { return arrangement_; }
   [[nodiscard]] TaskGroup& tasks() noexcept { return tasks_; }
   /// nullptr until it has been made. Any thread.
   [[nodiscard]] std::shared_ptr<const Catalogue> catalogue() const;
@@ -58,6 +63,8 @@ class Inspection {
   const Time start_;
   StructureMirror mirror_;
   PanelFile panel_;
+  Arrangement arrangement_;
+  std::uint64_t viewers_ = 0;
   SteadyTime look_at_{};
   SteadyTime look_at_registry_{};
   std::uint64_t registry_ = 0;  // the fingerprint that the catalogue is of

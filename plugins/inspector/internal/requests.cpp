@@ -48,7 +48,11 @@ std::string ReplyTo(std::optional<std::uint64_t> request, const CommandAnswer& a
   if (!answer) return Refusal(request, ErrorsOf(answer.diagnostics), answer.needs);
   std::string text = answer.text;
   for (const Error& warning : answer.diagnostics.warnings()) text += "\n" + warning.ToString();
-  return Reply(request, text);
+  if (answer.client.empty()) return Reply(request, text);
+  return JsonObjectText([&](JsonObject& json) {
+    AddHead(request, true, json);
+    json.Add("text", text).Add("client", answer.client);
+  });
 }
 
 using CommandOrErrors = std::variant<CommandRequest, std::vector<RequestError>>;
@@ -65,7 +69,7 @@ CommandOrErrors ReadChanges(ViewerMessage& message) {
                                     " changes at once"}}};
   }
   ChangeRequest request{{.changes = std::move(message.changes), .positions = {}},
-                        std::move(message.label), message.may_end_application};
+                        std::move(message.label), std::move(message.client), message.may_end_application};
   for (std::size_t i = 0; i < request.placed.changes.size(); ++i) {
     request.placed.positions.push_back({"changes", static_cast<int>(i + 1), 1});
   }
@@ -186,6 +190,36 @@ std::string SetPace(Inspection& inspection, const ViewerMessage& message) {
   return done ? Reply(message.request, "done") : Refusal(message.request, {{done.error()}});
 }
 
+// At once for all viewers; the reply comes when it has been written.
+ViewerRequest Arrange(Inspection& inspection, const ViewerMessage& message,
+                      std::function<void()> on_done) {
+  const auto request = message.request;
+  const auto done = inspection.arrangement().Change(message.entries);
+  if (!done) return {nullptr, [reply = Refusal(request, {{done.error()}})] { return reply; }};
+  const std::string file = Arrangement::FileOf(inspection.options().file);
+  if (file.empty()) return {nullptr, [reply = Reply(request, "kept while it runs")] { return reply; }};
+  const auto reply = std::make_shared<std::string>();
+  auto task = inspection.tasks().Post(
+      [reply, request, file, text = inspection.arrangement().Text()] {
+        const auto written = Arrangement::Write(file, text);
+        *reply = written ? Reply(request, "kept in " + file) : Refusal(request, {{written.error()}});
+      },
+      std::move(on_done));
+  return {task, [request, reply, task = task.get()] {
+            return task->failure() ? Refusal(request, {{*task->failure()}}) : *reply;
+          }};
+}
+
+// Saved into another file, it looks there as it does here.
+void CopyArrangement(Inspection& inspection, const std::string& wanted) {
+  const auto place = SavePlace(inspection.options().file, wanted);
+  const std::string text = inspection.arrangement().Text();
+  if (!place || text.empty() || *place == inspection.options().file) return;
+  inspection.tasks().Post([file = Arrangement::FileOf(*place), text] {
+    (void)Arrangement::Write(file, text);  // what matters has been saved
+  });
+}
+
 }  // namespace
 
 std::string Reply(std::optional<std::uint64_t> request, const std::string& text) {
@@ -224,6 +258,7 @@ std::span<const Operation> AllOperations() {
       Operation("redo", kRequest, kChange),
       Operation("save", kRequest, kChange),
       Operation("save_panel", kRequest, kChange),
+      Operation("arrange", kRequest, kChange),
       Operation("step", kRequest, kChange),
       Operation("speed", kRequest, kChange),
       Operation("reload", kRequest, kChange),
@@ -268,13 +303,19 @@ ViewerRequest BeginRequest(Inspection& inspection, ViewerMessage message,
               return task->failure() ? Refusal(request, {{*task->failure()}}) : *reply;
             }};
   }
+  if (message.op == "arrange") return Arrange(inspection, message, std::move(on_done));
+  const std::string copy = message.op == "save" && message.what.empty() ? message.file : "";
   auto command = CommandOf(inspection, message);
   if (const auto* const errors = std::get_if<std::vector<RequestError>>(&command)) {
     return {nullptr, [reply = Refusal(request, *errors)] { return reply; }};
   }
   const std::shared_ptr<PendingCommand> pending = inspection.service().Begin(
       std::move(std::get<CommandRequest>(command)), inspection.tasks(), std::move(on_done));
-  return {pending->task(), [request, pending] { return ReplyTo(request, pending->Take()); }};
+  return {pending->task(), [&inspection, request, pending, copy] {
+            const CommandAnswer answer = pending->Take();
+            if (answer && !copy.empty()) CopyArrangement(inspection, copy);
+            return ReplyTo(request, answer);
+          }};
 }
 
 }  // namespace runnel::internal

@@ -33,6 +33,9 @@ Result<ViewerMessage> ParseViewerMessage(std::string_view text) {
   message.path = members.Text("path").value_or("");
   message.label = members.Text("label").value_or("");
   if (const auto changes = members.List("changes")) ReadChanges(*changes, message);
+  if (const JsonPart* const entries = members.Find("entries")) {
+    for (const auto& [name, value] : entries->members()) message.entries[name] = value.text().value_or("");
+  }
   message.file = members.Text("file").value_or("");
   message.what = members.Text("what").value_or("");
   message.plugin = members.Text("plugin").value_or("");

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,7 +26,9 @@ struct ViewerMessage {
   std::optional<std::uint64_t> request;
   std::string path;
   std::string label;
+  std::string client;  ///< whose message it is; is never read from it
   ChangeSet changes;
+  std::map<std::string, std::string> entries;  ///< of the arrangement
   std::vector<RequestError> wrong_changes;  ///< of what is no change; then `changes` has not all
   std::string file;
   std::string what;  ///< is to be saved

@@ -37,7 +37,9 @@ Duration IntervalOf(double rate) { return FromSeconds(1 / rate); }
 }  // namespace
 
 ViewerSession::ViewerSession(Inspection& inspection, WebClient& client)
-    : inspection_(inspection), client_(client) {
+    : inspection_(inspection),
+      client_(client),
+      name_("viewer " + std::to_string(inspection.NumberViewer())) {
   SendHello();
 }
 
@@ -49,13 +51,13 @@ bool ViewerSession::IsSlow() const { return client_.waiting_bytes() > kSlow; }
 
 void ViewerSession::SendHello() {
   const InspectorOptions& options = inspection_.options();
-  const bool is_simulated =
-      inspection_.scheduler().options().clock == SchedulerOptions::ClockKind::kSimulated;
+  const bool is_simulated = inspection_.scheduler().pace().is_simulated();
   client_.SendText(JsonObjectText([&](JsonObject& json) {
     json.Add("op", "hello").Add("protocol", 1);
     json.Add("application", options.application).Add("file", options.file);
     json.Add("run", inspection_.run()).Add("clock", is_simulated ? "simulated" : "real");
-    json.Add("read_only", role() == WebRole::kLook).Add("role", WebRoleName(role())).Add("runnel", options.version);
+    json.Add("viewer", name_).Add("read_only", role() == WebRole::kLook);
+    json.Add("role", WebRoleName(role())).Add("runnel", options.version);
   }));
 }
 
@@ -63,6 +65,7 @@ WebSession::SteadyTime ViewerSession::OnPoll() {
   SteadyTime next = inspection_.Look();
   SendReplies();
   SendStructure();
+  SendArrangement();
   SendLog();
   const SteadyTime now = std::chrono::steady_clock::now();
   if (now >= state_due_) SendState(now);
@@ -97,6 +100,12 @@ void ViewerSession::SendStructure() {
   }
 }
 
+void ViewerSession::SendArrangement() {
+  const Arrangement& arrangement = inspection_.arrangement();
+  if (structure_ == 0 || arrangement_ >= arrangement.revision() || IsSlow()) return;
+  if (client_.SendText(arrangement.MessageSince(arrangement_))) arrangement_ = arrangement.revision();
+}
+
 std::string ViewerSession::NextStep(std::optional<std::string> (ChangeHistory::*next)()
                                         const) const {
   const ChangeHistory* const history = inspection_.application().history;
@@ -114,6 +123,10 @@ void ViewerSession::SendState(SteadyTime now) {
     json.AddOrNull("speed", pace.is_simulated() ? std::optional(pace.speed()) : std::nullopt);
     json.AddTextOrNull("undo", NextStep(&ChangeHistory::NextUndo));
     json.AddTextOrNull("redo", NextStep(&ChangeHistory::NextRedo));
+    if (const ChangeHistory* const history = inspection_.application().history) {
+      json.AddTextOrNull("undo_client", history->UndoClient());
+      json.AddTextOrNull("redo_client", history->RedoClient());
+    }
     json.Add("faults", inspection_.application().log.faults());
     {
       JsonObject levels(json.Key("log_levels"));
@@ -329,6 +342,7 @@ void ViewerSession::BeginRequest(ViewerMessage message) {
   if (pending_.size() + replies_.size() >= kMostPending) {
     return Refuse(message, {.message = "too many requests are waiting already"});
   }
+  message.client = name_;
   pending_.push_back(internal::BeginRequest(inspection_, std::move(message), client_.Waker()));
 }
 

@@ -39,6 +39,7 @@ class ViewerSession final : public WebSession {
   };
   void SendHello();
   void SendStructure();
+  void SendArrangement();
   void SendLog();
   void SendState(SteadyTime now);
   [[nodiscard]] std::string NextStep(std::optional<std::string> (ChangeHistory::*next)()
@@ -60,8 +61,10 @@ class ViewerSession final : public WebSession {
 
   Inspection& inspection_;
   WebClient& client_;
+  const std::string name_;
   std::shared_ptr<const Catalogue> catalogue_;
   std::uint64_t structure_ = 0;  // the revision that has been told
+  std::uint64_t arrangement_ = 0;  // the revision that has been told
   std::optional<std::uint64_t> log_;
   std::string state_;  // as it was told, without the time
   Duration state_time_{-1};

@@ -93,6 +93,8 @@ test('connecting and disconnecting by the keyboard', async (t) => {
   await page.keyboard.press('Enter');
   await edge.waitFor({ state: 'attached' });
   await page.locator('#details .connections .remove').click();
+  await page.locator('dialog.confirm .lost-inputs', { hasText: 'spare/twist' }).waitFor();
+  await page.locator('#confirm-yes').click();
   await edge.waitFor({ state: 'detached' });
 });
 

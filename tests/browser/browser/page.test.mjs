@@ -2,19 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { MockApplication } from '../mock/mock_application.mjs';
-import { ServeMock } from '../mock/mock_server.mjs';
-import { RobotStructure, RobotValues, kCatalogue } from '../mock/mock_structures.mjs';
-import { OpenPage } from '../support/browser.mjs';
-import { Cleanup } from '../support/cleanup.mjs';
-
-async function Robot(t, options) {
-  const application = new MockApplication({ name: 'robot', catalogue: kCatalogue, structure: RobotStructure(), values: RobotValues(() => application) });
-  const server = await ServeMock(application, { page: process.env.RUNNEL_PAGE });
-  Cleanup(t, () => server.close());
-  const inspector = await OpenPage(t, server.url, options);
-  return { application, inspector, page: inspector.page };
-}
+import { OpenMock as Robot } from '../support/open_mock.mjs';
 
 const SelectedName = (page) => page.locator('#details h2').textContent();
 
@@ -156,6 +144,29 @@ test('a connection is pulled, and looks like it, where the output can be', async
   assert.doesNotMatch(await edge.getAttribute('class'), /pulled/);
 });
 
+test('how many values wait for a reader is seen and changed at the connection', async (t) => {
+  const { application, inspector, page } = await Robot(t);
+  await inspector.select('/mock/robot/planner/scan');
+  await inspector.details.locator('.connections button', { hasText: 'newest value' }).click();
+  await page.locator('#queue').fill('5');
+  await page.locator('#queue').press('Escape');
+  assert.equal(await page.locator('#queue').inputValue(), '0');
+  await page.locator('#queue').fill('5');
+  await page.locator('#queue').press('Enter');
+  await page.locator('#on-full').selectOption('drop_newest');
+  await inspector.until('both', () => document.querySelector('#queue')?.value === '5' && document.querySelector('#on-full')?.value === 'drop_newest');
+  const { queue, on_full: onFull } = application.connections.find(({ to }) => to === '/mock/robot/planner/scan');
+  assert.deepEqual([queue, onFull], [5, 'drop_newest']);
+});
+
+test('what has no text form says so, and parameters say what they are for', async (t) => {
+  const { inspector, page } = await Robot(t);
+  await inspector.select('/mock/world');
+  await page.locator('[data-port-row="/mock/world/scene"] .value', { hasText: 'has no text form' }).waitFor();
+  await inspector.select('/mock/robot/planner');
+  await page.locator('[data-parameter$="/speed"] .description', { hasText: 'along the way' }).waitFor();
+});
+
 test('the log is filtered, and faults of changes come up as toasts', async (t) => {
   const { application, inspector, page } = await Robot(t);
   await page.locator('#tab-log').click();
@@ -164,12 +175,13 @@ test('the log is filtered, and faults of changes come up as toasts', async (t) =
   await inspector.select('/mock/robot/planner');
   await inspector.parameter('speed').fill('2');
   await inspector.parameter('speed').press('Enter');
-  await page.locator('#log li', { hasText: 'set speed to 2' }).waitFor();
+  await page.locator('#log li', { hasText: 'set /mock/robot/planner/speed 2' }).waitFor();
   await page.locator('#log-filter').fill('began');
   await inspector.until('one entry', () => document.querySelectorAll('#log li').length === 1);
   application.elements.delete('/mock/laser'); // behind the page's back
   await inspector.select('/mock/laser');
   await page.locator('#delete').click();
+  await page.locator('#confirm-yes').click();
   await page.locator('.toast.error', { hasText: "there is no '/mock/laser'" }).waitFor();
   await page.locator('.toast .remove').click();
   assert.equal(await page.locator('.toast').count(), 0);

@@ -9,6 +9,7 @@ export class MockApplication {
     this.elements = new Map(structure.elements.map((element) => [element.path, element]));
     this.connections = [...structure.connections];
     this.revision = 1;
+    this.layout = {}; // what viewers have arranged
     this.time = 0;
     this.paused = false;
     this.speed = 1;
@@ -23,11 +24,12 @@ export class MockApplication {
 
   get state() {
     return { time: this.time, paused: this.paused, speed: this.speed, faults: 0, ended: false,
-      undo: this.past.at(-1)?.label ?? null, redo: this.future.at(-1)?.label ?? null };
+      undo: this.past.at(-1)?.label ?? null, redo: this.future.at(-1)?.label ?? null,
+      undo_client: this.past.at(-1)?.client ?? null, redo_client: this.future.at(-1)?.client ?? null };
   }
 
   /** All changes or none; returns errors. What is new is told by `difference`. */
-  change(changes, label) {
+  change(changes, label = LabelOf(changes), client = 'a terminal') {
     const before = this.#snapshot();
     for (const [index, change] of changes.entries()) {
       const error = this.#apply(change);
@@ -36,7 +38,7 @@ export class MockApplication {
         return [{ ...error, change: index }];
       }
     }
-    this.past.push({ label, state: before });
+    this.past.push({ label, client, state: before });
     this.future = [];
     this.log.push({ number: this.log.length + 1, time: this.time, kind: 'change', text: label });
     return [];
@@ -44,10 +46,10 @@ export class MockApplication {
 
   travel(from, to) {
     const step = from.pop();
-    if (!step) return false;
-    to.push({ label: step.label, state: this.#snapshot() });
+    if (!step) return null;
+    to.push({ label: step.label, client: step.client, state: this.#snapshot() });
     this.#restore(step.state);
-    return true;
+    return step;
   }
 
   /** What has changed since an earlier structure, as the protocol tells it. */
@@ -74,7 +76,7 @@ export class MockApplication {
     this.connections = connections;
   }
 
-  #apply({ change, path, value, from, to, pull = false, type, thread }) {
+  #apply({ change, path, value, from, to, pull = false, queue = 0, on_full = 'drop_oldest', type, thread, name, direction, settings = {} }) {
     const missing = [path, from, to].find((each) =>
       each !== undefined && !this.elements.has(each) && !change.startsWith('create'));
     if (missing) return { message: `there is no '${missing}'`, path: missing, hint: '' };
@@ -85,15 +87,31 @@ export class MockApplication {
       }
       this.elements.set(path, { ...parameter, value });
     } else if (change === 'connect') {
-      this.connections = [...this.connections, { from, to, queue: 0, on_full: 'drop_oldest', pull }];
+      this.connections = [...this.connections, { from, to, queue, on_full, pull }];
     } else if (change === 'disconnect') {
       this.connections = this.connections.filter((each) => each.from !== from || each.to !== to);
     } else if (change === 'delete') {
       const isIn = (each) => each === path || each.startsWith(`${path}/`);
       this.connections = this.connections.filter((each) => !isIn(each.from) && !isIn(each.to));
       for (const each of [...this.elements.keys()]) if (isIn(each)) this.elements.delete(each);
+    } else if (change === 'rename') {
+      const next = `${path.slice(0, path.lastIndexOf('/'))}/${name}`;
+      const put = (each) => (each === path || each?.startsWith(`${path}/`) ? next + each.slice(path.length) : each);
+      this.elements = new Map([...this.elements.values()].map((each) => (put(each.path) === each.path ? each
+        : { ...each, path: put(each.path), owner: put(each.owner), ...(each.path === path ? { name } : {}) })).map((each) => [each.path, each]));
+      this.connections = this.connections.map((each) => (put(each.from) + put(each.to) === each.from + each.to ? each
+        : { ...each, from: put(each.from), to: put(each.to) }));
+    } else if (change === 'create_group') {
+      this.elements.set(path, { path, kind: 'group', thread: null });
+    } else if (change === 'create_port') {
+      const owner = path.slice(0, path.lastIndexOf('/'));
+      this.elements.set(path, { path, kind: 'port', name: path.slice(owner.length + 1), direction, data_type: type, interface: true,
+        required: false, description: '', owner });
     } else if (change === 'create') {
-      for (const element of ModuleElements(this.catalogue, type, path)) this.elements.set(element.path, element);
+      for (const element of ModuleElements(this.catalogue, type, path)) {
+        const value = settings[element.name];
+        this.elements.set(element.path, element.kind === 'parameter' && value !== undefined ? { ...element, value } : element);
+      }
     } else if (change === 'move') {
       this.elements.set(path, { ...this.elements.get(path), thread: thread || null });
     } else if (change === 'replace') {
@@ -104,6 +122,10 @@ export class MockApplication {
     }
     return null;
   }
+}
+
+function LabelOf([{ change, path, value, from, to, type }]) {
+  return [change, path ?? from, value ?? to ?? type].filter((word) => word !== undefined).join(' ');
 }
 
 /** A module as the catalogue has it, with its ports and parameters. */
@@ -119,7 +141,7 @@ export function ModuleElements(catalogue, type, path, { thread = null } = {}) {
   for (const parameter of module.parameters) {
     elements.push({ path: `${path}/${parameter.name}`, kind: 'parameter', name: parameter.name, data_type: parameter.type,
       unit: parameter.unit ?? '', minimum: parameter.minimum ?? null, maximum: parameter.maximum ?? null,
-      description: '', value: parameter.default, default: parameter.default, settable: true, owner: path });
+      description: parameter.description ?? '', value: parameter.default, default: parameter.default, settable: true, owner: path });
   }
   return elements;
 }

@@ -8,6 +8,7 @@ import { WebSocketServer } from 'ws';
 const kTypes = { '/': ['index.html', 'text/html'], '/page.js': ['page.js', 'text/javascript'],
   '/page.css': ['page.css', 'text/css'], '/world_3d.js': ['world_3d.js', 'text/javascript'], '/icon.svg': ['icon.svg', 'image/svg+xml'] };
 let runs = 0;
+let viewers = 0;
 
 /**
  * {url, port, close(), application, watched(), asked(path)}; watched(): the ports that pages look at; asked(): how one was asked for
@@ -54,11 +55,13 @@ class Client {
     Object.assign(this, { socket, application, readOnly, tellAll });
     this.rates = false;
     this.asked = new Map(); // port path -> the message that asked for its values
+    this.name = `viewer ${++viewers}`;
     socket.on('message', (text) => this.#receive(JSON.parse(text)));
     this.send({ op: 'hello', protocol: 1, application: application.name, file: `/mock/${application.name}.xml`, run,
-      clock: 'simulated', read_only: readOnly, runnel: '0.0.0' });
+      clock: 'simulated', viewer: this.name, read_only: readOnly, runnel: '0.0.0' });
     this.send({ op: 'catalogue', ...application.catalogue });
     this.send({ op: 'structure', revision: application.revision, ...application.structure });
+    this.send({ op: 'layout', entries: application.layout });
     this.send({ op: 'log', entries: application.log });
     this.turn();
   }
@@ -95,7 +98,7 @@ class Client {
     const ports = {};
     const threads = {};
     for (const { path, kind, direction } of this.application.elements.values()) {
-      if (kind === 'port' && direction === 'output') ports[path] = 20 + (this.#rated % 3) * 0.1;
+      if (kind === 'port' && direction === 'output') ports[path] = this.application.silent?.has(path) ? 0 : 20 + (this.#rated % 3) * 0.1;
       if (kind === 'thread') {
         threads[path] = { cycles: this.#rated, period_ms: 50, duration_ms: { mean: 0.18, max: 1.2 }, jitter_ms: 0.01, overruns: 0 };
       }
@@ -128,22 +131,30 @@ class Client {
       if (ok) reply({ ok: true, text: '', ...told });
     };
     if (op === 'change') {
-      const errors = application.change(asked.changes, asked.label);
+      const errors = application.change(asked.changes, asked.label, this.name);
       return errors.length > 0 ? reply({ ok: false, errors }) : finish(true);
     }
     if (op === 'undo' || op === 'redo') {
       const [from, to] = op === 'undo' ? [application.past, application.future] : [application.future, application.past];
-      return application.travel(from, to) ? finish(true) : refuse(`nothing to ${op}`);
+      const step = application.travel(from, to);
+      return step ? finish(true, { text: `${op === 'undo' ? 'undone' : 'redone'}: ${step.label}`, client: step.client }) : refuse(`nothing to ${op}`);
     }
     if (op === 'compatible') {
-      const types = application.catalogue.modules.map(({ type, summary }) => ({ type, summary, lost: [] }));
+      const types = application.catalogue.modules.map(({ type, summary }) => ({ type, summary, lost: application.lost ?? [] }));
       return reply({ ok: true, text: '', types });
+    }
+    if (op === 'arrange') {
+      Object.assign(application.layout, asked.entries);
+      this.tellAll({ op: 'layout', entries: asked.entries });
+      return reply({ ok: true, text: '' });
     }
     if (op === 'pause') application.paused = true;
     else if (op === 'resume') application.paused = false;
     else if (op === 'speed') application.speed = asked.speed;
     else if (op === 'step') { application.paused = true; application.time += 0.05 * asked.cycles; }
-    else if (op !== 'save') return refuse(`the mock knows no '${op}'`);
+    else if (op === 'save' && asked.file === 'other.xml' && !asked.overwrite) {
+      return reply({ ok: false, needs: 'overwrite', errors: [{ message: 'other.xml is another application', path: null, hint: null, change: null }] });
+    } else if (op !== 'save') return refuse(`the mock knows no '${op}'`);
     return reply({ ok: true, text: op === 'save' ? 'Saved nowhere' : '' });
   }
 }

@@ -10,13 +10,14 @@ const kTypes = [
   { name: 'Twist2', kind: 'structure', meaning: 'twist', fields: [{ name: 'forward', type: 'double', unit: 'm/s', description: '' }, { name: 'turn', type: 'double', unit: 'rad/s', description: '' }] },
   { name: 'RangeScan', kind: 'structure', meaning: 'range_scan', fields: [{ name: 'ranges', type: 'list', unit: 'm', description: '' }] },
   { name: 'list', kind: 'sequence', meaning: '', element: 'double', fields: [] },
+  { name: 'Scene', kind: 'opaque', meaning: '', fields: [] },
   { name: 'WorldMap', kind: 'structure', meaning: 'world_map', fields: [] },
   { name: 'Direction', kind: 'enumeration', meaning: '', values: ['left', 'right'], fields: [] },
 ];
 
 const kModules = [
   { type: 'mock/world', summary: 'a world with a robot', plugin: 'mock', ports: [
-    { name: 'twist', direction: 'input', type: 'Twist2', required: true }, { name: 'map', direction: 'output', type: 'WorldMap' },
+    { name: 'twist', direction: 'input', type: 'Twist2', required: true }, { name: 'map', direction: 'output', type: 'WorldMap' }, { name: 'scene', direction: 'output', type: 'Scene' },
     { name: 'pose', direction: 'output', type: 'Pose2' }, { name: 'goal', direction: 'output', type: 'Point2' }],
   parameters: [{ name: 'goal_x', type: 'double', unit: 'm', default: '3' }, { name: 'goal_y', type: 'double', unit: 'm', default: '1' }] },
   { type: 'mock/laser', summary: 'measures distances', plugin: 'mock', ports: [{ name: 'pose', direction: 'input', type: 'Pose2', required: true },
@@ -24,7 +25,7 @@ const kModules = [
   { type: 'mock/planner', summary: 'finds the way', plugin: 'mock', ports: [{ name: 'scan', direction: 'input', type: 'RangeScan', required: true },
     { name: 'goal', direction: 'input', type: 'Point2', required: true }, { name: 'pose', direction: 'input', type: 'Pose2', required: true },
     { name: 'twist', direction: 'output', type: 'Twist2' }],
-  parameters: [{ name: 'speed', type: 'double', unit: 'm/s', default: '0.4', minimum: 0.01, maximum: 10 },
+  parameters: [{ name: 'speed', type: 'double', unit: 'm/s', default: '0.4', minimum: 0.01, maximum: 10, description: 'along the way' },
     { name: 'direction', type: 'Direction', default: 'left' }, { name: 'careful', type: 'bool', default: 'false' },
     { name: 'stubborn', type: 'string', default: 'no' }] },
   { type: 'mock/other_planner', summary: 'finds the way otherwise', plugin: 'mock', ports: [{ name: 'scan', direction: 'input', type: 'RangeScan', required: true },
@@ -70,6 +71,7 @@ export function RobotValues(application) {
   const number = (path) => Number(application().elements.get(path).value);
   return {
     '/mock/world/pose': pose, '/mock/robot/pose': pose, '/mock/laser/pose': pose, '/mock/robot/planner/pose': pose,
+    '/mock/world/scene': () => null,
     '/mock/world/goal': () => ({ x: number('/mock/world/goal_x'), y: number('/mock/world/goal_y') }),
     '/mock/robot/planner/twist': (time) => ({ forward: 0.6, turn: 0.3 + 0.05 * Math.sin(time) }),
     '/mock/world/map': () => ({ outlines: [{ points: [{ x: -5, y: -4 }, { x: 5, y: -4 }, { x: 5, y: 4 }, { x: -5, y: 4 }], is_hole: false },

@@ -14,7 +14,7 @@ const Paths = (rows) => rows.map(({ path }) => path);
 test('each port is a row, called by its owner within the application', () => {
   const row = Rows().find(({ path }) => path === '/mock/robot/planner/twist');
   assert.deepEqual([row.owner, row.name, row.direction, row.type], ['robot/planner', 'twist', 'output', 'Twist2']);
-  assert.equal(Rows().length, 14);
+  assert.equal(Rows().length, 15);
 });
 
 test('ports are filtered by words of path and type, by direction, and by what a person has set', () => {

@@ -1,5 +1,6 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { NumberScales } from '../../../plugins/inspector/page/source/model/number_scales.js';
 import { FormatBounds, FormatMilliseconds, FormatNumber, FormatRate, FormatTime, FormatValue } from '../../../plugins/inspector/page/source/model/value_format.js';
 import { FieldText, IsPlottable, NumberAt, ValueRows } from '../../../plugins/inspector/page/source/model/value_rows.js';
 import { Catalogue } from '../../../plugins/inspector/page/source/model/catalogue.js';
@@ -177,4 +178,19 @@ test('a curve is bounded', () => {
   for (let i = 0; i < 1000; ++i) series.add(i, i);
   assert.ok(series.times.length <= 125);
   assert.equal(series.lastTime, 999);
+});
+
+test('live numbers stay where they are: as many decimals as the largest needs, room for a sign that was there', () => {
+  const scales = new NumberScales();
+  assert.equal(scales.format(0), '0');
+  assert.equal(scales.format(1.5), '1.500');
+  assert.equal(scales.format(1.073e-7), '0.000', 'no other notation');
+  assert.equal(scales.format(-1e-9), '\u20070.000', 'no sign of nothing, but the room for it');
+  assert.equal(scales.format(-2), '−2.000');
+  assert.equal(scales.format(2), '\u20072.000');
+  assert.equal(scales.format(300), '\u2007300.00');
+  assert.equal(scales.format(2), '\u20072.00');
+  assert.equal(new NumberScales().format(-1.073e-7), '−0.000000107');
+  assert.equal(new NumberScales().format(7), '7');
+  assert.equal(FormatValue({ x: -1, y: [2, 0.5] }, 60, new NumberScales()), 'x −1, y [2, 0.500]');
 });

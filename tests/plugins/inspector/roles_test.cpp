@@ -55,6 +55,7 @@ const std::map<std::string, std::pair<WebRole, WebRole>, std::less<>> kNeeded{
     {"compatible", {WebRole::kLook, WebRole::kLook}},
     {"panel", {WebRole::kLook, WebRole::kLook}},
     {"save_panel", {WebRole::kChange, WebRole::kChange}},
+    {"arrange", {WebRole::kChange, WebRole::kChange}},
     {"publish", {WebRole::kDrive, WebRole::kDrive}},
     {"release", {WebRole::kDrive, WebRole::kDrive}},
     {"pause", {WebRole::kDrive, WebRole::kChange}},

@@ -20,7 +20,7 @@ export function Dialog({ title, children, className = '', style }) {
     const before = document.activeElement;
     element.current.showModal();
     element.current.querySelector('[autofocus], input, button:not(.remove)')?.focus();
-    return () => before?.focus?.();
+    return () => queueMicrotask(() => before?.focus?.()); // while the dialog is there nothing else takes the focus
   }, []);
   const onPointerDown = (event) => { if (event.target === element.current) CloseDialog(); };
   return html`<dialog ref=${element} class=${className} style=${style} aria-label=${title} onClose=${() => CloseDialog()}

@@ -2,17 +2,20 @@
 
 import { html } from 'htm/preact';
 import { openDialog } from '../state/choices.js';
+import { ConfirmDialog } from './confirm_dialog.js';
 import { ConnectDialog } from './connect_dialog.js';
 import { CreateDialog } from './create_dialog.js';
 import { Menu } from './menu.js';
+import { NoteDialog } from './note_dialog.js';
 import { PortDialog } from './port_dialog.js';
+import { RenameDialog } from './rename_dialog.js';
 import { HelpDialog, MoveDialog, SaveDialog } from './small_dialogs.js';
 import { SaveDifference } from './save_difference.js';
 import { SwapDialog } from './swap_dialog.js';
 
 const kDialogs = {
-  create: CreateDialog, connect: ConnectDialog, swap: SwapDialog, move: MoveDialog, port: PortDialog,
-  difference: SaveDifference, save: SaveDialog, help: HelpDialog, menu: Menu,
+  confirm: ConfirmDialog, create: CreateDialog, connect: ConnectDialog, swap: SwapDialog, move: MoveDialog, port: PortDialog,
+  difference: SaveDifference, save: SaveDialog, help: HelpDialog, menu: Menu, note: NoteDialog, rename: RenameDialog,
 };
 
 export function OpenDialog() {

@@ -1,11 +1,14 @@
 // The menu of an element: what can be done with it.
 
 import { html } from 'htm/preact';
-import { CanBeDeleted, IsGroup } from '../model/structure.js';
-import { CreateGroup, Delete, Disconnect, Reload } from '../state/actions.js';
-import { IsOpen, SetAllOpen, openDialog } from '../state/choices.js';
+import { CanBeDeleted, IsGroup, ParentOf } from '../model/structure.js';
+import { CreateGroup, Reload } from '../state/actions.js';
+import { DeleteCarefully, DisconnectCarefully } from '../state/careful.js';
+import { IsOpen, SetAllOpen, chosen, openDialog } from '../state/choices.js';
+import { CopyChosen, DuplicateChosen, PasteCopied } from '../state/clipboard.js';
 import { canChange, catalogue, structure } from '../state/store.js';
 import { Fit, ToggleGroup } from '../graph/graph_state.js';
+import { ArrangeAutomatically, IsArranged } from '../graph/move_boxes.js';
 import { CloseDialog, Dialog } from './dialog.js';
 
 export function Menu({ path, x, y }) {
@@ -31,18 +34,26 @@ export function Menu({ path, x, y }) {
 
 function MenuItems(path) {
   const connection = structure.connections.get(path);
+  if (chosen.value.length > 1 && chosen.value.includes(path)) return ChosenItems();
   if (connection) {
-    return [{ text: 'Disconnect', changes: true, danger: true, action: () => Disconnect(connection.from, connection.to) }];
+    return [{ text: 'Note …', changes: true, action: () => { openDialog.value = { kind: 'note', path }; } },
+      { text: 'Disconnect', changes: true, danger: true, action: () => DisconnectCarefully(connection.from, connection.to) }];
   }
   const element = structure.get(path);
   const open = (kind) => () => { openDialog.value = { kind, path }; };
   if (!element) return [];
   if (element.kind === 'port') {
     return [{ text: 'Connect …', changes: true, action: open('connect') },
-      ...(CanBeDeleted(element) ? [{ text: 'Delete', changes: true, danger: true, action: () => Delete(path) }] : [])];
+      ...(CanBeDeleted(element) ? [{ text: 'Delete', changes: true, danger: true, action: () => DeleteCarefully([path]) }] : [])];
   }
   if (element.kind === 'module') return ModuleItems(element, open);
   return IsGroup(element) ? GroupItems(element, open) : [];
+}
+
+function ChosenItems() {
+  return [{ text: `Copy ${chosen.value.length} boxes`, action: CopyChosen },
+    { text: 'Duplicate', changes: true, action: () => DuplicateChosen(ParentOf(chosen.value[0])) },
+    { text: 'Delete', changes: true, danger: true, action: () => DeleteCarefully(chosen.value) }];
 }
 
 function ModuleItems({ path, type }, open) {
@@ -50,8 +61,12 @@ function ModuleItems({ path, type }, open) {
   return [
     { text: 'Swap …', changes: true, action: open('swap') },
     { text: 'Move to thread …', changes: true, action: open('move') },
+    { text: 'Rename …', changes: true, action: open('rename') },
+    { text: 'Note …', changes: true, action: open('note') },
+    { text: 'Copy', action: CopyChosen },
+    { text: 'Duplicate', changes: true, action: () => DuplicateChosen(ParentOf(path)) },
     ...(plugin ? [{ text: `Reload plugin ${plugin}`, changes: true, action: () => Reload(plugin) }] : []),
-    { text: 'Delete', changes: true, danger: true, action: () => Delete(path) },
+    { text: 'Delete', changes: true, danger: true, action: () => DeleteCarefully([path]) },
   ];
 }
 
@@ -60,6 +75,8 @@ function GroupItems({ path }, open) {
   return [
     { text: 'Add a module …', changes: true, action: () => { openDialog.value = { kind: 'create', group: path }; } },
     { text: 'New group', changes: true, action: () => CreateGroup(path) },
+    { text: 'Paste', changes: true, action: () => PasteCopied(path) },
+    ...(IsArranged(path) ? [{ text: 'Arrange automatically', changes: true, action: () => ArrangeAutomatically(path) }] : []),
     ...(isRoot ? [
       { text: 'Open all groups', action: () => SetAllOpen(true) },
       { text: 'Fold all groups', action: () => SetAllOpen(false) },
@@ -68,7 +85,11 @@ function GroupItems({ path }, open) {
       { text: IsOpen(path) ? 'Fold' : 'Open', action: () => ToggleGroup(path) },
       { text: 'Add a port …', changes: true, action: open('port') },
       { text: 'Move to thread …', changes: true, action: open('move') },
-      { text: 'Delete', changes: true, danger: true, action: () => Delete(path) },
+      { text: 'Rename …', changes: true, action: open('rename') },
+      { text: 'Note …', changes: true, action: open('note') },
+      { text: 'Copy', action: CopyChosen },
+      { text: 'Duplicate', changes: true, action: () => DuplicateChosen(ParentOf(path)) },
+      { text: 'Delete', changes: true, danger: true, action: () => DeleteCarefully([path]) },
     ]),
   ];
 }

@@ -27,23 +27,27 @@ export function MoveDialog({ path }) {
 export function SaveDialog() {
   const [file, setFile] = useState(hello.value?.file ?? '');
   const [problem, setProblem] = useState('');
+  const [overwrites, setOverwrites] = useState(false); // whether that would help
   const save = async (what) => {
     const dialog = openDialog.value;
-    const reply = await (what === 'values' ? SaveConfiguration({ quiet: true }) : Save(file.trim(), { quiet: true }));
-    if (reply.ok) CloseDialog(dialog);
-    else setProblem((reply.errors ?? []).map(ErrorText).join('\n'));
+    const reply = await (what === 'values' ? SaveConfiguration({ quiet: true })
+      : Save(file.trim(), { quiet: true, overwrite: what === 'overwrite' }));
+    if (reply.ok) return CloseDialog(dialog);
+    setProblem((reply.errors ?? []).map(ErrorText).join('\n'));
+    setOverwrites(reply.needs === 'overwrite');
   };
   return html`
     <${Dialog} title="Save as">
       <h2>Save the application as</h2>
       <input id="save-file" class="wide-input" aria-label="File" value=${file} spellcheck="false" autofocus
-        onInput=${(event) => { setFile(event.target.value); setProblem(''); }}
+        onInput=${(event) => { setFile(event.target.value); setProblem(''); setOverwrites(false); }}
         onKeyDown=${(event) => { if (event.key === 'Enter') save(); }} />
       <p class="note">A file on the machine that runs the application.</p>
       ${problem && html`<p class="problem" role="alert">${problem}</p>`}
       <div class="dialog-foot"><button onClick=${() => CloseDialog()}>Cancel</button>
         <button id="save-configuration" onClick=${() => save('values')}
           title="Values of parameters, back into the configuration that it was loaded with">Values into configuration</button>
+        ${overwrites && html`<button class="danger" id="save-overwrite" onClick=${() => save('overwrite')}>Overwrite</button>`}
         <button class="primary" id="save-now" disabled=${file.trim() === ''} onClick=${() => save()}>Save</button></div>
     <//>`;
 }
@@ -52,11 +56,11 @@ const kKeys = [
   ['In the graph', [
     ['← ↑ → ↓', 'to the next module in that direction'], ['Shift + arrows', 'along the ports of a module'],
     ['Enter, Space', 'open or fold a group'], ['C', 'connect the selected port'], ['S', 'swap the module'],
-    ['M', 'move to another thread'], ['Delete', 'delete or disconnect'], ['Shift + F10', 'menu'],
+    ['M', 'move to another thread'], ['N', 'write a note'], ['F2', 'rename'], ['Shift + click, drag', 'choose several'], ['Delete', 'delete or disconnect'], ['Shift + F10', 'menu'],
     ['F', 'fit'], ['+ −', 'zoom'], ['Escape', 'select nothing'],
   ]],
   ['Everywhere', [
-    ['/', 'find'], ['A', 'add a module'], ['Ctrl + Z', 'undo'], ['Ctrl + Shift + Z, Ctrl + Y', 'redo'], ['Ctrl + S', 'save'],
+    ['/', 'find'], ['A', 'add a module'], ['Ctrl + Z', 'undo'], ['Ctrl + Shift + Z, Ctrl + Y', 'redo'], ['Ctrl + S', 'save'], ['Ctrl + C, Ctrl + V', 'copy, paste'],
     ['P', 'pause or go on'], ['.', 'one step'], ['G', 'to the graph'], ['D', 'to the details'], ['?', 'this list'],
   ]],
 ];
@@ -67,7 +71,7 @@ export function HelpDialog() {
       <h2>Keys</h2>
       <div class="columns">${kKeys.map(([title, keys]) => html`<section key=${title}><h3>${title}</h3>
         <dl>${keys.map(([key, what]) => html`<div key=${key}><dt><kbd>${key}</kbd></dt><dd>${what}</dd></div>`)}</dl></section>`)}</div>
-      <p class="note">Drag from port to port to connect; drag the background to move, turn the wheel to zoom; right-click for a menu.</p>
+      <p class="note">Drag from port to port to connect; drag a box to move it, the background to move all, turn the wheel to zoom; right-click for a menu.</p>
       <div class="dialog-foot"><button class="primary" onClick=${() => CloseDialog()}>Close</button></div>
     <//>`;
 }

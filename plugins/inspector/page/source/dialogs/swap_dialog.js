@@ -4,6 +4,7 @@
 import { useEffect, useState } from 'preact/hooks';
 import { html } from 'htm/preact';
 import { CompatibleTypes, ErrorText, Swap } from '../state/actions.js';
+import { SwapCarefully } from '../state/careful.js';
 import { openDialog } from '../state/choices.js';
 import { catalogue, structure } from '../state/store.js';
 import { ChoiceList } from './choice_list.js';
@@ -31,9 +32,9 @@ export function SwapDialog({ path }) {
   const choose = (entry) => {
     if (entry.key === module?.type && HasParameters(entry)) return setChosen(entry);
     CloseDialog();
-    return Swap(path, entry.key);
+    return SwapCarefully(path, entry.key, entry.lost);
   };
-  if (chosen) return html`<${Parameters} path=${path} type=${chosen.key} onBack=${() => setChosen(null)} />`;
+  if (chosen) return html`<${Parameters} path=${path} type=${chosen.key} lost=${chosen.lost} onBack=${() => setChosen(null)} />`;
   return html`
     <${Dialog} key="types" title=${`Swap ${module?.name}`}>
       <h2>Swap ${module?.name} <small>now ${module?.type}</small></h2>
@@ -44,7 +45,7 @@ export function SwapDialog({ path }) {
 }
 
 /** The second step: what the parameters of the new module are to be; they begin as those of the old one. */
-function Parameters({ path, type, onBack }) {
+function Parameters({ path, type, lost, onBack }) {
   const [settings, setSettings] = useState({});
   const [problem, setProblem] = useState('');
   const parameters = catalogue.value.module(type)?.parameters ?? [];
@@ -53,7 +54,9 @@ function Parameters({ path, type, onBack }) {
     const wrong = SettingsProblem(parameters, settings);
     if (wrong) return setProblem(wrong);
     const dialog = openDialog.value;
-    const reply = await Swap(path, type, SettingsOf(parameters, given, settings), { quiet: true });
+    const reply = await SwapCarefully(path, type, lost,
+      () => Swap(path, type, SettingsOf(parameters, given, settings), { quiet: openDialog.value === dialog }));
+    if (!reply) return undefined; // another dialog asks first
     if (!reply.ok) return setProblem((reply.errors ?? []).map(ErrorText).join('\n'));
     return CloseDialog(dialog);
   };

@@ -3,13 +3,13 @@
 import { html } from 'htm/preact';
 import { DrawingPicture } from '../panels/drawing_picture.js';
 import { DrawingOf, IsPictured, TogglePicture } from '../state/pictured.js';
-import { kPicture } from './measure.js';
+import { NoteHeight, kPicture } from './measure.js';
 
 export function BoxPicture({ box }) {
   const path = DrawingOf(box.path);
   if (!path || !box.picture) return null;
   const width = box.width - 20;
-  return html`<foreignObject class="picture-in-box" x="12" y=${box.height - kPicture - 2} width=${width} height=${kPicture - 6}>
+  return html`<foreignObject class="picture-in-box" x="12" y=${box.height - NoteHeight(box.note) - kPicture - 2} width=${width} height=${kPicture - 6}>
     <${DrawingPicture} path=${path} width=${width} height=${kPicture - 6} /></foreignObject>`;
 }
 

@@ -33,6 +33,28 @@ export function LanePath(start, end, { right, left, lane }) {
     `q0,${corner * up} ${corner},${corner * up}H${R(end.x)}`;
 }
 
+/** Straight lines along the axes, with round corners. */
+export function CornerPath(points) {
+  const most = 8;
+  let path = `M${R(points[0].x)},${R(points[0].y)}`;
+  for (let i = 1; i < points.length - 1; ++i) {
+    const [before, at, after] = [points[i - 1], points[i], points[i + 1]];
+    const radius = Math.min(most, Distance(before, at) / 2, Distance(at, after) / 2);
+    const [enter, leave] = [Towards(at, before, radius), Towards(at, after, radius)];
+    path += `L${R(enter.x)},${R(enter.y)}Q${R(at.x)},${R(at.y)} ${R(leave.x)},${R(leave.y)}`;
+  }
+  const end = points.at(-1);
+  return `${path}L${R(end.x)},${R(end.y)}`;
+}
+
+function Distance(a, b) {
+  return Math.abs(a.x - b.x) + Math.abs(a.y - b.y);
+}
+
+function Towards(at, other, distance) {
+  return { x: at.x + Math.sign(other.x - at.x) * distance, y: at.y + Math.sign(other.y - at.y) * distance };
+}
+
 function Curve(from, to) {
   const distance = to.x - from.x;
   const reach = distance >= 24 ? distance / 2 : Math.max(40, Math.abs(to.y - from.y) / 3);

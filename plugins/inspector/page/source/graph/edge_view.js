@@ -3,8 +3,11 @@
 import { useComputed } from '@preact/signals';
 import { html } from 'htm/preact';
 import { memo } from '../panels/memo.js';
+import { notes } from '../state/arrangement.js';
 import { selected } from '../state/choices.js';
 import { FlowRate, shapeRevision, structure } from '../state/store.js';
+
+const kNoteLetters = 36;
 
 export const EdgeView = memo(({ edge }) => {
   const state = useComputed(() => {
@@ -34,3 +37,14 @@ function Touches(path, edge) {
   return edge.from === path || edge.to === path ||
     edge.from.startsWith(`${path}/`) || edge.to.startsWith(`${path}/`);
 }
+
+/** The note on a connection, in its middle. */
+export const EdgeNote = memo(({ edge }) => {
+  const text = useComputed(() => notes.value.get(edge.key) ?? '').value;
+  if (!text) return null;
+  const short = text.length > kNoteLetters ? `${text.slice(0, kNoteLetters - 1)}…` : text;
+  const width = short.length * 5.9 + 14;
+  return html`<g class="edge-note" transform=${`translate(${edge.middle.x},${edge.middle.y})`} data-edge=${edge.key}>
+    <rect x=${-width / 2} y="-9" width=${width} height="18" rx="5" />
+    <text text-anchor="middle" y="4">${short}</text><title>${text}</title></g>`;
+});

@@ -2,18 +2,20 @@
 
 import { html } from 'htm/preact';
 import { ThreadOf } from '../model/structure.js';
+import { AlarmCount } from '../state/alarms.js';
 import { selected } from '../state/choices.js';
 import { structure } from '../state/store.js';
 import { shown } from './graph_state.js';
 import { ThreadColour } from './thread_colour.js';
 
+const kAlarmed = ' alarmed'; // no name of a thread
 const kLetters = 0.62; // width of a letter, in its size
 
 export function FarView() {
   const { groups, boxes, edges } = shown.value;
   const byThread = new Map();
   for (const box of boxes) {
-    const thread = ThreadOf(structure, box.path);
+    const thread = AlarmCount(box.path) > 0 ? kAlarmed : ThreadOf(structure, box.path);
     byThread.set(thread, (byThread.get(thread) ?? '') + Rectangle(box));
   }
   const lines = edges.map(Line).join('');
@@ -21,7 +23,7 @@ export function FarView() {
   return html`
     <path class="edges-far" d=${lines} />
     ${[...byThread].map(([thread, path]) =>
-      html`<path key=${thread} class="boxes-far" style=${{ fill: ThreadColour(thread) }} d=${path} />`)}
+      html`<path key=${thread} class="boxes-far" style=${{ fill: thread === kAlarmed ? 'var(--bad)' : ThreadColour(thread) }} d=${path} />`)}
     ${chosen && html`<path class="chosen-far" d=${Rectangle(chosen)} />`}
     ${groups.filter((group) => group.depth < 2).map((group) => html`<text class="name-far" key=${group.path}
       x=${group.x + group.width / 2} y=${group.y + group.height / 2} text-anchor="middle"

@@ -1,11 +1,13 @@
 // The graph by keyboard. What is selected is where the keys are.
 
-import { Delete, Disconnect } from '../state/actions.js';
-import { announcement, openDialog, selected } from '../state/choices.js';
+import { DeleteCarefully, DisconnectCarefully } from '../state/careful.js';
+import { draft } from '../state/arrangement.js';
+import { announcement, chosen, openDialog, selected } from '../state/choices.js';
 import { canChange, structure } from '../state/store.js';
 import { CanBeDeleted, IsGroup, ParentOf } from '../model/structure.js';
 import { DescribeBox } from './box_view.js';
 import { Fit, ShowElement, ToggleGroup, Zoom, connecting, layout, view } from './graph_state.js';
+import { StopMoving } from './move_boxes.js';
 import { StopConnecting } from './pointer.js';
 import { DescribePort } from './port_view.js';
 
@@ -23,7 +25,7 @@ export function OnGraphKey(event) {
 const kKeys = {
   Enter: () => { if (IsSelectedGroup()) ToggleGroup(selected.value); },
   ' ': () => { if (IsSelectedGroup()) ToggleGroup(selected.value); },
-  Escape: () => { if (connecting.value) StopConnecting(); else selected.value = null; },
+  Escape: () => { if (draft.value) StopMoving(); else if (connecting.value) StopConnecting(); else selected.value = null; },
   Delete: DeleteSelected,
   Backspace: DeleteSelected,
   f: Fit,
@@ -31,6 +33,8 @@ const kKeys = {
   '-': () => Zoom(0.8),
   c: () => OpenFor('connect', (element) => element.kind === 'port'),
   s: () => OpenFor('swap', (element) => element.kind === 'module'),
+  F2: () => OpenFor('rename', (element) => structure.isNode(element.path) && element.path !== structure.root),
+  n: () => OpenFor('note', (element) => structure.isNode(element.path)),
   m: () => OpenFor('move', (element) => element.kind === 'module' || element.kind === 'group'),
   ContextMenu: OpenMenu,
   F10: OpenMenu,
@@ -57,10 +61,12 @@ function OpenMenu() {
 
 function DeleteSelected() {
   if (!canChange.value || !selected.value) return;
+  if (chosen.value.length > 1) return DeleteCarefully(chosen.value);
   const connection = structure.connections.get(selected.value);
   const element = structure.get(selected.value);
-  if (connection) Disconnect(connection.from, connection.to).then((reply) => { if (reply.ok) selected.value = null; });
-  else if (element && CanBeDeleted(element)) Delete(element.path);
+  if (connection) DisconnectCarefully(connection.from, connection.to);
+  else if (element && CanBeDeleted(element)) DeleteCarefully([element.path]);
+  return undefined;
 }
 
 function Go(key, alongPorts) {

@@ -2,6 +2,7 @@
 
 import { computed, effect, signal } from '@preact/signals';
 import { IsOpen, SetOpen, openGroups } from '../state/choices.js';
+import { draft, notes, places } from '../state/arrangement.js';
 import { IsPictured } from '../state/pictured.js';
 import { shapeRevision, structure } from '../state/store.js';
 import { GraphLayout } from './layout.js';
@@ -9,17 +10,25 @@ import { Contains, FitView, ShowBox, VisibleArea, ZoomAt } from './viewport.js';
 
 const kDetailed = 160; // boxes on the screen; with more of them ports and texts cannot be read anyway
 
+const kStep = 120;     // pixels: the layout does not follow each pixel of a window that is changed
+const kMargin = 28;
+
+export const size = signal({ width: 0, height: 0 });
 const layouter = new GraphLayout();
+const area = signal(null); // that the layout is made for: what it was when all was shown last
 export const layout = computed(() => {
   shapeRevision.value;
   openGroups.value;
-  return layouter.compute(structure, IsOpen, IsPictured);
+  const put = places.value;
+  const moving = draft.value;
+  const written = notes.value;
+  return layouter.compute(structure, IsOpen, { area: area.value, isPictured: IsPictured,
+    placeOf: (path) => moving?.get(path) ?? put.get(path), noteOf: (path) => written.get(path) });
 });
-
-export const size = signal({ width: 0, height: 0 });
 export const view = signal({ x: 0, y: 0, scale: 1 });
-export const connecting = signal(null);           // {port, pointer, target} while an edge is drawn
+export const connecting = signal(null);           // {port, pointer, target, blocked} while an edge is drawn
 export const candidates = signal(null);           // ports that it may go to: Map path -> ends
+export const band = signal(null);                 // what is drawn around boxes to choose them: {left, top, right, bottom}
 let fits = true; // until the user has moved the view, it follows the layout
 
 // The area that is drawn: larger than the screen, so that it changes seldom while one pans.
@@ -63,8 +72,9 @@ export function Zoom(factor) {
 
 export function Fit() {
   fits = true;
-  const { width, height } = layout.peek();
-  if (size.peek().width > 0) view.value = FitView({ x: 0, y: 0, width, height }, size.peek());
+  FollowSize();
+  const { left: x, top: y, width, height } = layout.peek();
+  if (size.peek().width > 0) view.value = FitView({ x, y, width, height }, size.peek());
 }
 
 /** Brings a box onto the screen, if it is not there yet, and large enough to be read. */
@@ -90,6 +100,15 @@ export function ToggleGroup(path) {
   if (fits || !before || !after) return;
   const { x, y, scale } = view.peek();
   view.value = { scale, x: x + scale * (before.x - after.x), y: y + scale * (before.y - after.y) };
+}
+
+function FollowSize() {
+  const { width, height } = size.peek();
+  if (width === 0) return;
+  const rounded = (length) => Math.max(kStep, Math.round((length - 2 * kMargin) / kStep) * kStep);
+  const next = { width: rounded(width), height: rounded(height) };
+  const now = area.peek();
+  if (next.width !== now?.width || next.height !== now?.height) area.value = next;
 }
 
 /** While the user has not chosen a view, all of the graph is shown. */

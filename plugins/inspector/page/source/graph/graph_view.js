@@ -5,11 +5,12 @@ import { html } from 'htm/preact';
 import { announcement, selected } from '../state/choices.js';
 import { hello } from '../state/store.js';
 import { BoxView, GroupFrame, NodeId } from './box_view.js';
-import { EdgeView } from './edge_view.js';
+import { EdgeNote, EdgeView } from './edge_view.js';
 import { FarView } from './far_view.js';
 import { OnGraphKey } from './graph_keys.js';
-import { Fit, StartFitting, Zoom, connecting, layout, shown, size, view } from './graph_state.js';
+import { Fit, StartFitting, Zoom, band, connecting, layout, shown, size, view } from './graph_state.js';
 import { HoverCard } from './hover_card.js';
+import { Minimap } from './minimap.js';
 import { AttachPointer } from './pointer.js';
 
 export function GraphView() {
@@ -37,6 +38,7 @@ export function GraphView() {
       ${layout.value.boxes.size === 0 && html`<p class="empty">${
         hello.value ? 'The application has no modules yet. Press A to add one.' : 'Waiting for the application …'}</p>`}
       <${HoverCard} />
+      <${Minimap} />
       <${ZoomButtons} />
     </div>`;
 }
@@ -52,7 +54,7 @@ function Drawing() {
 
 /** From further away names are larger than the rest, so that they can be read; in steps. */
 function NameSize(scale) {
-  return [13, 16, 19, 23, 28].find((size) => size * scale >= 9) ?? 34;
+  return [14, 17, 20, 24, 28].find((size) => size * scale >= 9) ?? 34;
 }
 
 function Contents() {
@@ -62,8 +64,10 @@ function Contents() {
     ${frames.map((box) => html`<${GroupFrame} key=${box.path} box=${box} />`)}
     ${far ? html`<${FarView} />` : html`
       <g>${edges.map((edge) => html`<${EdgeView} key=${edge.key} edge=${edge} />`)}</g>
+      <g>${edges.map((edge) => html`<${EdgeNote} key=${edge.key} edge=${edge} />`)}</g>
       <g>${boxes.map((box) => html`<${BoxView} key=${box.path} box=${box} />`)}</g>`}
-    <${NewEdge} />`;
+    <${NewEdge} />
+    <${Band} />`;
 }
 
 /** The line from a port to the pointer while one connects. */
@@ -73,8 +77,14 @@ function NewEdge() {
   if (!place) return null;
   const end = (drag.target && layout.value.ports.get(drag.target)) || drag.pointer;
   const reach = Math.max(30, Math.abs(end.x - place.x) / 2) * (place.side === 'left' ? -1 : 1);
-  return html`<path class=${`edge new ${drag.target ? 'fits' : ''}`}
+  return html`<path class=${`edge new ${drag.target ? 'fits' : drag.blocked ? 'blocked' : ''}`}
     d=${`M${place.x},${place.y}C${place.x + reach},${place.y} ${end.x - reach},${end.y} ${end.x},${end.y}`} />`;
+}
+
+/** What is being drawn around boxes to choose them. */
+function Band() {
+  const area = band.value;
+  return area && html`<rect class="band" x=${area.left} y=${area.top} width=${area.right - area.left} height=${area.bottom - area.top} />`;
 }
 
 function ZoomButtons() {

@@ -1,10 +1,12 @@
 // What a port carries, beside the pointer.
 
 import { signal } from '@preact/signals';
+import { useRef } from 'preact/hooks';
 import { html } from 'htm/preact';
-import { FormatNumber, FormatValue } from '../model/value_format.js';
+import { NumberScales } from '../model/number_scales.js';
+import { FormatNumber, FormatValue, kNoText } from '../model/value_format.js';
 import { useWatched } from '../panels/use_watched.js';
-import { structure } from '../state/store.js';
+import { catalogue, structure } from '../state/store.js';
 import { size } from './graph_state.js';
 
 export const hovered = signal(null); // the port under the pointer: {path, x, y}
@@ -23,13 +25,15 @@ export function HoverCard() {
     <div class="hover-card" style=${style} role="tooltip">
       <strong>${element.name}</strong> <span class="type">${element.data_type}</span>
       ${element.description && html`<p>${element.description}</p>`}
-      <${LiveValue} path=${element.path} key=${element.path} />
+      <${LiveValue} path=${element.path} key=${element.path} type=${element.data_type} />
     </div>`;
 }
 
-function LiveValue({ path }) {
+function LiveValue({ path, type }) {
+  const scales = useRef(new NumberScales());
   const item = useWatched(path, { rate: 5 });
   if (!item) return html`<p class="value none">nothing yet</p>`;
-  return html`<p class="value">${FormatValue(item.value, 90)}</p>
+  return html`<p class="value">${
+    catalogue.value.isOpaque(type) ? kNoText : FormatValue(item.value, 90, scales.current)}</p>
     <p class="stamp">${item.count} values, the last at ${FormatNumber(item.stamp)} s</p>`;
 }

@@ -1,17 +1,16 @@
 // The layout of one level: the boxes of a group's members, its own ports on the border, and the
 // curves between them. All places are relative to the group's left upper corner.
 
-import { NameOf } from '../model/structure.js';
-import { BowPath, ForwardPath, LanePath } from './edge_path.js';
+import { LanesHeight, MarginWidth, PlanLanes, RouteEdges } from './edge_routes.js';
 import { IsDistant, kInside, kOutside } from './levels.js';
-import { kGroupHeader, kPadding, kRow, PortHeight, PortLabelWidth } from './measure.js';
+import { kGroupHeader, kPadding, kRow, PortLabelWidth } from './measure.js';
 import { PlaceInRanks } from './ranks.js';
+import { ChooseRows, PlaceRows } from './rows.js';
 
-const kLane = 9;      // between two lanes
 const kGridGap = 22;
 
 /** {boxes with x and y, edges, border: Map port -> {x, y, side}, width, height}. */
-export function LevelLayout(structure, { boxes, connections, closing, ports, group, isQuick }) {
+export function LevelLayout(structure, { boxes, connections, closing, ports, group, isQuick, area }) {
   const isRoot = group === structure.root;
   const inputs = ports.filter((port) => port.direction === 'input');
   const outputs = ports.filter((port) => port.direction === 'output');
@@ -27,26 +26,46 @@ export function LevelLayout(structure, { boxes, connections, closing, ports, gro
   if (inputs.length > 0) ranked.push(Border(kInside, inputs));
   if (outputs.length > 0) ranked.push(Border(kOutside, outputs));
   const ranks = PlaceInRanks(ranked, WithBorders(ranked, flow), isQuick);
+  const chosen = ranked.length > 0 ? ChooseRows(ranks, ranked, area) : [[]];
+  const near = connections.filter((connection) => !IsDistant(structure, connection));
+  const rowIn = new Map(chosen.flatMap((row, number) => row.flatMap((column) => column.boxes.map((box) => [box.id, number]))));
+  const lanes = PlanLanes(near, closing, rowIn, chosen.length);
+  const margin = chosen.length > 1 ? MarginWidth(lanes) : 0;
+  const rows = PlaceRows(ranks, chosen, lanes.gaps.map(LanesHeight), margin);
 
   const placed = new Map();
   for (const box of flowing) {
-    const { x, y } = ranks.places.get(box.path);
+    const { x, y } = rows.places.get(box.path);
     placed.set(box.path, { ...box, x: x + side, y: y + top });
   }
-  const grid = PlaceGrid(alone, Math.max(ranks.width, 900), side, ranks.height > 0 ? top + ranks.height + kGridGap : top);
+  const flowHeight = ranked.length > 0 ? rows.height + (chosen.length > 1 ? LanesHeight(lanes.gaps.at(-1)) : 0) : 0;
+  const grid = PlaceGrid(alone, Math.max(rows.width, area?.width ?? 900), side, flowHeight > 0 ? top + flowHeight + kGridGap : top);
   for (const box of grid.boxes) placed.set(box.path, box);
-  const contentBottom = Math.max(top + ranks.height, grid.bottom);
+  const contentBottom = Math.max(top + flowHeight, grid.bottom);
 
-  const width = Math.max(ranks.width, grid.right - side, isRoot ? 0 : 200) + 2 * side;
+  const width = Math.max(rows.width + margin, grid.right - side, isRoot ? 0 : 200) + 2 * side;
   const border = new Map();
-  PlaceBorder(inputs, ranks.places.get(kInside), 0, 'left', { connections, placed, top, end: 'from' }, border);
-  PlaceBorder(outputs, ranks.places.get(kOutside), width, 'right', { connections, placed, top, end: 'to' }, border);
+  PlaceBorder(inputs, rows.places.get(kInside), 0, 'left', { connections, placed, top, end: 'from' }, border);
+  PlaceBorder(outputs, rows.places.get(kOutside), width, 'right', { connections, placed, top, end: 'to' }, border);
 
-  const near = connections.filter((connection) => !IsDistant(structure, connection));
-  const { edges, lowest } = Edges(near, closing, { placed, border, bends: ranks.bends, side, top });
+  const bends = BendsInRows(ranks.bends, rows);
+  const { edges, lowest } = RouteEdges(near, { closing, placed, border, bends, lanes, side, top,
+    rowOf: rows.rowOf, bottoms: rows.bottoms });
   const height = Math.max(contentBottom, lowest + 6) + (isRoot ? 0 : kPadding);
   const ordered = boxes.map((box) => placed.get(box.path));
   return { boxes: ordered, edges, border, width, height: Math.max(height, top + 24) };
+}
+
+/** The passages that long edges take between boxes, of those that stay in their row. */
+function BendsInRows(bends, { rowOf, shifts }) {
+  const moved = new Map();
+  for (const [pair, points] of bends) {
+    const [source, target] = pair.split(' ');
+    const row = rowOf.get(source);
+    if (row !== rowOf.get(target) || shifts[row].isLoose) continue;
+    moved.set(pair, points.map(({ x, y }) => ({ x: x + shifts[row].x, y: y + shifts[row].y })));
+  }
+  return moved;
 }
 
 function FlowEdges(connections, closing) {
@@ -110,77 +129,4 @@ function PlaceBorder(ports, place, x, side, { connections, placed, top, end }, b
     .sort((a, b) => (a.wish === b.wish ? a.index - b.index : a.wish - b.wish));
   order.forEach(({ port }, index) =>
     border.set(port.path, { x, y: place.y + top + kRow * index + kRow / 2, side }));
-}
-
-function Edges(connections, closing, { placed, border, bends, side, top }) {
-  const edges = [];
-  let lowest = 0; // what runs back below the boxes
-  const lanes = new Map(); // port that data flows back from -> number of its lane
-  const shares = new Map(); // bent edges between the same boxes run beside each other
-  for (const connection of connections) {
-    const start = End(connection.from, placed.get(connection.source), 'outputs', border, NameOf(connection.from));
-    const end = End(connection.to, placed.get(connection.target), 'inputs', border, NameOf(connection.to));
-    if (!start || !end) continue;
-    const pair = `${connection.source} ${connection.target}`;
-    const edge = { key: connection.key, from: connection.from, to: connection.to, start, end };
-    if (connection.source === connection.target || closing.has(pair)) {
-      if (!lanes.has(connection.from)) lanes.set(connection.from, lanes.size);
-      const number = lanes.get(connection.from);
-      const way = {
-        right: ColumnEdge(placed, connection.source, 'right') + 14 + number * 5,
-        left: ColumnEdge(placed, connection.target, 'left') - 14 - number * 5,
-      };
-      way.lane = BottomBetween(placed, way.left, way.right, start.y, end.y) + 14 + number * kLane;
-      lowest = Math.max(lowest, way.lane);
-      edges.push({ ...edge, path: LanePath(start, end, way), left: way.left, right: way.right,
-        top: Math.min(start.y, end.y), bottom: way.lane });
-      continue;
-    }
-    const share = shares.get(pair) ?? 0;
-    shares.set(pair, share + 1);
-    const points = (bends.get(pair) ?? []).map(({ x, y }) => ({ x: x + side, y: y + top + share * 6 }));
-    const path = end.x < start.x ? BowPath(start, end) : ForwardPath(start, end, points);
-    const all = [start, end, ...points];
-    edges.push({ ...edge, path, left: Math.min(...all.map((p) => p.x)), right: Math.max(...all.map((p) => p.x)),
-      top: Math.min(...all.map((p) => p.y)), bottom: Math.max(...all.map((p) => p.y)) });
-  }
-  return { edges, lowest };
-}
-
-function End(port, box, list, border, name) {
-  if (border.has(port)) {
-    // Inside of the group the port's name stands between the border and the line.
-    const { x, y, side } = border.get(port);
-    const label = PortLabelWidth([{ name }]) + 14;
-    return { x: side === 'left' ? x + label : x - label, y };
-  }
-  if (!box) return null;
-  if (box.open) {
-    const place = box.level.border.get(port);
-    return place ? { x: box.x + place.x, y: box.y + place.y } : null;
-  }
-  const index = box[list].findIndex((candidate) => candidate.path === port);
-  if (index < 0) return null;
-  return { x: list === 'outputs' ? box.x + box.width : box.x, y: box.y + PortHeight(index) };
-}
-
-/** The lowest point of the boxes that a lane from `right` to `left` passes, and of its ends. */
-function BottomBetween(placed, left, right, ...ends) {
-  let bottom = Math.max(...ends);
-  for (const box of placed.values()) {
-    if (box.x < right && box.x + box.width > left) bottom = Math.max(bottom, box.y + box.height);
-  }
-  return bottom;
-}
-
-/** How far the boxes of the same column reach. */
-function ColumnEdge(placed, path, which) {
-  const box = placed.get(path);
-  const middle = box.x + box.width / 2;
-  let edge = which === 'right' ? box.x + box.width : box.x;
-  for (const other of placed.values()) {
-    if (Math.abs(other.x + other.width / 2 - middle) > 1) continue;
-    edge = which === 'right' ? Math.max(edge, other.x + other.width) : Math.min(edge, other.x);
-  }
-  return edge;
 }

@@ -1,11 +1,17 @@
 // Mouse, pen and touch on the graph: selecting, moving, zooming, connecting, menus.
 
-import { Partners } from '../model/compatibility.js';
+import { Outermost } from '../model/copies.js';
+import { Partners, WhyNot } from '../model/compatibility.js';
 import { Connect } from '../state/actions.js';
 import { canChange, structure } from '../state/store.js';
-import { openDialog, selected } from '../state/choices.js';
-import { BoxAt, MoveView, ToggleGroup, candidates, connecting, layout, shown, view } from './graph_state.js';
+import { Choose, SetPanels, chosen, openDialog, selected } from '../state/choices.js';
+import { isNarrow } from '../state/window.js';
+import { Toast } from '../state/toasts.js';
+import { BoxAt, MoveView, ToggleGroup, band, candidates, connecting, layout, shown, view } from './graph_state.js';
 import { hovered } from './hover_card.js';
+import { kGroupHeader } from './measure.js';
+import { BeginMoving, FinishMoving, MoveTo, StopMoving } from './move_boxes.js';
+import { Pinch } from './pinch.js';
 import { ToGraph, ZoomAt } from './viewport.js';
 
 const kReach = 26;     // pixels from a port at which a new edge snaps to it
@@ -18,7 +24,7 @@ export function AttachPointer(host) {
     pointerdown: (event) => pointer.down(event),
     pointermove: (event) => pointer.move(event),
     pointerup: (event) => pointer.up(event),
-    pointercancel: () => pointer.end(),
+    pointercancel: (event) => pointer.cancel(event),
     pointerleave: () => { hovered.value = null; },
     contextmenu: (event) => pointer.menu(event),
     dblclick: (event) => pointer.doubleClick(event),
@@ -32,6 +38,7 @@ export function AttachPointer(host) {
 
 class Pointer {
   #host;
+  #pinch = new Pinch();
   #press = null; // {kind: 'pan' | 'connect', start, view}
 
   constructor(host) {
@@ -39,16 +46,29 @@ class Pointer {
   }
 
   down(event) {
-    if (event.button > 1 || event.target.closest('button, output, input')) return;
+    if (event.pointerType === 'touch' && this.#pinch.down(event.pointerId, this.#point(event))) return this.end();
+    if (event.button > 1 || event.target.closest('button, output, input, .minimap')) return;
     const point = this.#point(event);
     const hit = this.#hit(event);
-    this.#press = { kind: 'pan', start: point, view: view.value, hit, moved: false };
-    if (hit.port && event.button === 0 && canChange.value) this.#press.kind = 'connect';
+    this.#press = { kind: this.#kindOf(event, hit), start: point, view: view.value, hit, moved: false, adds: event.shiftKey };
     this.#host.setPointerCapture(event.pointerId);
+  }
+
+  /** What a drag from there does. */
+  #kindOf(event, { port, node, bar }) {
+    if (event.button !== 0) return 'pan';
+    if (port) return canChange.value ? 'connect' : 'pan';
+    const isFrame = node && layout.value.boxes.get(node)?.open;
+    if (event.shiftKey && (!node || isFrame)) return 'band';
+    if (!node || (isFrame && !bar) || shown.value.far) return 'pan';
+    // A finger moves the view, but for a box that is chosen.
+    return event.pointerType === 'touch' && !chosen.value.includes(node) ? 'pan' : 'move';
   }
 
   move(event) {
     const point = this.#point(event);
+    const pinched = this.#pinch.move(event.pointerId, point);
+    if (pinched) return MoveView(pinched(view.value));
     const press = this.#press;
     if (!press) {
       const path = PortAt(event.clientX, event.clientY)?.dataset.port;
@@ -61,27 +81,44 @@ class Pointer {
       press.moved = true;
       hovered.value = null;
       if (press.kind === 'connect') BeginConnecting(press.hit.port);
+      if (press.kind === 'move') press.moving = BeginMoving(press.hit.node);
     }
     if (press.kind === 'connect') DragTo(ToGraph(view.value, point));
+    else if (press.kind === 'move') MoveTo(press.moving, dx / view.value.scale, dy / view.value.scale);
+    else if (press.kind === 'band') DrawBand(ToGraph(view.value, press.start), ToGraph(view.value, point));
     else MoveView({ ...press.view, x: press.view.x + dx, y: press.view.y + dy });
   }
 
-  up() {
+  up(event) {
+    this.#pinch.up(event.pointerId);
     const press = this.#press;
     this.#press = null;
     if (!press) return;
     if (press.moved) {
       if (press.kind === 'connect') FinishConnecting();
+      if (press.kind === 'move') FinishMoving();
+      if (press.kind === 'band') FinishBand();
       return;
     }
     const { fold, port, edge, node } = press.hit;
     if (fold) ToggleGroup(fold);
-    else selected.value = port ?? edge ?? node ?? null;
+    else if (press.adds && node && !port && !edge) Choose(Toggled(chosen.value, node));
+    else {
+      selected.value = port ?? edge ?? node ?? null;
+      if (selected.value && isNarrow.value) SetPanels({ sideOpen: true });
+    }
+  }
+
+  cancel(event) {
+    this.#pinch.up(event.pointerId);
+    this.end();
   }
 
   end() {
     this.#press = null;
     StopConnecting();
+    StopMoving();
+    band.value = null;
   }
 
   wheel(event) {
@@ -106,7 +143,7 @@ class Pointer {
     const { port, edge, node } = this.#hit(event);
     const path = port ?? edge ?? node ?? structure.root;
     if (!path) return;
-    if (path !== structure.root) selected.value = path;
+    if (path !== structure.root && !chosen.value.includes(path)) selected.value = path;
     openDialog.value = { kind: 'menu', path, x: event.clientX, y: event.clientY };
   }
 
@@ -123,6 +160,7 @@ class Pointer {
     const target = at(x, y, '[data-node], [data-edge]');
     const place = ToGraph(view.value, this.#point(event));
     if (shown.value.far) return { node: BoxAt(place)?.path };
+    const bar = target?.querySelector?.(':scope > .bar') && place.y < (layout.value.boxes.get(target.dataset.node)?.y ?? 0) + kGroupHeader;
     let { node, edge } = target?.dataset ?? {};
     const isFrame = node && layout.value.boxes.get(node)?.open;
     if (!edge && !port && !fold && (!node || isFrame)) {
@@ -130,7 +168,7 @@ class Pointer {
         edge ??= at(x + dx, y + dy, '[data-edge]')?.dataset.edge;
       }
     }
-    return { fold, port, edge, node };
+    return { fold, port, edge, node, bar };
   }
 }
 
@@ -144,27 +182,49 @@ function PortAt(x, y) {
   return null;
 }
 
+function Toggled(paths, path) {
+  return paths.includes(path) ? paths.filter((each) => each !== path) : [...paths.filter((each) => structure.isNode(each)), path];
+}
+
+function DrawBand(a, b) {
+  band.value = { left: Math.min(a.x, b.x), right: Math.max(a.x, b.x), top: Math.min(a.y, b.y), bottom: Math.max(a.y, b.y) };
+}
+
+/** Chooses what the band touches; groups that are open only if all of them is in it. */
+function FinishBand() {
+  const { left, top, right, bottom } = band.value;
+  band.value = null;
+  const touched = [...layout.value.boxes.values()].filter((box) => (box.open
+    ? box.x >= left && box.y >= top && box.x + box.width <= right && box.y + box.height <= bottom
+    : box.x <= right && box.y <= bottom && box.x + box.width >= left && box.y + box.height >= top));
+  Choose(Outermost(touched.map((box) => box.path)));
+}
+
 /** Lights up the ports that `port` can be connected with. */
 function BeginConnecting(port) {
   candidates.value = new Map(Partners(structure, port).map(({ port: other, ends }) => [other.path, ends]));
   connecting.value = { port, pointer: null, target: null };
 }
 
+/** The port that is meant is the nearest one, whether it suits or not: never a neighbour of it that does. */
 function DragTo(pointer) {
-  let target = null;
+  const { port } = connecting.value;
+  let meant = null;
   let nearest = kReach / Math.min(1, view.value.scale);
-  for (const path of candidates.value.keys()) {
-    const place = layout.value.ports.get(path);
-    const distance = place ? Math.hypot(place.x - pointer.x, place.y - pointer.y) : Infinity;
-    if (distance < nearest) [target, nearest] = [path, distance];
+  for (const [path, place] of layout.value.ports) {
+    const distance = Math.hypot(place.x - pointer.x, place.y - pointer.y);
+    if (path !== port && distance < nearest) [meant, nearest] = [path, distance];
   }
-  connecting.value = { ...connecting.value, pointer, target };
+  const suits = candidates.value.has(meant);
+  connecting.value = { port, pointer, target: suits ? meant : null, blocked: suits ? null : meant };
 }
 
 function FinishConnecting() {
-  const ends = candidates.value?.get(connecting.value?.target);
+  const { port, target, blocked } = connecting.value ?? {};
+  const ends = candidates.value?.get(target);
   StopConnecting();
   if (ends) Connect(ends.from, ends.to);
+  else if (blocked) Toast('refused', 'Not connected', [WhyNot(structure, port, blocked)]);
 }
 
 export function StopConnecting() {

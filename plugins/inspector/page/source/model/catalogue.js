@@ -15,6 +15,11 @@ export class Catalogue {
     return this.moduleByType.get(type);
   }
 
+  /** Whether values of a type have no text form: only modules can read them. */
+  isOpaque(name) {
+    return this.types.get(name)?.kind === 'opaque';
+  }
+
   /** What values of a type stand for, so that they can be drawn: "pose", "range_scan" … or "". */
   meaning(name) {
     return this.types.get(name)?.meaning ?? '';

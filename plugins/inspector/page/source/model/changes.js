@@ -4,6 +4,7 @@ export const Change = {
   create: (path, type, settings) => ({ change: 'create', path, type, ...Given(settings) }),
   createGroup: (path) => ({ change: 'create_group', path }),
   createPort: (path, direction, type) => ({ change: 'create_port', path, direction, type }),
+  rename: (path, name) => ({ change: 'rename', path, name }),
   delete: (path) => ({ change: 'delete', path }),
   connect: (from, to, options = {}) => ({ change: 'connect', from, to, ...options }),
   disconnect: (from, to) => ({ change: 'disconnect', from, to }),

@@ -21,6 +21,19 @@ export function Connectable(structure, first, second) {
   return exists ? null : { from: from.path, to: to.path };
 }
 
+/** Why two ports cannot be connected, or "" if they can: for people. */
+export function WhyNot(structure, first, second) {
+  if (Connectable(structure, first, second)) return '';
+  const [a, b] = [structure.get(first), structure.get(second)];
+  if (!a || !b) return 'one of them is gone';
+  const name = (port) => `${structure.get(port.owner)?.name ?? ''}/${port.name}`;
+  const [from, to] = Gives(structure, a, b) ? [a, b] : [b, a];
+  if (!Gives(structure, from, to)) return `both ${name(a)} and ${name(b)} take values`;
+  if (!Takes(structure, to, from)) return `both ${name(a)} and ${name(b)} give values`;
+  if (!Becomes(from.data_type, to.data_type)) return `${name(from)} gives ${from.data_type}, ${name(to)} takes ${to.data_type}`;
+  return `${name(from)} and ${name(to)} are connected already`;
+}
+
 /** All ports that a port may be connected with, those of the same surroundings first. */
 export function Partners(structure, path) {
   const partners = [];

@@ -72,9 +72,9 @@ function Written(value, isInside) {
 }
 
 /** A value in a cell: pictures are told, not shown. */
-export function FormatPortValue(meaning, value) {
+export function FormatPortValue(meaning, value, { limit = 160, scales } = {}) {
   if (meaning === 'image' && value !== null) return `${value.width} × ${value.height} ${value.encoding}`;
-  return FormatValue(value, 160);
+  return FormatValue(value, limit, scales);
 }
 
 /** "640 B/s", "1.2 kB/s". */

@@ -123,7 +123,7 @@ export class Structure {
 }
 
 /** Connections have no path of their own: both ends name one. */
-function ConnectionKey(connection) {
+export function ConnectionKey(connection) {
   return `${connection.from} → ${connection.to}`;
 }
 

@@ -1,5 +1,7 @@
 // Numbers, times and values as people read them.
 
+export const kNoText = 'has no text form'; // of values that only modules can read
+
 /** A number with about four significant digits, without jumping between notations while it changes. */
 export function FormatNumber(number) {
   if (number === null || number === undefined || Number.isNaN(number)) return 'NaN';
@@ -45,9 +47,12 @@ export function FormatTime(seconds) {
   return hours > 0 ? `${hours}:${String(minutes).padStart(2, '0')}:${rest}` : `${minutes}:${rest}`;
 }
 
-/** A whole value in one line, cut at `limit` letters. */
-export function FormatValue(value, limit = 60) {
-  const text = Short(value);
+/**
+ * A whole value in one line, cut at `limit` letters. With `scales`, which is kept from value to value, its
+ * numbers stand where they stood before.
+ */
+export function FormatValue(value, limit = 60, scales = undefined) {
+  const text = Short(value, (number, field) => (scales ? scales.format(number, field) : FormatNumber(number)), '');
   return text.length > limit ? `${text.slice(0, limit - 1)}…` : text;
 }
 
@@ -78,14 +83,14 @@ function Minus(text) {
   return text.replace(/^-/, '−').replace('e-', 'e−');
 }
 
-function Short(value) {
-  if (typeof value === 'number' || value === null || value === undefined) return FormatNumber(value);
+function Short(value, format, at) {
+  if (typeof value === 'number' || value === null || value === undefined) return format(value, at);
   if (typeof value === 'string') return value;
   if (typeof value === 'boolean') return value ? 'true' : 'false';
   if (Array.isArray(value)) {
-    return value.length > 4 ? `[${value.slice(0, 4).map(Short).join(', ')}, … ${value.length}]`
-      : `[${value.map(Short).join(', ')}]`;
+    const some = value.slice(0, 4).map((element) => Short(element, format, `${at}[]`)).join(', ');
+    return value.length > 4 ? `[${some}, … ${value.length}]` : `[${some}]`;
   }
   if (IsTime(value)) return `${FormatNumber(SecondsOf(value))} s`;
-  return Object.entries(value).map(([name, field]) => `${name} ${Short(field)}`).join(', ');
+  return Object.entries(value).map(([name, field]) => `${name} ${Short(field, format, `${at}.${name}`)}`).join(', ');
 }

@@ -1,9 +1,10 @@
 // The panel for what is selected.
 
 import { html } from 'htm/preact';
-import { selected } from '../state/choices.js';
+import { chosen, selected } from '../state/choices.js';
 import { revision, structure } from '../state/store.js';
 import { ApplicationDetails } from './details_application.js';
+import { ChosenDetails } from './details_chosen.js';
 import { ConnectionDetails } from './details_connection.js';
 import { ModuleDetails } from './details_module.js';
 import { PortDetails } from './details_port.js';
@@ -17,7 +18,8 @@ export function Details() {
   const connection = structure.connections.get(path);
   return html`<section class="details" aria-label="Details" id="details" tabindex="-1"
       data-element=${path}>
-    ${connection ? html`<${ConnectionDetails} key=${path} connection=${connection} />`
+    ${chosen.value.length > 1 ? html`<${ChosenDetails} />`
+      : connection ? html`<${ConnectionDetails} key=${path} connection=${connection} />`
       : element ? html`<${kViews[element.kind] ?? ApplicationDetails} key=${path} element=${element} />`
       : path ? html`<p class="empty">${path} is not there any more.</p>`
       : html`<${ApplicationDetails} element=${structure.get(structure.root)} />`}

@@ -2,6 +2,7 @@
 
 import { html } from 'htm/preact';
 import { hello, run, shapeRevision, structure } from '../state/store.js';
+import { AlarmList } from './alarms.js';
 import { Awaited, Facts, Section, Title } from './parts.js';
 import { ThreadTable } from './thread_table.js';
 
@@ -17,6 +18,7 @@ export function ApplicationDetails() {
       ['speed', run.value.speed === null ? '' : run.value.speed === 0 ? 'as fast as it can' : `× ${run.value.speed}`],
       ['faults', String(run.value.faults)], ['Runnel', hello.value.runnel],
     ]} />
+    <${AlarmList} />
     <${Awaited} awaits=${[...structure.ofKind('application')].flatMap(({ awaits }) => awaits ?? [])} />
     <${Section} title="Threads"><${ThreadTable} brief /><//>
     <p class="hint">Select anything in the graph to see and change it. Drag from port to port to connect.

@@ -1,8 +1,12 @@
 // A connection: its ends, and what it does with values that nobody takes.
 
+import { useState } from 'preact/hooks';
 import { html } from 'htm/preact';
-import { Disconnect, SetPull } from '../state/actions.js';
+import { SetPull, SetQueue } from '../state/actions.js';
+import { DisconnectCarefully } from '../state/careful.js';
 import { canChange, structure } from '../state/store.js';
+import { ConnectionKey } from '../model/structure.js';
+import { NoteLine } from './note_line.js';
 import { ActionButton, Facts, Link, Section, Title } from './parts.js';
 import { useWatched } from './use_watched.js';
 import { ValueTable } from './value_table.js';
@@ -16,17 +20,17 @@ export function ConnectionDetails({ connection }) {
   const { pull } = connection;
   const canPull = pull || (structure.get(from)?.pullable && !(connection.queue > 0));
   return html`
-    <${Title} kind="connection" name=${`${name(from)} → ${name(to)}`} />
+    <${Title} kind="connection" name=${`${name(from)} → ${name(to)}`}><${NoteLine} path=${ConnectionKey(connection)} /><//>
     <div class="actions"><${ActionButton} id="disconnect" icon="trash" text="Disconnect" disabled=${!canChange.value}
-      onClick=${() => Disconnect(from, to)} />
+      onClick=${() => DisconnectCarefully(from, to)} />
       ${canPull && html`<${ActionButton} id="pull" icon="plug" text=${pull ? 'Push' : 'Pull'} disabled=${!canChange.value}
         title=${pull ? 'Let the output publish when it has a value' : 'Have a value made when the input is read'}
-        onClick=${() => SetPull(from, to, !pull)} />`}</div>
+        onClick=${() => SetPull(connection, !pull)} />`}</div>
+    <${Queue} key=${`${connection.queue} ${connection.on_full}`} connection=${connection} />
     <${Facts} facts=${[
       ['from', html`<${Link} path=${from} text=${name(from)} />`], ['to', html`<${Link} path=${to}
           text=${name(to)} />`],
-      ['type', type], ['queue', connection.queue > 0 ? `${connection.queue} values` : 'the newest value only'],
-      ['if it is full', connection.queue > 0 ? (connection.on_full ?? '').replace('_', ' ') : ''],
+      ['type', type],
       ['pulled', pull ? 'made when the input is read' : ''],
       ['converted', connection.conversion],
       ['made', connection.when_present ? 'when both ends are there' : ''],
@@ -35,4 +39,35 @@ export function ConnectionDetails({ connection }) {
     ]} />
     <${Section} title="Value">${item ? html`<${ValueTable} port=${from} type=${type} value=${item.value} />`
       : html`<p class="none">nothing has come yet</p>`}<//>`;
+}
+
+const kOnFull = { drop_oldest: 'the oldest is dropped', drop_newest: 'the newest is dropped', refuse: 'the publisher is refused' };
+
+/** How many values wait for the reader: Enter sets it, as of parameters. */
+function Queue({ connection }) {
+  const { queue, on_full: onFull, pull } = connection;
+  const [draft, setDraft] = useState(null);
+  const send = (text) => {
+    const length = Math.round(Number(text));
+    if (Number.isFinite(length) && length >= 0 && length !== queue) SetQueue(connection, length, onFull);
+    else setDraft(null);
+  };
+  const onKey = (event) => {
+    if (event.key === 'Enter') send(event.target.value);
+    else if (event.key === 'Escape') event.target.blur(); else return;
+    event.stopPropagation();
+  };
+  const locked = !canChange.value || pull;
+  return html`<div class=${`parameter ${draft !== null ? 'edited' : ''}`}>
+    <label for="queue">queue</label>
+    <div class="field"><input type="text" id="queue" inputmode="numeric" autocomplete="off" disabled=${locked} value=${draft ?? String(queue)}
+        onInput=${(event) => setDraft(event.target.value)} onKeyDown=${onKey} onBlur=${() => setDraft(null)} />
+      <span class="unit">values</span></div>
+    <p class="note">${queue > 0 ? 'each value is read, in order' : '0: the reader finds the newest value only'}</p>
+    ${queue > 0 && html`<label for="on-full">if it is full</label>
+      <div class="field"><select id="on-full" disabled=${locked} value=${onFull}
+          onChange=${(event) => SetQueue(connection, queue, event.target.value)}>
+        ${Object.entries(kOnFull).map(([name, text]) => html`<option key=${name} value=${name} selected=${name === onFull}>${text}</option>`)}
+      </select></div>`}
+  </div>`;
 }

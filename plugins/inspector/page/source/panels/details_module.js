@@ -3,15 +3,19 @@
 import { html } from 'htm/preact';
 import { IsGroup, ThreadOf } from '../model/structure.js';
 import { FormatMicroseconds } from '../model/value_format.js';
-import { Delete, PauseElement, Reload, ResumeElement, SetLogLevel } from '../state/actions.js';
+import { PauseElement, Reload, ResumeElement, SetLogLevel } from '../state/actions.js';
+import { AlarmCount, AlarmsAt } from '../state/alarms.js';
+import { DeleteCarefully } from '../state/careful.js';
 import { IsOpen, openDialog } from '../state/choices.js';
 import { canChange, catalogue, profile, revision, run, structure } from '../state/store.js';
 import { ThreadColour } from '../graph/thread_colour.js';
 import { ToggleGroup } from '../graph/graph_state.js';
+import { AlarmList } from './alarms.js';
 import { ParameterRow } from './parameter_row.js';
 import { DrawingPicture } from './drawing_picture.js';
 import { ImagePicture } from './image_picture.js';
 import { ActionButton, Facts, Link, Section, Title } from './parts.js';
+import { NoteLine } from './note_line.js';
 import { PortRow } from './port_row.js';
 import { Troubles } from './troubles.js';
 
@@ -29,8 +33,9 @@ export function ModuleDetails({ element }) {
   return html`
     <${Title} kind=${isGroup ? 'group' : element.type} name=${element.name} path=${path}>
       ${(element.summary || element.description) && html`<p class="summary">${element.summary || element.description}</p>`}
-    <//>
+      <${NoteLine} path=${path} /><//>
     ${element.stopped && html`<p class="trouble" role="alert"><strong>Fault:</strong> ${element.stopped}</p>`}
+    <${AlarmList} path=${path} />
     <div class="actions">
       ${!isGroup && html`<${ActionButton} id="swap" icon="swap" text="Swap" disabled=${locked}
           onClick=${open('swap')} title="Put a module of another type in its place (S)" />`}
@@ -46,7 +51,7 @@ export function ModuleDetails({ element }) {
       ${plugin && html`<${ActionButton} id="reload" icon="reset" text="Reload" disabled=${locked}
           onClick=${() => Reload(plugin)}
         title=${`Load the plugin ${plugin} anew, with all its modules`} />`}
-      <${ActionButton} id="delete" icon="trash" text="Delete" disabled=${locked} onClick=${() => Delete(path)} />
+      <${ActionButton} id="delete" icon="trash" text="Delete" disabled=${locked} onClick=${() => DeleteCarefully([path])} />
     </div>
     <${Facts} facts=${[
       ['thread', thread && html`<span class="thread-name"><i
@@ -73,8 +78,11 @@ export function ModuleDetails({ element }) {
     })}
     ${members.length > 0 && html`<${Section} title="Contains" count=${members.length}>
       <ul class="members">${members.slice(0, 200).map((member) => html`<li key=${member}><${Link} path=${member} />
-        <small>${structure.get(member).type ?? 'group'}</small></li>`)}</ul><//>`}`;
+        <small>${structure.get(member).type ?? 'group'}</small>
+        ${AlarmCount(member) > 0 && html`<span class="badge bad">${AlarmsAt(member).map(({ kind }) => kAlarmWords[kind]).join(', ')}</span>`}</li>`)}</ul><//>`}`;
 }
+
+const kAlarmWords = { stopped: 'stopped', unconnected: 'without a source', silent: 'silent' };
 
 const kLogLevels = { inherit: 'as around it', debug: 'debug and more', info: 'info and more',
   warning: 'warnings and errors', error: 'errors', off: 'nothing' };

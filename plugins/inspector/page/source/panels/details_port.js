@@ -2,11 +2,12 @@
 
 import { useState } from 'preact/hooks';
 import { html } from 'htm/preact';
-import { NameOf } from '../model/structure.js';
+import { ConnectionKey, NameOf } from '../model/structure.js';
 import { FormatNumber, FormatRate } from '../model/value_format.js';
-import { Disconnect } from '../state/actions.js';
-import { openDialog } from '../state/choices.js';
+import { DisconnectCarefully } from '../state/careful.js';
+import { openDialog, selected } from '../state/choices.js';
 import { FlowRate, canChange, catalogue, revision, structure } from '../state/store.js';
+import { AlarmList } from './alarms.js';
 import { ByHand } from './by_hand.js';
 import { ImagePicture } from './image_picture.js';
 import { ActionButton, Awaited, Facts, Link, Section, Title } from './parts.js';
@@ -27,6 +28,7 @@ export function PortDetails({ element }) {
   return html`
     <${Title} kind=${`${element.interface ? 'group ' : ''}${element.direction}`} name=${element.name} path=${path}>
       ${element.description && html`<p class="summary">${element.description}</p>`}<//>
+    <${AlarmList} path=${path} />
     <div class="actions">
       <${ActionButton} id="connect" icon="plug" text="Connect …" disabled=${!canChange.value}
         onClick=${() => { openDialog.value = { kind: 'connect', path }; }} title="Connect with another port (C)" />
@@ -67,11 +69,12 @@ function ConnectionRow({ port, connection }) {
   return html`<li>
     <span class="arrow">${isSource ? 'to' : 'from'}</span>
     <${Link} path=${other} text=${`${owner ? NameOf(owner) : ''}/${NameOf(other)}`} />
-    ${connection.queue > 0 && html`<small>queue of ${connection.queue}</small>`}
+    <button class="link" title="How it passes values on" onClick=${() => { selected.value = ConnectionKey(connection); }}>
+      <small>${connection.queue > 0 ? `queue of ${connection.queue}` : connection.pull ? '' : 'newest value'}</small></button>
     ${connection.pull && html`<small>pulled</small>`}
     ${connection.conversion && html`<small>${connection.conversion}</small>`}
     ${connection.when_present && html`<small>when present</small>`}
     ${connection.late && html`<small>late</small>`}
     <button class="remove" disabled=${!canChange.value} title="Disconnect" aria-label=${`Disconnect ${other}`}
-      onClick=${() => Disconnect(connection.from, connection.to)}>✕</button></li>`;
+      onClick=${() => DisconnectCarefully(connection.from, connection.to)}>✕</button></li>`;
 }

@@ -2,6 +2,7 @@
 
 import { Pause, Redo, Resume, Step, Undo } from '../state/actions.js';
 import { GroupForNew, openDialog } from '../state/choices.js';
+import { CopyChosen, PasteCopied } from '../state/clipboard.js';
 import { canChange, canDrive, hello, run, structure } from '../state/store.js';
 
 export function AttachKeys() {
@@ -18,7 +19,9 @@ export function AttachKeys() {
 
 function WithControl(key, shift, isField) {
   if (key === 's') return () => { if (canChange.value) openDialog.value = { kind: 'difference' }; };
+  if (key === 'c' && !isField && getSelection().isCollapsed) return () => { CopyChosen(); };
   if (isField || !canChange.value) return null; // fields have an undo of their own
+  if (key === 'v') return () => { PasteCopied(); };
   if (key === 'z' && !shift) return () => { if (run.value.undo) Undo(); };
   if (key === 'y' || (key === 'z' && shift)) return () => { if (run.value.redo) Redo(); };
   return null;

@@ -46,7 +46,7 @@ export function ParameterRow({ parameter }) {
   const isEdited = draft !== null && draft !== parameter.value;
   return html`
     <div class=${`parameter ${problem ? 'wrong' : ''} ${isEdited ? 'edited' : ''}`} data-parameter=${parameter.path}>
-      <label for=${id} title=${parameter.description}>${parameter.name}</label>
+      <label for=${id} title=${parameter.name}>${parameter.name}</label>
       <div class="field">
         <${Field} id=${id} parameter=${parameter} text=${draft ?? parameter.value ?? ''} locked=${locked}
           wrong=${problem !== ''} onDraft=${type} onSend=${send} onDrop=${drop} />
@@ -56,6 +56,7 @@ export function ParameterRow({ parameter }) {
           aria-label=${`Set ${parameter.name} back to ${parameter.default}`}
           onClick=${() => send(parameter.default)}>↺</button>`}
       </div>
+      ${parameter.description && html`<p class="description">${parameter.description}</p>`}
       <p class="note" id=${`${id}:note`}>
         ${[bounds, parameter.remakes ? 'makes the module anew' : !parameter.settable && 'fixed while it runs']
           .filter(Boolean).join(' · ')}</p>

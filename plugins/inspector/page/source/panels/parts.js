@@ -18,7 +18,7 @@ export function Section({ title, count, children, id }) {
 
 /** Pairs of a name and what it has; those without anything are left out. */
 export function Facts({ facts }) {
-  return html`<dl class="facts">${facts.filter(([, value]) => value !== null && value !== undefined && value !== '')
+  return html`<dl class="facts">${facts.filter(([, value]) => value !== null && value !== undefined && value !== '' && value !== false)
     .map(([name, value]) => html`<div key=${name}><dt>${name}</dt><dd>${value}</dd></div>`)}</dl>`;
 }
 

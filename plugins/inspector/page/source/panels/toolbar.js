@@ -3,10 +3,12 @@
 import { useEffect, useState } from 'preact/hooks';
 import { html } from 'htm/preact';
 import { FormatTime } from '../model/value_format.js';
-import { Pause, Redo, Resume, SetSpeed, Step, Undo } from '../state/actions.js';
+import { Pause, Redo, Resume, SetSpeed, Step, Undo, WhoseChange } from '../state/actions.js';
 import { GroupForNew, SetPanels, openDialog, panels, theme } from '../state/choices.js';
 import { canChange, canDrive, connection, hello, isConnected, role, run } from '../state/store.js';
+import { isNarrow, isPhone } from '../state/window.js';
 import { hasWorld } from '../world/world_view.js';
+import { AlarmCounter } from './alarms.js';
 import { Icon } from './icon.js';
 import { SearchBox } from './search_box.js';
 
@@ -77,16 +79,17 @@ function Speed({ speed, locked }) {
 
 function Changes() {
   const { undo, redo } = run.value;
+  const whose = (client) => { const text = WhoseChange(client, hello.value?.viewer); return text ? `, ${text}` : ''; };
   const locked = !canChange.value;
   return html`
     <div class="cluster" role="group" aria-label="Changes">
       <button id="add" disabled=${locked} onClick=${() => { openDialog.value = { kind: 'create', group: GroupForNew() }; }}
         title="Add a module (A)" aria-label="Add a module"><${Icon} name="add" /></button>
       <button id="undo" disabled=${locked || !undo} onClick=${Undo}
-          title=${undo ? `Undo “${undo}” (Ctrl+Z)` : 'Nothing to undo'}
+          title=${undo ? `Undo “${undo}”${whose(run.value.undo_client)} (Ctrl+Z)` : 'Nothing to undo'}
         aria-label=${undo ? `Undo ${undo}` : 'Undo'}><${Icon} name="undo" /></button>
       <button id="redo" disabled=${locked || !redo} onClick=${Redo}
-          title=${redo ? `Redo “${redo}” (Ctrl+Shift+Z)` : 'Nothing to redo'}
+          title=${redo ? `Redo “${redo}”${whose(run.value.redo_client)} (Ctrl+Shift+Z)` : 'Nothing to redo'}
         aria-label=${redo ? `Redo ${redo}` : 'Redo'}><${Icon} name="redo" /></button>
       <span class="joined">
         <button id="save" disabled=${locked} onClick=${() => { openDialog.value = { kind: 'difference' }; }}
@@ -104,8 +107,12 @@ function Looks() {
   const next = { system: 'light', light: 'dark', dark: 'system' }[theme.value];
   return html`
     <div class="cluster" role="group" aria-label="View">
-      ${faults > 0 && html`<button id="faults" class="faults" onClick=${() => SetPanels({ tab: 'log' })}
+      <${AlarmCounter} />
+      ${faults > 0 && html`<button id="faults" class="faults" onClick=${() => SetPanels({ tab: 'log', dockOpen: true })}
         title="Faults since the start: see the log">${faults} fault${faults === 1 ? '' : 's'}</button>`}
+      ${isNarrow.value && !isPhone.value && html`<button id="show-side" aria-pressed=${panels.value.sideOpen === true}
+        onClick=${() => SetPanels({ sideOpen: !panels.value.sideOpen })} title="Map and details" aria-label="Map and details"><${Icon}
+        name="panel" /></button>`}
       <button disabled=${!hasWorld.value} onClick=${() => SetPanels({ worldShown: !panels.value.worldShown, worldLarge: false })} id="show-world"
         aria-pressed=${panels.value.worldShown} title="World view" aria-label="World view"><${Icon}
         name="world" /></button>
@@ -131,6 +138,6 @@ export function LostBanner() {
   const { ended, verdict } = run.value;
   return html`<div class=${`lost ${ended ? 'ended' : ''}`} role="alert" id="lost">
     ${!hello.value ? 'Trying to reach the application …'
-      : ended ? `The application has ended${verdict ? `: ${verdict}` : ''}. The page goes on when it is started again.`
+      : ended ? `The application has ended${verdict ? `: ${verdict.trim().replace(/\.$/, '')}` : ''}. The page goes on when it is started again.`
       : 'The application does not answer. What you see is how it was last. Trying to reach it again …'}</div>`;
 }

@@ -31,7 +31,7 @@ export function PlotField(port, field, unit) {
   plots.value = plot
     ? plots.value.map((each) => (each === plot ? { ...each, curves: [...each.curves, curve] } : each))
     : [...plots.value, { id: next++, unit, curves: [curve] }];
-  SetPanels({ tab: 'plots' });
+  SetPanels({ tab: 'plots', dockOpen: true });
 }
 
 export function RemoveCurve(plotId, curveId) {

@@ -2,10 +2,12 @@
 // up as a toast, unless the caller shows it where it belongs.
 
 import { Change, FreeName } from '../model/changes.js';
-import { NameOf, ParentOf } from '../model/structure.js';
-import { selected } from './choices.js';
-import { Request, run, structure } from './store.js';
-import { Toast } from './toasts.js';
+import { PasteChanges } from '../model/copies.js';
+import { ConnectionKey, NameOf, ParentOf } from '../model/structure.js';
+import { openGroups, selected } from './choices.js';
+import { Renamed, RenamedEntries, TakeArrangement } from './arrangement.js';
+import { Request, hello, role, run, structure } from './store.js';
+import { CloseDone, Toast } from './toasts.js';
 
 /** One error as text, with its place and its cure. */
 export function ErrorText(error) {
@@ -14,13 +16,16 @@ export function ErrorText(error) {
 }
 
 async function Ask(message, failed, { quiet = false } = {}) {
+  // What is said of the change before would be taken for what is said of this one.
+  if (['change', 'undo', 'redo'].includes(message.op)) CloseDone();
   const reply = await Request(message);
   if (!reply.ok && !quiet) Toast('error', failed, (reply.errors ?? []).map(ErrorText));
   return reply;
 }
 
+/** One change is called by the application what it is; several need a word for all of them. */
 export function Apply(changes, label, options) {
-  return Ask({ op: 'change', label, changes }, `Could not ${label}`, options);
+  return Ask({ op: 'change', ...(changes.length > 1 ? { label } : {}), changes }, `Could not ${label}`, options);
 }
 
 export function SetParameter(path, value, options) {
@@ -38,15 +43,27 @@ export async function Connect(from, to) {
   return reply;
 }
 
-export function Disconnect(from, to) {
-  return Apply([Change.disconnect(from, to)], `disconnect ${Brief(from)} from ${Brief(to)}`);
+export async function Disconnect(from, to) {
+  const reply = await Apply([Change.disconnect(from, to)], `disconnect ${Brief(from)} from ${Brief(to)}`);
+  if (reply.ok && selected.value === ConnectionKey({ from, to })) selected.value = null;
+  return reply;
 }
 
-/** Whether a connection pulls is said when it is made, so it is made anew. */
-export function SetPull(from, to, pull) {
-  const { when_present, late } = structure.connectionsOf(from).find((each) => each.from === from && each.to === to) ?? {};
-  return Apply([Change.disconnect(from, to), Change.connect(from, to, { pull, when_present, late })],
-    `${pull ? 'pull' : 'push'} from ${Brief(from)} to ${Brief(to)}`);
+/** How a connection passes values on is said when it is made, so it is made anew, as it was but for `options`. */
+function Reconnect({ from, to, part, ...was }, options, label) {
+  const { pull, convert, when_present, late, queue, on_full } = { ...was, ...options };
+  const how = { pull, when_present, late, ...(convert ? { convert } : {}), ...(queue > 0 ? { queue, on_full } : {}) };
+  return Apply([Change.disconnect(from, to), Change.connect(part ? `${from}.${part}` : from, to, how)], label);
+}
+
+export function SetPull(connection, pull) {
+  return Reconnect(connection, { pull }, `${pull ? 'pull' : 'push'} from ${Brief(connection.from)} to ${Brief(connection.to)}`);
+}
+
+/** `queue`: how many values wait, 0: only the newest is kept. */
+export function SetQueue(connection, queue, on_full = 'drop_oldest') {
+  return Reconnect(connection, { queue, on_full },
+    `queue ${queue} values from ${Brief(connection.from)} to ${Brief(connection.to)}`);
 }
 
 export async function Delete(path) {
@@ -55,9 +72,42 @@ export async function Delete(path) {
   return reply;
 }
 
+export function DeleteAll(paths) {
+  return Apply(paths.map(Change.delete), `delete ${paths.map(NameOf).join(', ')}`);
+}
+
 /** `settings`: texts of parameters by their names. */
 export function CreateModule(type, group, name, settings) {
   return Apply([Change.create(`${group}/${name}`, type, settings)], `create ${name}`, { quiet: true });
+}
+
+/** Elements that have been copied, made again in a group; their paths, or null. */
+export async function Paste(copy, group) {
+  const { changes, paths } = PasteChanges(structure, copy, group);
+  const reply = await Apply(changes, `paste ${paths.map(NameOf).join(', ')}`);
+  return reply.ok ? paths : null;
+}
+
+/** Tells all viewers where boxes stand, or what is noted; it is kept beside the application's file. */
+export async function Arrange(entries) {
+  if (role.value !== 'change') return TakeArrangement(entries);
+  TakeArrangement(entries);
+  const reply = await Ask({ op: 'arrange', entries }, '', { quiet: true });
+  if (!reply.ok) Toast('refused', 'The layout is kept by this page only', (reply.errors ?? []).map(ErrorText));
+  return undefined;
+}
+
+/** What is arranged and open goes with the name. */
+export async function Rename(path, name) {
+  const next = `${ParentOf(path)}/${name}`;
+  const entries = RenamedEntries(path, next);
+  const before = selected.value;
+  const reply = await Apply([Change.rename(path, name)], `rename ${NameOf(path)} to ${name}`, { quiet: true });
+  if (!reply.ok) return reply;
+  if (Object.keys(entries).length > 0) Arrange(entries);
+  if (selected.value === before && before === path) selected.value = next;
+  openGroups.value = Object.fromEntries(Object.entries(openGroups.value).map(([each, isOpen]) => [Renamed(each, path, next), isOpen]));
+  return reply;
 }
 
 export function CreatePort(group, name, direction, type) {
@@ -91,8 +141,25 @@ export const ResumeElement = (path) => Ask({ op: 'resume', path }, `Could not le
 /** `options`: { period, priority }, of which one may be left out; the period in seconds. */
 export const Schedule = (path, options) => Apply([Change.schedule(path, options)], `schedule ${NameOf(path)}`);
 export const CreateThread = (name, options) => Apply([Change.createThread(name, options)], `create thread ${name}`);
-export const Undo = () => Ask({ op: 'undo' }, `Could not undo “${run.value.undo}”`);
-export const Redo = () => Ask({ op: 'redo' }, `Could not redo “${run.value.redo}”`);
+export const Undo = () => Travel('undo');
+export const Redo = () => Travel('redo');
+
+/** Says what has been undone or redone, and whose change it was. */
+async function Travel(op) {
+  const reply = await Ask({ op }, `Could not ${op} “${run.value[op]}”`);
+  if (!reply.ok) return reply;
+  const whose = WhoseChange(reply.client, hello.value?.viewer);
+  Toast('done', reply.text || `${op} is done`, whose ? [whose] : []);
+  return reply;
+}
+
+/** `client`: who has made a change, `viewer`: this one; both as the server calls them. */
+export function WhoseChange(client, viewer) {
+  if (!client) return '';
+  if (client === viewer) return 'your change';
+  return client.startsWith('viewer ') ? `a change of another viewer (${client})` : `a change of ${client}`;
+}
+
 export const Pause = () => Ask({ op: 'pause' }, 'Could not pause');
 export const Resume = () => Ask({ op: 'resume' }, 'Could not go on');
 export const Step = (cycles) => Ask({ op: 'step', cycles }, 'Could not step');
@@ -102,8 +169,9 @@ export const CompatibleTypes = (path) => Ask({ op: 'compatible', path }, 'Could 
 /** What saving would make of the application's file: {file, before, after}. */
 export const PreviewSave = (file = '') => Ask({ op: 'preview', file }, 'Could not tell what saving would change', { quiet: true });
 
-export async function Save(file = '', options) {
-  const reply = await Ask({ op: 'save', file }, 'Could not save', options);
+/** `overwrite`: also where another application's file is. */
+export async function Save(file = '', { overwrite = false, ...options } = {}) {
+  const reply = await Ask({ op: 'save', file, ...(overwrite ? { overwrite } : {}) }, 'Could not save', options);
   if (reply.ok) Toast('done', reply.text || 'Saved');
   return reply;
 }

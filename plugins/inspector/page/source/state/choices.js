@@ -7,11 +7,24 @@ import { hello, isConnected, revision, structure } from './store.js';
 const kOpenBelow = 60; // applications with fewer modules show all of them at first
 
 export const selected = signal(null);   // a path, the key of a connection, or nothing
+/** What has been chosen besides `selected`, and with which selection: another one ends it. */
+export const marked = signal({ with: null, paths: [] });
+export const chosen = computed(() => {
+  if (selected.value === null) return [];
+  return [selected.value, ...(marked.value.with === selected.value ? marked.value.paths : [])];
+});
+
+/** Chooses several boxes; the last one is shown. */
+export function Choose(paths) {
+  selected.value = paths.at(-1) ?? null;
+  marked.value = { with: selected.value, paths: paths.slice(0, -1) };
+}
+
 export const openGroups = signal({});   // path -> true or false, where the user has decided
 export const theme = signal(Kept('theme', 'system'));
 const systemIsDark = signal(false);
 export const isDark = computed(() => (theme.value === 'system' ? systemIsDark.value : theme.value === 'dark'));
-export const panels = signal(Kept('panels', { side: 380, dock: 220, world: 330, worldShown: true, worldLarge: false, tab: 'plots' }));
+export const panels = signal(Kept('panels', { side: 380, dock: 220, dockOpen: false, world: 330, worldShown: true, worldLarge: false, tab: 'plots' }));
 export const openDialog = signal(null); // {kind: 'create' | 'connect' | …, …}
 export const announcement = signal(''); // for screen readers
 
@@ -53,7 +66,7 @@ export function GroupForNew() {
 /** Opens the groups around an element, so that it can be seen. */
 export function Reveal(path) {
   const open = { ...openGroups.value };
-  for (let at = ParentOf(path); at; at = ParentOf(at)) open[at] = true;
+  for (let at = ParentOf(path); at; at = ParentOf(at)) if (!IsOpen(at) && at !== structure.root) open[at] = true;
   openGroups.value = open;
 }
 
@@ -96,7 +109,7 @@ export function StartKeeping() {
     if (!name) return;
     if (name !== application) {
       application = name;
-      openGroups.value = Kept(`open.${name}`, {});
+      openGroups.value = { ...Kept(`open.${name}`, {}), ...openGroups.peek() }; // the address is right
     } else {
       Keep(`open.${name}`, openGroups.value);
     }

@@ -7,7 +7,9 @@ import { Watches } from '../connection/watches.js';
 import { Catalogue } from '../model/catalogue.js';
 import { OriginsOf } from '../model/origin.js';
 import { Structure } from '../model/structure.js';
+import { ForgetArrangement, TakeArrangement } from './arrangement.js';
 import { AddLogEntries } from './log.js';
+import { Silence } from './silence.js';
 
 export const connection = signal({ state: 'connecting', reason: '', since: 0 });
 export const hello = signal(null);
@@ -15,7 +17,7 @@ export const catalogue = signal(new Catalogue());
 export const structure = new Structure();
 export const revision = signal(0);      // counts the changes of `structure`
 export const shapeRevision = signal(0); // the same, but for changes of parameters' values alone
-export const run = signal({ time: 0, paused: false, speed: null, undo: null, redo: null, faults: 0, ended: false, verdict: null, log_levels: {} });
+export const run = signal({ time: 0, paused: false, speed: null, undo: null, redo: null, undo_client: null, redo_client: null, faults: 0, ended: false, verdict: null, log_levels: {} });
 export const log = signal([]);
 export const threadStatistics = signal({});
 
@@ -27,6 +29,8 @@ export const canChange = computed(() => isConnected.value && role.value === 'cha
 /** Whether values may be set by hand now, and all of it be stopped. */
 export const canDrive = computed(() => isConnected.value && role.value !== 'look');
 
+const silence = new Silence();
+export const silent = signal(silence.silent); // Map port path -> since when it has published nothing
 const rates = new Map();   // port path -> signal of publications per second
 
 function RateOf(path) {
@@ -75,6 +79,7 @@ const kReceivers = {
   rates: OnRates,
   profile: (message) => { profile.value = WithShares(message, profile.value); },
   values: (message) => watches.receive(message),
+  layout: (message) => TakeArrangement(message.entries),
   log: (message) => { log.value = AddLogEntries(log.value, message.entries); },
 };
 
@@ -89,9 +94,12 @@ function OnHello(message) {
     log.value = [];
     threadStatistics.value = {};
     watches.forget();
+    silence.forget();
+    silent.value = silence.silent;
   }
   // A new connection is told all rates anew.
   for (const rate of rates.values()) rate.value = null;
+  ForgetArrangement();
   hello.value = message;
 }
 
@@ -118,6 +126,8 @@ function ChangesShape({ gone, connected, disconnected, elements }) {
 
 function OnRates(message) {
   for (const [path, rate] of Object.entries(message.ports ?? {})) RateOf(path).value = rate;
+  silence.note(message.ports ?? {}, message.time);
+  silent.value = silence.silent;
   if (message.threads) threadStatistics.value = { ...threadStatistics.value, ...message.threads };
 }
 

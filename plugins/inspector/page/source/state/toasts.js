@@ -14,6 +14,11 @@ export function Toast(kind, text, details = []) {
   if (kind !== 'error') setTimeout(() => CloseToast(toast.number), kMilliseconds);
 }
 
+/** Takes away what has been said of something done. */
+export function CloseDone() {
+  if (toasts.value.some((toast) => toast.kind === 'done')) toasts.value = toasts.value.filter((toast) => toast.kind !== 'done');
+}
+
 export function CloseToast(number) {
   toasts.value = toasts.value.filter((toast) => toast.number !== number);
 }
