@@ -1,9 +1,7 @@
 #include "core/port/bound_input.h"
 
-#include <mutex>
 #include <utility>
 
-#include "core/element/runtime.h"
 #include "core/lockfree/thread_epoch.h"
 
 namespace runnel {
@@ -14,7 +12,11 @@ BoundInput::BoundInput(FrameworkElement& group, std::string&& name, const TypeIn
                        InputOptions&& options)
     : InputBase({group, std::move(name)}, type, std::move(options)) {}
 
-BoundInput::~BoundInput() = default;
+BoundInput::~BoundInput() {
+  // What is read while there is nothing else, a default value, is no connection, and is still bound.
+  const Binding* const last = binding_.load(std::memory_order_relaxed);
+  if (last != &kUnbound) delete last;
+}
 
 std::uint64_t BoundInput::dropped() const noexcept {
   const EpochGuard guard;
@@ -36,9 +38,6 @@ std::uint64_t BoundInput::publications() const noexcept {
 void BoundInput::DisconnectForEver() {
   SetWaker(nullptr);
   DisconnectAll();
-  // What is read while there is nothing else, a default value, is no connection.
-  const std::lock_guard lock(runtime().structure_mutex());
-  Rebind({});
 }
 
 void BoundInput::PullInto(const Binding& binding) const noexcept {
