@@ -173,14 +173,14 @@ using SearchedOverwriting = OverwritingQueue<Grounded, SearchedAtomic, SearchedN
 
 // A writer that never waits, over several laps, and a reader that works in the cell: what comes out is what went
 // in, whole, once and in order, and no cell is touched by both.
-template <std::size_t kCapacity, std::size_t kAtOnce>
-struct OverwritingSuite : rl::test_suite<OverwritingSuite<kCapacity, kAtOnce>, 2> {
+template <std::size_t kCapacity, std::size_t kAtOnce, int kValues>
+struct OverwritingSuite : rl::test_suite<OverwritingSuite<kCapacity, kAtOnce, kValues>, 2> {
   Grounds grounds;
   SearchedOverwriting queue{kCapacity, kAtOnce};
 
   void thread(unsigned index) {
     if (index == 0) {
-      for (int i = 1; i <= 6; ++i) {
+      for (int i = 1; i <= kValues; ++i) {
         if (queue.TryEmplace(i)) continue;
         // Full, or the reader is at the cell: then this one is left out.
         if (queue.size() == kCapacity) (void)queue.DropOldest();
@@ -204,27 +204,27 @@ struct OverwritingSuite : rl::test_suite<OverwritingSuite<kCapacity, kAtOnce>, 2
 };
 
 TEST(OverwritingQueueSearch, ReaderKeepsWhatItHasClaimed) {
-  EXPECT_TRUE((Search<OverwritingSuite<1, 1>>(kIterations / 4, 2)));
-  EXPECT_TRUE((Search<OverwritingSuite<2, 2>>(kIterations / 4, 2)));
+  EXPECT_TRUE((Search<OverwritingSuite<1, 1, 4>>(kIterations / 10, 2)));
+  EXPECT_TRUE((Search<OverwritingSuite<2, 2, 6>>(kIterations / 10, 1)));
 }
 
 // Somebody else drops, too, as who exchanges a queue does.
 struct DroppedFromOutsideSuite : rl::test_suite<DroppedFromOutsideSuite, 3> {
   Grounds grounds;
-  SearchedOverwriting queue{2};
+  SearchedOverwriting queue{1};
 
   void thread(unsigned index) {
     if (index == 0) {
-      for (int i = 1; i <= 6; ++i) {
+      for (int i = 1; i <= 4; ++i) {
         if (queue.TryEmplace(i)) continue;
-        if (queue.size() == 2) (void)queue.DropOldest();
+        if (queue.size() == 1) (void)queue.DropOldest();
         (void)queue.TryEmplace(i);
       }
     } else if (index == 1) {
       (void)queue.DropOldestFromOutside();
     } else {
       int last = 0;
-      for (int attempt = 0; attempt < 3; ++attempt) {
+      for (int attempt = 0; attempt < 2; ++attempt) {
         Grounded* const front = queue.Front();
         if (front == nullptr) continue;
         RL_ASSERT(front->Get() > last);
@@ -236,7 +236,7 @@ struct DroppedFromOutsideSuite : rl::test_suite<DroppedFromOutsideSuite, 3> {
 };
 
 TEST(OverwritingQueueSearch, WhatOthersDropIsTheirsUntilTheyAreDone) {
-  EXPECT_TRUE(Search<DroppedFromOutsideSuite>(kIterations / 4, 1));
+  EXPECT_TRUE(Search<DroppedFromOutsideSuite>(kIterations / 10, 1));
 }
 
 // The queue for many, with a capacity that two laps need.
