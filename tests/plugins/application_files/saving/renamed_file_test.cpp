@@ -6,72 +6,14 @@
 
 #include "plugins/structure/renamed_text.h"
 #include "plugins/structure/structure_editor.h"
-#include "tests/plugins/application_files/saving/saving_workshop.h"
+#include "tests/plugins/application_files/saving/loaded_file.h"
 
 namespace runnel::testing {
 namespace {
 
 using ::testing::HasSubstr;
 
-const char* const kNamedFile = R"(<?xml version="1.0"?>
-<!-- of the whole -->
-<application   name='demo' >
-
-  <thread name="slow" period="0.05 s"/>
-  <thread name="fast" period="10ms"/>   <!-- of the thread -->
-
-  <module name="source" type="test/source" thread="slow">
-    <!-- of the gain -->
-    <parameter name='gain'   value='2.50'/>
-    <parameter name="count" value="4" command_line="count"/>
-  </module>
-  <group name="inner">
-      <port name="in" direction="input"/>
-      <module name="filter" type="test/filter"/><!-- of the filter -->
-      <module name="sink" type="test/sink"/>
-      <connect from="in" to="filter/value  sink/second"/>
-      <connect from="filter/value" to="sink/value" queue="3" on_full="refuse"/>
-  </group>
-
-  <connect from="source/value" to="inner/in"/>
-  <on_fault of="inner/filter" action="stop_application"/>
-</application>
-<!-- the end -->
-)";
-
-class RenamedFile : public ::testing::Test {
- protected:
-  FrameworkElement& Load(const std::string& text = kNamedFile) {
-    WriteAll(file_, text);
-    application_ = shop_.Load(file_);
-    return *application_;
-  }
-  std::string Text() { return shop_.Text(*application_, folder_.path()); }
-  // What the file is after `from` has become `to`.
-  static std::string With(const std::string& from, const std::string& to,
-                          std::string text = kNamedFile) {
-    const std::size_t place = text.find(from);
-    EXPECT_NE(place, std::string::npos) << from;
-    return text.replace(place, from.size(), to);
-  }
-  template <typename T>
-  T& Get(const std::string& path) {
-    return shop_.Get<T>(path);
-  }
-  FrameworkElement& Create(const std::string& type, const std::string& parent,
-                           const std::string& name) {
-    return *shop_.plugins.modules().Create(type, Get<FrameworkElement>(parent), name).value();
-  }
-  void Delete(const std::string& path) {
-    const auto deleted = shop_.runtime.Delete(Get<FrameworkElement>(path));
-    ASSERT_TRUE(deleted) << deleted.error().ToString();
-  }
-
-  TestFolder folder_;
-  std::filesystem::path file_ = folder_ / "app.xml";
-  SavingWorkshop shop_;
-  FrameworkElement* application_ = nullptr;
-};
+class RenamedFile : public LoadedFile {};
 
 TEST_F(RenamedFile, KeepsWhatItsOwnFileWas) {
   Load();
@@ -79,10 +21,10 @@ TEST_F(RenamedFile, KeepsWhatItsOwnFileWas) {
   ASSERT_TRUE(Get<Source>("/demo/source").gain.Set(3.5));
   ASSERT_TRUE(SaveApplication(*application_, shop_.tools(), file_)) << "its own, however it is named";
   const std::filesystem::path backup = file_.string() + "~";
-  EXPECT_EQ(ReadAll(backup), kNamedFile);
+  EXPECT_EQ(ReadAll(backup), kFile);
   EXPECT_EQ(std::filesystem::status(backup).permissions(), std::filesystem::status(file_).permissions());
   ASSERT_TRUE(SaveApplication(*application_, shop_.tools()));
-  EXPECT_EQ(ReadAll(backup), kNamedFile) << "nothing was to be written";
+  EXPECT_EQ(ReadAll(backup), kFile) << "nothing was to be written";
 }
 
 TEST_F(RenamedFile, WithoutABackupNothingIsReplaced) {
@@ -92,7 +34,7 @@ TEST_F(RenamedFile, WithoutABackupNothingIsReplaced) {
   const auto saved = SaveApplication(*application_, shop_.tools());
   ASSERT_FALSE(saved);
   EXPECT_THAT(saved.error().message, HasSubstr("cannot be kept as app.xml~"));
-  EXPECT_EQ(ReadAll(file_), kNamedFile);
+  EXPECT_EQ(ReadAll(file_), kFile);
 }
 
 TEST_F(RenamedFile, WhatIsRenamedIsRenamedInPlaceWithAllThatNamesIt) {
@@ -122,11 +64,11 @@ TEST_F(RenamedFile, WhatIsRenamedIsRenamedInPlaceWithAllThatNamesIt) {
 TEST_F(RenamedFile, RulesThatNameWhatIsRenamedAreTold) {
   Load();
   const std::lock_guard lock(shop_.runtime.structure_mutex());
-  const auto rules = RulesThatName(Get<FrameworkElement>("/demo/inner"), kNamedFile, "app.xml", PathAttributesIn(shop_.tags));
+  const auto rules = RulesThatName(Get<FrameworkElement>("/demo/inner"), kFile, "app.xml", PathAttributesIn(shop_.tags));
   ASSERT_EQ(rules.size(), 1U);
   EXPECT_THAT(rules[0].message, HasSubstr("<on_fault of=\"inner/filter\">"));
   EXPECT_EQ(rules[0].position.line, 22);
-  EXPECT_TRUE(RulesThatName(Get<FrameworkElement>("/demo/source"), kNamedFile, "app.xml", PathAttributesIn(shop_.tags)).empty());
+  EXPECT_TRUE(RulesThatName(Get<FrameworkElement>("/demo/source"), kFile, "app.xml", PathAttributesIn(shop_.tags)).empty());
 }
 
 }  // namespace
