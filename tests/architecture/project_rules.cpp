@@ -51,6 +51,8 @@ void AddApplication(std::vector<IncludeRule>& rules) {
 
 void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/parameters", "plugins/parameters", {"core"}});
+  rules.push_back({"plugins/behaviours/algorithm", "plugins/behaviours/algorithm", {}, true});
+  rules.push_back({"plugins/behaviours", "plugins/behaviours", {"core", "plugins/parameters", "plugins/behaviours/algorithm"}});
   rules.push_back({"plugins/values", "plugins/values", {"core"}});
   rules.push_back({"plugins/foxglove",
                    "plugins/foxglove",
@@ -120,6 +122,8 @@ void AddModules(std::vector<IncludeRule>& rules) {
   for (const char* family : {"adaptors", "flow", "motion", "planning", "sensors", "signal"}) {
     AddFamily(rules, family);
   }
+  // Behaviours of a robot, and a fusion of values of any type.
+  AddFamily(rules, "behaviours", {"plugins/behaviours", "modules/flow"});
   AddFamily(rules, "simulation", {"plugins/values"});  // the referee's result
   // Worlds made and measured: no modules, and what a world is, the simulation says.
   rules.push_back({"modules/worlds",

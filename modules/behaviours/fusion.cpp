@@ -1,0 +1,123 @@
+#include "modules/behaviours/fusion.h"
+
+#include <algorithm>
+
+#include "core/element/framework_element.h"
+#include "modules/flow/ports_by_name.h"
+
+namespace runnel {
+
+Result<void> FusionBehaviour::Construct() {
+  if (auto made = Behaviour::Construct(); !made) return made;
+  const auto ports = flow::FindPortsByName(type.Get());
+  if (!ports) {
+    Error error = ports.error();
+    error.path = type.path();
+    return error;
+  }
+  const std::uint32_t count = channels.Get();
+  for (std::uint32_t i = 1; i <= count; ++i) {
+    const std::string number = std::to_string(i);
+    activities_.emplace_back(this, "activity" + number,
+                             InputOptions{.description = "how active the behaviour is", .required = true});
+    target_ratings_.emplace_back(this, "target_rating" + number,
+                                 InputOptions{.description = "how content it is", .required = true});
+    inputs_.push_back((*ports)->MakeInput(
+        InputGroup(), "in" + number, {.description = "what it wants", .required = true, .unit = unit.Get()}));
+  }
+  output_ = (*ports)->MakeOutput(OutputGroup(), "out",
+                                 {.description = "what all of them come to", .unit = unit.Get()});
+  if (output_ == nullptr) {
+    return Error{.message = "values of type '" + type.Get() + "' can be made by their own module only",
+                 .path = type.path()};
+  }
+  values_ = (*ports)->MakeHeldValues(count);
+  auto fusion = ValueFusion::Make(output_->type(), unit.Get(), count);
+  if (fusion) {
+    value_fusion_ = std::move(*fusion);
+  } else {
+    no_fusion_ = fusion.error().message;
+  }
+  signals_.resize(count);
+  weights_.resize(count);
+  found_.resize(count);
+  return {};
+}
+
+Result<void> FusionBehaviour::Prepare() {
+  if (!value_fusion_ && method.Get() != FusionMethod::kWinnerTakesAll) {
+    return Error{.message = no_fusion_,
+                 .path = method.path(),
+                 .hint = "the method winner_takes_all takes values of any type"};
+  }
+  return Behaviour::Prepare();
+}
+
+void FusionBehaviour::OnBehaviourParametersChanged() {
+  chosen_ = method.Get();
+  if (value_fusion_ || chosen_ == FusionMethod::kWinnerTakesAll) return;
+  throw ElementError({.message = no_fusion_, .path = method.path()});
+}
+
+bool FusionBehaviour::ReadSignals() {
+  for (std::size_t i = 0; i < signals_.size(); ++i) {
+    const auto active = activities_[i].Peek();
+    const auto rated = target_ratings_[i].Peek();
+    if (!active || !rated) return false;
+    signals_[i] = {active->value(), rated->value()};
+    if (!IsMetaValue(signals_[i].activity) || !IsMetaValue(signals_[i].target_rating)) {
+      throw ElementError({.message = "what comes to channel " + std::to_string(i + 1) + ", activity " +
+                                     TextOf(signals_[i].activity) + " and target rating " +
+                                     TextOf(signals_[i].target_rating) + ", is not within 0 and 1",
+                          .path = path()});
+    }
+  }
+  return true;
+}
+
+bool FusionBehaviour::ReadValues() {
+  has_fused_ = true;
+  for (std::size_t i = 0; i < weights_.size(); ++i) {
+    found_[i] = nullptr;
+    if (weights_[i] == 0.0 && i != winner_) continue;
+    (void)values_->Read(*inputs_[i], i);
+    found_[i] = values_->Find(i);
+    if (found_[i] != nullptr) continue;
+    if (signals_[i].activity > 0.0) return false;
+    has_fused_ = false;  // nobody is active, and not all have said what they want
+  }
+  return true;
+}
+
+std::optional<Behaviour::Outcome> FusionBehaviour::Behave(double activation) {
+  if (!ReadSignals()) return Miss("a channel has no activity or no target rating");
+  const FusedSignals fused = Fuse(chosen_, signals_, activation);
+  winner_ = fused.winner;
+  WeighChannels(chosen_, signals_, weights_);
+  if (!ReadValues()) {
+    has_fused_ = false;
+    return Miss("a channel is active and has no value");
+  }
+  return Outcome{fused.activity, fused.target_rating};
+}
+
+void FusionBehaviour::PublishFused() {
+  if (has_fused_) {
+    if (chosen_ == FusionMethod::kWinnerTakesAll) {
+      values_->Forward(*output_, winner_);
+    } else {
+      (void)output_->PublishFilled([this](void* value) -> Result<void> {
+        value_fusion_->Fuse(weights_, found_, winner_, value);
+        return {};
+      });
+    }
+  }
+  DiscardFused();
+}
+
+void FusionBehaviour::DiscardFused() {
+  has_fused_ = false;
+  for (std::size_t i = 0; i < weights_.size(); ++i) values_->Drop(i);
+}
+
+}  // namespace runnel

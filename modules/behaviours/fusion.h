@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/port/typed_ports.h"
+#include "modules/behaviours/algorithm/fusion.h"
+#include "modules/behaviours/value_fusion.h"
+#include "plugins/behaviours/behaviour.h"
+
+namespace runnel {
+
+inline void Describe(TypeBuilder<FusionMethod>& type) {
+  type.Name("FusionMethod")
+      .Value("winner_takes_all", FusionMethod::kWinnerTakesAll)
+      .Value("weighted_average", FusionMethod::kWeightedAverage)
+      .Value("weighted_sum", FusionMethod::kWeightedSum);
+}
+
+/// Makes what several behaviours want one, by how active each is: the only way in which two of them may command one
+/// actuator. Channel i has the ports activity<i>, target_rating<i> and in<i>.
+///
+/// Values:  of one type, `type`; the winner's is published on without a copy, others are weighted number by number,
+///          angles as unit vectors (ValueFusion). A channel without activity need not have a value.
+/// Errors:  a type that no port of a loaded plugin has; a method that cannot weight values of the type.
+class FusionBehaviour final : public Behaviour {
+ public:
+  using Behaviour::Behaviour;
+  static constexpr std::uint32_t kMostChannels = 1000;
+
+  StaticParameter<std::string> type{
+      this, "type", {.default_value = "double", .description = "of what the behaviours want"}};
+  StaticParameter<std::uint32_t> channels{
+      this, "channels", {.default_value = 2, .bounds = {1, kMostChannels}, .description = "how many behaviours"}};
+  StaticParameter<std::string> unit{
+      this, "unit", {.default_value = "", .description = "of numbers (type double …): rad makes them angles"}};
+  Parameter<FusionMethod> method{
+      this,
+      "method",
+      {.default_value = FusionMethod::kWeightedAverage, .description = "how they are made one"}};
+
+ private:
+  // What is fused goes out when the rules hold, as that of other behaviours.
+  class FusedValue final : public HeldBack {
+   public:
+    explicit FusedValue(FusionBehaviour& fusion) : HeldBack(fusion), fusion_(fusion) {}
+
+   private:
+    void Publish() override { fusion_.PublishFused(); }
+    void Discard() override { fusion_.DiscardFused(); }
+    FusionBehaviour& fusion_;
+  };
+
+  Result<void> Construct() override;
+  Result<void> Prepare() override;
+  std::optional<Outcome> Behave(double activation) override;
+  void OnBehaviourParametersChanged() override;
+  [[nodiscard]] bool ReadSignals();
+  // False: a channel that counts has none.
+  [[nodiscard]] bool ReadValues();
+  void PublishFused();
+  void DiscardFused();
+
+  std::deque<Input<Activity>> activities_;
+  std::deque<Input<TargetRating>> target_ratings_;
+  std::vector<std::unique_ptr<Port>> inputs_;
+  std::unique_ptr<Port> output_;
+  std::unique_ptr<HeldValues> values_;
+  FusedValue fused_{*this};
+  std::optional<ValueFusion> value_fusion_;  // nothing: only the winner's can be taken
+  std::string no_fusion_;                    // why
+  FusionMethod chosen_ = FusionMethod::kWinnerTakesAll;
+  std::vector<FusedChannel> signals_;
+  std::vector<double> weights_;
+  std::vector<const void*> found_;
+  std::size_t winner_ = 0;
+  bool has_fused_ = false;
+};
+
+}  // namespace runnel

@@ -1,0 +1,125 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/module/module.h"
+#include "core/port/input.h"
+#include "core/port/output.h"
+#include "plugins/behaviours/algorithm/behaviour_rules.h"
+#include "plugins/behaviours/behaviour_state.h"
+#include "plugins/behaviours/control_output.h"
+#include "plugins/behaviours/meta_signal.h"
+#include "plugins/parameters/parameter.h"
+#include "plugins/parameters/static_parameter.h"
+
+namespace runnel {
+
+/// A behaviour of a network (iB2C): a module that is stimulated and inhibited, does something with what activation that
+/// leaves, and tells others how much it does (activity) and how far it is from what it wants (target rating).
+///
+///     class Follow final : public Behaviour {
+///      public:
+///       using Behaviour::Behaviour;
+///       Input<double> distance{this, "distance"};
+///       ControlOutput<Twist2> twist{this, "twist"};
+///
+///      private:
+///       std::optional<Outcome> Behave(double activation) override {
+///         const auto seen = distance.Read();
+///         if (!seen) return {};
+///         twist.Set({.forward = *seen});
+///         const double rating = std::min(1.0, *seen);
+///         return Outcome{.activity = activation * rating, .target_rating = rating};
+///       }
+///     };
+///
+/// One cycle:   stimulation and inhibitions make the activation; Behave(); the rules are checked (behaviour_rules.h); then
+///              activity, target rating, derived activities, state and control outputs are published.
+/// Stimulation: of a port that nothing comes to it is 0, and a warning says so. Inhibitions that nothing comes to do not count.
+/// Threads:     as Module. Allocation: none in a cycle.
+/// Errors:      a rule that is broken, or a signal that is not within 0 and 1, is a fault with the figures, before anything
+///              of that cycle is published.
+class Behaviour : public Module {
+ public:
+  explicit Behaviour(const Placement& placement);
+
+  Input<Stimulation> stimulation{this, "stimulation", {.description = "how much it is wanted"}};
+  Output<Activity> activity{this, "activity", {.description = "how much it does"}};
+  Output<TargetRating> target_rating{
+      this, "target_rating", {.description = "0: content; 1: as far from what it wants as can be"}};
+  Output<BehaviourState> state{this, "behaviour", {.description = "all of it at once, for viewers"}};
+
+  static constexpr std::uint32_t kMostInhibitions = 64;
+  StaticParameter<std::uint32_t> inhibitions{
+      this,
+      "inhibitions",
+      {.default_value = 1, .bounds = {0, kMostInhibitions}, .description = "how many ports: inhibition1, inhibition2 …"}};
+  Parameter<StimulationMode> stimulation_mode{
+      this,
+      "stimulation_mode",
+      {.default_value = StimulationMode::kAuto,
+       .description = "auto: as the port says; enabled: fully; disabled: not at all"}};
+  Parameter<std::uint32_t> warning_interval{
+      this,
+      "warning_interval",
+      {.default_value = 250, .bounds = {1, 1000000}, .description = "cycles from one warning to the next, at least"}};
+
+  [[nodiscard]] Input<Inhibition>& inhibition(std::size_t index) { return inhibition_ports_[index]; }
+  [[nodiscard]] std::size_t inhibition_count() const noexcept { return inhibition_ports_.size(); }
+
+ protected:
+  struct Outcome {
+    double activity = 0.0;
+    double target_rating = 0.0;
+  };
+  /// What it does with so much activation. Outputs are set, not published (ControlOutput). Nothing: it cannot tell, since
+  /// something is missing; nothing of it is published then, its activity stays as it was or what activation is left of it,
+  /// its target rating stays as it was, and a warning says why (Miss()).
+  virtual std::optional<Outcome> Behave(double activation) = 0;
+  /// As OnParametersChanged() of modules.
+  virtual void OnBehaviourParametersChanged() {}
+  /// Who overrides it calls this one, too.
+  Result<void> Construct() override;
+  Result<void> Prepare() override;
+
+  /// For Behave(): `return Miss("nothing has come to its goal");` Any text that lives as long as the program.
+  [[nodiscard]] std::nullopt_t Miss(const char* reason) noexcept {
+    missed_ = reason;
+    return std::nullopt;
+  }
+
+ private:
+  friend class HeldBack;
+  friend class DerivedActivity;
+
+  void Update() final;
+  void OnParametersChanged() final;
+  [[nodiscard]] double ReadActivation();
+  [[nodiscard]] double ReadStimulation();
+  [[nodiscard]] bool HasSameActivities();
+  void Hold(double activation);
+  void PublishSignals(const MetaSignals& now);
+  void Warn(const char* text);
+  [[noreturn]] void Fail(const std::string& message) const;
+  double CheckSignal(const char* name, double value) const;
+
+  std::deque<Input<Inhibition>> inhibition_ports_;
+  std::vector<double> inhibition_values_;
+  std::vector<Input<Activity>*> activity_inputs_;
+  std::vector<double> last_activities_;  // of those; -1: there is none
+  std::vector<double> derived_;
+  std::vector<HeldBack*> held_back_;
+  std::optional<MetaSignals> before_;  // if it could tell
+  MetaSignals last_;
+  bool has_new_parameters_ = false;
+  const char* missed_ = nullptr;
+  std::uint64_t cycle_ = 0;
+  std::uint64_t warn_from_ = 0;
+};
+
+}  // namespace runnel

@@ -1,0 +1,181 @@
+#include <gmock/gmock.h>
+
+#include "plugins/behaviours/behaviour.h"
+#include "plugins/testing/matchers.h"
+#include "plugins/testing/module_rig.h"
+
+namespace runnel {
+namespace {
+
+using test::HasPublished;
+using test::KeepsRealTime;
+using test::ModuleRig;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// Does what it is told by numbers.
+class Told final : public Behaviour {
+ public:
+  using Behaviour::Behaviour;
+  Input<Activity> seen{this, "seen"};
+  ControlOutput<double> out{this, "out"};
+  ControlOutput<std::vector<double>> list{this, "list"};
+  DerivedActivity half{this, "half"};
+  Parameter<double> gain{this, "gain", {.default_value = 1.0}};
+
+  double part = 1.0;  // of the activation
+  double rating = 0.5;
+  double derived = 0.0;
+  bool can_tell = true;
+  double activation = -1.0;
+
+ private:
+  std::optional<Outcome> Behave(double with) override {
+    activation = with;
+    out.Set(7.0);
+    if (auto& loan = list.Fill()) loan->assign(3, with);
+    half.Set(derived);
+    if (!can_tell) return Miss("nobody has told it");
+    return Outcome{.activity = with * part, .target_rating = rating};
+  }
+};
+
+TEST(BehaviourTest, PublishesWhatItDoesAndHowItIs) {
+  ModuleRig<Told> rig;
+  rig.Set("inhibitions", "2");
+  rig.Feed("stimulation", Stimulation(0.8));
+  rig.Feed("inhibition2", Inhibition(0.5));
+  rig.module.part = 0.5;
+  rig.module.derived = 0.1;
+  rig.RunCycle();
+  EXPECT_DOUBLE_EQ(rig.module.activation, 0.4) << "inhibition1 is not connected";
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.2)));
+  EXPECT_THAT(rig.module.target_rating, HasPublished(TargetRating(0.5)));
+  EXPECT_THAT(rig.module.half.port, HasPublished(Activity(0.1)));
+  EXPECT_THAT(rig.module.out.port, HasPublished(7.0));
+  EXPECT_THAT(rig.module.list.port, HasPublished(ElementsAre(0.4, 0.4, 0.4)));
+  EXPECT_THAT(rig.module.state, HasPublished(BehaviourState{0.4, 0.2, 0.5, StimulationMode::kAuto}));
+}
+
+TEST(BehaviourTest, TheModeBeatsThePort) {
+  ModuleRig<Told> rig;
+  rig.RunCycle();
+  EXPECT_EQ(rig.module.activation, 0.0) << "nothing comes to the stimulation";
+  rig.Set("stimulation_mode", "enabled");
+  rig.RunCycle();
+  EXPECT_EQ(rig.module.activation, 1.0);
+  rig.Feed("stimulation", Stimulation(0.25));
+  rig.RunCycle();
+  EXPECT_EQ(rig.module.activation, 1.0);
+  rig.Set("stimulation_mode", "disabled");
+  rig.RunCycle();
+  EXPECT_EQ(rig.module.activation, 0.0);
+  rig.Set("stimulation_mode", "auto");
+  rig.RunCycle();
+  EXPECT_EQ(rig.module.activation, 0.25);
+  rig.Feed("inhibition1", Inhibition(1.0));
+  rig.Set("stimulation_mode", "enabled");
+  rig.RunCycle();
+  EXPECT_EQ(rig.module.activation, 0.0) << "inhibitions count in every mode";
+}
+
+TEST(BehaviourTest, WhatBreaksARuleIsNotPublished) {
+  ModuleRig<Told> rig;
+  rig.Set("stimulation_mode", "enabled");
+  rig.module.rating = 1.5;
+  const auto fault = rig.RunUntilFault();
+  ASSERT_TRUE(fault);
+  EXPECT_THAT(fault->message, HasSubstr("target rating is 1.5, which is not within 0 and 1"));
+  EXPECT_EQ(rig.module.activity.publications(), 0u);
+  EXPECT_EQ(rig.module.state.publications(), 0u);
+  EXPECT_EQ(rig.module.out.port.publications(), 0u);
+  EXPECT_EQ(rig.module.list.port.publications(), 0u);
+  EXPECT_EQ(rig.module.half.port.publications(), 0u);
+}
+
+TEST(BehaviourTest, AFaultTellsTheFigures) {
+  const auto message_of = [](auto&& prepare) {
+    ModuleRig<Told> rig;
+    rig.Feed("stimulation", Stimulation(0.5));
+    rig.Feed("seen", Activity(0.0));
+    rig.RunCycle();
+    prepare(rig);
+    const auto fault = rig.RunUntilFault();
+    return fault ? fault->message : "no fault";
+  };
+  EXPECT_THAT(message_of([](auto& rig) { rig.module.part = 1.5; }),
+              HasSubstr("its activity 0.75 is greater than its activation 0.5"));
+  EXPECT_THAT(message_of([](auto& rig) { rig.module.derived = 0.75; }),
+              HasSubstr("its derived activity 1 is 0.75, which is not within 0 and its activity 0.5"));
+  EXPECT_THAT(message_of([](auto& rig) {
+                rig.module.rating = 0.0;
+                rig.RunCycle();
+                rig.module.part = 0.5;
+              }),
+              HasSubstr("its activity has changed from 0.5 to 0.25 in the goal state"));
+  EXPECT_EQ(message_of([](auto& rig) {
+              rig.module.rating = 0.0;
+              rig.RunCycle();
+              rig.module.part = 0.5;
+              rig.Feed("seen", Activity(0.5));
+            }),
+            "no fault")
+      << "an activity that it reads has changed";
+  EXPECT_EQ(message_of([](auto& rig) {
+              rig.module.rating = 0.0;
+              rig.RunCycle();
+              rig.module.part = 0.5;
+              rig.Set("gain", "2");
+            }),
+            "no fault")
+      << "a parameter has changed";
+}
+
+TEST(BehaviourTest, WhatIsSetByHandMustBeASignal) {
+  ModuleRig<Told> rig;
+  auto& port = rig.input<Stimulation>("stimulation");
+  ASSERT_TRUE(rig.Prepare());
+  ASSERT_TRUE(port.PublishByHand(
+      [](void* value) { return SetFromText(TypeOf<Stimulation>(), "{value: 7}", value); }));
+  const auto fault = rig.RunUntilFault();
+  ASSERT_TRUE(fault);
+  EXPECT_THAT(fault->message, HasSubstr("its stimulation is 7, which is not within 0 and 1"));
+}
+
+TEST(BehaviourTest, WhoCannotTellKeepsItsSignalsWithinItsActivation) {
+  ModuleRig<Told> rig;
+  rig.Feed("stimulation", Stimulation(0.5));
+  rig.module.derived = 0.5;
+  rig.RunCycle();
+  auto& out = rig.Follow(rig.module.out.port);
+  while (out.Take()) {
+  }
+  rig.module.can_tell = false;
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.5)));
+  rig.Feed("stimulation", Stimulation(0.25));
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.25)));
+  EXPECT_THAT(rig.module.half.port, HasPublished(Activity(0.25)));
+  EXPECT_THAT(rig.module.target_rating, HasPublished(TargetRating(0.5)));
+  EXPECT_FALSE(out.Take()) << "what it had begun is dropped";
+  rig.module.can_tell = true;
+  rig.module.derived = 0.0;
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.25)));
+  EXPECT_TRUE(out.Take());
+}
+
+TEST(BehaviourTest, AllocatesNothingInItsCycles) {
+  ModuleRig<Told> rig;
+  rig.Set("inhibitions", "3");
+  rig.Feed("stimulation", Stimulation(0.5));
+  rig.Feed("inhibition3", Inhibition(0.25));
+  rig.RunCycles(10);
+  EXPECT_THAT(rig, KeepsRealTime(100));
+  rig.module.can_tell = false;
+  EXPECT_THAT(rig, KeepsRealTime(100));
+}
+
+}  // namespace
+}  // namespace runnel
