@@ -97,9 +97,10 @@ class TextWriter {
 
 Result<void> SetLeafFromText(const TypeInfo& type, const ValueToken& token, void* value) {
   const LeafOperations& leaf = type.leaf();
-  if (token.kind == (leaf.needs_quotes ? ValueToken::Kind::kText : ValueToken::Kind::kWord)) {
-    return leaf.from_text(token.text, value);
-  }
+  // A text of one word may come without quotation marks, as people write it: {file: map.pgm}.
+  const bool is_meant = token.kind == ValueToken::Kind::kWord ||
+                        (leaf.needs_quotes && token.kind == ValueToken::Kind::kText);
+  if (is_meant) return leaf.from_text(token.text, value);
   return Expected(leaf.needs_quotes ? "a text in quotation marks" : "a " + type.name(), token);
 }
 

@@ -54,6 +54,7 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/behaviours/algorithm", "plugins/behaviours/algorithm", {}, true});
   rules.push_back({"plugins/behaviours", "plugins/behaviours", {"core", "plugins/parameters", "plugins/behaviours/algorithm"}});
   rules.push_back({"plugins/values", "plugins/values", {"core"}});
+  rules.push_back({"plugins/services", "plugins/services", {"core"}});
   rules.push_back({"plugins/foxglove",
                    "plugins/foxglove",
                    {"core", "plugins/command_service", "plugins/structure", "plugins/values",
@@ -83,7 +84,7 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/control",
                    "plugins/control",
                    {"core", "plugins/command_service", "plugins/scheduling", "plugins/timing", "plugins/structure",
-                    "plugins/values/watched_port.h"}});
+                    "plugins/services/callable.h", "plugins/values/watched_port.h"}});
   rules.push_back({"plugins/manifest", "plugins/manifest", {"core", "plugins/values"}});
   rules.push_back({"plugins/mcap", "plugins/mcap", {"core"}});
   rules.push_back({"plugins/recording",

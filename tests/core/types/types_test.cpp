@@ -173,7 +173,9 @@ TEST(TextFormat, SaysWhatIsWrong) {
   EXPECT_THAT(WhyNot<Point>("{x: 1"), HasSubstr("expected ',' or '}' at the end"));
   EXPECT_THAT(WhyNot<Point>("{x: 1} y"), HasSubstr("expected the end before 'y'"));
   EXPECT_THAT(WhyNot<std::vector<double>>("[1, , 2]"), HasSubstr("is no number"));
-  EXPECT_THAT(WhyNot<std::vector<std::string>>("[a]"), HasSubstr("quotation marks"));
+  EXPECT_EQ(FromText<std::vector<std::string>>("[a, \"b c\"]").value(),
+            (std::vector<std::string>{"a", "b c"}));
+  EXPECT_THAT(WhyNot<std::vector<std::string>>("[[a]]"), HasSubstr("quotation marks"));
   EXPECT_THAT(WhyNot<Point>("[1]"), HasSubstr("expected '{' before a Point, found '['"));
   EXPECT_THAT(WhyNot<Point>("{x: 1, x: 2}"), HasSubstr("'x' is given twice"));
   EXPECT_THAT(WhyNot<std::vector<Point>>("[{x: 1}, {y: a}]"), HasSubstr("[1].y: 'a' is no number"));

@@ -1,0 +1,41 @@
+#include "plugins/services/call.h"
+
+#include <algorithm>
+#include <mutex>
+
+namespace runnel {
+
+CallBase* CallSlots::Acquire() noexcept {
+  for (CallBase* call : calls_) {
+    // acquire: pairs with the release in Release(). The load before spares those in use being written to.
+    if (call->is_held.load(std::memory_order_relaxed) ||
+        call->is_held.exchange(true, std::memory_order_acquire))
+      continue;
+    if (call->is_returned()) return call;
+    Release(*call);
+  }
+  return nullptr;
+}
+
+bool CallSlots::is_quiet() const noexcept {
+  return std::ranges::all_of(calls_, [](const CallBase* call) {
+    return call->is_returned() && !call->is_held.load(std::memory_order_acquire);
+  });
+}
+
+void CallSlots::GiveUpAll() noexcept {
+  for (CallBase* call : calls_) {
+    if (call->is_held.load(std::memory_order_relaxed))
+      call->is_given_up.store(true, std::memory_order_relaxed);
+  }
+}
+
+void RetireCalls(std::unique_ptr<CallSlots> calls) {
+  static std::mutex mutex;
+  static std::vector<std::unique_ptr<CallSlots>> retired;
+  const std::lock_guard lock(mutex);
+  if (calls) retired.push_back(std::move(calls));
+  std::erase_if(retired, [](const auto& each) { return each->is_quiet(); });
+}
+
+}  // namespace runnel

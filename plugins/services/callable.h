@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/base/clock.h"
+#include "core/element/annotation.h"
+#include "core/types/type_info.h"
+#include "plugins/services/call_status.h"
+
+namespace runnel {
+
+/// One call of a service whose types the caller knows by their descriptions only. Destroyed while it is under way, it
+/// is given up, and an activity is asked to end.
+///
+/// Threads: one at a time.
+class AnyCall {
+ public:
+  virtual ~AnyCall() = default;
+  /// Of the type Callable::arguments(): to be filled before Begin(). nullptr if there are none.
+  [[nodiscard]] virtual void* arguments() = 0;
+  /// Puts it into the service's queue: kPending, or why not. Under the structure lock under which the service was found.
+  virtual CallStatus Begin(Time now, Duration timeout) = 0;
+  /// How it is going. Times are the application's.
+  virtual CallStatus Poll(Time now) = 0;
+  /// Of the type Callable::reply(), once the status is kAnswered. nullptr if there is none.
+  [[nodiscard]] virtual const void* reply() const = 0;
+  [[nodiscard]] virtual std::string error() const = 0;
+  [[nodiscard]] virtual double progress() const = 0;
+  [[nodiscard]] virtual const char* doing() const = 0;
+  /// Asks an activity to come to its end; the answer is still awaited.
+  virtual void Abort() = 0;
+};
+
+/// How a service is doing.
+struct ServiceState {
+  struct Running {
+    std::uint64_t number = 0;
+    double progress = 0;  ///< 0 to 1
+    std::string doing = {};
+    bool is_abort_asked = false;
+  };
+  std::size_t waiting = 0;
+  std::uint64_t answered = 0;
+  std::uint64_t failed = 0;  ///< with whatever reason
+  std::optional<Running> running = {};
+};
+
+/// "This can be called": the annotation of a port by which terminals, viewers and other protocols find services, say
+/// what they take and give, and call them, without knowing their types. Components described in other languages offer
+/// their services by one of their own.
+///
+/// Threads: under the structure lock.
+class Callable : public Annotation {
+ public:
+  /// A structure with a field for each argument, or the only argument itself; nullptr: none.
+  [[nodiscard]] virtual const TypeInfo* arguments() const = 0;
+  /// nullptr: nothing but that it has been done.
+  [[nodiscard]] virtual const TypeInfo* reply() const = 0;
+  [[nodiscard]] virtual const std::string& description() const = 0;
+  /// Whether calls take long: they report progress, and can be aborted.
+  [[nodiscard]] virtual bool is_activity() const = 0;
+  [[nodiscard]] virtual std::unique_ptr<AnyCall> NewCall() = 0;
+  [[nodiscard]] virtual ServiceState state() const = 0;
+  /// Asks the activity that is under way to come to its end; false: there is none.
+  virtual bool Abort() = 0;
+};
+
+}  // namespace runnel

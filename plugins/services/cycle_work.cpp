@@ -1,0 +1,46 @@
+#include "plugins/services/cycle_work.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "core/base/exception_text.h"
+
+namespace runnel {
+
+CycleWork* CycleWork::Add(FrameworkElement& element, CyclePart& part) {
+  FrameworkElement* module = &element;
+  while (module != nullptr && module->FindAnnotation<Executable>() == nullptr) module = module->parent();
+  if (module == nullptr) return nullptr;
+  auto* work = module->FindAnnotation<CycleWork>();
+  if (work == nullptr) {
+    work = &module->Annotate(std::make_unique<CycleWork>());
+    const Executable inner = *module->FindAnnotation<Executable>();
+    module->Annotate(
+        std::make_unique<Executable>([work, inner] { return work->Wrap(inner.tasks()); }));
+  }
+  work->parts_.push_back(&part);
+  return work;
+}
+
+void CycleWork::Remove(CyclePart& part) noexcept { std::erase(parts_, &part); }
+
+std::vector<Task> CycleWork::Wrap(std::vector<Task> tasks) {
+  if (tasks.empty()) return tasks;
+  if (!module_) module_ = tasks.front().run;
+  tasks.front().run = BoundCall::To<&CycleWork::Run>(*this);
+  return tasks;
+}
+
+void CycleWork::Run() {
+  try {
+    for (CyclePart* part : parts_) part->BeforeUpdate();
+    (*module_)();
+  } catch (...) {
+    const std::string what = DescribeException();
+    for (CyclePart* part : parts_) part->AfterFault(what);
+    throw;
+  }
+}
+
+}  // namespace runnel

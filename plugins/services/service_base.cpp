@@ -1,0 +1,118 @@
+#include "plugins/services/service_base.h"
+
+#include <utility>
+
+#include "core/base/exception_text.h"
+#include "core/element/runtime.h"
+#include "core/lockfree/thread_epoch.h"
+#include "core/port/cycle.h"
+
+namespace runnel {
+
+// Always that of the channel which the port has now: a swap exchanges channels, and those who have put their calls
+// into one find the module that serves it.
+ServiceEndpoint* ServiceBase::endpoint() const {
+  ServiceEndpoint* found = nullptr;
+  port_->VisitLatest([&found](const void* link, ValueTimes) {
+    found = *static_cast<ServiceEndpoint* const*>(link);
+  });
+  return found;
+}
+
+void ServiceBase::Open(Port& port, bool is_activity) {
+  port_ = &port;
+  if (is_activity) {
+    worker_ = std::make_unique<ServiceWorker>(
+        port, [this](CallBase& call, Activity& activity) { AnswerByWorker(call, activity); });
+  }
+  work_ = CycleWork::Add(port, *this);
+}
+
+void ServiceBase::Close() noexcept {
+  if (work_ != nullptr) work_->Remove(*this);
+  worker_.reset();
+  // Nobody looks at it any more: who has found it before has left its cycle (Runtime::Delete()).
+  if (const std::unique_ptr<ServiceEndpoint> own{endpoint()})
+    own->EndAll(CallStatus::kDisconnected, "the service has been deleted");
+  RetireCalls(nullptr);
+}
+
+void ServiceBase::BeforeUpdate() {
+  ServiceEndpoint* const at = endpoint();
+  if (at->is_faulted.load(std::memory_order_relaxed))
+    at->is_faulted.store(false, std::memory_order_relaxed);
+  // What is called meanwhile has its turn in the next cycle.
+  for (std::size_t left = at->queue.size(); left > 0; --left) {
+    if (worker_ && !worker_->is_free()) return;
+    CallBase* call = nullptr;
+    if (!at->queue.TryPop(call)) return;
+    const Cycle* const cycle = CurrentCycle();
+    const Time now = cycle != nullptr ? cycle->now : port_->runtime().clock().Now();
+    if (call->is_given_up.load(std::memory_order_relaxed) || now >= call->deadline) {
+      at->End(*call, CallStatus::kTimedOut, "given up by its caller, or its turn did not come in time");
+    } else if (worker_) {
+      worker_->Begin(*call);
+    } else {
+      Answer(*at, *call);
+    }
+  }
+}
+
+void ServiceBase::Answer(ServiceEndpoint& at, CallBase& call) {
+  try {
+    const CallStatus status = Invoke(call, nullptr);
+    auto& count = status == CallStatus::kAnswered ? at.answered : at.failed;
+    count.fetch_add(1, std::memory_order_relaxed);
+    call.Answer(status);
+  } catch (...) {
+    at.End(call, CallStatus::kFaulted, DescribeException());
+    throw;  // the module's fault, as if Update() had thrown
+  }
+}
+
+void ServiceBase::AnswerByWorker(CallBase& call, Activity& activity) noexcept {
+  CallStatus status = CallStatus::kFailed;
+  try {
+    status = Invoke(call, &activity);
+  } catch (...) {
+    call.error = DescribeException();
+  }
+  if (status == CallStatus::kFailed && activity.is_abort_asked()) status = CallStatus::kAborted;
+  {
+    const EpochGuard guard;
+    if (ServiceEndpoint* const at = endpoint()) {
+      auto& count = status == CallStatus::kAnswered ? at->answered : at->failed;
+      count.fetch_add(1, std::memory_order_relaxed);
+    }
+  }
+  call.Answer(status);
+}
+
+void ServiceBase::AfterFault(std::string_view what) noexcept {
+  ServiceEndpoint* const at = endpoint();
+  // relaxed: who does not see it yet waits until its time-out.
+  at->is_faulted.store(true, std::memory_order_relaxed);
+  at->EndAll(CallStatus::kFaulted, what);
+}
+
+ServiceState ServiceBase::state() const {
+  ServiceState state;
+  if (const ServiceEndpoint* const at = endpoint()) {
+    state.waiting = at->queue.size();
+    state.answered = at->answered.load(std::memory_order_relaxed);
+    state.failed = at->failed.load(std::memory_order_relaxed);
+  }
+  if (worker_ && !worker_->is_free()) {
+    const Activity& activity = worker_->activity();
+    state.running = {activity.number(), activity.progress(), activity.doing(), activity.has_abort()};
+  }
+  return state;
+}
+
+bool ServiceBase::Abort() {
+  if (!worker_ || worker_->is_free()) return false;
+  worker_->Abort();
+  return true;
+}
+
+}  // namespace runnel

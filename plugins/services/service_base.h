@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/port/port.h"
+#include "plugins/services/activity.h"
+#include "plugins/services/callable.h"
+#include "plugins/services/cycle_work.h"
+#include "plugins/services/service_endpoint.h"
+#include "plugins/services/service_worker.h"
+
+namespace runnel {
+
+struct ServiceOptions {
+  std::string description = {};
+  /// Of the arguments, in their order, for those who write them by name. A single one without a name is written as it is.
+  std::vector<std::string> arguments = {};
+  std::size_t queue = 16;  ///< how many calls may wait
+};
+
+/// The part of a service that does not depend on its types.
+class ServiceBase : public CyclePart {
+ public:
+  ServiceBase(const ServiceBase&) = delete;
+  ServiceBase& operator=(const ServiceBase&) = delete;
+
+  /// By a thread of the program's own, for a service that is part of no module: serves what waits. Modules do it by
+  /// themselves, before each Update().
+  void Serve() { BeforeUpdate(); }
+  /// The port by which clients are connected.
+  [[nodiscard]] const Port& port() const noexcept { return *port_; }
+  [[nodiscard]] Port& port() noexcept { return *port_; }
+  [[nodiscard]] ServiceState state() const;
+  bool Abort();
+  /// Whose queue its clients fill. nullptr: none yet.
+  [[nodiscard]] ServiceEndpoint* endpoint() const;
+
+ protected:
+  ServiceBase() = default;
+  ~ServiceBase() = default;
+
+  /// The port is there, and has its endpoint.
+  void Open(Port& port, bool is_activity);
+  /// While the port is still there.
+  void Close() noexcept;
+  /// Calls the handler, writes the reply, publishes the record. Says how it ended; may throw.
+  virtual CallStatus Invoke(CallBase& call, Activity* activity) = 0;
+  [[nodiscard]] bool is_activity() const noexcept { return worker_ != nullptr; }
+
+ private:
+  void BeforeUpdate() override;
+  void AfterFault(std::string_view what) noexcept override;
+  void Answer(ServiceEndpoint& at, CallBase& call);
+  void AnswerByWorker(CallBase& call, Activity& activity) noexcept;
+
+  Port* port_ = nullptr;
+  CycleWork* work_ = nullptr;
+  std::unique_ptr<ServiceWorker> worker_;
+};
+
+}  // namespace runnel

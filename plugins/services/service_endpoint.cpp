@@ -1,0 +1,22 @@
+#include "plugins/services/service_endpoint.h"
+
+namespace runnel {
+
+CallStatus BeginCall(ServiceEndpoint* at, CallBase& call, Time now, Duration timeout) noexcept {
+  if (at == nullptr) return CallStatus::kNotConnected;
+  if (at->is_faulted.load(std::memory_order_relaxed)) return CallStatus::kFaulted;
+  call.called_at = now;
+  call.deadline = now + timeout;
+  call.endpoint = at;
+  call.status = CallStatus::kPending;
+  call.error.clear();
+  call.is_given_up.store(false, std::memory_order_relaxed);
+  call.progress.store(0, std::memory_order_relaxed);
+  // relaxed: the queue hands it over, with all of the above.
+  call.state.store(CallBase::State::kQueued, std::memory_order_relaxed);
+  if (at->queue.TryPush(&call)) return CallStatus::kPending;
+  call.state.store(CallBase::State::kIdle, std::memory_order_relaxed);
+  return CallStatus::kBusy;
+}
+
+}  // namespace runnel

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "core/lockfree/bounded_queue.h"
+#include "plugins/services/call.h"
+
+namespace runnel {
+
+/// Where clients put their calls, and the service takes them out. Its address is the value that a service
+/// publishes and its clients read, so that services are connected by what connects ports; it goes with the port's
+/// channel to a module that takes the server's place, and the calls that wait go with it.
+///
+/// Ownership:  the service whose channel it is in. Clients look at it inside an epoch guard only.
+/// Threads:    clients push from any thread; one at a time takes out.
+struct ServiceEndpoint {
+  explicit ServiceEndpoint(std::size_t most_calls) : queue(most_calls) {}
+
+  /// All that wait end like that.
+  void EndAll(CallStatus status, std::string_view why) noexcept {
+    for (CallBase* call = nullptr; queue.TryPop(call);) End(*call, status, why);
+  }
+  void End(CallBase& call, CallStatus status, std::string_view why) noexcept {
+    try {
+      call.error = why;
+    } catch (...) {  // the status alone says it
+    }
+    failed.fetch_add(1, std::memory_order_relaxed);
+    call.Answer(status);
+  }
+
+  BoundedQueue<CallBase*> queue;
+  // relaxed, all: they inform.
+  std::atomic<bool> is_faulted{false};
+  std::atomic<std::uint64_t> answered{0};
+  std::atomic<std::uint64_t> failed{0};
+};
+
+/// Puts the call into the queue: kPending, or why not, and then the call is not under way. Inside an epoch guard, or
+/// under the structure lock.
+[[nodiscard]] CallStatus BeginCall(ServiceEndpoint* at, CallBase& call, Time now,
+                                   Duration timeout) noexcept;
+
+/// The value of the port by which a service is connected.
+template <typename Signature>
+struct ServiceLink {
+  ServiceEndpoint* endpoint = nullptr;
+};
+
+template <typename Reply, typename... Arguments>
+[[nodiscard]] std::string SignatureName(std::type_identity<Reply(Arguments...)>) {
+  std::string name;
+  if constexpr (std::is_void_v<Reply>) {
+    name = "void(";
+  } else {
+    name = TypeOf<Reply>().name() + "(";
+  }
+  [[maybe_unused]] const char* separator = "";
+  ((name += separator + TypeOf<std::remove_cvref_t<Arguments>>().name(), separator = ", "), ...);
+  return name + ")";
+}
+
+template <typename Signature>
+void Describe(TypeBuilder<ServiceLink<Signature>>& type) {
+  type.Name("service " + SignatureName(std::type_identity<Signature>()));
+}
+
+}  // namespace runnel

@@ -1,0 +1,50 @@
+#include "plugins/services/service_worker.h"
+
+#include <memory>
+#include <utility>
+
+#include "core/element/not_saved.h"
+
+namespace runnel {
+
+ServiceWorker::ServiceWorker(FrameworkElement& port,
+                             std::function<void(CallBase&, Activity&)> serve)
+    : FrameworkElement({port, "worker"}), serve_(std::move(serve)) {
+  Annotate(std::make_unique<NotSaved>());
+}
+
+ServiceWorker::~ServiceWorker() { Stop(); }
+
+Result<void> ServiceWorker::Prepare() {
+  if (!thread_.joinable()) thread_ = std::thread([this] { Work(); });
+  return {};
+}
+
+void ServiceWorker::Begin(CallBase& call) noexcept {
+  activity_.Begin(call);
+  // release: pairs with the acquire in Work().
+  current_.store(&call, std::memory_order_release);
+  event_.Notify();
+}
+
+void ServiceWorker::Work() noexcept {
+  for (;;) {
+    event_.Wait();
+    // acquire: pairs with the release in Begin().
+    if (CallBase* const call = current_.load(std::memory_order_acquire)) {
+      serve_(*call, activity_);
+      current_.store(nullptr, std::memory_order_release);
+    }
+    if (is_stopping_.load(std::memory_order_acquire)) return;
+  }
+}
+
+void ServiceWorker::Stop() noexcept {
+  if (!thread_.joinable()) return;
+  activity_.Abort();
+  is_stopping_.store(true, std::memory_order_release);
+  event_.Notify();
+  thread_.join();
+}
+
+}  // namespace runnel

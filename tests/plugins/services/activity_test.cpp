@@ -1,0 +1,136 @@
+// Calls that take long: a thread of the service's own, progress, abort.
+
+#include <thread>
+
+#include "tests/plugins/services/service_fixture.h"
+
+namespace runnel::test {
+namespace {
+
+/// Works until it is let go or told to end.
+class Worker final : public Module {
+ public:
+  using Module::Module;
+  Service<int(int)> work{this, "work", &Worker::Work, {.queue = 4}};
+  static inline std::atomic<bool> may_end{false};
+  static inline std::atomic<int> begun{0};
+
+ private:
+  Result<int> Work(Activity& activity, int value) {
+    ++begun;
+    activity.Report(0.5, "waiting");
+    while (!may_end) {
+      if (activity.is_abort_asked()) return Error{.message = "stopped halfway"};
+      std::this_thread::yield();
+    }
+    if (value < 0) throw std::runtime_error("is negative");
+    return value + 1;
+  }
+  void Update() override {}
+};
+
+class ActivityTest : public EditorTest {
+ protected:
+  ActivityTest() {
+    Worker::may_end = false;
+    Worker::begun = 0;
+    Register<Worker>("test/worker");
+    Must({CreateModule{"/app/worker", "test/worker"}});
+    client = std::make_unique<Client<int(int)>>(At<Group>("/app"), "client",
+                                                ClientOptions{.timeout = 1h});
+    EXPECT_TRUE(Port::Connect(worker().work.port(), client->port()));
+  }
+  Worker& worker() { return At<Worker>("/app/worker"); }
+  void WaitUntilBegun(int count = 1) {
+    WaitUntil("the handler runs", [&] { return Worker::begun >= count; });
+  }
+  std::unique_ptr<Client<int(int)>> client;
+};
+
+TEST_F(ActivityTest, RunsBesideTheCyclesAndReportsProgress) {
+  auto future = client->Begin(1);
+  Steps(1);
+  WaitUntil("progress is there", [&] { return future.progress() == 0.5; });
+  Steps(5);
+  EXPECT_FALSE(future.is_done());
+  const auto state = worker().work.state();
+  ASSERT_TRUE(state.running);
+  EXPECT_EQ(state.running->doing, "waiting");
+  Worker::may_end = true;
+  EXPECT_EQ(*future.Wait(), 2);
+}
+
+TEST_F(ActivityTest, OneCallAtATime) {
+  auto first = client->Begin(1);
+  auto second = client->Begin(2);
+  Steps(3);
+  WaitUntilBegun();
+  EXPECT_EQ(worker().work.state().waiting, 1u);
+  Worker::may_end = true;
+  EXPECT_EQ(*first.Wait(), 2);
+  WaitUntil("the second has been served", [&] {
+    Steps(1);
+    return second.is_done();
+  });
+  EXPECT_EQ(*second.outcome(), 3);
+}
+
+TEST_F(ActivityTest, TheCallerAborts) {
+  auto future = client->Begin(1);
+  Steps(1);
+  WaitUntilBegun();
+  future.Abort();
+  const auto outcome = future.Wait();
+  EXPECT_EQ(outcome.status(), CallStatus::kAborted);
+  EXPECT_THAT(std::string(outcome.error()), HasSubstr("stopped halfway"));
+}
+
+TEST_F(ActivityTest, SomebodyElseAborts) {
+  EXPECT_FALSE(worker().work.Abort()) << "nothing is under way";
+  auto future = client->Begin(1);
+  Steps(1);
+  WaitUntilBegun();
+  EXPECT_TRUE(worker().work.Abort());
+  EXPECT_EQ(future.Wait().status(), CallStatus::kAborted);
+}
+
+TEST_F(ActivityTest, WhatItThrowsEndsTheCallAndNotTheModule) {
+  Worker::may_end = true;
+  auto future = client->Begin(-1);
+  Steps(1);
+  EXPECT_EQ(future.Wait().status(), CallStatus::kFailed);
+  EXPECT_EQ(future.outcome().error(), "is negative");
+  auto next = client->Begin(1);
+  WaitUntil("the worker is free", [&] {
+    Steps(1);
+    return next.is_done();
+  });
+  EXPECT_TRUE(next.outcome());
+}
+
+TEST_F(ActivityTest, ASwapLosesNeitherTheCallThatRunsNorThoseThatWait) {
+  auto first = client->Begin(1);
+  auto second = client->Begin(2);
+  Steps(1);
+  WaitUntilBegun();
+  Must({ReplaceModule{"/app/worker", "test/worker"}});
+  EXPECT_FALSE(first.is_done()) << "by the old module's thread, until that module goes";
+  Steps(1);
+  WaitUntilBegun(2);
+  Worker::may_end = true;
+  EXPECT_EQ(*first.Wait(), 2);
+  EXPECT_EQ(*second.Wait(), 3);
+}
+
+TEST_F(ActivityTest, DeletingTheModuleEndsItsCalls) {
+  auto first = client->Begin(1);
+  auto second = client->Begin(2);
+  Steps(1);
+  WaitUntilBegun();
+  Must({DeleteElement{"/app/worker"}});
+  EXPECT_TRUE(first.is_done());
+  EXPECT_EQ(second.outcome().status(), CallStatus::kDisconnected);
+}
+
+}  // namespace
+}  // namespace runnel::test
