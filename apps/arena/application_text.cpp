@@ -1,5 +1,6 @@
 #include "apps/arena/application_text.h"
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -29,6 +30,8 @@ Result<std::string> ApplicationText(const std::filesystem::path& file, const Var
   auto text = ReadFile(file);
   if (!text) return text.error();
   std::string loads(kPlugin);
+  // One of another plugin of Runnel's; others' are named by --plugin.
+  if (PluginOf(variant.type) == "behaviours" && std::ranges::find(plugins, "behaviours") == plugins.end()) loads += "<load plugin=\"behaviours\"/>";
   for (const std::string& plugin : plugins) {
     // A plugin may be a file; the application will stand in another folder.
     const bool is_file = plugin.find('/') != std::string::npos;

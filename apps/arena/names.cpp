@@ -15,6 +15,8 @@ namespace {
 constexpr std::string_view kFamily = "planning/";
 // Put together from parameters: not a variant, before somebody has done so.
 constexpr std::string_view kComposed = "planning/bug";
+// What is compared with the family besides: a network of behaviours.
+constexpr std::string_view kNetwork = "behaviours/navigator";
 
 Result<Variant> ReadVariant(const std::filesystem::path& file) {
   const auto document = XmlDocument::Load(file);
@@ -59,6 +61,8 @@ Result<Variant> FindVariant(const std::string& word, const std::vector<std::stri
 
 }  // namespace
 
+std::string PluginOf(std::string_view type) { return std::string(type.substr(0, type.find('/'))); }
+
 Product FindProduct() {
   const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   return {folder / "runnel", XmlFolder() / "apps" / "arena"};
@@ -81,6 +85,8 @@ std::vector<Variant> FindVariants(const std::vector<std::string>& words,
         const std::string type = std::string(kFamily) + name;
         if (type != kComposed) add({.name = name, .type = type});
       }
+      const std::string network(kNetwork);
+      if (Has(types, network)) add({.name = network, .type = network});
     } else if (const auto variant = FindVariant(word, types)) {
       add(*variant);
     } else {
@@ -94,6 +100,10 @@ std::vector<std::string> FindTypes(const std::vector<std::string>& plugins,
                                    Diagnostics& diagnostics) {
   PluginManager manager;
   if (auto loaded = manager.Load("planning"); !loaded) diagnostics.Add(loaded.error());
+  const std::string network = PluginOf(kNetwork);
+  if (Has(manager.Available(), network)) {
+    if (auto loaded = manager.Load(network); !loaded) diagnostics.Add(loaded.error());
+  }
   for (const std::string& plugin : plugins) {
     if (auto loaded = manager.Load(plugin); !loaded) diagnostics.Add(loaded.error());
   }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/diagnostics.h"
@@ -16,6 +17,9 @@ struct Product {
   std::filesystem::path applications;  ///< xml/apps/arena: one for each sensor
 };
 [[nodiscard]] Product FindProduct();
+
+/// Which plugin of Runnel's a module type is from.
+[[nodiscard]] std::string PluginOf(std::string_view type);
 
 /// A planner to be compared.
 struct Variant {

@@ -44,6 +44,16 @@ Result<void> FusionBehaviour::Construct() {
   return {};
 }
 
+Result<void> FusionBehaviour::Attach(std::size_t channel, Behaviour& behaviour, Port& wish) {
+  if (channel == 0 || channel > inputs_.size()) {
+    return Error{.message = "there is no channel " + std::to_string(channel), .path = path()};
+  }
+  const std::size_t i = channel - 1;
+  if (auto connected = Port::Connect(behaviour.activity, activities_[i]); !connected) return connected;
+  if (auto connected = Port::Connect(behaviour.target_rating, target_ratings_[i]); !connected) return connected;
+  return Port::Connect(wish, *inputs_[i]);
+}
+
 Result<void> FusionBehaviour::Prepare() {
   if (!value_fusion_ && method.Get() != FusionMethod::kWinnerTakesAll) {
     return Error{.message = no_fusion_,

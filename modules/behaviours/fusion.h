@@ -43,6 +43,12 @@ class FusionBehaviour final : public Behaviour {
       "method",
       {.default_value = FusionMethod::kWeightedAverage, .description = "how they are made one"}};
 
+  /// For composites written in C++: connects the three ports of a channel, the first is 1, with a behaviour and what it wants.
+  /// After Construct(). Errors: there is no such channel; as Port::Connect().
+  Result<void> Attach(std::size_t channel, Behaviour& behaviour, Port& wish);
+  /// After Construct().
+  [[nodiscard]] Port& out() const noexcept { return *output_; }
+
  private:
   // What is fused goes out when the rules hold, as that of other behaviours.
   class FusedValue final : public HeldBack {

@@ -29,6 +29,19 @@ TEST(Variants, AllAreThosePublished) {
   EXPECT_TRUE(diagnostics.ok());
 }
 
+TEST(Variants, ANetworkOfBehavioursIsBesideThem) {
+  Diagnostics diagnostics;
+  auto types = kTypes;
+  types.push_back("behaviours/fusion");
+  types.push_back("behaviours/navigator");
+  EXPECT_THAT(NamesOf(FindVariants({"all"}, types, diagnostics)), ElementsAre("alg1", "bug1", "behaviours/navigator"));
+  const Variant network{.name = "behaviours/navigator", .type = "behaviours/navigator"};
+  const auto text = ApplicationText(FindProduct().applications / "laser.xml", network, {});
+  ASSERT_TRUE(text);
+  EXPECT_THAT(*text, HasSubstr("<load plugin=\"behaviours\"/>"));
+  EXPECT_THAT(*text, HasSubstr("<module name=\"planner\" type=\"behaviours/navigator\">"));
+}
+
 TEST(Variants, ThatAreNotThereAreToldWithTheNearest) {
   Diagnostics diagnostics;
   EXPECT_TRUE(FindVariants({"bg1", "other/planer"}, kTypes, diagnostics).empty());

@@ -1,0 +1,72 @@
+#include "modules/behaviours/planner_status_teller.h"
+
+#include <utility>
+
+namespace runnel {
+
+namespace {
+
+// Within what the list has reserved.
+void Append(std::vector<Point2>& list, Point2 point) {
+  if (list.size() == list.capacity()) list.erase(list.begin());
+  list.push_back(point);
+}
+
+}  // namespace
+
+Result<void> PlannerStatusTeller::Prepare() {
+  const auto reserve = [](HitAndLeavePoints& each) {
+    each.hits.reserve(kMostPoints);
+    each.leaves.reserve(kMostPoints);
+  };
+  reserve(points_);
+  points.PrepareBuffers(reserve);
+  return {};
+}
+
+void PlannerStatusTeller::Update() {
+  const auto here = pose.Read();
+  const auto there = goal.Read();
+  const auto rating = content.Read();
+  if (!here || !there || !rating) return;
+  const Point2 place = Position(*here);
+  if (last_goal_ != std::optional(*there)) {
+    told_ = {};
+    points_.hits.clear();
+    points_.leaves.clear();
+    last_goal_ = *there;
+    last_place_.reset();
+  }
+  if (const auto before = std::exchange(last_place_, place)) told_.path_length += Distance(*before, place);
+  told_.distance_to_goal = Distance(place, *there);
+  const bool is_round = detour.Get().value() > 0.0;
+  Note(is_round, place);
+  told_.mode = is_round                 ? PlannerMode::kFollowingBoundary
+               : rating->value() == 0.0 ? PlannerMode::kReached
+                                        : PlannerMode::kMotionToGoal;
+  status.Publish(told_);
+}
+
+void PlannerStatusTeller::Note(bool is_round, Point2 place) {
+  if (is_round == (told_.mode == PlannerMode::kFollowingBoundary)) return;
+  if (is_round) {
+    ++told_.hits;
+    told_.hit_point = place;
+    Append(points_.hits, place);
+  } else {
+    ++told_.leaves;
+    told_.leave_point = place;
+    Append(points_.leaves, place);
+  }
+  PublishPoints();
+}
+
+void PlannerStatusTeller::PublishPoints() {
+  auto loan = points.Loan();
+  if (!loan) return;
+  loan->hits.assign(points_.hits.begin(), points_.hits.end());
+  loan->leaves.assign(points_.leaves.begin(), points_.leaves.end());
+  points.Publish(std::move(loan));
+}
+
+}  // namespace runnel

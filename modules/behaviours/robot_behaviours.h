@@ -1,0 +1,152 @@
+#pragma once
+
+#include <optional>
+
+#include "modules/behaviours/algorithm/avoid_obstacles.h"
+#include "modules/behaviours/algorithm/drive_to_goal.h"
+#include "modules/behaviours/algorithm/emergency_stop.h"
+#include "modules/behaviours/algorithm/escape.h"
+#include "modules/behaviours/algorithm/follow_wall.h"
+#include "modules/behaviours/steering_parameters.h"
+#include "modules/types/pose.h"
+#include "modules/types/surroundings.h"
+#include "plugins/behaviours/behaviour.h"
+
+// The behaviours of a robot that drives to a goal. Each has its own idea of the motion; a fusion makes them one.
+
+namespace runnel {
+
+inline void Describe(TypeBuilder<FirstTurn>& type) {
+  type.Name("FirstTurn").Value("left", FirstTurn::kLeft).Value("right", FirstTurn::kRight);
+}
+
+inline void Describe(TypeBuilder<EscapeState>& type) {
+  type.Name("EscapeState")
+      .Field("has_goal", &EscapeState::has_goal)
+      .Field("goal", &EscapeState::goal)
+      .Field("least_distance", &EscapeState::least_distance)
+      .Field("idle_time", &EscapeState::idle_time)
+      .Field("is_escaping", &EscapeState::is_escaping)
+      .Field("stuck_distance", &EscapeState::stuck_distance);
+}
+
+/// Straight to the goal. Content within the tolerance; active as long as it is not.
+class DriveToGoalBehaviour final : public Behaviour {
+ public:
+  using Behaviour::Behaviour;
+
+  Input<Pose2> pose{this, "pose", {.description = "of the robot, world's frame", .required = true}};
+  Input<Point2> goal{this, "goal", {.description = "world's frame", .required = true}};
+  ControlOutput<Twist2> twist{this, "twist", {.description = "how the robot shall move"}};
+
+  SteeringParameters steering{this};
+  Parameter<double> goal_tolerance{this,
+                                   "goal_tolerance",
+                                   {.default_value = DriveToGoalConfiguration{}.tolerance,
+                                    .bounds = {0.01, 10.0},
+                                    .unit = "m",
+                                    .description = "nearer than this is there"}};
+
+ private:
+  std::optional<Outcome> Behave(double activation) override;
+};
+
+/// Away from the nearest obstacle ahead: the more active the nearer it is.
+class AvoidObstaclesBehaviour final : public Behaviour {
+ public:
+  using Behaviour::Behaviour;
+
+  Input<Surroundings> surroundings{
+      this, "surroundings", {.description = "what a sensor adaptor knows of the obstacles", .required = true}};
+  ControlOutput<Twist2> twist{this, "twist", {.description = "how the robot shall move"}};
+
+  SteeringParameters steering{this};
+  Parameter<double> near_distance{this,
+                                  "near_distance",
+                                  {.default_value = AvoidObstaclesConfiguration{}.near_distance,
+                                   .bounds = {0.1, 10.0},
+                                   .unit = "m",
+                                   .description = "obstacles nearer than this disturb it"}};
+
+ private:
+  std::optional<Outcome> Behave(double activation) override;
+};
+
+/// Along a wall, as active as it may be.
+class FollowWallBehaviour final : public Behaviour {
+ public:
+  using Behaviour::Behaviour;
+
+  Input<Surroundings> surroundings{
+      this, "surroundings", {.description = "what a sensor adaptor knows of the obstacles", .required = true}};
+  ControlOutput<Twist2> twist{this, "twist", {.description = "how the robot shall move"}};
+
+  SteeringParameters steering{this};
+  Parameter<FirstTurn> first_direction{
+      this,
+      "first_direction",
+      {.default_value = FirstTurn::kLeft, .description = "which way it turns where it meets a wall"}};
+
+ private:
+  std::optional<Outcome> Behave(double activation) override;
+};
+
+/// Notices dead ends: the robot has not come nearer to its goal for a while. Active until the goal can be reached from
+/// a place that is nearer: whom it stimulates gets the robot there. It commands nothing itself.
+class EscapeBehaviour final : public Behaviour {
+ public:
+  explicit EscapeBehaviour(const Placement& placement) : Behaviour(placement) { KeepState(state_); }
+
+  Input<Pose2> pose{this, "pose", {.description = "of the robot, world's frame", .required = true}};
+  Input<Point2> goal{this, "goal", {.description = "world's frame", .required = true}};
+  Input<Surroundings> surroundings{
+      this, "surroundings", {.description = "what a sensor adaptor knows of the obstacles", .required = true}};
+
+  Parameter<double> patience{this,
+                             "patience",
+                             {.default_value = EscapeConfiguration{}.patience,
+                              .bounds = {0.1, 600.0},
+                              .unit = "s",
+                              .description = "without coming nearer, after which it is a dead end"}};
+  Parameter<double> leave_margin{this,
+                                 "leave_margin",
+                                 {.default_value = EscapeConfiguration{}.margin,
+                                  .bounds = {0.0, 10.0},
+                                  .unit = "m",
+                                  .description = "by which it ends nearer to the goal than it began"}};
+
+ private:
+  std::optional<Outcome> Behave(double activation) override;
+
+  EscapeState state_;
+  std::optional<Time> last_;
+};
+
+/// Lets nothing pass but turning on the spot where the way ahead ends, and nothing at all where nobody looks any more.
+class EmergencyStopBehaviour final : public Behaviour {
+ public:
+  using Behaviour::Behaviour;
+
+  Input<Surroundings> surroundings{
+      this, "surroundings", {.description = "what a sensor adaptor knows of the obstacles", .required = true}};
+  Input<Twist2> wanted{this, "wanted", {.description = "how the others want to move", .required = true}};
+  ControlOutput<Twist2> twist{this, "twist", {.description = "standstill, or turning on the spot"}};
+
+  Parameter<double> least_way{this,
+                              "least_way",
+                              {.default_value = EmergencyStopConfiguration{}.least_way,
+                               .bounds = {0.0, 10.0},
+                               .unit = "m",
+                               .description = "with less free way ahead it stops"}};
+  Parameter<double> timeout{this,
+                            "timeout",
+                            {.default_value = 0.5,
+                             .bounds = {0.01, 60.0},
+                             .unit = "s",
+                             .description = "an older view of the surroundings stops it"}};
+
+ private:
+  std::optional<Outcome> Behave(double activation) override;
+};
+
+}  // namespace runnel

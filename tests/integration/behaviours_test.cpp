@@ -1,0 +1,96 @@
+// A network of behaviours drives the robot, and takes turns with planners.
+
+#include <cstring>
+#include <optional>
+
+#include <gmock/gmock.h>
+
+#include "plugins/testing/allocation_guard.h"
+#include "tests/integration/application_run.h"
+
+namespace runnel::test {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::IsEmpty;
+
+ApplicationChoice Demo(const std::string& world) {
+  return {.name = "behaviour_demo.xml", .arguments = {"world=" RUNNEL_XML "/worlds/" + world + ".xml", "picture="}};
+}
+/// The Bug's application with a way to networks of behaviours.
+ApplicationChoice BugDemo(const std::string& world) {
+  ApplicationChoice choice = Demo(world);
+  choice.name = "bug_demo.xml";
+  choice.replace = {{"<load plugin=\"planning\"/>", "<load plugin=\"planning\"/><load plugin=\"behaviours\"/>"}};
+  return choice;
+}
+
+bool AreSame(const std::vector<Pose2>& a, const std::vector<Pose2>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Pose2)) == 0;
+}
+
+class BehaviourWorlds : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(BehaviourWorlds, TheNetworkGetsToTheGoal) {
+  const ApplicationRun run = RunApplication(Demo(GetParam()));
+  ASSERT_TRUE(run.outcome);
+  EXPECT_EQ(run.outcome->verdict, "reached") << run.outcome->summary;
+  EXPECT_THAT(run.faults, IsEmpty());
+}
+
+// Round obstacles, through doors, out of dead ends.
+INSTANTIATE_TEST_SUITE_P(Worlds, BehaviourWorlds,
+                         ::testing::Values("open", "one_obstacle", "rooms", "cup", "thin_wall", "maze"),
+                         [](const auto& world) { return std::string(world.param); });
+
+TEST(BehaviourDemoTest, DrivesTheSameWayEachTime) {
+  const ApplicationRun first = RunApplication(Demo("rooms"));
+  const ApplicationRun second = RunApplication(Demo("rooms"));
+  ASSERT_FALSE(first.truth.empty());
+  EXPECT_TRUE(AreSame(first.truth, second.truth));
+}
+
+TEST(BehaviourDemoTest, TheNetworkThatIsOneModuleDrivesAsTheOneInTheFile) {
+  const ApplicationRun in_file = RunApplication(Demo("rooms"));
+  ApplicationChoice choice = BugDemo("rooms");
+  choice.replace.emplace_back("planning/bug2", "behaviours/navigator");
+  const ApplicationRun one_module = RunApplication(choice);
+  ASSERT_TRUE(one_module.outcome);
+  EXPECT_EQ(one_module.outcome->verdict, "reached");
+  ASSERT_FALSE(in_file.truth.empty());
+  EXPECT_TRUE(AreSame(in_file.truth, one_module.truth));
+}
+
+TEST(BehaviourDemoTest, AllocatesNothingAfterStartUp) {
+  if (!AllocationGuard::works()) GTEST_SKIP() << "sanitizers have a malloc of their own";
+  constexpr int kStartUp = 40;
+  int cycles = 0;
+  std::size_t allocations = 0;
+  std::optional<AllocationGuard> guard;
+  ApplicationChoice choice = Demo("one_obstacle");
+  choice.before_step = [&] { guard.emplace(); };
+  choice.after_step = [&] {
+    if (++cycles > kStartUp) allocations += guard->allocations();
+  };
+  const auto run = RunApplication(choice);
+  ASSERT_TRUE(run.outcome);
+  EXPECT_GT(cycles, 10 * kStartUp);
+  EXPECT_EQ(allocations, 0u);
+}
+
+TEST(BehaviourSwapTest, TakesTurnsWithPlannersWhileTheRobotDrives) {
+  ApplicationChoice choice = BugDemo("rooms");
+  Duration at = 5s;
+  for (const char* type : {"behaviours/navigator", "planning/bug2", "behaviours/navigator", "planning/tangent_bug",
+                           "behaviours/navigator", "planning/bug1", "behaviours/navigator"}) {
+    choice.changes.push_back({at, {ReplaceModule{.path = "/robot/planner", .type = type}}});
+    at += 8s;
+  }
+  const ApplicationRun run = RunApplication(choice);
+  ASSERT_TRUE(run.outcome);
+  EXPECT_EQ(run.outcome->verdict, "reached") << run.outcome->summary;
+  EXPECT_THAT(run.faults, IsEmpty());
+}
+
+}  // namespace
+}  // namespace runnel::test

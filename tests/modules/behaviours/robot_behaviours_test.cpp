@@ -1,0 +1,159 @@
+#include <gmock/gmock.h>
+
+#include "modules/behaviours/planner_status_teller.h"
+#include "modules/behaviours/robot_behaviours.h"
+#include "plugins/testing/matchers.h"
+#include "plugins/testing/module_rig.h"
+
+namespace runnel {
+namespace {
+
+using test::HasPublished;
+using test::KeepsRealTime;
+using test::ModuleRig;
+using ::testing::AllOf;
+using ::testing::Field;
+using ::testing::Gt;
+using ::testing::Lt;
+
+/// A wall `distance` m away towards `bearing`, as wide as `half_width` rad to both sides.
+Surroundings WallAt(double distance, double bearing, double half_width = 0.5) {
+  Surroundings view;
+  view.sensor_range = 5.0F;
+  view.safe_distance = 0.35F;
+  view.is_measured = true;
+  for (double offset = -half_width; offset <= half_width; offset += kSectorWidth) {
+    AddBoundaryPoint(view, {distance / std::cos(offset), bearing + offset});
+  }
+  return view;
+}
+
+template <typename Module>
+struct Rig : ModuleRig<Module> {
+  Rig() { this->Set("stimulation_mode", "enabled"); }
+};
+
+TEST(DriveToGoalTest, TurnsAndDrivesUntilItIsThere) {
+  Rig<DriveToGoalBehaviour> rig;
+  rig.Feed("pose", Pose2{});
+  rig.Feed("goal", Point2{0.0, 2.0});
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.twist.port, HasPublished(AllOf(Field(&Twist2::turn, Gt(0.5)), Field(&Twist2::forward, 0.0))));
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(1.0)));
+  EXPECT_THAT(rig.module.target_rating, HasPublished(TargetRating(1.0)));
+  rig.Feed("goal", Point2{0.5, 0.0});
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.twist.port, HasPublished(AllOf(Field(&Twist2::turn, 0.0), Field(&Twist2::forward, Gt(0.3)))));
+  EXPECT_THAT(rig.module.target_rating, HasPublished(TargetRating(0.5)));
+  rig.Feed("goal", Point2{0.05, 0.0});
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.twist.port, HasPublished(Twist2{}));
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.0)));
+  EXPECT_THAT(rig.module.target_rating, HasPublished(TargetRating(0.0)));
+}
+
+TEST(AvoidObstaclesTest, TurnsAwayTheMoreTheNearer) {
+  Rig<AvoidObstaclesBehaviour> rig;
+  rig.Feed("surroundings", WallAt(0.6, 0.7));
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.twist.port, HasPublished(Field(&Twist2::turn, Lt(0.0))));
+  const double far = rig.Last(rig.module.activity).value();
+  EXPECT_GT(far, 0.0);
+  rig.Feed("surroundings", WallAt(0.4, -0.7));
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.twist.port, HasPublished(Field(&Twist2::turn, Gt(0.0))));
+  EXPECT_GT(rig.Last(rig.module.activity).value(), far);
+  rig.Feed("surroundings", WallAt(2.0, 0.0));
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.0)));
+}
+
+TEST(FollowWallTest, KeepsTheWallOnItsHand) {
+  Rig<FollowWallBehaviour> rig;
+  rig.Feed("surroundings", WallAt(0.31, -kPi / 2, 1.2));
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.twist.port,
+              HasPublished(AllOf(Field(&Twist2::forward, Gt(0.2)), Field(&Twist2::turn, ::testing::DoubleNear(0.0, 0.5)))));
+  rig.Feed("surroundings", WallAt(0.31, 0.0, 1.2));
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.twist.port, HasPublished(Field(&Twist2::turn, Gt(0.5))));
+  rig.Set("first_direction", "right");
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.twist.port, HasPublished(Field(&Twist2::turn, Lt(-0.5))));
+}
+
+TEST(EscapeTest, WaitsForProgressThenForAWayToTheGoal) {
+  Rig<EscapeBehaviour> rig;
+  rig.Feed("pose", Pose2{});
+  rig.Feed("goal", Point2{5.0, 0.0});
+  rig.Feed("surroundings", WallAt(0.5, 0.0));
+  rig.RunCycles(79);
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.0)));
+  rig.RunCycles(3);
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(1.0))) << "4 s have passed";
+  rig.Feed("pose", Pose2{1.0, 0.0, 0.0});
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(1.0))) << "nearer, and the way is not free";
+  rig.Feed("surroundings", WallAt(0.5, kPi / 2));
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.0)));
+  EXPECT_THAT(rig.module.target_rating, HasPublished(TargetRating(0.0)));
+}
+
+TEST(EmergencyStopTest, LetsNothingPassButTurning) {
+  Rig<EmergencyStopBehaviour> rig;
+  rig.Feed("surroundings", WallAt(0.31, 0.0));
+  rig.Feed("wanted", Twist2{0.4, 0.3});
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.twist.port, HasPublished(Twist2{0.0, 0.3}));
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(1.0)));
+  rig.Feed("surroundings", WallAt(1.0, 0.0));
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(0.0)));
+  rig.RunCycles(12);
+  EXPECT_THAT(rig.module.activity, HasPublished(Activity(1.0))) << "nobody looks any more";
+  EXPECT_THAT(rig.module.twist.port, HasPublished(Twist2{}));
+}
+
+TEST(RobotBehavioursTest, AllocateNothingInTheirCycles) {
+  const auto run = [](auto&& rig) {
+    if constexpr (requires { rig.module.pose; }) {
+      rig.Feed("pose", Pose2{});
+      rig.Feed("goal", Point2{5.0, 0.0});
+    }
+    if constexpr (requires { rig.module.surroundings; }) rig.Feed("surroundings", WallAt(0.5, 0.2));
+    if constexpr (requires { rig.module.wanted; }) rig.Feed("wanted", Twist2{0.4, 0.3});
+    rig.RunCycles(20);
+    EXPECT_THAT(rig, KeepsRealTime(100));
+  };
+  run(Rig<DriveToGoalBehaviour>());
+  run(Rig<AvoidObstaclesBehaviour>());
+  run(Rig<FollowWallBehaviour>());
+  run(Rig<EscapeBehaviour>());
+  run(Rig<EmergencyStopBehaviour>());
+}
+
+TEST(PlannerStatusTellerTest, SaysHowTheNetworkGetsOn) {
+  ModuleRig<PlannerStatusTeller> rig;
+  rig.Feed("pose", Pose2{});
+  rig.Feed("goal", Point2{3.0, 4.0});
+  rig.Feed("content", TargetRating(1.0));
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.status, HasPublished(AllOf(Field(&PlannerStatus::mode, PlannerMode::kMotionToGoal),
+                                                    Field(&PlannerStatus::distance_to_goal, 5.0))));
+  rig.Feed("detour", Activity(1.0));
+  rig.Feed("pose", Pose2{1.0, 0.0, 0.0});
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.status, HasPublished(AllOf(Field(&PlannerStatus::mode, PlannerMode::kFollowingBoundary),
+                                                    Field(&PlannerStatus::path_length, 1.0),
+                                                    Field(&PlannerStatus::hits, 1u))));
+  rig.Feed("detour", Activity(0.0));
+  rig.Feed("content", TargetRating(0.0));
+  rig.RunCycle();
+  EXPECT_THAT(rig.module.status, HasPublished(AllOf(Field(&PlannerStatus::mode, PlannerMode::kReached),
+                                                    Field(&PlannerStatus::leaves, 1u))));
+  EXPECT_EQ(rig.Last(rig.module.points).leaves.size(), 1u);
+}
+
+}  // namespace
+}  // namespace runnel
