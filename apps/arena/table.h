@@ -21,7 +21,7 @@ struct Row {
 };
 
 /// Whether the variant is one that guarantees nothing: planning/com leaves obstacles wherever the way is free, and may go in
-/// circles for ever.
+/// circles for ever, and a network of behaviours knows no unreachable goal.
 [[nodiscard]] bool MayFailByDesign(const std::string& variant);
 
 /// In the order of the records.
