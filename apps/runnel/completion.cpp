@@ -125,6 +125,7 @@ Candidates Threads(ControlClient& client) {
 
 bool IsPort(const Element& each) { return each.kind == "input" || each.kind == "output"; }
 bool IsPart(const Element& each) { return each.kind == "module" || each.kind == "group"; }
+bool IsService(const Element& each) { return each.kind == "output" && each.type.starts_with("service "); }
 bool Sends(const Element& each) { return each.kind == "output" || each.is_interface; }
 bool Receives(const Element& each) { return each.kind == "input" || each.is_interface; }
 
@@ -166,6 +167,7 @@ Candidates Propose(ControlClient& client, const Candidates& plain) {
   if (command == "ls" && is_first) return Paths(client, [](const Element&) { return true; });
   const bool is_of_port = command == "echo" || command == "hz" || command == "publish" || command == "release";
   if (is_of_port && is_first) return Paths(client, IsPort);
+  if ((command == "call" || command == "activities") && is_first) return Paths(client, IsService);
   if (command == "set" && is_first) return Paths(client, OfKind("parameter"));
   if (command == "set" && place == 1) return ValuesOf(client, word(0));
   if (command == "get" && is_first) {
@@ -199,7 +201,7 @@ Candidates Propose(ControlClient& client, const Candidates& plain) {
 // The words that are no options; what follows an option that has a value is left out.
 Candidates WithoutOptions(const Candidates& words, std::string& application) {
   static const Candidates kWithValue{"--app",       "-n", "--queue",  "--on-full",
-                                     "--probation", "-o", "--output", "--compression", "--rate", "--deadline", "--convert"};
+                                     "--probation", "-o", "--output", "--compression", "--rate", "--deadline", "--convert", "--timeout"};
   Candidates plain;
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (std::ranges::count(kWithValue, words[i]) > 0 && i + 1 < words.size()) {

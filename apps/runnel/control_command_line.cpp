@@ -85,6 +85,16 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
       ->required(false)
       ->type_name(kPort);
 
+  Entry& call = add("call", "calls a service of a module, and shows its reply");
+  word(call, "service", "its path")->type_name("SERVICE");
+  word(call, "arguments", "in their text format: {file: map.pgm}")->required(false)->type_name("VALUE");
+  option(call, "--timeout", "timeout", "on the application's clock: 30s")->type_name("TIME");
+
+  Entry& activities = add("activities", "shows services that take long, and how far they are");
+  word(activities, "service", "one, to be aborted")->required(false)->type_name("SERVICE");
+  flag(activities, "--all", "all", "also those that do not take long");
+  flag(activities, "--abort", "abort", "asks what is under way there to end");
+
   Entry& connect = add("connect", "connects two ports");
   word(connect, "from", "output; PORT.x, PORT[0]: that part of its values")->type_name(kPort);
   word(connect, "to", "input")->type_name(kPort);
@@ -247,6 +257,7 @@ void ControlCommandLine::Group() {
         {"hz", "runnel hz /laser/scan"},
         {"top", "runnel top"},
         {"log", "runnel log -f"},
+        {"activities", "runnel activities"},
         {"profile", "runnel profile on"},
         {"latency", "runnel latency /laser/scan /robot/planner/twist"},
         {"record", "runnel record /robot/pose -o run.mcap"}}},
@@ -254,6 +265,7 @@ void ControlCommandLine::Group() {
        {{"set", "runnel set /robot/planner/cruise_speed 0.3"},
         {"publish", "runnel publish /robot/goal '{x: 2, y: 1}'"},
         {"release", "runnel release /robot/goal"},
+        {"call", "runnel call /mapper/save '{file: map.pgm}'"},
         {"connect", "runnel connect /laser/scan /robot/planner/scan --queue 10"},
         {"disconnect", "runnel disconnect /laser/scan /robot/planner/scan"},
         {"create", "runnel create /robot/filter sensors/scan_filter window=5"},
@@ -304,7 +316,8 @@ std::vector<const char*> WithNegativeValues(int count, const char* const* words)
       last.size() > 1 && last[0] == '-' && (last[1] == '.' || (last[1] >= '0' && last[1] <= '9'));
   const auto dashes = [](const char* word) { return std::string_view(word) == "--"; };
   const bool wants_value =
-      count > 3 && (std::string_view(all[1]) == "set" || std::string_view(all[1]) == "publish");
+      count > 3 && (std::string_view(all[1]) == "set" || std::string_view(all[1]) == "publish" ||
+                   std::string_view(all[1]) == "call");
   if (wants_value && std::string_view(all[static_cast<std::size_t>(count) - 2]) != "--rate" && is_number &&
       std::none_of(all.begin(), all.end(), dashes)) {
     all.insert(all.end() - 1, "--");

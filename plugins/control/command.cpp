@@ -49,6 +49,8 @@ const std::vector<CommandKind>& Kinds() {
       {"stop", 0, 1, {}, MakeServiceCommand},
       {"publish", 1, 2, {"rate", "deadline", "stop"}, MakeServiceCommand},
       {"release", 0, 1, {}, MakeServiceCommand},
+      {"call", 1, 2, {"timeout"}, MakeCallCommand},
+      {"activities", 0, 1, {"all", "abort"}, MakeActivitiesCommand},
       {"record", 0, kMostPatterns, {"file", "count", "compression"}, MakeRecordCommand},
   };
   return kinds;

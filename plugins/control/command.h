@@ -77,7 +77,7 @@ using CommandMaker = CommandResult(const Request& request, const CommandContext&
 CommandMaker MakeGetCommand, MakeListCommand, MakePathsCommand, MakeTypesCommand, MakeEchoCommand, MakeRateCommand,
     MakeLogCommand, MakePauseCommand, MakeResumeCommand, MakeStepCommand, MakeSpeedCommand,
     MakeRecordCommand, MakeDeadlineCommand, MakeTopCommand,
-    MakeProfileCommand, MakeLatencyCommand;
+    MakeProfileCommand, MakeLatencyCommand, MakeCallCommand, MakeActivitiesCommand;
 /// Of those that the service carries out.
 CommandMaker MakeServiceCommand;
 
