@@ -18,6 +18,7 @@ namespace runnel {
 namespace {
 
 constexpr Duration kUsualTimeout = std::chrono::seconds(30);
+constexpr Duration kTellProgress = std::chrono::milliseconds(250);
 
 // Errors: besides, that it is no service.
 Result<Callable*> FindCallable(Runtime& runtime, const std::string& path) {
@@ -106,6 +107,9 @@ class CallCommand {
     const auto percent = static_cast<int>(std::lround(100 * call_->progress()));
     std::string text = std::to_string(percent) + " %" + (doing.empty() ? "" : " " + doing) + "\n";
     if (text == shown_ || (shown_.empty() && percent == 0 && doing.empty())) return;
+    const auto now = std::chrono::steady_clock::now();
+    if (!shown_.empty() && now - shown_at_ < kTellProgress) return;
+    shown_at_ = now;
     shown_ = std::move(text);
     answer.WriteError(shown_);
   }
@@ -117,6 +121,7 @@ class CallCommand {
   std::unique_ptr<AnyCall> call_;
   const TypeInfo* reply_ = nullptr;
   std::string shown_;
+  std::chrono::steady_clock::time_point shown_at_{};
 };
 
 std::string ServiceLine(const FrameworkElement& port, const Callable& callable) {

@@ -1,0 +1,9 @@
+#include "core/plugin/plugin_entry.h"
+#include "modules/places/place_book.h"
+#include "modules/places/place_driver.h"
+
+RUNNEL_PLUGIN(places, registry) {
+  using namespace runnel::places;
+  registry.Add<PlaceBook>("places/book", "remembers where the robot was, by names: remember, where, names");
+  registry.Add<PlaceDriver>("places/driver", "has the robot drive to a place when it is asked to: go");
+}
