@@ -57,8 +57,8 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/services", "plugins/services", {"core"}});
   rules.push_back({"plugins/foxglove",
                    "plugins/foxglove",
-                   {"core", "plugins/command_service", "plugins/structure", "plugins/values",
-                    "plugins/web_server"}});
+                   {"core", "plugins/command_service", "plugins/services/callable.h", "plugins/structure",
+                    "plugins/values", "plugins/web_server"}});
   rules.push_back({"plugins/application_files",
                    "plugins/application_files",
                    {"core", "plugins/parameters", "plugins/scheduling", "plugins/timing", "plugins/structure",

@@ -107,6 +107,25 @@ constexpr std::array<Operation, 10> kOperations{{
 
 }  // namespace
 
+std::uint32_t ReadNumber(std::string_view bytes, std::size_t at) {
+  std::uint32_t number = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    number |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[at + i])) << (8 * i);
+  }
+  return number;
+}
+
+Result<ServiceCallMessage> ReadServiceCall(std::string_view message) {
+  constexpr std::size_t kHead = 13;
+  if (message.size() < kHead || message.size() - kHead < ReadNumber(message, 9)) {
+    return Error{.message = "a call of a service is shorter than it says"};
+  }
+  const std::size_t encoding = ReadNumber(message, 9);
+  return ServiceCallMessage{ReadNumber(message, 1), ReadNumber(message, 5),
+                            std::string(message.substr(kHead, encoding)),
+                            std::string(message.substr(kHead + encoding))};
+}
+
 Result<ClientMessage> ParseClientMessage(std::string_view text) {
   const auto json = JsonPart::Parse(text);
   if (!json) return Error{.message = "this message is no JSON"};

@@ -76,6 +76,18 @@ using ClientMessage = std::variant<SubscribeMessage, UnsubscribeMessage, Adverti
                                    UnadvertiseMessage, GetParametersMessage, SetParametersMessage,
                                    SubscribeParametersMessage, SubscribeGraphMessage>;
 
+/// What a client says in binary to call a service.
+struct ServiceCallMessage {
+  std::uint32_t service;
+  std::uint32_t call;
+  std::string encoding;
+  std::string payload;
+};
+/// Of a message whose first byte is 2. Errors: it is too short for what it says.
+[[nodiscard]] Result<ServiceCallMessage> ReadServiceCall(std::string_view message);
+/// Four bytes, the least first, from `at` on. Precondition: they are there.
+[[nodiscard]] std::uint32_t ReadNumber(std::string_view bytes, std::size_t at);
+
 /// Errors: no JSON, no such operation, fields that are missing or of a wrong kind.
 [[nodiscard]] Result<ClientMessage> ParseClientMessage(std::string_view text);
 

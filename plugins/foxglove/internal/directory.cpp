@@ -7,6 +7,7 @@
 #include "core/plugin/module_type_name.h"
 #include "core/port/port.h"
 #include "core/types/type_info.h"
+#include "plugins/services/callable.h"
 #include "plugins/values/foxglove_topics.h"
 
 namespace runnel::internal {
@@ -17,6 +18,13 @@ namespace {
 constexpr auto kBetweenLooks = std::chrono::milliseconds(100);
 constexpr auto kLookOn =
     std::chrono::milliseconds(5);  // while there is more to look at, or it is locked
+
+// As viewers want it: of an object.
+std::string SchemaOf(const TypeInfo* type) {
+  if (type == nullptr) return R"({"type":"object","properties":{}})";
+  const auto forms = ChannelsFor(*type, "");
+  return forms.empty() ? "" : forms.front().schema;
+}
 
 std::string OwnerPath(const FrameworkElement& element) {
   const FrameworkElement* const owner = FindOwner(element);
@@ -58,6 +66,13 @@ struct Directory::Search {
     return RobotPose(all);
   }
   void Add(const Port& port) {
+    if (const auto* const callable = port.FindAnnotation<Callable>()) {
+      services.push_back({.name = TopicOf(port),
+                          .path = port.path(),
+                          .type = port.type().name(),
+                          .request_schema = SchemaOf(callable->arguments()),
+                          .reply_schema = SchemaOf(callable->reply())});
+    }
     const bool is_output = port.direction() == Port::Direction::kOutput;
     FoundPort found{&port,
                     port.path(),
@@ -78,6 +93,7 @@ struct Directory::Search {
   }
 
   std::vector<FoundPort> ports;
+  std::vector<DirectoryService> services;  // without their numbers
   std::vector<std::pair<std::string, DirectoryParameter>> parameters;  // with their topics
   Counts target_topics, shown_topics, parameter_topics;
 };
@@ -117,6 +133,13 @@ Directory::SteadyTime Directory::Look(SteadyTime now) {
     const DirectoryInput input{port.path, port.type};
     content->inputs[port.path] = input;
     content->inputs[NameIn(search->target_topics, port.topic, port.path)] = input;
+  }
+  for (DirectoryService service : search->services) {
+    const auto next = static_cast<std::uint32_t>(service_ids_.size() + 1);
+    const std::string all = service.path + "\n" + service.type + "\n" + service.request_schema + "\n" +
+                            service.reply_schema;
+    service.id = service_ids_.try_emplace(all, next).first->second;
+    content->services[service.id] = std::move(service);
   }
   AddChannels(*search, robot_pose, *content);
   content_ = std::move(content);

@@ -43,6 +43,16 @@ struct DirectoryParameter {
   const Configurable* element;  ///< as long as the structure is the same
 };
 
+/// A service as it is advertised. Schemas are "" where there is nothing to say.
+struct DirectoryService {
+  std::uint32_t id = 0;
+  std::string name;
+  std::string path = {};
+  std::string type = {};  ///< "service Pose2(string)"
+  std::string request_schema = {};
+  std::string reply_schema = {};
+};
+
 /// Who is at the two ends of a topic, by paths.
 struct GraphTopic {
   std::vector<std::string> publishers;
@@ -57,6 +67,7 @@ struct DirectoryContent {
   std::map<std::string, DirectoryInput, std::less<>> inputs;
   std::map<std::string, DirectoryParameter, std::less<>> parameters;
   std::map<std::string, GraphTopic> graph;
+  std::map<std::uint32_t, DirectoryService> services;
 };
 
 /// Keeps what clients can ask for in step with the structure, for all of them together.
@@ -101,6 +112,7 @@ class Directory {
   std::unordered_map<const TypeInfo*, Encoding> transforms_;
   // Numbers that have been given: a topic that comes back in the same form has its old one.
   std::map<std::pair<std::string, const FoxgloveChannel*>, std::uint32_t> ids_;
+  std::map<std::string, std::uint32_t> service_ids_;  // by all that is said of them
 };
 
 }  // namespace runnel::internal

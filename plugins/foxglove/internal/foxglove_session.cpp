@@ -17,14 +17,6 @@ constexpr auto kSoon = std::chrono::milliseconds(5);
 constexpr std::size_t kChannelsInMessage = 50;
 constexpr std::size_t kMostPublications = 100;
 
-std::uint32_t ReadNumber(std::string_view bytes) {
-  std::uint32_t number = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    number |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[i])) << (8 * i);
-  }
-  return number;
-}
-
 }  // namespace
 
 FoxgloveSession::FoxgloveSession(std::shared_ptr<FoxgloveShared> shared, WebClient& client)
@@ -32,7 +24,8 @@ FoxgloveSession::FoxgloveSession(std::shared_ptr<FoxgloveShared> shared, WebClie
       client_(client),
       send_queue_(client),
       subscriptions_(shared_->application.service.application(), client),
-      parameters_(*shared_, send_queue_, client.Waker()) {
+      parameters_(*shared_, send_queue_, client.Waker()),
+      calls_(*shared_, send_queue_, client) {
   send_queue_.Send(ServerInfoMessage(*shared_, shared_->RoleOf(client)));
 }
 
@@ -61,13 +54,16 @@ void FoxgloveSession::OnText(std::string_view message) {
 
 void FoxgloveSession::OnBinary(std::string_view message) {
   constexpr std::size_t kHead = 5;
-  constexpr char kMessageData = 1;
+  constexpr char kMessageData = 1, kServiceCall = 2;
+  if (!message.empty() && message[0] == kServiceCall) {
+    return calls_.Begin(message, shared_->RoleOf(client_) >= WebRole::kDrive);
+  }
   if (message.size() < kHead || message[0] != kMessageData) {
     return SendError({.message = "there is no binary message of this kind here",
-                      .hint = "byte 1: the value of a client's channel, then the channel's id"});
+                      .hint = "byte 1: the value of a client's channel, then the channel's id; byte 2: a call of a service"});
   }
   if (!MayDo(WebRole::kDrive, "publishing")) return;
-  const std::uint32_t id = ReadNumber(message.substr(1));
+  const std::uint32_t id = ReadNumber(message, 1);
   const auto found = publications_.find(id);
   if (found == publications_.end()) {
     return SendError({.message = "channel " + std::to_string(id) + " is not advertised"});
@@ -145,6 +141,7 @@ FoxgloveSession::SteadyTime FoxgloveSession::OnPoll() {
   FollowStructure();
   const bool is_publishing = ContinuePublications();
   SteadyTime next = std::min(look_at, parameters_.Continue(now));
+  next = std::min(next, calls_.Continue(now));
   SendTime(now);
   if (now >= sample_at_) sample_at_ = now + (subscriptions_.Sample() ? kBetweenSamples : kSoon);
   for (const Error& error : subscriptions_.TakeFailures()) SendError(error);
@@ -165,6 +162,7 @@ void FoxgloveSession::FollowStructure() {
     subscriptions_.Retain(*content);
     if (!gone.empty()) send_queue_.Send(UnadvertiseMessageFor(gone));
     DropPublications(*content);
+    if (shared_->RoleOf(client_) >= WebRole::kDrive) calls_.Follow(*content);
     if (has_graph_ && content->graph != graph_) {
       send_queue_.Send(GraphMessage(graph_, content->graph));
       graph_ = content->graph;

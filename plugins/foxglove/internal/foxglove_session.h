@@ -11,6 +11,7 @@
 #include "plugins/foxglove/internal/parameter_handler.h"
 #include "plugins/foxglove/internal/send_queue.h"
 #include "plugins/foxglove/internal/server_messages.h"
+#include "plugins/foxglove/internal/service_calls.h"
 #include "plugins/foxglove/internal/subscriptions.h"
 #include "plugins/web_server/web_session.h"
 
@@ -58,6 +59,7 @@ class FoxgloveSession final : public WebSession {
   SendQueue send_queue_;
   Subscriptions subscriptions_;
   ParameterHandler parameters_;
+  ServiceCalls calls_;
   std::map<std::uint32_t, Publication> publications_;  // by the client's numbers
   std::shared_ptr<const DirectoryContent> content_;    // that the client has been told of
   std::set<std::uint32_t> advertised_;

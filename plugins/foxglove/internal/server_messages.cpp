@@ -41,6 +41,7 @@ std::string ServerInfoMessage(const FoxgloveShared& shared, WebRole role) {
         capabilities.Add(each);
       }
       if (may_publish) capabilities.Add("clientPublish");
+      if (may_publish) capabilities.Add("services");
     }
     if (may_publish) message.AddJson("supportedEncodings", R"(["json"])");
     JsonObject(message.Key("metadata")).Add("runnel", shared.application.version);
@@ -71,6 +72,49 @@ std::string UnadvertiseMessageFor(std::span<const std::uint32_t> ids) {
     JsonArray list(message.Add("op", "unadvertise").Key("channelIds"));
     for (const std::uint32_t id : ids) AppendJsonNumber(id, list.Next());
   });
+}
+
+std::string AdvertiseServicesMessage(std::span<const DirectoryService* const> services) {
+  return JsonObjectText([&](JsonObject& message) {
+    JsonArray list(message.Add("op", "advertiseServices").Key("services"));
+    for (const DirectoryService* each : services) {
+      JsonObject service(list.Next());
+      service.Add("id", each->id).Add("name", each->name).Add("type", each->type);
+      // Both ways in which versions of the protocol have it.
+      service.Add("requestSchema", each->request_schema).Add("responseSchema", each->reply_schema);
+      const auto add = [&](const char* key, const std::string& schema) {
+        JsonObject(service.Key(key))
+            .Add("encoding", "json")
+            .Add("schemaName", each->type + " " + key)
+            .Add("schemaEncoding", "jsonschema")
+            .Add("schema", schema);
+      };
+      add("request", each->request_schema);
+      add("response", each->reply_schema);
+    }
+  });
+}
+
+std::string UnadvertiseServicesMessage(std::span<const std::uint32_t> ids) {
+  return JsonObjectText([&](JsonObject& message) {
+    JsonArray list(message.Add("op", "unadvertiseServices").Key("serviceIds"));
+    for (const std::uint32_t id : ids) AppendJsonNumber(id, list.Next());
+  });
+}
+
+std::string ServiceFailureMessage(std::uint32_t service, std::uint32_t call, std::string_view why) {
+  return JsonObjectText([&](JsonObject& message) {
+    message.Add("op", "serviceCallFailure").Add("serviceId", service).Add("callId", call).Add("message", why);
+  });
+}
+
+std::string ServiceReplyMessage(std::uint32_t service, std::uint32_t call, std::string_view json) {
+  constexpr std::string_view kEncoding = "json";
+  std::string bytes = "\x03";
+  AppendLittleEndian(service, bytes);
+  AppendLittleEndian(call, bytes);
+  AppendLittleEndian(static_cast<std::uint32_t>(kEncoding.size()), bytes);
+  return bytes.append(kEncoding).append(json);
 }
 
 std::string GraphMessage(const std::map<std::string, GraphTopic>& before,

@@ -20,7 +20,7 @@ TEST_F(FoxgloveTest, GreetsWithWhatItCanDo) {
   EXPECT_EQ(greetings[0]["name"], "demo");
   EXPECT_THAT(greetings[0]["capabilities"],
               UnorderedElementsAre("time", "parameters", "parametersSubscribe", "connectionGraph",
-                                   "clientPublish"));
+                                   "clientPublish", "services"));
   EXPECT_EQ(greetings[0]["supportedEncodings"], Json({"json"}));
   EXPECT_FALSE(greetings[0]["sessionId"].get<std::string>().empty());
   EXPECT_THAT(protocol.names, ElementsAre("foxglove.websocket.v1", "foxglove.sdk.v1"));

@@ -50,7 +50,7 @@ TEST_F(FoxgloveHostileTest, BinaryGarbageIsRefused) {
   Begin();
   for (const std::string& bytes :
        {std::string(), std::string("\x01"), std::string("\x01\x00\x00\x00", 4),
-        std::string("\x02\x00\x00\x00\x00", 5), std::string(100, '\xff')}) {
+        std::string("\x05\x00\x00\x00\x00", 5), std::string(100, '\xff')}) {
     session->OnBinary(bytes);
     EXPECT_THAT(Complaint(), HasSubstr("no binary message of this kind"));
   }
