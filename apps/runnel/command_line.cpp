@@ -222,7 +222,7 @@ Command ParseCommandLine(int count, const char* const* words) {
   program.footer(FooterText());
   RunArguments run_arguments;
   RunArguments replay_arguments;
-  ApplicationArguments check_arguments;
+  CheckArguments check_arguments;
   ModulesArguments modules_arguments;
   SchemaArguments schema_arguments;
   GraphArguments graph_arguments;
@@ -233,7 +233,11 @@ Command ParseCommandLine(int count, const char* const* words) {
   const ExtensionCommandLine replay_extensions(*catalogue, replay);
   AddReplayedApplication(replay, replay_arguments.application);
   CLI::App& check = *program.add_subcommand("check", "looks for mistakes, without running");
-  AddApplicationArguments(check, check_arguments);
+  AddApplicationArguments(check, check_arguments.application);
+  check.add_option("--model", check_arguments.model_file,
+                   "writes what is checked of a network of behaviours as a model for Spin (Promela)")
+      ->type_name("FILE")
+      ->check(CheckFile);
   CLI::App& modules = *program.add_subcommand("modules", "lists module types, ports, parameters");
   modules.add_option("plugins", modules_arguments.plugins, "only of these; without, of all")
       ->type_name("PLUGIN");

@@ -27,6 +27,11 @@ struct ApplicationArguments {
   std::vector<std::string> settings = {};  ///< name=value
 };
 
+struct CheckArguments {
+  ApplicationArguments application;
+  std::string model_file = {};  ///< into which what is checked is written as a model; "": into none
+};
+
 struct RunArguments {
   ApplicationArguments application;     ///< of a replay, it may have no file
   std::optional<double> speed = {};     ///< instead of the file's; 0: as fast as it can

@@ -10,7 +10,7 @@ namespace runnel::program {
 [[nodiscard]] ExitCode Run(const RunArguments& arguments);
 
 /// Builds the application, runs nothing, and says what is wrong with it.
-[[nodiscard]] ExitCode Check(const ApplicationArguments& arguments);
+[[nodiscard]] ExitCode Check(const CheckArguments& arguments);
 
 /// Draws the data flow of an application that is built and not run. SVG, PNG and PDF need the
 /// program `dot` of Graphviz.

@@ -54,6 +54,12 @@ Result<void> FusionBehaviour::Attach(std::size_t channel, Behaviour& behaviour, 
   return Port::Connect(wish, *inputs_[i]);
 }
 
+ActivityNeeds FusionBehaviour::Needs() const {
+  ActivityNeeds needs;
+  for (const Input<Activity>& each : activities_) needs.any_of.push_back(&each);
+  return needs;
+}
+
 Result<void> FusionBehaviour::Prepare() {
   if (!value_fusion_ && method.Get() != FusionMethod::kWinnerTakesAll) {
     return Error{.message = no_fusion_,

@@ -46,6 +46,7 @@ class FusionBehaviour final : public Behaviour {
   /// For composites written in C++: connects the three ports of a channel, the first is 1, with a behaviour and what it wants.
   /// After Construct(). Errors: there is no such channel; as Port::Connect().
   Result<void> Attach(std::size_t channel, Behaviour& behaviour, Port& wish);
+  [[nodiscard]] ActivityNeeds Needs() const override;
   /// After Construct().
   [[nodiscard]] Port& out() const noexcept { return *output_; }
 

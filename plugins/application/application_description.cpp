@@ -40,6 +40,7 @@ ApplicationDescription::ApplicationDescription(ApplicationOptions options)
   tags_.set_source([this](std::string_view tag) { return AttachForTag(tag); });
   plugins_.registry().Offer(tags_);
   plugins_.registry().Offer(extension_registry_);
+  plugins_.registry().Offer(checks_);
 }
 
 Result<Extensions> ApplicationDescription::MakeExtensions(const ExtensionDescription& extension,
@@ -147,6 +148,10 @@ bool ApplicationDescription::ReadText(std::string_view text, const std::filesyst
     text_ = text;
     return BuildApplication(*document, folder, tools, BuildMode::kConstruct);
   });
+}
+
+void ApplicationDescription::RunChecks(const std::string& model_file) {
+  if (element_ != nullptr) checks_.Run({*element_, diagnostics_, model_file});
 }
 
 bool ApplicationDescription::MakeEmpty(const std::string& name) {

@@ -9,6 +9,7 @@
 #include "core/base/diagnostics.h"
 #include "core/element/runtime.h"
 #include "core/plugin/plugin_manager.h"
+#include "plugins/application/application_checks.h"
 #include "plugins/application/application_options.h"
 #include "plugins/application/extension_description.h"
 #include "plugins/application/extension_registry.h"
@@ -45,6 +46,10 @@ class ApplicationDescription {
   /// What `describe` constructs, in whichever way.
   using Describe = std::function<BuildOutcome(const BuildTools& tools)>;
   bool ReadFrom(const Describe& describe);
+
+  /// What plugins have to say of the whole (ApplicationChecks), into the diagnostics; a model that is checked also into
+  /// `model_file`, if that is not "". Nothing if there are errors.
+  void RunChecks(const std::string& model_file = {});
 
   [[nodiscard]] const Diagnostics& diagnostics() const noexcept { return diagnostics_; }
   /// The group that all is in; nullptr if there are errors.
@@ -91,6 +96,7 @@ class ApplicationDescription {
   PluginManager plugins_;
   XmlTagRegistry tags_;
   ExtensionRegistry extension_registry_;
+  ApplicationChecks checks_;
   std::optional<ExtensionCatalogue> catalogue_;
   Configuration configuration_;
   Extensions extensions_;

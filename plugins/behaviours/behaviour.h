@@ -19,6 +19,12 @@
 
 namespace runnel {
 
+/// For checks of networks: on whose activity it depends whether a behaviour is active, by the inputs to which that comes.
+struct ActivityNeeds {
+  std::vector<const Port*> all_of = {};  ///< not active unless all of these are
+  std::vector<const Port*> any_of = {};  ///< active, if it may, exactly while one of these is
+};
+
 /// A behaviour of a network (iB2C): a module that is stimulated and inhibited, does something with what activation that
 /// leaves, and tells others how much it does (activity) and how far it is from what it wants (target rating).
 ///
@@ -70,6 +76,8 @@ class Behaviour : public Module {
       {.default_value = 250, .bounds = {1, 1000000}, .description = "cycles from one warning to the next, at least"}};
 
   [[nodiscard]] Input<Inhibition>& inhibition(std::size_t index) { return inhibition_ports_[index]; }
+  /// Of a constructed behaviour with its present parameters. Most depend on what only they know.
+  [[nodiscard]] virtual ActivityNeeds Needs() const { return {}; }
   [[nodiscard]] std::size_t inhibition_count() const noexcept { return inhibition_ports_.size(); }
 
  protected:

@@ -51,6 +51,9 @@ void AddApplication(std::vector<IncludeRule>& rules) {
 
 void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/parameters", "plugins/parameters", {"core"}});
+  rules.push_back({"the words of behaviours",
+                   "plugins/behaviours/xml_",
+                   {"core", "plugins/application", "plugins/application_files", "plugins/behaviours"}});
   rules.push_back({"plugins/behaviours/algorithm", "plugins/behaviours/algorithm", {}, true});
   rules.push_back({"plugins/behaviours", "plugins/behaviours", {"core", "plugins/parameters", "plugins/behaviours/algorithm"}});
   rules.push_back({"plugins/values", "plugins/values", {"core"}});

@@ -1,0 +1,178 @@
+#include <algorithm>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "plugins/behaviours/network.h"
+
+namespace runnel {
+
+namespace {
+
+using Set = std::set<std::size_t>;
+
+// Who is active whenever this one is, itself included: by stimulation from one alone, or as it needs them.
+Set ActiveWith(const BehaviourNetwork& network, std::size_t place) {
+  Set active;
+  std::deque<std::size_t> waiting{place};
+  while (!waiting.empty()) {
+    const std::size_t next = waiting.front();
+    waiting.pop_front();
+    if (!active.insert(next).second) continue;
+    const NetworkNode& node = network.nodes[next];
+    waiting.insert(waiting.end(), node.needs_all.begin(), node.needs_all.end());
+    if (node.needs_any.size() == 1) waiting.push_back(node.needs_any.front());
+    if (node.stimulators.size() == 1 && !node.has_foreign_stimulation) waiting.push_back(node.stimulators.front());
+  }
+  return active;
+}
+
+// One of `inhibited` that one of `active` inhibits.
+std::optional<std::pair<std::size_t, std::size_t>> FindInhibition(const BehaviourNetwork& network, const Set& active,
+                                                                  const Set& inhibited) {
+  for (const std::size_t each : inhibited) {
+    for (const std::size_t by : network.nodes[each].inhibitors) {
+      if (active.contains(by)) return std::pair(by, each);
+    }
+  }
+  return std::nullopt;
+}
+
+bool IsAnyOf(const std::vector<std::size_t>& places, const std::vector<bool>& can_be) {
+  return std::ranges::any_of(places, [&](std::size_t each) { return can_be[each]; });
+}
+
+// Whether each may be active, as far as stimulation goes: the largest set that holds itself up from what is enabled.
+std::vector<bool> CanBeStimulated(const BehaviourNetwork& network) {
+  std::vector<bool> can_be(network.nodes.size(), false);
+  for (bool has_changed = true; has_changed;) {
+    has_changed = false;
+    for (std::size_t i = 0; i < network.nodes.size(); ++i) {
+      const NetworkNode& node = network.nodes[i];
+      const bool is_stimulated = node.mode == StimulationMode::kEnabled ||
+                                 (node.mode == StimulationMode::kAuto &&
+                                  (node.has_foreign_stimulation || IsAnyOf(node.stimulators, can_be)));
+      const bool has_any = node.needs_any.empty() || IsAnyOf(node.needs_any, can_be);
+      const bool has_all =
+          std::ranges::all_of(node.needs_all, [&](std::size_t each) { return can_be[each]; });
+      if (can_be[i] || !is_stimulated || !has_any || !has_all) continue;
+      can_be[i] = has_changed = true;
+    }
+  }
+  return can_be;
+}
+
+std::string NamesOf(const BehaviourNetwork& network, const std::vector<std::size_t>& places) {
+  std::string names;
+  for (const std::size_t each : places) names += (names.empty() ? "" : ", ") + network.nodes[each].name;
+  return names;
+}
+
+std::string WhyNotStimulated(const BehaviourNetwork& network, const NetworkNode& node) {
+  if (node.mode == StimulationMode::kAuto && node.stimulators.empty()) return "nothing stimulates it";
+  if (node.mode == StimulationMode::kAuto) {
+    return "only " + NamesOf(network, node.stimulators) + " would stimulate it, which can never be active";
+  }
+  return "those whose activity it needs can never be active";
+}
+
+}  // namespace
+
+std::vector<NetworkFlaw> FindUnreachable(const BehaviourNetwork& network) {
+  std::vector<NetworkFlaw> flaws;
+  const std::vector<bool> can_be = CanBeStimulated(network);
+  for (std::size_t i = 0; i < network.nodes.size(); ++i) {
+    const NetworkNode& node = network.nodes[i];
+    if (node.mode == StimulationMode::kDisabled) continue;  // as somebody wants it
+    if (!can_be[i]) {
+      flaws.push_back({node.behaviour->path(), "can never be active: " + WhyNotStimulated(network, node),
+                       "connect its stimulation, or set stimulation_mode to enabled"});
+      continue;
+    }
+    const Set with = ActiveWith(network, i);
+    const auto inhibition = FindInhibition(network, with, with);
+    if (!inhibition) continue;
+    const auto& [by, who] = *inhibition;
+    flaws.push_back({node.behaviour->path(),
+                     "can never be fully active: " + network.nodes[by].name + ", without which it is not active, inhibits " +
+                         (who == i ? "it" : network.nodes[who].name + ", without which it is not, either"),
+                     "take one of the two connections away"});
+  }
+  return flaws;
+}
+
+std::vector<NetworkFlaw> FindOscillations(const BehaviourNetwork& network) {
+  // Edges from who decides to who depends, with whether by inhibition.
+  struct Edge {
+    std::size_t to;
+    bool inhibits;
+  };
+  std::vector<std::vector<Edge>> edges(network.nodes.size());
+  for (std::size_t to = 0; to < network.nodes.size(); ++to) {
+    const NetworkNode& node = network.nodes[to];
+    for (const std::size_t from : node.inhibitors) edges[from].push_back({to, true});
+    for (const auto* const list : {&node.stimulators, &node.needs_all, &node.needs_any}) {
+      for (const std::size_t from : *list) edges[from].push_back({to, false});
+    }
+  }
+  std::vector<NetworkFlaw> flaws;
+  std::set<Set> told;
+  for (std::size_t start = 0; start < network.nodes.size(); ++start) {
+    // The shortest way back to itself with an odd number of inhibitions.
+    using State = std::pair<std::size_t, bool>;
+    std::map<State, State> came_from;
+    std::deque<State> waiting{{start, false}};
+    bool is_closed = false;
+    while (!waiting.empty() && !is_closed) {
+      const State at = waiting.front();
+      waiting.pop_front();
+      for (const Edge& edge : edges[at.first]) {
+        const State next{edge.to, at.second != edge.inhibits};
+        if (next == State{start, false} || !came_from.try_emplace(next, at).second) continue;
+        waiting.push_back(next);
+        is_closed = is_closed || next == State{start, true};
+      }
+    }
+    if (!is_closed) continue;
+    std::vector<std::size_t> loop;
+    for (State at{start, true}; at != State{start, false}; at = came_from.at(at)) loop.push_back(at.first);
+    std::ranges::reverse(loop);
+    if (!told.insert(Set(loop.begin(), loop.end())).second) continue;
+    std::string text = network.nodes[start].name;
+    std::size_t before = start;
+    for (const std::size_t each : loop) {
+      const bool inhibits = std::ranges::find(network.nodes[each].inhibitors, before) != network.nodes[each].inhibitors.end();
+      text += (inhibits ? " inhibits " : " activates ") + network.nodes[each].name;
+      before = each;
+      if (each != loop.back()) text += ", which";
+    }
+    flaws.push_back({network.nodes[start].behaviour->path(),
+                     "can oscillate, for its own activity inhibits it in the end: " + text,
+                     "take one of these connections away"});
+  }
+  return flaws;
+}
+
+std::vector<NetworkFlaw> FindConflicts(const BehaviourNetwork& network) {
+  std::vector<NetworkFlaw> flaws;
+  const std::vector<bool> can_be = CanBeStimulated(network);
+  for (const SharedActuator& actuator : network.shared) {
+    for (std::size_t i = 0; i < actuator.behaviours.size(); ++i) {
+      for (std::size_t k = i + 1; k < actuator.behaviours.size(); ++k) {
+        const std::size_t one = actuator.behaviours[i], other = actuator.behaviours[k];
+        if (!can_be[one] || !can_be[other]) continue;
+        const Set with_one = ActiveWith(network, one), with_other = ActiveWith(network, other);
+        if (FindInhibition(network, with_one, with_other) || FindInhibition(network, with_other, with_one)) continue;
+        flaws.push_back({actuator.path,
+                         network.nodes[one].name + " and " + network.nodes[other].name +
+                             " command it, and can be active at once without a fusion",
+                         "connect both with a behaviours/fusion, and that with it"});
+      }
+    }
+  }
+  return flaws;
+}
+
+}  // namespace runnel

@@ -1,0 +1,96 @@
+#include "plugins/behaviours/promela.h"
+
+#include <fmt/format.h>
+
+namespace runnel {
+
+namespace {
+
+constexpr int kPatience = 3;  // cycles
+
+std::string Joined(const std::vector<std::size_t>& places, const char* format, const char* separator,
+                   const char* none) {
+  std::string text;
+  for (const std::size_t each : places) {
+    text += (text.empty() ? "" : separator) + fmt::format(fmt::runtime(format), each);
+  }
+  return text.empty() ? none : "(" + text + ")";
+}
+
+bool HasWill(const NetworkNode& node) { return node.needs_any.empty(); }
+
+std::string Stimulated(const NetworkNode& node) {
+  switch (node.mode) {
+    case StimulationMode::kEnabled:
+      return "true";
+    case StimulationMode::kDisabled:
+      return "false";
+    case StimulationMode::kAuto:
+      break;
+  }
+  if (node.has_foreign_stimulation) return "true";  // whether it is, is part of whether it wants to
+  return Joined(node.stimulators, "active_{}", " || ", "false");
+}
+
+std::string Declarations(const BehaviourNetwork& network, bool is_fair) {
+  std::string text;
+  for (std::size_t i = 0; i < network.nodes.size(); ++i) {
+    text += fmt::format("bool active_{};  /* {} */\n", i, network.nodes[i].name);
+    if (!HasWill(network.nodes[i])) continue;
+    text += fmt::format("bool wants_{};\n", i);
+    if (is_fair) text += fmt::format("byte same_{};\n", i);
+  }
+  return text;
+}
+
+std::string Choice(std::size_t i, bool is_fair) {
+  if (!is_fair) return fmt::format("      if :: wants_{0} = false :: wants_{0} = true fi;\n", i);
+  return fmt::format(
+      "      if\n"
+      "      :: wants_{0} && !active_{0}\n"
+      "      :: (!wants_{0} || active_{0}) && same_{0} < {1} -> same_{0} = same_{0} + 1\n"
+      "      :: (!wants_{0} || active_{0}) -> wants_{0} = !wants_{0}; same_{0} = 1\n"
+      "      fi;\n",
+      i, kPatience);
+}
+
+std::string OneCycle(const BehaviourNetwork& network, bool is_fair) {
+  std::string text;
+  for (std::size_t i = 0; i < network.nodes.size(); ++i) {
+    if (HasWill(network.nodes[i])) text += Choice(i, is_fair);
+  }
+  std::string format, arguments;
+  for (std::size_t i = 0; i < network.nodes.size(); ++i) {
+    const NetworkNode& node = network.nodes[i];
+    text += fmt::format("      active_{} = {} && {} && {} && {};\n", i, Stimulated(node),
+                        Joined(node.inhibitors, "!active_{}", " && ", "true"),
+                        Joined(node.needs_all, "active_{}", " && ", "true"),
+                        HasWill(node) ? fmt::format("wants_{}", i) : Joined(node.needs_any, "active_{}", " || ", "false"));
+    format += "%d";
+    arguments += fmt::format(", active_{}", i);
+  }
+  return text + "      printf(\"runnel " + format + "\\n\"" + arguments + ")";
+}
+
+std::string Formula(const NetworkProperty& property) {
+  const std::string goal = Joined(property.active, "active_{}", " && ", "true");
+  if (property.others.empty()) return "<> " + goal;
+  return "[] (" + Joined(property.others, "active_{}", " && ", "true") + " -> <> " + goal + ")";
+}
+
+}  // namespace
+
+std::string PromelaText(const BehaviourNetwork& network, const NetworkProperty* property) {
+  const bool is_fair = property != nullptr && property->kind == NetworkProperty::Kind::kEventually;
+  std::string text = "/* A network of behaviours. */\n" + Declarations(network, is_fair) +
+                     "\nactive proctype cycles() {\n  do\n  :: atomic {\n" + OneCycle(network, is_fair);
+  if (property != nullptr && !is_fair) {
+    text += ";\n      assert(!(" + Joined(property->active, "active_{}", " && ", "true") + " && " +
+            Joined(property->others, "!active_{}", " && ", "true") + "))";
+  }
+  text += "\n    }\n  od\n}\n";
+  if (is_fair) text += "\nltl property { " + Formula(*property) + " }\n";
+  return text;
+}
+
+}  // namespace runnel
