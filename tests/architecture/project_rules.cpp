@@ -58,6 +58,9 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/behaviours", "plugins/behaviours", {"core", "plugins/parameters", "plugins/behaviours/algorithm"}});
   rules.push_back({"plugins/values", "plugins/values", {"core"}});
   rules.push_back({"plugins/services", "plugins/services", {"core"}});
+  rules.push_back({"plugins/genom_text", "plugins/genom_text", {"core"}});
+  rules.push_back(
+      {"plugins/genom_description", "plugins/genom_description", {"core", "plugins/genom_text"}});
   rules.push_back({"plugins/foxglove",
                    "plugins/foxglove",
                    {"core", "plugins/command_service", "plugins/services/callable.h", "plugins/structure",

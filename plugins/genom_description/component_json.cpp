@@ -1,0 +1,169 @@
+#include "plugins/genom_description/component_json.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "plugins/genom_description/conflicts.h"
+#include "plugins/genom_description/digest.h"
+
+namespace runnel::genom {
+
+namespace {
+
+Json Texts(const Properties& properties, PropertyKind kind) {
+  Json texts = Json::array();
+  if (const Property* found = Find(properties, kind)) {
+    for (const std::string& each : found->texts) texts.push_back(each);
+  }
+  return texts;
+}
+
+Json Interfaces(const Properties& properties, PropertyKind kind) {
+  Json names = Json::array();
+  if (const Property* found = Find(properties, kind)) {
+    for (const Component* each : found->interfaces) names.push_back(each->name);
+  }
+  return names;
+}
+
+Json Number(const Properties& properties, PropertyKind kind) {
+  const Property* found = Find(properties, kind);
+  return found == nullptr ? Json(nullptr) : Json(found->number);
+}
+
+Json EventNames(const std::vector<Type*>& events) {
+  Json names = Json::array();
+  for (const Type* each : events) names.push_back((each->Is(TypeKind::kPauseEvent) ? "pause::" : "") + each->name);
+  return names;
+}
+
+}  // namespace
+
+Json JsonWriter::ParameterJson(const Parameter& parameter) const {
+  Json json{{"name", parameter.name}, {"direction", NameOf(parameter.direction)}, {"source", NameOf(parameter.source)}};
+  if (parameter.is_variable) json.erase("direction");
+  json["place"] = PlaceJson(parameter.place);
+  Json path = Json::array();
+  for (const PathStep& each : parameter.path) path.push_back(each.member.empty() ? Json(each.index) : Json(each.member));
+  json["path"] = path;
+  if (parameter.port != nullptr) {
+    json["port"] = parameter.port->name;
+    json["type"] = Reference(parameter.port->type);
+  } else if (parameter.remote != nullptr) {
+    json["remote"] = parameter.remote->name;
+  } else {
+    json["type"] = Reference(parameter.type);
+  }
+  if (parameter.initial) json["default"] = InitialJson(*parameter.initial);
+  return json;
+}
+
+Json JsonWriter::Parameters(const std::vector<Parameter>& parameters, bool are_variables) const {
+  Json json = Json::array();
+  for (const Parameter& each : parameters) {
+    if (each.is_variable == are_variables) json.push_back(ParameterJson(each));
+  }
+  return json;
+}
+
+Json JsonWriter::Exceptions(std::initializer_list<const Properties*> all) const {
+  Json names = Json::array();
+  for (const Properties* properties : all) {
+    const Property* found = Find(*properties, PropertyKind::kThrow);
+    if (found == nullptr) continue;
+    for (const Type* each : found->exceptions) {
+      const Json name = each->ShownName();
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    }
+  }
+  return names;
+}
+
+Json JsonWriter::TaskJson(const Task& task) const {
+  Json json{{"name", task.name}, {"place", PlaceJson(task.place)}, {"doc", TextOf(task.properties, PropertyKind::kDoc)}};
+  json["period"] = Number(task.properties, PropertyKind::kPeriod);
+  json["delay"] = Number(task.properties, PropertyKind::kDelay);
+  json["priority"] = Number(task.properties, PropertyKind::kPriority);
+  json["stack"] = Number(task.properties, PropertyKind::kStack);
+  json["is_real_time"] = Find(task.properties, PropertyKind::kScheduling) != nullptr;
+  json["throws"] = Exceptions({&task.properties, &task.component->properties});
+  json["states"] = Json::object();
+  for (const auto& [state, codel] : task.states) json["states"][state] = codel->name;
+  json["codels"] = Json::array();
+  for (const Codel* each : CodelsOf(task.properties)) json["codels"].push_back(CodelJson(*each));
+  return json;
+}
+
+Json JsonWriter::PortJson(const Port& port) const {
+  return {{"name", port.name}, {"place", PlaceJson(port.place)}, {"doc", port.doc},
+          {"direction", port.is_input ? "in" : "out"}, {"is_multiple", port.is_multiple}, {"type", Reference(port.type)}};
+}
+
+Json JsonWriter::ServiceJson(const Service& service) const {
+  Json json{{"name", service.name}, {"kind", NameOf(service.kind)}, {"place", PlaceJson(service.place)},
+            {"doc", TextOf(service.properties, PropertyKind::kDoc)}};
+  const Task* task = service.task();
+  json["task"] = task == nullptr ? Json(nullptr) : Json(task->name);
+  json["parameters"] = Parameters(service.parameters, false);
+  json["variables"] = Parameters(service.parameters, true);
+  json["throws"] = task == nullptr ? Exceptions({&service.properties, &service.component->properties})
+                                   : Exceptions({&service.properties, &task->properties, &service.component->properties});
+  json["interrupts"] = Json::array();
+  for (const Service* each : service.component->services) {
+    if (Interrupts(service, *each)) json["interrupts"].push_back(each->name);
+  }
+  json["before"] = Texts(service.properties, PropertyKind::kBefore);
+  json["after"] = Texts(service.properties, PropertyKind::kAfter);
+  json["states"] = Json::object();
+  for (const auto& [state, codel] : service.states) json["states"][state] = codel->name;
+  json["codels"] = Json::array();
+  for (const Codel* each : CodelsOf(service.properties)) json["codels"].push_back(CodelJson(*each));
+  json["excludes_codels"] = Json::array();
+  for (const Codel* each : ConflictingCodels(service)) json["excludes_codels"].push_back(each->name);
+  return json;
+}
+
+Json JsonWriter::CodelJson(const Codel& codel) const {
+  Json json{{"name", codel.name}, {"kind", NameOf(codel.kind)}, {"place", PlaceJson(codel.place)},
+            {"is_async", codel.is_async}};
+  json["task"] = codel.task == nullptr ? Json(nullptr) : Json(codel.task->name);
+  json["parameters"] = Parameters(codel.parameters, false);
+  json["states"] = EventNames(codel.triggers);
+  json["yields"] = EventNames(codel.yields);
+  json["excludes_codels"] = Json::array();
+  for (const Codel* each : ConflictingCodels(codel)) {
+    json["excludes_codels"].push_back({{"codel", each->name},
+                                       {"task", each->task == nullptr ? Json(nullptr) : Json(each->task->name)},
+                                       {"service", each->service == nullptr ? Json(nullptr) : Json(each->service->name)}});
+  }
+  json["excludes_services"] = Json::array();
+  for (const Service* each : ConflictingServices(codel)) json["excludes_services"].push_back(each->name);
+  return json;
+}
+
+Json JsonWriter::ComponentJson(const Component& component) const {
+  const Properties& properties = component.properties;
+  Json json{{"name", component.name}, {"place", PlaceJson(component.place)}, {"doc", TextOf(properties, PropertyKind::kDoc)},
+            {"version", TextOf(properties, PropertyKind::kVersion, "0")},
+            {"lang", TextOf(properties, PropertyKind::kLanguage, "c")},
+            {"email", TextOf(properties, PropertyKind::kEmail)}, {"require", Texts(properties, PropertyKind::kRequire)},
+            {"codels_require", Texts(properties, PropertyKind::kCodelsRequire)}};
+  json["clock_rate"] = component.clock_rate;
+  json["provides"] = Interfaces(properties, PropertyKind::kProvides);
+  json["uses"] = Interfaces(properties, PropertyKind::kUses);
+  json["extends"] = Interfaces(properties, PropertyKind::kExtends);
+  json["throws"] = Exceptions({&properties});
+  json["ids"] = component.ids == nullptr ? Json(nullptr) : Declared(*component.ids);
+  for (const char* list : {"tasks", "ports", "services", "remotes"}) json[list] = Json::array();
+  for (const Task* each : component.tasks) json["tasks"].push_back(TaskJson(*each));
+  for (const Port* each : component.ports) json["ports"].push_back(PortJson(*each));
+  for (const Service* each : component.services) json["services"].push_back(ServiceJson(*each));
+  for (const Remote* each : component.remotes) {
+    json["remotes"].push_back({{"name", each->name}, {"kind", NameOf(each->kind)}, {"place", PlaceJson(each->place)},
+                               {"parameters", Parameters(each->parameters, false)}});
+  }
+  json["digest"] = DigestOf(component);
+  return json;
+}
+
+}  // namespace runnel::genom

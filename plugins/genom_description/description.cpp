@@ -1,0 +1,54 @@
+#include "plugins/genom_description/description.h"
+
+#include "plugins/genom_description/parser.h"
+
+namespace runnel::genom {
+
+namespace {
+
+// What can be said only when all has been read.
+void CheckTypes(Description& description) {
+  for (const Type& type : description.scopes.types()) {
+    const bool is_forward = type.Is(TypeKind::kForwardStruct) || type.Is(TypeKind::kForwardUnion);
+    if (is_forward && type.type == nullptr) {
+      description.problems.Add(type.place, KindAndName(type) + " is announced, and never defined");
+    } else if (is_forward && HoldsItself(type.type)) {  // what is not announced cannot be in what it holds
+      description.problems.Add(type.type->place, KindAndName(*type.type) + " would hold itself",
+                               "a sequence without a bound can hold what it is in");
+    }
+  }
+}
+
+template <typename Read>
+std::unique_ptr<Description> ReadBy(const PreprocessorOptions& options, Diagnostics& diagnostics, const Read& read) {
+  auto description = std::make_unique<Description>(diagnostics);
+  Preprocessor preprocessor(options, description->problems);
+  read(preprocessor);
+  description->notice = preprocessor.notice();
+  Parser(TokensOf(preprocessor.TakeTokens(), description->problems), *description).Parse();
+  CheckTypes(*description);
+  return description;
+}
+
+}  // namespace
+
+Component* Description::FindComponent(std::string_view name) {
+  for (Component& each : components) {
+    if (each.name == name) return &each;
+  }
+  return nullptr;
+}
+
+std::unique_ptr<Description> ReadDescription(const std::vector<std::string>& files, const PreprocessorOptions& options,
+                                             Diagnostics& diagnostics) {
+  return ReadBy(options, diagnostics, [&](Preprocessor& preprocessor) {
+    for (const std::string& file : files) preprocessor.Read(file);
+  });
+}
+
+std::unique_ptr<Description> ReadDescriptionText(const std::string& text, const std::string& name,
+                                                 const PreprocessorOptions& options, Diagnostics& diagnostics) {
+  return ReadBy(options, diagnostics, [&](Preprocessor& preprocessor) { preprocessor.ReadText(text, name); });
+}
+
+}  // namespace runnel::genom

@@ -1,0 +1,173 @@
+#include "core/base/nearest_name.h"
+#include "plugins/genom_description/parser.h"
+#include "plugins/genom_text/quoted_words.h"
+
+namespace runnel::genom {
+
+Parser::Parser(std::vector<Token> tokens, Description& description)
+    : description_(description),
+      problems_(description.problems),
+      scopes_(description.scopes),
+      rules_(description),
+      reader_(std::move(tokens), description.problems, [this](const Token& token) { Pragma(token); }) {}
+
+void Parser::Parse() {
+  Scope* global = scopes_.current();
+  while (reader_.Peek().kind != Token::Kind::kEnd) {
+    try {
+      Statement();
+    } catch (const SyntaxError&) {
+      angles_ = 0;
+      if (rules_.current() != nullptr) rules_.Close();
+      scopes_.Enter(global);
+      reader_.SkipStatement();
+      (void)reader_.AcceptMark("}");
+    }
+  }
+}
+
+void Parser::Statement() {
+  if (reader_.IsWord("module")) {
+    Module();
+  } else if (reader_.IsWord("component") || reader_.IsWord("interface")) {
+    ComponentDeclaration(reader_.IsWord("interface"));
+  } else if (!TypeStatement()) {
+    reader_.Fail("a component, an interface, a module, or the declaration of a type");
+  }
+}
+
+void Parser::Module() {
+  const TokenReader::Depth depth(reader_);
+  reader_.Take();
+  const Token name = reader_.Identifier("a module");
+  Scope* around = scopes_.current();
+  scopes_.EnterModule(name.text, name.place);
+  reader_.ExpectMark("{");
+  while (!reader_.AcceptMark("}")) {
+    if (reader_.IsWord("module")) {
+      Module();
+    } else if (!TypeStatement()) {
+      reader_.Fail("the declaration of a type, a module, or '}'");
+    }
+  }
+  scopes_.Enter(around);
+  reader_.Semicolon();
+}
+
+void Parser::ComponentDeclaration(bool is_interface) {
+  reader_.Take();
+  const Token name = reader_.Identifier(is_interface ? "an interface" : "a component");
+  rules_.Open(name, is_interface);
+  Scope* scope = scopes_.current();
+  if (reader_.AcceptMark("{")) {
+    while (!reader_.IsMark("}") && reader_.Peek().kind != Token::Kind::kEnd) {
+      try {
+        Item();
+      } catch (const SyntaxError&) {
+        angles_ = 0;
+        scopes_.Enter(scope);
+        reader_.SkipStatement();
+      }
+    }
+    reader_.ExpectMark("}");
+  }
+  rules_.Close();
+  reader_.Semicolon();
+}
+
+void Parser::Item() {
+  if (reader_.IsWord("module")) {
+    Module();
+  } else if (reader_.IsWord("ids")) {
+    Ids();
+  } else if (reader_.IsWord("task")) {
+    TaskDeclaration();
+  } else if (reader_.IsWord("port")) {
+    PortDeclaration();
+  } else if (reader_.IsWord("attribute")) {
+    ServiceDeclaration(ServiceKind::kAttribute);
+  } else if (reader_.IsWord("function")) {
+    ServiceDeclaration(ServiceKind::kFunction);
+  } else if (reader_.IsWord("activity")) {
+    ServiceDeclaration(ServiceKind::kActivity);
+  } else if (IsProperty()) {
+    Property property;
+    if (ReadProperty(property, nullptr)) rules_.AddComponentProperty(std::move(property));
+  } else if (!TypeStatement()) {
+    reader_.Fail("a task, port, service, ids, a type or a property");
+  }
+}
+
+void Parser::Ids() {
+  reader_.Take();
+  scopes_.Enter(rules_.current()->ids_scope);
+  reader_.ExpectMark("{");
+  do {
+    Member(nullptr);
+  } while (!reader_.IsMark("}"));
+  reader_.Take();
+  scopes_.Enter(rules_.current()->scope);
+  reader_.Semicolon();
+}
+
+void Parser::TaskDeclaration() {
+  reader_.Take();
+  const Token name = reader_.Identifier("a task");
+  Task draft{.place = name.place, .name = name.text, .component = rules_.current()};
+  if (reader_.IsMark("{")) PropertyBlock(draft.properties, PropertyOwner::kTask, nullptr);
+  reader_.Semicolon();
+  rules_.AddTask(std::move(draft));
+}
+
+void Parser::PortDeclaration() {
+  reader_.Take();
+  Port port;
+  port.is_multiple = reader_.AcceptWord("multiple");
+  port.is_input = reader_.IsWord("in");
+  if (!port.is_input && !reader_.IsWord("out")) reader_.Fail("'in' or 'out'", "a port is: port in TYPE NAME;");
+  reader_.Take();
+  port.type = TypeSpecification();
+  const Token name = reader_.Identifier("a port");
+  port.name = name.text;
+  port.place = name.place;
+  Properties properties;
+  if (reader_.IsMark("{")) PropertyBlock(properties, PropertyOwner::kPort, nullptr);
+  reader_.Semicolon();
+  if (port.type == nullptr) {
+    port.type = scopes_.Make(TypeKind::kInvalid, name.place);
+    port.type->name = "?";
+  }
+  rules_.AddPort(std::move(port), std::move(properties));
+}
+
+void Parser::Pragma(const Token& token) {
+  const std::vector<std::string> words = QuotedWords(token.text);
+  const std::string& what = words[0];
+  const std::vector<std::string> rest(words.begin() + 1, words.end());
+  if (what == "require" || what == "requires") {
+    rules_.RequireForAll({.kind = PropertyKind::kRequire, .place = token.place, .texts = rest});
+  } else if (what == "provide" || what == "provides") {
+    for (const std::string& name : rest) {
+      Component* component = description_.FindComponent(name);
+      if (component == nullptr || !component->is_interface) {
+        problems_.Add(token.place, "there is no interface '" + name + "'");
+      } else {
+        rules_.ProvideForAll(*component);
+      }
+    }
+  } else if (what == "masquerade") {
+    const std::string form = "it is: #pragma masquerade TEMPLATE TYPE TEXT";
+    if (rest.size() != 3) {
+      problems_.Add(token.place, "a masquerade has three words", form);
+      return;
+    }
+    const Type* type = scopes_.Find(rest[1]);
+    if (type == nullptr) {
+      scopes_.TellUnknown(rest[1], token.place);
+    } else if (!description_.masquerades[rest[0]].emplace(type, rest[2]).second) {
+      problems_.Add(token.place, "'" + rest[1] + "' stands for something else already, for template '" + rest[0] + "'");
+    }
+  }
+}
+
+}  // namespace runnel::genom

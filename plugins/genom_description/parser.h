@@ -1,0 +1,107 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plugins/genom_description/component_rules.h"
+#include "plugins/genom_description/token_reader.h"
+
+namespace runnel::genom {
+
+/// Reads the tokens of a description by recursive descent. After a mistake it goes on behind the next ';', so that
+/// several are told at once.
+class Parser {
+ public:
+  Parser(std::vector<Token> tokens, Description& description);
+
+  void Parse();
+
+ private:
+  // parse_types.cpp
+  bool TypeStatement();
+  void ConstantDeclaration();
+  void TypedefDeclaration();
+  void NativeDeclaration();
+  void ExceptionDeclaration();
+  Type* TypeSpecification();                     // nullptr: told
+  Type* SimpleType(bool may_be_forward = false);
+  Type* BaseType();                              // nullptr: the next token begins none
+  Type* Sequence();
+  Type* Optional();
+  Type* String();
+  Type* NamedType();
+  Type* Struct();
+  Type* Union();
+  Type* Enum();
+  Type* SwitchType();
+  void UnionCase(std::vector<Type*>& cases);
+  bool CaseLabel(std::vector<Constant>& labels);
+  void CheckLabels(Type& new_union);
+  void Members(std::vector<Type*>& members);
+  void Member(std::vector<Type*>* members);
+  struct Declarator {
+    Token name;
+    std::vector<std::uint64_t> sizes;
+  };
+  Declarator ReadDeclarator(std::string_view of);
+  Type* WithSizes(Type* type, const Declarator& declarator);
+  Type* Finished(Scope* scope, TypeKind kind, const Token& name, std::vector<Type*> members, Type* switch_type);
+  std::string ScopedName();
+
+  // parse_expressions.cpp
+  Constant Expression();
+  Constant BinaryExpression(int binding);
+  Constant UnaryExpression();
+  Constant PrimaryExpression();
+  Constant NamedConstant();
+  std::uint64_t Size();
+  std::string Text();
+  std::vector<std::string> TextList(std::vector<Place>* places = nullptr);
+  Initializer ReadInitializer();
+  void InitialValue(Initializer& initial);
+  void InitialParts(Initializer& initial);
+
+  // parse_components.cpp
+  void Statement();
+  void Module();
+  void ComponentDeclaration(bool is_interface);
+  void Item();
+  void Ids();
+  void TaskDeclaration();
+  void PortDeclaration();
+  void Pragma(const Token& token);
+
+  // parse_services.cpp
+  void ServiceDeclaration(ServiceKind kind);
+  bool AttributeParameter(Service& draft);
+  bool ServiceParameter(Service& draft);
+  void AddLocal(Service& draft, Parameter parameter);
+  void LocalVariables(Service& draft);
+  Direction ReadDirection();
+  std::vector<PathStep> ReadPath();
+
+  // parse_properties.cpp
+  /// Reads what is between { and }; `draft` is the service that it belongs to, if it does.
+  void PropertyBlock(Properties& into, PropertyOwner owner, Service* draft);
+  bool ReadProperty(Property& property, Service* draft);  // false: told
+  bool IsProperty();
+  void TextProperty(Property& property, PropertyKind kind);
+  bool TimeProperty(Property& property, PropertyKind kind);
+  bool ThrowProperty(Property& property);
+  bool InterfacesProperty(Property& property, PropertyKind kind);
+  void NamesProperty(Property& property, PropertyKind kind);
+  double TimeUnit();
+  bool CodelProperty(Property& property, bool is_async, bool is_validate, Service* draft);
+  bool ReadCodel(Codel& codel, Service* draft);
+  bool Events(std::vector<Type*>& events, bool are_states);
+  bool CodelParameter(Codel& codel, const std::vector<Parameter>& locals);
+
+  Description& description_;
+  Problems& problems_;
+  Scopes& scopes_;
+  ComponentRules rules_;
+  TokenReader reader_;
+  int angles_ = 0;  // how many '<' of types are open
+};
+
+}  // namespace runnel::genom

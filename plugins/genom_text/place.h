@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/diagnostics.h"
+
+namespace runnel::genom {
+
+/// Where something stands in the files of a description; small, since each token has one.
+struct Place {
+  int file = -1;  ///< index into the names of Problems; -1: nowhere
+  int line = 0;
+  int column = 0;
+};
+
+/// Collects what is wrong with a description, and knows the names of its files.
+///
+/// Of a description with thousands of mistakes the first ones are told.
+///
+/// Threads: not thread-safe.
+class Problems {
+ public:
+  static constexpr std::size_t kMost = 200;
+
+  explicit Problems(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  /// The index of a file's name, made if it is new.
+  int FileIndex(const std::string& name);
+  [[nodiscard]] const std::string& FileName(int index) const { return files_.at(static_cast<std::size_t>(index)); }
+  [[nodiscard]] const std::vector<std::string>& files() const { return files_; }
+  [[nodiscard]] SourcePosition PositionOf(Place place) const;
+
+  void Add(Place place, std::string message, std::string hint = {});
+  void Warn(Place place, std::string message, std::string hint = {});
+  [[nodiscard]] std::size_t count() const noexcept { return count_; }
+
+  /// "declared in file:3:5", for hints.
+  [[nodiscard]] std::string DeclaredAt(Place place) const;
+
+ private:
+  Diagnostics& diagnostics_;
+  std::vector<std::string> files_ = {};
+  std::size_t count_ = 0;
+};
+
+}  // namespace runnel::genom

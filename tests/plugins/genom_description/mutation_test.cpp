@@ -1,0 +1,35 @@
+// Descriptions with mistakes put in at random neither crash nor hang what reads them; meant to be run with the
+// sanitizers, too.
+
+#include <gtest/gtest.h>
+
+#include "plugins/genom_description/description.h"
+#include "plugins/genom_description/description_json.h"
+#include "tests/plugins/genom_description/mutation.h"
+#include "tests/plugins/genom_description/verdict.h"
+
+namespace runnel::test {
+namespace {
+
+constexpr int kCount = 400;
+
+TEST(GenomMutationTest, WhateverIsReadEnds) {
+  const std::vector<std::string> seeds = {
+      FileText("courier.gen"),
+      "#define A(x) x ## 1\n#if defined(A) && 2 > 1\ntypedef long A(b);\n#else\n#endif\nstruct s; typedef sequence<s> t;\n"
+      "struct s { t under; };\nunion u switch(long) { case 1: case 2: s a; default: double b; };\n"};
+  std::mt19937 random(20);
+  int right = 0;
+  for (int i = 0; i < kCount; ++i) {
+    Diagnostics diagnostics;
+    const auto description = genom::ReadDescriptionText(Mutated(seeds, random), "nowhere/test.gen", {}, diagnostics);
+    if (!diagnostics.ok()) continue;
+    ++right;
+    EXPECT_FALSE(genom::DescriptionJson(*description).empty());
+  }
+  EXPECT_GT(right, 0);
+  EXPECT_LT(right, kCount);
+}
+
+}  // namespace
+}  // namespace runnel::test

@@ -1,0 +1,93 @@
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+
+#include "plugins/genom_description/description.h"
+#include "tests/plugins/genom_description/verdict.h"
+#include "tests/support/temporary_folder.h"
+
+namespace runnel::test {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(GenomPreprocessorTest, MacrosAndConditions) {
+  ExpectVerdicts({
+      {kRight, "#define SIZE 4\nstruct s { long a[SIZE]; };"},
+      {kRight, "#define PAIR(a, b) long a; double b\nstruct s { PAIR(x,\n y); };"},
+      {kRight, "#define NAME(a, b) a ## _ ## b\ntypedef long NAME(my, type); typedef my_type other;"},
+      {kRight, "#define TEXT(a) #a\nconst string a = TEXT(one \"two\");"},
+      {kRight, "#define ALL(...) typedef long __VA_ARGS__\nALL(a, b);"},
+      {kRight, "#define A B\n#define B A\ntypedef long A; typedef A c;"},
+      {kRight, "#define F(x) x\n#define H(x) x\n#define G H(F)(long)\ntypedef G a;"},
+      {kRight, "#define LONG \\\n  long\ntypedef LONG a;"},
+      {kRight, "#define X\n#undef X\n#ifdef X\n#error here\n#endif\n"},
+      {kRight, "#if defined(X) || !defined Y && 2 * 3 == 6 && (1 ? 1 : 0)\ntypedef long a;\n#endif\ntypedef a b;"},
+      {kRight, "#if 0\n don't \"care\n#if 1\n#else\n#endif\n#elif 1\ntypedef long a;\n#else\n ???\n#endif\ntypedef a b;"},
+      {kRight, "#ifndef __GENOM__\n#error no\n#endif\n"},
+      {kWrong, "#if 1\n"},
+      {kWrong, "#endif\n"},
+      {kWrong, "#if 1 / 0\n#endif\n"},
+      {kWrong, "#if (1\n#endif\n"},
+      {kWrong, "#error on purpose\n"},
+      {kRight, "#warning on purpose\n"},
+      {kWrong, "#define F(x) x\ntypedef F(long, short) a;"},
+      {kWrong, "#define F(x) x\ntypedef F(long a;"},
+      {kWrong, "#include \"nowhere.gen\"\n"},
+      {kRight, "const long a = __LINE__; const string b = __FILE__;"},
+      {kRight, "#define s ms\ncomponent c { task t { period 5 s; }; };"},
+  });
+}
+
+TEST(GenomPreprocessorTest, IncludesAndWhatTheyAreRelativeTo) {
+  const TemporaryFolder folder;
+  const auto write = [&](const std::string& name, const std::string& text) {
+    std::filesystem::create_directories((folder.path() / name).parent_path());
+    std::ofstream(folder.path() / name) << text;
+  };
+  write("main.gen", "#include \"own/a.idl\"\n#include <b.idl>\ntypedef a c; typedef b d;\n");
+  write("own/a.idl", "#include \"base.idl\"\ntypedef base a;\n");
+  write("own/base.idl", "typedef long base;\n");
+  write("shared/b.idl", "typedef long b;\n");
+  Diagnostics diagnostics;
+  const auto description = genom::ReadDescription({(folder.path() / "main.gen").string()},
+                                                  {.include_folders = {(folder.path() / "shared").string()}}, diagnostics);
+  EXPECT_TRUE(diagnostics.ok()) << diagnostics.ToString();
+  EXPECT_EQ(description->problems.files().size(), 4u);
+}
+
+TEST(GenomPreprocessorTest, AFileThatIncludesItselfEnds) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "self.gen").string();
+  std::ofstream(file) << "#include \"self.gen\"\n#include \"self.gen\"\n";
+  Diagnostics diagnostics;
+  (void)genom::ReadDescription({file}, {}, diagnostics);
+  EXPECT_THAT(diagnostics.ToString(), HasSubstr("include each other without end"));
+}
+
+TEST(GenomPreprocessorTest, MacrosThatGrowEnd) {
+  std::string text = "#define A0 long a;\n";
+  for (int i = 1; i < 40; ++i) {
+    const std::string last = "A" + std::to_string(i - 1);
+    text += "#define A" + std::to_string(i) + " " + last + " " + last + "\n";
+  }
+  EXPECT_THAT(Wrongs(text + "struct s { A39 };"), HasSubstr("too many tokens"));
+}
+
+TEST(GenomPreprocessorTest, PackagesGiveFoldersAndMacros) {
+  genom::PreprocessorOptions options;
+  options.flags_of_package = [](const std::string& package) -> Result<std::vector<std::string>> {
+    if (package != "known >= 2") return Error{.message = "no package '" + package + "'"};
+    return std::vector<std::string>{"-DTYPE=long", "-I/nowhere"};
+  };
+  Diagnostics right;
+  (void)genom::ReadDescriptionText("#pragma requires \"known >= 2\"\ntypedef TYPE a;\n", "a.gen", options, right);
+  EXPECT_TRUE(right.ok()) << right.ToString();
+  Diagnostics wrong;
+  (void)genom::ReadDescriptionText("#pragma require other\n", "a.gen", options, wrong);
+  EXPECT_THAT(wrong.ToString(), HasSubstr("a.gen:1:1: error: no package 'other'"));
+}
+
+}  // namespace
+}  // namespace runnel::test
