@@ -314,7 +314,10 @@ Type* Parser::Enum() {
   do {
     const Token each = reader_.Identifier("an enumerator");
     Type* enumerator = scopes_.Declare(TypeKind::kEnumerator, each.text, each.place);
-    if (enumerator != nullptr) enumerators.push_back(enumerator);
+    if (enumerator != nullptr) {
+      enumerator->type = scopes_.Make(TypeKind::kInvalid, each.place);  // should the enum never be finished
+      enumerators.push_back(enumerator);
+    }
     if (reader_.IsMark("=")) reader_.Fail("',' or '}'", "enumerators are numbered from 0, and have no values of their own");
   } while (reader_.AcceptMark(","));
   reader_.ExpectMark("}");
