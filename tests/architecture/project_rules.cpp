@@ -61,6 +61,7 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/genom_text", "plugins/genom_text", {"core"}});
   rules.push_back(
       {"plugins/genom_description", "plugins/genom_description", {"core", "plugins/genom_text"}});
+  rules.push_back({"plugins/blackboards", "plugins/blackboards", {"core", "plugins/services"}});
   rules.push_back({"plugins/foxglove",
                    "plugins/foxglove",
                    {"core", "plugins/command_service", "plugins/services/callable.h", "plugins/structure",

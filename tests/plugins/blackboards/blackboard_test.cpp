@@ -1,0 +1,185 @@
+// Values that several read and change, on a simulated clock.
+
+#include <random>
+
+#include "core/port/own_cycle.h"
+#include "plugins/testing/allocation_guard.h"
+#include "tests/plugins/blackboards/blackboard_fixture.h"
+
+namespace runnel::test {
+namespace {
+
+TEST_F(BlackboardTest, IsReadAsItBegan) {
+  EXPECT_EQ(user().Seen(), Cells(10, 0));
+  EXPECT_EQ(board().revision(), 1u);
+}
+
+TEST_F(BlackboardTest, AChangeIsAppliedInTheOwnersCycle) {
+  EXPECT_EQ(user().Set(3, 7), CallStatus::kPending);
+  EXPECT_EQ(user().Seen()[3], 0);
+  Steps(1);
+  EXPECT_EQ(user().Seen()[3], 7);
+  EXPECT_THAT(user().told, ElementsAre("applied 2"));
+}
+
+TEST_F(BlackboardTest, WhoComesSecondIsToldOfTheOtherRevision) {
+  AddUser("other");
+  user().Set(1, 1);
+  user("other").Set(1, 2);
+  Steps(1);
+  EXPECT_THAT(user().told, ElementsAre("applied 2"));
+  EXPECT_THAT(user("other").told, ElementsAre("not applied 2"));
+  EXPECT_EQ(user().Seen()[1], 1);
+  user("other").Set(1, 2);
+  Steps(1);
+  EXPECT_EQ(user().Seen()[1], 2);
+}
+
+TEST_F(BlackboardTest, ChangesWithoutARevisionAreAppliedInOrder) {
+  for (int i = 1; i <= 5; ++i) {
+    auto transaction = user().map.Begin();
+    transaction.change().push_back({static_cast<std::uint64_t>(i), i});
+    transaction.change().push_back({0, i});
+    ASSERT_EQ(transaction.CommitAnyway(), CallStatus::kPending);
+  }
+  Steps(1);
+  EXPECT_EQ(user().Seen(), (Cells{5, 1, 2, 3, 4, 5, 0, 0, 0, 0}));
+  EXPECT_EQ(board().revision(), 6u) << "each commit is a publication";
+}
+
+TEST_F(BlackboardTest, ATransactionThatIsDroppedChangesNothing) {
+  user().map.Begin().change().push_back({1, 1});
+  Steps(1);
+  EXPECT_EQ(board().revision(), 1u);
+}
+
+TEST_F(BlackboardTest, AWrongChangeChangesNothingAndSaysWhy) {
+  auto transaction = user().map.Begin();
+  transaction.change().push_back({1, 5});
+  transaction.change().push_back({10, 5});
+  ASSERT_EQ(transaction.Commit([](const auto&) {}), CallStatus::kPending);
+  user().Set(10, 5);
+  Steps(1);
+  EXPECT_EQ(user().Seen(), Cells(10, 0));
+  EXPECT_THAT(user().told, SizeIs(1));
+}
+
+TEST_F(BlackboardTest, TheOwnerWritesWhatItLikes) {
+  {
+    const OwnCycle cycle(runtime.clock().Now());
+    auto access = board().Write();
+    access->assign(3, 9);
+  }
+  EXPECT_EQ(user().Seen(), Cells(3, 9));
+  try {
+    auto access = board().Write();
+    access->clear();
+    throw std::runtime_error("thinks better of it");
+  } catch (const std::runtime_error&) {
+  }
+  EXPECT_EQ(user().Seen(), Cells(3, 9));
+  {
+    auto access = board().Write();
+    access->clear();
+    access.Discard();
+  }
+  EXPECT_EQ(user().Seen(), Cells(3, 9));
+}
+
+TEST_F(BlackboardTest, AReaderKeepsWhatItHolds) {
+  const auto held = user().map.value().Peek();
+  for (int i = 0; i < 50; ++i) {
+    user().Set(0, i);
+    Steps(1);
+  }
+  EXPECT_EQ(*held, Cells(10, 0));
+  EXPECT_EQ(held.sequence(), 1u);
+  EXPECT_EQ(user().Seen()[0], 49);
+}
+
+TEST_F(BlackboardTest, SurvivesASwapOfTheOwnerWithWhatWaits) {
+  user().Set(1, 1);
+  Steps(1);
+  user().Set(2, 2);
+  Must({ReplaceModule{"/app/owner", "test/map_owner"}});
+  EXPECT_EQ(user().Seen()[1], 1);
+  Steps(1);
+  EXPECT_EQ(user().Seen()[2], 2);
+  EXPECT_THAT(user().told, ElementsAre("applied 2", "applied 3"));
+}
+
+TEST_F(BlackboardTest, AWriterThatDiesBlocksNobody) {
+  AddUser("other");
+  {
+    auto transaction = user().map.Begin();
+    transaction.change().push_back({1, 1});
+    EXPECT_EQ(user("other").Set(2, 2), CallStatus::kPending);
+    Steps(1);
+  }
+  user().Set(3, 3);
+  Must({DeleteElement{"/app/user"}});
+  Steps(1);
+  EXPECT_EQ(user("other").Seen()[2], 2);
+  EXPECT_EQ(user("other").Set(4, 4), CallStatus::kPending);
+}
+
+TEST_F(BlackboardTest, AFullQueueSaysSo) {
+  for (int i = 0; i < 8; ++i) ASSERT_EQ(user().Set(0, i), CallStatus::kPending);
+  EXPECT_EQ(user().Set(0, 9), CallStatus::kBusy);
+}
+
+// Whatever is changed, written, discarded, held and swapped: readers see what a plain list would have.
+TEST_F(BlackboardTest, IsWhatAPlainListWouldBe) {
+  std::mt19937 random(7);
+  Cells expected(10, 0);
+  std::vector<Lease<Cells>> held;
+  for (int i = 0; i < 2000; ++i) {
+    const auto index = random() % 12;
+    switch (random() % 8) {
+      case 0: {
+        auto access = board().Write();
+        (*access)[index % 10] = i;
+        if (i % 3 == 0) {
+          access.Discard();
+        } else {
+          expected[index % 10] = i;
+        }
+        break;
+      }
+      case 1: held.push_back(user().map.value().Peek()); break;
+      case 2: held.clear(); break;
+      case 3:
+        if (random() % 10 == 0) Must({ReplaceModule{"/app/owner", "test/map_owner"}});
+        break;
+      default:
+        user().Set(index, i);
+        Steps(1);
+        if (index < 10) expected[index] = i;
+    }
+    ASSERT_EQ(user().Seen(), expected) << i;
+  }
+}
+
+TEST_F(BlackboardTest, CommitsAllocateNothing) {
+  if (!AllocationGuard::works()) GTEST_SKIP() << "a sanitizer has the heap";
+  auto& writer = user().map;
+  auto& owner = board();
+  const OwnCycle cycle(runtime.clock().Now());
+  int applied = 0;
+  const auto round = [&](int value) {
+    auto transaction = writer.Begin();
+    transaction.change().push_back({1, value});
+    EXPECT_EQ(transaction.Commit([&applied](const auto& outcome) { applied += outcome->is_applied; }),
+              CallStatus::kPending);
+    owner.changes().Serve();
+    writer.changes().Deliver();
+  };
+  for (int i = 0; i < 50; ++i) round(i);
+  const AllocationGuard guard;
+  for (int i = 0; i < 100; ++i) round(i);
+  EXPECT_EQ(guard.allocations(), 0u);
+  EXPECT_EQ(applied, 150);
+}
+
+}  // namespace
+}  // namespace runnel::test
