@@ -6,7 +6,7 @@ Surroundings BumperAdaptor::Update(const Contact& contact, const Pose2& pose) {
   Surroundings surroundings;
   surroundings.is_measured = true;
   surroundings.safe_distance = static_cast<float>(configuration_.safe_distance);
-  map_.SetCentre(Position(pose));
+  map_.SetPose(pose);
   const double inside = configuration_.body_radius - configuration_.body_margin;
   map_.ForgetBoundaries([&](Point2 point) { return Distance(Position(pose), point) < inside; });
   // A switch that stays pressed after a touch goes on telling the old bearing, which is none any
@@ -16,7 +16,7 @@ Surroundings BumperAdaptor::Update(const Contact& contact, const Pose2& pose) {
     map_.MarkBoundary(ToWorld(pose, local));
   }
   last_ = contact;
-  map_.AddBoundariesTo(surroundings, pose);
+  map_.AddBoundariesTo(surroundings);
   return surroundings;
 }
 

@@ -42,14 +42,14 @@ Surroundings InfraredAdaptor::Update(const InfraredRanges& ranges, const Pose2& 
   const std::array cones = {cone(0.0, ranges.front), cone(kPi / 2, ranges.left),
                             cone(-kPi / 2, ranges.right)};
   surroundings.is_vague = true;
-  map_.SetCentre(Position(pose));
+  map_.SetPose(pose);
   for (const Cone& each : cones) {
     if (each.is_valid) Carve(each, pose);
   }
   for (const Cone& each : cones) {
     if (each.has_echo) MarkArc(each, pose);
   }
-  map_.AddBoundariesTo(surroundings, pose);
+  map_.AddBoundariesTo(surroundings);
   return surroundings;
 }
 

@@ -19,30 +19,33 @@ Surroundings LaserAdaptor::Update(const RangeScan& scan, const Pose2& pose) {
   surroundings.sensor_range = static_cast<float>(scan.range_maximum);
   surroundings.safe_distance = static_cast<float>(configuration_.safe_distance);
 
-  map_.SetCentre(Position(pose));
-  ForgetWhatTheScanRefutes(scan, pose);
+  map_.SetPose(pose);
+  ForgetWhatTheScanRefutes(scan);
+  const BodyFrame frame(pose);
+  // Turned from ray to ray, as a sine for each would take longer than all the rest.
+  const Point2 step = UnitVector(scan.angle_step);
+  Point2 direction = UnitVector(scan.start_angle);
   double bearing = scan.start_angle;
   for (const float range : scan.ranges) {
     if (MetSomething(scan, range)) {
       AddBoundaryPoint(surroundings, {range, bearing});
-      map_.MarkBoundary(ToWorld(pose, double{range} * UnitVector(bearing)));
+      map_.MarkBoundary(frame.ToWorld(double{range} * direction));
     }
     bearing += scan.angle_step;
+    direction = {Dot(direction, {step.x, -step.y}), Dot(direction, {step.y, step.x})};
   }
-  map_.AddBoundariesTo(surroundings, pose);
+  map_.AddBoundariesTo(surroundings);
   return surroundings;
 }
 
-void LaserAdaptor::ForgetWhatTheScanRefutes(const RangeScan& scan, const Pose2& pose) {
+void LaserAdaptor::ForgetWhatTheScanRefutes(const RangeScan& scan) {
   if (!(scan.angle_step > 0.0)) return;
-  const BodyFrame frame(pose);
-  map_.ForgetBoundaries([&](Point2 point) {
-    const Point2 local = frame.ToBody(point);
-    const double turned = Direction(local) - scan.start_angle;
+  map_.ForgetSeenBoundaries([&](const BoundaryPoint& point) {
+    const double looked_through = point.distance + configuration_.refutation_margin;
+    if (looked_through > scan.range_maximum) return false;
+    const double turned = point.bearing - scan.start_angle;
     const double ray = (turned < 0.0 ? turned + 2 * kPi : turned) / scan.angle_step;
     if (ray < 0.0 || ray > static_cast<double>(scan.ranges.size() - 1)) return false;
-    const double looked_through = Norm(local) + configuration_.refutation_margin;
-    if (looked_through > scan.range_maximum) return false;
     // Both neighbours must agree: the edge of an obstacle lies between a ray that meets it and one
     // that does not.
     return scan.ranges[static_cast<std::size_t>(std::floor(ray))] > looked_through &&

@@ -25,7 +25,7 @@ class LaserAdaptor {
   [[nodiscard]] Surroundings Update(const RangeScan& scan, const Pose2& pose);
 
  private:
-  void ForgetWhatTheScanRefutes(const RangeScan& scan, const Pose2& pose);
+  void ForgetWhatTheScanRefutes(const RangeScan& scan);
 
   LaserAdaptorConfiguration configuration_;
   LocalMap map_;

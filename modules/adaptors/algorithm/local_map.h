@@ -28,8 +28,12 @@ class LocalMap {
     listed_.reserve(cells_.size());
   }
 
-  /// Moves the window, m in the world's frame. Call it before the others.
-  void SetCentre(Point2 centre) { centre_ = centre; }
+  /// Moves the window, and where its points are seen from; in the world's frame. Call it before the others.
+  void SetPose(const Pose2& pose) {
+    centre_ = Position(pose);
+    frame_ = BodyFrame(pose);
+    ++poses_;
+  }
   [[nodiscard]] bool Covers(Point2 point) const {
     return std::abs(point.x - centre_.x) < kReach && std::abs(point.y - centre_.y) < kReach;
   }
@@ -40,13 +44,13 @@ class LocalMap {
     const std::size_t slot = Slot(Index(point.x), Index(point.y));
     Cell& cell = cells_[slot];
     if (!cell.is_listed) listed_.push_back(slot);
-    cell = {Index(point.x), Index(point.y), State::kBoundary, true, point};
+    cell = {Index(point.x), Index(point.y), State::kBoundary, true, point, 0, {}};
   }
   /// There is nothing within the cell of this point.
   void MarkFree(Point2 point) {
     if (!Covers(point)) return;
     Cell& cell = cells_[Slot(Index(point.x), Index(point.y))];
-    cell = {Index(point.x), Index(point.y), State::kFree, cell.is_listed, point};
+    cell = {Index(point.x), Index(point.y), State::kFree, cell.is_listed, point, 0, {}};
   }
   /// There is nothing within those cells of a box that hold no boundary and of which
   /// `is_inside(centre)` is true.
@@ -66,16 +70,12 @@ class LocalMap {
   /// forgets those for which it says true.
   template <typename Refutation>
   void ForgetBoundaries(Refutation is_refuted) {
-    std::size_t kept = 0;
-    for (const std::size_t slot : listed_) {
-      Cell& cell = cells_[slot];
-      if (cell.state == State::kBoundary && Covers(cell.point) && is_refuted(cell.point)) {
-        cell.state = State::kFree;
-      }
-      cell.is_listed = cell.state == State::kBoundary;
-      if (cell.is_listed) listed_[kept++] = slot;
-    }
-    listed_.resize(kept);
+    ForgetCells([&](const Cell& cell) { return is_refuted(cell.point); });
+  }
+  /// The same with what is_refuted(BoundaryPoint) is told as it is seen from the pose.
+  template <typename Refutation>
+  void ForgetSeenBoundaries(Refutation is_refuted) {
+    ForgetCells([&](Cell& cell) { return is_refuted(Seen(cell)); });
   }
   /// Calls `visit(point)` for every boundary point within the window, in a fixed order.
   template <typename Visitor>
@@ -85,13 +85,13 @@ class LocalMap {
       if (cell.state == State::kBoundary && Covers(cell.point)) visit(cell.point);
     }
   }
-  /// Every boundary point within the window, as it is seen from `pose`.
-  void AddBoundariesTo(Surroundings& surroundings, const Pose2& pose) const {
-    const BodyFrame frame(pose);
-    ForEachBoundary([&](Point2 point) {
-      const Point2 local = frame.ToBody(point);
-      AddBoundaryPoint(surroundings, {Norm(local), Direction(local)});
-    });
+  /// Every boundary point within the window, as it is seen from the pose.
+  void AddBoundariesTo(Surroundings& surroundings) {
+    for (const std::size_t slot : listed_) {
+      Cell& cell = cells_[slot];
+      if (cell.state == State::kBoundary && Covers(cell.point))
+        AddBoundaryPoint(surroundings, Seen(cell));
+    }
   }
 
  private:
@@ -102,7 +102,33 @@ class LocalMap {
     State state = State::kUnknown;
     bool is_listed = false;
     Point2 point;
+    std::uint64_t seen_from = 0;  // the number of the pose that `seen` is true for
+    BoundaryPoint seen;
   };
+
+  template <typename Refutation>
+  void ForgetCells(Refutation is_refuted) {
+    std::size_t kept = 0;
+    for (const std::size_t slot : listed_) {
+      Cell& cell = cells_[slot];
+      if (cell.state == State::kBoundary && Covers(cell.point) && is_refuted(cell)) {
+        cell.state = State::kFree;
+      }
+      cell.is_listed = cell.state == State::kBoundary;
+      if (cell.is_listed) listed_[kept++] = slot;
+    }
+    listed_.resize(kept);
+  }
+  // Reckoned once for each pose: an arc tangent takes longer than all the rest that is done with a point.
+  const BoundaryPoint& Seen(Cell& cell) {
+    if (cell.seen_from != poses_) {
+      const Point2 local = frame_.ToBody(cell.point);
+      // Near enough that nothing overflows, for which std::hypot() provides.
+      cell.seen = {std::sqrt(Dot(local, local)), Direction(local)};
+      cell.seen_from = poses_;
+    }
+    return cell.seen;
+  }
 
   static int Index(double coordinate) {
     return static_cast<int>(std::floor(coordinate / kCellSize));
@@ -123,6 +149,8 @@ class LocalMap {
   /// Slots of all cells that hold a boundary, each once, and of some that do no more.
   std::vector<std::size_t> listed_;
   Point2 centre_;
+  BodyFrame frame_{Pose2{}};
+  std::uint64_t poses_ = 1;  // how many there have been
 };
 
 }  // namespace runnel

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "modules/simulation/algorithm/noise.h"
 #include "modules/simulation/algorithm/ray_caster.h"
@@ -35,6 +36,7 @@ class LaserScanner {
  private:
   LaserScannerOptions options_;
   GaussianNoise noise_;
+  std::vector<Point2> directions_;  // of the rays, in the body's frame
 };
 
 }  // namespace runnel

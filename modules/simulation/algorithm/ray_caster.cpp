@@ -22,10 +22,12 @@ double DistanceToFlat(const Segment2& flat, Point2 origin, Point2 direction) {
   const Point2 along = flat.to - flat.from, gap = flat.from - origin;
   const double denominator = Cross(direction, along);
   if (denominator == 0.0) return kInfinity;
+  // Most are missed, and are found to be without a division.
+  const double size = std::abs(denominator);
+  const double part = std::copysign(1.0, denominator) * Cross(gap, direction);  // times size
+  if (!(part >= -kOverlap * size && part <= (1.0 + kOverlap) * size)) return kInfinity;
   const double distance = Cross(gap, along) / denominator;
-  const double part = Cross(gap, direction) / denominator;
-  const bool hits = distance >= 0.0 && part >= -kOverlap && part <= 1.0 + kOverlap;
-  return hits ? distance : kInfinity;
+  return distance >= 0.0 ? distance : kInfinity;
 }
 
 double DistanceToRound(const Outline::Round& round, Point2 origin, Point2 direction) {
@@ -39,12 +41,12 @@ double DistanceToRound(const Outline::Round& round, Point2 origin, Point2 direct
 }
 
 /// The part of a ray within [low, high] along one axis; empty if first > second.
-std::pair<double, double> Within(double origin, double direction, double low, double high) {
-  if (direction == 0.0) {
+std::pair<double, double> Within(double origin, double inverse_direction, double low, double high) {
+  if (std::isinf(inverse_direction)) {
     const bool inside = origin >= low && origin <= high;
     return inside ? std::pair(-kInfinity, kInfinity) : std::pair(kInfinity, -kInfinity);
   }
-  const double a = (low - origin) / direction, b = (high - origin) / direction;
+  const double a = (low - origin) * inverse_direction, b = (high - origin) * inverse_direction;
   return std::minmax(a, b);
 }
 
@@ -71,6 +73,7 @@ void RayCaster::MeasureExtent() {
   const auto surfaces = static_cast<double>(flats_.size() + rounds_.size());
   const double cells_per_side = std::min(std::sqrt(kCellsPerSurface * surfaces), kMostCellsPerSide);
   cell_size_ = std::max(std::max(extent.x, extent.y) / cells_per_side, kSmallestCell);
+  cells_per_metre_ = 1.0 / cell_size_;
   low_ = low_ - Point2{0.01 * cell_size_, 0.01 * cell_size_};  // nothing lies on the border
   columns_ = static_cast<std::ptrdiff_t>((high_.x - low_.x) / cell_size_ + 1.01);
   rows_ = static_cast<std::ptrdiff_t>((high_.y - low_.y) / cell_size_ + 1.01);
@@ -138,20 +141,20 @@ double RayCaster::NearestInCell(std::size_t cell, Point2 origin, Point2 directio
   return nearest;
 }
 
-RayCaster::AxisWalk RayCaster::StartWalk(double origin, double direction, double low, double entry,
-                                         std::ptrdiff_t count) const {
+RayCaster::AxisWalk RayCaster::StartWalk(double origin, double direction, double inverse_direction,
+                                         double low, double entry, std::ptrdiff_t count) const {
   AxisWalk walk;
-  const double place = (origin + entry * direction - low) / cell_size_;
+  const double place = (origin + entry * direction - low) * cells_per_metre_;
   walk.cell =
       std::clamp(static_cast<std::ptrdiff_t>(std::floor(place)), std::ptrdiff_t{0}, count - 1);
-  walk.step = direction > 0.0 ? 1 : direction < 0.0 ? -1 : 0;
+  walk.step = std::isinf(inverse_direction) ? 0 : direction > 0.0 ? 1 : -1;
   if (walk.step == 0) {
     walk.next_border = kInfinity;
     return walk;
   }
   const double border = low + static_cast<double>(walk.cell + (walk.step > 0 ? 1 : 0)) * cell_size_;
-  walk.next_border = (border - origin) / direction;
-  walk.border_distance = cell_size_ / std::abs(direction);
+  walk.next_border = (border - origin) * inverse_direction;
+  walk.border_distance = cell_size_ * std::abs(inverse_direction);
   return walk;
 }
 
@@ -159,24 +162,27 @@ double RayCaster::Cast(Point2 origin, double direction, double range) const {
   return CastAlong(origin, UnitVector(direction), range);
 }
 
-void RayCaster::CastFan(Point2 origin, double first_direction, double direction_step, double range,
-                        std::span<float> distances) const {
-  for (std::size_t i = 0; i < distances.size(); ++i) {
-    const double direction = first_direction + static_cast<double>(i) * direction_step;
-    distances[i] = static_cast<float>(Cast(origin, direction, range));
+void RayCaster::CastFan(Point2 origin, Point2 ahead, std::span<const Point2> directions,
+                        double range, std::span<float> distances) const {
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const Point2 direction = {ahead.x * directions[i].x - ahead.y * directions[i].y,
+                              ahead.y * directions[i].x + ahead.x * directions[i].y};
+    distances[i] = static_cast<float>(CastAlong(origin, direction, range));
   }
 }
 
 double RayCaster::CastAlong(Point2 origin, Point2 direction, double range) const {
   if (surfaces_.empty()) return kInfinity;
-  const auto [x_entry, x_exit] = Within(origin.x, direction.x, low_.x, high_.x);
-  const auto [y_entry, y_exit] = Within(origin.y, direction.y, low_.y, high_.y);
+  // Infinite along an axis that the ray is at right angles to.
+  const Point2 inverse{1.0 / direction.x, 1.0 / direction.y};
+  const auto [x_entry, x_exit] = Within(origin.x, inverse.x, low_.x, high_.x);
+  const auto [y_entry, y_exit] = Within(origin.y, inverse.y, low_.y, high_.y);
   const double entry = std::max({x_entry, y_entry, 0.0});
   const double exit = std::min({x_exit, y_exit, range});
   if (!(entry <= exit)) return kInfinity;  // also where anything is no number
 
-  AxisWalk x = StartWalk(origin.x, direction.x, low_.x, entry, columns_);
-  AxisWalk y = StartWalk(origin.y, direction.y, low_.y, entry, rows_);
+  AxisWalk x = StartWalk(origin.x, direction.x, inverse.x, low_.x, entry, columns_);
+  AxisWalk y = StartWalk(origin.y, direction.y, inverse.y, low_.y, entry, rows_);
   double nearest = kInfinity;
   while (x.cell >= 0 && x.cell < columns_ && y.cell >= 0 && y.cell < rows_) {
     const auto cell = static_cast<std::size_t>(y.cell * columns_ + x.cell);

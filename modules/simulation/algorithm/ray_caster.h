@@ -29,8 +29,10 @@ class RayCaster {
   /// world's frame. An origin that is no number sees nothing.
   [[nodiscard]] double Cast(Point2 origin, double direction, double range) const;
 
-  /// A fan: ray i has the direction first_direction + i * direction_step.
-  void CastFan(Point2 origin, double first_direction, double direction_step, double range,
+  /// A fan: ray i has the direction `directions[i]` in the frame of a body that heads for `ahead`, both of length 1:
+  /// who keeps the directions turns them by two products each, instead of a sine and a cosine.
+  /// Precondition: as many distances as directions.
+  void CastFan(Point2 origin, Point2 ahead, std::span<const Point2> directions, double range,
                std::span<float> distances) const;
 
  private:
@@ -42,15 +44,15 @@ class RayCaster {
     double border_distance = 0.0;  // from border to border
   };
 
-  // `direction` has length 1.
+  // `direction` has length 1; `inverse_direction` of an axis is 1 / direction.
   [[nodiscard]] double CastAlong(Point2 origin, Point2 direction, double range) const;
   void MeasureExtent();
   void FillCells();
   void AddToCells(std::uint32_t surface, Point2 low, Point2 high);
   [[nodiscard]] bool IsNear(std::uint32_t surface, Point2 point, double distance) const;
   [[nodiscard]] double DistanceTo(std::uint32_t surface, Point2 origin, Point2 direction) const;
-  [[nodiscard]] AxisWalk StartWalk(double origin, double direction, double low, double entry,
-                                   std::ptrdiff_t count) const;
+  [[nodiscard]] AxisWalk StartWalk(double origin, double direction, double inverse_direction,
+                                   double low, double entry, std::ptrdiff_t count) const;
   [[nodiscard]] double NearestInCell(std::size_t cell, Point2 origin, Point2 direction,
                                      double nearest) const;
 
@@ -58,6 +60,7 @@ class RayCaster {
   std::vector<Outline::Round> rounds_;  // surface numbers go on after those of flats_
   Point2 low_, high_;
   double cell_size_ = 1.0;
+  double cells_per_metre_ = 1.0;
   std::ptrdiff_t columns_ = 0, rows_ = 0;
   std::vector<std::vector<std::uint32_t>> buckets_;  // only while filling
   std::vector<std::uint32_t> first_;     // of each cell, in surfaces_; one more at the end

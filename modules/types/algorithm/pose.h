@@ -27,7 +27,7 @@ struct Pose2 {
   return {c * offset.x + s * offset.y, -s * offset.x + c * offset.y};
 }
 
-/// ToBody for many points: computes the heading's sine and cosine once.
+/// ToBody and ToWorld for many points: computes the heading's sine and cosine once.
 class BodyFrame {
  public:
   explicit BodyFrame(const Pose2& pose)
@@ -35,6 +35,10 @@ class BodyFrame {
   [[nodiscard]] constexpr Point2 ToBody(Point2 world) const {
     const Point2 offset = world - origin_;
     return {Dot(ahead_, offset), Cross(ahead_, offset)};
+  }
+  [[nodiscard]] constexpr Point2 ToWorld(Point2 local) const {
+    return {origin_.x + ahead_.x * local.x - ahead_.y * local.y,
+            origin_.y + ahead_.y * local.x + ahead_.x * local.y};
   }
 
  private:

@@ -45,7 +45,7 @@ TEST(LocalMap, KeepsAPointAtItsExactPlace) {
 TEST(LocalMap, FollowsTheRobotAndForgetsWhatIsFarAway) {
   LocalMap map;
   map.MarkBoundary({1.0, 0.0});
-  map.SetCentre({100.0, -50.0});
+  map.SetPose({100.0, -50.0, 0});
   EXPECT_FALSE(map.Covers({1.0, 0.0}));
   int points = 0;
   map.ForEachBoundary([&](Point2) { ++points; });

@@ -142,8 +142,10 @@ TEST(RayCaster, NoRaySlipsThroughTheCornersOfARing) {
   Ring ring;
   for (int i = 0; i < 360; ++i) ring.push_back(3.0 * UnitVector(DegreesToRadians(i)));
   const RayCaster rays = Rays({.bounds = ring});
-  std::vector<float> distances(3600);
-  rays.CastFan({0, 0}, 0.0, DegreesToRadians(0.1), 10.0, distances);
+  std::vector<Point2> directions;
+  for (int i = 0; i < 3600; ++i) directions.push_back(UnitVector(DegreesToRadians(0.1 * i)));
+  std::vector<float> distances(directions.size());
+  rays.CastFan({0, 0}, UnitVector(0.0), directions, 10.0, distances);
   EXPECT_THAT(distances, testing::Each(testing::AllOf(testing::Ge(2.999F), testing::Le(3.001F))));
 }
 
