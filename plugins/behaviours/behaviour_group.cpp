@@ -64,7 +64,9 @@ Result<void> BehaviourGroup::Characterise(Behaviour& characteristic) {
     return Error{.message = characteristic.path() + " is not directly within, and cannot speak for it", .path = path()};
   }
   if (auto constructed = Runtime::Construct(characteristic); !constructed) return constructed;
-  for (Port* const signal : SignalsOf(characteristic)) {
+  std::vector<Port*> signals = SignalsOf(characteristic);
+  signals.push_back(&characteristic.state);  // for viewers
+  for (Port* const signal : signals) {
     ProxyPort& port = ports_.emplace_back(Placement{*this, signal->name()}, signal->direction(), signal->type(),
                                           signal->description());
     const bool is_input = signal->direction() == Port::Direction::kInput;

@@ -27,7 +27,7 @@ class MetaSignal {
 
   friend constexpr bool operator==(const MetaSignal&, const MetaSignal&) = default;
   friend void Describe(TypeBuilder<MetaSignal>& type) {
-    type.Name(Kind::kTypeName).Field("value", &MetaSignal::value_, {.description = "0 .. 1"});
+    type.Name(Kind::kTypeName).SemanticTag(Kind::kMeaning).Field("value", &MetaSignal::value_, {.description = "0 .. 1"});
   }
 
  private:
@@ -37,18 +37,22 @@ class MetaSignal {
 namespace internal {
 struct StimulationKind {
   static constexpr const char* kTypeName = "Stimulation";
+  static constexpr const char* kMeaning = "stimulation";
   static constexpr const char* kName = "a stimulation";
 };
 struct InhibitionKind {
   static constexpr const char* kTypeName = "Inhibition";
+  static constexpr const char* kMeaning = "inhibition";
   static constexpr const char* kName = "an inhibition";
 };
 struct ActivityKind {
   static constexpr const char* kTypeName = "Activity";
+  static constexpr const char* kMeaning = "activity";
   static constexpr const char* kName = "an activity";
 };
 struct TargetRatingKind {
   static constexpr const char* kTypeName = "TargetRating";
+  static constexpr const char* kMeaning = "target_rating";
   static constexpr const char* kName = "a target rating";
 };
 }  // namespace internal

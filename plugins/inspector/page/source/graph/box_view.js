@@ -9,6 +9,7 @@ import { chosen, selectedThread } from '../state/choices.js';
 import { revision, structure } from '../state/store.js';
 import { notes } from '../state/arrangement.js';
 import { DrawingOf } from '../state/pictured.js';
+import { BoxBars } from './box_bars.js';
 import { BoxPicture, PictureSign } from './box_picture.js';
 import { BoxTime } from './box_time.js';
 import { NoteHeight, PortHeight, kHeader, kNoteRow } from './measure.js';
@@ -42,6 +43,7 @@ export const BoxView = memo(({ box }) => {
       <text class="type" x="14" y="32">${Cut(Detail(box), (box.width - 26) / 6.6)}</text>
       ${!isGroup && html`<${BoxTime} path=${path} x=${box.width - 10 - (isAlarmed ? 22 : 0) - (hasSign ? 22 : 0)} y=${18} />
         <${PictureSign} box=${box} /><${BoxPicture} box=${box} />`}
+      ${box.bars && html`<${BoxBars} box=${box} />`}
       ${isGroup && html`<g class="fold" data-fold=${path}><rect x=${box.width - 28} y="5" width="22" height="22"
           rx="4" />
         <path d=${`M${box.width - 20},${11}l5,5l-5,5`} /></g>`}

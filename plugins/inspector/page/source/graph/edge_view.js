@@ -4,10 +4,14 @@ import { useComputed } from '@preact/signals';
 import { html } from 'htm/preact';
 import { memo } from '../panels/memo.js';
 import { notes } from '../state/arrangement.js';
+import { useWatched } from '../panels/use_watched.js';
+import { SignalOf } from '../state/behaviours.js';
 import { selected } from '../state/choices.js';
 import { FlowRate, shapeRevision, structure } from '../state/store.js';
 
 const kNoteLetters = 36;
+const kSignalOptions = { rate: 5 };
+const kFaint = 0.3; // of an edge whose signal is 0
 
 export const EdgeView = memo(({ edge }) => {
   const state = useComputed(() => {
@@ -26,7 +30,13 @@ export const EdgeView = memo(({ edge }) => {
     shapeRevision.value;
     return structure.connections.get(edge.key)?.conversion ?? '';
   });
-  return html`<path class=${`edge ${state.value} ${isLive.value ? 'live' : ''} ${isPulled.value ? 'pulled' : ''} ${conversion.value ? 'converted' : ''}`} data-edge=${edge.key}
+  const signal = useComputed(() => {
+    shapeRevision.value;
+    return SignalOf(edge);
+  });
+  const strength = useWatched(signal.value && edge.from, kSignalOptions)?.value?.value ?? 0;
+  const style = signal.value ? { strokeOpacity: kFaint + (1 - kFaint) * strength } : undefined;
+  return html`<path class=${`edge ${signal.value} ${state.value} ${isLive.value ? 'live' : ''} ${isPulled.value ? 'pulled' : ''} ${conversion.value ? 'converted' : ''}`} data-edge=${edge.key} style=${style}
     d=${edge.path} transform=${edge.dx || edge.dy ? `translate(${edge.dx},${edge.dy})` : undefined}>
     ${conversion.value && html`<title>${conversion.value}</title>`}</path>`;
 });

@@ -3,6 +3,7 @@
 import { computed, effect, signal } from '@preact/signals';
 import { IsOpen, SetOpen, openGroups } from '../state/choices.js';
 import { draft, notes, places } from '../state/arrangement.js';
+import { BehaviourOf } from '../state/behaviours.js';
 import { IsPictured } from '../state/pictured.js';
 import { shapeRevision, structure } from '../state/store.js';
 import { GraphLayout } from './layout.js';
@@ -22,7 +23,7 @@ export const layout = computed(() => {
   const put = places.value;
   const moving = draft.value;
   const written = notes.value;
-  return layouter.compute(structure, IsOpen, { area: area.value, isPictured: IsPictured,
+  return layouter.compute(structure, IsOpen, { area: area.value, isPictured: IsPictured, hasBars: (path) => BehaviourOf(path) !== undefined,
     placeOf: (path) => moving?.get(path) ?? put.get(path), noteOf: (path) => written.get(path) });
 });
 export const view = signal({ x: 0, y: 0, scale: 1 });

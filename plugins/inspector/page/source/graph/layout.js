@@ -5,7 +5,7 @@ import { IsGroup } from '../model/structure.js';
 import { BowPath, ForwardPath } from './edge_path.js';
 import { ClosingEdges, ConnectionsByLevel, IsDistant, kInside, kOutside } from './levels.js';
 import { LevelLayout } from './level_layout.js';
-import { BoxSize, NoteLines, PortHeight, kPicture } from './measure.js';
+import { BoxSize, NoteLines, PortHeight, kBars, kPicture } from './measure.js';
 import { PlacedLevel } from './placed_level.js';
 
 const kPatience = 150; // boxes at once; dagre takes half a second for as many
@@ -21,6 +21,7 @@ export class GraphLayout {
   #placeOf = kNowhere; // path -> where it has been put by hand
   #noteOf = kNowhere;  // path -> note on it
   #isPictured = () => false;
+  #hasBars = () => false;
   #placed = 0;       // boxes that dagre has placed in this computation
 
   /**
@@ -28,13 +29,14 @@ export class GraphLayout {
    * box:  {path, element, x, y, width, height, depth, open, inputs, outputs, hidden}; hidden: number of
    *       modules in a folded group
    * edge: {key, from, to, start, end, path, left, top, right, bottom, depth}
-   * `isPictured(path)`: the box has room for what its module draws.
+   * `isPictured(path)`: the box has room for what its module draws; `hasBars(path)`: for how a behaviour is.
    * ports: Map port path -> {x, y, side}
    */
-  compute(structure, isOpen, { area = null, placeOf = kNowhere, noteOf = kNowhere, isPictured = () => false } = {}) {
+  compute(structure, isOpen, { area = null, placeOf = kNowhere, noteOf = kNowhere, isPictured = () => false, hasBars = () => false } = {}) {
     this.#placeOf = placeOf;
     this.#noteOf = noteOf;
     this.#isPictured = isPictured;
+    this.#hasBars = hasBars;
     const result = { boxes: new Map(), edges: [], ports: new Map(), left: 0, top: 0, width: 0, height: 0 };
     if (structure.root === null) return result;
     const levels = ConnectionsByLevel(structure);
@@ -115,7 +117,9 @@ export class GraphLayout {
     Object.assign(box, BoxSize(element.name, detail, inputs, outputs, box.note));
     box.picture = this.#isPictured(path);
     if (box.picture) Object.assign(box, { width: Math.max(box.width, 200), height: box.height + kPicture });
-    box.signature = `${path} ${detail} ${box.picture} ${ports.map((port) => port.path)} ${box.note.join(' ')}`;
+    box.bars = this.#hasBars(path);
+    if (box.bars) Object.assign(box, { width: Math.max(box.width, 200), height: box.height + kBars });
+    box.signature = `${path} ${detail} ${box.picture} ${box.bars} ${ports.map((port) => port.path)} ${box.note.join(' ')}`;
     return box;
   }
 }

@@ -5,6 +5,7 @@ export const kHeader = 42;      // name and type
 export const kGroupHeader = 30; // of a group that is open
 export const kPadding = 18;
 export const kPicture = 130;    // of what a module draws, below its ports
+export const kBars = 42;        // of how a behaviour is, below its ports
 const kLetter = 6.75;           // mean width of a letter of a port's name
 export const kNoteRow = 14;
 const kNoteLetter = 5.9;
