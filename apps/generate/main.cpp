@@ -2,11 +2,14 @@
 
 #include <fstream>
 #include <iostream>
+#include <map>
 
 #include <CLI/CLI.hpp>
 
 #include "apps/generate/package_flags.h"
 #include "plugins/genom_description/description_json.h"
+#include "plugins/genom_templates/template_run.h"
+#include "plugins/genom_templates/template_search.h"
 
 namespace runnel {
 
@@ -18,6 +21,9 @@ struct Arguments {
   std::string what;
   std::vector<std::string> files = {};
   std::string output = {};
+  bool overwrites = false;
+  std::vector<std::string> settings = {};  // NAME=VALUE, for the template
+  std::string dependencies = {};
   genom::PreprocessorOptions options = {};
 };
 
@@ -48,13 +54,85 @@ int Write(const std::string& text, const std::string& file) {
   return kFailed;
 }
 
+std::string_view NameOf(genom::WrittenFile::What what) {
+  switch (what) {
+    case genom::WrittenFile::What::kNew: return "new";
+    case genom::WrittenFile::What::kSame: return "as it was";
+    case genom::WrittenFile::What::kReplaced: return "made anew";
+    case genom::WrittenFile::What::kMerged: return "merged with your changes";
+    case genom::WrittenFile::What::kConflict: return "in conflict with your changes";
+  }
+  return "";
+}
+
+// What make and ninja want to know: of what the made files depend.
+std::string DependenciesText(const std::string& target, const std::vector<std::string>& files) {
+  std::string text = target + ":";
+  for (const std::string& file : files) {
+    text += " \\\n  ";
+    for (const char c : file) text += c == ' ' ? std::string("\\ ") : std::string(1, c);
+  }
+  return text + "\n";
+}
+
+std::map<std::string, std::string> Settings(const Arguments& arguments) {
+  std::map<std::string, std::string> settings;
+  for (const std::string& each : arguments.settings) {
+    const std::size_t equals = each.find('=');
+    settings[each.substr(0, equals)] = equals == std::string::npos ? "" : each.substr(equals + 1);
+  }
+  return settings;
+}
+
+int Refuse(const Error& error) {
+  Diagnostics diagnostics;
+  diagnostics.Add(error);
+  std::cerr << diagnostics.ToString();
+  return kBadInput;
+}
+
+int RunTemplate(const Arguments& arguments, const genom::Description& description) {
+  const auto folder = genom::FindTemplate(arguments.what);
+  if (!folder) return Refuse(folder.error());
+  const auto made = genom::RunTemplate(*folder, genom::DescriptionJson(description), Settings(arguments));
+  if (!made) return Refuse(made.error());
+  Diagnostics diagnostics;
+  const std::string output = arguments.output.empty() ? "." : arguments.output;
+  int conflicts = 0;
+  for (const auto& file : genom::WriteFiles(output, made->files, arguments.overwrites, diagnostics)) {
+    std::cout << file.path << ": " << NameOf(file.what) << "\n";
+    conflicts += file.conflicts;
+  }
+  std::cout << std::flush;
+  std::cerr << diagnostics.ToString();
+  if (!diagnostics.ok()) return kBadInput;
+  if (!arguments.dependencies.empty()) {
+    std::vector<std::string> files = description.problems.files();
+    files.insert(files.end(), made->sources.begin(), made->sources.end());
+    std::string target = output;
+    if (!made->files.empty()) target += "/" + made->files.front().path;
+    if (const int failed = Write(DependenciesText(target, files), arguments.dependencies); failed != kDone) return failed;
+  }
+  if (conflicts == 0) return kDone;
+  std::cerr << conflicts << (conflicts == 1 ? " place" : " places")
+            << " to look at: between <<<<<<< and >>>>>>> stand your lines and those of the template\n";
+  return kFailed;
+}
+
 int Generate(const Arguments& arguments) {
   if (arguments.what == "check") return Check(arguments);
   Diagnostics diagnostics;
   const auto description = genom::ReadDescription(arguments.files, arguments.options, diagnostics);
   std::cerr << diagnostics.ToString();
   if (!diagnostics.ok()) return kBadInput;
+  if (arguments.what != "json") return RunTemplate(arguments, *description);
   return Write(genom::DescriptionJson(*description) + "\n", arguments.output);
+}
+
+std::string KnownTemplates() {
+  std::string names = "json: all that the description says; check: nothing but what is wrong with it";
+  for (const std::string& each : genom::TemplateNames()) names += "; " + each;
+  return names + "; or a folder with a file template.lua";
 }
 
 }  // namespace
@@ -65,14 +143,17 @@ int main(int count, char** words) {
   CLI::App program("Makes something of descriptions of components (GenoM3).", "runnel generate");
   runnel::Arguments arguments;
   arguments.options.flags_of_package = runnel::FlagsOfPackage;
-  program.add_option("template", arguments.what, "json: all that the description says; check: nothing but what is wrong with it")
-      ->required()
-      ->check(CLI::IsMember({"check", "json"}));
+  program.add_option("template", arguments.what, runnel::KnownTemplates())->required();
   program.add_option("files", arguments.files, "read as one, in order")->required()->type_name("FILE.gen");
   program.add_option("-I", arguments.options.include_folders, "look there for included files")
       ->type_name("FOLDER")->allow_extra_args(false);
   program.add_option("-D", arguments.options.definitions, "define a macro")->type_name("NAME[=VALUE]")->allow_extra_args(false);
-  program.add_option("-o,--output", arguments.output, "instead of standard output")->type_name("FILE");
+  program.add_option("-o,--output", arguments.output, "the file, of json; the folder, of others (otherwise this one)")
+      ->type_name("PATH");
+  program.add_flag("--overwrite", arguments.overwrites, "also what you have changed");
+  program.add_option("-s,--set", arguments.settings, "for the template")->type_name("NAME=VALUE")->allow_extra_args(false);
+  program.add_option("--depfile", arguments.dependencies, "say there what has been read, for make and ninja")
+      ->type_name("FILE");
   try {
     program.parse(count, words);
     return runnel::Generate(arguments);

@@ -1,5 +1,6 @@
 // What `runnel check` and `runnel generate` do with descriptions of components.
 
+#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -42,7 +43,6 @@ TEST_F(GenerateCommand, WritesAllThatADescriptionSays) {
   const Ended json = Runnel("generate json -D FAST " + file);
   EXPECT_EQ(json.code, 0) << json.text;
   EXPECT_THAT(json.text, AllOf(HasSubstr("\"components\""), HasSubstr("\"clock_rate\": 0.005")));
-  EXPECT_EQ(Runnel("generate nothing " + file).code, kBadInput);
 }
 
 TEST_F(GenerateCommand, AMissingPackageIsTold) {
@@ -50,6 +50,20 @@ TEST_F(GenerateCommand, AMissingPackageIsTold) {
   const Ended ended = Runnel("check " + file);
   EXPECT_EQ(ended.code, kBadInput);
   EXPECT_THAT(ended.text, HasSubstr("c.gen:1:1: error: pkg-config knows no package 'no-such-package-anywhere'"));
+}
+
+TEST_F(GenerateCommand, MakesWhatTemplatesSay) {
+  const std::string file = Write("c.gen", "component c { task t { codel<start> k() yield ether; }; };\n");
+  const std::string into = " -o " + (folder_ / "made").string() + " ";
+  const Ended made = Runnel("generate skeleton" + into + "--depfile " + (folder_ / "deps").string() + " " + file);
+  EXPECT_EQ(made.code, 0) << made.text;
+  EXPECT_THAT(made.text, HasSubstr("codels/c_t_codels.c: new"));
+  EXPECT_THAT(Runnel("generate skeleton" + into + file).text, HasSubstr("codels/c_t_codels.c: as it was"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "deps"));
+  EXPECT_EQ(Runnel("generate docs" + into + file).code, 0);
+  const Ended unknown = Runnel("generate skeletn" + into + file);
+  EXPECT_EQ(unknown.code, kBadInput);
+  EXPECT_THAT(unknown.text, HasSubstr("there is no template 'skeletn'; did you mean 'skeleton'?"));
 }
 
 }  // namespace

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/base/diagnostics.h"
+
+namespace runnel::genom {
+
+/// A file that a template has made.
+struct GeneratedFile {
+  std::string path = {};  ///< relative to the folder that is written to
+  std::string text = {};
+  bool is_kept = false;  ///< belongs to the user, who changes it: making it anew keeps that
+};
+
+struct WrittenFile {
+  enum class What { kNew, kSame, kReplaced, kMerged, kConflict };
+  std::string path = {};
+  What what = What::kNew;
+  int conflicts = 0;
+};
+
+/// Writes files into a folder. One that is the same is left alone, with its time. Of one that is kept, the text as it was
+/// made lies in the folder `.generated`: what its user has changed since is merged with what the template now makes.
+///
+/// Errors, with nothing written: a kept file that was there before and of which nobody knows how it was made, unless
+/// `overwrites`; a path that leads out of the folder. Errors while writing: that of the file; those before it are written.
+[[nodiscard]] std::vector<WrittenFile> WriteFiles(const std::filesystem::path& folder,
+                                                  const std::vector<GeneratedFile>& files, bool overwrites,
+                                                  Diagnostics& diagnostics);
+
+}  // namespace runnel::genom

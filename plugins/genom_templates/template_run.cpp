@@ -1,0 +1,191 @@
+#include "plugins/genom_templates/template_run.h"
+
+#include <charconv>
+#include <memory>
+#include <optional>
+
+#include <lua.hpp>
+
+#include "plugins/genom_templates/file_text.h"
+#include "plugins/genom_templates/model_tables.h"
+#include "plugins/genom_templates/template_text.h"
+
+namespace runnel::genom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// What templates call, as far as Lua itself can do it. Chunks are named "#N", N being the file's number.
+constexpr const char* kPrelude = R"lua(
+local host_source, host_add = ...
+local outputs, libraries = {}, {}
+
+function write(...)
+  local output = outputs[#outputs]
+  if not output then error("only the texts of a template are written to", 2) end
+  for i = 1, select("#", ...) do
+    local value = select(i, ...)
+    if value == nil then error("what is to be written has no value", 2) end
+    output[#output + 1] = tostring(value)
+  end
+end
+write_text = write
+function write_value(value)
+  if value == nil then error("what is to be written has no value", 2) end
+  local output = outputs[#outputs]
+  output[#output + 1] = tostring(value)
+end
+
+local function run(name, is_text, environment)
+  local program, chunk = host_source(name, is_text)
+  if not program then error(chunk, 0) end
+  local loaded, message = load(program, chunk, "t", environment)
+  if not loaded then error(message, 0) end
+  return loaded
+end
+
+function text(source, variables)
+  local environment = setmetatable({}, {__index = _G})
+  for name, value in pairs(variables or {}) do environment[name] = value end
+  outputs[#outputs + 1] = {}
+  run(source, true, environment)()
+  return table.concat(table.remove(outputs))
+end
+function file(source, destination, variables) host_add(destination, text(source, variables), false) end
+function keep(source, destination, variables) host_add(destination, text(source, variables), true) end
+function library(name)
+  if not libraries[name] then libraries[name] = run(name .. ".lua", false, _G)() end
+  return libraries[name]
+end
+function has(table, field) return rawget(table, field) ~= nil end
+function fail(message) error(message, 0) end
+
+setmetatable(_G, {__index = function(_, name) error("there is no '" .. tostring(name) .. "' here", 2) end})
+run("template.lua", false, _G)()
+)lua";
+
+class Run {
+ public:
+  Run(fs::path folder) : folder_(std::move(folder)), lua_(luaL_newstate(), lua_close) {}
+
+  Result<TemplateOutput> Go(const std::string& model, const std::map<std::string, std::string>& options) {
+    if (!lua_) return Error{.message = "there is no memory for the template"};
+    lua_State* lua = lua_.get();
+    luaL_openlibs(lua);
+    if (!PushModel(lua, model)) return Error{.message = "the description is no JSON"};
+    lua_setglobal(lua, "model");
+    PushTexts(lua, options);
+    lua_setglobal(lua, "options");
+    if (luaL_loadbuffer(lua, kPrelude, std::char_traits<char>::length(kPrelude), "=runnel") == LUA_OK) {
+      lua_pushlightuserdata(lua, this);
+      lua_pushcclosure(lua, Source, 1);
+      lua_pushlightuserdata(lua, this);
+      lua_pushcclosure(lua, Add, 1);
+      if (lua_pcall(lua, 2, 0, 0) == LUA_OK) return std::move(output_);
+    }
+    const char* message = luaL_tolstring(lua, -1, nullptr);
+    return ErrorOf(message == nullptr ? "" : message);
+  }
+
+ private:
+  static Run& Self(lua_State* lua) { return *static_cast<Run*>(lua_touserdata(lua, lua_upvalueindex(1))); }
+
+  // source(name, is_text) gives the program and the name of its chunk, or false and why not. What has a destructor ends
+  // before Lua may jump.
+  static int Source(lua_State* lua) {
+    Run& self = Self(lua);
+    const char* name = luaL_checkstring(lua, 1);
+    const bool is_right = self.Read(name, lua_toboolean(lua, 2) != 0);
+    if (is_right) {
+      lua_pushlstring(lua, self.program_.data(), self.program_.size());
+    } else {
+      lua_pushboolean(lua, 0);
+    }
+    lua_pushlstring(lua, self.answer_.data(), self.answer_.size());
+    return 2;
+  }
+
+  static int Add(lua_State* lua) {
+    Run& self = Self(lua);
+    const char* path = luaL_checkstring(lua, 1);
+    std::size_t length = 0;
+    const char* text = luaL_checklstring(lua, 2, &length);
+    self.AddFile(path, {text, length}, lua_toboolean(lua, 3) != 0);
+    return 0;
+  }
+
+  void AddFile(const char* path, std::string_view text, bool is_kept) {
+    output_.files.push_back({path, std::string(text), is_kept});
+  }
+
+  // Leaves the program and its name, or the message, behind.
+  bool Read(const std::string& name, bool is_text) {
+    // Its own files, then those that all templates share.
+    fs::path file = folder_ / name;
+    auto found = TextOf(file);
+    if (!found) {
+      file = folder_.parent_path() / "library" / name;
+      found = TextOf(file);
+    }
+    if (!found) {
+      answer_ = "there is no file '" + name + "' in the template";
+      return false;
+    }
+    output_.sources.push_back(file.string());
+    answer_ = "@#" + std::to_string(output_.sources.size());
+    if (!is_text) {
+      program_ = std::move(*found);
+      return true;
+    }
+    auto program = ProgramOf(*found);
+    if (program) {
+      program_ = std::move(*program);
+      return true;
+    }
+    wrong_text_ = program.error();
+    wrong_text_->position.file = file.string();
+    answer_ = wrong_text_->message;
+    return false;
+  }
+
+  [[nodiscard]] std::string FileOfChunk(std::string_view number) const {
+    std::size_t index = 0;
+    const auto read = std::from_chars(number.data(), number.data() + number.size(), index);
+    const bool is_one = read.ec == std::errc() && index >= 1 && index <= output_.sources.size();
+    return is_one ? output_.sources[index - 1] : "";
+  }
+
+  // "#2:14: message" is line 14 of the second file.
+  [[nodiscard]] Error ErrorOf(const std::string& message) const {
+    if (wrong_text_) return *wrong_text_;
+    Error error{.message = message};
+    const std::size_t first = message.find(':');
+    const std::size_t second = first == std::string::npos ? first : message.find(':', first + 1);
+    if (second == std::string::npos || !message.starts_with('#')) return error;
+    const std::string file = FileOfChunk(std::string_view(message).substr(1, first - 1));
+    if (file.empty()) return error;
+    int line = 0;
+    std::from_chars(message.data() + first + 1, message.data() + second, line);
+    error.position = {file, line};
+    error.message = message.substr(std::min(second + 2, message.size()));
+    return error;
+  }
+
+  fs::path folder_;
+  std::unique_ptr<lua_State, decltype(&lua_close)> lua_;
+  TemplateOutput output_ = {};
+  std::string program_ = {};
+  std::string answer_ = {};
+  std::optional<Error> wrong_text_ = {};
+};
+
+}  // namespace
+
+Result<TemplateOutput> RunTemplate(const fs::path& folder, const std::string& model,
+                                   const std::map<std::string, std::string>& options) {
+  const fs::path whole = fs::absolute(folder).lexically_normal();
+  return Run(whole.filename().empty() ? whole.parent_path() : whole).Go(model, options);
+}
+
+}  // namespace runnel::genom
