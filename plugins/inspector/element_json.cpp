@@ -13,6 +13,7 @@
 #include "core/types/type_info.h"
 #include "plugins/command_service/caught_error.h"
 #include "plugins/scheduling/thread_container.h"
+#include "plugins/services/callable.h"
 #include "plugins/values/json_writer.h"
 
 namespace runnel::internal {
@@ -55,6 +56,32 @@ void AddAwaited(const std::vector<const LateConnection*>& awaited, JsonObject& j
   });
 }
 
+void AddArgument(const FieldInfo& field, const void* all, std::string& text) {
+  const void* const value = field.address(ForLooking(all));
+  JsonObject argument(text);
+  argument.Add("name", field.name).Add("data_type", field.type->name()).Add("unit", field.unit);
+  argument.Add("description", field.description);
+  argument.Add("value", field.type->is_transparent() ? ToText(*field.type, value) : "");
+}
+
+// What a form is made from: its fields, or one for the only argument.
+void AddService(Callable& callable, JsonObject& json) {
+  JsonObject service(json.Key("service"));
+  const TypeInfo* const type = callable.arguments();
+  service.Add("description", callable.description()).Add("activity", callable.is_activity());
+  service.Add("arguments", type != nullptr ? type->name() : "");
+  service.Add("reply", callable.reply() != nullptr ? callable.reply()->name() : "");
+  if (type == nullptr) return;
+  const auto call = callable.NewCall();
+  if (type->kind() == TypeKind::kStructure) {
+    AppendList(type->fields(), service.Key("fields"), [&](const FieldInfo& field, std::string& text) {
+      AddArgument(field, call->arguments(), text);
+    });
+  } else {
+    service.Add("value", ToText(*type, call->arguments()));
+  }
+}
+
 void AddPort(const Port& port, JsonObject& json) {
   const FrameworkElement* const owner = FindOwner(port);
   json.Add("kind", "port").Add("name", port.name());
@@ -69,6 +96,7 @@ void AddPort(const Port& port, JsonObject& json) {
                                                               limits.default_value.get())
                                                      : std::string());
   AddAwaited(AwaitedBy(port), json);
+  if (auto* const callable = port.FindAnnotation<Callable>()) AddService(*callable, json);
   json.Add("owner", owner != nullptr ? owner->path() : "");
 }
 

@@ -106,7 +106,7 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
        {"core", "plugins/inspector", "plugins/application_files", "plugins/web_server"}});
   rules.push_back({"plugins/inspector",
                    "plugins/inspector",
-                   {"core", "plugins/command_service", "plugins/manifest", "plugins/values",
+                   {"core", "plugins/command_service", "plugins/manifest", "plugins/services/callable.h", "plugins/values",
                     "plugins/scheduling", "plugins/timing", "plugins/structure", "plugins/web_server"}});
   rules.push_back({"plugins/supervision",
                    "plugins/supervision",

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "plugins/command_service/save_place.h"
+#include "plugins/inspector/internal/call_request.h"
 #include "plugins/values/json_writer.h"
 
 namespace runnel::internal {
@@ -165,6 +166,7 @@ std::string SetLatency(Inspection& inspection, const ViewerMessage& message) {
 
 // What the worker does for this viewer alone, because it may wait.
 std::string AnswerOf(Inspection& inspection, const ViewerMessage& message) {
+  if (message.op == "abort") return AbortCall(inspection, message);
   if (message.op == "panel") return ReadPanel(inspection, message);
   if (message.op == "save_panel") return SavePanel(inspection, message);
   if (message.op == "latency") return SetLatency(inspection, message);
@@ -249,6 +251,8 @@ std::span<const Operation> AllOperations() {
       Operation("panel", kRequest, kLook),
       Operation("publish", kRequest, kDrive),
       Operation("release", kRequest, kDrive),
+      Operation("call", kRequest, kDrive),
+      Operation("abort", kRequest, kDrive),
       // Who drives may stop all of it and let it go on, but not leave out one module, which may be what
       // keeps the robot from colliding.
       Operation("pause", kRequest, kDrive, kChange),
@@ -292,7 +296,8 @@ ViewerRequest BeginRequest(Inspection& inspection, ViewerMessage message,
   if (message.path.empty() && IsOneOf(message.op, {"pause", "resume", "step", "speed"})) {
     return {nullptr, [reply = SetPace(inspection, message)] { return reply; }};
   }
-  if (IsOneOf(message.op, {"compatible", "latency", "panel", "preview", "save_panel"})) {
+  if (message.op == "call") return BeginCallRequest(inspection, message);
+  if (IsOneOf(message.op, {"abort", "compatible", "latency", "panel", "preview", "save_panel"})) {
     const auto reply = std::make_shared<std::string>();
     auto task = inspection.tasks().Post(
         [&inspection, reply, message = std::move(message)] {

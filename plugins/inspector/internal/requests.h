@@ -51,6 +51,7 @@ struct Operation {
 struct ViewerRequest {
   std::shared_ptr<WorkerTask> task;         ///< nullptr: it has been answered at once
   std::function<std::string()> take_reply;  ///< once the task is done
+  std::function<bool()> is_done = {};       ///< in the place of a task: asked with each look; none: at once
 };
 /// `on_done` is called by the worker when the task is done.
 [[nodiscard]] ViewerRequest BeginRequest(Inspection& inspection, ViewerMessage message,

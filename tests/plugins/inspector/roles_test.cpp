@@ -58,6 +58,8 @@ const std::map<std::string, std::pair<WebRole, WebRole>, std::less<>> kNeeded{
     {"arrange", {WebRole::kChange, WebRole::kChange}},
     {"publish", {WebRole::kDrive, WebRole::kDrive}},
     {"release", {WebRole::kDrive, WebRole::kDrive}},
+    {"call", {WebRole::kDrive, WebRole::kDrive}},
+    {"abort", {WebRole::kDrive, WebRole::kDrive}},
     {"pause", {WebRole::kDrive, WebRole::kChange}},
     {"resume", {WebRole::kDrive, WebRole::kChange}},
     {"change", {WebRole::kChange, WebRole::kChange}},

@@ -11,6 +11,7 @@ import { AlarmList } from './alarms.js';
 import { ByHand } from './by_hand.js';
 import { ImagePicture } from './image_picture.js';
 import { ActionButton, Awaited, Facts, Link, Section, Title } from './parts.js';
+import { ServiceForm } from './service_form.js';
 import { useWatched } from './use_watched.js';
 import { ValueTable } from './value_table.js';
 
@@ -45,14 +46,15 @@ export function PortDetails({ element }) {
       ['unit', element.unit], ['in', element.bounds], ['default', element.default],
       ['set by hand', element.by_hand ? 'what is published is not read' : ''],
     ]} />
-    <${Section} title="Value" id="value">
+    ${element.service && html`<${ServiceForm} key=${path} port=${element} />`}
+    ${!element.service && html`<${Section} title="Value" id="value">
       ${type?.meaning === 'image' ? html`<${ImagePicture} path=${path} />`
         : item ? html`<${ValueTable} port=${path} type=${element.data_type} value=${item.value} />`
         : html`<p class="none">${type?.kind === 'opaque' ? 'values of this type cannot be shown' : 'nothing has come yet'}</p>`}
       ${item?.cut && type?.meaning !== 'image' && elements === kFew && html`<button class="link"
           onClick=${() => setElements(kMany)}>show up to ${kMany} elements of lists</button>`}
       ${item?.cut && elements === kMany && html`<p class="note">longer lists are cut</p>`}
-    <//>
+    <//>`}
     ${type?.kind !== 'opaque' && html`<${ByHand} key=${path} port=${element} />`}
     <${Section} title="Connections" count=${connections.length}>
       ${connections.length === 0 && html`<p class="none">none</p>`}

@@ -35,6 +35,9 @@ export function SetParameter(path, value, options) {
 export function PublishByHand(path, value, rate) {
   return Ask({ op: 'publish', path, value, ...(rate === null ? {} : { rate }) }, `Could not set ${Brief(path)}`, { quiet: true });
 }
+/** `value`: the arguments as a text. Its reply comes when the service has answered. */
+export const CallService = (path, value) => Ask({ op: 'call', path, value }, `Could not call ${Brief(path)}`, { quiet: true });
+export const AbortService = (path) => Ask({ op: 'abort', path }, `Could not abort ${Brief(path)}`);
 export const Release = (path) => Ask({ op: 'release', path }, `Could not release ${Brief(path)}`);
 
 export async function Connect(from, to) {

@@ -1,0 +1,103 @@
+#include "plugins/inspector/internal/call_request.h"
+
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "core/paths/path_search.h"
+#include "core/port/port.h"
+#include "core/types/text_format.h"
+#include "plugins/command_service/caught_error.h"
+#include "plugins/services/callable.h"
+
+namespace runnel::internal {
+
+namespace {
+
+constexpr Duration kTimeout = std::chrono::minutes(10);  // of what a person waits for, who may close the page
+
+Result<Callable*> FindCallable(Runtime& runtime, const std::string& path) {
+  const auto found = PathSearch(runtime).FindPort(path, PathKind::kOutput);
+  if (!found) return found.error();
+  if (auto* const callable = (*found)->FindAnnotation<Callable>()) return callable;
+  return Error{.message = "is no service", .path = (*found)->path()};
+}
+
+/// The server's thread looks again and again whether it has ended, and waits for nothing.
+class ViewerCall {
+ public:
+  ViewerCall(Runtime& runtime, std::string path, std::string arguments)
+      : runtime_(runtime), path_(std::move(path)), arguments_(std::move(arguments)) {}
+
+  bool IsDone() {
+    if (outcome_) return true;
+    try {
+      outcome_ = Continue();
+    } catch (...) {  // of a type that throws when it is read or shown
+      outcome_ = CaughtError();
+    }
+    return outcome_.has_value();
+  }
+  /// Precondition: it is done.
+  [[nodiscard]] const Result<std::string>& outcome() const { return *outcome_; }
+
+ private:
+  std::optional<Result<std::string>> Continue() {
+    if (!call_) {
+      const std::unique_lock lock(runtime_.structure_mutex(), std::try_to_lock);
+      if (!lock) return {};
+      if (auto begun = Begin(); !begun) return begun.error();
+    }
+    const CallStatus status = call_->Poll(runtime_.clock().Now());
+    if (status == CallStatus::kPending) return {};
+    if (status == CallStatus::kAnswered) return reply_ != nullptr ? ToText(*reply_, call_->reply()) : "done";
+    const std::string why = call_->error();
+    return Error{.message = why.empty() ? CallStatusName(status) : why, .path = path_};
+  }
+  Result<void> Begin() {
+    const auto callable = FindCallable(runtime_, path_);
+    if (!callable) return callable.error();
+    auto call = (*callable)->NewCall();
+    if (const TypeInfo* const type = (*callable)->arguments()) {
+      if (auto set = SetFromText(*type, arguments_, call->arguments()); !set) return set.error();
+    }
+    reply_ = (*callable)->reply();
+    (void)call->Begin(runtime_.clock().Now(), kTimeout);
+    call_ = std::move(call);
+    return {};
+  }
+
+  Runtime& runtime_;
+  const std::string path_;
+  const std::string arguments_;
+  std::unique_ptr<AnyCall> call_;
+  const TypeInfo* reply_ = nullptr;
+  std::optional<Result<std::string>> outcome_;
+};
+
+}  // namespace
+
+ViewerRequest BeginCallRequest(Inspection& inspection, const ViewerMessage& message) {
+  const auto call =
+      std::make_shared<ViewerCall>(inspection.application().runtime, message.path, message.value);
+  return {.task = nullptr,
+          .take_reply =
+              [call, request = message.request] {
+                const auto& outcome = call->outcome();
+                return outcome ? Reply(request, *outcome) : Refusal(request, {{outcome.error()}});
+              },
+          .is_done = [call] { return call->IsDone(); }};
+}
+
+std::string AbortCall(Inspection& inspection, const ViewerMessage& message) {
+  Runtime& runtime = inspection.application().runtime;
+  const std::lock_guard lock(runtime.structure_mutex());
+  const auto found = FindCallable(runtime, message.path);
+  if (!found) return Refusal(message.request, {{found.error()}});
+  if ((*found)->Abort()) return Reply(message.request, "it is asked to end");
+  return Refusal(message.request, {{Error{.message = "no call is under way there", .path = message.path}}});
+}
+
+}  // namespace runnel::internal

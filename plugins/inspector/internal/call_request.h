@@ -1,0 +1,13 @@
+#pragma once
+
+#include "plugins/inspector/internal/requests.h"
+
+namespace runnel::internal {
+
+/// Calls a service for a viewer: the reply's text is what the service replies. Given up when the viewer goes.
+[[nodiscard]] ViewerRequest BeginCallRequest(Inspection& inspection, const ViewerMessage& message);
+
+/// Asks what is under way at a service to end. Waits for the structure lock.
+[[nodiscard]] std::string AbortCall(Inspection& inspection, const ViewerMessage& message);
+
+}  // namespace runnel::internal

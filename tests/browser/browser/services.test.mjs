@@ -1,0 +1,61 @@
+// Services called from the page, by forms made from their types.
+
+import assert from 'node:assert/strict';
+import { readFile } from 'node:fs/promises';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { OpenPage } from '../support/browser.mjs';
+import { DemoFile, RunApplication } from '../support/runnel.mjs';
+
+async function Places(t) {
+  const places = (await readFile(join(process.env.RUNNEL_XML, 'apps/places_demo.xml'), 'utf8'))
+    .replaceAll('../worlds/', `${process.env.RUNNEL_XML}/worlds/`);
+  const { file } = await DemoFile(t, () => places);
+  const application = await RunApplication(t, file, { options: ['--speed', '1'] });
+  return OpenPage(t, application.url, { width: 1400, height: 900 });
+}
+
+async function Choose(inspector, path) {
+  // A second click would put the table away.
+  if (!await inspector.page.locator('#port-filter').isVisible()) await inspector.page.locator('#tab-ports').click();
+  await inspector.page.locator('#port-filter').fill(path);
+  await inspector.page.locator(`[data-port-line="${path}"]`).click();
+  await inspector.page.locator(`[data-service="${path}"]`).waitFor();
+}
+
+test('a service is called by its form, and says what it replies and what is wrong', async (t) => {
+  const inspector = await Places(t);
+  const { page } = inspector;
+  const book = '/places_demo/book/output/remember';
+  await Choose(inspector, book);
+  const form = page.locator(`[data-service="${book}"]`);
+  await form.locator('input').fill('dock one');
+  await form.locator('.call').click();
+  await form.locator('.reply', { hasText: 'heading' }).waitFor();
+  await inspector.picture('service_form');
+  const where = '/places_demo/book/output/where';
+  await Choose(inspector, where);
+  await page.locator(`[data-service="${where}"] input`).fill('dck one');
+  await page.locator(`[data-service="${where}"] input`).press('Enter');
+  await page.locator(`[data-service="${where}"] .problem`, { hasText: "'dock one'" }).waitFor();
+});
+
+test('a call that takes long is answered when it has ended', async (t) => {
+  const inspector = await Places(t);
+  const { page } = inspector;
+  const go = '/places_demo/driver/output/go';
+  await Choose(inspector, '/places_demo/book/output/remember');
+  const remember = page.locator('[data-service="/places_demo/book/output/remember"]');
+  await remember.locator('input').fill('here');
+  await remember.locator('.call').click();
+  await remember.locator('.reply').waitFor();
+  await Choose(inspector, go);
+  const form = page.locator(`[data-service="${go}"]`);
+  await form.locator('input').fill('nowhere');
+  await form.locator('.call').click();
+  await form.locator('.problem', { hasText: 'nowhere' }).waitFor();
+  await form.locator('input').fill('here');
+  await form.locator('.call').click();
+  await form.locator('.reply').waitFor();
+  assert.equal(await form.locator('.call').textContent(), 'Call');
+});
