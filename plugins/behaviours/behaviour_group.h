@@ -17,6 +17,9 @@ namespace runnel {
 /// with the group.
 struct CharacteristicBehaviour final : Annotation {
   explicit CharacteristicBehaviour(std::string behaviour_name) : name(std::move(behaviour_name)) {}
+  [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override {
+    return std::make_unique<CharacteristicBehaviour>(name);
+  }
 
   std::string name;  ///< of a module directly in the group
 };

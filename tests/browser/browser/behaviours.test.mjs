@@ -11,7 +11,7 @@ import { RunApplication } from '../support/runnel.mjs';
 
 const kNetwork = '/behaviour_demo/network';
 
-/** The demonstration, in real time: it drives for minutes. */
+/** The demonstration, slowly: nothing is in its way for a long time. */
 async function Demo(t) {
   const folder = await mkdtemp(join(tmpdir(), 'runnel_behaviours_'));
   Cleanup(t, () => rm(folder, { recursive: true, force: true }));
@@ -19,7 +19,7 @@ async function Demo(t) {
     .replaceAll('../worlds/', `${process.env.RUNNEL_XML}/worlds/`);
   const file = join(folder, 'behaviour_demo.xml');
   await writeFile(file, text);
-  return RunApplication(t, file, { options: ['--speed', '1'] });
+  return RunApplication(t, file, { options: ['--speed', '0.2'] });
 }
 
 test('boxes have bars, edges the colour of their signal, and a press on the sign sets the mode', async (t) => {
