@@ -5,6 +5,8 @@
 #include <fstream>
 #include <sstream>
 
+#include <unistd.h>
+
 #include <gmock/gmock.h>
 
 #include "plugins/application/application_description.h"
@@ -112,6 +114,25 @@ TEST(NetworkCheckTest, WritesTheModel) {
   const std::string text = PromelaText(ReadNetwork(*description.element()), nullptr);
   EXPECT_THAT(text, HasSubstr("/* network/drive */"));
   EXPECT_THAT(text, HasSubstr("active_1 = true && (!active_0) && true && wants_1;"));
+}
+
+TEST(NetworkCheckTest, TheProgramWritesTheModelAndEndsWithAnErrorIfThereIsAFlaw) {
+  const std::filesystem::path folder = ::testing::TempDir() + "runnel_network_check_" + std::to_string(getpid());
+  std::filesystem::create_directories(folder);
+  const std::string file = (folder / "network.xml").string(), model = (folder / "network.pml").string();
+  const auto check = [&](std::string text) {
+    for (auto at = text.find("../worlds"); at != std::string::npos; at = text.find("../worlds")) {
+      text.replace(at, 2, RUNNEL_XML);
+    }
+    std::ofstream(file) << text;
+    return std::system((RUNNEL_PROGRAM " check " + file + " --model " + model + " > /dev/null 2>&1").c_str());
+  };
+  EXPECT_EQ(check(Demo()), 0);
+  std::ostringstream written;
+  written << std::ifstream(model).rdbuf();
+  EXPECT_THAT(written.str(), HasSubstr("active proctype cycles()"));
+  EXPECT_NE(check(With(Demo(), "<connect from=\"drive/activity\" to=\"avoid/stimulation\"/>", "")), 0);
+  std::filesystem::remove_all(folder);
 }
 
 TEST(NetworkPropertyTest, HoldInTheDemonstration) {
