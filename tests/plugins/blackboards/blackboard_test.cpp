@@ -160,6 +160,24 @@ TEST_F(BlackboardTest, IsWhatAPlainListWouldBe) {
   }
 }
 
+// As a terminal, a page or a recording sees it.
+TEST_F(BlackboardTest, IsChangedAndRecordedWithoutKnowingItsType) {
+  using Changes = std::vector<ElementChange<int>>;
+  using Record = CallRecord<CommitReply(CommitRequest<Changes>)>;
+  auto& records = At<Output<Record>>("/app/owner/output/map_changes_calls");
+  Input<Record> input(At<Group>("/app"), "records");
+  ASSERT_TRUE(Port::Connect(records, input, {.queue = 10}));
+  Callable& callable = *board().changes().port().FindAnnotation<Callable>();
+  const auto call = callable.NewCall();
+  ASSERT_TRUE(SetFromText(*callable.arguments(), "{change: [{index: 7, value: 5}]}", call->arguments()));
+  ASSERT_EQ(call->Begin(runtime.clock().Now(), 1s), CallStatus::kPending);
+  Steps(1);
+  ASSERT_EQ(call->Poll(runtime.clock().Now()), CallStatus::kAnswered);
+  EXPECT_EQ(ToText(*callable.reply(), call->reply()), "{is_applied: true, revision: 2}");
+  EXPECT_EQ(user().Seen()[7], 5);
+  EXPECT_THAT(TextOf(*input.Take()), HasSubstr("change: [{index: 7, value: 5}]"));
+}
+
 TEST_F(BlackboardTest, CommitsAllocateNothing) {
   if (!AllocationGuard::works()) GTEST_SKIP() << "a sanitizer has the heap";
   auto& writer = user().map;

@@ -97,6 +97,18 @@ TEST_F(ServiceTest, ThroughTheInterfacePortOfAGroup) {
   EXPECT_THAT(At<Asker>("/app/group/asker").told, ElementsAre("10"));
 }
 
+TEST_F(ServiceTest, AServiceThatComesLaterIsConnectedThen) {
+  Must({DisconnectPorts{"/app/server/twice", "/app/asker/twice"},
+        ConnectPorts{"/app/later/twice", "/app/asker/twice", {.when_present = true}}});
+  EXPECT_EQ(asker().Ask(1), CallStatus::kNotConnected);
+  Must({CreateModule{"/app/later", "test/triple_server"}});
+  EXPECT_EQ(asker().Ask(1), CallStatus::kPending);
+  Steps(1);
+  EXPECT_THAT(asker().told, ElementsAre("3"));
+  Must({DeleteElement{"/app/later"}});
+  EXPECT_EQ(asker().Ask(1), CallStatus::kNotConnected);
+}
+
 TEST_F(ServiceTest, WhatComesOfCallsIsPublished) {
   using Record = CallRecord<int(int)>;
   const auto& type = TypeOf<Record>();
