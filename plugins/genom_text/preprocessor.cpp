@@ -31,7 +31,7 @@ std::string FolderOf(const std::string& file) {
 
 Preprocessor::Preprocessor(const PreprocessorOptions& options, Problems& problems)
     : options_(options), problems_(problems), macros_(problems) {
-  macros_.DefineByText("__GENOM__=\"2.99.41\"");
+  macros_.DefineByText("__GENOM__=2.99.41");
   for (const std::string& each : options_.definitions) macros_.DefineByText(each);
 }
 
@@ -207,8 +207,8 @@ bool Preprocessor::ConditionDirective(const std::string& word, Place place) {
   }
   if (word == "ifdef" || word == "ifndef") {
     const auto tokens = LineTokens();
-    if (tokens.empty() || tokens[0].kind != Kind::kWord) {
-      problems_.Add(place, "#" + word + " needs the name of a macro");
+    if (tokens.size() != 1 || tokens[0].kind != Kind::kWord) {
+      problems_.Add(place, "#" + word + " needs the name of a macro, and nothing else");
     }
     const bool has = !tokens.empty() && macros_.Has(tokens[0].text);
     Open(has == (word == "ifdef"), place);
@@ -233,7 +233,12 @@ void Preprocessor::OtherDirective(const std::string& word, Place place) {
   if (word == "define") {
     macros_.Define(LineTokens(), place);
   } else if (word == "undef") {
-    for (const TextToken& each : LineTokens()) macros_.Undefine(each.text);
+    const auto tokens = LineTokens();
+    if (tokens.size() == 1 && tokens[0].kind == Kind::kWord) {
+      macros_.Undefine(tokens[0].text);
+    } else {
+      problems_.Add(place, "#undef needs the name of a macro, and nothing else");
+    }
   } else if (word == "include") {
     Include(place);
   } else if (word == "pragma") {
@@ -308,7 +313,10 @@ void Preprocessor::Include(Place place) {
 void Preprocessor::Pragma(Place place) {
   const std::string text = lexer().RestOfLine();
   const std::vector<std::string> words = QuotedWords(text);
-  if (words.empty()) return;
+  if (words.empty()) {
+    problems_.Add(place, "#pragma needs to say what");
+    return;
+  }
   if (words[0] == "require" || words[0] == "requires") {
     for (std::size_t i = 1; i < words.size(); ++i) UsePackage(words[i], place);
   }
