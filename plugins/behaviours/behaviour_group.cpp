@@ -39,7 +39,14 @@ Result<void> CheckSignal(const FrameworkElement& group, const Port& signal) {
 
 Behaviour* CharacteristicOf(const FrameworkElement& group) {
   const auto* const said = group.FindAnnotation<CharacteristicBehaviour>();
-  return said != nullptr ? dynamic_cast<Behaviour*>(group.FindChild(said->name)) : nullptr;
+  if (said == nullptr) return nullptr;
+  if (FrameworkElement* const named = group.FindChild(said->name)) return dynamic_cast<Behaviour*>(named);
+  // It has been renamed: it is the one that the interface leads to.
+  for (FrameworkElement* const child : group.children()) {
+    auto* const behaviour = dynamic_cast<Behaviour*>(child);
+    if (behaviour != nullptr && CheckBehaviourGroup(group, child->name())) return behaviour;
+  }
+  return nullptr;
 }
 
 Result<void> CheckBehaviourGroup(const FrameworkElement& group, const std::string& characteristic) {

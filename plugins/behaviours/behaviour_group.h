@@ -21,7 +21,7 @@ struct CharacteristicBehaviour final : Annotation {
     return std::make_unique<CharacteristicBehaviour>(name);
   }
 
-  std::string name;  ///< of a module directly in the group
+  std::string name;  ///< of a module directly in the group, when it was said
 };
 
 /// The behaviour that speaks for the group; nullptr if none is said to, or is there.

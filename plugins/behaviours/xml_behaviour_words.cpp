@@ -96,6 +96,7 @@ void AddTags(XmlTagRegistry& tags) {
              });
            },
        .saved = [](FrameworkElement& element) -> std::string {
+         if (const Behaviour* const behaviour = CharacteristicOf(element)) return behaviour->name();
          const auto* const said = element.FindAnnotation<CharacteristicBehaviour>();
          return said != nullptr ? said->name : "";
        }});

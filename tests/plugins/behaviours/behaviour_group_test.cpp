@@ -58,6 +58,14 @@ TEST(BehaviourGroupTest, OneSpeaksForIt) {
   EXPECT_THAT(team.again.error().message, HasSubstr("'first' speaks for it already"));
 }
 
+TEST(BehaviourGroupTest, KnowsItsCharacteristicBehaviourByAnotherName) {
+  Runtime runtime;
+  auto& team = runtime.Create<Team>(runtime.root(), "team");
+  ASSERT_TRUE(Runtime::Construct(team));
+  team.Annotate(std::make_unique<CharacteristicBehaviour>("as_it_was_called"));
+  EXPECT_EQ(CharacteristicOf(team), &team.first);
+}
+
 TEST(BehaviourGroupTest, TellsWhatIsMissing) {
   Runtime runtime;
   auto& group = runtime.Create<Group>(runtime.root(), "group");
