@@ -15,6 +15,7 @@ CycleWork* CycleWork::Add(FrameworkElement& element, CyclePart& part) {
   auto* work = module->FindAnnotation<CycleWork>();
   if (work == nullptr) {
     work = &module->Annotate(std::make_unique<CycleWork>());
+    work->element_ = module;
     const Executable inner = *module->FindAnnotation<Executable>();
     module->Annotate(
         std::make_unique<Executable>([work, inner] { return work->Wrap(inner.tasks()); }));

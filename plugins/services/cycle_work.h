@@ -29,11 +29,13 @@ class CycleWork final : public Annotation {
   /// Of the module that `element` is part of; nullptr if nothing there is executed: the owner does it itself.
   static CycleWork* Add(FrameworkElement& element, CyclePart& part);
   void Remove(CyclePart& part) noexcept;
+  [[nodiscard]] FrameworkElement& module() const noexcept { return *element_; }
 
  private:
   void Run();
   [[nodiscard]] std::vector<Task> Wrap(std::vector<Task> tasks);
 
+  FrameworkElement* element_ = nullptr;
   std::vector<CyclePart*> parts_;
   std::optional<BoundCall> module_;  // once tasks have been asked for, always the same
 };

@@ -21,16 +21,28 @@ ServiceEndpoint* ServiceBase::endpoint() const {
 
 void ServiceBase::Open(Port& port, bool is_activity) {
   port_ = &port;
-  if (is_activity) {
-    worker_ = std::make_unique<ServiceWorker>(
-        port, [this](CallBase& call, Activity& activity) { AnswerByWorker(call, activity); });
-  }
   work_ = CycleWork::Add(port, *this);
+  if (!is_activity) return;
+  FrameworkElement& owner = work_ != nullptr ? work_->module() : *port.parent();
+  auto worker = std::make_unique<ServiceWorker>(
+      Placement{owner, port.name() + "_worker"},
+      [this](CallBase& call, Activity& activity) { AnswerByWorker(call, activity); });
+  worker_ = worker.get();
+  worker_->set_known_by(&worker_);
+  if (work_ == nullptr) {
+    own_worker_ = std::move(worker);
+  } else {
+    // What a module owns is destroyed before its members are.
+    port.runtime().Adopt(std::move(worker));
+  }
 }
 
 void ServiceBase::Close() noexcept {
   if (work_ != nullptr) work_->Remove(*this);
-  worker_.reset();
+  if (worker_ != nullptr) {
+    worker_->Stop();
+    worker_->set_known_by(nullptr);
+  }
   // Nobody looks at it any more: who has found it before has left its cycle (Runtime::Delete()).
   if (const std::unique_ptr<ServiceEndpoint> own{endpoint()})
     own->EndAll(CallStatus::kDisconnected, "the service has been deleted");
@@ -43,14 +55,14 @@ void ServiceBase::BeforeUpdate() {
     at->is_faulted.store(false, std::memory_order_relaxed);
   // What is called meanwhile has its turn in the next cycle.
   for (std::size_t left = at->queue.size(); left > 0; --left) {
-    if (worker_ && !worker_->is_free()) return;
+    if (worker_ != nullptr && !worker_->is_free()) return;
     CallBase* call = nullptr;
     if (!at->queue.TryPop(call)) return;
     const Cycle* const cycle = CurrentCycle();
     const Time now = cycle != nullptr ? cycle->now : port_->runtime().clock().Now();
     if (call->is_given_up.load(std::memory_order_relaxed) || now >= call->deadline) {
       at->End(*call, CallStatus::kTimedOut, "given up by its caller, or its turn did not come in time");
-    } else if (worker_) {
+    } else if (worker_ != nullptr) {
       worker_->Begin(*call);
     } else {
       Answer(*at, *call);
@@ -102,7 +114,7 @@ ServiceState ServiceBase::state() const {
     state.answered = at->answered.load(std::memory_order_relaxed);
     state.failed = at->failed.load(std::memory_order_relaxed);
   }
-  if (worker_ && !worker_->is_free()) {
+  if (worker_ != nullptr && !worker_->is_free()) {
     const Activity& activity = worker_->activity();
     state.running = {activity.number(), activity.progress(), activity.doing(), activity.has_abort()};
   }
@@ -110,7 +122,7 @@ ServiceState ServiceBase::state() const {
 }
 
 bool ServiceBase::Abort() {
-  if (!worker_ || worker_->is_free()) return false;
+  if (worker_ == nullptr || worker_->is_free()) return false;
   worker_->Abort();
   return true;
 }

@@ -58,7 +58,8 @@ class ServiceBase : public CyclePart {
 
   Port* port_ = nullptr;
   CycleWork* work_ = nullptr;
-  std::unique_ptr<ServiceWorker> worker_;
+  ServiceWorker* worker_ = nullptr;             // the module's, or its own
+  std::unique_ptr<ServiceWorker> own_worker_;  // of a service that is part of no module
 };
 
 }  // namespace runnel

@@ -7,13 +7,16 @@
 
 namespace runnel {
 
-ServiceWorker::ServiceWorker(FrameworkElement& port,
+ServiceWorker::ServiceWorker(const Placement& placement,
                              std::function<void(CallBase&, Activity&)> serve)
-    : FrameworkElement({port, "worker"}), serve_(std::move(serve)) {
+    : FrameworkElement(placement), serve_(std::move(serve)) {
   Annotate(std::make_unique<NotSaved>());
 }
 
-ServiceWorker::~ServiceWorker() { Stop(); }
+ServiceWorker::~ServiceWorker() {
+  Stop();
+  if (known_by_ != nullptr) *known_by_ = nullptr;
+}
 
 Result<void> ServiceWorker::Prepare() {
   if (!thread_.joinable()) thread_ = std::thread([this] { Work(); });
@@ -39,11 +42,15 @@ void ServiceWorker::Work() noexcept {
   }
 }
 
-void ServiceWorker::Stop() noexcept {
-  if (!thread_.joinable()) return;
+void ServiceWorker::AskToEnd() noexcept {
   activity_.Abort();
   is_stopping_.store(true, std::memory_order_release);
   event_.Notify();
+}
+
+void ServiceWorker::Stop() noexcept {
+  if (!thread_.joinable()) return;
+  AskToEnd();
   thread_.join();
 }
 

@@ -11,13 +11,14 @@
 
 namespace runnel {
 
-/// The thread of a service whose calls take long. It begins when the module gets ready; before the module goes the
-/// handler is asked to end, and waited for.
+/// The thread of a service whose calls take long. It begins when the module gets ready. When the module is taken out the
+/// handler is asked to end; it is waited for when the module is destroyed, before any of the module's members goes, and
+/// not under the structure lock, which the handler may want.
 ///
 /// Threads: Begin() by the module's cycle; activity() from any.
 class ServiceWorker final : public FrameworkElement {
  public:
-  ServiceWorker(FrameworkElement& port, std::function<void(CallBase&, Activity&)> serve);
+  ServiceWorker(const Placement& placement, std::function<void(CallBase&, Activity&)> serve);
   ~ServiceWorker() override;
 
   // acquire: pairs with the release in Work(): the call before is over.
@@ -28,12 +29,16 @@ class ServiceWorker final : public FrameworkElement {
   void Begin(CallBase& call) noexcept;
   [[nodiscard]] const Activity& activity() const noexcept { return activity_; }
   void Abort() noexcept { activity_.Abort(); }
+  /// The module owns it; `service` knows where it is, as long as it is there.
+  void set_known_by(ServiceWorker** service) noexcept { known_by_ = service; }
+  /// Asks the handler to end, and waits for it.
+  void Stop() noexcept;
 
  private:
   Result<void> Prepare() override;
-  void Detach() noexcept override { Stop(); }
+  void Detach() noexcept override { AskToEnd(); }
+  void AskToEnd() noexcept;
   void Work() noexcept;
-  void Stop() noexcept;
 
   const std::function<void(CallBase&, Activity&)> serve_;
   Activity activity_;
@@ -41,6 +46,7 @@ class ServiceWorker final : public FrameworkElement {
   std::atomic<bool> is_stopping_{false};
   WakeEvent event_;
   std::thread thread_;
+  ServiceWorker** known_by_ = nullptr;
 };
 
 }  // namespace runnel

@@ -14,12 +14,14 @@ class Worker final : public Module {
   Service<int(int)> work{this, "work", &Worker::Work, {.queue = 4}};
   static inline std::atomic<bool> may_end{false};
   static inline std::atomic<int> begun{0};
+  static inline std::atomic<bool> takes_lock{false};
 
  private:
   Result<int> Work(Activity& activity, int value) {
     ++begun;
     activity.Report(0.5, "waiting");
     while (!may_end) {
+      if (takes_lock) const std::lock_guard lock(runtime().structure_mutex());
       if (activity.is_abort_asked()) return Error{.message = "stopped halfway"};
       std::this_thread::yield();
     }
@@ -120,6 +122,17 @@ TEST_F(ActivityTest, ASwapLosesNeitherTheCallThatRunsNorThoseThatWait) {
   Worker::may_end = true;
   EXPECT_EQ(*first.Wait(), 2);
   EXPECT_EQ(*second.Wait(), 3);
+}
+
+// A handler that wants the structure lock, when its module is deleted by who has it, is waited for without it.
+TEST_F(ActivityTest, AHandlerMayTakeTheStructureLockWhileItsModuleIsDeleted) {
+  Worker::takes_lock = true;
+  auto call = client->Begin(1);
+  Steps(1);
+  WaitUntilBegun();
+  Must({DeleteElement{"/app/worker"}});
+  Worker::takes_lock = false;
+  EXPECT_TRUE(call.is_done());
 }
 
 TEST_F(ActivityTest, DeletingTheModuleEndsItsCalls) {
