@@ -24,9 +24,9 @@ namespace runnel {
 ///
 /// The reader and whoever drops the oldest claim it by moving `head` past it, so that each value is taken by one of
 /// them. The reader then uses it where it lies, and writes to no cell: the writer finds the cells as it left them
-/// (as in StreamQueue). Where many lie in the queue the reader claims several at once: a claim is an atomic step on
-/// a line that the writer looks at, and costs more than all the rest. Some cells more than the capacity let the
-/// writer go on meanwhile (after iceoryx's overflowing queue, whose reader copies first and claims then).
+/// (as in StreamQueue). A cell more than the capacity lets the writer go on meanwhile (after iceoryx's overflowing
+/// queue, whose reader copies first and claims then). The reader claims one value at a time, though several would be
+/// faster: what is claimed cannot be dropped, and a writer that comes round to it would lose its newest values instead.
 ///
 /// Invariants:  a position is claimed once, by a step of `head`. The writer fills a cell again when the value that
 ///              lay there has been released by the reader, or dropped. The reader claims no further positions
@@ -49,17 +49,11 @@ class OverwritingQueue {
  public:
   /// Precondition: capacity > 0.
   explicit OverwritingQueue(std::size_t capacity)
-      : OverwritingQueue(capacity, std::clamp<std::size_t>(capacity / 64, 1, 16)) {}
-  /// The reader claims up to `at_once` values (> 0), which are not dropped any more.
-  OverwritingQueue(std::size_t capacity, std::size_t at_once)
-      : capacity_(capacity),
-        at_once_(at_once),
-        cells_(MakeQueueCells<Cell>(CellsFor(capacity, at_once))),
-        writable_(capacity) {
+      : capacity_(capacity), cells_(MakeQueueCells<Cell>(CellsFor(capacity))), writable_(capacity) {
     RUNNEL_CHECK(capacity > 0, "a queue needs room for one value at least");
   }
   ~OverwritingQueue() {
-    while (claimed() > 0) PopFront();
+    if (claimed() > 0) PopFront();
     while (DropOldest()) {
     }
   }
@@ -100,7 +94,7 @@ class OverwritingQueue {
     const std::uint64_t position = read_position_ + 1;
     read_position_ = position;
     // relaxed: the reader's own, and for who asks how many.
-    claimed_.store(claimed() - 1, std::memory_order_relaxed);
+    claimed_.store(0, std::memory_order_relaxed);
     // release: pairs with the acquire in LookForRoom(): the reader is done with the cell.
     released_.store(position, std::memory_order_release);
   }
@@ -127,7 +121,7 @@ class OverwritingQueue {
       if (sequence <= position + 1) return sequence == position + 1;
     }
   }
-  /// How many the reader has claimed and not yet let go. Any thread.
+  /// How many the reader has claimed and not yet let go, 0 or 1. Any thread.
   [[nodiscard]] std::size_t claimed() const noexcept {
     return claimed_.load(std::memory_order_relaxed);
   }
@@ -141,6 +135,8 @@ class OverwritingQueue {
   }
 
  private:
+  static constexpr std::size_t kSpare = 2;  // the reader's, and what is written after the oldest has been dropped
+
   struct alignas(kCacheLineSize) Cell {
     Cell() noexcept {}
     ~Cell() {}
@@ -153,16 +149,15 @@ class OverwritingQueue {
     Atomic<std::uint64_t> dropped{0};  // position + 1 of what was dropped here last
   };
 
-  // One more than the reader may be at: what is written after the oldest has been dropped.
-  static std::size_t CellsFor(std::size_t capacity, std::size_t at_once) {
-    const std::size_t most = std::numeric_limits<std::size_t>::max() - at_once - 1;
-    return capacity > most ? capacity : capacity + at_once + 1;
+  static std::size_t CellsFor(std::size_t capacity) {
+    constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max() - kSpare;
+    return capacity > kMost ? capacity : capacity + kSpare;
   }
-  [[nodiscard]] std::size_t cells() const noexcept { return capacity_ + at_once_ + 1; }
+  [[nodiscard]] std::size_t cells() const noexcept { return capacity_ + kSpare; }
   [[nodiscard]] Cell& CellAt(std::uint64_t position) const noexcept {
     return cells_[position % cells()];
   }
-  // Claims the oldest values for the reader, which has none; false if there are none.
+  // Claims the oldest value for the reader, which has none; false if there is none.
   [[gnu::noinline]] bool Claim() noexcept {
     // relaxed: who claims compares it.
     std::uint64_t position = head_.load(std::memory_order_relaxed);
@@ -171,16 +166,15 @@ class OverwritingQueue {
         read_position_ = position;
         read_index_ = position % cells();
       }
-      // acquire: pairs with the release in TryEmplace(), of the last that is claimed with those before it.
+      // acquire: pairs with the release in TryEmplace(), of the value.
       const std::uint64_t sequence =
           cells_[read_index_].sequence.load(std::memory_order_acquire);
       if (sequence == position + 1) {
-        const std::size_t count = Follow(position) ? at_once_ : 1;
-        // acquire: pairs with the release in DropOldestFromOutside(): who sees these positions released sees those
-        // who are still dropping one before them. What lies here has been seen by its sequence.
-        if (head_.compare_exchange_weak(position, position + count, std::memory_order_acquire,
+        // acquire: pairs with the release in DropOldestFromOutside(): who sees this position released sees those
+        // who are still dropping one before it. What lies here has been seen by its sequence.
+        if (head_.compare_exchange_weak(position, position + 1, std::memory_order_acquire,
                                         std::memory_order_relaxed)) {
-          claimed_.store(count, std::memory_order_relaxed);
+          claimed_.store(1, std::memory_order_relaxed);
           return true;
         }
       } else if (sequence < position + 1) {
@@ -189,13 +183,6 @@ class OverwritingQueue {
         position = head_.load(std::memory_order_relaxed);  // dropped and overwritten meanwhile
       }
     }
-  }
-  // Whether as many as can be claimed at once lie in the queue from this position on.
-  [[nodiscard]] bool Follow(std::uint64_t position) const noexcept {
-    if (at_once_ == 1) return true;
-    const std::size_t index = read_index_ + at_once_ - 1;
-    const Cell& last = cells_[index < cells() ? index : index - cells()];
-    return last.sequence.load(std::memory_order_acquire) == position + at_once_;
   }
   // `claiming`: the order of the claim.
   bool Drop(std::memory_order claiming) noexcept {
@@ -239,17 +226,16 @@ class OverwritingQueue {
   }
 
   const std::size_t capacity_;
-  const std::size_t at_once_;
   const std::unique_ptr<Cell[]> cells_;
   alignas(kCacheLineSize) Atomic<std::uint64_t> tail_{0};  // the writer's line
   Plain<std::uint64_t> writable_;  // positions before it need no look
   Plain<std::size_t> write_index_{0};
-  alignas(kCacheLineSize) Atomic<std::uint64_t> head_{0};  // the reader's line, and of who drops
+  alignas(kCacheLineSize) Atomic<std::uint64_t> head_{0};  // who claims, and who looks for room
   Atomic<std::uint64_t> released_{0};
-  Atomic<std::size_t> claimed_{0};         // the reader's own
+  Atomic<std::uint32_t> from_outside_{0};  // how many drop who are neither reader nor writer
+  alignas(kCacheLineSize) Atomic<std::size_t> claimed_{0};  // the reader's line
   Plain<std::uint64_t> read_position_{0};  // the next one, as far as the reader knows
   Plain<std::size_t> read_index_{0};       // of its cell
-  Atomic<std::uint32_t> from_outside_{0};  // how many drop who are neither reader nor writer
 };
 
 }  // namespace runnel

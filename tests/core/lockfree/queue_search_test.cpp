@@ -173,10 +173,10 @@ using SearchedOverwriting = OverwritingQueue<Grounded, SearchedAtomic, SearchedN
 
 // A writer that never waits, over several laps, and a reader that works in the cell: what comes out is what went
 // in, whole, once and in order, and no cell is touched by both.
-template <std::size_t kCapacity, std::size_t kAtOnce, int kValues>
-struct OverwritingSuite : rl::test_suite<OverwritingSuite<kCapacity, kAtOnce, kValues>, 2> {
+template <std::size_t kCapacity, int kValues>
+struct OverwritingSuite : rl::test_suite<OverwritingSuite<kCapacity, kValues>, 2> {
   Grounds grounds;
-  SearchedOverwriting queue{kCapacity, kAtOnce};
+  SearchedOverwriting queue{kCapacity};
 
   void thread(unsigned index) {
     if (index == 0) {
@@ -204,8 +204,8 @@ struct OverwritingSuite : rl::test_suite<OverwritingSuite<kCapacity, kAtOnce, kV
 };
 
 TEST(OverwritingQueueSearch, ReaderKeepsWhatItHasClaimed) {
-  EXPECT_TRUE((Search<OverwritingSuite<1, 1, 4>>(kIterations / 10, 2)));
-  EXPECT_TRUE((Search<OverwritingSuite<2, 2, 6>>(kIterations / 10, 1)));
+  EXPECT_TRUE((Search<OverwritingSuite<1, 4>>(kIterations / 10, 2)));
+  EXPECT_TRUE((Search<OverwritingSuite<2, 6>>(kIterations / 10, 1)));
 }
 
 // Somebody else drops, too, as who exchanges a queue does.

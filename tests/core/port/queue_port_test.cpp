@@ -1,5 +1,6 @@
 #include <array>
 #include <atomic>
+#include <numeric>
 #include <string>
 #include <thread>
 #include <vector>
@@ -57,6 +58,20 @@ TEST_F(QueuePortTest, DropOldestKeepsTheNewestAndCounts) {
   for (int i = 1; i <= 8; ++i) EXPECT_EQ(sender.out.Publish(i), PublishStatus::kPublished);
   EXPECT_EQ(receiver.in.dropped(), 5u);
   EXPECT_THAT(TakeAll(receiver.in), ElementsAre(6, 7, 8));
+}
+
+// A reader that has begun to take must not be in the way of what comes later.
+TEST_F(QueuePortTest, DropOldestKeepsTheNewestOfALongQueueThatHasBeenBegun) {
+  auto& sender = MakeSender<int>();
+  auto& receiver = MakeReceiver<int>();
+  Connect(sender.out, receiver.in, {.queue = 1024, .on_full = OnFull::kDropOldest});
+  int sent = 0;
+  for (int i = 0; i < 100; ++i) sender.out.Publish(++sent);
+  EXPECT_EQ(*receiver.in.Take(), 1);
+  for (int i = 0; i < 5000; ++i) EXPECT_EQ(sender.out.Publish(++sent), PublishStatus::kPublished);
+  std::vector<int> newest(1024);
+  std::iota(newest.begin(), newest.end(), sent - 1024 + 1);
+  EXPECT_EQ(TakeAll(receiver.in), newest);
 }
 
 TEST_F(QueuePortTest, DropNewestKeepsWhatItHasAndCounts) {
