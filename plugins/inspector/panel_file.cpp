@@ -24,7 +24,7 @@ constexpr int kDeepest = 6;
 const std::vector<std::string>& Kinds() {
   static const std::vector<std::string> kinds{"joystick", "keys",  "gamepad", "slider", "button",
                                               "switch",   "gauge", "plot",    "map",
-                                              "value",    "text",  "stop"};
+                                              "image",    "value", "text",  "stop"};
   return kinds;
 }
 

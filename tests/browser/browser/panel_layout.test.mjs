@@ -5,7 +5,7 @@ import { readFile, writeFile } from 'node:fs/promises';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { OpenPanel } from '../support/panel.mjs';
-import { DemoFile, RunApplication } from '../support/runnel.mjs';
+import { DemoFile, Replaced, RunApplication } from '../support/runnel.mjs';
 
 async function Drag(panel, locator, dx, dy) {
   await panel.drawn();
@@ -96,4 +96,34 @@ test('keys drive while they are held', async (t) => {
   await panel.turns(-1.1, -0.9, { begin: () => panel.page.keyboard.down('d'), end: () => panel.page.keyboard.up('d') });
   await panel.page.keyboard.up('d');
   await panel.rests();
+});
+
+test('what a camera sees is shown from the beginning, at its size, and fetched again after another choice', async (t) => {
+  const { file } = await DemoFile(t, (text) => Replaced(text, '<module name="localisation"',
+    '<module name="camera" type="simulation/camera"/>\n  <module name="localisation"')
+    .replace('<connect from="world/scene" to="laser/scene', '<connect from="world/scene" to="camera/scene laser/scene')
+    .replace('<connect from="world/pose" to="laser/pose', '<connect from="world/pose" to="camera/pose laser/pose'));
+  const { url } = await RunApplication(t, file, { options: ['--speed', '1'] });
+  const panel = await OpenPanel(t, url);
+  const image = panel.widget('image');
+  await image.locator('.note', { hasText: '160 × 120 rgb8' }).waitFor();
+  const pictures = () => panel.until('other pictures', (from) => Number(document.querySelector('[data-widget="image"] canvas').dataset.count) > from + 2, 0);
+  await pictures();
+  const colours = await image.locator('canvas').evaluate((canvas) => {
+    const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+    return new Set(Array.from({ length: data.length / 4 }, (_, at) => data.slice(4 * at, 4 * at + 3).join())).size;
+  });
+  assert.ok(colours > 3, `${colours} colours`);
+  const [card, canvas] = [await image.boundingBox(), await image.locator('canvas').boundingBox()];
+  assert.ok(canvas.x >= card.x && canvas.y + canvas.height <= card.y + card.height + 1, 'the picture is within its card');
+  await panel.picture('panel_image');
+
+  await panel.page.locator('#edit').click();
+  await image.locator('.card-bar').click();
+  const choice = panel.page.getByLabel('Port');
+  assert.deepEqual(await choice.locator('option').allTextContents(), ['–', 'camera/image'], 'pictures only');
+  await choice.selectOption({ label: '–' });
+  await image.getByText('no port has been chosen').waitFor();
+  await choice.selectOption({ label: 'camera/image' });
+  await pictures();
 });

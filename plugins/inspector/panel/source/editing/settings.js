@@ -72,10 +72,11 @@ function Curves({ id, curves, set }) {
 
 /** Paths that may be chosen: outputs and inputs of modules, parameters that can be set. */
 function Targets({ kind, meaning }) {
-  if (meaning) return DrivableInputs(structure, catalogue.value).map(({ path }) => path);
+  if (meaning === 'twist') return DrivableInputs(structure, catalogue.value).map(({ path }) => path);
   const ports = [...structure.ofKind('port')].filter((port) => {
     const owner = structure.get(port.owner);
-    return owner && !IsGroup(owner) && (kind === 'output' || port.direction === 'input');
+    return owner && !IsGroup(owner) && (kind === 'output' || port.direction === 'input') &&
+      (!meaning || catalogue.value.meaning(port.data_type) === meaning);
   }).map(({ path }) => path);
   if (kind !== 'target') return ports;
   return [...[...structure.ofKind('parameter')].filter(({ settable }) => settable).map(({ path }) => path), ...ports];

@@ -49,10 +49,21 @@ export function DefaultPanel(structure, catalogue) {
     put('stop', 'stop', side, below + 6, 4, 2);
     below += 8;
   }
+  const camera = PicturePort(structure, catalogue);
+  if (camera) {
+    put('image', 'image', side, below, 4, 6, { title: 'Camera', target: camera.path });
+    below += 6;
+  }
   const speed = structure.parametersOf(planner).find((each) => each.settable && each.unit === 'm/s' &&
     each.minimum !== null && each.maximum !== null);
   if (speed) put('slider', 'slider', side, below, 4, 2, { target: speed.path });
   return widgets;
+}
+
+/** What a module shows of what it sees. */
+function PicturePort(structure, catalogue) {
+  return [...structure.ofKind('port')].find((port) => port.direction === 'output' && catalogue.meaning(port.data_type) === 'image' &&
+    structure.get(port.owner) && !IsGroup(structure.get(port.owner)));
 }
 
 /** How the robot really moves, as the module says that knows where it is. */

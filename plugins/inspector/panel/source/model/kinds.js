@@ -26,6 +26,8 @@ export const kKinds = {
   plot: { label: 'Plot', icon: 'plot', w: 6, h: 4, least: { w: 3, h: 3 },
     settings: [{ name: 'curves', label: 'Curves', kind: 'curves' }] },
   map: { label: 'Map', icon: 'world', w: 6, h: 8, least: { w: 3, h: 4 } },
+  image: { label: 'Image', icon: 'image', w: 4, h: 6, least: { w: 2, h: 3 },
+    settings: [{ name: 'target', label: 'Port', kind: 'output', meaning: 'image' }] },
   value: { label: 'Value', icon: 'value', w: 3, h: 3, least: { w: 2, h: 2 },
     settings: [{ name: 'target', label: 'Port', kind: 'output' }, { name: 'field', label: 'Part', kind: 'field' }] },
   text: { label: 'Text', icon: 'text', w: 3, h: 2, least: { w: 1, h: 1 },

@@ -1,7 +1,8 @@
-// Plot and map, drawn by what draws those of the inspector.
+// Plot, map and picture, drawn by what draws those of the inspector.
 
 import { useEffect, useMemo } from 'preact/hooks';
 import { html } from 'htm/preact';
+import { ImagePicture } from '../../../page/source/panels/image_picture.js';
 import { FormatNumber } from '../../../page/source/model/value_format.js';
 import { NumberAt } from '../../../page/source/model/value_rows.js';
 import { NameOf } from '../../../page/source/model/structure.js';
@@ -45,6 +46,13 @@ function Legend({ curve }) {
   return html`<span class="legend"><i style=${{ background: CurveColour(curve) }}></i>${curve.label}
     <output>${values.length > 0 ? FormatNumber(values[values.length - 1]) : '–'}</output>
     <small>${UnitOf(catalogue.value, structure.get(curve.target), curve.field)}</small></span>`;
+}
+
+export function Picture({ widget }) {
+  revision.value;
+  if (!widget.target) return html`<p class="none widget-problem">no port has been chosen</p>`;
+  if (!structure.get(widget.target)) return html`<p class="none widget-problem">${widget.target} is not there</p>`;
+  return html`<${ImagePicture} path=${widget.target} />`;
 }
 
 export function WorldMap() {

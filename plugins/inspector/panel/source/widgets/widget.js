@@ -7,10 +7,10 @@ import { Keys } from './keys.js';
 import { Gauge, Text, Value } from './readings.js';
 import { Button, Slider, Switch } from './setters.js';
 import { StopButton } from './stop.js';
-import { Plot, WorldMap } from './views.js';
+import { Picture, Plot, WorldMap } from './views.js';
 
 const kViews = { joystick: Joystick, keys: Keys, gamepad: Gamepad, slider: Slider, button: Button, switch: Switch,
-  gauge: Gauge, plot: Plot, map: WorldMap, value: Value, text: Text, stop: StopButton };
+  gauge: Gauge, plot: Plot, map: WorldMap, image: Picture, value: Value, text: Text, stop: StopButton };
 
 export function WidgetView({ widget }) {
   const View = kViews[widget.kind];
