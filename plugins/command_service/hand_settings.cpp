@@ -7,11 +7,8 @@
 #include <utility>
 
 #include "core/paths/path_search.h"
-#include "core/types/any_value.h"
 #include "core/types/duration_text.h"
-#include "core/types/text_format.h"
-#include "core/types/type_info.h"
-#include "core/types/value_copy.h"
+#include "plugins/structure/value_by_hand.h"
 
 namespace runnel {
 
@@ -23,41 +20,6 @@ constexpr Duration kLongestLook = std::chrono::milliseconds(10);
 
 Error At(const Port& port, std::string message) {
   return {.message = std::move(message), .path = port.path()};
-}
-
-// An object of the port's type.
-Result<std::shared_ptr<const void>> ValueOf(const Port& port, const std::string& text) {
-  const TypeInfo& type = port.type();
-  if (!type.is_transparent()) {
-    return At(port, "values of type " + type.name() + " have no text format");
-  }
-  const std::shared_ptr<void> value = type.Make();
-  if (!value) return At(port, "only a module can make values of type " + type.name());
-  if (auto set = SetFromText(type, text, value.get()); !set) {
-    Error error = set.error();
-    if (error.path.empty()) error.path = port.path();
-    return error;
-  }
-  return std::shared_ptr<const void>(value);
-}
-
-Result<void> Publish(Port& port, const void* value) {
-  return port.PublishByHand([&](void* to) -> Result<void> {
-    if (CopyValue(port.type(), value, to)) return {};
-    return At(port, "the value does not fit into a buffer of the port");
-  });
-}
-
-// What readers shall find when nobody drives any more.
-Result<std::shared_ptr<const void>> SafeValueOf(const Port& port) {
-  if (const AnyValue& value = port.limits().default_value) {
-    // The limits may be set anew while it is used: the value is shared.
-    const auto kept = std::make_shared<AnyValue>(value);
-    return std::shared_ptr<const void>(kept, kept->get());
-  }
-  const std::shared_ptr<const void> value = port.type().Make();
-  if (!value) return At(port, "only a module can make values of type " + port.type().name());
-  return value;
 }
 
 Result<void> CheckRequest(const PublishRequest& request) {
@@ -88,7 +50,7 @@ Result<std::string> SetPortByHand(Runtime& runtime, const std::string& path,
   if (!found) return found.error();
   const auto made = ValueOf(**found, value);
   if (!made) return made.error();
-  if (auto published = Publish(**found, made->get()); !published) return published.error();
+  if (auto published = PublishByHand(**found, made->get()); !published) return published.error();
   return (*found)->path();
 }
 
@@ -149,7 +111,7 @@ Result<HandSettings::Published> HandSettings::Publish(const PublishRequest& requ
   const std::lock_guard lock(mutex_);
   if (!port.is_set_by_hand()) leases_.Forget(published.port);  // released by others, or another port
   if (auto allowed = leases_.Check(published.port, wish, Now()); !allowed) return allowed.error();
-  if (auto done = runnel::Publish(port, value->get()); !done) return done.error();
+  if (auto done = PublishByHand(port, value->get()); !done) return done.error();
   published.goes_on = leases_.Note(published.port, wish);
   const std::uint64_t number = last_[published.port] = ++count_;
   if (request.rate) PublishAgainAndAgain({published.port, *value}, number, *request.rate);
@@ -174,7 +136,7 @@ void HandSettings::PublishAgainAndAgain(HandSet set, std::uint64_t number, doubl
       if (!IsLast(set.path, number)) return {};
       const auto found = PathSearch(runtime_).FindPort(set.path, PathKind::kElement);
       if (!found || !(*found)->is_set_by_hand()) return {};  // released, or gone
-      if (!runnel::Publish(**found, set.value.get())) return {};
+      if (!PublishByHand(**found, set.value.get())) return {};
       due = std::max(due + period, now);
     }
     return std::clamp(due - now, kShortestLook, kLongestLook);
@@ -230,7 +192,7 @@ void HandSettings::LookAtDeadlines() {
     }
     std::string text = path + ": nobody has been heard of for " + DurationText(deadline) + "; ";
     const auto safe = SafeValueOf(**found);
-    if (safe && runnel::Publish(**found, safe->get())) {
+    if (safe && PublishByHand(**found, safe->get())) {
       text += "it is at rest until it is released";
     } else {  // what is published must do
       (*found)->Release();

@@ -1,20 +1,36 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/clock.h"
 #include "plugins/structure/change.h"
 
 namespace runnel {
 
-/// What an application does about something: changes of its structure, as one change set, and perhaps
-/// the end of the run.
+/// A value that readers of a port find instead of what is published (value_by_hand.h).
+struct SafeValue {
+  std::string port;                        ///< path
+  std::optional<std::string> value = {};  ///< in its text format; without one, the port's default
+};
+
+/// What an application does about something: values that readers find instead of what is published, changes of its
+/// structure, as one change set, and perhaps the end of the run.
 struct Reaction {
+  std::vector<SafeValue> published = {};
+  std::vector<std::string> released = {};  ///< paths of ports whose readers find again what is published
   ChangeSet changes = {};
   bool stops_application = false;
   std::string description = {};  ///< in the past: "switched /a/in from /b/out to /c/out"
 
-  [[nodiscard]] bool is_empty() const noexcept { return changes.empty() && !stops_application; }
+  [[nodiscard]] bool is_empty() const noexcept {
+    return published.empty() && released.empty() && changes.empty() && !stops_application;
+  }
+  /// Has this one, which is done when all is well again, release what the first one publishes.
+  void TakeBack(const Reaction& first) {
+    for (const SafeValue& each : first.published) released.push_back(each.port);
+  }
 };
 
 /// An input that brings nothing new for a while. Watched are the outputs that feed it when the rule is

@@ -4,10 +4,12 @@
 #include <mutex>
 #include <utility>
 
+#include "core/paths/path_search.h"
 #include "core/port/port.h"
 #include "core/types/duration_text.h"
 #include "plugins/structure/change_text.h"
 #include "plugins/structure/structure_request.h"
+#include "plugins/structure/value_by_hand.h"
 #include "plugins/supervision/stale_watch.h"
 
 namespace runnel {
@@ -30,6 +32,8 @@ struct Supervisor::Shared {
     notices.push_back(std::move(notice));
   }
   void React(const Reaction& reaction, const std::string& path, const std::string& why, Time now, bool is_recovery = false);
+  Result<void> Publish(const SafeValue& safe);
+  void Release(const std::string& port);
   Time Watch(Time now);
   void ServeRequests(Time now);
 
@@ -49,11 +53,34 @@ struct Supervisor::Shared {
   std::vector<Notice> notices;  // guarded by mutex
 };
 
-// What can be said of a reaction that failed is told; the application runs on as it is, and stops if
-// it was to stop.
+Result<void> Supervisor::Shared::Publish(const SafeValue& safe) {
+  const std::lock_guard lock(runtime.structure_mutex());
+  const auto found = PathSearch(runtime).FindPort(safe.port, PathKind::kElement);
+  if (!found) return found.error();
+  const auto value = safe.value ? ValueOf(**found, *safe.value) : SafeValueOf(**found);
+  if (!value) return value.error();
+  return PublishByHand(**found, value->get());
+}
+
+// Somebody else may have released it, or taken it away.
+void Supervisor::Shared::Release(const std::string& port) {
+  const std::lock_guard lock(runtime.structure_mutex());
+  const auto found = PathSearch(runtime).FindPort(port, PathKind::kElement);
+  if (found) (*found)->Release();
+}
+
+// Safe values come first, and also if the rest fails. What can be said of a reaction that failed is told; the
+// application runs on as it is, and stops if it was to stop.
 void Supervisor::Shared::React(const Reaction& reaction, const std::string& path,
                                const std::string& why, Time now, bool is_recovery) {
-  const auto done = reaction.changes.empty() ? Result<void>{} : perform(reaction.changes);
+  Result<void> done;
+  for (const SafeValue& each : reaction.published) {
+    if (auto published = Publish(each); !published && done) done = published;
+  }
+  if (!reaction.changes.empty()) {
+    if (auto changed = perform(reaction.changes); !changed && done) done = changed;
+  }
+  for (const std::string& each : reaction.released) Release(each);
   Notice notice{path, why, now, !done, is_recovery};
   if (!done) {
     notice.message += "; what was to be done about it failed: " + done.error().ToString();

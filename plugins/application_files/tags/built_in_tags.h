@@ -37,9 +37,14 @@ void AddBuiltInTags(XmlTagRegistry& tags);
 /// config="/car/left", of the same.
 [[nodiscard]] AddedAttribute ConfigurationAttribute(std::string tag);
 
+/// An attribute that names an element of the tree.
+[[nodiscard]] inline AttributeRule PathRule(const char* name, bool required, const char* summary = "") {
+  return {.name = name, .kind = AttributeKind::kPath, .required = required, .summary = summary, .names_element = true};
+}
+
 namespace internal {
 
-/// The tags <switch>, <set>, <replace> and <stop>, which are read by the tag that they stand in.
+/// The tags <publish>, <switch>, <set>, <replace> and <stop>, which are read by the tag that they stand in.
 [[nodiscard]] std::vector<XmlTag> ReactionTags();
 
 /// What the tags directly within `xml` say is to be done; mistakes are reported. Paths start at

@@ -25,6 +25,7 @@ void AddStaleRule(const TagUse& use) {
     if (child.name() != "otherwise") continue;
     rule.on_fresh = internal::ReadReaction(child, use.parent, use.context);
   }
+  rule.on_fresh.TakeBack(rule.on_stale);
   const Port* const port = SearchPort(PathIn(input, use.parent), PathKind::kInput, use.context);
   if (port == nullptr) return;
   if (port->Sources().empty()) {
@@ -42,7 +43,7 @@ void AddStaleRule(const TagUse& use) {
 FrameworkElement* HandleOnStale(const TagUse& use) {
   if (use.xml.children().empty()) {
     use.context.Report({.message = "<on_stale> does not say what is to be done",
-                        .hint = "put <switch>, <set>, <replace> or <stop> into it"},
+                        .hint = "put <publish>, <switch>, <set>, <replace> or <stop> into it"},
                        use.xml.position(), use.parent);
   }
   use.context.Defer(BuildStage::kChecks, [use] { AddStaleRule(use); });
@@ -55,11 +56,7 @@ XmlTag OnStaleTag() {
   return {.name = "on_stale",
           .summary = "what happens when an input brings nothing new for too long",
           .parents = {"application", "group"},
-          .attributes = {{.name = "input",
-                          .kind = AttributeKind::kPath,
-                          .required = true,
-                          .summary = "what feeds it when the run begins is watched",
-                          .names_element = true},
+          .attributes = {PathRule("input", true, "what feeds it when the run begins is watched"),
                          {.name = "after",
                           .kind = AttributeKind::kDuration,
                           .required = true,

@@ -6,6 +6,7 @@
 #include "core/types/type_info.h"
 #include "plugins/application_files/path_use.h"
 #include "plugins/application_files/tags/built_in_tags.h"
+#include "plugins/structure/value_by_hand.h"
 
 namespace runnel::internal {
 
@@ -91,6 +92,16 @@ void ReadReplace(const ReactionUse& use) {
   use.Describe("replaced " + found->path() + " by a new " + type);
 }
 
+void ReadPublish(const ReactionUse& use) {
+  const Port* const port = use.FindPortAt(use.Get("port"), PathKind::kElement);
+  if (port == nullptr) return;
+  const XmlAttribute* const value = use.Find("value");
+  const auto made = value ? ValueOf(*port, value->value) : SafeValueOf(*port);
+  if (!made) return use.Report(made.error(), value ? value->value_position : use.xml.position());
+  use.reaction.published.push_back({port->path(), value ? std::optional(value->value) : std::nullopt});
+  use.Describe("published " + (value ? value->value : "the default") + " at " + port->path());
+}
+
 }  // namespace
 
 std::vector<XmlTag> ReactionTags() {
@@ -98,33 +109,22 @@ std::vector<XmlTag> ReactionTags() {
   return {{.name = "switch",
            .summary = "feeds an input from another source",
            .parents = parents,
-           .attributes = {{.name = "input",
-                           .kind = AttributeKind::kPath,
-                           .required = true,
-                           .names_element = true},
-                          {.name = "from",
-                           .kind = AttributeKind::kPath,
-                           .summary = "the source that is left; without it, none is",
-                           .names_element = true},
-                          {.name = "to",
-                           .kind = AttributeKind::kPath,
-                           .summary = "the source that comes; without it, none does",
-                           .names_element = true}}},
+           .attributes = {PathRule("input", true),
+                          PathRule("from", false, "the source that is left; without it, none is"),
+                          PathRule("to", false, "the source that comes; without it, none does")}},
+          {.name = "publish",
+           .summary = "has a port's readers find a value until all is well again, instead of what is published",
+           .parents = parents,
+           .attributes = {PathRule("port", true),
+                          {.name = "value", .summary = "without it, the port's default, or its type's"}}},
           {.name = "set",
            .summary = "sets a parameter",
            .parents = parents,
-           .attributes = {{.name = "parameter",
-                           .kind = AttributeKind::kPath,
-                           .required = true,
-                           .names_element = true},
-                          {.name = "value", .required = true}}},
+           .attributes = {PathRule("parameter", true), {.name = "value", .required = true}}},
           {.name = "replace",
            .summary = "puts a new module in the place of another",
            .parents = parents,
-           .attributes = {{.name = "module",
-                           .kind = AttributeKind::kPath,
-                           .required = true,
-                           .names_element = true},
+           .attributes = {PathRule("module", true),
                           {.name = "by",
                            .kind = AttributeKind::kModuleType,
                            .required = true,
@@ -137,6 +137,7 @@ Reaction ReadReaction(XmlElement xml, FrameworkElement& base, BuildContext& cont
   for (const XmlElement child : xml.children()) {
     const ReactionUse use{{child, base, context}, reaction};
     if (child.name() == "switch") ReadSwitch(use);
+    if (child.name() == "publish") ReadPublish(use);
     if (child.name() == "set") ReadSet(use);
     if (child.name() == "replace") ReadReplace(use);
     if (child.name() == "stop") reaction.stops_application = true;

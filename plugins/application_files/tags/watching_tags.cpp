@@ -9,10 +9,6 @@ namespace runnel {
 
 namespace {
 
-AttributeRule PathRule(const char* name, const char* summary) {
-  return {.name = name, .kind = AttributeKind::kPath, .required = true, .summary = summary, .names_element = true};
-}
-
 template <void (*kRead)(const TagUse& use)>
 FrameworkElement* InTheEnd(const TagUse& use) {
   use.context.Defer(BuildStage::kChecks, [use] { kRead(use); });
@@ -27,6 +23,7 @@ void AddWatch(const TagUse& use) {
     if (child.name() == "otherwise") otherwise = internal::ReadReaction(child, use.parent, use.context);
   }
   if (of == nullptr) return;
+  otherwise.TakeBack(first);
   RunRules& rules = internal::RunRulesAround(use.parent);
   if (const XmlAttribute* const after = use.Find("after")) {
     rules.stuck_reactions.push_back({of->path(), ParseDuration(after->value).value(), first, otherwise});
@@ -53,7 +50,7 @@ XmlTag OnStuckTag() {
   return {.name = "on_stuck",
           .summary = "what happens when a module does not return from its cycle, on the real clock; it is told of in any case",
           .parents = {"application", "group"},
-          .attributes = {PathRule("of", "a module, or a group of which any module may be stuck"),
+          .attributes = {PathRule("of", true, "a module, or a group of which any module may be stuck"),
                          {.name = "after",
                           .kind = AttributeKind::kDuration,
                           .required = true,
@@ -64,15 +61,15 @@ XmlTag OnPauseTag() {
   return {.name = "on_pause",
           .summary = "what happens when somebody pauses modules, once they stand still",
           .parents = {"application", "group"},
-          .attributes = {PathRule("of", "a module, or a group of which any module may be paused")},
+          .attributes = {PathRule("of", true, "a module, or a group of which any module may be paused")},
           .handle = InTheEnd<AddWatch>};
 }
 XmlTag LatencyTag() {
   return {.name = "latency",
           .summary = "measures how old what a command goes back to is, along the modules in between",
           .parents = {"application", "group"},
-          .attributes = {PathRule("from", "a sensor's output; its values say when they were measured"),
-                         PathRule("to", "a command's output")},
+          .attributes = {PathRule("from", true, "a sensor's output; its values say when they were measured"),
+                         PathRule("to", true, "a command's output")},
           .handle = InTheEnd<AddLatency>};
 }
 XmlTag ProfileTag() {

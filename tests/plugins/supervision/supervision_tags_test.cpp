@@ -55,6 +55,41 @@ TEST_F(SupervisionTags, MakeRulesThatSwitchSetAndReplace) {
   EXPECT_EQ(std::get<SetParameter>(done[0][2]).value, "2");
 }
 
+TEST_F(SupervisionTags, PublishValuesUntilAllIsWellAgain) {
+  ASSERT_THAT(workshop.ErrorsOf("<on_stale input=\"sink/value\" after=\"30ms\" fresh_after=\"20ms\">"
+                                "  <publish port=\"sink/value\" value=\"-7\"/></on_stale>"),
+              IsEmpty());
+  Scheduler scheduler(workshop.runtime, {.clock = SchedulerOptions::ClockKind::kSimulated});
+  Supervisor supervisor(workshop.runtime, scheduler,
+                        [](const ChangeSet&) { return Result<void>{}; });
+  const auto application = workshop.runtime.root().Find("/demo");
+  ASSERT_TRUE(AddRules(**application, scheduler, supervisor));
+  const auto found = workshop.runtime.root().Find("/demo/sink/input/value");
+  ASSERT_TRUE(found);
+  auto& input = dynamic_cast<Port&>(**found);
+  scheduler.RunUntil(Time(std::chrono::milliseconds(100)));  // the source publishes nothing
+  ASSERT_TRUE(input.is_set_by_hand());
+  const auto stale = supervisor.TakeNotices();
+  ASSERT_EQ(stale.size(), 1u);
+  EXPECT_FALSE(stale[0].is_failure);
+  EXPECT_THAT(stale[0].message, HasSubstr("published -7 at /demo/sink/input/value"));
+
+  const auto source = workshop.runtime.root().Find("/demo/a");
+  ASSERT_TRUE(source);
+  for (int ms = 101; ms < 200; ++ms) {
+    dynamic_cast<Source&>(**source).value.Publish(ms);
+    scheduler.RunUntil(Time(std::chrono::milliseconds(ms)));
+  }
+  EXPECT_FALSE(input.is_set_by_hand());  // what is published is read again
+}
+
+TEST_F(SupervisionTags, RefuseValuesThatThePortCannotHave) {
+  const std::string errors = workshop.ErrorsOf(
+      "<on_stale input=\"sink/value\" after=\"30ms\"><publish port=\"sink/value\" value=\"much\"/>"
+      "<publish port=\"sink/valeu\"/></on_stale>");
+  EXPECT_THAT(errors, AllOf(HasSubstr("much"), HasSubstr("did you mean 'value'")));
+}
+
 TEST_F(SupervisionTags, MakeRulesOfModulesThatDoNotReturn) {
   ASSERT_THAT(workshop.ErrorsOf(
                   "<on_stuck of=\"a\" after=\"20ms\"><set parameter=\"b/gain\" value=\"2\"/>"

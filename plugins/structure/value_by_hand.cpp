@@ -1,0 +1,53 @@
+#include "plugins/structure/value_by_hand.h"
+
+#include <utility>
+
+#include "core/types/any_value.h"
+#include "core/types/text_format.h"
+#include "core/types/type_info.h"
+#include "core/types/value_copy.h"
+
+namespace runnel {
+
+namespace {
+
+Error At(const Port& port, std::string message) {
+  return {.message = std::move(message), .path = port.path()};
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const void>> ValueOf(const Port& port, const std::string& text) {
+  const TypeInfo& type = port.type();
+  if (!type.is_transparent()) {
+    return At(port, "values of type " + type.name() + " have no text format");
+  }
+  const std::shared_ptr<void> value = type.Make();
+  if (!value) return At(port, "only a module can make values of type " + type.name());
+  if (auto set = SetFromText(type, text, value.get()); !set) {
+    Error error = set.error();
+    if (error.path.empty()) error.path = port.path();
+    return error;
+  }
+  return std::shared_ptr<const void>(value);
+}
+
+Result<void> PublishByHand(Port& port, const void* value) {
+  return port.PublishByHand([&](void* to) -> Result<void> {
+    if (CopyValue(port.type(), value, to)) return {};
+    return At(port, "the value does not fit into a buffer of the port");
+  });
+}
+
+Result<std::shared_ptr<const void>> SafeValueOf(const Port& port) {
+  if (const AnyValue& value = port.limits().default_value) {
+    // The limits may be set anew while it is used: the value is shared.
+    const auto kept = std::make_shared<AnyValue>(value);
+    return std::shared_ptr<const void>(kept, kept->get());
+  }
+  const std::shared_ptr<const void> value = port.type().Make();
+  if (!value) return At(port, "only a module can make values of type " + port.type().name());
+  return value;
+}
+
+}  // namespace runnel
