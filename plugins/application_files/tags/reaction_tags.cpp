@@ -30,12 +30,10 @@ ConnectOptions OptionsOf(const Port& from, const Port& input) {
   return found == from.outgoing().end() ? ConnectOptions{} : found->options;
 }
 
-bool CanFeed(const Port& source, const Port& input, const XmlAttribute& at,
-                 const ReactionUse& use) {
+bool CanFeed(const Port& source, const Port& input, const XmlAttribute& at, const ReactionUse& use) {
   // What the connection that is left, or is there already, makes of the values.
   const ConnectOptions options = OptionsOf(source, input);
-  const auto possible = Port::CheckEnds(
-      source, input, {.part = options.part, .convert = options.convert});
+  const auto possible = Port::CheckEnds(source, input, {.part = options.part, .convert = options.convert});
   if (!possible) use.Report(possible.error(), at.value_position);
   return possible.has_value();
 }
@@ -76,8 +74,7 @@ void ReadSwitch(const ReactionUse& use) {
 
 void ReadSet(const ReactionUse& use) {
   const XmlAttribute& value = use.Get("value");
-  const FrameworkElement* const target =
-      SearchSettable(use.Get("parameter"), value, use.parent, use.context);
+  const auto* const target = SearchSettable(use.Get("parameter"), value, use.parent, use.context);
   if (target == nullptr) return;
   use.reaction.changes.push_back(SetParameter{target->path(), value.value});
   use.Describe("set " + target->path() + " to " + value.value);
@@ -85,8 +82,7 @@ void ReadSet(const ReactionUse& use) {
 
 void ReadReplace(const ReactionUse& use) {
   const std::string& type = use.Get("by").value;
-  const FrameworkElement* const found =
-      SearchElement(PathIn(use.Get("module"), use.parent), use.context);
+  const auto* const found = SearchElement(PathIn(use.Get("module"), use.parent), use.context);
   if (found == nullptr) return;
   use.reaction.changes.push_back(ReplaceModule{found->path(), type});
   use.Describe("replaced " + found->path() + " by a new " + type);
@@ -133,8 +129,12 @@ std::vector<XmlTag> ReactionTags() {
 }
 
 Reaction ReadReaction(XmlElement xml, FrameworkElement& base, BuildContext& context) {
+  static const std::vector<XmlTag> tags = ReactionTags();
   Reaction reaction;
   for (const XmlElement child : xml.children()) {
+    const auto tag = std::ranges::find(tags, child.name(), &XmlTag::name);
+    const auto lacks = [&](const AttributeRule& rule) { return rule.required && child.Attribute(rule.name) == nullptr; };
+    if (tag == tags.end() || std::ranges::any_of(tag->attributes, lacks)) continue;  // which has been said
     const ReactionUse use{{child, base, context}, reaction};
     if (child.name() == "switch") ReadSwitch(use);
     if (child.name() == "publish") ReadPublish(use);
