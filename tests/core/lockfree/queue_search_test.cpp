@@ -235,7 +235,32 @@ struct DroppedFromOutsideSuite : rl::test_suite<DroppedFromOutsideSuite, 3> {
   }
 };
 
+// Who drops from outside stands still, the reader takes what comes next, and the writer comes round to the cell.
+struct ComeRoundSuite : rl::test_suite<ComeRoundSuite, 3> {
+  Grounds grounds;
+  SearchedOverwriting queue{2};
+
+  void before() {
+    RL_ASSERT(queue.TryEmplace(1));
+    RL_ASSERT(queue.TryEmplace(2));
+  }
+  void thread(unsigned index) {
+    if (index == 0) {
+      (void)queue.DropOldestFromOutside();
+    } else if (index == 1) {
+      if (queue.Front() != nullptr) queue.PopFront();
+    } else {
+      for (int i = 3; i <= 5; ++i) {
+        if (queue.TryEmplace(i)) continue;
+        (void)queue.DropOldest();
+        (void)queue.TryEmplace(i);
+      }
+    }
+  }
+};
+
 TEST(OverwritingQueueSearch, WhatOthersDropIsTheirsUntilTheyAreDone) {
+  EXPECT_TRUE(Search<ComeRoundSuite>(kIterations / 10, 2));
   EXPECT_TRUE(Search<DroppedFromOutsideSuite>(kIterations / 10, 1));
 }
 
