@@ -1,6 +1,7 @@
 #include "plugins/testing/module_rig.h"
 
 #include "core/base/exception_text.h"
+#include "core/log/logger.h"
 #include "core/module/executable.h"
 #include "core/paths/path_search.h"
 #include "core/types/type_info.h"
@@ -90,6 +91,7 @@ void ModuleRigBase::RunCycle() {
   if (watch_ != nullptr && watched_.empty()) {
     for (const Task& task : tasks) watched_.push_back(watch_->Watch(task));
   }
+  PrepareLogging();  // as threads do that run cycles
   ++cycles_;
   {
     const CycleScope cycle({now(), period_});
