@@ -168,15 +168,20 @@ class ControlServer::Loop {
     if (!lock || application.scheduler == nullptr) return text;
     FrameworkElement& root = application.runtime.root();
     const std::size_t stopped = StoppedModules(root, *application.scheduler, nullptr).size();
+    const Time now = application.runtime.clock().Now();
     std::size_t unfed = 0;
+    std::size_t silent = 0;
     root.Visit([&](FrameworkElement& each) {
       const auto* const port = dynamic_cast<const Port*>(&each);
-      if (port != nullptr && LacksSource(*port)) ++unfed;
+      if (port == nullptr) return;
+      if (LacksSource(*port)) ++unfed;
+      if (SilentFor(*port, application.log.start(), now)) ++silent;
     });
     const auto add = [&](std::size_t count, const char* one, const char* many) {
       if (count > 0) text += ", " + std::to_string(count) + (count == 1 ? one : many);
     };
     add(stopped, " module STOPPED", " modules STOPPED");
+    add(silent, " output SILENT", " outputs SILENT");
     add(unfed, " required input NOT CONNECTED", " required inputs NOT CONNECTED");
     return text;
   }

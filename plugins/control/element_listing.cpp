@@ -112,26 +112,35 @@ std::string AwaitedText(const Port& port) {
   return text;
 }
 
-// ", newest 3.2 s old"; "" if there is none.
-std::string AgeText(const Port& port, Time now) {
+std::optional<Time> NewestAt(const Port& port) {
   std::optional<Time> published;
   for (const auto* const shown : port.ShownPorts()) {
     shown->VisitLatest([&](const void*, ValueTimes times) { published = times.publication_time; });
-    if (published) return fmt::format(", newest {:.3g} s old", std::max(0.0, ToSeconds(now - *published)));
+    if (published) break;
   }
-  return {};
+  return published;
+}
+
+// ", newest 3.2 s old"; "" if there is none.
+std::string AgeText(const Port& port, Time now) {
+  const auto published = NewestAt(port);
+  if (!published) return {};
+  return fmt::format(", newest {:.3g} s old", std::max(0.0, ToSeconds(now - *published)));
 }
 
 std::string PortText(const Port& port, const ListingOptions& options) {
   std::string text = port.type().name();
   if (!port.unit().empty()) text += " in " + port.unit();
   if (LacksSource(port)) text += ", NOT CONNECTED, though its module requires it";
+  if (const auto silent = SilentFor(port, options.began, options.now)) {
+    text += fmt::format(", SILENT for {:.3g} s", ToSeconds(*silent));
+  }
   if (port.is_set_by_hand()) text += ", set by hand" + HandValue(port);
   text += LimitsText(port) + AwaitedText(port);
   if (!options.is_long) return text + (port.is_required() && !LacksSource(port) ? ", required" : "");
   const std::uint64_t count = port.publications();
   text += ", " + std::to_string(count) + " values";
-  if (count > 0 && options.now != Time{}) text += AgeText(port, options.now);
+  if (count > 0) text += AgeText(port, options.now);
   const auto before = options.before.find(port.path());
   if (before != options.before.end() && options.since > Duration{}) {
     // A port that was made anew since counts from 0 again.
@@ -208,6 +217,21 @@ void AddRows(FrameworkElement& element, std::size_t depth, const ListingOptions&
 
 std::string RateText(double hertz) {
   return hertz >= 10'000 ? fmt::format("{:.0f}", hertz) : fmt::format("{:.5g}", hertz);
+}
+
+std::optional<Duration> SilentFor(const Port& port, Time began, Time now) {
+  constexpr std::uint64_t kSteadyValues = 20;
+  constexpr Duration kSteady = std::chrono::seconds(3);
+  constexpr Duration kPatience = std::chrono::milliseconds(1500);
+  constexpr int kPeriods = 10;
+  const std::uint64_t count = port.publications();
+  if (port.direction() != Port::Direction::kOutput || count < kSteadyValues) return {};
+  const auto newest = NewestAt(port);
+  if (!newest || *newest - began < kSteady) return {};
+  const Duration period = (*newest - began) / static_cast<Duration::rep>(count);
+  const Duration silent = now - *newest;
+  if (silent <= std::max(kPatience, kPeriods * period)) return {};
+  return silent;
 }
 
 bool LacksSource(const Port& port) {

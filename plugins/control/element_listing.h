@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "core/base/clock.h"
@@ -21,7 +22,8 @@ class Scheduler;
 struct ListingOptions {
   Scheduler* scheduler = nullptr;       ///< which modules are stopped and paused; optional
   const ApplicationLog* log = nullptr;  ///< and why; optional
-  Time now{};                           ///< for how old values are
+  Time now{};                           ///< by the application's clock, for how old values are
+  Time began{};                         ///< when it began, for outputs that have fallen silent
   bool is_long = false;  ///< connections, threads, counts, rates, statistics
   /// Counts of a moment ago, for rates; empty: no rates.
   PublicationCounts before = {};
@@ -33,6 +35,10 @@ struct ListingOptions {
 
 /// Whether nothing feeds the input although its module requires it.
 [[nodiscard]] bool LacksSource(const Port& port);
+
+/// How long an output has been silent that published steadily since the application began, for 3 s and 20 values at least;
+/// what is published now and then is not silent. Under the structure lock.
+[[nodiscard]] std::optional<Duration> SilentFor(const Port& port, Time began, Time now);
 
 /// Modules that faults have stopped, by path, with what they have thrown. Under the structure lock.
 [[nodiscard]] std::map<std::string, std::string> StoppedModules(FrameworkElement& start, Scheduler& scheduler,

@@ -30,6 +30,7 @@ CommandResult MakeListCommand(const Request& request, const CommandContext& cont
                  path = request.arguments.empty() ? "" : request.arguments[0],
                  options = ListingOptions{.scheduler = context.application.scheduler,
                                           .log = &context.application.log,
+                                          .began = context.application.log.start(),
                                           .is_long = request.Has("long")},
                  counted_at = std::optional<Time>()](Answer& answer) mutable -> CommandStep {
                   const auto start = PathSearch(runtime).Find(path);
@@ -41,7 +42,7 @@ CommandResult MakeListCommand(const Request& request, const CommandContext& cont
                     return kRateWindow;
                   }
                   if (counted_at) options.since = now - *counted_at;
-                  if (options.is_long) options.now = now;
+                  options.now = now;
                   answer.Write(ListElements(**start, options));
                   return ControlCode::kDone;
                 }));

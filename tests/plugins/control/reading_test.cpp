@@ -1,5 +1,7 @@
 // What people read of values and states: numbers, ages, what is stopped, what lacks a connection.
 
+#include "core/base/clock.h"
+#include "plugins/control/element_listing.h"
 #include "plugins/control/readable_text.h"
 #include "tests/plugins/control/control_fixture.h"
 #include "tests/support/wait_until.h"
@@ -45,6 +47,31 @@ TEST_F(ControlTest, ListsWhatIsStoppedPausedOrNotConnected) {
   };
   WaitUntil("the module is stopped", is_stopped);
   EXPECT_THAT(Client().hello().state, HasSubstr("1 module STOPPED"));
+}
+
+// On a clock of its own: an output that published every 100 ms, and one that published twice.
+TEST(SilenceTest, IsToldOfWhatPublishedSteadilyAndDoesSoNoMore) {
+  ManualClock clock;
+  Runtime runtime;
+  runtime.set_clock(clock);
+  auto& steady = runtime.Create<Counter>(runtime.root(), "steady");
+  auto& seldom = runtime.Create<Counter>(runtime.root(), "seldom");
+  ASSERT_TRUE(runtime.MakeReady(runtime.root()));
+  for (int i = 1; i <= 40; ++i) {
+    clock.Advance(100ms);
+    steady.out.Publish(i);
+    if (i % 20 == 0) seldom.out.Publish(i);
+  }
+  const std::lock_guard lock(runtime.structure_mutex());
+  const auto listed = [&] { return ListElements(runtime.root(), {.now = clock.Now()}); };
+  clock.Advance(1400ms);
+  EXPECT_THAT(listed(), Not(HasSubstr("SILENT")));
+  clock.Advance(600ms);
+  EXPECT_THAT(listed(), HasSubstr("SILENT for 2 s"));
+  EXPECT_TRUE(SilentFor(steady.out, Time{}, clock.Now()));
+  EXPECT_FALSE(SilentFor(seldom.out, Time{}, clock.Now()));
+  steady.out.Publish(41);
+  EXPECT_THAT(listed(), Not(HasSubstr("SILENT")));
 }
 
 TEST_F(ControlTest, MakesAStoppedModuleAnew) {
