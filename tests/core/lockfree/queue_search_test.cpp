@@ -260,8 +260,8 @@ struct ComeRoundSuite : rl::test_suite<ComeRoundSuite, 3> {
 };
 
 TEST(OverwritingQueueSearch, WhatOthersDropIsTheirsUntilTheyAreDone) {
-  EXPECT_TRUE(Search<ComeRoundSuite>(kIterations / 10, 2));
-  EXPECT_TRUE(Search<DroppedFromOutsideSuite>(kIterations / 10, 1));
+  EXPECT_TRUE(Search<ComeRoundSuite>(kIterations / 10, 1));
+  EXPECT_TRUE(SearchAtRandom<DroppedFromOutsideSuite>(kIterations / 20));
 }
 
 // The queue for many, with a capacity that two laps need.

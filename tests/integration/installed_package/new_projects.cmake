@@ -2,7 +2,7 @@
 function(build_and_test folder)
   run(COMMAND "${CMAKE_COMMAND}" -G Ninja -S "${folder}" -B "${folder}/build"
     "-DCMAKE_PREFIX_PATH=${WORK}/prefix" "-DCMAKE_CXX_COMPILER=${COMPILER}"
-    "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}" "-DCMAKE_CXX_FLAGS=${FLAGS} -Wall -Wextra -Werror")
+    "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}" "-DCMAKE_CXX_FLAGS=${FLAGS} -Wall -Wextra -Werror" ${unoptimised})
   run(COMMAND "${CMAKE_COMMAND}" --build "${folder}/build")
   run(COMMAND "${CMAKE_CTEST_COMMAND}" --test-dir "${folder}/build" --no-tests=error
     --output-on-failure EXPECT "tests passed")
