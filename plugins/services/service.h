@@ -57,11 +57,13 @@ class Service<Reply(Arguments...)> final : public ServiceBase {
         port_(group, name, {.description = options.description}),
         records_(group, name + "_calls",
                  {.description = "what has come of each call of " + name, .pool = {}}) {
+    // First, as it may refuse the options, and nothing is to be left of a service then.
+    auto callable =
+        std::make_unique<CallableOf<Signature>>(*this, options, kIsActivity<Owner, Handler>);
     port_.Publish(ServiceLink<Signature>{endpoint_.get()});
     (void)endpoint_.release();  // the channel's from here on
     Open(port_, kIsActivity<Owner, Handler>);
-    port_.template Annotate<Callable>(
-        std::make_unique<CallableOf<Signature>>(*this, options, kIsActivity<Owner, Handler>));
+    port_.template Annotate<Callable>(std::move(callable));
   }
   ~Service() { Close(); }
 
