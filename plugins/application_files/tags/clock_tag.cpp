@@ -128,11 +128,8 @@ XmlTag ClockTag() {
                           .required = true,
                           .summary = "outside: simulated time that another simulator's or ROS's clock says",
                           .choices = {"real", "simulated", "outside"}},
-                         {.name = "port",
-                          .kind = AttributeKind::kPath,
-                          .summary = "of a clock from outside: the output that says it, in seconds "
-                                     "(double) or nanoseconds (int64); without, the program does",
-                          .names_element = true},
+                         PathRule("port", false, "of a clock from outside: the output that says it, in seconds "
+                                     "(double) or nanoseconds (int64); without, the program does"),
                          {.name = "speed",
                           .kind = AttributeKind::kNumber,
                           .summary = "of simulated time, at most; 1 (which it is by default) is "

@@ -29,10 +29,7 @@ XmlTag LogTag() {
                           .required = true,
                           .summary = "the least that is logged; info if nothing is said",
                           .choices = {LogLevelNames().begin(), LogLevelNames().end()}},
-                         {.name = "of",
-                          .kind = AttributeKind::kPath,
-                          .summary = "the module or group, with all below it; the one around if left out",
-                          .names_element = true}},
+                         PathRule("of", false, "the module or group, with all below it; the one around if left out")},
           .handle = HandleLog};
 }
 
