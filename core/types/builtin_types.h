@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "core/base/clock.h"
@@ -30,6 +31,10 @@ void Describe(TypeBuilder<std::string>& type);
 void Describe(TypeBuilder<Duration>& type);
 void Describe(TypeBuilder<Time>& type);
 
+/// What ElementOperations::are_plain_numbers is about.
+template <typename E>
+inline constexpr bool kIsPlainNumber = std::is_arithmetic_v<E> && !std::same_as<E, bool>;
+
 /// Vectors of bool have no elements that could be pointed at.
 template <typename E>
 requires(!std::same_as<E, bool>) void Describe(TypeBuilder<std::vector<E>>& type) {
@@ -51,7 +56,8 @@ requires(!std::same_as<E, bool>) void Describe(TypeBuilder<std::vector<E>>& type
                      },
                  .element = [](void* at, std::size_t index) -> void* {
                    return &(*static_cast<List*>(at))[index];
-                 }});
+                 },
+                 .are_plain_numbers = kIsPlainNumber<E>});
 }
 
 template <typename E, std::size_t count>
@@ -66,7 +72,8 @@ void Describe(TypeBuilder<std::array<E, count>>& type) {
                  .resize = [](void*, std::size_t, std::size_t columns) { return columns == count; },
                  .element = [](void* at, std::size_t index) -> void* {
                    return &(*static_cast<List*>(at))[index];
-                 }});
+                 },
+                 .are_plain_numbers = kIsPlainNumber<E>});
 }
 
 /// As a list of one element or none: "[]", "[{x: 1, y: 2}]".

@@ -88,7 +88,8 @@ void Describe(TypeBuilder<Eigen::Matrix<S, rows, columns, options, max_rows, max
                    const auto i = static_cast<Eigen::Index>(index);
                    if constexpr (is_vector) return &matrix(i);
                    return &matrix(i / matrix.cols(), i % matrix.cols());
-                 }});
+                 },
+                 .are_plain_numbers = kIsPlainNumber<S> && (is_vector || M::IsRowMajor)});
 }
 
 }  // namespace runnel

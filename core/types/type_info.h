@@ -91,6 +91,9 @@ struct ElementOperations {
   /// False if the type cannot have that many.
   bool (*resize)(void* value, std::size_t rows, std::size_t columns);
   void* (*element)(void* value, std::size_t index);
+  /// Numbers (no bool) that lie one behind the other in the order in which they are counted: from the first element
+  /// on, type->size() bytes each may be copied at once.
+  bool are_plain_numbers = false;
 };
 
 /// What can be known of a type at run time: its name and what is inside, so that values can be

@@ -1,6 +1,7 @@
 #include "core/types/value_copy.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "core/base/check.h"
 #include "core/types/type_info.h"
@@ -13,7 +14,14 @@ bool CopyElements(const ElementOperations& elements, const void* from, void* to)
   const std::size_t rows = elements.rows(from);
   const std::size_t columns = elements.columns(from);
   if (!elements.resize(to, rows, columns)) return false;
-  for (std::size_t i = 0; i < rows * columns; ++i) {
+  const std::size_t count = rows * columns;
+  if (elements.are_plain_numbers) {
+    if (count == 0) return true;
+    std::memcpy(elements.element(to, 0), elements.element(ForLooking(from), 0),
+                count * elements.type->size());
+    return true;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
     const void* const element = elements.element(ForLooking(from), i);
     if (!CopyValue(*elements.type, element, elements.element(to, i))) return false;
   }

@@ -32,8 +32,7 @@ void AppendBase64(const TypeInfo& list, const void* value, std::string& json) {
     return static_cast<const char*>(elements.element(ForLooking(value), index));
   };
   json += '"';
-  // They lie one behind the other in all lists that anybody uses for them; the others are copied.
-  if (count > 0 && at(count - 1) == at(0) + count - 1) {
+  if (count > 0 && elements.are_plain_numbers) {
     AppendBase64({at(0), count}, json);
   } else {
     std::string bytes;

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -260,6 +261,27 @@ TEST(CopyValue, CopiesEveryPart) {
   const example::Handle handle;
   example::Handle other;
   EXPECT_THROW((void)CopyValue(TypeOf<example::Handle>(), &handle, &other), ProgrammingError);
+}
+
+TEST(TypeInfo, TellsWhichElementsMayBeCopiedAtOnce) {
+  using RowMajor = Eigen::Matrix<float, 2, 3, Eigen::RowMajor>;
+  const auto are_plain = [](const TypeInfo& type) { return type.elements().are_plain_numbers; };
+  EXPECT_TRUE(are_plain(TypeOf<std::vector<std::uint8_t>>()));
+  EXPECT_TRUE((are_plain(TypeOf<std::array<double, 3>>())));
+  EXPECT_TRUE(are_plain(TypeOf<Eigen::Vector3d>()));
+  EXPECT_TRUE(are_plain(TypeOf<Eigen::RowVectorXf>()));
+  EXPECT_TRUE(are_plain(TypeOf<RowMajor>()));
+  EXPECT_FALSE(are_plain(TypeOf<Eigen::Matrix2d>())) << "its memory has column after column";
+  EXPECT_FALSE((are_plain(TypeOf<std::array<bool, 3>>()))) << "not every byte is a bool";
+  EXPECT_FALSE(are_plain(TypeOf<std::vector<Side>>()));
+  EXPECT_FALSE(are_plain(TypeOf<std::vector<Point>>()));
+  EXPECT_FALSE(are_plain(TypeOf<std::optional<double>>()));
+
+  RowMajor matrix;
+  matrix << 1, 2, 3, 4, 5, 6;
+  const auto& elements = TypeOf<RowMajor>().elements();
+  const auto* const first = static_cast<const float*>(elements.element(&matrix, 0));
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(elements.element(&matrix, i), first + i);
 }
 
 TEST(TypeInfo, MakesValues) {
