@@ -3,10 +3,10 @@
 #include <limits>
 #include <string>
 
+#include "core/types/leaf_types.h"
 #include "core/types/type_builder.h"
 #include "core/types/value_tokens.h"
 #include "plugins/values/internal/json_number.h"
-#include "plugins/values/internal/leaf_types.h"
 #include "plugins/values/json_reader.h"
 #include "plugins/values/json_values.h"
 

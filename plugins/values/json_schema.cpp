@@ -4,8 +4,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/types/leaf_types.h"
 #include "core/types/type_info.h"
-#include "plugins/values/internal/leaf_types.h"
 #include "plugins/values/json_values.h"
 #include "plugins/values/json_writer.h"
 

@@ -5,8 +5,8 @@
 
 #include "core/base/characters.h"
 #include "core/base/clock.h"
+#include "core/types/leaf_types.h"
 #include "core/types/type_info.h"
-#include "plugins/values/internal/leaf_types.h"
 #include "plugins/values/json_values.h"
 #include "plugins/values/json_writer.h"
 

@@ -5,8 +5,8 @@
 #include <initializer_list>
 #include <string_view>
 
+#include "core/types/leaf_types.h"
 #include "core/types/type_info.h"
-#include "plugins/values/internal/leaf_types.h"
 
 namespace runnel::internal {
 

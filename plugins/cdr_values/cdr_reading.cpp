@@ -1,0 +1,207 @@
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <type_traits>
+
+#include "core/types/leaf_types.h"
+#include "core/types/signal.h"
+#include "core/types/type_info.h"
+#include "core/types/value_copy.h"
+#include "plugins/cdr_values/cdr_values.h"
+#include "plugins/cdr_values/internal/cdr_enumeration.h"
+
+namespace runnel {
+
+namespace {
+
+constexpr int kDeepest = 100;
+// Elements may take more in memory than on the wire, but not without an end.
+constexpr std::size_t kMostBytes = std::size_t{1} << 28;
+
+/// Walks through a description and through octets side by side. The way to what failed is found on the way back.
+class ValueReader {
+ public:
+  explicit ValueReader(CdrReader& reader) : reader_(reader), room_(kMostBytes + reader.left()) {}
+
+  bool Read(const TypeInfo& type, void* value) {
+    switch (type.kind()) {
+      case TypeKind::kOpaque:
+        break;
+      case TypeKind::kLeaf:
+        return ReadLeaf(type, value);
+      case TypeKind::kEnumeration:
+        return ReadEnumeration(type, value);
+      case TypeKind::kStructure:
+        return std::ranges::all_of(
+            type.fields(), [&](const FieldInfo& field) { return ReadField(field, value); });
+      case TypeKind::kSequence:
+      case TypeKind::kMatrix:
+        return ReadElements(type, value);
+    }
+    return Fail("a " + type.name() + " is not described");
+  }
+
+  bool ReadField(const FieldInfo& field, void* structure) {
+    if (Read(*field.type, field.address(structure))) return true;
+    path_.insert(0, "." + field.name);
+    return false;
+  }
+
+  [[nodiscard]] Error error() const {
+    const std::string path = path_.starts_with('.') ? path_.substr(1) : path_;
+    return {.message = (path.empty() ? "" : path + ": ") + problem_};
+  }
+
+ private:
+  bool Fail(std::string problem) {
+    problem_ = std::move(problem);
+    return false;
+  }
+  bool IsThere(bool is_there) { return is_there || Fail("the octets end before it does"); }
+
+  bool ReadLeaf(const TypeInfo& type, void* value) {
+    if (&type == &TypeOf<Signal>()) return IsThere(reader_.Skip(1, 1));
+    return WithLeafType(type, [&]<typename T>(std::type_identity<T>) {
+      if constexpr (std::is_void_v<T>) {
+        std::string text;
+        if (!IsThere(reader_.GetText(text))) return false;
+        const auto read = type.leaf().from_text(text, value);
+        return read || Fail(read.error().message);
+      } else if constexpr (std::is_same_v<T, std::string>) {
+        return IsThere(reader_.GetText(*static_cast<T*>(value)));
+      } else if constexpr (std::is_same_v<T, Duration> || std::is_same_v<T, Time>) {
+        std::int32_t whole = 0;
+        std::uint32_t rest = 0;
+        if (!IsThere(reader_.Get(whole) && reader_.Get(rest))) return false;
+        *static_cast<T*>(value) = T(std::chrono::seconds(whole) + Duration(rest));
+        return true;
+      } else {
+        return IsThere(reader_.Get(*static_cast<T*>(value)));
+      }
+    });
+  }
+
+  bool ReadEnumeration(const TypeInfo& type, void* value) {
+    return internal::WithEnumerationType(type, [&]<typename N>(std::type_identity<N>) {
+      N number = 0;
+      if (!IsThere(reader_.Get(number))) return false;
+      for (const EnumeratorInfo& each : type.enumerators()) {
+        if (static_cast<N>(each.value) != number) continue;
+        type.enumeration().set(value, each.value);
+        return true;
+      }
+      return Fail("there is no " + type.name() + " of the number " + std::to_string(number));
+    });
+  }
+
+  bool ReadElements(const TypeInfo& type, void* value) {
+    const ElementOperations& elements = type.elements();
+    const TypeInfo& element = *elements.type;
+    std::size_t count = elements.is_fixed ? elements.rows(value) * elements.columns(value) : 0;
+    if (!elements.is_fixed && !TakeRoom(type, value, count)) return false;
+    if (count == 0) return true;
+    if (elements.are_plain_numbers) {
+      return IsThere(reader_.GetPlain(elements.element(value, 0), element.size(), count));
+    }
+    if (++depth_ > kDeepest) {
+      return Fail("it is nested deeper than " + std::to_string(kDeepest) + " levels");
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      if (Read(element, elements.element(value, i))) continue;
+      path_.insert(0, "[" + std::to_string(i) + "]");
+      return false;
+    }
+    --depth_;
+    return true;
+  }
+
+  // Reads how many elements there are, and makes the list as long.
+  bool TakeRoom(const TypeInfo& type, void* value, std::size_t& count) {
+    const ElementOperations& elements = type.elements();
+    const std::size_t size = std::max<std::size_t>(elements.type->size(), 1);
+    std::uint32_t rows = 1, columns = 0;
+    const bool is_matrix = type.kind() == TypeKind::kMatrix;
+    if (is_matrix && !IsThere(reader_.Get(rows) && reader_.Get(columns))) return false;
+    const auto read = reader_.GetCount(FewestCdrOctets(*elements.type));
+    if (!read) return Fail("it claims more elements than there are octets for");
+    count = *read;
+    if (!is_matrix) columns = static_cast<std::uint32_t>(count);
+    if (std::uint64_t{rows} * columns != count || count > room_ / size) {
+      return Fail(std::to_string(count) + " elements are too many or too few");
+    }
+    room_ -= count * size;
+    return elements.resize(value, rows, columns) ||
+           Fail("a " + type.name() + " cannot have " + std::to_string(count) + " elements");
+  }
+
+  CdrReader& reader_;
+  std::size_t room_;
+  int depth_ = 0;
+  std::string path_;
+  std::string problem_;
+};
+
+std::size_t FewestOctetsOfLeaf(const TypeInfo& type) {
+  if (&type == &TypeOf<Signal>()) return 1;
+  return WithLeafType(type, []<typename T>(std::type_identity<T>) -> std::size_t {
+    if constexpr (std::is_arithmetic_v<T>) {
+      return sizeof(T);
+    } else {  // texts have a length, times two numbers of 32 bits
+      return std::is_void_v<T> || std::is_same_v<T, std::string> ? 4 : 8;
+    }
+  });
+}
+
+// Of fixed arrays only those of numbers are as large as their elements together; others may be empty.
+std::size_t FewestOctetsOfElements(const TypeInfo& type) {
+  const ElementOperations& elements = type.elements();
+  if (!elements.is_fixed) return type.kind() == TypeKind::kMatrix ? 12 : 4;
+  const std::size_t size = elements.type->size();
+  return elements.are_plain_numbers ? type.size() / size * size : 0;
+}
+
+}  // namespace
+
+std::size_t FewestCdrOctets(const TypeInfo& type) {
+  switch (type.kind()) {
+    case TypeKind::kLeaf:
+      return FewestOctetsOfLeaf(type);
+    case TypeKind::kEnumeration:
+      return type.size();
+    case TypeKind::kSequence:
+    case TypeKind::kMatrix:
+      return FewestOctetsOfElements(type);
+    default: {
+      std::size_t sum = 0;
+      for (const FieldInfo& field : type.fields()) sum += FewestCdrOctets(*field.type);
+      return sum;
+    }
+  }
+}
+
+Result<void> ReadCdr(const TypeInfo& type, CdrReader& reader, void* value) {
+  ValueReader values(reader);
+  if (!values.Read(type, value)) return values.error();
+  return {};
+}
+
+Result<void> ReadCdr(const TypeInfo& type, std::span<const std::byte> octets, void* value) {
+  auto reader = CdrReader::Begin(octets);
+  if (!reader) return reader.error();
+  if (type.kind() != TypeKind::kStructure) return ReadCdr(type, *reader, value);
+  ValueReader values(*reader);
+  std::shared_ptr<void> fresh;
+  for (const FieldInfo& field : type.fields()) {
+    const bool is_missing = &field != &type.fields().front() && reader->left() == 0;
+    if (is_missing && fresh == nullptr) fresh = type.Make();
+    if (is_missing && fresh != nullptr) {
+      (void)CopyValue(*field.type, field.address(fresh.get()), field.address(value));
+    } else if (!values.ReadField(field, value)) {
+      return values.error();
+    }
+  }
+  return {};
+}
+
+}  // namespace runnel
