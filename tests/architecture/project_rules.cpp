@@ -96,6 +96,8 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
                     "plugins/services/callable.h", "plugins/values/watched_port.h"}});
   rules.push_back({"plugins/manifest", "plugins/manifest", {"core", "plugins/values"}});
   rules.push_back({"plugins/mcap", "plugins/mcap", {"core"}});
+  rules.push_back({"plugins/wire", "plugins/wire", {"core"}});
+  rules.push_back({"plugins/wire_cyclone", "plugins/wire_cyclone", {"core", "plugins/wire"}});
   rules.push_back({"plugins/recording",
                    "plugins/recording",
                    {"core", "plugins/values", "plugins/mcap", "plugins/application_files",

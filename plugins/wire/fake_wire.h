@@ -1,0 +1,17 @@
+#pragma once
+
+#include <memory>
+
+#include "plugins/wire/wire.h"
+
+namespace runnel {
+
+/// A network within this process, for tests: matches by topic, type and QoS as DDS does, keeps what is latched, and
+/// calls back from a thread of its own, so that what runs over it is looked at by the sanitizers. Those who join one
+/// engine are in one network, if of one domain.
+[[nodiscard]] std::shared_ptr<WireEngine> MakeFakeWire();
+
+/// Waits until all that has been set off so far has been delivered. Not from a callback.
+void WaitUntilQuiet(WireEngine& fake);
+
+}  // namespace runnel

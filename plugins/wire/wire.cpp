@@ -1,0 +1,26 @@
+#include "plugins/wire/wire.h"
+
+namespace runnel {
+
+std::string QosMisfit(const WireQos& offered, const WireQos& asked) {
+  if (asked.is_reliable && !offered.is_reliable) {
+    return "the writer sends at best effort, and the reader asks for reliable values";
+  }
+  if (asked.is_latched && !offered.is_latched) {
+    return "the writer keeps nothing for who comes late, and the reader asks for it (latched)";
+  }
+  if (asked.is_exclusive != offered.is_exclusive) {
+    return offered.is_exclusive ? "the writer wants to be the only one that counts, and the reader takes all"
+                                : "the reader takes the strongest only, and the writer says no strength";
+  }
+  return {};
+}
+
+std::string QosText(const WireQos& qos) {
+  std::string text = qos.is_reliable ? "reliable" : "best effort";
+  if (qos.is_latched) text += ", latched";
+  if (qos.is_exclusive) text += ", exclusive";
+  return text + ", newest " + std::to_string(qos.depth);
+}
+
+}  // namespace runnel

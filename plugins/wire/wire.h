@@ -1,0 +1,145 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+
+namespace runnel {
+
+/// Octets as they go over the wire, with the four of the encapsulation in front.
+using Octets = std::vector<std::byte>;
+
+/// What names an endpoint or a participant in the whole network.
+using WireId = std::array<std::uint8_t, 16>;
+
+/// How values of a topic are kept and sent. A reader matches a writer that offers at least as much.
+struct WireQos {
+  bool is_reliable = true;
+  bool is_latched = false;  ///< who comes late gets what has been written last (transient local)
+  std::uint32_t depth = 1;  ///< newest values kept, at least 1
+  bool is_exclusive = false;   ///< of several writers only the strongest counts (exclusive ownership)
+  std::int32_t strength = 0;   ///< of a writer, if exclusive
+
+  bool operator==(const WireQos&) const = default;
+};
+
+/// Why a reader that asks for `asked` gets nothing of a writer that offers `offered`, in words; "" if it does.
+[[nodiscard]] std::string QosMisfit(const WireQos& offered, const WireQos& asked);
+/// "reliable, latched, newest 1".
+[[nodiscard]] std::string QosText(const WireQos& qos);
+
+/// A writer or a reader that somebody is to have.
+struct WireEndpointOptions {
+  std::string topic = {};
+  std::string type = {};
+  WireQos qos = {};
+  std::string user_data = {};  ///< told to all others
+};
+
+/// One that somebody has, here or elsewhere.
+struct WireEndpoint {
+  std::uint64_t handle = 0;  ///< by which this process knows it, see WireSample::writer
+  WireId id = {};
+  WireId participant = {};
+  bool is_writer = false;
+  bool is_own = false;  ///< of the participant that is told
+  WireEndpointOptions options = {};
+};
+
+struct WireMember {
+  WireId id = {};
+  std::string name = {};
+  std::string user_data = {};
+};
+
+/// Told who is in the network. Called by threads of the engine, one at a time for a participant; must return soon, and
+/// may not call the participant.
+class WireDiscovery {
+ public:
+  virtual void OnMember(const WireMember& member) = 0;
+  virtual void OnMemberGone(const WireId& id) = 0;
+  virtual void OnEndpoint(const WireEndpoint& endpoint) = 0;
+  virtual void OnEndpointGone(const WireId& id) = 0;
+
+ protected:
+  ~WireDiscovery() = default;
+};
+
+/// One value that has come.
+struct WireSample {
+  std::span<const std::byte> octets;  ///< gone when the callback returns; nobody changes them until then
+  std::int64_t source_time = 0;       ///< nanoseconds since 1970 on the writer's clock
+  std::uint64_t writer = 0;           ///< WireEndpoint::handle
+};
+
+/// How many there are at the other ends, after each change. Called by threads of the engine.
+using OnMatched = std::function<void(std::size_t count)>;
+/// Called by threads of the engine, one at a time for a reader.
+using OnSample = std::function<void(const WireSample& sample)>;
+
+/// Destroying it waits for callbacks that run.
+class WireWriter {
+ public:
+  virtual ~WireWriter() = default;
+  [[nodiscard]] virtual const WireId& id() const noexcept = 0;
+  /// `octets` stay as they are until nobody but the caller has them any more. Never waits for readers beyond the
+  /// engine's bound for reliable ones (milliseconds). One thread at a time. Allocates.
+  virtual Result<void> Write(const std::shared_ptr<const Octets>& octets, std::int64_t source_time) = 0;
+};
+
+/// Destroying it waits for callbacks that run.
+class WireReader {
+ public:
+  virtual ~WireReader() = default;
+  [[nodiscard]] virtual const WireId& id() const noexcept = 0;
+};
+
+/// Who can be reached, and can reach this one.
+enum class WireReach {
+  kLoopback,  ///< processes of this machine that say the same: sockets on 127.0.0.1 only
+  kMachine,   ///< this machine, also processes that are open to the network
+  kNetwork,   ///< whoever is in the network
+};
+
+struct WireMemberOptions {
+  std::uint32_t domain = 0;  ///< up to 232
+  WireReach reach = WireReach::kLoopback;
+  std::vector<std::string> peers = {};  ///< addresses besides, where nothing is sent to all at once
+  bool has_multicast = true;            ///< false: only peers, and this machine, are asked
+  std::string interface = {};           ///< name or address of the only one to be used, with kNetwork; "": any
+  std::string name = {};
+  std::string user_data = {};
+};
+
+/// One member of the network.
+///
+/// Ownership:  of the engine's threads, which are made by who joins and inherit its scheduling: not by real-time
+///             threads. Writers and readers must go first.
+/// Threads:    any.
+class WireParticipant {
+ public:
+  virtual ~WireParticipant() = default;
+  [[nodiscard]] virtual const WireId& id() const noexcept = 0;
+  virtual Result<std::unique_ptr<WireWriter>> MakeWriter(const WireEndpointOptions& options,
+                                                         OnMatched on_matched) = 0;
+  virtual Result<std::unique_ptr<WireReader>> MakeReader(const WireEndpointOptions& options,
+                                                         OnSample on_sample, OnMatched on_matched) = 0;
+};
+
+/// A way to send octets: Cyclone DDS, Fast DDS, or a fake of this process.
+class WireEngine {
+ public:
+  virtual ~WireEngine() = default;
+  /// `discovery` must outlive the participant. Errors: what the engine says of options and network.
+  virtual Result<std::unique_ptr<WireParticipant>> Join(const WireMemberOptions& options,
+                                                        WireDiscovery& discovery) = 0;
+};
+
+}  // namespace runnel

@@ -1,0 +1,100 @@
+#include "plugins/wire_cyclone/cyclone_domain.h"
+
+#include <map>
+#include <mutex>
+#include <utility>
+
+#include "core/base/markup.h"
+
+namespace runnel {
+
+namespace {
+
+// A process has one domain of a number: those of several applications find it here.
+struct Domains {
+  std::mutex mutex;
+  std::map<std::uint32_t, std::weak_ptr<CycloneDomain>> all;
+  std::string said;  // by Cyclone, the last
+};
+
+Domains& AllDomains() {
+  static Domains domains;
+  return domains;
+}
+
+// What it says goes to nobody's terminal; the last is told with an error.
+void Hear(void*, const dds_log_data_t* data) {
+  if ((data->priority & (DDS_LC_FATAL | DDS_LC_ERROR | DDS_LC_CONFIG)) == 0) return;
+  const std::lock_guard lock(AllDomains().mutex);
+  AllDomains().said.assign(data->message, data->size);
+  while (!AllDomains().said.empty() && AllDomains().said.back() == '\n') AllDomains().said.pop_back();
+}
+
+std::string PeersText(const WireMemberOptions& options) {
+  std::string text;
+  const auto add = [&](const std::string& address) {
+    text += "<Peer Address=\"" + EscapedMarkup(address) + "\"/>";
+  };
+  if (options.reach != WireReach::kNetwork || !options.has_multicast) add("127.0.0.1");
+  for (const std::string& peer : options.peers) add(peer);
+  return text.empty() ? "" : "<Peers>" + text + "</Peers>";
+}
+
+std::string InterfacesText(const WireMemberOptions& options) {
+  if (options.reach == WireReach::kLoopback) {
+    return std::string("<Interfaces><NetworkInterface name=\"lo\" multicast=\"") +
+           (options.has_multicast ? "true" : "false") + "\"/></Interfaces>";
+  }
+  if (options.interface.empty()) return {};
+  const bool is_address = options.interface.find_first_not_of("0123456789.") == std::string::npos;
+  return std::string("<Interfaces><NetworkInterface ") + (is_address ? "address" : "name") + "=\"" +
+         EscapedMarkup(options.interface) + "\"/></Interfaces>";
+}
+
+}  // namespace
+
+Error CycloneError(const std::string& what, dds_return_t code) {
+  const std::lock_guard lock(AllDomains().mutex);
+  const std::string said = std::exchange(AllDomains().said, {});
+  return {.message = what + ": " + dds_strretcode(code) + (said.empty() ? "" : " (" + said + ")")};
+}
+
+// Fragments of 65 kB and buffers of 4 MB: with its defaults half of all images are lost. Participants have indices, so
+// that those who cannot be asked all at once are asked one by one.
+std::string CycloneConfiguration(const WireMemberOptions& options) {
+  const char* const multicast = !options.has_multicast ? "false" : options.reach == WireReach::kMachine ? "false" : "true";
+  return "<Domain Id=\"any\"><General>" + InterfacesText(options) + "<AllowMulticast>" + multicast +
+         "</AllowMulticast><MaxMessageSize>65500B</MaxMessageSize><FragmentSize>65000B</FragmentSize></General>"
+         "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>119</MaxAutoParticipantIndex>"
+         "<SPDPInterval>500ms</SPDPInterval><LeaseDuration>10s</LeaseDuration>" +
+         PeersText(options) +
+         "</Discovery><Internal><SocketReceiveBufferSize max=\"4MB\"/><SocketSendBufferSize max=\"4MB\"/></Internal>"
+         "</Domain>";
+}
+
+Result<std::shared_ptr<CycloneDomain>> CycloneDomain::Join(const WireMemberOptions& options) {
+  static std::mutex joining;
+  const std::lock_guard one(joining);
+  std::string configuration = CycloneConfiguration(options);
+  {
+    const std::lock_guard lock(AllDomains().mutex);
+    AllDomains().said.clear();
+    if (const auto known = AllDomains().all[options.domain].lock()) {
+      if (known->configuration_ == configuration) return known;
+      return Error{.message = "domain " + std::to_string(options.domain) +
+                              " is used in this process already, with another reach or other peers",
+                   .hint = "choose another domain, or say the same"};
+    }
+  }
+  dds_set_log_sink(Hear, nullptr);
+  const dds_entity_t domain = dds_create_domain(options.domain, configuration.c_str());
+  if (domain < 0) return CycloneError("domain " + std::to_string(options.domain) + " cannot be joined", domain);
+  const std::shared_ptr<CycloneDomain> made(new CycloneDomain(domain, std::move(configuration)));
+  const std::lock_guard lock(AllDomains().mutex);
+  AllDomains().all[options.domain] = made;
+  return made;
+}
+
+CycloneDomain::~CycloneDomain() { (void)dds_delete(domain_); }
+
+}  // namespace runnel

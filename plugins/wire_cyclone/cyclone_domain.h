@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <dds/dds.h>
+
+#include "plugins/wire/wire.h"
+
+namespace runnel {
+
+/// A domain of this process, as it has been configured; those who join it alike share it.
+///
+/// Threads: any.
+class CycloneDomain {
+ public:
+  /// Errors: what Cyclone says; another reach than that of somebody else in this process.
+  static Result<std::shared_ptr<CycloneDomain>> Join(const WireMemberOptions& options);
+  ~CycloneDomain();
+  CycloneDomain(const CycloneDomain&) = delete;
+  CycloneDomain& operator=(const CycloneDomain&) = delete;
+
+ private:
+  CycloneDomain(dds_entity_t domain, std::string configuration)
+      : domain_(domain), configuration_(std::move(configuration)) {}
+
+  const dds_entity_t domain_;
+  const std::string configuration_;
+};
+
+/// The settings that the options come to, in Cyclone's XML.
+[[nodiscard]] std::string CycloneConfiguration(const WireMemberOptions& options);
+
+/// What Cyclone calls the mistake.
+[[nodiscard]] Error CycloneError(const std::string& what, dds_return_t code);
+
+}  // namespace runnel

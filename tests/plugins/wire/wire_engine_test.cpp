@@ -1,0 +1,245 @@
+// What each engine behind the seam does, the fake of the tests as well as those that go over a network.
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+#include "plugins/wire/fake_wire.h"
+#include "plugins/wire/octet_pool.h"
+#include "tests/support/own_network.h"
+#include "tests/support/wait_until.h"
+#ifdef RUNNEL_HAS_CYCLONE
+#include "plugins/wire_cyclone/cyclone_wire.h"
+#endif
+
+namespace runnel::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::shared_ptr<Octets> Four(int value) {
+  return std::make_shared<Octets>(Octets{std::byte(0), std::byte(1), std::byte(0), std::byte(value)});
+}
+
+/// Who is there, as one member is told.
+class Members final : public WireDiscovery {
+ public:
+  void OnMember(const WireMember& member) override {
+    const std::lock_guard lock(mutex_);
+    members_.push_back(member);
+  }
+  void OnMemberGone(const WireId& id) override {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(members_, [&](const WireMember& each) { return each.id == id; });
+  }
+  void OnEndpoint(const WireEndpoint& endpoint) override {
+    const std::lock_guard lock(mutex_);
+    endpoints_.push_back(endpoint);
+  }
+  void OnEndpointGone(const WireId& id) override {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(endpoints_, [&](const WireEndpoint& each) { return each.id == id; });
+  }
+  [[nodiscard]] std::vector<WireMember> members() const {
+    const std::lock_guard lock(mutex_);
+    return members_;
+  }
+  [[nodiscard]] std::vector<WireEndpoint> endpoints() const {
+    const std::lock_guard lock(mutex_);
+    return endpoints_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::vector<WireMember> members_;
+  std::vector<WireEndpoint> endpoints_;
+};
+
+/// What has come to a reader.
+struct Arrived {
+  std::mutex mutex;
+  std::vector<int> values;
+  std::vector<std::int64_t> times;
+  std::vector<std::uint64_t> writers;
+  std::size_t matched = 0;
+
+  [[nodiscard]] OnSample Taker() {
+    return [this](const WireSample& sample) {
+      const std::lock_guard lock(mutex);
+      values.push_back(std::to_integer<int>(sample.octets[3]));
+      times.push_back(sample.source_time);
+      writers.push_back(sample.writer);
+    };
+  }
+  [[nodiscard]] OnMatched Counter() {
+    return [this](std::size_t count) {
+      const std::lock_guard lock(mutex);
+      matched = count;
+    };
+  }
+  template <typename Is>
+  void WaitFor(const Is& is) {
+    WaitUntil("it has come", [&] {
+      const std::lock_guard lock(mutex);
+      return is(*this);
+    });
+  }
+};
+
+using MakeEngine = std::shared_ptr<WireEngine> (*)();
+
+class WireEngineTest : public testing::TestWithParam<MakeEngine> {
+ protected:
+  std::unique_ptr<WireParticipant> Join(Members& members, const std::string& name = "") {
+    auto joined = engine_->Join({.domain = domain_, .name = name, .user_data = "of=" + name + ";"}, members);
+    if (!joined) ADD_FAILURE() << joined.error().ToString();
+    return std::move(*joined);
+  }
+  static WireEndpointOptions Topic(const WireQos& qos = {}, const std::string& type = "numbers::Four") {
+    return {.topic = "rt/four", .type = type, .qos = qos, .user_data = "hash=1;"};
+  }
+
+  const unsigned domain_ = OwnDomain();  // before the engine's threads
+  const std::shared_ptr<WireEngine> engine_ = GetParam()();
+  Members here_;
+  Members there_;
+  const std::unique_ptr<WireParticipant> a_ = Join(here_, "a");
+  const std::unique_ptr<WireParticipant> b_ = Join(there_, "b");
+};
+
+TEST_P(WireEngineTest, AValueArrivesWithItsTimeAndWriterOnceBothHaveMatched) {
+  Arrived arrived;
+  Arrived written;
+  const auto reader = b_->MakeReader(Topic(), arrived.Taker(), arrived.Counter());
+  const auto writer = a_->MakeWriter(Topic(), written.Counter());
+  ASSERT_TRUE(reader && writer);
+  written.WaitFor([](const Arrived& all) { return all.matched == 1; });
+  arrived.WaitFor([](const Arrived& all) { return all.matched == 1; });
+  ASSERT_TRUE((*writer)->Write(Four(7), 1'700'000'000'123'456'000));
+  arrived.WaitFor([](const Arrived& all) { return !all.values.empty(); });
+  EXPECT_THAT(arrived.values, ElementsAre(7));
+  // The wire counts in 2^-32 s.
+  EXPECT_NEAR(static_cast<double>(arrived.times[0] - 1'700'000'000'123'456'000), 0, 1.0);
+  const auto known = there_.endpoints();
+  EXPECT_TRUE(std::ranges::any_of(known, [&](const WireEndpoint& each) {
+    return each.id == (*writer)->id() && each.handle == arrived.writers[0];
+  }));
+}
+
+TEST_P(WireEngineTest, EachIsToldWhoIsThereAndWhoHasGone) {
+  Arrived nothing;
+  auto writer = a_->MakeWriter(Topic({.is_reliable = false, .depth = 5}), {});
+  ASSERT_TRUE(writer);
+  const auto find = [&]() -> std::optional<WireEndpoint> {
+    for (const WireEndpoint& each : there_.endpoints()) {
+      if (each.id == (*writer)->id()) return each;
+    }
+    return {};
+  };
+  WaitUntil("the writer is known", [&] { return find().has_value(); });
+  const WireEndpoint seen = *find();
+  EXPECT_TRUE(seen.is_writer);
+  EXPECT_FALSE(seen.is_own);
+  EXPECT_EQ(seen.participant, a_->id());
+  EXPECT_EQ(seen.options.topic, "rt/four");
+  EXPECT_EQ(seen.options.type, "numbers::Four");
+  EXPECT_EQ(seen.options.user_data, "hash=1;");
+  EXPECT_FALSE(seen.options.qos.is_reliable);
+  WaitUntil("the member is known", [&] {
+    return std::ranges::any_of(there_.members(), [&](const WireMember& each) {
+      return each.id == a_->id() && each.name == "a" && each.user_data == "of=a;";
+    });
+  });
+  const WireId id = (*writer)->id();
+  *writer = nullptr;
+  WaitUntil("the writer has gone", [&] {
+    return std::ranges::none_of(there_.endpoints(), [&](const WireEndpoint& each) { return each.id == id; });
+  });
+}
+
+TEST_P(WireEngineTest, WhoComesLateGetsWhatIsLatched) {
+  const WireQos latched{.is_latched = true};
+  const auto writer = a_->MakeWriter(Topic(latched), {});
+  ASSERT_TRUE(writer);
+  ASSERT_TRUE((*writer)->Write(Four(1), 1));
+  ASSERT_TRUE((*writer)->Write(Four(2), 2));
+  Arrived arrived;
+  const auto reader = b_->MakeReader(Topic(latched), arrived.Taker(), {});
+  arrived.WaitFor([](const Arrived& all) { return !all.values.empty(); });
+  EXPECT_THAT(arrived.values, ElementsAre(2));
+}
+
+TEST_P(WireEngineTest, OthersOfAnotherTypeOrQosDoNotMatch) {
+  Arrived other_type;
+  Arrived asks_for_more;
+  Arrived fits;
+  const auto first = b_->MakeReader(Topic({}, "numbers::Five"), other_type.Taker(), other_type.Counter());
+  const auto second = b_->MakeReader(Topic(), asks_for_more.Taker(), asks_for_more.Counter());
+  const auto third = b_->MakeReader(Topic({.is_reliable = false}), fits.Taker(), fits.Counter());
+  const auto writer = a_->MakeWriter(Topic({.is_reliable = false}), {});
+  fits.WaitFor([](const Arrived& all) { return all.matched == 1; });
+  EXPECT_EQ(other_type.matched, 0u);
+  EXPECT_EQ(asks_for_more.matched, 0u);
+  EXPECT_THAT(QosMisfit({.is_reliable = false}, {}), HasSubstr("best effort"));
+}
+
+TEST_P(WireEngineTest, ALargeValueArrivesWhole) {
+  std::mutex mutex;
+  Octets large;
+  Arrived written;
+  const auto reader = b_->MakeReader(Topic(), [&](const WireSample& sample) {
+    const std::lock_guard lock(mutex);
+    large.assign(sample.octets.begin(), sample.octets.end());
+  }, {});
+  const auto writer = a_->MakeWriter(Topic(), written.Counter());
+  written.WaitFor([](const Arrived& all) { return all.matched == 1; });
+  auto octets = std::make_shared<Octets>(1'000'004);
+  for (std::size_t i = 0; i < octets->size(); ++i) (*octets)[i] = std::byte(i * 7 + i / 256);
+  ASSERT_TRUE((*writer)->Write(octets, 1));
+  WaitUntil("the value is there", [&] {
+    const std::lock_guard lock(mutex);
+    return !large.empty();
+  });
+  EXPECT_TRUE(large == *octets);
+}
+
+TEST_P(WireEngineTest, AParticipantDoesNotHearItself) {
+  Arrived own;
+  Arrived others;
+  Arrived written;
+  const auto mine = a_->MakeReader(Topic(), own.Taker(), {});
+  const auto its = b_->MakeReader(Topic(), others.Taker(), {});
+  const auto writer = a_->MakeWriter(Topic(), written.Counter());
+  written.WaitFor([](const Arrived& all) { return all.matched >= 1; });
+  ASSERT_TRUE((*writer)->Write(Four(3), 1));
+  others.WaitFor([](const Arrived& all) { return !all.values.empty(); });
+  const std::lock_guard lock(own.mutex);
+  EXPECT_TRUE(own.values.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Fake, WireEngineTest, testing::Values(&MakeFakeWire));
+#ifdef RUNNEL_HAS_CYCLONE
+INSTANTIATE_TEST_SUITE_P(Cyclone, WireEngineTest, testing::Values(&MakeCycloneWire));
+#endif
+
+TEST(OctetPoolTest, OctetsAreUsedAgainOnceNobodyHasThem) {
+  OctetPool pool;
+  const Octets* first = nullptr;
+  {
+    const auto octets = pool.Take();
+    octets->resize(1000);
+    first = octets.get();
+    EXPECT_NE(pool.Take().get(), first);
+  }
+  std::vector<std::shared_ptr<Octets>> taken = {pool.Take(), pool.Take()};
+  EXPECT_TRUE(std::ranges::any_of(taken, [&](const auto& each) { return each.get() == first; }));
+}
+
+}  // namespace
+}  // namespace runnel::test
