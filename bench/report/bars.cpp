@@ -63,6 +63,12 @@ const std::vector<Bar>& Bars() {
        0.7,
        {kQueue, "boost spsc_queue", "boost spsc_queue"},
        "throughput"},
+      {kQueue,
+       "queued input, drop oldest",
+       kAtLeast,
+       0.7,
+       {kQueue, "boost spsc_queue", "boost spsc_queue"},
+       "throughput"},
       {kLatency, "Read", kAtMost, 1.5, {kLatency, "seqlock", "seqlock"}, "p50"},
 
       {kTransport + "0 consumers", kModules, kAtMost, 1.15, kFilling, "CPU"},

@@ -37,13 +37,21 @@ class EpochGuard {
 };
 
 /// A guard for one short look, inside which no other guard is made: it is not counted, which costs a thread that
-/// looks again and again more than all the rest. Precondition: the thread holds none.
+/// looks again and again more than all the rest. Precondition: the thread holds none, and IsPossible().
 class BriefEpochGuard {
  public:
-  BriefEpochGuard() : participant_(ThisThread().epoch) { ProcessEpochs().Enter(participant_); }
+  BriefEpochGuard() : participant_(internal::thread_record->epoch) {
+    ProcessEpochs().Enter(participant_);
+  }
   ~BriefEpochGuard() { ProcessEpochs().Leave(participant_); }
   BriefEpochGuard(const BriefEpochGuard&) = delete;
   BriefEpochGuard& operator=(const BriefEpochGuard&) = delete;
+
+  /// Whether the calling thread is registered. Apart from the constructor, so that a way with a brief guard holds no
+  /// call, for which it would have to put its registers aside.
+  [[nodiscard]] static bool IsPossible() noexcept {
+    return internal::thread_record != &internal::no_record;
+  }
 
  private:
   EpochDomain<>::Participant& participant_;

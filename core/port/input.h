@@ -130,7 +130,7 @@ class Input final : public BoundInput {
     return lease;
   }
   [[gnu::noinline]] bool CopyOutsideOfGuards(T& value) const noexcept {
-    {
+    if (BriefEpochGuard::IsPossible()) [[likely]] {
       const BriefEpochGuard guard;
       const Binding* const binding = this->binding();
       if (binding->channel != nullptr) [[likely]]

@@ -52,7 +52,8 @@ class RunnelQueue {
 
  private:
   Star<Message> star_{1, {.queue = kCapacity, .on_full = kOnFull}};
-  std::uint64_t sent_ = 0;  // the producer's
+  // The producer's notes on a line of their own: the consumer looks into the star, the end of which would lie on theirs.
+  alignas(64) std::uint64_t sent_ = 0;
   std::uint64_t seen_taken_ = 0;
   alignas(64) std::atomic<std::uint64_t> taken_{0};
   alignas(64) std::uint64_t taken_here_ = 0;  // the consumer's

@@ -47,6 +47,8 @@ TEST(EpochGuardTest, OnlyTheOutermostOneEntersAndLeaves) {
 TEST(BriefEpochGuardTest, KeepsWhatIsTakenOutMeanwhile) {
   std::uint64_t epoch = 0;
   {
+    { const EpochGuard registers_this_thread; }
+    ASSERT_TRUE(BriefEpochGuard::IsPossible());
     const BriefEpochGuard guard;
     epoch = ProcessEpochs().Advance();
     EXPECT_FALSE(ProcessEpochs().HasPassed(EpochGuard::Participant(), epoch));
