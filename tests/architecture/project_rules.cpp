@@ -59,6 +59,7 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/values", "plugins/values", {"core"}});
   rules.push_back({"plugins/cdr_values", "plugins/cdr_values", {"core"}});
   rules.push_back({"plugins/services", "plugins/services", {"core"}});
+  rules.push_back({"plugins/genom_execution", "plugins/genom_execution", {"core/base", "core/lockfree"}});
   rules.push_back({"plugins/genom_text", "plugins/genom_text", {"core"}});
   rules.push_back({"plugins/genom_templates", "plugins/genom_templates", {"core"}});
   rules.push_back(

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+
+namespace runnel::genom_execution {
+
+/// What a codel returns: the address of a name, nullptr for "done". Two events are the same if their addresses are.
+using Event = const char*;
+
+/// What a codel gets as its last argument: laid out as `struct genom_context_if` of the headers in C.
+struct CodelContext {
+  void* data;  ///< the glue's: EngineOptions::glue
+  /// Keeps a copy of the detail, and returns the exception.
+  Event (*raise)(Event exception, const void* detail, std::size_t size, const CodelContext* self);
+  /// The exception that a remote's call has raised last, and its detail.
+  const void* (*raised)(Event* exception, const CodelContext* self);
+};
+
+/// What the engine itself raises. Their details are words: see Outcome.
+inline constexpr char kBadTransition[] = "::genom::bad_transition";        ///< from, to
+inline constexpr char kInterrupted[] = "::genom::interrupted";             ///< by
+inline constexpr char kTooManyActivities[] = "::genom::too_many_activities";
+inline constexpr char kDisallowed[] = "::genom::disallowed";
+inline constexpr char kNoSuchActivity[] = "::genom::no_such_activity";
+inline constexpr char kUnknownException[] = "::genom::unkex";              ///< what
+inline constexpr char kMiddlewareError[] = "::genom::mwerr";               ///< what
+
+}  // namespace runnel::genom_execution

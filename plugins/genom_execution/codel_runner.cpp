@@ -1,0 +1,117 @@
+#include "plugins/genom_execution/codel_runner.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "plugins/genom_execution/engine.h"
+
+namespace runnel::genom_execution {
+
+void AsyncWork::Run() noexcept {
+  try {
+    event_ = codel_->call(invocation_);
+  } catch (...) {
+    event_ = kMiddlewareError;
+  }
+  state_.store(State::kDone, std::memory_order_release);
+  engine_->Wake();
+}
+
+/// However the codel ends, others may run.
+class CodelRunner::Leaving {
+ public:
+  explicit Leaving(CodelRunner& runner) : runner_(runner) {}
+  ~Leaving() {
+    runner_.is_inside_ = false;
+    if (runner_.is_excluding_) runner_.engine_.exclusion().Leave(runner_.place_);
+    runner_.is_excluding_ = false;
+  }
+  Leaving(const Leaving&) = delete;
+  Leaving& operator=(const Leaving&) = delete;
+
+ private:
+  CodelRunner& runner_;
+};
+
+CodelRunner::CodelRunner(Engine& engine, std::size_t place, std::size_t largest_detail)
+    : engine_(engine), place_(place) {
+  raising_.detail.resize(largest_detail);
+  raising_.context.data = engine.options().glue;
+  raising_.context.raise = [](Event exception, const void* detail, std::size_t size, const CodelContext* self) {
+    auto& raising = *reinterpret_cast<Raising*>(const_cast<CodelContext*>(self));
+    raising.exception = exception;
+    raising.size = detail != nullptr ? std::min(size, raising.detail.size()) : 0;
+    if (raising.size > 0) std::memcpy(raising.detail.data(), detail, raising.size);
+    return exception;
+  };
+  raising_.context.raised = [](Event* exception, const CodelContext* self) {
+    const auto& raising = *reinterpret_cast<const Raising*>(self);
+    if (exception != nullptr) *exception = raising.exception;
+    return raising.size > 0 ? static_cast<const void*>(raising.detail.data()) : nullptr;
+  };
+}
+
+bool CodelRunner::Enter(std::size_t unit) noexcept {
+  if (!is_inside_) {
+    is_inside_ = true;
+    is_excluding_ = engine_.Excludes(unit);
+    if (is_excluding_) engine_.exclusion().Want(place_, unit);
+  }
+  if (!is_excluding_) return true;
+  while (!engine_.exclusion().May(place_)) {
+    if (!engine_.options().waits) return false;
+    engine_.exclusion().Wait(place_);
+  }
+  return true;
+}
+
+bool CodelRunner::Run(std::size_t codel, void* data, Event& event) {
+  const CodelTable& table = engine_.component().codels[codel];
+  const AsyncWork::State async = work_.state_.load(std::memory_order_acquire);
+  if (async == AsyncWork::State::kGiven) return false;
+  if (async == AsyncWork::State::kNone) {
+    if (!Enter(codel)) return false;
+    raising_.exception = nullptr;
+    raising_.size = 0;
+    const Invocation invocation{engine_.options().ids, data, &raising_.context};
+    if (!table.is_async || engine_.options().run_async == nullptr) {
+      const Leaving leaving(*this);
+      event = table.call(invocation);
+      return true;
+    }
+    work_.engine_ = &engine_;
+    work_.codel_ = &table;
+    work_.invocation_ = invocation;
+    work_.state_.store(AsyncWork::State::kGiven, std::memory_order_relaxed);  // handed over by run_async
+    engine_.options().run_async(engine_.options().glue, place_, work_);
+    if (is_away()) return false;
+  }
+  const Leaving leaving(*this);
+  event = work_.event_;
+  work_.state_.store(AsyncWork::State::kNone, std::memory_order_relaxed);
+  return true;
+}
+
+bool CodelRunner::Assign(const ServiceTable& attribute, void* data) {
+  if (attribute.assign == nullptr) return true;
+  if (!Enter(engine_.component().AttributeUnit(attribute.number))) return false;
+  const Leaving leaving(*this);
+  attribute.assign(engine_.options().ids, data);
+  return true;
+}
+
+bool CodelRunner::TakeException(Event event, std::span<const Event> throws, Outcome& outcome) const noexcept {
+  if (std::ranges::find(throws, event) == throws.end()) return false;
+  if (event == raising_.exception) {
+    outcome.Fail(event, raising_.detail.data(), raising_.size);
+  } else {
+    outcome.Fail(event);
+  }
+  return true;
+}
+
+bool CodelRunner::is_away() const noexcept {
+  return work_.state_.load(std::memory_order_acquire) == AsyncWork::State::kGiven;
+}
+
+}  // namespace runnel::genom_execution

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "plugins/genom_execution/outcome.h"
+
+namespace runnel::genom_execution {
+
+/// One request of a service, with room for its parameters, its locals and what comes of it. Made outside of cycles, and
+/// used again and again: fill data(), Engine::Send(), and when it is done look at outcome() and data().
+///
+/// Ownership:  its maker's; not to be destroyed, nor touched but by state(), while it is under way.
+class Request {
+ public:
+  enum class State : std::uint8_t {
+    kIdle,      ///< its maker's
+    kSent,      ///< waits for the control task
+    kAccepted,  ///< of an activity: validated; it may be waiting for others to end
+    kDone       ///< its maker's again
+  };
+
+  Request(const ComponentTable& component, const ServiceTable& service);
+  ~Request();
+  Request(const Request&) = delete;
+  Request& operator=(const Request&) = delete;
+
+  [[nodiscard]] const ServiceTable& service() const noexcept { return service_; }
+  [[nodiscard]] void* data() noexcept { return data_; }
+  // acquire: pairs with the release in Engine: what was written is there.
+  [[nodiscard]] State state() const noexcept { return state_.load(std::memory_order_acquire); }
+  /// Of the activity, once it is accepted; 0 for others.
+  [[nodiscard]] std::uint32_t id() const noexcept { return id_.load(std::memory_order_relaxed); }
+  /// Name of the state that the activity is in, to look at; "" if it is in none.
+  [[nodiscard]] const char* doing() const noexcept { return doing_.load(std::memory_order_relaxed); }
+  [[nodiscard]] const Outcome& outcome() const noexcept { return outcome_; }
+
+  /// Called when it is accepted, and when it is done, by the thread that runs the control task: no lock, no wait.
+  void (*on_change)(Request& request, void* client) = nullptr;
+  void* client = nullptr;
+  /// Of the standard service abort_activity.
+  std::uint32_t abort_id = 0;
+
+ private:
+  friend class ControlTask;
+  friend class Engine;
+  friend class ExecutionTask;
+
+  void Set(State state) {
+    // release: pairs with the acquire in state().
+    state_.store(state, std::memory_order_release);
+    if (on_change != nullptr && state != State::kSent) on_change(*this, client);
+  }
+
+  const ServiceTable& service_;
+  void* data_;
+  Outcome outcome_;
+  std::atomic<State> state_{State::kIdle};
+  std::atomic<std::uint32_t> id_{0};
+  std::atomic<const char*> doing_{""};
+};
+
+}  // namespace runnel::genom_execution
