@@ -58,6 +58,7 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/behaviours", "plugins/behaviours", {"core", "plugins/parameters", "plugins/behaviours/algorithm"}});
   rules.push_back({"plugins/values", "plugins/values", {"core"}});
   rules.push_back({"plugins/cdr_values", "plugins/cdr_values", {"core"}});
+  rules.push_back({"plugins/ros_messages", "plugins/ros_messages", {"core", "plugins/cdr_values"}});
   rules.push_back({"plugins/services", "plugins/services", {"core"}});
   rules.push_back({"plugins/genom_execution", "plugins/genom_execution", {"core/base", "core/lockfree"}});
   rules.push_back({"plugins/genom_text", "plugins/genom_text", {"core"}});

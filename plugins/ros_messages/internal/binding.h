@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/types/type_info.h"
+#include "plugins/ros_messages/message_codec.h"
+#include "plugins/ros_messages/message_library.h"
+
+namespace runnel::internal {
+
+/// One thing of a message, in the message's order, and where in the value it comes from.
+struct Step {
+  enum class Kind : std::uint8_t {
+    kPlain,      ///< the octets are those of the value's part by its description
+    kNumber,     ///< a number of one type in the message, of another in the value
+    kStructure,  ///< `inside`
+    kElements,   ///< a list in both; inside[0] is an element
+    kListOfOne,  ///< a list in the message, of which the value is the one element: written only
+    kHeading,    ///< a quaternion in the message, an angle about z in the value
+    kLastAngle,  ///< of a scan: that of its last ray; computed from the value, skipped in the message
+    kStamp,      ///< of the header: not in the value
+    // What the value does not have: written as the message's default, skipped when it is read.
+    kNoNumber,
+    kNoText,  ///< `text`
+    kNoList,  ///< `inside`: the elements by default
+  };
+
+  Kind kind = Kind::kStructure;
+  MessageType type = MessageType::kInt8;  ///< of numbers; of texts kString or kWideString
+  MessageCount count = MessageCount::kOne;
+  bool is_own_stamp = false;         ///< that of the message's own header
+  std::size_t capacity = 0;          ///< of lists
+  const FieldInfo* field = nullptr;  ///< of the value in which the step stands; nullptr: that value itself
+  const TypeInfo* part = nullptr;    ///< the type of what the step is about; nullptr if the value has nothing of it
+  std::string name;                  ///< of the message's field
+  long double number = 0;
+  std::string text;
+  std::vector<Step> inside;
+  std::vector<Step> element;  ///< of lists: one, as if the value had nothing of it; else none
+};
+
+/// The fewest octets that it takes in a message.
+[[nodiscard]] std::size_t FewestOctets(const Step& step);
+
+/// How all of a message is made of a value and the other way round.
+struct Binding {
+  Step root;
+  std::vector<std::string> left_out;
+  std::string why_no_decoding;
+};
+
+/// Errors: as MessageCodec::Make().
+Result<Binding> Bind(const MessageDefinition& definition, const TypeInfo& type,
+                     const MessageOptions& options, const MessageLibrary& library);
+
+/// Whether the type's own description has the same octets.
+[[nodiscard]] bool IsSame(const MessageField& field, const TypeInfo& type, const MessageLibrary& library);
+
+}  // namespace runnel::internal

@@ -1,0 +1,81 @@
+#include "plugins/ros_messages/message_definition.h"
+
+#include <algorithm>
+
+namespace runnel {
+
+namespace {
+
+struct TypeName {
+  MessageType type;
+  std::string_view name;
+  std::size_t size;
+};
+
+constexpr TypeName kTypes[] = {
+    {MessageType::kInt8, "int8", 1},       {MessageType::kUint8, "uint8", 1},
+    {MessageType::kInt16, "int16", 2},     {MessageType::kUint16, "uint16", 2},
+    {MessageType::kInt32, "int32", 4},     {MessageType::kUint32, "uint32", 4},
+    {MessageType::kInt64, "int64", 8},     {MessageType::kUint64, "uint64", 8},
+    {MessageType::kFloat32, "float32", 4}, {MessageType::kFloat64, "float64", 8},
+    {MessageType::kBool, "bool", 1},       {MessageType::kByte, "byte", 1},
+    {MessageType::kString, "string", 0},   {MessageType::kWideString, "wstring", 0},
+};
+
+std::string_view PackageOf(std::string_view name) { return name.substr(0, name.find('/')); }
+
+std::string TypeTextOf(const MessageField& field, std::string_view package) {
+  std::string text(NameOf(field.type));
+  if (field.type == MessageType::kNested) {
+    const std::string_view name = field.nested;
+    text = name.substr(name.rfind('/') + 1);
+    if (PackageOf(name) != package) text = std::string(PackageOf(name)) + "/" + text;
+  }
+  if (field.text_capacity > 0) text += "<=" + std::to_string(field.text_capacity);
+  const std::string capacity = std::to_string(field.capacity);
+  switch (field.count) {
+    case MessageCount::kOne:
+      return text;
+    case MessageCount::kArray:
+      return text + "[" + capacity + "]";
+    case MessageCount::kBounded:
+      return text + "[<=" + capacity + "]";
+    case MessageCount::kList:
+      break;
+  }
+  return text + "[]";
+}
+
+}  // namespace
+
+const MessageField* MessageDefinition::FindField(std::string_view field) const {
+  const auto found = std::ranges::find(fields, field, &MessageField::name);
+  return found == fields.end() ? nullptr : &*found;
+}
+
+std::string_view NameOf(MessageType type) {
+  const auto* const found = std::ranges::find(kTypes, type, &TypeName::type);
+  return found == std::end(kTypes) ? "" : found->name;
+}
+
+std::size_t SizeOf(MessageType type) {
+  const auto* const found = std::ranges::find(kTypes, type, &TypeName::type);
+  return found == std::end(kTypes) ? 0 : found->size;
+}
+
+std::string TextOf(const MessageDefinition& definition) {
+  const std::string_view package = PackageOf(definition.name);
+  std::string text;
+  for (const MessageConstant& each : definition.constants) {
+    text += each.type + " " + each.name + "=" + each.value + "\n";
+  }
+  for (const MessageField& field : definition.fields) {
+    text += TypeTextOf(field, package) + " " + field.name;
+    if (!field.default_value.empty()) text += " " + field.default_value;
+    if (!field.comment.empty()) text += "  # " + field.comment;
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace runnel

@@ -1,0 +1,186 @@
+#include "plugins/ros_messages/message_library.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "core/base/nearest_name.h"
+#include "plugins/ros_messages/names.h"
+
+namespace runnel {
+
+namespace {
+
+constexpr std::string_view kStandard[] = {
+#include "plugins/ros_messages/definitions/common.inc"
+    ,
+#include "plugins/ros_messages/definitions/geometry.inc"
+    ,
+#include "plugins/ros_messages/definitions/sensors.inc"
+    ,
+#include "plugins/ros_messages/definitions/nodes.inc"
+    ,
+#include "plugins/ros_messages/definitions/visualization.inc"
+};
+
+namespace fs = std::filesystem;
+
+struct ReadFile {
+  fs::path path;
+  MessageDefinition definition;
+};
+
+Result<MessageDefinition> ReadMessageFile(const fs::path& path) {
+  const fs::path folder = fs::absolute(path).lexically_normal().parent_path();
+  const std::string package = folder.parent_path().filename(), name = path.stem();
+  const auto wrong = [&](std::string message, std::string hint) {
+    return Error{.message = std::move(message), .position = {path.string()}, .hint = std::move(hint)};
+  };
+  if (folder.filename() != "msg" || !IsRosPackageName(package)) {
+    return wrong("which package does the message belong to?", "put it into a folder <package>/msg, as in my_messages/msg/" + path.filename().string());
+  }
+  if (!IsRosMessageName(name)) {
+    return wrong("a message cannot be called '" + name + "'", "call the file " + NearestMessageName(name) + ".msg");
+  }
+  std::ifstream stream(path);
+  if (!stream) return wrong("the file cannot be read", "look whether it is there, and yours");
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  return ParseMessage(text, package + "/msg/" + name, path.string());
+}
+
+Result<std::vector<fs::path>> FindMessageFiles(const fs::path& place) {
+  std::error_code problem;
+  if (!fs::is_directory(place, problem)) return std::vector{place};
+  std::vector<fs::path> files;
+  for (fs::recursive_directory_iterator at(place, problem), end; !problem && at != end; at.increment(problem)) {
+    if (at->path().extension() == ".msg") files.push_back(at->path());
+  }
+  if (problem) return Error{.message = problem.message(), .position = {place.string()}};
+  if (files.empty()) return Error{.message = "there is no .msg file in the folder", .position = {place.string()}};
+  std::ranges::sort(files);
+  return files;
+}
+
+bool IsSameOnTheWire(const MessageDefinition& a, const MessageDefinition& b) {
+  return std::ranges::equal(a.fields, b.fields, [](const MessageField& x, const MessageField& y) {
+    return x.name == y.name && x.type == y.type && x.nested == y.nested && x.count == y.count &&
+           x.capacity == y.capacity && x.text_capacity == y.text_capacity;
+  });
+}
+
+void AddInside(const MessageLibrary& library, const MessageDefinition& definition,
+               std::set<std::string>& names) {
+  for (const MessageField& field : definition.fields) {
+    if (field.type != MessageType::kNested || !names.insert(field.nested).second) continue;
+    if (const auto* const inside = library.Find(field.nested)) AddInside(library, *inside, names);
+  }
+}
+
+}  // namespace
+
+const MessageLibrary& MessageLibrary::Standard() {
+  static const MessageLibrary library = MakeStandard();
+  return library;
+}
+
+MessageLibrary MessageLibrary::MakeStandard() {
+  constexpr std::string_view kBegin = "MSG: ";
+  MessageLibrary library{Empty()};
+  for (std::string_view texts : kStandard) {
+    while (!texts.empty()) {
+      const std::size_t line = texts.find('\n');
+      const std::string name(texts.substr(kBegin.size(), line - kBegin.size()));
+      const std::size_t end = std::min(texts.find(kBegin, line), texts.size());
+      auto definition = ParseMessage(texts.substr(line, end - line), name, name);
+      if (!definition) ThrowProgrammingError("a message of ROS 2", definition.error().ToString());
+      library.definitions_.emplace(name, std::move(*definition));
+      texts.remove_prefix(end);
+    }
+  }
+  return library;
+}
+
+Result<void> MessageLibrary::Read(const fs::path& file_or_folder) {
+  const auto files = FindMessageFiles(file_or_folder);
+  if (!files) return files.error();
+  MessageLibrary wanted = *this;
+  std::vector<std::pair<std::string, std::string>> read;  // name, file
+  for (const fs::path& file : *files) {
+    auto definition = ReadMessageFile(file);
+    if (!definition) return definition.error();
+    read.emplace_back(definition->name, file.string());
+    if (auto added = wanted.Add(std::move(*definition)); !added) {
+      Error error = added.error();
+      error.position = {file.string()};
+      return error;
+    }
+  }
+  for (const auto& [name, file] : read) {
+    if (auto inside = wanted.CheckInside(*wanted.Find(name), file); !inside) return inside;
+  }
+  definitions_.merge(wanted.definitions_);
+  return {};
+}
+
+Result<void> MessageLibrary::Add(MessageDefinition definition) {
+  const auto [place, is_new] = definitions_.try_emplace(definition.name, definition);
+  if (is_new || IsSameOnTheWire(place->second, definition)) return {};
+  return Error{.message = "there is already another message '" + definition.name + "'",
+               .hint = "give it a package or a name of its own"};
+}
+
+Result<void> MessageLibrary::CheckInside(const MessageDefinition& definition, const std::string& file) const {
+  for (const MessageField& field : definition.fields) {
+    if (field.type != MessageType::kNested) continue;
+    if (auto inside = Get(field.nested); !inside) {
+      Error error = inside.error();
+      error.message = "field '" + field.name + "': " + error.message;
+      error.position = {file};
+      return error;
+    }
+  }
+  std::set<std::string> inside;
+  AddInside(*this, definition, inside);
+  if (!inside.contains(definition.name)) return {};
+  return Error{.message = "the message '" + definition.name + "' contains itself", .position = {file}};
+}
+
+const MessageDefinition* MessageLibrary::Find(std::string_view name) const {
+  auto found = definitions_.find(name);
+  const std::size_t slash = name.find('/');
+  if (found == definitions_.end() && slash != std::string_view::npos) {
+    found = definitions_.find(std::string(name.substr(0, slash)) + "/msg" + std::string(name.substr(slash)));
+  }
+  return found == definitions_.end() ? nullptr : &found->second;
+}
+
+Result<const MessageDefinition*> MessageLibrary::Get(std::string_view name) const {
+  if (const auto* const found = Find(name)) return found;
+  std::vector<std::string> names, same_last_word;
+  const std::string_view last = name.substr(name.rfind('/') + 1);
+  for (const auto& [each, definition] : definitions_) {
+    names.push_back(each);
+    if (each.ends_with("/" + std::string(last))) same_last_word.push_back(each);
+  }
+  const std::string& hint = same_last_word.empty() ? NearestName(name, names) : same_last_word.front();
+  return Error{.message = "there is no message '" + std::string(name) + "'",
+               .hint = hint.empty() ? "read its package: a folder with <package>/msg/*.msg" : "did you mean '" + hint + "'?"};
+}
+
+std::vector<const MessageDefinition*> MessageLibrary::InsideOf(const MessageDefinition& definition) const {
+  std::set<std::string> names;
+  AddInside(*this, definition, names);
+  std::vector<const MessageDefinition*> inside;
+  for (const std::string& name : names) inside.push_back(Find(name));
+  std::erase(inside, nullptr);
+  return inside;
+}
+
+std::vector<const MessageDefinition*> MessageLibrary::All() const {
+  std::vector<const MessageDefinition*> all;
+  for (const auto& [name, definition] : definitions_) all.push_back(&definition);
+  return all;
+}
+
+}  // namespace runnel

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.h"
+#include "plugins/ros_messages/message_definition.h"
+
+namespace runnel {
+
+class TypeInfo;
+
+/// The messages that are known: those of ROS 2's own packages (as in Jazzy), and what is read or added.
+///
+/// Threads: as a container. Definitions stay where they are as long as the library lives.
+class MessageLibrary {
+ public:
+  /// Those of ROS 2. Made at the first call; any thread.
+  static const MessageLibrary& Standard();
+  /// Begins with those of ROS 2.
+  MessageLibrary() : MessageLibrary(Standard()) {}
+
+  /// Reads a .msg file in a folder <package>/msg, or all such files below a folder, and checks that the messages inside are
+  /// known. Errors: with file and line; nothing has been added then.
+  Result<void> Read(const std::filesystem::path& file_or_folder);
+  /// Errors: there is another of that name.
+  Result<void> Add(MessageDefinition definition);
+  /// The message that describes a type of Runnel (described_message.h), and those inside. Errors: a part is opaque, or there is
+  /// another of a name.
+  Result<const MessageDefinition*> AddDescribed(const TypeInfo& type);
+
+  /// By "sensor_msgs/msg/LaserScan" or "sensor_msgs/LaserScan"; nullptr if there is none.
+  [[nodiscard]] const MessageDefinition* Find(std::string_view name) const;
+  /// Errors: there is none, with the nearest name.
+  [[nodiscard]] Result<const MessageDefinition*> Get(std::string_view name) const;
+  /// The messages inside of one another, without itself, sorted by name. Precondition: they are known.
+  [[nodiscard]] std::vector<const MessageDefinition*> InsideOf(const MessageDefinition& definition) const;
+  [[nodiscard]] std::vector<const MessageDefinition*> All() const;
+
+ private:
+  struct Empty {};
+  explicit MessageLibrary(Empty /*tag*/) {}
+  static MessageLibrary MakeStandard();
+  Result<void> CheckInside(const MessageDefinition& definition, const std::string& file) const;
+
+  std::map<std::string, MessageDefinition, std::less<>> definitions_;
+};
+
+/// "RIHS01_" and 64 digits: the hash by which ROS 2 tells versions of a message apart. Precondition: the messages
+/// inside are known.
+[[nodiscard]] std::string TypeHashOf(const MessageDefinition& definition, const MessageLibrary& library);
+
+}  // namespace runnel
