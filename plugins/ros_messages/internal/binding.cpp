@@ -1,15 +1,13 @@
 #include "plugins/ros_messages/internal/binding.h"
 
 #include <algorithm>
-#include <cctype>
-#include <cstdlib>
 #include <set>
 #include <utility>
 
 #include "core/base/nearest_name.h"
-#include "core/types/text_format.h"
 #include "core/types/type_of.h"
 #include "plugins/cdr_values/cdr_values.h"
+#include "plugins/ros_messages/internal/default_steps.h"
 #include "plugins/ros_messages/internal/mapping_rules.h"
 #include "plugins/ros_messages/internal/message_leaf.h"
 
@@ -20,15 +18,6 @@ namespace {
 using Kind = Step::Kind;
 
 constexpr int kDeepest = 50;
-constexpr std::string_view kHeader = "std_msgs/msg/Header", kTime = "builtin_interfaces/msg/Time",
-                           kDuration = "builtin_interfaces/msg/Duration";
-
-MessageField One(MessageField field) {
-  field.count = MessageCount::kOne;
-  field.default_value.clear();
-  return field;
-}
-
 bool IsNumber(const TypeInfo& type) {
   const MessageField field = IsLeaf(type) ? FieldOfLeaf(type) : MessageField{.name = {}, .type = MessageType::kNested};
   return SizeOf(field.type) > 0;
@@ -93,7 +82,7 @@ class Binder {
       inside->name = field.name;
       step.inside.push_back(std::move(*inside));
     }
-    if (definition.fields.empty()) step.inside.push_back(NoNumber(MessageType::kUint8, 0));
+    if (definition.fields.empty()) step.inside.push_back(NumberStep(MessageType::kUint8, 0));
     --depth_;
     return step;
   }
@@ -109,12 +98,12 @@ class Binder {
       }
     }
     if (field.count == MessageCount::kOne && field.type == MessageType::kNested) {
-      if (field.nested == kHeader && field.name == "header") return Header(place.is_root);
-      const bool is_stamp = field.nested == kTime && field.name == "stamp";
-      if (is_stamp && (place.is_root || type == nullptr)) return Stamp(place.is_root);
+      if (field.nested == kHeaderMessage && field.name == "header") return HeaderStep(place.is_root, options_.frame);
+      const bool is_stamp = field.nested == kTimeMessage && field.name == "stamp";
+      if (is_stamp && (place.is_root || type == nullptr)) return StampStep(place.is_root);
     }
-    if (type == nullptr) return Nothing(field);
-    const auto is_content = [](const MessageField& each) { return each.nested != kHeader; };
+    if (type == nullptr) return DefaultStep(field, library_);
+    const auto is_content = [](const MessageField& each) { return each.nested != kHeaderMessage; };
     const bool is_alone = is_content(field) && std::ranges::count_if(definition.fields, is_content) == 1;
     const bool is_structure = type->kind() == TypeKind::kStructure;
     if (is_alone && (!is_structure || field.type == MessageType::kNested)) return Itself(field, *type);
@@ -125,16 +114,16 @@ class Binder {
       if (!nested) return nested.error();
       return Structure(**nested, {.owner = place.owner, .type = type, .prefix = within});
     }
-    return Nothing(field);
+    return DefaultStep(field, library_);
   }
 
   Result<Step> ByRule(const MappingRule& rule, const MessageField& field, const Place& place) {
     const TypeInfo& type = *place.type;
-    if (rule.source == kChildFrame) return NoText(options_.child_frame);
+    if (rule.source == kChildFrame) return TextStep(options_.child_frame);
     if (rule.source == kItself) return Itself(field, type);
     if (rule.source == kInListOfOne) {
       auto element = Itself(One(field), type);
-      if (!element || element->part == nullptr) return element ? Nothing(field) : element;
+      if (!element || element->part == nullptr) return element ? DefaultStep(field, library_) : element;
       Step step;
       step.kind = Kind::kListOfOne;
       step.inside.push_back(std::move(*element));
@@ -144,7 +133,7 @@ class Binder {
     }
     if (rule.source == kHeadingOf) {
       const FieldInfo* const heading = type.FindField("heading");
-      if (heading == nullptr || !IsNumber(*heading->type)) return Nothing(field);
+      if (heading == nullptr || !IsNumber(*heading->type)) return DefaultStep(field, library_);
       return Used(Kind::kHeading, heading, *heading->type);
     }
     if (rule.source == kLastAngleOf) {
@@ -152,7 +141,7 @@ class Binder {
                        *const step_of = type.FindField("angle_step");
       const bool has_all = ranges != nullptr && IsElements(*ranges->type) && first != nullptr &&
                            IsNumber(*first->type) && step_of != nullptr && IsNumber(*step_of->type);
-      if (!has_all) return Nothing(field);
+      if (!has_all) return DefaultStep(field, library_);
       Step step;
       step.kind = Kind::kLastAngle;
       step.type = field.type;
@@ -160,7 +149,7 @@ class Binder {
       return step;
     }
     const FieldInfo* const source = type.FindField(rule.source);
-    if (source == nullptr) return Nothing(field);
+    if (source == nullptr) return DefaultStep(field, library_);
     return PartOf(field, *source);
   }
 
@@ -184,7 +173,7 @@ class Binder {
     if (step && bound_ > before) return step;
     bound_ = before;
     depth_ = depth;
-    return Nothing(field);
+    return DefaultStep(field, library_);
   }
 
   Result<Step> Part(const MessageField& field, const TypeInfo& type) {
@@ -214,7 +203,7 @@ class Binder {
     if (is_array && elements.is_fixed && FixedCount(type) != field.capacity) return Mismatch(field, type);
     auto element = Part(One(field), *elements.type);
     if (!element) return element;
-    auto nothing = Nothing(One(field));
+    auto nothing = DefaultStep(One(field), library_);
     if (!nothing) return nothing;
     Step step = Used(Kind::kElements, nullptr, type);
     step.count = field.count;
@@ -236,76 +225,6 @@ class Binder {
     step.kind = kind;
     step.field = field;
     step.part = &type;
-    return step;
-  }
-
-  Step Header(bool is_root) {
-    Step step;
-    step.kind = Kind::kStructure;
-    step.inside.push_back(Stamp(is_root));
-    step.inside.push_back(NoText(options_.frame));
-    step.inside[0].name = "stamp";
-    step.inside[1].name = "frame_id";
-    return step;
-  }
-  static Step Stamp(bool is_root) {
-    Step step;
-    step.kind = Kind::kStamp;
-    step.is_own_stamp = is_root;
-    return step;
-  }
-  static Step NoNumber(MessageType type, long double number) {
-    Step step;
-    step.kind = Kind::kNoNumber;
-    step.type = type;
-    step.number = number;
-    return step;
-  }
-  static Step NoText(std::string text) {
-    Step step;
-    step.kind = Kind::kNoText;
-    step.type = MessageType::kString;
-    step.text = std::move(text);
-    return step;
-  }
-
-  Result<Step> Nothing(const MessageField& field) {
-    const std::string& text = field.default_value;
-    if (field.count != MessageCount::kOne) return NothingOfList(field);
-    if (field.type == MessageType::kNested) {
-      const auto nested = library_.Get(field.nested);
-      if (!nested) return nested.error();
-      return Structure(**nested, {.owner = *nested, .type = nullptr});
-    }
-    if (SizeOf(field.type) > 0) {
-      const bool is_true = text.size() == 4 && std::tolower(text.front()) == 't';
-      return NoNumber(field.type, is_true ? 1 : std::strtold(text.c_str(), nullptr));
-    }
-    const bool is_quoted = text.size() > 1 && (text.front() == '"' || text.front() == '\'');
-    Step step = NoText(is_quoted ? text.substr(1, text.size() - 2) : text);
-    step.type = field.type;
-    return step;
-  }
-
-  Result<Step> NothingOfList(const MessageField& field) {
-    Step step;
-    step.kind = Kind::kNoList;
-    step.count = field.count;
-    step.capacity = field.capacity;
-    auto element = Nothing(One(field));
-    if (!element) return element;
-    step.element.push_back(std::move(*element));
-    std::string given = field.default_value;
-    std::ranges::replace(given, '\'', '"');
-    const auto texts = FromText<std::vector<std::string>>(given);
-    if (given.empty() || !texts) return step;
-    for (const std::string& text : *texts) {
-      MessageField each = One(field);
-      each.default_value = text;
-      auto filled = Nothing(each);
-      if (!filled) return filled;
-      step.inside.push_back(std::move(*filled));
-    }
     return step;
   }
 
@@ -331,58 +250,7 @@ class Binder {
   std::string why_no_decoding_;
 };
 
-bool IsSameStructure(const MessageDefinition& definition, const TypeInfo& type, const MessageLibrary& library) {
-  return type.kind() == TypeKind::kStructure &&
-         std::ranges::equal(definition.fields, type.fields(), [&](const MessageField& a, const FieldInfo& b) {
-           return a.name == b.name && IsSame(a, *b.type, library);
-         });
-}
-
 }  // namespace
-
-bool IsSame(const MessageField& field, const TypeInfo& type, const MessageLibrary& library) {
-  if (field.count == MessageCount::kOne && IsLeaf(type)) {
-    const MessageField leaf = FieldOfLeaf(type);
-    if (field.type != MessageType::kNested) return leaf.type == field.type;
-    const bool is_time = leaf.nested == kTime || leaf.nested == kDuration;
-    return leaf.nested == field.nested || (is_time && (field.nested == kTime || field.nested == kDuration));
-  }
-  if (field.count == MessageCount::kOne) {
-    const auto* const nested = field.type == MessageType::kNested ? library.Find(field.nested) : nullptr;
-    return nested != nullptr && IsSameStructure(*nested, type, library);
-  }
-  if (type.kind() != TypeKind::kSequence && !(IsElements(type) && type.elements().is_fixed)) return false;
-  const bool is_array = field.count == MessageCount::kArray;
-  // What bounds a list is looked at element by element.
-  if (field.count == MessageCount::kBounded || is_array != type.elements().is_fixed) return false;
-  return (!is_array || FixedCount(type) == field.capacity) && IsSame(One(field), *type.elements().type, library);
-}
-
-std::size_t FewestOctets(const Step& step) {
-  switch (step.kind) {
-    case Kind::kPlain:
-      return FewestCdrOctets(*step.part);
-    case Kind::kNumber:
-    case Kind::kNoNumber:
-    case Kind::kLastAngle:
-      return SizeOf(step.type);
-    case Kind::kHeading:
-      return 4 * SizeOf(MessageType::kFloat64);
-    case Kind::kStamp:
-      return 2 * SizeOf(MessageType::kInt32);
-    case Kind::kElements:
-    case Kind::kNoList:
-      return step.count == MessageCount::kArray ? step.capacity * FewestOctets(step.element.front()) : 4;
-    case Kind::kListOfOne:
-    case Kind::kNoText:
-      return 4;
-    case Kind::kStructure:
-      break;
-  }
-  std::size_t sum = 0;
-  for (const Step& each : step.inside) sum += FewestOctets(each);
-  return sum;
-}
 
 Result<Binding> Bind(const MessageDefinition& definition, const TypeInfo& type,
                      const MessageOptions& options, const MessageLibrary& library) {

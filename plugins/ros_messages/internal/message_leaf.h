@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 #include "core/types/leaf_types.h"
@@ -9,6 +10,10 @@
 #include "plugins/ros_messages/message_definition.h"
 
 namespace runnel::internal {
+
+inline constexpr std::string_view kHeaderMessage = "std_msgs/msg/Header";
+inline constexpr std::string_view kTimeMessage = "builtin_interfaces/msg/Time";
+inline constexpr std::string_view kDurationMessage = "builtin_interfaces/msg/Duration";
 
 /// What a leaf or an enumeration is in a message; kNested with the message's name for durations, times and signals.
 inline MessageField FieldOfLeaf(const TypeInfo& type) {
@@ -26,12 +31,12 @@ inline MessageField FieldOfLeaf(const TypeInfo& type) {
     return {.name = {}, .type = MessageType::kNested, .nested = "std_msgs/msg/Empty"};
   }
   return WithLeafType(type, []<typename T>(std::type_identity<T>) -> MessageField {
-    const auto nested = [](const char* name) {
-      return MessageField{.name = {}, .type = MessageType::kNested, .nested = name};
+    const auto nested = [](std::string_view name) {
+      return MessageField{.name = {}, .type = MessageType::kNested, .nested = std::string(name)};
     };
     const auto number = [](MessageType as) { return MessageField{.name = {}, .type = as}; };
-    if constexpr (std::is_same_v<T, Duration>) return nested("builtin_interfaces/msg/Duration");
-    if constexpr (std::is_same_v<T, Time>) return nested("builtin_interfaces/msg/Time");
+    if constexpr (std::is_same_v<T, Duration>) return nested(kDurationMessage);
+    if constexpr (std::is_same_v<T, Time>) return nested(kTimeMessage);
     if constexpr (std::is_same_v<T, bool>) return number(MessageType::kBool);
     if constexpr (std::is_same_v<T, float>) return number(MessageType::kFloat32);
     if constexpr (std::is_same_v<T, double>) return number(MessageType::kFloat64);

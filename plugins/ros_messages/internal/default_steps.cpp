@@ -1,0 +1,111 @@
+#include "plugins/ros_messages/internal/default_steps.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <utility>
+
+#include "core/types/text_format.h"
+#include "core/types/type_of.h"
+
+namespace runnel::internal {
+
+namespace {
+
+using Kind = Step::Kind;
+
+Result<Step> DefaultList(const MessageField& field, const MessageLibrary& library) {
+  Step step;
+  step.kind = Kind::kNoList;
+  step.count = field.count;
+  step.capacity = field.capacity;
+  auto element = DefaultStep(One(field), library);
+  if (!element) return element;
+  step.element.push_back(std::move(*element));
+  std::string given = field.default_value;
+  std::ranges::replace(given, '\'', '"');
+  const auto texts = FromText<std::vector<std::string>>(given);
+  if (given.empty() || !texts) return step;
+  for (const std::string& text : *texts) {
+    MessageField each = One(field);
+    each.default_value = text;
+    auto filled = DefaultStep(each, library);
+    if (!filled) return filled;
+    step.inside.push_back(std::move(*filled));
+  }
+  return step;
+}
+
+Result<Step> DefaultStructure(const MessageDefinition& definition, const MessageLibrary& library) {
+  Step step;
+  step.kind = Kind::kStructure;
+  for (const MessageField& field : definition.fields) {
+    auto inside = DefaultStep(field, library);
+    if (!inside) return inside;
+    inside->name = field.name;
+    step.inside.push_back(std::move(*inside));
+  }
+  if (definition.fields.empty()) step.inside.push_back(NumberStep(MessageType::kUint8, 0));
+  return step;
+}
+
+}  // namespace
+
+Result<Step> DefaultStep(const MessageField& field, const MessageLibrary& library) {
+  if (field.count != MessageCount::kOne) return DefaultList(field, library);
+  if (field.type == MessageType::kNested) {
+    const auto nested = library.Get(field.nested);
+    if (!nested) return nested.error();
+    return DefaultStructure(**nested, library);
+  }
+  const std::string& text = field.default_value;
+  if (SizeOf(field.type) > 0) {
+    const bool is_true = text.size() == 4 && std::tolower(text.front()) == 't';
+    return NumberStep(field.type, is_true ? 1 : std::strtold(text.c_str(), nullptr));
+  }
+  const bool is_quoted = text.size() > 1 && (text.front() == '"' || text.front() == '\'');
+  Step step = TextStep(is_quoted ? text.substr(1, text.size() - 2) : text);
+  step.type = field.type;
+  return step;
+}
+
+Step NumberStep(MessageType type, long double number) {
+  Step step;
+  step.kind = Kind::kNoNumber;
+  step.type = type;
+  step.number = number;
+  return step;
+}
+
+Step TextStep(std::string text) {
+  Step step;
+  step.kind = Kind::kNoText;
+  step.type = MessageType::kString;
+  step.text = std::move(text);
+  return step;
+}
+
+Step StampStep(bool is_own) {
+  Step step;
+  step.kind = Kind::kStamp;
+  step.is_own_stamp = is_own;
+  return step;
+}
+
+Step HeaderStep(bool is_own, const std::string& frame) {
+  Step step;
+  step.kind = Kind::kStructure;
+  step.inside.push_back(StampStep(is_own));
+  step.inside.push_back(TextStep(frame));
+  step.inside[0].name = "stamp";
+  step.inside[1].name = "frame_id";
+  return step;
+}
+
+MessageField One(MessageField field) {
+  field.count = MessageCount::kOne;
+  field.default_value.clear();
+  return field;
+}
+
+}  // namespace runnel::internal
