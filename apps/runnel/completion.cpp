@@ -173,7 +173,7 @@ Candidates Propose(ControlClient& client, const Candidates& plain) {
   if (command == "get" && is_first) {
     return Paths(client, [](const Element& each) { return IsPort(each) || each.kind == "parameter"; });
   }
-  if ((command == "rename" || command == "copy" || command == "restart") && is_first) return Paths(client, IsPart);
+  if ((command == "rename" || command == "copy" || command == "restart" || command == "tag") && is_first) return Paths(client, IsPart);
   if (command == "connect" && place == 1) return Takers(client, word(0));
   if (command == "swap" && place > 1) return SettingsOf(client, word(0));
   if ((command == "pause" || command == "resume" || command == "stop") && is_first) {

@@ -151,6 +151,11 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   word(move, "path", "module or group")->type_name(kElement);
   word(move, "thread", "its name; \"\": that of the group again")->type_name("THREAD");
 
+  Entry& tag = add("tag", "says something of an element to viewers: safety, hidden; without a word, nothing any more");
+  tag.command->add_option("words", tag.arguments.words, "path, and its tags")
+      ->required()
+      ->type_name("PATH [WORD ...]");
+
   Entry& change = add("change", "carries out a file of changes, all or none");
   word(change, "file", "one change a line; -: standard input")->type_name("FILE|-");
   flag(change, "--yes", "yes", "also if they delete the whole application, which ends its run");
@@ -274,6 +279,7 @@ void ControlCommandLine::Group() {
         {"rename", "runnel rename /robot/planner old_planner"},
         {"copy", "runnel copy /robot/planner second_planner"},
         {"move", "runnel move /robot/planner control"},
+        {"tag", "runnel tag /robot/planner safety"},
         {"schedule", "runnel schedule control --period 10ms"},
         {"change", "runnel change changes.txt"},
         {"reload", "runnel reload planning"},

@@ -186,20 +186,21 @@ std::vector<RegisteredConversion> RegisteredConversions() {
   return registry.all;
 }
 
-std::vector<std::string> ConversionCandidates(const ConversionRequest& request, std::size_t most) {
-  std::vector<std::string> candidates;
+std::string ConversionCandidate::text() const {
+  std::string text;
+  if (!part.empty()) text = "from=\"…" + std::string(part.starts_with('[') ? "" : ".") + part + "\"";
+  if (!name.empty()) text += (text.empty() ? "" : " ") + ("convert=\"" + name + "\"");
+  return text;
+}
+
+std::vector<ConversionCandidate> ConversionCandidates(const ConversionRequest& request, std::size_t most) {
+  std::vector<ConversionCandidate> candidates;
   const auto try_one = [&](const std::string& part, const std::string& name) {
     if (candidates.size() >= most) return;
     ConversionRequest other = request;
     other.part = part;
     other.name = name;
-    if (!Conversion::Find(other)) return;
-    std::string text;
-    if (part != request.part) {
-      text = "from=\"…" + std::string(part.starts_with('[') ? "" : ".") + part + "\"";
-    }
-    if (!name.empty()) text += (text.empty() ? "" : " ") + ("convert=\"" + name + "\"");
-    candidates.push_back(std::move(text));
+    if (Conversion::Find(other)) candidates.push_back({part, name});
   };
   std::vector<std::string> names{"round"};
   for (const RegisteredConversion& each : RegisteredConversions()) {

@@ -94,9 +94,17 @@ void RegisterConversion(std::string name, Function convert, std::string summary 
 /// What has been registered, in the order of names. Locks.
 [[nodiscard]] std::vector<RegisteredConversion> RegisteredConversions();
 
-/// What would lead from the one to the other: parts ("pose.x") and names of conversions, each as it is to be
-/// said: "from=\"….x\"", "convert=\"round\"". At most `most`.
-[[nodiscard]] std::vector<std::string> ConversionCandidates(const ConversionRequest& request,
-                                                            std::size_t most = 4);
+/// One way by which values of a type could become those of another.
+struct ConversionCandidate {
+  std::string part;  ///< "pose.x"; that of the request if nothing else has been found
+  std::string name;  ///< what <connect convert="…"> would say; "": nothing
+
+  /// As it is to be said: "from=\"….x\"", "convert=\"round\"".
+  [[nodiscard]] std::string text() const;
+};
+
+/// What would lead from the one to the other. At most `most`.
+[[nodiscard]] std::vector<ConversionCandidate> ConversionCandidates(const ConversionRequest& request,
+                                                                    std::size_t most = 4);
 
 }  // namespace runnel

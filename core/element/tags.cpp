@@ -20,12 +20,20 @@ struct Tags final : Annotation {
 
 }  // namespace
 
-Result<void> SetTags(FrameworkElement& element, std::vector<std::string> tags) {
+Result<void> CheckTags(const std::vector<std::string>& tags) {
   for (const std::string& tag : tags) {
     if (const auto good = CheckElementName(tag); !good) {
-      return Error{.message = "'" + tag + "' is no tag: " + good.error().message,
-                   .path = element.path()};
+      return Error{.message = "'" + tag + "' is no tag: " + good.error().message};
     }
+  }
+  return {};
+}
+
+Result<void> SetTags(FrameworkElement& element, std::vector<std::string> tags) {
+  if (const auto good = CheckTags(tags); !good) {
+    Error error = good.error();
+    error.path = element.path();
+    return error;
   }
   element.Annotate(std::make_unique<Tags>(std::move(tags)));
   return {};

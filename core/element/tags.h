@@ -15,6 +15,7 @@ namespace runnel {
 /// Threads: under the structure lock.
 
 /// A word without blanks, as an element's name. Errors: what is none.
+Result<void> CheckTags(const std::vector<std::string>& tags);
 Result<void> SetTags(FrameworkElement& element, std::vector<std::string> tags);
 /// In the order in which they were given.
 [[nodiscard]] std::vector<std::string> TagsOf(const FrameworkElement& element);

@@ -77,8 +77,9 @@ Error NoConversion(const Port& from, const Port& to, const ConnectOptions& optio
   const auto candidates = ConversionCandidates(
       {from.type(), to.type(), options.part, options.convert, from.unit(), to.unit()});
   if (!candidates.empty()) error.hint.clear();
-  for (const std::string& each : candidates) {
-    error.hint += (error.hint.empty() ? "what would fit: " : ", or ") + each;
+  for (ConversionCandidate each : candidates) {
+    if (each.part == options.part) each.part.clear();  // said already
+    error.hint += (error.hint.empty() ? "what would fit: " : ", or ") + each.text();
   }
   return error;
 }

@@ -107,6 +107,12 @@ struct AssignToThread {
   std::string thread;  ///< name of the container; "" takes the assignment back
 };
 
+/// Says something of an element to viewers, instead of what has been said (core/element/tags.h).
+struct TagElement {
+  std::string path;
+  std::vector<std::string> tags;  ///< none: nothing is said any more
+};
+
 /// Makes a thread container.
 struct AddThread {
   std::string name;  ///< or its path
@@ -124,7 +130,7 @@ struct ScheduleThread {
 
 using Change = std::variant<CreateModule, CreateGroup, CreatePort, CreateParameter, DeleteElement, ConnectPorts,
                             DisconnectPorts, SetParameter, ReplaceModule, AssignToThread,
-                            AddThread, ScheduleThread, RenameElement, CopyElement>;
+                            AddThread, ScheduleThread, RenameElement, CopyElement, TagElement>;
 
 /// Changes that belong together, in the order in which they build on one another.
 using ChangeSet = std::vector<Change>;

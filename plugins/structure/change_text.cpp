@@ -264,6 +264,12 @@ Change ReadMove(Arguments& arguments) {
   return change;
 }
 
+Change ReadTag(Arguments& arguments) {
+  TagElement change{arguments.Take("a path"), {}};
+  if (!arguments.IsAtEnd()) change.tags = arguments.TakeWords("a tag");
+  return change;
+}
+
 Change ReadSchedule(Arguments& arguments) {
   ScheduleThread change{.thread = arguments.Take("a thread")};
   ReadThreadOptions(arguments, change, nullptr);
@@ -275,7 +281,7 @@ struct Verb {
   const char* usage;
   Change (*read)(Arguments& arguments);
 };
-constexpr std::array<Verb, 10> kVerbs{{
+constexpr std::array<Verb, 11> kVerbs{{
     {"create",
      "create [group] PATH TYPE [NAME=VALUE ...], or create port PATH input|output TYPE "
      "[description=TEXT], or create parameter PATH PARAMETER ... [description=TEXT], or create thread NAME "
@@ -292,6 +298,7 @@ constexpr std::array<Verb, 10> kVerbs{{
     {"rename", "rename PATH NAME", ReadRename},
     {"copy", "copy PATH [NAME]", ReadCopy},
     {"move", "move PATH to THREAD", ReadMove},
+    {"tag", "tag PATH [WORD ...]", ReadTag},
     {"schedule", "schedule THREAD [period=TIME] [priority=N] [on_overrun=skip|catch_up]", ReadSchedule},
 }};
 

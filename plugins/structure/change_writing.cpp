@@ -76,6 +76,12 @@ std::string Text(const AssignToThread& change) {
   return "move " + AsArgument(change.path) + " to " + AsArgument(change.thread);
 }
 
+std::string Text(const TagElement& change) {
+  std::string text = "tag " + AsArgument(change.path);
+  for (const std::string& tag : change.tags) text += " " + AsArgument(tag);
+  return text;
+}
+
 std::string OverrunText(ThreadOptions::OnOverrun on_overrun) {
   return " on_overrun=" + OverrunNames()[static_cast<std::size_t>(on_overrun)];
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/element/element_path.h"
+#include "core/element/tags.h"
 #include "core/module/group_parameter.h"
 #include "core/plugin/module_type_name.h"
 #include "core/paths/path_search.h"
@@ -66,6 +67,9 @@ void AddCreation(const FrameworkElement& element, ChangeSet& changes,
   }
   const std::string thread = OwnThreadPath(element);
   if (!thread.empty()) changes.push_back(AssignToThread{element.path(), thread});
+  if (auto tags = TagsOf(element); !tags.empty()) {
+    changes.push_back(TagElement{element.path(), std::move(tags)});
+  }
   const bool is_whole = !type.empty() || element.kind() != ElementKind::kGroup;
   if (is_whole) return;
   for (const FrameworkElement* each : element.children()) AddCreation(*each, changes, why_not);

@@ -91,6 +91,7 @@ class Plan {
   Result<void> Check(const ScheduleThread& change);
   Result<void> Check(const RenameElement& change);
   Result<void> Check(const CopyElement& change);
+  Result<void> Check(const TagElement& change);
 
   // What becomes of connections that a module which takes another one's place has no port for.
   enum class Misfits { kAreRefused, kAreCut };

@@ -5,6 +5,7 @@
 #include "core/base/characters.h"
 #include "core/base/nearest_name.h"
 #include "core/element/configurable.h"
+#include "core/element/tags.h"
 #include "core/module/group.h"
 #include "core/module/group_parameter.h"
 #include "core/plugin/module_type_name.h"
@@ -287,40 +288,26 @@ Result<void> Plan::ExchangeComposite(FrameworkElement& before, UnlistedElement a
   return {};
 }
 
-Result<void> Plan::Check(const AssignToThread& change) {
+Result<void> Plan::Check(const TagElement& change) {
   const auto found = overlay_.Find(change.path);
   if (!found) return found.error();
   FrameworkElement& element = **found;
-  ThreadContainer* thread = nullptr;
-  if (!change.thread.empty()) {
-    const std::string path =
-        change.thread.front() == '/' ? change.thread : "/threads/" + change.thread;
-    const auto named = overlay_.Find(path);
-    if (!named) return named.error();
-    thread = dynamic_cast<ThreadContainer*>(*named);
-    if (thread == nullptr) {
-      return Error{.message = (*named)->path() + " is not a thread", .path = element.path()};
-    }
-  }
-  if (element.kind() != ElementKind::kModule && element.kind() != ElementKind::kGroup) {
-    return Error{.message = "is neither a module nor a group, and no thread runs it",
-                 .path = element.path()};
+  if (const auto good = CheckTags(change.tags); !good) {
+    Error error = good.error();
+    error.path = element.path();
+    return error;
   }
   Concern(element);
-  const auto assign = [&element](ThreadContainer* to) {
-    to != nullptr ? AssignThread(element, *to) : UnassignThread(element);
-  };
-  auto before = std::make_shared<std::optional<ThreadContainer*>>();
-  steps_.push_back({[=, &element]() -> Result<void> {
-                      *before = OwnThread(element);
-                      assign(thread);
-                      return {};
+  auto before = std::make_shared<std::optional<std::vector<std::string>>>();
+  steps_.push_back({[=, &element, tags = change.tags] {
+                      *before = TagsOf(element);
+                      return SetTags(element, tags);
                     },
-                    [=] {
-                      if (*before) assign(**before);
+                    [=, &element] {
+                      if (*before) (void)SetTags(element, **before);  // they have been good tags
                     },
                     [&element](auto&) -> ChangeSet {
-                      return {AssignToThread{element.path(), OwnThreadPath(element)}};
+                      return {TagElement{element.path(), TagsOf(element)}};
                     }});
   return {};
 }

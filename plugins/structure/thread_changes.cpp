@@ -82,4 +82,42 @@ void AddThreadAgain(const ThreadContainer& thread, ChangeSet& changes) {
   });
 }
 
+Result<void> Plan::Check(const AssignToThread& change) {
+  const auto found = overlay_.Find(change.path);
+  if (!found) return found.error();
+  FrameworkElement& element = **found;
+  ThreadContainer* thread = nullptr;
+  if (!change.thread.empty()) {
+    const std::string path =
+        change.thread.front() == '/' ? change.thread : "/threads/" + change.thread;
+    const auto named = overlay_.Find(path);
+    if (!named) return named.error();
+    thread = dynamic_cast<ThreadContainer*>(*named);
+    if (thread == nullptr) {
+      return Error{.message = (*named)->path() + " is not a thread", .path = element.path()};
+    }
+  }
+  if (element.kind() != ElementKind::kModule && element.kind() != ElementKind::kGroup) {
+    return Error{.message = "is neither a module nor a group, and no thread runs it",
+                 .path = element.path()};
+  }
+  Concern(element);
+  const auto assign = [&element](ThreadContainer* to) {
+    to != nullptr ? AssignThread(element, *to) : UnassignThread(element);
+  };
+  auto before = std::make_shared<std::optional<ThreadContainer*>>();
+  steps_.push_back({[=, &element]() -> Result<void> {
+                      *before = OwnThread(element);
+                      assign(thread);
+                      return {};
+                    },
+                    [=] {
+                      if (*before) assign(**before);
+                    },
+                    [&element](auto&) -> ChangeSet {
+                      return {AssignToThread{element.path(), OwnThreadPath(element)}};
+                    }});
+  return {};
+}
+
 }  // namespace runnel::internal

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/nearest_name.h"
+#include "core/element/tags.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/inspector/internal/viewer_message.h"
 
@@ -96,6 +97,7 @@ Change ReadReplace(JsonMembers& m) {
 }
 Change ReadMove(JsonMembers& m) { return AssignToThread{m.NeedText("path"), m.NeedText("thread")}; }
 Change ReadRename(JsonMembers& m) { return RenameElement{m.NeedText("path"), m.NeedText("name")}; }
+Change ReadTag(JsonMembers& m) { return TagElement{m.NeedText("path"), TagsInText(m.NeedText("tags"))}; }
 Change ReadCopy(JsonMembers& m) { return CopyElement{m.NeedText("path"), m.Text("name").value_or("")}; }
 
 // In seconds.
@@ -123,7 +125,7 @@ struct Kind {
   std::string_view name;
   Change (*read)(JsonMembers& members);
 };
-constexpr std::array<Kind, 14> kKinds{{{"create", ReadCreate},
+constexpr std::array<Kind, 15> kKinds{{{"create", ReadCreate},
                                        {"create_group", ReadCreateGroup},
                                        {"create_port", ReadCreatePort},
                                        {"create_parameter", ReadCreateParameter},
@@ -134,6 +136,7 @@ constexpr std::array<Kind, 14> kKinds{{{"create", ReadCreate},
                                        {"replace", ReadReplace},
                                        {"move", ReadMove},
                                        {"rename", ReadRename},
+                                       {"tag", ReadTag},
                                        {"copy", ReadCopy},
                                        {"create_thread", ReadCreateThread},
                                        {"schedule", ReadSchedule}}};

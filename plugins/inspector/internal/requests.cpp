@@ -7,6 +7,8 @@
 #include <utility>
 #include <variant>
 
+#include "core/conversion/conversion.h"
+#include "core/paths/path_search.h"
 #include "plugins/command_service/save_place.h"
 #include "plugins/inspector/internal/call_request.h"
 #include "plugins/values/json_writer.h"
@@ -16,6 +18,7 @@ namespace runnel::internal {
 namespace {
 
 constexpr std::size_t kMostErrors = 100;
+constexpr std::size_t kMostConversions = 100;
 
 void AppendError(const RequestError& each, std::string& text) {
   JsonObject json(text);
@@ -156,6 +159,24 @@ std::string PreviewSave(Inspection& inspection, const ViewerMessage& message) {
   });
 }
 
+// How values of the one port could be passed on to the other.
+std::string FindConversions(Inspection& inspection, const ViewerMessage& message) {
+  const std::lock_guard lock(inspection.application().runtime.structure_mutex());
+  const PathSearch paths(inspection.application().runtime.root());
+  const auto from = paths.FindPort(message.from, PathKind::kOutput);
+  if (!from) return Refusal(message.request, {{from.error()}});
+  const auto to = paths.FindPort(message.to, PathKind::kInput);
+  if (!to) return Refusal(message.request, {{to.error()}});
+  const auto candidates = ConversionCandidates(
+      {(*from)->type(), (*to)->type(), {}, {}, (*from)->unit(), (*to)->unit()}, kMostConversions);
+  return JsonObjectText([&](JsonObject& json) {
+    AddHead(message.request, true, json);
+    AppendList(candidates, json.Key("conversions"), [](const ConversionCandidate& each, std::string& text) {
+      JsonObject(text).Add("part", each.part).Add("convert", each.name);
+    });
+  });
+}
+
 std::string SetLatency(Inspection& inspection, const ViewerMessage& message) {
   const LatencyRequest latency{message.from, message.to};
   Scheduler& scheduler = inspection.scheduler();
@@ -171,6 +192,7 @@ std::string AnswerOf(Inspection& inspection, const ViewerMessage& message) {
   if (message.op == "save_panel") return SavePanel(inspection, message);
   if (message.op == "latency") return SetLatency(inspection, message);
   if (message.op == "preview") return PreviewSave(inspection, message);
+  if (message.op == "conversions") return FindConversions(inspection, message);
   return FindCompatible(inspection, message);
 }
 
@@ -248,6 +270,7 @@ std::span<const Operation> AllOperations() {
       Operation("unwatch", kTold, kLook),
       Operation("watch_rates", kTold, kLook),
       Operation("compatible", kRequest, kLook),
+      Operation("conversions", kRequest, kLook),
       Operation("panel", kRequest, kLook),
       Operation("publish", kRequest, kDrive),
       Operation("release", kRequest, kDrive),
@@ -297,7 +320,7 @@ ViewerRequest BeginRequest(Inspection& inspection, ViewerMessage message,
     return {nullptr, [reply = SetPace(inspection, message)] { return reply; }};
   }
   if (message.op == "call") return BeginCallRequest(inspection, message);
-  if (IsOneOf(message.op, {"abort", "compatible", "latency", "panel", "preview", "save_panel"})) {
+  if (IsOneOf(message.op, {"abort", "compatible", "conversions", "latency", "panel", "preview", "save_panel"})) {
     const auto reply = std::make_shared<std::string>();
     auto task = inspection.tasks().Post(
         [&inspection, reply, message = std::move(message)] {

@@ -164,6 +164,24 @@ test('a group is made, given ports, filled, and connected through its border', a
   await page.locator('#value [data-field="heading"]').waitFor();
 });
 
+test('ports of different types are connected by a part of the values, and a module gets tags', async (t) => {
+  const { inspector, page } = await Demo(t);
+  await Create(inspector, 'signal/low_pass', 'calm');
+  const { drop } = await inspector.dragPort('/bug_demo/localisation/output/pose', '/bug_demo/calm/input/in');
+  await drop();
+  await page.locator('.choice-search').fill('heading');
+  await page.keyboard.press('Enter');
+  await inspector.closed();
+  await page.locator('[data-edge="/bug_demo/localisation/output/pose → /bug_demo/calm/input/in"]').waitFor({ state: 'attached' });
+  await inspector.select('/bug_demo/calm');
+  await page.locator('#tags').fill('new slow');
+  await page.keyboard.press('Enter');
+  await inspector.until('the tags', () => document.querySelector('#tags').value === 'new slow');
+  await page.reload();
+  await inspector.select('/bug_demo/calm');
+  await inspector.until('the tags again', () => document.querySelector('#tags').value === 'new slow');
+});
+
 test('from which level on a module logs is chosen, and stays after a reload', async (t) => {
   const { inspector, page } = await Demo(t);
   await inspector.select('/bug_demo/robot/planner');

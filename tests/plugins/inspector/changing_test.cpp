@@ -196,6 +196,17 @@ TEST_F(Changing, NamesTheTypesThatCouldStandIn) {
   EXPECT_EQ(none["errors"][0]["path"], "/app/none");
 }
 
+TEST_F(Changing, NamesTheConversionsByWhichPortsOfDifferentTypesCouldBeConnected) {
+  Start();
+  Viewer viewer = View();
+  ASSERT_EQ(viewer.Change({"create /app/s test/sink", "tag /app/s loud new"})["ok"], true);
+  const Json reply =
+      viewer.Ask({{"op", "conversions"}, {"from", "/app/a/output/out"}, {"to", "/app/s/input/in"}});
+  ASSERT_EQ(reply["ok"], true) << reply.dump();
+  EXPECT_THAT(reply["conversions"], testing::Contains(Json{{"part", ""}, {"convert", "round"}}));
+  EXPECT_EQ(viewer.Ask({{"op", "conversions"}, {"from", "/app/a/output/ou"}, {"to", "/app/s/input/in"}})["ok"], false);
+}
+
 TEST_F(Changing, SavesAndReloadsByTheProgramsMeans) {
   hooks.save = [](const std::string& file) -> Result<std::string> { return "saved to " + file; };
   hooks.reload = [](const std::string& plugin) -> Result<std::string> {

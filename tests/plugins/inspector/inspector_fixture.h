@@ -156,6 +156,11 @@ inline Json ChangeMessage(const std::string& text) {
     Json operator()(const RenameElement& change) const {
       return {{"change", "rename"}, {"path", change.path}, {"name", change.name}};
     }
+    Json operator()(const TagElement& change) const {
+      std::string tags;
+      for (const std::string& tag : change.tags) tags += (tags.empty() ? "" : " ") + tag;
+      return {{"change", "tag"}, {"path", change.path}, {"tags", tags}};
+    }
     Json operator()(const CopyElement& change) const {
       return {{"change", "copy"}, {"path", change.path}, {"name", change.name}};
     }

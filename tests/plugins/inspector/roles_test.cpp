@@ -53,6 +53,7 @@ const std::map<std::string, std::pair<WebRole, WebRole>, std::less<>> kNeeded{
     {"unwatch", {WebRole::kLook, WebRole::kLook}},
     {"watch_rates", {WebRole::kLook, WebRole::kLook}},
     {"compatible", {WebRole::kLook, WebRole::kLook}},
+    {"conversions", {WebRole::kLook, WebRole::kLook}},
     {"panel", {WebRole::kLook, WebRole::kLook}},
     {"save_panel", {WebRole::kChange, WebRole::kChange}},
     {"arrange", {WebRole::kChange, WebRole::kChange}},

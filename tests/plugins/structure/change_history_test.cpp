@@ -1,3 +1,4 @@
+#include "core/element/tags.h"
 #include "core/paths/late_connections.h"
 #include "plugins/structure/change_history.h"
 
@@ -49,6 +50,22 @@ TEST_F(ChangeHistoryTest, ConversionsComeBackAsTheyWere) {
   EXPECT_TRUE(edges[0].converted);
   MustBe(history.Undo());
   MustBe(history.Redo());
+}
+
+TEST_F(ChangeHistoryTest, TagsAreSaidWhileItRunsAndComeBackWithWhatHasThem) {
+  MustDo({CreateModule{"/app/a", "test/counter"}, CreateGroup{"/app/g"}});
+  MustDo({TagElement{"/app/a", {"safety", "slow"}}, TagElement{"/app/g", {"hidden"}}});
+  EXPECT_EQ(TagsText(At<FrameworkElement>("/app/a")), "safety slow");
+  MustDo({TagElement{"/app/a", {}}});
+  EXPECT_EQ(TagsText(At<FrameworkElement>("/app/a")), "");
+  MustBe(history.Undo());
+  MustDo({DeleteElement{"/app/a"}, DeleteElement{"/app/g"}});
+  MustBe(history.Undo());
+  EXPECT_EQ(TagsText(At<FrameworkElement>("/app/a")), "safety slow");
+  EXPECT_EQ(TagsText(At<FrameworkElement>("/app/g")), "hidden");
+  const auto wrong = history.Apply({SetParameter{"/app/a/step", "7"}, TagElement{"/app/a", {"a/b"}}});
+  EXPECT_THAT(wrong.diagnostics.ToString(), HasSubstr("/app/a: 'a/b' is no tag"));
+  EXPECT_NE(TextOf("/app/a/parameter/step"), "7");
 }
 
 TEST_F(ChangeHistoryTest, ConnectionsThatWaitAreUndoneAndMadeAgain) {

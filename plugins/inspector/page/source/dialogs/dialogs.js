@@ -4,6 +4,7 @@ import { html } from 'htm/preact';
 import { openDialog } from '../state/choices.js';
 import { ConfirmDialog } from './confirm_dialog.js';
 import { ConnectDialog } from './connect_dialog.js';
+import { ConvertDialog } from './convert_dialog.js';
 import { CreateDialog } from './create_dialog.js';
 import { Menu } from './menu.js';
 import { NoteDialog } from './note_dialog.js';
@@ -14,7 +15,7 @@ import { SaveDifference } from './save_difference.js';
 import { SwapDialog } from './swap_dialog.js';
 
 const kDialogs = {
-  confirm: ConfirmDialog, create: CreateDialog, connect: ConnectDialog, swap: SwapDialog, move: MoveDialog, port: PortDialog,
+  confirm: ConfirmDialog, create: CreateDialog, connect: ConnectDialog, convert: ConvertDialog, swap: SwapDialog, move: MoveDialog, port: PortDialog,
   difference: SaveDifference, save: SaveDialog, help: HelpDialog, menu: Menu, note: NoteDialog, rename: RenameDialog,
 };
 

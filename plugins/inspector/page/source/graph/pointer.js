@@ -1,8 +1,8 @@
 // Mouse, pen and touch on the graph: selecting, moving, zooming, connecting, menus.
 
 import { Outermost } from '../model/copies.js';
-import { Partners, WhyNot } from '../model/compatibility.js';
-import { Connect } from '../state/actions.js';
+import { OnlyTypesDiffer, Partners, WhyNot } from '../model/compatibility.js';
+import { Connect, Conversions } from '../state/actions.js';
 import { canChange, structure } from '../state/store.js';
 import { Choose, SetPanels, chosen, openDialog, selected } from '../state/choices.js';
 import { isNarrow } from '../state/window.js';
@@ -224,7 +224,15 @@ function FinishConnecting() {
   const ends = candidates.value?.get(target);
   StopConnecting();
   if (ends) Connect(ends.from, ends.to);
-  else if (blocked) Toast('refused', 'Not connected', [WhyNot(structure, port, blocked)]);
+  else if (blocked) ConnectOtherwise(port, blocked);
+}
+
+/** By a part of the values, or a conversion, if there is one; else says why not. */
+async function ConnectOtherwise(port, other) {
+  const ends = OnlyTypesDiffer(structure, port, other);
+  const reply = ends ? await Conversions(ends.from, ends.to) : { ok: false };
+  if (reply.ok && reply.conversions.length > 0) openDialog.value = { kind: 'convert', ...ends, conversions: reply.conversions };
+  else Toast('refused', 'Not connected', [WhyNot(structure, port, other)]);
 }
 
 export function StopConnecting() {

@@ -12,6 +12,7 @@ export const Change = {
   replace: (path, type, settings) => ({ change: 'replace', path, type, ...Given(settings) }),
   createThread: (path, options = {}) => ({ change: 'create_thread', path, ...options }),
   schedule: (path, options) => ({ change: 'schedule', path, ...options }),
+  tag: (path, tags) => ({ change: 'tag', path, tags }),
   move: (path, thread) => ({ change: 'move', path, thread }),
 };
 

@@ -21,6 +21,15 @@ export function Connectable(structure, first, second) {
   return exists ? null : { from: from.path, to: to.path };
 }
 
+/** The two ends if nothing but their types is in the way, so that a part or a conversion may help; else null. */
+export function OnlyTypesDiffer(structure, first, second) {
+  const [a, b] = [structure.get(first), structure.get(second)];
+  if (!a || !b || a === b || a.kind !== 'port' || b.kind !== 'port' || Connectable(structure, first, second)) return null;
+  const [from, to] = Gives(structure, a, b) ? [a, b] : [b, a];
+  if (!Gives(structure, from, to) || !Takes(structure, to, from) || Becomes(from.data_type, to.data_type)) return null;
+  return { from: from.path, to: to.path };
+}
+
 /** Why two ports cannot be connected, or "" if they can: for people. */
 export function WhyNot(structure, first, second) {
   if (Connectable(structure, first, second)) return '';

@@ -3,7 +3,7 @@
 import { html } from 'htm/preact';
 import { IsGroup, ThreadOf } from '../model/structure.js';
 import { FormatMicroseconds } from '../model/value_format.js';
-import { PauseElement, Reload, ResumeElement, SetLogLevel } from '../state/actions.js';
+import { PauseElement, Reload, ResumeElement, SetLogLevel, SetTags } from '../state/actions.js';
 import { AlarmCount, AlarmsAt } from '../state/alarms.js';
 import { DeleteCarefully } from '../state/careful.js';
 import { IsOpen, openDialog } from '../state/choices.js';
@@ -57,7 +57,7 @@ export function ModuleDetails({ element }) {
       ['thread', thread && html`<span class="thread-name"><i
           style=${{ background: ThreadColour(thread) }}></i>${thread}${
         element.thread ? '' : html` <small>of its group</small>`}</span>`],
-      ['plugin', plugin], ['tags', element.tags],
+      ['plugin', plugin], ['tags', html`<${Tags} key=${`${path} ${element.tags ?? ''}`} path=${path} tags=${element.tags ?? ''} />`],
       ...profile.value.tasks.filter((task) => task.path === path).map((task) => [`takes${task.name.slice(path.length)}`,
         `${FormatMicroseconds(task.last_us)} last, ${FormatMicroseconds(task.mean_us)} mean, at most ${
           FormatMicroseconds(task.max_us)}; runs as number ${task.order} of its thread`]),
@@ -83,6 +83,17 @@ export function ModuleDetails({ element }) {
 }
 
 const kAlarmWords = { stopped: 'stopped', unconnected: 'without a source', silent: 'silent' };
+
+/** Words for whoever looks at it, separated by blanks: Enter sets them. */
+function Tags({ path, tags }) {
+  const onKey = (event) => {
+    if (event.key === 'Enter' && event.target.value.trim() !== tags) SetTags(path, event.target.value.trim());
+    else if (event.key === 'Escape') { event.target.value = tags; event.target.blur(); } else if (event.key !== 'Enter') return;
+    event.stopPropagation();
+  };
+  return html`<input id="tags" class="tags" aria-label="Tags" autocomplete="off" spellcheck="false" disabled=${!canChange.value}
+    placeholder="none" value=${tags} onKeyDown=${onKey} onBlur=${(event) => { event.target.value = tags; }} />`;
+}
 
 const kLogLevels = { inherit: 'as around it', debug: 'debug and more', info: 'info and more',
   warning: 'warnings and errors', error: 'errors', off: 'nothing' };

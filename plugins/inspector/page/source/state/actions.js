@@ -40,8 +40,15 @@ export const CallService = (path, value) => Ask({ op: 'call', path, value }, `Co
 export const AbortService = (path) => Ask({ op: 'abort', path }, `Could not abort ${Brief(path)}`);
 export const Release = (path) => Ask({ op: 'release', path }, `Could not release ${Brief(path)}`);
 
-export async function Connect(from, to) {
-  const reply = await Apply([Change.connect(from, to)], `connect ${Brief(from)} to ${Brief(to)}`);
+/** As a connection names a part of a port's values: "/laser/scan.ranges[0]". */
+const Part = (port, part) => (part ? `${port}${part.startsWith('[') ? '' : '.'}${part}` : port);
+
+/** By which parts and conversions values of one port could be passed on to another. */
+export const Conversions = (from, to) => Ask({ op: 'conversions', from, to }, '', { quiet: true });
+
+/** `part`, `convert`: where the types are different. */
+export async function Connect(from, to, { part = '', convert = '' } = {}) {
+  const reply = await Apply([Change.connect(Part(from, part), to, convert === '' ? {} : { convert })], `connect ${Brief(from)} to ${Brief(to)}`);
   if (reply.ok) Toast('done', `Connected ${Brief(from)} to ${Brief(to)}`);
   return reply;
 }
@@ -56,11 +63,15 @@ export async function Disconnect(from, to) {
 function Reconnect({ from, to, part, ...was }, options, label) {
   const { pull, convert, when_present, late, queue, on_full } = { ...was, ...options };
   const how = { pull, when_present, late, ...(convert ? { convert } : {}), ...(queue > 0 ? { queue, on_full } : {}) };
-  return Apply([Change.disconnect(from, to), Change.connect(part ? `${from}.${part}` : from, to, how)], label);
+  return Apply([Change.disconnect(from, to), Change.connect(Part(from, part), to, how)], label);
 }
 
 export function SetPull(connection, pull) {
   return Reconnect(connection, { pull }, `${pull ? 'pull' : 'push'} from ${Brief(connection.from)} to ${Brief(connection.to)}`);
+}
+
+export function SetTags(path, tags) {
+  return Apply([Change.tag(path, tags)], tags === '' ? `take away the tags of ${NameOf(path)}` : `tag ${NameOf(path)} ${tags}`);
 }
 
 /** `queue`: how many values wait, 0: only the newest is kept. */
