@@ -1,5 +1,5 @@
-# Writes the manual page of the program PROGRAM into the file PAGE, from what its commands say of themselves: what
-# `runnel COMMAND --help` says is said in one place. Run by CMake in script mode.
+# Writes the manual page of the program PROGRAM, called NAME, into the file PAGE, from what its commands say of
+# themselves: what `runnel COMMAND --help` says is said in one place. Run by CMake in script mode.
 
 # What troff would take for its own is taken for text.
 function(append_text text)
@@ -20,15 +20,20 @@ function(help_of words text)
 endfunction()
 
 help_of("" overview)
-set(page ".TH RUNNEL 1 \"\" \"Runnel ${VERSION}\"\n.SH NAME\nrunnel \\- runs robot applications, looks at them and changes them\n")
-string(APPEND page ".SH SYNOPSIS\n.B runnel\nCOMMAND [OPTION ...]\n.SH DESCRIPTION\n")
+string(REGEX MATCH "^[^\n]*[^\n.]" summary "${overview}")
+string(TOUPPER "${NAME}" title)
+string(REPLACE "-" " " words "${NAME}")
+set(page ".TH ${title} 1 \"\" \"Runnel ${VERSION}\"\n.SH NAME\n${NAME} \\- ${summary}\n")
+string(APPEND page ".SH SYNOPSIS\n.B ${words}\n[OPTION ...]\n.SH DESCRIPTION\n")
 append_text("${overview}")
-string(APPEND page ".SH COMMANDS\n")
 string(REGEX MATCHALL "\n  [a-z][a-z_]*  " lines "${overview}")
+if(lines)
+  string(APPEND page ".SH COMMANDS\n")
+endif()
 foreach(line IN LISTS lines)
   string(STRIP "${line}" command)
   help_of("${command}" help)
-  string(APPEND page ".SS runnel ${command}\n")
+  string(APPEND page ".SS ${words} ${command}\n")
   append_text("${help}")
 endforeach()
 string(APPEND page ".SH ENVIRONMENT\n.TP\nRUNNEL_PLUGIN_PATH\nfolders, with colons between, in which plugins are looked for before those that are installed\n")

@@ -46,8 +46,14 @@ function(runnel_library name)
   target_compile_features(runnel_${name} ${scope} cxx_std_20)
   target_link_libraries(runnel_${name} ${scope} ${arg_DEPENDS})
   set_target_properties(runnel_${name} PROPERTIES EXPORT_NAME ${name})
+  if(arg_SOURCES)
+    # Before 1.0 a new minor version may break, and has names of its own for its libraries.
+    set_target_properties(runnel_${name} PROPERTIES VERSION ${PROJECT_VERSION}
+      SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  endif()
   install(TARGETS runnel_${name} EXPORT runnelTargets
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} NAMELINK_COMPONENT librunnel-dev
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT librunnel-dev)
   runnel_public_headers(${name} ${arg_HEADERS})
 endfunction()
 
