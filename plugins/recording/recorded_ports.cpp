@@ -15,7 +15,7 @@
 #include "core/port/port.h"
 #include "core/types/type_info.h"
 #include "plugins/mcap/mcap_reader.h"
-#include "plugins/recording/port_patterns.h"
+#include "plugins/values/port_patterns.h"
 #include "plugins/recording/recording_names.h"
 #include "plugins/scheduling/thread_container.h"
 

@@ -14,7 +14,7 @@
 #include "core/port/port.h"
 #include "plugins/mcap/mcap_reader.h"
 #include "plugins/recording/played_values.h"
-#include "plugins/recording/port_patterns.h"
+#include "plugins/values/port_patterns.h"
 
 namespace runnel {
 

@@ -45,6 +45,7 @@ void AddApplication(std::vector<IncludeRule>& rules) {
            {"plugins/finroc_files"});
   attached("recordings of an application", "plugins/recording/application_",
            {"plugins/mcap", "plugins/recording"});
+  attached("the network of an application", "plugins/network/application_", {"plugins/network", "plugins/wire"});
   attached("plugins/viewers", "plugins/viewers",
            {"plugins/foxglove", "plugins/inspector", "plugins/web_server"});
 }
@@ -99,6 +100,12 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/manifest", "plugins/manifest", {"core", "plugins/values"}});
   rules.push_back({"plugins/mcap", "plugins/mcap", {"core"}});
   rules.push_back({"plugins/wire", "plugins/wire", {"core"}});
+  rules.push_back({"the words of networks",
+                   "plugins/network/xml_",
+                   {"core", "plugins/application_files", "plugins/network", "plugins/values/port_patterns.h", "plugins/wire"}});
+  rules.push_back({"plugins/network",
+                   "plugins/network",
+                   {"core", "plugins/cdr_values", "plugins/values/port_patterns.h", "plugins/wire"}});
   rules.push_back({"plugins/wire_cyclone", "plugins/wire_cyclone", {"core", "plugins/wire"}});
   rules.push_back({"plugins/recording",
                    "plugins/recording",

@@ -1,4 +1,4 @@
-#include "plugins/recording/port_patterns.h"
+#include "plugins/values/port_patterns.h"
 
 #include <gmock/gmock.h>
 

@@ -1,0 +1,69 @@
+// Attaches the network to an application that has a <network>.
+
+#include <memory>
+#include <utility>
+
+#include "core/plugin/plugin_entry.h"
+#include "plugins/application/application.h"
+#include "plugins/application/extension_registry.h"
+#include "plugins/network/network_engines.h"
+#include "plugins/network/network_link.h"
+#include "plugins/network/xml_network_tags.h"
+
+namespace runnel {
+
+namespace {
+
+class ApplicationNetwork final : public ApplicationExtension {
+ public:
+  Result<void> Prepare(FrameworkElement& application, SchedulerOptions& options) override {
+    is_simulated_ = options.clock == SchedulerOptions::ClockKind::kSimulated;
+    const NetworkElement* const element = NetworkElement::FindIn(application);
+    if (element == nullptr || !is_simulated_) return {};
+    for (const NetworkElement::Take& each : element->takes()) {
+      if (each.options.is_live) continue;
+      return Error{.message = "with simulated time, values that come when they like make runs that cannot be repeated",
+                   .path = each.output->path(),
+                   .position = each.options.position,
+                   .hint = "say live=\"true\" if that is meant"};
+    }
+    return {};
+  }
+
+  Result<void> Begin(Application& application, Diagnostics&) override {
+    NetworkElement* const element = NetworkElement::FindIn(application.element());
+    if (element == nullptr) return {};
+    engine_ = FindEngine(application, *element);
+    if (engine_ == nullptr) return Error{.message = "the network has no engine", .position = element->options().position};
+    auto link = NetworkLink::Start(application.element(), *element, *engine_, is_simulated_);
+    if (!link) return link.error();
+    link_ = std::move(*link);
+    return {};
+  }
+
+  void End() noexcept override { link_.reset(); }
+
+ private:
+  static std::shared_ptr<WireEngine> FindEngine(Application& application, const NetworkElement& element) {
+    const std::lock_guard lock(application.runtime().structure_mutex());  // as for all plugins
+    auto found = FindWireEngine(element.options().engine, application.plugins());
+    return found ? std::move(*found) : nullptr;
+  }
+
+  bool is_simulated_ = false;
+  std::shared_ptr<WireEngine> engine_;
+  std::unique_ptr<NetworkLink> link_;
+};
+
+}  // namespace
+
+}  // namespace runnel
+
+RUNNEL_PLUGIN(network, registry) {
+  if (auto* const tags = registry.Find<runnel::XmlTagRegistry>()) runnel::AddNetworkTags(*tags);
+  if (auto* const extensions = registry.Find<runnel::ExtensionRegistry>()) {
+    extensions->Add([](const runnel::ExtensionArguments&) -> runnel::Result<runnel::Extensions> {
+      return runnel::Extensions{std::make_shared<runnel::ApplicationNetwork>()};
+    });
+  }
+}

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plugins/wire/wire.h"
+
+namespace runnel {
+
+/// Who is in the network, with all that they write and read.
+///
+/// Threads: any.
+class DiscoveryTable final : public WireDiscovery {
+ public:
+  /// `on_change` is called, without a lock, after each change.
+  explicit DiscoveryTable(std::function<void()> on_change) : on_change_(std::move(on_change)) {}
+
+  void OnMember(const WireMember& member) override;
+  void OnMemberGone(const WireId& id) override;
+  void OnEndpoint(const WireEndpoint& endpoint) override;
+  void OnEndpointGone(const WireId& id) override;
+
+  [[nodiscard]] std::vector<WireMember> members() const;
+  /// Others' and own ones.
+  [[nodiscard]] std::vector<WireEndpoint> endpoints() const;
+  /// Of others, of the other direction.
+  [[nodiscard]] std::vector<WireEndpoint> Partners(const std::string& topic, bool writers) const;
+  [[nodiscard]] std::string NameOf(const WireId& member) const;
+
+ private:
+  const std::function<void()> on_change_;
+  mutable std::mutex mutex_;
+  std::map<WireId, WireMember> members_;
+  std::map<WireId, WireEndpoint> endpoints_;
+};
+
+/// Of what a reader and a writer of one topic have in common, what keeps them from being matched; "" if they are.
+/// `reader_data` and the like are what both say of their types.
+[[nodiscard]] std::string Misfit(const WireEndpointOptions& writer, const WireEndpointOptions& reader);
+
+}  // namespace runnel

@@ -1,0 +1,69 @@
+#include "plugins/network/network_element.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/element/element_path.h"
+#include "core/element/not_saved.h"
+#include "core/element/runtime.h"
+#include "core/port/typed_ports.h"
+#include "core/types/type_info.h"
+
+namespace runnel {
+
+namespace {
+
+/// A word of a topic that is not the last.
+class TopicGroup final : public FrameworkElement {
+ public:
+  explicit TopicGroup(const Placement& placement) : FrameworkElement(placement, ElementKind::kGroup) {}
+};
+
+}  // namespace
+
+NetworkElement::NetworkElement(const Placement& placement, NetworkOptions options)
+    : FrameworkElement(placement, ElementKind::kGroup), options_(std::move(options)) {
+  Annotate(std::make_unique<NotSaved>());  // the tags of the file make it again
+}
+
+NetworkElement* NetworkElement::FindIn(const FrameworkElement& application) {
+  for (FrameworkElement* const each : application.children()) {
+    if (auto* const network = dynamic_cast<NetworkElement*>(each)) return network;
+  }
+  return nullptr;
+}
+
+void NetworkElement::AddOffer(OfferOptions offer) {
+  options_.offers.push_back(std::move(offer));
+  if (on_change_) on_change_();
+}
+
+Result<Port*> NetworkElement::AddTake(const TakeOptions& take, const TypeInfo& type) {
+  const auto known = std::ranges::find(takes_, take.topic, [](const Take& each) { return each.options.topic; });
+  if (known != takes_.end()) {
+    if (&known->output->type() == &type) return known->output;
+    return Error{.message = "'" + take.topic + "' is taken as " + known->output->type().name() +
+                            " already, and cannot be " + type.name() + " as well",
+                 .path = known->output->path()};
+  }
+  auto form = ValueForm::Make(type, take.as, {});
+  if (!form) return form.error();
+  const TypedPorts* const typed = FindTypedPorts(type);
+  FrameworkElement* group = this;
+  const auto words = SplitPath(take.topic);
+  for (std::size_t i = 0; i + 1 < words.size(); ++i) {
+    FrameworkElement* const inner = group->FindChild(words[i]);
+    group = inner != nullptr ? inner : &runtime().Create<TopicGroup>(*group, std::string(words[i]));
+  }
+  auto output = typed == nullptr
+                    ? nullptr
+                    : typed->MakeOutput(*group, std::string(words.back()), {.description = "from the network: " + take.topic});
+  if (output == nullptr) return Error{.message = "values of type " + type.name() + " can be made by a module only"};
+  Port* const made = output.get();
+  runtime().Adopt(std::move(output));
+  takes_.push_back({take, made, std::move(*form)});
+  if (on_change_) on_change_();
+  return made;
+}
+
+}  // namespace runnel

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/element/framework_element.h"
+#include "core/log/logger.h"
+#include "core/port/port.h"
+#include "plugins/network/network_options.h"
+#include "plugins/network/value_form.h"
+
+namespace runnel {
+
+/// The group "network" of an application that has a <network>: what the file says of it, and below it, by their topics,
+/// an output for each that values are taken of.
+///
+/// Threads: under the structure lock.
+class NetworkElement final : public FrameworkElement {
+ public:
+  explicit NetworkElement(const Placement& placement, NetworkOptions options);
+  /// nullptr if the application has none.
+  [[nodiscard]] static NetworkElement* FindIn(const FrameworkElement& application);
+
+  [[nodiscard]] const NetworkOptions& options() const noexcept { return options_; }
+  [[nodiscard]] Logger& log() noexcept { return log_; }
+
+  void AddOffer(OfferOptions offer);
+
+  struct Take {
+    TakeOptions options;
+    Port* output;
+    std::shared_ptr<const ValueForm> form;
+  };
+  [[nodiscard]] const std::vector<Take>& takes() const noexcept { return takes_; }
+  /// The output of the topic, for values of this type; made if there is none. Errors: there is one of another type; a
+  /// type that only its module can make values of; what cannot be read as such messages.
+  Result<Port*> AddTake(const TakeOptions& take, const TypeInfo& type);
+
+  /// Who is told that there is more to offer or to take.
+  void set_on_change(std::function<void()> on_change) { on_change_ = std::move(on_change); }
+
+ private:
+  NetworkOptions options_;
+  std::vector<Take> takes_;
+  std::function<void()> on_change_;
+  Logger log_{*this};
+};
+
+}  // namespace runnel

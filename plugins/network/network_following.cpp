@@ -1,0 +1,115 @@
+// What the thread of a network does when something has changed, here or elsewhere.
+
+#include <algorithm>
+#include <mutex>
+#include <utility>
+
+#include "core/element/runtime.h"
+#include "core/paths/path_search.h"
+#include "core/types/type_info.h"
+#include "plugins/network/network_link.h"
+#include "plugins/network/topic_names.h"
+#include "plugins/values/port_patterns.h"
+
+namespace runnel {
+
+/// A port that is to be offered.
+struct NetworkLink::Wanted {
+  Port* port;  // under the structure lock
+  std::string path;
+  const TypeInfo* type;
+  OfferOptions options;
+};
+
+void NetworkLink::Follow() {
+  new_troubles_.clear();
+  std::vector<Wanted> wanted;
+  {
+    const std::lock_guard lock(runtime_.structure_mutex());
+    wanted = FindOffers();
+  }
+  for (const Wanted& each : wanted) MakeOffer(each);
+  {
+    const ChangeScope changes(runtime_);
+    wanted = FindOffers();  // anew: the lock has been free
+    for (const auto& each : offered_) {
+      const auto found = std::ranges::find_if(wanted, [&](const Wanted& one) {
+        return one.path == each->path() && one.options.topic == each->options().topic;
+      });
+      each->Attach(found == wanted.end() ? nullptr : found->port);
+    }
+  }
+  FollowTakes();
+  TellMembers();
+  TellTroubles();
+}
+
+std::vector<NetworkLink::Wanted> NetworkLink::FindOffers() {
+  std::vector<Wanted> wanted;
+  const auto add = [&](Port& port, const OfferOptions& offer) {
+    Wanted found{&port, port.path(), &port.type(), offer};
+    if (offer.topic.empty()) found.options.topic = TopicOfPort(element_.options().member.name, port.path());
+    const auto same = std::ranges::find(wanted, found.options.topic, [](const Wanted& each) { return each.options.topic; });
+    if (same == wanted.end()) {
+      wanted.push_back(std::move(found));
+    } else if (same->path != found.path) {
+      Trouble(found.path, {.message = "is not offered, as " + same->path + " is the topic " + found.options.topic + " already",
+                           .hint = "offer it by another topic: <offer port=\"…\" topic=\"…\"/>"});
+    }
+  };
+  for (const OfferOptions& offer : element_.options().offers) {
+    if (!offer.port.empty()) {
+      const auto port = PathSearch(runtime_).FindPort(offer.port, PathKind::kOutput);
+      if (port && (*port)->life_cycle() != LifeCycle::kDeleted) add(**port, offer);
+      continue;
+    }
+    const auto patterns = PortPatterns::Make(offer.patterns);
+    if (!patterns) continue;  // told when the file was read
+    application_.Visit([&](FrameworkElement& element) {
+      auto* const port = dynamic_cast<Port*>(&element);
+      if (port == nullptr || port->direction() != Port::Direction::kOutput || port->IsAtOrBelow(element_)) return;
+      // Interface ports only pass on: only who names one wants it.
+      const bool is_meant = port->is_proxy() ? patterns->Name(port->path()) : patterns->Fit(port->path());
+      if (is_meant && port->life_cycle() != LifeCycle::kDeleted) add(*port, offer);
+    });
+  }
+  return wanted;
+}
+
+void NetworkLink::MakeOffer(const Wanted& wanted) {
+  const bool is_there = std::ranges::any_of(offered_, [&](const auto& each) {
+    return each->path() == wanted.path && each->options().topic == wanted.options.topic && &each->type() == wanted.type;
+  });
+  if (is_there) return;
+  auto form = ValueForm::Make(*wanted.type, wanted.options.as, wanted.options.frame);
+  if (!form) return Trouble(wanted.path, form.error());
+  auto made = std::make_unique<OfferedPort>(*beside_, "offer_" + std::to_string(++made_), *wanted.type, wanted.path,
+                                            wanted.options, std::move(*form), clock_, wake_);
+  made->set_on_matched([this] { LookAgain(); });
+  if (const auto begun = made->Begin(*participant_); !begun) return Trouble(wanted.path, begun.error());
+  const std::lock_guard lock(runtime_.structure_mutex());
+  // One of before, whose port has another type now.
+  std::erase_if(offered_, [&](const auto& each) {
+    return each->path() == wanted.path && each->options().topic == wanted.options.topic;
+  });
+  offered_.push_back(std::move(made));
+}
+
+void NetworkLink::FollowTakes() {
+  std::vector<NetworkElement::Take> takes;
+  {
+    const std::lock_guard lock(runtime_.structure_mutex());
+    takes = element_.takes();
+    for (const auto& each : takes) {
+      const bool is_there = std::ranges::any_of(taken_, [&](const auto& one) { return &one->output() == each.output; });
+      if (!is_there) taken_.push_back(std::make_unique<TakenPort>(*each.output, each.options, each.form, clock_));
+    }
+  }
+  for (const auto& each : taken_) {
+    if (const auto followed = each->Follow(*participant_, table_); !followed) {
+      Trouble(each->output().path(), followed.error());
+    }
+  }
+}
+
+}  // namespace runnel

@@ -1,0 +1,109 @@
+#include "plugins/network/network_link.h"
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+#include <utility>
+
+#include "core/base/exception_text.h"
+#include "core/element/not_saved.h"
+#include "core/element/runtime.h"
+
+namespace runnel {
+
+namespace {
+
+// So long something may go unnoticed of which nobody tells.
+constexpr auto kLookAround = std::chrono::seconds(1);
+
+/// Beside the tree: no part of the application, so that nobody finds or saves it.
+class BesideElement final : public FrameworkElement {
+ public:
+  explicit BesideElement(FrameworkElement& root) : FrameworkElement(Placement{root, "network", false}) {
+    Annotate(std::make_unique<NotSaved>());
+  }
+};
+
+}  // namespace
+
+NetworkLink::NetworkLink(FrameworkElement& application, NetworkElement& element, bool is_simulated)
+    : application_(application),
+      runtime_(application.runtime()),
+      element_(element),
+      clock_{is_simulated},
+      table_([this] { LookAgain(); }) {}
+
+Result<std::unique_ptr<NetworkLink>> NetworkLink::Start(FrameworkElement& application, NetworkElement& element,
+                                                        WireEngine& engine, bool is_simulated) {
+  std::unique_ptr<NetworkLink> link(new NetworkLink(application, element, is_simulated));
+  auto joined = engine.Join(element.options().member, link->table_);
+  if (!joined) {
+    Error error = joined.error();
+    error.position = element.options().position;
+    return error;
+  }
+  link->participant_ = std::move(*joined);
+  {
+    const ChangeScope changes(link->runtime_);
+    link->beside_ = std::make_unique<BesideElement>(link->runtime_.root());
+    link->runtime_.AddListener(*link);
+    element.set_on_change([raw = link.get()] { raw->LookAgain(); });
+  }
+  link->Follow();  // so that all is offered when the first cycle runs
+  link->thread_ = std::thread([raw = link.get()] { raw->Run(); });
+  return link;
+}
+
+NetworkLink::~NetworkLink() {
+  if (beside_ != nullptr) {
+    const std::lock_guard lock(runtime_.structure_mutex());
+    element_.set_on_change({});
+    runtime_.RemoveListener(*this);
+  }
+  ends_ = true;
+  wake_->Notify();
+  if (thread_.joinable()) thread_.join();
+  taken_.clear();
+  offered_.clear();
+  participant_.reset();
+}
+
+void NetworkLink::LookAgain() noexcept {
+  // release: what has changed is seen by who answers.
+  must_look_.store(true, std::memory_order_release);
+  wake_->Notify();
+}
+
+void NetworkLink::OnReady(FrameworkElement&) { LookAgain(); }
+void NetworkLink::OnConnected(FrameworkElement&, FrameworkElement& to) {
+  if (!to.IsAtOrBelow(*beside_)) LookAgain();
+}
+void NetworkLink::OnDisconnected(FrameworkElement&, FrameworkElement& to) {
+  if (!to.IsAtOrBelow(*beside_)) LookAgain();
+}
+void NetworkLink::OnDeleted(FrameworkElement& element) {
+  for (const auto& each : offered_) each->Forget(element);
+  LookAgain();
+}
+
+void NetworkLink::Run() noexcept {
+  while (!ends_) {
+    try {
+      if (must_look_.exchange(false, std::memory_order_acquire)) Follow();
+      SendAll();
+    } catch (...) {
+      element_.log().Error("the network: {}", DescribeException());
+    }
+  }
+}
+
+void NetworkLink::SendAll() {
+  Time deadline = SteadyClock().Now() + kLookAround;
+  const Time now = SteadyClock().Now();
+  for (const auto& each : offered_) {
+    if (const auto again = each->Send(now)) deadline = std::min(deadline, *again);
+  }
+  if (!must_look_ && !ends_) wake_->WaitUntil(deadline);
+}
+
+}  // namespace runnel

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/element/element_listener.h"
+#include "core/lockfree/wake_event.h"
+#include "plugins/network/discovery_table.h"
+#include "plugins/network/network_element.h"
+#include "plugins/network/offered_port.h"
+#include "plugins/network/taken_port.h"
+
+namespace runnel {
+
+/// An application in the network: sends what is offered, takes what is to be taken, and follows both as the structure
+/// and those who are there change.
+///
+/// Ownership:  of engine endpoints and one thread. Application, element and engine must outlive it.
+/// Threads:    Start() and destroying outside of cycles, real-time threads and the structure lock; the rest any.
+/// Errors:     at the start, told by Start(); later, by the log of the element, once for as long as they last.
+class NetworkLink final : private ElementListener {
+ public:
+  static Result<std::unique_ptr<NetworkLink>> Start(FrameworkElement& application, NetworkElement& element,
+                                                    WireEngine& engine, bool is_simulated);
+  ~NetworkLink() override;
+
+  /// What `runnel network` shows.
+  [[nodiscard]] std::string Text() const;
+
+ private:
+  NetworkLink(FrameworkElement& application, NetworkElement& element, bool is_simulated);
+  struct Wanted;
+
+  void OnReady(FrameworkElement& element) override;
+  void OnDeleted(FrameworkElement& element) override;
+  void OnConnected(FrameworkElement& from, FrameworkElement& to) override;
+  void OnDisconnected(FrameworkElement& from, FrameworkElement& to) override;
+
+  void LookAgain() noexcept;
+  // By the thread.
+  void Run() noexcept;
+  void SendAll();
+  void Follow();
+  [[nodiscard]] std::vector<Wanted> FindOffers();
+  void MakeOffer(const Wanted& wanted);
+  void FollowTakes();
+  void TellTroubles();
+  void TellMembers();
+  void Trouble(const std::string& of, const Error& error);
+
+  FrameworkElement& application_;
+  Runtime& runtime_;
+  NetworkElement& element_;
+  const ClockOffset clock_;
+  const std::shared_ptr<WakeEvent> wake_ = std::make_shared<WakeEvent>();
+  std::atomic<bool> must_look_{true};
+  std::atomic<bool> ends_{false};
+  DiscoveryTable table_;
+  std::unique_ptr<FrameworkElement> beside_;  // below which the inputs are that values are sent from
+  std::unique_ptr<WireParticipant> participant_;
+  // Changed by the thread, under the structure lock.
+  std::vector<std::unique_ptr<OfferedPort>> offered_;
+  std::vector<std::unique_ptr<TakenPort>> taken_;
+  // The thread's own.
+  std::uint64_t made_ = 0;
+  std::map<std::string, std::string> troubles_;      // by whom they are, as they have been told
+  std::map<std::string, std::string> new_troubles_;  // as they are now
+  std::map<WireId, std::string> members_;
+  std::thread thread_;
+};
+
+}  // namespace runnel

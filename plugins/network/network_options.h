@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/error.h"
+#include "plugins/wire/wire.h"
+
+namespace runnel {
+
+/// How values of one port are kept and sent, as files name it.
+enum class ValueQuality {
+  kNewest,   ///< reliable, the newest value; what a slow reader misses is gone
+  kEach,     ///< reliable, each value in its order, as long as a queue has room
+  kSensor,   ///< best effort, the newest 5
+  kLatched,  ///< reliable, and who comes late gets the newest
+};
+
+/// newest, each, sensor, latched. In its order.
+[[nodiscard]] const std::vector<std::string>& ValueQualityNames();
+[[nodiscard]] WireQos QosOf(ValueQuality quality);
+
+/// A port, or ports, that others may read.
+struct OfferOptions {
+  std::vector<std::string> patterns = {};  ///< of ports (PortPatterns), or
+  std::string port = {};                   ///< one, by its path from the root
+  std::string topic = {};                  ///< "/scan"; "": follows from the path
+  std::string as = {};                     ///< type of the messages; "": by the description of the port's type
+  std::string frame = {};
+  ValueQuality quality = ValueQuality::kNewest;
+  double rate = 0;                           ///< most values a second; 0: no bound
+  std::optional<std::int32_t> strength = {};  ///< the only one that counts, if no stronger one is there
+  SourcePosition position = {};
+};
+
+/// A topic whose values go to ports of this application.
+struct TakeOptions {
+  std::string topic = {};
+  std::string as = {};
+  std::vector<std::string> to = {};             ///< as the file has them
+  std::optional<ValueQuality> quality = {};     ///< nothing: as much as all writers offer
+  bool is_exclusive = false;                    ///< of several writers only the strongest counts
+  bool keeps_stamps = false;                    ///< values are as old as their writer says, by synchronised clocks
+  bool is_live = false;                         ///< also with simulated time, whose runs then are not repeatable
+  SourcePosition position = {};
+};
+
+/// What <network> says.
+struct NetworkOptions {
+  WireMemberOptions member = {};
+  std::string engine = "cyclone";
+  std::vector<OfferOptions> offers = {};
+  SourcePosition position = {};
+};
+
+}  // namespace runnel

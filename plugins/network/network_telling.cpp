@@ -1,0 +1,109 @@
+// What the log and `runnel network` say of the network.
+
+#include <algorithm>
+#include <mutex>
+#include <set>
+
+#include "core/element/runtime.h"
+#include "plugins/network/network_link.h"
+#include "plugins/network/topic_names.h"
+
+namespace runnel {
+
+namespace {
+
+std::string ReadableTopic(const std::string& wire_topic) {
+  const std::string topic = TopicIn(wire_topic);
+  return topic.empty() ? wire_topic : topic;
+}
+
+}  // namespace
+
+void NetworkLink::Trouble(const std::string& of, const Error& error) {
+  new_troubles_[of] = error.message + (error.hint.empty() ? "" : "; " + error.hint);
+}
+
+// Each when it begins, and again if it has been over meanwhile.
+void NetworkLink::TellTroubles() {
+  const auto look = [&](const WireEndpointOptions& own, const std::string& path, bool is_writer) {
+    for (const WireEndpoint& other : table_.Partners(own.topic, !is_writer)) {
+      const std::string misfit = is_writer ? Misfit(own, other.options) : Misfit(other.options, own);
+      if (misfit.empty()) continue;
+      const std::string who = table_.NameOf(other.participant);
+      new_troubles_[path + " " + who] = ReadableTopic(own.topic) + " of " + who + " does not fit: " + misfit;
+    }
+  };
+  for (const auto& each : offered_) look(each->endpoint(), each->path(), true);
+  for (const auto& each : taken_) look(each->endpoint(), each->output().path(), false);
+  for (const auto& each : offered_) {
+    if (const auto error = each->TakeError()) Trouble(each->path(), *error);
+  }
+  for (const auto& each : taken_) {
+    if (const auto error = each->TakeError()) Trouble(each->output().path(), *error);
+  }
+  for (const auto& [of, text] : new_troubles_) {
+    const auto told = troubles_.find(of);
+    if (told == troubles_.end() || told->second != text) element_.log().Warn("{}: {}", of.substr(0, of.find(' ')), text);
+  }
+  troubles_ = new_troubles_;
+}
+
+void NetworkLink::TellMembers() {
+  std::map<WireId, std::string> now;
+  for (const WireMember& each : table_.members()) {
+    if (each.id != participant_->id()) now[each.id] = each.name.empty() ? "somebody without a name" : each.name;
+  }
+  for (const auto& [id, name] : now) {
+    if (members_.contains(id)) continue;
+    element_.log().Info("{} is in the network", name);
+    if (name == element_.options().member.name) {
+      element_.log().Warn("two are called {} in the network: say <network name=\"…\"> in one of their files", name);
+    }
+  }
+  for (const auto& [id, name] : members_) {
+    if (!now.contains(id)) element_.log().Info("{} has left the network", name);
+  }
+  members_ = std::move(now);
+}
+
+std::string NetworkLink::Text() const {
+  const WireMemberOptions& own = element_.options().member;
+  std::string text = own.name + " in domain " + std::to_string(own.domain) + "\n";
+  for (const WireMember& each : table_.members()) {
+    if (each.id == participant_->id()) continue;
+    text += "member " + (each.name.empty() ? "somebody without a name" : each.name) + "\n";
+  }
+  const std::lock_guard lock(runtime_.structure_mutex());
+  const auto add_partners = [&](const WireEndpointOptions& mine, bool is_writer) {
+    for (const WireEndpoint& other : table_.Partners(mine.topic, !is_writer)) {
+      const std::string misfit = is_writer ? Misfit(mine, other.options) : Misfit(other.options, mine);
+      text += std::string(is_writer ? "    read by " : "    written by ") + table_.NameOf(other.participant) + " (" +
+              QosText(other.options.qos) + ")" + (misfit.empty() ? "" : ": NOT MATCHED, " + misfit) + "\n";
+    }
+  };
+  const auto add = [&](const WireEndpointOptions& endpoint, const std::string& arrow, const std::string& counts) {
+    text += arrow + "  " + endpoint.type + ", " + QosText(endpoint.qos) + counts + "\n";
+  };
+  for (const auto& each : offered_) {
+    add(each->endpoint(), "offers " + each->path() + " as " + each->options().topic,
+        ", " + std::to_string(each->sent()) + " sent" +
+            (each->dropped() > 0 ? ", " + std::to_string(each->dropped()) + " lost" : ""));
+    add_partners(each->endpoint(), true);
+  }
+  for (const auto& each : taken_) {
+    add(each->endpoint(), "takes " + each->options().topic + " to " + each->output().path(),
+        ", " + std::to_string(each->taken()) + " came" +
+            (each->refused() > 0 ? ", " + std::to_string(each->refused()) + " could not be read" : ""));
+    add_partners(each->endpoint(), false);
+  }
+  std::set<std::string> others;
+  for (const WireEndpoint& each : table_.endpoints()) {
+    if (each.is_own) continue;
+    others.insert((each.is_writer ? "written " : "read ") + ReadableTopic(each.options.topic) + "  " + each.options.type +
+                  " by " + table_.NameOf(each.participant));
+  }
+  for (const std::string& each : others) text += each + "\n";
+  return text;
+}
+
+}  // namespace runnel

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/base/clock.h"
+#include "core/port/probe_port.h"
+#include "plugins/network/network_options.h"
+#include "plugins/network/value_form.h"
+#include "plugins/wire/octet_pool.h"
+
+namespace runnel {
+
+class WakeEvent;
+
+/// From a clock of this application to the time since 1970 and back. Simulated time is kept as it is.
+struct ClockOffset {
+  bool is_simulated = false;
+  /// Now; the two clocks may drift.
+  [[nodiscard]] Duration Now() const;
+};
+
+/// One port whose values go to the network, each as soon as it is published, while somebody there reads it. Until then
+/// nothing of the port knows of it.
+///
+/// Threads:     all by the network's thread, outside of cycles, Attach() under the structure lock, too; but Forget(), by
+///              who has that lock. Publishers wake that thread: a few nanoseconds, and a call of the system if it sleeps.
+/// Allocation:  of octets, which are used again.
+class OfferedPort {
+ public:
+  /// `beside`: an element beside the tree, below which the input is. `wake` wakes the thread that calls Send().
+  OfferedPort(FrameworkElement& beside, const std::string& name, const TypeInfo& type, std::string path,
+              OfferOptions options, std::shared_ptr<const ValueForm> form, ClockOffset clock,
+              std::shared_ptr<WakeEvent> wake);
+  ~OfferedPort();
+  OfferedPort(const OfferedPort&) = delete;
+  OfferedPort& operator=(const OfferedPort&) = delete;
+
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
+  [[nodiscard]] const TypeInfo& type() const noexcept { return input_->type(); }
+  [[nodiscard]] const OfferOptions& options() const noexcept { return options_; }
+  [[nodiscard]] WireEndpointOptions endpoint() const;
+
+  /// Told, by threads of the engine, that somebody begins or ceases to read. Before Begin().
+  void set_on_matched(std::function<void()> on_matched) { on_matched_ = std::move(on_matched); }
+  /// Errors: of the engine.
+  Result<void> Begin(WireParticipant& participant);
+  /// Takes values of the port from now on, if anybody there reads them; nullptr: of none, as it has gone.
+  void Attach(Port* port);
+  /// The element is about to go: nobody looks at a port of it any more.
+  void Forget(const FrameworkElement& element) noexcept;
+
+  /// Sends what is due. When it wants to be called again though nothing wakes; nothing: not before.
+  std::optional<Time> Send(Time now);
+
+  [[nodiscard]] std::size_t matched() const noexcept { return matched_.load(std::memory_order_relaxed); }
+  [[nodiscard]] std::uint64_t sent() const noexcept { return sent_.load(std::memory_order_relaxed); }
+  [[nodiscard]] std::uint64_t dropped() const noexcept;
+  /// What went wrong since the last call. By the network's thread.
+  [[nodiscard]] std::optional<Error> TakeError() { return std::exchange(error_, {}); }
+
+ private:
+  class Bell;
+  class NewestInput;
+
+  // Whether there was one.
+  bool SendNewest();
+  void SendEach(Time now);
+  void Encode(const void* value, ValueTimes times, Octets& octets) const;
+  void Write(const std::shared_ptr<Octets>& octets, ValueTimes times);
+
+  const std::string path_;
+  const OfferOptions options_;
+  const std::string topic_;
+  const std::shared_ptr<const ValueForm> form_;
+  const ClockOffset clock_;
+  const std::shared_ptr<WakeEvent> wake_;
+  const std::shared_ptr<Bell> bell_;
+  std::unique_ptr<InputBase> input_;
+  ProbePort* each_ = nullptr;  // the input, if each value is wanted
+  std::function<void()> on_matched_;
+  std::unique_ptr<WireWriter> writer_;
+  std::atomic<std::size_t> matched_{0};
+  // Where values are looked at: the output that feeds the port. Cleared, under the structure lock, before that goes;
+  // who has loaded it in an EpochGuard may use it as long as that lives.
+  std::atomic<const Port*> source_{nullptr};
+  OctetPool pool_;
+  Time next_{};  // not before
+  std::optional<std::uint64_t> shown_;  // how many the source had published when its newest value was sent
+  std::atomic<std::uint64_t> sent_{0};
+  std::optional<Error> error_;
+};
+
+}  // namespace runnel

@@ -1,0 +1,99 @@
+#include "plugins/network/taken_port.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/base/exception_text.h"
+#include "core/element/runtime.h"
+#include "core/port/own_cycle.h"
+#include "plugins/network/discovery_table.h"
+#include "plugins/network/topic_names.h"
+
+namespace runnel {
+
+TakenPort::TakenPort(Port& output, TakeOptions options, std::shared_ptr<const ValueForm> form, ClockOffset clock)
+    : output_(output),
+      options_(std::move(options)),
+      form_(std::move(form)),
+      clock_(clock),
+      endpoint_{.topic = WireTopic(options_.topic), .type = form_->wire_type(), .user_data = form_->user_data()} {}
+
+// As much as all of them offer, so that none is left out and nothing that they keep is missed.
+WireQos TakenPort::WantedQos(const std::vector<WireEndpoint>& writers) const {
+  WireQos qos = QosOf(options_.quality.value_or(ValueQuality::kNewest));
+  qos.is_exclusive = options_.is_exclusive;
+  if (options_.quality) return qos;
+  bool is_latched = false;
+  bool is_first = true;
+  for (const WireEndpoint& each : writers) {
+    if (each.options.type != endpoint_.type) continue;
+    qos.is_reliable = qos.is_reliable && each.options.qos.is_reliable;
+    is_latched = (is_first || is_latched) && each.options.qos.is_latched;
+    qos.depth = std::max(qos.depth, std::min(each.options.qos.depth, 128u));
+    is_first = false;
+  }
+  qos.is_latched = is_latched;
+  return qos;
+}
+
+Result<void> TakenPort::Follow(WireParticipant& participant, const DiscoveryTable& table) {
+  const auto writers = table.Partners(endpoint_.topic, true);
+  {
+    const std::lock_guard lock(mutex_);
+    misfits_.clear();
+    for (const WireEndpoint& each : writers) {
+      if (!TypeMisfit(each.options.user_data, endpoint_.user_data).empty()) misfits_.push_back(each.handle);
+    }
+  }
+  const WireQos qos = WantedQos(writers);
+  if (reader_ != nullptr && (qos == endpoint_.qos || writers.empty())) return {};
+  reader_.reset();
+  endpoint_.qos = qos;
+  auto reader = participant.MakeReader(
+      endpoint_, [this](const WireSample& sample) { Take(sample); },
+      [this](std::size_t count) { matched_.store(count, std::memory_order_relaxed); });
+  if (!reader) return reader.error();
+  reader_ = std::move(*reader);
+  return {};
+}
+
+void TakenPort::Take(const WireSample& sample) noexcept {
+  try {
+    const Duration offset = clock_.Now();
+    const Time now = output_.runtime().clock().Now();
+    const Time sent = Time(Duration(sample.source_time)) - offset;
+    {
+      const std::lock_guard lock(mutex_);
+      if (std::ranges::find(misfits_, sample.writer) != misfits_.end()) return;
+      if (!clock_.is_simulated) least_delay_ = std::min(least_delay_.value_or(Duration::max()), now - sent);
+    }
+    const OwnCycle cycle(now);
+    const auto timestamp = options_.keeps_stamps && !clock_.is_simulated ? std::optional(std::min(sent, now)) : std::nullopt;
+    const auto published = output_.PublishFilled([&](void* value) { return form_->Read(sample.octets, value); }, timestamp);
+    if (published) {
+      taken_.fetch_add(1, std::memory_order_relaxed);
+    } else {
+      Refuse(published.error());
+    }
+  } catch (...) {
+    refused_.fetch_add(1, std::memory_order_relaxed);
+  }
+}
+
+void TakenPort::Refuse(Error error) {
+  refused_.fetch_add(1, std::memory_order_relaxed);
+  const std::lock_guard lock(mutex_);
+  error_ = std::move(error);
+}
+
+std::optional<Error> TakenPort::TakeError() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(error_, {});
+}
+
+std::optional<Duration> TakenPort::least_delay() const {
+  const std::lock_guard lock(mutex_);
+  return least_delay_;
+}
+
+}  // namespace runnel

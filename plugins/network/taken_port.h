@@ -1,0 +1,69 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/port/port.h"
+#include "plugins/network/network_options.h"
+#include "plugins/network/offered_port.h"
+#include "plugins/network/value_form.h"
+
+namespace runnel {
+
+class DiscoveryTable;
+
+/// An output of this application that publishes what comes from the network: made with the application, whether
+/// anybody writes there or not, so that it can be connected and watched as any other. Each value is published by the
+/// thread that it comes in by, in a cycle of its own, and stands in the output's buffer at once.
+///
+/// Ownership:   of the reader. The output must outlive it.
+/// Threads:     Follow() and the destructor by the network's thread; values by threads of the engine, one at a time.
+class TakenPort {
+ public:
+  TakenPort(Port& output, TakeOptions options, std::shared_ptr<const ValueForm> form, ClockOffset clock);
+
+  [[nodiscard]] Port& output() const noexcept { return output_; }
+  [[nodiscard]] const TakeOptions& options() const noexcept { return options_; }
+  [[nodiscard]] const WireEndpointOptions& endpoint() const noexcept { return endpoint_; }
+
+  /// Asks for what the writers that are there offer, if nobody has said what is to be asked for; leaves out those whose
+  /// values are of another kind. Errors: of the engine.
+  Result<void> Follow(WireParticipant& participant, const DiscoveryTable& table);
+  /// Nothing comes any more.
+  void End() noexcept { reader_.reset(); }
+
+  [[nodiscard]] std::size_t matched() const noexcept { return matched_.load(std::memory_order_relaxed); }
+  [[nodiscard]] std::uint64_t taken() const noexcept { return taken_.load(std::memory_order_relaxed); }
+  /// Values that could not be read.
+  [[nodiscard]] std::uint64_t refused() const noexcept { return refused_.load(std::memory_order_relaxed); }
+  /// Why the last of them could not, once.
+  [[nodiscard]] std::optional<Error> TakeError();
+  /// By how much the clocks of the writers are behind this one's at least, as far as is known (arrival after sending).
+  [[nodiscard]] std::optional<Duration> least_delay() const;
+
+ private:
+  void Take(const WireSample& sample) noexcept;
+  [[nodiscard]] WireQos WantedQos(const std::vector<WireEndpoint>& writers) const;
+  void Refuse(Error error);
+
+  Port& output_;
+  const TakeOptions options_;
+  const std::shared_ptr<const ValueForm> form_;
+  const ClockOffset clock_;
+  WireEndpointOptions endpoint_;
+  std::unique_ptr<WireReader> reader_;
+  std::atomic<std::size_t> matched_{0};
+  std::atomic<std::uint64_t> taken_{0};
+  std::atomic<std::uint64_t> refused_{0};
+  mutable std::mutex mutex_;
+  std::vector<std::uint64_t> misfits_;  // handles of writers that are not listened to; guarded by mutex_
+  std::optional<Error> error_;          // likewise
+  std::optional<Duration> least_delay_;  // likewise
+};
+
+}  // namespace runnel

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "core/base/clock.h"
+#include "core/base/result.h"
+#include "plugins/wire/wire.h"
+
+namespace runnel {
+
+class TypeInfo;
+
+/// Values of one type as octets on the wire, and back.
+///
+/// Threads: any number at once, each with a value of its own.
+class ValueForm {
+ public:
+  /// `as`: "sensor_msgs/msg/LaserScan"; "": by the type's own description. Errors: there is no such message; the type
+  /// cannot become it; a part of the type is opaque.
+  static Result<std::shared_ptr<const ValueForm>> Make(const TypeInfo& type, const std::string& as,
+                                                       const std::string& frame);
+  virtual ~ValueForm() = default;
+
+  /// By which the wire knows the type.
+  [[nodiscard]] const std::string& wire_type() const noexcept { return wire_type_; }
+  /// What is told of the type besides its name: two of one name fit only if this is the same, or unknown.
+  [[nodiscard]] const std::string& user_data() const noexcept { return user_data_; }
+
+  /// `stamp`: since 1970, for headers.
+  virtual void Write(const void* value, Time stamp, Octets& octets) const = 0;
+  /// Errors: what is wrong with the octets; the value may then be half set.
+  virtual Result<void> Read(std::span<const std::byte> octets, void* value) const = 0;
+
+ protected:
+  std::string wire_type_;
+  std::string user_data_;
+};
+
+/// What is inside of values, in one line: "{x:double[m],y:double[m]}".
+[[nodiscard]] std::string DescriptionText(const TypeInfo& type);
+
+/// Why values of a writer cannot be read by a reader although their types have one name, from what both say of them; ""
+/// if they can, as far as is known.
+[[nodiscard]] std::string TypeMisfit(const std::string& writers, const std::string& readers);
+
+}  // namespace runnel

@@ -1,0 +1,229 @@
+#include "plugins/network/xml_network_tags.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <utility>
+
+#include "plugins/application_files/build_context.h"
+#include "plugins/application_files/path_use.h"
+#include "plugins/network/network_element.h"
+#include "plugins/network/network_engines.h"
+#include "plugins/network/topic_names.h"
+#include "plugins/values/port_patterns.h"
+
+namespace runnel {
+
+namespace {
+
+constexpr std::size_t kLargestDomain = 101;  // those beyond may collide with ports that the system gives out
+const std::vector<std::string> kReaches = {"loopback", "machine", "network"};
+
+std::string TextOf(const TagUse& use, std::string_view name) {
+  const XmlAttribute* const attribute = use.Find(name);
+  return attribute != nullptr ? attribute->value : "";
+}
+bool IsTrue(const TagUse& use, std::string_view name) { return TextOf(use, name) == "true"; }
+
+std::optional<double> NumberOf(const TagUse& use, std::string_view name) {
+  const XmlAttribute* const attribute = use.Find(name);
+  return attribute != nullptr ? std::optional(std::strtod(attribute->value.c_str(), nullptr)) : std::nullopt;
+}
+
+void ReadDomain(const TagUse& use, WireMemberOptions& member) {
+  const XmlAttribute* const said = use.Find("domain");
+  const char* const environment = std::getenv("ROS_DOMAIN_ID");
+  if (said == nullptr && (environment == nullptr || *environment == '\0')) return;
+  const auto number = ParseCount(said != nullptr ? said->value : environment);
+  if (number && *number <= kLargestDomain) {
+    member.domain = static_cast<std::uint32_t>(*number);
+    return;
+  }
+  use.Report({.message = std::string(said != nullptr ? "" : "ROS_DOMAIN_ID: ") + "a domain is a number from 0 to " +
+                         std::to_string(kLargestDomain)},
+             said != nullptr ? said->value_position : use.xml.position());
+}
+
+FrameworkElement* HandleNetwork(const TagUse& use) {
+  if (const NetworkElement* const first = NetworkElement::FindIn(use.parent)) {
+    use.Report({.message = "there is a network already",
+                .hint = "the first is in line " + std::to_string(first->options().position.line)},
+               use.xml.position());
+    return nullptr;
+  }
+  NetworkOptions options{.position = use.xml.position()};
+  WireMemberOptions& member = options.member;
+  ReadDomain(use, member);
+  member.name = use.Find("name") != nullptr ? TextOf(use, "name") : use.parent.name();
+  if (const XmlAttribute* const reach = use.Find("reach")) {
+    member.reach = static_cast<WireReach>(std::ranges::find(kReaches, reach->value) - kReaches.begin());
+  }
+  member.peers = SplitPaths(TextOf(use, "peers"));
+  member.interface = TextOf(use, "interface");
+  member.has_multicast = TextOf(use, "multicast") != "false";
+  if (const XmlAttribute* const interface = use.Find("interface"); interface != nullptr && member.reach != WireReach::kNetwork) {
+    use.Report({.message = "an interface is chosen only where the network is reached",
+                .hint = "say reach=\"network\", or leave it out"},
+               interface->position);
+  }
+  if (use.Find("engine") != nullptr) options.engine = TextOf(use, "engine");
+  const auto engine = FindWireEngine(options.engine, use.context.plugins());
+  if (!engine) use.Report(engine.error(), use.xml.position());
+  use.context.runtime().Create<NetworkElement>(use.parent, "network", std::move(options));
+  return &use.parent;
+}
+
+std::optional<ValueQuality> QualityOf(const TagUse& use) {
+  const XmlAttribute* const qos = use.Find("qos");
+  if (qos == nullptr) return {};
+  return static_cast<ValueQuality>(std::ranges::find(ValueQualityNames(), qos->value) - ValueQualityNames().begin());
+}
+
+// Whether it is a name; else that is reported.
+bool CheckTopicOf(const TagUse& use) {
+  const XmlAttribute* const topic = use.Find("topic");
+  if (topic == nullptr) return true;
+  const auto checked = CheckTopic(topic->value);
+  if (!checked) use.Report(checked.error(), topic->value_position);
+  return checked.has_value();
+}
+
+void AddOffer(const TagUse& use, OfferOptions offer) {
+  if (const XmlAttribute* const path = use.Find("port")) {
+    const Port* const port = SearchPort(PathIn(*path, use.parent), PathKind::kOutput, use.context);
+    if (port == nullptr) return;
+    offer.port = port->path();
+    if (const auto form = ValueForm::Make(port->type(), offer.as, offer.frame); !form) {
+      const XmlAttribute* const as = use.Find("as");
+      return use.Report(form.error(), (as != nullptr ? as : path)->value_position);
+    }
+  }
+  NetworkElement::FindIn(use.parent)->AddOffer(std::move(offer));
+}
+
+FrameworkElement* HandleOffer(const TagUse& use) {
+  OfferOptions offer{.topic = TextOf(use, "topic"),
+                     .as = TextOf(use, "as"),
+                     .frame = TextOf(use, "frame"),
+                     .quality = QualityOf(use).value_or(ValueQuality::kNewest),
+                     .rate = NumberOf(use, "rate").value_or(0),
+                     .position = use.xml.position()};
+  if (const auto strength = NumberOf(use, "strength")) offer.strength = static_cast<std::int32_t>(*strength);
+  const XmlAttribute* const ports = use.Find("ports");
+  if ((ports == nullptr) == (use.Find("port") == nullptr)) {
+    use.Report({.message = "<offer> says which ports, or which port",
+                .hint = "ports=\"laser/* !**/debug\", or port=\"laser/scan\""},
+               use.xml.position());
+    return &use.parent;
+  }
+  if (offer.rate < 0) use.Report({.message = "the rate is a number above 0, of values a second"}, use.Find("rate")->value_position);
+  if (ports != nullptr) {
+    for (const char* const only : {"topic", "as", "frame"}) {
+      if (const XmlAttribute* const said = use.Find(only)) {
+        use.Report({.message = std::string(only) + " is said of one port", .hint = "write port=\"…\" instead of ports"}, said->position);
+        return &use.parent;
+      }
+    }
+    offer.patterns = SplitPaths(ports->value);
+    const auto patterns = PortPatterns::Make(offer.patterns);
+    if (!patterns) use.Report(patterns.error(), ports->value_position);
+  }
+  if (!CheckTopicOf(use)) return &use.parent;
+  use.context.Defer(BuildStage::kConnections, [use, offer = std::move(offer)] { AddOffer(use, offer); });
+  return &use.parent;
+}
+
+void AddTake(const TagUse& use, const TakeOptions& take) {
+  NetworkElement& network = *NetworkElement::FindIn(use.parent);
+  for (const PathUse& to_use : PathsIn(use.Get("to"), use.parent)) {
+    Port* const to = SearchPort(to_use, PathKind::kInput, use.context);
+    if (to == nullptr) continue;
+    const auto output = network.AddTake(take, to->type());
+    const auto connected = output ? Port::Connect(**output, *to) : Result<void>(output.error());
+    if (connected) continue;
+    use.context.MarkUnfed(*to);
+    use.Report(connected.error(), to_use.position);
+  }
+}
+
+FrameworkElement* HandleTake(const TagUse& use) {
+  TakeOptions take{.topic = TextOf(use, "topic"),
+                   .as = TextOf(use, "as"),
+                   .quality = QualityOf(use),
+                   .is_exclusive = IsTrue(use, "exclusive"),
+                   .keeps_stamps = TextOf(use, "stamp") == "sent",
+                   .is_live = IsTrue(use, "live"),
+                   .position = use.xml.position()};
+  if (CheckTopicOf(use)) {
+    use.context.Defer(BuildStage::kConnections, [use, take = std::move(take)] { AddTake(use, take); });
+  }
+  return &use.parent;
+}
+
+AttributeRule Choice(const char* name, const char* summary, std::vector<std::string> choices = {"true", "false"}) {
+  return {.name = name, .kind = AttributeKind::kChoice, .summary = summary, .choices = std::move(choices)};
+}
+
+AttributeRule Quality(const char* summary) { return Choice("qos", summary, ValueQualityNames()); }
+
+AttributeRule MessageType() {
+  return {.name = "as", .summary = "type of the messages: sensor_msgs/msg/LaserScan; without, the values by their description"};
+}
+
+}  // namespace
+
+void AddNetworkTags(XmlTagRegistry& tags) {
+  tags.AddTag({.name = "network",
+               .summary = "connects the application with other processes, machines and nodes of ROS 2",
+               .parents = {"application"},
+               .attributes = {{.name = "domain",
+                               .kind = AttributeKind::kCount,
+                               .summary = "only members of one domain see each other; 0 to 101; ROS_DOMAIN_ID, or else 0"},
+                              {.name = "name",
+                               .kind = AttributeKind::kName,
+                               .summary = "of the application in the network; its own by default"},
+                              Choice("reach",
+                                     "loopback: only processes of this machine that say so, too (the default); machine: "
+                                     "also nodes of ROS 2 on it; network: whoever is there",
+                                     kReaches),
+                              {.name = "peers", .summary = "addresses of others, where not all can be asked at once; separated by blanks"},
+                              {.name = "interface", .summary = "the only one that is used, by its name or address"},
+                              Choice("multicast", "false: only peers, and this machine, are asked"),
+                              {.name = "engine", .kind = AttributeKind::kName, .summary = "cyclone by default"}},
+               .handle = HandleNetwork});
+  tags.AddTag({.name = "offer",
+               .summary = "ports that others may read",
+               .parents = {"network"},
+               .attributes = {{.name = "ports", .summary = "patterns, separated by blanks: laser/* **/pose !**/debug"},
+                              {.name = "port", .kind = AttributeKind::kPath, .summary = "one of them", .names_element = true},
+                              {.name = "topic", .summary = "its name in the network: /scan; without, /<name of the application>/<path>"},
+                              MessageType(),
+                              {.name = "frame", .kind = AttributeKind::kName, .summary = "of coordinates, for headers of messages"},
+                              Quality("newest (default): reliable; each: every value, in a queue; sensor: best effort; latched: "
+                                      "who comes late gets the newest"),
+                              {.name = "rate", .kind = AttributeKind::kNumber, .summary = "most values a second; the newest wins"},
+                              {.name = "strength",
+                               .kind = AttributeKind::kCount,
+                               .summary = "for who takes exclusively: of several that offer the topic the strongest counts"}},
+               .handle = HandleOffer});
+  tags.AddTag({.name = "take",
+               .summary = "a topic whose values go to ports of this application",
+               .parents = {"network"},
+               .attributes = {{.name = "topic", .required = true, .summary = "its name: /cmd_vel"},
+                              MessageType(),
+                              {.name = "to",
+                               .kind = AttributeKind::kPathList,
+                               .required = true,
+                               .summary = "inputs, of whose type the values are",
+                               .names_element = true},
+                              Quality("what is asked of those who write; by default what they offer"),
+                              Choice("stamp",
+                                     "arrived (default): measured when they came; sent: when the writer says, if the clocks of "
+                                     "both machines are synchronised",
+                                     {"arrived", "sent"}),
+                              Choice("exclusive", "true: of several that write only the strongest counts"),
+                              Choice("live", "true: also with simulated time, of which runs are not repeatable then")},
+               .handle = HandleTake});
+}
+
+}  // namespace runnel

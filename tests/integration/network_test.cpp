@@ -1,0 +1,128 @@
+// Two processes that share a robot: one drives, one plans; killed, started again, and what others may say meanwhile.
+
+#include <arpa/inet.h>
+#include <csignal>
+#include <cstdlib>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "tests/integration/program.h"
+#include "tests/support/own_network.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/wait_until.h"
+
+namespace runnel::test {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string kApps = std::string(RUNNEL_XML) + "/apps/";
+
+class TwoRobots : public testing::Test {
+ protected:
+  TwoRobots() {
+    setenv("ROS_DOMAIN_ID", std::to_string(OwnDomain()).c_str(), 1);
+    setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1);
+  }
+  ~TwoRobots() override {
+    unsetenv("XDG_RUNTIME_DIR");
+    unsetenv("ROS_DOMAIN_ID");
+  }
+
+  static std::unique_ptr<Program> Start(const std::string& file) {
+    return std::make_unique<Program>("run " + kApps + file);
+  }
+  /// That the robot is told to go.
+  static void WaitUntilItDrives() {
+    WaitUntil("the robot drives", [] {
+      const std::string twist = Runnel("get --app robot /gate/wanted").text;
+      return twist.find("forward: 0.") != std::string::npos;
+    });
+  }
+
+  const TemporaryFolder folder_;
+};
+
+TEST_F(TwoRobots, APlannerThatIsKilledAndStartedAgainGoesOn) {
+  const auto robot = Start("two_robots.xml");
+  auto planner = Start("two_robots_planner.xml");
+  WaitUntilItDrives();
+  planner->Send(SIGKILL);
+  ASSERT_TRUE(robot->WaitFor("published {forward: 0, turn: 0} at /robot/gate/input/wanted"));
+  EXPECT_THAT(Runnel("get --app robot /gate/wanted").text, HasSubstr("{forward: 0, turn: 0}"));
+  planner = Start("two_robots_planner.xml");
+  ASSERT_TRUE(robot->WaitFor("values come again"));
+  WaitUntilItDrives();
+}
+
+TEST_F(TwoRobots, ARobotThatIsKilledAndStartedAgainFindsItsPlannerAndTheLatchedGoal) {
+  const auto planner = Start("two_robots_planner.xml");
+  auto robot = Start("two_robots.xml");
+  WaitUntilItDrives();
+  robot->Send(SIGKILL);
+  robot = Start("two_robots.xml");
+  ASSERT_TRUE(robot->WaitFor("driving to the goal"));
+}
+
+// At the ports of domain and participants (RTPS), as anybody on the machine could.
+TEST_F(TwoRobots, DatagramsThatMeanNothingStopNobody) {
+  const auto robot = Start("two_robots.xml");
+  const auto planner = Start("two_robots_planner.xml");
+  WaitUntilItDrives();
+  const int descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  ASSERT_GE(descriptor, 0);
+  std::mt19937 random(7);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  const std::string header = std::string("RTPS\x02\x01\x01\x10", 8);
+  for (int i = 0; i < 20'000; ++i) {
+    std::string packet(random() % 200, '\0');
+    for (char& each : packet) each = static_cast<char>(random());
+    if (i % 2 == 0) packet = header + packet;
+    // A known submessage with a length that is wrong.
+    if (i % 4 == 0 && packet.size() > 24) packet[20] = static_cast<char>(std::array{0x06, 0x07, 0x08, 0x15, 0x16}[random() % 5]);
+    const int offset = std::array{0, 1, 10, 11, 12, 13}[random() % 6];
+    address.sin_port = htons(static_cast<std::uint16_t>(7400 + 250 * static_cast<int>(OwnDomain()) + offset));
+    (void)sendto(descriptor, packet.data(), packet.size(), 0, reinterpret_cast<const sockaddr*>(&address), sizeof address);
+  }
+  close(descriptor);
+  const std::string before = Runnel("get --app robot /localisation/pose").text;
+  WaitUntil("the robot moves", [&] { return Runnel("get --app robot /localisation/pose").text != before; });
+  WaitUntilItDrives();
+}
+
+TEST_F(TwoRobots, MistakesAreToldWithTheirPlaces) {
+  const std::string file = folder_ / "wrong.xml";
+  const auto check = [&](const std::string& network) {
+    std::ofstream(file) << "<application name=\"base\">\n<load plugin=\"motion\"/>\n" << network
+                        << "\n<module name=\"gate\" type=\"motion/command_gate\"/>\n</application>\n";
+    return Runnel("check " + file).text;
+  };
+  EXPECT_THAT(check(R"(<network><offer port="gate/alowed"/></network>)"),
+              testing::AllOf(HasSubstr("wrong.xml:3:23"), HasSubstr("did you mean 'allowed'?")));
+  EXPECT_THAT(check(R"(<network><take topic="cmd vel" to="gate/wanted"/></network>)"), HasSubstr("did you mean '/cmd_vel'?"));
+  EXPECT_THAT(check(R"(<network reach="everywhere"/>)"), HasSubstr("loopback"));
+  EXPECT_THAT(check(R"(<network domain="500"/>)"), HasSubstr("from 0 to 101"));
+  EXPECT_THAT(check(R"(<network engine="carrier_pigeon"/>)"), HasSubstr("'carrier_pigeon' is not installed"));
+  EXPECT_THAT(check(R"(<network/><network/>)"), HasSubstr("there is a network already"));
+  EXPECT_THAT(check(R"(<network><offer ports="gate/*" topic="/x"/></network>)"), HasSubstr("topic is said of one port"));
+  EXPECT_THAT(check(R"(<network><offer/></network>)"), HasSubstr("<offer> says which ports"));
+}
+
+TEST_F(TwoRobots, SimulatedTimeTakesNothingFromElsewhereUnlessToldTo) {
+  const std::string file = folder_ / "simulated.xml";
+  std::ofstream(file) << R"(<application name="base"><load plugin="motion"/><clock type="simulated"/>
+<network><take topic="/cmd_vel" to="gate/wanted"/></network>
+<module name="gate" type="motion/command_gate"/></application>)";
+  const Ended ended = Runnel("run --fast --duration 1 " + file);
+  EXPECT_EQ(ended.code, kBadInput);
+  EXPECT_THAT(ended.text, testing::AllOf(HasSubstr("simulated.xml:2:10"), HasSubstr("live=\"true\"")));
+}
+
+}  // namespace
+}  // namespace runnel::test

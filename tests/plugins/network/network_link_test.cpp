@@ -1,0 +1,313 @@
+// Applications in a network of this process: what is offered and taken, without an engine that needs a network.
+#include "plugins/network/network_link.h"
+
+#include <mutex>
+
+#include "core/log/log_sink.h"
+#include "core/types/type_builder.h"
+#include "plugins/network/topic_names.h"
+#include "plugins/testing/allocation_guard.h"
+#include "plugins/wire/fake_wire.h"
+#include "tests/support/wait_until.h"
+
+namespace runnel::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+struct Place {
+  double x = 0;
+  double y = 0;
+};
+void Describe(TypeBuilder<Place>& type) {
+  type.Name("test::Place").Field("x", &Place::x, {.unit = "m"}).Field("y", &Place::y, {.unit = "m"});
+}
+
+/// Too large to be copied in a queue, so that values are leased.
+struct Row {
+  std::vector<double> values;
+};
+void Describe(TypeBuilder<Row>& type) { type.Name("test::Row").Field("values", &Row::values); }
+
+class Module1 final : public Module {
+ public:
+  using Module::Module;
+  Output<Place> place{this, "place"};
+  Output<Row> row{this, "row"};
+  Input<Place> goal{this, "goal"};
+  Input<Row> wanted{this, "wanted"};
+
+ private:
+  void Update() override {}
+};
+
+template <typename T>
+T Must(Result<T> result) {
+  if (!result) throw std::runtime_error(result.error().ToString());
+  return std::move(*result);
+}
+
+/// An application with one module.
+class Member {
+ public:
+  Member(WireEngine& engine, const std::string& name) : engine_(engine), name_(name) {
+    (void)runtime.MakeReady(runtime.root());
+  }
+  ~Member() { link_.reset(); }
+
+  void Offer(OfferOptions offer) { options_.offers.push_back(std::move(offer)); }
+  /// "/topic" to the module's input.
+  void Take(TakeOptions take, Port& to) { takes_.emplace_back(std::move(take), &to); }
+  void Begin(bool is_simulated = false) {
+    options_.member.name = name_;
+    network = &runtime.Create<NetworkElement>(group, "network", options_);
+    for (const auto& [take, to] : takes_) {
+      Port* const output = Must(network->AddTake(take, to->type()));
+      if (const auto connected = Port::Connect(*output, *to); !connected) throw std::runtime_error(connected.error().ToString());
+    }
+    (void)runtime.MakeReady(runtime.root());
+    link_ = Must(NetworkLink::Start(group, *network, engine_, is_simulated));
+  }
+  void End() { link_.reset(); }
+  [[nodiscard]] std::string Text() const { return link_->Text(); }
+  [[nodiscard]] std::string said() {
+    FlushLog();
+    const std::lock_guard lock(mutex_);
+    return said_;
+  }
+  void WaitFor(const std::string& text) {
+    WaitUntil("it says " + text, [&] { return said().find(text) != std::string::npos; });
+  }
+
+  Runtime runtime;
+  Group& group = runtime.Create<Group>(runtime.root(), name_of_group());
+  Module1& module = runtime.Create<Module1>(group, "module");
+  NetworkElement* network = nullptr;
+
+ private:
+  static std::string name_of_group() { return "application"; }
+
+  std::mutex mutex_;
+  std::string said_;
+  LogSink sink_{runtime, [this](const LogMessage& message) {
+                  const std::lock_guard lock(mutex_);
+                  said_ += message.text + "\n";
+                }};
+  WireEngine& engine_;
+  const std::string name_;
+  NetworkOptions options_;
+  std::vector<std::pair<TakeOptions, Port*>> takes_;
+  std::unique_ptr<NetworkLink> link_;
+};
+
+class NetworkLinkTest : public testing::Test {
+ protected:
+  const std::shared_ptr<WireEngine> engine_ = MakeFakeWire();
+};
+
+TEST_F(NetworkLinkTest, AValueGoesFromOneToTheOther) {
+  Member a(*engine_, "a");
+  Member b(*engine_, "b");
+  a.Offer({.patterns = {"module/*"}});
+  b.Take({.topic = "/a/module/place"}, b.module.goal);
+  a.Begin();
+  b.Begin();
+  WaitUntil("it is read", [&] { return !a.module.place.outgoing().empty(); });
+  a.module.place.Publish({1, 2});
+  WaitUntil("it has come", [&] { return b.module.goal.Read().has_value(); });
+  EXPECT_EQ(b.module.goal.Get().y, 2);
+  EXPECT_THAT(a.Text(), HasSubstr("offers /application/module/output/place as /a/module/place"));
+  EXPECT_THAT(b.Text(), HasSubstr("written by a (reliable, newest 1)"));
+}
+
+TEST_F(NetworkLinkTest, APortThatNobodyReadsKnowsNothingOfTheNetwork) {
+  Member a(*engine_, "a");
+  a.Offer({.patterns = {"module/*"}});
+  a.Begin();
+  EXPECT_THAT(a.module.place.outgoing(), IsEmpty());
+  {
+    Member b(*engine_, "b");
+    b.Take({.topic = "/a/module/place"}, b.module.goal);
+    b.Begin();
+    WaitUntil("it is read", [&] { return !a.module.place.outgoing().empty(); });
+    EXPECT_THAT(a.module.row.outgoing(), IsEmpty());
+  }
+  WaitUntil("it is read no more", [&] { return a.module.place.outgoing().empty(); });
+}
+
+TEST_F(NetworkLinkTest, PublishingWhatIsReadElsewhereAllocatesNothing) {
+  Member a(*engine_, "a");
+  Member b(*engine_, "b");
+  a.Offer({.patterns = {"module/*"}});
+  b.Take({.topic = "/a/module/place"}, b.module.goal);
+  a.Begin();
+  b.Begin();
+  WaitUntil("it is read", [&] { return !a.module.place.outgoing().empty(); });
+  a.module.place.Publish({0, 0});
+  const AllocationGuard guard;
+  for (int i = 1; i <= 100; ++i) a.module.place.Publish({1.0 * i, 0});
+  EXPECT_EQ(guard.allocations(), 0u);
+  WaitUntil("the newest has come", [&] { return b.module.goal.Get().x == 100; });
+}
+
+TEST_F(NetworkLinkTest, OfAQueueEachValueComesInItsOrder) {
+  Member a(*engine_, "a");
+  Member b(*engine_, "b");
+  a.Offer({.port = "/application/module/row", .topic = "/rows", .quality = ValueQuality::kEach});
+  b.Take({.topic = "/rows"}, b.module.wanted);
+  a.Begin();
+  b.Begin();
+  ProbePort all(b.runtime.root(), "all", TypeOf<Row>());
+  ASSERT_TRUE(Port::Connect(*b.network->takes().front().output, all));
+  WaitUntil("it is read", [&] { return !a.module.row.outgoing().empty(); });
+  for (int i = 0; i < 100; ++i) a.module.row.Publish({{1.0 * i}});
+  std::vector<double> values;
+  WaitUntil("all have come", [&] {
+    while (all.Take([&](const void* value, ValueTimes) { values.push_back(static_cast<const Row*>(value)->values[0]); })) {
+    }
+    return values.size() >= 100;
+  });
+  for (std::size_t i = 0; i < 100; ++i) EXPECT_EQ(values[i], static_cast<double>(i));
+}
+
+TEST_F(NetworkLinkTest, WhoComesLateGetsWhatIsLatchedAndWhoComesBackGoesOn) {
+  Member a(*engine_, "a");
+  a.Offer({.port = "/application/module/place", .topic = "/map", .quality = ValueQuality::kLatched});
+  a.Begin();
+  a.module.place.Publish({7, 0});
+  for (int i = 0; i < 2; ++i) {
+    Member b(*engine_, "b");
+    b.Take({.topic = "/map"}, b.module.goal);
+    b.Begin();
+    WaitUntil("it has come", [&] { return b.module.goal.Read().has_value(); });
+    EXPECT_EQ(b.module.goal.Get().x, 7);
+  }
+}
+
+TEST_F(NetworkLinkTest, ValuesAreAsOldAsTheirWriterSaysWhereThatIsAskedFor) {
+  Member a(*engine_, "a");
+  Member b(*engine_, "b");
+  a.Offer({.patterns = {"module/*"}});
+  b.Take({.topic = "/a/module/place", .keeps_stamps = true}, b.module.goal);
+  a.Begin();
+  b.Begin();
+  WaitUntil("it is read", [&] { return !a.module.place.outgoing().empty(); });
+  const Time measured = a.runtime.clock().Now() - std::chrono::seconds(5);
+  a.module.place.Publish({1, 2}, measured);
+  WaitUntil("it has come", [&] { return b.module.goal.Read().has_value(); });
+  // The clocks of one machine differ by what the clock of the day is corrected meanwhile.
+  EXPECT_LT(std::chrono::abs(b.module.goal.Read().timestamp() - measured), std::chrono::seconds(1));
+}
+
+TEST_F(NetworkLinkTest, AnotherTypeUnderTheSameNameIsToldWithBothSidesWords) {
+  Member b(*engine_, "b");
+  b.Take({.topic = "/a/place"}, b.module.goal);
+  b.Begin();
+  struct Nobody final : WireDiscovery {
+    void OnMember(const WireMember&) override {}
+    void OnMemberGone(const WireId&) override {}
+    void OnEndpoint(const WireEndpoint&) override {}
+    void OnEndpointGone(const WireId&) override {}
+  } nobody;
+  const auto other = Must(engine_->Join({.name = "other"}, nobody));
+  const auto of_other_version = Must(other->MakeWriter(
+      {.topic = "rt/a/place",
+       .type = "runnel::msg::dds_::test__Place_",
+       .user_data = "runnel_type={x:double[m],y:float[m]};"},
+      {}));
+  b.WaitFor("y:float[m]");
+  EXPECT_THAT(b.said(), HasSubstr("/a/place of other does not fit: they are of two versions: the writer's has 'y:float[m]' "
+                                  "where the reader's has 'y:double[m]'"));
+  EXPECT_THAT(b.Text(), HasSubstr("NOT MATCHED, they are of two versions"));
+  const auto of_other_type =
+      Must(other->MakeWriter({.topic = "rt/a/place", .type = "sensor_msgs::msg::dds_::Image_"}, {}));
+  b.WaitFor("sends values of type sensor_msgs::msg::dds_::Image_");
+}
+
+TEST_F(NetworkLinkTest, OctetsThatAreNoValueAreCountedAndChangeNothing) {
+  Member b(*engine_, "b");
+  b.Take({.topic = "/a/row"}, b.module.wanted);
+  b.Begin();
+  DiscoveryTable table([] {});
+  const auto other = Must(engine_->Join({.name = "other"}, table));
+  const auto writer = Must(other->MakeWriter({.topic = "rt/a/row", .type = "runnel::msg::dds_::test__Row_"}, {}));
+  WaitUntil("it is read", [&] { return b.Text().find("written by other") != std::string::npos; });
+  std::mt19937 random(1);
+  for (int i = 0; i < 300; ++i) {
+    auto octets = std::make_shared<Octets>(random() % 40);
+    for (std::byte& each : *octets) each = std::byte(random());
+    if (octets->size() > 3) (*octets)[0] = (*octets)[2] = (*octets)[3] = std::byte(0), (*octets)[1] = std::byte(random() % 2);
+    ASSERT_TRUE(writer->Write(octets, static_cast<std::int64_t>(random())));
+  }
+  WaitUntilQuiet(*engine_);
+  EXPECT_THAT(b.Text(), HasSubstr("could not be read"));
+  // One that is a value arrives all the same: little endian, one number.
+  auto good = std::make_shared<Octets>(20);
+  (*good)[1] = (*good)[4] = std::byte(1);
+  ASSERT_TRUE(writer->Write(good, 1));
+  WaitUntil("it has come", [&] {
+    const auto read = b.module.wanted.Read();
+    return read.has_value() && read->values == std::vector<double>{0.0};
+  });
+}
+
+TEST_F(NetworkLinkTest, TwoPortsThatWouldBeOneTopicAreTold) {
+  Member a(*engine_, "a");
+  a.runtime.Create<Module1>(a.group, "b.c");
+  a.runtime.Create<Module1>(a.group, "b_c");
+  a.Offer({.patterns = {"**/place"}});
+  a.Begin();
+  a.WaitFor("as /application/b.c/output/place is the topic /a/b_c/place already");
+}
+
+TEST_F(NetworkLinkTest, APortThatComesLaterIsOfferedAndOneThatGoesIsNot) {
+  Member a(*engine_, "a");
+  a.Offer({.patterns = {"*/place"}});
+  a.Begin();
+  Member b(*engine_, "b");
+  b.Take({.topic = "/a/late/place"}, b.module.goal);
+  b.Begin();
+  auto& late = a.runtime.Create<Module1>(a.group, "late");
+  ASSERT_TRUE(a.runtime.MakeReady(late));
+  WaitUntil("it is read", [&] { return !late.place.outgoing().empty(); });
+  late.place.Publish({3, 0});
+  WaitUntil("it has come", [&] { return b.module.goal.Read().has_value(); });
+  ASSERT_TRUE(a.runtime.Delete(late));
+  // One of the same name goes on.
+  auto& again = a.runtime.Create<Module1>(a.group, "late");
+  ASSERT_TRUE(a.runtime.MakeReady(again));
+  WaitUntil("it is read again", [&] { return !again.place.outgoing().empty(); });
+  again.place.Publish({4, 0});
+  WaitUntil("the new one's has come", [&] { return b.module.goal.Get().x == 4; });
+}
+
+TEST_F(NetworkLinkTest, NoMoreValuesASecondThanAskedFor) {
+  Member a(*engine_, "a");
+  Member b(*engine_, "b");
+  a.Offer({.port = "/application/module/place", .topic = "/slow", .rate = 0.001});
+  b.Take({.topic = "/slow"}, b.module.goal);
+  a.Begin();
+  b.Begin();
+  WaitUntil("it is read", [&] { return !a.module.place.outgoing().empty(); });
+  for (int i = 1; i <= 50; ++i) {
+    a.module.place.Publish({1.0 * i, 0});
+    WaitUntil("the first has come", [&] { return b.module.goal.Read().has_value(); });
+  }
+  EXPECT_THAT(a.Text(), HasSubstr(", 1 sent"));
+}
+
+TEST(TopicNamesTest, PathsBecomeNamesThatRosAllows) {
+  EXPECT_EQ(TopicOfPort("base", "/base/laser/output/scan"), "/base/laser/scan");
+  EXPECT_EQ(TopicOfPort("base", "/app/1st laser-x/output/scan"), "/base/_1st_laser_x/scan");
+  EXPECT_TRUE(CheckTopic("/a/b_1"));
+  for (const char* wrong : {"", "a", "/", "/a//b", "/a/", "/1a", "/a b", "/a-b"}) {
+    EXPECT_FALSE(CheckTopic(wrong)) << wrong;
+  }
+  EXPECT_EQ(CheckTopic("/laser 1/scan").error().hint, "did you mean '/laser_1/scan'?");
+  EXPECT_EQ(TopicIn(WireTopic("/scan")), "/scan");
+  EXPECT_EQ(TopicIn("rr/s"), "");
+}
+
+}  // namespace
+}  // namespace runnel::test
