@@ -139,6 +139,8 @@ TEST_F(CommandLine, AFileThatIsNotThereIsBadInput) {
 TEST_F(CommandLine, CheckOfGoodFilesIsDone) {
   for (const auto& entry : std::filesystem::directory_iterator(RUNNEL_XML "/apps")) {
     if (entry.path().extension() != ".xml") continue;
+    // Those that need a network are no good where it has no engine.
+    if (!RUNNEL_HAS_NETWORK && entry.path().stem().string().starts_with("two_robots")) continue;
     const Ended ended = Runnel("check " + entry.path().string());
     EXPECT_EQ(ended.code, kDone) << ended.text;
   }

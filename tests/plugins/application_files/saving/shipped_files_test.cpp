@@ -5,6 +5,9 @@
 #include <gmock/gmock.h>
 
 #include "plugins/application_files/run_description.h"
+#include "plugins/network/network_engines.h"
+#include "plugins/network/xml_network_tags.h"
+#include "plugins/wire/fake_wire.h"
 #include "tests/plugins/application_files/saving/saving_workshop.h"
 
 namespace runnel::testing {
@@ -15,6 +18,8 @@ class ShippedFile : public ::testing::TestWithParam<std::filesystem::path> {};
 TEST_P(ShippedFile, IsSavedAsItIs) {
   SavingWorkshop shop;
   shop.plugins.AddSearchFolder(RUNNEL_BUILD_PLUGINS);
+  AddNetworkTags(shop.tags);
+  AddWireEngine("cyclone", MakeFakeWire());
   FrameworkElement* const application = shop.Load(GetParam());
   ASSERT_NE(application, nullptr);
   EXPECT_EQ(shop.Text(*application, GetParam().parent_path()), ReadAll(GetParam()));
