@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/generate/component_check.h"
 #include "apps/generate/package_flags.h"
 #include "plugins/genom_description/description_json.h"
 #include "plugins/genom_templates/template_run.h"
@@ -24,6 +25,7 @@ struct Arguments {
   bool overwrites = false;
   std::vector<std::string> settings = {};  // NAME=VALUE, for the template
   std::string dependencies = {};
+  bool has_spin_check = false;
   genom::PreprocessorOptions options = {};
 };
 
@@ -32,7 +34,8 @@ int Check(const Arguments& arguments) {
   std::size_t errors = 0;
   for (const std::string& file : arguments.files) {
     Diagnostics diagnostics;
-    (void)genom::ReadDescription({file}, arguments.options, diagnostics);
+    const auto description = genom::ReadDescription({file}, arguments.options, diagnostics);
+    if (diagnostics.ok() && arguments.has_spin_check) CheckBySpin(genom::DescriptionJson(*description), diagnostics);
     std::cerr << diagnostics.ToString();
     errors += diagnostics.errors().size();
     if (diagnostics.ok()) std::cout << file << ": no errors\n" << std::flush;
@@ -152,6 +155,8 @@ int main(int count, char** words) {
       ->type_name("PATH");
   program.add_flag("--overwrite", arguments.overwrites, "also what you have changed");
   program.add_option("-s,--set", arguments.settings, "for the template")->type_name("NAME=VALUE")->allow_extra_args(false);
+  program.add_flag("--spin", arguments.has_spin_check,
+                   "of check: have the model checker Spin look for what threads and interruptions can come to");
   program.add_option("--depfile", arguments.dependencies, "say there what has been read, for make and ninja")
       ->type_name("FILE");
   try {

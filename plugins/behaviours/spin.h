@@ -20,9 +20,9 @@ struct SpinVerdict {
   Counterexample counterexample = {};
 };
 
-/// Has the model checker decide, in a folder of its own that goes again. Takes a second or more. Errors: spin, or the
+/// Has the model checker (`plugins/model_checker`) decide. Takes a second or more. Errors: spin, or the
 /// compiler that it needs, is not here; it has not come to an end in a minute; it says something else.
-[[nodiscard]] Result<SpinVerdict> RunSpin(const BehaviourNetwork& network, const NetworkProperty& property);
+[[nodiscard]] Result<SpinVerdict> CheckBySpin(const BehaviourNetwork& network, const NetworkProperty& property);
 
 /// For people: "drive; then drive, motion; then nobody, over and over".
 [[nodiscard]] std::string TellCounterexample(const BehaviourNetwork& network, const Counterexample& counterexample);

@@ -120,7 +120,7 @@ void CheckProperty(const BehaviourNetwork& network, const WantedProperty& wanted
   const NetworkProperty property{wanted.kind, *active, *others};
   const bool is_never = wanted.kind == NetworkProperty::Kind::kNever;
   const std::string tag = is_never ? "<never>" : "<eventually>";
-  const auto verdict = RunSpin(network, property);
+  const auto verdict = CheckBySpin(network, property);
   if (!verdict) {
     use.diagnostics.AddWarning(
         {.message = tag + " " + verdict.error().message, .position = wanted.position, .hint = verdict.error().hint});

@@ -56,7 +56,8 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
                    "plugins/behaviours/xml_",
                    {"core", "plugins/application", "plugins/application_files", "plugins/behaviours"}});
   rules.push_back({"plugins/behaviours/algorithm", "plugins/behaviours/algorithm", {}, true});
-  rules.push_back({"plugins/behaviours", "plugins/behaviours", {"core", "plugins/parameters", "plugins/behaviours/algorithm"}});
+  rules.push_back({"plugins/behaviours", "plugins/behaviours", {"core", "plugins/parameters", "plugins/behaviours/algorithm", "plugins/model_checker"}});
+  rules.push_back({"plugins/model_checker", "plugins/model_checker", {"core"}});
   rules.push_back({"plugins/values", "plugins/values", {"core"}});
   rules.push_back({"plugins/cdr_values", "plugins/cdr_values", {"core"}});
   rules.push_back({"plugins/ros_messages", "plugins/ros_messages", {"core", "plugins/cdr_values"}});

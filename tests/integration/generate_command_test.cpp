@@ -1,5 +1,6 @@
 // What `runnel check` and `runnel generate` do with descriptions of components.
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -36,6 +37,20 @@ TEST_F(GenerateCommand, ChecksDescriptions) {
   EXPECT_EQ(bad.code, kBadInput);
   EXPECT_THAT(bad.text, AllOf(HasSubstr("wrong.gen:2:11: error: unknown type 'sped'"), HasSubstr("wrong.gen:3:19"),
                               HasSubstr("2 errors")));
+}
+
+TEST_F(GenerateCommand, HasAModelCheckerLookAtComponents) {
+  if (std::system("spin -V > /dev/null 2>&1") != 0) GTEST_SKIP() << "the package spin is not here";
+  const std::string file = Write("c.gen", "component c { task t;\n  activity a() { task t; codel<start> k() yield pause::start;\n"
+                                          "    codel<stop> s() yield pause::stop; };\n};\n");
+  EXPECT_EQ(Runnel("check " + file).code, kBadInput) << "a stop that cannot end is refused without it";
+  const std::string sleeps = Write("d.gen", "component d { task t;\n  activity a() { task t; codel<start> k() yield pause::start;\n"
+                                            "    codel<stop> s() yield pause::end_; codel<end_> e() yield ether; };\n};\n");
+  EXPECT_EQ(Runnel("check " + sleeps).code, kDone);
+  const Ended found = Runnel("check --spin " + sleeps);
+  EXPECT_EQ(found.code, kBadInput);
+  EXPECT_THAT(found.text, AllOf(HasSubstr("d.gen:1:11: error: component d can come to a standstill"),
+                                HasSubstr("    activity a: s yields pause::end_\n    and nothing more")));
 }
 
 TEST_F(GenerateCommand, WritesAllThatADescriptionSays) {
