@@ -49,6 +49,17 @@ Result<Step> DefaultStructure(const MessageDefinition& definition, const Message
   return step;
 }
 
+std::string WithoutQuotes(const std::string& text) {
+  const bool is_quoted = text.size() > 1 && (text.front() == '"' || text.front() == '\'');
+  if (!is_quoted) return text;
+  std::string inside;
+  for (std::size_t i = 1; i + 1 < text.size(); ++i) {
+    if (text[i] == '\\' && i + 2 < text.size()) ++i;
+    inside += text[i];
+  }
+  return inside;
+}
+
 }  // namespace
 
 Result<Step> DefaultStep(const MessageField& field, const MessageLibrary& library) {
@@ -63,8 +74,7 @@ Result<Step> DefaultStep(const MessageField& field, const MessageLibrary& librar
     const bool is_true = text.size() == 4 && std::tolower(text.front()) == 't';
     return NumberStep(field.type, is_true ? 1 : std::strtold(text.c_str(), nullptr));
   }
-  const bool is_quoted = text.size() > 1 && (text.front() == '"' || text.front() == '\'');
-  Step step = TextStep(is_quoted ? text.substr(1, text.size() - 2) : text);
+  Step step = TextStep(WithoutQuotes(text));
   step.type = field.type;
   return step;
 }
