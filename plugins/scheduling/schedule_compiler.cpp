@@ -190,7 +190,7 @@ void ScheduleCompiler::Plan(FrameworkElement& element) {
   std::vector<Task> tasks;
   for (const auto& each : planned.tasks) tasks.push_back(each->task);
   CycleRunner& runner = *planned.thread->runner;
-  internal::BindTriggers(internal::TriggerInputs(tasks), *planned.state,
+  internal::BindTriggers(element, internal::TriggerInputs(tasks), *planned.state,
                          runner.waits_for_data() ? &runner : nullptr);
 }
 
@@ -290,7 +290,7 @@ void ScheduleCompiler::ReleaseAll(FrameworkElement& element) {
     const auto known = elements_.find(each.id());
     if (known == elements_.end()) return;
     if (known->second.state) {  // else memory was too short for it, and nothing is bound
-      internal::BindTriggers(internal::TriggerInputs(each.FindAnnotation<Executable>()->tasks()),
+      internal::BindTriggers(each, internal::TriggerInputs(each.FindAnnotation<Executable>()->tasks()),
                              *known->second.state, nullptr);
     }
     RemoveTasks(known->second);

@@ -3,7 +3,26 @@
 #include <algorithm>
 #include <mutex>
 
+#include "core/lockfree/thread_epoch.h"
+
 namespace runnel {
+
+void CallBase::WakeCaller() noexcept {
+  // Pairs with the fence in CallSlots::SetWaker(): of an answer and a waker set at once, one side sees the other.
+  std::atomic_thread_fence(std::memory_order_seq_cst);
+  if (waker.load(std::memory_order_relaxed) == nullptr || !is_held.load(std::memory_order_relaxed)) return;
+  const EpochGuard guard;  // by which the waker lives
+  if (Waker* const whom = waker.load(std::memory_order_relaxed)) whom->Wake();
+}
+
+void CallSlots::SetWaker(Waker* waker) noexcept {
+  for (CallBase* call : calls_) call->waker.store(waker, std::memory_order_relaxed);
+  std::atomic_thread_fence(std::memory_order_seq_cst);
+  const auto waits = [](const CallBase* call) {
+    return call->is_held.load(std::memory_order_relaxed) && call->is_answered();
+  };
+  if (waker != nullptr && std::ranges::any_of(calls_, waits)) waker->Wake();
+}
 
 CallBase* CallSlots::Acquire() noexcept {
   for (CallBase* call : calls_) {

@@ -12,6 +12,7 @@
 
 #include "core/base/clock.h"
 #include "core/lockfree/wake_event.h"
+#include "core/port/waker.h"
 #include "core/types/type_of.h"
 #include "plugins/services/call_status.h"
 
@@ -34,6 +35,7 @@ struct CallBase {
     // release: pairs with the acquire in is_answered(): the reply is in place.
     state.store(State::kAnswered, std::memory_order_release);
     answered.Notify();
+    WakeCaller();
     // release: pairs with the acquire in is_returned(): the service has let go.
     state.store(State::kReturned, std::memory_order_release);
   }
@@ -44,6 +46,9 @@ struct CallBase {
     const State now = state.load(std::memory_order_acquire);
     return now == State::kReturned || now == State::kIdle;
   }
+
+  /// A caller that is run by triggers, and waits for it.
+  void WakeCaller() noexcept;
 
   // The caller's, before it is handed over.
   std::uint64_t number = 0;
@@ -61,6 +66,7 @@ struct CallBase {
   std::atomic<State> state{State::kIdle};
   std::atomic<bool> is_held{false};  // by a caller, who has not yet seen what came of it
   WakeEvent answered;
+  std::atomic<Waker*> waker{nullptr};  // of the caller's cycle; changed under the structure lock
 };
 
 /// The calls that one client can have under way at once.
@@ -84,6 +90,8 @@ class CallSlots {
   [[nodiscard]] bool is_quiet() const noexcept;
   /// Of those that somebody still waits for: services need not begin.
   void GiveUpAll() noexcept;
+  /// Who is woken when one has been answered; nullptr: nobody. Under the structure lock.
+  void SetWaker(Waker* waker) noexcept;
 
  protected:
   CallSlots() = default;

@@ -50,6 +50,7 @@ void ClientBase::Open(Port& port) {
 void ClientBase::Close() noexcept {
   if (work_ != nullptr) work_->Remove(*this);
   slots_->GiveUpAll();
+  slots_->SetWaker(nullptr);
   for (CallBase* call : awaited_) CallSlots::Release(*call);
   RetireCalls(std::move(slots_));
 }

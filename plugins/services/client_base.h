@@ -63,6 +63,7 @@ class ClientBase : public CyclePart {
   void BeforeUpdate() override {
     if (!awaited_.empty()) CallBackAll();
   }
+  void SetWaker(Waker* waker) override { slots_->SetWaker(waker); }
   void CallBackAll();
 
   const Duration timeout_;

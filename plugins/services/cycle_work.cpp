@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/exception_text.h"
+#include "core/module/wake_source.h"
 
 namespace runnel {
 
@@ -19,6 +20,9 @@ CycleWork* CycleWork::Add(FrameworkElement& element, CyclePart& part) {
     const Executable inner = *module->FindAnnotation<Executable>();
     module->Annotate(
         std::make_unique<Executable>([work, inner] { return work->Wrap(inner.tasks()); }));
+    module->Annotate(std::make_unique<WakeSource>([work](Waker* waker) {
+      for (CyclePart* each : work->parts_) each->SetWaker(waker);
+    }));
   }
   work->parts_.push_back(&part);
   return work;

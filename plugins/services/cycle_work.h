@@ -6,6 +6,7 @@
 
 #include "core/element/annotation.h"
 #include "core/module/executable.h"
+#include "core/port/waker.h"
 
 namespace runnel {
 
@@ -13,6 +14,8 @@ namespace runnel {
 class CyclePart {
  public:
   virtual void BeforeUpdate() = 0;
+  /// Whom to wake if there is something to do; nullptr: nobody (WakeSource).
+  virtual void SetWaker(Waker* waker) = 0;
   /// The module, or a part of it, has thrown.
   virtual void AfterFault(std::string_view /*what*/) noexcept {}
 

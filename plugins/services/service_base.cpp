@@ -26,7 +26,12 @@ void ServiceBase::Open(Port& port, bool is_activity) {
   FrameworkElement& owner = work_ != nullptr ? work_->module() : *port.parent();
   auto worker = std::make_unique<ServiceWorker>(
       Placement{owner, port.name() + "_worker"},
-      [this](CallBase& call, Activity& activity) { AnswerByWorker(call, activity); });
+      [this](CallBase& call, Activity& activity) { AnswerByWorker(call, activity); },
+      [this] {
+        const EpochGuard guard;
+        ServiceEndpoint* const at = endpoint();
+        if (at != nullptr && at->queue.size() > 0) at->Wake();
+      });
   worker_ = worker.get();
   worker_->set_known_by(&worker_);
   if (work_ == nullptr) {
@@ -68,6 +73,10 @@ void ServiceBase::BeforeUpdate() {
       Answer(*at, *call);
     }
   }
+}
+
+void ServiceBase::SetWaker(Waker* waker) {
+  if (ServiceEndpoint* const at = endpoint()) at->SetWaker(waker);
 }
 
 void ServiceBase::Answer(ServiceEndpoint& at, CallBase& call) {

@@ -52,6 +52,7 @@ class ServiceBase : public CyclePart {
 
  private:
   void BeforeUpdate() override;
+  void SetWaker(Waker* waker) override;
   void AfterFault(std::string_view what) noexcept override;
   void Answer(ServiceEndpoint& at, CallBase& call);
   void AnswerByWorker(CallBase& call, Activity& activity) noexcept;

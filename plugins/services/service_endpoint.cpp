@@ -14,7 +14,10 @@ CallStatus BeginCall(ServiceEndpoint* at, CallBase& call, Time now, Duration tim
   call.progress.store(0, std::memory_order_relaxed);
   // relaxed: the queue hands it over, with all of the above.
   call.state.store(CallBase::State::kQueued, std::memory_order_relaxed);
-  if (at->queue.TryPush(&call)) return CallStatus::kPending;
+  if (at->queue.TryPush(&call)) {
+    at->Wake();
+    return CallStatus::kPending;
+  }
   call.state.store(CallBase::State::kIdle, std::memory_order_relaxed);
   return CallStatus::kBusy;
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/lockfree/bounded_queue.h"
+#include "core/port/waker.h"
 #include "plugins/services/call.h"
 
 namespace runnel {
@@ -32,7 +33,22 @@ struct ServiceEndpoint {
     call.Answer(status);
   }
 
+  /// Somebody is to be woken when there is a call that can be served; `waker` lives until nobody is inside an epoch
+  /// guard any more that began before it was taken back. Under the structure lock.
+  void SetWaker(Waker* whom) noexcept {
+    waker.store(whom, std::memory_order_relaxed);
+    // Pairs with the fence in Wake(): of a call put in and a waker set at once, one side sees the other.
+    std::atomic_thread_fence(std::memory_order_seq_cst);
+    if (whom != nullptr && queue.size() > 0) whom->Wake();
+  }
+  /// There is something to do. Inside an epoch guard. Wait-free, but for waking a thread that sleeps.
+  void Wake() noexcept {
+    std::atomic_thread_fence(std::memory_order_seq_cst);
+    if (Waker* const whom = waker.load(std::memory_order_relaxed)) whom->Wake();
+  }
+
   BoundedQueue<CallBase*> queue;
+  std::atomic<Waker*> waker{nullptr};
   // relaxed, all: they inform.
   std::atomic<bool> is_faulted{false};
   std::atomic<std::uint64_t> answered{0};

@@ -8,8 +8,9 @@
 namespace runnel {
 
 ServiceWorker::ServiceWorker(const Placement& placement,
-                             std::function<void(CallBase&, Activity&)> serve)
-    : FrameworkElement(placement), serve_(std::move(serve)) {
+                             std::function<void(CallBase&, Activity&)> serve,
+                             std::function<void()> tell_free)
+    : FrameworkElement(placement), serve_(std::move(serve)), tell_free_(std::move(tell_free)) {
   Annotate(std::make_unique<NotSaved>());
 }
 
@@ -37,6 +38,7 @@ void ServiceWorker::Work() noexcept {
     if (CallBase* const call = current_.load(std::memory_order_acquire)) {
       serve_(*call, activity_);
       current_.store(nullptr, std::memory_order_release);
+      tell_free_();
     }
     if (is_stopping_.load(std::memory_order_acquire)) return;
   }

@@ -18,7 +18,9 @@ namespace runnel {
 /// Threads: Begin() by the module's cycle; activity() from any.
 class ServiceWorker final : public FrameworkElement {
  public:
-  ServiceWorker(const Placement& placement, std::function<void(CallBase&, Activity&)> serve);
+  /// `tell_free`: called when a call is over and the next may begin.
+  ServiceWorker(const Placement& placement, std::function<void(CallBase&, Activity&)> serve,
+                std::function<void()> tell_free);
   ~ServiceWorker() override;
 
   // acquire: pairs with the release in Work(): the call before is over.
@@ -41,6 +43,7 @@ class ServiceWorker final : public FrameworkElement {
   void Work() noexcept;
 
   const std::function<void(CallBase&, Activity&)> serve_;
+  const std::function<void()> tell_free_;
   Activity activity_;
   std::atomic<CallBase*> current_{nullptr};
   std::atomic<bool> is_stopping_{false};

@@ -1,5 +1,6 @@
 #include "plugins/scheduling/internal/trigger_binding.h"
 
+#include "core/module/wake_source.h"
 #include "core/port/input_base.h"
 
 namespace runnel::internal {
@@ -27,9 +28,11 @@ std::vector<InputBase*> TriggerInputs(const std::vector<Task>& tasks) {
 
 // The runner comes last: what is there already is noted with the element alone until a schedule that
 // has it is installed.
-void BindTriggers(const std::vector<InputBase*>& inputs, ScheduledElement& state,
-                  CycleRunner* runner) {
-  for (InputBase* input : inputs) input->SetWaker(runner != nullptr ? &state : nullptr);
+void BindTriggers(const FrameworkElement& element, const std::vector<InputBase*>& inputs,
+                  ScheduledElement& state, CycleRunner* runner) {
+  Waker* const waker = runner != nullptr ? &state : nullptr;
+  for (InputBase* input : inputs) input->SetWaker(waker);
+  if (const auto* const source = element.FindAnnotation<WakeSource>()) source->SetWaker(waker);
   state.set_runner(runner);
 }
 

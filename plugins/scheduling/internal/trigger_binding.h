@@ -20,10 +20,10 @@ void VisitPorts(const FrameworkElement* group, const std::function<void(Port&)>&
 /// Of all that the tasks read, the inputs at which new data set an element off.
 [[nodiscard]] std::vector<InputBase*> TriggerInputs(const std::vector<Task>& tasks);
 
-/// New data at `inputs` set off the element, in `runner`'s thread; nullptr: they set off nobody any more.
+/// New data at `inputs`, and what else sets it off (WakeSource), set off the element, in `runner`'s thread; nullptr: they set off nobody any more.
 /// Data that came before it was tied count as new. What has come by then, the runner finds when a
 /// schedule with the element is installed.
-void BindTriggers(const std::vector<InputBase*>& inputs, ScheduledElement& state,
-                  CycleRunner* runner);
+void BindTriggers(const FrameworkElement& element, const std::vector<InputBase*>& inputs,
+                  ScheduledElement& state, CycleRunner* runner);
 
 }  // namespace runnel::internal
