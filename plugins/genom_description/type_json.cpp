@@ -37,7 +37,9 @@ Json JsonWriter::ConstantJson(const Constant& value) const {
 
 // A named type by its name, another by what it is made of.
 Json JsonWriter::Reference(const Type* type) const {
-  while ((type->Is(TypeKind::kForwardStruct) || type->Is(TypeKind::kForwardUnion)) && type->type != nullptr) {
+  // A member that has the name of a type hides it, and stands for its own.
+  while ((type->Is(TypeKind::kForwardStruct) || type->Is(TypeKind::kForwardUnion) || type->Is(TypeKind::kMember)) &&
+         type->type != nullptr) {
     type = type->type;
   }
   Json json{{"kind", NameOf(type->kind)}};

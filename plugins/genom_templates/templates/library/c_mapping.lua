@@ -29,8 +29,11 @@ function mapping.type(type)
   if has(type, "name") then return mapping.name(type.name) end
   if basic[type.kind] then return basic[type.kind] end
   if type.kind == "string" then return has(type, "length") and "char" or "char *" end
-  local of = mapping.type(type.type):gsub(" %*", "_p"):gsub(" ", "_")
   if type.kind == "array" then return mapping.type(type.type) end
+  local of = mapping.type(type.type)
+  if not has(type.type, "name") and type.type.kind == "string" then
+    of = "string" .. (has(type.type, "length") and tostring(type.type.length) or "")
+  end
   return type.kind .. (has(type, "length") and tostring(type.length) or "") .. "_" .. of
 end
 

@@ -1,0 +1,164 @@
+// Codels written for the original tool compile against the headers: each kind of codel with parameters of each type and
+// direction, in C and in C++, without a warning.
+
+#include <cstdlib>
+#include <fstream>
+
+#include <gmock/gmock.h>
+
+#include "plugins/genom_description/description_json.h"
+#include "plugins/genom_templates/template_run.h"
+#include "tests/support/temporary_folder.h"
+
+namespace runnel::genom {
+namespace {
+
+struct Mapped {
+  std::string type;    // in the description
+  std::string input;   // of a codel, "@" being the name
+  std::string output;  // and for inout
+};
+
+const std::vector<Mapped> kMapped = {
+    {"boolean", "bool @", "bool *@"},
+    {"octet", "uint8_t @", "uint8_t *@"},
+    {"char", "char @", "char *@"},
+    {"short", "int16_t @", "int16_t *@"},
+    {"unsigned short", "uint16_t @", "uint16_t *@"},
+    {"long", "int32_t @", "int32_t *@"},
+    {"unsigned long", "uint32_t @", "uint32_t *@"},
+    {"long long", "int64_t @", "int64_t *@"},
+    {"unsigned long long", "uint64_t @", "uint64_t *@"},
+    {"float", "float @", "float *@"},
+    {"double", "double @", "double *@"},
+    {"string", "const char *@", "char **@"},
+    {"string<8>", "const char @[8]", "char @[8]"},
+    {"m::side", "m_side @", "m_side *@"},
+    {"m::point", "const m_point *@", "m_point *@"},
+    {"m::target", "const m_target *@", "m_target *@"},
+    {"m::speed", "m_speed @", "m_speed *@"},
+    {"m::name", "const m_name @", "m_name @"},
+    {"m::row", "const double @[3]", "double @[3]"},
+    {"m::grid", "const int32_t @[2][3]", "int32_t @[2][3]"},
+    {"m::route", "const m_route *@", "m_route *@"},
+    {"m::maybe", "const m_maybe *@", "m_maybe *@"},
+    {"sequence<long, 4>", "const sequence4_int32_t *@", "sequence4_int32_t *@"},
+    {"sequence<double>", "const sequence_double *@", "sequence_double *@"},
+    {"sequence<m::point>", "const sequence_m_point *@", "sequence_m_point *@"},
+    {"sequence<string<8>, 2>", "const sequence2_string8 *@", "sequence2_string8 *@"},
+    {"sequence<string>", "const sequence_string *@", "sequence_string *@"},
+    {"sequence<sequence<octet, 2>, 3>", "const sequence3_sequence2_uint8_t *@", "sequence3_sequence2_uint8_t *@"},
+    {"optional<double>", "const optional_double *@", "optional_double *@"},
+    {"optional<m::point>", "const optional_m_point *@", "optional_m_point *@"},
+};
+
+std::string Named(std::string text, const std::string& name) { return text.replace(text.find('@'), 1, name); }
+
+/// A description and the codels that its author has written, side by side.
+class Component {
+ public:
+  explicit Component(const std::vector<std::string>& directions) {
+    std::string ids, locals, uses, local_uses, parameters, local_parameters;
+    for (std::size_t i = 0; i < kMapped.size(); ++i) {
+      const std::string number = std::to_string(i), &direction = directions[i % directions.size()];
+      const std::string &mapped = direction == "in" ? kMapped[i].input : kMapped[i].output;
+      ids += kMapped[i].type + " d" + number + "; ";
+      locals += (i == 0 ? "" : ", ") + direction + " " + kMapped[i].type + " p" + number;
+      uses += (i == 0 ? "" : ", ") + direction + " d" + number;
+      local_uses += (i == 0 ? "" : ", ") + ("local " + direction) + " p" + number;
+      parameters += Named(mapped, "d" + number) + ", ";
+      local_parameters += Named(mapped, "p" + number) + ", ";
+      body_ += "  (void)d" + number + ";\n";
+      local_body_ += "  (void)p" + number + ";\n";
+    }
+    description_ =
+        "module m { enum side { left, right }; struct point { double x, y; }; typedef float speed; typedef string<8> name;\n"
+        " typedef double row[3]; typedef long grid[2][3]; typedef sequence<point, 4> route; typedef optional<point> maybe;\n"
+        " union target switch (side) { case left: point where; default: string<16> name; }; };\n"
+        "component c { native tool; exception late; exception slow { double by; };\n"
+        " ids { " + ids + "tool own; };\n task t { period 10 ms; codel<start> t_start(" + uses + ") yield go;\n"
+        "  codel<go> t_go(in own, out own::made) yield pause::go, ether; codel<stop> t_stop(out ::ids) yield ether; };\n"
+        " attribute set(in d0, in d13) { validate a_check(local in d0, local in d13); };\n"
+        " function f(" + locals + ") { validate f_check(" + local_uses + "); codel f_do(" + uses + "); throw late; };\n"
+        " activity a(" + locals + ") { task t; local double left; validate a_ok(" + local_uses + ");\n"
+        "  codel<start> a_start(" + uses + ", out left) yield more; codel<more> a_more(" + local_uses + ", inout left) yield "
+        "pause::more, ether; throw late, slow; };\n};\n";
+    Add("t_start", parameters, body_, "c_go");
+    Add("t_go", "const c_tool *own, c_tool **made, ", "  *made = (c_tool *)0;\n  if (!own) return c_pause_go;\n", "c_ether");
+    Add("t_stop", "c_ids *ids, ", "  ids->d0 = true;\n", "c_ether");
+    Add("a_check", "bool d0, m_side d13, ", "  if (d0 && d13 == m_right) return c_late(self);\n", "genom_ok");
+    Add("f_check", local_parameters, local_body_, "genom_ok");
+    Add("f_do", parameters, body_, "genom_ok");
+    Add("a_ok", local_parameters, local_body_, "genom_ok");
+    Add("a_start", parameters + "double *left, ", body_ + "  *left = 1;\n", "c_more");
+    Add("a_more", local_parameters + "double *left, ",
+        local_body_ + "  c_slow_detail slow;\n  genom_syserr_detail error = { 5 };\n"
+        "  if (*left < 0) { slow.by = *left; return c_slow(&slow, self); }\n"
+        "  if (*left > 9) return genom_syserr(&error, self);\n",
+        "*left > 0 ? c_ether : c_pause_more");
+  }
+  [[nodiscard]] const std::string& description() const { return description_; }
+  [[nodiscard]] const std::string& codels() const { return codels_; }
+
+ private:
+  void Add(const std::string& name, const std::string& parameters, const std::string& body, const std::string& result) {
+    codels_ += "genom_event\n" + name + "(" + parameters + "const genom_context self)\n{\n  (void)self;\n" + body +
+               "  return " + result + ";\n}\n";
+  }
+  std::string description_, body_, local_body_;
+  std::string codels_ = "#include \"acc.h\"\n\n#include \"c_c_types.h\"\n\n";
+};
+
+void ExpectCompiles(const std::string& description, const std::string& codels) {
+  Diagnostics diagnostics;
+  const auto read = ReadDescriptionText(description, "c.gen", {}, diagnostics);
+  ASSERT_TRUE(diagnostics.ok()) << diagnostics.ToString();
+  const auto output = RunTemplate(RUNNEL_GENOM_TEMPLATE_FOLDER "/mappings", DescriptionJson(*read), {});
+  ASSERT_TRUE(output) << output.error().ToString();
+  const test::TemporaryFolder folder;
+  (void)WriteFiles(folder.path(), output->files, false, diagnostics);
+  std::ofstream(folder.path() / "codels.c") << codels;
+  for (const std::string compiler : {"gcc -std=c99", "gcc -std=gnu17", "g++ -std=c++17 -x c++", "g++ -std=c++20 -x c++"}) {
+    const std::string command =
+        "cd '" + folder.path().string() + "' && " + compiler + " -Wall -Wextra -Werror -fsyntax-only codels.c 2>&1";
+    EXPECT_EQ(std::system(command.c_str()), 0) << compiler << "\n" << description << codels;
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+bool HasCompilers() { return std::system("gcc --version > /dev/null 2>&1 && g++ --version > /dev/null 2>&1") == 0; }
+
+TEST(CodelSignaturesTest, OfEachKindWithEachTypeAndDirection) {
+  if (!HasCompilers()) GTEST_SKIP() << "there is no compiler";
+  for (const auto& directions : std::vector<std::vector<std::string>>{{"in"}, {"out"}, {"inout"}}) {
+    const Component component(directions);
+    ExpectCompiles(component.description(), component.codels());
+  }
+}
+
+// Ports and remotes, and what is done with them and with sequences.
+TEST(CodelSignaturesTest, OfPortsRemotesAndSequences) {
+  if (!HasCompilers()) GTEST_SKIP() << "there is no compiler";
+  ExpectCompiles(
+      "struct frame { sequence<octet> pixels; unsigned long width; enum kind_e { grey, colour } kind; }; typedef double metres;\n"
+      "interface light { function set(in double level, out boolean was); };\n"
+      "component c { uses light; port in frame seen; port out frame shown; port multiple out frame each; port multiple in metres range;\n"
+      " ids { frame frame; sequence<frame> all; }; task t;\n"
+      " activity a() { task t; codel<start> go(in seen, out shown, out each, in range, in set, out frame, out all) yield ether; }; };\n",
+      "#include \"acc.h\"\n#include \"c_c_types.h\"\n"
+      "genom_event\ngo(const c_seen *seen, const c_shown *shown, const c_each *each,\n   const c_range *range, const c_set *set, "
+      "frame *f,\n   sequence_frame *all, const genom_context self)\n{\n"
+      "  bool was = false;\n  genom_event e = seen->read(self);\n  const double *far;\n"
+      "  if (e) return e == genom_syserr_id ? c_ether : e;\n  if (!seen->data(self)) return c_ether;\n"
+      "  if (genom_sequence_reserve(&(f->pixels), 3 * 4) == -1) return c_ether;\n"
+      "  f->pixels._length = 12;\n  f->kind = f->width ? frame_colour : f->kind;\n"
+      "  (void)genom_sequence_reserve(&(f->pixels), 0);\n  if (genom_sequence_reserve(all, all->_length + 1)) return c_ether;\n"
+      "  genom_sequence_reserve(all, 2);\n  all->_buffer[all->_length++].width = 4;\n"
+      "  *shown->data(self) = *f;\n  shown->write(self);\n  each->open(\"left\", self);\n"
+      "  each->data(\"left\", self)->width = 2;\n  each->write(\"left\", self);\n  each->close(\"left\", self);\n"
+      "  range->read(\"one\", self);\n  far = range->data(\"one\", self);\n"
+      "  return set->call(far ? *far : 0.5, &was, self) == genom_ok ? c_ether : c_ether;\n}\n");
+}
+
+}  // namespace
+}  // namespace runnel::genom
