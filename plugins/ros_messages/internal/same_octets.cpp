@@ -23,7 +23,8 @@ bool IsSameStructure(const MessageDefinition& definition, const TypeInfo& type, 
 bool IsSame(const MessageField& field, const TypeInfo& type, const MessageLibrary& library) {
   if (field.count == MessageCount::kOne && IsLeaf(type)) {
     const MessageField leaf = FieldOfLeaf(type);
-    if (field.type != MessageType::kNested) return leaf.type == field.type;
+    const bool is_byte = field.type == MessageType::kByte && leaf.type == MessageType::kUint8;
+    if (field.type != MessageType::kNested) return leaf.type == field.type || is_byte;
     const bool is_time = leaf.nested == kTimeMessage || leaf.nested == kDurationMessage;
     return leaf.nested == field.nested || (is_time && (field.nested == kTimeMessage || field.nested == kDurationMessage));
   }

@@ -1,0 +1,144 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/types/type_builder.h"
+
+namespace runnel {
+
+class Configurable;
+class TypeInfo;
+
+/// What `ros2 param` speaks: values of parameters as messages of rcl_interfaces, and the six services of a node. Each
+/// structure has the octets of its message (WriteCdr(), ReadCdr()).
+
+/// rcl_interfaces/msg/ParameterType.
+enum class RosParameterType : std::uint8_t {
+  kNotSet,
+  kBool,
+  kInteger,
+  kDouble,
+  kString,
+  kByteArray,
+  kBoolArray,
+  kIntegerArray,
+  kDoubleArray,
+  kStringArray,
+};
+
+/// rcl_interfaces/msg/ParameterValue: the one that `type` says counts.
+struct RosParameterValue {
+  RosParameterType type = RosParameterType::kNotSet;
+  bool bool_value = false;
+  std::int64_t integer_value = 0;
+  double double_value = 0;
+  std::string string_value;
+  std::vector<std::uint8_t> byte_array_value;
+  std::vector<std::uint8_t> bool_array_value;  ///< 0 or 1 each
+  std::vector<std::int64_t> integer_array_value;
+  std::vector<double> double_array_value;
+  std::vector<std::string> string_array_value;
+};
+
+/// What a value of a parameter is for ROS 2: numbers and bools as such, lists of them as arrays, all else as its text.
+/// A uint64 beyond 2^63 is a text, too.
+[[nodiscard]] RosParameterValue ToRosParameter(const TypeInfo& type, const void* value);
+/// As a person sees it: "0.5", "left", "[1, 2]": Configurable::Parse() reads it, so that bounds and units are held.
+/// Errors: it is not set; an array that the type is not.
+[[nodiscard]] Result<std::string> TextOf(const RosParameterValue& value, const TypeInfo& type);
+
+/// "planner.distance" for the path "/robot/planner/distance" of the application "/robot", and back.
+[[nodiscard]] std::string RosParameterName(std::string_view application, std::string_view path);
+[[nodiscard]] std::string RosParameterPath(std::string_view application, std::string_view name);
+
+/// rcl_interfaces/msg/Parameter.
+struct RosParameter {
+  std::string name;
+  RosParameterValue value;
+};
+
+struct RosFloatRange {
+  double from_value = 0, to_value = 0, step = 0;
+};
+struct RosIntegerRange {
+  std::int64_t from_value = 0, to_value = 0;
+  std::uint64_t step = 0;
+};
+/// rcl_interfaces/msg/ParameterDescriptor.
+struct RosParameterDescriptor {
+  std::string name;
+  RosParameterType type = RosParameterType::kNotSet;
+  std::string description;
+  std::string additional_constraints;
+  bool read_only = false;
+  bool dynamic_typing = false;
+  std::vector<RosFloatRange> floating_point_range;
+  std::vector<RosIntegerRange> integer_range;
+};
+/// Name, type, unit, bounds and whether it can be set, as Runnel knows them. Any thread.
+[[nodiscard]] RosParameterDescriptor DescribeRosParameter(std::string name, const Configurable& parameter);
+
+/// rcl_interfaces/msg/SetParametersResult.
+struct RosSetResult {
+  bool successful = false;
+  std::string reason;
+};
+
+// Requests and replies; rcl_interfaces/srv/GetParameters_Request and so on.
+/// Of describe_parameters, get_parameter_types, get_parameters.
+struct RosParameterNames {
+  std::vector<std::string> names;
+};
+struct RosParameterDescriptors {
+  std::vector<RosParameterDescriptor> descriptors;
+};
+struct RosParameterTypes {
+  std::vector<RosParameterType> types;
+};
+struct RosParameterValues {
+  std::vector<RosParameterValue> values;
+};
+struct RosListRequest {
+  std::vector<std::string> prefixes;
+  std::uint64_t depth = 0;  ///< 0: all
+};
+struct RosListReply {
+  std::vector<std::string> names;
+  std::vector<std::string> prefixes;
+};
+/// Of set_parameters and set_parameters_atomically.
+struct RosSetRequest {
+  std::vector<RosParameter> parameters;
+};
+struct RosSetReply {
+  std::vector<RosSetResult> results;
+};
+/// rcl_interfaces/msg/ParameterEvent, of the topic /parameter_events.
+struct RosParameterEvent {
+  Time stamp{};
+  std::string node;
+  std::vector<RosParameter> new_parameters, changed_parameters, deleted_parameters;
+};
+
+void Describe(TypeBuilder<RosParameterType>& type);
+void Describe(TypeBuilder<RosParameterValue>& type);
+void Describe(TypeBuilder<RosParameter>& type);
+void Describe(TypeBuilder<RosFloatRange>& type);
+void Describe(TypeBuilder<RosIntegerRange>& type);
+void Describe(TypeBuilder<RosParameterDescriptor>& type);
+void Describe(TypeBuilder<RosSetResult>& type);
+void Describe(TypeBuilder<RosParameterNames>& type);
+void Describe(TypeBuilder<RosParameterDescriptors>& type);
+void Describe(TypeBuilder<RosParameterTypes>& type);
+void Describe(TypeBuilder<RosParameterValues>& type);
+void Describe(TypeBuilder<RosListRequest>& type);
+void Describe(TypeBuilder<RosListReply>& type);
+void Describe(TypeBuilder<RosSetRequest>& type);
+void Describe(TypeBuilder<RosSetReply>& type);
+void Describe(TypeBuilder<RosParameterEvent>& type);
+
+}  // namespace runnel
