@@ -28,6 +28,7 @@ Result<void> WatchedPort::Find(Runtime& runtime) {
   if (port == nullptr) return Error{.message = "this is not a port", .path = path_};
   if (port->id() != id_) shown_.reset();  // made anew: it counts from 0 again
   id_ = port->id();
+  port_ = port;
   type_ = &port->type();
   input_ = dynamic_cast<const InputBase*>(port);
   sources_ = port->ShownPorts();

@@ -33,6 +33,8 @@ class WatchedPort {
   /// Under the structure lock, and within an EpochGuard that lasts until after VisitIfNew().
   /// Errors: there is no such port (any more), with the nearest name.
   Result<void> Find(Runtime& runtime);
+  /// The one that was found. Under the same lock as Find().
+  [[nodiscard]] const Port& port() const noexcept { return *port_; }
   /// Of the port that was found.
   [[nodiscard]] const TypeInfo& type() const noexcept { return *type_; }
 
@@ -47,6 +49,7 @@ class WatchedPort {
  private:
   const std::string path_;
   std::vector<const Port*> sources_;
+  const Port* port_ = nullptr;
   const InputBase* input_ = nullptr;  // the port that was found, if it is one
   const TypeInfo* type_ = nullptr;
   std::uint64_t id_ = 0;  // of the port that was found last

@@ -181,69 +181,6 @@ void ViewerSession::SendLog() {
   if (client_.SendText(std::move(text))) log_ = read.next;
 }
 
-void ViewerSession::SendValues(SteadyTime now) {
-  std::vector<Watch*> due;
-  for (auto& [path, watch] : watches_) {
-    if (now >= watch.due) due.push_back(&watch);
-  }
-  if (due.empty()) return;
-  // What is found under the lock stays in memory while the guard is held; so the lock need not be.
-  const EpochGuard guard;
-  std::vector<Watch*> found;
-  {
-    const std::unique_lock lock(inspection_.application().runtime.structure_mutex(),
-                                std::try_to_lock);
-    if (!lock) {
-      for (Watch* watch : due) watch->due = now + milliseconds(5);
-      return;
-    }
-    for (Watch* watch : due) {
-      watch->due = std::max(watch->due + watch->interval, now + watch->interval / 2);
-      // One that has been deleted may come back.
-      if (watch->port.Find(inspection_.application().runtime)) found.push_back(watch);
-    }
-  }
-  if (IsSlow()) return;
-  std::string items;
-  for (Watch* watch : found) {
-    std::string item;
-    std::optional<std::uint64_t> count;
-    try {
-      count = LookAt(*watch, item);
-    } catch (...) {  // of a type that throws when it is written
-      Error error = CaughtError();
-      const std::string path = watch->port.path();
-      error.path = path;
-      Refuse({}, std::move(error));
-      watches_.erase(path);
-    }
-    if (!count) continue;
-    const std::uint64_t dropped = watch->port.dropped();
-    if (dropped > 0) item += ",\"drops\":" + std::to_string(dropped);
-    items += (items.empty() ? "" : ",") + item + ",\"count\":" + std::to_string(*count) + "}";
-  }
-  if (items.empty()) return;
-  std::string text = "{\"op\":\"values\",\"time\":";
-  AppendJsonNumber(ToSeconds(inspection_.running_for()), text);
-  client_.SendText(text + ",\"items\":[" + items + "]}");
-}
-
-std::optional<std::uint64_t> ViewerSession::LookAt(Watch& watch, std::string& item) const {
-  return watch.port.VisitIfNew([&](const void* value, ValueTimes times) {
-    item = "{\"path\":";
-    AppendJsonString(watch.port.path(), item);
-    item += ",\"stamp\":";
-    AppendJsonNumber(ToSeconds(times.publication_time - inspection_.start()), item);
-    if (times.timestamp != times.publication_time) {
-      item += ",\"measured\":";
-      AppendJsonNumber(ToSeconds(times.timestamp - inspection_.start()), item);
-    }
-    item += ",\"value\":";
-    if (!AppendValue(watch, value, times.timestamp, item)) item += ",\"cut\":true";
-    item += ",\"bytes\":" + std::to_string(BytesOf(watch.port.type(), value));
-  });
-}
-
 void ViewerSession::SendRates(SteadyTime now) {
   if (IsSlow()) {
     rates_due_ = now + rates_interval_;

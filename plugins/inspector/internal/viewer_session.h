@@ -34,6 +34,8 @@ class ViewerSession final : public WebSession {
     std::size_t elements;
     bool wants_image = false;
     SteadyTime due{};
+    std::string service = {};                     // how it is doing, if it is one, as JSON
+    bool is_service_told = true;
     const TypeInfo* pictured = nullptr;           // the type that `picture` is of
     std::optional<FoxgloveChannel> picture = {};  // as Foxglove has it, which browsers can show
   };
@@ -46,6 +48,8 @@ class ViewerSession final : public WebSession {
                                          const) const;
   void SendReplies();
   void SendValues(SteadyTime now);
+  // Whether the port is a service, and does otherwise than told last. Under the structure lock.
+  static void NoteService(Watch& watch);
   // The value as JSON; false if not all of it.
   static bool AppendValue(Watch& watch, const void* value, Time time, std::string& json);
   // How many values there have been, and the newest as JSON; nothing if there is no new one.

@@ -165,7 +165,9 @@ test('a group is made, given ports, filled, and connected through its border', a
 });
 
 test('ports of different types are connected by a part of the values, and a module gets tags', async (t) => {
-  const { inspector, page } = await Demo(t);
+  const { file } = await DemoFile(t, (text) => Replaced(kSlow(text), '<load plugin="motion"/>', '<load plugin="motion"/> <load plugin="signal"/>'));
+  const inspector = await OpenPage(t, (await RunApplication(t, file)).url, { width: 1920, height: 1080, lost: true });
+  const { page } = inspector;
   await Create(inspector, 'signal/low_pass', 'calm');
   const { drop } = await inspector.dragPort('/bug_demo/localisation/output/pose', '/bug_demo/calm/input/in');
   await drop();

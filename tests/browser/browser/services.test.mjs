@@ -54,8 +54,39 @@ test('a call that takes long is answered when it has ended', async (t) => {
   await form.locator('input').fill('nowhere');
   await form.locator('.call').click();
   await form.locator('.problem', { hasText: 'nowhere' }).waitFor();
+  await form.locator('.calls', { hasText: '1 failed' }).waitFor();
   await form.locator('input').fill('here');
   await form.locator('.call').click();
   await form.locator('.reply').waitFor();
+  await form.locator('.calls', { hasText: '1 answered, 1 failed' }).waitFor();
   assert.equal(await form.locator('.call').textContent(), 'Call');
+});
+
+test('how far a call has come is shown, and it is aborted', async (t) => {
+  const inspector = await Places(t);
+  const { page } = inspector;
+  // Far from where the robot is.
+  const pose = '/places_demo/book/input/pose';
+  await page.locator('#tab-ports').click();
+  await page.locator('#port-filter').fill(pose);
+  await page.locator(`[data-port-line="${pose}"]`).click();
+  const hand = page.locator(`[data-by-hand="${pose}"]`);
+  await hand.locator('input').first().fill('{x: 4, y: 2.5, heading: 0}');
+  await hand.locator('input').first().press('Enter');
+  await hand.locator('.release').waitFor();
+  const remember = '/places_demo/book/output/remember';
+  await Choose(inspector, remember);
+  await page.locator(`[data-service="${remember}"] input`).fill('far');
+  await page.locator(`[data-service="${remember}"] .call`).click();
+  await page.locator(`[data-service="${remember}"] .reply`, { hasText: 'x: 4' }).waitFor();
+  const go = '/places_demo/driver/output/go';
+  await Choose(inspector, go);
+  const form = page.locator(`[data-service="${go}"]`);
+  await form.locator('input').fill('far');
+  await form.locator('.call').click();
+  await form.locator('.activity', { hasText: '% driving' }).waitFor();
+  await inspector.picture('service_progress');
+  await form.locator('.abort').click();
+  await form.locator('.problem', { hasText: "on the way to 'far'" }).waitFor();
+  await form.locator('.activity').waitFor({ state: 'detached' });
 });

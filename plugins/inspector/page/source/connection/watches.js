@@ -65,8 +65,11 @@ export class Watches {
     for (const item of message.items) {
       const entry = this.#watched.get(item.path);
       if (!entry) continue;
-      entry.value.value = item;
-      for (const user of entry.users) user.onValue?.(item);
+      const { service } = entry.value.peek() ?? {};
+      // Of a service, how it is doing comes alone, or its value does.
+      const whole = item.service && item.value === undefined ? { ...entry.value.peek(), ...item } : service ? { service, ...item } : item;
+      entry.value.value = whole;
+      for (const user of entry.users) user.onValue?.(whole);
     }
   }
 

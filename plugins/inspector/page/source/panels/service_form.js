@@ -6,12 +6,14 @@ import { CallArguments, FormFields } from '../model/call_arguments.js';
 import { AbortService, CallService, ErrorText } from '../state/actions.js';
 import { canDrive } from '../state/store.js';
 import { Section } from './parts.js';
+import { useWatched } from './use_watched.js';
 
 export function ServiceForm({ port }) {
   const { path, service } = port;
   const [values, setValues] = useState({});
   const [isUnderWay, setUnderWay] = useState(false);
   const [answer, setAnswer] = useState(null);
+  const state = useWatched(path, { rate: 8 })?.service;
   const call = async () => {
     setUnderWay(true);
     setAnswer(null);
@@ -40,11 +42,22 @@ export function ServiceForm({ port }) {
           </div>`)}
         <div class="actions">
           <button class="call" disabled=${!canDrive.value || isUnderWay} onClick=${call}>${isUnderWay ? 'Under way …' : 'Call'}</button>
-          ${service.activity && isUnderWay && html`<button class="abort" disabled=${!canDrive.value}
+          ${service.activity && (isUnderWay || state?.running) && html`<button class="abort" disabled=${!canDrive.value}
               title="Asks it to end" onClick=${() => AbortService(path)}>Abort</button>`}
         </div>
+        ${state && html`<${Progress} state=${state} />`}
         ${answer?.text !== undefined && html`<p class="reply" role="status">${answer.text}</p>`}
         ${answer?.problem && html`<p class="problem" role="alert">${answer.problem}</p>`}
       </div>
     <//>`;
+}
+
+/** What is under way, whoever has called, and how many wait or have been served. */
+function Progress({ state }) {
+  const { running, waiting, answered, failed } = state;
+  return html`
+    ${running && html`<div class="activity">
+      <progress max="1" value=${running.progress} aria-label="Progress"></progress>
+      <span>${Math.round(100 * running.progress)} % ${running.doing}${running.abort ? ', asked to end' : ''}</span></div>`}
+    <p class="note calls">${waiting > 0 ? `${waiting} waiting, ` : ''}${answered} answered${failed > 0 ? `, ${failed} failed` : ''}</p>`;
 }
