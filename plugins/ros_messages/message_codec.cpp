@@ -10,6 +10,7 @@
 #include "plugins/ros_messages/internal/mapping_rules.h"
 #include "plugins/ros_messages/internal/message_leaf.h"
 #include "plugins/ros_messages/internal/messages_by_steps.h"
+#include "plugins/ros_messages/internal/occupancy_grid.h"
 #include "plugins/ros_messages/message_library.h"
 #include "plugins/ros_messages/names.h"
 
@@ -73,6 +74,27 @@ class BoundCodec final : public NamedCodec {
   const std::shared_ptr<const void> fresh_;
 };
 
+/// A ground plan as a grid, out of which no plan comes back.
+class GridCodec final : public NamedCodec {
+ public:
+  GridCodec(const TypeInfo& type, const MessageOptions& options, const MessageDefinition& definition,
+            const MessageLibrary& library)
+      : NamedCodec(definition, library), type_(type), frame_(options.frame) {
+    why_no_decoding_ = "a grid has no outlines, of which a " + type.name() + " is made";
+  }
+
+  void Encode(const void* value, Time stamp, std::vector<std::byte>& octets) const override {
+    internal::WriteGrid(type_, value, stamp, frame_, octets);
+  }
+  [[nodiscard]] Result<Decoded> Decode(std::span<const std::byte> /*octets*/, void* /*value*/) const override {
+    return Error{.message = why_no_decoding_};
+  }
+
+ private:
+  const TypeInfo& type_;
+  const std::string frame_;
+};
+
 using Made = Result<std::shared_ptr<const MessageCodec>>;
 
 Made MakeDescribed(const TypeInfo& type, const MessageLibrary& library) {
@@ -89,6 +111,9 @@ Made MakeBound(const TypeInfo& type, const std::string& as, const MessageOptions
   const MessageField whole{.name = {}, .type = MessageType::kNested, .nested = (*definition)->name};
   if (internal::IsSame(whole, type, library)) {
     return {std::make_shared<DescribedCodec>(type, **definition, library)};
+  }
+  if ((*definition)->name == internal::kGridMessage && internal::CanBecomeGrid(type)) {
+    return {std::make_shared<GridCodec>(type, options, **definition, library)};
   }
   auto binding = internal::Bind(**definition, type, options, library);
   if (!binding) return binding.error();

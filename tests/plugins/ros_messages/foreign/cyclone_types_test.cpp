@@ -1,5 +1,6 @@
 // Messages in the structures that Cyclone's compiler makes of ROS 2's definitions, read and written by Cyclone: what
 // is written here is read there, and the other way round, octet by octet.
+#include <cmath>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -9,6 +10,7 @@
 #include "modules/types/image.h"
 #include "modules/types/path.h"
 #include "modules/types/range_scan.h"
+#include "modules/types/world_map.h"
 #include "plugins/ros_messages/message_codec.h"
 #include "plugins/ros_messages/message_library.h"
 #include "plugins/ros_messages/names.h"
@@ -143,6 +145,43 @@ TEST(CycloneTypes, HaveEachPartInItsPlace) {
   EXPECT_STREQ(their_path.poses._buffer[1].header.frame_id, "map");
   EXPECT_EQ(their_path.poses._buffer[1].pose.position.x, 3);
   EXPECT_EQ(their_path.poses._buffer[1].pose.orientation.w, 1) << "the message's default";
+}
+
+// Walls round 2 m by 1 m, in which an obstacle of 0.5 m has a hole.
+TEST(CycloneTypes, HaveGroundPlansAsGrids) {
+  WorldMap map;
+  map.bounds = {{0, 0}, {2, 0}, {2, 1}, {0, 1}};
+  map.outlines.push_back({.points = {{1, 0.25}, {1.5, 0.25}, {1.5, 0.75}, {1, 0.75}}});
+  map.outlines.push_back({.points = {{1.125, 0.375}, {1.375, 0.375}, {1.375, 0.625}, {1.125, 0.625}}, .is_hole = true});
+  const auto codec = *MessageCodec::Make(TypeOf<WorldMap>(), {.frame = "map"}, MessageLibrary::Standard());
+  std::vector<std::byte> octets;
+  codec->Encode(&map, kStamp, octets);
+  CycloneSample sample(nav_msgs_msg_dds__OccupancyGrid__desc);
+  ASSERT_TRUE(sample.Read(octets));
+  const auto& grid = sample.as<nav_msgs_msg_dds__OccupancyGrid_>();
+  EXPECT_STREQ(grid.header.frame_id, "map");
+  EXPECT_FLOAT_EQ(grid.info.resolution, 0.05F);
+  EXPECT_EQ(grid.info.width, 41U);
+  EXPECT_EQ(grid.info.height, 21U);
+  EXPECT_EQ(grid.info.origin.orientation.w, 1);
+  ASSERT_EQ(grid.data._length, 41U * 21U);
+  const auto at = [&](double x, double y) {
+    return static_cast<int>(grid.data._buffer[static_cast<std::size_t>(y / 0.05) * 41 + static_cast<std::size_t>(x / 0.05)]);
+  };
+  EXPECT_EQ(at(0.51, 0.51), 0);
+  EXPECT_EQ(at(1.08, 0.51), 100) << "within the obstacle";
+  EXPECT_EQ(at(1.26, 0.51), 0) << "within its hole";
+  EXPECT_EQ(at(0.01, 0.51), 100) << "the wall";
+
+  codec->Encode(&(map = {}), kStamp, octets);
+  CycloneSample empty(nav_msgs_msg_dds__OccupancyGrid__desc);
+  EXPECT_TRUE(empty.Read(octets));
+  map.bounds = {{0, 0}, {1000, 0}, {1000, 500}};
+  codec->Encode(&map, kStamp, octets);
+  EXPECT_LT(octets.size(), 2100000U) << "large worlds have large cells";
+  map.bounds = {{-1e300, NAN}, {1e300, -INFINITY}, {0, INFINITY}};
+  codec->Encode(&map, kStamp, octets);
+  EXPECT_LT(octets.size(), 4100000U) << "large worlds have large cells";
 }
 
 }  // namespace
