@@ -173,3 +173,5 @@ function(runnel_bench name)
   target_link_libraries(bench_${name} PRIVATE
     runnel_warnings ${arg_DEPENDS} benchmark::benchmark benchmark::benchmark_main)
 endfunction()
+
+include("${CMAKE_CURRENT_LIST_DIR}/RunnelComponents.cmake")

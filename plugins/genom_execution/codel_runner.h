@@ -17,6 +17,7 @@ class AsyncWork {
  public:
   /// Calls it. Once, by any thread. Codels that throw what is no exception of theirs: is kept, and told to the engine.
   void Run() noexcept;
+  [[nodiscard]] const CodelTable& codel() const noexcept { return *codel_; }
 
  private:
   friend class CodelRunner;

@@ -21,7 +21,8 @@ struct Invocation {
 struct CodelTable {
   const char* name;
   Event (*call)(const Invocation&);
-  bool is_async = false;  ///< may take long: never called in a cycle
+  bool is_async = false;      ///< may take long: never called in a cycle
+  bool calls_others = false;  ///< has remotes: may wait for other components
 };
 
 inline constexpr std::uint16_t kEther = 0xffff;

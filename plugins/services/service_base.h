@@ -33,8 +33,8 @@ class ServiceBase : public CyclePart {
   /// The port by which clients are connected.
   [[nodiscard]] const Port& port() const noexcept { return *port_; }
   [[nodiscard]] Port& port() noexcept { return *port_; }
-  [[nodiscard]] ServiceState state() const;
-  bool Abort();
+  [[nodiscard]] virtual ServiceState state() const;
+  virtual bool Abort();
   /// Whose queue its clients fill. nullptr: none yet.
   [[nodiscard]] ServiceEndpoint* endpoint() const;
 
@@ -49,11 +49,12 @@ class ServiceBase : public CyclePart {
   /// Calls the handler, writes the reply, publishes the record. Says how it ended; may throw.
   virtual CallStatus Invoke(CallBase& call, Activity* activity) = 0;
   [[nodiscard]] bool is_activity() const noexcept { return worker_ != nullptr; }
-
- private:
+  // Of services that serve in a way of their own, too.
   void BeforeUpdate() override;
   void SetWaker(Waker* waker) override;
   void AfterFault(std::string_view what) noexcept override;
+
+ private:
   void Answer(ServiceEndpoint& at, CallBase& call);
   void AnswerByWorker(CallBase& call, Activity& activity) noexcept;
 

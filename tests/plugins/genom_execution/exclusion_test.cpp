@@ -11,7 +11,7 @@ namespace {
 using namespace std::chrono_literals;
 
 TEST(Exclusion, IsFirstComeFirstServed) {
-  constexpr std::array<CodelTable, 3> kCodels{{{"a", nullptr}, {"b", nullptr}, {"c", nullptr}}};
+  constexpr std::array<CodelTable, 3> kCodels{{{"a", nullptr, false, false}, {"b", nullptr, false, false}, {"c", nullptr, false, false}}};
   constexpr std::array<Conflict, 2> kConflicts{{{0, 1}, {1, 2}}};
   const ComponentTable component{.name = "x", .codels = kCodels, .conflicts = kConflicts};
   const ConflictMatrix conflicts(component);

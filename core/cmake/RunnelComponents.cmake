@@ -1,0 +1,67 @@
+# Components in the language of GenoM3. Works in this tree and, after find_package(runnel), in any other.
+
+# runnel_component_sources(<name> <variable> <arguments of runnel_component> ...)
+# What runnel_component() makes a plugin of: the targets <name>_made and <name>_codels, and the sources in the variable.
+function(runnel_component_sources name sources)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "DESCRIPTION" "CODELS;INCLUDES;PACKAGES;DEPENDS")
+  if(NOT arg_DESCRIPTION OR NOT arg_CODELS)
+    message(FATAL_ERROR "runnel_component(${name}) needs a DESCRIPTION and CODELS")
+  endif()
+  set(program runnel::generate_program)
+  set(prefix "runnel/")
+  if(TARGET runnel_warnings)
+    set(program runnel_generate_program)
+    set(prefix "")
+  endif()
+  get_filename_component(description "${arg_DESCRIPTION}" ABSOLUTE)
+  set(folder "${CMAKE_CURRENT_BINARY_DIR}/${name}_component")
+  set(made "${folder}/${name}_module.cpp" "${folder}/${name}_tables.cpp")
+  set(includes "")
+  foreach(include IN LISTS arg_INCLUDES)
+    get_filename_component(include "${include}" ABSOLUTE)
+    list(APPEND includes "${include}")
+  endforeach()
+  set(options "${includes}")
+  list(TRANSFORM options PREPEND "-I")
+  add_custom_command(
+    OUTPUT ${made} "${folder}/${name}_types.h" "${folder}/${name}_tables.h" "${folder}/${name}_c_types.h"
+      "${folder}/ac${name}.h" "${folder}/genom3_c.h"
+    COMMAND ${program} runnel "${description}" ${options} -o "${folder}" --overwrite -s "prefix=${prefix}"
+      --depfile "${folder}/made.d"
+    DEPENDS "${description}" ${program} DEPFILE "${folder}/made.d"
+    COMMENT "Component ${name} from ${arg_DESCRIPTION}" VERBATIM)
+  add_custom_target(${name}_made DEPENDS ${made})
+  set_source_files_properties(${made} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+
+  add_library(${name}_codels OBJECT ${arg_CODELS})
+  get_property(languages GLOBAL PROPERTY ENABLED_LANGUAGES)
+  if(NOT C IN_LIST languages)
+    set(in_c ${arg_CODELS})
+    list(FILTER in_c INCLUDE REGEX "\\.c$")
+    set_source_files_properties(${in_c} PROPERTIES LANGUAGE CXX)  # as most of those are that others have written
+  endif()
+  set_target_properties(${name}_codels PROPERTIES POSITION_INDEPENDENT_CODE ON UNITY_BUILD OFF)
+  target_include_directories(${name}_codels PUBLIC "${folder}" ${includes})
+  add_dependencies(${name}_codels ${name}_made)
+  target_link_libraries(${name}_codels PUBLIC ${arg_DEPENDS})
+  if(arg_PACKAGES)
+    find_package(PkgConfig REQUIRED)
+    pkg_check_modules(${name}_packages REQUIRED IMPORTED_TARGET ${arg_PACKAGES})
+    target_link_libraries(${name}_codels PUBLIC PkgConfig::${name}_packages)
+  endif()
+  # Views of one memory by two types.
+  set_source_files_properties(${made} PROPERTIES COMPILE_OPTIONS -fno-strict-aliasing)
+  set(${sources} ${made} PARENT_SCOPE)
+endfunction()
+
+# runnel_component(<name> DESCRIPTION <file.gen> CODELS <source> ... [INCLUDES <folder> ...] [PACKAGES <package> ...]
+#                  [DEPENDS <library> ...])
+# A plugin <name> with the module type <name>/<name>, made from the description of the component <name> by the template
+# `runnel`; again when the description, what it includes, or a template has changed. What is made lies in the build tree.
+# CODELS, in C or C++, are compiled once, as the target <name>_codels, whatever they are linked with. INCLUDES are
+# searched by the description and the codels, PACKAGES are those of pkg-config, DEPENDS are libraries, which both use.
+function(runnel_component name)
+  runnel_component_sources(${name} sources ${ARGN})
+  runnel_plugin(${name} SOURCES ${sources} DEPENDS ${name}_codels runnel::genom_modules)
+  add_dependencies(runnel_plugin_${name} ${name}_made)
+endfunction()

@@ -1,0 +1,128 @@
+#include "plugins/genom_modules/component_service_base.h"
+
+namespace runnel::genom_modules {
+
+using genom_execution::Engine;
+using genom_execution::Request;
+
+void ComponentServiceBase::Prepare(Engine& engine) {
+  component_ = &engine.component();
+  while (all_.size() < kMostUnderWay) all_.emplace_back(*component_, service_);
+}
+
+ServiceState ComponentServiceBase::state() const {
+  ServiceState state = ServiceBase::state();
+  if (const UnderWay* const longest = longest_.load(std::memory_order_acquire)) {
+    state.running = {longest->number.load(std::memory_order_relaxed), 0, longest->request.doing(),
+                     longest->is_abort_asked.load(std::memory_order_relaxed)};
+  }
+  return state;
+}
+
+bool ComponentServiceBase::Abort() {
+  UnderWay* const longest = longest_.load(std::memory_order_acquire);
+  if (longest == nullptr) return false;
+  longest->is_abort_asked.store(true, std::memory_order_relaxed);
+  return true;
+}
+
+bool ComponentServiceBase::IsFree(const UnderWay& each) {
+  const auto is_free = [](const Request& request) {
+    return request.state() == Request::State::kIdle || request.state() == Request::State::kDone;
+  };
+  return each.call == nullptr && is_free(each.request) && is_free(each.abort);
+}
+
+void ComponentServiceBase::BeforePasses(Engine& engine, Time now) {
+  ServiceEndpoint* const at = endpoint();
+  if (at->is_faulted.load(std::memory_order_relaxed)) at->is_faulted.store(false, std::memory_order_relaxed);
+  if (count_ == 0 && at->queue.size() == 0) return;
+  for (UnderWay& each : all_) {
+    if (IsFree(each)) {
+      Begin(engine, each, now);
+    } else if (each.call != nullptr && is_activity()) {
+      if (each.call->is_given_up.load(std::memory_order_relaxed)) {
+        each.is_abort_asked.store(true, std::memory_order_relaxed);
+      }
+      Interrupt(engine, each);
+    }
+  }
+}
+
+void ComponentServiceBase::Begin(Engine& engine, UnderWay& each, Time now) {
+  ServiceEndpoint* const at = endpoint();
+  CallBase* call = nullptr;
+  while (at->queue.TryPop(call)) {
+    if (call->is_given_up.load(std::memory_order_relaxed) || now >= call->deadline) {
+      at->End(*call, CallStatus::kTimedOut, "given up by its caller, or its turn did not come in time");
+      continue;
+    }
+    Fill(each.request, *call);
+    if (!engine.Send(each.request)) {
+      at->End(*call, CallStatus::kBusy, "too many requests wait for the component");
+      continue;
+    }
+    each.call = call;
+    each.is_interrupted = false;
+    each.number.store(call->number, std::memory_order_relaxed);
+    each.is_abort_asked.store(false, std::memory_order_relaxed);
+    ++count_;
+    return;
+  }
+}
+
+// Once it has an id: until then the engine would not know which.
+void ComponentServiceBase::Interrupt(Engine& engine, UnderWay& each) {
+  if (each.is_interrupted || !each.is_abort_asked.load(std::memory_order_relaxed) || each.request.id() == 0) return;
+  each.abort.abort_id = each.request.id();
+  each.is_interrupted = engine.Send(each.abort);
+}
+
+void ComponentServiceBase::AfterPasses() {
+  if (count_ == 0) return;
+  UnderWay* longest = nullptr;
+  for (UnderWay& each : all_) {
+    if (each.call == nullptr) continue;
+    if (each.request.state() == Request::State::kDone) {
+      Deliver(each);
+    } else if (is_activity()) {
+      each.call->doing.store(each.request.doing(), std::memory_order_relaxed);
+      if (longest == nullptr || each.request.id() < longest->request.id()) longest = &each;
+    }
+  }
+  longest_.store(longest, std::memory_order_release);
+}
+
+void ComponentServiceBase::Deliver(UnderWay& each) {
+  CallBase& call = *each.call;
+  CallStatus status = CallStatus::kAnswered;
+  if (each.request.outcome().is_success()) {
+    Take(each.request, call);
+  } else {
+    call.error = each.request.outcome().Text(*component_);
+    const bool is_interrupted = each.request.outcome().exception() == genom_execution::kInterrupted;
+    status = is_interrupted && each.is_interrupted ? CallStatus::kAborted : CallStatus::kFailed;
+  }
+  Record(call, status);
+  ServiceEndpoint* const at = endpoint();
+  (status == CallStatus::kAnswered ? at->answered : at->failed).fetch_add(1, std::memory_order_relaxed);
+  each.call = nullptr;
+  --count_;
+  call.Answer(status);
+}
+
+void ComponentServiceBase::EndCalls(CallStatus status, std::string_view why) noexcept {
+  longest_.store(nullptr, std::memory_order_release);
+  for (UnderWay& each : all_) {
+    if (each.call != nullptr) endpoint()->End(*each.call, status, why);
+    each.call = nullptr;
+  }
+  count_ = 0;
+}
+
+void ComponentServiceBase::AfterFault(std::string_view what) noexcept {
+  EndCalls(CallStatus::kFaulted, what);
+  ServiceBase::AfterFault(what);
+}
+
+}  // namespace runnel::genom_modules

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <string_view>
+
+#include "plugins/genom_modules/module_part.h"
+#include "plugins/services/service_base.h"
+
+namespace runnel::genom_modules {
+
+/// The part of a component's service that does not depend on its types: calls become requests of the engine, as many at
+/// once as there is room for, and are answered when those are done.
+///
+/// Threads: as ServiceBase.
+class ComponentServiceBase : public ServiceBase, public ModulePart {
+ public:
+  static constexpr std::size_t kMostUnderWay = 8;
+
+  // Tells of the call that has been under way for longest.
+  [[nodiscard]] ServiceState state() const override;
+  bool Abort() override;
+
+  void Prepare(genom_execution::Engine& engine) override;
+  void BeforePasses(genom_execution::Engine& engine, Time now) override;
+  void AfterPasses() override;
+
+ protected:
+  explicit ComponentServiceBase(const genom_execution::ServiceTable& service) : service_(service) {}
+  ~ComponentServiceBase() = default;
+
+  [[nodiscard]] bool is_activity() const noexcept { return service_.kind == genom_execution::ServiceKind::kActivity; }
+  /// The call's arguments are written into the request.
+  virtual void Fill(genom_execution::Request& request, CallBase& call) = 0;
+  /// What has come of the request is written into the call's reply.
+  virtual void Take(genom_execution::Request& request, CallBase& call) = 0;
+  virtual void Record(CallBase& call, CallStatus status) = 0;
+  /// By the destructor, while the port is still there.
+  void EndCalls(CallStatus status, std::string_view why) noexcept;
+
+ private:
+  struct UnderWay {
+    UnderWay(const genom_execution::ComponentTable& component, const genom_execution::ServiceTable& service)
+        : request(component, service), abort(component, genom_execution::Engine::AbortService()) {}
+    genom_execution::Request request;
+    genom_execution::Request abort;
+    CallBase* call = nullptr;
+    bool is_interrupted = false;
+    // Looked at by others. relaxed: they inform.
+    std::atomic<std::uint64_t> number{0};
+    std::atomic<bool> is_abort_asked{false};
+  };
+
+  void BeforeUpdate() override {}  // BeforePasses() serves
+  void AfterFault(std::string_view what) noexcept override;
+  CallStatus Invoke(CallBase& /*call*/, Activity* /*activity*/) override { return CallStatus::kFailed; }
+  [[nodiscard]] static bool IsFree(const UnderWay& each);
+  void Begin(genom_execution::Engine& engine, UnderWay& each, Time now);
+  static void Interrupt(genom_execution::Engine& engine, UnderWay& each);
+  void Deliver(UnderWay& each);
+
+  const genom_execution::ServiceTable& service_;
+  const genom_execution::ComponentTable* component_ = nullptr;
+  std::deque<UnderWay> all_;
+  std::size_t count_ = 0;  // of those under way
+  std::atomic<UnderWay*> longest_{nullptr};
+};
+
+}  // namespace runnel::genom_modules

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "plugins/genom_modules/views.h"
+
+namespace runnel::genom_modules {
+
+struct TaskState {
+  BoundedText<32> name;
+  std::uint64_t cycles = 0;
+  double last = 0, longest = 0, average = 0;  ///< s, in codels, by the application's clock
+};
+
+struct ActivityState {
+  std::uint32_t id = 0;
+  BoundedText<32> service;
+  BoundedText<32> state;
+};
+
+/// The port `genom_state` of each component.
+struct ComponentState {
+  BoundedText<32> component;
+  BoundedText<32> version;
+  BoundedText<32> digest;
+  std::vector<TaskState> tasks;
+  std::vector<ActivityState> activities;
+};
+
+inline void Describe(TypeBuilder<TaskState>& type) {
+  type.Name("genom::task_state")
+      .Field("name", &TaskState::name)
+      .Field("cycles", &TaskState::cycles)
+      .Field("last", &TaskState::last, {.unit = "s"})
+      .Field("longest", &TaskState::longest, {.unit = "s"})
+      .Field("average", &TaskState::average, {.unit = "s"});
+}
+inline void Describe(TypeBuilder<ActivityState>& type) {
+  type.Name("genom::activity_state")
+      .Field("id", &ActivityState::id)
+      .Field("service", &ActivityState::service)
+      .Field("state", &ActivityState::state);
+}
+inline void Describe(TypeBuilder<ComponentState>& type) {
+  type.Name("genom::component_state")
+      .Field("component", &ComponentState::component)
+      .Field("version", &ComponentState::version)
+      .Field("digest", &ComponentState::digest)
+      .Field("tasks", &ComponentState::tasks)
+      .Field("activities", &ComponentState::activities);
+}
+
+}  // namespace runnel::genom_modules

@@ -1,0 +1,183 @@
+-- What plugins/genom_execution wants to know of a component: who has which codels, states and conflicts, and how a codel
+-- in C is called. For templates whose components run on that engine.
+
+local c = library("c_mapping")
+local execution = {}
+
+local declared = {}
+for _, type in ipairs(model.types) do declared[type.name] = type end
+
+-- What is declared under the name of a type, behind its other names; the type itself if it has no name.
+function execution.declared(type)
+  local final = c.final(type)
+  return has(final, "name") and declared[final.name] or final
+end
+
+-- A variable or member of the type.
+function execution.variable(type, name)
+  local sizes = ""
+  while not has(type, "name") and type.kind == "array" do
+    sizes = sizes .. "[" .. type.length .. "]"
+    type = type.type
+  end
+  if not has(type, "name") and type.kind == "string" then
+    if has(type, "length") then return "char " .. name .. sizes .. "[" .. type.length .. "]" end
+    return "char *" .. name .. sizes
+  end
+  return c.type(type) .. " " .. (c.final(type).kind == "native type" and "*" or "") .. name .. sizes
+end
+
+-- Whether values own memory: false, "text" or "sequence" themselves, "within" in what they are made of.
+function execution.owns(type)
+  local final = execution.declared(type)
+  if final.kind == "string" then return not has(final, "length") and "text" end
+  if final.kind == "sequence" and not has(final, "length") then
+    return execution.owns(final.type) and "within" or "sequence"
+  end
+  if final.kind == "array" or final.kind == "sequence" or final.kind == "optional" then
+    return execution.owns(final.type) and "within"
+  end
+  if final.kind == "struct" or final.kind == "union" or final.kind == "exception" then
+    for _, member in ipairs(final.members) do
+      if execution.owns(member.type) then return "within" end
+    end
+  end
+  return false
+end
+
+-- Codels by their owners, numbered as in the tables; each with what it is called in them.
+function execution.codels(component)
+  local all, index = {}, {}
+  local function add(kind, owner)
+    for _, codel in ipairs(owner.codels) do
+      local entry = {number = #all, codel = codel, owner = owner, kind = kind}
+      all[#all + 1] = entry
+      index[kind .. "/" .. owner.name .. "/" .. codel.name] = entry
+    end
+  end
+  for _, task in ipairs(component.tasks) do add("task", task) end
+  for _, service in ipairs(component.services) do add("service", service) end
+  return all, index
+end
+
+-- The numbers of services by their names.
+function execution.services(component)
+  local numbers = {}
+  for index, service in ipairs(component.services) do numbers[service.name] = index - 1 end
+  return numbers
+end
+
+-- Pairs of units that must not run at the same time, the smaller number first.
+function execution.conflicts(component)
+  local all, index = execution.codels(component)
+  local services, seen, pairs_of = execution.services(component), {}, {}
+  local function add(a, b)
+    if a > b then a, b = b, a end
+    if seen[a .. "/" .. b] then return end
+    seen[a .. "/" .. b] = true
+    pairs_of[#pairs_of + 1] = {a, b}
+  end
+  for _, entry in ipairs(all) do
+    for _, other in ipairs(entry.codel.excludes_codels) do
+      local key = (other.service and "service/" .. other.service or "task/" .. other.task) .. "/" .. other.codel
+      if index[key] then add(entry.number, index[key].number) end
+    end
+    for _, name in ipairs(entry.codel.excludes_services) do add(entry.number, #all + services[name]) end
+  end
+  return pairs_of
+end
+
+-- The states of a task's or an activity's machine in the order of the tables, each with the number of its codel and its
+-- transitions; and the numbers of start and stop, or false.
+function execution.machine(component, kind, owner)
+  local _, index = execution.codels(component)
+  local names = {}
+  for name in pairs(owner.states) do names[#names + 1] = name end
+  local function rank(name) return name == "start" and 1 or name == "stop" and 2 or 3 end
+  table.sort(names, function(a, b)
+    if rank(a) ~= rank(b) then return rank(a) < rank(b) end
+    return a < b
+  end)
+  local number = {}
+  for at, name in ipairs(names) do number[name] = at - 1 end
+  local states = {}
+  for _, name in ipairs(names) do
+    local entry = index[kind .. "/" .. owner.name .. "/" .. owner.states[name]]
+    local transitions = {}
+    for _, event in ipairs(entry.codel.yields) do
+      local paused = event:match("^pause::(.*)")
+      local to = paused or event
+      transitions[#transitions + 1] = {event = c.event(component.name, event), pauses = paused ~= nil,
+                                       state = to == "ether" and "kEther" or tostring(number[to])}
+    end
+    states[#states + 1] = {name = name, codel = entry.number, transitions = transitions}
+  end
+  return states, number.start or false, number.stop or false
+end
+
+-- Where a parameter of a codel lies: an expression in C++, with `ids` and `data` as pointers; and its type.
+local function place(component, owner, parameter)
+  local path, expression, type = parameter.path, nil, nil
+  local from = 1
+  if parameter.source == "ids" then
+    expression, type = "(*ids)", component.ids
+  else
+    expression = "data->" .. path[1]
+    from = 2
+    for _, list in ipairs({owner.parameters, owner.variables}) do
+      for _, each in ipairs(list) do
+        if each.name == path[1] then type = each.type end
+      end
+    end
+  end
+  for at = from, #path do
+    local step = path[at]
+    local final = execution.declared(type)
+    while final.kind == "optional" do
+      expression, type = expression .. "._value", final.type
+      final = execution.declared(type)
+    end
+    if math.type(step) then
+      expression = expression .. (final.kind == "sequence" and "._buffer[" or "[") .. step .. "]"
+      type = final.type
+    else
+      for _, member in ipairs(final.members) do
+        if member.name == step then type = member.type end
+      end
+      expression = expression .. (final.kind == "union" and "._u." or ".") .. step
+    end
+  end
+  return expression, type
+end
+execution.place = place
+
+local scalar = {boolean = true, octet = true, char = true, short = true, ["unsigned short"] = true, long = true,
+                ["unsigned long"] = true, ["long long"] = true, ["unsigned long long"] = true, float = true,
+                double = true, enum = true}
+
+-- What a codel in C is given for a parameter.
+function execution.argument(component, owner, parameter)
+  if has(parameter, "port") then return "&" .. component.name .. "_port_" .. parameter.port end
+  if has(parameter, "remote") then return "&" .. component.name .. "_remote_" .. parameter.remote end
+  local expression = place(component, owner, parameter)
+  local final = c.final(parameter.type)
+  local is_input = parameter.direction == "in"
+  if final.kind == "array" then return expression end
+  if final.kind == "string" and has(final, "length") then return expression end
+  if is_input and (scalar[final.kind] or final.kind == "string" or final.kind == "native type") then return expression end
+  return "&" .. expression
+end
+
+-- The address of an exception's name: "nav::bad" is nav_bad_id.
+function execution.events(names)
+  local list = {}
+  for _, name in ipairs(names) do list[#list + 1] = c.name(name) .. "_id" end
+  return table.concat(list, ", ")
+end
+
+-- A text as a literal in C++.
+function execution.literal(text)
+  return '"' .. text:gsub("\\", "\\\\"):gsub('"', '\\"'):gsub("\n", "\\n") .. '"'
+end
+
+return execution

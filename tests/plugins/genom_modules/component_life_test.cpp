@@ -1,0 +1,51 @@
+#include "core/lockfree/thread_epoch.h"
+#include "core/port/port.h"
+#include "tests/plugins/genom_modules/component_fixture.h"
+
+namespace runnel::test {
+namespace {
+
+using ComponentLifeTest = ComponentTest;
+
+TEST_F(ComponentLifeTest, EndsActivitiesWhenItIsKilled) {
+  rig.RunCycles(2);
+  const auto wait = Begin("wait", "{turns: 100}");
+  rig.RunCycles(3);
+  EXPECT_EQ(Call("kill"), "done");
+  rig.RunCycles(4);
+  EXPECT_EQ(Outcome("wait", *wait), "1099");
+  EXPECT_THAT(Call("get"), HasSubstr("interrupted {by: kill}"));
+}
+
+TEST_F(ComponentLifeTest, EndsActivitiesWhenItGoes) {
+  rig.RunCycles(2);
+  const auto wait = Begin("wait", "{turns: 100}");
+  rig.RunCycles(3);
+  const Port& port = PortAt("wait");
+  const TypeInfo* const reply = port.FindAnnotation<Callable>()->reply();
+  ASSERT_TRUE(rig.runtime.Delete(rig.module));
+  (void)CollectRetired();
+  ASSERT_EQ(wait->Poll(rig.now()), CallStatus::kAnswered) << wait->error();
+  EXPECT_EQ(ToText(*reply, wait->reply()), "1099");
+}
+
+TEST_F(ComponentLifeTest, IsStoppedByAPermanentActivityThatFails) {
+  Port& seen = PortAt("seen");
+  auto source = seen.MakeOutput(rig.runtime.root(), "source", {});
+  ASSERT_TRUE(Port::Connect(*source, seen));
+  ASSERT_TRUE(source->PublishFilled(
+      [&](void* value) { return SetFromText(seen.type(), "{at: {x: 99}}", value); }, rig.now()));
+  const auto fault = rig.RunUntilFault(3);
+  ASSERT_TRUE(fault.has_value());
+  EXPECT_THAT(fault->message, HasSubstr("probe::wrong {which: left, limit: 99}"));
+}
+
+TEST(ComponentPeriodTest, IsHeldAgainstThatOfTheThread) {
+  ModuleRig<FrameworkElement> rig{"probe/probe", 50ms};
+  const auto fault = rig.RunUntilFault(1);
+  ASSERT_TRUE(fault.has_value());
+  EXPECT_THAT(fault->message, HasSubstr("task 'drive' has a period of 20ms and a delay of 10ms"));
+}
+
+}  // namespace
+}  // namespace runnel::test

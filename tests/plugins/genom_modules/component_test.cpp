@@ -1,0 +1,119 @@
+#include "core/port/port.h"
+#include "plugins/genom_modules/component_state.h"
+#include "plugins/testing/real_time_cycles.h"
+#include "tests/plugins/genom_modules/component_fixture.h"
+
+namespace runnel::test {
+namespace {
+
+TEST_F(ComponentTest, OffersItsAttributesAsServicesAndParameters) {
+  rig.RunCycles(2);  // the task begins 10 ms late
+  EXPECT_EQ(Call("get"), "{gain: 2, list: [], last: {at: {x: 0, y: 0}, where: left, name: \"\", grid: [[0, 0], [0, 0]], "
+                         "trace: [], level: []}}");
+  EXPECT_EQ(Call("set_gain", "{gain: 3}"), "done");
+  EXPECT_EQ(Call("set_list", "{list: [1, 2]}"), "done");
+  EXPECT_THAT(Call("get"), HasSubstr("gain: 3, list: [1, 2]"));
+  rig.Set("set_gain", "4");
+  rig.RunCycle();
+  EXPECT_THAT(Call("get"), HasSubstr("gain: 4"));
+  EXPECT_EQ(Call("set_gain", "{gain: 11}"), "probe::wrong {which: right, limit: 10}");
+  rig.Set("set_gain", "12");
+  rig.RunCycle();
+  EXPECT_THAT(Call("get"), HasSubstr("gain: 4")) << "what validation refuses changes nothing";
+}
+
+TEST_F(ComponentTest, SetsParametersOfTheFileAtTheStart) {
+  rig.Set("set_gain", "7");
+  rig.RunCycles(2);
+  EXPECT_THAT(Call("get"), HasSubstr("gain: 7"));
+}
+
+TEST_F(ComponentTest, RunsFunctionsWithTheirParameters) {
+  rig.RunCycles(2);
+  EXPECT_EQ(Call("sum", "{name: map, values: [1, 2, 3], total: 10}"), "{total: 16, which: right, text: \"the map\"}");
+  const auto call = ServiceAt("sum").NewCall();
+  EXPECT_FALSE(SetFromText(*ServiceAt("sum").arguments(), "{values: [1, 2, 3, 4, 5]}", call->arguments()));
+}
+
+TEST_F(ComponentTest, ReadsAndWritesItsPortsInItsPasses) {
+  Port& seen = PortAt("seen");
+  auto source = seen.MakeOutput(rig.runtime.root(), "source", {});
+  ASSERT_TRUE(Port::Connect(*source, seen));
+  const auto feed = [&](const std::string& text) {
+    ASSERT_TRUE(source->PublishFilled([&](void* value) { return SetFromText(seen.type(), text, value); }, rig.now()));
+  };
+  feed("{at: {x: 2, y: 1}, where: right, name: wall, grid: [[1, 2], [3, 4]], trace: [{x: 1, y: 0}], level: [5]}");
+  rig.RunCycles(2);
+  EXPECT_EQ(Newest("echo"), "{at: {x: 4, y: 1}, where: right, name: \"wall\", grid: [[1, 2], [3, 4]], "
+                            "trace: [{x: 1, y: 0}], level: [5]}");
+  feed("{at: {x: 3}}");
+  rig.RunCycle();
+  EXPECT_THAT(Newest("echo"), HasSubstr("x: 4")) << "between two ticks nothing runs";
+  rig.RunCycle();
+  EXPECT_THAT(Newest("echo"), HasSubstr("x: 6"));
+}
+
+TEST_F(ComponentTest, HasMultiplePortsOfTheNamesThatAreGiven) {
+  rig.Set("many", "[left, right]");
+  rig.Set("copies", "[a]");
+  rig.RunCycles(2);
+  auto& left = dynamic_cast<Port&>(*rig.module.FindChild("input")->FindChild("many")->FindChild("left"));
+  Output<double> source(rig.runtime.root(), "source");
+  ASSERT_TRUE(Port::Connect(source, left));
+  source.Publish(2.5);
+  EXPECT_EQ(Call("copy", "{from: left, to: a}"), "2.5");
+  const auto& copy = dynamic_cast<Output<double>&>(*rig.module.FindChild("output")->FindChild("copies")->FindChild("a"));
+  EXPECT_EQ(rig.Last(copy), 2.5);
+  EXPECT_EQ(Call("copy", "{from: right, to: a}"), "-1") << "nothing has come there";
+  EXPECT_THAT(Call("copy", "{from: left, to: b}"), HasSubstr("mwerr"));
+}
+
+TEST_F(ComponentTest, TellsWhatActivitiesDo) {
+  rig.RunCycles(2);
+  const auto wait = Begin("wait", "{turns: 3}");
+  rig.RunCycles(3);
+  const ServiceState state = ServiceAt("wait").state();
+  ASSERT_TRUE(state.running.has_value());
+  EXPECT_EQ(state.running->doing, "turn");
+  EXPECT_STREQ(wait->doing(), "turn");
+  auto& seen = rig.Follow(rig.output<genom_modules::ComponentState>("genom_state"));
+  rig.RunCycle();
+  EXPECT_THAT(TextOf(*seen.Read()), HasSubstr("activities: [{id: 1, service: \"wait\", state: \"turn\"}]"));
+  rig.RunCycles(6);
+  EXPECT_EQ(Outcome("wait", *wait), "3");
+}
+
+TEST_F(ComponentTest, InterruptsActivities) {
+  rig.RunCycles(2);
+  const auto first = Begin("wait", "{turns: 100}");
+  rig.RunCycles(3);
+  const auto second = Begin("wait", "{turns: 100}");
+  rig.RunCycles(4);
+  EXPECT_THAT(Outcome("wait", *first), testing::StartsWith("109")) << "the codel of `stop` has the last word";
+  EXPECT_EQ(Call("abort_activity", "{id: 2}"), "done");
+  rig.RunCycles(2);
+  EXPECT_THAT(Outcome("wait", *second), testing::StartsWith("10"));
+  EXPECT_THAT(Call("abort_activity", "{id: 2}"), HasSubstr("no_such_activity"));
+  const auto third = Begin("wait", "{turns: 100}");
+  rig.RunCycles(3);
+  EXPECT_TRUE(ServiceAt("wait").Abort());
+  rig.RunCycles(3);
+  EXPECT_THAT(Outcome("wait", *third), testing::StartsWith("10"));
+}
+
+TEST_F(ComponentTest, RunsAsynchronousCodelsElsewhere) {
+  rig.RunCycles(2);
+  EXPECT_EQ(Call("slow", "", 1), "true") << "on a clock that is not the machine's a cycle waits for them";
+}
+
+TEST_F(ComponentTest, AllocatesNothingInItsCycles) {
+  rig.RunCycles(10);
+  auto call = ServiceAt("wait").NewCall();
+  ASSERT_TRUE(SetFromText(*ServiceAt("wait").arguments(), "{turns: 2}", call->arguments()));
+  ASSERT_EQ(call->Begin(rig.now(), 10s), CallStatus::kPending);
+  EXPECT_TRUE(RunWatched(rig, 10).empty());
+  ASSERT_EQ(call->Poll(rig.now()), CallStatus::kAnswered);
+}
+
+}  // namespace
+}  // namespace runnel::test
