@@ -48,6 +48,7 @@ Result<Port*> NetworkElement::AddTake(const TakeOptions& take, const TypeInfo& t
   }
   auto form = ValueForm::Make(type, take.as, {});
   if (!form) return form.error();
+  if (const std::string why = (*form)->WhyNoReading(); !why.empty()) return Error{.message = why};
   const TypedPorts* const typed = FindTypedPorts(type);
   FrameworkElement* group = this;
   const auto words = SplitPath(take.topic);

@@ -27,6 +27,8 @@ class NetworkElement final : public FrameworkElement {
   [[nodiscard]] Logger& log() noexcept { return log_; }
 
   void AddOffer(OfferOptions offer);
+  /// Before the link starts.
+  void set_ros(RosOptions ros) { options_.ros = std::move(ros); }
 
   struct Take {
     TakeOptions options;

@@ -40,6 +40,7 @@ void NetworkLink::Follow() {
     }
   }
   FollowTakes();
+  TellNode();
   TellMembers();
   TellTroubles();
 }
@@ -50,7 +51,8 @@ std::vector<NetworkLink::Wanted> NetworkLink::FindOffers() {
     Wanted found{&port, port.path(), &port.type(), offer};
     if (offer.topic.empty()) found.options.topic = TopicOfPort(element_.options().member.name, port.path());
     const auto same = std::ranges::find(wanted, found.options.topic, [](const Wanted& each) { return each.options.topic; });
-    if (same == wanted.end()) {
+    const bool is_meant = same != wanted.end() && !offer.topic.empty() && same->path != found.path;  // /tf, for one
+    if (same == wanted.end() || is_meant) {
       wanted.push_back(std::move(found));
     } else if (same->path != found.path) {
       Trouble(found.path, {.message = "is not offered, as " + same->path + " is the topic " + found.options.topic + " already",
@@ -81,7 +83,7 @@ void NetworkLink::MakeOffer(const Wanted& wanted) {
     return each->path() == wanted.path && each->options().topic == wanted.options.topic && &each->type() == wanted.type;
   });
   if (is_there) return;
-  auto form = ValueForm::Make(*wanted.type, wanted.options.as, wanted.options.frame);
+  auto form = ValueForm::Make(*wanted.type, wanted.options.as, wanted.options.frame, wanted.options.child_frame);
   if (!form) return Trouble(wanted.path, form.error());
   auto made = std::make_unique<OfferedPort>(*beside_, "offer_" + std::to_string(++made_), *wanted.type, wanted.path,
                                             wanted.options, std::move(*form), clock_, wake_);
@@ -93,6 +95,17 @@ void NetworkLink::MakeOffer(const Wanted& wanted) {
     return each->path() == wanted.path && each->options().topic == wanted.options.topic;
   });
   offered_.push_back(std::move(made));
+}
+
+void NetworkLink::TellNode() {
+  if (node_ == nullptr) return;
+  std::vector<WireId> readers;
+  std::vector<WireId> writers;
+  for (const auto& each : offered_) writers.push_back(each->id());
+  for (const auto& each : taken_) {
+    if (const auto id = each->id()) readers.push_back(*id);
+  }
+  node_->Tell(std::move(readers), std::move(writers));
 }
 
 void NetworkLink::FollowTakes() {

@@ -36,13 +36,20 @@ NetworkLink::NetworkLink(FrameworkElement& application, NetworkElement& element,
 Result<std::unique_ptr<NetworkLink>> NetworkLink::Start(FrameworkElement& application, NetworkElement& element,
                                                         WireEngine& engine, bool is_simulated) {
   std::unique_ptr<NetworkLink> link(new NetworkLink(application, element, is_simulated));
-  auto joined = engine.Join(element.options().member, link->table_);
+  WireMemberOptions member = element.options().member;
+  member.user_data = "enclave=/;";  // without which nodes of ROS 2 look past it
+  auto joined = engine.Join(member, link->table_);
   if (!joined) {
     Error error = joined.error();
     error.position = element.options().position;
     return error;
   }
   link->participant_ = std::move(*joined);
+  if (element.options().ros) {
+    auto node = RosNode::Start(*element.options().ros, *link->participant_, link->runtime_, is_simulated);
+    if (!node) return node.error();
+    link->node_ = std::move(*node);
+  }
   {
     const ChangeScope changes(link->runtime_);
     link->beside_ = std::make_unique<BesideElement>(link->runtime_.root());
@@ -65,6 +72,7 @@ NetworkLink::~NetworkLink() {
   if (thread_.joinable()) thread_.join();
   taken_.clear();
   offered_.clear();
+  node_.reset();
   participant_.reset();
 }
 
@@ -103,6 +111,8 @@ void NetworkLink::SendAll() {
   for (const auto& each : offered_) {
     if (const auto again = each->Send(now)) deadline = std::min(deadline, *again);
   }
+  const auto clock = node_ != nullptr ? node_->SendClock(now) : std::nullopt;
+  if (clock) deadline = std::min(deadline, *clock);
   if (!must_look_ && !ends_) wake_->WaitUntil(deadline);
 }
 

@@ -13,6 +13,7 @@
 #include "plugins/network/discovery_table.h"
 #include "plugins/network/network_element.h"
 #include "plugins/network/offered_port.h"
+#include "plugins/network/ros_node.h"
 #include "plugins/network/taken_port.h"
 
 namespace runnel {
@@ -49,6 +50,7 @@ class NetworkLink final : private ElementListener {
   [[nodiscard]] std::vector<Wanted> FindOffers();
   void MakeOffer(const Wanted& wanted);
   void FollowTakes();
+  void TellNode();
   void TellTroubles();
   void TellMembers();
   void Trouble(const std::string& of, const Error& error);
@@ -63,6 +65,7 @@ class NetworkLink final : private ElementListener {
   DiscoveryTable table_;
   std::unique_ptr<FrameworkElement> beside_;  // below which the inputs are that values are sent from
   std::unique_ptr<WireParticipant> participant_;
+  std::unique_ptr<RosNode> node_;  // nullptr: none is wanted
   // Changed by the thread, under the structure lock.
   std::vector<std::unique_ptr<OfferedPort>> offered_;
   std::vector<std::unique_ptr<TakenPort>> taken_;

@@ -27,7 +27,8 @@ struct OfferOptions {
   std::string port = {};                   ///< one, by its path from the root
   std::string topic = {};                  ///< "/scan"; "": follows from the path
   std::string as = {};                     ///< type of the messages; "": by the description of the port's type
-  std::string frame = {};
+  std::string frame = {};        ///< of coordinates, for headers
+  std::string child_frame = {};  ///< what moves, of transforms and odometry
   ValueQuality quality = ValueQuality::kNewest;
   double rate = 0;                           ///< most values a second; 0: no bound
   std::optional<std::int32_t> strength = {};  ///< the only one that counts, if no stronger one is there
@@ -46,11 +47,20 @@ struct TakeOptions {
   SourcePosition position = {};
 };
 
+/// What nodes of ROS 2 are told besides.
+struct RosOptions {
+  std::string distribution = {};  ///< humble, iron, jazzy: "" if the application is to be no node
+  std::string node = {};          ///< "/base"
+  bool sends_clock = false;       ///< on /clock
+  bool sends_log = false;         ///< on /rosout
+};
+
 /// What <network> says.
 struct NetworkOptions {
   WireMemberOptions member = {};
   std::string engine = "cyclone";
   std::vector<OfferOptions> offers = {};
+  std::optional<RosOptions> ros = {};
   SourcePosition position = {};
 };
 

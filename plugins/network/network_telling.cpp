@@ -10,15 +10,6 @@
 
 namespace runnel {
 
-namespace {
-
-std::string ReadableTopic(const std::string& wire_topic) {
-  const std::string topic = TopicIn(wire_topic);
-  return topic.empty() ? wire_topic : topic;
-}
-
-}  // namespace
-
 void NetworkLink::Trouble(const std::string& of, const Error& error) {
   new_troubles_[of] = error.message + (error.hint.empty() ? "" : "; " + error.hint);
 }

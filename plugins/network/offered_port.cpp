@@ -6,7 +6,7 @@
 #include "core/base/exception_text.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/lockfree/wake_event.h"
-#include "plugins/network/topic_names.h"
+#include "plugins/ros_messages/names.h"
 
 namespace runnel {
 
@@ -79,7 +79,7 @@ OfferedPort::~OfferedPort() {
 }
 
 WireEndpointOptions OfferedPort::endpoint() const {
-  WireEndpointOptions endpoint{.topic = WireTopic(topic_),
+  WireEndpointOptions endpoint{.topic = DdsTopic(topic_),
                                .type = form_->wire_type(),
                                .qos = QosOf(options_.quality),
                                .user_data = form_->user_data()};

@@ -44,6 +44,8 @@ class OfferedPort {
   [[nodiscard]] const TypeInfo& type() const noexcept { return input_->type(); }
   [[nodiscard]] const OfferOptions& options() const noexcept { return options_; }
   [[nodiscard]] WireEndpointOptions endpoint() const;
+  /// Once it has begun.
+  [[nodiscard]] const WireId& id() const noexcept { return writer_->id(); }
 
   /// Told, by threads of the engine, that somebody begins or ceases to read. Before Begin().
   void set_on_matched(std::function<void()> on_matched) { on_matched_ = std::move(on_matched); }

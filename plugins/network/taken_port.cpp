@@ -7,7 +7,7 @@
 #include "core/element/runtime.h"
 #include "core/port/own_cycle.h"
 #include "plugins/network/discovery_table.h"
-#include "plugins/network/topic_names.h"
+#include "plugins/ros_messages/names.h"
 
 namespace runnel {
 
@@ -16,7 +16,7 @@ TakenPort::TakenPort(Port& output, TakeOptions options, std::shared_ptr<const Va
       options_(std::move(options)),
       form_(std::move(form)),
       clock_(clock),
-      endpoint_{.topic = WireTopic(options_.topic), .type = form_->wire_type(), .user_data = form_->user_data()} {}
+      endpoint_{.topic = DdsTopic(options_.topic), .type = form_->wire_type(), .user_data = form_->user_data()} {}
 
 // As much as all of them offer, so that none is left out and nothing that they keep is missed.
 WireQos TakenPort::WantedQos(const std::vector<WireEndpoint>& writers) const {
@@ -69,7 +69,12 @@ void TakenPort::Take(const WireSample& sample) noexcept {
     }
     const OwnCycle cycle(now);
     const auto timestamp = options_.keeps_stamps && !clock_.is_simulated ? std::optional(std::min(sent, now)) : std::nullopt;
-    const auto published = output_.PublishFilled([&](void* value) { return form_->Read(sample.octets, value); }, timestamp);
+    const auto published = output_.PublishFilled(
+        [&](void* value) -> Result<void> {
+          const auto read = form_->Read(sample.octets, value);
+          return read ? Result<void>() : read.error();
+        },
+        timestamp);
     if (published) {
       taken_.fetch_add(1, std::memory_order_relaxed);
     } else {

@@ -31,6 +31,9 @@ class TakenPort {
   [[nodiscard]] const TakeOptions& options() const noexcept { return options_; }
   [[nodiscard]] const WireEndpointOptions& endpoint() const noexcept { return endpoint_; }
 
+  /// Nothing if there is no reader.
+  [[nodiscard]] std::optional<WireId> id() const { return reader_ ? std::optional(reader_->id()) : std::nullopt; }
+
   /// Asks for what the writers that are there offer, if nobody has said what is to be asked for; leaves out those whose
   /// values are of another kind. Errors: of the engine.
   Result<void> Follow(WireParticipant& participant, const DiscoveryTable& table);

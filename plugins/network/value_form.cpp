@@ -5,7 +5,8 @@
 #include <utility>
 
 #include "core/types/type_info.h"
-#include "plugins/cdr_values/cdr_values.h"
+#include "plugins/ros_messages/message_codec.h"
+#include "plugins/ros_messages/message_library.h"
 
 namespace runnel {
 
@@ -46,32 +47,23 @@ void AppendDescription(const TypeInfo& type, int depth, std::string& text) {
   }
 }
 
-// A name that DDS and its tools take: "runnel::msg::dds_::Pose2_".
-std::string OwnWireType(const TypeInfo& type) {
-  std::string name = type.name();
-  const auto is_allowed = [](char each) {
-    return (each >= 'a' && each <= 'z') || (each >= 'A' && each <= 'Z') || (each >= '0' && each <= '9');
-  };
-  std::ranges::replace_if(name, [&](char each) { return !is_allowed(each); }, '_');
-  return "runnel::msg::dds_::" + name + "_";
-}
-
-class OwnForm final : public ValueForm {
+class MessageForm final : public ValueForm {
  public:
-  explicit OwnForm(const TypeInfo& type) : type_(type) {
-    wire_type_ = OwnWireType(type);
-    user_data_ = std::string(kKey) + DescriptionText(type) + ";";
+  MessageForm(std::shared_ptr<const MessageCodec> codec, std::string description) : codec_(std::move(codec)) {
+    wire_type_ = codec_->dds_type();
+    user_data_ = "typehash=" + codec_->type_hash() + ";" + std::move(description);
   }
 
-  void Write(const void* value, Time, Octets& octets) const override {
-    WriteCdr(type_, value, octets);
+  void Write(const void* value, Time stamp, Octets& octets) const override { codec_->Encode(value, stamp, octets); }
+  Result<std::optional<Time>> Read(std::span<const std::byte> octets, void* value) const override {
+    const auto decoded = codec_->Decode(octets, value);
+    if (!decoded) return decoded.error();
+    return decoded->stamp;
   }
-  Result<void> Read(std::span<const std::byte> octets, void* value) const override {
-    return ReadCdr(type_, octets, value);
-  }
+  [[nodiscard]] std::string WhyNoReading() const override { return codec_->why_no_decoding(); }
 
  private:
-  const TypeInfo& type_;
+  const std::shared_ptr<const MessageCodec> codec_;
 };
 
 std::string_view DescriptionIn(std::string_view user_data) {
@@ -111,10 +103,12 @@ std::string TypeMisfit(const std::string& writers, const std::string& readers) {
 }
 
 Result<std::shared_ptr<const ValueForm>> ValueForm::Make(const TypeInfo& type, const std::string& as,
-                                                         const std::string& /*frame*/) {
-  if (!as.empty()) return Error{.message = "messages of ROS 2 are not known here: '" + as + "'"};
-  if (auto checked = CheckCdr(type); !checked) return checked.error();
-  return std::shared_ptr<const ValueForm>(std::make_shared<OwnForm>(type));
+                                                         const std::string& frame, const std::string& child_frame) {
+  auto codec = MessageCodec::Make(type, {.as = as, .by_description = as.empty(), .frame = frame, .child_frame = child_frame},
+                                  MessageLibrary::Standard());
+  if (!codec) return codec.error();
+  std::string description = as.empty() ? std::string(kKey) + DescriptionText(type) + ";" : std::string();
+  return std::shared_ptr<const ValueForm>(std::make_shared<MessageForm>(std::move(*codec), std::move(description)));
 }
 
 }  // namespace runnel

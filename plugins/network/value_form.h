@@ -21,7 +21,8 @@ class ValueForm {
   /// `as`: "sensor_msgs/msg/LaserScan"; "": by the type's own description. Errors: there is no such message; the type
   /// cannot become it; a part of the type is opaque.
   static Result<std::shared_ptr<const ValueForm>> Make(const TypeInfo& type, const std::string& as,
-                                                       const std::string& frame);
+                                                       const std::string& frame = {},
+                                                       const std::string& child_frame = {});
   virtual ~ValueForm() = default;
 
   /// By which the wire knows the type.
@@ -31,8 +32,11 @@ class ValueForm {
 
   /// `stamp`: since 1970, for headers.
   virtual void Write(const void* value, Time stamp, Octets& octets) const = 0;
-  /// Errors: what is wrong with the octets; the value may then be half set.
-  virtual Result<void> Read(std::span<const std::byte> octets, void* value) const = 0;
+  /// Returns the stamp of the message's own header, if it has one. Errors: what is wrong with the octets; the value may
+  /// then be half set.
+  virtual Result<std::optional<Time>> Read(std::span<const std::byte> octets, void* value) const = 0;
+  /// Why messages cannot become values; "" if they can.
+  [[nodiscard]] virtual std::string WhyNoReading() const = 0;
 
  protected:
   std::string wire_type_;

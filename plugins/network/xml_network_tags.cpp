@@ -9,7 +9,7 @@
 #include "plugins/application_files/path_use.h"
 #include "plugins/network/network_element.h"
 #include "plugins/network/network_engines.h"
-#include "plugins/network/topic_names.h"
+#include "plugins/ros_messages/names.h"
 #include "plugins/values/port_patterns.h"
 
 namespace runnel {
@@ -83,7 +83,7 @@ std::optional<ValueQuality> QualityOf(const TagUse& use) {
 bool CheckTopicOf(const TagUse& use) {
   const XmlAttribute* const topic = use.Find("topic");
   if (topic == nullptr) return true;
-  const auto checked = CheckTopic(topic->value);
+  const auto checked = CheckRosName(topic->value);
   if (!checked) use.Report(checked.error(), topic->value_position);
   return checked.has_value();
 }
@@ -93,7 +93,7 @@ void AddOffer(const TagUse& use, OfferOptions offer) {
     const Port* const port = SearchPort(PathIn(*path, use.parent), PathKind::kOutput, use.context);
     if (port == nullptr) return;
     offer.port = port->path();
-    if (const auto form = ValueForm::Make(port->type(), offer.as, offer.frame); !form) {
+    if (const auto form = ValueForm::Make(port->type(), offer.as, offer.frame, offer.child_frame); !form) {
       const XmlAttribute* const as = use.Find("as");
       return use.Report(form.error(), (as != nullptr ? as : path)->value_position);
     }
@@ -105,6 +105,7 @@ FrameworkElement* HandleOffer(const TagUse& use) {
   OfferOptions offer{.topic = TextOf(use, "topic"),
                      .as = TextOf(use, "as"),
                      .frame = TextOf(use, "frame"),
+                     .child_frame = TextOf(use, "child_frame"),
                      .quality = QualityOf(use).value_or(ValueQuality::kNewest),
                      .rate = NumberOf(use, "rate").value_or(0),
                      .position = use.xml.position()};
@@ -118,7 +119,7 @@ FrameworkElement* HandleOffer(const TagUse& use) {
   }
   if (offer.rate < 0) use.Report({.message = "the rate is a number above 0, of values a second"}, use.Find("rate")->value_position);
   if (ports != nullptr) {
-    for (const char* const only : {"topic", "as", "frame"}) {
+    for (const char* const only : {"topic", "as", "frame", "child_frame"}) {
       if (const XmlAttribute* const said = use.Find(only)) {
         use.Report({.message = std::string(only) + " is said of one port", .hint = "write port=\"…\" instead of ports"}, said->position);
         return &use.parent;
@@ -157,6 +158,28 @@ FrameworkElement* HandleTake(const TagUse& use) {
   if (CheckTopicOf(use)) {
     use.context.Defer(BuildStage::kConnections, [use, take = std::move(take)] { AddTake(use, take); });
   }
+  return &use.parent;
+}
+
+FrameworkElement* HandleRos(const TagUse& use) {
+  NetworkElement& network = *NetworkElement::FindIn(use.parent);
+  if (network.options().ros) {
+    use.Report({.message = "<ros> stands there already"}, use.xml.position());
+    return &use.parent;
+  }
+  RosOptions ros{.distribution = TextOf(use, "distribution"),
+                 .node = use.Find("node") != nullptr ? TextOf(use, "node") : NearestRosName("/" + network.options().member.name),
+                 .sends_clock = IsTrue(use, "clock"),
+                 .sends_log = IsTrue(use, "log")};
+  if (const auto checked = CheckRosName(ros.node); !checked) use.Report(checked.error(), use.Get("node").value_position);
+  const char* const environment = std::getenv("ROS_DISTRO");
+  if (ros.distribution.empty() && environment != nullptr) ros.distribution = environment;
+  if (ros.distribution.empty()) {
+    use.context.Warn({.message = "the application is in no list of nodes, as nobody says of which ROS 2 the others are",
+                      .hint = "distribution=\"jazzy\", or ROS_DISTRO; others than those that are there end for want of memory"},
+                     use.xml.position(), use.parent);
+  }
+  network.set_ros(std::move(ros));
   return &use.parent;
 }
 
@@ -199,6 +222,7 @@ void AddNetworkTags(XmlTagRegistry& tags) {
                               {.name = "topic", .summary = "its name in the network: /scan; without, /<name of the application>/<path>"},
                               MessageType(),
                               {.name = "frame", .kind = AttributeKind::kName, .summary = "of coordinates, for headers of messages"},
+                              {.name = "child_frame", .kind = AttributeKind::kName, .summary = "what moves, for transforms and odometry"},
                               Quality("newest (default): reliable; each: every value, in a queue; sensor: best effort; latched: "
                                       "who comes late gets the newest"),
                               {.name = "rate", .kind = AttributeKind::kNumber, .summary = "most values a second; the newest wins"},
@@ -206,6 +230,16 @@ void AddNetworkTags(XmlTagRegistry& tags) {
                                .kind = AttributeKind::kCount,
                                .summary = "for who takes exclusively: of several that offer the topic the strongest counts"}},
                .handle = HandleOffer});
+  tags.AddTag({.name = "ros",
+               .summary = "what nodes of ROS 2 are told besides topics",
+               .parents = {"network"},
+               .attributes = {Choice("distribution",
+                                     "of the other nodes, which decides how a node is told; ROS_DISTRO if left out",
+                                     {"humble", "iron", "jazzy"}),
+                              {.name = "node", .summary = "name of the node: /base; /<name of the application> by default"},
+                              Choice("clock", "true: publishes the application's time on /clock"),
+                              Choice("log", "true: publishes what modules say on /rosout")},
+               .handle = HandleRos});
   tags.AddTag({.name = "take",
                .summary = "a topic whose values go to ports of this application",
                .parents = {"network"},
