@@ -95,6 +95,8 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   flag(activities, "--all", "all", "also those that do not take long");
   flag(activities, "--abort", "abort", "asks what is under way there to end");
 
+  add("network", "shows who is in the network, what is offered and taken, and what does not fit");
+
   Entry& connect = add("connect", "connects two ports");
   word(connect, "from", "output; PORT.x, PORT[0]: that part of its values")->type_name(kPort);
   word(connect, "to", "input")->type_name(kPort);
@@ -263,6 +265,7 @@ void ControlCommandLine::Group() {
         {"top", "runnel top"},
         {"log", "runnel log -f"},
         {"activities", "runnel activities"},
+        {"network", "runnel network"},
         {"profile", "runnel profile on"},
         {"latency", "runnel latency /laser/scan /robot/planner/twist"},
         {"record", "runnel record /robot/pose -o run.mcap"}}},

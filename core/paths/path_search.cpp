@@ -6,6 +6,7 @@
 
 #include "core/base/nearest_name.h"
 #include "core/element/element_path.h"
+#include "core/paths/distant_ports.h"
 
 namespace runnel {
 
@@ -73,6 +74,12 @@ PathEnd Missing(FrameworkElement& at, std::string_view name, std::vector<std::st
 }  // namespace
 
 PathEnd PathSearch::Follow(std::string_view path, PathKind kind) const {
+  if (IsDistantPath(path)) {
+    FrameworkElement& root = base_.runtime().root();
+    const DistantPorts* const distant = DistantPorts::FindIn(root);
+    if (Port* const port = distant != nullptr ? distant->Find(path) : nullptr) return {port, port};
+    return {nullptr, &root, std::string(path), {}, {.message = "nothing here is connected to '" + std::string(path) + "'"}};
+  }
   const bool is_from_root = IsAbsolutePath(path) || base_.parent() == nullptr;
   PathEnd end = FollowFrom(is_from_root ? base_.runtime().root() : base_, path, kind);
   if (end.found != nullptr || !is_from_root || !may_leave_out_application_) return end;

@@ -50,6 +50,7 @@ const std::vector<CommandKind>& Kinds() {
       {"publish", 1, 2, {"rate", "deadline", "stop"}, MakeServiceCommand},
       {"release", 0, 1, {}, MakeServiceCommand},
       {"call", 1, 2, {"timeout"}, MakeCallCommand},
+      {"network", 0, 0, {}, MakeNetworkCommand},
       {"activities", 0, 1, {"all", "abort"}, MakeActivitiesCommand},
       {"record", 0, kMostPatterns, {"file", "count", "compression"}, MakeRecordCommand},
   };

@@ -77,7 +77,9 @@ using CommandMaker = CommandResult(const Request& request, const CommandContext&
 CommandMaker MakeGetCommand, MakeListCommand, MakePathsCommand, MakeTypesCommand, MakeEchoCommand, MakeRateCommand,
     MakeLogCommand, MakePauseCommand, MakeResumeCommand, MakeStepCommand, MakeSpeedCommand,
     MakeRecordCommand, MakeDeadlineCommand, MakeTopCommand,
-    MakeProfileCommand, MakeLatencyCommand, MakeCallCommand, MakeActivitiesCommand;
+    MakeProfileCommand, MakeLatencyCommand, MakeCallCommand, MakeActivitiesCommand, MakeNetworkCommand;
+/// What an extension shows under a name (plugins/command_service/extension_texts.h).
+[[nodiscard]] Command ShowExtensionText(Runtime& runtime, const std::string& name, const std::string& argument);
 /// Of those that the service carries out.
 CommandMaker MakeServiceCommand;
 

@@ -2,6 +2,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/paths/distant_ports.h"
 #include "core/paths/path_search.h"
 #include "plugins/control/command.h"
 #include "plugins/control/element_listing.h"
@@ -24,6 +25,9 @@ Command Told(Runtime& runtime, std::function<std::string()> text) {
 }  // namespace
 
 CommandResult MakeListCommand(const Request& request, const CommandContext& context) {
+  if (!request.arguments.empty() && IsDistantPath(request.arguments[0])) {
+    return ShowExtensionText(context.application.runtime, "structure", request.arguments[0]);
+  }
   return Command(
       UnderLock(context.application.runtime,
                 [&runtime = context.application.runtime,

@@ -6,6 +6,8 @@
 #include "core/plugin/plugin_entry.h"
 #include "plugins/application/application.h"
 #include "plugins/application/extension_registry.h"
+#include "plugins/command_service/extension_texts.h"
+#include "plugins/control/element_listing.h"
 #include "plugins/network/network_engines.h"
 #include "plugins/network/network_link.h"
 #include "plugins/network/xml_network_tags.h"
@@ -35,13 +37,27 @@ class ApplicationNetwork final : public ApplicationExtension {
     if (element == nullptr) return {};
     engine_ = FindEngine(application, *element);
     if (engine_ == nullptr) return Error{.message = "the network has no engine", .position = element->options().position};
-    auto link = NetworkLink::Start(application.element(), *element, *engine_, is_simulated_);
+    FrameworkElement& group = application.element();
+    auto link = NetworkLink::Start(group, *element, *engine_, is_simulated_, [&group] { return ListElements(group, {}); });
     if (!link) return link.error();
     link_ = std::move(*link);
+    application_ = &application;
+    const std::lock_guard lock(application.runtime().structure_mutex());
+    auto texts = std::make_unique<ExtensionTexts>();
+    texts->texts["network"] = [this](const std::string&) -> Result<std::optional<std::string>> { return std::optional(link_->Text()); };
+    texts->texts["structure"] = [this](const std::string& path) { return link_->StructureOf(path); };
+    group.Annotate(std::move(texts));
     return {};
   }
 
-  void End() noexcept override { link_.reset(); }
+  void End() noexcept override {
+    if (link_ == nullptr) return;
+    {
+      const std::lock_guard lock(application_->runtime().structure_mutex());
+      if (auto* const texts = application_->element().FindAnnotation<ExtensionTexts>()) texts->texts.clear();
+    }
+    link_.reset();
+  }
 
  private:
   static std::shared_ptr<WireEngine> FindEngine(Application& application, const NetworkElement& element) {
@@ -51,6 +67,7 @@ class ApplicationNetwork final : public ApplicationExtension {
   }
 
   bool is_simulated_ = false;
+  Application* application_ = nullptr;
   std::shared_ptr<WireEngine> engine_;
   std::unique_ptr<NetworkLink> link_;
 };

@@ -6,8 +6,10 @@
 #include "core/element/element_path.h"
 #include "core/element/not_saved.h"
 #include "core/element/runtime.h"
+#include "core/paths/distant_ports.h"
 #include "core/port/typed_ports.h"
 #include "core/types/type_info.h"
+#include "plugins/network/topic_names.h"
 
 namespace runnel {
 
@@ -19,11 +21,48 @@ class TopicGroup final : public FrameworkElement {
   explicit TopicGroup(const Placement& placement) : FrameworkElement(placement, ElementKind::kGroup) {}
 };
 
+/// "//camera_box/camera/image" is what is taken of the topic "/camera_box/camera/image".
+class NetworkPorts final : public DistantPorts {
+ public:
+  explicit NetworkPorts(NetworkElement& network) : network_(&network) {}
+  void Forget(const NetworkElement& gone) noexcept {
+    if (network_ == &gone) network_ = nullptr;
+  }
+
+  [[nodiscard]] Port* Find(std::string_view path) const override {
+    if (network_ == nullptr) return nullptr;
+    const auto& takes = network_->takes();
+    const auto found =
+        std::ranges::find(takes, TopicOfDistantPath(path), [](const auto& each) { return each.options.topic; });
+    return found == takes.end() ? nullptr : found->output;
+  }
+  Result<Port*> Make(std::string_view path, const Port& to) override {
+    if (Port* const known = Find(path)) return known;
+    if (network_ == nullptr) return Error{.message = "the application with the network has gone"};
+    const auto made = network_->AddTake({.topic = TopicOfDistantPath(path),
+                                         .keeps_stamps = true,
+                                         .is_distant = true,
+                                         .is_live = network_->options().is_live,
+                                         .position = network_->options().position},
+                                        to.type());
+    if (made) (*made)->Annotate(std::make_unique<DistantPort>(std::string(path)));
+    return made;
+  }
+
+ private:
+  NetworkElement* network_;
+};
+
 }  // namespace
 
 NetworkElement::NetworkElement(const Placement& placement, NetworkOptions options)
     : FrameworkElement(placement, ElementKind::kGroup), options_(std::move(options)) {
   Annotate(std::make_unique<NotSaved>());  // the tags of the file make it again
+  runtime().root().Annotate<DistantPorts>(std::make_unique<NetworkPorts>(*this));
+}
+
+NetworkElement::~NetworkElement() {
+  if (auto* const ports = static_cast<NetworkPorts*>(DistantPorts::FindIn(*this))) ports->Forget(*this);
 }
 
 NetworkElement* NetworkElement::FindIn(const FrameworkElement& application) {
@@ -62,6 +101,9 @@ Result<Port*> NetworkElement::AddTake(const TakeOptions& take, const TypeInfo& t
   if (output == nullptr) return Error{.message = "values of type " + type.name() + " can be made by a module only"};
   Port* const made = output.get();
   runtime().Adopt(std::move(output));
+  if (life_cycle() == LifeCycle::kReady) {
+    if (const auto ready = runtime().MakeReady(*this); !ready) return ready.error();
+  }
   takes_.push_back({take, made, std::move(*form)});
   if (on_change_) on_change_();
   return made;

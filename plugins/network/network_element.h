@@ -20,6 +20,7 @@ namespace runnel {
 class NetworkElement final : public FrameworkElement {
  public:
   explicit NetworkElement(const Placement& placement, NetworkOptions options);
+  ~NetworkElement() override;
   /// nullptr if the application has none.
   [[nodiscard]] static NetworkElement* FindIn(const FrameworkElement& application);
 

@@ -41,6 +41,7 @@ void NetworkLink::Follow() {
   }
   FollowTakes();
   TellNode();
+  TellStructure();
   TellMembers();
   TellTroubles();
 }
@@ -97,6 +98,17 @@ void NetworkLink::MakeOffer(const Wanted& wanted) {
   offered_.push_back(std::move(made));
 }
 
+void NetworkLink::TellStructure() {
+  structure_topic_->Follow();
+  if (!structure_) return;
+  std::string text;
+  {
+    const std::lock_guard lock(runtime_.structure_mutex());
+    text = structure_();
+  }
+  structure_topic_->Tell(text);
+}
+
 void NetworkLink::TellNode() {
   if (node_ == nullptr) return;
   std::vector<WireId> readers;
@@ -117,6 +129,7 @@ void NetworkLink::FollowTakes() {
       const bool is_there = std::ranges::any_of(taken_, [&](const auto& one) { return &one->output() == each.output; });
       if (!is_there) taken_.push_back(std::make_unique<TakenPort>(*each.output, each.options, each.form, clock_));
     }
+    for (const auto& each : taken_) each->NoteConnections();
   }
   for (const auto& each : taken_) {
     if (const auto followed = each->Follow(*participant_, table_); !followed) {

@@ -34,7 +34,8 @@ NetworkLink::NetworkLink(FrameworkElement& application, NetworkElement& element,
       table_([this] { LookAgain(); }) {}
 
 Result<std::unique_ptr<NetworkLink>> NetworkLink::Start(FrameworkElement& application, NetworkElement& element,
-                                                        WireEngine& engine, bool is_simulated) {
+                                                        WireEngine& engine, bool is_simulated,
+                                                        std::function<std::string()> structure) {
   std::unique_ptr<NetworkLink> link(new NetworkLink(application, element, is_simulated));
   WireMemberOptions member = element.options().member;
   member.user_data = "enclave=/;";  // without which nodes of ROS 2 look past it
@@ -45,6 +46,10 @@ Result<std::unique_ptr<NetworkLink>> NetworkLink::Start(FrameworkElement& applic
     return error;
   }
   link->participant_ = std::move(*joined);
+  auto topic = StructureTopic::Start(*link->participant_, member.name, [raw = link.get()] { raw->LookAgain(); });
+  if (!topic) return topic.error();
+  link->structure_topic_ = std::move(*topic);
+  link->structure_ = std::move(structure);
   if (element.options().ros) {
     auto node = RosNode::Start(*element.options().ros, *link->participant_, link->runtime_, is_simulated);
     if (!node) return node.error();
@@ -73,6 +78,7 @@ NetworkLink::~NetworkLink() {
   taken_.clear();
   offered_.clear();
   node_.reset();
+  structure_topic_.reset();
   participant_.reset();
 }
 

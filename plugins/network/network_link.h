@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -14,6 +15,7 @@
 #include "plugins/network/network_element.h"
 #include "plugins/network/offered_port.h"
 #include "plugins/network/ros_node.h"
+#include "plugins/network/structure_topic.h"
 #include "plugins/network/taken_port.h"
 
 namespace runnel {
@@ -26,12 +28,17 @@ namespace runnel {
 /// Errors:     at the start, told by Start(); later, by the log of the element, once for as long as they last.
 class NetworkLink final : private ElementListener {
  public:
+  /// `structure` says what others are told of the application, under the structure lock; optional.
   static Result<std::unique_ptr<NetworkLink>> Start(FrameworkElement& application, NetworkElement& element,
-                                                    WireEngine& engine, bool is_simulated);
+                                                    WireEngine& engine, bool is_simulated,
+                                                    std::function<std::string()> structure = {});
   ~NetworkLink() override;
 
   /// What `runnel network` shows.
   [[nodiscard]] std::string Text() const;
+  /// What `runnel ls //base/laser` shows: nothing if it has not come yet. Errors: that application has no such element, with
+  /// the nearest name.
+  [[nodiscard]] Result<std::optional<std::string>> StructureOf(const std::string& path);
 
  private:
   NetworkLink(FrameworkElement& application, NetworkElement& element, bool is_simulated);
@@ -51,7 +58,9 @@ class NetworkLink final : private ElementListener {
   void MakeOffer(const Wanted& wanted);
   void FollowTakes();
   void TellNode();
+  void TellStructure();
   void TellTroubles();
+  void TellMissing(const TakenPort& taken);
   void TellMembers();
   void Trouble(const std::string& of, const Error& error);
 
@@ -65,6 +74,8 @@ class NetworkLink final : private ElementListener {
   DiscoveryTable table_;
   std::unique_ptr<FrameworkElement> beside_;  // below which the inputs are that values are sent from
   std::unique_ptr<WireParticipant> participant_;
+  std::function<std::string()> structure_;
+  std::unique_ptr<StructureTopic> structure_topic_;
   std::unique_ptr<RosNode> node_;  // nullptr: none is wanted
   // Changed by the thread, under the structure lock.
   std::vector<std::unique_ptr<OfferedPort>> offered_;

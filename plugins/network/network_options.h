@@ -43,6 +43,7 @@ struct TakeOptions {
   std::optional<ValueQuality> quality = {};     ///< nothing: as much as all writers offer
   bool is_exclusive = false;                    ///< of several writers only the strongest counts
   bool keeps_stamps = false;                    ///< values are as old as their writer says, by synchronised clocks
+  bool is_distant = false;                      ///< comes of a connection, and is taken only while that is there
   bool is_live = false;                         ///< also with simulated time, whose runs then are not repeatable
   SourcePosition position = {};
 };
@@ -59,6 +60,7 @@ struct RosOptions {
 struct NetworkOptions {
   WireMemberOptions member = {};
   std::string engine = "cyclone";
+  bool is_live = false;  ///< TakeOptions::is_live of all
   std::vector<OfferOptions> offers = {};
   std::optional<RosOptions> ros = {};
   SourcePosition position = {};

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <mutex>
 #include <set>
+#include <sstream>
 
+#include "core/base/nearest_name.h"
+#include "core/element/element_path.h"
 #include "core/element/runtime.h"
 #include "plugins/network/network_link.h"
 #include "plugins/network/topic_names.h"
@@ -26,6 +29,9 @@ void NetworkLink::TellTroubles() {
   };
   for (const auto& each : offered_) look(each->endpoint(), each->path(), true);
   for (const auto& each : taken_) look(each->endpoint(), each->output().path(), false);
+  for (const auto& each : taken_) {
+    if (each->options().is_distant) TellMissing(*each);
+  }
   for (const auto& each : offered_) {
     if (const auto error = each->TakeError()) Trouble(each->path(), *error);
   }
@@ -37,6 +43,22 @@ void NetworkLink::TellTroubles() {
     if (told == troubles_.end() || told->second != text) element_.log().Warn("{}: {}", of.substr(0, of.find(' ')), text);
   }
   troubles_ = new_troubles_;
+}
+
+// That who is there does not offer what is to be had of it.
+void NetworkLink::TellMissing(const TakenPort& taken) {
+  const std::string& topic = taken.options().topic;
+  if (taken.matched() > 0 || !table_.Partners(taken.endpoint().topic, true).empty()) return;
+  const std::string name = topic.substr(1, topic.find('/', 1) - 1);
+  const auto members = table_.members();
+  const auto is_named = [&](const WireMember& each) { return each.name == name; };
+  if (std::ranges::none_of(members, is_named)) return;
+  std::vector<std::string> offers;
+  for (const WireEndpoint& each : table_.endpoints()) {
+    const std::string offered = ReadableTopic(each.options.topic);
+    if (each.is_writer && !each.is_own && offered.starts_with("/" + name + "/")) offers.push_back("/" + offered);
+  }
+  Trouble(taken.output().path(), {.message = name + " offers no /" + topic, .hint = NearestNameHint("/" + topic, offers)});
 }
 
 void NetworkLink::TellMembers() {
@@ -55,6 +77,43 @@ void NetworkLink::TellMembers() {
     if (!now.contains(id)) element_.log().Info("{} has left the network", name);
   }
   members_ = std::move(now);
+}
+
+Result<std::optional<std::string>> NetworkLink::StructureOf(const std::string& path) {
+  const auto words = SplitPath(path);
+  if (words.empty()) return Error{.message = "'" + path + "' names no application", .hint = "//NAME, as runnel network lists them"};
+  const std::string name(words.front());
+  const auto text = structure_topic_->Find(name);
+  if (!text) return std::optional<std::string>();
+  if (words.size() == 1) return text;
+  // The lines of the element: from its own to the next that is indented no deeper.
+  std::istringstream lines(*text);
+  std::string found;
+  std::vector<std::string> candidates;
+  std::size_t word = 0;
+  std::size_t depth = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t indent = line.find_first_not_of(' ');
+    if (word == words.size() && indent <= depth) break;
+    if (word == words.size()) {
+      found += line + "\n";
+      continue;
+    }
+    if (word > 0 && indent <= depth) break;  // past the element around
+    std::string here = line.substr(indent, line.find(' ', indent) - indent);
+    if (word == 0) here.erase(0, 1);  // "/base"
+    if (word > 0 && indent != depth + 2) continue;
+    candidates.push_back(here);
+    if (here != words[word]) continue;
+    candidates.clear();
+    depth = indent;
+    if (++word == words.size()) found = line + "\n";
+  }
+  if (found.empty()) {
+    const std::string missing(words[std::min(word, words.size() - 1)]);
+    return Error{.message = name + " has no '" + missing + "' there", .path = path, .hint = NearestNameHint(missing, candidates)};
+  }
+  return std::optional(found);
 }
 
 std::string NetworkLink::Text() const {
@@ -89,7 +148,7 @@ std::string NetworkLink::Text() const {
   }
   std::set<std::string> others;
   for (const WireEndpoint& each : table_.endpoints()) {
-    if (each.is_own) continue;
+    if (each.is_own || each.options.topic.ends_with("/runnel_structure")) continue;
     others.insert((each.is_writer ? "written " : "read ") + ReadableTopic(each.options.topic) + "  " + each.options.type +
                   " by " + table_.NameOf(each.participant));
   }

@@ -37,6 +37,11 @@ WireQos TakenPort::WantedQos(const std::vector<WireEndpoint>& writers) const {
 }
 
 Result<void> TakenPort::Follow(WireParticipant& participant, const DiscoveryTable& table) {
+  if (options_.is_distant && !is_connected_) {
+    reader_.reset();
+    matched_ = 0;
+    return {};
+  }
   const auto writers = table.Partners(endpoint_.topic, true);
   {
     const std::lock_guard lock(mutex_);
@@ -48,7 +53,10 @@ Result<void> TakenPort::Follow(WireParticipant& participant, const DiscoveryTabl
   const WireQos qos = WantedQos(writers);
   if (reader_ != nullptr && (qos == endpoint_.qos || writers.empty())) return {};
   reader_.reset();
-  endpoint_.qos = qos;
+  {
+    const std::lock_guard lock(mutex_);
+    endpoint_.qos = qos;
+  }
   auto reader = participant.MakeReader(
       endpoint_, [this](const WireSample& sample) { Take(sample); },
       [this](std::size_t count) { matched_.store(count, std::memory_order_relaxed); });

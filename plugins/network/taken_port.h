@@ -29,11 +29,17 @@ class TakenPort {
 
   [[nodiscard]] Port& output() const noexcept { return output_; }
   [[nodiscard]] const TakeOptions& options() const noexcept { return options_; }
-  [[nodiscard]] const WireEndpointOptions& endpoint() const noexcept { return endpoint_; }
+  /// Any thread.
+  [[nodiscard]] WireEndpointOptions endpoint() const {
+    const std::lock_guard lock(mutex_);
+    return endpoint_;
+  }
 
   /// Nothing if there is no reader.
   [[nodiscard]] std::optional<WireId> id() const { return reader_ ? std::optional(reader_->id()) : std::nullopt; }
 
+  /// Whether somebody here wants its values. Under the structure lock, by the network's thread.
+  void NoteConnections() { is_connected_ = !output_.outgoing().empty(); }
   /// Asks for what the writers that are there offer, if nobody has said what is to be asked for; leaves out those whose
   /// values are of another kind. Errors: of the engine.
   Result<void> Follow(WireParticipant& participant, const DiscoveryTable& table);
@@ -58,8 +64,9 @@ class TakenPort {
   const TakeOptions options_;
   const std::shared_ptr<const ValueForm> form_;
   const ClockOffset clock_;
-  WireEndpointOptions endpoint_;
+  WireEndpointOptions endpoint_;  // changed by the network's thread, under mutex_
   std::unique_ptr<WireReader> reader_;
+  bool is_connected_ = false;
   std::atomic<std::size_t> matched_{0};
   std::atomic<std::uint64_t> taken_{0};
   std::atomic<std::uint64_t> refused_{0};

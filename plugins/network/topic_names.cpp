@@ -9,7 +9,10 @@ std::string TopicOfPort(const std::string& network_name, std::string_view port_p
   return NearestRosName("/" + network_name + ShortPortPath(port_path));
 }
 
-std::string TopicOfDistantPath(std::string_view path) { return NearestRosName(path.substr(path.find_first_not_of('/') - 1)); }
+std::string TopicOfDistantPath(std::string_view path) {
+  path.remove_prefix(1);
+  return NearestRosName(PlainPortPath(path));
+}
 
 std::string ReadableTopic(std::string_view wire_topic) {
   const std::string topic = RosTopic(wire_topic);

@@ -66,6 +66,7 @@ FrameworkElement* HandleNetwork(const TagUse& use) {
                 .hint = "say reach=\"network\", or leave it out"},
                interface->position);
   }
+  options.is_live = IsTrue(use, "live");
   if (use.Find("engine") != nullptr) options.engine = TextOf(use, "engine");
   const auto engine = FindWireEngine(options.engine, use.context.plugins());
   if (!engine) use.Report(engine.error(), use.xml.position());
@@ -153,11 +154,15 @@ FrameworkElement* HandleTake(const TagUse& use) {
                    .quality = QualityOf(use),
                    .is_exclusive = IsTrue(use, "exclusive"),
                    .keeps_stamps = TextOf(use, "stamp") == "sent",
-                   .is_live = IsTrue(use, "live"),
+                   .is_live = IsTrue(use, "live") || NetworkElement::FindIn(use.parent)->options().is_live,
                    .position = use.xml.position()};
-  if (CheckTopicOf(use)) {
-    use.context.Defer(BuildStage::kConnections, [use, take = std::move(take)] { AddTake(use, take); });
-  }
+  const bool is_right = CheckTopicOf(use);
+  use.context.Defer(BuildStage::kConnections, [use, is_right, take = std::move(take)] {
+    if (is_right) return AddTake(use, take);
+    for (const PathUse& to : PathsIn(use.Get("to"), use.parent)) {
+      if (Port* const port = FindPort(to, PathKind::kInput)) use.context.MarkUnfed(*port);
+    }
+  });
   return &use.parent;
 }
 
@@ -212,6 +217,8 @@ void AddNetworkTags(XmlTagRegistry& tags) {
                               {.name = "peers", .summary = "addresses of others, where not all can be asked at once; separated by blanks"},
                               {.name = "interface", .summary = "the only one that is used, by its name or address"},
                               Choice("multicast", "false: only peers, and this machine, are asked"),
+                              Choice("live", "true: what is taken may come although time is simulated, of which runs are not "
+                                             "repeatable then"),
                               {.name = "engine", .kind = AttributeKind::kName, .summary = "cyclone by default"}},
                .handle = HandleNetwork});
   tags.AddTag({.name = "offer",

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/paths/distant_ports.h"
 #include "core/paths/late_connections.h"
 #include "plugins/structure/plan.h"
 
@@ -76,8 +77,11 @@ Result<void> Plan::CheckLateTie(const std::string& from_path, const std::string&
 
 Result<void> Plan::CheckTie(const std::string& from_path, const std::string& to_path,
                             const std::optional<ConnectOptions>& asked) {
-  const auto found_from = overlay_.FindPortPart(from_path, PathKind::kOutput);
   const auto found_to = overlay_.FindPort(to_path, PathKind::kInput);
+  if (asked && found_to) {
+    if (auto brought = BringDistantPort(from_path, **found_to); !brought) return brought;
+  }
+  const auto found_from = overlay_.FindPortPart(from_path, PathKind::kOutput);
   const bool are_there = found_from && found_to;
   if (!are_there && asked && asked->when_present) return CheckLateTie(from_path, to_path, asked);
   if (!asked) {

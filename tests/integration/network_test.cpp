@@ -19,6 +19,7 @@ namespace runnel::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 const std::string kApps = std::string(RUNNEL_XML) + "/apps/";
 
@@ -105,13 +106,53 @@ TEST_F(TwoRobots, MistakesAreToldWithTheirPlaces) {
   };
   EXPECT_THAT(check(R"(<network><offer port="gate/alowed"/></network>)"),
               testing::AllOf(HasSubstr("wrong.xml:3:23"), HasSubstr("did you mean 'allowed'?")));
-  EXPECT_THAT(check(R"(<network><take topic="cmd vel" to="gate/wanted"/></network>)"), HasSubstr("did you mean '/cmd_vel'?"));
+  EXPECT_THAT(check(R"(<network><take topic="cmd vel" to="gate/wanted"/></network>)"), testing::AllOf(HasSubstr("wrong.xml:3:23"), HasSubstr("write '/cmd_vel'"), HasSubstr("1 error")));
   EXPECT_THAT(check(R"(<network reach="everywhere"/>)"), HasSubstr("loopback"));
   EXPECT_THAT(check(R"(<network domain="500"/>)"), HasSubstr("from 0 to 101"));
   EXPECT_THAT(check(R"(<network engine="carrier_pigeon"/>)"), HasSubstr("'carrier_pigeon' is not installed"));
   EXPECT_THAT(check(R"(<network/><network/>)"), HasSubstr("there is a network already"));
   EXPECT_THAT(check(R"(<network><offer ports="gate/*" topic="/x"/></network>)"), HasSubstr("topic is said of one port"));
   EXPECT_THAT(check(R"(<network><offer/></network>)"), HasSubstr("<offer> says which ports"));
+}
+
+TEST_F(TwoRobots, APortOfAnotherApplicationIsConnectedByItsPath) {
+  const std::string file = folder_ / "follower.xml";
+  std::ofstream(file) << R"(<application name="follower">
+  <load plugin="motion"/>
+  <network/>
+  <module name="gate" type="motion/command_gate"/>
+  <connect from="//planner/planner/twist" to="gate/wanted"/>
+</application>
+)";
+  const auto robot = Start("two_robots.xml");
+  const auto planner = Start("two_robots_planner.xml");
+  const auto value = [](const std::string& port) { return Runnel("get --app follower " + port).text; };
+  const Program follower("run " + file);
+  WaitUntil("the twist has come", [&] { return value("/gate/wanted").find("forward: 0.") != std::string::npos; });
+  EXPECT_THAT(Runnel("network --app follower").text,
+              testing::AllOf(HasSubstr("member planner"), HasSubstr("written by planner (reliable, newest 1)"),
+                             HasSubstr("written /robot/laser/scan  runnel_msgs::msg::dds_::RangeScan_ by robot")));
+  EXPECT_THAT(Runnel("ls --app follower //planner/eyes").text, testing::AllOf(HasSubstr("surroundings"), Not(HasSubstr("twist"))));
+  EXPECT_THAT(Runnel("ls --app follower //planner/eys").text, HasSubstr("did you mean 'eyes'?"));
+  // While it runs, too, and back.
+  ASSERT_EQ(Runnel("disconnect --app follower //planner/planner/twist /gate/wanted").code, kDone);
+  const Ended wrong = Runnel("connect --app follower //robot/laser/scan /gate/wanted");
+  EXPECT_EQ(wrong.code, kDone) << wrong.text;  // which type it has there, is seen when it comes
+  WaitUntil("the misfit is told", [&] {
+    return Runnel("log --app follower").text.find("does not fit: the writer sends values of type") != std::string::npos;
+  });
+  ASSERT_EQ(Runnel("undo --app follower").code, kDone);
+  ASSERT_EQ(Runnel("undo --app follower").code, kDone);
+  ASSERT_EQ(Runnel("connect --app follower //planner/planner/twst /gate/wanted").code, kDone);
+  WaitUntil("the nearest name is told", [&] {
+    return Runnel("log --app follower").text.find("did you mean '//planner/planner/twist'?") != std::string::npos;
+  });
+  ASSERT_EQ(Runnel("save --app follower").code, kDone);
+  std::ifstream stream(file);
+  const std::string saved{std::istreambuf_iterator<char>(stream), {}};
+  EXPECT_THAT(saved, testing::AllOf(HasSubstr("<connect from=\"//planner/planner/twist\" to=\"gate/wanted\"/>"),
+                                    HasSubstr("<connect from=\"//planner/planner/twst\" to=\"gate/wanted\"/>")));
+  EXPECT_EQ(Runnel("check " + file).code, kDone);
 }
 
 TEST_F(TwoRobots, SimulatedTimeTakesNothingFromElsewhereUnlessToldTo) {

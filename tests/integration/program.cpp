@@ -39,8 +39,8 @@ void GiveUpRealTimeRights() {
 
 }  // namespace
 
-Program::Program(const std::string& arguments) {
-  const std::string command = "exec " RUNNEL_PROGRAM " " + arguments;
+Program::Program(const std::string& arguments, const std::string& program) {
+  const std::string command = "exec " + program + " " + arguments;
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) throw std::runtime_error("no pipe");
   process_ = fork();

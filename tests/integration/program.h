@@ -24,7 +24,7 @@ struct Ended {
 class Program {
  public:
   /// `arguments` may redirect its output.
-  explicit Program(const std::string& arguments);
+  explicit Program(const std::string& arguments, const std::string& program = RUNNEL_PROGRAM);
   ~Program();
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/element/element_path.h"
+#include "core/paths/distant_ports.h"
 #include "core/paths/late_connections.h"
 #include "plugins/application_files/saving/file_update.h"
 #include "plugins/application_files/tags/connect_paths.h"
@@ -57,6 +58,7 @@ std::string RelativePath(const FrameworkElement& home, const std::string& path) 
 
 // As short as it may be, seen from `home`.
 std::string PathFrom(FrameworkElement& home, const Port& port, PathKind kind) {
+  if (const auto* const distant = port.FindAnnotation<DistantPort>()) return distant->path;
   const std::string full = LastingPath(port).substr(home.path().size() + 1);
   const FrameworkElement* group = port.parent();
   const FrameworkElement* const fed = group->parent();

@@ -2,6 +2,7 @@
 
 #include "core/element/element_path.h"
 #include "core/element/not_saved.h"
+#include "core/paths/distant_ports.h"
 #include "core/plugin/module_type_name.h"
 #include "core/paths/late_connections.h"
 #include "plugins/application_files/saving/saving.h"
@@ -64,7 +65,9 @@ std::vector<SavedEdge> EdgesOf(FrameworkElement& application) {
     const auto* const port = dynamic_cast<const Port*>(&element);
     if (port == nullptr) return;
     for (const Connection& connection : port->outgoing()) {
-      FrameworkElement* const home = Home(*connection.from, *connection.to, application);
+      const bool is_distant = port->FindAnnotation<DistantPort>() != nullptr && connection.to->IsAtOrBelow(application);
+      FrameworkElement* const home =
+          is_distant ? &application : Home(*connection.from, *connection.to, application);
       if (home == nullptr) continue;
       edges.push_back({connection.from, connection.to, connection.options, home});
     }

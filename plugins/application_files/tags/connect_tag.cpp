@@ -7,6 +7,7 @@
 
 #include "core/element/element_path.h"
 #include "core/plugin/module_type_name.h"
+#include "core/paths/distant_ports.h"
 #include "core/paths/late_connections.h"
 #include "core/types/type_info.h"
 #include "plugins/application_files/build_context.h"
@@ -123,6 +124,14 @@ void ConnectAll(const TagUse& use) {
     if (!options.when_present || !AwaitsEnd(use, sources[0], to, options)) targets.push_back(to);
   }
   if (targets.empty()) return;
+  for (const PathUse& to_use : targets) {
+    Port* const to = FindPort(to_use, PathKind::kInput);
+    if (to == nullptr) continue;
+    if (const auto brought = BringDistantPort(sources[0].path, *to); !brought) {
+      MarkUnfed(*to, context);
+      return use.Report(brought.error(), sources[0].position);
+    }
+  }
   Port* const from = SearchPort(sources[0], PathKind::kOutput, context);
   for (const PathUse& to_use : targets) {
     Port* const to = SearchPort(to_use, PathKind::kInput, context);

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "core/base/result.h"
+#include "core/element/annotation.h"
+
+namespace runnel {
+
+/// What extensions show to clients that ask for it by a name: kept with the application, under the structure lock, as long as
+/// the extension is there.
+struct ExtensionTexts final : Annotation {
+  /// For an argument, "" for none. Called under the structure lock, and must not wait: nothing means that it is not there
+  /// yet, and may be asked for again in a while.
+  using Text = std::function<Result<std::optional<std::string>>(const std::string& argument)>;
+  std::map<std::string, Text> texts;
+};
+
+}  // namespace runnel

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "plugins/wire/wire.h"
+
+namespace runnel {
+
+/// What each application tells the others of its structure: its tree as text, latched on "/<name>/runnel_structure", written
+/// anew when it has changed. Others' is read once somebody asks for it.
+///
+/// Threads: Find() any; the rest, and destroying, by one.
+class StructureTopic {
+ public:
+  /// `on_wanted` is called when somebody asks for the first time, by whom. Errors: of the engine.
+  static Result<std::unique_ptr<StructureTopic>> Start(WireParticipant& participant, const std::string& name,
+                                                       std::function<void()> on_wanted);
+
+  void Tell(const std::string& structure);
+  /// Reads what has been asked for.
+  void Follow();
+  /// Of the application of that name; nothing: it has not come yet.
+  [[nodiscard]] std::optional<std::string> Find(const std::string& name);
+
+ private:
+  explicit StructureTopic(WireParticipant& participant) : participant_(participant) {}
+
+  WireParticipant& participant_;
+  std::function<void()> on_wanted_;
+  std::string told_;
+  std::unique_ptr<WireWriter> writer_;
+  std::mutex mutex_;
+  std::map<std::string, std::optional<std::string>> texts_;  // that are wanted, by name; guarded by mutex_
+  std::map<std::string, std::unique_ptr<WireReader>> readers_;
+};
+
+}  // namespace runnel

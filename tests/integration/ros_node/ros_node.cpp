@@ -1,0 +1,94 @@
+// A node as those of ROS 2 are on Cyclone DDS, with types that Cyclone's own generator has made: nothing of Runnel is in
+// it. It says on standard output what it reads:
+//
+//     ros_node DOMAIN scan|clock|log|graph prints what comes
+//     ros_node DOMAIN twist                tells a robot to go, 20 times a second
+
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <thread>
+
+#include <dds/dds.h>
+
+#include "ros_messages.h"
+
+namespace {
+
+constexpr const char* kSettings =
+    "<General><Interfaces><NetworkInterface name=\"lo\" multicast=\"true\"/></Interfaces></General>";
+
+dds_qos_t* Qos(bool is_reliable, bool is_latched) {
+  dds_qos_t* const qos = dds_create_qos();
+  dds_qset_reliability(qos, is_reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT, DDS_SECS(1));
+  dds_qset_durability(qos, is_latched ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
+  dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 10);
+  return qos;
+}
+
+template <typename Message, typename Print>
+void Read(dds_entity_t participant, const dds_topic_descriptor_t& type, const char* name, dds_qos_t* qos, const Print& print) {
+  const dds_entity_t topic = dds_create_topic(participant, &type, name, nullptr, nullptr);
+  const dds_entity_t reader = dds_create_reader(participant, topic, qos, nullptr);
+  for (;;) {
+    void* samples[1] = {};
+    dds_sample_info_t info;
+    if (dds_take(reader, samples, &info, 1, 1) > 0) {
+      if (info.valid_data) print(*static_cast<const Message*>(samples[0]));
+      std::fflush(stdout);
+      (void)dds_return_loan(reader, samples, 1);
+    } else {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 3) return 2;
+  const auto domain = static_cast<dds_domainid_t>(std::atoi(argv[1]));
+  const std::string what = argv[2];
+  if (dds_create_domain(domain, kSettings) < 0) return 1;
+  const dds_entity_t participant = dds_create_participant(domain, nullptr, nullptr);
+  if (participant < 0) return 1;
+  if (what == "scan") {
+    Read<sensor_msgs_msg_dds__LaserScan_>(
+        participant, sensor_msgs_msg_dds__LaserScan__desc, "rt/scan", Qos(false, false), [](const auto& scan) {
+          std::printf("scan frame %s ranges %u from %.3f step %.5f most %.2f first %.3f stamped %s\n", scan.header.frame_id,
+                      scan.ranges._length, static_cast<double>(scan.angle_min), static_cast<double>(scan.angle_increment),
+                      static_cast<double>(scan.range_max), static_cast<double>(scan.ranges._buffer[0]),
+                      scan.header.stamp.sec > 0 || scan.header.stamp.nanosec > 0 ? "yes" : "no");
+        });
+  }
+  if (what == "clock") {
+    Read<rosgraph_msgs_msg_dds__Clock_>(participant, rosgraph_msgs_msg_dds__Clock__desc, "rt/clock", Qos(false, false),
+                                        [](const auto& time) { std::printf("clock %d.%09u\n", time.clock.sec, time.clock.nanosec); });
+  }
+  if (what == "log") {
+    Read<rcl_interfaces_msg_dds__Log_>(participant, rcl_interfaces_msg_dds__Log__desc, "rt/rosout", Qos(true, true),
+                                       [](const auto& log) { std::printf("log %u %s: %s\n", log.level, log.name, log.msg); });
+  }
+  if (what == "graph") {
+    Read<rmw_dds_common_msg_dds__ParticipantEntitiesInfo_>(
+        participant, rmw_dds_common_msg_dds__ParticipantEntitiesInfo__desc, "ros_discovery_info", Qos(true, true),
+        [](const auto& info) {
+          for (std::uint32_t i = 0; i < info.node_entities_info_seq._length; ++i) {
+            const auto& node = info.node_entities_info_seq._buffer[i];
+            std::printf("node %s %s readers %u writers %u\n", node.node_namespace, node.node_name, node.reader_gid_seq._length,
+                        node.writer_gid_seq._length);
+          }
+        });
+  }
+  const dds_entity_t topic = dds_create_topic(participant, &geometry_msgs_msg_dds__Twist__desc, "rt/cmd_vel", nullptr, nullptr);
+  const dds_entity_t writer = dds_create_writer(participant, topic, Qos(true, false), nullptr);
+  for (;;) {
+    geometry_msgs_msg_dds__Twist_ twist{};
+    twist.linear.x = 0.25;
+    twist.angular.z = -0.5;
+    (void)dds_write(writer, &twist);
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+}

@@ -1,0 +1,68 @@
+// A robot among nodes of ROS 2: another program, whose types are made by another's compiler.
+
+#include <cstdlib>
+
+#include <gmock/gmock.h>
+
+#include "tests/integration/program.h"
+#include "tests/support/own_network.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/wait_until.h"
+
+namespace runnel::test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kRobot = R"(<application name="robot" thread="control">
+  <load plugin="simulation"/> <load plugin="motion"/>
+  <clock type="simulated" speed="1"/> <thread name="control" period="50ms"/>
+  <network name="base">
+    <offer port="laser/scan" topic="/scan" as="sensor_msgs/msg/LaserScan" frame="laser" qos="sensor"/>
+    <take topic="/cmd_vel" as="geometry_msgs/msg/Twist" to="gate/wanted" live="true"/>
+    <ros distribution="jazzy" node="/robots/base" clock="true" log="true"/>
+  </network>
+  <module name="world" type="simulation/world"> <parameter name="world" command_line="world"/> </module>
+  <module name="laser" type="simulation/laser"/>
+  <module name="gate" type="motion/command_gate"/>
+  <module name="drive" type="motion/differential_drive"/>
+  <connect from="world/scene" to="laser/scene"/> <connect from="world/pose" to="laser/pose"/>
+  <connect from="gate/allowed" to="drive/twist"/> <connect from="drive/wheels" to="world/wheels"/>
+</application>)";
+
+class AmongRosNodes : public testing::Test {
+ protected:
+  AmongRosNodes() {
+    setenv("ROS_DOMAIN_ID", std::to_string(OwnDomain()).c_str(), 1);
+    setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1);
+    std::ofstream(folder_ / "robot.xml") << kRobot;
+  }
+  ~AmongRosNodes() override {
+    unsetenv("XDG_RUNTIME_DIR");
+    unsetenv("ROS_DOMAIN_ID");
+  }
+  static Program Node(const std::string& what) {
+    return Program(std::to_string(OwnDomain()) + " " + what, RUNNEL_ROS_NODE);
+  }
+
+  const TemporaryFolder folder_;
+};
+
+TEST_F(AmongRosNodes, TheyReadItsScansItsNodeItsTimeAndItsLog) {
+  const Program robot("run " + std::string(folder_ / "robot.xml") + " world=" RUNNEL_XML "/worlds/rooms.xml");
+  EXPECT_TRUE(Node("scan").WaitFor("scan frame laser ranges 181 from -1.571 step 0.01745 most 4.00"));
+  EXPECT_TRUE(Node("clock").WaitFor("clock 1."));
+  EXPECT_TRUE(Node("graph").WaitFor("node /robots base readers 1 writers 1"));
+  EXPECT_TRUE(Node("log").WaitFor("is in the network"));
+}
+
+TEST_F(AmongRosNodes, ItDrivesAsTheyTellIt) {
+  const Program robot("run " + std::string(folder_ / "robot.xml") + " world=" RUNNEL_XML "/worlds/rooms.xml");
+  const Program node = Node("twist");
+  WaitUntil("the twist has come", [] {
+    return Runnel("get /gate/wanted").text.find("{forward: 0.25, turn: -0.5}") != std::string::npos;
+  });
+}
+
+}  // namespace
+}  // namespace runnel::test
