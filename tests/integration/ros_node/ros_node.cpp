@@ -12,8 +12,7 @@
 #include <thread>
 
 #include <dds/dds.h>
-
-#include "ros_messages.h"
+#include <ros_messages.h>
 
 namespace {
 
