@@ -3,6 +3,7 @@
 #include "core/base/exception_text.h"
 #include "core/base/nearest_name.h"
 #include "core/element/runtime.h"
+#include "core/plugin/late_types.h"
 #include "core/plugin/module_type_name.h"
 
 namespace runnel {
@@ -37,11 +38,14 @@ std::function<void()> ModuleRegistry::SetAside(std::string_view plugin) {
 
 const ModuleType* ModuleRegistry::Find(std::string_view name) const {
   const auto found = types_.find(name);
-  return found == types_.end() ? nullptr : &found->second;
+  if (found != types_.end()) return &found->second;
+  const auto late = internal::FindLateType(name);
+  return late ? *late : nullptr;
 }
 
 Result<const ModuleType*> ModuleRegistry::Get(std::string_view name) const {
   if (const ModuleType* type = Find(name)) return type;
+  if (const auto late = internal::FindLateType(name); !late && !late.error().message.empty()) return late.error();
   return Error{.message = "there is no module type '" + std::string(name) + "'",
                .hint = NearestNameHint(name, NamesOf(types_, &Types::value_type::first))};
 }

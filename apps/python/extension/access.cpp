@@ -1,0 +1,192 @@
+// Values, services, logs: what is looked at in an application, and said to it.
+
+#include "apps/python/extension/access.h"
+
+#include <array>
+#include <chrono>
+#include <mutex>
+#include <thread>
+
+#include "apps/python/extension/errors.h"
+#include "apps/python/extension/value.h"
+#include "core/paths/path_search.h"
+#include "core/plugin/module_type_name.h"
+#include "core/types/text_format.h"
+#include "core/types/value_copy.h"
+#include "plugins/command_service/application_log.h"
+#include "plugins/services/callable.h"
+
+namespace py = pybind11;
+
+namespace runnel::python {
+
+py::object Get(const Open& open, const std::string& path) {
+  Application& application = **open;
+  std::shared_ptr<void> value;
+  const TypeInfo* type = nullptr;
+  const auto get = [&]() -> Result<void> {
+    const std::lock_guard lock(application.runtime().structure_mutex());
+    const auto found = PathSearch(application.runtime()).Find(path, PathKind::kParameter);
+    if (!found) return found.error();
+    const auto* const parameter = dynamic_cast<const Configurable*>(*found);
+    if (parameter == nullptr) return Error{.message = "is no parameter", .path = (*found)->path()};
+    value = parameter->Value();
+    type = &parameter->type();
+    return {};
+  };
+  Checked(WithoutGil(get));
+  auto memory = std::make_shared<Memory>();
+  memory->kept = value;
+  return ToPython(*type, value.get(), memory);
+}
+
+py::object ReadInput(const Open& open, const std::string& path) {
+  Application& application = **open;
+  std::shared_ptr<void> value;
+  const TypeInfo* type = nullptr;
+  const auto look = [&]() -> Result<bool> {
+    const std::lock_guard lock(application.runtime().structure_mutex());
+    const auto found = PathSearch(application.runtime()).FindPort(path, PathKind::kOutput);
+    if (!found) return found.error();
+    if ((*found)->direction() == Port::Direction::kOutput || (*found)->is_proxy()) return false;
+    type = &(*found)->type();
+    (void)(*found)->VisitLatest([&](const void* newest, ValueTimes) {
+      value = type->Make();
+      if (value && !CopyValue(*type, newest, value.get())) value.reset();
+    });
+    return true;
+  };
+  if (!Checked(WithoutGil(look))) return py::cast(std::make_shared<Reader>(open, path, 0));
+  if (!value) return py::none();
+  auto memory = std::make_shared<Memory>();
+  memory->kept = value;
+  return ToPython(*type, value.get(), memory);
+}
+
+void PublishByHand(const Open& open, const std::string& path, const py::object& value) {
+  Runtime& runtime = (*open)->runtime();
+  Port* port = nullptr;
+  const auto find = [&]() -> Result<const TypeInfo*> {
+    const std::lock_guard lock(runtime.structure_mutex());
+    const auto found = PathSearch(runtime).FindPort(path, PathKind::kInput);
+    if (!found) return found.error();
+    port = *found;
+    return &port->type();
+  };
+  const TypeInfo& type = *Checked(WithoutGil(find));
+  const Value made = NewValue(type);
+  FromPython(type, value, made.at);
+  const auto publish = [&]() -> Result<void> {
+    const std::lock_guard lock(runtime.structure_mutex());
+    if (auto again = find(); !again || *again != &type) return Error{.message = "has gone meanwhile", .path = path};
+    return port->PublishByHand([&](void* at) -> Result<void> {
+      if (CopyValue(type, made.at, at)) return {};
+      return Error{.message = "cannot have such a value"};
+    });
+  };
+  Checked(WithoutGil(publish));
+}
+
+py::object Call(const Open& open, const std::string& path, double timeout, const py::args& positional,
+                const py::kwargs& named) {
+  Application& application = **open;
+  std::shared_ptr<AnyCall> call;
+  const TypeInfo* reply = nullptr;
+  std::exception_ptr thrown;
+  const auto begin = [&]() -> Result<void> {
+    const std::lock_guard lock(application.runtime().structure_mutex());
+    const auto found = PathSearch(application.runtime()).FindPort(path, PathKind::kOutput);
+    if (!found) return found.error();
+    auto* const callable = (*found)->FindAnnotation<Callable>();
+    if (callable == nullptr) return Error{.message = "is no service", .path = (*found)->path()};
+    call = callable->NewCall();
+    reply = callable->reply();
+    {
+      const py::gil_scoped_acquire gil;  // after the structure lock, never before it
+      try {
+        const bool has_some = !positional.empty() || !named.empty();
+        if (callable->arguments() == nullptr) {
+          if (has_some) throw py::type_error("the service takes no arguments");
+        } else {
+          if (!has_some || positional.size() > 1) throw py::type_error("the service wants " + ToText(*callable->arguments(), call->arguments()));
+          FromPython(*callable->arguments(), positional.empty() ? py::handle(named) : py::handle(positional[0]), call->arguments(), false);
+        }
+      } catch (...) {
+        thrown = std::current_exception();
+        return {};
+      }
+    }
+    (void)call->Begin(application.runtime().clock().Now(), FromSeconds(timeout));
+    return {};
+  };
+  const auto begun = WithoutGil(begin);
+  if (thrown) std::rethrow_exception(thrown);
+  Checked(begun);
+  const bool steps = !application.is_running() && application.scheduler().pace().is_simulated();
+  CallStatus status = CallStatus::kPending;
+  while ((status = call->Poll(application.runtime().clock().Now())) == CallStatus::kPending) {
+    if (steps) {
+      Step(open, 1);
+    } else {
+      WithoutGil([] { std::this_thread::sleep_for(std::chrono::milliseconds(1)); });
+    }
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+  if (status != CallStatus::kAnswered) {
+    const std::string why = call->error();
+    Throw({.message = std::string("the call has ended: ") + CallStatusName(status) + (why.empty() ? "" : ": " + why), .path = path});
+  }
+  if (reply == nullptr) return py::none();
+  auto memory = std::make_shared<Memory>();
+  memory->kept = call;
+  return ToPython(*reply, ForLooking(call->reply()), memory);
+}
+
+py::list Paths(const Open& open) {
+  std::vector<std::array<std::string, 3>> rows;
+  WithoutGil([&] {
+    Runtime& runtime = (*open)->runtime();
+    const std::lock_guard lock(runtime.structure_mutex());
+    (*open)->element().Visit([&](FrameworkElement& each) {
+      if (const auto* const port = dynamic_cast<const Port*>(&each)) {
+        const bool is_input = port->direction() == Port::Direction::kInput;
+        rows.push_back({each.path(), each.FindAnnotation<Callable>() != nullptr ? "service" : is_input ? "input" : "output", port->type().name()});
+      } else if (const auto* const parameter = dynamic_cast<const Configurable*>(&each)) {
+        rows.push_back({each.path(), "parameter", parameter->type().name()});
+      } else if (each.kind() == ElementKind::kModule) {
+        rows.push_back({each.path(), "module", FindModuleType(each)});
+      } else if (each.kind() == ElementKind::kGroup) {
+        rows.push_back({each.path(), "group", ""});
+      }
+    });
+  });
+  py::list all;
+  for (const auto& [path, kind, type] : rows) all.append(py::make_tuple(path, kind, type));
+  return all;
+}
+
+py::list Log(const Open& open, std::uint64_t from) {
+  const auto found = WithoutGil([&] { return (*open)->log().ReadEntries(from, ApplicationLog::kMostEntries); });
+  py::list all;
+  for (const auto& each : found.entries) {
+    all.append(py::make_tuple(ToSeconds(each.time), ApplicationLog::KindName(each.kind), each.module, each.text));
+  }
+  return all;
+}
+
+py::list Events(const Open& open) {
+  constexpr const char* kKinds[] = {"warning", "fault", "notice", "failure", "message"};
+  const auto events = WithoutGil([&] { return (*open)->TakeEvents(); });
+  py::list all;
+  for (const ApplicationEvent& each : events) {
+    all.append(py::make_tuple(kKinds[static_cast<std::size_t>(each.kind)], each.fault ? each.fault->path : "",
+                              each.fault ? each.fault->message : "", each.text));
+  }
+  return all;
+}
+
+void Step(const Open& open, std::uint64_t cycles) {
+  Checked(WithoutGil([&] { return (*open)->is_running() ? (*open)->Step(cycles) : (*open)->RunCycles(cycles); }));
+}
+
+}  // namespace runnel::python

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include "core/base/diagnostics.h"
+#include "core/base/result.h"
+#include "plugins/structure/structure_editor.h"
+
+namespace runnel::python {
+
+/// What Runnel's errors are in Python: runnel.Error, with `errors`, a list of those that came at once, and of the
+/// first `message`, `path`, `file`, `line`, `column` and `hint`. With the GIL.
+[[noreturn]] void Throw(const Diagnostics& diagnostics);
+[[noreturn]] void Throw(const Error& error);
+
+template <typename T>
+T Checked(Result<T> result) {
+  if (!result) Throw(result.error());
+  if constexpr (!std::is_void_v<T>) return std::move(*result);
+}
+inline void Check(const ChangeOutcome& outcome) {
+  if (!outcome) Throw(outcome.diagnostics);
+}
+
+/// Does what may wait, lock or run cycles: never with the GIL, which a module in Python may need first.
+template <typename Work>
+auto WithoutGil(const Work& work) {
+  const pybind11::gil_scoped_release released;
+  return work();
+}
+
+/// The class, and what C++ throws.
+void BindErrors(pybind11::module_& module);
+
+}  // namespace runnel::python

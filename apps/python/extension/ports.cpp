@@ -1,0 +1,172 @@
+#include "apps/python/extension/ports.h"
+
+#include <algorithm>
+#include <exception>
+#include <mutex>
+#include <utility>
+
+#include "apps/python/extension/errors.h"
+#include "apps/python/extension/value.h"
+#include "core/paths/path_search.h"
+
+namespace py = pybind11;
+
+namespace runnel::python {
+
+Application& OpenApplication::operator*() const {
+  if (!application) throw py::value_error("the application is closed");
+  return *application;
+}
+
+py::object HeldToPython(const TypeInfo& type, std::unique_ptr<HeldValues> held) {
+  const void* const value = held->Find(0);
+  if (value == nullptr) return py::none();
+  auto memory = std::make_shared<Memory>();
+  memory->kept = std::shared_ptr<const void>(std::move(held));
+  return ToPython(type, ForLooking(value), memory);
+}
+
+void PublishFromPython(Port& output, const py::args& positional, const py::kwargs& named,
+                       std::optional<double> timestamp) {
+  std::exception_ptr thrown;
+  const auto fill = [&](void* value) -> Result<void> {
+    try {
+      if (positional.size() > 1 || (positional.empty() && named.empty())) {
+        throw py::type_error("publish() takes one value, or fields by their names");
+      }
+      FromPython(output.type(), positional.empty() ? py::handle(named) : py::handle(positional[0]), value);
+      return {};
+    } catch (...) {
+      thrown = std::current_exception();
+      return Error{.message = "thrown"};
+    }
+  };
+  std::optional<Time> measured;
+  if (timestamp) measured = Time(FromSeconds(*timestamp));
+  const auto published = output.PublishFilled(fill, measured);
+  if (thrown) std::rethrow_exception(thrown);
+  if (Checked(published) == PublishStatus::kNoBuffer) {
+    Throw({.message = "its pool of buffers has none that is free", .path = output.path()});
+  }
+}
+
+/// What holds the port, beside the application.
+class TiedPort::Place final : public FrameworkElement {
+ public:
+  explicit Place(const Placement& placement) : FrameworkElement(placement) {}
+  std::unique_ptr<Port> port;
+};
+
+TiedPort::TiedPort(std::shared_ptr<OpenApplication> application, const std::string& path, PathKind kind,
+                   const ConnectOptions& options)
+    : application_(std::move(application)) {
+  Runtime& runtime = (*application_)->runtime();
+  const auto tie = [&]() -> Result<void> {
+    const std::lock_guard lock(runtime.structure_mutex());
+    const auto found = PathSearch(runtime).FindPort(path, kind);
+    if (!found) return found.error();
+    Port& port = **found;
+    path_ = port.path();
+    ports_ = FindTypedPorts(port.type());
+    if (ports_ == nullptr) return Error{.message = "nobody makes ports of type " + port.type().name(), .path = path_};
+    place_ = &runtime.Create<Place>(runtime.root(), FreeName(runtime.root(), "python"));
+    const bool reads = kind == PathKind::kOutput;
+    place_->port = reads ? ports_->MakeInput(*place_, "in", {.waits = true}) : ports_->MakeOutput(*place_, "out");
+    if (!place_->port) return Error{.message = "only a module can make values of type " + port.type().name(), .path = path_};
+    if (auto ready = runtime.MakeReady(*place_); !ready) return ready;
+    return reads ? Port::Connect(port, *place_->port, options) : Port::Connect(*place_->port, port, options);
+  };
+  const auto tied = WithoutGil([&] {
+    auto done = tie();
+    if (!done && place_ != nullptr) (void)runtime.Delete(*std::exchange(place_, nullptr));
+    return done;
+  });
+  Checked(tied);
+}
+
+TiedPort::~TiedPort() {
+  if (place_ == nullptr || !application_->application) return;
+  WithoutGil([this] { return application_->application->runtime().Delete(*place_).has_value(); });
+}
+
+Port& TiedPort::port() const {
+  (void)**application_;
+  return *place_->port;
+}
+
+Reader::Reader(std::shared_ptr<OpenApplication> application, const std::string& path, std::size_t queue)
+    : tied_(std::move(application), path, PathKind::kOutput, {.queue = queue}) {}
+
+py::object Reader::Taken(std::unique_ptr<HeldValues> held) {
+  if (held->Find(0) == nullptr) return py::none();
+  times_ = held->times(0);
+  return HeldToPython(tied_.port().type(), std::move(held));
+}
+
+py::object Reader::Read() {
+  auto held = tied_.ports().MakeHeldValues(1);
+  (void)held->Read(tied_.port(), 0);
+  return Taken(std::move(held));
+}
+
+py::object Reader::Next() {
+  auto held = tied_.ports().MakeHeldValues(1);
+  if (!held->Next(tied_.port(), 0)) return py::none();
+  return Taken(std::move(held));
+}
+
+bool Reader::Wait(double seconds) {
+  constexpr double kSlice = 0.1;  // after which signals are looked at
+  auto& input = dynamic_cast<InputBase&>(tied_.port());
+  if (std::exchange(is_waited_for_, true)) throw py::value_error("another thread waits already");
+  struct Done {
+    bool& flag;
+    ~Done() { flag = false; }
+  } const done{is_waited_for_};
+  for (double left = seconds;; left -= kSlice) {
+    const double slice = std::clamp(left, 0.0, kSlice);
+    if (WithoutGil([&] { return input.Wait(FromSeconds(slice)); })) return true;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (left <= kSlice) return false;
+  }
+}
+
+std::uint64_t Reader::dropped() const { return dynamic_cast<InputBase&>(tied_.port()).dropped(); }
+
+void BindPorts(py::module_& module) {
+  py::class_<Reader, std::shared_ptr<Reader>>(module, "Reader", R"(Reads a port of an application in this process, also after swaps.
+
+One thread at a time uses it. A value that has been read is leased, not copied: its buffer is not used again as long as
+the value, or an array of it, lives.
+)")
+      .def("read", &Reader::Read, "The newest value; None if there is none yet.")
+      .def("next", &Reader::Next,
+           "The next value that has not been given out: of a queue the oldest, else the newest. None if there is none.")
+      .def("wait", &Reader::Wait, py::arg("timeout") = 1.0,
+           "Waits until there is something new; False if there is not after `timeout` (s, of the machine).")
+      .def("__iter__", [](const py::object& self) { return self; })
+      .def("__next__",
+           [](Reader& reader) {
+             py::object next = reader.Next();
+             if (next.is_none()) throw py::stop_iteration();
+             return next;
+           })
+      .def_property_readonly("path", [](const Reader& reader) { return reader.tied().path(); })
+      .def_property_readonly("type", [](const Reader& reader) { return reader.tied().port().type().name(); })
+      .def_property_readonly("timestamp", &Reader::timestamp, "When the last value was measured (s, of the application's clock).")
+      .def_property_readonly("publication_time", &Reader::publication_time, "When it was published (s).")
+      .def_property_readonly("dropped", &Reader::dropped, "Values that the queue has lost because it was full.");
+  py::class_<TiedPort, std::shared_ptr<TiedPort>>(module, "Writer", R"(Publishes to an input of an application in this process, also after swaps.
+
+One thread at a time uses it, outside of cycles.
+)")
+      .def("publish",
+           [](const TiedPort& tied, const py::args& positional, const py::kwargs& named) {
+             PublishFromPython(tied.port(), positional, named, std::nullopt);
+           },
+           "publish(value) or publish(x=1, y=2): writes the value into a buffer that the port lends, and publishes that.")
+      .def_property_readonly("path", &TiedPort::path)
+      .def_property_readonly("type", [](const TiedPort& tied) { return tied.port().type().name(); });
+}
+
+}  // namespace runnel::python

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <pybind11/pybind11.h>
+
+#include "core/module/module.h"
+#include "core/port/typed_ports.h"
+
+namespace runnel::python {
+
+class PythonModule;
+
+/// What an object of Python knows of its module, which may be gone.
+struct ModuleHost {
+  PythonModule* module = nullptr;
+  /// Throws if it is gone.
+  [[nodiscard]] PythonModule& Get() const;
+};
+
+/// A module whose Update() is written in Python: a class below runnel.Module.
+///
+/// Threads: as Module. Takes the GIL, so it has a thread container of its own unless it is assigned to one: no cycle of
+///          others waits for the interpreter.
+/// Errors:  what update() throws is a fault, with the place in the file; the whole traceback is logged.
+class PythonModule final : public Module {
+ public:
+  /// Throws ElementError if the class cannot be had.
+  PythonModule(const Placement& placement, const std::string& type);
+  ~PythonModule() override;
+
+  struct BoundInput {
+    std::unique_ptr<Port> port;
+    const TypedPorts* ports;
+  };
+  [[nodiscard]] BoundInput& input(std::size_t index) { return inputs_.at(index); }
+  [[nodiscard]] Port& output(std::size_t index) { return *outputs_.at(index); }
+  [[nodiscard]] pybind11::object ParameterValue(std::size_t index) const;
+  [[nodiscard]] Time Now() const noexcept { return now(); }
+  [[nodiscard]] static Duration Period() noexcept { return period(); }
+  void Say(const std::string& level, const std::string& text);
+
+ private:
+  // What the object remembers: its attributes, which a module in its place takes over.
+  struct Attributes {
+    PythonModule* module = nullptr;
+    Attributes& operator=(const Attributes& from);
+    explicit Attributes(PythonModule* of) : module(of) {}
+    Attributes(const Attributes&) = default;
+  };
+
+  Result<void> Construct() override;
+  Result<void> Prepare() override;
+  void Update() override;
+  void MakeParameters(const pybind11::dict& described);
+  void GoToOwnThread();
+  void KeepOthersTogether();
+  /// Does it with the GIL; what Python throws becomes an ElementError, with the file and the line.
+  template <typename Work>
+  void WithPython(const Work& work);
+
+  std::shared_ptr<ModuleHost> host_ = std::make_shared<ModuleHost>();
+  Attributes attributes_{this};
+  // Python's, touched with the GIL only.
+  pybind11::handle class_;
+  pybind11::handle object_;
+  pybind11::handle update_;
+  std::vector<std::unique_ptr<FrameworkElement>> parameters_;
+  std::vector<BoundInput> inputs_;
+  std::vector<std::unique_ptr<Port>> outputs_;
+};
+
+}  // namespace runnel::python

@@ -1,0 +1,258 @@
+"""Modules in Python: `runnel.Module` and its ports and parameters, and how files with them are found."""
+
+import copy
+import difflib
+import hashlib
+import importlib.util
+import linecache
+import os
+import pathlib
+import sys
+import traceback
+
+from runnel import _extension
+
+_class = type  # which arguments are called, too
+
+class _Described:
+    def __set_name__(self, owner, name):
+        self.name = name
+
+
+class Input(_Described):
+    """An input of a module, by the name of its type: ``scan = runnel.Input("RangeScan")``.
+
+    required -- an application in which nothing is connected is wrong; trigger -- what a module without a period waits for.
+    """
+
+    def __init__(self, type, required=False, trigger=False, unit="", description=""):
+        self.said = dict(type=_name(type), required=required, trigger=trigger, unit=unit, description=description)
+
+    def __get__(self, instance, owner=None):
+        return self if instance is None else instance._runnel_ports[self.name]
+
+
+class Output(_Described):
+    """An output of a module, by the name of its type: ``twist = runnel.Output("Twist2")``."""
+
+    def __init__(self, type, unit="", description=""):
+        self.said = dict(type=_name(type), unit=unit, description=description)
+
+    def __get__(self, instance, owner=None):
+        return self if instance is None else instance._runnel_ports[self.name]
+
+
+class Parameter(_Described):
+    """A parameter of a module, of the type of its default: bool, int, float, str or a list of numbers.
+
+    ``speed = runnel.Parameter(0.4, unit="m/s", bounds=(0, 1))``; in update() ``self.speed`` is its value.
+    """
+
+    def __init__(self, default, unit="", bounds=(None, None), description=""):
+        kinds = {bool: "bool", int: "int", float: "float", str: "str", list: "list", tuple: "list"}
+        kind = kinds.get(type(default))
+        if kind is None:
+            raise TypeError(f"a parameter is a bool, int, float, str or a list of numbers, not {default!r}")
+        if kind in ("bool", "str", "list") and tuple(bounds) != (None, None):
+            raise TypeError("only numbers have bounds")
+        self.said = dict(kind=kind, default=list(default) if kind == "list" else default, unit=unit, lowest=bounds[0],
+                         highest=bounds[1], description=description)
+
+    def __get__(self, instance, owner=None):
+        return self if instance is None else instance._runnel_host.parameter(instance._runnel_parameters[self.name])
+
+    def __set__(self, instance, value):
+        raise AttributeError(f"'{self.name}' is a parameter: it is set from outside, in the file or by set()")
+
+
+class Module:
+    """A module in Python: ports and parameters are class attributes, and update() is called in each cycle.
+
+        class Follower(runnel.Module):
+            period = 0.05
+            scan = runnel.Input("RangeScan")
+            twist = runnel.Output("Twist2")
+            speed = runnel.Parameter(0.4, unit="m/s", bounds=(0, 1))
+
+            def update(self):
+                scan = self.scan.new()
+                if scan is not None:
+                    self.twist.publish(forward=self.speed if scan.ranges.min() > 0.5 else 0.0)
+
+    period -- of the thread of its own, in s; None: it runs when data comes to an input with trigger=True. A module that is
+    assigned to another thread runs there. What it keeps in attributes a module in its place takes over. __init__() has no
+    effect on the world, as tools make modules to list their ports; files are opened in prepare().
+    """
+
+    period = 0.05
+
+    def update(self):
+        """Called in each cycle. What it throws stops this module alone, and is a fault."""
+        raise NotImplementedError("update() is missing")
+
+    def prepare(self):
+        """Called once, when parameters are set and before the first cycle."""
+
+    @property
+    def path(self):
+        """Where the module is in the application."""
+        return self._runnel_path
+
+    @property
+    def now(self):
+        """The time of the cycle, in s on the application's clock."""
+        return self._runnel_host.now()
+
+    @property
+    def cycle_period(self):
+        """Planned time from cycle to cycle, in s; 0 without a plan."""
+        return self._runnel_host.period()
+
+    def log(self, text, level="info"):
+        """Says something to people: level is debug, info, warning or error."""
+        if level not in ("debug", "info", "warning", "error"):
+            raise ValueError(f"there is no level '{level}'")
+        self._runnel_host.say(level, str(text))
+
+
+def _name(type):
+    return type if isinstance(type, str) else type.name
+
+
+def _members(cls, kind):
+    found = {}
+    for each in reversed(cls.__mro__):
+        found |= {name: member for name, member in vars(each).items() if isinstance(member, kind)}
+    return found
+
+
+def type_of(cls):
+    """The name of the module type that a class is; errors if nobody could find it again."""
+    if not (isinstance(cls, type) and issubclass(cls, Module)):
+        raise TypeError(f"a type of modules is a name or a class below runnel.Module, not {cls!r}")
+    return f"python/{cls.__module__}.{cls.__qualname__}"
+
+
+# What follows is called by the extension.
+
+
+def describe(cls):
+    """What a class has, for the extension."""
+    return {direction: {name: member.said for name, member in _members(cls, kind).items()}
+            for direction, kind in (("inputs", Input), ("outputs", Output), ("parameters", Parameter))}
+
+
+def make(cls, host, path):
+    """An object of the class, tied to its module in C++."""
+    module = cls.__new__(cls)
+    module._runnel_host = host
+    module._runnel_path = path
+    module._runnel_parameters = {name: index for index, name in enumerate(_members(cls, Parameter))}
+    module._runnel_ports = {name: host.input(index) for index, name in enumerate(_members(cls, Input))}
+    module._runnel_ports |= {name: host.output(index) for index, name in enumerate(_members(cls, Output))}
+    module.__init__()
+    return module
+
+
+def take_over(module, before):
+    """The attributes of the module that was there before; copies, as it may come back."""
+    for name, value in vars(before).items():
+        if name.startswith("_runnel_"):
+            continue
+        try:
+            value = copy.deepcopy(value)
+        except Exception:  # a file, a thread: there is one only, and both have it
+            pass
+        setattr(module, name, value)
+
+
+_loaded = {}  # file -> (digest of what was in it, module)
+
+
+def _load(file, name):
+    digest = hashlib.sha256(file.read_bytes()).digest()
+    known = _loaded.get(file)
+    if known is not None and known[0] == digest:
+        return known[1]
+    imported = sys.modules.get(name)
+    if known is None and imported is not None and getattr(imported, "__file__", None) == str(file):
+        _loaded[file] = (digest, imported)  # by who composes the application: its classes are meant
+        return imported
+    linecache.checkcache(str(file))
+    # From the text, for what Python keeps compiled goes by the second in which a file was written.
+    code = compile(file.read_bytes(), str(file), "exec")
+    module = importlib.util.module_from_spec(importlib.util.spec_from_file_location(name, file))
+    if imported is None or any(imported is each for _, each in _loaded.values()):
+        sys.modules[name] = module  # where pickle looks for its classes; what others have imported stays
+    try:
+        exec(code, module.__dict__)
+    except BaseException:
+        if sys.modules.get(name) is module:
+            del sys.modules[name]
+            if imported is not None:
+                sys.modules[name] = imported
+        raise
+    _loaded[file] = (digest, module)
+    return module
+
+
+def _folders(folder):
+    said = [folder] + os.environ.get("RUNNEL_PYTHON_PATH", "").split(os.pathsep) + [os.getcwd()] + sys.path
+    return [pathlib.Path(each).resolve() for each in dict.fromkeys(said) if each]
+
+
+def find_class(type, folder):
+    """The class of "python/my_file.MyModule", its file as it is now; looked for beside the application's file first."""
+    module_name, dot, class_name = type.partition("/")[2].rpartition(".")
+    if not dot or not module_name:
+        raise _extension.Error(f"'{type}' is no type of modules in Python; write python/FILE.CLASS")
+    module = None
+    for each in _folders(folder):
+        file = each.joinpath(*module_name.split(".")).with_suffix(".py")
+        if file.is_file():
+            module = _load(file, module_name)
+            break
+    if module is None:
+        module = sys.modules.get(module_name)
+    if module is None:
+        there = [each.stem for at in _folders(folder)[:3] for each in at.glob("*.py")]
+        near = difflib.get_close_matches(module_name, there, 1)
+        hint = f"did you mean '{near[0]}'?" if near else f"looked for in {_folders(folder)[0]}, $RUNNEL_PYTHON_PATH, and where Python does"
+        raise _placed(f"there is no file {module_name}.py", hint=hint)
+    found = vars(module).get(class_name)
+    if not (isinstance(found, _class) and issubclass(found, Module)):
+        there = [name for name, each in vars(module).items() if isinstance(each, _class) and issubclass(each, Module) and each is not Module]
+        near = difflib.get_close_matches(class_name, there, 1)
+        hint = f"did you mean '{near[0]}'?" if near else f"there is {', '.join(there) or 'none'}"
+        raise _placed(f"there is no class '{class_name}' below runnel.Module in {getattr(module, '__file__', module_name)}", hint=hint)
+    return found
+
+
+
+
+
+def _placed(message, file="", line=0, hint=""):
+    error = _extension.Error(message)
+    error.message, error.file, error.line, error.hint = message, str(file), line, hint
+    return error
+
+
+def error_of(thrown, trace):
+    """(message, file, line, hint) of what was thrown while a module was made."""
+    if isinstance(thrown, _extension.Error):
+        return thrown.message or str(thrown), thrown.file, thrown.line, thrown.hint
+    if isinstance(thrown, SyntaxError):
+        return f"{type(thrown).__name__}: {thrown.msg}", thrown.filename or "", thrown.lineno or 0, ""
+    frames = traceback.extract_tb(trace)
+    own = [each for each in frames if not each.filename.startswith(os.path.dirname(__file__))] or frames
+    text = f"{type(thrown).__name__}: {thrown}"
+    return (text, own[-1].filename, own[-1].lineno or 0, "") if own else (text, "", 0, "")
+
+
+def fault_of(thrown, trace):
+    """What a fault says: the exception, and from where to where, the innermost first; and the whole traceback."""
+    frames = traceback.extract_tb(trace)
+    text = f"{type(thrown).__name__}: {thrown}"
+    for frame in reversed(frames):
+        text += f"; {os.path.basename(frame.filename)}:{frame.lineno}, in {frame.name}: {frame.line}"
+    return text[:490], "".join(traceback.format_exception(_class(thrown), thrown, trace))[:3900]

@@ -1,0 +1,331 @@
+"""`runnel.Application`: an application in this process."""
+
+import asyncio
+import atexit
+import os
+import weakref
+from typing import NamedTuple
+
+import numpy
+
+from runnel import _extension
+
+_open = weakref.WeakSet()
+
+
+@atexit.register
+def _close_all():
+    # No cycle of a module in Python may run when the interpreter goes.
+    for each in list(_open):
+        each.close()
+
+
+class Event(NamedTuple):
+    """Something that has happened to an application: kind is warning, fault, notice, failure or message."""
+
+    kind: str
+    path: str
+    message: str
+    text: str
+
+
+class LogEntry(NamedTuple):
+    """An entry of the log; time in s on the application's clock."""
+
+    time: float
+    kind: str
+    path: str
+    text: str
+
+
+def text_of(value, inside=False):
+    """The text format of a value.
+
+    >>> text_of({"x": 1, "name": "a b", "list": [1.5, True]})
+    '{x: 1, name: "a b", list: [1.5, true]}'
+    """
+    if isinstance(value, bool) or isinstance(value, numpy.bool_):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        if not inside:
+            return value
+        escaped = value.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n").replace("\t", "\\t").replace("\r", "\\r")
+        return f'"{escaped}"'
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{name}: {text_of(each, True)}" for name, each in value.items()) + "}"
+    if isinstance(value, numpy.ndarray):
+        return text_of(value.tolist())
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(text_of(each, True) for each in value) + "]"
+    if isinstance(value, (numpy.integer, numpy.floating)):
+        return repr(value.item())
+    return str(value) if isinstance(value, _extension.Value) else repr(value)
+
+
+def _words(values):
+    return [(str(name), text_of(value)) for name, value in values.items()]
+
+
+def _type_text(type):
+    """A module type by its name, or a class in Python."""
+    if isinstance(type, str):
+        return type
+    from runnel import _modules
+
+    return _modules.type_of(type)
+
+
+def _options(settings=None, clock="", speed=None, paused=False, control=False, configurations=(), plugin_folders=(),
+             record=None, record_ports=(), extensions=None):
+    wanted = {name: list(options.items()) for name, options in (extensions or {}).items()}
+    if record is not None:
+        wanted["recording"] = [("record", str(record))] + [("record-ports", each) for each in record_ports]
+    return (_words(settings or {}), [str(each) for each in configurations], [str(each) for each in plugin_folders], clock or "",
+            speed, paused, control, list(wanted.items()))
+
+
+def load(file, **options):
+    """Loads an application file, ready to run. Nothing runs yet.
+
+    settings -- {"goal_x": 4}, for parameters that name a `command_line`; clock -- "real" or "simulated", instead of what
+    the file says; speed -- how many times faster than real time, 0: as fast as it can; paused -- begins with a pause;
+    control -- others reach it by `runnel ls` and `runnel.connect`; record, record_ports -- into an MCAP file;
+    extensions -- {"viewers": {"inspect": "8765"}}, as the options of `runnel run`.
+    """
+    return Application("file", str(file), "", *_options(**options))
+
+
+def load_text(text, folder="", **options):
+    """The same of a text; relative names of files in it start in `folder`."""
+    return Application("text", text, str(folder), *_options(**options))
+
+
+def compose(name, **options):
+    """An empty application, to be composed by create(), connect() and thread(). Options as load()."""
+    return Application("compose", name, "", *_options(**options))
+
+
+def replay(recording, file, ports=(), begin=None, end=None, **options):
+    """The application of `file`, in which what was recorded is published again in the place of what was recorded.
+
+    ports -- patterns of those that are played ("/laser/*"), none: all; begin, end -- s since the recording's start.
+    """
+    words = {"recording": str(recording)}
+    words |= {"from": repr(float(begin))} if begin is not None else {}
+    words |= {"to": repr(float(end))} if end is not None else {}
+    arguments = _options(**options)
+    arguments[-1].append(("recording", list(words.items()) + [("ports", each) for each in ports]))
+    return Application("file", str(file), "", *arguments)
+
+
+class Application(_extension.Application):
+    """A running application: made by load(), load_text(), compose() or replay().
+
+    Paths may leave out the name of the application, and of ports and parameters the group: ``/robot/planner/twist``.
+    Changes are made between two cycles, all of a change or nothing. Threads: any; what runs it, one at a time.
+
+    >>> with runnel.load(xml / "apps/bug_demo.xml", clock="simulated", speed=0) as app:
+    ...     app.run_for(2)
+    ...     app["/robot/planner/cruise_speed"] = 0.3
+    ...     app["/world/pose"].type
+    <type Pose2>
+    """
+
+    def __init__(self, *arguments):
+        super().__init__(*arguments)
+        self._readers = {}
+        _open.add(self)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *unused):
+        self.close()
+
+    def __repr__(self):
+        return f"<runnel.Application {self.name}{', running' if self.is_running else ''}>"
+
+    def close(self):
+        """Stops, finishes recordings, and lets go of everything. What was read stays valid. Idempotent."""
+        self._readers.clear()
+        self._close()
+
+    # Composing and changing it.
+
+    def create(self, path, type, /, **parameters):
+        """A module at `path`, of a type by name ("planning/bug2") or of a class in Python; makes the groups above."""
+        self._create(path, _type_text(type), _words(parameters))
+
+    def group(self, path):
+        """An empty group."""
+        self._create(path, "", [])
+
+    def connect(self, source, *sinks, queue=0, on_full="drop_oldest", pull=False, late=False, convert=""):
+        """Lets values flow from a port (or a part of its values, "/world/pose.x") to others.
+
+        queue -- how many values may wait, 0: only the newest counts; on_full -- drop_oldest, drop_newest or refuse.
+        """
+        for sink in sinks:
+            self._connect(source, sink, queue, on_full, pull, late, convert)
+
+    def disconnect(self, source, sink):
+        """Ends a connection."""
+        self._disconnect(source, sink)
+
+    def delete(self, path):
+        """Deletes an element, with all below it."""
+        self._readers.clear()
+        self._delete(path)
+
+    def thread(self, name, period=None, priority=0):
+        """A thread container that runs every `period` (s), or, without, when data comes. The first runs what is assigned to none."""
+        self._thread(name, period, priority)
+
+    def assign(self, path, thread):
+        """Has what is at or below `path` run by a thread; "" takes that back."""
+        self._assign(path, thread)
+
+    def swap(self, path, type, /, **parameters):
+        """Puts a module of another type, or of the same anew, in the place of one: connections, values, state go over."""
+        self._swap(path, _type_text(type), _words(parameters))
+
+    def apply(self, text):
+        """Changes as text, all or none: "connect /a/out /b/in; set /b/gain 2"."""
+        self._apply(text)
+
+    def undo(self):
+        """Takes the last change back."""
+        self._undo()
+
+    def redo(self):
+        """Makes the change again that was taken back last."""
+        self._redo()
+
+    def reload(self, plugin="python"):
+        """Loads a plugin anew, and makes its modules anew; "python": the files of all modules in Python."""
+        self._reload(plugin)
+
+    def save(self, file="", overwrite=False):
+        """Saves what it is now to the file; "": the one that it came from."""
+        self._save(os.path.abspath(file) if file else "", overwrite)
+
+    # Values.
+
+    def set(self, path, value):
+        """Sets a parameter."""
+        self._set(path, text_of(value))
+
+    def get(self, path):
+        """The value of a parameter."""
+        return self._get(path)
+
+    def read(self, path):
+        """The newest value of a port; None if there is none yet. Not copied, but for inputs."""
+        reader = self._readers.get(path)
+        if reader is None:
+            reader = self._read_input(path)
+            if not isinstance(reader, _extension.Reader):
+                return reader
+            self._readers[path] = reader
+        return reader.read()
+
+    def __getitem__(self, path):
+        """A parameter's value, or a port's newest."""
+        if path in self._readers:
+            return self.read(path)
+        try:
+            return self._get(path)
+        except _extension.Error as error:
+            if error.message != "is no parameter":
+                raise
+        return self.read(path)
+
+    def __setitem__(self, path, value):
+        self.set(path, value)
+
+    def reader(self, path, queue=0):
+        """A Reader of a port, with a queue of each of its values."""
+        return self._reader(path, queue)
+
+    def writer(self, path):
+        """A Writer, connected to an input."""
+        return self._writer(path)
+
+    def publish(self, path, value):
+        """Sets the value at a port by hand: readers find it instead of what is published, until release()."""
+        self._publish(path, value)
+
+    def release(self, path):
+        """Readers find again what is published."""
+        self._release(path)
+
+    def call(self, path, *argument, timeout=30.0, **arguments):
+        """Calls a service with its arguments by name, and returns its reply. While nothing runs on simulated time, cycles are
+        run until it has answered. timeout -- s, on the application's clock.
+        """
+        return self._call(path, timeout, *argument, **arguments)
+
+    async def values(self, path, queue=128):
+        """Each value of a port, as it comes: ``async for twist in app.values("/robot/planner/twist")``."""
+        reader = self.reader(path, queue)
+        loop = asyncio.get_running_loop()
+        while True:
+            for value in reader:
+                yield value
+            await loop.run_in_executor(None, reader.wait, 0.2)
+
+    def paths(self, kind=None):
+        """(path, kind, type) of all groups, modules, inputs, outputs, services and parameters, or of those of one kind."""
+        return [each for each in self._paths() if kind is None or each[1] == kind]
+
+    # Running it.
+
+    def run(self, limit=None):
+        """Runs in this thread until its verdict, a fault rule or `limit` (s on its clock); how long it ran (s)."""
+        return self._run(limit)
+
+    def run_for(self, seconds):
+        """Simulated time: all cycles that are due in the next `seconds` of its clock."""
+        self._run_for(seconds)
+
+    def step(self, cycles=1):
+        """Simulated time: so many cycles, each the one that is due next."""
+        self._step(cycles)
+
+    def start(self):
+        """Lets it run in threads of its own, until stop()."""
+        self._start()
+
+    def stop(self):
+        """Ends all cycles. It can be started again."""
+        self._stop()
+
+    def pause(self, path=""):
+        """Pauses simulated time, or leaves what is at or below `path` out of cycles."""
+        self._pause(path)
+
+    def resume(self, path=""):
+        """Takes that back."""
+        self._resume(path)
+
+    def set_speed(self, factor):
+        """How many times faster than real time simulated time passes; 0: as fast as it can."""
+        self._set_speed(factor)
+
+    # What has happened.
+
+    def events(self):
+        """Warnings, faults and messages since the last call, as Event."""
+        return [Event(*each) for each in self._events()]
+
+    def faults(self):
+        """The faults among the log: modules that threw, with what they threw."""
+        return [each for each in self.log() if each.kind == "fault"]
+
+    def log(self, begin=0):
+        """What has happened since its start, from entry number `begin` on, as LogEntry."""
+        return [LogEntry(*each) for each in self._log(begin)]
+
+    def verdict(self):
+        """What the modules that judge the run have to say, and whether all of it is good."""
+        return self._verdicts()

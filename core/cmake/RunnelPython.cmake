@@ -1,0 +1,16 @@
+# Python of the system, which has the packages of the system; another one by -DPython_EXECUTABLE=. Without it, or without
+# pybind11, all else is built, and RUNNEL_HAS_PYTHON is off.
+if(NOT DEFINED Python_EXECUTABLE AND EXISTS /usr/bin/python3)
+  set(Python_EXECUTABLE /usr/bin/python3)
+endif()
+set(PYBIND11_FINDPYTHON ON)
+find_package(Python 3.9 COMPONENTS Interpreter Development QUIET)
+if(Python_Development_FOUND)
+  find_package(pybind11 2.10 QUIET)
+endif()
+set(RUNNEL_HAS_PYTHON OFF)
+if(Python_Development_FOUND AND pybind11_FOUND)
+  set(RUNNEL_HAS_PYTHON ON)
+else()
+  message(STATUS "Python is left out (package 'runnel', modules in Python): install pybind11-dev and python3-dev for it")
+endif()

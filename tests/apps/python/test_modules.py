@@ -1,0 +1,178 @@
+import subprocess
+
+import pytest
+
+import runnel
+
+FOLLOWER = '''
+import runnel
+
+
+class Follower(runnel.Module):
+    scan = runnel.Input("RangeScan", required=True)
+    twist = runnel.Output("Twist2")
+    distance = runnel.Parameter(0.6, unit="m", bounds=(0.2, 3.0))
+    count = 0
+
+    def update(self):
+        scan = self.scan.new()
+        if scan is None:
+            return
+        self.count += 1
+        near = scan.ranges.min() < self.distance
+        self.twist.publish(forward=0.0 if near else 0.4, turn=1.0 if near else 0.0)
+'''
+
+WANDER = '''<application name="wander">
+  <load plugin="simulation"/> <load plugin="motion"/> <load plugin="python"/>
+  <clock type="simulated" speed="0"/> <thread name="control" period="50ms"/>
+  <module name="world" type="simulation/world"> <parameter name="world" value="rooms"/> </module>
+  <module name="laser" type="simulation/laser"/>
+  <module name="wanderer" type="python/follower.Follower"> <parameter name="distance" value="0.7"/> </module>
+  <module name="drive" type="motion/differential_drive"/>
+  <connect from="world/scene" to="laser/scene"/>
+  <connect from="world/pose" to="laser/pose"/>
+  <connect from="laser/scan" to="wanderer/scan"/>
+  <connect from="wanderer/twist" to="drive/twist"/>
+  <connect from="drive/wheels" to="world/wheels"/>
+</application>
+'''
+
+
+@pytest.fixture
+def files(empty_folder):
+    (empty_folder / "robot").mkdir()
+    (empty_folder / "robot/follower.py").write_text(FOLLOWER)
+    (empty_folder / "robot/wander.xml").write_text(WANDER)
+    return empty_folder / "robot"
+
+
+@pytest.fixture
+def app(files):
+    with runnel.load(files / "wander.xml") as app:
+        yield app
+
+
+def rewritten(files, old, new):
+    text = FOLLOWER.replace(old, new)
+    assert text != FOLLOWER
+    (files / "follower.py").write_text(text)
+
+
+def test_drives_the_robot(app):
+    start = app.read("/world/pose")
+    app.run_for(10)
+    assert app.read("/world/pose") != start
+    assert app["/wanderer/distance"] == 0.7
+
+
+def test_has_a_thread_of_its_own(app):
+    app.save("saved.xml")
+    text = open("saved.xml").read()
+    assert 'thread="python_wanderer"' in text and '<thread name="python_wanderer"' in text
+    assert '<application name="wander" thread="control">' in text
+
+
+def test_is_made_anew_from_its_file_and_remembers(app, files):
+    app.run_for(1)
+    rewritten(files, "self.count += 1", "self.count += 1000\n        self.log(str(self.count))")
+    app.reload()
+    app.run_for(0.1)
+    said = [each.text for each in app.log() if each.kind == "info"]
+    assert any(1000 < int(each.split(": ")[1]) < 1100 for each in said)
+
+
+def test_one_that_throws_is_taken_out_again(app, files):
+    app.run_for(1)
+    rewritten(files, "self.count += 1", "raise ValueError('new and wrong')")
+    app.swap("/wanderer", "python/follower.Follower")
+    app.run_for(1)
+    assert "is back in its place" in app.faults()[-1].text
+    app.run_for(1)
+    assert len(app.faults()) == 1
+
+
+def test_an_exception_is_a_fault_with_its_traceback(files):
+    rewritten(files, "self.count += 1", "self.help()")
+    with open(files / "follower.py", "a") as file:
+        file.write("\n    def help(self):\n        return 1 // 0\n")
+    with runnel.load(files / "wander.xml") as app:
+        app.run_for(1)
+        app.events()
+        fault = app.faults()[0].text
+        assert "ZeroDivisionError" in fault and "in help: return 1 // 0" in fault and "in update: self.help()" in fault
+        assert any("Traceback" in each.text for each in app.log() if each.kind == "error")
+
+
+def test_mistakes_are_told_with_their_places(files):
+    rewritten(files, "self.count += 1", "self.count += (1")
+    with pytest.raises(runnel.Error, match="SyntaxError") as wrong:
+        runnel.load(files / "wander.xml")
+    assert wrong.value.file.endswith("follower.py") and wrong.value.line == 15
+    (files / "wander.xml").write_text(WANDER.replace("follower.Follower", "follower.Folower"))
+    (files / "follower.py").write_text(FOLLOWER)
+    with pytest.raises(runnel.Error, match="did you mean 'Follower'") as wrong:
+        runnel.load(files / "wander.xml")
+    assert wrong.value.line == 6
+    (files / "wander.xml").write_text(WANDER.replace("follower.Follower", "folower.Follower"))
+    with pytest.raises(runnel.Error, match="did you mean 'follower'"):
+        runnel.load(files / "wander.xml")
+
+
+class Counter(runnel.Module):
+    period = 0.01
+    step = runnel.Parameter(1)
+    names = runnel.Parameter("a b")
+    weights = runnel.Parameter([1.0, 2.0])
+    is_on = runnel.Parameter(True)
+    out = runnel.Output("double[]")
+
+    def __init__(self):
+        self.count = 0
+
+    def update(self):
+        assert self.cycle_period == 0.01
+        self.count += self.step if self.is_on else 0
+        self.out.publish([self.count, self.now, *self.weights])
+
+
+class Sum(runnel.Module):
+    period = None
+    numbers = runnel.Input("double[]", trigger=True)
+    total = runnel.Output("double", unit="m")
+
+    def update(self):
+        self.total.publish(float(self.numbers.read().sum()))
+
+
+def test_classes_composed_in_code():
+    with runnel.compose("numbers", clock="simulated") as app:
+        app.thread("control", 0.05)
+        app.create("counter", Counter, step=2, weights=[3, 4])
+        app.create("sum", Sum)
+        app.connect("/counter/out", "/sum/numbers")
+        app.run_for(0.1)
+        assert app.read("/counter/out").tolist() == [20, pytest.approx(0.09), 3, 4]
+        assert app.read("/sum/total") == pytest.approx(27.09)
+        app["/counter/is_on"] = False
+        app.run_for(0.1)
+        assert app.read("/counter/out")[0] == 20
+
+
+def test_a_thread_of_its_own_in_real_time():
+    with runnel.compose("numbers") as app:
+        app.create("counter", Counter)
+        reader = app.reader("/counter/out", queue=50)
+        app.start()
+        while len(seen := list(reader)) < 1:
+            assert reader.wait(10)
+        assert seen[0].shape == (4,)
+        app.stop()
+
+
+def test_the_program_runs_them_too(files, program):
+    done = subprocess.run([program, "run", "robot/wander.xml", "--duration", "5", "--fast"], capture_output=True, text=True)
+    assert done.returncode == 0 and "simulated 5.00 s" in done.stdout + done.stderr, done.stderr
+    (files / "follower.py").write_text("import nothing_of_that_name\n")
+    done = subprocess.run([program, "check", "robot/wander.xml"], capture_output=True, text=True)
+    assert done.returncode != 0 and "follower.py:1: error" in done.stderr and "ModuleNotFoundError" in done.stderr, done.stderr
