@@ -9,29 +9,21 @@
 #include "core/module/module.h"
 #include "core/port/input.h"
 #include "modules/types/pose.h"
+#include "modules/places/place.h"
+#include "plugins/blackboards/blackboard.h"
 #include "plugins/services/service.h"
 
 namespace runnel::places {
 
-/// Where somebody has said that there is something: "dock".
-struct Place {
-  std::string name;
-  Pose2 pose;
-};
-
-inline void Describe(TypeBuilder<Place>& type) {
-  type.Name("Place").Field("name", &Place::name).Field("pose", &Place::pose);
-}
-
-/// Remembers places. All of its services are served in its cycle, and so share its members with it.
+/// Remembers places, on a blackboard that others read and write to, too. All of its services are served in its cycle, and
+/// so share its members with it.
 class PlaceBook final : public Module {
  public:
-  explicit PlaceBook(const Placement& placement) : Module(placement) {
-    places_.reserve(100);
-    KeepState(places_);
-  }
+  using Module::Module;
 
   Input<Pose2> pose{this, "pose", {.description = "where the robot is", .required = true}};
+  Blackboard<std::vector<Place>, NotedPlace> places{
+      this, "places", {}, {.description = "all places, in the order in which they were noted"}};
   Service<Pose2(std::string)> remember{this,
                                        "remember",
                                        &PlaceBook::Remember,
@@ -48,20 +40,28 @@ class PlaceBook final : public Module {
   Result<Pose2> Remember(const std::string& name) {
     const auto now = pose.Read();
     if (!now) return Error{.message = "it is not known yet where the robot is"};
-    auto found = std::ranges::find(places_, name, &Place::name);
-    if (found == places_.end()) found = places_.insert(found, Place{name, {}});
-    return found->pose = *now;
+    if (const auto noted = places.CommitChange({name, *now}); !noted) return noted.error();
+    return *now;
   }
   Result<Pose2> Where(const std::string& name) const {
-    const auto found = std::ranges::find(places_, name, &Place::name);
-    if (found != places_.end()) return found->pose;
-    return Error{.message = "there is no place '" + name + "'",
-                 .hint = NearestNameHint(name, Names())};
+    Result<Pose2> found = Pose2{};
+    places.Look([&](const std::vector<Place>& all) {
+      const auto place = std::ranges::find(all, name, &Place::name);
+      if (place != all.end()) {
+        found = place->pose;
+      } else {
+        found = Error{.message = "there is no place '" + name + "'",
+                      .hint = NearestNameHint(name, NamesOf(all, &Place::name))};
+      }
+    });
+    return found;
   }
-  [[nodiscard]] std::vector<std::string> Names() const { return NamesOf(places_, &Place::name); }
+  [[nodiscard]] std::vector<std::string> Names() const {
+    std::vector<std::string> all_names;
+    places.Look([&](const std::vector<Place>& all) { all_names = NamesOf(all, &Place::name); });
+    return all_names;
+  }
   void Update() override {}
-
-  std::vector<Place> places_;
 };
 
 }  // namespace runnel::places

@@ -150,7 +150,7 @@ void AddModules(std::vector<IncludeRule>& rules) {
   }
   // Behaviours of a robot, and a fusion of values of any type.
   AddFamily(rules, "behaviours", {"plugins/behaviours", "modules/flow"});
-  AddFamily(rules, "places", {"plugins/services"});
+  AddFamily(rules, "places", {"plugins/blackboards", "plugins/services"});
   AddFamily(rules, "simulation", {"plugins/values"});  // the referee's result
   // Worlds made and measured: no modules, and what a world is, the simulation says.
   rules.push_back({"modules/worlds",

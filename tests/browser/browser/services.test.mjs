@@ -90,3 +90,17 @@ test('how far a call has come is shown, and it is aborted', async (t) => {
   await form.locator('.problem', { hasText: "on the way to 'far'" }).waitFor();
   await form.locator('.activity').waitFor({ state: 'detached' });
 });
+
+test('a blackboard shows its revision, who reads and who writes', async (t) => {
+  const inspector = await Places(t);
+  const { page } = inspector;
+  const places = '/places_demo/book/output/places';
+  await page.locator('#tab-ports').click();
+  await page.locator('#port-filter').fill(places);
+  await page.locator(`[data-port-line="${places}"]`).click();
+  const board = page.locator('#details section', { hasText: 'Blackboard' });
+  await board.locator('dd', { hasText: 'surveyor' }).first().waitFor();
+  await board.locator('dd', { hasText: '1 answered' }).waitFor();
+  await page.locator('#details', { hasText: 'way 1' }).waitFor();
+  await inspector.picture('blackboard');
+});

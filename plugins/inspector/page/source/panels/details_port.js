@@ -8,6 +8,7 @@ import { DisconnectCarefully } from '../state/careful.js';
 import { openDialog, selected } from '../state/choices.js';
 import { FlowRate, canChange, catalogue, revision, structure } from '../state/store.js';
 import { AlarmList } from './alarms.js';
+import { BlackboardSection } from './blackboard_section.js';
 import { ByHand } from './by_hand.js';
 import { ImagePicture } from './image_picture.js';
 import { ActionButton, Awaited, Facts, Link, Section, Title } from './parts.js';
@@ -37,15 +38,16 @@ export function PortDetails({ element }) {
     <${Facts} facts=${[
       ['type', element.data_type],
       ['of', structure.get(element.owner) && html`<${Link} path=${element.owner} />`],
-      ['rate', rate !== null && FormatRate(rate)],
-      ['values', item?.count !== undefined && item?.count !== null && String(item.count)],
-      ['last at', item && `${FormatNumber(item.stamp)} s`],
+      ['rate', !element.service && rate !== null && FormatRate(rate)],
+      ['values', !element.service && item?.count !== undefined && item?.count !== null && String(item.count)],
+      ['last at', !element.service && item?.stamp !== undefined && `${FormatNumber(item.stamp)} s`],
       ['measured', item?.measured !== undefined && `${FormatNumber(item.stamp - item.measured)} s before`],
       ['lost from its queue', item?.drops ? String(item.drops) : ''],
       ['required', element.required ? 'yes' : ''],
       ['unit', element.unit], ['in', element.bounds], ['default', element.default],
       ['set by hand', element.by_hand ? 'what is published is not read' : ''],
     ]} />
+    <${BlackboardSection} key=${`board ${path}`} path=${path} />
     ${element.service && html`<${ServiceForm} key=${path} port=${element} />`}
     ${!element.service && html`<${Section} title="Value" id="value">
       ${type?.meaning === 'image' ? html`<${ImagePicture} path=${path} />`
