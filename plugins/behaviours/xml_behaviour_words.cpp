@@ -5,6 +5,8 @@
 #include <optional>
 
 #include "core/base/replace_file.h"
+#include "core/element/runtime.h"
+#include "core/element/source_place.h"
 #include "plugins/application/application_checks.h"
 #include "plugins/application_files/build_context.h"
 #include "plugins/application_files/path_use.h"
@@ -137,7 +139,11 @@ void CheckNetwork(const ApplicationCheckUse& use) {
   if (network.nodes.empty()) return;
   for (auto* const find : {FindUnreachable, FindOscillations, FindConflicts}) {
     for (NetworkFlaw& flaw : find(network)) {
-      use.diagnostics.Add({.message = std::move(flaw.message), .path = std::move(flaw.path), .hint = std::move(flaw.hint)});
+      const auto element = use.application.runtime().root().Find(flaw.path);
+      use.diagnostics.Add({.message = std::move(flaw.message),
+                           .path = std::move(flaw.path),
+                           .position = element ? FindSourcePlace(**element) : SourcePosition{},
+                           .hint = std::move(flaw.hint)});
     }
   }
   if (!use.model_file.empty()) {

@@ -55,11 +55,21 @@ std::vector<std::string> Messages(const std::vector<Error>& errors) {
   return messages;
 }
 
+/// Each with the line that it is about.
 std::vector<std::string> FlawsOf(const std::string& text) {
   ApplicationDescription description;
   description.ReadText(text, RUNNEL_XML "/apps", "test.xml");
   description.RunChecks();
   EXPECT_THAT(Messages(description.diagnostics().warnings()), IsEmpty());
+  for (const Error& each : description.diagnostics().errors()) {
+    std::istringstream lines(text);
+    std::string line;
+    for (int i = 0; i < each.position.line; ++i) std::getline(lines, line);
+    const auto quote = line.find("name=\"");
+    const std::string name = line.substr(quote + 6, line.find('"', quote + 6) - quote - 6);
+    EXPECT_THAT(each.path + "/", HasSubstr("/" + name + "/")) << "is in line " << line;
+    EXPECT_NE(each.position.line, 0) << each.ToString();
+  }
   return Messages(description.diagnostics().errors());
 }
 
