@@ -65,3 +65,41 @@ function(runnel_component name)
   runnel_plugin(${name} SOURCES ${sources} DEPENDS ${name}_codels runnel::genom_modules)
   add_dependencies(runnel_plugin_${name} ${name}_made)
 endfunction()
+
+# runnel_standalone(<name> DESCRIPTION <file.gen> [INCLUDES <folder> ...] [LIBRARIES <library> ...])
+# A program <name>-standalone, which runs the component without Runnel, of the same objects of the target <name>_codels:
+# behind runnel_component(<name> ...). LIBRARIES are what the codels call.
+function(runnel_standalone name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "DESCRIPTION" "INCLUDES;LIBRARIES")
+  if(NOT arg_DESCRIPTION OR NOT TARGET ${name}_codels)
+    message(FATAL_ERROR "runnel_standalone(${name}) needs a DESCRIPTION, and runnel_component(${name}) before it")
+  endif()
+  set(program runnel::generate_program)
+  set(prefix "runnel/")
+  if(TARGET runnel_warnings)
+    set(program runnel_generate_program)
+    set(prefix "")
+  endif()
+  get_filename_component(description "${arg_DESCRIPTION}" ABSOLUTE)
+  set(options "")
+  foreach(include IN LISTS arg_INCLUDES)
+    get_filename_component(include "${include}" ABSOLUTE)
+    list(APPEND options "-I${include}")
+  endforeach()
+  set(folder "${CMAKE_CURRENT_BINARY_DIR}/${name}_standalone_component")
+  set(made "${folder}/${name}_standalone.cpp" "${folder}/${name}_tables.cpp")
+  add_custom_command(
+    OUTPUT ${made}
+    COMMAND ${program} standalone "${description}" ${options} -o "${folder}" --overwrite -s "prefix=${prefix}"
+      --depfile "${folder}/made.d"
+    DEPENDS "${description}" ${program} DEPFILE "${folder}/made.d"
+    COMMENT "Component ${name} as a process" VERBATIM)
+  add_executable(${name}_standalone ${made} $<TARGET_OBJECTS:${name}_codels>)
+  set_target_properties(${name}_standalone PROPERTIES OUTPUT_NAME ${name}-standalone UNITY_BUILD OFF)
+  target_compile_features(${name}_standalone PRIVATE cxx_std_20)
+  target_link_libraries(${name}_standalone PRIVATE runnel::genom_standalone ${arg_LIBRARIES})
+  if(TARGET runnel_warnings)
+    target_include_directories(${name}_standalone PRIVATE "${RUNNEL_ROOT}")
+    target_link_libraries(${name}_standalone PRIVATE runnel_warnings)
+  endif()
+endfunction()

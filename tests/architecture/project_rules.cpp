@@ -63,6 +63,7 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/ros_messages", "plugins/ros_messages", {"core", "plugins/cdr_values"}});
   rules.push_back({"plugins/services", "plugins/services", {"core"}});
   rules.push_back({"plugins/genom_execution", "plugins/genom_execution", {"core/base", "core/lockfree"}});
+  rules.push_back({"plugins/genom_standalone", "plugins/genom_standalone", {"core", "plugins/genom_execution"}});
   rules.push_back({"plugins/genom_modules",
                    "plugins/genom_modules",
                    {"core", "plugins/genom_execution", "plugins/parameters", "plugins/services"}});

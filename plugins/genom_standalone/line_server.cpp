@@ -1,0 +1,146 @@
+#include "plugins/genom_standalone/line_server.h"
+
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+namespace runnel::genom_standalone {
+
+namespace {
+
+constexpr std::size_t kLongestLine = 64U << 20;
+constexpr std::size_t kMostUnsent = 64U << 20;  // of a client that does not read
+constexpr int kFlushMilliseconds = 1000;
+
+Error Failed(const std::string& path, const char* what) {
+  return Error{.message = std::string(what) + ": " + std::strerror(errno), .path = path};
+}
+
+bool SomebodyListens(const sockaddr_un& address) {
+  const int probe = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  const bool is_taken = connect(probe, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
+  close(probe);
+  return is_taken;
+}
+
+}  // namespace
+
+LineServer::LineServer() : woken_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
+
+LineServer::~LineServer() {
+  for (const auto& [client, session] : sessions_) close(client);
+  if (listening_ >= 0) {
+    close(listening_);
+    unlink(path_.c_str());
+  }
+  close(woken_);
+}
+
+Result<void> LineServer::Listen(const std::string& path) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (path.size() >= sizeof(address.sun_path)) return Error{.message = "is too long for a socket", .path = path};
+  std::memcpy(address.sun_path, path.data(), path.size());
+  const int listening = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  if (bind(listening, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
+    const bool is_left = errno == EADDRINUSE && !SomebodyListens(address);
+    // Of one that was killed.
+    if (is_left) unlink(path.c_str());
+    if (!is_left || bind(listening, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
+      if (!is_left && errno == ECONNREFUSED) errno = EADDRINUSE;
+      close(listening);
+      return Failed(path, "cannot be listened at");
+    }
+  }
+  if (listen(listening, 16) != 0) {
+    close(listening);
+    return Failed(path, "cannot be listened at");
+  }
+  path_ = path;
+  listening_ = listening;
+  return {};
+}
+
+void LineServer::Wake() noexcept {
+  const std::uint64_t one = 1;
+  [[maybe_unused]] const ssize_t written = write(woken_, &one, sizeof(one));
+}
+
+void LineServer::Accept() {
+  const int client = accept4(listening_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+  if (client >= 0) sessions_[client];
+}
+
+// False: it is gone.
+bool LineServer::Receive(Client client, Session& session) {
+  std::array<char, 65536> buffer{};
+  const ssize_t got = read(client, buffer.data(), buffer.size());
+  if (got < 0) return errno == EAGAIN || errno == EINTR;
+  session.received.append(buffer.data(), static_cast<std::size_t>(got));
+  return got > 0 && session.received.size() <= kLongestLine;
+}
+
+bool LineServer::SendMore(Client client, Session& session) {
+  while (!session.unsent.empty()) {
+    const ssize_t sent = send(client, session.unsent.data(), session.unsent.size(), MSG_NOSIGNAL);
+    if (sent < 0) return errno == EAGAIN || errno == EINTR;
+    session.unsent.erase(0, static_cast<std::size_t>(sent));
+  }
+  return true;
+}
+
+void LineServer::Serve(const std::function<void(Client, const std::string&)>& take,
+                       const std::function<void(Client)>& gone) {
+  std::vector<pollfd> waiting{{listening_, POLLIN, 0}, {woken_, POLLIN, 0}};
+  for (const auto& [client, session] : sessions_) {
+    waiting.push_back({client, static_cast<short>(session.unsent.empty() ? POLLIN : POLLIN | POLLOUT), 0});
+  }
+  if (poll(waiting.data(), waiting.size(), -1) < 0) return;
+  if ((waiting[1].revents & POLLIN) != 0) {
+    std::uint64_t times = 0;
+    [[maybe_unused]] const ssize_t got = read(woken_, &times, sizeof(times));
+  }
+  for (std::size_t i = 2; i < waiting.size(); ++i) {
+    const Client client = waiting[i].fd;
+    if (waiting[i].revents == 0) continue;
+    Session& session = sessions_[client];
+    bool stays = (waiting[i].revents & POLLOUT) == 0 || SendMore(client, session);
+    if ((waiting[i].revents & (POLLIN | POLLHUP | POLLERR)) != 0) stays = Receive(client, session) && stays;
+    for (std::size_t end = 0; (end = session.received.find('\n')) != std::string::npos;) {
+      const std::string line = session.received.substr(0, end);
+      session.received.erase(0, end + 1);
+      take(client, line);
+    }
+    if (stays && session.unsent.size() <= kMostUnsent) continue;
+    gone(client);
+    sessions_.erase(client);
+    close(client);
+  }
+  if ((waiting[0].revents & POLLIN) != 0) Accept();
+}
+
+void LineServer::Send(Client client, const std::string& line) {
+  const auto found = sessions_.find(client);
+  if (found == sessions_.end()) return;
+  found->second.unsent += line + "\n";
+  (void)SendMore(client, found->second);  // who is gone is noticed when it is read from
+}
+
+void LineServer::Flush() {
+  for (auto& [client, session] : sessions_) {
+    pollfd waiting{client, POLLOUT, 0};
+    while (!session.unsent.empty() && poll(&waiting, 1, kFlushMilliseconds) > 0 && SendMore(client, session)) {
+      if ((waiting.revents & (POLLERR | POLLHUP)) != 0) break;
+    }
+  }
+}
+
+}  // namespace runnel::genom_standalone

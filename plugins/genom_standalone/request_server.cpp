@@ -1,0 +1,248 @@
+#include "plugins/genom_standalone/request_server.h"
+
+#include <algorithm>
+
+#include "core/base/nearest_name.h"
+#include "plugins/genom_standalone/value_memory.h"
+
+namespace runnel::genom_standalone {
+
+using genom_execution::Engine;
+using genom_execution::Request;
+using genom_execution::ServiceTable;
+
+namespace {
+
+constexpr LineServer::Client kNobody = -1;
+
+// What the engine's own exceptions have with them.
+Json Words(const genom_execution::Outcome& outcome) {
+  Json words = Json::array();
+  for (const char* each : outcome.words()) {
+    if (each != nullptr) words.push_back(each);
+  }
+  return words;
+}
+
+}  // namespace
+
+RequestServer::RequestServer(const StandaloneComponent& component, Engine& engine, LineServer& lines,
+                             std::function<double(double)> step)
+    : component_(component), engine_(engine), lines_(lines), step_(std::move(step)) {}
+
+void RequestServer::Take(LineServer::Client client, const std::string& line) {
+  if (line.find_first_not_of(" \t\r") == std::string::npos) return;
+  const Json json = Json::parse(line, nullptr, false);
+  Json answer = Json::object();
+  if (json.is_object() && json.contains("as")) answer["as"] = json["as"];
+  if (!json.is_object()) {
+    answer["error"] = "is no object in JSON";
+    return lines_.Send(client, answer.dump());
+  }
+  const auto done = Do(client, json);
+  Answer();
+  if (done && done->is_discarded()) return;  // is answered later
+  if (done) {
+    answer["done"] = *done;
+  } else {
+    answer["error"] = done.error().ToString();
+  }
+  lines_.Send(client, answer.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+Result<Json> RequestServer::Do(LineServer::Client client, const Json& line) {
+  if (line.contains("call") || line.contains("abort")) return Begin(client, line);
+  if (line.contains("put")) return Put(line["put"]);
+  if (line.contains("get")) return Get(line["get"]);
+  if (line.contains("state")) return State();
+  if (line.contains("describe")) return Description();
+  if (line.contains("kill")) {
+    engine_.Stop();
+    lines_.Wake();
+    return Json::object();
+  }
+  if (line.contains("step")) {
+    if (step_ == nullptr) return Error{.message = "the component has a clock of its own", .hint = "start it with --stepped"};
+    if (!line["step"].is_number() || line["step"].get<double>() < 0) return Error{.message = "'step' is a number of seconds"};
+    return Json{{"time", step_(line["step"].get<double>())}};
+  }
+  return Error{.message = "says nothing that is to be done",
+               .hint = "say one of 'call', 'abort', 'put', 'get', 'state', 'describe', 'step', 'kill'"};
+}
+
+Result<std::size_t> RequestServer::FindService(const std::string& name) const {
+  const auto& services = component_.table.services;
+  const auto found = std::ranges::find_if(services, [&](const ServiceTable& each) { return each.name == name; });
+  if (found != services.end()) return static_cast<std::size_t>(found - services.begin());
+  return Error{.message = "there is no service '" + name + "'", .hint = NearestNameHint(name, NamesOf(services, &ServiceTable::name))};
+}
+
+Result<Json> RequestServer::Begin(LineServer::Client client, const Json& line) {
+  Call call{.client = client, .as = line.contains("as") ? line["as"] : Json(), .service = component_.table.services.size(), .request = nullptr};
+  if (line.contains("abort")) {
+    if (!line["abort"].is_number_unsigned()) return Error{.message = "'abort' is the id of an activity"};
+    call.request = std::make_unique<Request>(component_.table, Engine::AbortService());
+    call.request->abort_id = line["abort"].get<std::uint32_t>();
+  } else {
+    if (!line["call"].is_string()) return Error{.message = "'call' is the name of a service"};
+    const auto service = FindService(line["call"].get<std::string>());
+    if (!service) return service.error();
+    call.service = *service;
+    call.request = std::make_unique<Request>(component_.table, component_.table.services[*service]);
+    const Json with = line.contains("with") ? line["with"] : Json::object();
+    if (auto filled = Fill(component_.services[*service], call.request->data(), with); !filled) return filled.error();
+  }
+  call.request->client = &lines_;
+  call.request->on_change = [](Request&, void* lines) { static_cast<LineServer*>(lines)->Wake(); };
+  calls_.push_back(std::move(call));
+  if (engine_.Send(*calls_.back().request)) return Json(Json::value_t::discarded);
+  calls_.pop_back();
+  return Error{.message = "too many requests wait"};
+}
+
+Result<void> RequestServer::Fill(const StandaloneService& service, void* data, const Json& with) {
+  if (!with.is_object()) return Error{.message = "'with' is an object of parameters"};
+  for (const auto& [name, value] : with.items()) {
+    const bool is_one = std::ranges::any_of(service.parameters, [&](const auto& each) { return each.is_input && each.name == name; });
+    if (!is_one) {
+      return Error{.message = "there is no input '" + name + "'",
+                   .hint = NearestNameHint(name, NamesOf(service.parameters, &StandaloneParameter::name))};
+    }
+  }
+  for (const StandaloneParameter& each : service.parameters) {
+    void* const value = static_cast<std::byte*>(data) + each.offset;
+    Initialise(*each.type, value);
+    if (!each.is_input) continue;
+    const std::string_view initial = each.initial;
+    if (!initial.empty()) {
+      if (auto read = FromJson(*each.type, Json::parse(initial, nullptr, false), value, each.name); !read) return read;
+    } else if (!with.contains(each.name)) {
+      return Error{.message = "is not given", .path = each.name};
+    }
+    if (!with.contains(each.name)) continue;
+    if (auto read = FromJson(*each.type, with[each.name], value, each.name); !read) return read;
+  }
+  return {};
+}
+
+Result<StandalonePort*> RequestServer::FindPort(const std::string& name, bool is_to_be_made) {
+  const std::string first = name.substr(0, name.find('/'));
+  const auto found = std::ranges::find_if(component_.ports, [&](const auto& each) { return each.name == first; });
+  if (found == component_.ports.end()) {
+    return Error{.message = "there is no port '" + first + "'",
+                 .hint = NearestNameHint(first, NamesOf(component_.ports, &StandalonePortEntry::name))};
+  }
+  if (found->port != nullptr && first == name) return found->port;
+  if (found->port != nullptr || first == name) {
+    return Error{.message = found->port != nullptr ? "is no multiple port" : "is a multiple port", .path = first,
+                 .hint = found->port != nullptr ? "leave out what is behind the /" : "say which: " + first + "/NAME"};
+  }
+  const std::string element = name.substr(first.size() + 1);
+  if (is_to_be_made && found->ports->is_input()) return &found->ports->Open(element);
+  if (StandalonePort* const port = found->ports->Find(element)) return port;
+  return Error{.message = "is not open", .path = name};
+}
+
+Result<Json> RequestServer::Put(const Json& values) {
+  if (!values.is_object()) return Error{.message = "'put' is an object of ports and values"};
+  for (const auto& [name, json] : values.items()) {
+    const auto port = FindPort(name, true);
+    if (!port) return port.error();
+    if (!(*port)->is_input()) return Error{.message = "is an output", .path = name};
+    const ValueType& type = (*port)->type();
+    std::vector<std::byte> value(type.size);
+    Initialise(type, value.data());
+    const auto read = FromJson(type, json, value.data(), name);
+    if (read) (*port)->Put(value.data());
+    Release(type, value.data());
+    if (!read) return read.error();
+  }
+  return Json::object();
+}
+
+Result<Json> RequestServer::Get(const Json& name) {
+  if (!name.is_string()) return Error{.message = "'get' is the name of a port"};
+  const auto port = FindPort(name.get<std::string>(), false);
+  if (!port) return port.error();
+  return (*port)->WithNewest([&](const void* value) { return value != nullptr ? ToJson((*port)->type(), value) : Json(nullptr); });
+}
+
+Json RequestServer::State() {
+  Json activities = Json::array(), tasks = Json::array();
+  for (const Call& each : calls_) {
+    const std::string state = each.request->doing();
+    if (each.request->id() != 0) activities.push_back({{"id", each.request->id()}, {"service", each.request->service().name}, {"state", state}});
+  }
+  for (auto& each : engine_.tasks()) {
+    const auto figures = each.figures();
+    tasks.push_back({{"name", each.table().name}, {"cycles", figures.cycles}, {"longest", ToSeconds(figures.longest)}});
+  }
+  return {{"component", component_.table.name}, {"version", component_.table.version}, {"digest", component_.table.digest},
+          {"activities", activities}, {"tasks", tasks}};
+}
+
+Json RequestServer::Description() const {
+  Json services = Json::array(), ports = Json::array();
+  for (std::size_t i = 0; i < component_.services.size(); ++i) {
+    Json inputs = Json::array(), outputs = Json::array();
+    for (const StandaloneParameter& each : component_.services[i].parameters) {
+      if (each.is_input) inputs.push_back(each.name);
+      if (each.is_output) outputs.push_back(each.name);
+    }
+    services.push_back({{"name", component_.table.services[i].name}, {"inputs", inputs}, {"outputs", outputs}});
+  }
+  for (const StandalonePortEntry& each : component_.ports) {
+    const bool is_input = each.port != nullptr ? each.port->is_input() : each.ports->is_input();
+    ports.push_back({{"name", each.name}, {"direction", is_input ? "in" : "out"}, {"is_multiple", each.port == nullptr}});
+  }
+  return {{"services", services}, {"ports", ports}};
+}
+
+Json RequestServer::Ending(const Call& call) const {
+  const auto& outcome = call.request->outcome();
+  Json answer = Json::object();
+  if (!call.as.is_null()) answer["as"] = call.as;
+  if (!outcome.is_success()) {
+    std::string name = outcome.exception();
+    answer["failed"] = name.starts_with("::") ? name.substr(2) : name;
+    for (const StandaloneDetail& each : component_.details) {
+      if (each.exception == outcome.exception() && outcome.detail() != nullptr) answer["detail"] = ToJson(*each.type, outcome.detail());
+    }
+    if (!answer.contains("detail")) answer["detail"] = Words(outcome);
+    return answer;
+  }
+  answer["done"] = Json::object();
+  if (call.service == component_.services.size()) return answer;
+  for (const StandaloneParameter& each : component_.services[call.service].parameters) {
+    if (each.is_output) answer["done"][each.name] = ToJson(*each.type, static_cast<std::byte*>(call.request->data()) + each.offset);
+  }
+  return answer;
+}
+
+void RequestServer::Answer() {
+  for (auto call = calls_.begin(); call != calls_.end();) {
+    const Request::State state = call->request->state();
+    if (!call->is_accepted && call->request->id() != 0 && (state == Request::State::kAccepted || state == Request::State::kDone)) {
+      call->is_accepted = true;
+      Json answer = Json::object();
+      if (!call->as.is_null()) answer["as"] = call->as;
+      answer["accepted"] = call->request->id();
+      lines_.Send(call->client, answer.dump());
+    }
+    if (state != Request::State::kDone) {
+      ++call;
+      continue;
+    }
+    lines_.Send(call->client, Ending(*call).dump(-1, ' ', false, Json::error_handler_t::replace));
+    call = calls_.erase(call);
+  }
+}
+
+// What it has asked for goes on.
+void RequestServer::ClientIsGone(LineServer::Client client) {
+  for (Call& each : calls_) {
+    if (each.client == client) each.client = kNobody;
+  }
+}
+
+}  // namespace runnel::genom_standalone

@@ -1,0 +1,51 @@
+#include "plugins/genom_standalone/standalone_port.h"
+
+#include "plugins/genom_standalone/value_memory.h"
+
+namespace runnel::genom_standalone {
+
+StandalonePort::StandalonePort(const ValueType& type, bool is_input)
+    : type_(type), is_input_(is_input), data_(type.size), has_data_(!is_input), newest_(type.size) {
+  Initialise(type, data_.data());
+  Initialise(type, newest_.data());
+}
+
+StandalonePort::~StandalonePort() {
+  Release(type_, data_.data());
+  Release(type_, newest_.data());
+}
+
+void StandalonePort::Fetch() {
+  const std::lock_guard lock(mutex_);
+  if (!has_newest_) return;
+  Copy(type_, data_.data(), newest_.data());
+  has_data_ = true;
+}
+
+void StandalonePort::Write() { Put(data_.data()); }
+
+void StandalonePort::Put(const void* value) {
+  const std::lock_guard lock(mutex_);
+  Copy(type_, newest_.data(), value);
+  has_newest_ = true;
+}
+
+StandalonePort* StandaloneMultiplePort::Find(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  const auto found = ports_.find(name);
+  return found != ports_.end() ? found->second.get() : nullptr;
+}
+
+StandalonePort& StandaloneMultiplePort::Open(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  auto& port = ports_[name];
+  if (port == nullptr) port = std::make_unique<StandalonePort>(type_, is_input_);
+  return *port;
+}
+
+bool StandaloneMultiplePort::Close(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  return ports_.erase(name) > 0;
+}
+
+}  // namespace runnel::genom_standalone

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "plugins/genom_standalone/value_type.h"
+
+namespace runnel::genom_standalone {
+
+/// A port: what codels have of it, and what is exchanged with clients.
+///
+/// Threads: data(), Fetch() and Write() by codels, which exclude each other; the rest by any.
+class StandalonePort {
+ public:
+  StandalonePort(const ValueType& type, bool is_input);
+  ~StandalonePort();
+  StandalonePort(const StandalonePort&) = delete;
+  StandalonePort& operator=(const StandalonePort&) = delete;
+
+  /// Of an input: what was fetched last, nullptr before the first. Of an output: the component's own.
+  [[nodiscard]] void* data() noexcept { return has_data_ ? data_.data() : nullptr; }
+  void Fetch();
+  void Write();
+  [[nodiscard]] bool is_input() const noexcept { return is_input_; }
+  [[nodiscard]] const ValueType& type() const noexcept { return type_; }
+
+  /// Calls use(value) while nobody changes it; `value` is nullptr before the first.
+  template <typename Use>
+  auto WithNewest(Use use) {
+    const std::lock_guard lock(mutex_);
+    return use(has_newest_ ? newest_.data() : nullptr);
+  }
+  /// Takes a value's place by a copy.
+  void Put(const void* value);
+
+ private:
+  const ValueType& type_;
+  const bool is_input_;
+  std::vector<std::byte> data_;
+  bool has_data_;
+  std::mutex mutex_;
+  std::vector<std::byte> newest_;
+  bool has_newest_ = false;
+};
+
+/// `port multiple`: ports by names, made when they are opened or put to.
+///
+/// Threads: any.
+class StandaloneMultiplePort {
+ public:
+  StandaloneMultiplePort(const ValueType& type, bool is_input) : type_(type), is_input_(is_input) {}
+
+  [[nodiscard]] StandalonePort* Find(const std::string& name);
+  [[nodiscard]] StandalonePort& Open(const std::string& name);
+  bool Close(const std::string& name);
+  [[nodiscard]] bool is_input() const noexcept { return is_input_; }
+
+ private:
+  const ValueType& type_;
+  const bool is_input_;
+  std::mutex mutex_;
+  std::map<std::string, std::unique_ptr<StandalonePort>> ports_;
+};
+
+}  // namespace runnel::genom_standalone

@@ -1,0 +1,172 @@
+// The main function of components as processes.
+
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+#include <string_view>
+
+#include "plugins/genom_standalone/request_server.h"
+#include "plugins/genom_standalone/task_threads.h"
+#include "plugins/genom_standalone/value_memory.h"
+
+namespace runnel::genom_standalone {
+
+using genom_execution::Engine;
+using genom_execution::Pass;
+
+namespace {
+
+constexpr int kDone = 0, kFailed = 1, kBadArguments = 2;
+constexpr int kMostRounds = 1000;  // of a component that never pauses, before time goes on
+
+LineServer* g_server = nullptr;  // for signal handlers
+volatile std::sig_atomic_t g_is_told_to_end = 0;
+
+void EndBySignal(int) {
+  g_is_told_to_end = 1;
+  if (g_server != nullptr) g_server->Wake();
+}
+
+struct Arguments {
+  std::string socket;
+  bool is_stepped = false;
+  bool wants_help = false;
+};
+
+bool Parse(int count, char** words, Arguments& arguments) {
+  for (int i = 1; i < count; ++i) {
+    const std::string_view word = words[i];
+    if (word == "--stepped") {
+      arguments.is_stepped = true;
+    } else if (word == "--socket" && i + 1 < count) {
+      arguments.socket = words[++i];
+    } else if (word == "--help" || word == "-h") {
+      arguments.wants_help = true;
+    } else {
+      std::cerr << "error: '" << word << "' is not known; see --help\n";
+      return false;
+    }
+  }
+  return true;
+}
+
+// As a component does in cycles of Runnel: everything that can be done at this time is done.
+void RunAll(Engine& engine, Time time, bool is_forced) {
+  for (int round = 0; round < kMostRounds; ++round) {
+    const std::uint64_t changes = engine.changes();
+    (void)engine.RunControl();
+    bool goes_on = false;
+    for (std::size_t i = 0; i < engine.tasks().size(); ++i) goes_on |= engine.RunTask(i, time, is_forced) == Pass::kAgain;
+    if ((!goes_on && engine.changes() == changes) || engine.is_ended()) return;
+  }
+}
+
+int Report(const Engine& engine) {
+  const auto* const failure = engine.failure();
+  if (failure == nullptr) return kDone;
+  std::cerr << "error: a permanent activity has ended by " << failure->Text(engine.component()) << "\n";
+  return kFailed;
+}
+
+int RunStepped(const StandaloneComponent& component, LineServer& lines) {
+  Engine engine(component.table, {.ids = component.ids, .is_single_threaded = true});
+  Time time{};
+  const auto step = [&](double seconds) {
+    time += FromSeconds(seconds);
+    RunAll(engine, time, false);
+    return ToSeconds(time);
+  };
+  {
+    RequestServer server(component, engine, lines, step);
+    while (g_is_told_to_end == 0 && !engine.is_stopping() && engine.failure() == nullptr) {
+      lines.Serve([&](LineServer::Client client, const std::string& line) { server.Take(client, line); },
+                  [&](LineServer::Client client) { server.ClientIsGone(client); });
+      server.Answer();
+    }
+    engine.Stop();
+    for (int round = 0; round < kMostRounds && !engine.is_ended(); ++round) RunAll(engine, time, true);
+    server.Answer();
+    lines.Flush();
+    if (!engine.is_ended()) {
+      std::cerr << "error: something does not end\n";
+      std::_Exit(kFailed);  // it may still be used by what does not
+    }
+  }
+  return Report(engine);
+}
+
+int RunThreads(const StandaloneComponent& component, LineServer& lines) {
+  struct Glue {
+    TaskThreads threads;
+    LineServer& lines;
+  } glue{TaskThreads(component.table.tasks.size()), lines};
+  SteadyClock clock;
+  Engine engine(component.table, {.ids = component.ids,
+                                  .glue = &glue,
+                                  .waits = true,
+                                  .wake = [](void* to) { static_cast<Glue*>(to)->threads.WakeAll(); },
+                                  .clock = &clock});
+  RequestServer server(component, engine, lines, nullptr);
+  // Noticed here, too, when it has ended.
+  std::thread ending([&] {
+    glue.threads.Begin(engine);
+    glue.threads.Join();
+    lines.Wake();
+  });
+  while (!engine.is_ended()) {
+    lines.Serve([&](LineServer::Client client, const std::string& line) { server.Take(client, line); },
+                [&](LineServer::Client client) { server.ClientIsGone(client); });
+    server.Answer();
+    if (g_is_told_to_end != 0) engine.Stop();
+  }
+  ending.join();
+  server.Answer();
+  lines.Flush();
+  return Report(engine);
+}
+
+void HandleSignals() {
+  struct sigaction action {};
+  action.sa_handler = EndBySignal;
+  for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+}  // namespace
+
+std::string TextOf(const ValueType& type, const void* value) {
+  return ToJson(type, value).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+int RunStandalone(const StandaloneComponent& component, int count, char** words) {
+  Arguments arguments{.socket = std::string(component.table.name) + ".socket"};
+  if (!Parse(count, words, arguments)) return kBadArguments;
+  if (arguments.wants_help) {
+    std::cout << "Component " << component.table.name << " as a process. Requests are JSON, one a line, over a Unix socket.\n"
+              << "  --socket PATH  where (otherwise " << arguments.socket << ")\n"
+              << "  --stepped      time passes only by requests: {\"step\": SECONDS}\n";
+    return kDone;
+  }
+  try {
+    if (component.ids_type != nullptr) Initialise(*component.ids_type, component.ids);
+    LineServer lines;
+    g_server = &lines;
+    HandleSignals();
+    if (const auto listening = lines.Listen(arguments.socket); !listening) {
+      std::cerr << "error: " << listening.error().ToString() << "\n";
+      return kFailed;
+    }
+    const int code = arguments.is_stepped ? RunStepped(component, lines) : RunThreads(component, lines);
+    g_server = nullptr;
+    return code;
+  } catch (const std::exception& error) {
+    g_server = nullptr;
+    std::cerr << "error: " << error.what() << "\n";
+    return kFailed;
+  }
+}
+
+}  // namespace runnel::genom_standalone
