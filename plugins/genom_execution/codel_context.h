@@ -7,7 +7,7 @@ namespace runnel::genom_execution {
 /// What a codel returns: the address of a name, nullptr for "done". Two events are the same if their addresses are.
 using Event = const char*;
 
-/// What a codel gets as its last argument: laid out as `struct genom_context_if` of the headers in C.
+/// What a codel gets as its last argument: laid out as `struct genom_context_iface` of the headers in C.
 struct CodelContext {
   void* data;  ///< the glue's: EngineOptions::glue
   /// Keeps a copy of the detail, and returns the exception.
