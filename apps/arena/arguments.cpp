@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "core/base/nearest_name.h"
+#include "core/base/number_text.h"
 
 namespace runnel::arena {
 
@@ -52,6 +53,21 @@ void AddNumbers(CLI::App& program, ArenaArguments& arguments) {
       ->capture_default_str();
 }
 
+void AddShard(CLI::App& program, ArenaArguments& arguments) {
+  const auto read = [&arguments](const std::string& text) {
+    const std::size_t slash = text.find('/');
+    const auto shard = NumberIn<std::size_t>(text.substr(0, slash));
+    const auto shards = NumberIn<std::size_t>(slash == std::string::npos ? "" : text.substr(slash + 1));
+    if (!shard || !shards || *shard < 1 || *shard > *shards) {
+      throw CLI::ValidationError("--shard", "is I/N, with I from 1 to N, not '" + text + "'");
+    }
+    arguments.shard = *shard;
+    arguments.shards = *shards;
+  };
+  program.add_option_function<std::string>("--shard", read, "makes each N-th run only, beginning with number I: the parts of 1/N to N/N are all")
+      ->type_name("I/N");
+}
+
 void AddOutputs(CLI::App& program, ArenaArguments& arguments) {
   program.add_option("--json", arguments.json, "writes all runs into this file")->type_name("FILE");
   program.add_option("--svg", arguments.svg, "draws a picture of each run in this folder")
@@ -93,12 +109,14 @@ Result<ArenaArguments> ParseArguments(int count, const char* const* words) {
   CLI::App program("Compares planners over worlds, sensors, directions and seeds.", "runnel arena");
   program.footer(
       "Each run is a process of its own: one that crashes or hangs is a row of the table.\n"
+      "'runnel arena merge INTO.json PART.json ...' puts the runs of several arenas (--shard) together.\n"
       "Exit codes: 0 all runs are finished, 1 stopped, or a file could not be written, 2 bad "
       "input.");
   ArenaArguments arguments;
   arguments.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   AddChoices(program, arguments);
   AddNumbers(program, arguments);
+  AddShard(program, arguments);
   AddOutputs(program, arguments);
   try {
     program.parse(count, words);

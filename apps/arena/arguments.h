@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -29,6 +30,8 @@ struct ArenaArguments {
   RunSettings settings = {};
   int jobs = 1;
   double wall_limit = 120.0;  ///< s, after which a run is taken to hang
+  std::size_t shard = 1;      ///< which part of the runs, from 1 on ...
+  std::size_t shards = 1;     ///< ... of how many
   std::string json = {};      ///< "": none, as those below
   std::string svg = {};
   std::string html = {};

@@ -8,6 +8,7 @@
 #include "apps/arena/application_text.h"
 #include "apps/arena/html_report.h"
 #include "apps/arena/journal.h"
+#include "apps/arena/merge.h"
 #include "apps/arena/pictures.h"
 #include "apps/arena/progress.h"
 #include "apps/arena/runner.h"
@@ -182,6 +183,11 @@ class Session {
 };
 
 ExitCode RunArena(int count, const char* const* words) {
+  if (count > 1 && std::string_view(words[1]) == "merge") {
+    const auto merged = RunMerge(count - 1, words + 1);
+    return merged || merged.error().message.empty() ? ExitCode::kDone
+                                                    : Refuse(merged.error(), ExitCode::kBadInput);
+  }
   const auto arguments = ParseArguments(count, words);
   if (!arguments) {
     if (arguments.error().message.empty()) return ExitCode::kDone;

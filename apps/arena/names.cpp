@@ -54,7 +54,8 @@ Result<Variant> FindVariant(const std::string& word, const std::vector<std::stri
   if (word.ends_with(".xml")) return ReadVariant(word);
   const bool is_type = word.find('/') != std::string::npos;
   const std::string type = is_type ? word : std::string(kFamily) + word;
-  if (Has(types, type)) return Variant{.name = word, .type = type};
+  // Types that nobody lists, as those in Python, are known to any registry once their plugin is loaded.
+  if (Has(types, type) || ModuleRegistry().Find(type) != nullptr) return Variant{.name = word, .type = type};
   return Error{.message = "there is no variant '" + word + "'",
                .hint = NearestNameHint(word, is_type ? types : FamilyNames(types))};
 }

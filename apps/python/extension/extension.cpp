@@ -13,4 +13,5 @@ PYBIND11_MODULE(_extension, module) {
   runnel::python::BindPorts(module);
   runnel::python::BindApplication(module);
   runnel::python::BindModules(module);
+  runnel::python::BindRecordings(module);
 }

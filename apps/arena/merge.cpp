@@ -1,0 +1,119 @@
+#include "apps/arena/merge.h"
+
+#include <iostream>
+#include <map>
+#include <sstream>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/arena/application_text.h"
+#include "apps/arena/run_record.h"
+
+namespace runnel::arena {
+
+namespace {
+
+struct MergedRun {
+  JournalEntry entry;
+  std::string line;
+  std::filesystem::path from;
+};
+
+struct Merged {
+  std::string head;
+  std::filesystem::path head_from;
+  std::map<RunKey, MergedRun> runs;
+};
+
+Result<void> Add(const std::string& line, const std::filesystem::path& journal, int number, Merged& merged) {
+  auto entry = ParseJournalLine(line);
+  if (!entry) {
+    return Error{.message = "this line is broken: " + entry.error().message,
+                 .position = {journal.string(), number},
+                 .hint = "remove it, and its run will be repeated"};
+  }
+  const RunKey key = entry->record.key;
+  const auto before = merged.runs.find(key);
+  const bool is_there = before != merged.runs.end();
+  if (is_there && before->second.entry.made_of != entry->made_of) {
+    return Error{.message = "the run " + TextOf(key) + " was made of another world or application than in " +
+                            before->second.from.string(),
+                 .position = {journal.string(), number},
+                 .hint = "let one of the two run again"};
+  }
+  // One that crashed or hung gives way to one that did not.
+  if (!is_there || entry->record.has_ended_by_itself) {
+    merged.runs.insert_or_assign(key, MergedRun{std::move(*entry), line, journal});
+  }
+  return {};
+}
+
+Result<void> AddPart(const std::filesystem::path& part, Merged& merged) {
+  const std::filesystem::path journal = part.string() + ".journal";
+  if (!std::filesystem::exists(journal)) {
+    return Error{.message = "there is no journal of these runs, " + journal.string(),
+                 .position = {part.string()},
+                 .hint = "name the files that were given to --json"};
+  }
+  const auto text = ReadFile(journal);
+  if (!text) return text.error();
+  std::istringstream lines(*text);
+  std::string line;
+  std::getline(lines, line);
+  if (merged.head.empty()) {
+    merged.head = line;
+    merged.head_from = journal;
+  }
+  if (line != merged.head || !line.starts_with("{\"runnel_arena_journal\"")) {
+    return Error{.message = "the runs here had other settings than those of " + merged.head_from.string(),
+                 .position = {journal.string(), 1},
+                 .hint = "noise, path step, time limit and safe distance have to be the same"};
+  }
+  for (int number = 2; std::getline(lines, line); ++number) {
+    if (lines.eof() && !text->ends_with('\n')) break;  // killed while it wrote the last line
+    if (auto added = Add(line, journal, number, merged); !added) return added;
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<std::size_t> Merge(const std::filesystem::path& into, const std::vector<std::filesystem::path>& parts) {
+  Merged merged;
+  for (const auto& part : parts) {
+    if (auto added = AddPart(part, merged); !added) return added.error();
+  }
+  std::string journal = merged.head + "\n";
+  std::vector<RunRecord> records;
+  for (const auto& [key, run] : merged.runs) {
+    journal += run.line + "\n";
+    records.push_back(run.entry.record);
+  }
+  if (auto written = WriteFile(into.string() + ".journal", journal); !written) return written.error();
+  if (auto written = WriteFile(into, JsonOf(records)); !written) return written.error();
+  return records.size();
+}
+
+Result<void> RunMerge(int count, const char* const* words) {
+  CLI::App program("Puts the runs of several arenas into one file.", "runnel arena merge");
+  program.footer("Tables and pages of all of them: 'runnel arena ... --json INTO --resume' with the same words.");
+  std::string into;
+  std::vector<std::filesystem::path> parts;
+  program.add_option("into", into, "the file that gets all runs, and its journal beside it")->type_name("INTO.json")->required();
+  program.add_option("parts", parts, "what was given to --json")->type_name("PART.json")->required();
+  try {
+    program.parse(count, words);
+  } catch (const CLI::Success& help) {
+    program.exit(help);
+    return Error{};
+  } catch (const CLI::ParseError& error) {
+    return Error{.message = error.what(), .hint = "see 'runnel arena merge --help'"};
+  }
+  const auto merged = Merge(into, parts);
+  if (!merged) return merged.error();
+  std::cout << *merged << " runs in " << into << "\n";
+  return {};
+}
+
+}  // namespace runnel::arena

@@ -1,0 +1,106 @@
+// runnel._extension.RecordingFile: what runnel.Recording reads of an MCAP file.
+
+#include <cstring>
+#include <utility>
+
+#include <pybind11/stl.h>
+
+#include "apps/python/extension/bindings.h"
+#include "apps/python/extension/errors.h"
+#include "apps/python/extension/value.h"
+#include "plugins/mcap/mcap_reader.h"
+#include "plugins/recording/recording_names.h"
+#include "plugins/values/json_values.h"
+
+namespace py = pybind11;
+
+namespace runnel::python {
+
+namespace {
+
+struct RecordingFile {
+  explicit RecordingFile(const std::string& name)
+      : reader(Checked(WithoutGil([&] { return McapReader::Open(name); }))) {}
+  std::unique_ptr<McapReader> reader;
+};
+
+// (id, path, type, encoding, values, whether it shows another one's)
+py::list ChannelsOf(const RecordingFile& file) {
+  const McapContents& contents = file.reader->contents();
+  py::list all;
+  for (const auto& [id, channel] : contents.channels) {
+    const auto schema = contents.schemas.find(channel.schema);
+    const auto count = contents.statistics.messages_of.find(id);
+    all.append(py::make_tuple(id, PortOf(channel), schema == contents.schemas.end() ? "" : schema->second.name,
+                              channel.message_encoding, count == contents.statistics.messages_of.end() ? 0 : count->second,
+                              IsView(channel)));
+  }
+  return all;
+}
+
+py::dict AboutOf(const RecordingFile& file) {
+  py::dict about;
+  if (const McapMetadata* const said = file.reader->FindMetadata(kAboutMetadata)) {
+    for (const auto& [name, text] : said->texts) about[py::str(name)] = text;
+  }
+  return about;
+}
+
+struct Messages {
+  std::vector<std::int64_t> published;
+  std::vector<std::int64_t> measured;
+  std::vector<std::string> texts;
+};
+
+Messages Read(const RecordingFile& file, std::uint16_t channel) {
+  Messages messages;
+  Checked(WithoutGil([&] {
+    return file.reader->ReadMessages([&](const McapMessage& message) -> Result<void> {
+      if (message.channel != channel) return {};
+      messages.published.push_back(static_cast<std::int64_t>(message.log_time));
+      messages.measured.push_back(static_cast<std::int64_t>(message.publish_time));
+      messages.texts.emplace_back(message.data);
+      return {};
+    });
+  }));
+  return messages;
+}
+
+// An array of structures where NumPy has them, else a list of values.
+py::object ValuesOf(const TypeInfo& type, const std::vector<std::string>& texts) {
+  const py::object dtype = DtypeOf(type);
+  if (!dtype.is_none()) {
+    py::array array(py::reinterpret_borrow<py::dtype>(dtype), std::vector<py::ssize_t>{static_cast<py::ssize_t>(texts.size())});
+    auto* to = static_cast<char*>(array.mutable_data());
+    const auto value = type.Make();
+    for (const std::string& text : texts) {
+      Checked(SetFromJson(type, text, value.get()));
+      std::memcpy(to, value.get(), type.size());
+      to += type.size();
+    }
+    return array;
+  }
+  py::list all;
+  for (const std::string& text : texts) {
+    const Value value = NewValue(type);
+    Checked(SetFromJson(type, text, value.at));
+    all.append(ToPython(type, value.at, value.memory));
+  }
+  return all;
+}
+
+}  // namespace
+
+void BindRecordings(py::module_& module) {
+  py::class_<RecordingFile>(module, "RecordingFile")
+      .def(py::init<const std::string&>())
+      .def("channels", ChannelsOf)
+      .def("about", AboutOf)
+      .def("read", [](const RecordingFile& file, std::uint16_t channel, const std::string& type) {
+        const Messages messages = Read(file, channel);
+        py::object values = type.empty() ? py::cast(messages.texts) : ValuesOf(TypeNamed(type), messages.texts);
+        return py::make_tuple(messages.published, messages.measured, values);
+      });
+}
+
+}  // namespace runnel::python

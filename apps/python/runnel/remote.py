@@ -1,0 +1,377 @@
+"""Running applications, reached through their control sockets: `runnel.connect("bug_demo")`."""
+
+import asyncio
+import contextlib
+import os
+import pathlib
+import re
+import socket
+import threading
+
+from runnel import _extension
+from runnel.application import text_of
+
+
+def _folder():
+    base = os.environ.get("XDG_RUNTIME_DIR")
+    return pathlib.Path(base) / "runnel" if base else pathlib.Path(f"/tmp/runnel-{os.getuid()}")
+
+
+def _argument(text):
+    escaped = str(text).replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n").replace("\t", "\\t").replace("\r", "\\r")
+    return f'"{escaped}"'
+
+
+def _request(command, arguments, options, body):
+    words = [command] + [_argument(each) for each in arguments]
+    words += [f"{name}={_argument(value)}" for name, value in options.items() if value is not None]
+    payload = " ".join(words).encode() + (b"\n" + body.encode() if body else b"")
+    return b"request %d\n%s\n" % (len(payload), payload)
+
+
+def _error(text):
+    """What the application says against it, as runnel.Error."""
+    line = text.strip()
+    line = line.removeprefix("error: ")
+    error = _extension.Error(line)
+    found = re.match(r"(?:(?P<path>/\S*): )?(?P<message>[^;]*)(?:; (?P<hint>.*))?", line, re.S)
+    error.message, error.hint = found["message"].removeprefix("error: "), found["hint"] or ""
+    error.path = found["path"] or ""
+    return error
+
+
+class _Socket:
+    """One connection: requests in turn, of whichever thread."""
+
+    def __init__(self, path, timeout):
+        self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+        self.socket.settimeout(timeout)
+        try:
+            self.socket.connect(str(path))
+            self.stream = self.socket.makefile("rb")
+            kind, hello = self.receive()
+        except OSError:
+            self.close()
+            raise
+        self.hello = dict(re.findall(r'(\w+)="?((?:[^"\s]|(?<=\\)")*)"?', hello.decode()))
+        if kind != "hello" or self.hello.get("protocol") != "1":
+            self.close()
+            raise _extension.Error(f"{path} speaks another protocol")
+
+    def receive(self):
+        head = self.stream.readline().decode().split()
+        if len(head) != 2:
+            raise _extension.Error("the application has gone")
+        payload = self.stream.read(int(head[1]))
+        self.stream.read(1)
+        return head[0], payload
+
+    def close(self):
+        with contextlib.suppress(OSError, AttributeError):
+            self.stream.close()
+        self.socket.close()
+
+
+def applications():
+    """The running applications of this user that can be reached: {process: name}."""
+    found = {}
+    for path in sorted(_folder().glob("*.sock")):
+        try:
+            connection = _Socket(path, 5)
+        except (OSError, _extension.Error):
+            continue  # left by a process that is gone
+        found[int(connection.hello["process"])] = connection.hello["application"]
+        connection.close()
+    return found
+
+
+def connect(application="", timeout=30.0):
+    """The running application of this name or process; "": the only one. timeout -- s, for an answer."""
+    there = {}
+    for path in sorted(_folder().glob("*.sock")):
+        try:
+            there[path] = _Socket(path, timeout)
+        except (OSError, _extension.Error):
+            continue
+    wanted = str(application)
+    fits = [path for path, each in there.items() if wanted in ("", each.hello["application"], each.hello["process"])]
+    names = ", ".join(f"{each.hello['application']} ({each.hello['process']})" for each in there.values()) or "none"
+    for path, each in there.items():
+        if fits != [path]:
+            each.close()
+    if len(fits) != 1:
+        raise _extension.Error(f"{'no' if not fits else 'more than one'} running application fits '{wanted}'; there is {names}")
+    return Remote(fits[0], there[fits[0]], timeout)
+
+
+class Remote:
+    """A running application in another process: the same words as runnel.Application.
+
+    Threads: any; requests of several wait for one another.
+    """
+
+    def __init__(self, path, connection, timeout):
+        self._path = path
+        self._connection = connection
+        self._timeout = timeout
+        self._lock = threading.Lock()
+        self._types = {}
+        self.name = connection.hello["application"]
+        self.process = int(connection.hello["process"])
+        self.file = connection.hello.get("file", "")
+
+    def __repr__(self):
+        return f"<runnel.Remote {self.name}, process {self.process}>"
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *unused):
+        self.close()
+
+    def close(self):
+        """Hangs up; the application runs on."""
+        self._connection.close()
+
+    def ask(self, command, *arguments, body="", **options):
+        """What `runnel COMMAND` would print; what it would print as an error is a runnel.Error."""
+        with self._lock:
+            self._connection.socket.sendall(_request(command, arguments, options, body))
+            out, errors = [], []
+            while True:
+                kind, payload = self._connection.receive()
+                if kind == "end":
+                    break
+                (errors if kind == "err" else out).append(payload)
+        if payload.split()[:1] != [b"0"]:
+            raise _error(b"".join(errors).decode() or b"".join(out).decode())
+        return b"".join(out).decode()
+
+    # Looking.
+
+    def paths(self, kind=None):
+        """(path, kind, type) of all elements, or of those of one kind."""
+        rows = [line.split("\t") for line in self.ask("paths").splitlines()]
+        found = []
+        for row in rows:
+            type = row[3] if len(row) > 3 else ""
+            if row[0] in ("input", "output", "parameter"):
+                self._types[row[1]] = type
+            if kind is None or row[0] == kind:
+                found.append((row[1], row[0], type))
+        return found
+
+    def _type_of(self, path):
+        wanted = [part for part in path.split("/") if part]
+        for attempt in range(2):
+            for each, type in self._types.items():
+                parts = [part for part in each.split("/") if part]
+                for whole in (parts, parts[:-2] + parts[-1:]):
+                    if wanted in (whole, whole[1:]):
+                        return type
+            if attempt == 0:
+                self.paths()
+        return ""
+
+    def _value(self, path, text):
+        type = self._type_of(path)
+        try:
+            return _extension.make(type, text) if type else text
+        except _extension.Error:
+            return text  # of a plugin that is not installed here
+
+    def get(self, path):
+        """The value of a parameter, or the newest at a port."""
+        return self._value(path, self.ask("get", path, full="yes").removesuffix("\n"))
+
+    def read(self, path):
+        """The newest value of a port; None if there is none yet."""
+        try:
+            return self.get(path)
+        except _extension.Error as error:
+            if "nothing has been published" in error.message:
+                return None
+            raise
+
+    def __getitem__(self, path):
+        return self.get(path)
+
+    def __setitem__(self, path, value):
+        self.set(path, value)
+
+    def log(self):
+        """The lines of the log."""
+        return self.ask("log").splitlines()
+
+    def faults(self):
+        """Those of them that are faults."""
+        return [each for each in self.log() if "  fault " in each]
+
+    # Changing.
+
+    def set(self, path, value):
+        """Sets a parameter."""
+        self.apply(f"set {_argument(path)} {_argument(text_of(value))}")
+
+    def apply(self, text):
+        """Changes as text, all or none."""
+        return self.ask("change", body=text)
+
+    def create(self, path, type, /, **parameters):
+        """A module of a registered type."""
+        self.apply(" ".join(["create", _argument(path), _argument(type)] + _settings(parameters)))
+
+    def swap(self, path, type, /, **parameters):
+        """Puts a module of another type, or of the same anew, in the place of one."""
+        self.apply(" ".join(["replace", _argument(path), "with", _argument(type)] + _settings(parameters)))
+
+    def connect(self, source, *sinks, queue=0):
+        """Lets values flow from a port to others."""
+        for sink in sinks:
+            self.apply(f"connect {_argument(source)} {_argument(sink)}" + (f" queue={queue}" if queue else ""))
+
+    def disconnect(self, source, sink):
+        """Ends a connection."""
+        self.apply(f"disconnect {_argument(source)} {_argument(sink)}")
+
+    def delete(self, path):
+        """Deletes an element, with all below it."""
+        self.apply(f"delete {_argument(path)}")
+
+    def undo(self):
+        """Takes the last change back."""
+        return self.ask("undo")
+
+    def redo(self):
+        """Makes it again."""
+        return self.ask("redo")
+
+    def save(self, file="", overwrite=False):
+        """Saves what it is now to the file; "": the one that it came from."""
+        return self.ask("save", *([os.path.abspath(file)] if file else []), overwrite="yes" if overwrite else None)
+
+    def reload(self, plugin="python"):
+        """Loads a plugin anew, and makes its modules anew."""
+        return self.ask("reload", plugin)
+
+    def publish(self, path, value):
+        """Sets the value at a port by hand, until release()."""
+        self.ask("publish", path, text_of(value))
+
+    def release(self, path):
+        """Readers find again what is published."""
+        self.ask("release", path)
+
+    def call(self, path, argument=None, timeout=30.0, **arguments):
+        """Calls a service; its reply in the text format."""
+        words = [text_of(arguments or argument)] if arguments or argument is not None else []
+        return self.ask("call", path, *words, timeout=f"{timeout}s").removesuffix("\n")
+
+    def record(self, file, seconds=None, ports=()):
+        """Records for so many seconds of the machine's, or until the returned object is closed."""
+        connection = _Socket(self._path, None)
+        connection.socket.sendall(_request("record", list(ports), {"file": os.path.abspath(file), "count": seconds}, ""))
+        recording = _Recording(connection)
+        if seconds is not None:
+            recording.wait()
+        else:
+            recording.begin()
+        return recording
+
+    # Its time.
+
+    def pause(self, path=""):
+        """Pauses simulated time, or leaves what is at or below `path` out of cycles."""
+        return self.ask("pause", *([path] if path else []))
+
+    def resume(self, path=""):
+        """Takes that back."""
+        return self.ask("resume", *([path] if path else []))
+
+    def step(self, cycles=1):
+        """Pauses, and lets so many cycles run."""
+        return self.ask("step", str(cycles))
+
+    def set_speed(self, factor):
+        """How many times faster than real time simulated time passes; 0: as fast as it can."""
+        return self.ask("speed", repr(float(factor)))
+
+    def stop(self):
+        """Ends the run."""
+        return self.ask("stop")
+
+    async def values(self, path):
+        """The values of a port as they come, as (time in s, value): ``async for time, twist in app.values(path)``.
+
+        As a person would see them: up to 200 a second, the newest of them.
+        """
+        self._type_of(path)
+        reader, writer = await asyncio.open_unix_connection(str(self._path))
+        try:
+            await _receive(reader)  # hello
+            writer.write(_request("echo", [path], {"full": "yes"}, ""))
+            said = []
+            while True:
+                kind, payload = await _receive(reader)
+                if kind == "err":
+                    said.append(payload.decode())
+                if kind == "end":
+                    if payload.split()[:1] != [b"0"]:
+                        raise _error("".join(said))
+                    return
+                for line in payload.decode().splitlines() if kind == "out" else ():
+                    found = re.fullmatch(r"(\S+) s  (?:\(measured at \S+ s\)  )?(.*?)(?:  \(\d+ not shown\))?", line)
+                    yield float(found[1]), self._value(path, found[2])
+        finally:
+            writer.close()
+
+
+async def _receive(reader):
+    head = (await reader.readline()).decode().split()
+    if len(head) != 2:
+        raise _extension.Error("the application has gone")
+    payload = await reader.readexactly(int(head[1]) + 1)
+    return head[0], payload[:-1]
+
+
+def _settings(parameters):
+    return [f"{name}={_argument(text_of(value))}" for name, value in parameters.items()]
+
+
+class _Recording:
+    """A recording that goes on in an application."""
+
+    def __init__(self, connection):
+        self._connection = connection
+
+    def _next(self):
+        kind, payload = self._connection.receive()
+        if kind == "end" and payload.split()[:1] != [b"0"]:
+            raise _error(self._said)
+        self._said = payload.decode() if kind == "err" else ""
+        return kind
+
+    _said = ""
+
+    def begin(self):
+        """Returns when it has begun."""
+        self._next()
+
+    def wait(self):
+        """Returns when it is over."""
+        while self._next() != "end":
+            pass
+        self._connection.close()
+
+    def close(self):
+        """Ends it, and waits until the file is whole."""
+        self._connection.socket.shutdown(socket.SHUT_WR)
+        with contextlib.suppress(_extension.Error, OSError):
+            self.wait()
+        self._connection.close()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *unused):
+        self.close()
