@@ -12,6 +12,7 @@
 #include "apps/runnel/extension_command_line.h"
 #include "apps/runnel/other_programs.h"
 #include "apps/runnel/output.h"
+#include "apps/runnel/shipped_application.h"
 #include "core/base/nearest_name.h"
 #include "core/plugin/plugin_manager.h"
 #include "core/xml/xml_reading.h"
@@ -125,10 +126,11 @@ std::string CheckFile(const std::string& text) {
 }
 
 void AddApplicationArguments(CLI::App& command, ApplicationArguments& arguments) {
-  command.add_option("application", arguments.file, "application file (XML)")
+  command.add_option("application", arguments.file, "application file (XML), or the name of one that comes with Runnel")
       ->required()
       ->type_name("FILE")
-      ->check(CheckFile);
+      ->check(CheckFile)
+      ->transform(ApplicationFile);
   command
       .add_option("settings", arguments.settings,
                   "values for parameters, by the names that the application gives them in "
@@ -174,6 +176,8 @@ CLI::App& AddRun(CLI::App& program, RunArguments& arguments) {
       ->excludes(fast);
   run.add_flag("--paused", arguments.is_paused,
                "simulated time stands still until 'runnel resume' or 'runnel step'");
+  run.add_flag("--single-thread", arguments.is_single_threaded,
+               "the cycles of all threads one after the other in one: simulated time, in step with the real one");
   AddWhatAccompaniesARun(run, arguments);
   return run;
 }

@@ -35,6 +35,7 @@ struct CheckArguments {
 struct RunArguments {
   ApplicationArguments application;     ///< of a replay, it may have no file
   std::optional<double> speed = {};     ///< instead of the file's; 0: as fast as it can
+  bool is_single_threaded = false;      ///< all cycles in one thread, whatever clock the file wants
   std::optional<double> duration = {};  ///< s, of the application's clock
   bool is_paused = false;               ///< begins with a pause
   bool quiet = false;

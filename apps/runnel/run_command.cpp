@@ -208,6 +208,11 @@ ApplicationOptions OptionsOf(const RunArguments& arguments) {
   options.has_control = arguments.has_control;
   options.notes_running_modules = true;
   options.is_profiled = arguments.is_profiled;
+  // Time that is stepped from cycle to cycle is one thread's.
+  if (arguments.is_single_threaded) {
+    options.clock = ClockKind::kSimulated;
+    options.speed = arguments.speed.value_or(1);
+  }
   // Of what was recorded, replayed for viewers alone.
   if (arguments.application.file.empty()) options.clock = ClockKind::kSimulated;
   options.extensions_by_name = arguments.extensions;

@@ -4,7 +4,7 @@
 
 namespace runnel {
 
-#define RUNNEL_PLUGIN_ABI_VERSION 1
+#define RUNNEL_PLUGIN_ABI_VERSION 2
 /// Changes whenever a class that crosses the plugin boundary changes its layout or its meaning.
 inline constexpr unsigned kPluginAbiVersion = RUNNEL_PLUGIN_ABI_VERSION;
 

@@ -48,6 +48,13 @@ TEST_F(CommandLine, RunEndsWithVerdictPathAndTime) {
   std::filesystem::remove(picture);
 }
 
+TEST_F(CommandLine, WhatComesWithRunnelIsKnownByItsName) {
+  EXPECT_EQ(Runnel("check bug_demo world=maze").code, kDone);
+  const Ended ended = Runnel("check bug_demos");
+  EXPECT_EQ(ended.code, kBadInput);
+  EXPECT_THAT(ended.text, HasSubstr("bug_demos"));
+}
+
 TEST_F(CommandLine, CheckKnowsConversionsAndNamesWhatWouldFit) {
   const char* const head = R"(<application name="app">
   <load plugin="simulation"/> <load plugin="motion"/>

@@ -40,6 +40,24 @@ class RunningTime : public testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(RunningTime, ThreadsOfTheRealClockRunInOneIfAsked) {
+  const std::string file = folder_ / "threads.xml";
+  std::ofstream(file) << R"(<application name="threads">
+    <load plugin="motion"/> <clock type="real"/>
+    <thread name="fast" period="10ms"/> <thread name="slow" period="20ms"/>
+    <module name="one" type="motion/command_gate" thread="fast"/>
+    <module name="two" type="motion/command_gate" thread="slow"/>
+    <connect from="one/allowed" to="two/wanted"/> <connect from="two/allowed" to="one/wanted"/>
+  </application>)";
+  const std::string run = "run " + file + " --fast --duration 10 --statistics ";
+  EXPECT_EQ(Runnel(run).code, kBadInput);
+  const Ended ended = Runnel(run + "--single-thread");
+  EXPECT_EQ(ended.code, kDone) << ended.text;
+  EXPECT_THAT(ended.text, HasSubstr("simulated 10.00 s"));
+  EXPECT_THAT(ended.text, testing::ContainsRegex("threads/fast +1000 "));
+  EXPECT_THAT(ended.text, testing::ContainsRegex("threads/slow +500 "));
+}
+
 TEST_F(RunningTime, IsSteppedResumedAndPausedFromOutside) {
   Program program("run --paused --fast " + kPacedDemo);
   EXPECT_TRUE(program.WaitFor("paused"));

@@ -17,8 +17,9 @@ constexpr int kMostLevels = 4;
 fs::path InstalledXmlFolder() {
   Dl_info info;
   if (dladdr(reinterpret_cast<const void*>(&XmlFolder), &info) == 0) return {};
-  fs::path folder = fs::absolute(info.dli_fname).parent_path();
   std::error_code ignored;
+  // The loader may have come by a link: /lib is one to /usr/lib.
+  fs::path folder = fs::weakly_canonical(info.dli_fname, ignored).parent_path();
   for (int level = 0; level < kMostLevels; ++level) {
     folder = folder.parent_path();
     fs::path xml = folder / "share" / "runnel" / "xml";
