@@ -37,6 +37,18 @@ class TwoRobots : public testing::Test {
   static std::unique_ptr<Program> Start(const std::string& file) {
     return std::make_unique<Program>("run " + kApps + file);
   }
+  /// With another attribute in <network>.
+  std::unique_ptr<Program> StartWith(const std::string& file, const std::string& attribute,
+                                     const std::string& program = RUNNEL_PROGRAM) {
+    std::ifstream stream(kApps + file);
+    std::string text{std::istreambuf_iterator<char>(stream), {}};
+    const std::string tag = "<network ";
+    text.insert(text.find(tag) + tag.size(), attribute + " ");
+    const std::string copy = folder_ / file;
+    std::ofstream(copy) << text;
+    const std::string world = file == "two_robots.xml" ? " world=" RUNNEL_XML "/worlds/rooms.xml" : "";
+    return std::make_unique<Program>("run " + copy + world, program);
+  }
   /// That the robot is told to go.
   static void WaitUntilItDrives() {
     WaitUntil("the robot drives", [] {
@@ -113,6 +125,36 @@ TEST_F(TwoRobots, MistakesAreToldWithTheirPlaces) {
   EXPECT_THAT(check(R"(<network/><network/>)"), HasSubstr("there is a network already"));
   EXPECT_THAT(check(R"(<network><offer ports="gate/*" topic="/x"/></network>)"), HasSubstr("topic is said of one port"));
   EXPECT_THAT(check(R"(<network><offer/></network>)"), HasSubstr("<offer> says which ports"));
+}
+
+TEST_F(TwoRobots, TheyFindEachOtherWithoutMulticast) {
+  const auto robot = StartWith("two_robots.xml", "multicast=\"false\"");
+  const auto planner = StartWith("two_robots_planner.xml", "multicast=\"false\"");
+  WaitUntilItDrives();
+}
+
+// As on two machines, between which a cable is pulled and put back.
+TEST_F(TwoRobots, TheyGoOnAfterTheNetworkHasBeenDown) {
+  if (OwnDomain() != 0) GTEST_SKIP() << "needs the right to make networks";
+  const Program other("--net sleep 1000", "unshare");
+  const std::string process = std::to_string(other.process());
+  const auto run = [](const std::string& command) { return std::system((command + " 2>/dev/null").c_str()) == 0; };
+  const std::string within = "nsenter -t " + process + " --net ";
+  if (!run("ip link add cable type veth peer name end")) GTEST_SKIP() << "needs iproute2, and networks of pairs";
+  WaitUntil("it has a network of its own", [&] {
+    std::error_code failed;
+    return std::filesystem::read_symlink("/proc/" + process + "/ns/net", failed) !=
+           std::filesystem::read_symlink("/proc/self/ns/net", failed);
+  });
+  ASSERT_TRUE(run("ip link set end netns " + process) && run("ip addr add 10.77.0.1/24 dev cable") && run("ip link set cable up") &&
+              run(within + "ip addr add 10.77.0.2/24 dev end") && run(within + "ip link set end up"));
+  const auto robot = StartWith("two_robots.xml", "reach=\"network\"");
+  const auto planner = StartWith("two_robots_planner.xml", "reach=\"network\"", within + RUNNEL_PROGRAM);
+  WaitUntilItDrives();
+  ASSERT_TRUE(run("ip link set cable down"));
+  ASSERT_TRUE(robot->WaitFor("published {forward: 0, turn: 0} at /robot/gate/input/wanted"));
+  ASSERT_TRUE(run("ip link set cable up"));
+  ASSERT_TRUE(robot->WaitFor("values come again"));
 }
 
 TEST_F(TwoRobots, APortOfAnotherApplicationIsConnectedByItsPath) {

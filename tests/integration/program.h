@@ -35,6 +35,7 @@ class Program {
   /// ends; its start is not waited for by SIGINT, which the shell before it handles, too.
   void WaitUntilHandles(int signal, bool handles) const;
   void Send(int signal) const;
+  [[nodiscard]] pid_t process() const noexcept { return process_; }
   /// The files in its memory, as the system lists them.
   [[nodiscard]] std::string Maps() const;
   /// Until it has ended. Once.
