@@ -25,12 +25,12 @@ bool IsMessageName(std::string_view name) {
 }
 
 // Without a package.
-std::string LastNameOf(const TypeInfo& type) {
+std::string WordsOf(const TypeInfo& type) {
   if (!IsElements(type)) {
     const std::string_view name = type.name();
     return NearestMessageName(name.substr(name.rfind('/') + 1));
   }
-  const std::string element = LastNameOf(*type.elements().type);
+  const std::string element = WordsOf(*type.elements().type);
   if (type.elements().is_fixed) return element + "Array" + std::to_string(FixedCount(type));
   return element + (type.kind() == TypeKind::kMatrix ? "Matrix" : "List");
 }
@@ -139,7 +139,7 @@ class Describer {
 std::string MessageNameOf(const TypeInfo& type) {
   if (IsLeaf(type)) return StandardNameOf(type);
   if (!IsElements(type) && IsMessageName(type.name())) return type.name();
-  return kPackage + LastNameOf(type);
+  return kPackage + WordsOf(type);
 }
 
 Result<const MessageDefinition*> MessageLibrary::AddDescribed(const TypeInfo& type) {

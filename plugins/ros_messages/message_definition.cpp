@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "plugins/ros_messages/names.h"
+
 namespace runnel {
 
 namespace {
@@ -22,14 +24,11 @@ constexpr TypeName kTypes[] = {
     {MessageType::kString, "string", 0},   {MessageType::kWideString, "wstring", 0},
 };
 
-std::string_view PackageOf(std::string_view name) { return name.substr(0, name.find('/')); }
-
 std::string TypeTextOf(const MessageField& field, std::string_view package) {
   std::string text(NameOf(field.type));
   if (field.type == MessageType::kNested) {
-    const std::string_view name = field.nested;
-    text = name.substr(name.rfind('/') + 1);
-    if (PackageOf(name) != package) text = std::string(PackageOf(name)) + "/" + text;
+    const std::string own = PackageOf(field.nested);
+    text = (own == package ? "" : own + "/") + LastNameOf(field.nested);
   }
   if (field.text_capacity > 0) text += "<=" + std::to_string(field.text_capacity);
   const std::string capacity = std::to_string(field.capacity);
@@ -64,7 +63,7 @@ std::size_t SizeOf(MessageType type) {
 }
 
 std::string TextOf(const MessageDefinition& definition) {
-  const std::string_view package = PackageOf(definition.name);
+  const std::string package = PackageOf(definition.name);
   std::string text;
   for (const MessageConstant& each : definition.constants) {
     text += each.type + " " + each.name + "=" + each.value + "\n";

@@ -96,6 +96,13 @@ std::string RosType(std::string_view dds_type) {
   return type + "/" + std::string(name.substr(0, name.size() - 1));
 }
 
+std::string PackageOf(std::string_view ros_type) {
+  return std::string(ros_type.substr(0, ros_type.find('/')));
+}
+std::string LastNameOf(std::string_view ros_type) {
+  return std::string(ros_type.substr(ros_type.rfind('/') + 1));
+}
+
 bool IsRosPackageName(std::string_view name) { return name.size() > 1 && IsLowerName(name); }
 bool IsRosFieldName(std::string_view name) { return IsLowerName(name); }
 bool IsRosMessageName(std::string_view name) {

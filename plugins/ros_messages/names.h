@@ -29,6 +29,10 @@ namespace runnel {
 /// The way back; "" for what is no type of ROS 2.
 [[nodiscard]] std::string RosType(std::string_view dds_type);
 
+/// "sensor_msgs" and "LaserScan" of "sensor_msgs/msg/LaserScan".
+[[nodiscard]] std::string PackageOf(std::string_view ros_type);
+[[nodiscard]] std::string LastNameOf(std::string_view ros_type);
+
 /// Of a package: lower-case letters, digits, single _, at least two characters, begins with a letter.
 /// Of a message: CamelCase, letters and digits.
 /// Of a field: lower-case letters, digits, single _, begins with a letter, does not end with _.

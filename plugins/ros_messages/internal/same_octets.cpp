@@ -25,6 +25,9 @@ bool IsSame(const MessageField& field, const TypeInfo& type, const MessageLibrar
     const MessageField leaf = FieldOfLeaf(type);
     const bool is_byte = field.type == MessageType::kByte && leaf.type == MessageType::kUint8;
     if (field.type != MessageType::kNested) return leaf.type == field.type || is_byte;
+    const auto* const nested = library.Find(field.nested);
+    const bool is_empty = &type == &TypeOf<Signal>() && nested != nullptr && nested->fields.empty();
+    if (is_empty) return true;
     const bool is_time = leaf.nested == kTimeMessage || leaf.nested == kDurationMessage;
     return leaf.nested == field.nested || (is_time && (field.nested == kTimeMessage || field.nested == kDurationMessage));
   }

@@ -57,8 +57,8 @@ class RandomMessage {
         return writer.Put(static_cast<std::uint8_t>(random_()));
       case 2:
         return writer.Put(static_cast<std::uint16_t>(random_()));
-      case 4:
-        return writer.Put(static_cast<std::uint32_t>(random_()));
+      case 4:  // as many nanoseconds as a second can have
+        return writer.Put(static_cast<std::uint32_t>(random_() % (field.name == "nanosec" ? 1'000'000'000 : ~0U)));
       default:
         return writer.Put(std::uint64_t{random_()} << 32 | random_());
     }

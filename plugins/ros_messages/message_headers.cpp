@@ -1,0 +1,161 @@
+#include <algorithm>
+#include <set>
+
+#include "core/base/characters.h"
+#include "core/types/type_of.h"
+#include "plugins/ros_messages/internal/message_leaf.h"
+#include "plugins/ros_messages/message_export.h"
+#include "plugins/ros_messages/names.h"
+
+namespace runnel {
+
+namespace {
+
+constexpr std::string_view kKeywords[] = {
+    "alignas",  "alignof",  "and",      "asm",      "auto",     "bool",     "break",    "case",     "catch",
+    "char",     "class",    "concept",  "const",    "continue", "default",  "delete",   "do",       "double",
+    "else",     "enum",     "explicit", "export",   "extern",   "false",    "float",    "for",      "friend",
+    "goto",     "if",       "inline",   "int",      "long",     "mutable",  "namespace", "new",     "not",
+    "operator", "or",       "private",  "protected", "public",  "register", "requires", "return",   "short",
+    "signed",   "sizeof",   "static",   "struct",   "switch",   "template", "this",     "throw",    "true",
+    "try",      "typedef",  "typename", "union",    "unsigned", "using",    "virtual",  "void",     "while",
+    "xor"};
+
+std::string PathOf(const std::string& name) {
+  return PackageOf(name) + "/" + NearestFieldName(LastNameOf(name)) + ".h";
+}
+
+std::string MemberOf(const std::string& field) {
+  const bool is_taken = std::ranges::find(kKeywords, field) != std::end(kKeywords);
+  return is_taken ? field + "_" : field;
+}
+
+// What Runnel has a type of its own for; "" for others.
+std::string_view KnownType(const MessageDefinition& nested) {
+  if (nested.name == internal::kTimeMessage) return "runnel::Time";
+  if (nested.name == internal::kDurationMessage) return "runnel::Duration";
+  return nested.fields.empty() ? "runnel::Signal" : "";
+}
+
+std::string NumberTypeOf(MessageType type) {
+  switch (type) {
+    case MessageType::kBool:
+      return "bool";
+    case MessageType::kFloat32:
+      return "float";
+    case MessageType::kFloat64:
+      return "double";
+    case MessageType::kByte:
+      return "std::uint8_t";
+    case MessageType::kString:
+      return "std::string";
+    default:
+      return "std::" + std::string(NameOf(type)) + "_t";
+  }
+}
+
+// A number or a text as it stands in a .msg file, for C++.
+std::string LiteralOf(MessageType type, std::string text) {
+  const bool is_quoted = text.size() > 1 && (text.front() == '"' || text.front() == '\'');
+  if (type == MessageType::kString) return Quoted(is_quoted ? text.substr(1, text.size() - 2) : text);
+  if (type == MessageType::kBool) return text.starts_with('t') || text.starts_with('T') || text == "1" ? "true" : "false";
+  if (type == MessageType::kUint64) return text + "U";
+  return type == MessageType::kFloat32 ? "static_cast<float>(" + text + ")" : text;
+}
+
+class HeaderWriter {
+ public:
+  explicit HeaderWriter(const MessageLibrary& library) : library_(library) {}
+
+  Result<std::string> Write(const MessageDefinition& message) {
+    const std::string name = LastNameOf(message.name);
+    std::string fields, constants, described;
+    for (const MessageConstant& each : message.constants) constants += ConstantOf(each);
+    for (const MessageField& field : message.fields) {
+      if (field.type == MessageType::kWideString) {
+        return Error{.message = "the field '" + field.name + "' of " + message.name + " is a wide string",
+                     .hint = "take a string, in UTF-8"};
+      }
+      const std::string member = MemberOf(field.name);
+      fields += "  " + TypeOfField(field) + " " + member + InitialOf(field) + ";\n";
+      described += "\n      .Field(\"" + field.name + "\", &" + name + "::" + member + ")";
+    }
+    if (message.fields.empty()) {
+      return Error{.message = message.name + " has no fields", .hint = "take runnel::Signal"};
+    }
+    std::string text = "#pragma once\n\n// " + message.name + " of ROS 2, written by 'runnel ros2 import'.\n\n";
+    for (const char* header : {"array", "cstdint", "string", "vector"}) text += "#include <" + std::string(header) + ">\n";
+    text += uses_signals_ ? "\n#include <runnel/core/types/signal.h>\n#include <runnel/types.h>\n\n" : "\n#include <runnel/types.h>\n\n";
+    for (const std::string& include : includes_) text += "#include \"" + include + "\"\n";
+    if (!includes_.empty()) text += "\n";
+    return text + "namespace " + PackageOf(message.name) + " {\n\nstruct " + name + " {\n" + constants + fields +
+           "};\n\ninline void Describe(runnel::TypeBuilder<" + name + ">& type) {\n  type.Name(\"" + message.name +
+           "\")" + described + ";\n}\n\n}  // namespace " + PackageOf(message.name) + "\n";
+  }
+
+ private:
+  static std::string ConstantOf(const MessageConstant& constant) {
+    const auto parsed = ParseMessage(constant.type + " value", "a/msg/A", "");
+    if (!parsed || parsed->fields.front().type == MessageType::kWideString) return "";
+    const MessageType type = parsed->fields.front().type;
+    const std::string cpp_type = type == MessageType::kString ? "const char*" : NumberTypeOf(type);
+    return "  static constexpr " + cpp_type + " " + MemberOf(constant.name) + " = " +
+           LiteralOf(type, constant.value) + ";\n";
+  }
+
+  std::string ElementOf(const MessageField& field) {
+    if (field.type != MessageType::kNested) return NumberTypeOf(field.type);
+    const MessageDefinition& nested = **library_.Get(field.nested);
+    uses_signals_ = uses_signals_ || nested.fields.empty();
+    if (!KnownType(nested).empty()) return std::string(KnownType(nested));
+    includes_.insert(PathOf(field.nested));
+    return PackageOf(field.nested) + "::" + LastNameOf(field.nested);
+  }
+
+  std::string TypeOfField(const MessageField& field) {
+    const std::string element = ElementOf(field);
+    if (field.count == MessageCount::kOne) return element;
+    if (field.count == MessageCount::kArray) return "std::array<" + element + ", " + std::to_string(field.capacity) + ">";
+    // Those of bool have no elements that could be pointed at.
+    return "std::vector<" + (element == "bool" ? "std::uint8_t" : element) + ">";
+  }
+
+  static std::string InitialOf(const MessageField& field) {
+    const std::string& given = field.default_value;
+    const bool is_number = SizeOf(field.type) > 0;
+    if (given.empty()) return is_number && field.count == MessageCount::kOne ? " = {}" : field.count == MessageCount::kArray ? "{}" : "";
+    if (field.count == MessageCount::kOne) return " = " + LiteralOf(field.type, given);
+    std::string with_marks = given;
+    std::ranges::replace(with_marks, '\'', '"');
+    const auto texts = FromText<std::vector<std::string>>(with_marks);
+    std::string list;
+    if (texts) {
+      for (const std::string& each : *texts) list += (list.empty() ? "" : ", ") + LiteralOf(field.type, each);
+    }
+    return " = {" + list + "}";
+  }
+
+  const MessageLibrary& library_;
+  std::set<std::string> includes_;
+  bool uses_signals_ = false;
+};
+
+}  // namespace
+
+Result<FileTexts> CppHeadersOf(const std::vector<const MessageDefinition*>& messages, const MessageLibrary& library) {
+  std::set<const MessageDefinition*> wanted(messages.begin(), messages.end());
+  for (const MessageDefinition* const message : messages) {
+    for (const MessageDefinition* const inside : library.InsideOf(*message)) {
+      if (KnownType(*inside).empty()) wanted.insert(inside);
+    }
+  }
+  FileTexts files;
+  for (const MessageDefinition* const each : wanted) {
+    auto text = HeaderWriter(library).Write(*each);
+    if (!text) return text.error();
+    files[PathOf(each->name)] = std::move(*text);
+  }
+  return files;
+}
+
+}  // namespace runnel
