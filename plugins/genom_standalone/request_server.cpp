@@ -24,6 +24,22 @@ Json Words(const genom_execution::Outcome& outcome) {
   return words;
 }
 
+// The details of exceptions that every component has, by their names.
+const ValueType kCode{.kind = ValueKind::kLong, .size = 4};
+const ValueType kWords{.kind = ValueKind::kText, .size = 128, .length = 128};
+const ValueMember kCodeMember[] = {{"code", 0, &kCode}};
+const ValueMember kWhatMember[] = {{"what", 0, &kWords}};
+const ValueType kSystemError{.kind = ValueKind::kStruct, .size = 4, .members = kCodeMember};
+const ValueType kUnknown{.kind = ValueKind::kStruct, .size = 128, .members = kWhatMember};
+
+const ValueType* DetailType(const StandaloneComponent& component, genom_execution::Event exception) {
+  for (const StandaloneDetail& each : component.details) {
+    if (each.exception == exception) return each.type;
+  }
+  if (exception == std::string_view("::genom::syserr")) return &kSystemError;
+  return exception == std::string_view("::genom::unkex") ? &kUnknown : nullptr;
+}
+
 }  // namespace
 
 RequestServer::RequestServer(const StandaloneComponent& component, Engine& engine, LineServer& lines,
@@ -205,10 +221,8 @@ Json RequestServer::Ending(const Call& call) const {
   if (!outcome.is_success()) {
     std::string name = outcome.exception();
     answer["failed"] = name.starts_with("::") ? name.substr(2) : name;
-    for (const StandaloneDetail& each : component_.details) {
-      if (each.exception == outcome.exception() && outcome.detail() != nullptr) answer["detail"] = ToJson(*each.type, outcome.detail());
-    }
-    if (!answer.contains("detail")) answer["detail"] = Words(outcome);
+    const ValueType* const type = DetailType(component_, outcome.exception());
+    answer["detail"] = type != nullptr && outcome.detail() != nullptr ? ToJson(*type, outcome.detail()) : Words(outcome);
     return answer;
   }
   answer["done"] = Json::object();

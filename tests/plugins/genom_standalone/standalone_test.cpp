@@ -38,6 +38,8 @@ TEST(StandaloneTest, AnswersRequests) {
             Json::parse(R"({"as":"x","failed":"meter::wrong","detail":{"which":"right","limit":10}})"));
   EXPECT_EQ(meter.Ask(Json::parse(R"({"call":"sum","with":{"values":[1,2,3],"total":10,"name":"map"}})")),
             Json::parse(R"({"done":{"total":16,"text":"the map","found":{"at":[1.5,0.1],"trace":[7,8]}}})"));
+  EXPECT_EQ(meter.Ask(Json::parse(R"({"call":"sum","with":{"values":[],"total":0,"name":"broken"}})")),
+            Json::parse(R"({"failed":"genom::syserr","detail":{"code":22}})"));
   EXPECT_EQ(meter.Ask(Json::parse(R"({"call":"mark","with":{"mark":{"word":"hill"},"best":2.5,"which":"right"}})")),
             Json::parse(R"({"done":{}})"));
   EXPECT_EQ(meter.Ask({{"call", "get"}})["done"],

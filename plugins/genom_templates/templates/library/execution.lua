@@ -168,9 +168,9 @@ function execution.argument(component, owner, parameter)
   return "&" .. expression
 end
 
--- The address of an exception's name: "nav::bad" is nav_bad_id.
+-- The address of an exception's name: "nav::bad" is nav_bad_id. Each codel may raise those of every component, too.
 function execution.events(names)
-  local list = {}
+  local list = {"genom_unkex_id", "genom_syserr_id"}
   for _, name in ipairs(names) do list[#list + 1] = c.name(name) .. "_id" end
   return table.concat(list, ", ")
 end

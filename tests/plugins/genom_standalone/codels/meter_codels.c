@@ -55,8 +55,9 @@ genom_event set_mark(const sign *new_mark, const optional_double *new_best, side
 genom_event sum_all(const sequence4_int32_t *values, int32_t *total, const char *name, char **text, reading *found,
                     const genom_context self)
 {
+  genom_syserr_detail error = { 22 };
   uint32_t i;
-  (void)self;
+  if (!strcmp(name, "broken") || values->_maximum != 4 || found->trace._maximum != 4) return genom_syserr(&error, self);
   for (i = 0; i < values->_length; i++) *total += values->_buffer[i];
   free(*text);
   *text = (char *)malloc(strlen(name) + 5);
