@@ -1,6 +1,7 @@
 // What the log and `runnel network` say of the network.
 
 #include <algorithm>
+#include <fstream>
 #include <mutex>
 #include <set>
 #include <sstream>
@@ -12,6 +13,12 @@
 #include "plugins/network/topic_names.h"
 
 namespace runnel {
+
+namespace {
+
+constexpr std::size_t kRoomForImages = 4'194'304;
+
+}  // namespace
 
 void NetworkLink::Trouble(const std::string& of, const Error& error) {
   new_troubles_[of] = error.message + (error.hint.empty() ? "" : "; " + error.hint);
@@ -119,6 +126,12 @@ Result<std::optional<std::string>> NetworkLink::StructureOf(const std::string& p
 std::string NetworkLink::Text() const {
   const WireMemberOptions& own = element_.options().member;
   std::string text = own.name + " in domain " + std::to_string(own.domain) + "\n";
+  std::size_t room = 0;
+  std::ifstream("/proc/sys/net/core/rmem_max") >> room;
+  if (room > 0 && room < kRoomForImages) {
+    text += "sockets have room for " + std::to_string(room / 1024) + " KiB: for images, sysctl net.core.rmem_max=" +
+            std::to_string(kRoomForImages) + "\n";
+  }
   for (const WireMember& each : table_.members()) {
     if (each.id == participant_->id()) continue;
     text += "member " + (each.name.empty() ? "somebody without a name" : each.name) + "\n";

@@ -29,10 +29,12 @@ WireQos TakenPort::WantedQos(const std::vector<WireEndpoint>& writers) const {
     if (each.options.type != endpoint_.type) continue;
     qos.is_reliable = qos.is_reliable && each.options.qos.is_reliable;
     is_latched = (is_first || is_latched) && each.options.qos.is_latched;
+    qos.is_exclusive = (is_first || qos.is_exclusive) && each.options.qos.is_exclusive;
     qos.depth = std::max(qos.depth, std::min(each.options.qos.depth, 128u));
     is_first = false;
   }
   qos.is_latched = is_latched;
+  qos.is_exclusive = qos.is_exclusive || options_.is_exclusive;
   return qos;
 }
 

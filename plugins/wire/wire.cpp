@@ -19,7 +19,7 @@ std::string QosMisfit(const WireQos& offered, const WireQos& asked) {
 std::string QosText(const WireQos& qos) {
   std::string text = qos.is_reliable ? "reliable" : "best effort";
   if (qos.is_latched) text += ", latched";
-  if (qos.is_exclusive) text += ", exclusive";
+  if (qos.is_exclusive) text += qos.strength > 0 ? ", exclusive by strength " + std::to_string(qos.strength) : ", exclusive";
   return text + ", newest " + std::to_string(qos.depth);
 }
 

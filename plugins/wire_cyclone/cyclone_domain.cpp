@@ -36,7 +36,8 @@ std::string PeersText(const WireMemberOptions& options) {
   const auto add = [&](const std::string& address) {
     text += "<Peer Address=\"" + EscapedMarkup(address) + "\"/>";
   };
-  if (options.reach != WireReach::kNetwork || !options.has_multicast) add("127.0.0.1");
+  // Each of its ports is asked, again and again: only where not all can be asked at once.
+  if (options.reach == WireReach::kMachine || !options.has_multicast) add("127.0.0.1");
   for (const std::string& peer : options.peers) add(peer);
   return text.empty() ? "" : "<Peers>" + text + "</Peers>";
 }

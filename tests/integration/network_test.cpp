@@ -72,6 +72,16 @@ TEST_F(TwoRobots, APlannerThatIsKilledAndStartedAgainGoesOn) {
   WaitUntilItDrives();
 }
 
+TEST_F(TwoRobots, APlannerThatIsHeldUpHoldsNobodyUpAndGoesOnWithWhatIsNew) {
+  const auto robot = Start("two_robots.xml");
+  const auto planner = Start("two_robots_planner.xml");
+  WaitUntilItDrives();
+  planner->Send(SIGSTOP);
+  ASSERT_TRUE(robot->WaitFor("published {forward: 0, turn: 0} at /robot/gate/input/wanted"));
+  planner->Send(SIGCONT);
+  ASSERT_TRUE(robot->WaitFor("values come again"));
+}
+
 TEST_F(TwoRobots, ARobotThatIsKilledAndStartedAgainFindsItsPlannerAndTheLatchedGoal) {
   const auto planner = Start("two_robots_planner.xml");
   auto robot = Start("two_robots.xml");

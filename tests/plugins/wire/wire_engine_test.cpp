@@ -253,6 +253,44 @@ TEST(CycloneWireTest, NobodyButThisMachineReachesALoopback) {
   EXPECT_GE(count, 4);
 }
 
+// Two masters of one actuator.
+TEST(CycloneWireTest, OfExclusiveWritersTheStrongestCountsAndThenTheOther) {
+  Members members;
+  const unsigned domain = OwnDomain();
+  const auto engine = MakeCycloneWire();
+  const auto join = [&] { return std::move(*engine->Join({.domain = domain}, members)); };
+  const auto reading = join();
+  const auto writing = join();
+  const WireEndpointOptions topic{.topic = "rt/command", .type = "numbers::Four", .qos = {.is_exclusive = true}};
+  const auto with_strength = [&](std::int32_t strength) {
+    WireEndpointOptions options = topic;
+    options.qos.strength = strength;
+    return options;
+  };
+  Arrived arrived;
+  Arrived weak_matches;
+  Arrived strong_matches;
+  const auto reader = reading->MakeReader(topic, arrived.Taker(), {});
+  const auto weak = std::move(*writing->MakeWriter(with_strength(1), weak_matches.Counter()));
+  auto strong = std::move(*writing->MakeWriter(with_strength(5), strong_matches.Counter()));
+  const auto is_matched = [](const Arrived& all) { return all.matched == 1; };
+  weak_matches.WaitFor(is_matched);
+  strong_matches.WaitFor(is_matched);
+  ASSERT_TRUE(strong->Write(Four(5), 1));
+  arrived.WaitFor([](const Arrived& all) { return all.values == std::vector<int>{5}; });
+  ASSERT_TRUE(weak->Write(Four(1), 2));
+  ASSERT_TRUE(strong->Write(Four(6), 3));
+  arrived.WaitFor([](const Arrived& all) { return all.values.back() == 6; });
+  EXPECT_THAT(arrived.values, ElementsAre(5, 6));
+  strong.reset();
+  WaitUntil("the weak one has its turn", [&] {
+    EXPECT_TRUE(weak->Write(Four(2), 4));
+    const std::lock_guard lock(arrived.mutex);
+    return arrived.values.back() == 2;
+  });
+  EXPECT_EQ(QosText(with_strength(5).qos), "reliable, exclusive by strength 5, newest 1");
+}
+
 INSTANTIATE_TEST_SUITE_P(Cyclone, WireEngineTest, testing::Values(&MakeCycloneWire));
 #endif
 
