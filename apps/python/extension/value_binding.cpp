@@ -4,6 +4,7 @@
 #include <fstream>
 #include <mutex>
 #include <sstream>
+#include <thread>
 
 #include "apps/python/extension/errors.h"
 #include "apps/python/extension/value.h"
@@ -134,7 +135,8 @@ void LoadPluginWith(const std::string& name) {
 const TypeInfo& TypeNamed(const std::string& name) {
   const TypeInfo* type = FindType(name);
   if (type == nullptr) {
-    WithoutGil([&] { LoadPluginWith(name); });
+    // In a thread of its own: who asks may have an application's structure lock, and samples need another one's.
+    WithoutGil([&] { std::thread([&] { LoadPluginWith(name); }).join(); });
     type = FindType(name);
   }
   if (type != nullptr) return *type;

@@ -1,8 +1,10 @@
 """Runnel in Python: applications of robots loaded, composed, run, watched and changed.
 
 >>> app = runnel.compose("demo", clock="simulated")
->>> app.create("doubler", "signal/limiter", lower=-1.0, upper=1.0)
+>>> app.create("world", "simulation/world", world="rooms")
 >>> app.step(3)
+>>> app.read("/world/goal").type
+<type Point2>
 
 Units are SI throughout: metres, radians (counter-clockwise), seconds. Errors are `runnel.Error`, with file, line, path
 and the nearest name that there is.

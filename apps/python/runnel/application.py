@@ -235,10 +235,11 @@ class Application(_extension.Application):
             return self.read(path)
         try:
             return self._get(path)
-        except _extension.Error as error:
-            if error.message != "is no parameter":
-                raise
-        return self.read(path)
+        except _extension.Error as no_parameter:
+            try:
+                return self.read(path)
+            except _extension.Error as no_port:
+                raise (no_port if "did you mean" in no_port.hint else no_parameter) from None
 
     def __setitem__(self, path, value):
         self.set(path, value)

@@ -54,12 +54,18 @@ def test_errors_of_files_have_places(empty_folder):
 
 
 def test_parameters(app):
+    app.run_for(1)
     app["/robot/planner/cruise_speed"] = 0.25
     assert app.get("/robot/planner/cruise_speed") == 0.25
     with pytest.raises(runnel.Error):
         app["/robot/planner/cruise_speed"] = -5
     with pytest.raises(runnel.Error):
         app["/robot/planner/cruise_speed"] = "fast"
+    assert app["/world/goal"].type.name == "Point2"
+    with pytest.raises(runnel.Error, match="did you mean 'pose'"):
+        app["/world/poze"]
+    with pytest.raises(runnel.Error, match="did you mean 'cruise_speed'"):
+        app["/robot/planner/cruise_sped"]
 
 
 def test_each_value_of_a_queue(app):
@@ -88,7 +94,7 @@ def test_services(xml):
         app.run_for(1)
         pose = app.call("/book/remember", name="here")
         assert pose == app.call("/book/where", name="here")
-        assert [*app.call("/book/names")] == ["here"]
+        assert "here" in app.call("/book/names")
         with pytest.raises(runnel.Error, match="did you mean 'here'"):
             app.call("/book/where", name="hre")
         with pytest.raises(TypeError):

@@ -1,4 +1,6 @@
 import subprocess
+import sys
+import time
 
 import pytest
 
@@ -176,3 +178,42 @@ def test_the_program_runs_them_too(files, program):
     (files / "follower.py").write_text("import nothing_of_that_name\n")
     done = subprocess.run([program, "check", "robot/wander.xml"], capture_output=True, text=True)
     assert done.returncode != 0 and "follower.py:1: error" in done.stderr and "ModuleNotFoundError" in done.stderr, done.stderr
+
+
+def test_types_of_ports_are_found_in_plugins_that_nobody_has_loaded():
+    text = """
+import runnel
+
+class Eye(runnel.Module):
+    scan = runnel.Input("RangeScan")
+    twist = runnel.Output("Twist2")
+    def update(self):
+        pass
+
+app = runnel.compose("eyes", clock="simulated")
+app.create("eye", Eye)
+app.step(2)
+print(app.paths("input"))
+try:
+    runnel.types.NoSuchType
+except runnel.Error as error:
+    print(error)
+"""
+    done = subprocess.run([sys.executable, "-"], input=text, capture_output=True, text=True)
+    assert "'input', 'RangeScan'" in done.stdout and "no type 'NoSuchType'" in done.stdout, done.stderr
+
+
+def test_cycles_of_modules_in_cpp_run_while_python_keeps_its_lock(xml):
+    """Nobody but this thread can have the GIL meanwhile, and still values come."""
+    before = sys.getswitchinterval()
+    with runnel.load(xml / "apps/bug_demo.xml", clock="simulated", speed=20) as app:
+        reader = app.reader("/world/pose", queue=10)
+        sys.setswitchinterval(1000)
+        try:
+            app.start()
+            seen, end = 0, time.monotonic() + 60
+            while seen < 20 and time.monotonic() < end:
+                seen += len(list(reader))
+        finally:
+            sys.setswitchinterval(before)
+        assert seen >= 20
