@@ -17,7 +17,7 @@ TEST(Exclusion, IsFirstComeFirstServed) {
   const ConflictMatrix conflicts(component);
   EXPECT_TRUE(conflicts.Conflict(1, 0) && conflicts.Conflict(2, 1));
   EXPECT_FALSE(conflicts.Conflict(0, 2));
-  Exclusion exclusion(conflicts, 3);
+  Exclusion exclusion(conflicts, 3, false);
   exclusion.Want(0, 0);
   EXPECT_TRUE(exclusion.May(0));
   exclusion.Want(1, 1);
