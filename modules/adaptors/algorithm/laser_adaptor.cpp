@@ -32,7 +32,7 @@ Surroundings LaserAdaptor::Update(const RangeScan& scan, const Pose2& pose) {
       map_.MarkBoundary(frame.ToWorld(double{range} * direction));
     }
     bearing += scan.angle_step;
-    direction = {Dot(direction, {step.x, -step.y}), Dot(direction, {step.y, step.x})};
+    direction = Turned(direction, step);
   }
   map_.AddBoundariesTo(surroundings);
   return surroundings;

@@ -165,9 +165,7 @@ double RayCaster::Cast(Point2 origin, double direction, double range) const {
 void RayCaster::CastFan(Point2 origin, Point2 ahead, std::span<const Point2> directions,
                         double range, std::span<float> distances) const {
   for (std::size_t i = 0; i < directions.size(); ++i) {
-    const Point2 direction = {ahead.x * directions[i].x - ahead.y * directions[i].y,
-                              ahead.y * directions[i].x + ahead.x * directions[i].y};
-    distances[i] = static_cast<float>(CastAlong(origin, direction, range));
+    distances[i] = static_cast<float>(CastAlong(origin, Turned(directions[i], ahead), range));
   }
 }
 

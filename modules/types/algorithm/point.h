@@ -27,5 +27,9 @@ struct Point2 {
 [[nodiscard]] inline Point2 UnitVector(double direction) {
   return {std::cos(direction), std::sin(direction)};
 }
+/// The vector turned as far as the unit vector `by` is turned from the x axis.
+[[nodiscard]] constexpr Point2 Turned(Point2 vector, Point2 by) {
+  return {by.x * vector.x - by.y * vector.y, by.y * vector.x + by.x * vector.y};
+}
 
 }  // namespace runnel

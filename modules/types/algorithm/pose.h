@@ -15,19 +15,7 @@ struct Pose2 {
 
 [[nodiscard]] constexpr Point2 Position(const Pose2& pose) { return {pose.x, pose.y}; }
 
-/// From the body's frame (x ahead, y left) into the frame of the pose.
-[[nodiscard]] inline Point2 ToWorld(const Pose2& pose, Point2 local) {
-  const double c = std::cos(pose.heading), s = std::sin(pose.heading);
-  return {pose.x + c * local.x - s * local.y, pose.y + s * local.x + c * local.y};
-}
-/// The way back: from the frame of the pose into the body's frame.
-[[nodiscard]] inline Point2 ToBody(const Pose2& pose, Point2 world) {
-  const double c = std::cos(pose.heading), s = std::sin(pose.heading);
-  const Point2 offset = world - Position(pose);
-  return {c * offset.x + s * offset.y, -s * offset.x + c * offset.y};
-}
-
-/// ToBody and ToWorld for many points: computes the heading's sine and cosine once.
+/// The frame of a body (x ahead, y left) in that of its pose. Its sine and cosine are computed once for many points.
 class BodyFrame {
  public:
   explicit BodyFrame(const Pose2& pose)
@@ -45,6 +33,15 @@ class BodyFrame {
   Point2 origin_;
   Point2 ahead_;
 };
+
+/// From the body's frame into that of the pose.
+[[nodiscard]] inline Point2 ToWorld(const Pose2& pose, Point2 local) {
+  return BodyFrame(pose).ToWorld(local);
+}
+/// The way back: from the frame of the pose into the body's frame.
+[[nodiscard]] inline Point2 ToBody(const Pose2& pose, Point2 world) {
+  return BodyFrame(pose).ToBody(world);
+}
 
 /// How a planar body moves, in its own frame: m/s ahead, rad/s counter-clockwise.
 struct Twist2 {
