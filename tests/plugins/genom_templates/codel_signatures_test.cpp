@@ -109,7 +109,9 @@ class Component {
   std::string codels_ = "#include \"acc.h\"\n\n#include \"c_c_types.h\"\n\n";
 };
 
-void ExpectCompiles(const std::string& description, const std::string& codels) {
+void ExpectCompiles(const std::string& description, const std::string& codels,
+                    const std::vector<std::string>& compilers = {"gcc -std=c99", "gcc -std=gnu17", "g++ -std=c++17 -x c++",
+                                                                 "g++ -std=c++20 -x c++"}) {
   Diagnostics diagnostics;
   const auto read = ReadDescriptionText(description, "c.gen", {}, diagnostics);
   ASSERT_TRUE(diagnostics.ok()) << diagnostics.ToString();
@@ -118,7 +120,7 @@ void ExpectCompiles(const std::string& description, const std::string& codels) {
   const test::TemporaryFolder folder;
   (void)WriteFiles(folder.path(), output->files, false, diagnostics);
   std::ofstream(folder.path() / "codels.c") << codels;
-  for (const std::string compiler : {"gcc -std=c99", "gcc -std=gnu17", "g++ -std=c++17 -x c++", "g++ -std=c++20 -x c++"}) {
+  for (const std::string& compiler : compilers) {
     const std::string command =
         "cd '" + folder.path().string() + "' && " + compiler + " -Wall -Wextra -Werror -fsyntax-only codels.c 2>&1";
     EXPECT_EQ(std::system(command.c_str()), 0) << compiler << "\n" << description << codels;
@@ -158,6 +160,45 @@ TEST(CodelSignaturesTest, OfPortsRemotesAndSequences) {
       "  each->data(\"left\", self)->width = 2;\n  each->write(\"left\", self);\n  each->close(\"left\", self);\n"
       "  range->read(\"one\", self);\n  far = range->data(\"one\", self);\n"
       "  return set->call(far ? *far : 0.5, &was, self) == genom_ok ? c_ether : c_ether;\n}\n");
+}
+
+// With lang "c++": namespaces, references, exceptions that are thrown.
+TEST(CodelSignaturesTest, InCppWithItsOwnTypes) {
+  if (!HasCompilers()) GTEST_SKIP() << "there is no compiler";
+  ExpectCompiles(
+      "module m { enum side { left, right }; struct point { double x, y; }; typedef string<8> name; typedef double row[3];\n"
+      " typedef sequence<point, 4> route; struct tree; typedef sequence<tree> trees; struct tree { trees under; long v[2]; };\n"
+      " union target switch (side) { case left: point where; default: string<16> word; }; const unsigned long most = 4; };\n"
+      "interface light { function set(in double level, out boolean was); };\n"
+      "component c { lang \"c++\"; uses light; native tool; exception late; exception slow { double by; };\n"
+      " port in m::point seen; port out m::row shown; port multiple out m::route each;\n"
+      " ids { boolean flag; m::side side; m::target target; m::name name; string text; sequence<double> many; m::trees trees; tool own;\n"
+      "       struct part_s { octet a; enum k_e { one, two } k; } part; optional<m::point> maybe; m::route route; }; task t;\n"
+      " activity a(in string word, in sequence<string<8>, 2> words, out double way) { task t; throw late, slow;\n"
+      "  validate check(in flag, in side, local in word, local in words);\n"
+      "  codel<start> a_start(in target, in name, in text, in many, in trees, in own, in part, in maybe, in route, out way) yield pause::start, go;\n"
+      "  codel<go> a_go(out flag, out side, out target, out name, out text, inout many, inout trees, out own, out part, out maybe,\n"
+      "    out route, in seen, out shown, out each, in set) yield ether;\n"
+      "  codel<stop> a_stop() yield ether; }; };\n",
+      "#include \"acc.h\"\n\n#include \"c_cxx_types.h\"\n\nstruct c::tool { int turns; };\n"
+      "genom::event check(bool flag, m::side side, const std::string &word, const genom::bounded_sequence<char[8], 2> &words)\n{\n"
+      "  if (flag && side == m::right && words.size() > 1) throw c::late();\n"
+      "  if (word.empty()) { c::slow slow; slow.detail.by = 2; throw slow; }\n  return genom::ok;\n}\n"
+      "genom::event a_start(const m::target &target, const m::name name, const std::string &text, const std::vector<double> &many,\n"
+      "                     const m::trees &trees, const c::tool *own, const c::ids::part_s &part,\n"
+      "                     const genom::optional<m::point> &maybe, const m::route &route, double &way)\n{\n"
+      "  way = target._d == m::left ? target._u.where.x : many.size() + text.size() + trees.size();\n"
+      "  if (name[0] == 'x' && own->turns > 2) return c::go;\n  for (const m::point &each : route) way += each.y;\n"
+      "  return part.k == c::ids::part_s::two && maybe._present && route.size() < m::most ? c::go : c::pause::start;\n}\n"
+      "genom::event a_go(bool &flag, m::side &side, m::target &target, m::name name, std::string &text, std::vector<double> &many,\n"
+      "                  m::trees &trees, c::tool *&own, c::ids::part_s &part, genom::optional<m::point> &maybe, m::route &route,\n"
+      "                  c::seen &seen, c::shown &shown, c::each &each, c::set &set)\n{\n"
+      "  seen.read();\n  side = m::left;\n  target._u.where = seen.data();\n  shown.data()[1] = 2;\n  shown.write();\n"
+      "  each.open(\"one\");\n  each.data(\"one\").push_back(seen.data());\n  each.write(\"one\");\n  set.call(0.5, flag);\n"
+      "  trees.resize(2);\n  trees[1].under.resize(1);\n  name[0] = 'y';\n  text = \"z\";\n  many.push_back(1);\n"
+      "  if (!own) own = new c::tool();\n  part.a = 3;\n  maybe._value.x = 1;\n  route.clear();\n  return c::ether;\n}\n"
+      "genom::event a_stop(void) { return c::ether; }\n",
+      {"g++ -std=c++11 -x c++", "g++ -std=c++20 -x c++"});
 }
 
 }  // namespace
