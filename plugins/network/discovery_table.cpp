@@ -59,10 +59,24 @@ std::vector<WireEndpoint> DiscoveryTable::Partners(const std::string& topic, boo
   return found;
 }
 
+std::optional<WireEndpoint> DiscoveryTable::FindWriter(std::uint64_t handle) const {
+  const std::lock_guard lock(mutex_);
+  for (const auto& [id, endpoint] : endpoints_) {
+    if (endpoint.is_writer && endpoint.handle == handle) return endpoint;
+  }
+  return {};
+}
+
 std::string DiscoveryTable::NameOf(const WireId& member) const {
   const std::lock_guard lock(mutex_);
   const auto found = members_.find(member);
   return found == members_.end() || found->second.name.empty() ? "somebody" : found->second.name;
+}
+
+bool DiscoveryTable::HasSimulatedTime(const WireId& member) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = members_.find(member);
+  return found != members_.end() && found->second.user_data.find(kSimulatedTime) != std::string::npos;
 }
 
 std::string Misfit(const WireEndpointOptions& writer, const WireEndpointOptions& reader) {

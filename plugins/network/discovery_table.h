@@ -29,7 +29,10 @@ class DiscoveryTable final : public WireDiscovery {
   [[nodiscard]] std::vector<WireEndpoint> endpoints() const;
   /// Of others, of the other direction.
   [[nodiscard]] std::vector<WireEndpoint> Partners(const std::string& topic, bool writers) const;
+  [[nodiscard]] std::optional<WireEndpoint> FindWriter(std::uint64_t handle) const;
   [[nodiscard]] std::string NameOf(const WireId& member) const;
+  /// Whether it says that its time is simulated.
+  [[nodiscard]] bool HasSimulatedTime(const WireId& member) const;
 
  private:
   const std::function<void()> on_change_;
@@ -37,6 +40,9 @@ class DiscoveryTable final : public WireDiscovery {
   std::map<WireId, WireMember> members_;
   std::map<WireId, WireEndpoint> endpoints_;
 };
+
+/// What a member with simulated time says of itself, among other things.
+inline constexpr const char* kSimulatedTime = "clock=simulated;";
 
 /// Of what a reader and a writer of one topic have in common, what keeps them from being matched; "" if they are.
 /// `reader_data` and the like are what both say of their types.

@@ -127,12 +127,12 @@ void NetworkLink::FollowTakes() {
     takes = element_.takes();
     for (const auto& each : takes) {
       const bool is_there = std::ranges::any_of(taken_, [&](const auto& one) { return &one->output() == each.output; });
-      if (!is_there) taken_.push_back(std::make_unique<TakenPort>(*each.output, each.options, each.form, clock_));
+      if (!is_there) taken_.push_back(std::make_unique<TakenPort>(*each.output, each.options, each.form, clock_, table_));
     }
     for (const auto& each : taken_) each->NoteConnections();
   }
   for (const auto& each : taken_) {
-    if (const auto followed = each->Follow(*participant_, table_); !followed) {
+    if (const auto followed = each->Follow(*participant_); !followed) {
       Trouble(each->output().path(), followed.error());
     }
   }

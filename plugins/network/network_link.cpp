@@ -39,6 +39,7 @@ Result<std::unique_ptr<NetworkLink>> NetworkLink::Start(FrameworkElement& applic
   std::unique_ptr<NetworkLink> link(new NetworkLink(application, element, is_simulated));
   WireMemberOptions member = element.options().member;
   member.user_data = "enclave=/;";  // without which nodes of ROS 2 look past it
+  if (is_simulated) member.user_data += kSimulatedTime;
   auto joined = engine.Join(member, link->table_);
   if (!joined) {
     Error error = joined.error();
@@ -119,6 +120,11 @@ void NetworkLink::SendAll() {
   }
   const auto clock = node_ != nullptr ? node_->SendClock(now) : std::nullopt;
   if (clock) deadline = std::min(deadline, *clock);
+  if (now >= next_look_) {
+    next_look_ = now + kLookAround;
+    const auto has_error = [](const auto& each) { return each->has_error(); };
+    if (std::ranges::any_of(taken_, has_error) || std::ranges::any_of(offered_, has_error)) return LookAgain();
+  }
   if (!must_look_ && !ends_) wake_->WaitUntil(deadline);
 }
 

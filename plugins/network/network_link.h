@@ -82,6 +82,7 @@ class NetworkLink final : private ElementListener {
   std::vector<std::unique_ptr<TakenPort>> taken_;
   // The thread's own.
   std::uint64_t made_ = 0;
+  Time next_look_{};  // for what has gone wrong
   std::map<std::string, std::string> troubles_;      // by whom they are, as they have been told
   std::map<std::string, std::string> new_troubles_;  // as they are now
   std::map<WireId, std::string> members_;

@@ -62,6 +62,7 @@ class OfferedPort {
   [[nodiscard]] std::size_t matched() const noexcept { return matched_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::uint64_t sent() const noexcept { return sent_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::uint64_t dropped() const noexcept;
+  [[nodiscard]] bool has_error() const noexcept { return error_.has_value(); }
   /// What went wrong since the last call. By the network's thread.
   [[nodiscard]] std::optional<Error> TakeError() { return std::exchange(error_, {}); }
 

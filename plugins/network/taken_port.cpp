@@ -11,11 +11,13 @@
 
 namespace runnel {
 
-TakenPort::TakenPort(Port& output, TakeOptions options, std::shared_ptr<const ValueForm> form, ClockOffset clock)
+TakenPort::TakenPort(Port& output, TakeOptions options, std::shared_ptr<const ValueForm> form, ClockOffset clock,
+                     const DiscoveryTable& table)
     : output_(output),
       options_(std::move(options)),
       form_(std::move(form)),
       clock_(clock),
+      table_(table),
       endpoint_{.topic = DdsTopic(options_.topic), .type = form_->wire_type(), .user_data = form_->user_data()} {}
 
 // As much as all of them offer, so that none is left out and nothing that they keep is missed.
@@ -38,19 +40,16 @@ WireQos TakenPort::WantedQos(const std::vector<WireEndpoint>& writers) const {
   return qos;
 }
 
-Result<void> TakenPort::Follow(WireParticipant& participant, const DiscoveryTable& table) {
+Result<void> TakenPort::Follow(WireParticipant& participant) {
   if (options_.is_distant && !is_connected_) {
     reader_.reset();
     matched_ = 0;
     return {};
   }
-  const auto writers = table.Partners(endpoint_.topic, true);
+  const auto writers = table_.Partners(endpoint_.topic, true);
   {
     const std::lock_guard lock(mutex_);
-    misfits_.clear();
-    for (const WireEndpoint& each : writers) {
-      if (!TypeMisfit(each.options.user_data, endpoint_.user_data).empty()) misfits_.push_back(each.handle);
-    }
+    writers_.clear();
   }
   const WireQos qos = WantedQos(writers);
   if (reader_ != nullptr && (qos == endpoint_.qos || writers.empty())) return {};
@@ -67,18 +66,34 @@ Result<void> TakenPort::Follow(WireParticipant& participant, const DiscoveryTabl
   return {};
 }
 
+// The table has been told of it before its first value comes.
+TakenPort::Writer TakenPort::Find(std::uint64_t handle) {
+  const auto known = std::ranges::find(writers_, handle, &Writer::handle);
+  if (known != writers_.end()) return *known;
+  Writer writer{handle, true, false};
+  if (const auto endpoint = table_.FindWriter(handle)) {
+    writer.fits = TypeMisfit(endpoint->options.user_data, endpoint_.user_data).empty();
+    writer.has_simulated_time = table_.HasSimulatedTime(endpoint->participant);
+  }
+  writers_.push_back(writer);
+  return writer;
+}
+
 void TakenPort::Take(const WireSample& sample) noexcept {
   try {
     const Duration offset = clock_.Now();
     const Time now = output_.runtime().clock().Now();
     const Time sent = Time(Duration(sample.source_time)) - offset;
+    bool is_comparable = false;
     {
       const std::lock_guard lock(mutex_);
-      if (std::ranges::find(misfits_, sample.writer) != misfits_.end()) return;
-      if (!clock_.is_simulated) least_delay_ = std::min(least_delay_.value_or(Duration::max()), now - sent);
+      const Writer writer = Find(sample.writer);
+      if (!writer.fits) return;
+      is_comparable = !clock_.is_simulated && !writer.has_simulated_time;
+      if (is_comparable) least_delay_ = std::min(least_delay_.value_or(Duration::max()), now - sent);
     }
     const OwnCycle cycle(now);
-    const auto timestamp = options_.keeps_stamps && !clock_.is_simulated ? std::optional(std::min(sent, now)) : std::nullopt;
+    const auto timestamp = options_.keeps_stamps && is_comparable ? std::optional(std::min(sent, now)) : std::nullopt;
     const auto published = output_.PublishFilled(
         [&](void* value) -> Result<void> {
           const auto read = form_->Read(sample.octets, value);

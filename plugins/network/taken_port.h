@@ -25,7 +25,9 @@ class DiscoveryTable;
 /// Threads:     Follow() and the destructor by the network's thread; values by threads of the engine, one at a time.
 class TakenPort {
  public:
-  TakenPort(Port& output, TakeOptions options, std::shared_ptr<const ValueForm> form, ClockOffset clock);
+  /// `table` must outlive it.
+  TakenPort(Port& output, TakeOptions options, std::shared_ptr<const ValueForm> form, ClockOffset clock,
+            const DiscoveryTable& table);
 
   [[nodiscard]] Port& output() const noexcept { return output_; }
   [[nodiscard]] const TakeOptions& options() const noexcept { return options_; }
@@ -42,7 +44,7 @@ class TakenPort {
   void NoteConnections() { is_connected_ = !output_.outgoing().empty(); }
   /// Asks for what the writers that are there offer, if nobody has said what is to be asked for; leaves out those whose
   /// values are of another kind. Errors: of the engine.
-  Result<void> Follow(WireParticipant& participant, const DiscoveryTable& table);
+  Result<void> Follow(WireParticipant& participant);
   /// Nothing comes any more.
   void End() noexcept { reader_.reset(); }
 
@@ -50,12 +52,23 @@ class TakenPort {
   [[nodiscard]] std::uint64_t taken() const noexcept { return taken_.load(std::memory_order_relaxed); }
   /// Values that could not be read.
   [[nodiscard]] std::uint64_t refused() const noexcept { return refused_.load(std::memory_order_relaxed); }
+  [[nodiscard]] bool has_error() const {
+    const std::lock_guard lock(mutex_);
+    return error_.has_value();
+  }
   /// Why the last of them could not, once.
   [[nodiscard]] std::optional<Error> TakeError();
   /// By how much the clocks of the writers are behind this one's at least, as far as is known (arrival after sending).
   [[nodiscard]] std::optional<Duration> least_delay() const;
 
  private:
+  /// What is known of who writes.
+  struct Writer {
+    std::uint64_t handle;
+    bool fits;                 // by its type
+    bool has_simulated_time;  // which says nothing here
+  };
+  [[nodiscard]] Writer Find(std::uint64_t handle);
   void Take(const WireSample& sample) noexcept;
   [[nodiscard]] WireQos WantedQos(const std::vector<WireEndpoint>& writers) const;
   void Refuse(Error error);
@@ -64,6 +77,7 @@ class TakenPort {
   const TakeOptions options_;
   const std::shared_ptr<const ValueForm> form_;
   const ClockOffset clock_;
+  const DiscoveryTable& table_;
   WireEndpointOptions endpoint_;  // changed by the network's thread, under mutex_
   std::unique_ptr<WireReader> reader_;
   bool is_connected_ = false;
@@ -71,7 +85,7 @@ class TakenPort {
   std::atomic<std::uint64_t> taken_{0};
   std::atomic<std::uint64_t> refused_{0};
   mutable std::mutex mutex_;
-  std::vector<std::uint64_t> misfits_;  // handles of writers that are not listened to; guarded by mutex_
+  std::vector<Writer> writers_;         // that values have come of since Follow(); guarded by mutex_
   std::optional<Error> error_;          // likewise
   std::optional<Duration> least_delay_;  // likewise
 };
