@@ -13,6 +13,11 @@ namespace py = pybind11;
 
 namespace runnel::python {
 
+OpenApplication::~OpenApplication() {
+  if (!application) return;
+  if (PyGILState_Check() != 0) WithoutGil([this] { application.reset(); });
+}
+
 Application& OpenApplication::operator*() const {
   if (!application) throw py::value_error("the application is closed");
   return *application;

@@ -16,6 +16,12 @@ namespace runnel::python {
 struct OpenApplication {
   std::unique_ptr<Application> application;
 
+  OpenApplication() = default;
+  OpenApplication(const OpenApplication&) = delete;
+  OpenApplication& operator=(const OpenApplication&) = delete;
+  /// One that nobody has closed ends here, without the GIL, for which a module may be waiting.
+  ~OpenApplication();
+
   /// Throws if it is closed.
   Application& operator*() const;
   Application* operator->() const { return &**this; }

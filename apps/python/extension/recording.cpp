@@ -1,4 +1,4 @@
-// runnel._extension.RecordingFile: what runnel.Recording reads of an MCAP file.
+// Recordings: what runnel.Recording reads of an MCAP file, and what an application records from now on.
 
 #include <cstring>
 #include <utility>
@@ -7,7 +7,9 @@
 
 #include "apps/python/extension/bindings.h"
 #include "apps/python/extension/errors.h"
+#include "apps/python/extension/ports.h"
 #include "apps/python/extension/value.h"
+#include "plugins/command_service/command_service.h"
 #include "plugins/mcap/mcap_reader.h"
 #include "plugins/recording/recording_names.h"
 #include "plugins/values/json_values.h"
@@ -89,9 +91,48 @@ py::object ValuesOf(const TypeInfo& type, const std::vector<std::string>& texts)
   return all;
 }
 
+// What an application records from now on, until it is finished.
+class RunningRecording {
+ public:
+  RunningRecording(std::shared_ptr<OpenApplication> open, const std::string& file, const std::vector<std::string>& ports,
+                   const std::string& compression)
+      : open_(std::move(open)) {
+    recording_ = Checked(WithoutGil([&]() -> Result<std::unique_ptr<ClientRecording>> {
+      const RecordingHook& record = (*open_)->service().application().hooks.record;
+      return record({.file = file, .ports = ports, .compression = compression});
+    }));
+  }
+  ~RunningRecording() {
+    if (recording_) WithoutGil([this] { recording_.reset(); });
+  }
+  RunningRecording(const RunningRecording&) = delete;
+  RunningRecording& operator=(const RunningRecording&) = delete;
+
+  std::string Progress() {
+    if (!recording_) return "finished";
+    if (const auto failure = recording_->Failure()) Throw(*failure);
+    return WithoutGil([this] { return recording_->Progress(); });
+  }
+  std::string Finish() {
+    if (!recording_) return "finished";
+    const auto recording = std::move(recording_);
+    return Checked(WithoutGil([&] { return recording->Finish(); }));
+  }
+
+ private:
+  std::shared_ptr<OpenApplication> open_;
+  std::unique_ptr<ClientRecording> recording_;
+};
+
 }  // namespace
 
 void BindRecordings(py::module_& module) {
+  py::class_<RunningRecording>(module, "RunningRecording", "What an application records, until it is finished.")
+      .def(py::init<std::shared_ptr<OpenApplication>, const std::string&, const std::vector<std::string>&, const std::string&>())
+      .def("progress", &RunningRecording::Progress, "How it is going, in a line; what ended it is an error.")
+      .def("close", &RunningRecording::Finish, "Ends it, and says what there is. Idempotent.")
+      .def("__enter__", [](const py::object& self) { return self; })
+      .def("__exit__", [](RunningRecording& recording, const py::args&) { (void)recording.Finish(); });
   py::class_<RecordingFile>(module, "RecordingFile")
       .def(py::init<const std::string&>())
       .def("channels", ChannelsOf)

@@ -134,6 +134,7 @@ class Application(_extension.Application):
     def __init__(self, *arguments):
         super().__init__(*arguments)
         self._readers = {}
+        self._recordings = weakref.WeakSet()
         _open.add(self)
 
     def __enter__(self):
@@ -148,6 +149,8 @@ class Application(_extension.Application):
     def close(self):
         """Stops, finishes recordings, and lets go of everything. What was read stays valid. Idempotent."""
         self._readers.clear()
+        for each in list(self._recordings):
+            each.close()
         self._close()
 
     # Composing and changing it.
@@ -274,6 +277,15 @@ class Application(_extension.Application):
             for value in reader:
                 yield value
             await loop.run_in_executor(None, reader.wait, 0.2)
+
+    def record(self, file, ports=(), compression=""):
+        """Records ports (patterns: "/robot/**"; none: all) from now on: ``with app.record("run.mcap"): app.run_for(5)``.
+
+        compression -- zstd, lz4 or none; "": the first that is there.
+        """
+        recording = _extension.RunningRecording(self, os.path.abspath(file), list(ports), compression)
+        self._recordings.add(recording)
+        return recording
 
     def paths(self, kind=None):
         """(path, kind, type) of all groups, modules, inputs, outputs, services and parameters, or of those of one kind."""

@@ -157,3 +157,21 @@ def test_what_happened_is_in_the_log(app):
     app.swap("/robot/planner", "planning/bug1")
     assert app.log()[-1].kind == "change" and "planning/bug1" in app.log()[-1].text
     assert app.log(len(app.log())) == []
+
+
+def test_recorded_from_now_on(app):
+    app.run_for(1)
+    with app.record("part.mcap", ports=["/world/*"]) as recording:
+        app.run_for(2)
+        assert recording.progress()
+    app.run_for(1)
+    series = runnel.read("part.mcap")["/world/pose"]
+    assert 0.9 <= series.times[0] <= 1.1 and 2.8 <= series.times[-1] <= 3.0
+    assert "/laser/scan" not in runnel.read("part.mcap")
+    with pytest.raises(runnel.Error):
+        app.record("no_such_folder/part.mcap")
+    open_end = app.record("end.mcap")
+    app.run_for(1)
+    app.close()
+    assert len(runnel.read("end.mcap")["/world/pose"]) > 10
+    assert open_end.close() == "finished"

@@ -1,3 +1,4 @@
+import gc
 import subprocess
 import sys
 import time
@@ -217,3 +218,33 @@ def test_cycles_of_modules_in_cpp_run_while_python_keeps_its_lock(xml):
         finally:
             sys.setswitchinterval(before)
         assert seen >= 20
+
+
+def test_an_application_that_nobody_closes_ends_when_it_is_let_go_of():
+    app = runnel.compose("numbers")
+    app.create("counter", Counter)
+    app.start()
+    reader = app.reader("/counter/out")
+    assert reader.wait(30)
+    del app, reader
+    gc.collect()
+
+
+def test_a_process_ends_while_an_application_runs(files, program):
+    text = """
+import runnel
+
+class Count(runnel.Module):
+    period = 0.001
+    out = runnel.Output("double")
+    def update(self):
+        self.out.publish(1.0)
+
+app = runnel.compose("counting")
+app.create("count", Count)
+app.start()
+assert app.reader("/count/out").wait(30)
+print("seen")
+"""
+    done = subprocess.run([sys.executable, "-"], input=text, capture_output=True, text=True, timeout=60)
+    assert (done.returncode, done.stdout) == (0, "seen\n"), done.stderr
