@@ -62,7 +62,7 @@ TEST(SkeletonTest, SignaturesAreThoseOfTheOriginal) {
   EXPECT_THAT(text, HasSubstr("#include \"acnav.h\"\n\n#include \"nav_c_types.h\"\n"));
   EXPECT_THAT(TextOfFile(files, "codels/nav_codels.c"),
               HasSubstr("check(const m_s *to, const genom_context self)\n{\n  return genom_ok;\n}\n"));
-  EXPECT_THAT(TextOfFile(files, "CMakeLists.txt"), HasSubstr("  codels/nav_codels.c\n  codels/nav_drive_codels.c\n"));
+  EXPECT_THAT(TextOfFile(files, "CMakeLists.txt"), HasSubstr("  DESCRIPTION \"test.gen\"\n  CODELS\n    codels/nav_codels.c\n    codels/nav_drive_codels.c\n  )\n"));
 }
 
 TEST(SkeletonTest, MadeAnewItKeepsWhatWasFilledIn) {

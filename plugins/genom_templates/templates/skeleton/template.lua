@@ -49,6 +49,7 @@ for _, component in ipairs(model.components) do
     end
     add(name .. "_" .. task.name .. "_codels" .. extension, "task " .. task.name .. " of " .. name, all(own))
   end
-  keep("CMakeLists.txt.in", "CMakeLists.txt", {component = component, files = files})
+  keep("CMakeLists.txt.in", "CMakeLists.txt",
+       {component = component, files = files, description = component.place.file:match("[^/]+$")})
   keep("README.md.in", "README.md", {component = component})
 end
