@@ -85,7 +85,7 @@ Result<Port*> NetworkElement::AddTake(const TakeOptions& take, const TypeInfo& t
                             " already, and cannot be " + type.name() + " as well",
                  .path = known->output->path()};
   }
-  auto form = ValueForm::Make(type, take.as, {});
+  auto form = ValueForm::Make(type, take.as, {}, {}, options_.messages.get());
   if (!form) return form.error();
   if (const std::string why = (*form)->WhyNoReading(); !why.empty()) return Error{.message = why};
   const TypedPorts* const typed = FindTypedPorts(type);

@@ -84,7 +84,8 @@ void NetworkLink::MakeOffer(const Wanted& wanted) {
     return each->path() == wanted.path && each->options().topic == wanted.options.topic && &each->type() == wanted.type;
   });
   if (is_there) return;
-  auto form = ValueForm::Make(*wanted.type, wanted.options.as, wanted.options.frame, wanted.options.child_frame);
+  auto form = ValueForm::Make(*wanted.type, wanted.options.as, wanted.options.frame, wanted.options.child_frame,
+                              element_.options().messages.get());
   if (!form) return Trouble(wanted.path, form.error());
   auto made = std::make_unique<OfferedPort>(*beside_, "offer_" + std::to_string(++made_), *wanted.type, wanted.path,
                                             wanted.options, std::move(*form), clock_, wake_);

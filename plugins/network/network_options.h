@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,8 @@
 #include "plugins/wire/wire.h"
 
 namespace runnel {
+
+class MessageLibrary;
 
 /// How values of one port are kept and sent, as files name it.
 enum class ValueQuality {
@@ -62,6 +65,7 @@ struct NetworkOptions {
   std::string engine = "cyclone";
   bool is_live = false;  ///< TakeOptions::is_live of all
   std::vector<OfferOptions> offers = {};
+  std::shared_ptr<const MessageLibrary> messages = {};  ///< nullptr: those of ROS 2
   std::optional<RosOptions> ros = {};
   SourcePosition position = {};
 };

@@ -103,9 +103,10 @@ std::string TypeMisfit(const std::string& writers, const std::string& readers) {
 }
 
 Result<std::shared_ptr<const ValueForm>> ValueForm::Make(const TypeInfo& type, const std::string& as,
-                                                         const std::string& frame, const std::string& child_frame) {
+                                                         const std::string& frame, const std::string& child_frame,
+                                                         const MessageLibrary* messages) {
   auto codec = MessageCodec::Make(type, {.as = as, .by_description = as.empty(), .frame = frame, .child_frame = child_frame},
-                                  MessageLibrary::Standard());
+                                  messages != nullptr ? *messages : MessageLibrary::Standard());
   if (!codec) return codec.error();
   std::string description = as.empty() ? std::string(kKey) + DescriptionText(type) + ";" : std::string();
   return std::shared_ptr<const ValueForm>(std::make_shared<MessageForm>(std::move(*codec), std::move(description)));

@@ -11,6 +11,7 @@
 
 namespace runnel {
 
+class MessageLibrary;
 class TypeInfo;
 
 /// Values of one type as octets on the wire, and back.
@@ -19,10 +20,11 @@ class TypeInfo;
 class ValueForm {
  public:
   /// `as`: "sensor_msgs/msg/LaserScan"; "": by the type's own description. Errors: there is no such message; the type
-  /// cannot become it; a part of the type is opaque.
+  /// cannot become it; a part of the type is opaque. `messages`: which there are; nullptr: those of ROS 2.
   static Result<std::shared_ptr<const ValueForm>> Make(const TypeInfo& type, const std::string& as,
                                                        const std::string& frame = {},
-                                                       const std::string& child_frame = {});
+                                                       const std::string& child_frame = {},
+                                                       const MessageLibrary* messages = nullptr);
   virtual ~ValueForm() = default;
 
   /// By which the wire knows the type.

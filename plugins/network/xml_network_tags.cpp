@@ -9,6 +9,7 @@
 #include "plugins/application_files/path_use.h"
 #include "plugins/network/network_element.h"
 #include "plugins/network/network_engines.h"
+#include "plugins/ros_messages/message_library.h"
 #include "plugins/ros_messages/names.h"
 #include "plugins/values/port_patterns.h"
 
@@ -44,6 +45,18 @@ void ReadDomain(const TagUse& use, WireMemberOptions& member) {
              said != nullptr ? said->value_position : use.xml.position());
 }
 
+// Of files beside the application's, besides those of ROS 2.
+void ReadMessages(const TagUse& use, NetworkOptions& options) {
+  const XmlAttribute* const said = use.Find("messages");
+  if (said == nullptr) return;
+  auto messages = std::make_shared<MessageLibrary>();
+  for (const std::string& place : SplitPaths(said->value)) {
+    const auto read = messages->Read((use.context.FolderOf(use.xml.position()) / place).lexically_normal());
+    if (!read) use.Report(read.error(), said->value_position);
+  }
+  options.messages = std::move(messages);
+}
+
 FrameworkElement* HandleNetwork(const TagUse& use) {
   if (const NetworkElement* const first = NetworkElement::FindIn(use.parent)) {
     use.Report({.message = "there is a network already",
@@ -66,6 +79,7 @@ FrameworkElement* HandleNetwork(const TagUse& use) {
                 .hint = "say reach=\"network\", or leave it out"},
                interface->position);
   }
+  ReadMessages(use, options);
   options.is_live = IsTrue(use, "live");
   if (use.Find("engine") != nullptr) options.engine = TextOf(use, "engine");
   const auto engine = FindWireEngine(options.engine, use.context.plugins());
@@ -94,7 +108,9 @@ void AddOffer(const TagUse& use, OfferOptions offer) {
     const Port* const port = SearchPort(PathIn(*path, use.parent), PathKind::kOutput, use.context);
     if (port == nullptr) return;
     offer.port = port->path();
-    if (const auto form = ValueForm::Make(port->type(), offer.as, offer.frame, offer.child_frame); !form) {
+    const NetworkOptions& network = NetworkElement::FindIn(use.parent)->options();
+    const auto form = ValueForm::Make(port->type(), offer.as, offer.frame, offer.child_frame, network.messages.get());
+    if (!form) {
       const XmlAttribute* const as = use.Find("as");
       return use.Report(form.error(), (as != nullptr ? as : path)->value_position);
     }
@@ -194,7 +210,7 @@ AttributeRule Choice(const char* name, const char* summary, std::vector<std::str
 
 AttributeRule Quality(const char* summary) { return Choice("qos", summary, ValueQualityNames()); }
 
-AttributeRule MessageType() {
+AttributeRule MessageTypeRule() {
   return {.name = "as", .summary = "type of the messages: sensor_msgs/msg/LaserScan; without, the values by their description"};
 }
 
@@ -219,6 +235,8 @@ void AddNetworkTags(XmlTagRegistry& tags) {
                               Choice("multicast", "false: only peers, and this machine, are asked"),
                               Choice("live", "true: what is taken may come although time is simulated, of which runs are not "
                                              "repeatable then"),
+                              {.name = "messages",
+                               .summary = ".msg files and folders with <package>/msg/*.msg, beside ROS 2's own; separated by blanks"},
                               {.name = "engine", .kind = AttributeKind::kName, .summary = "cyclone by default"}},
                .handle = HandleNetwork});
   tags.AddTag({.name = "offer",
@@ -227,7 +245,7 @@ void AddNetworkTags(XmlTagRegistry& tags) {
                .attributes = {{.name = "ports", .summary = "patterns, separated by blanks: laser/* **/pose !**/debug"},
                               {.name = "port", .kind = AttributeKind::kPath, .summary = "one of them", .names_element = true},
                               {.name = "topic", .summary = "its name in the network: /scan; without, /<name of the application>/<path>"},
-                              MessageType(),
+                              MessageTypeRule(),
                               {.name = "frame", .kind = AttributeKind::kName, .summary = "of coordinates, for headers of messages"},
                               {.name = "child_frame", .kind = AttributeKind::kName, .summary = "what moves, for transforms and odometry"},
                               Quality("newest (default): reliable; each: every value, in a queue; sensor: best effort; latched: "
@@ -251,7 +269,7 @@ void AddNetworkTags(XmlTagRegistry& tags) {
                .summary = "a topic whose values go to ports of this application",
                .parents = {"network"},
                .attributes = {{.name = "topic", .required = true, .summary = "its name: /cmd_vel"},
-                              MessageType(),
+                              MessageTypeRule(),
                               {.name = "to",
                                .kind = AttributeKind::kPathList,
                                .required = true,

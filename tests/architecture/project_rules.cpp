@@ -107,7 +107,8 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/wire", "plugins/wire", {"core"}});
   rules.push_back({"the words of networks",
                    "plugins/network/xml_",
-                   {"core", "plugins/application_files", "plugins/network", "plugins/ros_messages/names.h", "plugins/values/port_patterns.h", "plugins/wire"}});
+                   {"core", "plugins/application_files", "plugins/network", "plugins/ros_messages/message_library.h", "plugins/ros_messages/names.h",
+                    "plugins/values/port_patterns.h", "plugins/wire"}});
   rules.push_back({"plugins/network",
                    "plugins/network",
                    {"core", "plugins/cdr_values", "plugins/ros_messages", "plugins/values/port_patterns.h", "plugins/wire"}});
