@@ -6,7 +6,8 @@ namespace fs = std::filesystem;
 
 fs::path Whole(const fs::path& path) {
   std::error_code ignored;
-  return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
+  // The folder of a bare name is "", of which nothing is absolute.
+  return fs::weakly_canonical(fs::absolute(path.empty() ? fs::path(".") : path, ignored), ignored);
 }
 
 std::string MovedFileName(const std::string& name, const fs::path& from, const fs::path& to) {

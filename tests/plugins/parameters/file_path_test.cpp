@@ -1,6 +1,10 @@
 #include "plugins/parameters/file_path.h"
 
+#include <filesystem>
+
 #include <gtest/gtest.h>
+
+#include "plugins/parameters/moved_file_name.h"
 
 namespace runnel {
 namespace {
@@ -17,6 +21,14 @@ TEST(FilePath, StartsWhereItWasWritten) {
   EXPECT_EQ(ResolvedAgainst("", {"a.txt"}).text, "a.txt");
   EXPECT_EQ(ResolvedAgainst("/apps", {"/maps/a.txt"}).text, "/maps/a.txt");
   EXPECT_EQ(ResolvedAgainst("/apps", {""}).text, "");
+}
+
+// A file saved under a bare name lies in the folder "": the current one.
+TEST(MovedFileNameTest, KnowsTheFolderOfABareName) {
+  const std::filesystem::path here = std::filesystem::current_path();
+  EXPECT_EQ(MovedFileName("rooms.xml", here / "worlds", ""), "worlds/rooms.xml");
+  EXPECT_EQ(MovedFileName("worlds/rooms.xml", "", here / "worlds"), "rooms.xml");
+  EXPECT_EQ(MovedFileName("/worlds/rooms.xml", here, ""), "/worlds/rooms.xml");
 }
 
 }  // namespace
