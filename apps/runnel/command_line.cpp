@@ -91,13 +91,10 @@ Command RefuseParsing(const CLI::App& program, const CLI::ParseError& error) {
   const auto unknown = std::ranges::find_if(left, [](const std::string& each) { return each.starts_with('-'); });
   if (unknown != left.end()) {
     const std::string option = unknown->substr(0, unknown->find('='));
-    const auto known = OptionNames(*parsed.front());
-    const bool would_have_it = name == "run" && option.starts_with("--inspect");
-    if (would_have_it && std::ranges::find(known, "--inspect") == known.end()) {
-      return Refuse("what shows applications in a browser is not installed, so '" + name + "' has no option '" + option + "'",
-                    "with Debian packages it is in runnel-inspector");
+    if (name == "run" && option == "--inspect") {
+      return Refuse("what shows applications in a browser is not installed", "Debian's package is runnel-inspector");
     }
-    const std::string nearest = NearestName(option, known);
+    const std::string nearest = NearestName(option, OptionNames(*parsed.front()));
     return Refuse("'" + name + "' has no option '" + option + "'",
                   nearest.empty() ? help : "did you mean '" + nearest + "'?");
   }
