@@ -214,6 +214,7 @@ class StructureModel {
   bool Do(const ScheduleThread&) { return false; }
   static bool Do(const RenameElement&) { return false; }
   static bool Do(const CopyElement&) { return false; }
+  static bool Do(const TagElement&) { return false; }
   bool Do(const AssignToThread& change) {
     const auto found = elements_.find(change.path);
     if (found == elements_.end() || found->second.kind == Kind::kPort) return false;
