@@ -65,9 +65,13 @@ std::vector<std::string> FlawsOf(const std::string& text) {
     std::istringstream lines(text);
     std::string line;
     for (int i = 0; i < each.position.line; ++i) std::getline(lines, line);
-    const auto quote = line.find("name=\"");
-    const std::string name = line.substr(quote + 6, line.find('"', quote + 6) - quote - 6);
-    EXPECT_THAT(each.path + "/", HasSubstr("/" + name + "/")) << "is in line " << line;
+    const std::string attribute = " name=\"";
+    const auto name = line.find(attribute);
+    if (name != std::string::npos) {  // else a property
+      const auto begin = name + attribute.size();
+      const std::string named = line.substr(begin, line.find('"', begin) - begin);
+      EXPECT_THAT(each.path + "/", HasSubstr("/" + named + "/")) << "is in line " << line;
+    }
     EXPECT_NE(each.position.line, 0) << each.ToString();
   }
   return Messages(description.diagnostics().errors());

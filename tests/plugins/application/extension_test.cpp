@@ -152,7 +152,7 @@ TEST(Extension, OfThisTreeHasTheWordsOfItsDescription) {
     }
   }
   EXPECT_THAT(names,
-              ElementsAre("finroc_files", "real_time_check", "recording", "tracing", "viewers"));
+              ElementsAre("finroc_files", "network", "real_time_check", "recording", "tracing", "viewers"));
 }
 
 // Once for each option, so that one that the library does not read shows.
