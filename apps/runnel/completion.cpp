@@ -22,7 +22,7 @@ struct Element {
   std::string path;
   bool is_interface = false;
   std::string type = {};
-  std::string choices = {};  // values that have names, separated by blanks
+  std::string choices = {};  // values that have names, separated by blanks; of a service, what arguments look like
   std::string short_path = {};  // without the application and the group of ports, as far as that names it
 };
 
@@ -146,6 +146,14 @@ Candidates ValuesOf(ControlClient& client, const std::string& path) {
   return {std::istream_iterator<std::string>(words), {}};
 }
 
+// What the service takes, to be filled in: '{name: ""}'.
+Candidates ArgumentsOf(ControlClient& client, const std::string& path) {
+  const std::vector<Element> elements = Elements(client);
+  const Element* const found = FindElement(elements, path);
+  const bool has_any = found != nullptr && IsService(*found) && !found->choices.empty();
+  return has_any ? Candidates{"'" + found->choices + "'"} : Candidates{};
+}
+
 // "step=" for each parameter of the module.
 Candidates SettingsOf(ControlClient& client, const std::string& path) {
   const std::vector<Element> elements = Elements(client);
@@ -168,6 +176,7 @@ Candidates Propose(ControlClient& client, const Candidates& plain) {
   const bool is_of_port = command == "echo" || command == "hz" || command == "publish" || command == "release";
   if (is_of_port && is_first) return Paths(client, IsPort);
   if ((command == "call" || command == "activities") && is_first) return Paths(client, IsService);
+  if (command == "call" && place == 1) return ArgumentsOf(client, word(0));
   if (command == "set" && is_first) return Paths(client, OfKind("parameter"));
   if (command == "set" && place == 1) return ValuesOf(client, word(0));
   if (command == "get" && is_first) {

@@ -20,6 +20,7 @@
 #include "plugins/command_service/application_log.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/scheduling/thread_container.h"
+#include "plugins/services/callable.h"
 
 namespace runnel {
 
@@ -309,6 +310,10 @@ std::string ListPaths(FrameworkElement& start) {
     const auto* const port = dynamic_cast<const Port*>(&element);
     const auto* const parameter = dynamic_cast<const Configurable*>(&element);
     if (port != nullptr) text += (port->is_proxy() ? "\tinterface\t" : "\t\t") + port->type().name();
+    auto* const callable = element.FindAnnotation<Callable>();
+    if (callable != nullptr && callable->arguments() != nullptr) {
+      text += "\t" + ToText(*callable->arguments(), callable->NewCall()->arguments());
+    }
     if (parameter != nullptr) {
       const TypeInfo& type = parameter->type();
       text += "\t\t" + type.name() + "\t";

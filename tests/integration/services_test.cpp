@@ -45,6 +45,7 @@ TEST_F(ServicesOfAnApplication, AreCalledFromTheTerminalSwappedAndRecorded) {
   EXPECT_THAT(Runnel("call /book/names").text, HasSubstr("\"start\""));
   EXPECT_THAT(Runnel("activities").text, HasSubstr("/places_demo/driver/output/go: 0 waiting, 1 answered, 1 failed"));
   EXPECT_THAT(Runnel("complete call /book/n").text, HasSubstr("/book/names"));
+  EXPECT_EQ(Runnel("complete call /driver/go \"\"").text, "'{name: \"\"}'\n");
   EXPECT_EQ(Runnel("stop").code, kDone);
   (void)program.Wait();
   EXPECT_THAT(Runnel("info " + recording).text,
