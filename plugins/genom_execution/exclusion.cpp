@@ -1,6 +1,6 @@
 #include "plugins/genom_execution/exclusion.h"
 
-#include <atomic>
+#include "core/lockfree/asymmetric_fence.h"
 
 namespace runnel::genom_execution {
 
@@ -30,7 +30,7 @@ void Exclusion::Leave(std::size_t place) noexcept {
 
 void Exclusion::WakeOthers(std::size_t place, std::size_t unit) noexcept {
   if (!sleeps_) return;
-  std::atomic_thread_fence(std::memory_order_seq_cst);
+  FullFence();
   board_.ForEachWaiting(
       place, unit, [this](std::size_t a, std::size_t b) { return conflicts_.Conflict(a, b); },
       [this](std::size_t other) { may_look_[other].Notify(); });

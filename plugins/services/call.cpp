@@ -8,16 +8,18 @@
 namespace runnel {
 
 void CallBase::WakeCaller() noexcept {
-  // Pairs with the fence in CallSlots::SetWaker(): of an answer and a waker set at once, one side sees the other.
-  std::atomic_thread_fence(std::memory_order_seq_cst);
-  if (waker.load(std::memory_order_relaxed) == nullptr || !is_held.load(std::memory_order_relaxed)) return;
+  Waker* seen = nullptr;
+  // A change, though of nothing. release: pairs with the acquire in CallSlots::SetWaker(): of both, which change the same
+  // word, one comes second, and finds the waker or the answer.
+  if (waker.compare_exchange_strong(seen, nullptr, std::memory_order_acq_rel)) return;
+  if (!is_held.load(std::memory_order_relaxed)) return;
   const EpochGuard guard;  // by which the waker lives
   if (Waker* const whom = waker.load(std::memory_order_relaxed)) whom->Wake();
 }
 
 void CallSlots::SetWaker(Waker* waker) noexcept {
-  for (CallBase* call : calls_) call->waker.store(waker, std::memory_order_relaxed);
-  std::atomic_thread_fence(std::memory_order_seq_cst);
+  // acquire: pairs with the release in WakeCaller().
+  for (CallBase* call : calls_) (void)call->waker.exchange(waker, std::memory_order_acq_rel);
   const auto waits = [](const CallBase* call) {
     return call->is_held.load(std::memory_order_relaxed) && call->is_answered();
   };

@@ -36,15 +36,16 @@ struct ServiceEndpoint {
   /// Somebody is to be woken when there is a call that can be served; `waker` lives until nobody is inside an epoch
   /// guard any more that began before it was taken back. Under the structure lock.
   void SetWaker(Waker* whom) noexcept {
-    waker.store(whom, std::memory_order_relaxed);
-    // Pairs with the fence in Wake(): of a call put in and a waker set at once, one side sees the other.
-    std::atomic_thread_fence(std::memory_order_seq_cst);
+    // acquire: pairs with the release in Wake(). Of both, which change the same word, one comes second: Wake() finds the
+    // waker, or this finds the call.
+    (void)waker.exchange(whom, std::memory_order_acq_rel);
     if (whom != nullptr && queue.size() > 0) whom->Wake();
   }
   /// There is something to do. Inside an epoch guard. Wait-free, but for waking a thread that sleeps.
   void Wake() noexcept {
-    std::atomic_thread_fence(std::memory_order_seq_cst);
-    if (Waker* const whom = waker.load(std::memory_order_relaxed)) whom->Wake();
+    Waker* whom = nullptr;
+    // A change, though of nothing. release: pairs with the acquire in SetWaker(): the call is in the queue.
+    if (!waker.compare_exchange_strong(whom, nullptr, std::memory_order_acq_rel)) whom->Wake();
   }
 
   BoundedQueue<CallBase*> queue;

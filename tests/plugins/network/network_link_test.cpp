@@ -101,6 +101,12 @@ class Member {
   std::unique_ptr<NetworkLink> link_;
 };
 
+/// The network's thread connects it meanwhile.
+bool IsConnected(const Port& output) {
+  const std::lock_guard lock(output.runtime().structure_mutex());
+  return !output.outgoing().empty();
+}
+
 class NetworkLinkTest : public testing::Test {
  protected:
   const std::shared_ptr<WireEngine> engine_ = MakeFakeWire();
@@ -113,7 +119,7 @@ TEST_F(NetworkLinkTest, AValueGoesFromOneToTheOther) {
   b.Take({.topic = "/a/module/place"}, b.module.goal);
   a.Begin();
   b.Begin();
-  WaitUntil("it is read", [&] { return !a.module.place.outgoing().empty(); });
+  WaitUntil("it is read", [&] { return IsConnected(a.module.place); });
   a.module.place.Publish({1, 2});
   WaitUntil("it has come", [&] { return b.module.goal.Read().has_value(); });
   EXPECT_EQ(b.module.goal.Get().y, 2);
@@ -125,15 +131,15 @@ TEST_F(NetworkLinkTest, APortThatNobodyReadsKnowsNothingOfTheNetwork) {
   Member a(*engine_, "a");
   a.Offer({.patterns = {"module/*"}});
   a.Begin();
-  EXPECT_THAT(a.module.place.outgoing(), IsEmpty());
+  EXPECT_FALSE(IsConnected(a.module.place));
   {
     Member b(*engine_, "b");
     b.Take({.topic = "/a/module/place"}, b.module.goal);
     b.Begin();
-    WaitUntil("it is read", [&] { return !a.module.place.outgoing().empty(); });
-    EXPECT_THAT(a.module.row.outgoing(), IsEmpty());
+    WaitUntil("it is read", [&] { return IsConnected(a.module.place); });
+    EXPECT_FALSE(IsConnected(a.module.row));
   }
-  WaitUntil("it is read no more", [&] { return a.module.place.outgoing().empty(); });
+  WaitUntil("it is read no more", [&] { return !IsConnected(a.module.place); });
 }
 
 TEST_F(NetworkLinkTest, PublishingWhatIsReadElsewhereAllocatesNothing) {
@@ -143,7 +149,7 @@ TEST_F(NetworkLinkTest, PublishingWhatIsReadElsewhereAllocatesNothing) {
   b.Take({.topic = "/a/module/place"}, b.module.goal);
   a.Begin();
   b.Begin();
-  WaitUntil("it is read", [&] { return !a.module.place.outgoing().empty(); });
+  WaitUntil("it is read", [&] { return IsConnected(a.module.place); });
   a.module.place.Publish({0, 0});
   const AllocationGuard guard;
   for (int i = 1; i <= 100; ++i) a.module.place.Publish({1.0 * i, 0});
@@ -160,7 +166,7 @@ TEST_F(NetworkLinkTest, OfAQueueEachValueComesInItsOrder) {
   b.Begin();
   ProbePort all(b.runtime.root(), "all", TypeOf<Row>());
   ASSERT_TRUE(Port::Connect(*b.network->takes().front().output, all));
-  WaitUntil("it is read", [&] { return !a.module.row.outgoing().empty(); });
+  WaitUntil("it is read", [&] { return IsConnected(a.module.row); });
   for (int i = 0; i < 100; ++i) a.module.row.Publish({{1.0 * i}});
   std::vector<double> values;
   WaitUntil("all have come", [&] {
@@ -192,7 +198,7 @@ TEST_F(NetworkLinkTest, ValuesAreAsOldAsTheirWriterSaysWhereThatIsAskedFor) {
   b.Take({.topic = "/a/module/place", .keeps_stamps = true}, b.module.goal);
   a.Begin();
   b.Begin();
-  WaitUntil("it is read", [&] { return !a.module.place.outgoing().empty(); });
+  WaitUntil("it is read", [&] { return IsConnected(a.module.place); });
   const Time measured = a.runtime.clock().Now() - std::chrono::seconds(5);
   a.module.place.Publish({1, 2}, measured);
   WaitUntil("it has come", [&] { return b.module.goal.Read().has_value(); });
@@ -207,7 +213,7 @@ TEST_F(NetworkLinkTest, ValuesFromSimulatedTimeAreAsOldAsTheirArrival) {
   b.Take({.topic = "/a/module/place", .keeps_stamps = true}, b.module.goal);
   a.Begin(true);
   b.Begin();
-  WaitUntil("it is read", [&] { return !a.module.place.outgoing().empty(); });
+  WaitUntil("it is read", [&] { return IsConnected(a.module.place); });
   const Time before = b.runtime.clock().Now();
   a.module.place.Publish({1, 2}, Time(std::chrono::seconds(3)));
   WaitUntil("it has come", [&] { return b.module.goal.Read().has_value(); });
@@ -289,14 +295,14 @@ TEST_F(NetworkLinkTest, APortThatComesLaterIsOfferedAndOneThatGoesIsNot) {
   b.Begin();
   auto& late = a.runtime.Create<Module1>(a.group, "late");
   ASSERT_TRUE(a.runtime.MakeReady(late));
-  WaitUntil("it is read", [&] { return !late.place.outgoing().empty(); });
+  WaitUntil("it is read", [&] { return IsConnected(late.place); });
   late.place.Publish({3, 0});
   WaitUntil("it has come", [&] { return b.module.goal.Read().has_value(); });
   ASSERT_TRUE(a.runtime.Delete(late));
   // One of the same name goes on.
   auto& again = a.runtime.Create<Module1>(a.group, "late");
   ASSERT_TRUE(a.runtime.MakeReady(again));
-  WaitUntil("it is read again", [&] { return !again.place.outgoing().empty(); });
+  WaitUntil("it is read again", [&] { return IsConnected(again.place); });
   again.place.Publish({4, 0});
   WaitUntil("the new one's has come", [&] { return b.module.goal.Get().x == 4; });
 }
@@ -308,7 +314,7 @@ TEST_F(NetworkLinkTest, NoMoreValuesASecondThanAskedFor) {
   b.Take({.topic = "/slow"}, b.module.goal);
   a.Begin();
   b.Begin();
-  WaitUntil("it is read", [&] { return !a.module.place.outgoing().empty(); });
+  WaitUntil("it is read", [&] { return IsConnected(a.module.place); });
   for (int i = 1; i <= 50; ++i) {
     a.module.place.Publish({1.0 * i, 0});
     WaitUntil("the first has come", [&] { return b.module.goal.Read().has_value(); });
