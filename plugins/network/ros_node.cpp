@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "plugins/cdr_values/cdr_writer.h"
+#include "plugins/ros_messages/node_messages.h"
 
 namespace runnel {
 
@@ -27,19 +28,6 @@ void PutId(CdrWriter& to, const WireId& id, bool is_long) {
 
 std::int64_t SinceEpoch() {
   return std::chrono::duration_cast<Duration>(std::chrono::system_clock::now().time_since_epoch()).count();
-}
-
-std::uint8_t RosLevel(LogLevel level) {
-  switch (level) {
-    case LogLevel::kDebug:
-      return 10;
-    case LogLevel::kInfo:
-      return 20;
-    case LogLevel::kWarning:
-      return 30;
-    default:
-      return 40;
-  }
 }
 
 }  // namespace

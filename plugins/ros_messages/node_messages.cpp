@@ -11,7 +11,9 @@ namespace runnel {
 
 namespace {
 
-std::uint8_t NumberOf(LogLevel level) {
+}  // namespace
+
+std::uint8_t RosLevel(LogLevel level) {
   switch (level) {
     case LogLevel::kDebug:
       return 10;
@@ -27,14 +29,12 @@ std::uint8_t NumberOf(LogLevel level) {
   return 0;
 }
 
-}  // namespace
-
 RosLog ToRosLog(const LogMessage& said, Time stamp) {
   std::string name = said.path;
   if (name.starts_with('/')) name.erase(0, 1);
   std::ranges::replace(name, '/', '.');
   RosLog log{.stamp = stamp, .name = std::move(name), .msg = said.TextWithCount(), .file = {}, .function = {}};
-  log.level = NumberOf(said.level);
+  log.level = RosLevel(said.level);
   return log;
 }
 
