@@ -26,6 +26,7 @@ export async function OpenPage(t, url, { width = 1280, height = 800, colours = '
     complaints.push(message.text());
   });
   Cleanup(t, async () => {
+    await SayWhatIsOpen(page);
     await browser.close();
     assert.deepEqual(complaints, [], 'the page complains');
   });
@@ -33,6 +34,13 @@ export async function OpenPage(t, url, { width = 1280, height = 800, colours = '
   await page.locator('#connection-state', { hasText: 'connected' }).waitFor();
   await page.locator(shows).first().waitFor();
   return new InspectorPage(page, forgiven);
+}
+
+/** A dialog that is open at the end mostly belongs to a test that has failed: what it says tells why. */
+async function SayWhatIsOpen(page) {
+  for (const text of await page.locator('dialog[open]').allInnerTexts().catch(() => [])) {
+    console.log(`# a dialog is open at the end:\n${text}`.replaceAll('\n', '\n#   '));
+  }
 }
 
 /** What a user does with the page, in words. */

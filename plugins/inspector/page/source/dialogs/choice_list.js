@@ -1,7 +1,7 @@
 // A search field over a list to choose from, by mouse or arrow keys.
 
 import { useSignal } from '@preact/signals';
-import { useEffect, useRef } from 'preact/hooks';
+import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 import { html } from 'htm/preact';
 
 const kShown = 120;
@@ -20,7 +20,8 @@ export function ChoiceList({ label, placeholder, find, onChoose, onCurrent, onMo
   const all = find(text.value);
   const entries = all.slice(0, kShown);
   const current = entries[Math.min(at.value, entries.length - 1)];
-  useEffect(() => {
+  // At once, not after the next picture: what follows from the choice, a name say, must not change under the user's hands.
+  useLayoutEffect(() => {
     list.current?.querySelector('[aria-selected=true]')?.scrollIntoView({ block: 'nearest' });
     onCurrent?.(current ?? null);
   }, [current?.key]);
