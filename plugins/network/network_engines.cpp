@@ -22,6 +22,7 @@ Result<std::shared_ptr<WireEngine>> FindWireEngine(const std::string& name, Plug
     Error error = loaded.error();
     error.message = "the network's engine '" + name + "' is not installed: " + error.message;
     if (name == "cyclone") error.hint = "install Cyclone DDS (cyclonedds-dev), and build Runnel again";
+    if (name == "fast") error.hint = "install Fast DDS (libfastrtps-dev), and build Runnel again";
     return error;
   }
   if (auto loaded = Engines().Find(plugin)) return loaded;

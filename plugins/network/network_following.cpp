@@ -87,15 +87,18 @@ void NetworkLink::MakeOffer(const Wanted& wanted) {
   auto form = ValueForm::Make(*wanted.type, wanted.options.as, wanted.options.frame, wanted.options.child_frame,
                               element_.options().messages.get());
   if (!form) return Trouble(wanted.path, form.error());
+  {
+    // One of before, whose port has another type now: first, since an engine may have one type of a topic only.
+    const std::lock_guard lock(runtime_.structure_mutex());
+    std::erase_if(offered_, [&](const auto& each) {
+      return each->path() == wanted.path && each->options().topic == wanted.options.topic;
+    });
+  }
   auto made = std::make_unique<OfferedPort>(*beside_, "offer_" + std::to_string(++made_), *wanted.type, wanted.path,
                                             wanted.options, std::move(*form), clock_, wake_);
   made->set_on_matched([this] { LookAgain(); });
   if (const auto begun = made->Begin(*participant_); !begun) return Trouble(wanted.path, begun.error());
   const std::lock_guard lock(runtime_.structure_mutex());
-  // One of before, whose port has another type now.
-  std::erase_if(offered_, [&](const auto& each) {
-    return each->path() == wanted.path && each->options().topic == wanted.options.topic;
-  });
   offered_.push_back(std::move(made));
 }
 

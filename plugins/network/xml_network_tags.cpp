@@ -237,7 +237,7 @@ void AddNetworkTags(XmlTagRegistry& tags) {
                                              "repeatable then"),
                               {.name = "messages",
                                .summary = ".msg files and folders with <package>/msg/*.msg, beside ROS 2's own; separated by blanks"},
-                              {.name = "engine", .kind = AttributeKind::kName, .summary = "cyclone by default"}},
+                              {.name = "engine", .kind = AttributeKind::kName, .summary = "cyclone (the default), or fast: Fast DDS"}},
                .handle = HandleNetwork});
   tags.AddTag({.name = "offer",
                .summary = "ports that others may read",

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/base/markup.h"
-#include "plugins/wire_cyclone/loopback_filter.h"
+#include "plugins/wire/loopback_filter.h"
 
 namespace runnel {
 
@@ -70,7 +70,7 @@ std::string CycloneConfiguration(const WireMemberOptions& options) {
          "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>119</MaxAutoParticipantIndex>"
          "<SPDPInterval>500ms</SPDPInterval><LeaseDuration>10s</LeaseDuration>" +
          PeersText(options) +
-         "</Discovery><Internal><SocketReceiveBufferSize max=\"4MB\"/><SocketSendBufferSize max=\"4MB\"/></Internal>"
+         "</Discovery><Internal><GenerateKeyhash>true</GenerateKeyhash><SocketReceiveBufferSize max=\"4MB\"/><SocketSendBufferSize max=\"4MB\"/></Internal>"
          "</Domain>";
 }
 

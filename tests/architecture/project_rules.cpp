@@ -113,6 +113,7 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
                    "plugins/network",
                    {"core", "plugins/cdr_values", "plugins/ros_messages", "plugins/values/port_patterns.h", "plugins/wire"}});
   rules.push_back({"plugins/wire_cyclone", "plugins/wire_cyclone", {"core", "plugins/wire"}});
+  rules.push_back({"plugins/wire_fast", "plugins/wire_fast", {"core", "plugins/wire"}});
   rules.push_back({"plugins/python", "plugins/python", {"core"}});
   rules.push_back({"plugins/recording",
                    "plugins/recording",

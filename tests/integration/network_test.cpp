@@ -91,6 +91,20 @@ TEST_F(TwoRobots, ARobotThatIsKilledAndStartedAgainFindsItsPlannerAndTheLatchedG
   ASSERT_TRUE(robot->WaitFor("driving to the goal"));
 }
 
+#if RUNNEL_HAS_FAST
+// Each engine is the other's foreign end.
+TEST_F(TwoRobots, OneMayHaveAnotherEngineThanTheOther) {
+  const auto robot = StartWith("two_robots.xml", "engine=\"fast\"");
+  auto planner = Start("two_robots_planner.xml");
+  WaitUntilItDrives();
+  planner->Send(SIGKILL);
+  ASSERT_TRUE(robot->WaitFor("published {forward: 0, turn: 0} at /robot/gate/input/wanted"));
+  planner = StartWith("two_robots_planner.xml", "engine=\"fast\"");
+  ASSERT_TRUE(robot->WaitFor("values come again"));
+  WaitUntilItDrives();
+}
+#endif
+
 // At the ports of domain and participants (RTPS), as anybody on the machine could.
 TEST_F(TwoRobots, DatagramsThatMeanNothingStopNobody) {
   const auto robot = Start("two_robots.xml");

@@ -1,4 +1,4 @@
-#include "plugins/wire_cyclone/loopback_filter.h"
+#include "plugins/wire/loopback_filter.h"
 
 #include <array>
 #include <cerrno>

@@ -1,0 +1,107 @@
+#include "plugins/wire_fast/fast_discovery.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include <fastdds/rtps/participant/ParticipantDiscoveryInfo.h>
+#include <fastdds/rtps/reader/ReaderDiscoveryInfo.h>
+#include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
+
+namespace runnel {
+
+namespace {
+
+namespace dds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+
+constexpr std::size_t kPrefix = rtps::GuidPrefix_t::size;  // of a participant's id, which those of its endpoints share
+
+std::string TextOf(const dds::UserDataQosPolicy& user_data) {
+  return {user_data.begin(), user_data.end()};
+}
+
+template <typename Proxy>
+WireEndpoint EndpointOf(const Proxy& proxy, bool is_writer) {
+  WireEndpoint endpoint{.id = IdOf(proxy.guid()), .is_writer = is_writer};
+  endpoint.handle = HandleOf(endpoint.id);
+  endpoint.participant = IdOf({proxy.guid().guidPrefix, rtps::c_EntityId_RTPSParticipant});
+  endpoint.options.topic = proxy.topicName().to_string();
+  endpoint.options.type = proxy.typeName().to_string();
+  endpoint.options.user_data = TextOf(proxy.m_qos.m_userData);
+  WireQos& qos = endpoint.options.qos;
+  qos.is_reliable = proxy.m_qos.m_reliability.kind == dds::RELIABLE_RELIABILITY_QOS;
+  qos.is_latched = proxy.m_qos.m_durability.kind != dds::VOLATILE_DURABILITY_QOS;
+  qos.is_exclusive = proxy.m_qos.m_ownership.kind == dds::EXCLUSIVE_OWNERSHIP_QOS;
+  return endpoint;
+}
+
+}  // namespace
+
+WireId IdOf(const rtps::GUID_t& guid) {
+  WireId id;
+  std::memcpy(id.data(), guid.guidPrefix.value, kPrefix);
+  std::memcpy(id.data() + kPrefix, guid.entityId.value, rtps::EntityId_t::size);
+  return id;
+}
+
+// FNV-1a: ids have twice as many octets.
+std::uint64_t HandleOf(const WireId& id) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const std::uint8_t octet : id) hash = (hash ^ octet) * 0x100000001b3;
+  return hash;
+}
+
+bool AreOfOneMember(const WireId& a, const WireId& b) { return std::equal(a.begin(), a.begin() + kPrefix, b.begin()); }
+
+void FastDiscovery::TellMember(const WireMember& member) {
+  const std::lock_guard lock(mutex_);
+  listener_.OnMember(member);
+}
+
+void FastDiscovery::Tell(const WireEndpoint& endpoint) {
+  const std::lock_guard lock(mutex_);
+  endpoints_.insert(endpoint.id);
+  listener_.OnEndpoint(endpoint);
+}
+
+void FastDiscovery::TellGone(const WireId& endpoint) {
+  const std::lock_guard lock(mutex_);
+  if (endpoints_.erase(endpoint) > 0) listener_.OnEndpointGone(endpoint);
+}
+
+// Not all of its endpoints are said to have gone.
+void FastDiscovery::TellMemberGone(const WireId& id) {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(endpoints_, [&](const WireId& each) {
+    const bool goes = AreOfOneMember(each, id);
+    if (goes) listener_.OnEndpointGone(each);
+    return goes;
+  });
+  listener_.OnMemberGone(id);
+}
+
+void FastDiscovery::on_participant_discovery(dds::DomainParticipant*, rtps::ParticipantDiscoveryInfo&& info) {
+  const WireId id = IdOf(info.info.m_guid);
+  switch (info.status) {
+    case rtps::ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT:
+    case rtps::ParticipantDiscoveryInfo::CHANGED_QOS_PARTICIPANT:
+      return TellMember({.id = id, .name = info.info.m_participantName.to_string(), .user_data = TextOf(info.info.m_userData)});
+    case rtps::ParticipantDiscoveryInfo::REMOVED_PARTICIPANT:
+    case rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT:
+      return TellMemberGone(id);
+  }
+}
+
+void FastDiscovery::on_subscriber_discovery(dds::DomainParticipant*, rtps::ReaderDiscoveryInfo&& info) {
+  if (info.status == rtps::ReaderDiscoveryInfo::REMOVED_READER) return TellGone(IdOf(info.info.guid()));
+  Tell(EndpointOf(info.info, false));
+}
+
+void FastDiscovery::on_publisher_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryInfo&& info) {
+  if (info.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER) return TellGone(IdOf(info.info.guid()));
+  WireEndpoint endpoint = EndpointOf(info.info, true);
+  endpoint.options.qos.strength = static_cast<std::int32_t>(info.info.m_qos.m_ownershipStrength.value);
+  Tell(endpoint);
+}
+
+}  // namespace runnel

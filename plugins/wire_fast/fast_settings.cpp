@@ -1,0 +1,154 @@
+#include "plugins/wire_fast/fast_settings.h"
+
+#include <memory>
+
+#include <arpa/inet.h>
+#include <ifaddrs.h>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastrtps/utils/IPLocator.h>
+
+namespace runnel {
+
+namespace {
+
+namespace dds = eprosima::fastdds::dds;
+using eprosima::fastdds::rtps::UDPv4TransportDescriptor;
+using eprosima::fastrtps::Duration_t;
+using eprosima::fastrtps::rtps::IPLocator;
+using eprosima::fastrtps::rtps::Locator_t;
+
+constexpr std::uint32_t kRoom = 4'194'304;          // of sockets: for images
+constexpr std::uint32_t kProcessesOfAMachine = 120;  // that are asked one by one
+constexpr std::uint32_t kMillisecond = 1'000'000;
+constexpr const char* kGroup = "239.255.0.1";
+
+std::string AddressText(const sockaddr& address) {
+  char text[INET_ADDRSTRLEN] = {};
+  const auto& internet = reinterpret_cast<const sockaddr_in&>(address);
+  return inet_ntop(AF_INET, &internet.sin_addr, text, sizeof text) != nullptr ? text : "";
+}
+
+// Fast DDS knows interfaces by their addresses only.
+Result<std::string> AddressOfInterface(const std::string& interface) {
+  ifaddrs* all = nullptr;
+  std::string found;
+  std::string others;
+  if (getifaddrs(&all) == 0) {
+    for (const ifaddrs* each = all; each != nullptr; each = each->ifa_next) {
+      if (each->ifa_addr == nullptr || each->ifa_addr->sa_family != AF_INET) continue;
+      const std::string address = AddressText(*each->ifa_addr);
+      if (interface == each->ifa_name || interface == address) found = address;
+      others += std::string(others.empty() ? "" : ", ") + each->ifa_name + " (" + address + ")";
+    }
+    freeifaddrs(all);
+  }
+  if (!found.empty()) return found;
+  return Error{.message = "there is no interface '" + interface + "' with an address", .hint = "there are " + others};
+}
+
+Result<Locator_t> Peer(const std::string& name) {
+  const addrinfo hints{.ai_flags = 0, .ai_family = AF_INET, .ai_socktype = SOCK_DGRAM, .ai_protocol = 0, .ai_addrlen = 0,
+                       .ai_addr = nullptr, .ai_canonname = nullptr, .ai_next = nullptr};
+  addrinfo* found = nullptr;
+  if (const int failed = getaddrinfo(name.c_str(), nullptr, &hints, &found); failed != 0) {
+    return Error{.message = "the address '" + name + "' is not known: " + gai_strerror(failed)};
+  }
+  Locator_t locator(LOCATOR_KIND_UDPv4, 0);  // port 0: all that it may have
+  IPLocator::setIPv4(locator, AddressText(*found->ai_addr));
+  freeaddrinfo(found);
+  return locator;
+}
+
+template <typename Qos>
+void SetKept(Qos& qos, const WireQos& wanted) {
+  qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
+  const auto depth = static_cast<std::int32_t>(wanted.depth);
+  qos.history().depth = depth;
+  qos.resource_limits().max_samples = depth;
+  qos.resource_limits().max_instances = 1;
+  qos.resource_limits().max_samples_per_instance = depth;
+  qos.resource_limits().allocated_samples = 1;
+  qos.reliability().kind = wanted.is_reliable ? dds::RELIABLE_RELIABILITY_QOS : dds::BEST_EFFORT_RELIABILITY_QOS;
+  qos.durability().kind = wanted.is_latched ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
+  qos.ownership().kind = wanted.is_exclusive ? dds::EXCLUSIVE_OWNERSHIP_QOS : dds::SHARED_OWNERSHIP_QOS;
+  qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  qos.data_sharing().off();
+}
+
+void SetUserData(dds::UserDataQosPolicy& user_data, const std::string& text) {
+  user_data.data_vec({text.begin(), text.end()});
+}
+
+}  // namespace
+
+// Every policy is set here: files of profiles in the folder of the process may change the defaults.
+Result<dds::DomainParticipantQos> MemberQos(const WireMemberOptions& options) {
+  dds::DomainParticipantQos qos;
+  qos.name() = options.name;
+  SetUserData(qos.user_data(), options.user_data);
+
+  const auto udp = std::make_shared<UDPv4TransportDescriptor>();
+  udp->sendBufferSize = kRoom;
+  udp->receiveBufferSize = kRoom;
+  udp->maxInitialPeersRange = kProcessesOfAMachine;
+  if (options.reach == WireReach::kLoopback) udp->interfaceWhiteList = {"127.0.0.1"};
+  if (!options.interface.empty()) {
+    const auto address = AddressOfInterface(options.interface);
+    if (!address) return address.error();
+    udp->interfaceWhiteList = {*address};
+  }
+  qos.transport().use_builtin_transports = false;
+  qos.transport().user_transports = {udp};
+
+  auto& builtin = qos.wire_protocol().builtin;
+  builtin.discovery_config.leaseDuration = Duration_t(10, 0);
+  builtin.discovery_config.leaseDuration_announcementperiod = Duration_t(0, 500 * kMillisecond);
+  builtin.discovery_config.initial_announcements = {10, Duration_t(0, 50 * kMillisecond)};
+  builtin.typelookup_config.use_client = false;
+  builtin.typelookup_config.use_server = false;
+
+  const bool asks_all = options.has_multicast && options.reach != WireReach::kMachine;
+  if (!asks_all) {
+    builtin.metatrafficUnicastLocatorList.push_back(Locator_t(LOCATOR_KIND_UDPv4, 0));  // and no group
+  }
+  std::vector<std::string> peers = options.peers;
+  if (!asks_all) peers.push_back("127.0.0.1");
+  for (const std::string& each : peers) {
+    const auto peer = Peer(each);
+    if (!peer) return peer.error();
+    builtin.initialPeersList.push_back(*peer);
+  }
+  if (asks_all && !peers.empty()) {  // else that is what it does by itself
+    Locator_t group(LOCATOR_KIND_UDPv4, qos.wire_protocol().port.getMulticastPort(options.domain));
+    IPLocator::setIPv4(group, kGroup);
+    builtin.initialPeersList.push_back(group);
+  }
+  return qos;
+}
+
+dds::DataWriterQos WriterQosOf(const WireEndpointOptions& options) {
+  dds::DataWriterQos qos;
+  SetKept(qos, options.qos);
+  SetUserData(qos.user_data(), options.user_data);
+  qos.reliability().max_blocking_time = Duration_t(0, 2 * kMillisecond);
+  qos.publish_mode().kind = dds::SYNCHRONOUS_PUBLISH_MODE;
+  qos.ownership_strength().value = options.qos.is_exclusive ? static_cast<std::uint32_t>(options.qos.strength) : 0;
+  auto& times = qos.reliable_writer_qos().times;
+  times.heartbeatPeriod = Duration_t(0, 100 * kMillisecond);
+  times.nackResponseDelay = Duration_t(0, kMillisecond);
+  return qos;
+}
+
+dds::DataReaderQos ReaderQosOf(const WireEndpointOptions& options) {
+  dds::DataReaderQos qos;
+  SetKept(qos, options.qos);
+  SetUserData(qos.user_data(), options.user_data);
+  qos.reliable_reader_qos().times.heartbeatResponseDelay = Duration_t(0, kMillisecond);
+  return qos;
+}
+
+}  // namespace runnel
