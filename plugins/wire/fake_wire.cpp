@@ -21,7 +21,17 @@ struct FakeEndpoint {
   OnSample on_sample;
   OnMatched on_matched;
   std::size_t matched = 0;
-  std::deque<std::pair<std::shared_ptr<const Octets>, std::int64_t>> kept;  // by a latched writer
+  struct Value {
+    std::shared_ptr<const Octets> octets;
+    std::int64_t time;
+    WireIdentity identity;
+    WireIdentity related;
+  };
+  std::deque<Value> kept;  // by a latched writer
+
+  void Take(const Value& value, std::uint64_t writer) const {
+    on_sample({*value.octets, value.time, writer, value.identity, value.related});
+  }
 };
 
 /// All of it is done by one thread, in the order in which it was asked for.
@@ -37,6 +47,7 @@ class FakeNetwork final : public WireEngine {
     thread_.join();
   }
 
+  [[nodiscard]] bool has_identities() const noexcept override { return true; }
   Result<std::unique_ptr<WireParticipant>> Join(const WireMemberOptions& options,
                                                 WireDiscovery& discovery) override;
 
@@ -73,7 +84,7 @@ class FakeNetwork final : public WireEngine {
   void RemoveMember(FakeParticipant& member);
   void AddEndpoint(const std::shared_ptr<FakeEndpoint>& endpoint);
   void RemoveEndpoint(const std::shared_ptr<FakeEndpoint>& endpoint);
-  void Deliver(FakeEndpoint& writer, const std::shared_ptr<const Octets>& octets, std::int64_t time);
+  void Deliver(FakeEndpoint& writer, const FakeEndpoint::Value& value);
 
  private:
   void Run();
@@ -99,15 +110,22 @@ class FakeWriter final : public WireWriter {
   }
   [[nodiscard]] const WireId& id() const noexcept override { return endpoint_->about.id; }
   Result<void> Write(const std::shared_ptr<const Octets>& octets, std::int64_t source_time) override {
-    network_.Post([this, endpoint = endpoint_, octets, source_time] {
-      network_.Deliver(*endpoint, octets, source_time);
-    });
+    (void)WriteRelated(octets, source_time, {});
     return {};
+  }
+  Result<WireIdentity> WriteRelated(const std::shared_ptr<const Octets>& octets, std::int64_t source_time,
+                                    const WireIdentity& related) override {
+    const WireIdentity identity{id(), ++written_};
+    network_.Post([this, endpoint = endpoint_, value = FakeEndpoint::Value{octets, source_time, identity, related}] {
+      network_.Deliver(*endpoint, value);
+    });
+    return identity;
   }
 
  private:
   FakeNetwork& network_;
   const std::shared_ptr<FakeEndpoint> endpoint_;
+  std::int64_t written_ = 0;
 };
 
 class FakeReader final : public WireReader {
@@ -241,9 +259,7 @@ void FakeNetwork::AddEndpoint(const std::shared_ptr<FakeEndpoint>& endpoint) {
     const FakeEndpoint& writer = endpoint->about.is_writer ? *endpoint : other;
     const FakeEndpoint& reader = endpoint->about.is_writer ? other : *endpoint;
     if (!reader.about.options.qos.is_latched) return;
-    for (const auto& [octets, time] : writer.kept) {
-      reader.on_sample({*octets, time, writer.about.handle});
-    }
+    for (const auto& value : writer.kept) reader.Take(value, writer.about.handle);
   });
 }
 
@@ -257,15 +273,12 @@ void FakeNetwork::RemoveEndpoint(const std::shared_ptr<FakeEndpoint>& endpoint) 
   ForEachOther(*endpoint, [](FakeEndpoint& other) { Count(other, static_cast<std::size_t>(-1)); });
 }
 
-void FakeNetwork::Deliver(FakeEndpoint& writer, const std::shared_ptr<const Octets>& octets,
-                          std::int64_t time) {
+void FakeNetwork::Deliver(FakeEndpoint& writer, const FakeEndpoint::Value& value) {
   if (writer.about.options.qos.is_latched) {
-    writer.kept.emplace_back(octets, time);
+    writer.kept.push_back(value);
     if (writer.kept.size() > writer.about.options.qos.depth) writer.kept.pop_front();
   }
-  ForEachOther(writer, [&](FakeEndpoint& reader) {
-    reader.on_sample({*octets, time, writer.about.handle});
-  });
+  ForEachOther(writer, [&](FakeEndpoint& reader) { reader.Take(value, writer.about.handle); });
 }
 
 Result<std::unique_ptr<WireParticipant>> FakeNetwork::Join(const WireMemberOptions& options,

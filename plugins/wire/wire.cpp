@@ -23,4 +23,8 @@ std::string QosText(const WireQos& qos) {
   return text + ", newest " + std::to_string(qos.depth);
 }
 
+Result<WireIdentity> WireWriter::WriteRelated(const std::shared_ptr<const Octets>&, std::int64_t, const WireIdentity&) {
+  return Error{.message = "the network's engine cannot say to which other value one is related", .hint = "engine=\"fast\""};
+}
+
 }  // namespace runnel

@@ -72,11 +72,21 @@ class WireDiscovery {
   ~WireDiscovery() = default;
 };
 
+/// What names one value in the whole network, where the engine tells (WireEngine::has_identities).
+struct WireIdentity {
+  WireId writer = {};
+  std::int64_t number = 0;  ///< of the writer's values, from 1 on; 0: not known
+
+  bool operator==(const WireIdentity&) const = default;
+};
+
 /// One value that has come.
 struct WireSample {
   std::span<const std::byte> octets;  ///< gone when the callback returns; nobody changes them until then
   std::int64_t source_time = 0;       ///< nanoseconds since 1970 on the writer's clock
   std::uint64_t writer = 0;           ///< WireEndpoint::handle
+  WireIdentity identity = {};         ///< its own
+  WireIdentity related = {};          ///< as its writer says: of the value that it answers, or where an answer is to go
 };
 
 /// How many there are at the other ends, after each change. Called by threads of the engine.
@@ -92,6 +102,11 @@ class WireWriter {
   /// `octets` stay as they are until nobody but the caller has them any more. Never waits for readers beyond the
   /// engine's bound for reliable ones (milliseconds). One thread at a time. Allocates.
   virtual Result<void> Write(const std::shared_ptr<const Octets>& octets, std::int64_t source_time) = 0;
+  /// As Write(), of a value that is related to another one, as requests and replies of ROS 2's default middleware are:
+  /// a request says {reader of the replies, 0}, a reply {that reader, the request's number}. Tells the value's own
+  /// identity. Errors: the engine has none.
+  virtual Result<WireIdentity> WriteRelated(const std::shared_ptr<const Octets>& octets, std::int64_t source_time,
+                                            const WireIdentity& related);
 };
 
 /// Destroying it waits for callbacks that run.
@@ -137,6 +152,8 @@ class WireParticipant {
 class WireEngine {
  public:
   virtual ~WireEngine() = default;
+  /// Whether values have identities, and say to which others they are related.
+  [[nodiscard]] virtual bool has_identities() const noexcept { return false; }
   /// `discovery` must outlive the participant. Errors: what the engine says of options and network.
   virtual Result<std::unique_ptr<WireParticipant>> Join(const WireMemberOptions& options,
                                                         WireDiscovery& discovery) = 0;

@@ -1,5 +1,6 @@
 #include "plugins/wire_fast/fast_endpoints.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <fastdds/dds/publisher/DataWriter.hpp>
@@ -27,6 +28,19 @@ WireId IdOfHandle(const rtps::InstanceHandle_t& handle) {
   WireId id;
   for (std::size_t i = 0; i < id.size(); ++i) id[i] = handle.value[i];
   return id;
+}
+
+WireIdentity IdentityOf(const rtps::SampleIdentity& identity) {
+  const auto number = static_cast<std::int64_t>(identity.sequence_number().to64long());
+  return {IdOf(identity.writer_guid()), std::max<std::int64_t>(number, 0)};
+}
+
+rtps::SampleIdentity SampleIdentityOf(const WireIdentity& identity) {
+  rtps::SampleIdentity made;
+  std::copy_n(identity.writer.begin(), rtps::GuidPrefix_t::size, made.writer_guid().guidPrefix.value);
+  std::copy_n(identity.writer.begin() + rtps::GuidPrefix_t::size, rtps::EntityId_t::size, made.writer_guid().entityId.value);
+  if (identity.number > 0) made.sequence_number(rtps::SequenceNumber_t(static_cast<std::uint64_t>(identity.number)));
+  return made;
 }
 
 /// Lets callbacks in, one at a time, until it is shut; shutting waits for one that runs.
@@ -95,13 +109,23 @@ class FastWriter final : public WireWriter, private dds::DataWriterListener {
 
   Result<void> Write(const std::shared_ptr<const Octets>& octets, std::int64_t source_time) override {
     rtps::WriteParams parameters;
-    parameters.source_timestamp().seconds(static_cast<std::int32_t>(source_time / kSecond));
-    parameters.source_timestamp().nanosec(static_cast<std::uint32_t>(source_time % kSecond));
-    if (writer_->write(const_cast<Octets*>(octets.get()), parameters)) return {};
-    return FastError("a value could not be written");
+    return Write(*octets, source_time, parameters);
+  }
+  Result<WireIdentity> WriteRelated(const std::shared_ptr<const Octets>& octets, std::int64_t source_time,
+                                    const WireIdentity& related) override {
+    rtps::WriteParams parameters;
+    parameters.related_sample_identity(SampleIdentityOf(related));
+    if (const auto written = Write(*octets, source_time, parameters); !written) return written.error();
+    return IdentityOf(parameters.sample_identity());
   }
 
  private:
+  Result<void> Write(const Octets& octets, std::int64_t source_time, rtps::WriteParams& parameters) {
+    parameters.source_timestamp().seconds(static_cast<std::int32_t>(source_time / kSecond));
+    parameters.source_timestamp().nanosec(static_cast<std::uint32_t>(source_time % kSecond));
+    if (writer_->write(const_cast<Octets*>(&octets), parameters)) return {};
+    return FastError("a value could not be written");
+  }
   void on_publication_matched(dds::DataWriter*, const dds::PublicationMatchedStatus& status) override {
     gate_.Pass([&] { matches_.Change(status.last_subscription_handle, status.current_count_change); });
   }
@@ -157,7 +181,8 @@ class FastReader final : public WireReader, private dds::DataReaderListener {
   void Look(const dds::SampleInfo& info) {
     const WireId writer = IdOf(info.sample_identity.writer_guid());
     if (AreOfOneMember(writer, member_.id())) return;
-    on_sample_({octets_, info.source_timestamp.to_ns(), HandleOf(writer)});
+    on_sample_({octets_, info.source_timestamp.to_ns(), HandleOf(writer), IdentityOf(info.sample_identity),
+                IdentityOf(info.related_sample_identity)});
   }
 
   FastMember& member_;

@@ -71,6 +71,7 @@ class FastWire final : public WireEngine {
     settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
     eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
   }
+  [[nodiscard]] bool has_identities() const noexcept override { return true; }
   Result<std::unique_ptr<WireParticipant>> Join(const WireMemberOptions& options, WireDiscovery& discovery) override {
     auto participant = std::make_unique<FastParticipant>(factory_, discovery);
     if (const auto begun = participant->Begin(options); !begun) return begun.error();

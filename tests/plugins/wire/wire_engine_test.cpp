@@ -175,6 +175,44 @@ TEST_P(WireEngineTest, AParticipantDoesNotHearItself) {
   EXPECT_TRUE(own.values.empty());
 }
 
+// As a service's client and server of ROS 2's default middleware do.
+TEST_P(WireEngineTest, AReplySaysToWhichRequestItBelongs) {
+  const WireEndpointOptions requests{.topic = "rq/addRequest", .type = "numbers::Add_Request_"};
+  const WireEndpointOptions replies{.topic = "rr/addReply", .type = "numbers::Add_Response_"};
+  std::mutex mutex;
+  std::vector<WireSample> asked;
+  std::vector<WireSample> answered;
+  const auto to = [&](std::vector<WireSample>& all) {
+    return [&](const WireSample& sample) {
+      const std::lock_guard lock(mutex);
+      all.push_back(sample);
+      all.back().octets = {};
+    };
+  };
+  Arrived matches[4];
+  const auto request_writer = std::move(*a_->MakeWriter(requests, matches[0].Counter()));
+  const auto reply_reader = std::move(*a_->MakeReader(replies, to(answered), matches[1].Counter()));
+  const auto request_reader = std::move(*b_->MakeReader(requests, to(asked), matches[2].Counter()));
+  const auto reply_writer = std::move(*b_->MakeWriter(replies, matches[3].Counter()));
+  for (Arrived& each : matches) each.WaitFor([](const Arrived& all) { return all.matched == 1; });
+  const auto asking = request_writer->WriteRelated(Four(1), 1, {reply_reader->id(), 0});
+  ASSERT_EQ(asking.has_value(), engine_->has_identities());
+  if (!asking) return;
+  WaitUntil("the request is there", [&] {
+    const std::lock_guard lock(mutex);
+    return !asked.empty();
+  });
+  EXPECT_EQ(asked[0].identity, *asking);
+  EXPECT_EQ(asking->writer, request_writer->id());
+  EXPECT_EQ(asked[0].related, (WireIdentity{reply_reader->id(), 0}));
+  ASSERT_TRUE(reply_writer->WriteRelated(Four(2), 2, {asked[0].related.writer, asked[0].identity.number}));
+  WaitUntil("the reply is there", [&] {
+    const std::lock_guard lock(mutex);
+    return !answered.empty();
+  });
+  EXPECT_EQ(answered[0].related, (WireIdentity{reply_reader->id(), asking->number}));
+}
+
 /// Those that open sockets.
 class SocketEngineTest : public testing::TestWithParam<MakeEngine> {};
 
