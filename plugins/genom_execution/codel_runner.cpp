@@ -58,9 +58,15 @@ bool CodelRunner::Enter(std::size_t unit) noexcept {
     if (is_excluding_) engine_.exclusion().Want(place_, unit);
   }
   if (!is_excluding_) return true;
+  if (engine_.exclusion().May(place_)) return true;
+  if (!engine_.IsWorthSleeping(unit)) return false;
+  const SteadyClock clock;
+  const Time now = clock.Now();
+  const Duration patience = engine_.options().patience;
+  const Time deadline = patience < Time::max() - now ? now + patience : Time::max();
   while (!engine_.exclusion().May(place_)) {
-    if (!engine_.options().waits) return false;
-    engine_.exclusion().Wait(place_);
+    if (clock.Now() >= deadline) return false;
+    engine_.exclusion().Wait(place_, deadline);
   }
   return true;
 }

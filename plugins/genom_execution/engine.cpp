@@ -15,7 +15,7 @@ Engine::Engine(const ComponentTable& component, const EngineOptions& options)
       options_(options),
       conflicts_(component),
       is_excluding_(!options.is_single_threaded || HasAsyncCodels(component)),
-      exclusion_(conflicts_, component.tasks.size() + 1, options.waits),
+      exclusion_(conflicts_, component.tasks.size() + 1, options.patience > Duration::zero()),
       control_(*this) {
   for (std::size_t i = 0; i < component.tasks.size(); ++i) tasks_.emplace_back(*this, i);
   if (component.tasks.empty()) phase_ = Phase::kRunning;

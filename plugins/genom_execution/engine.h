@@ -13,9 +13,9 @@ struct EngineOptions {
   void* glue = nullptr;          ///< CodelContext::data, and the first argument of the functions below
   std::size_t activities = 32;   ///< of each task at once
   std::size_t requests = 64;     ///< that wait for the control task
-  /// Whether RunControl() and RunTask() may sleep until a codel may run: tasks with threads of their own. Else they
-  /// return kWaiting.
-  bool waits = false;
+  /// How long RunControl() and RunTask() may sleep until a codel may run: tasks with threads of their own. Then, and if
+  /// it conflicts with one that another thread runs for them, they return kWaiting.
+  Duration patience{};
   /// Whether one thread runs all tasks: then only asynchronous codels are kept apart from others.
   bool is_single_threaded = false;
   /// Has AsyncWork::Run() called by another thread: of the task of that place, 0 being the control task. nullptr: codels
@@ -90,6 +90,10 @@ class Engine {
   void NoteFailure(const Outcome& outcome) noexcept;
   [[nodiscard]] Exclusion& exclusion() noexcept { return exclusion_; }
   [[nodiscard]] bool Excludes(std::size_t unit) const noexcept { return is_excluding_ && conflicts_.HasAny(unit); }
+  /// Whether it is worth sleeping until this one may run.
+  [[nodiscard]] bool IsWorthSleeping(std::size_t unit) const noexcept {
+    return options_.patience > Duration::zero() && (options_.run_async == nullptr || !conflicts_.HasAsync(unit));
+  }
   [[nodiscard]] bool HasBegun(const ExecutionTask& task) const noexcept;
 
  private:

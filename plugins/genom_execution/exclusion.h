@@ -16,6 +16,8 @@ class ConflictMatrix {
  public:
   explicit ConflictMatrix(const ComponentTable& component);
   [[nodiscard]] bool HasAny(std::size_t unit) const noexcept { return has_any_[unit]; }
+  /// Whether it conflicts with an asynchronous codel, which may take long.
+  [[nodiscard]] bool HasAsync(std::size_t unit) const noexcept { return has_async_[unit]; }
   [[nodiscard]] bool Conflict(std::size_t a, std::size_t b) const noexcept {
     return (bits_[a * words_ + b / 64] >> (b % 64) & 1) != 0;
   }
@@ -24,6 +26,7 @@ class ConflictMatrix {
   const std::size_t words_;
   std::vector<std::uint64_t> bits_;
   std::vector<bool> has_any_;
+  std::vector<bool> has_async_;
 };
 
 /// Keeps units that conflict apart, first come first served, and lets threads sleep until it is their turn.
@@ -43,8 +46,8 @@ class Exclusion {
   /// Whether it may run now.
   [[nodiscard]] bool May(std::size_t place) const noexcept;
   void Leave(std::size_t place) noexcept;
-  /// Sleeps until May() is worth asking again. Not in a cycle. Precondition: made to sleep.
-  void Wait(std::size_t place) noexcept { may_look_[place].Wait(); }
+  /// Sleeps until May() is worth asking again, or until `deadline` by the steady clock. Precondition: made to sleep.
+  void Wait(std::size_t place, Time deadline) noexcept { may_look_[place].WaitUntil(deadline); }
 
  private:
   void WakeOthers(std::size_t place, std::size_t unit) noexcept;

@@ -1,8 +1,10 @@
 #include "plugins/genom_modules/component_module.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
+#include "core/base/exception_text.h"
 #include "core/element/runtime.h"
 
 namespace runnel::genom_modules {
@@ -15,24 +17,16 @@ namespace {
 
 // A component that never pauses goes on in the next cycle.
 constexpr int kMostRounds = 1000;
+// Of a cycle for codels of other threads. They are short, or they are asynchronous ones, which are not waited for.
+constexpr Duration kPatience = std::chrono::milliseconds(20);
 
 }  // namespace
-
-genom_execution::EngineOptions ComponentModule::Options(ComponentModule& self, void* ids) {
-  return {.ids = ids,
-          .glue = &self,
-          .is_single_threaded = true,
-          .run_async = [](void* glue, std::size_t place, genom_execution::AsyncWork& work) {
-            auto& module = *static_cast<ComponentModule*>(glue);
-            module.workers_[place]->Begin(work);
-            if (module.is_simulated_ && !work.codel().calls_others) module.workers_[place]->WaitUntilBack();
-          }};
-}
 
 ComponentModule::ComponentModule(const Placement& placement, const genom_execution::ComponentTable& component,
                                  void* ids)
     : Module(placement),
-      engine_(component, Options(*this, ids)),
+      component_(component),
+      ids_(ids),
       genom_state(this, "genom_state", {.description = "tasks and running activities"}),
       kill(*this, "kill", Engine::KillService(),
            {.service = {.description = "ends all activities, then the component"}}),
@@ -40,68 +34,135 @@ ComponentModule::ComponentModule(const Placement& placement, const genom_executi
                      {.service = {.description = "interrupts one activity", .arguments = {"id"}},
                       .fill = [](genom_execution::Request& request, auto& arguments) {
                         WithArguments<std::uint32_t>(arguments, [&](std::uint32_t id) { request.abort_id = id; });
-                      }}) {}
+                      }}) {
+  for (const auto& task : component.tasks) {
+    ParameterOptions<std::string> options;
+    options.description = std::string("name of the thread that runs task '") + task.name + "'; empty: the module's own";
+    thread_names_.emplace_back(this, std::string("thread_of_") + task.name, options);
+  }
+}
+
+genom_execution::EngineOptions ComponentModule::Options() {
+  const bool has_own = std::ranges::any_of(own_tasks_, [](const auto& target) { return target != nullptr; });
+  genom_execution::EngineOptions options;
+  options.ids = ids_;
+  options.glue = this;
+  options.is_single_threaded = !has_own;
+  if (has_own && !is_simulated_) options.patience = kPatience;
+  options.run_async = [](void* glue, std::size_t place, genom_execution::AsyncWork& work) {
+    auto& module = *static_cast<ComponentModule*>(glue);
+    module.workers_[place]->Begin(work);
+    if (module.is_simulated_ && !work.codel().calls_others) module.workers_[place]->WaitUntilBack();
+  };
+  if (has_own || !workers_.empty()) {
+    options.wake = [](void* glue) {
+      auto& module = *static_cast<ComponentModule*>(glue);
+      module.own_part_.target.Wake();
+      for (const auto& target : module.own_tasks_) {
+        if (target != nullptr) target->Wake();
+      }
+    };
+  }
+  return options;
+}
 
 Result<void> ComponentModule::Prepare() {
-  for (ModulePart* part : parts_) part->Prepare(engine_);
-  const auto& component = engine_.component();
-  bool has_async = false;
-  for (const auto& codel : component.codels) has_async |= codel.is_async;
-  workers_.resize(component.tasks.size() + 1);
-  if (!has_async) return {};
-  for (auto& worker : workers_) {
-    if (worker == nullptr) worker = std::make_unique<AsyncWorker>();
-  }
   is_simulated_ = dynamic_cast<const SteadyClock*>(&runtime().clock()) == nullptr;
+  MakeTasks();
+  MakeWorkers();
+  engine_.emplace(component_, Options());
+  for (ModulePart* part : parts_) part->Prepare(*engine_);
   return {};
+}
+
+// Prepared after the component.
+void ComponentModule::MakeTasks() {
+  own_tasks_.resize(component_.tasks.size());
+  for (std::size_t i = 0; i < own_tasks_.size(); ++i) {
+    const std::string& thread = thread_names_[i].Get();
+    if (thread.empty()) continue;
+    own_tasks_[i] = std::make_unique<WakeTarget>();
+    runtime().Adopt(std::make_unique<TaskModule>(Placement{*this, std::string("task_") + component_.tasks[i].name}, *this,
+                                                 i, thread, *own_tasks_[i]));
+  }
+}
+
+void ComponentModule::MakeWorkers() {
+  const bool has_async = std::ranges::any_of(component_.codels, &genom_execution::CodelTable::is_async);
+  workers_.resize(has_async ? component_.tasks.size() + 1 : 0);
+  for (auto& worker : workers_) worker = std::make_unique<AsyncWorker>();
 }
 
 void ComponentModule::CheckPeriods() const {
   const Duration cycle = period();
   if (cycle == Duration::zero()) return;
-  for (const auto& task : engine_.component().tasks) {
-    if (task.period % cycle == Duration::zero() && task.delay % cycle == Duration::zero()) continue;
-    throw std::runtime_error(std::string("task '") + task.name + "' has a period of " + TextOf(task.period) +
-                             " and a delay of " + TextOf(task.delay) + ", and the thread of the module one of " +
-                             TextOf(cycle) + ", which divides them not; give the thread one that does");
+  for (std::size_t i = 0; i < own_tasks_.size(); ++i) {
+    if (own_tasks_[i] != nullptr) continue;
+    const std::string missed = MissedTicks(component_.tasks[i], cycle);
+    if (!missed.empty()) throw std::runtime_error(missed + "; give the module's thread one that does, or the task a thread");
   }
 }
 
 void ComponentModule::Update() {
-  if (is_broken_) return;
-  if (!has_run_) CheckPeriods();
-  has_run_ = true;
-  is_broken_ = true;  // unless all codels return
-  for (ModulePart* part : parts_) part->BeforePasses(engine_, now());
-  RunPasses(false);
-  is_broken_ = false;
+  if (is_broken_.load(std::memory_order_acquire)) {
+    if (has_fault_.load(std::memory_order_relaxed)) throw std::runtime_error(fault_);
+    return;
+  }
+  if (!has_run_.load(std::memory_order_relaxed)) CheckPeriods();
+  has_run_.store(true, std::memory_order_relaxed);
+  for (ModulePart* part : parts_) part->BeforePasses(*engine_, now());
+  try {
+    // A cycle that comes a little early is that of the tick.
+    RunPasses(now() + period() / 2, false);
+  } catch (...) {
+    is_broken_.store(true, std::memory_order_release);
+    throw;
+  }
   for (ModulePart* part : parts_) part->AfterPasses();
   if (genom_state.is_watched()) PublishState();
-  if (const auto* failure = engine_.failure()) {
-    throw std::runtime_error("a permanent activity has ended by " + failure->Text(engine_.component()));
+  if (const auto* failure = engine_->failure()) {
+    throw std::runtime_error("a permanent activity has ended by " + failure->Text(component_));
   }
 }
 
-void ComponentModule::RunPasses(bool is_forced) {
-  // A cycle that comes a little early is that of the tick.
-  const Time time = now() + period() / 2;
-  for (int round = 0; round < kMostRounds; ++round) {
-    const std::uint64_t changes = engine_.changes();
-    (void)engine_.RunControl();
-    bool goes_on = false;
-    for (std::size_t i = 0; i < engine_.tasks().size(); ++i) {
-      goes_on |= engine_.RunTask(i, time, is_forced) == Pass::kAgain;
+void ComponentModule::RunOwnTask(std::size_t task, Time time) noexcept {
+  if (is_broken_.load(std::memory_order_acquire)) return;
+  has_run_.store(true, std::memory_order_relaxed);
+  try {
+    for (int round = 0; round < kMostRounds; ++round) {
+      const std::uint64_t changes = engine_->changes();
+      const Pass pass = engine_->RunTask(task, time);
+      if (pass == Pass::kWaiting || (pass == Pass::kIdle && engine_->changes() == changes)) return;
     }
-    if (!goes_on && engine_.changes() == changes) return;
-    if (is_forced && engine_.is_ended()) return;
+  } catch (...) {
+    if (!has_fault_.exchange(true, std::memory_order_relaxed)) {
+      fault_ = std::string("task '") + component_.tasks[task].name + "': " + DescribeException();
+      is_broken_.store(true, std::memory_order_release);
+    }
+    own_part_.target.Wake();
+  }
+}
+
+void ComponentModule::RunPasses(Time time, bool is_forced) {
+  for (int round = 0; round < kMostRounds; ++round) {
+    const std::uint64_t changes = engine_->changes();
+    (void)engine_->RunControl();
+    bool goes_on = false;
+    for (std::size_t i = 0; i < own_tasks_.size(); ++i) {
+      if (own_tasks_[i] != nullptr && !is_forced) continue;
+      goes_on |= engine_->RunTask(i, time, is_forced) == Pass::kAgain;
+    }
+    if (!goes_on && engine_->changes() == changes) return;
+    if (is_forced && engine_->is_ended()) return;
   }
 }
 
 void ComponentModule::End() noexcept {
+  if (!engine_) return;
   try {
-    engine_.Stop();
-    for (int round = 0; has_run_ && !is_broken_ && !engine_.is_ended() && round < 100; ++round) {
-      RunPasses(true);
+    engine_->Stop();
+    for (int round = 0; has_run_ && !is_broken_ && !engine_->is_ended() && round < 100; ++round) {
+      RunPasses(now(), true);
       for (auto& worker : workers_) {
         if (worker != nullptr) worker->WaitUntilBack();
       }
@@ -115,14 +176,14 @@ void ComponentModule::End() noexcept {
 void ComponentModule::PublishState() {
   auto loan = genom_state.Loan();
   if (!loan) return;
-  const auto& component = engine_.component();
+  const auto& component = component_;
   loan->component.Set(component.name);
   loan->version.Set(component.version);
   loan->digest.Set(component.digest);
-  loan->tasks.resize(engine_.tasks().size());
+  loan->tasks.resize(engine_->tasks().size());
   loan->activities.clear();
-  for (std::size_t i = 0; i < engine_.tasks().size(); ++i) {
-    ExecutionTask& task = engine_.tasks()[i];
+  for (std::size_t i = 0; i < engine_->tasks().size(); ++i) {
+    ExecutionTask& task = engine_->tasks()[i];
     const auto figures = task.figures();
     TaskState& state = loan->tasks[i];
     state.name.Set(task.table().name);

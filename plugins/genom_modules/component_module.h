@@ -1,6 +1,10 @@
 #pragma once
 
+#include <atomic>
+#include <deque>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "core/module/module.h"
@@ -9,23 +13,32 @@
 #include "plugins/genom_modules/component_service.h"
 #include "plugins/genom_modules/component_state.h"
 #include "plugins/genom_modules/module_part.h"
+#include "plugins/genom_modules/task_module.h"
+#include "plugins/genom_modules/wake_target.h"
+#include "plugins/parameters/static_parameter.h"
 
 namespace runnel::genom_modules {
 
 /// A component as a module: what the template `runnel` makes derives from it and adds ids, ports, services and
-/// parameters. All tasks run in the cycle of the module, each at its ticks, so the period of the module's thread divides
-/// theirs. Asynchronous codels are run by threads of their own; on a simulated clock the cycle waits for them, unless
-/// they call others, so that each run is like the one before.
+/// parameters. Tasks run in the cycle of the module, each at its ticks, so the period of the module's thread divides
+/// theirs; or in cycles of other threads of the application, which the parameters thread_of_TASK name (TaskModule). A
+/// codel that conflicts with one that another thread is just running is then waited for. Asynchronous codels are run by
+/// threads of their own; on a simulated clock the cycle waits for them, unless they call others, so that each run is
+/// like the one before.
 ///
-/// Life: the `start` codels of the tasks run in the first cycles. The destructor of the derived class calls End().
+/// Life: the engine is there from Prepare() on, the `start` codels of the tasks run in the first cycles. The destructor
+///       of the derived class calls End().
 /// Errors: a `start` codel that raises an exception, or a permanent activity that ends by one, is the module's fault.
 class ComponentModule : public Module {
  public:
   /// `ids` is a member of the derived class.
   ComponentModule(const Placement& placement, const genom_execution::ComponentTable& component, void* ids);
 
-  [[nodiscard]] genom_execution::Engine& engine() noexcept { return engine_; }
+  [[nodiscard]] const genom_execution::ComponentTable& table() const noexcept { return component_; }
+  [[nodiscard]] genom_execution::Engine& engine() noexcept { return *engine_; }
   void AddPart(ModulePart& part) { parts_.push_back(&part); }
+  /// One cycle of a task that another thread runs, by that thread.
+  void RunOwnTask(std::size_t task, Time time) noexcept;
   using Module::log;
 
  protected:
@@ -36,17 +49,41 @@ class ComponentModule : public Module {
   void End() noexcept;
 
  private:
-  [[nodiscard]] static genom_execution::EngineOptions Options(ComponentModule& self, void* ids);
+  /// What sets the module itself off.
+  class OwnPart final : public CyclePart {
+   public:
+    explicit OwnPart(ComponentModule& module) : work_(CycleWork::Add(module, *this)) {}
+    ~OwnPart() { work_->Remove(*this); }
+    void BeforeUpdate() override {}
+    void SetWaker(Waker* waker) override { target.SetWaker(waker); }
+    WakeTarget target;
+
+   private:
+    CycleWork* const work_;
+  };
+  [[nodiscard]] genom_execution::EngineOptions Options();
+  void MakeTasks();
+  void MakeWorkers();
   void CheckPeriods() const;
-  void RunPasses(bool is_forced);
+  void RunPasses(Time time, bool is_forced);
   void PublishState();
 
-  genom_execution::Engine engine_;
+  const genom_execution::ComponentTable& component_;
+  void* const ids_;
+  std::deque<StaticParameter<std::string>> thread_names_;  // by tasks
+  std::optional<genom_execution::Engine> engine_;
   std::vector<ModulePart*> parts_;
+  // By tasks: what wakes those that other threads run; none of those that run in the cycle of the module.
+  std::vector<std::unique_ptr<WakeTarget>> own_tasks_;
+  OwnPart own_part_{*this};
   std::vector<std::unique_ptr<AsyncWorker>> workers_;  // by places; none without asynchronous codels
-  bool has_run_ = false;
-  bool is_broken_ = false;
   bool is_simulated_ = false;
+  // Codels have run. relaxed: looked at when nothing runs any more.
+  std::atomic<bool> has_run_{false};
+  // A codel has thrown, and no other may run. release, acquire: the fault of another thread is there.
+  std::atomic<bool> is_broken_{false};
+  std::atomic<bool> has_fault_{false};  // the first one writes it
+  std::string fault_;
 
  public:
   Output<ComponentState> genom_state;

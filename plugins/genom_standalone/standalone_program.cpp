@@ -106,7 +106,7 @@ int RunThreads(const StandaloneComponent& component, LineServer& lines) {
   SteadyClock clock;
   Engine engine(component.table, {.ids = component.ids,
                                   .glue = &glue,
-                                  .waits = true,
+                                  .patience = Duration::max(),
                                   .wake = [](void* to) { static_cast<Glue*>(to)->threads.WakeAll(); },
                                   .clock = &clock});
   RequestServer server(component, engine, lines, nullptr);

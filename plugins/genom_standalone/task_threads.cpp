@@ -1,6 +1,7 @@
 #include "plugins/genom_standalone/task_threads.h"
 
 #include <algorithm>
+#include <cstring>
 #include <iostream>
 
 #include <pthread.h>
@@ -12,11 +13,15 @@ using genom_execution::Pass;
 
 namespace {
 
-// Priority 0 is the highest of a component, 255 the lowest. Who may not have it goes on without.
-void BecomeRealTime(int priority) {
+// Priority 0 is the highest of a component, 255 the lowest. Who may not have it goes on without, and says so.
+void BecomeRealTime(const genom_execution::TaskTable& task) {
   sched_param parameters{};
-  parameters.sched_priority = std::clamp(90 - priority / 3, 1, 90);
-  (void)pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
+  parameters.sched_priority = std::clamp(90 - task.priority / 3, 1, 90);
+  const int code = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
+  if (code == 0) return;
+  std::cerr << std::string("warning: task '") + task.name + "' gets no real-time priority (SCHED_FIFO " +
+                   std::to_string(parameters.sched_priority) + "): " + std::strerror(code) +
+                   "; permit it by ulimit -r, or as root\n";
 }
 
 }  // namespace
@@ -43,7 +48,7 @@ void TaskThreads::RunControl(genom_execution::Engine& engine) {
 
 void TaskThreads::RunTask(genom_execution::Engine& engine, std::size_t task) {
   auto& own = engine.tasks()[task];
-  if (own.table().is_real_time) BecomeRealTime(own.table().priority);
+  if (own.table().is_real_time) BecomeRealTime(own.table());
   while (!engine.is_ended()) {
     const std::uint64_t changes = engine.changes();
     if (engine.RunTask(task, clock_.Now()) != Pass::kIdle || engine.is_ended()) continue;

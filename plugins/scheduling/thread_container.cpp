@@ -15,18 +15,19 @@ constexpr int kHighestPriority = 99;
 constexpr std::uint64_t kNoThread = 0;
 
 struct ThreadAssignment final : Annotation {
-  explicit ThreadAssignment(std::uint64_t thread_id) : id(thread_id) {}
+  ThreadAssignment(std::uint64_t thread_id, bool inherited) : id(thread_id), is_inherited(inherited) {}
   std::unique_ptr<Annotation> ForReplacement() const override {
-    return std::make_unique<ThreadAssignment>(id);
+    return is_inherited ? std::make_unique<ThreadAssignment>(id, true) : nullptr;
   }
   // The number and not the address: that of a container that is gone never comes back.
   std::uint64_t id;
+  bool is_inherited;
 };
 
-void SetAssignment(FrameworkElement& element, std::uint64_t thread) {
+void SetAssignment(FrameworkElement& element, std::uint64_t thread, bool is_inherited) {
   Runtime& runtime = element.runtime();
   const std::lock_guard lock(runtime.structure_mutex());
-  element.Annotate(std::make_unique<ThreadAssignment>(thread));
+  element.Annotate(std::make_unique<ThreadAssignment>(thread, is_inherited));
   runtime.ForEachListener([&](ElementListener& listener) {
     if (auto* const told = dynamic_cast<AssignmentListener*>(&listener)) told->OnAssigned(element);
   });
@@ -106,14 +107,14 @@ ThreadContainer& CreateThread(Runtime& runtime, const std::string& name,
   return container;
 }
 
-void AssignThread(FrameworkElement& element, ThreadContainer& thread) {
+void AssignThread(FrameworkElement& element, ThreadContainer& thread, bool is_inherited) {
   RUNNEL_CHECK(&element.runtime() == &thread.runtime(),
                "a thread runs modules of its own runtime only");
-  SetAssignment(element, thread.id());
+  SetAssignment(element, thread.id(), is_inherited);
 }
 
 // One that never was: what is above decides.
-void UnassignThread(FrameworkElement& element) { SetAssignment(element, kNoThread); }
+void UnassignThread(FrameworkElement& element) { SetAssignment(element, kNoThread, true); }
 
 std::uint64_t OwnThreadId(const FrameworkElement& element) {
   const auto* const found = element.FindAnnotation<ThreadAssignment>();

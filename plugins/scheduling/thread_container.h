@@ -56,7 +56,8 @@ ThreadContainer& CreateThread(Runtime& runtime, const std::string& name,
 
 /// Has `element`, and all below it that is not assigned otherwise, run by `thread` from the next
 /// cycle on. If the container is deleted, the assignment is void. Takes the structure lock.
-void AssignThread(FrameworkElement& element, ThreadContainer& thread);
+/// `is_inherited`: what replaces the element is assigned so, too.
+void AssignThread(FrameworkElement& element, ThreadContainer& thread, bool is_inherited = true);
 
 /// Takes the assignment of `element` itself back: what is above it decides again. Takes the structure
 /// lock.

@@ -66,7 +66,7 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/genom_standalone", "plugins/genom_standalone", {"core", "plugins/genom_execution"}});
   rules.push_back({"plugins/genom_modules",
                    "plugins/genom_modules",
-                   {"core", "plugins/genom_execution", "plugins/parameters", "plugins/services"}});
+                   {"core", "plugins/genom_execution", "plugins/parameters", "plugins/scheduling", "plugins/services"}});
   rules.push_back({"plugins/genom_text", "plugins/genom_text", {"core"}});
   rules.push_back({"plugins/genom_templates", "plugins/genom_templates", {"core"}});
   rules.push_back(

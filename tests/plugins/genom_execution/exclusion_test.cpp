@@ -61,7 +61,7 @@ TEST(Exclusion, KeepsConflictingCodelsApartAndLetsEachRunAtLast) {
       return event;
     });
   }
-  Engine& engine = sketch.Start({.waits = true});
+  Engine& engine = sketch.Start({.patience = Duration::max()});
   std::atomic<bool> is_over{false};
   std::vector<std::jthread> threads;
   for (std::size_t i = 0; i < 3; ++i) {
