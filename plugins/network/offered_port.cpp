@@ -25,7 +25,9 @@ class OfferedPort::Bell final : public Waker {
     has_rung_.store(true, std::memory_order_release);
     wake_->Notify();
   }
-  [[nodiscard]] bool Answer() noexcept { return has_rung_.exchange(false, std::memory_order_acquire); }
+  // relaxed: only who answers looks at what has been published.
+  [[nodiscard]] bool has_rung() const noexcept { return has_rung_.load(std::memory_order_relaxed); }
+  [[nodiscard]] bool Answer() noexcept { return has_rung() && has_rung_.exchange(false, std::memory_order_acquire); }
 
  private:
   const std::shared_ptr<WakeEvent> wake_;
@@ -123,6 +125,8 @@ void OfferedPort::Forget(const FrameworkElement& element) noexcept {
 }
 
 std::uint64_t OfferedPort::dropped() const noexcept { return input_->dropped(); }
+
+bool OfferedPort::has_value() const noexcept { return options_.rate <= 0 && bell_->has_rung(); }
 
 std::optional<Time> OfferedPort::Send(Time now) {
   if (options_.rate > 0 && now < next_) {

@@ -10,6 +10,7 @@
 #include "core/base/clock.h"
 #include "core/port/probe_port.h"
 #include "plugins/network/network_options.h"
+#include "plugins/network/value_forecast.h"
 #include "plugins/network/value_form.h"
 #include "plugins/wire/octet_pool.h"
 
@@ -58,6 +59,16 @@ class OfferedPort {
 
   /// Sends what is due. When it wants to be called again though nothing wakes; nothing: not before.
   std::optional<Time> Send(Time now);
+  /// Whether Send() has a value to send at once, as far as is known.
+  [[nodiscard]] bool has_value() const noexcept;
+  /// While a value is likely to come.
+  [[nodiscard]] std::optional<ValueForecast::Window> window(Time now) const {
+    return options_.rate > 0 ? std::nullopt : forecast_.window(now);
+  }
+  /// Before anything is sent: if there is a value, it has come at `time`.
+  void NoteValue(Time time) {
+    if (has_value()) forecast_.Note(time);
+  }
 
   [[nodiscard]] std::size_t matched() const noexcept { return matched_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::uint64_t sent() const noexcept { return sent_.load(std::memory_order_relaxed); }
@@ -92,6 +103,7 @@ class OfferedPort {
   // who has loaded it in an EpochGuard may use it as long as that lives.
   std::atomic<const Port*> source_{nullptr};
   OctetPool pool_;
+  ValueForecast forecast_;
   Time next_{};  // not before
   std::optional<std::uint64_t> shown_;  // how many the source had published when its newest value was sent
   std::atomic<std::uint64_t> sent_{0};

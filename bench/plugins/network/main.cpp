@@ -1,0 +1,94 @@
+// What it costs to have ports read by another process: bin/bench_network [latency] [pictures] [throughput] [publishing].
+// Beside each figure stands that of the engine alone, by the seam of octets, in the same run, one after the other.
+// All processes are in a network of their own if the system permits that.
+
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "bench/plugins/network/network_bench.h"
+#include "tests/support/own_network.h"
+
+namespace runnel {
+namespace {
+
+constexpr double kMicro = 1e6;
+
+Figures Median(std::vector<Figures> rounds) {
+  std::ranges::sort(rounds, {}, &Figures::p50);
+  return rounds[rounds.size() / 2];
+}
+
+void PrintLatency(const char* what, const Figures& figures, const Figures& engine) {
+  fmt::print("{:24} {:8.1f} us {:8.1f} us   {:7.1f} + {:7.1f} us   {:5.1f} %   {:4.2f}\n", what, kMicro * figures.p50,
+             kMicro * figures.p99, kMicro * figures.processor_writing, kMicro * figures.processor_reading,
+             100 * figures.arrived / figures.sent, figures.p50 / engine.p50);
+}
+
+// In turn, so that whatever else the machine does is in both.
+void CompareLatency(const char* what, int rounds, const std::function<Figures()>& engine, const std::function<Figures()>& ports) {
+  std::vector<Figures> alone;
+  std::vector<Figures> whole;
+  for (int round = 0; round < rounds; ++round) {
+    alone.push_back(engine());
+    whole.push_back(ports());
+  }
+  fmt::print("{:24} {:>11} {:>11}   {:>20}   {:>7}   {}\n", what, "p50", "p99", "CPU of both a value", "arrived", "p50 to the engine's");
+  PrintLatency("  the engine alone", Median(alone), Median(alone));
+  PrintLatency("  from port to port", Median(whole), Median(alone));
+}
+
+void PrintThroughput(const char* what, std::size_t size, const Figures& engine, const Figures& ports) {
+  const auto print = [&](const char* who, const Figures& figures) {
+    fmt::print("{:24} {:9.0f} values/s {:8.1f} MB/s   {:7.1f} + {:7.1f} us CPU a value   {:4.2f}\n", who, figures.rate,
+               1e-6 * figures.rate * static_cast<double>(size), kMicro * figures.processor_writing,
+               kMicro * figures.processor_reading, figures.rate / engine.rate);
+  };
+  fmt::print("{}\n", what);
+  print("  the engine alone", engine);
+  print("  from port to port", ports);
+}
+
+void Latency() {
+  const Load load{1000, std::chrono::milliseconds(1)};
+  CompareLatency("128 B at 1 kHz", 5, [&] { return MeasureEngine(load, sizeof(Block)); },
+                 [&] { return MeasureBlocks(load, ValueQuality::kNewest); });
+}
+
+void Pictures() {
+  const Load load{40, std::chrono::milliseconds(33)};
+  CompareLatency("6.2 MB at 30 Hz", 3, [&] { return MeasureEngine(load, kPicture); }, [&] { return MeasurePictures(load); });
+}
+
+void Throughput() {
+  const Load flood{0, {}};
+  PrintThroughput("128 B, as fast as it goes", sizeof(Block), MeasureEngine(flood, sizeof(Block)),
+                  MeasureBlocks(flood, ValueQuality::kEach));
+  PrintThroughput("6.2 MB, as fast as it goes", kPicture, MeasureEngine(flood, kPicture), MeasurePictures(flood));
+}
+
+int Run(const std::vector<std::string>& wanted) {
+  const std::vector<std::pair<std::string_view, void (*)()>> parts = {
+      {"publishing", PrintPublishing}, {"latency", Latency}, {"pictures", Pictures}, {"throughput", Throughput}};
+  (void)test::EnterOwnNetwork();
+  bool is_known = wanted.empty();
+  for (const auto& [name, run] : parts) {
+    if (!wanted.empty() && std::ranges::find(wanted, name) == wanted.end()) continue;
+    is_known = true;
+    run();
+    std::fflush(stdout);
+  }
+  if (!is_known) fmt::print(stderr, "usage: bench_network [publishing] [latency] [pictures] [throughput]\n");
+  return is_known ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+}  // namespace
+}  // namespace runnel
+
+int main(int count, char** words) { return runnel::Run({words + 1, words + count}); }
