@@ -44,15 +44,19 @@ class World {
     }
   }
   [[nodiscard]] double Clearance(Point2 point) const {
-    double clearance = std::numeric_limits<double>::infinity();
-    for (const Segment2& wall : walls_) clearance = std::min(clearance, Distance(wall, point));
-    return clearance;
+    double squared = std::numeric_limits<double>::infinity();
+    for (const Segment2& wall : walls_) {
+      const Point2 offset = NearestPoint(wall, point) - point;
+      squared = std::min(squared, Dot(offset, offset));
+    }
+    return std::sqrt(squared);
   }
   [[nodiscard]] Point2 NearestWallPoint(Point2 point) const {
     Point2 nearest = {1e9, 1e9};
     for (const Segment2& wall : walls_) {
       const Point2 candidate = NearestPoint(wall, point);
-      if (Distance(candidate, point) < Distance(nearest, point)) nearest = candidate;
+      const Point2 offset = candidate - point, least = nearest - point;
+      if (Dot(offset, offset) < Dot(least, least)) nearest = candidate;
     }
     return nearest;
   }
