@@ -2,20 +2,18 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <future>
 #include <mutex>
 #include <sstream>
 #include <string>
-#include <system_error>
 
 #include <fmt/format.h>
 
 #include "apps/arena/application_text.h"
 #include "apps/arena/program_run.h"
+#include "core/base/temporary_folder.h"
 
 namespace runnel::arena {
 
@@ -36,29 +34,6 @@ std::string Complaint(const std::filesystem::path& file) {
   }
   return last;
 }
-
-/// Of temporary files; removed with all that is in it.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = std::filesystem::temp_directory_path() / "runnel-arena-XXXXXX";
-    if (mkdtemp(name.data()) == nullptr) {
-      throw std::system_error(errno, std::generic_category(), "no temporary folder " + name);
-    }
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code error;
-    std::filesystem::remove_all(path_, error);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// What every run needs to know.
 struct RunContext {
@@ -116,7 +91,8 @@ Result<RunRecord> MakeRun(const PlannedRun& run, const std::string& files,
 
 Result<void> MakeRuns(const std::vector<const PlannedRun*>& runs, const ArenaArguments& arguments,
                       const Product& product, const Matrix& matrix, const RunCallbacks& callbacks) {
-  const TemporaryFolder folder;
+  const auto folder = TemporaryFolder::Make("arena");
+  if (!folder) return folder.error();
   RunContext context{arguments, product, matrix};
   std::mutex mutex;  // of the two below, and of who calls back
   std::size_t next = 0;
@@ -126,7 +102,7 @@ Result<void> MakeRuns(const std::vector<const PlannedRun*>& runs, const ArenaArg
     while (next < runs.size() && !context.is_to_stop) {
       const std::size_t number = next++;
       lock.unlock();
-      const auto record = MakeRun(*runs[number], folder.path() / std::to_string(number), context);
+      const auto record = MakeRun(*runs[number], folder->path() / std::to_string(number), context);
       lock.lock();
       if (context.is_to_stop) return;
       auto told = record ? callbacks.finished(*runs[number], *record) : record.error();

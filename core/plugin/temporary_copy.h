@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/base/result.h"
+#include "core/base/temporary_folder.h"
 
 namespace runnel {
 
@@ -13,14 +14,14 @@ class TemporaryCopy {
  public:
   /// Errors: with the file and the system's words.
   static Result<TemporaryCopy> Make(const std::filesystem::path& file);
-  ~TemporaryCopy();
-  TemporaryCopy(TemporaryCopy&& other) noexcept : file_(std::exchange(other.file_, {})) {}
-  TemporaryCopy& operator=(TemporaryCopy&&) = delete;
 
   [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
 
  private:
-  explicit TemporaryCopy(std::filesystem::path file) : file_(std::move(file)) {}
+  TemporaryCopy(TemporaryFolder folder, std::filesystem::path file)
+      : folder_(std::move(folder)), file_(std::move(file)) {}
+
+  TemporaryFolder folder_;
   std::filesystem::path file_;
 };
 

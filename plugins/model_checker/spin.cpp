@@ -1,6 +1,5 @@
 #include "plugins/model_checker/spin.h"
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -9,6 +8,8 @@
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include "core/base/temporary_folder.h"
 
 namespace runnel {
 
@@ -21,32 +22,13 @@ constexpr const char* kOutput = "output.txt";
 constexpr int kTimeUp = 124;  // what `timeout` returns
 constexpr int kNoSuchProgram = 127;
 
-/// Where Spin writes its checker; goes with its object.
-class Folder {
- public:
-  Folder() {
-    std::string pattern = (fs::temp_directory_path() / "runnel_spin_XXXXXX").string();
-    if (mkdtemp(pattern.data()) != nullptr) path_ = pattern;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    if (!path_.empty()) fs::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
 struct Ended {
   int code = 0;
   std::string output;
 };
 
 // By `timeout`, of Debian's coreutils, which ends all that Spin has started.
-Ended Run(const Folder& folder, int limit, const std::vector<std::string>& arguments) {
+Ended Run(const TemporaryFolder& folder, int limit, const std::vector<std::string>& arguments) {
   std::vector<std::string> words{"timeout", std::to_string(limit), "spin"};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
@@ -92,15 +74,15 @@ bool Says(const Ended& ended, std::string_view text) { return ended.output.find(
 }  // namespace
 
 Result<SpinAnswer> RunSpin(const std::string& model, const SpinSearch& search) {
-  const Folder folder;
-  if (folder.path().empty()) return Error{.message = "no folder can be made for the model checker"};
-  std::ofstream(folder.path() / kModel) << model;
+  const auto folder = TemporaryFolder::Make("spin");
+  if (!folder) return folder.error();
+  std::ofstream(folder->path() / kModel) << model;
   std::vector<std::string> arguments = search.definitions;
   // Compiling well takes longer than what it saves.
   arguments.insert(arguments.end(), {"-run", "-O0", "-DMEMLIM=2000"});
   arguments.insert(arguments.end(), search.options.begin(), search.options.end());
   arguments.emplace_back(kModel);
-  const Ended checked = Run(folder, search.limit, arguments);
+  const Ended checked = Run(*folder, search.limit, arguments);
   if (checked.code == kNoSuchProgram) {
     return Error{.message = "is not checked, for the model checker spin is not here", .hint = "install the package spin"};
   }
@@ -119,7 +101,7 @@ Result<SpinAnswer> RunSpin(const std::string& model, const SpinSearch& search) {
   }
   std::vector<std::string> replay = search.definitions;
   replay.insert(replay.end(), {"-t", "-T", "-B", kModel});
-  return ReadRun(Run(folder, search.limit, replay).output);
+  return ReadRun(Run(*folder, search.limit, replay).output);
 }
 
 }  // namespace runnel

@@ -80,18 +80,11 @@ class LocalMap {
   /// Calls `visit(point)` for every boundary point within the window, in a fixed order.
   template <typename Visitor>
   void ForEachBoundary(Visitor visit) const {
-    for (const std::size_t slot : listed_) {
-      const Cell& cell = cells_[slot];
-      if (cell.state == State::kBoundary && Covers(cell.point)) visit(cell.point);
-    }
+    ForEachBoundaryOf(*this, [&](const Cell& cell) { visit(cell.point); });
   }
   /// Every boundary point within the window, as it is seen from the pose.
   void AddBoundariesTo(Surroundings& surroundings) {
-    for (const std::size_t slot : listed_) {
-      Cell& cell = cells_[slot];
-      if (cell.state == State::kBoundary && Covers(cell.point))
-        AddBoundaryPoint(surroundings, Seen(cell));
-    }
+    ForEachBoundaryOf(*this, [&](Cell& cell) { AddBoundaryPoint(surroundings, Seen(cell)); });
   }
 
  private:
@@ -106,6 +99,13 @@ class LocalMap {
     BoundaryPoint seen;
   };
 
+  template <typename Map, typename Visitor>
+  static void ForEachBoundaryOf(Map& map, Visitor visit) {
+    for (const std::size_t slot : map.listed_) {
+      auto& cell = map.cells_[slot];
+      if (cell.state == State::kBoundary && map.Covers(cell.point)) visit(cell);
+    }
+  }
   template <typename Refutation>
   void ForgetCells(Refutation is_refuted) {
     std::size_t kept = 0;
