@@ -22,12 +22,17 @@ class ApplicationNetwork final : public ApplicationExtension {
     is_simulated_ = options.clock == SchedulerOptions::ClockKind::kSimulated;
     const NetworkElement* const element = NetworkElement::FindIn(application);
     if (element == nullptr || !is_simulated_) return {};
-    for (const NetworkElement::Take& each : element->takes()) {
-      if (each.options.is_live) continue;
+    const auto refuse = [](const Port& output, const SourcePosition& position) {
       return Error{.message = "with simulated time, values that come when they like make runs that cannot be repeated",
-                   .path = each.output->path(),
-                   .position = each.options.position,
+                   .path = output.path(),
+                   .position = position,
                    .hint = "say live=\"true\" if that is meant"};
+    };
+    for (const auto& each : element->takes()) {
+      if (!each.options.is_live) return refuse(*each.output, each.options.position);
+    }
+    for (const auto& each : element->service_takes()) {
+      if (!each.options.is_live) return refuse(*each.output, each.options.position);
     }
     return {};
   }

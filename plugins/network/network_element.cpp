@@ -88,24 +88,32 @@ Result<Port*> NetworkElement::AddTake(const TakeOptions& take, const TypeInfo& t
   auto form = ValueForm::Make(type, take.as, {}, {}, options_.messages.get());
   if (!form) return form.error();
   if (const std::string why = (*form)->WhyNoReading(); !why.empty()) return Error{.message = why};
+  const auto made = MakeOutput(take.topic, type);
+  if (!made) return made.error();
+  takes_.push_back({take, *made, std::move(*form)});
+  if (on_change_) on_change_();
+  return *made;
+}
+
+Result<Port*> NetworkElement::MakeOutput(const std::string& name, const TypeInfo& type) {
   const TypedPorts* const typed = FindTypedPorts(type);
   FrameworkElement* group = this;
-  const auto words = SplitPath(take.topic);
+  const auto words = SplitPath(name);
   for (std::size_t i = 0; i + 1 < words.size(); ++i) {
     FrameworkElement* const inner = group->FindChild(words[i]);
     group = inner != nullptr ? inner : &runtime().Create<TopicGroup>(*group, std::string(words[i]));
   }
-  auto output = typed == nullptr
-                    ? nullptr
-                    : typed->MakeOutput(*group, std::string(words.back()), {.description = "from the network: " + take.topic});
+  if (group->FindChild(words.back()) != nullptr) {
+    return Error{.message = "'" + name + "' is the name of something else that is taken"};
+  }
+  auto output = typed == nullptr ? nullptr
+                                 : typed->MakeOutput(*group, std::string(words.back()), {.description = "from the network: " + name});
   if (output == nullptr) return Error{.message = "values of type " + type.name() + " can be made by a module only"};
   Port* const made = output.get();
   runtime().Adopt(std::move(output));
   if (life_cycle() == LifeCycle::kReady) {
     if (const auto ready = runtime().MakeReady(*this); !ready) return ready.error();
   }
-  takes_.push_back({take, made, std::move(*form)});
-  if (on_change_) on_change_();
   return made;
 }
 

@@ -10,6 +10,7 @@
 #include "core/port/port.h"
 #include "plugins/network/network_options.h"
 #include "plugins/network/value_form.h"
+#include "plugins/ros_services/taken_service.h"
 
 namespace runnel {
 
@@ -41,12 +42,28 @@ class NetworkElement final : public FrameworkElement {
   /// type that only its module can make values of; what cannot be read as such messages.
   Result<Port*> AddTake(const TakeOptions& take, const TypeInfo& type);
 
+  struct ServiceTake {
+    ServiceTakeOptions options;
+    Port* output;
+    std::string path;  ///< of the output
+    std::shared_ptr<DistantService> service;
+  };
+  [[nodiscard]] const std::vector<ServiceTake>& service_takes() const noexcept { return service_takes_; }
+  void AddServiceOffer(ServiceOfferOptions offer);
+  /// The output that stands for the service elsewhere, of the type of the client's port; made if there is none. Errors: there is
+  /// one of another type; what is no client; what does not fit.
+  Result<Port*> AddServiceTake(const ServiceTakeOptions& take, const Port& client);
+
   /// Who is told that there is more to offer or to take.
   void set_on_change(std::function<void()> on_change) { on_change_ = std::move(on_change); }
 
  private:
+  /// An output of this type below the groups that the name says.
+  Result<Port*> MakeOutput(const std::string& name, const TypeInfo& type);
+
   NetworkOptions options_;
   std::vector<Take> takes_;
+  std::vector<ServiceTake> service_takes_;
   std::function<void()> on_change_;
   Logger log_{*this};
 };

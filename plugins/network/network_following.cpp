@@ -40,6 +40,7 @@ void NetworkLink::Follow() {
     }
   }
   FollowTakes();
+  services_.Follow(*participant_, [this](const std::string& of, const Error& error) { Trouble(of, error); });
   TellNode();
   TellStructure();
   TellMembers();
@@ -72,6 +73,7 @@ std::vector<NetworkLink::Wanted> NetworkLink::FindOffers() {
       auto* const port = dynamic_cast<Port*>(&element);
       if (port == nullptr || port->direction() != Port::Direction::kOutput || port->IsAtOrBelow(element_)) return;
       // Interface ports only pass on: only who names one wants it.
+      if (port->FindAnnotation<Callable>() != nullptr) return;  // offered by name only
       const bool is_meant = port->is_proxy() ? patterns->Name(port->path()) : patterns->Fit(port->path());
       if (is_meant && port->life_cycle() != LifeCycle::kDeleted) add(*port, offer);
     });
@@ -121,6 +123,7 @@ void NetworkLink::TellNode() {
   for (const auto& each : taken_) {
     if (const auto id = each->id()) readers.push_back(*id);
   }
+  services_.AddIds(readers, writers);
   node_->Tell(std::move(readers), std::move(writers));
 }
 

@@ -93,6 +93,7 @@ NetworkLink::~NetworkLink() {
   if (thread_.joinable()) thread_.join();
   taken_.clear();
   offered_.clear();
+  services_.End();
   node_.reset();
   structure_topic_.reset();
   participant_.reset();
@@ -113,6 +114,7 @@ void NetworkLink::OnDisconnected(FrameworkElement&, FrameworkElement& to) {
 }
 void NetworkLink::OnDeleted(FrameworkElement& element) {
   for (const auto& each : offered_) each->Forget(element);
+  services_.Forget(element);
   LookAgain();
 }
 
@@ -137,6 +139,7 @@ void NetworkLink::SendAll() {
   }
   const auto clock = node_ != nullptr ? node_->SendClock(now) : std::nullopt;
   if (clock) deadline = std::min(deadline, *clock);
+  if (const auto calls = services_.Work(now)) deadline = std::min(deadline, *calls);
   if (now >= next_look_) {
     next_look_ = now + kLookAround;
     const auto has_error = [](const auto& each) { return each->has_error(); };

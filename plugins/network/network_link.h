@@ -13,6 +13,7 @@
 #include "core/lockfree/wake_event.h"
 #include "plugins/network/discovery_table.h"
 #include "plugins/network/network_element.h"
+#include "plugins/network/network_services.h"
 #include "plugins/network/offered_port.h"
 #include "plugins/network/ros_node.h"
 #include "plugins/network/structure_topic.h"
@@ -80,6 +81,7 @@ class NetworkLink final : private ElementListener {
   std::function<std::string()> structure_;
   std::unique_ptr<StructureTopic> structure_topic_;
   std::unique_ptr<RosNode> node_;  // nullptr: none is wanted
+  NetworkServices services_{element_, table_, wake_};
   // Changed by the thread, under the structure lock.
   std::vector<std::unique_ptr<OfferedPort>> offered_;
   std::vector<std::unique_ptr<TakenPort>> taken_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "plugins/ros_services/offered_service.h"
 #include "plugins/wire/wire.h"
 
 namespace runnel {
@@ -65,6 +66,7 @@ struct NetworkOptions {
   std::string engine = "cyclone";
   bool is_live = false;  ///< TakeOptions::is_live of all
   std::vector<OfferOptions> offers = {};
+  std::vector<ServiceOfferOptions> services = {};
   std::shared_ptr<const MessageLibrary> messages = {};  ///< nullptr: those of ROS 2
   std::optional<RosOptions> ros = {};
   SourcePosition position = {};

@@ -159,6 +159,7 @@ std::string NetworkLink::Text() const {
             (each->refused() > 0 ? ", " + std::to_string(each->refused()) + " could not be read" : ""));
     add_partners(each->endpoint(), false);
   }
+  text += services_.Text();
   std::set<std::string> others;
   for (const WireEndpoint& each : table_.endpoints()) {
     if (each.is_own || each.options.topic.ends_with("/runnel_structure")) continue;

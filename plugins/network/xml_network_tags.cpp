@@ -9,6 +9,7 @@
 #include "plugins/application_files/path_use.h"
 #include "plugins/network/network_element.h"
 #include "plugins/network/network_engines.h"
+#include "plugins/network/xml_service_tags.h"
 #include "plugins/ros_messages/message_library.h"
 #include "plugins/ros_messages/names.h"
 #include "plugins/values/port_patterns.h"
@@ -106,7 +107,7 @@ bool CheckTopicOf(const TagUse& use) {
 void AddOffer(const TagUse& use, OfferOptions offer) {
   if (const XmlAttribute* const path = use.Find("port")) {
     const Port* const port = SearchPort(PathIn(*path, use.parent), PathKind::kOutput, use.context);
-    if (port == nullptr) return;
+    if (port == nullptr || OfferService(use, *port)) return;
     offer.port = port->path();
     const NetworkOptions& network = NetworkElement::FindIn(use.parent)->options();
     const auto form = ValueForm::Make(port->type(), offer.as, offer.frame, offer.child_frame, network.messages.get());
@@ -165,6 +166,11 @@ void AddTake(const TagUse& use, const TakeOptions& take) {
 }
 
 FrameworkElement* HandleTake(const TagUse& use) {
+  if (use.Find("service") != nullptr) return TakeService(use);
+  if (use.Find("topic") == nullptr) {
+    use.Report({.message = "<take> says which topic, or which service", .hint = "topic=\"/cmd_vel\", or service=\"/save_map\""},
+               use.xml.position());
+  }
   TakeOptions take{.topic = TextOf(use, "topic"),
                    .as = TextOf(use, "as"),
                    .quality = QualityOf(use),
@@ -172,7 +178,7 @@ FrameworkElement* HandleTake(const TagUse& use) {
                    .keeps_stamps = TextOf(use, "stamp") == "sent",
                    .is_live = IsTrue(use, "live") || NetworkElement::FindIn(use.parent)->options().is_live,
                    .position = use.xml.position()};
-  const bool is_right = CheckTopicOf(use);
+  const bool is_right = use.Find("topic") != nullptr && CheckTopicOf(use);
   use.context.Defer(BuildStage::kConnections, [use, is_right, take = std::move(take)] {
     if (is_right) return AddTake(use, take);
     for (const PathUse& to : PathsIn(use.Get("to"), use.parent)) {
@@ -211,7 +217,8 @@ AttributeRule Choice(const char* name, const char* summary, std::vector<std::str
 AttributeRule Quality(const char* summary) { return Choice("qos", summary, ValueQualityNames()); }
 
 AttributeRule MessageTypeRule() {
-  return {.name = "as", .summary = "type of the messages: sensor_msgs/msg/LaserScan; without, the values by their description"};
+  return {.name = "as", .summary = "type of the messages: sensor_msgs/msg/LaserScan; without, the values by their description; of services: "
+                     "std_srvs/srv/Trigger"};
 }
 
 }  // namespace
@@ -245,6 +252,7 @@ void AddNetworkTags(XmlTagRegistry& tags) {
                .attributes = {{.name = "ports", .summary = "patterns, separated by blanks: laser/* **/pose !**/debug"},
                               {.name = "port", .kind = AttributeKind::kPath, .summary = "one of them", .names_element = true},
                               {.name = "topic", .summary = "its name in the network: /scan; without, /<name of the application>/<path>"},
+                              {.name = "service", .summary = "likewise, of a port that is a service: /save_map"},
                               MessageTypeRule(),
                               {.name = "frame", .kind = AttributeKind::kName, .summary = "of coordinates, for headers of messages"},
                               {.name = "child_frame", .kind = AttributeKind::kName, .summary = "what moves, for transforms and odometry"},
@@ -266,9 +274,10 @@ void AddNetworkTags(XmlTagRegistry& tags) {
                               Choice("log", "true: publishes what modules say on /rosout")},
                .handle = HandleRos});
   tags.AddTag({.name = "take",
-               .summary = "a topic whose values go to ports of this application",
+               .summary = "a topic whose values go to ports of this application, or a service that they call",
                .parents = {"network"},
-               .attributes = {{.name = "topic", .required = true, .summary = "its name: /cmd_vel"},
+               .attributes = {{.name = "topic", .summary = "its name: /cmd_vel"},
+                              {.name = "service", .summary = "instead: one that clients of this application call: /save_map"},
                               MessageTypeRule(),
                               {.name = "to",
                                .kind = AttributeKind::kPathList,

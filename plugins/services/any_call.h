@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/lockfree/thread_epoch.h"
+#include "plugins/services/argument_type.h"
 #include "plugins/services/callable.h"
 #include "plugins/services/service_base.h"
 
@@ -57,8 +58,7 @@ class AnyCallOf<Reply(Arguments...)> final : public AnyCall {
   std::string error_;
 };
 
-/// What a service is to those who do not know its types. The names of its arguments are its own, so their type is
-/// described here, and not for the whole process.
+/// What a service is to those who do not know its types.
 template <typename Signature>
 class CallableOf;
 template <typename Reply, typename... Arguments>
@@ -67,26 +67,12 @@ class CallableOf<Reply(Arguments...)> final : public Callable {
   using Pack = ArgumentPack<Arguments...>;
 
   CallableOf(ServiceBase& service, const ServiceOptions& options, bool is_activity)
-      : service_(service), description_(options.description), is_activity_(is_activity) {
-    RUNNEL_CHECK(options.arguments.empty() || options.arguments.size() == sizeof...(Arguments),
-                 "a service names all of its arguments or none");
-    if constexpr (sizeof...(Arguments) > 0) {
-      if (kIsSingle && options.arguments.empty()) return;
-      DescribeArguments(options, std::index_sequence_for<Arguments...>());
-      is_named_ = true;
-    }
-  }
+      : service_(service),
+        description_(options.description),
+        is_activity_(is_activity),
+        arguments_(options.arguments) {}
 
-  [[nodiscard]] const TypeInfo* arguments() const override {
-    if constexpr (sizeof...(Arguments) == 0) {
-      return nullptr;
-    } else {
-      if constexpr (kIsSingle) {
-        if (!is_named_) return &TypeOf<std::remove_cvref_t<Arguments>...>();
-      }
-      return &type_;
-    }
-  }
+  [[nodiscard]] const TypeInfo* arguments() const override { return arguments_.Get(); }
   [[nodiscard]] const TypeInfo* reply() const override {
     if constexpr (std::is_void_v<Reply>) {
       return nullptr;
@@ -105,23 +91,10 @@ class CallableOf<Reply(Arguments...)> final : public Callable {
   bool Abort() override { return service_.Abort(); }
 
  private:
-  static constexpr bool kIsSingle = sizeof...(Arguments) == 1;
-
-  template <std::size_t... index>
-  void DescribeArguments(const ServiceOptions& options, std::index_sequence<index...>) {
-    TypeBuilder<Pack> type(type_);
-    type.Name("arguments");
-    (type.Field(options.arguments.empty() ? "argument" + std::to_string(index + 1)
-                                          : options.arguments[index],
-                &internal::ArgumentOf<index, std::remove_cvref_t<Arguments>>::value),
-     ...);
-  }
-
   ServiceBase& service_;
   const std::string description_;
   const bool is_activity_;
-  TypeInfo type_{typeid(Pack)};
-  bool is_named_ = false;
+  const ArgumentType<Arguments...> arguments_;
 };
 
 }  // namespace runnel

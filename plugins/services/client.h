@@ -11,6 +11,7 @@
 #include "core/port/input.h"
 #include "core/port/port_owner.h"
 #include "plugins/services/client_base.h"
+#include "plugins/services/client_form.h"
 
 namespace runnel {
 
@@ -133,6 +134,8 @@ class Client<Reply(Arguments...)> final : public ClientBase {
         port_(group, std::move(name),
               {.description = options.description, .required = options.required}) {
     Open(port_);
+    port_.template Annotate<ClientForm>(
+        std::make_unique<ClientForm>(std::make_shared<CallFormOf<Signature>>(options.arguments)));
   }
   ~Client() { Close(); }
 

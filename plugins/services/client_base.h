@@ -22,6 +22,8 @@ struct ClientOptions {
   bool required = false;   ///< an application in which it is connected to no service is wrong
   std::size_t calls = 16;  ///< how many may be under way at once
   Duration timeout = std::chrono::seconds(5);  ///< on the application's clock
+  /// Of the arguments, in their order, for services elsewhere that know them by name (ServiceOptions::arguments).
+  std::vector<std::string> arguments = {};
 };
 
 /// The part of a client that does not depend on the types of its calls.

@@ -108,10 +108,14 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"the words of networks",
                    "plugins/network/xml_",
                    {"core", "plugins/application_files", "plugins/network", "plugins/ros_messages/message_library.h", "plugins/ros_messages/names.h",
-                    "plugins/values/port_patterns.h", "plugins/wire"}});
+                    "plugins/ros_services", "plugins/services", "plugins/values/port_patterns.h", "plugins/wire"}});
   rules.push_back({"plugins/network",
                    "plugins/network",
-                   {"core", "plugins/cdr_values", "plugins/ros_messages", "plugins/values/port_patterns.h", "plugins/wire"}});
+                   {"core", "plugins/cdr_values", "plugins/ros_messages", "plugins/ros_services", "plugins/services/callable.h",
+                    "plugins/values/port_patterns.h", "plugins/wire"}});
+  rules.push_back({"plugins/ros_services",
+                   "plugins/ros_services",
+                   {"core", "plugins/cdr_values", "plugins/ros_messages", "plugins/services", "plugins/wire"}});
   rules.push_back({"plugins/wire_cyclone", "plugins/wire_cyclone", {"core", "plugins/wire"}});
   rules.push_back({"plugins/wire_fast", "plugins/wire_fast", {"core", "plugins/wire"}});
   rules.push_back({"plugins/python", "plugins/python", {"core"}});

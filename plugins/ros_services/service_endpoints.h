@@ -1,0 +1,83 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "plugins/ros_services/service_messages.h"
+
+namespace runnel {
+
+/// A service as the wire has it.
+struct ServiceTopics {
+  std::string service = {};        ///< "/save_map"
+  std::string request_type = {};   ///< "std_srvs::srv::dds_::SetBool_Request_"
+  std::string response_type = {};  ///< "std_srvs::srv::dds_::SetBool_Response_"
+  std::uint32_t depth = 10;        ///< newest requests and replies that are kept
+
+  friend bool operator==(const ServiceTopics&, const ServiceTopics&) = default;
+};
+
+/// What has come, until somebody takes it. Of more than 128 the newest are left out and counted.
+///
+/// Threads: any.
+class ServiceInbox {
+ public:
+  static constexpr std::size_t kMost = 128;
+
+  void Put(ServiceMessage message);
+  [[nodiscard]] std::optional<ServiceMessage> Take();
+  [[nodiscard]] std::uint64_t lost() const noexcept { return lost_.load(std::memory_order_relaxed); }
+
+ private:
+  std::mutex mutex_;
+  std::deque<ServiceMessage> messages_;
+  std::atomic<std::uint64_t> lost_{0};
+};
+
+/// Two endpoints of one service, of which one sends and the other takes.
+///
+/// Ownership:  the participant must outlive it.
+/// Threads:    one at a time, but for what is told, by threads of the engine; ids and figures any.
+class ServiceEndpoints {
+ public:
+  enum class Side { kServer, kClient };
+
+  /// `on_news` is called when something has come, or somebody has come or gone. `identity`: what nobody else has. Errors:
+  /// of the engine.
+  static Result<std::unique_ptr<ServiceEndpoints>> Start(Side side, const ServiceTopics& topics, WireParticipant& participant,
+                                                         std::uint32_t identity, std::function<void()> on_news);
+
+  [[nodiscard]] const ServiceTopics& topics() const noexcept { return topics_; }
+  Result<void> Send(const CallId& id, std::span<const std::byte> message);
+  [[nodiscard]] std::optional<ServiceMessage> Take() { return inbox_.Take(); }
+  /// Somebody at the other end both takes and sends.
+  [[nodiscard]] bool is_matched() const noexcept {
+    return readers_.load(std::memory_order_relaxed) > 0 && writers_.load(std::memory_order_relaxed) > 0;
+  }
+  [[nodiscard]] const WireId& reader_id() const noexcept { return reader_->id(); }
+  [[nodiscard]] const WireId& writer_id() const noexcept { return writer_->id(); }
+  /// By which a client finds its replies among those of others.
+  [[nodiscard]] std::uint64_t client() const noexcept { return client_; }
+  [[nodiscard]] std::uint64_t lost() const noexcept { return inbox_.lost(); }
+
+ private:
+  ServiceEndpoints(ServiceTopics topics, std::function<void()> on_news)
+      : topics_(std::move(topics)), on_news_(std::move(on_news)) {}
+
+  const ServiceTopics topics_;
+  const std::function<void()> on_news_;
+  ServiceInbox inbox_;
+  std::atomic<std::size_t> readers_{0};
+  std::atomic<std::size_t> writers_{0};
+  std::uint64_t client_ = 0;
+  std::unique_ptr<WireWriter> writer_;
+  std::unique_ptr<WireReader> reader_;
+};
+
+}  // namespace runnel

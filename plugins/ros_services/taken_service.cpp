@@ -1,0 +1,142 @@
+#include "plugins/ros_services/taken_service.h"
+
+#include <algorithm>
+#include <mutex>
+#include <utility>
+
+#include "core/base/exception_text.h"
+#include "core/lockfree/thread_epoch.h"
+#include "core/lockfree/wake_event.h"
+#include "core/port/own_cycle.h"
+
+namespace runnel {
+
+namespace {
+
+/// So that it lives as long as the output that publishes its address.
+struct HeldService final : Annotation {
+  explicit HeldService(std::shared_ptr<DistantService> of) : service(std::move(of)) {}
+  const std::shared_ptr<DistantService> service;
+};
+
+}  // namespace
+
+void DistantService::PublishBy(Port& output, const std::shared_ptr<DistantService>& service) {
+  // The links of all signatures are alike.
+  static_assert(sizeof(ServiceLink<void()>) == sizeof(ServiceEndpoint*));
+  const OwnCycle cycle(output.runtime().clock().Now());
+  (void)output.PublishFilled([&](void* link) -> Result<void> {
+    *static_cast<ServiceEndpoint**>(link) = &service->endpoint;
+    return {};
+  });
+  output.Annotate(std::make_unique<HeldService>(service));
+}
+
+/// Rung by clients that have put a call into the queue.
+class TakenService::Ring final : public Waker {
+ public:
+  explicit Ring(std::shared_ptr<WakeEvent> wake) : wake_(std::move(wake)) {}
+  void Wake() noexcept override { wake_->Notify(); }
+
+ private:
+  const std::shared_ptr<WakeEvent> wake_;
+};
+
+TakenService::TakenService(Runtime& runtime, std::string path, ServiceTakeOptions options,
+                           std::shared_ptr<DistantService> service, std::uint32_t identity,
+                           std::shared_ptr<WakeEvent> wake)
+    : runtime_(runtime),
+      path_(std::move(path)),
+      options_(std::move(options)),
+      service_(std::move(service)),
+      identity_(identity),
+      wake_(std::move(wake)),
+      ring_(std::make_shared<Ring>(wake_)) {
+  const std::lock_guard lock(runtime_.structure_mutex());
+  service_->endpoint.SetWaker(ring_.get());
+}
+
+TakenService::~TakenService() {
+  {
+    const std::lock_guard lock(runtime_.structure_mutex());
+    service_->endpoint.SetWaker(nullptr);
+  }
+  // Clients that have found it may still be about to ring.
+  Retire([ring = ring_] {});
+  for (Pending& each : pending_) End(each, CallStatus::kDisconnected, "the network has gone");
+}
+
+Result<void> TakenService::Follow(WireParticipant& participant) {
+  if (endpoints_ != nullptr) return {};
+  const ServiceForm& form = *service_->form;
+  auto begun = ServiceEndpoints::Start(
+      ServiceEndpoints::Side::kClient,
+      {.service = options_.service, .request_type = form.request_type(), .response_type = form.response_type()}, participant,
+      identity_, [wake = wake_] { wake->Notify(); });
+  if (!begun) return begun.error();
+  endpoints_ = std::move(*begun);
+  return {};
+}
+
+bool TakenService::Work() {
+  if (endpoints_ == nullptr) return false;
+  TakeCalls();
+  TakeReplies();
+  const bool is_matched = endpoints_->is_matched();
+  const Time now = runtime_.clock().Now();
+  std::erase_if(pending_, [&](Pending& each) {
+    if (each.call->is_given_up.load(std::memory_order_relaxed) || now >= each.call->deadline) {
+      End(each, CallStatus::kTimedOut, (is_matched ? "no answer from " : "there is no service ") + options_.service + (is_matched ? "" : " in the network"));
+      return true;
+    }
+    if (!is_matched || each.request.empty()) return false;
+    const auto sent = endpoints_->Send({endpoints_->client(), each.number}, each.request);
+    each.request.clear();
+    if (!sent) End(each, CallStatus::kFailed, sent.error().message);
+    return !sent;
+  });
+  return !pending_.empty();
+}
+
+void TakenService::TakeCalls() {
+  for (CallBase* call = nullptr; service_->endpoint.queue.TryPop(call);) {
+    Pending pending{++made_, call, {}};
+    try {
+      service_->form->WriteRequest(service_->calls->ArgumentsOf(*call), pending.request);
+      pending_.push_back(std::move(pending));
+    } catch (...) {
+      End(pending, CallStatus::kFailed, DescribeException());
+    }
+  }
+}
+
+void TakenService::TakeReplies() {
+  while (const auto reply = endpoints_->Take()) {
+    const auto of = std::ranges::find(pending_, reply->id.number, &Pending::number);
+    if (of == pending_.end()) continue;  // it came too late
+    const auto outcome = service_->form->ReadResponse(reply->message, service_->calls->ReplyOf(*of->call));
+    if (!outcome) {
+      End(*of, CallStatus::kFailed, "the answer cannot be read: " + outcome.error().message);
+      error_ = outcome.error();
+    } else if (outcome->success) {
+      End(*of, CallStatus::kAnswered, "");
+    } else {
+      End(*of, CallStatus::kFailed, outcome->message.empty() ? options_.service + " says no reason" : outcome->message);
+    }
+    pending_.erase(of);
+  }
+}
+
+void TakenService::End(Pending& pending, CallStatus status, const std::string& why) {
+  if (status != CallStatus::kAnswered) return service_->endpoint.End(*pending.call, status, why);
+  service_->endpoint.answered.fetch_add(1, std::memory_order_relaxed);
+  pending.call->Answer(status);
+}
+
+std::string TakenService::Text() const {
+  std::string text = "takes the service " + options_.service + " as " + path_ + "  " + service_->form->ros_type();
+  text += ", " + std::to_string(service_->endpoint.answered.load()) + " answered, " + std::to_string(service_->endpoint.failed.load()) + " failed";
+  return text + (endpoints_ != nullptr && endpoints_->is_matched() ? "\n" : ": NOBODY OFFERS IT\n");
+}
+
+}  // namespace runnel
