@@ -11,6 +11,7 @@
 #include "plugins/network/network_engines.h"
 #include "plugins/network/network_link.h"
 #include "plugins/network/xml_network_tags.h"
+#include "plugins/wire_shared_memory/shared_memory_wire.h"
 
 namespace runnel {
 
@@ -68,7 +69,7 @@ class ApplicationNetwork final : public ApplicationExtension {
   static std::shared_ptr<WireEngine> FindEngine(Application& application, const NetworkElement& element) {
     const std::lock_guard lock(application.runtime().structure_mutex());  // as for all plugins
     auto found = FindWireEngine(element.options().engine, application.plugins());
-    return found ? std::move(*found) : nullptr;
+    return found ? MakeSharedMemoryWire(std::move(*found)) : nullptr;
   }
 
   bool is_simulated_ = false;

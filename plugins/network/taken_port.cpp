@@ -92,11 +92,13 @@ void TakenPort::Take(const WireSample& sample) noexcept {
       is_comparable = !clock_.is_simulated && !writer.has_simulated_time;
       if (is_comparable) least_delay_ = std::min(least_delay_.value_or(Duration::max()), now - sent);
     }
+    if (!sample.flaw.empty()) return Refuse({.message = std::string(sample.flaw)});
     const OwnCycle cycle(now);
     const auto timestamp = options_.keeps_stamps && is_comparable ? std::optional(std::min(sent, now)) : std::nullopt;
     const auto published = output_.PublishFilled(
         [&](void* value) -> Result<void> {
           const auto read = form_->Read(sample.octets, value);
+          if (!sample.IsWhole()) return Error{.message = "newer values have taken the place of one while it was read"};
           return read ? Result<void>() : read.error();
         },
         timestamp);

@@ -45,7 +45,7 @@ void AddApplication(std::vector<IncludeRule>& rules) {
            {"plugins/finroc_files"});
   attached("recordings of an application", "plugins/recording/application_",
            {"plugins/mcap", "plugins/recording"});
-  attached("the network of an application", "plugins/network/application_", {"plugins/network", "plugins/wire"});
+  attached("the network of an application", "plugins/network/application_", {"plugins/network", "plugins/wire", "plugins/wire_shared_memory/shared_memory_wire.h"});
   attached("plugins/viewers", "plugins/viewers",
            {"plugins/foxglove", "plugins/inspector", "plugins/web_server"});
 }
@@ -116,6 +116,7 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/ros_services",
                    "plugins/ros_services",
                    {"core", "plugins/cdr_values", "plugins/ros_messages", "plugins/services", "plugins/wire"}});
+  rules.push_back({"plugins/wire_shared_memory", "plugins/wire_shared_memory", {"core", "plugins/wire"}});
   rules.push_back({"plugins/wire_cyclone", "plugins/wire_cyclone", {"core", "plugins/wire"}});
   rules.push_back({"plugins/wire_fast", "plugins/wire_fast", {"core", "plugins/wire"}});
   rules.push_back({"plugins/python", "plugins/python", {"core"}});

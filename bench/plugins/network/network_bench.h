@@ -16,6 +16,7 @@
 #include "core/port/output.h"
 #include "plugins/network/network_link.h"
 #include "plugins/wire_cyclone/cyclone_wire.h"
+#include "plugins/wire_shared_memory/shared_memory_wire.h"
 
 namespace runnel {
 
@@ -104,7 +105,7 @@ struct Application {
   Runtime runtime;
   Group& group = runtime.Create<Group>(runtime.root(), "application");
   Element& element = runtime.Create<Element>(group, "element");
-  const std::shared_ptr<WireEngine> engine = MakeCycloneWire();
+  const std::shared_ptr<WireEngine> engine = MakeSharedMemoryWire(MakeCycloneWire());
   NetworkElement* network = nullptr;
   std::unique_ptr<NetworkLink> link;
 

@@ -17,6 +17,7 @@
 
 #include "plugins/wire/fake_wire.h"
 #include "plugins/wire/octet_pool.h"
+#include "plugins/wire_shared_memory/shared_memory_wire.h"
 #include "tests/plugins/wire/wire_ends.h"
 #include "tests/support/own_network.h"
 #include "tests/support/wait_until.h"
@@ -277,6 +278,7 @@ TEST_P(SocketEngineTest, OfExclusiveWritersTheStrongestCountsAndThenTheOther) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Fake, WireEngineTest, testing::Values(&MakeFakeWire));
+INSTANTIATE_TEST_SUITE_P(SharedMemory, WireEngineTest, testing::Values([] { return MakeSharedMemoryWire(MakeFakeWire()); }));
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SocketEngineTest);
 #ifdef RUNNEL_HAS_CYCLONE
 INSTANTIATE_TEST_SUITE_P(Cyclone, WireEngineTest, testing::Values(&MakeCycloneWire));

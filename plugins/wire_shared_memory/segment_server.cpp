@@ -1,0 +1,140 @@
+#include "plugins/wire_shared_memory/segment_server.h"
+
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include <sys/socket.h>
+#include <sys/time.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+namespace runnel {
+
+namespace {
+
+constexpr int kWaiting = 64;
+
+sockaddr_un AddressOf(const SegmentId& server, socklen_t& size) {
+  constexpr const char* kDigits = "0123456789abcdef";
+  std::string name = "runnel-segments-";
+  for (const std::byte each : server) {
+    name += kDigits[std::to_integer<unsigned>(each) >> 4];
+    name += kDigits[std::to_integer<unsigned>(each) & 15];
+  }
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  std::memcpy(address.sun_path + 1, name.data(), name.size());  // behind a zero: in no folder
+  size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
+  return address;
+}
+
+bool IsOfThisUser(int socket) {
+  ucred who{};
+  socklen_t size = sizeof who;
+  return getsockopt(socket, SOL_SOCKET, SO_PEERCRED, &who, &size) == 0 && who.uid == geteuid();
+}
+
+void LimitWaiting(int socket) {
+  const timeval most{.tv_sec = 0, .tv_usec = 500'000};
+  (void)setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &most, sizeof most);
+  (void)setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &most, sizeof most);
+}
+
+// A file goes along with one octet.
+struct Passing {
+  char octet = 0;
+  iovec part{&octet, 1};
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(int))> control{};
+  msghdr message{};
+  Passing() {
+    message.msg_iov = &part;
+    message.msg_iovlen = 1;
+    message.msg_control = control.data();
+    message.msg_controllen = control.size();
+  }
+};
+
+}  // namespace
+
+Result<std::unique_ptr<SegmentServer>> SegmentServer::Start() {
+  const SegmentId id = NewSegmentId();
+  Descriptor socket(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
+  socklen_t size = 0;
+  const sockaddr_un address = AddressOf(id, size);
+  if (!socket.is_open() || bind(socket.number(), reinterpret_cast<const sockaddr*>(&address), size) != 0 ||
+      listen(socket.number(), kWaiting) != 0) {
+    return Error{.message = std::string("shared memory cannot be handed out: ") + std::strerror(errno)};
+  }
+  return std::unique_ptr<SegmentServer>(new SegmentServer(std::move(socket), id));
+}
+
+SegmentServer::SegmentServer(Descriptor socket, const SegmentId& id)
+    : socket_(std::move(socket)), id_(id), thread_([this] { Run(); }) {}
+
+SegmentServer::~SegmentServer() {
+  (void)shutdown(socket_.number(), SHUT_RDWR);  // ends accept()
+  thread_.join();
+}
+
+void SegmentServer::Offer(const WrittenSegment& segment) {
+  const std::lock_guard lock(mutex_);
+  segments_[segment.id()] = segment.descriptor();
+}
+
+void SegmentServer::Withdraw(const WrittenSegment& segment) {
+  const std::lock_guard lock(mutex_);
+  segments_.erase(segment.id());
+}
+
+void SegmentServer::Run() noexcept {
+  for (;;) {
+    const Descriptor asking(accept4(socket_.number(), nullptr, nullptr, SOCK_CLOEXEC));
+    if (asking.is_open()) {
+      Answer(asking);
+    } else if (errno == EINVAL || errno == EBADF) {
+      return;  // shut down
+    } else if (errno != EINTR && errno != ECONNABORTED) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));  // out of descriptors, for now
+    }
+  }
+}
+
+void SegmentServer::Answer(const Descriptor& asking) {
+  if (!IsOfThisUser(asking.number())) return;
+  LimitWaiting(asking.number());
+  SegmentId wanted{};
+  if (recv(asking.number(), wanted.data(), wanted.size(), 0) != static_cast<ssize_t>(wanted.size())) return;
+  const std::lock_guard lock(mutex_);  // as long as the file must be open
+  const auto found = segments_.find(wanted);
+  if (found == segments_.end()) return;
+  Passing passing;
+  cmsghdr* const head = CMSG_FIRSTHDR(&passing.message);
+  head->cmsg_level = SOL_SOCKET;
+  head->cmsg_type = SCM_RIGHTS;
+  head->cmsg_len = CMSG_LEN(sizeof(int));
+  std::memcpy(CMSG_DATA(head), &found->second, sizeof(int));
+  (void)sendmsg(asking.number(), &passing.message, MSG_NOSIGNAL);
+}
+
+Result<std::unique_ptr<ReadSegment>> FetchSegment(const SegmentPlace& place) {
+  const Error gone{.message = "the memory that a value lies in has gone with its writer, or belongs to another user"};
+  const Descriptor socket(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
+  if (!socket.is_open()) return Error{.message = std::string("shared memory cannot be asked for: ") + std::strerror(errno)};
+  LimitWaiting(socket.number());
+  socklen_t size = 0;
+  const sockaddr_un address = AddressOf(place.server, size);
+  if (connect(socket.number(), reinterpret_cast<const sockaddr*>(&address), size) != 0) return gone;
+  if (!IsOfThisUser(socket.number())) return gone;
+  if (send(socket.number(), place.segment.data(), place.segment.size(), MSG_NOSIGNAL) < 0) return gone;
+  Passing passing;
+  if (recvmsg(socket.number(), &passing.message, MSG_CMSG_CLOEXEC) <= 0) return gone;
+  const cmsghdr* const head = CMSG_FIRSTHDR(&passing.message);
+  if (head == nullptr || head->cmsg_type != SCM_RIGHTS || head->cmsg_len != CMSG_LEN(sizeof(int))) return gone;
+  int number = -1;
+  std::memcpy(&number, CMSG_DATA(head), sizeof number);
+  return ReadSegment::Map(Descriptor(number));
+}
+
+}  // namespace runnel

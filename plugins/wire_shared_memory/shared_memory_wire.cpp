@@ -1,0 +1,241 @@
+#include "plugins/wire_shared_memory/shared_memory_wire.h"
+
+#include <atomic>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "plugins/wire_shared_memory/neighbours.h"
+#include "plugins/wire_shared_memory/segment_server.h"
+
+namespace runnel {
+
+namespace {
+
+/// What the endpoints of a participant share.
+struct Common {
+  Neighbours neighbours{MemoryOfThisProcess()};
+
+  /// nullptr if the system does not permit it. The first one is made when it is needed.
+  SegmentServer* Server() {
+    const std::lock_guard lock(mutex);
+    if (server == nullptr && !has_failed) {
+      auto started = SegmentServer::Start();
+      has_failed = !started.has_value();
+      if (started) server = std::move(*started);
+    }
+    return server.get();
+  }
+
+  std::mutex mutex;
+  std::unique_ptr<SegmentServer> server;
+  bool has_failed = false;
+};
+
+// What is latched is kept by the engine for who comes late; each of many values is more than slots are there for.
+bool MayShare(const WireQos& qos) { return !qos.is_latched && (qos.depth == 1 || !qos.is_reliable); }
+
+class SharingWriter final : public WireWriter {
+ public:
+  SharingWriter(Common& common, const WireEndpointOptions& options)
+      : common_(common), topic_(options.topic), may_share_(MayShare(options.qos)) {}
+  ~SharingWriter() override {
+    inner_.reset();
+    Release();
+  }
+  void Begin(std::unique_ptr<WireWriter> inner) { inner_ = std::move(inner); }
+  void OnMatched(std::size_t count) {
+    matched_.store(count, std::memory_order_relaxed);
+    if (count == 0) {
+      const std::lock_guard lock(mutex_);
+      Release();
+    }
+  }
+
+  [[nodiscard]] const WireId& id() const noexcept override { return inner_->id(); }
+  Result<void> Write(const std::shared_ptr<const Octets>& octets, std::int64_t source_time) override {
+    if (may_share_ && octets->size() >= kLargeValue &&
+        common_.neighbours.AllShare(topic_, matched_.load(std::memory_order_relaxed))) {
+      if (const auto place = Put(*octets)) return inner_->Write(place->ToOctets(), source_time);
+    }
+    return inner_->Write(octets, source_time);
+  }
+  Result<WireIdentity> WriteRelated(const std::shared_ptr<const Octets>& octets, std::int64_t source_time,
+                                    const WireIdentity& related) override {
+    return inner_->WriteRelated(octets, source_time, related);
+  }
+
+ private:
+  // Nothing: there is no shared memory. Values may go the long way as well.
+  std::optional<SegmentPlace> Put(const Octets& octets) {
+    const std::lock_guard lock(mutex_);
+    SegmentServer* const server = common_.Server();
+    if (server == nullptr) return {};
+    if (segment_ == nullptr || octets.size() > segment_->room()) {
+      Release();
+      auto made = WrittenSegment::Make(octets.size() + octets.size() / 4);
+      if (!made) return {};
+      segment_ = std::move(*made);
+      server->Offer(*segment_);
+    }
+    SegmentPlace place = segment_->Put(octets);
+    place.server = server->id();
+    return place;
+  }
+  void Release() {
+    if (segment_ == nullptr) return;
+    common_.Server()->Withdraw(*segment_);
+    segment_.reset();
+  }
+
+  Common& common_;
+  const std::string topic_;
+  const bool may_share_;
+  std::atomic<std::size_t> matched_{0};
+  std::mutex mutex_;
+  std::unique_ptr<WrittenSegment> segment_;  // guarded by mutex_
+  std::unique_ptr<WireWriter> inner_;
+};
+
+/// A value in a segment, as long as the callback runs.
+class LyingValue final : public WireHold {
+ public:
+  LyingValue(const ReadSegment& segment, const SegmentPlace& place) : segment_(segment), place_(place) {}
+  [[nodiscard]] bool IsWhole() const noexcept override { return segment_.IsStill(place_); }
+
+ private:
+  const ReadSegment& segment_;
+  const SegmentPlace& place_;
+};
+
+/// What readers do with a sample: one at a time for each.
+class Finder {
+ public:
+  Finder(Common& common, OnSample on_sample) : common_(common), on_sample_(std::move(on_sample)) {}
+
+  void operator()(const WireSample& sample) {
+    const auto place = SegmentPlace::In(sample.octets);
+    if (!place) return on_sample_(sample);
+    WireSample found = sample;
+    found.octets = {};
+    const auto segment = Find(*place, sample.writer);
+    if (!segment) {
+      found.flaw = segment.error().message;
+      return on_sample_(found);
+    }
+    const auto octets = (*segment)->Find(*place);
+    if (!octets) {
+      found.flaw = "newer values had taken the place of one before it was read";
+      return on_sample_(found);
+    }
+    const LyingValue value(**segment, *place);
+    found.octets = *octets;
+    found.hold = &value;
+    on_sample_(found);
+  }
+
+ private:
+  struct Known {
+    SegmentId id;
+    std::uint64_t writer;
+    std::unique_ptr<ReadSegment> segment;
+  };
+  static constexpr std::size_t kMost = 8;  // writers with large values, of one topic
+
+  Result<const ReadSegment*> Find(const SegmentPlace& place, std::uint64_t writer) {
+    for (const Known& each : known_) {
+      if (each.id == place.segment) return each.segment.get();
+    }
+    auto fetched = FetchSegment(place);
+    if (!fetched) return fetched.error();
+    // A writer has one at a time.
+    std::erase_if(known_, [&](const Known& each) {
+      return each.writer == writer || !common_.neighbours.IsThere(each.writer);
+    });
+    if (known_.size() >= kMost) known_.erase(known_.begin());
+    known_.push_back({place.segment, writer, std::move(*fetched)});
+    return known_.back().segment.get();
+  }
+
+  Common& common_;
+  const OnSample on_sample_;
+  std::vector<Known> known_;
+};
+
+class SharingParticipant final : public WireParticipant, private WireDiscovery {
+ public:
+  explicit SharingParticipant(WireDiscovery& discovery) : discovery_(discovery) {}
+  ~SharingParticipant() override { inner_.reset(); }
+  Result<void> Begin(WireEngine& engine, WireMemberOptions options) {
+    options.user_data += MemoryOfThisProcess();
+    auto joined = engine.Join(options, *this);
+    if (!joined) return joined.error();
+    inner_ = std::move(*joined);
+    return {};
+  }
+
+  [[nodiscard]] const WireId& id() const noexcept override { return inner_->id(); }
+  Result<std::unique_ptr<WireWriter>> MakeWriter(const WireEndpointOptions& options, OnMatched on_matched) override {
+    auto writer = std::make_unique<SharingWriter>(common_, options);
+    auto inner = inner_->MakeWriter(options, [raw = writer.get(), on_matched = std::move(on_matched)](std::size_t count) {
+      raw->OnMatched(count);
+      if (on_matched) on_matched(count);
+    });
+    if (!inner) return inner.error();
+    writer->Begin(std::move(*inner));
+    return std::unique_ptr<WireWriter>(std::move(writer));
+  }
+  Result<std::unique_ptr<WireReader>> MakeReader(const WireEndpointOptions& options, OnSample on_sample,
+                                                 OnMatched on_matched) override {
+    auto finder = std::make_shared<Finder>(common_, std::move(on_sample));
+    return inner_->MakeReader(options, [finder](const WireSample& sample) { (*finder)(sample); }, std::move(on_matched));
+  }
+
+ private:
+  void OnMember(const WireMember& member) override {
+    common_.neighbours.Add(member);
+    WireMember others = member;
+    others.user_data = WithoutMemory(member.user_data);
+    discovery_.OnMember(others);
+  }
+  void OnMemberGone(const WireId& id) override {
+    common_.neighbours.RemoveMember(id);
+    discovery_.OnMemberGone(id);
+  }
+  void OnEndpoint(const WireEndpoint& endpoint) override {
+    common_.neighbours.Add(endpoint);
+    discovery_.OnEndpoint(endpoint);
+  }
+  void OnEndpointGone(const WireId& id) override {
+    common_.neighbours.RemoveEndpoint(id);
+    discovery_.OnEndpointGone(id);
+  }
+
+  WireDiscovery& discovery_;
+  Common common_;
+  std::unique_ptr<WireParticipant> inner_;
+};
+
+class SharedMemoryWire final : public WireEngine {
+ public:
+  explicit SharedMemoryWire(std::shared_ptr<WireEngine> engine) : engine_(std::move(engine)) {}
+
+  [[nodiscard]] bool has_identities() const noexcept override { return engine_->has_identities(); }
+  Result<std::unique_ptr<WireParticipant>> Join(const WireMemberOptions& options, WireDiscovery& discovery) override {
+    auto made = std::make_unique<SharingParticipant>(discovery);
+    if (const auto begun = made->Begin(*engine_, options); !begun) return begun.error();
+    return std::unique_ptr<WireParticipant>(std::move(made));
+  }
+
+ private:
+  const std::shared_ptr<WireEngine> engine_;
+};
+
+}  // namespace
+
+std::shared_ptr<WireEngine> MakeSharedMemoryWire(std::shared_ptr<WireEngine> engine) {
+  return std::make_shared<SharedMemoryWire>(std::move(engine));
+}
+
+}  // namespace runnel
