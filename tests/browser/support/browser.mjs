@@ -8,10 +8,33 @@ import { Cleanup } from './cleanup.mjs';
 
 const kPatience = 20000; // ms that a condition may take to come true; nothing waits longer than it has to
 
+// One browser for all tests of a file: to start one takes longer than most tests do. Each page has a context of its own,
+// so that nothing that one keeps is found by another.
+let launched = null;
+let pages = 0;
+
+function Browser() {
+  launched ??= chromium.launch({ executablePath: process.env.RUNNEL_BROWSER, args: ['--no-sandbox', '--enable-unsafe-swiftshader'] });
+  pages += 1;
+  return launched;
+}
+
+/** A browser without pages ends, or it would hold this process; not at once, for the next test is about to open one. */
+function PageIsGone() {
+  pages -= 1;
+  setTimeout(async () => {
+    if (pages > 0 || !launched) return;
+    const browser = launched;
+    launched = null;
+    await (await browser).close();
+  }, 300);
+}
+
 /** Opens a page, which is closed after the test. */
 export async function OpenPage(t, url, { width = 1280, height = 800, colours = 'light', lost = false, touch = false, shows = '[data-node]' } = {}) {
-  const browser = await chromium.launch({ executablePath: process.env.RUNNEL_BROWSER, args: ['--no-sandbox', '--enable-unsafe-swiftshader'] });
-  const page = await browser.newPage({ viewport: { width, height }, colorScheme: colours, reducedMotion: 'reduce', hasTouch: touch });
+  const browser = await Browser();
+  const context = await browser.newContext({ viewport: { width, height }, colorScheme: colours, reducedMotion: 'reduce', hasTouch: touch });
+  const page = await context.newPage();
   page.setDefaultTimeout(kPatience);
   const complaints = [];
   const forgiven = [];
@@ -27,7 +50,8 @@ export async function OpenPage(t, url, { width = 1280, height = 800, colours = '
   });
   Cleanup(t, async () => {
     await SayWhatIsOpen(page);
-    await browser.close();
+    await context.close();
+    PageIsGone();
     assert.deepEqual(complaints, [], 'the page complains');
   });
   await page.goto(url);
