@@ -1,8 +1,9 @@
-// The same codel, in C, called by hand; as a periodic task of the engine that runs components of GenoM3; and as a module,
-// beside an ordinary module that does the same.
+// The same codel, in C, called by hand; as a periodic task of the engine that runs components of GenoM3; as a module, beside
+// an ordinary module that does the same; and as a process without Runnel.
 
 #include <benchmark/benchmark.h>
 
+#include "bench/plugins/genom/standalone_client.h"
 #include "core/element/runtime.h"
 #include "core/module/executable.h"
 #include "core/port/cycle.h"
@@ -91,10 +92,22 @@ void CyclesOf(benchmark::State& state) {
   }
 }
 
+// As many periods in one request, in the time of the request: the socket counts for nothing.
+void PeriodsOfTheProcess(benchmark::State& state) {
+  constexpr int kPeriods = 100'000;
+  bench::StandaloneClient pulse(RUNNEL_PULSE_STANDALONE);
+  pulse.Ask(R"({"put": {"wanted": 1.0}})");
+  while (state.KeepRunningBatch(kPeriods)) {
+    const std::string heard = pulse.Ask(R"({"step": 100, "every": 0.001})");
+    if (!heard.starts_with(R"({"done")")) return state.SkipWithError(heard.c_str());
+  }
+}
+
 BENCHMARK(CodelByHand);
 BENCHMARK(TaskOfTheEngine)->ArgName("excludes")->Arg(0)->Arg(1);
 BENCHMARK(CyclesOf<Smoother>);
 BENCHMARK(CyclesOf<PulseComponent>);
+BENCHMARK(PeriodsOfTheProcess)->UseRealTime();
 
 }  // namespace
 }  // namespace runnel

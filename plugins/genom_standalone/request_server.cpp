@@ -1,6 +1,7 @@
 #include "plugins/genom_standalone/request_server.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/nearest_name.h"
 #include "plugins/genom_standalone/value_memory.h"
@@ -80,7 +81,13 @@ Result<Json> RequestServer::Do(LineServer::Client client, const Json& line) {
   if (line.contains("step")) {
     if (step_ == nullptr) return Error{.message = "the component has a clock of its own", .hint = "start it with --stepped"};
     if (!line["step"].is_number() || line["step"].get<double>() < 0) return Error{.message = "'step' is a number of seconds"};
-    return Json{{"time", step_(line["step"].get<double>())}};
+    const double seconds = line["step"].get<double>();
+    if (!line.contains("every")) return Json{{"time", step_(seconds)}};
+    const Json& every = line["every"];
+    if (!every.is_number() || every.get<double>() <= 0) return Error{.message = "'every' is a number of seconds, and not 0"};
+    double time = step_(0);
+    for (auto left = std::llround(seconds / every.get<double>()); left > 0; --left) time = step_(every.get<double>());
+    return Json{{"time", time}};
   }
   return Error{.message = "says nothing that is to be done",
                .hint = "say one of 'call', 'abort', 'put', 'get', 'state', 'describe', 'step', 'kill'"};
