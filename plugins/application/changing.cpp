@@ -1,7 +1,10 @@
 // Changes of an application, by whoever embeds it and by its clients.
 
+#include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <mutex>
+#include <thread>
 #include <utility>
 
 #include "core/paths/late_connections.h"
@@ -21,6 +24,18 @@
 namespace runnel {
 
 namespace {
+
+// Modules that were replaced end what they have under way when they go, and they go when their successors have proved
+// themselves. Not while time stands still.
+void AwaitProof(StructureEditor& editor, Pace& pace) {
+  constexpr auto kLongest = std::chrono::seconds(3);
+  const auto until = std::chrono::steady_clock::now() + kLongest;
+  for (auto look = std::chrono::milliseconds(1); editor.on_probation() > 0; look = std::min(2 * look, std::chrono::milliseconds(50))) {
+    if (pace.is_paused() || std::chrono::steady_clock::now() > until) return;
+    std::this_thread::sleep_for(look);
+    editor.Tend();
+  }
+}
 
 Result<void> ResultOf(const ChangeOutcome& outcome) {
   if (outcome) return {};
@@ -267,6 +282,7 @@ CommandService& Application::service() {
     std::string done = "loaded " + plugin + " anew";
     const auto outcome = Reload(plugin);
     if (!outcome) return outcome.diagnostics.errors().front();
+    AwaitProof(*parts_->editor, parts_->scheduler->pace());
     return done;
   };
   return parts_->service.emplace(ServedApplication{
