@@ -127,10 +127,10 @@ class CallCommand {
 std::string ServiceLine(const FrameworkElement& port, const Callable& callable) {
   const ServiceState state = callable.state();
   std::string line = port.path() + ": ";
-  if (state.running) {
-    line += std::to_string(std::lround(100 * state.running->progress)) + " %" +
-            (state.running->doing.empty() ? "" : " " + state.running->doing) +
-            (state.running->is_abort_asked ? ", asked to end" : "") + "; ";
+  for (const auto& each : state.running) {
+    if (state.running.size() > 1) line += "#" + std::to_string(each.number) + " ";
+    line += std::to_string(std::lround(100 * each.progress)) + " %" + (each.doing.empty() ? "" : " " + each.doing) +
+            (each.is_abort_asked ? ", asked to end" : "") + "; ";
   }
   return line + std::to_string(state.waiting) + " waiting, " + std::to_string(state.answered) + " answered, " +
          std::to_string(state.failed) + " failed\n";

@@ -71,11 +71,17 @@ class Engine {
   [[nodiscard]] const EngineOptions& options() const noexcept { return options_; }
   [[nodiscard]] std::deque<ExecutionTask>& tasks() noexcept { return tasks_; }
 
+  /// Whether time in codels is measured, if there is a clock; it is at first. Any thread.
+  void SetMeasured(bool is_measured) noexcept { is_measured_.store(is_measured, std::memory_order_relaxed); }
+
   /// The standard services that a component has whatever its middleware.
   [[nodiscard]] static const ServiceTable& AbortService();  ///< Request::abort_id
   [[nodiscard]] static const ServiceTable& KillService();
 
   // For the tasks.
+  [[nodiscard]] const Clock* clock() const noexcept {
+    return is_measured_.load(std::memory_order_relaxed) ? options_.clock : nullptr;
+  }
   /// Something has happened that ends the pause of aperiodic tasks.
   void Note() noexcept {
     // release: pairs with the acquire in events(): what has happened is to be seen.
@@ -109,6 +115,7 @@ class Engine {
   std::atomic<Phase> phase_{Phase::kStarting};
   std::atomic<std::size_t> starting_{0};  // which task makes its first pass
   std::atomic<bool> is_stop_asked_{false};
+  std::atomic<bool> is_measured_{true};
   std::atomic<std::uint64_t> events_{1};
   std::atomic<std::uint64_t> changes_{1};
   std::atomic<const Outcome*> failure_{nullptr};

@@ -44,7 +44,10 @@ Pass ExecutionTask::Run(Time now, bool is_forced) {
     const bool is_tick = IsTick(now, is_forced);
     const bool may_begin = is_tick || !is_periodic();
     if (!goes_on_ && !may_begin) return Pass::kIdle;
-    if (is_tick) cycles_.store(cycles_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+    if (is_tick) {
+      cycles_.store(cycles_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+      if (engine_.clock() != nullptr) measured_.store(measured_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+    }
     if (!Begin(is_tick)) {
       goes_on_ = false;
       if (is_first_ && may_begin) has_passed_.store(true, std::memory_order_release);
@@ -52,7 +55,7 @@ Pass ExecutionTask::Run(Time now, bool is_forced) {
     }
     position_ = 0;
   }
-  const Clock* const clock = engine_.options().clock;
+  const Clock* const clock = engine_.clock();
   const Time before = clock != nullptr ? clock->Now() : Time();
   is_suspended_ = true;  // also if a codel throws
   const bool is_over = RunCodels();
@@ -166,7 +169,7 @@ void ExecutionTask::End(ActivitySlot& slot) noexcept {
 }
 
 TaskFigures ExecutionTask::figures() const noexcept {
-  return {cycles_.load(std::memory_order_relaxed), Duration(last_.load(std::memory_order_relaxed)),
+  return {cycles_.load(std::memory_order_relaxed), measured_.load(std::memory_order_relaxed), Duration(last_.load(std::memory_order_relaxed)),
           Duration(longest_.load(std::memory_order_relaxed)), Duration(total_.load(std::memory_order_relaxed))};
 }
 

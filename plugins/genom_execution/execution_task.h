@@ -43,6 +43,7 @@ struct ActivitySlot {
 /// What is told of a task: see Engine::state().
 struct TaskFigures {
   std::uint64_t cycles = 0;
+  std::uint64_t measured = 0;           ///< of these
   Duration last{}, longest{}, total{};  ///< time in codels, by EngineOptions::clock
 };
 
@@ -92,7 +93,7 @@ class ExecutionTask {
   bool goes_on_ = false;  // some activity has not paused
   std::size_t position_ = 0;
   // relaxed: they inform; one writer.
-  std::atomic<std::uint64_t> cycles_{0};
+  std::atomic<std::uint64_t> cycles_{0}, measured_{0};
   std::atomic<std::int64_t> last_{0}, longest_{0}, total_{0};
 };
 

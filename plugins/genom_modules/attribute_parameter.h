@@ -1,53 +1,66 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <utility>
 
 #include "plugins/genom_modules/component_module.h"
-#include "plugins/parameters/parameter.h"
+#include "plugins/genom_modules/following_parameter.h"
 
 namespace runnel::genom_modules {
 
 /// An attribute with inputs only, as a parameter: each new value is a request of the attribute, with its validation and
-/// exclusion. A default of the description is only shown, as in the original; what a file says is set at the start.
+/// exclusion. It follows calls of the attribute's service, and goes back if the component refuses a value. A default of
+/// the description is only shown, as in the original; what a file says is set at the start.
 ///
 /// Threads: as Parameter. A value that the component refuses is told in the log, and the ids stay as they are.
 template <typename Value>
 class AttributeParameter final : public ModulePart {
  public:
+  using Request = genom_execution::Request;
+
   AttributeParameter(ComponentModule& module, std::string name, const genom_execution::ServiceTable& attribute,
                      std::string_view default_text, std::string description,
-                     void (*fill)(genom_execution::Request& request, const Value& value))
+                     void (*fill)(Request& request, const Value& value), void (*read)(Request& request, Value& value))
       : module_(module),
         attribute_(attribute),
         fill_(fill),
+        read_(read),
         parameter_(&module, std::move(name), Options(default_text, std::move(description))),
-        default_text_(TextOf(ValueOf<Value>(default_text))) {
+        accepted_(ValueOf<Value>(default_text)),
+        default_text_(TextOf(accepted_)) {
     module.AddPart(*this);
   }
 
   void Prepare(genom_execution::Engine& engine) override {
-    if (request_ == nullptr) request_ = std::make_unique<genom_execution::Request>(engine.component(), attribute_);
-    (void)parameter_.HasChanged();
+    if (request_ == nullptr) request_ = std::make_unique<Request>(engine.component(), attribute_);
+    (void)parameter_.Take([](const Value&) {});
     is_due_ = ToText(TypeOf<Value>(), parameter_.Value().get()) != default_text_;
+    if (is_due_) fill_(*request_, *static_cast<const Value*>(parameter_.Value().get()));
   }
   void BeforePasses(genom_execution::Engine& engine, Time /*now*/) override {
-    is_due_ |= parameter_.HasChanged();
-    if (!is_due_ || is_under_way_) return;
-    if constexpr (kIsCopiedParameter<Value>) {
-      fill_(*request_, parameter_.Get());
-    } else {
-      fill_(*request_, *parameter_.Get());
-    }
+    if (is_under_way_) return;
+    is_due_ |= parameter_.Take([this](const Value& value) { fill_(*request_, value); });
+    if (!is_due_) return;
     is_under_way_ = engine.Send(*request_);
     is_due_ = !is_under_way_;
   }
   void AfterPasses() override {
-    if (!is_under_way_ || request_->state() != genom_execution::Request::State::kDone) return;
-    is_under_way_ = false;
-    if (request_->outcome().is_success()) return;
-    module_.log().Warn("{} refuses the value: {}", parameter_.name(),
-                       request_->outcome().Text(module_.engine().component()));
+    if (is_under_way_ && request_->state() == Request::State::kDone) {
+      is_under_way_ = false;
+      if (request_->outcome().is_success()) {
+        read_(*request_, accepted_);
+      } else {
+        module_.log().Warn("{} refuses the value: {}", parameter_.name(), request_->outcome().Text(module_.table()));
+        is_behind_ = true;
+      }
+    }
+    if (is_behind_) is_behind_ = !parameter_.Follow(accepted_);
+  }
+  void AfterCall(Request& request) override {
+    if (&request.service() != &attribute_) return;
+    read_(request, accepted_);
+    is_behind_ = true;
   }
 
  private:
@@ -60,12 +73,15 @@ class AttributeParameter final : public ModulePart {
 
   ComponentModule& module_;
   const genom_execution::ServiceTable& attribute_;
-  void (*const fill_)(genom_execution::Request& request, const Value& value);
-  Parameter<Value> parameter_;
+  void (*const fill_)(Request& request, const Value& value);
+  void (*const read_)(Request& request, Value& value);
+  FollowingParameter<Value> parameter_;
+  Value accepted_;  // by the component
   const std::string default_text_;
-  std::unique_ptr<genom_execution::Request> request_;
+  std::unique_ptr<Request> request_;
   bool is_due_ = false;
   bool is_under_way_ = false;
+  bool is_behind_ = false;  // the parameter, of accepted_
 };
 
 }  // namespace runnel::genom_modules

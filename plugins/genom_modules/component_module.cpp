@@ -48,6 +48,7 @@ genom_execution::EngineOptions ComponentModule::Options() {
   options.ids = ids_;
   options.glue = this;
   options.is_single_threaded = !has_own;
+  if (!is_simulated_) options.clock = &runtime().clock();
   if (has_own && !is_simulated_) options.patience = kPatience;
   options.run_async = [](void* glue, std::size_t place, genom_execution::AsyncWork& work) {
     auto& module = *static_cast<ComponentModule*>(glue);
@@ -110,6 +111,8 @@ void ComponentModule::Update() {
   }
   if (!has_run_.load(std::memory_order_relaxed)) CheckPeriods();
   has_run_.store(true, std::memory_order_relaxed);
+  const bool is_watched = genom_state.is_watched();
+  engine_->SetMeasured(is_watched);
   for (ModulePart* part : parts_) part->BeforePasses(*engine_, now());
   try {
     // A cycle that comes a little early is that of the tick.
@@ -119,7 +122,7 @@ void ComponentModule::Update() {
     throw;
   }
   for (ModulePart* part : parts_) part->AfterPasses();
-  if (genom_state.is_watched()) PublishState();
+  if (is_watched) PublishState();
   if (const auto* failure = engine_->failure()) {
     throw std::runtime_error("a permanent activity has ended by " + failure->Text(component_));
   }
@@ -190,7 +193,8 @@ void ComponentModule::PublishState() {
     state.cycles = figures.cycles;
     state.last = ToSeconds(figures.last);
     state.longest = ToSeconds(figures.longest);
-    state.average = figures.cycles > 0 ? ToSeconds(figures.total) / static_cast<double>(figures.cycles) : 0;
+    state.average = figures.measured > 0 ? ToSeconds(figures.total) / static_cast<double>(figures.measured) : 0;
+    if (task.is_periodic()) state.load = state.average / ToSeconds(task.table().period);
     for (std::size_t slot = 1; slot < task.used(); ++slot) {
       const genom_execution::Request* const request = task.slots()[slot].request;
       if (request == nullptr) continue;

@@ -37,6 +37,10 @@ class ComponentModule : public Module {
   [[nodiscard]] const genom_execution::ComponentTable& table() const noexcept { return component_; }
   [[nodiscard]] genom_execution::Engine& engine() noexcept { return *engine_; }
   void AddPart(ModulePart& part) { parts_.push_back(&part); }
+  /// A call of a service has been successful.
+  void AfterCall(genom_execution::Request& request) {
+    for (ModulePart* part : parts_) part->AfterCall(request);
+  }
   /// One cycle of a task that another thread runs, by that thread.
   void RunOwnTask(std::size_t task, Time time) noexcept;
   using Module::log;

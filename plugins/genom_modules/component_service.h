@@ -64,11 +64,7 @@ class ComponentService<Reply(Arguments...)> final : public ComponentServiceBase 
     auto loan = records_.Loan();
     if (!loan) return;
     const auto& call = static_cast<Call<Signature>&>(base);
-    loan->number = call.number;
-    loan->status = status;
-    loan->arguments = call.arguments;
-    if constexpr (!std::is_void_v<Reply>) loan->reply = call.reply;
-    loan->error = call.error;
+    runnel::internal::FillRecord(*loan, call, status);
     records_.Publish(std::move(loan), call.called_at);
   }
 

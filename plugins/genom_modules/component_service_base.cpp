@@ -1,29 +1,38 @@
 #include "plugins/genom_modules/component_service_base.h"
 
+#include <algorithm>
+
+#include "plugins/genom_modules/component_module.h"
+
 namespace runnel::genom_modules {
 
 using genom_execution::Engine;
 using genom_execution::Request;
 
 void ComponentServiceBase::Prepare(Engine& engine) {
-  component_ = &engine.component();
-  while (all_.size() < kMostUnderWay) all_.emplace_back(*component_, service_);
+  module_ = static_cast<ComponentModule*>(engine.options().glue);
+  while (all_.size() < kMostUnderWay) all_.emplace_back(engine.component(), service_);
 }
 
 ServiceState ComponentServiceBase::state() const {
   ServiceState state = ServiceBase::state();
-  if (const UnderWay* const longest = longest_.load(std::memory_order_acquire)) {
-    state.running = {longest->number.load(std::memory_order_relaxed), 0, longest->request.doing(),
-                     longest->is_abort_asked.load(std::memory_order_relaxed)};
+  for (const UnderWay& each : all_) {
+    const std::uint32_t id = each.id.load(std::memory_order_relaxed);
+    if (id == 0) continue;
+    state.running.push_back({id, 0, each.request.doing(), each.is_abort_asked.load(std::memory_order_relaxed)});
   }
+  std::ranges::sort(state.running, {}, &ServiceState::Running::number);
   return state;
 }
 
 bool ComponentServiceBase::Abort() {
-  UnderWay* const longest = longest_.load(std::memory_order_acquire);
-  if (longest == nullptr) return false;
-  longest->is_abort_asked.store(true, std::memory_order_relaxed);
-  return true;
+  bool is_any = false;
+  for (UnderWay& each : all_) {
+    if (each.id.load(std::memory_order_relaxed) == 0) continue;
+    each.is_abort_asked.store(true, std::memory_order_relaxed);
+    is_any = true;
+  }
+  return is_any;
 }
 
 bool ComponentServiceBase::IsFree(const UnderWay& each) {
@@ -44,7 +53,7 @@ void ComponentServiceBase::BeforePasses(Engine& engine, Time now) {
       if (each.call->is_given_up.load(std::memory_order_relaxed)) {
         each.is_abort_asked.store(true, std::memory_order_relaxed);
       }
-      Interrupt(engine, each);
+      Interrupt(engine, each, now);
     }
   }
 }
@@ -62,9 +71,9 @@ void ComponentServiceBase::Begin(Engine& engine, UnderWay& each, Time now) {
       at->End(*call, CallStatus::kBusy, "too many requests wait for the component");
       continue;
     }
+    call->begun_at = now;
     each.call = call;
     each.is_interrupted = false;
-    each.number.store(call->number, std::memory_order_relaxed);
     each.is_abort_asked.store(false, std::memory_order_relaxed);
     ++count_;
     return;
@@ -72,25 +81,24 @@ void ComponentServiceBase::Begin(Engine& engine, UnderWay& each, Time now) {
 }
 
 // Once it has an id: until then the engine would not know which.
-void ComponentServiceBase::Interrupt(Engine& engine, UnderWay& each) {
+void ComponentServiceBase::Interrupt(Engine& engine, UnderWay& each, Time now) {
   if (each.is_interrupted || !each.is_abort_asked.load(std::memory_order_relaxed) || each.request.id() == 0) return;
   each.abort.abort_id = each.request.id();
   each.is_interrupted = engine.Send(each.abort);
+  if (each.is_interrupted) each.call->asked_to_end_at = now;
 }
 
 void ComponentServiceBase::AfterPasses() {
   if (count_ == 0) return;
-  UnderWay* longest = nullptr;
   for (UnderWay& each : all_) {
     if (each.call == nullptr) continue;
     if (each.request.state() == Request::State::kDone) {
       Deliver(each);
     } else if (is_activity()) {
       each.call->doing.store(each.request.doing(), std::memory_order_relaxed);
-      if (longest == nullptr || each.request.id() < longest->request.id()) longest = &each;
+      each.id.store(each.request.id(), std::memory_order_relaxed);
     }
   }
-  longest_.store(longest, std::memory_order_release);
 }
 
 void ComponentServiceBase::Deliver(UnderWay& each) {
@@ -98,8 +106,9 @@ void ComponentServiceBase::Deliver(UnderWay& each) {
   CallStatus status = CallStatus::kAnswered;
   if (each.request.outcome().is_success()) {
     Take(each.request, call);
+    if (service_.kind == genom_execution::ServiceKind::kAttribute) module_->AfterCall(each.request);
   } else {
-    call.error = each.request.outcome().Text(*component_);
+    call.error = each.request.outcome().Text(module_->table());
     const bool is_interrupted = each.request.outcome().exception() == genom_execution::kInterrupted;
     status = is_interrupted && each.is_interrupted ? CallStatus::kAborted : CallStatus::kFailed;
   }
@@ -107,15 +116,16 @@ void ComponentServiceBase::Deliver(UnderWay& each) {
   ServiceEndpoint* const at = endpoint();
   (status == CallStatus::kAnswered ? at->answered : at->failed).fetch_add(1, std::memory_order_relaxed);
   each.call = nullptr;
+  each.id.store(0, std::memory_order_relaxed);
   --count_;
   call.Answer(status);
 }
 
 void ComponentServiceBase::EndCalls(CallStatus status, std::string_view why) noexcept {
-  longest_.store(nullptr, std::memory_order_release);
   for (UnderWay& each : all_) {
     if (each.call != nullptr) endpoint()->End(*each.call, status, why);
     each.call = nullptr;
+    each.id.store(0, std::memory_order_relaxed);
   }
   count_ = 0;
 }

@@ -10,6 +10,8 @@
 
 namespace runnel::genom_modules {
 
+class ComponentModule;
+
 /// The part of a component's service that does not depend on its types: calls become requests of the engine, as many at
 /// once as there is room for, and are answered when those are done.
 ///
@@ -18,7 +20,6 @@ class ComponentServiceBase : public ServiceBase, public ModulePart {
  public:
   static constexpr std::size_t kMostUnderWay = 8;
 
-  // Tells of the call that has been under way for longest.
   [[nodiscard]] ServiceState state() const override;
   bool Abort() override;
 
@@ -48,7 +49,7 @@ class ComponentServiceBase : public ServiceBase, public ModulePart {
     CallBase* call = nullptr;
     bool is_interrupted = false;
     // Looked at by others. relaxed: they inform.
-    std::atomic<std::uint64_t> number{0};
+    std::atomic<std::uint32_t> id{0};  // of the activity that is under way; 0: none
     std::atomic<bool> is_abort_asked{false};
   };
 
@@ -57,14 +58,13 @@ class ComponentServiceBase : public ServiceBase, public ModulePart {
   CallStatus Invoke(CallBase& /*call*/, Activity* /*activity*/) override { return CallStatus::kFailed; }
   [[nodiscard]] static bool IsFree(const UnderWay& each);
   void Begin(genom_execution::Engine& engine, UnderWay& each, Time now);
-  static void Interrupt(genom_execution::Engine& engine, UnderWay& each);
+  static void Interrupt(genom_execution::Engine& engine, UnderWay& each, Time now);
   void Deliver(UnderWay& each);
 
   const genom_execution::ServiceTable& service_;
-  const genom_execution::ComponentTable* component_ = nullptr;
+  ComponentModule* module_ = nullptr;
   std::deque<UnderWay> all_;
   std::size_t count_ = 0;  // of those under way
-  std::atomic<UnderWay*> longest_{nullptr};
 };
 
 }  // namespace runnel::genom_modules

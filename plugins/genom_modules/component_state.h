@@ -10,7 +10,8 @@ namespace runnel::genom_modules {
 struct TaskState {
   BoundedText<32> name;
   std::uint64_t cycles = 0;
-  double last = 0, longest = 0, average = 0;  ///< s, in codels, by the application's clock
+  double last = 0, longest = 0, average = 0;  ///< s, in codels, while somebody looks; 0 on a simulated clock
+  double load = 0;                            ///< average in a period; 0: has none
 };
 
 struct ActivityState {
@@ -34,7 +35,8 @@ inline void Describe(TypeBuilder<TaskState>& type) {
       .Field("cycles", &TaskState::cycles)
       .Field("last", &TaskState::last, {.unit = "s"})
       .Field("longest", &TaskState::longest, {.unit = "s"})
-      .Field("average", &TaskState::average, {.unit = "s"});
+      .Field("average", &TaskState::average, {.unit = "s"})
+      .Field("load", &TaskState::load);
 }
 inline void Describe(TypeBuilder<ActivityState>& type) {
   type.Name("genom::activity_state")

@@ -14,6 +14,8 @@ class ModulePart {
   virtual void BeforePasses(genom_execution::Engine& engine, Time now) = 0;
   /// And after them: what has been done is answered.
   virtual void AfterPasses() = 0;
+  /// A call of a service has been successful.
+  virtual void AfterCall(genom_execution::Request& /*request*/) {}
 
  protected:
   ~ModulePart() = default;

@@ -6,6 +6,7 @@
 
 #include "core/lockfree/thread_epoch.h"
 #include "plugins/services/argument_type.h"
+#include "plugins/services/call_record.h"
 #include "plugins/services/callable.h"
 #include "plugins/services/service_base.h"
 
@@ -27,6 +28,9 @@ class AnyCallOf<Reply(Arguments...)> final : public AnyCall {
   }
 
   [[nodiscard]] void* arguments() override { return find_(call_->arguments); }
+  void TakeArguments(const CallRecordBase& record) override {
+    call_->arguments = static_cast<const CallRecord<Signature>&>(record).arguments;
+  }
   CallStatus Begin(Time now, Duration timeout) override {
     return status_ = BeginCall(service_.endpoint(), *call_, now, timeout);
   }

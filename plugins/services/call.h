@@ -58,6 +58,8 @@ struct CallBase {
   // The service's.
   CallStatus status = CallStatus::kPending;
   std::string error;
+  Time begun_at{};
+  Time asked_to_end_at{};
   // Anybody's. relaxed: they inform.
   std::atomic<double> progress{0};
   std::atomic<const char*> doing{""};

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/clock.h"
 #include "core/element/annotation.h"
@@ -11,6 +11,8 @@
 #include "plugins/services/call_status.h"
 
 namespace runnel {
+
+struct CallRecordBase;
 
 /// One call of a service whose types the caller knows by their descriptions only. Destroyed while it is under way, it
 /// is given up, and an activity is asked to end.
@@ -21,6 +23,8 @@ class AnyCall {
   virtual ~AnyCall() = default;
   /// Of the type Callable::arguments(): to be filled before Begin(). nullptr if there are none.
   [[nodiscard]] virtual void* arguments() = 0;
+  /// Those of a call that was recorded, in place of filling them: a value of the type that the service's NAME_calls has.
+  virtual void TakeArguments(const CallRecordBase& record) = 0;
   /// Puts it into the service's queue: kPending, or why not. Under the structure lock under which the service was found.
   virtual CallStatus Begin(Time now, Duration timeout) = 0;
   /// How it is going. Times are the application's.
@@ -37,7 +41,7 @@ class AnyCall {
 /// How a service is doing.
 struct ServiceState {
   struct Running {
-    std::uint64_t number = 0;
+    std::uint64_t number = 0;  ///< of the caller's calls, or the id of the activity
     double progress = 0;  ///< 0 to 1
     std::string doing = {};
     bool is_abort_asked = false;
@@ -45,7 +49,7 @@ struct ServiceState {
   std::size_t waiting = 0;
   std::uint64_t answered = 0;
   std::uint64_t failed = 0;  ///< with whatever reason
-  std::optional<Running> running = {};
+  std::vector<Running> running = {};  ///< what began first comes first
 };
 
 /// "This can be called": the annotation of a port by which terminals, viewers and other protocols find services, say
@@ -64,7 +68,7 @@ class Callable : public Annotation {
   [[nodiscard]] virtual bool is_activity() const = 0;
   [[nodiscard]] virtual std::unique_ptr<AnyCall> NewCall() = 0;
   [[nodiscard]] virtual ServiceState state() const = 0;
-  /// Asks the activity that is under way to come to its end; false: there is none.
+  /// Asks the activities that are under way to come to their ends; false: there is none.
   virtual bool Abort() = 0;
 };
 

@@ -119,11 +119,7 @@ class Service<Reply(Arguments...)> final : public ServiceBase {
   void Record(const Call<Signature>& call, CallStatus status) {
     auto loan = records_.Loan();
     if (!loan) return;
-    loan->number = call.number;
-    loan->status = status;
-    loan->arguments = call.arguments;
-    if constexpr (!std::is_void_v<Reply>) loan->reply = call.reply;
-    loan->error = call.error;
+    internal::FillRecord(*loan, call, status);
     records_.Publish(std::move(loan), call.called_at);
   }
 

@@ -67,7 +67,10 @@ void ServiceBase::BeforeUpdate() {
     const Time now = cycle != nullptr ? cycle->now : port_->runtime().clock().Now();
     if (call->is_given_up.load(std::memory_order_relaxed) || now >= call->deadline) {
       at->End(*call, CallStatus::kTimedOut, "given up by its caller, or its turn did not come in time");
-    } else if (worker_ != nullptr) {
+      continue;
+    }
+    call->begun_at = now;
+    if (worker_ != nullptr) {
       worker_->Begin(*call);
     } else {
       Answer(*at, *call);
@@ -125,7 +128,7 @@ ServiceState ServiceBase::state() const {
   }
   if (worker_ != nullptr && !worker_->is_free()) {
     const Activity& activity = worker_->activity();
-    state.running = {activity.number(), activity.progress(), activity.doing(), activity.has_abort()};
+    state.running.push_back({activity.number(), activity.progress(), activity.doing(), activity.has_abort()});
   }
   return state;
 }

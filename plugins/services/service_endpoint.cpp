@@ -10,6 +10,7 @@ CallStatus BeginCall(ServiceEndpoint* at, CallBase& call, Time now, Duration tim
   call.endpoint = at;
   call.status = CallStatus::kPending;
   call.error.clear();
+  call.begun_at = call.asked_to_end_at = Time();
   call.is_given_up.store(false, std::memory_order_relaxed);
   call.progress.store(0, std::memory_order_relaxed);
   // relaxed: the queue hands it over, with all of the above.

@@ -100,13 +100,14 @@ void ViewerSession::NoteService(Watch& watch) {
   const ServiceState state = callable->state();
   std::string text = JsonObjectText([&](JsonObject& json) {
     json.Add("waiting", state.waiting).Add("answered", state.answered).Add("failed", state.failed);
-    if (!state.running) {
-      json.AddTextOrNull("running", "");
-      return;
+    JsonArray running(json.Key("running"));
+    for (const auto& each : state.running) {
+      JsonObject(running.Next())
+          .Add("number", each.number)
+          .Add("progress", each.progress)
+          .Add("doing", each.doing)
+          .Add("abort", each.is_abort_asked);
     }
-    JsonObject running(json.Key("running"));
-    running.Add("number", state.running->number).Add("progress", state.running->progress);
-    running.Add("doing", state.running->doing).Add("abort", state.running->is_abort_asked);
   });
   if (text == watch.service) return;
   watch.service = std::move(text);

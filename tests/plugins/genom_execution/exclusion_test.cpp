@@ -131,5 +131,36 @@ TEST(Exclusion, WithoutWaitingComesAgain) {
   EXPECT_EQ(sketch.Trace(), "quiet");
 }
 
+// Threads that must not sleep for long come again, and lose no place in the order.
+TEST(Exclusion, SleepsNoLongerThanItsPatience) {
+  Sketch sketch;
+  sketch.AddTask({.name = "one", .states = {{"start", "a", {"ether"}}}});
+  sketch.AddTask({.name = "two", .states = {{"start", "idle", {"go"}}, {"go", "b", {"ether"}}}});
+  sketch.Exclude("a", "b");
+  Engine& engine = sketch.Start({.patience = 1ms});
+  EXPECT_EQ(engine.RunTask(0, Time()), Pass::kIdle);
+  EXPECT_EQ(engine.RunTask(1, Time()), Pass::kAgain);
+  Exclusion& exclusion = engine.exclusion();
+  exclusion.Want(1, 0);
+  EXPECT_EQ(engine.RunTask(1, Time()), Pass::kWaiting);
+  exclusion.Leave(1);
+  EXPECT_EQ(engine.RunTask(1, Time()), Pass::kIdle);
+}
+
+TEST(Exclusion, DoesNotSleepForAsynchronousCodels) {
+  Sketch sketch;
+  sketch.AddTask({.name = "one", .states = {{"start", "dial", {"ether"}}}});
+  sketch.AddTask({.name = "two", .states = {{"start", "b", {"ether"}}}});
+  sketch.AddService({"send", ServiceKind::kActivity, "one", {{"start", "write", {"ether"}}}});
+  sketch.MakeAsync("write");
+  sketch.Exclude("write", "b");
+  Engine& engine = sketch.Start({.patience = Duration::max(), .run_async = [](void*, std::size_t, AsyncWork&) {}});
+  EXPECT_EQ(engine.RunTask(0, Time()), Pass::kIdle);
+  engine.exclusion().Want(1, 2);  // as if it was with another thread: "write" comes behind the codels of tasks
+  EXPECT_EQ(engine.RunTask(1, Time()), Pass::kWaiting);
+  engine.exclusion().Leave(1);
+  EXPECT_EQ(engine.RunTask(1, Time()), Pass::kIdle);
+}
+
 }  // namespace
 }  // namespace runnel::genom_execution

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "core/element/configurable.h"
 #include "core/types/text_format.h"
 #include "plugins/services/callable.h"
 #include "plugins/testing/module_rig.h"
@@ -56,6 +57,9 @@ class ComponentTest : public testing::Test {
     const auto call = Begin(service, arguments);
     while (Outcome(service, *call) == "pending" && most_cycles-- > 0) rig.RunCycle();
     return Outcome(service, *call);
+  }
+  std::string Parameter(const std::string& name) {
+    return dynamic_cast<Configurable&>(*rig.module.FindChild("parameter")->FindChild(name)).ToText();
   }
   std::string Newest(const std::string& port) {
     std::string text;

@@ -29,6 +29,16 @@ TEST_F(ComponentLifeTest, EndsActivitiesWhenItGoes) {
   EXPECT_EQ(ToText(*reply, wait->reply()), "1099");
 }
 
+TEST_F(ComponentLifeTest, InterruptsActivitiesThatCannotStopWhenItGoes) {
+  rig.RunCycles(2);
+  const auto tick = Begin("tick", "{turns: 100}");
+  rig.RunCycles(3);
+  ASSERT_TRUE(rig.runtime.Delete(rig.module));
+  (void)CollectRetired();
+  EXPECT_EQ(tick->Poll(rig.now()), CallStatus::kFailed);
+  EXPECT_EQ(tick->error(), "interrupted {by: kill}");
+}
+
 TEST_F(ComponentLifeTest, IsStoppedByAPermanentActivityThatFails) {
   Port& seen = PortAt("seen");
   auto source = seen.MakeOutput(rig.runtime.root(), "source", {});

@@ -12,6 +12,8 @@ TEST_F(ComponentTest, OffersItsAttributesAsServicesAndParameters) {
                          "trace: [], level: []}}");
   EXPECT_EQ(Call("set_gain", "{gain: 3}"), "done");
   EXPECT_EQ(Call("set_list", "{list: [1, 2]}"), "done");
+  EXPECT_EQ(Parameter("set_gain"), "3") << "parameters follow calls";
+  EXPECT_EQ(Parameter("set_list"), "[1, 2]");
   EXPECT_THAT(Call("get"), HasSubstr("gain: 3, list: [1, 2]"));
   rig.Set("set_gain", "4");
   rig.RunCycle();
@@ -20,6 +22,7 @@ TEST_F(ComponentTest, OffersItsAttributesAsServicesAndParameters) {
   rig.Set("set_gain", "12");
   rig.RunCycle();
   EXPECT_THAT(Call("get"), HasSubstr("gain: 4")) << "what validation refuses changes nothing";
+  EXPECT_EQ(Parameter("set_gain"), "4");
 }
 
 TEST_F(ComponentTest, SetsParametersOfTheFileAtTheStart) {
@@ -73,14 +76,38 @@ TEST_F(ComponentTest, TellsWhatActivitiesDo) {
   const auto wait = Begin("wait", "{turns: 3}");
   rig.RunCycles(3);
   const ServiceState state = ServiceAt("wait").state();
-  ASSERT_TRUE(state.running.has_value());
-  EXPECT_EQ(state.running->doing, "turn");
+  ASSERT_EQ(state.running.size(), 1u);
+  EXPECT_EQ(state.running[0].doing, "turn");
   EXPECT_STREQ(wait->doing(), "turn");
   auto& seen = rig.Follow(rig.output<genom_modules::ComponentState>("genom_state"));
   rig.RunCycle();
   EXPECT_THAT(TextOf(*seen.Read()), HasSubstr("activities: [{id: 1, service: \"wait\", state: \"turn\"}]"));
   rig.RunCycles(6);
   EXPECT_EQ(Outcome("wait", *wait), "3");
+}
+
+TEST_F(ComponentTest, TellsOfEachInstanceOfAnActivity) {
+  rig.RunCycles(2);
+  const auto first = Begin("tick", "{turns: 100}");
+  const auto second = Begin("tick", "{turns: 3}");
+  rig.RunCycles(3);
+  auto running = ServiceAt("tick").state().running;
+  ASSERT_EQ(running.size(), 2u);
+  EXPECT_EQ(running[0].number, 1u);
+  EXPECT_EQ(running[1].number, 2u);
+  EXPECT_EQ(running[1].doing, "turn");
+  rig.RunCycles(6);
+  EXPECT_EQ(Outcome("tick", *second), "3");
+  running = ServiceAt("tick").state().running;
+  ASSERT_EQ(running.size(), 1u);
+  EXPECT_EQ(running[0].number, 1u);
+  const auto third = Begin("tick", "{turns: 100}");
+  rig.RunCycles(3);
+  EXPECT_TRUE(ServiceAt("tick").Abort()) << "all that is under way";
+  rig.RunCycles(3);
+  EXPECT_THAT(Outcome("tick", *first), HasSubstr("aborted: interrupted {by: abort_activity}"));
+  EXPECT_THAT(Outcome("tick", *third), HasSubstr("aborted: interrupted {by: abort_activity}"));
+  EXPECT_FALSE(ServiceAt("tick").Abort());
 }
 
 TEST_F(ComponentTest, InterruptsActivities) {

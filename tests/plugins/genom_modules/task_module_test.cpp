@@ -105,6 +105,7 @@ TEST_F(TaskModuleTest, WorksInRealThreads) {
   rig.runtime.set_clock(clock);
   Scheduler scheduler(rig.runtime);
   ASSERT_EQ(Refusal(), "");
+  auto& state = rig.Follow(rig.output<genom_modules::ComponentState>("genom_state"));
   ASSERT_TRUE(scheduler.Start());
   const auto answer = [&](const std::string& service, const std::string& arguments) {
     const auto call = Ask(scheduler, service, arguments);
@@ -116,6 +117,7 @@ TEST_F(TaskModuleTest, WorksInRealThreads) {
   EXPECT_THAT(answer("get", ""), HasSubstr("gain: 9"));
   EXPECT_EQ(answer("wait", "{turns: 2}"), "2");
   scheduler.Stop();
+  EXPECT_GT(state.Read()->tasks.at(0).longest, 0) << "what codels take is measured for those who look";
   EXPECT_TRUE(scheduler.TakeFaults().empty());
 }
 

@@ -56,8 +56,8 @@ TEST_F(ActivityTest, RunsBesideTheCyclesAndReportsProgress) {
   Steps(5);
   EXPECT_FALSE(future.is_done());
   const auto state = worker().work.state();
-  ASSERT_TRUE(state.running);
-  EXPECT_EQ(state.running->doing, "waiting");
+  ASSERT_EQ(state.running.size(), 1u);
+  EXPECT_EQ(state.running[0].doing, "waiting");
   Worker::may_end = true;
   EXPECT_EQ(*future.Wait(), 2);
 }

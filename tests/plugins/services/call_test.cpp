@@ -122,8 +122,8 @@ TEST_F(ServiceTest, WhatComesOfCallsIsPublished) {
   std::vector<std::string> seen;
   input.Drain([&](const auto& record) { seen.push_back(TextOf(*record)); });
   EXPECT_THAT(seen,
-              ElementsAre("{number: 1, status: answered, arguments: {argument1: 4}, reply: 8, error: \"\"}",
-                          HasSubstr("status: failed, arguments: {argument1: -4}")));
+              ElementsAre("{number: 1, status: answered, begun: 0s, asked_to_end: 0s, arguments: {argument1: 4}, reply: 8, error: \"\"}",
+                          HasSubstr("status: failed, begun: 0s, asked_to_end: 0s, arguments: {argument1: -4}")));
 }
 
 }  // namespace

@@ -42,8 +42,8 @@ export function ServiceForm({ port }) {
           </div>`)}
         <div class="actions">
           <button class="call" disabled=${!canDrive.value || isUnderWay} onClick=${call}>${isUnderWay ? 'Under way …' : 'Call'}</button>
-          ${service.activity && (isUnderWay || state?.running) && html`<button class="abort" disabled=${!canDrive.value}
-              title="Asks it to end" onClick=${() => AbortService(path)}>Abort</button>`}
+          ${service.activity && (isUnderWay || state?.running.length > 0) && html`<button class="abort" disabled=${!canDrive.value}
+              title="Asks what is under way to end" onClick=${() => AbortService(path)}>Abort</button>`}
         </div>
         ${state && html`<${Progress} state=${state} />`}
         ${answer?.text !== undefined && html`<p class="reply" role="status">${answer.text}</p>`}
@@ -56,8 +56,8 @@ export function ServiceForm({ port }) {
 function Progress({ state }) {
   const { running, waiting, answered, failed } = state;
   return html`
-    ${running && html`<div class="activity">
-      <progress max="1" value=${running.progress} aria-label="Progress"></progress>
-      <span>${Math.round(100 * running.progress)} % ${running.doing}${running.abort ? ', asked to end' : ''}</span></div>`}
+    ${running.map((each) => html`<div class="activity" key=${each.number}>
+      <progress max="1" value=${each.progress} aria-label="Progress"></progress>
+      <span>${running.length > 1 ? `#${each.number} ` : ''}${Math.round(100 * each.progress)} % ${each.doing}${each.abort ? ', asked to end' : ''}</span></div>`)}
     <p class="note calls">${waiting > 0 ? `${waiting} waiting, ` : ''}${answered} answered${failed > 0 ? `, ${failed} failed` : ''}</p>`;
 }
