@@ -73,7 +73,8 @@ std::string ApplicationReplay::Finish(Diagnostics& problems) {
   const std::size_t ports = player_->ports();
   return "replayed " + DurationText(player_->length()) +
          (options_.loops ? ", again and again: " : ": ") + std::to_string(player_->published()) +
-         " values at " + std::to_string(ports) + (ports == 1 ? " port\n" : " ports\n");
+         " values at " + std::to_string(ports) + (ports == 1 ? " port" : " ports") +
+         (player_->calls() > 0 ? ", " + std::to_string(player_->calls()) + " calls\n" : "\n");
 }
 
 }  // namespace runnel

@@ -105,7 +105,9 @@ Result<std::unique_ptr<Player>> Player::Prepare(Runtime& runtime,
     if (error.position.file.empty()) error.position.file = file;
     return error;
   }
+  if (auto found = player->FindCalls(*patterns); !found) return found.error();
   player->WrapTasks();
+  player->calls_.WrapTasks([&](const FrameworkElement& module) { return !player->resting_.contains(&module); });
   if (auto ready = runtime.MakeReady(*player->element_); !ready) return ready.error();
   return player;
 }
@@ -159,6 +161,16 @@ Result<void> Player::FindPorts(const PortPatterns& patterns) {
   return Error{
       .message = "the recording has no port that fits" + wanted,
       .hint = NearestNameHint(patterns.texts().empty() ? "" : patterns.texts().front(), recorded)};
+}
+
+// Of services whose records are not played themselves.
+Result<void> Player::FindCalls(const PortPatterns& patterns) {
+  for (const auto& [id, channel] : values_->reader().contents().channels) {
+    if (IsView(channel) || patterns.Fit(PortOf(channel))) continue;
+    Port* const port = FindPort(runtime_, PortOf(channel));
+    if (port != nullptr && CheckType(*port, channel)) (void)calls_.Add(*port, id);
+  }
+  return calls_.Read(values_->reader(), values_->start(), values_->end());
 }
 
 Result<void> Player::CheckType(const Port& port, const McapChannel& channel) const {
@@ -250,6 +262,7 @@ void Player::WrapTasksOf(FrameworkElement& module, const std::vector<PlayedPort*
     const bool runs =
         !is_own && (module.FindAnnotation<RunMonitor>() != nullptr || IsReadUnplayed(task));
     if (runs || is_own) task.writes.push_back(&TakePlaces(of_task));
+    if (!runs) resting_.insert(&module);
     tasks_.push_back(std::make_unique<PlayedTask>(
         *this, runs ? std::optional(task.run) : std::nullopt, std::move(of_task)));
     task.run = BoundCall::To<&PlayedTask::Run>(*tasks_.back());

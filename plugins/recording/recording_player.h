@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "core/module/executable.h"
 #include "core/port/port.h"
 #include "plugins/mcap/mcap_reader.h"
+#include "plugins/recording/played_calls.h"
 #include "plugins/recording/played_values.h"
 #include "plugins/values/port_patterns.h"
 
@@ -32,7 +34,7 @@ struct PlayerOptions {
 ///
 /// A task of which all that anybody reads is played does not run itself. Others run on: an output of the
 /// player takes over the connections of each played port, and what the module publishes there nobody reads.
-/// Modules that judge the run always run.
+/// Modules that judge the run always run. Those that run serve the calls again that came from outside (PlayedCalls).
 ///
 ///     auto player = Player::Prepare(runtime, std::move(reader), {.ports = {"laser/scan"}});
 ///     (*player)->Start(clock.Now());   // before the first cycle
@@ -54,13 +56,17 @@ class Player {
   ~Player();
 
   /// The values begin at `now` of the application's clock.
-  void Start(Time now) { values_->Start(now); }
+  void Start(Time now) {
+    values_->Start(now);
+    calls_.Start(now - values_->start());
+  }
   /// Where the recording begins on its own clock, at `from`; for clocks that can be set.
   [[nodiscard]] Time start() const noexcept { return values_->start(); }
   /// From the first to the last value that is played, once.
   [[nodiscard]] Duration length() const noexcept { return values_->end() - values_->start(); }
 
   [[nodiscard]] std::size_t ports() const noexcept { return played_.size(); }
+  [[nodiscard]] std::size_t calls() const noexcept { return calls_.size(); }
   /// Recorded ports that fit but are not in the application.
   [[nodiscard]] const std::vector<std::string>& missing() const noexcept { return missing_; }
   [[nodiscard]] std::uint64_t published() const noexcept {
@@ -76,6 +82,7 @@ class Player {
 
   Player(Runtime& runtime, std::unique_ptr<PlayedValues> values);
   Result<void> FindPorts(const PortPatterns& patterns);
+  Result<void> FindCalls(const PortPatterns& patterns);
   Result<void> CheckType(const Port& port, const McapChannel& channel) const;
   // A group of outputs that stand where those of `ports` stood.
   FrameworkElement& TakePlaces(const std::vector<PlayedPort*>& ports);
@@ -90,6 +97,8 @@ class Player {
   FrameworkElement* element_ = nullptr;
   std::vector<std::unique_ptr<PlayedPort>> played_;
   std::vector<std::unique_ptr<PlayedTask>> tasks_;
+  std::set<const FrameworkElement*> resting_;  // modules that do not run
+  PlayedCalls calls_;
   std::vector<std::string> missing_;
   std::atomic<std::uint64_t> published_{0};
 };

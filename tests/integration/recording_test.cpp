@@ -13,6 +13,7 @@
 
 #include "plugins/mcap/mcap_reader.h"
 #include "tests/integration/program.h"
+#include "tests/integration/recorded_values.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/wait_until.h"
 
@@ -39,26 +40,6 @@ class Recording : public testing::Test {
     ASSERT_EQ(ended.code, kDone) << ended.text;
     ASSERT_THAT(ended.text, AllOf(HasSubstr("recorded "), HasSubstr("to " + Path("run.mcap")),
                                   testing::Not(HasSubstr("too fast"))));
-  }
-  /// "time json" of each value.
-  [[nodiscard]] static std::vector<std::string> ValuesOf(const std::string& file,
-                                                         const std::string& path) {
-    const auto reader = McapReader::Open(file);
-    if (!reader) {
-      ADD_FAILURE() << reader.error().ToString();
-      return {};
-    }
-    EXPECT_TRUE((*reader)->contents().ended_properly);
-    std::vector<std::string> values;
-    const auto read = (*reader)->ReadMessages([&](const McapMessage& message) -> Result<void> {
-      const McapTexts& about = (*reader)->contents().channels.at(message.channel).metadata;
-      if (about == McapTexts{{"port", path}}) {
-        values.push_back(std::to_string(message.log_time) + " " + std::string(message.data));
-      }
-      return {};
-    });
-    EXPECT_TRUE(read);
-    return values;
   }
 
  private:
