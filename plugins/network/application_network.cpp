@@ -8,6 +8,7 @@
 #include "plugins/application/extension_registry.h"
 #include "plugins/command_service/extension_texts.h"
 #include "plugins/control/element_listing.h"
+#include "plugins/network/application_health.h"
 #include "plugins/network/network_engines.h"
 #include "plugins/network/network_link.h"
 #include "plugins/network/xml_network_tags.h"
@@ -22,7 +23,14 @@ class ApplicationNetwork final : public ApplicationExtension {
   Result<void> Prepare(FrameworkElement& application, SchedulerOptions& options) override {
     is_simulated_ = options.clock == SchedulerOptions::ClockKind::kSimulated;
     const NetworkElement* const element = NetworkElement::FindIn(application);
-    if (element == nullptr || !is_simulated_) return {};
+    if (element == nullptr) return {};
+    const bool follows_clock = element->options().ros && element->options().ros->follows_clock;
+    if (follows_clock && (!options.follows_outside_clock || !options.clock_port.empty())) {
+      return Error{.message = "the time of /clock is that of nobody here",
+                   .position = element->options().position,
+                   .hint = "say <clock type=\"outside\"/>, or leave clock=\"follow\" out"};
+    }
+    if (!is_simulated_ || follows_clock) return {};  // whoever follows others has no runs that can be repeated
     const auto refuse = [](const Port& output, const SourcePosition& position) {
       return Error{.message = "with simulated time, values that come when they like make runs that cannot be repeated",
                    .path = output.path(),
@@ -44,7 +52,11 @@ class ApplicationNetwork final : public ApplicationExtension {
     engine_ = FindEngine(application, *element);
     if (engine_ == nullptr) return Error{.message = "the network has no engine", .position = element->options().position};
     FrameworkElement& group = application.element();
-    auto link = NetworkLink::Start(group, *element, *engine_, is_simulated_, [&group] { return ListElements(group, {}); });
+    RosHooks hooks{.set_parameters = [&application](const auto& changes) { return SetParameters(application, changes); },
+                   .health = ApplicationHealth(application),
+                   .set_time = [&application](Time time) { return application.SetTime(time); }};
+    auto link = NetworkLink::Start(group, *element, *engine_, is_simulated_, [&group] { return ListElements(group, {}); },
+                                   std::move(hooks));
     if (!link) return link.error();
     link_ = std::move(*link);
     application_ = &application;
@@ -66,6 +78,15 @@ class ApplicationNetwork final : public ApplicationExtension {
   }
 
  private:
+  // Between two cycles, as any change: it can be undone.
+  static Result<void> SetParameters(Application& application, const std::vector<ParameterChange>& wanted) {
+    ChangeSet changes;
+    for (const ParameterChange& each : wanted) changes.push_back(SetParameter{.path = each.path, .value = each.value});
+    const ChangeOutcome outcome = application.Apply(changes);
+    if (outcome) return {};
+    if (outcome.diagnostics.ok()) return Error{.message = "it cannot be set now"};
+    return outcome.diagnostics.errors().front();
+  }
   static std::shared_ptr<WireEngine> FindEngine(Application& application, const NetworkElement& element) {
     const std::lock_guard lock(application.runtime().structure_mutex());  // as for all plugins
     auto found = FindWireEngine(element.options().engine, application.plugins());

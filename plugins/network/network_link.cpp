@@ -50,7 +50,7 @@ NetworkLink::NetworkLink(FrameworkElement& application, NetworkElement& element,
 
 Result<std::unique_ptr<NetworkLink>> NetworkLink::Start(FrameworkElement& application, NetworkElement& element,
                                                         WireEngine& engine, bool is_simulated,
-                                                        std::function<std::string()> structure) {
+                                                        std::function<std::string()> structure, RosHooks hooks) {
   std::unique_ptr<NetworkLink> link(new NetworkLink(application, element, is_simulated));
   WireMemberOptions member = element.options().member;
   member.user_data = "enclave=/;";  // without which nodes of ROS 2 look past it
@@ -67,7 +67,8 @@ Result<std::unique_ptr<NetworkLink>> NetworkLink::Start(FrameworkElement& applic
   link->structure_topic_ = std::move(*topic);
   link->structure_ = std::move(structure);
   if (element.options().ros) {
-    auto node = RosNode::Start(*element.options().ros, *link->participant_, link->runtime_, is_simulated);
+    auto node = RosNode::Start(*element.options().ros, *link->participant_, application, is_simulated, element.log(),
+                               std::move(hooks), [wake = link->wake_] { wake->Notify(); });
     if (!node) return node.error();
     link->node_ = std::move(*node);
   }
@@ -137,7 +138,7 @@ void NetworkLink::SendAll() {
     each->NoteValue(is_late_ ? now - waking_ : now);
     if (const auto again = each->Send(now)) deadline = std::min(deadline, *again);
   }
-  const auto clock = node_ != nullptr ? node_->SendClock(now) : std::nullopt;
+  const auto clock = node_ != nullptr ? node_->Work(now) : std::nullopt;
   if (clock) deadline = std::min(deadline, *clock);
   if (const auto calls = services_.Work(now)) deadline = std::min(deadline, *calls);
   if (now >= next_look_) {

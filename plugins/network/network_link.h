@@ -32,7 +32,8 @@ class NetworkLink final : private ElementListener {
   /// `structure` says what others are told of the application, under the structure lock; optional.
   static Result<std::unique_ptr<NetworkLink>> Start(FrameworkElement& application, NetworkElement& element,
                                                     WireEngine& engine, bool is_simulated,
-                                                    std::function<std::string()> structure = {});
+                                                    std::function<std::string()> structure = {},
+                                                    RosHooks hooks = {});
   ~NetworkLink() override;
 
   /// What `runnel network` shows.

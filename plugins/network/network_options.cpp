@@ -21,4 +21,9 @@ WireQos QosOf(ValueQuality quality) {
   return {};
 }
 
+const std::vector<std::string>& RosParameterUses() {
+  static const std::vector<std::string> names = {"none", "read", "write"};
+  return names;
+}
+
 }  // namespace runnel

@@ -52,12 +52,20 @@ struct TakeOptions {
   SourcePosition position = {};
 };
 
+/// What nodes of ROS 2 may do with parameters. In the order of RosParameterUses().
+enum class RosParameterUse { kNone, kRead, kWrite };
+/// none, read, write.
+[[nodiscard]] const std::vector<std::string>& RosParameterUses();
+
 /// What nodes of ROS 2 are told besides.
 struct RosOptions {
   std::string distribution = {};  ///< humble, iron, jazzy: "" if the application is to be no node
   std::string node = {};          ///< "/base"
   bool sends_clock = false;       ///< on /clock
+  bool follows_clock = false;     ///< the application's time is that of /clock
   bool sends_log = false;         ///< on /rosout
+  bool sends_diagnostics = false;  ///< on /diagnostics
+  RosParameterUse parameters = RosParameterUse::kNone;
 };
 
 /// What <network> says.

@@ -1,9 +1,12 @@
 #include "plugins/network/ros_node.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <utility>
 
+#include "core/log/logger.h"
+#include "plugins/cdr_values/cdr_reader.h"
 #include "plugins/cdr_values/cdr_writer.h"
 #include "plugins/ros_messages/node_messages.h"
 
@@ -33,8 +36,30 @@ std::int64_t SinceEpoch() {
 }  // namespace
 
 Result<std::unique_ptr<RosNode>> RosNode::Start(const RosOptions& options, WireParticipant& participant,
-                                                Runtime& runtime, bool is_simulated) {
+                                                FrameworkElement& application, bool is_simulated, Logger& log,
+                                                RosHooks hooks, std::function<void()> on_news) {
+  Runtime& runtime = application.runtime();
   std::unique_ptr<RosNode> node(new RosNode(options, participant.id(), runtime.clock()));
+  if (auto done = node->MakeTopics(participant, runtime, is_simulated); !done) return done.error();
+  if (options.follows_clock && hooks.set_time) {
+    if (auto done = node->FollowClock(participant, log, hooks.set_time); !done) return done.error();
+  }
+  if (options.sends_diagnostics && hooks.health) {
+    auto made = DiagnosticsTopic::Start(participant, runtime.clock(), is_simulated, std::move(hooks.health), std::move(on_news));
+    if (!made) return made.error();
+    node->diagnostics_ = std::move(*made);
+  }
+  if (options.parameters != RosParameterUse::kNone) {
+    const bool may_set = options.parameters == RosParameterUse::kWrite;
+    auto made = ParameterServices::Start(application, options.node, participant,
+                                         may_set ? std::move(hooks.set_parameters) : ParameterSetter(), log);
+    if (!made) return made.error();
+    node->parameters_ = std::move(*made);
+  }
+  return node;
+}
+
+Result<void> RosNode::MakeTopics(WireParticipant& participant, Runtime& runtime, bool is_simulated) {
   const auto make = [&](std::unique_ptr<WireWriter>& writer, const WireEndpointOptions& endpoint) -> Result<void> {
     auto made = participant.MakeWriter(endpoint, {});
     if (!made) return made.error();
@@ -42,28 +67,53 @@ Result<std::unique_ptr<RosNode>> RosNode::Start(const RosOptions& options, WireP
     return {};
   };
   Result<void> done;
-  if (!options.distribution.empty()) {
-    done = make(node->entities_, {.topic = "ros_discovery_info",
-                                  .type = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_",
-                                  .qos = {.is_latched = true}});
+  if (!options_.distribution.empty()) {
+    done = make(entities_, {.topic = "ros_discovery_info",
+                            .type = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_",
+                            .qos = {.is_latched = true}});
   }
-  if (done && options.sends_clock) {
-    done = make(node->time_, {.topic = "rt/clock", .type = "rosgraph_msgs::msg::dds_::Clock_", .qos = {.is_reliable = false}});
+  if (done && options_.sends_clock) {
+    done = make(time_, {.topic = "rt/clock", .type = "rosgraph_msgs::msg::dds_::Clock_", .qos = {.is_reliable = false}});
   }
-  if (done && options.sends_log) {
-    done = make(node->log_, {.topic = "rt/rosout",
-                             .type = "rcl_interfaces::msg::dds_::Log_",
-                             .qos = {.is_latched = true, .depth = 1000}});
+  if (done && options_.sends_log) {
+    done = make(log_, {.topic = "rt/rosout",
+                       .type = "rcl_interfaces::msg::dds_::Log_",
+                       .qos = {.is_latched = true, .depth = 1000}});
     if (done) {
-      node->sink_ = std::make_unique<LogSink>(
-          runtime, [raw = node.get(), is_simulated](const LogMessage& message) { raw->Say(message, is_simulated); });
+      sink_ = std::make_unique<LogSink>(runtime,
+                                        [this, is_simulated](const LogMessage& message) { Say(message, is_simulated); });
     }
   }
-  if (!done) return done.error();
-  return node;
+  return done;
+}
+
+Result<void> RosNode::FollowClock(WireParticipant& participant, Logger& log,
+                                  const std::function<Result<void>(Time)>& set_time) {
+  const auto take = [&log, set_time, said = std::string()](const WireSample& sample) mutable {
+    auto from = CdrReader::Begin(sample.octets);
+    std::int32_t seconds = 0;
+    std::uint32_t rest = 0;
+    if (!from || !from->Get(seconds) || !from->Get(rest) || rest >= 1'000'000'000) return;
+    const auto set = set_time(Time(std::chrono::seconds(seconds) + std::chrono::nanoseconds(rest)));
+    const std::string why = set ? std::string() : set.error().ToString();
+    if (why == said) return;
+    said = why;
+    if (!why.empty()) log.Warn("/clock is not followed: {}", why);
+  };
+  auto reader = participant.MakeReader(
+      {.topic = "rt/clock", .type = "rosgraph_msgs::msg::dds_::Clock_", .qos = {.is_reliable = false}}, take, {});
+  if (!reader) return reader.error();
+  followed_ = std::move(*reader);
+  return {};
 }
 
 void RosNode::Tell(std::vector<WireId> readers, std::vector<WireId> writers) {
+  for (const auto* const own : {&time_, &log_}) {
+    if (*own != nullptr) writers.push_back((*own)->id());
+  }
+  if (followed_ != nullptr) readers.push_back(followed_->id());
+  if (diagnostics_ != nullptr) writers.push_back(diagnostics_->id());
+  if (parameters_ != nullptr) parameters_->AddIds(readers, writers);
   if (entities_ == nullptr || (has_told_ && readers == readers_ && writers == writers_)) return;
   has_told_ = true;
   readers_ = std::move(readers);
@@ -81,6 +131,12 @@ void RosNode::Tell(std::vector<WireId> readers, std::vector<WireId> writers) {
     for (const WireId& id : ids) PutId(to, id, is_long);
   }
   (void)entities_->Write(octets, SinceEpoch());
+}
+
+std::optional<Time> RosNode::Work(Time now) {
+  const auto clock = SendClock(now);
+  const auto health = diagnostics_ != nullptr ? diagnostics_->Send(now) : std::nullopt;
+  return clock && health ? std::min(clock, health) : clock ? clock : health;
 }
 
 std::optional<Time> RosNode::SendClock(Time now) {

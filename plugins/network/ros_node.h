@@ -9,26 +9,43 @@
 #include "core/element/runtime.h"
 #include "core/log/log_sink.h"
 #include "plugins/network/network_options.h"
+#include "plugins/ros_services/diagnostics_topic.h"
+#include "plugins/ros_services/parameter_services.h"
 
 namespace runnel {
 
-/// What nodes of ROS 2 are told of this application besides its topics: that it is a node, its clock, its log.
+class Logger;
+
+/// What an application does for nodes of ROS 2. All optional.
+struct RosHooks {
+  ParameterSetter set_parameters = {};
+  DiagnosticsTopic::Health health = {};
+  /// What /clock shows. By threads of the engine.
+  std::function<Result<void>(Time)> set_time = {};
+};
+
+/// What nodes of ROS 2 are told of this application besides its topics: that it is a node, its clock, its log, its parameters,
+/// its health.
 ///
-/// Threads: Start(), Tell(), SendClock() and destroying by one; the log by a thread of its own.
+/// Threads: Start(), Tell(), Work() and destroying by one; the log and the parameters by threads of their own.
 class RosNode {
  public:
-  /// Errors: of the engine.
+  /// `on_news` has Work() called. Errors: of the engine.
   static Result<std::unique_ptr<RosNode>> Start(const RosOptions& options, WireParticipant& participant,
-                                                Runtime& runtime, bool is_simulated);
+                                                FrameworkElement& application, bool is_simulated, Logger& log,
+                                                RosHooks hooks, std::function<void()> on_news);
 
   /// Which topics the node reads and writes, if that has changed.
   void Tell(std::vector<WireId> readers, std::vector<WireId> writers);
-  /// The time, if it has changed; when it wants to be called again, by the steady clock; nothing: never.
-  std::optional<Time> SendClock(Time now);
+  /// Tells what is due; when it wants to be called again, by the steady clock; nothing: never.
+  std::optional<Time> Work(Time now);
 
  private:
   RosNode(const RosOptions& options, const WireId& participant, const Clock& clock)
       : options_(options), participant_(participant), clock_(clock) {}
+  Result<void> MakeTopics(WireParticipant& participant, Runtime& runtime, bool is_simulated);
+  Result<void> FollowClock(WireParticipant& participant, Logger& log, const std::function<Result<void>(Time)>& set_time);
+  std::optional<Time> SendClock(Time now);
   void Say(const LogMessage& message, bool is_simulated);
 
   const RosOptions options_;
@@ -42,6 +59,9 @@ class RosNode {
   std::unique_ptr<WireWriter> log_;
   Time last_time_{Duration(-1)};
   std::unique_ptr<LogSink> sink_;
+  std::unique_ptr<WireReader> followed_;
+  std::unique_ptr<DiagnosticsTopic> diagnostics_;
+  std::unique_ptr<ParameterServices> parameters_;
 };
 
 }  // namespace runnel

@@ -197,7 +197,12 @@ FrameworkElement* HandleRos(const TagUse& use) {
   RosOptions ros{.distribution = TextOf(use, "distribution"),
                  .node = use.Find("node") != nullptr ? TextOf(use, "node") : NearestRosName("/" + network.options().member.name),
                  .sends_clock = IsTrue(use, "clock"),
-                 .sends_log = IsTrue(use, "log")};
+                 .follows_clock = TextOf(use, "clock") == "follow",
+                 .sends_log = IsTrue(use, "log"),
+                 .sends_diagnostics = IsTrue(use, "diagnostics")};
+  if (use.Find("parameters") != nullptr) {
+    ros.parameters = static_cast<RosParameterUse>(std::ranges::find(RosParameterUses(), TextOf(use, "parameters")) - RosParameterUses().begin());
+  }
   if (const auto checked = CheckRosName(ros.node); !checked) use.Report(checked.error(), use.Get("node").value_position);
   const char* const environment = std::getenv("ROS_DISTRO");
   if (ros.distribution.empty() && environment != nullptr) ros.distribution = environment;
@@ -270,8 +275,15 @@ void AddNetworkTags(XmlTagRegistry& tags) {
                                      "of the other nodes, which decides how a node is told; ROS_DISTRO if left out",
                                      {"humble", "iron", "jazzy"}),
                               {.name = "node", .summary = "name of the node: /base; /<name of the application> by default"},
-                              Choice("clock", "true: publishes the application's time on /clock"),
-                              Choice("log", "true: publishes what modules say on /rosout")},
+                              Choice("clock",
+                                     "true: publishes the application's time on /clock; follow: the application, which has "
+                                     "<clock type=\"outside\"/>, takes its time from there",
+                                     {"true", "false", "follow"}),
+                              Choice("log", "true: publishes what modules say on /rosout"),
+                              Choice("diagnostics", "true: publishes faults, silent inputs and late threads on /diagnostics"),
+                              Choice("parameters",
+                                     "read: nodes may look at the application's parameters; write: and set them; none by default",
+                                     RosParameterUses())},
                .handle = HandleRos});
   tags.AddTag({.name = "take",
                .summary = "a topic whose values go to ports of this application, or a service that they call",

@@ -42,6 +42,8 @@ struct RosParameterValue {
   std::vector<std::int64_t> integer_array_value;
   std::vector<double> double_array_value;
   std::vector<std::string> string_array_value;
+
+  friend bool operator==(const RosParameterValue&, const RosParameterValue&) = default;
 };
 
 /// What a value of a parameter is for ROS 2: numbers and bools as such, lists of them as arrays, all else as its text.

@@ -45,7 +45,8 @@ void AddApplication(std::vector<IncludeRule>& rules) {
            {"plugins/finroc_files"});
   attached("recordings of an application", "plugins/recording/application_",
            {"plugins/mcap", "plugins/recording"});
-  attached("the network of an application", "plugins/network/application_", {"plugins/network", "plugins/wire", "plugins/wire_shared_memory/shared_memory_wire.h"});
+  attached("the network of an application", "plugins/network/application_",
+           {"plugins/network", "plugins/ros_messages/node_messages.h", "plugins/wire", "plugins/wire_shared_memory/shared_memory_wire.h"});
   attached("plugins/viewers", "plugins/viewers",
            {"plugins/foxglove", "plugins/inspector", "plugins/web_server"});
 }

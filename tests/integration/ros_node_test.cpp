@@ -52,7 +52,7 @@ TEST_F(AmongRosNodes, TheyReadItsScansItsNodeItsTimeAndItsLog) {
   const Program robot("run " + std::string(folder_ / "robot.xml") + " world=" RUNNEL_XML "/worlds/rooms.xml");
   EXPECT_TRUE(Node("scan").WaitFor("scan frame laser ranges 181 from -1.571 step 0.01745 most 4.00"));
   EXPECT_TRUE(Node("clock").WaitFor("clock 1."));
-  EXPECT_TRUE(Node("graph").WaitFor("node /robots base readers 1 writers 1"));
+  EXPECT_TRUE(Node("graph").WaitFor("node /robots base readers 1 writers 3"));
   EXPECT_TRUE(Node("log").WaitFor("is in the network"));
 }
 

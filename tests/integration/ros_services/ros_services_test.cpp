@@ -27,10 +27,11 @@ class ServicesOfRos : public testing::Test {
     unsetenv("ROS_DOMAIN_ID");
   }
   /// A file of this name with the lines in its application; "run" or "check" and its path are the arguments.
-  std::string Arguments(const std::string& command, const std::string& name, const std::string& lines) {
+  std::string Arguments(const std::string& command, const std::string& name, const std::string& lines,
+                        const std::string& period = "20ms") {
     const std::string path = folder_ / (name + ".xml");
     std::ofstream(path) << "<application name=\"" << name << "\" thread=\"control\">\n<load plugin=\"switches\"/>\n"
-                        << "<thread name=\"control\" period=\"20ms\"/>\n" << lines << "\n</application>\n";
+                        << "<thread name=\"control\" period=\"" << period << "\"/>\n" << lines << "\n</application>\n";
     return command + " " + path;
   }
   static Program Node(const std::string& what) { return Program(std::to_string(OwnDomain()) + " " + what, RUNNEL_ROS_NODE); }
@@ -87,6 +88,72 @@ TEST_F(ServicesOfRos, GoFromOneApplicationToAnother) {
   Program room(Arguments("run", "room", R"(<module name="button" type="switches/button"/>
     <network name="room"> <take service="/house/lamp/set" to="button/set"/> </network>)"));
   EXPECT_TRUE(room.WaitFor("answered: it burns"));
+}
+
+std::string HouseWith(const std::string& ros) {
+  return R"(<module name="lamp" type="switches/lamp"/> <network name="house"> <ros distribution="jazzy" )" + ros + "/> </network>";
+}
+
+TEST_F(ServicesOfRos, ShowParametersAndSetThem) {
+  const Program house(Arguments("run", "house", HouseWith("parameters=\"write\"")));
+  Program events = Node("events");
+  ASSERT_TRUE(events.WaitFor("listening"));
+  const Ended node = Node("parameters").Wait();
+  EXPECT_EQ(node.code, 0);
+  EXPECT_THAT(node.text,
+              AllOf(HasSubstr("listed lamp.is_broken\nlisted lamp.level\nlisted lamp.make\nprefix lamp\n"),
+                    HasSubstr("type 0 is 1\ntype 1 is 3\ntype 2 is 0\n"),
+                    HasSubstr("described lamp.level: 'how bright [cd]' open from 0 to 10\n"), HasSubstr("set 0: done ''\n"),
+                    HasSubstr("set 1: refused '"), HasSubstr("set 2: refused 'there is no parameter 'lamp.levl'; did you mean 'lamp.level'?'"),
+                    HasSubstr("set 3: refused '"), HasSubstr("together: refused '"),
+                    HasSubstr("got lamp.is_broken false\ngot lamp.level 3.500000\ngot lamp.nothing type 0\n")));
+  EXPECT_TRUE(events.WaitFor("event of /house\nchanged lamp.level 3.500000"));
+  EXPECT_EQ(Runnel("undo").code, kDone);
+  EXPECT_TRUE(events.WaitFor("changed lamp.level 1.000000"));
+}
+
+TEST_F(ServicesOfRos, SetNoParameterUnlessTheFileAllowsIt) {
+  const Program house(Arguments("run", "house", HouseWith("parameters=\"read\"")));
+  const Ended node = Node("parameters").Wait();
+  EXPECT_THAT(node.text,
+              AllOf(HasSubstr("described lamp.level: 'how bright [cd]' read only"),
+                    HasSubstr("set 0: refused 'parameters may not be set from elsewhere; the application's file is to say <ros parameters=\"write\"/>'"),
+                    HasSubstr("got lamp.level 1.000000")));
+}
+
+TEST_F(ServicesOfRos, TellHowTheApplicationIs) {
+  const Program house(Arguments("run", "house", HouseWith("diagnostics=\"true\"")));
+  Program node = Node("diagnostics");
+  ASSERT_TRUE(node.WaitFor("level 0 house: modules: no fault"));
+  ASSERT_TRUE(node.WaitFor("house: thread control: "));
+  EXPECT_EQ(Runnel("set /lamp/is_broken true").code, kDone);
+  EXPECT_TRUE(node.WaitFor("level 2 house: modules: 1 stopped by a fault"));
+  EXPECT_TRUE(node.WaitFor("level 2 house: /house/lamp: the wire is through"));
+}
+
+TEST_F(ServicesOfRos, TellWhichInputHearsNothing) {
+  const Program house(Arguments("run", "house", R"(<load plugin="motion"/> <module name="lamp" type="switches/lamp"/>
+    <module name="gate" type="motion/command_gate"/>
+    <network name="house"> <take topic="/cmd_vel" as="geometry_msgs/msg/Twist" to="gate/wanted"/>
+      <ros distribution="jazzy" diagnostics="true"/> </network>
+    <on_stale input="gate/wanted" after="100ms"> <publish port="gate/wanted" value="{forward: 0, turn: 0}"/> </on_stale>)"));
+  Program node = Node("diagnostics");
+  EXPECT_TRUE(node.WaitFor("level 3 house: /house/gate/input/wanted: nothing new for"));
+}
+
+TEST_F(ServicesOfRos, TellTheTime) {
+  Program house(Arguments("run", "house", "<clock type=\"outside\"/>" + HouseWith("clock=\"follow\"")));
+  Program node = Node("clock");
+  WaitUntil("its time is that of the node", [] {
+    const std::string text = Runnel("ls --long /threads").text;
+    return text.find("period 20.000 ms (20.000 .. 20.000)") != std::string::npos;
+  });
+}
+
+TEST_F(ServicesOfRos, TellNoTimeToClocksOfOthers) {
+  const Ended run = Runnel(Arguments("run", "house", HouseWith("clock=\"follow\"")));
+  EXPECT_EQ(run.code, kBadInput);
+  EXPECT_THAT(run.text, HasSubstr("say <clock type=\"outside\"/>, or leave clock=\"follow\" out"));
 }
 
 TEST_F(ServicesOfRos, MistakesAreToldWithTheirPlaces) {

@@ -1,9 +1,12 @@
 // A plugin for tests: a lamp with services, and a button that calls one.
 
+#include <stdexcept>
+
 #include "core/module/module.h"
 #include "core/plugin/plugin_entry.h"
 #include "core/port/output.h"
 #include "plugins/parameters/parameter.h"
+#include "plugins/parameters/static_parameter.h"
 #include "plugins/services/client.h"
 #include "plugins/services/service.h"
 
@@ -15,6 +18,8 @@ class Lamp final : public Module {
 
   Output<bool> lit{this, "lit"};
   Parameter<bool> is_broken{this, "is_broken", {.default_value = false}};
+  Parameter<double> level{this, "level", {.default_value = 1.0, .bounds = {0.0, 10.0}, .unit = "cd", .description = "how bright"}};
+  StaticParameter<std::string> make{this, "make", {.default_value = "old"}};
   Service<std::string(bool)> set{this, "set", &Lamp::Set};
   Service<std::string()> warm{this, "warm", &Lamp::Warm};
   Service<void()> reset{this, "reset", &Lamp::Reset};
@@ -31,7 +36,9 @@ class Lamp final : public Module {
     return std::string("it is warm");
   }
   void Reset() { lit.Publish(false); }
-  void Update() override {}
+  void Update() override {
+    if (is_broken.Get()) throw std::runtime_error("the wire is through");
+  }
 };
 
 /// Calls once a second, and says what comes of it.

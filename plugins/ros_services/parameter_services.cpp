@@ -1,0 +1,286 @@
+#include "plugins/ros_services/parameter_services.h"
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+#include <set>
+#include <utility>
+
+#include "core/base/exception_text.h"
+#include "core/base/nearest_name.h"
+#include "core/element/configurable.h"
+#include "core/element/runtime.h"
+#include "core/lockfree/wake_event.h"
+#include "core/log/logger.h"
+#include "core/types/type_of.h"
+#include "plugins/cdr_values/cdr_values.h"
+#include "plugins/ros_messages/names.h"
+#include "plugins/ros_services/ros_time.h"
+
+namespace runnel {
+
+namespace {
+
+constexpr std::uint32_t kDepth = 1000;            // as nodes of ROS 2 have it
+constexpr std::uint32_t kIdentity = 0x80000000u;  // beyond those of services that files name
+// So often it is looked what has changed, while somebody listens.
+constexpr auto kLookForChanges = std::chrono::milliseconds(200);
+constexpr auto kNoHurry = std::chrono::hours(1);
+
+template <typename T>
+void Write(const T& value, Octets& octets) {
+  WriteCdr(TypeOf<T>(), &value, octets);
+}
+
+std::string Sentence(const Error& error) { return error.message + (error.hint.empty() ? "" : "; " + error.hint); }
+
+// Behind the prefix no more than `depth` names; 0: as many as there are.
+bool IsWithin(std::string_view name, std::uint64_t depth) {
+  return depth == 0 || static_cast<std::uint64_t>(std::ranges::count(name, '.')) < depth;
+}
+
+bool IsListed(std::string_view name, const RosListRequest& request) {
+  if (request.prefixes.empty()) return IsWithin(name, request.depth);
+  return std::ranges::any_of(request.prefixes, [&](const std::string& prefix) {
+    if (name == prefix) return true;
+    return name.starts_with(prefix + ".") && IsWithin(name.substr(prefix.size() + 1), request.depth);
+  });
+}
+
+}  // namespace
+
+/// One of the six.
+struct ParameterServices::Server {
+  std::unique_ptr<ServiceEndpoints> endpoints;
+  std::function<Result<void>(std::span<const std::byte>, Octets&)> answer;
+};
+
+ParameterServices::ParameterServices(FrameworkElement& application, std::string node, ParameterSetter set, Logger& log)
+    : application_(application),
+      node_(std::move(node)),
+      set_(std::move(set)),
+      log_(log),
+      wake_(std::make_shared<WakeEvent>()) {}
+
+template <typename Request, typename Answer>
+Result<void> ParameterServices::Add(const char* name, const char* type, WireParticipant& participant, const Answer& answer) {
+  const std::string of = std::string("rcl_interfaces/srv/") + type;
+  auto endpoints = ServiceEndpoints::Start(ServiceEndpoints::Side::kServer,
+                                           {.service = (node_ == "/" ? "" : node_) + "/" + name,
+                                            .request_type = DdsType(of + "_Request"),
+                                            .response_type = DdsType(of + "_Response"),
+                                            .depth = kDepth},
+                                           participant, kIdentity + static_cast<std::uint32_t>(servers_.size()),
+                                           [wake = wake_] { wake->Notify(); });
+  if (!endpoints) return endpoints.error();
+  auto server = std::make_unique<Server>();
+  server->endpoints = std::move(*endpoints);
+  server->answer = [answer](std::span<const std::byte> message, Octets& octets) -> Result<void> {
+    Request request;
+    if (auto read = ReadCdr(TypeOf<Request>(), message, &request); !read) return read.error();
+    Write(answer(request), octets);
+    return {};
+  };
+  servers_.push_back(std::move(server));
+  return {};
+}
+
+Result<std::unique_ptr<ParameterServices>> ParameterServices::Start(FrameworkElement& application, const std::string& node,
+                                                                    WireParticipant& participant, ParameterSetter set,
+                                                                    Logger& log) {
+  std::unique_ptr<ParameterServices> made(new ParameterServices(application, node, std::move(set), log));
+  ParameterServices& self = *made;
+  Result<void> done = self.Add<RosListRequest>("list_parameters", "ListParameters", participant,
+                                               [&self](const auto& request) { return self.List(request); });
+  const auto add = [&]<typename Request>(std::type_identity<Request>, const char* name, const char* type, const auto& answer) {
+    if (done) done = self.Add<Request>(name, type, participant, answer);
+  };
+  constexpr std::type_identity<RosParameterNames> kNames;
+  constexpr std::type_identity<RosSetRequest> kSet;
+  add(kNames, "get_parameters", "GetParameters", [&self](const auto& request) { return self.Get(request); });
+  add(kNames, "get_parameter_types", "GetParameterTypes", [&self](const auto& request) { return self.GetTypes(request); });
+  add(kNames, "describe_parameters", "DescribeParameters", [&self](const auto& request) { return self.DescribeAll(request); });
+  add(kSet, "set_parameters", "SetParameters", [&self](const auto& request) { return self.Set(request); });
+  add(kSet, "set_parameters_atomically", "SetParametersAtomically",
+      [&self](const auto& request) { return self.SetAtomically(request); });
+  if (!done) return done.error();
+  auto events = participant.MakeWriter({.topic = "rt/parameter_events",
+                                        .type = "rcl_interfaces::msg::dds_::ParameterEvent_",
+                                        .qos = {.depth = kDepth}},
+                                       [&self](std::size_t count) {
+                                         self.listeners_.store(count, std::memory_order_relaxed);
+                                         self.wake_->Notify();
+                                       });
+  if (!events) return events.error();
+  self.events_ = std::move(*events);
+  self.told_ = self.Values();
+  self.thread_ = std::thread([&self] { self.Run(); });
+  return made;
+}
+
+ParameterServices::~ParameterServices() {
+  ends_ = true;
+  wake_->Notify();
+  if (thread_.joinable()) thread_.join();
+}
+
+void ParameterServices::AddIds(std::vector<WireId>& readers, std::vector<WireId>& writers) const {
+  for (const auto& each : servers_) {
+    readers.push_back(each->endpoints->reader_id());
+    writers.push_back(each->endpoints->writer_id());
+  }
+  writers.push_back(events_->id());
+}
+
+ParameterServices::Parameters ParameterServices::FindAll() const {
+  Parameters found;
+  const std::string& application = application_.path();
+  application_.Visit([&](FrameworkElement& element) {
+    auto* const parameter = dynamic_cast<Configurable*>(&element);
+    if (parameter == nullptr || element.life_cycle() == LifeCycle::kDeleted) return;
+    std::string path = element.path();
+    // The group in which a module has its parameters is left out, as it may be in all paths.
+    std::string plain = path;
+    const FrameworkElement* const group = element.parent();
+    if (group != nullptr && group->name() == "parameter") plain = group->parent()->path() + "/" + element.name();
+    found.try_emplace(RosParameterName(application, plain), Found{parameter, std::move(path)});
+  });
+  return found;
+}
+
+RosListReply ParameterServices::List(const RosListRequest& request) const {
+  const std::lock_guard lock(application_.runtime().structure_mutex());
+  RosListReply reply;
+  std::set<std::string> prefixes;
+  for (const auto& [name, found] : FindAll()) {
+    if (!IsListed(name, request)) continue;
+    reply.names.push_back(name);
+    if (const std::size_t dot = name.rfind('.'); dot != std::string::npos) prefixes.insert(name.substr(0, dot));
+  }
+  reply.prefixes.assign(prefixes.begin(), prefixes.end());
+  return reply;
+}
+
+template <typename Use>
+void ParameterServices::ForEach(const RosParameterNames& request, const Use& use) const {
+  const std::lock_guard lock(application_.runtime().structure_mutex());
+  const Parameters all = FindAll();
+  for (const std::string& name : request.names) {
+    const auto found = all.find(name);
+    use(name, found != all.end() ? found->second.parameter : nullptr);
+  }
+}
+
+RosParameterValues ParameterServices::Get(const RosParameterNames& request) const {
+  RosParameterValues reply;
+  ForEach(request, [&](const std::string&, const Configurable* parameter) {
+    reply.values.push_back(parameter != nullptr ? ToRosParameter(parameter->type(), parameter->Value().get())
+                                                : RosParameterValue());
+  });
+  return reply;
+}
+
+RosParameterTypes ParameterServices::GetTypes(const RosParameterNames& request) const {
+  RosParameterTypes reply;
+  for (const RosParameterValue& each : Get(request).values) reply.types.push_back(each.type);
+  return reply;
+}
+
+RosParameterDescriptors ParameterServices::DescribeAll(const RosParameterNames& request) const {
+  RosParameterDescriptors reply;
+  ForEach(request, [&](const std::string& name, const Configurable* parameter) {
+    RosParameterDescriptor descriptor;
+    descriptor.name = name;
+    if (parameter != nullptr) descriptor = DescribeRosParameter(name, *parameter);
+    descriptor.read_only = descriptor.read_only || set_ == nullptr;
+    reply.descriptors.push_back(std::move(descriptor));
+  });
+  return reply;
+}
+
+Result<ParameterChange> ParameterServices::Prepare(const RosParameter& wanted) const {
+  const std::lock_guard lock(application_.runtime().structure_mutex());
+  const Parameters all = FindAll();
+  const auto found = all.find(wanted.name);
+  if (found == all.end()) {
+    return Error{.message = "there is no parameter '" + wanted.name + "'", .hint = NearestNameHint(wanted.name, NamesOf(all, [](const auto& each) { return each.first; }))};
+  }
+  if (set_ == nullptr) {
+    return Error{.message = "parameters may not be set from elsewhere",
+                 .hint = "the application's file is to say <ros parameters=\"write\"/>"};
+  }
+  auto text = TextOf(wanted.value, found->second.parameter->type());
+  if (!text) return text.error();
+  if (const auto checked = found->second.parameter->CheckText(*text); !checked) return checked.error();
+  return ParameterChange{found->second.path, std::move(*text)};
+}
+
+RosSetReply ParameterServices::Set(const RosSetRequest& request) const {
+  RosSetReply reply;
+  for (const RosParameter& each : request.parameters) reply.results.push_back(SetAtomically({.parameters = {each}}));
+  return reply;
+}
+
+RosSetResult ParameterServices::SetAtomically(const RosSetRequest& request) const {
+  std::vector<ParameterChange> changes;
+  for (const RosParameter& each : request.parameters) {
+    auto change = Prepare(each);
+    if (!change) return {.successful = false, .reason = Sentence(change.error())};
+    changes.push_back(std::move(*change));
+  }
+  if (changes.empty()) return {.successful = true, .reason = ""};
+  const auto done = set_(changes);
+  return {.successful = done.has_value(), .reason = done ? "" : Sentence(done.error())};
+}
+
+void ParameterServices::Run() noexcept {
+  Octets octets;
+  while (!ends_) {
+    try {
+      for (const auto& each : servers_) {
+        while (const auto request = each->endpoints->Take()) {
+          // What is no request has no answer.
+          if (each->answer(request->message, octets)) (void)each->endpoints->Send(request->id, octets);
+        }
+      }
+      TellChanges();
+    } catch (...) {
+      log_.Error("parameters of ROS 2: {}", DescribeException());
+    }
+    const bool is_heard = listeners_.load(std::memory_order_relaxed) > 0;
+    if (!ends_) wake_->WaitUntil(SteadyClock().Now() + (is_heard ? Duration(kLookForChanges) : Duration(kNoHurry)));
+  }
+}
+
+std::map<std::string, RosParameterValue> ParameterServices::Values() const {
+  std::map<std::string, RosParameterValue> values;
+  const std::lock_guard lock(application_.runtime().structure_mutex());
+  for (const auto& [name, found] : FindAll()) {
+    values.emplace(name, ToRosParameter(found.parameter->type(), found.parameter->Value().get()));
+  }
+  return values;
+}
+
+// Who begins to listen is told what has changed since somebody listened last.
+void ParameterServices::TellChanges() {
+  if (listeners_.load(std::memory_order_relaxed) == 0) return;
+  std::map<std::string, RosParameterValue> now = Values();
+  RosParameterEvent event;
+  event.stamp = SinceEpoch();
+  event.node = node_;
+  for (const auto& [name, value] : now) {
+    const auto before = told_.find(name);
+    if (before == told_.end()) event.new_parameters.push_back({name, value});
+    if (before != told_.end() && !(before->second == value)) event.changed_parameters.push_back({name, value});
+  }
+  for (const auto& [name, value] : told_) {
+    if (!now.contains(name)) event.deleted_parameters.push_back({name, value});
+  }
+  told_ = std::move(now);
+  if (event.new_parameters.empty() && event.changed_parameters.empty() && event.deleted_parameters.empty()) return;
+  const auto octets = std::make_shared<Octets>();
+  Write(event, *octets);
+  (void)events_->Write(octets, event.stamp.time_since_epoch().count());
+}
+
+}  // namespace runnel

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/element/framework_element.h"
+#include "plugins/ros_messages/parameter_messages.h"
+#include "plugins/ros_services/service_endpoints.h"
+
+namespace runnel {
+
+class Configurable;
+class Logger;
+class WakeEvent;
+
+/// A parameter of this application that somebody wants to have another value.
+struct ParameterChange {
+  std::string path;
+  std::string value;  ///< text format
+};
+/// Sets all of them between two cycles, or none. By a thread of its own, outside of the structure lock.
+using ParameterSetter = std::function<Result<void>(const std::vector<ParameterChange>&)>;
+
+/// The parameters of an application as those of one node of ROS 2: its six services, and /parameter_events. "planner.distance"
+/// is the parameter /planner/distance.
+///
+/// Ownership:  application and participant must outlive it. Has a thread of its own, as setting may wait for cycles.
+/// Threads:    any.
+class ParameterServices {
+ public:
+  /// `set`: nullptr: they may be looked at only. `log`: what goes wrong. Errors: of the engine.
+  static Result<std::unique_ptr<ParameterServices>> Start(FrameworkElement& application, const std::string& node,
+                                                          WireParticipant& participant, ParameterSetter set, Logger& log);
+  ~ParameterServices();
+
+  void AddIds(std::vector<WireId>& readers, std::vector<WireId>& writers) const;
+
+  // What the services say; of threads that do not have the structure lock.
+  [[nodiscard]] RosListReply List(const RosListRequest& request) const;
+  [[nodiscard]] RosParameterValues Get(const RosParameterNames& request) const;
+  [[nodiscard]] RosParameterTypes GetTypes(const RosParameterNames& request) const;
+  [[nodiscard]] RosParameterDescriptors DescribeAll(const RosParameterNames& request) const;
+  [[nodiscard]] RosSetReply Set(const RosSetRequest& request) const;
+  [[nodiscard]] RosSetResult SetAtomically(const RosSetRequest& request) const;
+
+ private:
+  struct Server;
+  struct Found {
+    Configurable* parameter;
+    std::string path;
+  };
+  using Parameters = std::map<std::string, Found>;
+
+  ParameterServices(FrameworkElement& application, std::string node, ParameterSetter set, Logger& log);
+  template <typename Request, typename Answer>
+  Result<void> Add(const char* name, const char* type, WireParticipant& participant, const Answer& answer);
+  // Under the structure lock.
+  [[nodiscard]] Parameters FindAll() const;
+  template <typename Use>
+  void ForEach(const RosParameterNames& request, const Use& use) const;
+  [[nodiscard]] Result<ParameterChange> Prepare(const RosParameter& wanted) const;
+  void Run() noexcept;
+  void TellChanges();
+  [[nodiscard]] std::map<std::string, RosParameterValue> Values() const;
+
+  FrameworkElement& application_;
+  const std::string node_;
+  const ParameterSetter set_;
+  Logger& log_;
+  const std::shared_ptr<WakeEvent> wake_;
+  std::vector<std::unique_ptr<Server>> servers_;
+  std::unique_ptr<WireWriter> events_;
+  std::atomic<std::size_t> listeners_{0};
+  std::atomic<bool> ends_{false};
+  // The thread's own: as they were at the start, or have been told.
+  std::map<std::string, RosParameterValue> told_;
+  std::thread thread_;
+};
+
+}  // namespace runnel
