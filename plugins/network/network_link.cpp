@@ -66,6 +66,8 @@ Result<std::unique_ptr<NetworkLink>> NetworkLink::Start(FrameworkElement& applic
   if (!topic) return topic.error();
   link->structure_topic_ = std::move(*topic);
   link->structure_ = std::move(structure);
+  hooks.dialect = engine.has_identities() ? ServiceDialect::kBeside : ServiceDialect::kInFront;
+  link->services_.set_dialect(hooks.dialect);
   if (element.options().ros) {
     auto node = RosNode::Start(*element.options().ros, *link->participant_, application, is_simulated, element.log(),
                                std::move(hooks), [wake = link->wake_] { wake->Notify(); });

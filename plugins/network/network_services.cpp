@@ -34,11 +34,11 @@ void NetworkServices::AddNew() {
   std::vector<std::unique_ptr<OfferedService>> offered;
   std::vector<std::unique_ptr<TakenService>> taken;
   for (std::size_t i = offered_.size(); i < offers.size(); ++i) {
-    offered.push_back(std::make_unique<OfferedService>(runtime, offers[i], messages, ++made_, wake_));
+    offered.push_back(std::make_unique<OfferedService>(runtime, offers[i], messages, dialect_, ++made_, wake_));
   }
   for (std::size_t i = taken_.size(); i < takes.size(); ++i) {
     const auto& take = takes[i];
-    taken.push_back(std::make_unique<TakenService>(runtime, take.path, take.options, take.service, ++made_, wake_));
+    taken.push_back(std::make_unique<TakenService>(runtime, take.path, take.options, take.service, dialect_, ++made_, wake_));
   }
   const std::lock_guard lock(runtime.structure_mutex());
   std::ranges::move(offered, std::back_inserter(offered_));

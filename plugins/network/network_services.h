@@ -23,6 +23,8 @@ class NetworkServices {
   NetworkServices(NetworkElement& element, const DiscoveryTable& table, std::shared_ptr<WakeEvent> wake)
       : element_(element), table_(table), wake_(std::move(wake)) {}
 
+  /// Of the engine; before Follow().
+  void set_dialect(ServiceDialect dialect) noexcept { dialect_ = dialect; }
   /// The structure has changed, or who is there. What cannot be is told to `trouble`.
   template <typename Trouble>
   void Follow(WireParticipant& participant, const Trouble& trouble) {
@@ -53,6 +55,7 @@ class NetworkServices {
   NetworkElement& element_;
   const DiscoveryTable& table_;
   const std::shared_ptr<WakeEvent> wake_;
+  ServiceDialect dialect_ = ServiceDialect::kInFront;
   std::uint32_t made_ = 0;
   // Changed by the thread, under the structure lock.
   std::vector<std::unique_ptr<OfferedService>> offered_;

@@ -51,7 +51,7 @@ Result<std::unique_ptr<RosNode>> RosNode::Start(const RosOptions& options, WireP
   }
   if (options.parameters != RosParameterUse::kNone) {
     const bool may_set = options.parameters == RosParameterUse::kWrite;
-    auto made = ParameterServices::Start(application, options.node, participant,
+    auto made = ParameterServices::Start(application, options.node, participant, hooks.dialect,
                                          may_set ? std::move(hooks.set_parameters) : ParameterSetter(), log);
     if (!made) return made.error();
     node->parameters_ = std::move(*made);

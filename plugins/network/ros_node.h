@@ -18,6 +18,7 @@ class Logger;
 
 /// What an application does for nodes of ROS 2. All optional.
 struct RosHooks {
+  ServiceDialect dialect = ServiceDialect::kInFront;  ///< of the engine
   ParameterSetter set_parameters = {};
   DiagnosticsTopic::Health health = {};
   /// What /clock shows. By threads of the engine.

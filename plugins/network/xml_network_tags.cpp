@@ -248,7 +248,7 @@ void AddNetworkTags(XmlTagRegistry& tags) {
                               Choice("live", "true: what is taken may come although time is simulated, of which runs are not "
                                              "repeatable then"),
                               {.name = "messages",
-                               .summary = ".msg files and folders with <package>/msg/*.msg, beside ROS 2's own; separated by blanks"},
+                               .summary = ".msg and .srv files, and folders with <package>/msg/*.msg and <package>/srv/*.srv, beside ROS 2's own; separated by blanks"},
                               {.name = "engine", .kind = AttributeKind::kName, .summary = "cyclone (the default), or fast: Fast DDS"}},
                .handle = HandleNetwork});
   tags.AddTag({.name = "offer",

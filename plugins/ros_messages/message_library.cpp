@@ -26,27 +26,56 @@ constexpr std::string_view kStandard[] = {
 
 namespace fs = std::filesystem;
 
-struct ReadFile {
-  fs::path path;
-  MessageDefinition definition;
-};
+constexpr std::string_view kBetween = "---";  // request and response
 
-Result<MessageDefinition> ReadMessageFile(const fs::path& path) {
+// Where the line begins in which nothing else stands; the end if there is none.
+std::size_t FindBetween(std::string_view text) {
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    std::string_view line = text.substr(begin, end - begin);
+    while (line.ends_with(' ') || line.ends_with('\r')) line.remove_suffix(1);
+    if (line == kBetween) return begin;
+    begin = end + 1;
+  }
+  return text.size();
+}
+
+// A message, or request and response of a service.
+Result<std::vector<MessageDefinition>> ReadDefinitionFile(const fs::path& path) {
   const fs::path folder = fs::absolute(path).lexically_normal().parent_path();
-  const std::string package = folder.parent_path().filename(), name = path.stem();
+  const std::string package = folder.parent_path().filename(), name = path.stem(), kind = path.extension() == ".srv" ? "srv" : "msg";
   const auto wrong = [&](std::string message, std::string hint) {
     return Error{.message = std::move(message), .position = {path.string()}, .hint = std::move(hint)};
   };
-  if (folder.filename() != "msg" || !IsRosPackageName(package)) {
-    return wrong("which package does the message belong to?", "put it into a folder <package>/msg, as in my_messages/msg/" + path.filename().string());
+  if (folder.filename() != kind || !IsRosPackageName(package)) {
+    return wrong("which package does the message belong to?",
+                 "put it into a folder <package>/" + kind + ", as in my_messages/" + kind + "/" + path.filename().string());
   }
   if (!IsRosMessageName(name)) {
-    return wrong("a message cannot be called '" + name + "'", "call the file " + NearestMessageName(name) + ".msg");
+    return wrong("a message cannot be called '" + name + "'", "call the file " + NearestMessageName(name) + "." + kind);
   }
   std::ifstream stream(path);
   if (!stream) return wrong("the file cannot be read", "look whether it is there, and yours");
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  return ParseMessage(text, package + "/msg/" + name, path.string());
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const std::string full = package + "/" + kind + "/" + name;
+  std::vector<std::pair<std::string, std::string>> parts;  // name, text
+  if (kind == "msg") {
+    parts.emplace_back(full, std::move(text));
+  } else {
+    const std::size_t between = FindBetween(text);
+    if (between == text.size()) return wrong("a service has a line '---' between request and response", "write one, also if one of them is empty");
+    // With as many lines in front as in the file, so that mistakes have theirs.
+    const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(between), '\n'));
+    parts.emplace_back(full + "_Request", text.substr(0, between));
+    parts.emplace_back(full + "_Response", std::string(lines, '\n') + text.substr(between + kBetween.size()));
+  }
+  std::vector<MessageDefinition> definitions;
+  for (const auto& [part, content] : parts) {
+    auto parsed = ParseMessage(content, part, path.string());
+    if (!parsed) return parsed.error();
+    definitions.push_back(std::move(*parsed));
+  }
+  return definitions;
 }
 
 Result<std::vector<fs::path>> FindMessageFiles(const fs::path& place) {
@@ -54,10 +83,10 @@ Result<std::vector<fs::path>> FindMessageFiles(const fs::path& place) {
   if (!fs::is_directory(place, problem)) return std::vector{place};
   std::vector<fs::path> files;
   for (fs::recursive_directory_iterator at(place, problem), end; !problem && at != end; at.increment(problem)) {
-    if (at->path().extension() == ".msg") files.push_back(at->path());
+    if (at->path().extension() == ".msg" || at->path().extension() == ".srv") files.push_back(at->path());
   }
   if (problem) return Error{.message = problem.message(), .position = {place.string()}};
-  if (files.empty()) return Error{.message = "there is no .msg file in the folder", .position = {place.string()}};
+  if (files.empty()) return Error{.message = "there is no .msg or .srv file in the folder", .position = {place.string()}};
   std::ranges::sort(files);
   return files;
 }
@@ -107,13 +136,15 @@ Result<void> MessageLibrary::Read(const fs::path& file_or_folder) {
   MessageLibrary wanted = *this;
   std::vector<std::pair<std::string, std::string>> read;  // name, file
   for (const fs::path& file : *files) {
-    auto definition = ReadMessageFile(file);
-    if (!definition) return definition.error();
-    read.emplace_back(definition->name, file.string());
-    if (auto added = wanted.Add(std::move(*definition)); !added) {
-      Error error = added.error();
-      error.position = {file.string()};
-      return error;
+    auto definitions = ReadDefinitionFile(file);
+    if (!definitions) return definitions.error();
+    for (MessageDefinition& definition : *definitions) {
+      read.emplace_back(definition.name, file.string());
+      if (auto added = wanted.Add(std::move(definition)); !added) {
+        Error error = added.error();
+        error.position = {file.string()};
+        return error;
+      }
     }
   }
   for (const auto& [name, file] : read) {

@@ -24,8 +24,8 @@ class MessageLibrary {
   /// Begins with those of ROS 2.
   MessageLibrary() : MessageLibrary(Standard()) {}
 
-  /// Reads a .msg file in a folder <package>/msg, or all such files below a folder, and checks that the messages inside are
-  /// known. Errors: with file and line; nothing has been added then.
+  /// Reads a .msg file in a folder <package>/msg, a .srv file in <package>/srv (requests and responses are messages,
+  /// "<package>/srv/<name>_Request"), or all such files below a folder, and checks that the messages inside are known. Errors: with file and line; nothing has been added then.
   Result<void> Read(const std::filesystem::path& file_or_folder);
   /// Errors: there is another of that name.
   Result<void> Add(MessageDefinition definition);

@@ -18,10 +18,12 @@ constexpr Duration kForEver = std::chrono::hours(24 * 365);
 }  // namespace
 
 OfferedService::OfferedService(Runtime& runtime, ServiceOfferOptions options, const MessageLibrary& library,
-                               std::uint32_t identity, std::shared_ptr<WakeEvent> wake)
+                               ServiceDialect dialect, std::uint32_t identity,
+                               std::shared_ptr<WakeEvent> wake)
     : runtime_(runtime),
       options_(std::move(options)),
       library_(library),
+      dialect_(dialect),
       identity_(identity),
       wake_(std::move(wake)) {}
 
@@ -49,7 +51,7 @@ void OfferedService::Forget(const FrameworkElement& element) noexcept {
 
 Result<void> OfferedService::Follow(WireParticipant& participant, const std::function<bool(std::uint64_t)>& is_there) {
   std::erase_if(pending_, [&](const Pending& each) { return !is_there(each.writer); });
-  ServiceTopics topics{.service = options_.service};
+  ServiceTopics topics{.service = options_.service, .dialect = dialect_};
   Result<void> found;
   {
     const std::lock_guard lock(runtime_.structure_mutex());
@@ -121,7 +123,7 @@ void OfferedService::Answer(const CallId& id, const ServiceForm& form, const Ser
                    .hint = "take a service type with success and message in its response"};
     return;
   }
-  if (const auto sent = endpoints_->Send(id, octets_); !sent) error_ = sent.error();
+  if (const auto sent = endpoints_->Reply(id, octets_); !sent) error_ = sent.error();
 }
 
 std::string OfferedService::Text() const {

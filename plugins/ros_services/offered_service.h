@@ -37,8 +37,8 @@ class OfferedService {
   static constexpr std::size_t kMostCalls = 64;  ///< under way at once
 
   /// `identity`: as ServiceEndpoints. `wake` wakes the thread that calls Work().
-  OfferedService(Runtime& runtime, ServiceOfferOptions options, const MessageLibrary& library, std::uint32_t identity,
-                 std::shared_ptr<WakeEvent> wake);
+  OfferedService(Runtime& runtime, ServiceOfferOptions options, const MessageLibrary& library, ServiceDialect dialect,
+                 std::uint32_t identity, std::shared_ptr<WakeEvent> wake);
 
   [[nodiscard]] const ServiceOfferOptions& options() const noexcept { return options_; }
   /// The structure has changed, or who is there: offers the service while it is there. Errors: what it cannot be offered as.
@@ -70,6 +70,7 @@ class OfferedService {
   Runtime& runtime_;
   const ServiceOfferOptions options_;
   const MessageLibrary& library_;
+  const ServiceDialect dialect_;
   const std::uint32_t identity_;
   const std::shared_ptr<WakeEvent> wake_;
   // Of the service as it is now; changed under the structure lock.

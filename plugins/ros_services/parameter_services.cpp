@@ -55,9 +55,11 @@ struct ParameterServices::Server {
   std::function<Result<void>(std::span<const std::byte>, Octets&)> answer;
 };
 
-ParameterServices::ParameterServices(FrameworkElement& application, std::string node, ParameterSetter set, Logger& log)
+ParameterServices::ParameterServices(FrameworkElement& application, std::string node, ServiceDialect dialect,
+                                     ParameterSetter set, Logger& log)
     : application_(application),
       node_(std::move(node)),
+      dialect_(dialect),
       set_(std::move(set)),
       log_(log),
       wake_(std::make_shared<WakeEvent>()) {}
@@ -69,7 +71,8 @@ Result<void> ParameterServices::Add(const char* name, const char* type, WirePart
                                            {.service = (node_ == "/" ? "" : node_) + "/" + name,
                                             .request_type = DdsType(of + "_Request"),
                                             .response_type = DdsType(of + "_Response"),
-                                            .depth = kDepth},
+                                            .depth = kDepth,
+                                            .dialect = dialect_},
                                            participant, kIdentity + static_cast<std::uint32_t>(servers_.size()),
                                            [wake = wake_] { wake->Notify(); });
   if (!endpoints) return endpoints.error();
@@ -86,9 +89,9 @@ Result<void> ParameterServices::Add(const char* name, const char* type, WirePart
 }
 
 Result<std::unique_ptr<ParameterServices>> ParameterServices::Start(FrameworkElement& application, const std::string& node,
-                                                                    WireParticipant& participant, ParameterSetter set,
-                                                                    Logger& log) {
-  std::unique_ptr<ParameterServices> made(new ParameterServices(application, node, std::move(set), log));
+                                                                    WireParticipant& participant, ServiceDialect dialect,
+                                                                    ParameterSetter set, Logger& log) {
+  std::unique_ptr<ParameterServices> made(new ParameterServices(application, node, dialect, std::move(set), log));
   ParameterServices& self = *made;
   Result<void> done = self.Add<RosListRequest>("list_parameters", "ListParameters", participant,
                                                [&self](const auto& request) { return self.List(request); });
@@ -240,7 +243,7 @@ void ParameterServices::Run() noexcept {
       for (const auto& each : servers_) {
         while (const auto request = each->endpoints->Take()) {
           // What is no request has no answer.
-          if (each->answer(request->message, octets)) (void)each->endpoints->Send(request->id, octets);
+          if (each->answer(request->message, octets)) (void)each->endpoints->Reply(request->id, octets);
         }
       }
       TellChanges();

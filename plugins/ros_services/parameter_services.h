@@ -37,7 +37,8 @@ class ParameterServices {
  public:
   /// `set`: nullptr: they may be looked at only. `log`: what goes wrong. Errors: of the engine.
   static Result<std::unique_ptr<ParameterServices>> Start(FrameworkElement& application, const std::string& node,
-                                                          WireParticipant& participant, ParameterSetter set, Logger& log);
+                                                          WireParticipant& participant, ServiceDialect dialect, ParameterSetter set,
+                                                          Logger& log);
   ~ParameterServices();
 
   void AddIds(std::vector<WireId>& readers, std::vector<WireId>& writers) const;
@@ -58,7 +59,7 @@ class ParameterServices {
   };
   using Parameters = std::map<std::string, Found>;
 
-  ParameterServices(FrameworkElement& application, std::string node, ParameterSetter set, Logger& log);
+  ParameterServices(FrameworkElement& application, std::string node, ServiceDialect dialect, ParameterSetter set, Logger& log);
   template <typename Request, typename Answer>
   Result<void> Add(const char* name, const char* type, WireParticipant& participant, const Answer& answer);
   // Under the structure lock.
@@ -72,6 +73,7 @@ class ParameterServices {
 
   FrameworkElement& application_;
   const std::string node_;
+  const ServiceDialect dialect_;
   const ParameterSetter set_;
   Logger& log_;
   const std::shared_ptr<WakeEvent> wake_;

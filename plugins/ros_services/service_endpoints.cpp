@@ -25,6 +25,13 @@ std::string UserData(ServiceEndpoints::Side side, const WireId& participant, std
   return text;
 }
 
+// What eight octets can have of sixteen.
+WireId Folded(const WireId& id) {
+  WireId folded{};
+  for (std::size_t i = 0; i < id.size() / 2; ++i) folded[i] = static_cast<std::uint8_t>(id[i] ^ id[i + id.size() / 2]);
+  return folded;
+}
+
 }  // namespace
 
 void ServiceInbox::Put(ServiceMessage message) {
@@ -47,7 +54,7 @@ std::optional<ServiceMessage> ServiceInbox::Take() {
 Result<std::unique_ptr<ServiceEndpoints>> ServiceEndpoints::Start(Side side, const ServiceTopics& topics,
                                                                   WireParticipant& participant, std::uint32_t identity,
                                                                   std::function<void()> on_news) {
-  std::unique_ptr<ServiceEndpoints> made(new ServiceEndpoints(topics, std::move(on_news)));
+  std::unique_ptr<ServiceEndpoints> made(new ServiceEndpoints(side, topics, std::move(on_news)));
   ServiceEndpoints& self = *made;
   const WireEndpointOptions request{.topic = DdsRequestTopic(topics.service),
                                     .type = topics.request_type,
@@ -63,15 +70,11 @@ Result<std::unique_ptr<ServiceEndpoints>> ServiceEndpoints::Start(Side side, con
   });
   if (!writer) return writer.error();
   self.writer_ = std::move(*writer);
-  std::uint64_t halves[2];
-  std::memcpy(halves, self.writer_->id().data(), sizeof halves);
-  self.client_ = halves[0] ^ halves[1];
   auto reader = participant.MakeReader(
       is_server ? request : reply,
-      [&self, is_server](const WireSample& sample) {
-        auto message = SplitCallId(sample.octets);
-        if (!message || (!is_server && message->id.client != self.client_)) return;
-        message->writer = sample.writer;
+      [&self](const WireSample& sample) {
+        auto message = self.Read(sample);
+        if (!message) return;
         self.inbox_.Put(std::move(*message));
         self.on_news_();
       },
@@ -81,12 +84,56 @@ Result<std::unique_ptr<ServiceEndpoints>> ServiceEndpoints::Start(Side side, con
       });
   if (!reader) return reader.error();
   self.reader_ = std::move(*reader);
+  self.client_ = topics.dialect == ServiceDialect::kBeside ? self.reader_->id() : Folded(self.writer_->id());
   return made;
 }
 
-Result<void> ServiceEndpoints::Send(const CallId& id, std::span<const std::byte> message) {
-  return writer_->Write(std::make_shared<const Octets>(WithCallId(id, message)),
-                        SinceEpoch().time_since_epoch().count());
+// By a thread of the engine, which does not know yet whose the replies are.
+std::optional<ServiceMessage> ServiceEndpoints::Read(const WireSample& sample) const {
+  std::optional<ServiceMessage> message;
+  if (topics_.dialect == ServiceDialect::kInFront) {
+    message = SplitCallId(sample.octets);
+  } else {
+    message.emplace();
+    message->message.assign(sample.octets.begin(), sample.octets.end());
+    message->id = {sample.related.writer, sample.related.number};
+    // Of a request, its own number counts, and where its reply goes may not be said.
+    if (side_ == Side::kServer) message->id.number = sample.identity.number;
+    if (side_ == Side::kServer && message->id.client == WireId{}) message->id.client = sample.identity.writer;
+  }
+  if (message) message->writer = sample.writer;
+  return message;
+}
+
+std::optional<ServiceMessage> ServiceEndpoints::Take() {
+  for (;;) {
+    auto message = inbox_.Take();
+    if (!message || side_ == Side::kServer || message->id.client == client_) return message;
+  }
+}
+
+Result<std::int64_t> ServiceEndpoints::Request(std::span<const std::byte> message) {
+  const std::int64_t now = SinceEpoch().time_since_epoch().count();
+  if (topics_.dialect == ServiceDialect::kBeside) {
+    const auto octets = std::make_shared<const Octets>(message.begin(), message.end());
+    const auto written = writer_->WriteRelated(octets, now, {.writer = client_, .number = 0});
+    if (!written) return written.error();
+    return written->number;
+  }
+  const CallId id{client_, ++made_};
+  const auto written = writer_->Write(std::make_shared<const Octets>(WithCallId(id, message)), now);
+  if (!written) return written.error();
+  return id.number;
+}
+
+Result<void> ServiceEndpoints::Reply(const CallId& id, std::span<const std::byte> message) {
+  const std::int64_t now = SinceEpoch().time_since_epoch().count();
+  if (topics_.dialect == ServiceDialect::kInFront) {
+    return writer_->Write(std::make_shared<const Octets>(WithCallId(id, message)), now);
+  }
+  const auto octets = std::make_shared<const Octets>(message.begin(), message.end());
+  const auto written = writer_->WriteRelated(octets, now, {.writer = id.client, .number = id.number});
+  return written ? Result<void>() : written.error();
 }
 
 }  // namespace runnel

@@ -13,12 +13,19 @@
 
 namespace runnel {
 
+/// How requests and replies say which call they belong to. Nodes of the two do not understand one another.
+enum class ServiceDialect {
+  kInFront,  ///< in front of the message: rmw_cyclonedds
+  kBeside,   ///< beside it, by identities of values (WireEngine::has_identities): rmw_fastrtps
+};
+
 /// A service as the wire has it.
 struct ServiceTopics {
   std::string service = {};        ///< "/save_map"
   std::string request_type = {};   ///< "std_srvs::srv::dds_::SetBool_Request_"
   std::string response_type = {};  ///< "std_srvs::srv::dds_::SetBool_Response_"
   std::uint32_t depth = 10;        ///< newest requests and replies that are kept
+  ServiceDialect dialect = ServiceDialect::kInFront;
 
   friend bool operator==(const ServiceTopics&, const ServiceTopics&) = default;
 };
@@ -54,28 +61,33 @@ class ServiceEndpoints {
                                                          std::uint32_t identity, std::function<void()> on_news);
 
   [[nodiscard]] const ServiceTopics& topics() const noexcept { return topics_; }
-  Result<void> Send(const CallId& id, std::span<const std::byte> message);
-  [[nodiscard]] std::optional<ServiceMessage> Take() { return inbox_.Take(); }
+  /// Of a client: sends a request; the how manyth of its calls it is.
+  Result<std::int64_t> Request(std::span<const std::byte> message);
+  /// Of a server.
+  Result<void> Reply(const CallId& id, std::span<const std::byte> message);
+  /// The next request, or reply to this client.
+  [[nodiscard]] std::optional<ServiceMessage> Take();
   /// Somebody at the other end both takes and sends.
   [[nodiscard]] bool is_matched() const noexcept {
     return readers_.load(std::memory_order_relaxed) > 0 && writers_.load(std::memory_order_relaxed) > 0;
   }
   [[nodiscard]] const WireId& reader_id() const noexcept { return reader_->id(); }
   [[nodiscard]] const WireId& writer_id() const noexcept { return writer_->id(); }
-  /// By which a client finds its replies among those of others.
-  [[nodiscard]] std::uint64_t client() const noexcept { return client_; }
   [[nodiscard]] std::uint64_t lost() const noexcept { return inbox_.lost(); }
 
  private:
-  ServiceEndpoints(ServiceTopics topics, std::function<void()> on_news)
-      : topics_(std::move(topics)), on_news_(std::move(on_news)) {}
+  ServiceEndpoints(Side side, ServiceTopics topics, std::function<void()> on_news)
+      : side_(side), topics_(std::move(topics)), on_news_(std::move(on_news)) {}
+  [[nodiscard]] std::optional<ServiceMessage> Read(const WireSample& sample) const;
 
+  const Side side_;
   const ServiceTopics topics_;
   const std::function<void()> on_news_;
   ServiceInbox inbox_;
   std::atomic<std::size_t> readers_{0};
   std::atomic<std::size_t> writers_{0};
-  std::uint64_t client_ = 0;
+  WireId client_{};  // by which a client finds its replies among those of others
+  std::int64_t made_ = 0;
   std::unique_ptr<WireWriter> writer_;
   std::unique_ptr<WireReader> reader_;
 };

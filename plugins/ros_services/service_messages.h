@@ -8,10 +8,9 @@
 
 namespace runnel {
 
-/// Which call a request or a reply belongs to: who calls, and its how manyth call it is. In the dialect of rmw_cyclonedds it
-/// stands in front of the message. (That of rmw_fastrtps says it beside the message.)
+/// Which call a request or a reply belongs to: who calls, and its how manyth call it is.
 struct CallId {
-  std::uint64_t client = 0;
+  WireId client = {};  ///< of rmw_cyclonedds only the first eight octets
   std::int64_t number = 0;
 
   friend bool operator==(const CallId&, const CallId&) = default;
@@ -24,7 +23,8 @@ struct ServiceMessage {
   std::uint64_t writer = 0;  ///< WireEndpoint::handle
 };
 
-/// `message` with the encapsulation in front, of this machine's order of octets.
+/// As rmw_cyclonedds has it: the call stands in front of the message. `message`: with the encapsulation, of this machine's order
+/// of octets.
 [[nodiscard]] Octets WithCallId(const CallId& id, std::span<const std::byte> message);
 /// Nothing if the octets, which may be anything, are too short.
 [[nodiscard]] std::optional<ServiceMessage> SplitCallId(std::span<const std::byte> octets);

@@ -43,12 +43,13 @@ class TakenService::Ring final : public Waker {
 };
 
 TakenService::TakenService(Runtime& runtime, std::string path, ServiceTakeOptions options,
-                           std::shared_ptr<DistantService> service, std::uint32_t identity,
-                           std::shared_ptr<WakeEvent> wake)
+                           std::shared_ptr<DistantService> service, ServiceDialect dialect,
+                           std::uint32_t identity, std::shared_ptr<WakeEvent> wake)
     : runtime_(runtime),
       path_(std::move(path)),
       options_(std::move(options)),
       service_(std::move(service)),
+      dialect_(dialect),
       identity_(identity),
       wake_(std::move(wake)),
       ring_(std::make_shared<Ring>(wake_)) {
@@ -71,7 +72,7 @@ Result<void> TakenService::Follow(WireParticipant& participant) {
   const ServiceForm& form = *service_->form;
   auto begun = ServiceEndpoints::Start(
       ServiceEndpoints::Side::kClient,
-      {.service = options_.service, .request_type = form.request_type(), .response_type = form.response_type()}, participant,
+      {.service = options_.service, .request_type = form.request_type(), .response_type = form.response_type(), .dialect = dialect_}, participant,
       identity_, [wake = wake_] { wake->Notify(); });
   if (!begun) return begun.error();
   endpoints_ = std::move(*begun);
@@ -90,9 +91,10 @@ bool TakenService::Work() {
       return true;
     }
     if (!is_matched || each.request.empty()) return false;
-    const auto sent = endpoints_->Send({endpoints_->client(), each.number}, each.request);
+    const auto sent = endpoints_->Request(each.request);
     each.request.clear();
     if (!sent) End(each, CallStatus::kFailed, sent.error().message);
+    if (sent) each.number = *sent;
     return !sent;
   });
   return !pending_.empty();
@@ -100,7 +102,7 @@ bool TakenService::Work() {
 
 void TakenService::TakeCalls() {
   for (CallBase* call = nullptr; service_->endpoint.queue.TryPop(call);) {
-    Pending pending{++made_, call, {}};
+    Pending pending{0, call, {}};
     try {
       service_->form->WriteRequest(service_->calls->ArgumentsOf(*call), pending.request);
       pending_.push_back(std::move(pending));

@@ -49,7 +49,7 @@ struct DistantService {
 class TakenService {
  public:
   TakenService(Runtime& runtime, std::string path, ServiceTakeOptions options, std::shared_ptr<DistantService> service,
-               std::uint32_t identity, std::shared_ptr<WakeEvent> wake);
+               ServiceDialect dialect, std::uint32_t identity, std::shared_ptr<WakeEvent> wake);
   /// Calls that are under way end disconnected. Not under the structure lock.
   ~TakenService();
   TakenService(const TakenService&) = delete;
@@ -69,7 +69,7 @@ class TakenService {
  private:
   class Ring;
   struct Pending {
-    std::int64_t number;
+    std::int64_t number;  // 0 until it is sent
     CallBase* call;
     Octets request;  // until it is sent
   };
@@ -81,12 +81,12 @@ class TakenService {
   const std::string path_;
   const ServiceTakeOptions options_;
   const std::shared_ptr<DistantService> service_;
+  const ServiceDialect dialect_;
   const std::uint32_t identity_;
   const std::shared_ptr<WakeEvent> wake_;
   const std::shared_ptr<Ring> ring_;
   std::unique_ptr<ServiceEndpoints> endpoints_;
   std::vector<Pending> pending_;
-  std::int64_t made_ = 0;
   std::optional<Error> error_;
 };
 

@@ -156,6 +156,18 @@ TEST_F(ServicesOfRos, TellNoTimeToClocksOfOthers) {
   EXPECT_THAT(run.text, HasSubstr("say <clock type=\"outside\"/>, or leave clock=\"follow\" out"));
 }
 
+#if RUNNEL_HAS_FAST
+// Where requests and replies say beside the message which call they belong to.
+TEST_F(ServicesOfRos, GoOverFastDdsAsWell) {
+  std::string lines = kHouse;
+  lines.replace(lines.find("<network "), 9, "<network engine=\"fast\" ");
+  const Program house(Arguments("run", "house", lines));
+  Program room(Arguments("run", "room", R"(<module name="button" type="switches/button"/>
+    <network engine="fast" name="room"> <take service="/lamp/switch" as="std_srvs/srv/SetBool" to="button/set"/> </network>)"));
+  EXPECT_TRUE(room.WaitFor("answered: it burns"));
+}
+#endif
+
 TEST_F(ServicesOfRos, MistakesAreToldWithTheirPlaces) {
   const Ended checked = Runnel(Arguments("check", "wrong", R"(<module name="lamp" type="switches/lamp"/>
     <module name="button" type="switches/button"/>

@@ -135,6 +135,30 @@ TEST_F(MessageFiles, AreReadByTheirPackages) {
   EXPECT_EQ(library.InsideOf(**library.Get("my_msgs/Tracks")).size(), 4U);
 }
 
+TEST_F(MessageFiles, OfServicesAreTwoMessages) {
+  Write("my_msgs/msg/Track.msg", "uint32 id\n");
+  Write("my_msgs/srv/Follow.srv", "# whom\nTrack track\n---\nbool success\nstring message\n");
+  Write("my_msgs/srv/Stop.srv", "---\n");
+  MessageLibrary library;
+  const auto read = library.Read(folder_);
+  ASSERT_TRUE(read) << read.error().ToString();
+  const auto* const request = library.Find("my_msgs/srv/Follow_Request");
+  ASSERT_TRUE(request);
+  EXPECT_EQ(request->fields.front().nested, "my_msgs/msg/Track");
+  EXPECT_EQ(library.Find("my_msgs/srv/Follow_Response")->fields.size(), 2U);
+  EXPECT_TRUE(library.Find("my_msgs/srv/Stop_Request")->fields.empty());
+  EXPECT_TRUE(library.Find("my_msgs/srv/Stop_Response")->fields.empty());
+}
+
+TEST_F(MessageFiles, OfServicesThatAreWrongAreToldWithTheirPlace) {
+  Write("my_msgs/srv/Follow.srv", "bool a\n---\nfloat x\n");
+  EXPECT_THAT(WhyNot("my_msgs/srv"), HasSubstr("Follow.srv:3: there is no type 'float'"));
+  Write("my_msgs/srv/Follow.srv", "bool a\n");
+  EXPECT_THAT(WhyNot("my_msgs/srv"), HasSubstr("a service has a line '---' between request and response"));
+  Write("my_msgs/msg/Follow.srv", "---\n");
+  EXPECT_THAT(WhyNot("my_msgs/msg/Follow.srv"), HasSubstr("put it into a folder <package>/srv"));
+}
+
 TEST_F(MessageFiles, ThatAreWrongAreToldWithTheirPlace) {
   Write("my_msgs/msg/Track.msg", "geometry_msgs/Pint at\n");
   EXPECT_THAT(WhyNot(), HasSubstr("Track.msg: field 'at': there is no message 'geometry_msgs/msg/Pint'; did you mean 'geometry_msgs/msg/Point'?"));

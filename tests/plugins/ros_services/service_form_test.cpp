@@ -1,6 +1,8 @@
 // Arguments and replies as requests and responses, and what others may send instead.
 #include "plugins/ros_services/service_form.h"
 
+#include <cstring>
+
 #include <gmock/gmock.h>
 
 #include "core/types/type_of.h"
@@ -109,13 +111,25 @@ TEST(ServiceFormTest, WhatDoesNotFitIsTold) {
   EXPECT_THAT(WhyNot(nullptr, &TypeOf<Pose2>(), "std_srvs/srv/Trigger"), HasSubstr("has nothing of"));
 }
 
+// The first eight octets, as the number that stands in front.
+std::uint64_t FirstOf(const WireId& id) {
+  std::uint64_t first;
+  std::memcpy(&first, id.data(), sizeof first);
+  return first;
+}
+WireId WithFirst(std::uint64_t first) {
+  WireId id{};
+  std::memcpy(id.data(), &first, sizeof first);
+  return id;
+}
+
 TEST(ServiceMessagesTest, AreTheMessageWithTheCallInFront) {
   const Octets message = {std::byte{0}, std::byte{1}, std::byte{0}, std::byte{0}, std::byte{7}};
-  const Octets whole = WithCallId({.client = 5, .number = -2}, message);
+  const Octets whole = WithCallId({.client = WithFirst(5), .number = -2}, message);
   EXPECT_EQ(whole.size(), message.size() + 16);
   const auto split = SplitCallId(whole);
   ASSERT_TRUE(split);
-  EXPECT_EQ(split->id.client, 5u);
+  EXPECT_EQ(FirstOf(split->id.client), 5u);
   EXPECT_EQ(split->id.number, -2);
   EXPECT_EQ(split->message, message);
   for (std::size_t size = 0; size < 20; ++size) EXPECT_FALSE(SplitCallId(std::span(whole).first(size))) << size;
@@ -128,7 +142,7 @@ TEST(ServiceMessagesTest, OfTheOtherOrderOfOctetsAreRead) {
   whole[19] = std::byte{2};
   const auto split = SplitCallId(whole);
   ASSERT_TRUE(split);
-  EXPECT_EQ(split->id.client, 5u);
+  EXPECT_EQ(FirstOf(split->id.client), 5u);
   EXPECT_EQ(split->id.number, 2);
 }
 
