@@ -1,4 +1,5 @@
-// What it costs to have ports read by another process: bin/bench_network [latency] [pictures] [throughput] [publishing].
+// What it costs to have ports read by another process: bin/bench_network [publishing] [latency] [pictures] [throughput]
+// [discovery] [crowd] [large_crowd], or all of them.
 // Beside each figure stands that of the engine alone, by the seam of octets, in the same run, one after the other.
 // All processes are in a network of their own if the system permits that.
 
@@ -75,7 +76,8 @@ void Throughput() {
 
 int Run(const std::vector<std::string>& wanted) {
   const std::vector<std::pair<std::string_view, void (*)()>> parts = {
-      {"publishing", PrintPublishing}, {"latency", Latency}, {"pictures", Pictures}, {"throughput", Throughput}};
+      {"publishing", PrintPublishing}, {"latency", Latency}, {"pictures", Pictures}, {"throughput", Throughput},
+      {"discovery", [] { PrintDiscovery(50); }}, {"crowd", [] { PrintCrowd(30); }}, {"large_crowd", [] { PrintCrowd(100); }}};
   (void)test::EnterOwnNetwork();
   bool is_known = wanted.empty();
   for (const auto& [name, run] : parts) {
@@ -84,7 +86,7 @@ int Run(const std::vector<std::string>& wanted) {
     run();
     std::fflush(stdout);
   }
-  if (!is_known) fmt::print(stderr, "usage: bench_network [publishing] [latency] [pictures] [throughput]\n");
+  if (!is_known) fmt::print(stderr, "usage: bench_network [publishing] [latency] [pictures] [throughput] [discovery] [crowd] [large_crowd]\n");
   return is_known ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 

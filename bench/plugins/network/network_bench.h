@@ -98,6 +98,9 @@ class Course {
 
 /// What it costs to publish through a port that is offered, in this process.
 void PrintPublishing();
+/// How soon two find one another; how long it takes until `count` know each other, and what memory they need.
+void PrintDiscovery(int starts);
+void PrintCrowd(int count);
 
 /// An application with one element.
 template <typename Element>

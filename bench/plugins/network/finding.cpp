@@ -1,0 +1,145 @@
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <set>
+#include <mutex>
+#include <new>
+#include <string>
+#include <thread>
+
+#include <fmt/core.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "bench/plugins/network/network_bench.h"
+
+namespace runnel {
+
+namespace {
+
+const WireEndpointOptions kTopic = {.topic = "rt/found", .type = "bench::Found"};
+
+/// Counts the members that there are besides the own one.
+class Others final : public WireDiscovery {
+ public:
+  [[nodiscard]] std::size_t count() const {
+    const std::lock_guard lock(mutex_);
+    return ids_.size();
+  }
+
+ private:
+  void OnMember(const WireMember& member) override {
+    const std::lock_guard lock(mutex_);
+    ids_.insert(member.id);
+  }
+  void OnMemberGone(const WireId& id) override {
+    const std::lock_guard lock(mutex_);
+    ids_.erase(id);
+  }
+  void OnEndpoint(const WireEndpoint&) override {}
+  void OnEndpointGone(const WireId&) override {}
+
+  mutable std::mutex mutex_;
+  std::set<WireId> ids_;
+};
+
+/// What processes share.
+struct Common {
+  std::atomic<int> ready{0};
+  std::atomic<bool> has_ended{false};
+  double took = 0;       // s
+  std::atomic<std::int64_t> memory{0};  // kB, of all, what they share counted once
+};
+
+Common& MakeCommon() {
+  void* const shared = mmap(nullptr, sizeof(Common), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (shared == MAP_FAILED) std::abort();
+  return *new (shared) Common;
+}
+
+template <typename Part>
+pid_t Fork(const Part& part) {
+  const pid_t child = fork();
+  if (child != 0) return child;
+  part();
+  _exit(0);
+}
+
+void Nap() { std::this_thread::sleep_for(std::chrono::milliseconds(1)); }
+
+std::int64_t OwnMemory() {
+  std::ifstream file("/proc/self/smaps_rollup");
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("Pss:")) return std::atoll(line.c_str() + 4);
+  }
+  return 0;
+}
+
+}  // namespace
+
+void PrintDiscovery(int starts) {
+  Common& common = MakeCommon();
+  const pid_t writing = Fork([&] {
+    Others others;
+    const auto engine = MakeSharedMemoryWire(MakeCycloneWire());
+    const auto member = std::move(*engine->Join({}, others));
+    const auto writer = std::move(*member->MakeWriter(kTopic, {}));
+    common.ready = 1;
+    while (!common.has_ended) Nap();
+  });
+  while (common.ready == 0) Nap();
+  std::vector<double> all;
+  for (int i = 0; i < starts; ++i) {
+    const pid_t reading = Fork([&] {
+      Others others;
+      std::atomic<bool> is_matched{false};
+      const auto engine = MakeSharedMemoryWire(MakeCycloneWire());
+      const double began = Now();
+      const auto member = std::move(*engine->Join({}, others));
+      const auto reader = std::move(*member->MakeReader(kTopic, [](const WireSample&) {}, [&](std::size_t count) {
+        is_matched = count > 0;
+      }));
+      while (!is_matched) std::this_thread::sleep_for(std::chrono::microseconds(100));
+      common.took = Now() - began;
+    });
+    waitpid(reading, nullptr, 0);
+    all.push_back(common.took);
+  }
+  common.has_ended = true;
+  waitpid(writing, nullptr, 0);
+  std::ranges::sort(all);
+  const auto soon = std::ranges::count_if(all, [](double each) { return each < 0.1; });
+  fmt::print("{} starts: a reader has found the writer after {:.1f} ms (median), {:.1f} ms (worst); {} within 100 ms\n", starts,
+             1e3 * all[all.size() / 2], 1e3 * all.back(), soon);
+}
+
+void PrintCrowd(int count) {
+  Common& common = MakeCommon();
+  std::vector<pid_t> processes;
+  const double began = Now();
+  for (int i = 0; i < count; ++i) {
+    processes.push_back(Fork([&] {
+      Others others;
+      const auto engine = MakeSharedMemoryWire(MakeCycloneWire());
+      const auto member = std::move(*engine->Join({.name = "robot"}, others));
+      const auto writer = std::move(*member->MakeWriter(kTopic, {}));
+      const auto reader = std::move(*member->MakeReader(kTopic, [](const WireSample&) {}, {}));
+      while (others.count() + 1 < static_cast<std::size_t>(count)) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      ++common.ready;
+      while (common.ready < count) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      common.memory += OwnMemory();
+      while (!common.has_ended) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      _exit(0);  // all at once, without goodbye
+    }));
+  }
+  while (common.ready < count) Nap();
+  const double took = Now() - began;
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  common.has_ended = true;
+  for (const pid_t each : processes) waitpid(each, nullptr, 0);
+  fmt::print("{} applications know each other after {:.2f} s; {:.1f} MB each\n", count, took,
+             1e-3 * static_cast<double>(common.memory) / count);
+}
+
+}  // namespace runnel
