@@ -20,8 +20,8 @@ namespace {
 
 const WireEndpointOptions kTopic = {.topic = "rt/found", .type = "bench::Found"};
 
-/// Counts the members that there are besides the own one.
-class Others final : public WireDiscovery {
+/// Counts the members that there are, the own one among them.
+class Members final : public WireDiscovery {
  public:
   [[nodiscard]] std::size_t count() const {
     const std::lock_guard lock(mutex_);
@@ -81,9 +81,9 @@ std::int64_t OwnMemory() {
 void PrintDiscovery(int starts) {
   Common& common = MakeCommon();
   const pid_t writing = Fork([&] {
-    Others others;
+    Members members;
     const auto engine = MakeSharedMemoryWire(MakeCycloneWire());
-    const auto member = std::move(*engine->Join({}, others));
+    const auto member = std::move(*engine->Join({}, members));
     const auto writer = std::move(*member->MakeWriter(kTopic, {}));
     common.ready = 1;
     while (!common.has_ended) Nap();
@@ -92,11 +92,11 @@ void PrintDiscovery(int starts) {
   std::vector<double> all;
   for (int i = 0; i < starts; ++i) {
     const pid_t reading = Fork([&] {
-      Others others;
+      Members members;
       std::atomic<bool> is_matched{false};
       const auto engine = MakeSharedMemoryWire(MakeCycloneWire());
       const double began = Now();
-      const auto member = std::move(*engine->Join({}, others));
+      const auto member = std::move(*engine->Join({}, members));
       const auto reader = std::move(*member->MakeReader(kTopic, [](const WireSample&) {}, [&](std::size_t count) {
         is_matched = count > 0;
       }));
@@ -120,12 +120,12 @@ void PrintCrowd(int count) {
   const double began = Now();
   for (int i = 0; i < count; ++i) {
     processes.push_back(Fork([&] {
-      Others others;
+      Members members;
       const auto engine = MakeSharedMemoryWire(MakeCycloneWire());
-      const auto member = std::move(*engine->Join({.name = "robot"}, others));
+      const auto member = std::move(*engine->Join({.name = "robot"}, members));
       const auto writer = std::move(*member->MakeWriter(kTopic, {}));
       const auto reader = std::move(*member->MakeReader(kTopic, [](const WireSample&) {}, {}));
-      while (others.count() + 1 < static_cast<std::size_t>(count)) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      while (members.count() < static_cast<std::size_t>(count)) std::this_thread::sleep_for(std::chrono::milliseconds(10));
       ++common.ready;
       while (common.ready < count) std::this_thread::sleep_for(std::chrono::milliseconds(10));
       common.memory += OwnMemory();
