@@ -19,6 +19,8 @@ constexpr const char* kRobot = R"(<application name="robot" thread="control">
   <clock type="simulated" speed="1"/> <thread name="control" period="50ms"/>
   <network name="base">
     <offer port="laser/scan" topic="/scan" as="sensor_msgs/msg/LaserScan" frame="laser" qos="sensor"/>
+    <offer port="world/pose" topic="/tf" as="tf2_msgs/msg/TFMessage" frame="map" child_frame="base_link"/>
+    <offer port="world/pose" topic="/tf_static" as="tf2_msgs/msg/TFMessage" frame="map" child_frame="start" qos="latched"/>
     <take topic="/cmd_vel" as="geometry_msgs/msg/Twist" to="gate/wanted" live="true"/>
     <ros distribution="jazzy" node="/robots/base" clock="true" log="true"/>
   </network>
@@ -52,8 +54,14 @@ TEST_F(AmongRosNodes, TheyReadItsScansItsNodeItsTimeAndItsLog) {
   const Program robot("run " + std::string(folder_ / "robot.xml") + " world=" RUNNEL_XML "/worlds/rooms.xml");
   EXPECT_TRUE(Node("scan").WaitFor("scan frame laser ranges 181 from -1.571 step 0.01745 most 4.00"));
   EXPECT_TRUE(Node("clock").WaitFor("clock 1."));
-  EXPECT_TRUE(Node("graph").WaitFor("node /robots base readers 1 writers 3"));
+  EXPECT_TRUE(Node("graph").WaitFor("node /robots base readers 1 writers 5"));
   EXPECT_TRUE(Node("log").WaitFor("is in the network"));
+}
+
+TEST_F(AmongRosNodes, TheySeeWhereItIsAlsoThoseWhoComeLate) {
+  const Program robot("run " + std::string(folder_ / "robot.xml") + " world=" RUNNEL_XML "/worlds/rooms.xml");
+  EXPECT_TRUE(Node("tf").WaitFor("transform map to base_link at "));
+  EXPECT_TRUE(Node("tf_static").WaitFor("transform map to start at "));
 }
 
 TEST_F(AmongRosNodes, ItDrivesAsTheyTellIt) {

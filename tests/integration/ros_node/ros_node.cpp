@@ -1,8 +1,8 @@
 // A node as those of ROS 2 are on Cyclone DDS, with types that Cyclone's own generator has made: nothing of Runnel is in
 // it. It says on standard output what it reads:
 //
-//     ros_node DOMAIN scan|clock|log|graph prints what comes
-//     ros_node DOMAIN twist                tells a robot to go, 20 times a second
+//     ros_node DOMAIN scan|clock|log|graph|tf|tf_static  prints what comes
+//     ros_node DOMAIN twist                              tells a robot to go, 20 times a second
 
 #include <chrono>
 #include <cstdint>
@@ -78,6 +78,16 @@ int main(int argc, char** argv) {
             const auto& node = info.node_entities_info_seq._buffer[i];
             std::printf("node %s %s readers %u writers %u\n", node.node_namespace, node.node_name, node.reader_gid_seq._length,
                         node.writer_gid_seq._length);
+          }
+        });
+  }
+  if (what == "tf" || what == "tf_static") {
+    Read<tf2_msgs_msg_dds__TFMessage_>(
+        participant, tf2_msgs_msg_dds__TFMessage__desc, ("rt/" + what).c_str(), Qos(true, what == "tf_static"), [](const auto& message) {
+          for (std::uint32_t i = 0; i < message.transforms._length; ++i) {
+            const auto& each = message.transforms._buffer[i];
+            std::printf("transform %s to %s at %.1f %.1f turned %.1f\n", each.header.frame_id, each.child_frame_id,
+                        each.transform.translation.x, each.transform.translation.y, each.transform.rotation.w);
           }
         });
   }
