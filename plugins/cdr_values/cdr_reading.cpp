@@ -9,6 +9,7 @@
 #include "core/types/type_info.h"
 #include "core/types/value_copy.h"
 #include "plugins/cdr_values/cdr_values.h"
+#include "plugins/cdr_values/cdr_walk.h"
 #include "plugins/cdr_values/internal/cdr_enumeration.h"
 
 namespace runnel {
@@ -16,13 +17,11 @@ namespace runnel {
 namespace {
 
 constexpr int kDeepest = 100;
-// Elements may take more in memory than on the wire, but not without an end.
-constexpr std::size_t kMostBytes = std::size_t{1} << 28;
 
-/// Walks through a description and through octets side by side. The way to what failed is found on the way back.
-class ValueReader {
+/// Walks through a description and through octets side by side.
+class ValueReader : public CdrWalk {
  public:
-  explicit ValueReader(CdrReader& reader) : reader_(reader), room_(kMostBytes + reader.left()) {}
+  explicit ValueReader(CdrReader& reader) : CdrWalk(reader) {}
 
   bool Read(const TypeInfo& type, void* value) {
     switch (type.kind()) {
@@ -43,23 +42,10 @@ class ValueReader {
   }
 
   bool ReadField(const FieldInfo& field, void* structure) {
-    if (Read(*field.type, field.address(structure))) return true;
-    path_.insert(0, "." + field.name);
-    return false;
-  }
-
-  [[nodiscard]] Error error() const {
-    const std::string path = path_.starts_with('.') ? path_.substr(1) : path_;
-    return {.message = (path.empty() ? "" : path + ": ") + problem_};
+    return Read(*field.type, field.address(structure)) || FailIn(field.name);
   }
 
  private:
-  bool Fail(std::string problem) {
-    problem_ = std::move(problem);
-    return false;
-  }
-  bool IsThere(bool is_there) { return is_there || Fail("the octets end before it does"); }
-
   bool ReadLeaf(const TypeInfo& type, void* value) {
     if (&type == &TypeOf<Signal>()) return IsThere(reader_.Skip(1, 1));
     return WithLeafType(type, [&]<typename T>(std::type_identity<T>) {
@@ -99,7 +85,7 @@ class ValueReader {
     const ElementOperations& elements = type.elements();
     const TypeInfo& element = *elements.type;
     std::size_t count = elements.is_fixed ? elements.rows(value) * elements.columns(value) : 0;
-    if (!elements.is_fixed && !TakeRoom(type, value, count)) return false;
+    if (!elements.is_fixed && !MakeRoom(type, value, count)) return false;
     if (count == 0) return true;
     if (elements.are_plain_numbers) {
       return IsThere(reader_.GetPlain(elements.element(value, 0), element.size(), count));
@@ -107,39 +93,26 @@ class ValueReader {
     if (++depth_ > kDeepest) {
       return Fail("it is nested deeper than " + std::to_string(kDeepest) + " levels");
     }
-    for (std::size_t i = 0; i < count; ++i) {
-      if (Read(element, elements.element(value, i))) continue;
-      path_.insert(0, "[" + std::to_string(i) + "]");
-      return false;
-    }
+    if (!ForEach(type, value, count, [&](void* each) { return Read(element, each); })) return false;
     --depth_;
     return true;
   }
 
   // Reads how many elements there are, and makes the list as long.
-  bool TakeRoom(const TypeInfo& type, void* value, std::size_t& count) {
-    const ElementOperations& elements = type.elements();
-    const std::size_t size = std::max<std::size_t>(elements.type->size(), 1);
+  bool MakeRoom(const TypeInfo& type, void* value, std::size_t& count) {
+    const TypeInfo& element = *type.elements().type;
     std::uint32_t rows = 1, columns = 0;
     const bool is_matrix = type.kind() == TypeKind::kMatrix;
     if (is_matrix && !IsThere(reader_.Get(rows) && reader_.Get(columns))) return false;
-    const auto read = reader_.GetCount(FewestCdrOctets(*elements.type));
-    if (!read) return Fail("it claims more elements than there are octets for");
+    const auto read = GetCount(FewestCdrOctets(element));
+    if (!read) return false;
     count = *read;
     if (!is_matrix) columns = static_cast<std::uint32_t>(count);
-    if (std::uint64_t{rows} * columns != count || count > room_ / size) {
-      return Fail(std::to_string(count) + " elements are too many or too few");
-    }
-    room_ -= count * size;
-    return elements.resize(value, rows, columns) ||
-           Fail("a " + type.name() + " cannot have " + std::to_string(count) + " elements");
+    if (std::uint64_t{rows} * columns != count) return Fail(std::to_string(count) + " elements are too many or too few");
+    return TakeRoom(element, count) && Resize(type, value, rows, columns);
   }
 
-  CdrReader& reader_;
-  std::size_t room_;
   int depth_ = 0;
-  std::string path_;
-  std::string problem_;
 };
 
 std::size_t FewestOctetsOfLeaf(const TypeInfo& type) {

@@ -4,6 +4,7 @@
 #include "core/types/type_of.h"
 #include "core/types/value_copy.h"
 #include "plugins/cdr_values/cdr_values.h"
+#include "plugins/cdr_values/cdr_walk.h"
 #include "plugins/ros_messages/internal/message_number.h"
 #include "plugins/ros_messages/internal/messages_by_steps.h"
 
@@ -13,34 +14,18 @@ namespace {
 
 using Kind = Step::Kind;
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 28;  // of elements, beside the octets there are
-
-/// Walks through the steps and through octets side by side. The way to what failed is found on the way back.
-class StepReader {
+/// Walks through the steps and through octets side by side.
+class StepReader : public CdrWalk {
  public:
-  StepReader(CdrReader& reader, std::optional<Time>& stamp)
-      : reader_(reader), stamp_(stamp), room_(kMostBytes + reader.left()) {}
+  StepReader(CdrReader& reader, std::optional<Time>& stamp) : CdrWalk(reader), stamp_(stamp) {}
 
   // value: nullptr if there is nothing of it; what is read is then passed over.
   bool Read(const Step& step, void* value) {
     if (step.field != nullptr && value != nullptr) value = step.field->address(value);
-    if (ReadStep(step, value)) return true;
-    if (!step.name.empty()) path_.insert(0, "." + step.name);
-    return false;
-  }
-
-  [[nodiscard]] Error error() const {
-    const std::string path = path_.starts_with('.') ? path_.substr(1) : path_;
-    return {.message = (path.empty() ? "" : path + ": ") + problem_};
+    return ReadStep(step, value) || (!step.name.empty() && FailIn(step.name));
   }
 
  private:
-  bool Fail(std::string problem) {
-    problem_ = std::move(problem);
-    return false;
-  }
-  bool IsThere(bool is_there) { return is_there || Fail("the octets end before it does"); }
-
   bool ReadStep(const Step& step, void* value) {
     switch (step.kind) {
       case Kind::kPlain:
@@ -96,48 +81,31 @@ class StepReader {
 
   bool ReadElements(const Step& step, void* value) {
     const ElementOperations& elements = step.part->elements();
-    const std::size_t size = std::max<std::size_t>(elements.type->size(), 1);
-    std::size_t count = step.capacity;
-    if (step.count != MessageCount::kArray) {
-      const auto read = reader_.GetCount(FewestOctets(step.inside.front()));
-      if (!read) return Fail("it claims more elements than there are octets for");
-      count = *read;
-    }
-    if (count > room_ / size) return Fail(std::to_string(count) + " elements are too many");
-    room_ -= count * size;
+    const auto count = CountOf(step, step.inside.front());
+    if (!count || !TakeRoom(*elements.type, *count)) return false;
     // A fixed matrix has rows of its own.
-    const bool is_as_long = elements.rows(value) * elements.columns(value) == count;
-    if (!is_as_long && !elements.resize(value, 1, count)) {
-      return Fail("a " + step.part->name() + " cannot have " + std::to_string(count) + " elements");
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-      if (Read(step.inside.front(), elements.element(value, i))) continue;
-      path_.insert(0, "[" + std::to_string(i) + "]");
-      return false;
-    }
-    return true;
+    const bool is_as_long = elements.rows(value) * elements.columns(value) == *count;
+    if (!is_as_long && !Resize(*step.part, value, 1, *count)) return false;
+    return ForEach(*step.part, value, *count, [&](void* each) { return Read(step.inside.front(), each); });
+  }
+
+  std::optional<std::size_t> CountOf(const Step& step, const Step& element) {
+    if (step.count == MessageCount::kArray) return step.capacity;
+    return GetCount(FewestOctets(element));
   }
 
   bool SkipList(const Step& step) {
     const Step& element = step.element.front();
-    std::size_t count = step.capacity;
-    if (step.count != MessageCount::kArray) {
-      const auto read = reader_.GetCount(FewestOctets(element));
-      if (!read) return Fail("it claims more elements than there are octets for");
-      count = *read;
-    }
-    if (element.kind == Kind::kNoNumber) return IsThere(reader_.Skip(SizeOf(element.type), count));
-    for (std::size_t i = 0; i < count; ++i) {
+    const auto count = CountOf(step, element);
+    if (!count) return false;
+    if (element.kind == Kind::kNoNumber) return IsThere(reader_.Skip(SizeOf(element.type), *count));
+    for (std::size_t i = 0; i < *count; ++i) {
       if (!Read(element, nullptr)) return false;
     }
     return true;
   }
 
-  CdrReader& reader_;
   std::optional<Time>& stamp_;
-  std::size_t room_;
-  std::string path_;
-  std::string problem_;
 };
 
 }  // namespace
