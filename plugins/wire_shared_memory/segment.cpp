@@ -13,7 +13,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "core/lockfree/asymmetric_fence.h"
+#include "core/lockfree/cache_line.h"
+#include "plugins/wire_shared_memory/slot_use.h"
 
 namespace runnel {
 
@@ -31,8 +32,8 @@ constexpr std::array<std::byte, 12> kBegin = {std::byte{0},    std::byte{std::en
 struct Head {
   std::uint64_t magic = kMagic;
   std::uint64_t room = 0;  // octets of a slot
-  struct alignas(64) Slot {
-    std::atomic<std::uint64_t> use{0};
+  struct alignas(kCacheLineSize) Slot {
+    SlotUse<> use;
   };
   std::array<Slot, WrittenSegment::kSlots> slots;
 };
@@ -126,14 +127,10 @@ SegmentPlace WrittenSegment::Put(std::span<const std::byte> octets) noexcept {
   const auto slot = static_cast<std::uint32_t>(count_ % kSlots);
   const std::uint64_t use = 2 * (count_ / kSlots + 1);
   ++count_;
-  auto& state = reinterpret_cast<Head*>(memory_)->slots[slot].use;
-  // acquire: the octets are written after it. Who has read one of them finds this use, or a later one: FullFence() in
-  // IsStill() comes after the reading.
-  state.exchange(use - 1, std::memory_order_acq_rel);
-  FullFence();
+  SlotUse<>& used = reinterpret_cast<Head*>(memory_)->slots[slot].use;
+  used.BeginWriting(use);
   std::memcpy(memory_ + kPage + slot * room_, octets.data(), octets.size());
-  // release: pairs with the acquire in Find(); who finds the use finds the octets.
-  state.store(use, std::memory_order_release);
+  used.EndWriting(use);
   return {.segment = id_, .use = use, .size = octets.size(), .slot = slot};
 }
 
@@ -161,14 +158,12 @@ ReadSegment::~ReadSegment() { munmap(const_cast<std::byte*>(memory_), size_); }
 
 std::optional<std::span<const std::byte>> ReadSegment::Find(const SegmentPlace& place) const noexcept {
   if (place.slot >= WrittenSegment::kSlots || place.size > room_ || place.use % 2 != 0) return {};
-  // acquire: as in Put().
-  if (HeadOf(memory_).slots[place.slot].use.load(std::memory_order_acquire) != place.use) return {};
+  if (!HeadOf(memory_).slots[place.slot].use.Is(place.use)) return {};
   return std::span(memory_ + kPage + place.slot * room_, place.size);
 }
 
 bool ReadSegment::IsStill(const SegmentPlace& place) const noexcept {
-  FullFence();  // what has been read was read before
-  return HeadOf(memory_).slots[place.slot].use.load(std::memory_order_relaxed) == place.use;
+  return HeadOf(memory_).slots[place.slot].use.IsStill(place.use);
 }
 
 }  // namespace runnel
