@@ -4,7 +4,7 @@
 packages=(g++ cmake ninja-build ccache libeigen3-dev libboost-dev libssl-dev libtinyxml2-dev libbullet-dev
   libgtest-dev libgmock-dev libbenchmark-dev libcli11-dev libfmt-dev nlohmann-json3-dev graphviz
   libxml2-utils liblz4-dev libzstd-dev zlib1g-dev relacy-dev libconcurrentqueue-dev spin liblua5.4-dev cyclonedds-dev libfastrtps-dev
-  cyclonedds-tools dpkg-dev file pybind11-dev python3-dev python3-numpy python3-pytest)
+  cyclonedds-tools openssl dpkg-dev file pybind11-dev python3-dev python3-numpy python3-pytest)
 # For the inspector's page; one that comes from elsewhere than Debian will do.
 command -v npm >/dev/null && command -v node >/dev/null || packages+=(nodejs npm)
 

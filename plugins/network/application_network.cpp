@@ -12,6 +12,7 @@
 #include "plugins/network/network_engines.h"
 #include "plugins/network/network_link.h"
 #include "plugins/network/xml_network_tags.h"
+#include "plugins/network/xml_security_tag.h"
 #include "plugins/wire_shared_memory/shared_memory_wire.h"
 
 namespace runnel {
@@ -104,7 +105,10 @@ class ApplicationNetwork final : public ApplicationExtension {
 }  // namespace runnel
 
 RUNNEL_PLUGIN(network, registry) {
-  if (auto* const tags = registry.Find<runnel::XmlTagRegistry>()) runnel::AddNetworkTags(*tags);
+  if (auto* const tags = registry.Find<runnel::XmlTagRegistry>()) {
+    runnel::AddNetworkTags(*tags);
+    runnel::AddSecurityTag(*tags);
+  }
   if (auto* const extensions = registry.Find<runnel::ExtensionRegistry>()) {
     extensions->Add([](const runnel::ExtensionArguments&) -> runnel::Result<runnel::Extensions> {
       return runnel::Extensions{std::make_shared<runnel::ApplicationNetwork>()};

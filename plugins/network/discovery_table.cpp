@@ -1,5 +1,7 @@
 #include "plugins/network/discovery_table.h"
 
+#include <algorithm>
+
 #include "plugins/network/value_form.h"
 
 namespace runnel {
@@ -34,6 +36,21 @@ void DiscoveryTable::OnEndpointGone(const WireId& id) {
     endpoints_.erase(id);
   }
   on_change_();
+}
+
+void DiscoveryTable::OnRefused(const std::string& why) {
+  constexpr std::size_t kMost = 16;
+  {
+    const std::lock_guard lock(mutex_);
+    if (refusals_.size() >= kMost || std::ranges::find(refusals_, why) != refusals_.end()) return;
+    refusals_.push_back(why);
+  }
+  on_change_();
+}
+
+std::vector<std::string> DiscoveryTable::refusals() const {
+  const std::lock_guard lock(mutex_);
+  return refusals_;
 }
 
 std::vector<WireMember> DiscoveryTable::members() const {

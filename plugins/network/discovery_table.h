@@ -23,8 +23,11 @@ class DiscoveryTable final : public WireDiscovery {
   void OnMemberGone(const WireId& id) override;
   void OnEndpoint(const WireEndpoint& endpoint) override;
   void OnEndpointGone(const WireId& id) override;
+  void OnRefused(const std::string& why) override;
 
   [[nodiscard]] std::vector<WireMember> members() const;
+  /// Why some have not been let in, each reason once, the first few.
+  [[nodiscard]] std::vector<std::string> refusals() const;
   /// Others' and own ones.
   [[nodiscard]] std::vector<WireEndpoint> endpoints() const;
   /// Of others, of the other direction.
@@ -39,6 +42,7 @@ class DiscoveryTable final : public WireDiscovery {
   mutable std::mutex mutex_;
   std::map<WireId, WireMember> members_;
   std::map<WireId, WireEndpoint> endpoints_;
+  std::vector<std::string> refusals_;
 };
 
 /// What a member with simulated time says of itself, among other things.

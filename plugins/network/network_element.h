@@ -31,6 +31,7 @@ class NetworkElement final : public FrameworkElement {
   void AddOffer(OfferOptions offer);
   /// Before the link starts.
   void set_ros(RosOptions ros) { options_.ros = std::move(ros); }
+  void set_security(WireSecurity security) { options_.member.security = std::move(security); }
 
   struct Take {
     TakeOptions options;

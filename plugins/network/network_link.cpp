@@ -146,7 +146,9 @@ void NetworkLink::SendAll() {
   if (now >= next_look_) {
     next_look_ = now + kLookAround;
     const auto has_error = [](const auto& each) { return each->has_error(); };
-    if (std::ranges::any_of(taken_, has_error) || std::ranges::any_of(offered_, has_error)) return LookAgain();
+    if (!strangers_.empty() || std::ranges::any_of(taken_, has_error) || std::ranges::any_of(offered_, has_error)) {
+      return LookAgain();
+    }
   }
   is_late_ = false;
   if (!must_look_ && !ends_) WaitForValues(deadline);

@@ -67,6 +67,7 @@ class NetworkLink final : private ElementListener {
   void TellTroubles();
   void TellMissing(const TakenPort& taken);
   void TellMembers();
+  [[nodiscard]] bool IsStranger(const WireMember& member) const;
   void Trouble(const std::string& of, const Error& error);
 
   FrameworkElement& application_;
@@ -96,6 +97,7 @@ class NetworkLink final : private ElementListener {
   std::map<std::string, std::string> troubles_;      // by whom they are, as they have been told
   std::map<std::string, std::string> new_troubles_;  // as they are now
   std::map<WireId, std::string> members_;
+  std::map<WireId, Time> strangers_;  // since when they are there
   std::thread thread_;
 };
 

@@ -45,6 +45,7 @@ void NetworkLink::TellTroubles() {
   for (const auto& each : taken_) {
     if (const auto error = each->TakeError()) Trouble(each->output().path(), *error);
   }
+  for (const std::string& why : table_.refusals()) new_troubles_["keys " + why] = "not let in, " + why;
   for (const auto& [of, text] : new_troubles_) {
     const auto told = troubles_.find(of);
     if (told == troubles_.end() || told->second != text) element_.log().Warn("{}: {}", of.substr(0, of.find(' ')), text);
@@ -68,11 +69,31 @@ void NetworkLink::TellMissing(const TakenPort& taken) {
   Trouble(taken.output().path(), {.message = name + " offers no /" + topic, .hint = NearestNameHint("/" + topic, offers)});
 }
 
+// Of those without keys that are trusted here nothing is known but that they are there.
+bool NetworkLink::IsStranger(const WireMember& member) const {
+  if (!element_.options().member.security || member.id == participant_->id()) return false;
+  return std::ranges::none_of(table_.endpoints(), [&](const WireEndpoint& each) { return each.participant == member.id; });
+}
+
 void NetworkLink::TellMembers() {
+  constexpr auto kPatience = std::chrono::seconds(3);  // for both to show their keys
   std::map<WireId, std::string> now;
+  std::map<WireId, Time> strangers;
   for (const WireMember& each : table_.members()) {
-    if (each.id != participant_->id()) now[each.id] = each.name.empty() ? "somebody without a name" : each.name;
+    if (each.id == participant_->id()) continue;
+    const std::string name = each.name.empty() ? "somebody without a name" : each.name;
+    if (!IsStranger(each)) {
+      now[each.id] = name;
+      continue;
+    }
+    const auto known = strangers_.find(each.id);
+    const Time since = known != strangers_.end() ? known->second : SteadyClock().Now();
+    strangers[each.id] = since;
+    if (SteadyClock().Now() - since > kPatience) {
+      Trouble("keys " + name, {.message = name + " is there, but shows no keys that are trusted here, or does not trust these"});
+    }
   }
+  strangers_ = std::move(strangers);
   for (const auto& [id, name] : now) {
     if (members_.contains(id)) continue;
     element_.log().Info("{} is in the network", name);
@@ -134,8 +155,10 @@ std::string NetworkLink::Text() const {
   }
   for (const WireMember& each : table_.members()) {
     if (each.id == participant_->id()) continue;
-    text += "member " + (each.name.empty() ? "somebody without a name" : each.name) + "\n";
+    text += "member " + (each.name.empty() ? "somebody without a name" : each.name) +
+            (IsStranger(each) ? ": NOT LET IN, as it shows no keys that are trusted here, or does not trust these\n" : "\n");
   }
+  for (const std::string& why : table_.refusals()) text += "NOT LET IN " + why + "\n";
   const std::lock_guard lock(runtime_.structure_mutex());
   const auto add_partners = [&](const WireEndpointOptions& mine, bool is_writer) {
     for (const WireEndpoint& other : table_.Partners(mine.topic, !is_writer)) {

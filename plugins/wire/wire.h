@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -68,6 +69,8 @@ class WireDiscovery {
   virtual void OnMemberGone(const WireId& id) = 0;
   virtual void OnEndpoint(const WireEndpoint& endpoint) = 0;
   virtual void OnEndpointGone(const WireId& id) = 0;
+  /// Somebody who is not let in, with the engine's words for why: again and again, as often as they try.
+  virtual void OnRefused(const std::string& why) { (void)why; }
 
  protected:
   ~WireDiscovery() = default;
@@ -137,6 +140,16 @@ enum class WireReach {
   kNetwork,   ///< whoever is in the network
 };
 
+/// The files by which members know each other and encrypt (DDS Security), as SROS 2 names them: PEM, signed S/MIME.
+struct WireSecurity {
+  std::string identity_ca = {};     ///< who says who is who
+  std::string certificate = {};     ///< who this member is
+  std::string key = {};             ///< that it is
+  std::string permissions_ca = {};  ///< who signs the two below
+  std::string governance = {};      ///< what is encrypted
+  std::string permissions = {};     ///< what this member may write and read
+};
+
 struct WireMemberOptions {
   std::uint32_t domain = 0;  ///< up to 232
   WireReach reach = WireReach::kLoopback;
@@ -145,6 +158,7 @@ struct WireMemberOptions {
   std::string interface = {};           ///< name or address of the only one to be used, with kNetwork; "": any
   std::string name = {};
   std::string user_data = {};
+  std::optional<WireSecurity> security = {};  ///< nothing: whoever is within reach may join, and listen
 };
 
 /// One member of the network.

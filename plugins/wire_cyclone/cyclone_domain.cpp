@@ -3,6 +3,7 @@
 #include <map>
 #include <mutex>
 #include <utility>
+#include <vector>
 
 #include "core/base/markup.h"
 #include "plugins/wire/loopback_filter.h"
@@ -16,6 +17,8 @@ struct Domains {
   std::mutex mutex;
   std::map<std::uint32_t, std::weak_ptr<CycloneDomain>> all;
   std::string said;  // by Cyclone, the last
+  using Hearing = std::function<void(const std::string&)>;
+  std::vector<const Hearing*> hearings;
 };
 
 Domains& AllDomains() {
@@ -23,12 +26,27 @@ Domains& AllDomains() {
   return domains;
 }
 
+std::string TextOf(const dds_log_data_t& data) {
+  std::string text(data.message, data.size);
+  if (const auto code = text.rfind("(code: "); code != std::string::npos) text.erase(code);
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text;
+}
+
+// Warnings are of many things; these are of somebody's keys.
+bool IsRefusal(const dds_log_data_t& data, const std::string& text) {
+  return (data.priority & (DDS_LC_WARNING | DDS_LC_ERROR)) != 0 &&
+         (text.find("handshake") != std::string::npos || text.find("ermission") != std::string::npos);
+}
+
 // What it says goes to nobody's terminal; the last is told with an error.
 void Hear(void*, const dds_log_data_t* data) {
-  if ((data->priority & (DDS_LC_FATAL | DDS_LC_ERROR | DDS_LC_CONFIG)) == 0) return;
+  const std::string text = TextOf(*data);
   const std::lock_guard lock(AllDomains().mutex);
-  AllDomains().said.assign(data->message, data->size);
-  while (!AllDomains().said.empty() && AllDomains().said.back() == '\n') AllDomains().said.pop_back();
+  if (IsRefusal(*data, text)) {
+    for (const auto* const each : AllDomains().hearings) (*each)(text);
+  }
+  if ((data->priority & (DDS_LC_FATAL | DDS_LC_ERROR | DDS_LC_CONFIG)) != 0) AllDomains().said = text;
 }
 
 std::string PeersText(const WireMemberOptions& options) {
@@ -55,6 +73,19 @@ std::string InterfacesText(const WireMemberOptions& options) {
 
 }  // namespace
 
+std::shared_ptr<void> HearRefusals(std::function<void(const std::string&)> hear) {
+  std::shared_ptr<const Domains::Hearing> hearing(new Domains::Hearing(std::move(hear)), [](const Domains::Hearing* ends) {
+    {
+      const std::lock_guard lock(AllDomains().mutex);
+      std::erase(AllDomains().hearings, ends);
+    }
+    delete ends;
+  });
+  const std::lock_guard lock(AllDomains().mutex);
+  AllDomains().hearings.push_back(hearing.get());
+  return std::const_pointer_cast<Domains::Hearing>(hearing);
+}
+
 Error CycloneError(const std::string& what, dds_return_t code) {
   const std::lock_guard lock(AllDomains().mutex);
   const std::string said = std::exchange(AllDomains().said, {});
@@ -78,13 +109,14 @@ Result<std::shared_ptr<CycloneDomain>> CycloneDomain::Join(const WireMemberOptio
   static std::mutex joining;
   const std::lock_guard one(joining);
   std::string configuration = CycloneConfiguration(options);
+  if (options.security) configuration += "<!-- with keys -->";
   {
     const std::lock_guard lock(AllDomains().mutex);
     AllDomains().said.clear();
     if (const auto known = AllDomains().all[options.domain].lock()) {
       if (known->configuration_ == configuration) return known;
       return Error{.message = "domain " + std::to_string(options.domain) +
-                              " is used in this process already, with another reach or other peers",
+                              " is used in this process already, with another reach, other peers, or with keys and without",
                    .hint = "choose another domain, or say the same"};
     }
   }

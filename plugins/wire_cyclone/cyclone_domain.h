@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -27,6 +28,10 @@ class CycloneDomain {
   const dds_entity_t domain_;
   const std::string configuration_;
 };
+
+/// Has `hear` told why others are not let into a domain of this process, by threads of Cyclone's, until what this returns is destroyed;
+/// `hear` may call none of these functions.
+[[nodiscard]] std::shared_ptr<void> HearRefusals(std::function<void(const std::string&)> hear);
 
 /// The settings that the options come to, in Cyclone's XML.
 [[nodiscard]] std::string CycloneConfiguration(const WireMemberOptions& options);

@@ -8,6 +8,7 @@
 
 #include "plugins/wire_cyclone/cyclone_discovery.h"
 #include "plugins/wire_cyclone/cyclone_domain.h"
+#include "plugins/wire_cyclone/cyclone_security.h"
 #include "plugins/wire_cyclone/octets_type.h"
 
 namespace runnel {
@@ -124,10 +125,12 @@ class CycloneReader final : public WireReader {
 
 class CycloneParticipant final : public WireParticipant {
  public:
-  CycloneParticipant(std::shared_ptr<CycloneDomain> domain, dds_entity_t participant, WireDiscovery& discovery)
+  CycloneParticipant(std::shared_ptr<CycloneDomain> domain, dds_entity_t participant, WireDiscovery& discovery,
+                     std::shared_ptr<void> refusals)
       : domain_(std::move(domain)),
         participant_(participant),
         id_(IdOf(participant)),
+        refusals_(std::move(refusals)),
         discovery_(std::make_unique<CycloneDiscovery>(participant, id_, discovery)) {}
   ~CycloneParticipant() override {
     discovery_.reset();
@@ -173,6 +176,7 @@ class CycloneParticipant final : public WireParticipant {
   const std::shared_ptr<CycloneDomain> domain_;
   const dds_entity_t participant_;
   const WireId id_;
+  const std::shared_ptr<void> refusals_;
   std::unique_ptr<CycloneDiscovery> discovery_;
 };
 
@@ -184,10 +188,21 @@ class CycloneWire final : public WireEngine {
     dds_qos_t* const qos = dds_create_qos();
     if (!options.user_data.empty()) dds_qset_userdata(qos, options.user_data.data(), options.user_data.size());
     if (!options.name.empty()) dds_qset_entity_name(qos, options.name.c_str());
+    if (options.security) {
+      if (const auto set = SetSecurity(*qos, *options.security); !set) {
+        dds_delete_qos(qos);
+        return set.error();
+      }
+    }
     const dds_entity_t participant = dds_create_participant(options.domain, qos, nullptr);
     dds_delete_qos(qos);
     if (participant < 0) return CycloneError("the network cannot be joined", participant);
-    return std::unique_ptr<WireParticipant>(new CycloneParticipant(std::move(*domain), participant, discovery));
+    std::shared_ptr<void> refusals;
+    if (options.security) {
+      refusals = HearRefusals([&discovery](const std::string& why) { discovery.OnRefused(why); });
+    }
+    return std::unique_ptr<WireParticipant>(
+        new CycloneParticipant(std::move(*domain), participant, discovery, std::move(refusals)));
   }
 };
 

@@ -7,6 +7,8 @@
 #include <fastdds/rtps/reader/ReaderDiscoveryInfo.h>
 #include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
 
+#include "plugins/wire_fast/fast_log.h"
+
 namespace runnel {
 
 namespace {
@@ -55,6 +57,7 @@ bool AreOfOneMember(const WireId& a, const WireId& b) { return std::equal(a.begi
 
 void FastDiscovery::TellMember(const WireMember& member) {
   const std::lock_guard lock(mutex_);
+  names_[member.id] = member.name;
   listener_.OnMember(member);
 }
 
@@ -77,6 +80,7 @@ void FastDiscovery::TellMemberGone(const WireId& id) {
     if (goes) listener_.OnEndpointGone(each);
     return goes;
   });
+  names_.erase(id);
   listener_.OnMemberGone(id);
 }
 
@@ -90,6 +94,14 @@ void FastDiscovery::on_participant_discovery(dds::DomainParticipant*, rtps::Part
     case rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT:
       return TellMemberGone(id);
   }
+}
+
+void FastDiscovery::onParticipantAuthentication(dds::DomainParticipant*, rtps::ParticipantAuthenticationInfo&& info) {
+  if (info.status != rtps::ParticipantAuthenticationInfo::UNAUTHORIZED_PARTICIPANT) return;
+  const std::string why = TakeFastRefusal();
+  const std::lock_guard lock(mutex_);
+  const std::string& name = names_[IdOf(info.guid)];
+  listener_.OnRefused((name.empty() ? "somebody" : name) + ": " + (why.empty() ? "no certificate that is trusted here" : why));
 }
 
 void FastDiscovery::on_subscriber_discovery(dds::DomainParticipant*, rtps::ReaderDiscoveryInfo&& info) {

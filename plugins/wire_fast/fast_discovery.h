@@ -1,7 +1,9 @@
 #pragma once
 
+#include <map>
 #include <mutex>
 #include <set>
+#include <string>
 
 #include <fastdds/dds/domain/DomainParticipantListener.hpp>
 #include <fastdds/rtps/common/Guid.h>
@@ -29,6 +31,8 @@ class FastDiscovery final : public eprosima::fastdds::dds::DomainParticipantList
 
   void on_participant_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
                                 eprosima::fastrtps::rtps::ParticipantDiscoveryInfo&& info) override;
+  void onParticipantAuthentication(eprosima::fastdds::dds::DomainParticipant* participant,
+                                   eprosima::fastrtps::rtps::ParticipantAuthenticationInfo&& info) override;
   void on_subscriber_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
                                eprosima::fastrtps::rtps::ReaderDiscoveryInfo&& info) override;
   void on_publisher_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
@@ -40,6 +44,7 @@ class FastDiscovery final : public eprosima::fastdds::dds::DomainParticipantList
   WireDiscovery& listener_;
   std::mutex mutex_;  // Fast DDS calls from several threads
   std::set<WireId> endpoints_;  // that have been told
+  std::map<WireId, std::string> names_;  // of members
 };
 
 }  // namespace runnel

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <mutex>
+#include <string_view>
 #include <utility>
 
 #include <fastdds/dds/log/Log.hpp>
@@ -16,6 +17,7 @@ using eprosima::fastdds::dds::LogConsumer;
 struct Said {
   std::mutex mutex;
   std::string last;
+  std::string refusal;
 };
 
 // Never destroyed: Fast DDS's thread may speak when the process ends.
@@ -28,7 +30,9 @@ class Listener final : public LogConsumer {
  public:
   void Consume(const Log::Entry& entry) override {
     const std::lock_guard lock(LastSaid().mutex);
-    LastSaid().last = entry.message;
+    if (entry.kind == Log::Error) LastSaid().last = entry.message;
+    // Others of its kinds are told of values, again and again.
+    if (std::string_view(entry.context.category) == "SECURITY_AUTHENTICATION") LastSaid().refusal = entry.message;
   }
 };
 
@@ -42,6 +46,14 @@ void HearFastLog() {
     return true;
   }();
   (void)hears;
+}
+
+void HearFastSecurity() { Log::SetVerbosity(Log::Warning); }
+
+std::string TakeFastRefusal() {
+  Log::Flush();
+  const std::lock_guard lock(LastSaid().mutex);
+  return std::exchange(LastSaid().refusal, {});
 }
 
 Error FastError(const std::string& what) {

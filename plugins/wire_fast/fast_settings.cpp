@@ -83,6 +83,22 @@ void SetUserData(dds::UserDataQosPolicy& user_data, const std::string& text) {
   user_data.data_vec({text.begin(), text.end()});
 }
 
+void SetSecurity(dds::DomainParticipantQos& qos, const WireSecurity& security) {
+  const auto set = [&](const std::string& name, const std::string& value) {
+    qos.properties().properties().emplace_back("dds.sec." + name, value);
+  };
+  const auto set_file = [&](const std::string& name, const std::string& file) { set(name, "file://" + file); };
+  set("auth.plugin", "builtin.PKI-DH");
+  set_file("auth.builtin.PKI-DH.identity_ca", security.identity_ca);
+  set_file("auth.builtin.PKI-DH.identity_certificate", security.certificate);
+  set_file("auth.builtin.PKI-DH.private_key", security.key);
+  set("access.plugin", "builtin.Access-Permissions");
+  set_file("access.builtin.Access-Permissions.permissions_ca", security.permissions_ca);
+  set_file("access.builtin.Access-Permissions.governance", security.governance);
+  set_file("access.builtin.Access-Permissions.permissions", security.permissions);
+  set("crypto.plugin", "builtin.AES-GCM-GMAC");
+}
+
 }  // namespace
 
 // Every policy is set here: files of profiles in the folder of the process may change the defaults.
@@ -90,6 +106,8 @@ Result<dds::DomainParticipantQos> MemberQos(const WireMemberOptions& options) {
   dds::DomainParticipantQos qos;
   qos.name() = options.name;
   SetUserData(qos.user_data(), options.user_data);
+
+  if (options.security) SetSecurity(qos, *options.security);
 
   const auto udp = std::make_shared<UDPv4TransportDescriptor>();
   udp->sendBufferSize = kRoom;

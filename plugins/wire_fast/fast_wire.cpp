@@ -31,6 +31,7 @@ class FastParticipant final : public WireParticipant {
   }
 
   Result<void> Begin(const WireMemberOptions& options) {
+    if (options.security) HearFastSecurity();
     const auto qos = MemberQos(options);
     if (!qos) return qos.error();
     participant_ = factory_->create_participant(options.domain, *qos, &discovery_, dds::StatusMask::none());

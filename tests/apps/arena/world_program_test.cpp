@@ -47,7 +47,7 @@ TEST_F(WorldProgram, RefusesWhatItCannotMake) {
 }
 
 TEST_F(WorldProgram, IsACommandThatIsFoundBesideTheProgram) {
-  EXPECT_THAT(Runnel("--help").text, HasSubstr("arena, generate, info, manifest, new, ros2, world"));
+  EXPECT_THAT(Runnel("--help").text, HasSubstr("arena, generate, info, keys, manifest, new, ros2, world"));
   const Ended ended = Runnel("wrld");
   EXPECT_EQ(ended.code, 2);
   EXPECT_THAT(ended.text, HasSubstr("did you mean 'world'?"));
