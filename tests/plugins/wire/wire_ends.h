@@ -15,7 +15,7 @@ inline std::shared_ptr<Octets> Four(int value) {
 }
 
 /// Who is there, as one member is told.
-class Members : public WireDiscovery {
+class Members final : public WireDiscovery {
  public:
   void OnMember(const WireMember& member) override {
     const std::lock_guard lock(mutex_);
