@@ -223,6 +223,7 @@ class SharedMemoryWire final : public WireEngine {
 
   [[nodiscard]] bool has_identities() const noexcept override { return engine_->has_identities(); }
   Result<std::unique_ptr<WireParticipant>> Join(const WireMemberOptions& options, WireDiscovery& discovery) override {
+    if (options.security) return engine_->Join(options, discovery);  // whoever has no keys is to see nothing
     auto made = std::make_unique<SharingParticipant>(discovery);
     if (const auto begun = made->Begin(*engine_, options); !begun) return begun.error();
     return std::unique_ptr<WireParticipant>(std::move(made));
