@@ -1,0 +1,120 @@
+// Calls carried from a client to a service over a network of this process.
+#include <gmock/gmock.h>
+
+#include "core/element/runtime.h"
+#include "core/lockfree/wake_event.h"
+#include "core/module/group.h"
+#include "core/port/own_cycle.h"
+#include "core/port/typed_ports.h"
+#include "plugins/ros_messages/message_library.h"
+#include "plugins/ros_services/offered_service.h"
+#include "plugins/ros_services/taken_service.h"
+#include "plugins/services/client.h"
+#include "plugins/services/service.h"
+#include "plugins/testing/allocation_guard.h"
+#include "plugins/wire/fake_wire.h"
+#include "tests/support/wait_until.h"
+
+namespace runnel::test {
+namespace {
+
+struct Nobody final : WireDiscovery {
+  void OnMember(const WireMember&) override {}
+  void OnMemberGone(const WireId&) override {}
+  void OnEndpoint(const WireEndpoint&) override {}
+  void OnEndpointGone(const WireId&) override {}
+};
+
+struct Doubler {
+  Result<int> Double(const int& number) {
+    if (number < 0) return Error{.message = "it is negative"};
+    return 2 * number;
+  }
+};
+
+class CarriedCallsTest : public testing::Test {
+ protected:
+  CarriedCallsTest() {
+    (void)runtime_.MakeReady(runtime_.root());
+    const auto& link = *client_.port().FindAnnotation<ClientForm>();
+    auto form = ServiceForm::Make(link.form->arguments(), link.form->reply(), "", MessageLibrary::Standard());
+    far_ = std::make_shared<DistantService>(link.form, *form);
+    output_ = FindTypedPorts(client_.port().type())->MakeOutput(group_, "far");
+    DistantService::PublishBy(*output_, far_);
+    (void)Port::Connect(*output_, client_.port());
+    taken_ = std::make_unique<TakenService>(runtime_, "/a/far", ServiceTakeOptions{.service = "/double"}, far_,
+                                            ServiceDialect::kInFront, 1, wake_);
+    (void)taken_->Follow(*near_);
+  }
+  void Offer() {
+    offered_ = std::make_unique<OfferedService>(runtime_, ServiceOfferOptions{.port = "/a/double", .service = "/double"},
+                                                MessageLibrary::Standard(), ServiceDialect::kInFront, 2, wake_);
+    const auto followed = offered_->Follow(*there_, [](std::uint64_t) { return true; });
+    ASSERT_TRUE(followed) << followed.error().ToString();
+  }
+  template <typename Future>
+  auto Await(Future& future) {
+    WaitUntil("the call has ended", [&] {
+      (void)taken_->Work();
+      if (offered_ != nullptr) (void)offered_->Work();
+      service_.Serve();
+      return future.is_done();
+    });
+    return future.outcome();
+  }
+
+  Runtime runtime_;
+  Group& group_ = runtime_.Create<Group>(runtime_.root(), "a");
+  Doubler doubler_;
+  Service<int(int)> service_{group_, doubler_, "double", &Doubler::Double};
+  Client<int(int)> client_{group_, "client"};
+  Nobody nobody_;
+  const std::shared_ptr<WakeEvent> wake_ = std::make_shared<WakeEvent>();
+  const std::shared_ptr<WireEngine> engine_ = MakeFakeWire();
+  std::unique_ptr<WireParticipant> near_ = std::move(*engine_->Join({.name = "near"}, nobody_));
+  std::unique_ptr<WireParticipant> there_ = std::move(*engine_->Join({.name = "there"}, nobody_));
+  std::unique_ptr<Port> output_;
+  std::shared_ptr<DistantService> far_;
+  std::unique_ptr<TakenService> taken_;
+  std::unique_ptr<OfferedService> offered_;
+};
+
+TEST_F(CarriedCallsTest, ComeBackWithTheReplyOrTheReason) {
+  Offer();
+  auto good = client_.Begin(21);
+  EXPECT_EQ(*Await(good), 42);
+  auto bad = client_.Begin(-1);
+  const auto outcome = Await(bad);
+  EXPECT_EQ(outcome.status(), CallStatus::kFailed);
+  EXPECT_THAT(std::string(outcome.error()), testing::HasSubstr("it is negative"));
+}
+
+TEST_F(CarriedCallsTest, WaitForAServiceThatComesLater) {
+  auto call = client_.Begin(4);
+  (void)taken_->Work();
+  EXPECT_FALSE(call.is_done());
+  Offer();
+  EXPECT_EQ(*Await(call), 8);
+}
+
+TEST_F(CarriedCallsTest, EndWithTheNetwork) {
+  auto call = client_.Begin(4);
+  (void)taken_->Work();
+  taken_.reset();
+  EXPECT_EQ(call.outcome().status(), CallStatus::kDisconnected);
+}
+
+TEST_F(CarriedCallsTest, CostTheCallersCycleNoMemory) {
+  Offer();
+  auto first = client_.Begin(1);
+  (void)Await(first);
+  const OwnCycle cycle(runtime_.clock().Now());
+  const AllocationGuard guard;
+  const CallStatus status = client_.Send(2);
+  const auto allocations = guard.allocations();
+  EXPECT_EQ(status, CallStatus::kPending);
+  EXPECT_EQ(allocations, 0u);
+}
+
+}  // namespace
+}  // namespace runnel::test
