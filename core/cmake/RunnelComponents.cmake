@@ -1,12 +1,10 @@
 # Components in the language of GenoM3. Works in this tree and, after find_package(runnel), in any other.
 
-# runnel_component_sources(<name> <variable> <arguments of runnel_component> ...)
-# What runnel_component() makes a plugin of: the targets <name>_made and <name>_codels, and the sources in the variable.
-function(runnel_component_sources name sources)
-  cmake_parse_arguments(PARSE_ARGV 2 arg "" "DESCRIPTION" "CODELS;INCLUDES;PACKAGES;DEPENDS")
-  if(NOT arg_DESCRIPTION OR NOT arg_CODELS)
-    message(FATAL_ERROR "runnel_component(${name}) needs a DESCRIPTION and CODELS")
-  endif()
+# runnel_generated_component(<name> <template> <sources> DESCRIPTION <file.gen> [INCLUDES <folder> ...])
+# Runs the template at build time, again when the description, what it includes, or a template has changed, into the folder
+# <name>_<template> of the build tree. Sets <sources>, and <sources>_folder.
+function(runnel_generated_component name template sources)
+  cmake_parse_arguments(PARSE_ARGV 3 arg "" "DESCRIPTION" "INCLUDES")
   set(program runnel::generate_program)
   set(prefix "runnel/")
   if(TARGET runnel_warnings)
@@ -14,25 +12,48 @@ function(runnel_component_sources name sources)
     set(prefix "")
   endif()
   get_filename_component(description "${arg_DESCRIPTION}" ABSOLUTE)
-  set(folder "${CMAKE_CURRENT_BINARY_DIR}/${name}_component")
-  set(made "${folder}/${name}_module.cpp" "${folder}/${name}_tables.cpp")
-  set(includes "")
+  set(options "")
   foreach(include IN LISTS arg_INCLUDES)
     get_filename_component(include "${include}" ABSOLUTE)
-    list(APPEND includes "${include}")
+    list(APPEND options "-I${include}")
   endforeach()
-  set(options "${includes}")
-  list(TRANSFORM options PREPEND "-I")
+  # Which headers there will be.
+  set(language c)
+  file(STRINGS "${description}" says_cxx REGEX "lang[ \t]*\"c\\+\\+\"")
+  if(says_cxx)
+    set(language cxx)
+  endif()
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${description}")
+  set(folder "${CMAKE_CURRENT_BINARY_DIR}/${name}_${template}")
+  set(headers "ac${name}.h" "genom3_${language}.h" "${name}_${language}_types.h" "${name}_tables.h" "${name}_views.h")
+  set(own "${folder}/${name}_standalone.cpp")
+  if(template STREQUAL runnel)
+    set(own "${folder}/${name}_module.cpp")
+    list(APPEND headers "${name}_types.h")
+  endif()
+  list(TRANSFORM headers PREPEND "${folder}/")
+  set(made "${own}" "${folder}/${name}_tables.cpp")
   add_custom_command(
-    OUTPUT ${made} "${folder}/${name}_types.h" "${folder}/${name}_tables.h" "${folder}/${name}_c_types.h"
-      "${folder}/ac${name}.h" "${folder}/genom3_c.h"
-    COMMAND ${program} runnel "${description}" ${options} -o "${folder}" --overwrite -s "prefix=${prefix}"
+    OUTPUT ${made} ${headers}
+    COMMAND ${program} ${template} "${description}" ${options} -o "${folder}" --overwrite -s "prefix=${prefix}"
       --depfile "${folder}/made.d"
     DEPENDS "${description}" ${program} DEPFILE "${folder}/made.d"
-    COMMENT "Component ${name} from ${arg_DESCRIPTION}" VERBATIM)
-  add_custom_target(${name}_made DEPENDS ${made})
-  set_source_files_properties(${made} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    COMMENT "Component ${name} (${template}) from ${arg_DESCRIPTION}" VERBATIM)
+  # Views of one memory by two types.
+  set_source_files_properties(${made} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON COMPILE_OPTIONS -fno-strict-aliasing)
+  set(${sources} ${made} PARENT_SCOPE)
+  set(${sources}_folder "${folder}" PARENT_SCOPE)
+endfunction()
 
+# runnel_component_sources(<name> <variable> <arguments of runnel_component> ...)
+# What runnel_component() makes a plugin of: the targets <name>_made and <name>_codels, and the sources in the variable.
+function(runnel_component_sources name sources)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "DESCRIPTION" "CODELS;INCLUDES;PACKAGES;DEPENDS")
+  if(NOT arg_DESCRIPTION OR NOT arg_CODELS)
+    message(FATAL_ERROR "runnel_component(${name}) needs a DESCRIPTION and CODELS")
+  endif()
+  runnel_generated_component(${name} runnel made DESCRIPTION "${arg_DESCRIPTION}" INCLUDES ${arg_INCLUDES})
+  add_custom_target(${name}_made DEPENDS ${made})
   add_library(${name}_codels OBJECT ${arg_CODELS})
   get_property(languages GLOBAL PROPERTY ENABLED_LANGUAGES)
   if(NOT C IN_LIST languages)
@@ -41,7 +62,7 @@ function(runnel_component_sources name sources)
     set_source_files_properties(${in_c} PROPERTIES LANGUAGE CXX)  # as most of those are that others have written
   endif()
   set_target_properties(${name}_codels PROPERTIES POSITION_INDEPENDENT_CODE ON UNITY_BUILD OFF)
-  target_include_directories(${name}_codels PUBLIC "${folder}" ${includes})
+  target_include_directories(${name}_codels PUBLIC "${made_folder}" ${arg_INCLUDES})
   add_dependencies(${name}_codels ${name}_made)
   target_link_libraries(${name}_codels PUBLIC ${arg_DEPENDS})
   if(arg_PACKAGES)
@@ -49,8 +70,6 @@ function(runnel_component_sources name sources)
     pkg_check_modules(${name}_packages REQUIRED IMPORTED_TARGET ${arg_PACKAGES})
     target_link_libraries(${name}_codels PUBLIC PkgConfig::${name}_packages)
   endif()
-  # Views of one memory by two types.
-  set_source_files_properties(${made} PROPERTIES COMPILE_OPTIONS -fno-strict-aliasing)
   set(${sources} ${made} PARENT_SCOPE)
 endfunction()
 
@@ -74,26 +93,7 @@ function(runnel_standalone name)
   if(NOT arg_DESCRIPTION OR NOT TARGET ${name}_codels)
     message(FATAL_ERROR "runnel_standalone(${name}) needs a DESCRIPTION, and runnel_component(${name}) before it")
   endif()
-  set(program runnel::generate_program)
-  set(prefix "runnel/")
-  if(TARGET runnel_warnings)
-    set(program runnel_generate_program)
-    set(prefix "")
-  endif()
-  get_filename_component(description "${arg_DESCRIPTION}" ABSOLUTE)
-  set(options "")
-  foreach(include IN LISTS arg_INCLUDES)
-    get_filename_component(include "${include}" ABSOLUTE)
-    list(APPEND options "-I${include}")
-  endforeach()
-  set(folder "${CMAKE_CURRENT_BINARY_DIR}/${name}_standalone_component")
-  set(made "${folder}/${name}_standalone.cpp" "${folder}/${name}_tables.cpp")
-  add_custom_command(
-    OUTPUT ${made}
-    COMMAND ${program} standalone "${description}" ${options} -o "${folder}" --overwrite -s "prefix=${prefix}"
-      --depfile "${folder}/made.d"
-    DEPENDS "${description}" ${program} DEPFILE "${folder}/made.d"
-    COMMENT "Component ${name} as a process" VERBATIM)
+  runnel_generated_component(${name} standalone made DESCRIPTION "${arg_DESCRIPTION}" INCLUDES ${arg_INCLUDES})
   add_executable(${name}_standalone ${made} $<TARGET_OBJECTS:${name}_codels>)
   set_target_properties(${name}_standalone PROPERTIES OUTPUT_NAME ${name}-standalone UNITY_BUILD OFF)
   target_compile_features(${name}_standalone PRIVATE cxx_std_20)

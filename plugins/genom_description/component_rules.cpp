@@ -263,6 +263,7 @@ void ComponentRules::Close() {
   }
   CheckTimes(component, problems_);
   if (is_complete) CheckAsyncCodels(component, problems_);
+  if (is_complete) WarnOfCodelNames(component, problems_);
   component.is_open = false;
   current_ = nullptr;
   description_.scopes.Leave();

@@ -70,6 +70,8 @@ void CheckStateMachine(const std::map<std::string, Codel*, std::less<>>& states,
                        Problems& problems);
 /// Periods, delays and the clock of a component.
 void CheckTimes(Component& component, Problems& problems);
+/// Of codels whose names the headers in C have for something else; see codel_names.cpp.
+void WarnOfCodelNames(const Component& component, Problems& problems);
 /// Asynchronous codels exclude nothing.
 void CheckAsyncCodels(const Component& component, Problems& problems);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string_view>
 
 namespace runnel::genom_execution {
 
@@ -24,5 +25,12 @@ inline constexpr char kDisallowed[] = "::genom::disallowed";
 inline constexpr char kNoSuchActivity[] = "::genom::no_such_activity";
 inline constexpr char kUnknownException[] = "::genom::unkex";              ///< what
 inline constexpr char kMiddlewareError[] = "::genom::mwerr";               ///< what
+
+/// An mwerr, for a codel to return.
+inline Event RaiseMiddlewareError(const CodelContext& context, std::string_view what) {
+  char detail[128] = {};
+  (void)what.copy(detail, sizeof(detail) - 1);
+  return context.raise(kMiddlewareError, detail, sizeof(detail), &context);
+}
 
 }  // namespace runnel::genom_execution

@@ -11,7 +11,7 @@ void AsyncWork::Run() noexcept {
   try {
     event_ = codel_->call(invocation_);
   } catch (...) {
-    event_ = kMiddlewareError;
+    event_ = RaiseMiddlewareError(*invocation_.context, "a codel has thrown");
   }
   state_.store(State::kDone, std::memory_order_release);
   engine_->Wake();

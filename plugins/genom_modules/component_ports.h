@@ -3,45 +3,73 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "core/module/port_group.h"
 #include "core/port/input.h"
 #include "core/port/output.h"
+#include "plugins/genom_modules/codel_values.h"
 
 namespace runnel::genom_modules {
 
-/// `port in`: read() fetches, data() has what was fetched last. Threads: the codels', one at a time.
-template <typename Value>
+/// `port in`: read() fetches, data() has what was fetched last. What codels have is the view itself, or made of it.
+/// Threads: the codels', one at a time.
+template <typename View, typename Value, bool is_view>
 class InPort {
  public:
   template <typename Owner>
   InPort(Owner&& owner, const std::string& name, const std::string& description)
       : input_(owner, name, {.description = description}) {}
 
-  void Fetch() noexcept { fetched_ = input_.Read(); }
-  [[nodiscard]] const Value* data() const { return fetched_ ? &*fetched_ : nullptr; }
+  void Fetch() {
+    fetched_ = input_.Read();
+    if constexpr (!is_view) {
+      if (fetched_) ToCodel(value_, *fetched_);
+    }
+  }
+  [[nodiscard]] const Value* data() const {
+    if (!fetched_) return nullptr;
+    if constexpr (is_view) {
+      return reinterpret_cast<const Value*>(&*fetched_);
+    } else {
+      return &value_;
+    }
+  }
 
  private:
-  Input<Value> input_;
-  Lease<Value> fetched_;
+  struct Nothing {};
+  Input<View> input_;
+  Lease<View> fetched_;
+  [[no_unique_address]] std::conditional_t<is_view, Nothing, Value> value_{};
 };
 
 /// `port out`: data() is the component's own, write() publishes a copy of it.
-template <typename Value>
+template <typename View, typename Value, bool is_view>
 class OutPort {
  public:
   template <typename Owner>
   OutPort(Owner&& owner, const std::string& name, const std::string& description)
       : output_(owner, name, {.description = description}) {}
 
-  void Write() { output_.Publish(data_); }
-  [[nodiscard]] Value* data() noexcept { return &data_; }
+  void Write() {
+    if constexpr (!is_view) ToView(view_, value_);
+    output_.Publish(view_);
+  }
+  [[nodiscard]] Value* data() noexcept {
+    if constexpr (is_view) {
+      return reinterpret_cast<Value*>(&view_);
+    } else {
+      return &value_;
+    }
+  }
 
  private:
-  Output<Value> output_;
-  Value data_{};
+  struct Nothing {};
+  Output<View> output_;
+  View view_{};
+  [[no_unique_address]] std::conditional_t<is_view, Nothing, Value> value_{};
 };
 
 /// `port multiple`: one for each name that the module's static parameter of the same name lists, below the port's name.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/port/output.h"
+#include "plugins/genom_modules/callable_with_defaults.h"
 #include "plugins/genom_modules/component_service_base.h"
 #include "plugins/services/any_call.h"
 #include "plugins/services/call_record.h"
@@ -27,6 +28,7 @@ class ComponentService<Reply(Arguments...)> final : public ComponentServiceBase 
   using Answered = typename runnel::internal::ReplyOf<Reply>::Type;
   struct Options {
     ServiceOptions service = {};
+    const char* defaults = "";  ///< of its arguments, in the text format
     void (*fill)(genom_execution::Request& request, Pack& arguments) = nullptr;
     void (*take)(genom_execution::Request& request, Answered& reply) = nullptr;
   };
@@ -40,7 +42,8 @@ class ComponentService<Reply(Arguments...)> final : public ComponentServiceBase 
         port_(owner.OutputGroup(), name, {.description = options.service.description}),
         records_(owner.OutputGroup(), name + "_calls",
                  {.description = "what has come of each call of " + name, .pool = {}}) {
-    auto callable = std::make_unique<CallableOf<Signature>>(*this, options.service, is_activity());
+    auto callable = std::make_unique<CallableWithDefaults<CallableOf<Signature>>>(
+        std::make_unique<CallableOf<Signature>>(*this, options.service, is_activity()), options.defaults);
     port_.Publish(ServiceLink<Signature>{endpoint_.get()});
     (void)endpoint_.release();  // the channel's from here on
     Open(port_, false);

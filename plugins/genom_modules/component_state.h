@@ -7,6 +7,8 @@
 
 namespace runnel::genom_modules {
 
+using genom_execution::BoundedText;
+
 struct TaskState {
   BoundedText<32> name;
   std::uint64_t cycles = 0;

@@ -38,7 +38,8 @@ const ValueType* DetailType(const StandaloneComponent& component, genom_executio
     if (each.exception == exception) return each.type;
   }
   if (exception == std::string_view("::genom::syserr")) return &kSystemError;
-  return exception == std::string_view("::genom::unkex") ? &kUnknown : nullptr;
+  const bool has_words = exception == std::string_view("::genom::unkex") || exception == genom_execution::kMiddlewareError;
+  return has_words ? &kUnknown : nullptr;
 }
 
 }  // namespace
@@ -134,7 +135,6 @@ Result<void> RequestServer::Fill(const StandaloneService& service, void* data, c
   }
   for (const StandaloneParameter& each : service.parameters) {
     void* const value = static_cast<std::byte*>(data) + each.offset;
-    Initialise(*each.type, value);
     if (!each.is_input) continue;
     const std::string_view initial = each.initial;
     if (!initial.empty()) {

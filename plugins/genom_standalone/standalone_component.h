@@ -35,8 +35,7 @@ struct StandaloneDetail {
 /// A component as a process: what a template makes, for RunStandalone().
 struct StandaloneComponent {
   const genom_execution::ComponentTable& table;
-  void* ids;
-  const ValueType* ids_type;  ///< nullptr without ids
+  void* ids;  ///< made; nullptr: it has none
   std::span<const StandaloneService> services = {};  ///< as in the table
   std::span<const StandalonePortEntry> ports = {};
   std::span<const StandaloneDetail> details = {};

@@ -151,7 +151,6 @@ int RunStandalone(const StandaloneComponent& component, int count, char** words)
     return kDone;
   }
   try {
-    if (component.ids_type != nullptr) Initialise(*component.ids_type, component.ids);
     LineServer lines;
     g_server = &lines;
     HandleSignals();

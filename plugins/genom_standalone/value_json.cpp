@@ -74,6 +74,10 @@ Result<void> TextFromJson(const ValueType& type, const Json& json, void* value, 
     std::memcpy(value, text.data(), text.size());
     return {};
   }
+  if (type.kind == ValueKind::kString) {
+    *static_cast<std::string*>(value) = text;
+    return {};
+  }
   char* owned = nullptr;
   std::memcpy(&owned, value, sizeof(owned));
   std::free(owned);
@@ -87,12 +91,15 @@ Result<void> ListFromJson(const ValueType& type, const Json& json, void* value, 
   const bool is_array = type.kind == ValueKind::kArray;
   const bool fits = is_array ? json.size() <= type.length : json.size() < 100'000'000 && Resize(type, value, static_cast<std::uint32_t>(json.size()));
   if (!fits) return Wrong(path, "has more than " + std::to_string(type.length) + " elements");
-  for (std::size_t i = 0; i < json.size(); ++i) {
-    auto read = FromJson(*type.element, json[i], Elements(type, value) + i * type.element->size,
-                         path + "[" + std::to_string(i) + "]");
-    if (!read) return read;
-  }
-  return {};
+  Result<void> result;
+  std::size_t i = 0;
+  ForEachElement(type, value, [&](void* element) {
+    if (i >= json.size()) return false;  // what is not said of an array
+    result = FromJson(*type.element, json[i], element, path + "[" + std::to_string(i) + "]");
+    ++i;
+    return result.has_value();
+  });
+  return result;
 }
 
 Result<void> MembersFromJson(const ValueType& type, const Json& json, void* value, const std::string& path) {
@@ -143,10 +150,13 @@ Json ToJson(const ValueType& type, const void* value) {
       std::memcpy(&text, value, sizeof(text));
       return text != nullptr ? text : "";
     }
-    case ValueKind::kArray: case ValueKind::kSequence: case ValueKind::kOwnedSequence: {
+    case ValueKind::kString: return *static_cast<const std::string*>(value);
+    case ValueKind::kArray: case ValueKind::kSequence: case ValueKind::kOwnedSequence: case ValueKind::kList: {
       Json list = Json::array();
-      const std::byte* const elements = Elements(type, const_cast<void*>(value));
-      for (std::size_t i = 0; i < LengthOf(type, value); ++i) list.push_back(ToJson(*type.element, elements + i * type.element->size));
+      ForEachElement(type, const_cast<void*>(value), [&](void* element) {
+        list.push_back(ToJson(*type.element, element));
+        return true;
+      });
       return list;
     }
     case ValueKind::kOptional:
@@ -184,8 +194,8 @@ Result<void> FromJson(const ValueType& type, const Json& json, void* value, cons
       return {};
     }
     case ValueKind::kEnum: return EnumFromJson(type, json, value, path);
-    case ValueKind::kText: case ValueKind::kOwnedText: return TextFromJson(type, json, value, path);
-    case ValueKind::kArray: case ValueKind::kSequence: case ValueKind::kOwnedSequence:
+    case ValueKind::kText: case ValueKind::kOwnedText: case ValueKind::kString: return TextFromJson(type, json, value, path);
+    case ValueKind::kArray: case ValueKind::kSequence: case ValueKind::kOwnedSequence: case ValueKind::kList:
       return ListFromJson(type, json, value, path);
     case ValueKind::kOptional: {
       const bool is_present = !json.is_null();

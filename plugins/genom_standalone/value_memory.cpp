@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <string>
 
 namespace runnel::genom_standalone {
 
@@ -23,6 +24,11 @@ void Store(void* to, std::int64_t number) {
 
 std::byte* At(void* value, std::size_t offset) { return static_cast<std::byte*>(value) + offset; }
 const std::byte* At(const void* value, std::size_t offset) { return static_cast<const std::byte*>(value) + offset; }
+
+std::byte* Elements(const ValueType& type, void* value) {
+  if (type.kind == ValueKind::kOwnedSequence) return static_cast<OwnedSequence*>(value)->buffer;
+  return At(value, type.element_offset);
+}
 
 /// Everything within that is of another type, with where it lies. Of a union only what is set.
 template <typename Use>
@@ -88,12 +94,25 @@ const ValueMember* ChosenMember(const ValueType& type, const void* value) {
   return otherwise;
 }
 
-std::byte* Elements(const ValueType& type, void* value) {
-  if (type.kind == ValueKind::kOwnedSequence) return static_cast<OwnedSequence*>(value)->buffer;
-  return At(value, type.element_offset);
+void ForEachElement(const ValueType& type, void* value, const std::function<bool(void*)>& use) {
+  if (type.list == nullptr) {
+    for (std::size_t i = 0; i < LengthOf(type, value); ++i) {
+      if (!use(Elements(type, value) + i * type.element->size)) return;
+    }
+    return;
+  }
+  struct Using {
+    const std::function<bool(void*)>& use;
+    bool goes_on = true;
+  } each{use};
+  type.list->for_each(value, [](void* of, void* element) {
+    auto& all = *static_cast<Using*>(of);
+    all.goes_on = all.goes_on && all.use(element);
+  }, &each);
 }
 
 std::size_t LengthOf(const ValueType& type, const void* value) {
+  if (type.list != nullptr) return type.list->length(value);
   switch (type.kind) {
     case ValueKind::kOwnedSequence: return static_cast<const OwnedSequence*>(value)->length;
     case ValueKind::kSequence: return static_cast<const SequenceHead*>(value)->length;
@@ -103,12 +122,16 @@ std::size_t LengthOf(const ValueType& type, const void* value) {
 
 void Initialise(const ValueType& type, void* value) {
   if (type.kind == ValueKind::kSequence) static_cast<SequenceHead*>(value)->maximum = static_cast<std::uint32_t>(type.length);
+  if (type.kind == ValueKind::kString) ::new (value) std::string();
+  if (type.list != nullptr) type.list->make(value);
   ForEachPart(type, value, [](const ValueType& part, void* at) { Initialise(part, at); });
 }
 
 void Release(const ValueType& type, void* value) {
   ForEachPart(type, value, [](const ValueType& part, void* at) { Release(part, at); });
   if (type.kind == ValueKind::kOwnedText) std::free(Load<char*>(value));
+  if (type.kind == ValueKind::kString) static_cast<std::string*>(value)->~basic_string();
+  if (type.list != nullptr) type.list->destroy(value);
   if (type.kind == ValueKind::kOwnedSequence) {
     auto& sequence = *static_cast<OwnedSequence*>(value);
     if (sequence.release != nullptr && sequence.buffer != nullptr) sequence.release(sequence.buffer);
@@ -117,6 +140,7 @@ void Release(const ValueType& type, void* value) {
 }
 
 bool Resize(const ValueType& type, void* value, std::uint32_t length) {
+  if (type.list != nullptr) return type.list->resize(value, length);
   if (type.kind != ValueKind::kOwnedSequence) {
     if (length > type.length) return false;
     static_cast<SequenceHead*>(value)->length = length;
@@ -148,6 +172,10 @@ void Copy(const ValueType& type, void* to, const void* from) {
       std::memcpy(to, &copied, sizeof(copied));
       break;
     }
+    case ValueKind::kList: type.list->copy(to, from); break;
+    case ValueKind::kString:
+      *static_cast<std::string*>(to) = *static_cast<const std::string*>(from);
+      break;
     case ValueKind::kStruct:
       for (const ValueMember& each : type.members) Copy(*each.type, At(to, each.offset), At(from, each.offset));
       break;

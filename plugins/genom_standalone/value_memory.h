@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "plugins/genom_standalone/value_type.h"
 
 namespace runnel::genom_standalone {
@@ -18,16 +20,16 @@ struct SequenceHead {
   std::uint32_t length;
 };
 
-/// Makes of zeros an empty value: sequences with a bound say how many they hold.
+/// Makes of zeros an empty value: sequences with a bound say how many they hold, what has a constructor is constructed.
 void Initialise(const ValueType& type, void* value);
 /// Gives back what it owns. It is to be initialised again, or gone.
 void Release(const ValueType& type, void* value);
 /// Preconditions: both are initialised.
 void Copy(const ValueType& type, void* to, const void* from);
-/// Makes room for so many; false: there is none. `value` is an OwnedSequence or a SequenceHead.
+/// Makes room for so many; false: there is none. `value` is a sequence, not an array.
 [[nodiscard]] bool Resize(const ValueType& type, void* value, std::uint32_t length);
-/// The elements of an array or sequence.
-[[nodiscard]] std::byte* Elements(const ValueType& type, void* value);
+/// Calls use(ELEMENT) for each of an array or sequence; false ends it.
+void ForEachElement(const ValueType& type, void* value, const std::function<bool(void*)>& use);
 [[nodiscard]] std::size_t LengthOf(const ValueType& type, const void* value);
 /// Of a union: which member is set, nullptr if none.
 [[nodiscard]] const ValueMember* ChosenMember(const ValueType& type, const void* value);

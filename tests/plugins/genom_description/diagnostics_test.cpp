@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "plugins/genom_description/description.h"
 #include "tests/plugins/genom_description/verdict.h"
 
 namespace runnel::test {
@@ -39,6 +40,23 @@ TEST(GenomDiagnosticsTest, PlacesAreThoseOfTheTextAsWritten) {
   EXPECT_THAT(Wrongs("/* over\nlines */ typedef \\\n  unknown a;\n"), HasSubstr("test.gen:3:3"));
   EXPECT_THAT(Wrongs("#define T unknown\n\ntypedef T a;\n"), HasSubstr("test.gen:3:9"));
   EXPECT_THAT(Wrongs("#line 40 \"other.idl\"\ntypedef unknown a;\n"), HasSubstr("other.idl:40:9"));
+}
+
+TEST(GenomDiagnosticsTest, CodelsWithNamesOfTheHeadersAreWarnedOf) {
+  const auto warnings = [](const std::string& items) {
+    Diagnostics diagnostics;
+    (void)genom::ReadDescriptionText("component lamp {\n" + items + "\n};", "test.gen", {}, diagnostics);
+    EXPECT_TRUE(diagnostics.ok()) << "it is no error: " << diagnostics.ToString();
+    return diagnostics.ToString();
+  };
+  const std::string task = "task t { codel<start> begin() yield on; codel<on> lamp_on() yield pause::on; };";
+  EXPECT_THAT(warnings(task), HasSubstr("test.gen:2:51: warning: codel 'lamp_on' has the name that event lamp::on has in the headers in C; "
+                                        "codels do not compile with both"));
+  EXPECT_THAT(warnings("task t { codel<start> lamp_pause_start() yield pause::start; };"), HasSubstr("lamp_pause_start"));
+  EXPECT_THAT(warnings("exception dark; task t { codel<start> lamp_dark() yield ether; };"), HasSubstr("exception lamp::dark"));
+  EXPECT_THAT(warnings("task t { codel<start> lamp_ether() yield ether; };"), HasSubstr("lamp_ether"));
+  EXPECT_EQ(warnings("lang \"c++\"; " + task), "") << "where they have namespaces";
+  EXPECT_EQ(warnings("function f() { codel lamp_start(); };"), "") << "no codel runs in start";
 }
 
 }  // namespace

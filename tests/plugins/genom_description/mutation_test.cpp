@@ -1,6 +1,8 @@
 // Descriptions with mistakes put in at random neither crash nor hang what reads them; meant to be run with the
 // sanitizers, too.
 
+#include <cstdlib>
+
 #include <gtest/gtest.h>
 
 #include "plugins/genom_description/description.h"
@@ -11,16 +13,21 @@
 namespace runnel::test {
 namespace {
 
-constexpr int kCount = 400;
+// How many: RUNNEL_MUTATIONS in the environment says another number, for long runs with the sanitizers.
+int Count() {
+  const char* const said = std::getenv("RUNNEL_MUTATIONS");
+  return said != nullptr ? std::atoi(said) : 400;
+}
 
 TEST(GenomMutationTest, WhateverIsReadEnds) {
   const std::vector<std::string> seeds = {
       FileText("courier.gen"),
       "#define A(x) x ## 1\n#if defined(A) && 2 > 1\ntypedef long A(b);\n#else\n#endif\nstruct s; typedef sequence<s> t;\n"
       "struct s { t under; };\nunion u switch(long) { case 1: case 2: s a; default: double b; };\n"};
+  const int count = Count();
   std::mt19937 random(20);
   int right = 0;
-  for (int i = 0; i < kCount; ++i) {
+  for (int i = 0; i < count; ++i) {
     Diagnostics diagnostics;
     const auto description = genom::ReadDescriptionText(Mutated(seeds, random), "nowhere/test.gen", {}, diagnostics);
     if (!diagnostics.ok()) continue;
@@ -28,7 +35,7 @@ TEST(GenomMutationTest, WhateverIsReadEnds) {
     EXPECT_FALSE(genom::DescriptionJson(*description).empty());
   }
   EXPECT_GT(right, 0);
-  EXPECT_LT(right, kCount);
+  EXPECT_LT(right, count);
 }
 
 }  // namespace

@@ -17,17 +17,20 @@ namespace runnel::test {
 using namespace std::chrono_literals;
 using testing::HasSubstr;
 
-/// The component of probe.gen, as a module on its own, in cycles of 10 ms.
+/// The component of probe.gen, or another, as a module on its own, in cycles of 10 ms.
 class ComponentTest : public testing::Test {
  protected:
-  Port& PortAt(const std::string& name) {
+  explicit ComponentTest(const std::string& type = "probe/probe") : rig(type, 10ms) {}
+
+  static Port& PortOf(FrameworkElement& module, const std::string& name) {
     for (const char* group : {"output", "input"}) {
-      FrameworkElement* at = rig.module.FindChild(group);
+      FrameworkElement* at = module.FindChild(group);
       if (at != nullptr) at = at->FindChild(name);
       if (auto* port = dynamic_cast<Port*>(at)) return *port;
     }
     throw std::runtime_error("no port " + name);
   }
+  Port& PortAt(const std::string& name) { return PortOf(rig.module, name); }
   Callable& ServiceAt(const std::string& name) { return *PortAt(name).FindAnnotation<Callable>(); }
   /// Calls a service; its arguments as text.
   std::unique_ptr<AnyCall> Begin(const std::string& service, const std::string& arguments = "") {
@@ -68,7 +71,7 @@ class ComponentTest : public testing::Test {
     return text;
   }
 
-  ModuleRig<FrameworkElement> rig{"probe/probe", 10ms};
+  ModuleRig<FrameworkElement> rig;
 };
 
 }  // namespace runnel::test

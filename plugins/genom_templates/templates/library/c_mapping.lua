@@ -37,6 +37,27 @@ function mapping.type(type)
   return type.kind .. (has(type, "length") and tostring(type.length) or "") .. "_" .. of
 end
 
+-- A variable, member or alias of the type.
+function mapping.variable(type, name)
+  local sizes = ""
+  while not has(type, "name") and type.kind == "array" do
+    sizes = sizes .. "[" .. type.length .. "]"
+    type = type.type
+  end
+  if not has(type, "name") and type.kind == "string" then
+    if has(type, "length") then return "char " .. name .. sizes .. "[" .. type.length .. "]" end
+    return "char *" .. name .. sizes
+  end
+  return mapping.type(type) .. " " .. (mapping.final(type).kind == "native type" and "*" or "") .. name .. sizes
+end
+
+-- What "nav::pose" is called, its name as an exception, and what lies in that.
+mapping.named = mapping.name
+function mapping.exception(name) return mapping.name(name) .. "_id" end
+function mapping.detail(name) return mapping.name(name) .. "_detail" end
+function mapping.header(component) return component .. "_c_types.h" end
+mapping.context = "genom_context"
+
 local function is_scalar(kind) return basic[kind] ~= nil or kind == "enum" end
 
 -- "[2][3]".
@@ -70,6 +91,27 @@ function mapping.parameter(component, parameter)
   if final.kind == "native type" then return const .. name .. (is_input and " *" or " **") .. parameter.name end
   if is_input and is_scalar(final.kind) then return name .. " " .. parameter.name end
   return const .. name .. " *" .. parameter.name
+end
+
+-- What a codel is given for a parameter, for which an expression stands.
+function mapping.argument(expression, parameter)
+  local final = mapping.final(parameter.type)
+  local is_text = final.kind == "string"
+  if final.kind == "array" or is_text and has(final, "length") then return expression end
+  if parameter.direction == "in" and (is_scalar(final.kind) or is_text or final.kind == "native type") then return expression end
+  return "&" .. expression
+end
+
+-- What a parameter of a remote stands for; arrays lose their type on the way, which value_NAME is.
+function mapping.referred(parameter)
+  local final = mapping.final(parameter.type)
+  local const = parameter.direction == "in" and "const " or ""
+  local is_text = final.kind == "string"
+  if final.kind == "array" or is_text and has(final, "length") then
+    return "*reinterpret_cast<" .. const .. "value_" .. parameter.name .. "*>(" .. parameter.name .. ")"
+  end
+  if parameter.direction == "in" and (is_scalar(final.kind) or is_text) then return parameter.name end
+  return "*" .. parameter.name
 end
 
 -- The signature of a codel, in lines that are not too long.

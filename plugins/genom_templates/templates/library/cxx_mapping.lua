@@ -39,6 +39,31 @@ function mapping.variable(type, name)
   return before .. " " .. name .. behind
 end
 
+-- What "nav::pose" is called, its name as an exception, and what lies in that.
+function mapping.named(name) return "::" .. name end
+function mapping.exception(name) return "::" .. name .. "_id" end
+function mapping.detail(name) return "decltype(::" .. name .. "::detail)" end
+function mapping.header(component) return component .. "_cxx_types.h" end
+mapping.context = "const runnel::genom_execution::CodelContext*"
+
+-- A reference to a value of the type, which a function returns.
+function mapping.reference(type, declared)
+  local before, behind = parts(type)
+  if behind == "" then return before .. " &" .. declared end
+  return before .. " (&" .. declared .. ")" .. behind
+end
+
+-- What a codel is given for a parameter, for which an expression stands.
+function mapping.argument(expression) return expression end
+
+-- What a parameter of a remote stands for; arrays lose their type on the way, which value_NAME is.
+function mapping.referred(parameter)
+  local final = c.final(parameter.type)
+  if final.kind ~= "array" and (final.kind ~= "string" or not has(final, "length")) then return parameter.name end
+  local const = parameter.direction == "in" and "const " or ""
+  return "*reinterpret_cast<" .. const .. "value_" .. parameter.name .. "*>(" .. parameter.name .. ")"
+end
+
 local compound = {sequence = true, optional = true, struct = true, union = true, exception = true}
 
 -- A parameter of a codel or remote, as its signature declares it.

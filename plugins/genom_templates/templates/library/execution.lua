@@ -1,5 +1,5 @@
 -- What plugins/genom_execution wants to know of a component: who has which codels, states and conflicts, and how a codel
--- in C is called. For templates whose components run on that engine.
+-- is called. For templates whose components run on that engine.
 
 local c = library("c_mapping")
 local execution = {}
@@ -13,36 +13,26 @@ function execution.declared(type)
   return has(final, "name") and declared[final.name] or final
 end
 
--- A variable or member of the type.
-function execution.variable(type, name)
-  local sizes = ""
-  while not has(type, "name") and type.kind == "array" do
-    sizes = sizes .. "[" .. type.length .. "]"
-    type = type.type
-  end
-  if not has(type, "name") and type.kind == "string" then
-    if has(type, "length") then return "char " .. name .. sizes .. "[" .. type.length .. "]" end
-    return "char *" .. name .. sizes
-  end
-  return c.type(type) .. " " .. (c.final(type).kind == "native type" and "*" or "") .. name .. sizes
-end
-
--- Whether values own memory: false, "text" or "sequence" themselves, "within" in what they are made of.
-function execution.owns(type)
+-- Whether values have, within, what the predicate says of a type without other names.
+function execution.has(type, predicate, seen)
   local final = execution.declared(type)
-  if final.kind == "string" then return not has(final, "length") and "text" end
-  if final.kind == "sequence" and not has(final, "length") then
-    return execution.owns(final.type) and "within" or "sequence"
-  end
+  if predicate(final) then return true end
   if final.kind == "array" or final.kind == "sequence" or final.kind == "optional" then
-    return execution.owns(final.type) and "within"
+    return execution.has(final.type, predicate, seen)
   end
-  if final.kind == "struct" or final.kind == "union" or final.kind == "exception" then
-    for _, member in ipairs(final.members) do
-      if execution.owns(member.type) then return "within" end
-    end
+  if final.kind ~= "struct" and final.kind ~= "union" and final.kind ~= "exception" then return false end
+  seen = seen or {}
+  if seen[final.name] then return false end
+  seen[final.name] = true
+  for _, member in ipairs(final.members) do
+    if execution.has(member.type, predicate, seen) then return true end
   end
   return false
+end
+
+-- Whether values own memory.
+function execution.owns(type)
+  return execution.has(type, function(each) return (each.kind == "string" or each.kind == "sequence") and not has(each, "length") end)
 end
 
 -- Codels by their owners, numbered as in the tables; each with what it is called in them.
@@ -91,6 +81,7 @@ end
 -- transitions; and the numbers of start and stop, or false.
 function execution.machine(component, kind, owner)
   local _, index = execution.codels(component)
+  local language = library("languages")(component)
   local names = {}
   for name in pairs(owner.states) do names[#names + 1] = name end
   local function rank(name) return name == "start" and 1 or name == "stop" and 2 or 3 end
@@ -107,7 +98,7 @@ function execution.machine(component, kind, owner)
     for _, event in ipairs(entry.codel.yields) do
       local paused = event:match("^pause::(.*)")
       local to = paused or event
-      transitions[#transitions + 1] = {event = c.event(component.name, event), pauses = paused ~= nil,
+      transitions[#transitions + 1] = {event = language.event(component.name, event), pauses = paused ~= nil,
                                        state = to == "ether" and "kEther" or tostring(number[to])}
     end
     states[#states + 1] = {name = name, codel = entry.number, transitions = transitions}
@@ -138,7 +129,7 @@ local function place(component, owner, parameter)
       final = execution.declared(type)
     end
     if math.type(step) then
-      expression = expression .. (final.kind == "sequence" and "._buffer[" or "[") .. step .. "]"
+      expression = expression .. (final.kind == "sequence" and component.lang == "c" and "._buffer[" or "[") .. step .. "]"
       type = final.type
     else
       for _, member in ipairs(final.members) do
@@ -151,27 +142,22 @@ local function place(component, owner, parameter)
 end
 execution.place = place
 
-local scalar = {boolean = true, octet = true, char = true, short = true, ["unsigned short"] = true, long = true,
-                ["unsigned long"] = true, ["long long"] = true, ["unsigned long long"] = true, float = true,
-                double = true, enum = true}
-
--- What a codel in C is given for a parameter.
+-- What a codel is given for a parameter.
 function execution.argument(component, owner, parameter)
-  if has(parameter, "port") then return "&" .. component.name .. "_port_" .. parameter.port end
-  if has(parameter, "remote") then return "&" .. component.name .. "_remote_" .. parameter.remote end
-  local expression = place(component, owner, parameter)
-  local final = c.final(parameter.type)
-  local is_input = parameter.direction == "in"
-  if final.kind == "array" then return expression end
-  if final.kind == "string" and has(final, "length") then return expression end
-  if is_input and (scalar[final.kind] or final.kind == "string" or final.kind == "native type") then return expression end
-  return "&" .. expression
+  for _, what in ipairs({"port", "remote"}) do
+    if has(parameter, what) then
+      local name = component.name .. "_" .. what .. "_" .. parameter[what]
+      return component.lang == "c" and "&" .. name or what .. "_" .. parameter[what]
+    end
+  end
+  return library("languages")(component).argument(place(component, owner, parameter), parameter)
 end
 
--- The address of an exception's name: "nav::bad" is nav_bad_id. Each codel may raise those of every component, too.
-function execution.events(names)
-  local list = {"genom_unkex_id", "genom_syserr_id"}
-  for _, name in ipairs(names) do list[#list + 1] = c.name(name) .. "_id" end
+-- The addresses of the names of exceptions. Each codel may raise those of every component, too.
+function execution.events(component, names)
+  local language = library("languages")(component)
+  local list = {language.exception("genom::unkex"), language.exception("genom::syserr"), "kMiddlewareError"}
+  for _, name in ipairs(names) do list[#list + 1] = language.exception(name) end
   return table.concat(list, ", ")
 end
 

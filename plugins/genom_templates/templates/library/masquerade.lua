@@ -12,8 +12,8 @@ local integers = {
 
 local function quoted(text) return execution.literal(text) end
 
--- `type` is declared in the description and has members or none; `native` is the type of C++.
-function masquerade.checks(type, native)
+-- `type` is declared in the description and has members or none; `native` is the type of C++, `codels` what codels have.
+function masquerade.checks(type, native, codels)
   local name = c.name(type.name)
   local where = type.place and string.format("%s:%d:%d: ", type.place.file, type.place.line, type.place.column) or ""
   local stands = "'" .. native .. "' stands for '" .. type.name .. "'"
@@ -22,12 +22,12 @@ function masquerade.checks(type, native)
   if type.kind == "struct" then
     check("std::is_standard_layout_v<" .. native .. ">", ", and its members lie who knows where")
     for _, member in ipairs(type.members) do
-      local own, other = name .. "::" .. member.name, native .. "::" .. member.name
+      local own, other = codels .. "::" .. member.name, native .. "::" .. member.name
       local has_it = "HasMember_" .. name .. "_" .. member.name
       local kind = c.final(member.type).kind
       lines[#lines + 1] = "template <typename Native>\nconcept " .. has_it .. " = requires(Native value) { value." .. member.name .. "; };"
       check(has_it .. "<" .. native .. ">", ", and has no member '" .. member.name .. "'")
-      check("offsetof(" .. native .. ", " .. member.name .. ") == offsetof(" .. name .. ", " .. member.name .. ") && sizeof(" .. other ..
+      check("offsetof(" .. native .. ", " .. member.name .. ") == offsetof(" .. codels .. ", " .. member.name .. ") && sizeof(" .. other ..
             ") == sizeof(" .. own .. ")", ", and its member '" .. member.name .. "' lies elsewhere or has another size")
       local like
       if kind == "float" or kind == "double" then
@@ -43,7 +43,7 @@ function masquerade.checks(type, native)
       if like then check(like, ", and its member '" .. member.name .. "' is no " .. kind) end
     end
   end
-  check("sizeof(" .. native .. ") == sizeof(" .. name .. ") && alignof(" .. native .. ") == alignof(" .. name .. ")",
+  check("sizeof(" .. native .. ") == sizeof(" .. codels .. ") && alignof(" .. native .. ") == alignof(" .. codels .. ")",
         ", and has another size: it has other members")
   return table.concat(lines, "\n")
 end

@@ -2,7 +2,8 @@
 
 local c = library("c_mapping")
 local execution = library("execution")
-local values = {declarations = {}, definitions = {}}
+local values = {declarations = {}, definitions = {}, count = 0}
+-- values.language is that of the codels.
 
 local declared = {}
 for _, type in ipairs(model.types) do declared[type.name] = type end
@@ -62,39 +63,46 @@ local function members_of(list, struct, number, switch)
 end
 
 local function define(type, final, number)
-  local size = "sizeof(" .. execution.variable(type, "") .. ")"
+  local language = values.language
+  local in_memory = "InMemory" .. number  -- without commas, which macros dislike
+  local declaration = final.kind == "exception" and language.detail(final.name) .. " " .. in_memory or language.variable(type, in_memory)
+  values.declarations[#values.declarations + 1] = "typedef " .. declaration .. ";"
+  local size = "sizeof(" .. in_memory .. ")"
   local kind = kinds[final.kind]
   if kind then return string.format("{.kind = ValueKind::%s, .size = %s}", kind, size) end
-  local cname = has(final, "name") and c.name(final.name) or c.type(final)
   if final.kind == "enum" then
     local list = {}
     for _, each in ipairs(declared[final.name].enumerators) do list[#list + 1] = '"' .. each:match("([%w_]+)$") .. '"' end
     return string.format("{.kind = ValueKind::kEnum, .size = %s, .names = %s}", size, array("char* const", "kNames" .. number, list))
   elseif final.kind == "string" then
-    if not has(final, "length") then return "{.kind = ValueKind::kOwnedText, .size = sizeof(char*)}" end
-    return string.format("{.kind = ValueKind::kText, .size = %d, .length = %d}", final.length, final.length)
+    if has(final, "length") then return string.format("{.kind = ValueKind::kText, .size = %d, .length = %d}", final.length, final.length) end
+    return "{.kind = ValueKind::" .. (language == c and "kOwnedText" or "kString") .. ", .size = " .. size .. "}"
   elseif final.kind == "array" then
     local element = values.type(final.type)
     return string.format("{.kind = ValueKind::kArray, .size = %s, .length = %d, .element = &%s}", size, final.length, element)
   elseif final.kind == "sequence" then
     local element = values.type(final.type)
-    if not has(final, "length") then
+    local length = has(final, "length") and final.length or nil
+    if language ~= c then
+      return string.format("{.kind = ValueKind::kList, .size = %s, .length = %d, .element = &%s, .list = &kListOperations<%s>}",
+                           size, length or 0, element, in_memory)
+    end
+    if not length then
       return string.format("{.kind = ValueKind::kOwnedSequence, .size = %s, .element = &%s}", size, element)
     end
     return string.format("{.kind = ValueKind::kSequence, .size = %s, .length = %d, .element = &%s, .element_offset = offsetof(%s, _buffer)}",
-                         size, final.length, element, cname)
+                         size, length, element, in_memory)
   elseif final.kind == "optional" then
     return string.format("{.kind = ValueKind::kOptional, .size = %s, .element = &%s, .element_offset = offsetof(%s, _value)}",
-                         size, values.type(final.type), cname)
+                         size, values.type(final.type), in_memory)
   elseif final.kind == "struct" or final.kind == "exception" then
-    local struct = final.kind == "exception" and cname .. "_detail" or cname
-    return string.format("{.kind = ValueKind::kStruct, .size = sizeof(%s), .members = %s}", struct,
-                         members_of(declared[final.name].members, struct, number))
+    return string.format("{.kind = ValueKind::kStruct, .size = %s, .members = %s}", size,
+                         members_of(declared[final.name].members, in_memory, number))
   elseif final.kind == "union" then
     local declaration = declared[final.name]
     local switch = c.final(declaration.switch)
     return string.format("{.kind = ValueKind::kUnion, .size = %s, .element = &%s, .element_offset = offsetof(%s, _u), .members = %s}",
-                         size, values.type(declaration.switch), cname, members_of(declaration.members, cname, number, switch))
+                         size, values.type(declaration.switch), in_memory, members_of(declaration.members, in_memory, number, switch))
   end
   return "{.kind = ValueKind::kNative, .size = sizeof(void*)}"
 end
@@ -104,48 +112,16 @@ function values.type(type)
   local final = c.final(type)
   local found = names[key(final)]
   if found then return found end
-  local number = #values.declarations + 1
+  values.count = values.count + 1
+  local number = values.count
   local name = "kType" .. number
   names[key(final)] = name
-  values.declarations[number] = "extern const ValueType " .. name .. ";"
+  values.declarations[#values.declarations + 1] = "extern const ValueType " .. name .. ";"
   local text = define(type, final, number)
   values.definitions[#values.definitions + 1] = "const ValueType " .. name .. " = " .. text .. ";"
   return name
 end
 
--- A default as JSON; nil if there is none.
-local function default(initial)
-  if has(initial, "parts") then
-    local members, elements, next_index = {}, {}, 0
-    for _, part in ipairs(initial.parts) do
-      local text = default(part)
-      if text and has(part, "member") then
-        members[#members + 1] = '"' .. part.member .. '": ' .. text
-      elseif text then
-        local index = has(part, "index") and part.index or next_index
-        while #elements < index do elements[#elements + 1] = "null" end
-        elements[index + 1] = text
-        next_index = index + 1
-      end
-    end
-    if #elements > 0 then
-      for _, each in ipairs(elements) do
-        if each == "null" then return nil end  -- what stands between is not said
-      end
-      return "[" .. table.concat(elements, ", ") .. "]"
-    end
-    return #members > 0 and "{" .. table.concat(members, ", ") .. "}" or nil
-  end
-  if not has(initial, "value") then return nil end
-  local value = initial.value
-  if math.type(value) == "float" then return string.format("%.17g", value) end
-  if type(value) ~= "string" then return tostring(value) end
-  return '"' .. (value:match("::([%w_]+)$") or value):gsub('[\\"]', "\\%0") .. '"'
-end
-
-function values.default(parameter)
-  local text = has(parameter, "default") and default(parameter.default)
-  return execution.literal(text or "")
-end
+function values.default(parameter) return execution.literal(library("defaults").json(parameter) or "") end
 
 return values

@@ -95,7 +95,7 @@ genom_event do_slow(bool *is_elsewhere, const genom_context self) {
   return probe_ether;
 }
 
-genom_event do_ask(const probe_beep *beep, int32_t *sum, const genom_context self) {
-  const genom_event failed = beep->call(3, sum, self);
+genom_event do_ask(uint16_t times, const probe_beep *beep, int32_t *sum, const genom_context self) {
+  const genom_event failed = beep->call(times, sum, self);
   return failed ? failed : probe_ether;
 }

@@ -1,0 +1,124 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <string_view>
+
+namespace runnel::genom_execution {
+
+/// What codels in C know as types of their headers, C++ knows by types of the same layout that copy and give back what they
+/// own: structs of those below. Nothing is converted. They may be moved by their bytes, and zeros are an empty value.
+template <typename View, typename Value>
+[[nodiscard]] View& As(Value& value) noexcept {
+  static_assert(sizeof(View) == sizeof(Value) && alignof(View) <= alignof(Value), "another layout than the view's");
+  return *reinterpret_cast<View*>(&value);
+}
+
+/// Empty again, in place.
+template <typename View>
+void Clear(View& view) noexcept {
+  std::destroy_at(&view);
+  std::uninitialized_value_construct_n(&view, 1);
+}
+
+/// `string<length>`: char[length], which need not end with a zero.
+template <std::size_t length>
+struct BoundedText {
+  char text[length] = {};
+
+  [[nodiscard]] std::string_view view() const noexcept { return {text, strnlen(text, length)}; }
+  /// What does not fit is cut off.
+  void Set(std::string_view from) noexcept {
+    std::memset(text, 0, length);
+    std::memcpy(text, from.data(), std::min(from.size(), length));
+  }
+};
+
+/// `string`: owned, by malloc(); nullptr is empty.
+struct OwnedText {
+  char* text = nullptr;
+
+  OwnedText() = default;
+  OwnedText(const OwnedText& other) : text(Copy(other.text)) {}
+  OwnedText& operator=(const OwnedText& other) {
+    if (this == &other) return *this;
+    std::free(text);
+    text = Copy(other.text);
+    return *this;
+  }
+  ~OwnedText() { std::free(text); }
+  [[nodiscard]] std::string_view view() const noexcept { return text != nullptr ? std::string_view(text) : std::string_view(); }
+  void Set(std::string_view from) noexcept {
+    char* const old = text;
+    text = strndup(from.data(), from.size());
+    std::free(old);
+  }
+  static char* Copy(const char* from) { return from != nullptr ? strdup(from) : nullptr; }
+};
+
+/// `sequence<E, most>`: in place.
+template <typename E, std::size_t most>
+struct BoundedList {
+  std::uint32_t maximum = most;
+  std::uint32_t length = 0;
+  E buffer[most] = {};
+
+  /// False: that many do not fit. New ones are empty.
+  bool Resize(std::size_t count) {
+    if (count > most) return false;
+    for (std::size_t i = length; i < count; ++i) Clear(buffer[i]);
+    maximum = most;
+    length = static_cast<std::uint32_t>(count);
+    return true;
+  }
+};
+
+/// `sequence<E>`: owned. Elements beyond the length keep what they own.
+template <typename E>
+struct OwnedList {
+  std::uint32_t maximum = 0;
+  std::uint32_t length = 0;
+  E* buffer = nullptr;
+  void (*release)(void*) = nullptr;
+
+  OwnedList() = default;
+  OwnedList(const OwnedList& other) { *this = other; }
+  OwnedList& operator=(const OwnedList& other) {
+    if (this != &other && Resize(other.length)) std::copy_n(other.buffer, length, buffer);
+    return *this;
+  }
+  ~OwnedList() {
+    if (release == nullptr) return;  // somebody else's
+    std::destroy_n(buffer, maximum);
+    release(buffer);
+  }
+  /// False: there is no memory. New elements are empty.
+  bool Resize(std::size_t count) {
+    if (count > maximum) {
+      auto* const grown = static_cast<E*>(std::calloc(count, sizeof(E)));
+      if (grown == nullptr) return false;
+      if (maximum > 0) std::memcpy(static_cast<void*>(grown), buffer, maximum * sizeof(E));
+      std::uninitialized_value_construct_n(grown + maximum, count - maximum);
+      if (release != nullptr) release(buffer);
+      buffer = grown;
+      maximum = static_cast<std::uint32_t>(count);
+      release = std::free;
+    }
+    for (std::size_t i = length; i < count; ++i) Clear(buffer[i]);
+    length = static_cast<std::uint32_t>(count);
+    return true;
+  }
+};
+
+/// `optional<E>`.
+template <typename E>
+struct Presence {
+  bool is_present = false;
+  E value = {};
+};
+
+}  // namespace runnel::genom_execution
