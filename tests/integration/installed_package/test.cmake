@@ -58,3 +58,4 @@ run(COMMAND "${WORK}/outside/embedding" "${WORK}/prefix/share/runnel/xml/apps/bu
 run(COMMAND sh -c "if ldd '${WORK}/outside/embedding' | grep -E 'inspector|foxglove|web_server|recording|mcap|tracing'; then exit 1; fi")
 
 include("${CMAKE_CURRENT_LIST_DIR}/new_projects.cmake")
+include("${CMAKE_CURRENT_LIST_DIR}/component.cmake")
