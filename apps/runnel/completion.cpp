@@ -173,6 +173,8 @@ Candidates Propose(ControlClient& client, const Candidates& plain) {
   const auto word = [&](std::size_t number) { return plain[number + 1]; };
   const bool is_first = place == 0;
   if (command == "ls" && is_first) return Paths(client, [](const Element&) { return true; });
+  if (command == "offer" && is_first) return Paths(client, Sends);
+  if (command == "take" && place == 1) return Paths(client, Receives);
   const bool is_of_port = command == "echo" || command == "hz" || command == "publish" || command == "release";
   if (is_of_port && is_first) return Paths(client, IsPort);
   if ((command == "call" || command == "activities") && is_first) return Paths(client, IsService);
@@ -210,7 +212,8 @@ Candidates Propose(ControlClient& client, const Candidates& plain) {
 // The words that are no options; what follows an option that has a value is left out.
 Candidates WithoutOptions(const Candidates& words, std::string& application) {
   static const Candidates kWithValue{"--app",       "-n", "--queue",  "--on-full",
-                                     "--probation", "-o", "--output", "--compression", "--rate", "--deadline", "--convert", "--timeout"};
+                                     "--probation", "-o", "--output", "--compression", "--rate", "--deadline", "--convert", "--timeout",
+                                     "--topic", "--as", "--frame", "--child_frame", "--qos", "--strength", "--stamp", "--exclusive", "--live"};
   Candidates plain;
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (std::ranges::count(kWithValue, words[i]) > 0 && i + 1 < words.size()) {

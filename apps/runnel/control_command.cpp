@@ -65,6 +65,7 @@ std::optional<std::string> ChangeTextOf(const ControlArguments& arguments) {
   if (command == "copy") {
     return command + WordsText({words.begin(), words.begin() + (words.size() > 1 && !words[1].empty() ? 2 : 1)}, 2);
   }
+  if (command == "offer" || command == "take") return command + WordsText(words, words.size()) + OptionsText(arguments);
   if (command == "set" || command == "disconnect" || command == "delete" || command == "rename" ||
       command == "tag") {
     return command + WordsText(words, words.size());

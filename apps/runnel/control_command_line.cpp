@@ -40,6 +40,9 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
     entry.command->add_flag_callback(
         name, [&entry, key] { entry.arguments.options[key] = "yes"; }, description);
   };
+  const auto truth = [](Entry& entry, const char* name, const char* key, const char* description) {
+    entry.command->add_flag_callback(name, [&entry, key] { entry.arguments.options[key] = "true"; }, description);
+  };
   const auto count = [&](Entry& entry, const char* description) {
     option(entry, "-n", "count", description)->type_name("N")->check(CLI::Range(1, 1'000'000'000));
   };
@@ -96,6 +99,18 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   flag(activities, "--abort", "abort", "asks what is under way there to end");
 
   add("network", "shows who is in the network, what is offered and taken, and what does not fit");
+  Entry& offer = add("offer", "lets others in the network read a port; with --stop, no more");
+  word(offer, "port", "output or interface port")->type_name(kPort);
+  Entry& take = add("take", "has values of a topic of the network go to an input; with --stop, no more");
+  word(take, "topic", "its name: /cmd_vel")->type_name("TOPIC");
+  word(take, "port", "input")->type_name(kPort);
+  for (const char* const each : {"topic", "as", "frame", "child_frame", "qos", "rate", "strength"}) {
+    option(offer, (std::string("--") + each).c_str(), each, "as in <offer>");
+  }
+  for (const char* const each : {"as", "qos", "stamp", "exclusive", "live"}) {
+    option(take, (std::string("--") + each).c_str(), each, "as in <take>");
+  }
+  for (Entry* const each : {&offer, &take}) truth(*each, "--stop", "stop", "takes it back");
 
   Entry& connect = add("connect", "connects two ports");
   word(connect, "from", "output; PORT.x, PORT[0]: that part of its values")->type_name(kPort);
@@ -104,18 +119,14 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   option(connect, "--on-full", "on_full",
          "what a full queue does: drop_oldest, drop_newest, refuse")
       ->type_name("WORD");
-  connect.command->add_flag_callback(
-      "--pull", [&connect] { connect.arguments.options["pull"] = "true"; },
-      "reading the input has the output make a value");
+  truth(connect, "--pull", "pull", "reading the input has the output make a value");
   option(connect, "--convert", "convert",
          "by which conversion: round, truncate, parse, or what a plugin has registered")
       ->type_name("NAME");
   connect.command->add_flag_callback(
       "--when-present", [&connect] { connect.arguments.options["when"] = "present"; },
       "as soon as both are there, and again after one went");
-  connect.command->add_flag_callback(
-      "--late", [&connect] { connect.arguments.options["late"] = "true"; },
-      "in a loop of modules, values come one cycle late by this one");
+  truth(connect, "--late", "late", "in a loop of modules, values come one cycle late by this one");
 
   Entry& disconnect = add("disconnect", "takes the connection of two ports back");
   word(disconnect, "from", "output")->type_name(kPort);
@@ -275,6 +286,8 @@ void ControlCommandLine::Group() {
         {"release", "runnel release /robot/goal"},
         {"call", "runnel call /mapper/save '{file: map.pgm}'"},
         {"connect", "runnel connect /laser/scan /robot/planner/scan --queue 10"},
+        {"offer", "runnel offer /laser/scan --topic /scan"},
+        {"take", "runnel take /cmd_vel /drive/twist"},
         {"disconnect", "runnel disconnect /laser/scan /robot/planner/scan"},
         {"create", "runnel create /robot/filter sensors/scan_filter window=5"},
         {"delete", "runnel delete /robot/filter"},

@@ -7,6 +7,7 @@
 
 #include "core/base/result.h"
 #include "core/element/annotation.h"
+#include "core/element/runtime.h"
 
 namespace runnel {
 
@@ -17,6 +18,16 @@ struct ExtensionTexts final : Annotation {
   /// yet, and may be asked for again in a while.
   using Text = std::function<Result<std::optional<std::string>>(const std::string& argument)>;
   std::map<std::string, Text> texts;
+
+  /// nullptr: no extension shows it.
+  [[nodiscard]] static const Text* Find(Runtime& runtime, const std::string& name) {
+    for (FrameworkElement* const each : runtime.root().children()) {
+      auto* const known = each->FindAnnotation<ExtensionTexts>();
+      if (known == nullptr) continue;
+      if (const auto found = known->texts.find(name); found != known->texts.end()) return &found->second;
+    }
+    return nullptr;
+  }
 };
 
 }  // namespace runnel

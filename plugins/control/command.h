@@ -79,7 +79,8 @@ CommandMaker MakeGetCommand, MakeListCommand, MakePathsCommand, MakeTypesCommand
     MakeRecordCommand, MakeDeadlineCommand, MakeTopCommand,
     MakeProfileCommand, MakeLatencyCommand, MakeCallCommand, MakeActivitiesCommand, MakeNetworkCommand;
 /// What an extension shows under a name (plugins/command_service/extension_texts.h).
-[[nodiscard]] Command ShowExtensionText(Runtime& runtime, const std::string& name, const std::string& argument);
+[[nodiscard]] Command ShowExtensionText(Runtime& runtime, const std::string& name, const std::string& argument,
+                                        Duration patience = std::chrono::seconds(3));
 /// Of those that the service carries out.
 CommandMaker MakeServiceCommand;
 

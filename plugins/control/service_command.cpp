@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/base/number_text.h"
+#include "core/paths/distant_ports.h"
 #include "core/types/duration_text.h"
 #include "plugins/control/command.h"
 #include "plugins/structure/change_text.h"
@@ -12,6 +13,14 @@ namespace runnel {
 namespace {
 
 constexpr std::size_t kMostErrors = 100;
+constexpr auto kFarPatience = std::chrono::seconds(10);
+
+// Of what is in another application.
+bool IsFar(const Change& change) {
+  if (const auto* const set = std::get_if<SetParameter>(&change)) return IsDistantPath(set->path);
+  const auto* const swap = std::get_if<ReplaceModule>(&change);
+  return swap != nullptr && IsDistantPath(swap->path);
+}
 
 PlacedChanges ReadChanges(const Request& request, Diagnostics& diagnostics) {
   const SourcePosition begins{request.Option("file"), 1, 1};
@@ -83,6 +92,9 @@ CommandResult MakeServiceCommand(const Request& request, const CommandContext& c
         return ControlCode::kBadInput;
       });
     }
+  }
+  if (placed.changes.size() == 1 && IsFar(placed.changes.front())) {
+    return ShowExtensionText(context.application.runtime, "command", request.body, kFarPatience);
   }
   if (request.command == "publish" && request.arguments.size() < 2 && !request.Has("stop")) {
     return Error{.message = "'publish' wants a value", .hint = "or --stop"};

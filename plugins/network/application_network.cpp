@@ -8,6 +8,7 @@
 #include "plugins/application/extension_registry.h"
 #include "plugins/command_service/extension_texts.h"
 #include "plugins/control/element_listing.h"
+#include "plugins/network/application_commands.h"
 #include "plugins/network/application_health.h"
 #include "plugins/network/network_engines.h"
 #include "plugins/network/network_link.h"
@@ -23,7 +24,7 @@ class ApplicationNetwork final : public ApplicationExtension {
  public:
   Result<void> Prepare(FrameworkElement& application, SchedulerOptions& options) override {
     is_simulated_ = options.clock == SchedulerOptions::ClockKind::kSimulated;
-    const NetworkElement* const element = NetworkElement::FindIn(application);
+    NetworkElement* const element = NetworkElement::FindIn(application);
     if (element == nullptr) return {};
     const bool follows_clock = element->options().ros && element->options().ros->follows_clock;
     if (follows_clock && (!options.follows_outside_clock || !options.clock_port.empty())) {
@@ -32,6 +33,7 @@ class ApplicationNetwork final : public ApplicationExtension {
                    .hint = "say <clock type=\"outside\"/>, or leave clock=\"follow\" out"};
     }
     if (!is_simulated_ || follows_clock) return {};  // whoever follows others has no runs that can be repeated
+    element->set_simulated();
     const auto refuse = [](const Port& output, const SourcePosition& position) {
       return Error{.message = "with simulated time, values that come when they like make runs that cannot be repeated",
                    .path = output.path(),
@@ -60,10 +62,15 @@ class ApplicationNetwork final : public ApplicationExtension {
                                    std::move(hooks));
     if (!link) return link.error();
     link_ = std::move(*link);
+    auto commands = ApplicationCommands::Start(*link_, *element, application.service());
+    if (!commands) return commands.error();
+    commands_ = std::move(*commands);
     application_ = &application;
     const std::lock_guard lock(application.runtime().structure_mutex());
     auto texts = std::make_unique<ExtensionTexts>();
     texts->texts["network"] = [this](const std::string&) -> Result<std::optional<std::string>> { return std::optional(link_->Text()); };
+    texts->texts["network_picture"] = [this](const std::string&) -> Result<std::optional<std::string>> { return std::optional(link_->Picture()); };
+    texts->texts["command"] = [this](const std::string& change) { return commands_->Ask(change); };
     texts->texts["structure"] = [this](const std::string& path) { return link_->StructureOf(path); };
     group.Annotate(std::move(texts));
     return {};
@@ -75,6 +82,7 @@ class ApplicationNetwork final : public ApplicationExtension {
       const std::lock_guard lock(application_->runtime().structure_mutex());
       if (auto* const texts = application_->element().FindAnnotation<ExtensionTexts>()) texts->texts.clear();
     }
+    commands_.reset();
     link_.reset();
   }
 
@@ -98,6 +106,7 @@ class ApplicationNetwork final : public ApplicationExtension {
   Application* application_ = nullptr;
   std::shared_ptr<WireEngine> engine_;
   std::unique_ptr<NetworkLink> link_;
+  std::unique_ptr<ApplicationCommands> commands_;
 };
 
 }  // namespace

@@ -96,6 +96,10 @@ bool DiscoveryTable::HasSimulatedTime(const WireId& member) const {
   return found != members_.end() && found->second.user_data.find(kSimulatedTime) != std::string::npos;
 }
 
+bool IsInternalTopic(std::string_view topic) {
+  return topic.ends_with("/runnel_structure") || topic.ends_with("/runnel_commands") || topic.ends_with("/runnel_replies");
+}
+
 std::string Misfit(const WireEndpointOptions& writer, const WireEndpointOptions& reader) {
   if (writer.type != reader.type) {
     return "the writer sends values of type " + writer.type + ", and the reader takes " + reader.type;

@@ -48,6 +48,12 @@ class DiscoveryTable final : public WireDiscovery {
 /// What a member with simulated time says of itself, among other things.
 inline constexpr const char* kSimulatedTime = "clock=simulated;";
 
+/// "commands=set,swap;": what one allows others, said by itself.
+inline constexpr const char* kAllowedCommands = "commands=";
+
+/// Whether a topic is one of those that applications talk to each other by, and no port's.
+[[nodiscard]] bool IsInternalTopic(std::string_view topic);
+
 /// Of what a reader and a writer of one topic have in common, what keeps them from being matched; "" if they are.
 /// `reader_data` and the like are what both say of their types.
 [[nodiscard]] std::string Misfit(const WireEndpointOptions& writer, const WireEndpointOptions& reader);

@@ -31,6 +31,7 @@ class NetworkPorts final : public DistantPorts {
 
   [[nodiscard]] Port* Find(std::string_view path) const override {
     if (network_ == nullptr) return nullptr;
+    if (path.find_first_of(".[") != std::string_view::npos) return nullptr;  // a part of its values
     const auto& takes = network_->takes();
     const auto found =
         std::ranges::find(takes, TopicOfDistantPath(path), [](const auto& each) { return each.options.topic; });
@@ -38,6 +39,11 @@ class NetworkPorts final : public DistantPorts {
   }
   Result<Port*> Make(std::string_view path, const Port& to) override {
     if (Port* const known = Find(path)) return known;
+    if (const std::size_t part = path.find_first_of(".["); part != std::string_view::npos) {
+      if (Port* const whole = Find(path.substr(0, part))) return whole;
+      return Error{.message = "what '" + std::string(path) + "' is a part of has a type that is not known here",
+                   .hint = "connect all of it to an interface port of a group, and the part from there"};
+    }
     if (network_ == nullptr) return Error{.message = "the application with the network has gone"};
     const auto made = network_->AddTake({.topic = TopicOfDistantPath(path),
                                          .keeps_stamps = true,
@@ -77,17 +83,55 @@ void NetworkElement::AddOffer(OfferOptions offer) {
   if (on_change_) on_change_();
 }
 
+void NetworkElement::set_offers(std::vector<OfferOptions> offers) {
+  options_.offers = std::move(offers);
+  if (on_change_) on_change_();
+}
+
+Result<std::shared_ptr<const ValueForm>> NetworkElement::ValueFormOf(const TakeOptions& take, const TypeInfo& type) const {
+  auto form = ValueForm::Make(type, take.as, {}, {}, options_.messages.get());
+  if (!form) return form.error();
+  if (const std::string why = (*form)->WhyNoReading(); !why.empty()) return Error{.message = why};
+  return form;
+}
+
+Result<void> NetworkElement::TakeOtherwise(Take& known, const TakeOptions& take) {
+  TakeOptions before = known.options;
+  before.position = take.position;
+  before.is_distant = take.is_distant;
+  if (before == take) return {};
+  if (!known.output->outgoing().empty()) {
+    return Error{.message = "'" + take.topic + "' is taken already, in another way",
+                 .path = known.output->path(),
+                 .hint = "say the same of it, or connect " + known.output->path()};
+  }
+  auto form = ValueFormOf(take, known.output->type());
+  if (!form) return form.error();
+  known.options = take;
+  known.form = std::move(*form);
+  known.output->Annotate(std::make_unique<DistantPort>(""));
+  if (on_change_) on_change_();
+  return {};
+}
+
 Result<Port*> NetworkElement::AddTake(const TakeOptions& take, const TypeInfo& type) {
+  if (is_simulated_ && !take.is_live) {
+    return Error{.message = "with simulated time, values that come when they like make runs that cannot be repeated",
+                 .path = path(),
+                 .hint = "say live=\"true\" of what is taken, or of <network>, if that is meant"};
+  }
   const auto known = std::ranges::find(takes_, take.topic, [](const Take& each) { return each.options.topic; });
   if (known != takes_.end()) {
-    if (&known->output->type() == &type) return known->output;
+    if (&known->output->type() == &type) {
+      const auto taken = TakeOtherwise(*known, take);
+      return taken ? Result<Port*>(known->output) : taken.error();
+    }
     return Error{.message = "'" + take.topic + "' is taken as " + known->output->type().name() +
                             " already, and cannot be " + type.name() + " as well",
                  .path = known->output->path()};
   }
-  auto form = ValueForm::Make(type, take.as, {}, {}, options_.messages.get());
+  auto form = ValueFormOf(take, type);
   if (!form) return form.error();
-  if (const std::string why = (*form)->WhyNoReading(); !why.empty()) return Error{.message = why};
   const auto made = MakeOutput(take.topic, type);
   if (!made) return made.error();
   takes_.push_back({take, *made, std::move(*form)});

@@ -29,6 +29,7 @@ class NetworkElement final : public FrameworkElement {
   [[nodiscard]] Logger& log() noexcept { return log_; }
 
   void AddOffer(OfferOptions offer);
+  void set_offers(std::vector<OfferOptions> offers);
   /// Before the link starts.
   void set_ros(RosOptions ros) { options_.ros = std::move(ros); }
   void set_security(WireSecurity security) { options_.member.security = std::move(security); }
@@ -40,7 +41,8 @@ class NetworkElement final : public FrameworkElement {
   };
   [[nodiscard]] const std::vector<Take>& takes() const noexcept { return takes_; }
   /// The output of the topic, for values of this type; made if there is none. Errors: there is one of another type; a
-  /// type that only its module can make values of; what cannot be read as such messages.
+  /// type that only its module can make values of; what cannot be read as such messages; it is taken in another way, and
+  /// something is connected to it; simulated time, if that is known and the options do not allow for it.
   Result<Port*> AddTake(const TakeOptions& take, const TypeInfo& type);
 
   struct ServiceTake {
@@ -55,17 +57,23 @@ class NetworkElement final : public FrameworkElement {
   /// one of another type; what is no client; what does not fit.
   Result<Port*> AddServiceTake(const ServiceTakeOptions& take, const Port& client);
 
+  /// Time is simulated, so that what comes when it likes has to be meant.
+  void set_simulated() { is_simulated_ = true; }
+
   /// Who is told that there is more to offer or to take.
   void set_on_change(std::function<void()> on_change) { on_change_ = std::move(on_change); }
 
  private:
   /// An output of this type below the groups that the name says.
   Result<Port*> MakeOutput(const std::string& name, const TypeInfo& type);
+  [[nodiscard]] Result<std::shared_ptr<const ValueForm>> ValueFormOf(const TakeOptions& take, const TypeInfo& type) const;
+  Result<void> TakeOtherwise(Take& known, const TakeOptions& take);
 
   NetworkOptions options_;
   std::vector<Take> takes_;
   std::vector<ServiceTake> service_takes_;
   std::function<void()> on_change_;
+  bool is_simulated_ = false;
   Logger log_{*this};
 };
 

@@ -32,6 +32,13 @@ void NetworkLink::Follow() {
   {
     const ChangeScope changes(runtime_);
     wanted = FindOffers();  // anew: the lock has been free
+    // Those whose ports have gone stay, for these may come back.
+    std::erase_if(offered_, [&](const auto& each) {
+      const bool is_wanted = std::ranges::any_of(wanted, [&](const Wanted& one) {
+        return one.path == each->path() && one.options.topic == each->options().topic;
+      });
+      return !is_wanted && runtime_.root().Find(each->path()).has_value();
+    });
     for (const auto& each : offered_) {
       const auto found = std::ranges::find_if(wanted, [&](const Wanted& one) {
         return one.path == each->path() && one.options.topic == each->options().topic;
@@ -51,6 +58,9 @@ std::vector<NetworkLink::Wanted> NetworkLink::FindOffers() {
   std::vector<Wanted> wanted;
   const auto add = [&](Port& port, const OfferOptions& offer) {
     Wanted found{&port, port.path(), &port.type(), offer};
+    // What only finds it.
+    found.options.patterns.clear();
+    found.options.position = {};
     if (offer.topic.empty()) found.options.topic = TopicOfPort(element_.options().member.name, port.path());
     const auto same = std::ranges::find(wanted, found.options.topic, [](const Wanted& each) { return each.options.topic; });
     const bool is_meant = same != wanted.end() && !offer.topic.empty() && same->path != found.path;  // /tf, for one
@@ -83,7 +93,7 @@ std::vector<NetworkLink::Wanted> NetworkLink::FindOffers() {
 
 void NetworkLink::MakeOffer(const Wanted& wanted) {
   const bool is_there = std::ranges::any_of(offered_, [&](const auto& each) {
-    return each->path() == wanted.path && each->options().topic == wanted.options.topic && &each->type() == wanted.type;
+    return each->path() == wanted.path && each->options() == wanted.options && &each->type() == wanted.type;
   });
   if (is_there) return;
   auto form = ValueForm::Make(*wanted.type, wanted.options.as, wanted.options.frame, wanted.options.child_frame,
@@ -129,11 +139,18 @@ void NetworkLink::TellNode() {
 
 void NetworkLink::FollowTakes() {
   std::vector<NetworkElement::Take> takes;
+  std::vector<std::unique_ptr<TakenPort>> before;  // to go without the lock
   {
     const std::lock_guard lock(runtime_.structure_mutex());
     takes = element_.takes();
     for (const auto& each : takes) {
-      const bool is_there = std::ranges::any_of(taken_, [&](const auto& one) { return &one->output() == each.output; });
+      const auto is_it = [&](const auto& one) { return &one->output() == each.output; };
+      const auto other = std::ranges::find_if(taken_, [&](const auto& one) { return is_it(one) && one->options() != each.options; });
+      if (other != taken_.end()) {
+        before.push_back(std::move(*other));
+        taken_.erase(other);
+      }
+      const bool is_there = std::ranges::any_of(taken_, is_it);
       if (!is_there) taken_.push_back(std::make_unique<TakenPort>(*each.output, each.options, each.form, clock_, table_));
     }
     for (const auto& each : taken_) each->NoteConnections();

@@ -55,6 +55,11 @@ Result<std::unique_ptr<NetworkLink>> NetworkLink::Start(FrameworkElement& applic
   WireMemberOptions member = element.options().member;
   member.user_data = "enclave=/;";  // without which nodes of ROS 2 look past it
   if (is_simulated) member.user_data += kSimulatedTime;
+  if (!element.options().commands.empty()) {
+    member.user_data += kAllowedCommands;
+    for (const std::string& each : element.options().commands) member.user_data += each + ",";
+    member.user_data.back() = ';';
+  }
   auto joined = engine.Join(member, link->table_);
   if (!joined) {
     Error error = joined.error();
@@ -145,6 +150,7 @@ void NetworkLink::SendAll() {
   if (const auto calls = services_.Work(now)) deadline = std::min(deadline, *calls);
   if (now >= next_look_) {
     next_look_ = now + kLookAround;
+    TellOwners();
     const auto has_error = [](const auto& each) { return each->has_error(); };
     if (!strangers_.empty() || std::ranges::any_of(taken_, has_error) || std::ranges::any_of(offered_, has_error)) {
       return LookAgain();

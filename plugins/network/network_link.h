@@ -36,8 +36,14 @@ class NetworkLink final : private ElementListener {
                                                     RosHooks hooks = {});
   ~NetworkLink() override;
 
+  // For what else goes on in the network.
+  [[nodiscard]] WireParticipant& participant() noexcept { return *participant_; }
+  [[nodiscard]] const DiscoveryTable& table() const noexcept { return table_; }
+
   /// What `runnel network` shows.
   [[nodiscard]] std::string Text() const;
+  /// The same, as the page's protocol has it. Under the structure lock.
+  [[nodiscard]] std::string Picture();
   /// What `runnel ls //base/laser` shows: nothing if it has not come yet. Errors: that application has no such element, with
   /// the nearest name.
   [[nodiscard]] Result<std::optional<std::string>> StructureOf(const std::string& path);
@@ -68,6 +74,13 @@ class NetworkLink final : private ElementListener {
   void TellMissing(const TakenPort& taken);
   void TellMembers();
   [[nodiscard]] bool IsStranger(const WireMember& member) const;
+  void TellOwners();
+  /// Who is at the other end of an endpoint, and why somebody who is there is not.
+  struct Partner {
+    std::vector<std::string> names = {};
+    std::string misfit = {};
+  };
+  [[nodiscard]] Partner PartnerOf(const WireEndpointOptions& mine, bool is_writer) const;
   void Trouble(const std::string& of, const Error& error);
 
   FrameworkElement& application_;
@@ -98,6 +111,7 @@ class NetworkLink final : private ElementListener {
   std::map<std::string, std::string> new_troubles_;  // as they are now
   std::map<WireId, std::string> members_;
   std::map<WireId, Time> strangers_;  // since when they are there
+  std::map<std::string, std::string> owners_;  // of outputs that listen to one writer only
   std::thread thread_;
 };
 

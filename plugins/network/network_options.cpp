@@ -7,6 +7,11 @@ const std::vector<std::string>& ValueQualityNames() {
   return names;
 }
 
+const std::vector<std::string>& FarCommandNames() {
+  static const std::vector<std::string> names = {"set", "swap"};
+  return names;
+}
+
 WireQos QosOf(ValueQuality quality) {
   switch (quality) {
     case ValueQuality::kNewest:

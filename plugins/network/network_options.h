@@ -37,25 +37,31 @@ struct OfferOptions {
   double rate = 0;                           ///< most values a second; 0: no bound
   std::optional<std::int32_t> strength = {};  ///< the only one that counts, if no stronger one is there
   SourcePosition position = {};
+
+  bool operator==(const OfferOptions&) const = default;
 };
 
 /// A topic whose values go to ports of this application.
 struct TakeOptions {
   std::string topic = {};
   std::string as = {};
-  std::vector<std::string> to = {};             ///< as the file has them
   std::optional<ValueQuality> quality = {};     ///< nothing: as much as all writers offer
   bool is_exclusive = false;                    ///< of several writers only the strongest counts
   bool keeps_stamps = false;                    ///< values are as old as their writer says, by synchronised clocks
-  bool is_distant = false;                      ///< comes of a connection, and is taken only while that is there
+  bool is_distant = false;                      ///< comes of a connection from "//…"
   bool is_live = false;                         ///< also with simulated time, whose runs then are not repeatable
   SourcePosition position = {};
+
+  bool operator==(const TakeOptions&) const = default;
 };
 
 /// What nodes of ROS 2 may do with parameters. In the order of RosParameterUses().
 enum class RosParameterUse { kNone, kRead, kWrite };
 /// none, read, write.
 [[nodiscard]] const std::vector<std::string>& RosParameterUses();
+
+/// set, swap.
+[[nodiscard]] const std::vector<std::string>& FarCommandNames();
 
 /// What nodes of ROS 2 are told besides.
 struct RosOptions {
@@ -75,6 +81,7 @@ struct NetworkOptions {
   bool is_live = false;  ///< TakeOptions::is_live of all
   std::vector<OfferOptions> offers = {};
   std::vector<ServiceOfferOptions> services = {};
+  std::vector<std::string> commands = {};  ///< of FarCommandNames(), that others may ask for
   std::shared_ptr<const MessageLibrary> messages = {};  ///< nullptr: those of ROS 2
   std::optional<RosOptions> ros = {};
   SourcePosition position = {};

@@ -107,6 +107,21 @@ void NetworkLink::TellMembers() {
   members_ = std::move(now);
 }
 
+// Two masters: who is heard.
+void NetworkLink::TellOwners() {
+  for (const auto& each : taken_) {
+    const std::string owner = each->Owner();
+    std::string& told = owners_[each->output().path()];
+    if (owner == told) continue;
+    if (owner.empty()) {
+      element_.log().Warn("{}: {} has it no more", each->output().path(), told);
+    } else {
+      element_.log().Info("{}: {} has it now{}", each->output().path(), owner, told.empty() ? "" : " instead of " + told);
+    }
+    told = owner;
+  }
+}
+
 Result<std::optional<std::string>> NetworkLink::StructureOf(const std::string& path) {
   const auto words = SplitPath(path);
   if (words.empty()) return Error{.message = "'" + path + "' names no application", .hint = "//NAME, as runnel network lists them"};
@@ -178,14 +193,14 @@ std::string NetworkLink::Text() const {
   }
   for (const auto& each : taken_) {
     add(each->endpoint(), "takes " + each->options().topic + " to " + each->output().path(),
-        ", " + std::to_string(each->taken()) + " came" +
+        ", " + std::to_string(each->taken()) + " came" + (each->Owner().empty() ? "" : ", " + each->Owner() + " has it") +
             (each->refused() > 0 ? ", " + std::to_string(each->refused()) + " could not be read" : ""));
     add_partners(each->endpoint(), false);
   }
   text += services_.Text();
   std::set<std::string> others;
   for (const WireEndpoint& each : table_.endpoints()) {
-    if (each.is_own || each.options.topic.ends_with("/runnel_structure")) continue;
+    if (each.is_own || IsInternalTopic(each.options.topic)) continue;
     others.insert((each.is_writer ? "written " : "read ") + ReadableTopic(each.options.topic) + "  " + each.options.type +
                   " by " + table_.NameOf(each.participant));
   }

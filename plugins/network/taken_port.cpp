@@ -41,7 +41,7 @@ WireQos TakenPort::WantedQos(const std::vector<WireEndpoint>& writers) const {
 }
 
 Result<void> TakenPort::Follow(WireParticipant& participant) {
-  if (options_.is_distant && !is_connected_) {
+  if (!is_connected_) {
     reader_.reset();
     matched_ = 0;
     return {};
@@ -89,6 +89,7 @@ void TakenPort::Take(const WireSample& sample) noexcept {
       const std::lock_guard lock(mutex_);
       const Writer writer = Find(sample.writer);
       if (!writer.fits) return;
+      last_writer_ = sample.writer;
       is_comparable = !clock_.is_simulated && !writer.has_simulated_time;
       if (is_comparable) least_delay_ = std::min(least_delay_.value_or(Duration::max()), now - sent);
     }
@@ -121,6 +122,14 @@ void TakenPort::Refuse(Error error) {
 std::optional<Error> TakenPort::TakeError() {
   const std::lock_guard lock(mutex_);
   return std::exchange(error_, {});
+}
+
+std::string TakenPort::Owner() const {
+  const std::lock_guard lock(mutex_);
+  if (!endpoint_.qos.is_exclusive || last_writer_ == 0) return {};
+  const auto writer = table_.FindWriter(last_writer_);
+  if (!writer) return {};
+  return table_.NameOf(writer->participant) + " (strength " + std::to_string(writer->options.qos.strength) + ")";
 }
 
 std::optional<Duration> TakenPort::least_delay() const {

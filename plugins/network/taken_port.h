@@ -58,6 +58,8 @@ class TakenPort {
   }
   /// Why the last of them could not, once.
   [[nodiscard]] std::optional<Error> TakeError();
+  /// "planner (strength 5)": of those who write to who listens to one only, the one whose value came last; "" otherwise.
+  [[nodiscard]] std::string Owner() const;
   /// By how much the clocks of the writers are behind this one's at least, as far as is known (arrival after sending).
   [[nodiscard]] std::optional<Duration> least_delay() const;
 
@@ -86,6 +88,7 @@ class TakenPort {
   std::atomic<std::uint64_t> refused_{0};
   mutable std::mutex mutex_;
   std::vector<Writer> writers_;         // that values have come of since Follow(); guarded by mutex_
+  std::uint64_t last_writer_ = 0;       // likewise
   std::optional<Error> error_;          // likewise
   std::optional<Duration> least_delay_;  // likewise
 };

@@ -5,10 +5,15 @@
 #include <cstdlib>
 #include <utility>
 
+#include "core/base/nearest_name.h"
+#include "core/types/duration_text.h"
 #include "plugins/application_files/build_context.h"
 #include "plugins/application_files/path_use.h"
 #include "plugins/network/network_element.h"
 #include "plugins/network/network_engines.h"
+#include "plugins/network/xml_network_changes.h"
+#include "plugins/network/xml_network_saving.h"
+#include "plugins/network/xml_network_words.h"
 #include "plugins/network/xml_service_tags.h"
 #include "plugins/ros_messages/message_library.h"
 #include "plugins/ros_messages/names.h"
@@ -19,6 +24,8 @@ namespace runnel {
 namespace {
 
 constexpr std::size_t kLargestDomain = 101;  // those beyond may collide with ports that the system gives out
+constexpr Duration kShortestLease = std::chrono::seconds(1);
+constexpr Duration kLongestLease = std::chrono::hours(1);
 const std::vector<std::string> kReaches = {"loopback", "machine", "network"};
 
 std::string TextOf(const TagUse& use, std::string_view name) {
@@ -26,11 +33,6 @@ std::string TextOf(const TagUse& use, std::string_view name) {
   return attribute != nullptr ? attribute->value : "";
 }
 bool IsTrue(const TagUse& use, std::string_view name) { return TextOf(use, name) == "true"; }
-
-std::optional<double> NumberOf(const TagUse& use, std::string_view name) {
-  const XmlAttribute* const attribute = use.Find(name);
-  return attribute != nullptr ? std::optional(std::strtod(attribute->value.c_str(), nullptr)) : std::nullopt;
-}
 
 void ReadDomain(const TagUse& use, WireMemberOptions& member) {
   const XmlAttribute* const said = use.Find("domain");
@@ -44,6 +46,18 @@ void ReadDomain(const TagUse& use, WireMemberOptions& member) {
   use.Report({.message = std::string(said != nullptr ? "" : "ROS_DOMAIN_ID: ") + "a domain is a number from 0 to " +
                          std::to_string(kLargestDomain)},
              said != nullptr ? said->value_position : use.xml.position());
+}
+
+// What others may ask for.
+void ReadCommands(const TagUse& use, NetworkOptions& options) {
+  const XmlAttribute* const said = use.Find("commands");
+  if (said == nullptr) return;
+  for (const std::string& each : SplitPaths(said->value)) {
+    if (std::ranges::count(FarCommandNames(), each) == 0) {
+      use.Report({.message = "others cannot be allowed to '" + each + "'", .hint = NearestNameHint(each, FarCommandNames())}, said->value_position);
+    }
+    options.commands.push_back(each);
+  }
 }
 
 // Of files beside the application's, besides those of ROS 2.
@@ -80,19 +94,21 @@ FrameworkElement* HandleNetwork(const TagUse& use) {
                 .hint = "say reach=\"network\", or leave it out"},
                interface->position);
   }
+  if (const XmlAttribute* const lease = use.Find("lease")) {
+    member.lease = ParseDuration(lease->value).value();
+    if (member.lease < kShortestLease || member.lease > kLongestLease) {
+      use.Report({.message = "a lease is from 1 s to 1 h long", .hint = "<on_stale> sees sooner that nothing comes"}, lease->value_position);
+    }
+  }
+  ReadCommands(use, options);
   ReadMessages(use, options);
   options.is_live = IsTrue(use, "live");
   if (use.Find("engine") != nullptr) options.engine = TextOf(use, "engine");
   const auto engine = FindWireEngine(options.engine, use.context.plugins());
   if (!engine) use.Report(engine.error(), use.xml.position());
   use.context.runtime().Create<NetworkElement>(use.parent, "network", std::move(options));
+  AddNetworkChanges(use.context.runtime());
   return &use.parent;
-}
-
-std::optional<ValueQuality> QualityOf(const TagUse& use) {
-  const XmlAttribute* const qos = use.Find("qos");
-  if (qos == nullptr) return {};
-  return static_cast<ValueQuality>(std::ranges::find(ValueQualityNames(), qos->value) - ValueQualityNames().begin());
 }
 
 // Whether it is a name; else that is reported.
@@ -120,14 +136,8 @@ void AddOffer(const TagUse& use, OfferOptions offer) {
 }
 
 FrameworkElement* HandleOffer(const TagUse& use) {
-  OfferOptions offer{.topic = TextOf(use, "topic"),
-                     .as = TextOf(use, "as"),
-                     .frame = TextOf(use, "frame"),
-                     .child_frame = TextOf(use, "child_frame"),
-                     .quality = QualityOf(use).value_or(ValueQuality::kNewest),
-                     .rate = NumberOf(use, "rate").value_or(0),
-                     .position = use.xml.position()};
-  if (const auto strength = NumberOf(use, "strength")) offer.strength = static_cast<std::int32_t>(*strength);
+  OfferOptions offer = OfferSaid([&](const char* name) { return TextOf(use, name); });
+  offer.position = use.xml.position();
   const XmlAttribute* const ports = use.Find("ports");
   if ((ports == nullptr) == (use.Find("port") == nullptr)) {
     use.Report({.message = "<offer> says which ports, or which port",
@@ -171,13 +181,9 @@ FrameworkElement* HandleTake(const TagUse& use) {
     use.Report({.message = "<take> says which topic, or which service", .hint = "topic=\"/cmd_vel\", or service=\"/save_map\""},
                use.xml.position());
   }
-  TakeOptions take{.topic = TextOf(use, "topic"),
-                   .as = TextOf(use, "as"),
-                   .quality = QualityOf(use),
-                   .is_exclusive = IsTrue(use, "exclusive"),
-                   .keeps_stamps = TextOf(use, "stamp") == "sent",
-                   .is_live = IsTrue(use, "live") || NetworkElement::FindIn(use.parent)->options().is_live,
-                   .position = use.xml.position()};
+  TakeOptions take = TakeSaid([&](const char* name) { return TextOf(use, name); });
+  take.is_live = take.is_live || NetworkElement::FindIn(use.parent)->options().is_live;
+  take.position = use.xml.position();
   const bool is_right = use.Find("topic") != nullptr && CheckTopicOf(use);
   use.context.Defer(BuildStage::kConnections, [use, is_right, take = std::move(take)] {
     if (is_right) return AddTake(use, take);
@@ -219,13 +225,6 @@ AttributeRule Choice(const char* name, const char* summary, std::vector<std::str
   return {.name = name, .kind = AttributeKind::kChoice, .summary = summary, .choices = std::move(choices)};
 }
 
-AttributeRule Quality(const char* summary) { return Choice("qos", summary, ValueQualityNames()); }
-
-AttributeRule MessageTypeRule() {
-  return {.name = "as", .summary = "type of the messages: sensor_msgs/msg/LaserScan; without, the values by their description; of services: "
-                     "std_srvs/srv/Trigger"};
-}
-
 }  // namespace
 
 void AddNetworkTags(XmlTagRegistry& tags) {
@@ -245,28 +244,22 @@ void AddNetworkTags(XmlTagRegistry& tags) {
                               {.name = "peers", .summary = "addresses of others, where not all can be asked at once; separated by blanks"},
                               {.name = "interface", .summary = "the only one that is used, by its name or address"},
                               Choice("multicast", "false: only peers, and this machine, are asked"),
+                              {.name = "lease",
+                               .kind = AttributeKind::kDuration,
+                               .summary = "so long after its last sign of life the application counts as gone, as after kill -9; 10 s"},
+                              {.name = "commands",
+                               .summary = "what applications that can reach this one may have it do: set, swap; nothing if left out"},
                               Choice("live", "true: what is taken may come although time is simulated, of which runs are not "
                                              "repeatable then"),
                               {.name = "messages",
                                .summary = ".msg and .srv files, and folders with <package>/msg/*.msg and <package>/srv/*.srv, beside ROS 2's own; separated by blanks"},
                               {.name = "engine", .kind = AttributeKind::kName, .summary = "cyclone (the default), or fast: Fast DDS"}},
-               .handle = HandleNetwork});
+               .handle = HandleNetwork,
+               .update = UpdateNetworkTag});
   tags.AddTag({.name = "offer",
                .summary = "ports that others may read",
                .parents = {"network"},
-               .attributes = {{.name = "ports", .summary = "patterns, separated by blanks: laser/* **/pose !**/debug"},
-                              {.name = "port", .kind = AttributeKind::kPath, .summary = "one of them", .names_element = true},
-                              {.name = "topic", .summary = "its name in the network: /scan; without, /<name of the application>/<path>"},
-                              {.name = "service", .summary = "likewise, of a port that is a service: /save_map"},
-                              MessageTypeRule(),
-                              {.name = "frame", .kind = AttributeKind::kName, .summary = "of coordinates, for headers of messages"},
-                              {.name = "child_frame", .kind = AttributeKind::kName, .summary = "what moves, for transforms and odometry"},
-                              Quality("newest (default): reliable; each: every value, in a queue; sensor: best effort; latched: "
-                                      "who comes late gets the newest"),
-                              {.name = "rate", .kind = AttributeKind::kNumber, .summary = "most values a second; the newest wins"},
-                              {.name = "strength",
-                               .kind = AttributeKind::kCount,
-                               .summary = "for who takes exclusively: of several that offer the topic the strongest counts"}},
+               .attributes = OfferRules(),
                .handle = HandleOffer});
   tags.AddTag({.name = "ros",
                .summary = "what nodes of ROS 2 are told besides topics",
@@ -288,21 +281,7 @@ void AddNetworkTags(XmlTagRegistry& tags) {
   tags.AddTag({.name = "take",
                .summary = "a topic whose values go to ports of this application, or a service that they call",
                .parents = {"network"},
-               .attributes = {{.name = "topic", .summary = "its name: /cmd_vel"},
-                              {.name = "service", .summary = "instead: one that clients of this application call: /save_map"},
-                              MessageTypeRule(),
-                              {.name = "to",
-                               .kind = AttributeKind::kPathList,
-                               .required = true,
-                               .summary = "inputs, of whose type the values are",
-                               .names_element = true},
-                              Quality("what is asked of those who write; by default what they offer"),
-                              Choice("stamp",
-                                     "arrived (default): measured when they came; sent: when the writer says, if the clocks of "
-                                     "both machines are synchronised",
-                                     {"arrived", "sent"}),
-                              Choice("exclusive", "true: of several that write only the strongest counts"),
-                              Choice("live", "true: also with simulated time, of which runs are not repeatable then")},
+               .attributes = TakeRules(),
                .handle = HandleTake});
 }
 

@@ -128,9 +128,20 @@ struct ScheduleThread {
   std::optional<ThreadOptions::OnOverrun> on_overrun = {};
 };
 
+/// What an extension of the application carries out, under the word that it has for it (ExtensionChanges): that a port is
+/// offered to other applications, for example.
+struct ExtensionChange {
+  std::string verb;
+  std::vector<std::string> words;
+  std::vector<Setting> settings = {};
+  /// Of a change that takes another one back: all that has to be as it was, the extension's own.
+  std::shared_ptr<const void> state = {};
+};
+
 using Change = std::variant<CreateModule, CreateGroup, CreatePort, CreateParameter, DeleteElement, ConnectPorts,
                             DisconnectPorts, SetParameter, ReplaceModule, AssignToThread,
-                            AddThread, ScheduleThread, RenameElement, CopyElement, TagElement>;
+                            AddThread, ScheduleThread, RenameElement, CopyElement, TagElement,
+                            ExtensionChange>;
 
 /// Changes that belong together, in the order in which they build on one another.
 using ChangeSet = std::vector<Change>;

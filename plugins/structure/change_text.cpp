@@ -41,6 +41,7 @@ class Arguments {
              "write: " + usage_);
     return {};
   }
+  [[nodiscard]] const std::string& verb() const { return line_.front().text; }
   [[nodiscard]] bool IsAtEnd() const { return at_ == line_.size(); }
   [[nodiscard]] bool IsNext(std::string_view text) const {
     return at_ < line_.size() && line_[at_].text == text;
@@ -276,12 +277,23 @@ Change ReadSchedule(Arguments& arguments) {
   return change;
 }
 
+// What words there are, and what they mean, the extension says.
+template <std::size_t kWords>
+Change ReadExtension(Arguments& arguments) {
+  ExtensionChange change{arguments.verb(), {}};
+  while (change.words.size() < kWords) change.words.push_back(arguments.Take("a path"));
+  arguments.TakeOptions({}, [&](const ChangeArgument& argument) {
+    change.settings.push_back({argument.name(), argument.value()});
+    return true;
+  });
+  return change;
+}
+
 struct Verb {
-  const char* name;
-  const char* usage;
+  const char *name, *usage;
   Change (*read)(Arguments& arguments);
 };
-constexpr std::array<Verb, 11> kVerbs{{
+constexpr std::array<Verb, 13> kVerbs{{
     {"create",
      "create [group] PATH TYPE [NAME=VALUE ...], or create port PATH input|output TYPE "
      "[description=TEXT], or create parameter PATH PARAMETER ... [description=TEXT], or create thread NAME "
@@ -299,6 +311,8 @@ constexpr std::array<Verb, 11> kVerbs{{
     {"copy", "copy PATH [NAME]", ReadCopy},
     {"move", "move PATH to THREAD", ReadMove},
     {"tag", "tag PATH [WORD ...]", ReadTag},
+    {"offer", "offer PORT [NAME=VALUE ...] [stop=true]", ReadExtension<1>},
+    {"take", "take TOPIC PORT [NAME=VALUE ...] [stop=true]", ReadExtension<2>},
     {"schedule", "schedule THREAD [period=TIME] [priority=N] [on_overrun=skip|catch_up]", ReadSchedule},
 }};
 

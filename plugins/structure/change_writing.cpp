@@ -82,6 +82,12 @@ std::string Text(const TagElement& change) {
   return text;
 }
 
+std::string Text(const ExtensionChange& change) {
+  std::string text = change.verb;
+  for (const std::string& word : change.words) text += " " + AsArgument(word);
+  return text + SettingsText(change.settings);
+}
+
 std::string OverrunText(ThreadOptions::OnOverrun on_overrun) {
   return " on_overrun=" + OverrunNames()[static_cast<std::size_t>(on_overrun)];
 }

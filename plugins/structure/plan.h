@@ -92,6 +92,7 @@ class Plan {
   Result<void> Check(const RenameElement& change);
   Result<void> Check(const CopyElement& change);
   Result<void> Check(const TagElement& change);
+  Result<void> Check(const ExtensionChange& change);
 
   // What becomes of connections that a module which takes another one's place has no port for.
   enum class Misfits { kAreRefused, kAreCut };
@@ -105,6 +106,7 @@ class Plan {
   Result<void> MovePort(const Placement& place, Port& port);
   // What else names it by its path.
   Result<void> MoveTargets(const FrameworkElement& renamed, const std::string& path);
+  void MoveExtensions(const FrameworkElement& renamed, const std::string& name);
   void AddExchange(FrameworkElement& before, UnlistedElement after);
   Result<void> ExchangeComposite(FrameworkElement& before, UnlistedElement after, Misfits misfits);
   Result<void> CheckAll(const GroupParameter& group, const SetParameter& change);

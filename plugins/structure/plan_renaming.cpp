@@ -226,6 +226,7 @@ Result<void> Plan::MoveTargets(const FrameworkElement& renamed, const std::strin
     if (auto prepared = Runtime::Prepare(made); !prepared) return prepared;
     AddExchange(*before, std::move(made));
   }
+  MoveExtensions(renamed, name);
   return {};
 }
 

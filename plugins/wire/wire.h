@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/clock.h"
 #include "core/base/result.h"
 
 namespace runnel {
@@ -159,6 +160,7 @@ struct WireMemberOptions {
   std::string name = {};
   std::string user_data = {};
   std::optional<WireSecurity> security = {};  ///< nothing: whoever is within reach may join, and listen
+  Duration lease = std::chrono::seconds(10);  ///< so long after its last sign of life it counts as gone; 1 s at least
 };
 
 /// One member of the network.

@@ -99,7 +99,8 @@ std::string CycloneConfiguration(const WireMemberOptions& options) {
   return "<Domain Id=\"any\"><General>" + InterfacesText(options) + "<AllowMulticast>" + multicast +
          "</AllowMulticast><MaxMessageSize>65500B</MaxMessageSize><FragmentSize>65000B</FragmentSize></General>"
          "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>119</MaxAutoParticipantIndex>"
-         "<SPDPInterval>500ms</SPDPInterval><LeaseDuration>10s</LeaseDuration>" +
+         "<SPDPInterval>500ms</SPDPInterval><LeaseDuration>" +
+         std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(options.lease).count()) + "ms</LeaseDuration>" +
          PeersText(options) +
          "</Discovery><Internal><GenerateKeyhash>true</GenerateKeyhash><SocketReceiveBufferSize max=\"4MB\"/><SocketSendBufferSize max=\"4MB\"/></Internal>"
          "</Domain>";

@@ -123,7 +123,7 @@ Result<dds::DomainParticipantQos> MemberQos(const WireMemberOptions& options) {
   qos.transport().user_transports = {udp};
 
   auto& builtin = qos.wire_protocol().builtin;
-  builtin.discovery_config.leaseDuration = Duration_t(10, 0);
+  builtin.discovery_config.leaseDuration = Duration_t(static_cast<long double>(ToSeconds(options.lease)));
   builtin.discovery_config.leaseDuration_announcementperiod = Duration_t(0, 500 * kMillisecond);
   builtin.discovery_config.initial_announcements = {10, Duration_t(0, 50 * kMillisecond)};
   builtin.typelookup_config.use_client = false;

@@ -46,7 +46,8 @@ void AddApplication(std::vector<IncludeRule>& rules) {
   attached("recordings of an application", "plugins/recording/application_",
            {"plugins/mcap", "plugins/recording"});
   attached("the network of an application", "plugins/network/application_",
-           {"plugins/network", "plugins/ros_messages/node_messages.h", "plugins/wire", "plugins/wire_shared_memory/shared_memory_wire.h"});
+           {"plugins/cdr_values", "plugins/network", "plugins/ros_messages/names.h", "plugins/ros_messages/node_messages.h", "plugins/wire",
+            "plugins/wire_shared_memory/shared_memory_wire.h"});
   attached("plugins/viewers", "plugins/viewers",
            {"plugins/foxglove", "plugins/inspector", "plugins/web_server"});
 }
@@ -109,11 +110,11 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"the words of networks",
                    "plugins/network/xml_",
                    {"core", "plugins/application_files", "plugins/network", "plugins/ros_messages/message_library.h", "plugins/ros_messages/names.h",
-                    "plugins/ros_services", "plugins/services", "plugins/values/port_patterns.h", "plugins/wire"}});
+                    "plugins/ros_services", "plugins/services", "plugins/structure", "plugins/values/port_patterns.h", "plugins/wire"}});
   rules.push_back({"plugins/network",
                    "plugins/network",
                    {"core", "plugins/cdr_values", "plugins/ros_messages", "plugins/ros_services", "plugins/services/callable.h",
-                    "plugins/values/port_patterns.h", "plugins/wire"}});
+                    "plugins/values/json_writer.h", "plugins/values/port_patterns.h", "plugins/wire"}});
   rules.push_back({"plugins/ros_services",
                    "plugins/ros_services",
                    {"core", "plugins/cdr_values", "plugins/ros_messages", "plugins/services", "plugins/wire"}});

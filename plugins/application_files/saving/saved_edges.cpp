@@ -65,9 +65,9 @@ std::vector<SavedEdge> EdgesOf(FrameworkElement& application) {
     const auto* const port = dynamic_cast<const Port*>(&element);
     if (port == nullptr) return;
     for (const Connection& connection : port->outgoing()) {
-      const bool is_distant = port->FindAnnotation<DistantPort>() != nullptr && connection.to->IsAtOrBelow(application);
-      FrameworkElement* const home =
-          is_distant ? &application : Home(*connection.from, *connection.to, application);
+      const auto* const distant = port->FindAnnotation<DistantPort>();
+      const bool is_distant = distant != nullptr && !distant->path.empty() && connection.to->IsAtOrBelow(application);
+      FrameworkElement* const home = is_distant ? &application : Home(*connection.from, *connection.to, application);
       if (home == nullptr) continue;
       edges.push_back({connection.from, connection.to, connection.options, home});
     }

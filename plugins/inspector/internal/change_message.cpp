@@ -100,6 +100,10 @@ Change ReadRename(JsonMembers& m) { return RenameElement{m.NeedText("path"), m.N
 Change ReadTag(JsonMembers& m) { return TagElement{m.NeedText("path"), TagsInText(m.NeedText("tags"))}; }
 Change ReadCopy(JsonMembers& m) { return CopyElement{m.NeedText("path"), m.Text("name").value_or("")}; }
 
+// Of the network.
+Change ReadOffer(JsonMembers& m) { return ExtensionChange{"offer", NeedTexts(m, "words"), SettingsIn(m)}; }
+Change ReadTake(JsonMembers& m) { return ExtensionChange{"take", NeedTexts(m, "words"), SettingsIn(m)}; }
+
 // In seconds.
 std::optional<Duration> PeriodIn(JsonMembers& m) {
   const auto seconds = m.Number("period");
@@ -125,7 +129,7 @@ struct Kind {
   std::string_view name;
   Change (*read)(JsonMembers& members);
 };
-constexpr std::array<Kind, 15> kKinds{{{"create", ReadCreate},
+constexpr std::array<Kind, 17> kKinds{{{"create", ReadCreate},
                                        {"create_group", ReadCreateGroup},
                                        {"create_port", ReadCreatePort},
                                        {"create_parameter", ReadCreateParameter},
@@ -138,6 +142,8 @@ constexpr std::array<Kind, 15> kKinds{{{"create", ReadCreate},
                                        {"rename", ReadRename},
                                        {"tag", ReadTag},
                                        {"copy", ReadCopy},
+                                       {"offer", ReadOffer},
+                                       {"take", ReadTake},
                                        {"create_thread", ReadCreateThread},
                                        {"schedule", ReadSchedule}}};
 

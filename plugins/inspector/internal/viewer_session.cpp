@@ -70,6 +70,8 @@ WebSession::SteadyTime ViewerSession::OnPoll() {
   const SteadyTime now = std::chrono::steady_clock::now();
   if (now >= state_due_) SendState(now);
   next = std::min(next, state_due_);
+  if (now >= network_due_) SendNetwork(now);
+  next = std::min(next, network_due_);
   if (!watches_.empty()) {
     SendValues(now);
     for (const auto& [path, watch] : watches_) next = std::min(next, watch.due);

@@ -43,6 +43,7 @@ class ViewerSession final : public WebSession {
   void SendStructure();
   void SendArrangement();
   void SendLog();
+  void SendNetwork(SteadyTime now);
   void SendState(SteadyTime now);
   [[nodiscard]] std::string NextStep(std::optional<std::string> (ChangeHistory::*next)()
                                          const) const;
@@ -70,6 +71,8 @@ class ViewerSession final : public WebSession {
   std::uint64_t structure_ = 0;  // the revision that has been told
   std::uint64_t arrangement_ = 0;  // the revision that has been told
   std::optional<std::uint64_t> log_;
+  std::string network_;  // as it was told
+  SteadyTime network_due_{};
   std::string state_;  // as it was told, without the time
   Duration state_time_{-1};
   SteadyTime state_due_{};

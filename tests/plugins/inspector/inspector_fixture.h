@@ -161,6 +161,11 @@ inline Json ChangeMessage(const std::string& text) {
       for (const std::string& tag : change.tags) tags += (tags.empty() ? "" : " ") + tag;
       return {{"change", "tag"}, {"path", change.path}, {"tags", tags}};
     }
+    Json operator()(const ExtensionChange& change) const {
+      Json json{{"change", change.verb}, {"words", change.words}};
+      for (const auto& [name, value] : change.settings) json["settings"][name] = value;
+      return json;
+    }
     Json operator()(const CopyElement& change) const {
       return {{"change", "copy"}, {"path", change.path}, {"name", change.name}};
     }

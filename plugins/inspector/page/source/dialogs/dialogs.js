@@ -8,6 +8,7 @@ import { ConvertDialog } from './convert_dialog.js';
 import { CreateDialog } from './create_dialog.js';
 import { Menu } from './menu.js';
 import { NoteDialog } from './note_dialog.js';
+import { OfferDialog } from './offer_dialog.js';
 import { PortDialog } from './port_dialog.js';
 import { RenameDialog } from './rename_dialog.js';
 import { HelpDialog, MoveDialog, SaveDialog } from './small_dialogs.js';
@@ -16,7 +17,7 @@ import { SwapDialog } from './swap_dialog.js';
 
 const kDialogs = {
   confirm: ConfirmDialog, create: CreateDialog, connect: ConnectDialog, convert: ConvertDialog, swap: SwapDialog, move: MoveDialog, port: PortDialog,
-  difference: SaveDifference, save: SaveDialog, help: HelpDialog, menu: Menu, note: NoteDialog, rename: RenameDialog,
+  difference: SaveDifference, save: SaveDialog, help: HelpDialog, menu: Menu, note: NoteDialog, offer: OfferDialog, rename: RenameDialog,
 };
 
 export function OpenDialog() {

@@ -2,10 +2,12 @@
 
 import { html } from 'htm/preact';
 import { CanBeDeleted, IsGroup, ParentOf } from '../model/structure.js';
-import { CreateGroup, Reload } from '../state/actions.js';
+import { IsFar } from '../model/network.js';
+import { CreateGroup, Reload, StopOffering } from '../state/actions.js';
 import { DeleteCarefully, DisconnectCarefully } from '../state/careful.js';
 import { IsOpen, SetAllOpen, chosen, openDialog } from '../state/choices.js';
 import { CopyChosen, DuplicateChosen, PasteCopied } from '../state/clipboard.js';
+import { network } from '../state/network.js';
 import { canChange, catalogue, structure } from '../state/store.js';
 import { Fit, ToggleGroup } from '../graph/graph_state.js';
 import { ArrangeAutomatically, IsArranged } from '../graph/move_boxes.js';
@@ -41,13 +43,21 @@ function MenuItems(path) {
   }
   const element = structure.get(path);
   const open = (kind) => () => { openDialog.value = { kind, path }; };
-  if (!element) return [];
+  if (!element || (IsFar(element) && element.kind !== 'port')) return [];
   if (element.kind === 'port') {
     return [{ text: 'Connect …', changes: true, action: open('connect') },
+      ...OfferItems(element, open),
       ...(CanBeDeleted(element) ? [{ text: 'Delete', changes: true, danger: true, action: () => DeleteCarefully([path]) }] : [])];
   }
   if (element.kind === 'module') return ModuleItems(element, open);
   return IsGroup(element) ? GroupItems(element, open) : [];
+}
+
+/** To other applications, of those that have a network. */
+function OfferItems({ path, direction, far, offers, interface: isInterface }, open) {
+  if (network.value === null || far || (direction === 'input' && !isInterface)) return [];
+  return [{ text: 'Offer in the network …', changes: true, action: open('offer') },
+    ...(offers ?? []).map(({ topic }) => ({ text: `Stop offering ${topic}`, changes: true, action: () => StopOffering(path, topic) }))];
 }
 
 function ChosenItems() {

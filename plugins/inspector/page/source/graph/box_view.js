@@ -4,6 +4,7 @@ import { useComputed } from '@preact/signals';
 import { html } from 'htm/preact';
 import { memo } from '../panels/memo.js';
 import { AlarmCount, AlarmsAt } from '../state/alarms.js';
+import { DelayText } from '../model/network.js';
 import { ThreadOf } from '../model/structure.js';
 import { chosen, selectedThread } from '../state/choices.js';
 import { revision, structure } from '../state/store.js';
@@ -28,7 +29,7 @@ export const BoxView = memo(({ box }) => {
   const isGroup = element.kind !== 'module';
   const isAlarmed = element.stopped || count > 0;
   const hasSign = !isGroup && DrawingOf(path) !== undefined;
-  const classes = ['box', element.kind, isSelected.value && 'selected', element.stopped && 'stopped', count > 0 && 'alarmed', element.paused && 'paused',
+  const classes = ['box', element.kind, element.far && 'far', element.far && !element.is_there && 'absent', isSelected.value && 'selected', element.stopped && 'stopped', count > 0 && 'alarmed', element.paused && 'paused',
     isFaint.value && 'faint'].filter(Boolean).join(' ');
   return html`
     <g class=${classes} transform=${`translate(${box.x},${box.y})`} data-node=${path} id=${NodeId(path)}
@@ -44,7 +45,7 @@ export const BoxView = memo(({ box }) => {
       ${!isGroup && html`<${BoxTime} path=${path} x=${box.width - 10 - (isAlarmed ? 22 : 0) - (hasSign ? 22 : 0)} y=${18} />
         <${PictureSign} box=${box} /><${BoxPicture} box=${box} />`}
       ${box.bars && html`<${BoxBars} box=${box} />`}
-      ${isGroup && html`<g class="fold" data-fold=${path}><rect x=${box.width - 28} y="5" width="22" height="22"
+      ${isGroup && !element.far && html`<g class="fold" data-fold=${path}><rect x=${box.width - 28} y="5" width="22" height="22"
           rx="4" />
         <path d=${`M${box.width - 20},${11}l5,5l-5,5`} /></g>`}
       ${isAlarmed && html`<g class="fault" transform=${`translate(${box.width - (isGroup || hasSign ? 40 : 18)},16)`}>
@@ -90,8 +91,8 @@ export function NodeId(path) {
 
 /** What a screen reader says of a box. */
 export function DescribeBox({ element, hidden, open, inputs, outputs }, thread) {
-  const parts = [element.name, element.kind === 'module' ? `module ${element.type}` : 'group'];
-  if (element.kind !== 'module') parts.push(open ? 'open' : `folded, ${hidden} modules`);
+  const parts = [element.name, element.kind === 'module' ? `module ${element.type}` : element.far ? 'another application' : 'group'];
+  if (element.kind !== 'module' && !element.far) parts.push(open ? 'open' : `folded, ${hidden} modules`);
   parts.push(Count(inputs.length, 'input'), Count(outputs.length, 'output'));
   if (thread) parts.push(`thread ${thread}`);
   if (element.stopped) parts.push(`stopped: ${element.stopped}`);
@@ -108,6 +109,7 @@ function Count(number, word) {
 }
 
 function Detail({ element, hidden }) {
+  if (element.far) return !element.is_there ? 'not there' : element.delay === null ? 'in the network' : `in the network, ${DelayText(element.delay)}`;
   return element.kind === 'module' ? element.type ?? '' : Count(hidden, 'module');
 }
 

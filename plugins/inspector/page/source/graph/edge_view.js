@@ -26,6 +26,11 @@ export const EdgeView = memo(({ edge }) => {
     shapeRevision.value;
     return structure.connections.get(edge.key)?.pull === true;
   });
+  const far = useComputed(() => {
+    shapeRevision.value;
+    const port = structure.get(edge.from);
+    return port?.far && port.state !== 'connected' ? port : null;
+  });
   const conversion = useComputed(() => {
     shapeRevision.value;
     return structure.connections.get(edge.key)?.conversion ?? '';
@@ -36,9 +41,9 @@ export const EdgeView = memo(({ edge }) => {
   });
   const strength = useWatched(signal.value && edge.from, kSignalOptions)?.value?.value ?? 0;
   const style = signal.value ? { strokeOpacity: kFaint + (1 - kFaint) * strength } : undefined;
-  return html`<path class=${`edge ${signal.value} ${state.value} ${isLive.value ? 'live' : ''} ${isPulled.value ? 'pulled' : ''} ${conversion.value ? 'converted' : ''}`} data-edge=${edge.key} style=${style}
+  return html`<path class=${`edge ${signal.value} ${state.value} ${isLive.value ? 'live' : ''} ${isPulled.value ? 'pulled' : ''} ${conversion.value ? 'converted' : ''} ${far.value ? (far.value.misfit ? 'misfit' : 'waiting') : ''}`} data-edge=${edge.key} style=${style}
     d=${edge.path} transform=${edge.dx || edge.dy ? `translate(${edge.dx},${edge.dy})` : undefined}>
-    ${conversion.value && html`<title>${conversion.value}</title>`}</path>`;
+    ${(conversion.value || far.value) && html`<title>${conversion.value || far.value.misfit || 'waits for the other application'}</title>`}</path>`;
 });
 
 /** Whether a connection begins or ends at what is selected: a port, or a box. */

@@ -5,6 +5,7 @@ import { IsGroup } from '../model/structure.js';
 import { BowPath, ForwardPath } from './edge_path.js';
 import { ClosingEdges, ConnectionsByLevel, IsDistant, kInside, kOutside } from './levels.js';
 import { LevelLayout } from './level_layout.js';
+import { kFarDetail } from '../model/network.js';
 import { BoxSize, NoteLines, PortHeight, kBars, kPicture } from './measure.js';
 import { PlacedLevel } from './placed_level.js';
 
@@ -103,7 +104,7 @@ export class GraphLayout {
     const ports = structure.portsOf(path);
     const inputs = ports.filter((port) => port.direction === 'input');
     const outputs = ports.filter((port) => port.direction === 'output');
-    const box = { path, element, inputs, outputs, open: IsGroup(element) && isOpen(path) };
+    const box = { path, element, inputs, outputs, open: IsGroup(element) && !element.far && isOpen(path) };
     if (box.open) {
       box.level = this.#level(structure, levels, path, isOpen, { area: inner, inner, window });
       box.width = box.level.width;
@@ -113,7 +114,7 @@ export class GraphLayout {
     }
     box.hidden = IsGroup(element) ? CountModules(structure, path) : 0;
     box.note = NoteLines(this.#noteOf(path));
-    const detail = IsGroup(element) ? `${box.hidden} modules` : element.type ?? '';
+    const detail = element.far ? kFarDetail : IsGroup(element) ? `${box.hidden} modules` : element.type ?? '';
     Object.assign(box, BoxSize(element.name, detail, inputs, outputs, box.note));
     box.picture = this.#isPictured(path);
     if (box.picture) Object.assign(box, { width: Math.max(box.width, 200), height: box.height + kPicture });

@@ -22,7 +22,7 @@ export const PortView = memo(({ port, x, y, side, inside }) => {
   const labelRight = inside ? !isLeft : isLeft; // on which side of the dot there is room for the name
   const label = inside ? isLeft : labelRight;
   return html`
-    <g class=${`port ${port.direction} ${port.by_hand ? 'by-hand' : ''} ${role.value} ${isSelected.value ? 'selected' : ''} ${isAlarmed.value ? 'alarmed' : ''}`}
+    <g class=${`port ${port.direction} ${port.by_hand ? 'by-hand' : ''} ${port.offers ? 'offered' : ''} ${role.value} ${isSelected.value ? 'selected' : ''} ${isAlarmed.value ? 'alarmed' : ''}`}
        data-port=${port.path} id=${`port:${port.path}`} transform=${`translate(${x},${y})`}
        role="treeitem" aria-label=${DescribePort(port)} aria-selected=${isSelected.value}>
       <rect class="grip" x=${label ? -9 : -(port.name.length * 6.9 + 12)} y="-10" height="20"
@@ -49,5 +49,5 @@ function Rate({ path }) {
 }
 
 export function DescribePort(port) {
-  return `${port.direction} ${port.name}, ${port.data_type}${port.required ? ', required' : ''}${port.by_hand ? ', set by hand' : ''}`;
+  return `${port.direction} ${port.name}, ${port.data_type}${port.required ? ', required' : ''}${port.offers ? ', offered in the network' : ''}${port.far ? `, ${port.state}` : ''}${port.by_hand ? ', set by hand' : ''}`;
 }

@@ -13,6 +13,7 @@ export const Change = {
   createThread: (path, options = {}) => ({ change: 'create_thread', path, ...options }),
   schedule: (path, options) => ({ change: 'schedule', path, ...options }),
   tag: (path, tags) => ({ change: 'tag', path, tags }),
+  offer: (path, settings) => ({ change: 'offer', words: [path], settings }),
   move: (path, thread) => ({ change: 'move', path, thread }),
 };
 

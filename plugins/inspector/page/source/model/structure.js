@@ -11,6 +11,9 @@ export class Structure {
     this.parameters = new Map();  // owner path -> parameter paths, in order
     this.revision = 0;
     this.root = null;
+    this.below = new Map();       // path -> what the server has told of what cover() shows otherwise, or null
+    this.covered = '';            // what cover() shows, as text
+    this.hidden = null;           // path of a group without a box
   }
 
   /** The whole structure: what was known before is forgotten. */
@@ -18,6 +21,7 @@ export class Structure {
     for (const map of [this.elements, this.connections, this.touching, this.ports, this.parameters]) {
       map.clear();
     }
+    this.below.clear();
     this.root = null;
     this.#put(message.elements);
     this.#connect(message.connections);
@@ -26,11 +30,46 @@ export class Structure {
 
   /** A part of it. */
   change(message) {
+    this.#uncover();
     for (const connection of message.disconnected ?? []) this.#disconnect(connection);
     for (const path of message.gone ?? []) this.#remove(path);
     this.#put(message.elements ?? []);
     this.#connect(message.connected ?? []);
     this.revision = message.revision;
+  }
+
+  /** Shows elements that `make` makes of it besides, or instead of those of these paths. Whether that is another picture. */
+  cover(make, hidden = null) {
+    this.#uncover();
+    const elements = make(this);
+    for (const element of elements) {
+      const known = this.elements.get(element.path);
+      if (known) this.#exchange({ ...known, ...element });
+      else this.#put([element]);
+      this.below.set(element.path, known ?? null);
+    }
+    const covered = JSON.stringify([elements, hidden]);
+    const isOther = covered !== this.covered;
+    this.covered = covered;
+    this.hidden = hidden;
+    return isOther;
+  }
+
+  #uncover() {
+    for (const [path, told] of [...this.below].reverse()) {
+      if (told) this.#exchange(told);
+      else this.#remove(path);
+    }
+    this.below.clear();
+  }
+
+  #exchange(element) {
+    const before = this.elements.get(element.path);
+    if (before.owner !== element.owner) {
+      Drop(this.ports.get(before.owner), element.path);
+      Append(this.ports, element.owner, element.path);
+    }
+    this.elements.set(element.path, element);
   }
 
   get(path) {
@@ -58,7 +97,7 @@ export class Structure {
   /** Whether the graph has a box for it. The group that holds the threads has none. */
   isNode(path) {
     const element = this.elements.get(path);
-    if (!element || element.is_plain || !(element.kind === 'module' || IsGroup(element))) return false;
+    if (!element || path === this.hidden || element.is_plain || !(element.kind === 'module' || IsGroup(element))) return false;
     const holdsThreads = element.children.length > 0 &&
       element.children.every((child) => this.elements.get(child)?.kind === 'thread');
     return !holdsThreads;

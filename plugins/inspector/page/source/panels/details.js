@@ -6,6 +6,7 @@ import { revision, structure } from '../state/store.js';
 import { ApplicationDetails } from './details_application.js';
 import { ChosenDetails } from './details_chosen.js';
 import { ConnectionDetails } from './details_connection.js';
+import { FarDetails } from './details_far.js';
 import { ModuleDetails } from './details_module.js';
 import { PortDetails } from './details_port.js';
 import { ParameterDetails } from './details_parameter.js';
@@ -20,6 +21,7 @@ export function Details() {
       data-element=${path}>
     ${chosen.value.length > 1 ? html`<${ChosenDetails} />`
       : connection ? html`<${ConnectionDetails} key=${path} connection=${connection} />`
+      : element?.far && element.kind !== 'port' ? html`<${FarDetails} key=${path} element=${element} />`
       : element ? html`<${kViews[element.kind] ?? ApplicationDetails} key=${path} element=${element} />`
       : path ? html`<p class="empty">${path} is not there any more.</p>`
       : html`<${ApplicationDetails} element=${structure.get(structure.root)} />`}

@@ -45,6 +45,8 @@ export function PortDetails({ element }) {
       ['lost from its queue', item?.drops ? String(item.drops) : ''],
       ['required', element.required ? 'yes' : ''],
       ['unit', element.unit], ['in', element.bounds], ['default', element.default],
+      ['topic', element.topic], ['state', element.far && element.state], ['why', element.misfit], ['heard', element.master],
+      ...(element.offers ?? []).map(({ topic, readers, misfit }) => ['offered', `${topic}${readers.length > 0 ? `, read by ${readers.join(', ')}` : ''}${misfit ? `; ${misfit}` : ''}`]),
       ['set by hand', element.by_hand ? 'what is published is not read' : ''],
     ]} />
     <${BlackboardSection} key=${`board ${path}`} path=${path} />

@@ -53,6 +53,10 @@ export async function Connect(from, to, { part = '', convert = '' } = {}) {
   return reply;
 }
 
+/** To others in the network; `settings`: as texts, by the words of <offer>. */
+export const Offer = (path, settings) => Apply([Change.offer(path, settings)], `offer ${Brief(path)}`, { quiet: true });
+export const StopOffering = (path, topic) => Apply([Change.offer(path, { topic, stop: 'true' })], `stop offering ${Brief(path)}`);
+
 export async function Disconnect(from, to) {
   const reply = await Apply([Change.disconnect(from, to)], `disconnect ${Brief(from)} from ${Brief(to)}`);
   if (reply.ok && selected.value === ConnectionKey({ from, to })) selected.value = null;
@@ -205,5 +209,5 @@ export async function Reload(plugin) {
 
 function Brief(path) {
   const port = structure.get(path);
-  return port?.owner ? `${NameOf(port.owner)}/${port.name}` : path;
+  return port?.owner ? `${structure.get(port.owner)?.name ?? NameOf(port.owner)}/${port.name}` : path;
 }

@@ -9,6 +9,7 @@ import { OriginsOf } from '../model/origin.js';
 import { Structure } from '../model/structure.js';
 import { ForgetArrangement, TakeArrangement } from './arrangement.js';
 import { AddLogEntries } from './log.js';
+import { ShowNetwork, network } from './network.js';
 import { Silence } from './silence.js';
 
 export const connection = signal({ state: 'connecting', reason: '', since: 0 });
@@ -79,6 +80,7 @@ const kReceivers = {
   rates: OnRates,
   profile: (message) => { profile.value = WithShares(message, profile.value); },
   values: (message) => watches.receive(message),
+  network: (message) => { network.value = message; if (ShowNetwork(structure)) CountChange(true); },
   layout: (message) => TakeArrangement(message.entries),
   log: (message) => { log.value = AddLogEntries(log.value, message.entries); },
 };
@@ -100,22 +102,27 @@ function OnHello(message) {
   // A new connection is told all rates anew.
   for (const rate of rates.values()) rate.value = null;
   ForgetArrangement();
+  network.value = null;
   hello.value = message;
 }
 
 function OnStructure(message) {
   structure.replaceAll(message);
-  revision.value += 1;
-  shapeRevision.value += 1;
+  ShowNetwork(structure);
+  CountChange(true);
   watches.askAgain();
   link.send({ op: 'watch_rates', rate: 2 });
 }
 
 function OnStructureChange(message) {
   structure.change(message);
-  revision.value += 1;
-  if (ChangesShape(message)) shapeRevision.value += 1;
+  CountChange(ShowNetwork(structure) || ChangesShape(message));
   watches.askAgainFor((message.elements ?? []).map((element) => element.path));
+}
+
+function CountChange(isShape) {
+  revision.value += 1;
+  if (isShape) shapeRevision.value += 1;
 }
 
 function ChangesShape({ gone, connected, disconnected, elements }) {

@@ -1,0 +1,181 @@
+#include "plugins/network/xml_network_changes.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "core/base/nearest_name.h"
+#include "core/element/runtime.h"
+#include "plugins/network/network_element.h"
+#include "plugins/network/offer_list.h"
+#include "plugins/network/xml_network_words.h"
+#include "plugins/ros_messages/names.h"
+#include "plugins/structure/extension_changes.h"
+
+namespace runnel {
+
+namespace {
+
+using Offers = std::vector<OfferOptions>;
+
+// Of a change that takes another one back.
+struct OffersBefore {
+  Offers now;
+  Offers before;
+};
+
+NetworkElement* FindNetwork(Runtime& runtime) {
+  for (const FrameworkElement* const each : runtime.root().children()) {
+    if (NetworkElement* const network = NetworkElement::FindIn(*each)) return network;
+  }
+  return nullptr;
+}
+
+bool Stops(const ExtensionChange& change) {
+  return std::ranges::any_of(change.settings, [](const Setting& each) { return each.parameter == "stop" && each.value == "true"; });
+}
+
+std::string SaidIn(const ExtensionChange& change, std::string_view name) {
+  const auto found = std::ranges::find(change.settings, name, &Setting::parameter);
+  return found != change.settings.end() ? found->value : "";
+}
+
+// `ports`: the attributes that are no options, but words of the change.
+Result<void> CheckWords(const ExtensionChange& change, std::vector<AttributeRule> rules, const std::vector<std::string>& ports) {
+  std::erase_if(rules, [&](const AttributeRule& each) { return std::ranges::count(ports, each.name) > 0; });
+  rules.push_back({.name = "stop", .kind = AttributeKind::kChoice, .choices = {"false", "true"}});
+  for (const Setting& each : change.settings) {
+    const auto rule = std::ranges::find(rules, each.parameter, &AttributeRule::name);
+    if (rule == rules.end()) {
+      std::vector<std::string> names;
+      for (const AttributeRule& one : rules) names.push_back(one.name);
+      return Error{.message = "'" + change.verb + "' has no option '" + each.parameter + "'", .hint = NearestNameHint(each.parameter, names)};
+    }
+    auto checked = CheckAttributeValue(*rule, each.value);
+    if (checked && rule->name == "topic") checked = CheckRosName(each.value);
+    if (checked) continue;
+    Error error = checked.error();
+    error.message = each.parameter + ": " + error.message;
+    return error;
+  }
+  return {};
+}
+
+// Sets what is offered to what `next` makes of it.
+ExtensionStep StepOf(NetworkElement& network, const ExtensionChange& change, std::function<Result<Offers>(const Offers&)> next) {
+  auto before = std::make_shared<std::optional<Offers>>();
+  ExtensionStep step;
+  step.apply = [&network, next, before]() -> Result<void> {
+    auto offers = next(network.options().offers);
+    if (!offers) return offers.error();
+    *before = network.options().offers;
+    network.set_offers(std::move(*offers));
+    return {};
+  };
+  step.undo = [&network, before] {
+    if (*before) network.set_offers(std::move(**before));
+    before->reset();
+  };
+  step.inverse = [&network, next, change]() -> ChangeSet {
+    const Offers& now = network.options().offers;
+    const auto then = next(now);
+    if (!then) return {};  // the step is not applied
+    ExtensionChange back{change.verb, change.words, change.settings, std::make_shared<OffersBefore>(OffersBefore{*then, now})};
+    const bool stops = Stops(change);
+    std::erase_if(back.settings, [](const Setting& each) { return each.parameter == "stop"; });
+    if (!stops) back.settings.push_back({"stop", "true"});
+    return {std::move(back)};
+  };
+  return step;
+}
+
+Result<ExtensionStep> Back(NetworkElement& network, const ExtensionChange& change) {
+  const auto state = std::static_pointer_cast<const OffersBefore>(change.state);
+  return StepOf(network, change, [state, path = network.path()](const Offers& offers) -> Result<Offers> {
+    if (offers == state->now) return state->before;
+    return Error{.message = "what is offered has been changed meanwhile", .path = path};
+  });
+}
+
+Result<ExtensionStep> CheckOffer(NetworkElement& network, const ExtensionChange& change, const ExtensionChanges::Find& find) {
+  if (change.state) return Back(network, change);
+  if (change.words.size() != 1) return Error{.message = "'offer' names one port"};
+  if (auto checked = CheckWords(change, OfferRules(), {"ports", "port", "service"}); !checked) return checked.error();
+  const auto port = find(change.words[0], PathKind::kOutput);
+  if (!port) return port.error();
+  const std::string path = (*port)->path();
+  if (!(*port)->is_proxy() && (*port)->direction() == Port::Direction::kInput) {
+    return Error{.message = "is an input, which has no values of its own", .path = path, .hint = "offer what feeds it"};
+  }
+  const OfferOptions offer = OfferSaid([&](const char* name) { return SaidIn(change, name); });
+  const bool stops = Stops(change);
+  if (!stops) {
+    const auto form = ValueForm::Make((*port)->type(), offer.as, offer.frame, offer.child_frame, network.options().messages.get());
+    if (!form) return form.error();
+    if (offer.rate < 0) return Error{.message = "the rate is a number above 0, of values a second"};
+  }
+  return StepOf(network, change, [&network, path, offer, stops](const Offers& offers) -> Result<Offers> {
+    OfferList list{network.options().member.name, offers};
+    const auto changed = stops ? list.Remove(path, offer.topic) : list.Add(path, offer);
+    return changed ? Result<Offers>(std::move(list.offers)) : changed.error();
+  });
+}
+
+Result<ExtensionStep> CheckTake(NetworkElement& network, const ExtensionChange& change, const ExtensionChanges::Find& find) {
+  if (change.words.size() != 2) return Error{.message = "'take' names a topic and an input"};
+  if (auto checked = CheckWords(change, TakeRules(), {"topic", "to", "service"}); !checked) return checked.error();
+  const std::string& topic = change.words[0];
+  if (const auto checked = CheckRosName(topic); !checked) return checked.error();
+  const auto to = find(change.words[1], PathKind::kInput);
+  if (!to) return to.error();
+  ExtensionStep step;
+  if (Stops(change)) {
+    std::vector<std::string> topics;
+    for (const NetworkElement::Take& each : network.takes()) {
+      topics.push_back(each.options.topic);
+      if (each.options.topic == topic) step.changes.push_back(DisconnectPorts{each.output->path(), change.words[1]});
+    }
+    if (!step.changes.empty()) return step;
+    return Error{.message = "'" + topic + "' is not taken", .hint = NearestNameHint(topic, topics)};
+  }
+  TakeOptions take = TakeSaid([&](const char* name) { return SaidIn(change, name); });
+  take.topic = topic;
+  take.is_live = take.is_live || network.options().is_live;
+  take.position = network.options().position;
+  const auto output = network.AddTake(take, (*to)->type());
+  if (!output) return output.error();
+  step.changes.push_back(ConnectPorts{(*output)->path(), change.words[1]});
+  return step;
+}
+
+ExtensionStep StepOfRenaming(NetworkElement& network, const std::string& from, const std::string& to) {
+  ExtensionStep step = StepOf(network, {}, [&network, from, to](const Offers& offers) -> Result<Offers> {
+    OfferList list{network.options().member.name, offers};
+    list.Rename(from, to);
+    return std::move(list.offers);
+  });
+  step.inverse = {};
+  return step;
+}
+
+}  // namespace
+
+void AddNetworkChanges(Runtime& runtime) {
+  auto changes = std::make_unique<ExtensionChanges>();
+  const auto add = [&](const char* verb, auto check) {
+    changes->verbs[verb] = [&runtime, check](const ExtensionChange& change, const ExtensionChanges::Find& find) -> Result<ExtensionStep> {
+      NetworkElement* const network = FindNetwork(runtime);
+      if (network == nullptr) return Error{.message = "the application with the network has gone"};
+      return check(*network, change, find);
+    };
+  };
+  add("offer", CheckOffer);
+  add("take", CheckTake);
+  changes->rename = [&runtime](const std::string& from, const std::string& to) {
+    NetworkElement* const network = FindNetwork(runtime);
+    return network != nullptr ? StepOfRenaming(*network, from, to) : ExtensionStep();
+  };
+  runtime.root().Annotate(std::move(changes));
+}
+
+}  // namespace runnel

@@ -1,0 +1,126 @@
+#include "plugins/network/xml_network_words.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+namespace runnel {
+
+namespace {
+
+AttributeRule Choice(const char* name, const char* summary, std::vector<std::string> choices = {"true", "false"}) {
+  return {.name = name, .kind = AttributeKind::kChoice, .summary = summary, .choices = std::move(choices)};
+}
+
+AttributeRule Quality(const char* summary) { return Choice("qos", summary, ValueQualityNames()); }
+
+AttributeRule MessageTypeRule() {
+  return {.name = "as", .summary = "type of the messages: sensor_msgs/msg/LaserScan; without, the values by their description; of services: "
+                     "std_srvs/srv/Trigger"};
+}
+
+std::optional<double> NumberIn(const std::string& text) {
+  return text.empty() ? std::nullopt : std::optional(std::strtod(text.c_str(), nullptr));
+}
+
+std::optional<ValueQuality> QualityIn(const std::string& text) {
+  if (text.empty()) return {};
+  return static_cast<ValueQuality>(std::ranges::find(ValueQualityNames(), text) - ValueQualityNames().begin());
+}
+
+const std::string& NameOf(ValueQuality quality) { return ValueQualityNames()[static_cast<std::size_t>(quality)]; }
+
+// Those that are usual are left out.
+class Words {
+ public:
+  Words& Add(const char* name, const std::string& value) {
+    if (!value.empty()) words_.push_back({name, value});
+    return *this;
+  }
+  Words& AddIf(bool value, const char* name) { return Add(name, std::string(value ? "true" : "")); }
+  [[nodiscard]] std::vector<Setting> Take() { return std::move(words_); }
+
+ private:
+  std::vector<Setting> words_;
+};
+
+}  // namespace
+
+std::vector<AttributeRule> OfferRules() {
+  return {{.name = "ports", .summary = "patterns, separated by blanks: laser/* **/pose !**/debug"},
+      {.name = "port", .kind = AttributeKind::kPath, .summary = "one of them", .names_element = true},
+      {.name = "topic", .summary = "its name in the network: /scan; without, /<name of the application>/<path>"},
+      {.name = "service", .summary = "likewise, of a port that is a service: /save_map"},
+      MessageTypeRule(),
+      {.name = "frame", .kind = AttributeKind::kName, .summary = "of coordinates, for headers of messages"},
+      {.name = "child_frame", .kind = AttributeKind::kName, .summary = "what moves, for transforms and odometry"},
+      Quality("newest (default): reliable; each: every value, in a queue; sensor: best effort; latched: "
+              "who comes late gets the newest"),
+      {.name = "rate", .kind = AttributeKind::kNumber, .summary = "most values a second; the newest wins"},
+      {.name = "strength",
+       .kind = AttributeKind::kCount,
+       .summary = "for who takes exclusively: of several that offer the topic the strongest counts"}};
+}
+
+std::vector<AttributeRule> TakeRules() {
+  return {{.name = "topic", .summary = "its name: /cmd_vel"},
+      {.name = "service", .summary = "instead: one that clients of this application call: /save_map"},
+      MessageTypeRule(),
+      {.name = "to",
+       .kind = AttributeKind::kPathList,
+       .required = true,
+       .summary = "inputs, of whose type the values are",
+       .names_element = true},
+      Quality("what is asked of those who write; by default what they offer"),
+      Choice("stamp",
+             "arrived (default): measured when they came; sent: when the writer says, if the clocks of "
+             "both machines are synchronised",
+             {"arrived", "sent"}),
+      Choice("exclusive", "true: of several that write only the strongest counts"),
+      Choice("live", "true: also with simulated time, of which runs are not repeatable then")};
+}
+
+OfferOptions OfferSaid(const SaidOf& said) {
+  OfferOptions offer{.topic = said("topic"),
+                     .as = said("as"),
+                     .frame = said("frame"),
+                     .child_frame = said("child_frame"),
+                     .quality = QualityIn(said("qos")).value_or(ValueQuality::kNewest),
+                     .rate = NumberIn(said("rate")).value_or(0)};
+  if (const auto strength = NumberIn(said("strength"))) offer.strength = static_cast<std::int32_t>(*strength);
+  return offer;
+}
+
+TakeOptions TakeSaid(const SaidOf& said) {
+  return {.topic = said("topic"),
+          .as = said("as"),
+          .quality = QualityIn(said("qos")),
+          .is_exclusive = said("exclusive") == "true",
+          .keeps_stamps = said("stamp") == "sent",
+          .is_live = said("live") == "true"};
+}
+
+std::vector<Setting> WordsOf(const OfferOptions& offer) {
+  return Words()
+      .Add("topic", offer.topic)
+      .Add("as", offer.as)
+      .Add("frame", offer.frame)
+      .Add("child_frame", offer.child_frame)
+      .Add("qos", offer.quality == ValueQuality::kNewest ? "" : NameOf(offer.quality))
+      .Add("rate", offer.rate > 0 ? fmt::format("{}", offer.rate) : "")
+      .Add("strength", offer.strength ? std::to_string(*offer.strength) : "")
+      .Take();
+}
+
+std::vector<Setting> WordsOf(const TakeOptions& take) {
+  return Words()
+      .Add("as", take.as)
+      .Add("qos", take.quality ? NameOf(*take.quality) : "")
+      .Add("stamp", take.keeps_stamps ? "sent" : "")
+      .AddIf(take.is_exclusive, "exclusive")
+      .AddIf(take.is_live, "live")
+      .Take();
+}
+
+}  // namespace runnel

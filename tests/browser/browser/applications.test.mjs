@@ -1,0 +1,76 @@
+// Another application in the network, as a box whose ports are connected as any.
+
+import assert from 'node:assert/strict';
+import { readFile, writeFile } from 'node:fs/promises';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { OpenPage } from '../support/browser.mjs';
+import { DemoFile, RunApplication } from '../support/runnel.mjs';
+
+process.env.ROS_DOMAIN_ID = String(1 + process.pid % 100);
+
+const kFollower = `<application name="follower">
+  <load plugin="motion"/>
+  <network/>
+  <module name="gate" type="motion/command_gate"/>
+  <connect from="//nobody/twist" to="gate/wanted"/>
+</application>
+`;
+
+/** The planner of the two robots, and one that follows what it wants. */
+async function Both(t) {
+  const { folder } = await DemoFile(t);
+  const planner = join(folder, 'planner.xml');
+  await writeFile(planner, await readFile(join(process.env.RUNNEL_XML, 'apps/two_robots_planner.xml'), 'utf8'));
+  const follower = join(folder, 'follower.xml');
+  await writeFile(follower, kFollower);
+  await RunApplication(t, planner);
+  const application = await RunApplication(t, follower);
+  return { follower, inspector: await OpenPage(t, application.url, { width: 1400, height: 900 }) };
+}
+
+test('an edge is drawn between an application elsewhere and a port here', async (t) => {
+  const { follower, inspector } = await Both(t);
+  const { page } = inspector;
+  await page.locator('[data-node="/follower/@planner"]').waitFor();
+  const from = page.locator('[data-port="//planner/planner/twist"] circle');
+  const to = page.locator('[data-port="/follower/gate/input/wanted"] circle');
+  await from.waitFor();
+  await page.locator('.box.absent[data-node="/follower/@nobody"]').waitFor();
+  await page.locator('.edge.waiting[data-edge="/follower/network/nobody/twist → /follower/gate/input/wanted"]').waitFor({ state: 'attached' });
+  const [start, end] = [await from.boundingBox(), await to.boundingBox()];
+  await page.mouse.move(start.x + start.width / 2, start.y + start.height / 2);
+  await page.mouse.down();
+  await page.mouse.move((start.x + end.x) / 2, (start.y + end.y) / 2, { steps: 5 });
+  await page.mouse.move(end.x + end.width / 2, end.y + end.height / 2, { steps: 5 });
+  await page.mouse.up();
+  const edge = page.locator('[data-edge="/follower/network/planner/planner/twist → /follower/gate/input/wanted"]');
+  await edge.first().waitFor({ state: 'attached' });
+  await page.locator('[data-port="/follower/network/planner/planner/twist"][aria-label*="connected"]').waitFor();
+  await page.locator('[data-node="/follower/@planner"] .body').click({ position: { x: 60, y: 15 } });
+  await page.locator('.far-structure', { hasText: 'surroundings' }).waitFor();
+  await inspector.picture('network');
+  await page.keyboard.press('Control+z');
+  await edge.first().waitFor({ state: 'detached' });
+  assert.ok((await readFile(follower, 'utf8')).includes('//nobody/twist'));
+});
+
+test('a port is offered from its menu, and no more', async (t) => {
+  const { inspector } = await Both(t);
+  const { page } = inspector;
+  const port = page.locator('[data-port="/follower/gate/output/allowed"]');
+  await page.locator('[data-node="/follower/@planner"]').waitFor();
+  await port.locator('circle').click({ button: 'right' });
+  await page.getByRole('menuitem', { name: 'Offer in the network …' }).click();
+  await page.locator('#offer-topic').fill('go there');
+  await page.locator('#offer').click();
+  await page.locator('.problem', { hasText: 'topic' }).waitFor();
+  await page.locator('#offer-topic').fill('/go');
+  await page.locator('#offer').click();
+  await page.locator('.port.offered[data-port="/follower/gate/output/allowed"]').waitFor();
+  await port.locator('circle').click({ button: 'right' });
+  await page.getByRole('menuitem', { name: 'Stop offering /go' }).click();
+  await page.locator('.port.offered').waitFor({ state: 'detached' });
+  await page.keyboard.press('Control+z');
+  await page.locator('.port.offered[data-port="/follower/gate/output/allowed"]').waitFor();
+});

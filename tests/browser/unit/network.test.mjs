@@ -1,0 +1,64 @@
+// Other applications in the network, as the structure shows them.
+
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { NetworkElements } from '../../../plugins/inspector/page/source/model/network.js';
+import { Structure } from '../../../plugins/inspector/page/source/model/structure.js';
+
+const kPort = { kind: 'port', data_type: 'Twist2', interface: false, awaits: [] };
+
+function Robot() {
+  const structure = new Structure();
+  structure.replaceAll({ revision: 1, connections: [], elements: [
+    { path: '/robot', kind: 'application', name: 'robot' },
+    { path: '/robot/gate', kind: 'module', name: 'gate' },
+    { ...kPort, path: '/robot/gate/input/wanted', owner: '/robot/gate', direction: 'input', name: 'wanted' },
+    { ...kPort, path: '/robot/gate/output/allowed', owner: '/robot/gate', direction: 'output', name: 'allowed' },
+    { path: '/robot/network', kind: 'group', name: 'network' },
+    { path: '/robot/network/planner', kind: 'group', name: 'planner' },
+    { ...kPort, path: '/robot/network/planner/twist', owner: '/robot/network/planner', direction: 'output', name: 'twist' },
+  ] });
+  return structure;
+}
+
+const kNetwork = {
+  name: 'robot', element: '/robot/network',
+  offers: [{ port: '/robot/gate/output/allowed', topic: '/robot/gate/allowed', readers: ['planner'], misfit: null }],
+  takes: [{ port: '/robot/network/planner/twist', topic: '/planner/twist', writers: ['planner'], misfit: null, is_wanted: true, owner: null }],
+  applications: [{ name: 'planner', delay: 0.0002, is_simulated: false, structure: null, offers: [{ topic: '/planner/twist', type: 'Twist2' }, { topic: '/planner/status', type: 'Status' }] }],
+};
+const Show = (structure, network) => structure.cover((bare) => NetworkElements(bare, network), network?.element);
+
+test('an application is a box with what is offered and what is connected', () => {
+  const structure = Robot();
+  assert.equal(Show(structure, kNetwork), true);
+  assert.deepEqual(structure.membersOf('/robot'), ['/robot/gate', '/robot/@planner']);
+  assert.deepEqual(structure.portsOf('/robot/@planner').map(({ path, name, state }) => [path, name, state]),
+    [['/robot/network/planner/twist', 'twist', 'connected'], ['//planner/status', 'status', 'offered']]);
+  assert.deepEqual(structure.get('/robot/gate/output/allowed').offers.map(({ topic }) => topic), ['/robot/gate/allowed']);
+  assert.equal(Show(structure, kNetwork), false, 'the same picture');
+});
+
+test('who is waited for is shown, and all is as before when the network has gone', () => {
+  const structure = Robot();
+  Show(structure, { ...kNetwork, applications: [], takes: [{ ...kNetwork.takes[0], writers: [] }] });
+  assert.equal(structure.get('/robot/@planner').is_there, false);
+  assert.equal(structure.get('/robot/network/planner/twist').state, 'waiting');
+  structure.change({ revision: 2, elements: [{ ...kPort, path: '/robot/network/planner/twist', owner: '/robot/network/planner', direction: 'output', name: 'twist', by_hand: true }] });
+  Show(structure, null);
+  assert.deepEqual(structure.membersOf('/robot'), ['/robot/gate', '/robot/network']);
+  assert.deepEqual(structure.portsOf('/robot/network/planner').map(({ path, by_hand }) => [path, by_hand]), [['/robot/network/planner/twist', true]]);
+  assert.equal(structure.get('/robot/gate/output/allowed').offers, undefined);
+});
+
+test('topics of nodes have a box of their own', () => {
+  const structure = Robot();
+  Show(structure, { ...kNetwork, takes: [], applications: [{ name: null, delay: null, structure: null, offers: [{ topic: '/base/scan', type: 'sensor_msgs/msg/LaserScan' }] }] });
+  assert.deepEqual(structure.portsOf('/robot/@topics').map(({ path, name }) => [path, name]), [['//base/scan', 'base/scan']]);
+});
+
+test('an other type is told', () => {
+  const structure = Robot();
+  Show(structure, { ...kNetwork, takes: [{ ...kNetwork.takes[0], writers: [], misfit: 'planner: another type' }] });
+  assert.equal(structure.get('/robot/network/planner/twist').state, 'does not fit');
+});
