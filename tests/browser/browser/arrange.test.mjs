@@ -87,7 +87,7 @@ test('a box is moved by mouse and stays: for other viewers, after a reload, afte
     await inspector.until('it is gone', () => document.querySelector('.scene') !== null);
     assert.notEqual(await Apart(inspector), wanted);
   });
-}, { timeout: 120000 });
+}, { timeout: 400000 });
 
 test('notes on boxes and on connections are seen by all viewers, changed and taken away', async (t) => {
   const { application, server, inspector, page } = await OpenMock(t);

@@ -80,5 +80,5 @@ test('the graph is seen, a value changes, a parameter is set, the planner is swa
     assert.equal(await application.stop(), 0, application.output());
     assert.match(application.output(), /reached: path/);
     await page.locator('#lost', { hasText: 'reached' }).waitFor();
-  }, { timeout: 60000 });
+  }, { timeout: 300000 });
 });

@@ -79,7 +79,7 @@ test('a module is made, connected by dragging, undone, made again, saved, and is
     await other.select('/bug_demo/second');
     await other.details.locator('.thread-name', { hasText: 'slow' }).waitFor();
   });
-}, { timeout: 120000 });
+}, { timeout: 400000 });
 
 test('connecting and disconnecting by the keyboard', async (t) => {
   const { inspector, page } = await Demo(t);

@@ -6,7 +6,7 @@ import { join } from 'node:path';
 import { chromium } from 'playwright-core';
 import { Cleanup } from './cleanup.mjs';
 
-const kPatience = 20000; // ms that a condition may take to come true; nothing waits longer than it has to
+const kPatience = 60000; // ms that a condition may take to come true; nothing waits longer than it has to
 
 // One browser for all tests of a file: to start one takes longer than most tests do. Each page has a context of its own,
 // so that nothing that one keeps is found by another.
