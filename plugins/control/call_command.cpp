@@ -85,12 +85,13 @@ class CallCommand {
         return Error{.message = "takes no arguments", .path = path_};
     } else {
       const std::string shape = ToText(*type, call->arguments());
-      if (!arguments_) {
+      if (!arguments_ && !(*callable)->are_arguments_optional()) {
         return Error{.message = "wants arguments",
                      .path = path_,
                      .hint = "of the shape " + (shape.empty() ? "'some words'" : "'" + shape + "'")};
       }
-      if (auto set = SetFromText(*type, *arguments_, call->arguments()); !set) {
+      const auto set = arguments_ ? SetFromText(*type, *arguments_, call->arguments()) : Result<void>();
+      if (!set) {
         Error error = set.error();
         error.path = path_;
         if (error.hint.empty()) error.hint = "arguments are of the shape '" + shape + "'";

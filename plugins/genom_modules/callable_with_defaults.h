@@ -13,12 +13,13 @@ namespace runnel::genom_modules {
 template <typename Inner>
 class CallableWithDefaults final : public Callable {
  public:
-  /// `defaults`: text of the arguments, "" for none.
-  CallableWithDefaults(std::unique_ptr<Inner> inner, std::string defaults)
-      : inner_(std::move(inner)), defaults_(std::move(defaults)) {}
+  /// `defaults`: text of the arguments, "" for none. `are_all_there`: each argument has one.
+  CallableWithDefaults(std::unique_ptr<Inner> inner, std::string defaults, bool are_all_there)
+      : inner_(std::move(inner)), defaults_(std::move(defaults)), are_all_there_(are_all_there) {}
 
   [[nodiscard]] const TypeInfo* arguments() const override { return inner_->arguments(); }
   [[nodiscard]] const TypeInfo* reply() const override { return inner_->reply(); }
+  [[nodiscard]] bool are_arguments_optional() const override { return are_all_there_; }
   [[nodiscard]] const std::string& description() const override { return inner_->description(); }
   [[nodiscard]] bool is_activity() const override { return inner_->is_activity(); }
   [[nodiscard]] std::unique_ptr<AnyCall> NewCall() override {
@@ -33,6 +34,7 @@ class CallableWithDefaults final : public Callable {
  private:
   const std::unique_ptr<Inner> inner_;
   const std::string defaults_;
+  const bool are_all_there_;
 };
 
 }  // namespace runnel::genom_modules

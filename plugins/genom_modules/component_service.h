@@ -29,6 +29,7 @@ class ComponentService<Reply(Arguments...)> final : public ComponentServiceBase 
   struct Options {
     ServiceOptions service = {};
     const char* defaults = "";  ///< of its arguments, in the text format
+    bool has_all_defaults = false;
     void (*fill)(genom_execution::Request& request, Pack& arguments) = nullptr;
     void (*take)(genom_execution::Request& request, Answered& reply) = nullptr;
   };
@@ -43,7 +44,8 @@ class ComponentService<Reply(Arguments...)> final : public ComponentServiceBase 
         records_(owner.OutputGroup(), name + "_calls",
                  {.description = "what has come of each call of " + name, .pool = {}}) {
     auto callable = std::make_unique<CallableWithDefaults<CallableOf<Signature>>>(
-        std::make_unique<CallableOf<Signature>>(*this, options.service, is_activity()), options.defaults);
+        std::make_unique<CallableOf<Signature>>(*this, options.service, is_activity()), options.defaults,
+        options.has_all_defaults);
     port_.Publish(ServiceLink<Signature>{endpoint_.get()});
     (void)endpoint_.release();  // the channel's from here on
     Open(port_, false);

@@ -41,7 +41,7 @@ Result<void> TaskModule::Prepare() {
   if (!thread) return thread.error();
   if (auto good = Check(**thread); !good) return good;
   // What takes the component's place says anew who runs it.
-  AssignThread(*this, **thread, /*is_inherited=*/false);
+  AssignThread(*this, **thread, AssignedBy::kModule);
   return {};
 }
 

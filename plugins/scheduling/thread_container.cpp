@@ -15,19 +15,19 @@ constexpr int kHighestPriority = 99;
 constexpr std::uint64_t kNoThread = 0;
 
 struct ThreadAssignment final : Annotation {
-  ThreadAssignment(std::uint64_t thread_id, bool inherited) : id(thread_id), is_inherited(inherited) {}
+  ThreadAssignment(std::uint64_t thread_id, AssignedBy who) : id(thread_id), by(who) {}
   std::unique_ptr<Annotation> ForReplacement() const override {
-    return is_inherited ? std::make_unique<ThreadAssignment>(id, true) : nullptr;
+    return by != AssignedBy::kModule ? std::make_unique<ThreadAssignment>(id, by) : nullptr;
   }
   // The number and not the address: that of a container that is gone never comes back.
   std::uint64_t id;
-  bool is_inherited;
+  AssignedBy by;
 };
 
-void SetAssignment(FrameworkElement& element, std::uint64_t thread, bool is_inherited) {
+void SetAssignment(FrameworkElement& element, std::uint64_t thread, AssignedBy who) {
   Runtime& runtime = element.runtime();
   const std::lock_guard lock(runtime.structure_mutex());
-  element.Annotate(std::make_unique<ThreadAssignment>(thread, is_inherited));
+  element.Annotate(std::make_unique<ThreadAssignment>(thread, who));
   runtime.ForEachListener([&](ElementListener& listener) {
     if (auto* const told = dynamic_cast<AssignmentListener*>(&listener)) told->OnAssigned(element);
   });
@@ -48,13 +48,10 @@ ThreadOptions ThreadContainer::options() const noexcept { return runner_->option
 Result<void> ThreadContainer::Check(const ThreadOptions& options, const std::string& path) {
   if (options.activation != ThreadOptions::Activation::kTrigger &&
       options.period <= Duration::zero()) {
-    return Error{.message = "the period of a thread must be positive",
-                 .path = path,
-                 .hint = "for example 0.01 s"};
+    return Error{.message = "the period of a thread must be positive", .path = path, .hint = "for example 0.01 s"};
   }
   if (options.priority < 0 || options.priority > kHighestPriority) {
-    return Error{.message = "priority " + std::to_string(options.priority) +
-                            " of a thread is out of bounds",
+    return Error{.message = "priority " + std::to_string(options.priority) + " of a thread is out of bounds",
                  .path = path,
                  .hint = "0 is ordinary scheduling, 1 .. 99 is SCHED_FIFO"};
   }
@@ -70,10 +67,12 @@ Result<void> ThreadContainer::SetOptions(const ThreadOptions& options) {
   if (auto good = Check(options, path()); !good) return good;
   const std::lock_guard lock(runtime().structure_mutex());
   runner_->set_options(options);
+  runtime().root().Visit([this](FrameworkElement& each) {
+    auto* const found = each.FindAnnotation<ThreadAssignment>();
+    if (found != nullptr && found->id == id() && found->by == AssignedBy::kNobody) found->by = AssignedBy::kUser;
+  });
   runtime().ForEachListener([&](ElementListener& listener) {
-    if (auto* const told = dynamic_cast<AssignmentListener*>(&listener)) {
-      told->OnOptionsChanged(*this);
-    }
+    if (auto* const told = dynamic_cast<AssignmentListener*>(&listener)) told->OnOptionsChanged(*this);
   });
   return {};
 }
@@ -96,8 +95,7 @@ std::string ActivationText(const ThreadOptions& options) {
   return options.activation == Activation::kTrigger ? "when data comes" : "free-running";
 }
 
-ThreadContainer& CreateThread(Runtime& runtime, const std::string& name,
-                              const ThreadOptions& options) {
+ThreadContainer& CreateThread(Runtime& runtime, const std::string& name, const ThreadOptions& options) {
   const std::lock_guard lock(runtime.structure_mutex());
   FrameworkElement* threads = runtime.root().FindChild("threads");
   if (threads == nullptr) threads = &runtime.Create<Group>(runtime.root(), "threads");
@@ -107,18 +105,22 @@ ThreadContainer& CreateThread(Runtime& runtime, const std::string& name,
   return container;
 }
 
-void AssignThread(FrameworkElement& element, ThreadContainer& thread, bool is_inherited) {
-  RUNNEL_CHECK(&element.runtime() == &thread.runtime(),
-               "a thread runs modules of its own runtime only");
-  SetAssignment(element, thread.id(), is_inherited);
+void AssignThread(FrameworkElement& element, ThreadContainer& thread, AssignedBy who) {
+  RUNNEL_CHECK(&element.runtime() == &thread.runtime(), "a thread runs modules of its own runtime only");
+  SetAssignment(element, thread.id(), who);
 }
 
 // One that never was: what is above decides.
-void UnassignThread(FrameworkElement& element) { SetAssignment(element, kNoThread, true); }
+void UnassignThread(FrameworkElement& element) { SetAssignment(element, kNoThread, AssignedBy::kUser); }
 
 std::uint64_t OwnThreadId(const FrameworkElement& element) {
   const auto* const found = element.FindAnnotation<ThreadAssignment>();
   return found != nullptr ? found->id : kNoThread;
+}
+
+std::uint64_t SavedThreadId(const FrameworkElement& element) {
+  const auto* const found = element.FindAnnotation<ThreadAssignment>();
+  return found != nullptr && found->by != AssignedBy::kNobody ? found->id : kNoThread;
 }
 
 // Threads are children of a group "threads", of the root or of an application.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,8 +17,7 @@ class CycleRunner;
 /// A thread as an element of the tree: runs the modules assigned to it, one after the other along
 /// the data flow, in cycles (FINROC's ThreadContainer). Without a Scheduler it does nothing.
 ///
-/// Threads:  options() and statistics() from any thread. Errors: the constructor throws
-/// ElementError
+/// Threads:  options() and statistics() from any thread. Errors: the constructor throws ElementError
 ///           for a period that is not positive or a priority out of 0 .. 99.
 class ThreadContainer final : public FrameworkElement {
  public:
@@ -51,13 +51,15 @@ class ThreadContainer final : public FrameworkElement {
 
 /// Makes the container /threads/<name>, ready to be used. Throws ElementError for a name that is
 /// taken, or for bad options.
-ThreadContainer& CreateThread(Runtime& runtime, const std::string& name,
-                              const ThreadOptions& options = {});
+ThreadContainer& CreateThread(Runtime& runtime, const std::string& name, const ThreadOptions& options = {});
+
+/// kModule: by its parameters, and what replaces it says for itself. kNobody: nobody has said anything, and no file is to
+/// say it, until the thread is given other options.
+enum class AssignedBy : std::uint8_t { kUser, kModule, kNobody };
 
 /// Has `element`, and all below it that is not assigned otherwise, run by `thread` from the next
 /// cycle on. If the container is deleted, the assignment is void. Takes the structure lock.
-/// `is_inherited`: what replaces the element is assigned so, too.
-void AssignThread(FrameworkElement& element, ThreadContainer& thread, bool is_inherited = true);
+void AssignThread(FrameworkElement& element, ThreadContainer& thread, AssignedBy who = AssignedBy::kUser);
 
 /// Takes the assignment of `element` itself back: what is above it decides again. Takes the structure
 /// lock.
@@ -73,6 +75,9 @@ void UnassignThread(FrameworkElement& element);
 
 /// The same, of the element's own assignment only.
 [[nodiscard]] std::uint64_t OwnThreadId(const FrameworkElement& element);
+
+/// The same, but 0 where nobody has said it.
+[[nodiscard]] std::uint64_t SavedThreadId(const FrameworkElement& element);
 
 /// Told of assignments; an ElementListener may be one too.
 class AssignmentListener {

@@ -63,6 +63,8 @@ class Callable : public Annotation {
   [[nodiscard]] virtual const TypeInfo* arguments() const = 0;
   /// nullptr: nothing but that it has been done.
   [[nodiscard]] virtual const TypeInfo* reply() const = 0;
+  /// Whether a call may say nothing: NewCall() has filled in all of them.
+  [[nodiscard]] virtual bool are_arguments_optional() const { return false; }
   [[nodiscard]] virtual const std::string& description() const = 0;
   /// Whether calls take long: they report progress, and can be aborted.
   [[nodiscard]] virtual bool is_activity() const = 0;

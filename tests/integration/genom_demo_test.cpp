@@ -41,6 +41,8 @@ TEST_F(GenomDemo, IsSentInterruptedResumedAndSwapped) {
   EXPECT_EQ(Runnel("set /guide/set_limits '{speed: 0.3, turn_rate: 1.2}'").code, kDone);
   EXPECT_EQ(Runnel("call /guide/set_limits '{limits: {speed: 0.35, turn_rate: 1.2}}'").code, kDone);
   EXPECT_THAT(Runnel("get /guide/parameter/set_limits").text, HasSubstr("{speed: 0.35, turn_rate: 1.2}"));
+  EXPECT_EQ(Runnel("call /guide/set_limits").code, kDone) << "all arguments have defaults";
+  EXPECT_THAT(Runnel("get /guide/parameter/set_limits").text, HasSubstr("{speed: 0.4, turn_rate: 1.2}"));
   EXPECT_THAT(Runnel("call /guide/resume").text, HasSubstr("guide::no_pose"));
   EXPECT_THAT(Runnel("call /guide/go_to '{to: {x: 500, y: 0}}'").text, HasSubstr("guide::too_far {limit: 100}"));
 

@@ -108,8 +108,9 @@ py::object Call(const Open& open, const std::string& path, double timeout, const
         if (callable->arguments() == nullptr) {
           if (has_some) throw py::type_error("the service takes no arguments");
         } else {
-          if (!has_some || positional.size() > 1) throw py::type_error("the service wants " + ToText(*callable->arguments(), call->arguments()));
-          FromPython(*callable->arguments(), positional.empty() ? py::handle(named) : py::handle(positional[0]), call->arguments(), false);
+          const bool is_enough = has_some || callable->are_arguments_optional();
+          if (!is_enough || positional.size() > 1) throw py::type_error("the service wants " + ToText(*callable->arguments(), call->arguments()));
+          if (has_some) FromPython(*callable->arguments(), positional.empty() ? py::handle(named) : py::handle(positional[0]), call->arguments(), false);
         }
       } catch (...) {
         thrown = std::current_exception();

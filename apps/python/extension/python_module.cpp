@@ -162,7 +162,7 @@ void PythonModule::GoToOwnThread() {
     if (!period) options.activation = ThreadOptions::Activation::kTrigger;
     thread = &CreateThread(runtime(), own, options);
   }
-  AssignThread(*this, *thread);
+  AssignThread(*this, *thread, AssignedBy::kNobody);
 }
 
 // What is assigned to none goes on where it is run: with one more thread nobody would have said where.
@@ -174,7 +174,7 @@ void PythonModule::KeepOthersTogether() {
   if (threads.empty()) threads.push_back(&CreateThread(runtime(), "main"));
   FrameworkElement* application = this;
   while (application->parent()->parent() != nullptr) application = application->parent();
-  if (threads.size() == 1 && AssignedThread(*application) == 0) AssignThread(*application, *threads.front());
+  if (threads.size() == 1 && AssignedThread(*application) == 0) AssignThread(*application, *threads.front(), AssignedBy::kNobody);
 }
 
 void PythonModule::Update() {

@@ -132,7 +132,7 @@ std::vector<ThreadContainer*> ReachableThreads(const FrameworkElement& applicati
 
 std::vector<SavedTag> SavedThreads(FrameworkElement& application) {
   std::set<std::uint64_t> used;
-  application.Visit([&](FrameworkElement& each) { used.insert(OwnThreadId(each)); });
+  application.Visit([&](FrameworkElement& each) { used.insert(SavedThreadId(each)); });
   std::vector<SavedTag> tags;
   for (const ThreadContainer* thread : ReachableThreads(application)) {
     if (thread->IsAtOrBelow(application) || used.contains(thread->id())) {
@@ -144,7 +144,7 @@ std::vector<SavedTag> SavedThreads(FrameworkElement& application) {
 
 // "" also if the thread is gone, for then the assignment means nothing.
 std::string SavedAssignment(FrameworkElement& element) {
-  const std::uint64_t id = OwnThreadId(element);
+  const std::uint64_t id = SavedThreadId(element);
   if (id == 0) return "";
   for (const ThreadContainer* thread : ReachableThreads(internal::ApplicationOf(element))) {
     if (thread->id() == id) return thread->name();

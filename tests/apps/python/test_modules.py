@@ -69,11 +69,23 @@ def test_drives_the_robot(app):
     assert app["/wanderer/distance"] == 0.7
 
 
-def test_has_a_thread_of_its_own(app):
-    app.save("saved.xml")
-    text = open("saved.xml").read()
-    assert 'thread="python_wanderer"' in text and '<thread name="python_wanderer"' in text
-    assert '<application name="wander" thread="control">' in text
+def test_has_a_thread_of_its_own_that_no_file_needs_to_name(app, files):
+    app.run_for(1)
+    app.save(files / "wander.xml")
+    assert (files / "wander.xml").read_text() == WANDER
+    app.swap("/wanderer", "python/follower.Follower")
+    app.run_for(1)
+    app.swap("/wanderer", "python/follower.Follower")
+    app.undo()
+    app.undo()
+    app.save(files / "wander.xml")
+    assert (files / "wander.xml").read_text() == WANDER
+    app.apply("schedule /threads/python_wanderer period=20ms")
+    app.save(files / "wander.xml")
+    text = (files / "wander.xml").read_text()
+    assert 'thread="python_wanderer"' in text and '<thread name="python_wanderer" period="20ms"/>' in text
+    with runnel.load(files / "wander.xml") as again:
+        again.run_for(1)
 
 
 def test_is_made_anew_from_its_file_and_remembers(app, files):
