@@ -22,7 +22,8 @@
 #include "core/port/input.h"
 #include "core/port/output.h"
 #include "plugins/application_files/application_builder.h"
-#include "plugins/application_files/run_description.h"
+#include "plugins/application_tags/application_tags.h"
+#include "plugins/application_tags/run_description.h"
 #include "plugins/scheduling/scheduler.h"
 
 namespace runnel {
@@ -205,7 +206,7 @@ class Subject {
   const int modules_;
   Runtime runtime_;
   PluginManager plugins_;
-  XmlTagRegistry tags_;
+  XmlTagRegistry tags_ = ApplicationTags();
   Configuration configuration_;
   FrameworkElement* application_ = nullptr;
   std::unique_ptr<Scheduler> scheduler_;

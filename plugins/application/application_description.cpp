@@ -5,6 +5,7 @@
 
 #include "core/base/nearest_name.h"
 #include "core/module/group.h"
+#include "plugins/application_tags/application_tags.h"
 
 namespace runnel {
 
@@ -35,7 +36,7 @@ Result<void> CheckOptions(const ExtensionDescription& extension,
 }  // namespace
 
 ApplicationDescription::ApplicationDescription(ApplicationOptions options)
-    : options_(std::move(options)), extensions_(options_.extensions) {
+    : options_(std::move(options)), tags_(ApplicationTags()), extensions_(options_.extensions) {
   for (const auto& folder : options_.plugin_folders) plugins_.AddSearchFolder(folder);
   tags_.set_source([this](std::string_view tag) { return AttachForTag(tag); });
   plugins_.registry().Offer(tags_);

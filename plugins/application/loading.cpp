@@ -7,7 +7,7 @@
 #include "core/base/exception_text.h"
 #include "core/element/source_place.h"
 #include "plugins/application/internal/application_parts.h"
-#include "plugins/application_files/run_description.h"
+#include "plugins/application_tags/run_description.h"
 
 namespace runnel {
 

@@ -6,7 +6,6 @@
 #include "core/element/element_path.h"
 #include "core/element/source_place.h"
 #include "plugins/application_files/build_context.h"
-#include "plugins/application_files/tags/built_in_tags.h"
 
 namespace runnel {
 
@@ -44,8 +43,6 @@ bool TagUse::HasFreeName(const FrameworkElement& where) const {
   context.MarkMissing(where, nullptr);
   return false;
 }
-
-XmlTagRegistry::XmlTagRegistry() { AddBuiltInTags(*this); }
 
 void XmlTagRegistry::AddTag(XmlTag tag) {
   if (const XmlTag* known = FindTag(tag.name)) {

@@ -113,14 +113,13 @@ struct AddedAttribute {
   std::string plugin = {};
 };
 
-/// The words that application files may use: the built-in ones from the start, and those of
-/// plugins. Offer it to the plugin manager (PluginRegistry::Offer) before loading plugins.
+/// The words that application files may use: those that every file may (ApplicationTags() in
+/// plugins/application_tags makes a registry of them), and those of plugins. Offer it to the plugin manager
+/// (PluginRegistry::Offer) before loading plugins.
 ///
 /// Threads: not thread-safe.
 class XmlTagRegistry final : public OfferedRegistry {
  public:
-  XmlTagRegistry();
-
   /// Both throw ElementError if the word is taken, as registrations of plugins do.
   void AddTag(XmlTag tag);
   void AddAttribute(AddedAttribute attribute);

@@ -23,7 +23,7 @@ void AddApplication(std::vector<IncludeRule>& rules) {
   // is attached from outside, by files of these names.
   const std::vector<std::string> application = {"core",
                                                 "plugins/application",
-                                                "plugins/application_files",
+                                                "plugins/application_files", "plugins/application_tags",
                                                 "plugins/command_service",
                                                 "plugins/control",
                                                 "plugins/parameters",
@@ -80,8 +80,11 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
                     "plugins/values", "plugins/web_server"}});
   rules.push_back({"plugins/application_files",
                    "plugins/application_files",
-                   {"core", "plugins/parameters", "plugins/scheduling", "plugins/timing", "plugins/structure",
-                    "plugins/supervision"}});
+                   {"core", "plugins/parameters", "plugins/structure"}});
+  rules.push_back({"plugins/application_tags",
+                   "plugins/application_tags",
+                   {"core", "plugins/application_files", "plugins/parameters", "plugins/scheduling", "plugins/timing",
+                    "plugins/structure", "plugins/supervision"}});
   rules.push_back(
       {"plugins/finroc_files",
        "plugins/finroc_files",

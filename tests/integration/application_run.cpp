@@ -9,7 +9,8 @@
 #include "core/plugin/plugin_manager.h"
 #include "core/port/port.h"
 #include "plugins/application_files/application_builder.h"
-#include "plugins/application_files/run_description.h"
+#include "plugins/application_tags/application_tags.h"
+#include "plugins/application_tags/run_description.h"
 #include "plugins/parameters/configuration.h"
 #include "plugins/structure/structure_editor.h"
 
@@ -50,7 +51,7 @@ ApplicationRun RunApplication(const ApplicationChoice& choice) {
 
   PluginManager plugins;
   plugins.AddSearchFolder(RUNNEL_TEST_PLUGINS);
-  XmlTagRegistry tags;
+  XmlTagRegistry tags = ApplicationTags();
   plugins.registry().Offer(tags);
   Configuration configuration;
   for (const std::string& argument : choice.arguments) {

@@ -9,7 +9,7 @@
 
 #include "core/paths/late_connections.h"
 #include "core/port/proxy_port.h"
-#include "plugins/application_files/run_description.h"
+#include "plugins/application_tags/run_description.h"
 #include "plugins/application_files/saving/application_saver.h"
 #include "plugins/scheduling/thread_container.h"
 #include "tests/plugins/application_files/reading/test_application.h"

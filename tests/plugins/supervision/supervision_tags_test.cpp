@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "plugins/application_files/run_description.h"
+#include "plugins/application_tags/run_description.h"
 #include "tests/plugins/application_files/reading/test_application.h"
 
 namespace runnel::testing {

@@ -111,7 +111,7 @@ TEST(AddedWords, ThatThrowAreErrorsAtTheTag) {
 }
 
 TEST(AddedWords, MustBeNew) {
-  XmlTagRegistry tags;
+  XmlTagRegistry tags = ApplicationTags();
   tags.set_plugin("beacons");
   tags.AddTag(BeaconTag());
   EXPECT_THROW(tags.AddTag(BeaconTag()), ElementError);
@@ -123,7 +123,7 @@ TEST(AddedWords, MustBeNew) {
 }
 
 TEST(AddedWords, GoWithARefusedPlugin) {
-  XmlTagRegistry tags;
+  XmlTagRegistry tags = ApplicationTags();
   std::vector<std::string> seen;
   tags.set_plugin("beacons");
   tags.AddTag(BeaconTag());

@@ -9,6 +9,7 @@
 #include "core/port/input.h"
 #include "core/port/output.h"
 #include "plugins/application_files/application_builder.h"
+#include "plugins/application_tags/application_tags.h"
 #include "plugins/parameters/file_path.h"
 #include "plugins/parameters/parameter.h"
 #include "plugins/parameters/static_parameter.h"
@@ -74,7 +75,7 @@ class Unmakeable final : public Module {
 struct Workshop {
   Runtime runtime;
   PluginManager plugins;
-  XmlTagRegistry tags;
+  XmlTagRegistry tags = ApplicationTags();
   Configuration configuration;
   Diagnostics diagnostics;
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugins/application_files/run_description.h"
+#include "plugins/application_tags/run_description.h"
 #include "plugins/application_files/saving/application_saver.h"
 #include "tests/plugins/application_files/reading/test_application.h"
 #include "tests/plugins/application_files/saving/application_text.h"

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "plugins/application_files/run_description.h"
+#include "plugins/application_tags/run_description.h"
 #include "plugins/network/network_engines.h"
 #include "plugins/network/xml_network_tags.h"
 #include "plugins/wire/fake_wire.h"

@@ -5,8 +5,8 @@
 
 #include "plugins/application_files/build_context.h"
 #include "plugins/application_files/path_use.h"
-#include "plugins/application_files/run_description.h"
-#include "plugins/application_files/tags/built_in_tags.h"
+#include "plugins/application_tags/run_description.h"
+#include "plugins/application_tags/tag_list.h"
 
 namespace runnel {
 

@@ -1,4 +1,4 @@
-#include "plugins/application_files/run_description.h"
+#include "plugins/application_tags/run_description.h"
 
 #include <memory>
 

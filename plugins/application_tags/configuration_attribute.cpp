@@ -6,7 +6,7 @@
 #include "core/module/group_parameter.h"
 #include "core/paths/path_search.h"
 #include "plugins/application_files/build_context.h"
-#include "plugins/application_files/tags/built_in_tags.h"
+#include "plugins/application_tags/tag_list.h"
 #include "plugins/parameters/configuration_entry.h"
 #include "plugins/parameters/file_path.h"
 

@@ -1,11 +1,13 @@
-#include "plugins/application_files/tags/built_in_tags.h"
+#include "plugins/application_tags/application_tags.h"
 
 #include "core/element/tags.h"
 #include "plugins/application_files/build_context.h"
+#include "plugins/application_tags/tag_list.h"
 
 namespace runnel {
 
-void AddBuiltInTags(XmlTagRegistry& tags) {
+XmlTagRegistry ApplicationTags() {
+  XmlTagRegistry tags;
   for (const auto& make : {ApplicationTag, GroupTypeTag, LoadTag, ClockTag, ThreadTag, PortTag,
                            ModuleTag, ParameterTag, InputTag, GroupTag, ConnectTag, LogTag, OnFaultTag,
                            OnStaleTag, OnStuckTag, OnPauseTag, LatencyTag, ProfileTag, OtherwiseTag}) {
@@ -17,6 +19,7 @@ void AddBuiltInTags(XmlTagRegistry& tags) {
     tags.AddAttribute(ConfigurationAttribute(tag));
     tags.AddAttribute(TagsAttribute(tag));
   }
+  return tags;
 }
 
 AddedAttribute TagsAttribute(std::string tag) {

@@ -1,6 +1,6 @@
 // Where the value of a parameter comes from, and which of several wins.
 
-#include "plugins/application_files/tags/parameter_value.h"
+#include "plugins/application_tags/parameter_value.h"
 
 #include <filesystem>
 #include <map>

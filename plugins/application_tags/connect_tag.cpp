@@ -13,8 +13,8 @@
 #include "plugins/application_files/build_context.h"
 #include "plugins/application_files/path_use.h"
 #include "plugins/application_files/saving/file_update.h"
-#include "plugins/application_files/tags/built_in_tags.h"
-#include "plugins/application_files/tags/connect_paths.h"
+#include "plugins/application_tags/tag_list.h"
+#include "plugins/application_tags/connect_paths.h"
 
 namespace runnel {
 

@@ -1,6 +1,6 @@
 #include "core/module/group.h"
 #include "plugins/application_files/build_context.h"
-#include "plugins/application_files/tags/built_in_tags.h"
+#include "plugins/application_tags/tag_list.h"
 
 namespace runnel {
 

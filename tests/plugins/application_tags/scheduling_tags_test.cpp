@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/log/log_levels.h"
-#include "plugins/application_files/run_description.h"
+#include "plugins/application_tags/run_description.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/scheduling/thread_container.h"
 #include "tests/plugins/application_files/reading/test_application.h"

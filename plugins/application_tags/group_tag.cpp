@@ -6,7 +6,7 @@
 #include "core/plugin/module_type_name.h"
 #include "plugins/application_files/application_reader.h"
 #include "plugins/application_files/saving/saving.h"
-#include "plugins/application_files/tags/built_in_tags.h"
+#include "plugins/application_tags/tag_list.h"
 
 namespace runnel {
 

@@ -9,7 +9,7 @@
 #include "core/types/type_info.h"
 #include "plugins/application_files/build_context.h"
 #include "plugins/application_files/path_use.h"
-#include "plugins/application_files/tags/built_in_tags.h"
+#include "plugins/application_tags/tag_list.h"
 
 namespace runnel {
 

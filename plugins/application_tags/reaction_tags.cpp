@@ -5,7 +5,7 @@
 #include "core/base/nearest_name.h"
 #include "core/types/type_info.h"
 #include "plugins/application_files/path_use.h"
-#include "plugins/application_files/tags/built_in_tags.h"
+#include "plugins/application_tags/tag_list.h"
 #include "plugins/structure/value_by_hand.h"
 
 namespace runnel::internal {

@@ -3,7 +3,7 @@
 
 #include "plugins/application_files/build_context.h"
 #include "plugins/application_files/saving/file_update.h"
-#include "plugins/application_files/tags/built_in_tags.h"
+#include "plugins/application_tags/tag_list.h"
 
 namespace runnel {
 

@@ -7,8 +7,7 @@
 
 namespace runnel {
 
-/// Adds the words that every application file may use, each made in the file named after it.
-void AddBuiltInTags(XmlTagRegistry& tags);
+// The words that every application file may use, each made in the file named after it.
 
 [[nodiscard]] XmlTag ApplicationTag();
 [[nodiscard]] XmlTag ClockTag();
