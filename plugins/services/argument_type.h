@@ -27,6 +27,8 @@ class ArgumentType {
     }
   }
 
+  /// Whether it is a structure with a field for each.
+  [[nodiscard]] bool is_named() const noexcept { return is_named_; }
   /// nullptr if there are none.
   [[nodiscard]] const TypeInfo* Get() const {
     if constexpr (sizeof...(Arguments) == 0) return nullptr;

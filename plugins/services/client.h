@@ -12,6 +12,7 @@
 #include "core/port/port_owner.h"
 #include "plugins/services/client_base.h"
 #include "plugins/services/client_form.h"
+#include "plugins/services/service_signature.h"
 
 namespace runnel {
 
@@ -133,6 +134,7 @@ class Client<Reply(Arguments...)> final : public ClientBase {
       : ClientBase(options, std::make_unique<CallSlotsOf<Signature>>(options.calls)),
         port_(group, std::move(name),
               {.description = options.description, .required = options.required}) {
+    internal::MakeServiceSignatureKnown<Signature, false>();
     Open(port_);
     port_.template Annotate<ClientForm>(
         std::make_unique<ClientForm>(std::make_shared<CallFormOf<Signature>>(options.arguments)));

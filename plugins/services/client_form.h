@@ -21,6 +21,8 @@ class CallForm {
   [[nodiscard]] virtual const TypeInfo* arguments() const = 0;
   /// nullptr: nothing but that it has been done.
   [[nodiscard]] virtual const TypeInfo* reply() const = 0;
+  /// Whether arguments() is such a structure.
+  [[nodiscard]] virtual bool is_named() const = 0;
   [[nodiscard]] virtual const void* ArgumentsOf(const CallBase& call) const = 0;
   [[nodiscard]] virtual void* ReplyOf(CallBase& call) const = 0;
 };
@@ -41,6 +43,7 @@ class CallFormOf<Reply(Arguments...)> final : public CallForm {
       return &TypeOf<Reply>();
     }
   }
+  [[nodiscard]] bool is_named() const override { return arguments_.is_named(); }
   [[nodiscard]] const void* ArgumentsOf(const CallBase& call) const override {
     return &static_cast<const Slot&>(call).arguments;
   }

@@ -13,6 +13,7 @@
 #include "plugins/services/any_call.h"
 #include "plugins/services/call_record.h"
 #include "plugins/services/service_base.h"
+#include "plugins/services/service_signature.h"
 
 namespace runnel {
 
@@ -62,6 +63,7 @@ class Service<Reply(Arguments...)> final : public ServiceBase {
         std::make_unique<CallableOf<Signature>>(*this, options, kIsActivity<Owner, Handler>);
     port_.Publish(ServiceLink<Signature>{endpoint_.get()});
     (void)endpoint_.release();  // the channel's from here on
+    internal::MakeServiceSignatureKnown<Signature, true>();
     Open(port_, kIsActivity<Owner, Handler>);
     port_.template Annotate<Callable>(std::move(callable));
   }

@@ -78,4 +78,11 @@ Error.__module__ = "runnel"
   });
 }
 
+std::pair<std::string, std::string> FaultOf(const pybind11::error_already_set& thrown) {
+  const auto told = pybind11::module_::import("runnel._modules").attr("fault_of");
+  // What has been thrown in C++ has no trace.
+  const pybind11::object trace = thrown.trace() ? pybind11::object(thrown.trace()) : pybind11::object(pybind11::none());
+  return told(thrown.value(), trace).cast<std::pair<std::string, std::string>>();
+}
+
 }  // namespace runnel::python

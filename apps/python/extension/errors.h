@@ -32,4 +32,7 @@ auto WithoutGil(const Work& work) {
 /// The class, and what C++ throws.
 void BindErrors(pybind11::module_& module);
 
+/// What a fault says of what Python has thrown, and the whole traceback. With the GIL.
+[[nodiscard]] std::pair<std::string, std::string> FaultOf(const pybind11::error_already_set& thrown);
+
 }  // namespace runnel::python

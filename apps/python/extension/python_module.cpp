@@ -6,13 +6,11 @@
 
 #include <pybind11/stl.h>
 
-#include "apps/python/extension/bindings.h"
 #include "apps/python/extension/errors.h"
-#include "apps/python/extension/ports.h"
 #include "apps/python/extension/value.h"
 #include "core/element/source_place.h"
 #include "plugins/parameters/parameter.h"
-#include "plugins/python/python_types.h"
+#include "plugins/parameters/static_parameter.h"
 #include "plugins/scheduling/thread_container.h"
 
 namespace py = pybind11;
@@ -30,15 +28,16 @@ std::string FolderOf(const FrameworkElement& element) {
 }
 
 Error ErrorOf(const py::error_already_set& thrown) {
-  const py::object told = Helper("error_of")(thrown.value(), thrown.trace());
+  const py::object trace = thrown.trace() ? py::object(thrown.trace()) : py::object(py::none());
+  const py::object told = Helper("error_of")(thrown.value(), trace);
   const auto [message, file, line, hint] = told.cast<std::tuple<std::string, std::string, int, std::string>>();
   Error error{.message = message, .hint = hint};
   if (!file.empty()) error.position = {file, line};
   return error;
 }
 
-template <typename T>
-std::unique_ptr<FrameworkElement> MakeParameter(Module& module, const std::string& name, const py::dict& said) {
+template <template <typename> typename Kind, typename T>
+std::unique_ptr<FrameworkElement> MakeParameterOf(Module& module, const std::string& name, const py::dict& said) {
   ParameterOptions<T> options;
   options.default_value = said["default"].cast<T>();
   options.unit = said["unit"].cast<std::string>();
@@ -47,7 +46,13 @@ std::unique_ptr<FrameworkElement> MakeParameter(Module& module, const std::strin
     if (!said["lowest"].is_none()) options.bounds.lowest = said["lowest"].cast<T>();
     if (!said["highest"].is_none()) options.bounds.highest = said["highest"].cast<T>();
   }
-  return std::make_unique<Parameter<T>>(&module, name, options);
+  return std::make_unique<Kind<T>>(&module, name, options);
+}
+
+template <typename T>
+std::unique_ptr<FrameworkElement> MakeParameter(Module& module, const std::string& name, const py::dict& said) {
+  return said.contains("is_static") ? MakeParameterOf<StaticParameter, T>(module, name, said)
+                                    : MakeParameterOf<Parameter, T>(module, name, said);
 }
 
 }  // namespace
@@ -77,7 +82,7 @@ PythonModule::PythonModule(const Placement& placement, const std::string& type) 
   try {
     WithPython([&] {
       class_ = Helper("find_class")(type, folder).release();
-      MakeParameters(Helper("describe")(class_).cast<py::dict>());
+      MakeParameters(Helper("parameters_of")(class_).cast<py::dict>());
     });
   } catch (...) {
     const py::gil_scoped_acquire gil;
@@ -88,14 +93,21 @@ PythonModule::PythonModule(const Placement& placement, const std::string& type) 
 }
 
 PythonModule::~PythonModule() {
-  if (Py_IsInitialized() == 0) return;  // the process ends
+  if (Py_IsInitialized() == 0) {  // the process ends
+    for (auto& each : services_) (void)each.release();
+    for (auto& each : clients_) (void)each.release();
+    return;
+  }
+  // Without the GIL, for which their threads may be waiting.
+  services_.clear();
+  clients_.clear();
   const py::gil_scoped_acquire gil;
   host_->module = nullptr;
   for (py::handle each : {update_, object_, class_}) each.dec_ref();
 }
 
 void PythonModule::MakeParameters(const py::dict& described) {
-  for (const auto& [name, options] : described["parameters"].cast<py::dict>()) {
+  for (const auto& [name, options] : described) {
     const auto said = options.cast<py::dict>();
     const auto kind = said["kind"].cast<std::string>();
     const auto called = name.cast<std::string>();
@@ -109,33 +121,51 @@ void PythonModule::MakeParameters(const py::dict& described) {
 
 Result<void> PythonModule::Construct() {
   WithPython([&] {
-    const auto described = Helper("describe")(class_).cast<py::dict>();
-    const auto each = [&](const char* direction, const auto& make) {
-      for (const auto& [name, options] : described[direction].cast<py::dict>()) {
-        const auto said = options.template cast<py::dict>();
-        const TypeInfo& type = TypeNamed(said["type"].template cast<std::string>());
-        const TypedPorts* const ports = FindTypedPorts(type);
-        if (ports == nullptr) Throw({.message = "nobody makes ports of type " + type.name(), .path = path()});
-        make(*ports, name.template cast<std::string>(), said);
-      }
-    };
-    each("inputs", [&](const TypedPorts& ports, const std::string& name, const py::dict& said) {
-      inputs_.push_back({ports.MakeInput(InputGroup(), name,
-                                         {.description = said["description"].cast<std::string>(),
-                                          .required = said["required"].cast<bool>(),
-                                          .trigger = said["trigger"].cast<bool>(),
-                                          .unit = said["unit"].cast<std::string>()}),
-                         &ports});
-    });
-    each("outputs", [&](const TypedPorts& ports, const std::string& name, const py::dict& said) {
-      auto port = ports.MakeOutput(OutputGroup(), name, {.description = said["description"].cast<std::string>(), .unit = said["unit"].cast<std::string>()});
-      if (!port) Throw({.message = "only a module in C++ can make values of type " + said["type"].cast<std::string>(), .path = path()});
-      outputs_.push_back(std::move(port));
-    });
     object_ = Helper("make")(class_, host_, path()).release();
+    const auto described = Helper("ports_of")(object_).cast<py::dict>();
+    MakePorts(described);
+    MakeServices(described);
+    Helper("begin")(object_, described);
     update_ = object_.attr("update").cast<py::object>().release();
   });
   return {};
+}
+
+void PythonModule::MakePorts(const py::dict& described) {
+  const auto each = [&](const char* direction, const auto& make) {
+    for (const auto& [name, options] : described[direction].cast<py::dict>()) {
+      const auto said = options.template cast<py::dict>();
+      const TypeInfo& type = TypeNamed(said["type"].template cast<std::string>());
+      const TypedPorts* const ports = FindTypedPorts(type);
+      if (ports == nullptr) Throw({.message = "nobody makes ports of type " + type.name(), .path = path()});
+      make(*ports, name.template cast<std::string>(), said);
+    }
+  };
+  each("inputs", [&](const TypedPorts& ports, const std::string& name, const py::dict& said) {
+    inputs_.push_back({ports.MakeInput(InputGroup(), name,
+                                       {.description = said["description"].cast<std::string>(),
+                                        .required = said["required"].cast<bool>(),
+                                        .trigger = said["trigger"].cast<bool>(),
+                                        .unit = said["unit"].cast<std::string>()}),
+                       &ports});
+  });
+  each("outputs", [&](const TypedPorts& ports, const std::string& name, const py::dict& said) {
+    auto port = ports.MakeOutput(OutputGroup(), name, {.description = said["description"].cast<std::string>(), .unit = said["unit"].cast<std::string>()});
+    if (!port) Throw({.message = "only a module in C++ can make values of type " + said["type"].cast<std::string>(), .path = path()});
+    outputs_.push_back(std::move(port));
+  });
+}
+
+void PythonModule::MakeServices(const py::dict& described) {
+  for (const auto& [name, said] : described["clients"].cast<py::dict>()) {
+    clients_.push_back(std::make_unique<ModuleClient>(InputGroup(), name.cast<std::string>(), said.cast<py::dict>(),
+                                                      [this](const py::error_already_set& thrown) { Fail(thrown); }));
+  }
+  for (const auto& [name, said] : described["services"].cast<py::dict>()) {
+    services_.push_back(std::make_unique<ModuleService>(OutputGroup(), name.cast<std::string>(), said.cast<py::dict>(),
+                                                        [this](const std::string& text) { log().Error("{}", text); }));
+    services_.back()->SetHandler(object_.attr(name.cast<std::string>().c_str()));
+  }
 }
 
 Result<void> PythonModule::Prepare() {
@@ -183,10 +213,14 @@ void PythonModule::Update() {
     const auto returned = py::reinterpret_steal<py::object>(PyObject_CallNoArgs(update_.ptr()));
     if (!returned) throw py::error_already_set();
   } catch (const py::error_already_set& thrown) {
-    const auto [summary, whole] = Helper("fault_of")(thrown.value(), thrown.trace()).cast<std::pair<std::string, std::string>>();
-    log().Error("{}", whole);
-    throw std::runtime_error(summary);
+    Fail(thrown);
   }
+}
+
+void PythonModule::Fail(const py::error_already_set& thrown) {
+  const auto [summary, whole] = FaultOf(thrown);
+  log().Error("{}", whole);
+  throw std::runtime_error(summary);
 }
 
 py::object PythonModule::ParameterValue(std::size_t index) const {
@@ -205,70 +239,6 @@ PythonModule::Attributes& PythonModule::Attributes::operator=(const Attributes& 
   const py::gil_scoped_acquire gil;
   if (module->object_ && from.module->object_) Helper("take_over")(module->object_, from.module->object_);
   return *this;
-}
-
-namespace {
-
-Result<ModuleType> FindModuleType(std::string_view name) {
-  const std::string type(name);
-  return ModuleType{.name = type,
-                    .summary = "written in Python",
-                    .plugin = "python",
-                    .make = [type](const Placement& placement) -> std::unique_ptr<FrameworkElement> {
-                      return std::make_unique<PythonModule>(placement, type);
-                    }};
-}
-
-// One of the inputs as update() has it.
-struct InputOfModule {
-  std::shared_ptr<ModuleHost> host;
-  std::size_t index;
-  ValueTimes times{};
-
-  py::object Take(bool (HeldValues::*how)(Port&, std::size_t) noexcept, bool only_new) {
-    PythonModule::BoundInput& input = host->Get().input(index);
-    auto held = input.ports->MakeHeldValues(1);
-    const bool is_new = (held.get()->*how)(*input.port, 0);
-    if (held->Find(0) == nullptr || (only_new && !is_new)) return py::none();
-    times = held->times(0);
-    return HeldToPython(input.port->type(), std::move(held));
-  }
-};
-
-struct OutputOfModule {
-  std::shared_ptr<ModuleHost> host;
-  std::size_t index;
-};
-
-}  // namespace
-
-void BindModules(py::module_& module) {
-  py::class_<ModuleHost, std::shared_ptr<ModuleHost>>(module, "ModuleHost")
-      .def("parameter", [](const ModuleHost& host, std::size_t index) { return host.Get().ParameterValue(index); })
-      .def("input", [](const std::shared_ptr<ModuleHost>& host, std::size_t index) { return InputOfModule{host, index}; })
-      .def("output", [](const std::shared_ptr<ModuleHost>& host, std::size_t index) { return OutputOfModule{host, index}; })
-      .def("now", [](const ModuleHost& host) { return ToSeconds(host.Get().Now()); })
-      .def("period", [](const ModuleHost&) { return ToSeconds(PythonModule::Period()); })
-      .def("say", [](const ModuleHost& host, const std::string& level, const std::string& text) { host.Get().Say(level, text); });
-  py::class_<InputOfModule>(module, "ModuleInput", "An input of a module in Python, as its update() reads it.")
-      .def("read", [](InputOfModule& input) { return input.Take(&HeldValues::Read, false); }, "The newest value; None if there is none yet.")
-      .def("new", [](InputOfModule& input) { return input.Take(&HeldValues::Read, true); }, "The newest value, unless it has been read; else None.")
-      .def("next", [](InputOfModule& input) { return input.Take(&HeldValues::Next, true); }, "Of a connection with a queue the oldest that waits; None if none does.")
-      .def_property_readonly("timestamp", [](const InputOfModule& input) { return ToSeconds(input.times.timestamp); },
-                             "When the last value was measured (s).");
-  py::class_<OutputOfModule>(module, "ModuleOutput", "An output of a module in Python.")
-      .def("publish",
-           [](const OutputOfModule& output, const py::args& positional, const py::kwargs& named) {
-             PublishFromPython(output.host->Get().output(output.index), positional, named, std::nullopt);
-           },
-           "publish(value) or publish(x=1, y=2): writes the value into a buffer that the port lends, and publishes that.")
-      .def("publish_measured",
-           [](const OutputOfModule& output, double timestamp, const py::object& value) {
-             PublishFromPython(output.host->Get().output(output.index), py::make_tuple(value), {}, timestamp);
-           },
-           "The same of what was measured at `timestamp` (s, of the application's clock).");
-  static const ModuleTypes types{&FindModuleType};
-  module.attr("module_types") = py::capsule(&types, ModuleTypes::kCapsule);
 }
 
 }  // namespace runnel::python

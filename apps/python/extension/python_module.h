@@ -6,6 +6,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include "apps/python/extension/module_services.h"
 #include "core/module/module.h"
 #include "core/port/typed_ports.h"
 
@@ -37,6 +38,7 @@ class PythonModule final : public Module {
   };
   [[nodiscard]] BoundInput& input(std::size_t index) { return inputs_.at(index); }
   [[nodiscard]] Port& output(std::size_t index) { return *outputs_.at(index); }
+  [[nodiscard]] ModuleClient& client(std::size_t index) { return *clients_.at(index); }
   [[nodiscard]] pybind11::object ParameterValue(std::size_t index) const;
   [[nodiscard]] Time Now() const noexcept { return now(); }
   [[nodiscard]] static Duration Period() noexcept { return period(); }
@@ -55,6 +57,10 @@ class PythonModule final : public Module {
   Result<void> Prepare() override;
   void Update() override;
   void MakeParameters(const pybind11::dict& described);
+  void MakePorts(const pybind11::dict& described);
+  void MakeServices(const pybind11::dict& described);
+  /// Logs the traceback, and throws what the fault says.
+  [[noreturn]] void Fail(const pybind11::error_already_set& thrown);
   void GoToOwnThread();
   void KeepOthersTogether();
   /// Does it with the GIL; what Python throws becomes an ElementError, with the file and the line.
@@ -70,6 +76,8 @@ class PythonModule final : public Module {
   std::vector<std::unique_ptr<FrameworkElement>> parameters_;
   std::vector<BoundInput> inputs_;
   std::vector<std::unique_ptr<Port>> outputs_;
+  std::vector<std::unique_ptr<ModuleClient>> clients_;
+  std::vector<std::unique_ptr<ModuleService>> services_;
 };
 
 }  // namespace runnel::python

@@ -48,6 +48,8 @@ void FromPython(const TypeInfo& type, pybind11::handle object, void* at, bool is
 /// The type of that name; one that is not known yet is looked for in the manifests of plugins, and its plugin loaded.
 /// Throws runnel.Error with the nearest name.
 [[nodiscard]] const TypeInfo& TypeNamed(const std::string& name);
+/// The same; nullptr if there is none.
+const TypeInfo* LookForType(const std::string& name);
 
 /// As NumPy has it: of numbers, times (int64, ns), and of structures and lists of fixed size of them; None for others.
 [[nodiscard]] pybind11::object DtypeOf(const TypeInfo& type);

@@ -132,14 +132,15 @@ void LoadPluginWith(const std::string& name) {
 
 }  // namespace
 
+const TypeInfo* LookForType(const std::string& name) {
+  if (const TypeInfo* const known = FindType(name)) return known;
+  // In a thread of its own: who asks may have an application's structure lock, and samples need another one's.
+  WithoutGil([&] { std::thread([&] { LoadPluginWith(name); }).join(); });
+  return FindType(name);
+}
+
 const TypeInfo& TypeNamed(const std::string& name) {
-  const TypeInfo* type = FindType(name);
-  if (type == nullptr) {
-    // In a thread of its own: who asks may have an application's structure lock, and samples need another one's.
-    WithoutGil([&] { std::thread([&] { LoadPluginWith(name); }).join(); });
-    type = FindType(name);
-  }
-  if (type != nullptr) return *type;
+  if (const TypeInfo* const type = LookForType(name)) return *type;
   Throw({.message = "there is no type '" + name + "'", .hint = NearestNameHint(name, NamesOf(RegisteredTypes(), &TypeInfo::name))});
 }
 

@@ -11,13 +11,14 @@ and the nearest name that there is.
 """
 
 from runnel._extension import Error, Reader, Type, Value, Writer, make, version as __version__
-from runnel._modules import Input, Module, Output, Parameter
+from runnel._modules import Input, Module, Output, Parameter, StaticParameter
+from runnel._services import Client, service
 from runnel._types import image, types
 from runnel.application import Application, Event, LogEntry, compose, load, load_text, replay
 
 __all__ = [
-    "Application", "Error", "Event", "Input", "LogEntry", "Module", "Output", "Parameter", "Reader", "Type", "Value",
-    "Writer", "compose", "image", "load", "load_text", "make", "replay", "types",
+    "Application", "Client", "Error", "Event", "Input", "LogEntry", "Module", "Output", "Parameter", "Reader",
+    "StaticParameter", "Type", "Value", "Writer", "compose", "image", "load", "load_text", "make", "replay", "service", "types",
 ]
 
 

@@ -11,6 +11,7 @@ import sys
 import traceback
 
 from runnel import _extension
+from runnel._services import Client, Service, described
 
 _class = type  # which arguments are called, too
 
@@ -65,6 +66,14 @@ class Parameter(_Described):
         raise AttributeError(f"'{self.name}' is a parameter: it is set from outside, in the file or by set()")
 
 
+class StaticParameter(Parameter):
+    """A parameter that is settled before the module has its ports: by its value make_ports() says which there are."""
+
+    def __init__(self, default, unit="", bounds=(None, None), description=""):
+        super().__init__(default, unit, bounds, description)
+        self.said["is_static"] = True
+
+
 class Module:
     """A module in Python: ports and parameters are class attributes, and update() is called in each cycle.
 
@@ -89,6 +98,19 @@ class Module:
     def update(self):
         """Called in each cycle. What it throws stops this module alone, and is a fault."""
         raise NotImplementedError("update() is missing")
+
+    def make_ports(self):
+        """Ports and clients beside those of the class, by name: ``{f"in{i}": runnel.Input("double") for i in range(self.count)}``.
+
+        Called once, when static parameters are set, before __init__(). They are attributes, too: ``getattr(self, f"in{i}")``.
+        """
+        return {}
+
+    def __getattr__(self, name):
+        try:
+            return self.__dict__["_runnel_ports"][name]
+        except KeyError:
+            raise AttributeError(f"'{_class(self).__name__}' has no '{name}'") from None
 
     def prepare(self):
         """Called once, when parameters are set and before the first cycle."""
@@ -136,31 +158,67 @@ def type_of(cls):
 # What follows is called by the extension.
 
 
-def describe(cls):
-    """What a class has, for the extension."""
-    return {direction: {name: member.said for name, member in _members(cls, kind).items()}
-            for direction, kind in (("inputs", Input), ("outputs", Output), ("parameters", Parameter))}
+def parameters_of(cls):
+    """Those of a class, for the extension."""
+    return {name: member.said for name, member in _members(cls, Parameter).items()}
 
 
 def make(cls, host, path):
-    """An object of the class, tied to its module in C++."""
+    """An object of the class, tied to its module in C++, which has its parameters."""
     module = cls.__new__(cls)
     module._runnel_host = host
     module._runnel_path = path
     module._runnel_parameters = {name: index for index, name in enumerate(_members(cls, Parameter))}
-    module._runnel_ports = {name: host.input(index) for index, name in enumerate(_members(cls, Input))}
-    module._runnel_ports |= {name: host.output(index) for index, name in enumerate(_members(cls, Output))}
-    module.__init__()
+    module._runnel_ports = {}
     return module
 
 
+def ports_of(module):
+    """What the extension is to make: kind -> name -> what is said of it."""
+    cls = _class(module)
+    made = module.make_ports()
+    wrong = [name for name, each in made.items() if not isinstance(each, (Input, Output, Client))]
+    if wrong:
+        raise TypeError(f"make_ports() has '{wrong[0]}', which is no Input, Output or Client")
+    taken = [name for name in made if hasattr(cls, name)]
+    if taken:
+        raise ValueError(f"make_ports() has '{taken[0]}', which the class has, too")
+    ports = {}
+    for kind, what in (("inputs", Input), ("outputs", Output), ("clients", Client), ("services", Service)):
+        all_ports = _members(cls, what) | {name: each for name, each in made.items() if isinstance(each, what)}
+        ports[kind] = {name: described(each) for name, each in all_ports.items()}
+    return ports
+
+
+def begin(module, ports):
+    """Its ports have been made."""
+    host = module._runnel_host
+    for kind, bound in (("inputs", host.input), ("outputs", host.output), ("clients", host.client)):
+        module._runnel_ports |= {name: bound(index) for index, name in enumerate(ports[kind])}
+    module.__init__()
+
+
+class _IsPort(Exception):
+    pass
+
+
+def _is_port(port, memo):
+    raise _IsPort
+
+
+for each in (_extension.ModuleInput, _extension.ModuleOutput, _extension.ModuleClient):
+    each.__deepcopy__ = _is_port
+
+
 def take_over(module, before):
-    """The attributes of the module that was there before; copies, as it may come back."""
+    """The attributes of the module that was there before, but for those with ports; copies, as it may come back."""
     for name, value in vars(before).items():
         if name.startswith("_runnel_"):
             continue
         try:
             value = copy.deepcopy(value)
+        except _IsPort:  # the module has its own
+            continue
         except Exception:  # a file, a thread: there is one only, and both have it
             pass
         setattr(module, name, value)

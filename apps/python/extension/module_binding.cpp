@@ -1,0 +1,98 @@
+// What modules in Python see of themselves, and how others find their types.
+
+#include "apps/python/extension/bindings.h"
+#include "apps/python/extension/ports.h"
+#include "apps/python/extension/python_module.h"
+#include "apps/python/extension/value.h"
+#include "plugins/python/python_types.h"
+
+namespace py = pybind11;
+
+namespace runnel::python {
+
+namespace {
+
+Result<ModuleType> FindModuleType(std::string_view name) {
+  const std::string type(name);
+  return ModuleType{.name = type,
+                    .summary = "written in Python",
+                    .plugin = "python",
+                    .make = [type](const Placement& placement) -> std::unique_ptr<FrameworkElement> {
+                      return std::make_unique<PythonModule>(placement, type);
+                    }};
+}
+
+// One of the inputs as update() has it.
+struct InputOfModule {
+  std::shared_ptr<ModuleHost> host;
+  std::size_t index;
+  ValueTimes times{};
+
+  py::object Take(bool (HeldValues::*how)(Port&, std::size_t) noexcept, bool only_new) {
+    PythonModule::BoundInput& input = host->Get().input(index);
+    auto held = input.ports->MakeHeldValues(1);
+    const bool is_new = (held.get()->*how)(*input.port, 0);
+    if (held->Find(0) == nullptr || (only_new && !is_new)) return py::none();
+    times = held->times(0);
+    return HeldToPython(input.port->type(), std::move(held));
+  }
+};
+
+struct OutputOfModule {
+  std::shared_ptr<ModuleHost> host;
+  std::size_t index;
+};
+
+struct ClientOfModule {
+  std::shared_ptr<ModuleHost> host;
+  std::size_t index;
+  [[nodiscard]] ModuleClient& Get() const { return host->Get().client(index); }
+};
+
+}  // namespace
+
+void BindModules(py::module_& module) {
+  py::class_<ModuleHost, std::shared_ptr<ModuleHost>>(module, "ModuleHost")
+      .def("parameter", [](const ModuleHost& host, std::size_t index) { return host.Get().ParameterValue(index); })
+      .def("input", [](const std::shared_ptr<ModuleHost>& host, std::size_t index) { return InputOfModule{host, index}; })
+      .def("output", [](const std::shared_ptr<ModuleHost>& host, std::size_t index) { return OutputOfModule{host, index}; })
+      .def("client", [](const std::shared_ptr<ModuleHost>& host, std::size_t index) { return ClientOfModule{host, index}; })
+      .def("now", [](const ModuleHost& host) { return ToSeconds(host.Get().Now()); })
+      .def("period", [](const ModuleHost&) { return ToSeconds(PythonModule::Period()); })
+      .def("say", [](const ModuleHost& host, const std::string& level, const std::string& text) { host.Get().Say(level, text); });
+  py::class_<InputOfModule>(module, "ModuleInput", "An input of a module in Python, as its update() reads it.")
+      .def("read", [](InputOfModule& input) { return input.Take(&HeldValues::Read, false); }, "The newest value; None if there is none yet.")
+      .def("new", [](InputOfModule& input) { return input.Take(&HeldValues::Read, true); }, "The newest value, unless it has been read; else None.")
+      .def("next", [](InputOfModule& input) { return input.Take(&HeldValues::Next, true); }, "Of a connection with a queue the oldest that waits; None if none does.")
+      .def_property_readonly("timestamp", [](const InputOfModule& input) { return ToSeconds(input.times.timestamp); },
+                             "When the last value was measured (s).");
+  py::class_<OutputOfModule>(module, "ModuleOutput", "An output of a module in Python.")
+      .def("publish",
+           [](const OutputOfModule& output, const py::args& positional, const py::kwargs& named) {
+             PublishFromPython(output.host->Get().output(output.index), positional, named, std::nullopt);
+           },
+           "publish(value) or publish(x=1, y=2): writes the value into a buffer that the port lends, and publishes that.")
+      .def("publish_measured",
+           [](const OutputOfModule& output, double timestamp, const py::object& value) {
+             PublishFromPython(output.host->Get().output(output.index), py::make_tuple(value), {}, timestamp);
+           },
+           "The same of what was measured at `timestamp` (s, of the application's clock).");
+  py::class_<ClientOfModule>(module, "ModuleClient", "A client of a module in Python.")
+      .def_property_readonly("is_connected", [](const ClientOfModule& client) { return client.Get().is_connected(); })
+      .def("send",
+           [](const ClientOfModule& client, const py::args& positional, const py::kwargs& named) { return client.Get().Send(positional, named); },
+           "One way: nobody is told what comes of it. Whether it is on its way.")
+      .def("call",
+           [](const ClientOfModule& client, const py::object& callback, const py::args& positional, const py::kwargs& named) {
+             return client.Get().Call(callback, positional, named);
+           },
+           "callback(call) is called in a cycle of this module, when it has ended. False: it could not begin, and nobody is called back.")
+      .def("begin",
+           [](const ClientOfModule& client, const py::args& positional, const py::kwargs& named) { return client.Get().Begin(positional, named); },
+           "A call to be looked at later: is_done, reply, error.");
+  BindModuleServices(module);
+  static const ModuleTypes types{&FindModuleType};
+  module.attr("module_types") = py::capsule(&types, ModuleTypes::kCapsule);
+}
+
+}  // namespace runnel::python

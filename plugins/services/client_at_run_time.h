@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "plugins/services/client_base.h"
+#include "plugins/services/signature_at_run_time.h"
+
+namespace runnel {
+
+/// A Client whose types are known at run time only: of modules that are not written in C++.
+///
+///     CallBase* const call = client.Acquire();          // nullptr: too many are under way
+///     …                                                 // write its arguments, by the form
+///     if (client.Begin(*call) == CallStatus::kPending) …  // Poll(), AwaitInCycle(), or nothing
+///     CallSlots::Release(*call);
+///
+/// Threads, life: as Client. The constructor throws ElementError for types that cannot be had.
+class ClientAtRunTime final : public ClientBase {
+ public:
+  /// For calls that are awaited in the cycle.
+  using CalledBack = std::function<void(CallBase& call, CallStatus status)>;
+
+  ClientAtRunTime(FrameworkElement& group, const std::string& name, const SignatureTypes& types, const ClientOptions& options,
+                  CalledBack called_back);
+  ~ClientAtRunTime();
+
+  using ClientBase::Acquire;
+  using ClientBase::AwaitInCycle;
+  using ClientBase::Begin;
+  [[nodiscard]] const std::shared_ptr<const CallForm>& form() const noexcept { return form_; }
+
+ private:
+  ClientAtRunTime(FrameworkElement& group, const std::string& name, FoundSignature found, const ClientOptions& options,
+                  CalledBack called_back);
+  [[nodiscard]] ServiceEndpoint* endpoint() const noexcept override { return EndpointAt(*port_); }
+  void CallBack(CallBase& call, CallStatus status) override { called_back_(call, status); }
+
+  const CalledBack called_back_;
+  const std::shared_ptr<const CallForm> form_;
+  const std::unique_ptr<Port> port_;
+};
+
+}  // namespace runnel

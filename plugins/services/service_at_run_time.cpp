@@ -1,0 +1,119 @@
+#include "plugins/services/service_at_run_time.h"
+
+#include <utility>
+
+#include "core/element/framework_element.h"
+#include "core/types/text_format.h"
+
+namespace runnel {
+
+namespace {
+
+/// A call with a place of its own.
+class CallOfOffer final : public AnyCall {
+ public:
+  CallOfOffer(ServiceBase& service, const ServiceSignature& signature, std::shared_ptr<const CallForm> form)
+      : service_(service), signature_(signature), form_(std::move(form)), slots_(signature.MakeSlots(1)), call_(slots_->Acquire()) {}
+  ~CallOfOffer() override {
+    slots_->GiveUpAll();
+    CallSlots::Release(*call_);
+    RetireCalls(std::move(slots_));
+  }
+
+  [[nodiscard]] void* arguments() override {
+    return form_->arguments() == nullptr ? nullptr : const_cast<void*>(form_->ArgumentsOf(*call_));
+  }
+  void TakeArguments(const CallRecordBase& record) override { signature_.TakeArguments(record, *call_); }
+  CallStatus Begin(Time now, Duration timeout) override {
+    return status_ = BeginCall(service_.endpoint(), *call_, now, timeout);
+  }
+  CallStatus Poll(Time now) override {
+    if (status_ != CallStatus::kPending) return status_;
+    if (call_->is_answered()) {
+      status_ = call_->status;
+      error_ = call_->error;
+    } else if (now >= call_->deadline) {
+      Abort();
+      status_ = CallStatus::kTimedOut;
+    }
+    return status_;
+  }
+  [[nodiscard]] const void* reply() const override { return form_->reply() == nullptr ? nullptr : form_->ReplyOf(*call_); }
+  [[nodiscard]] std::string error() const override { return error_; }
+  [[nodiscard]] double progress() const override { return call_->progress.load(std::memory_order_relaxed); }
+  [[nodiscard]] const char* doing() const override { return call_->doing.load(std::memory_order_relaxed); }
+  void Abort() override { call_->is_given_up.store(true, std::memory_order_relaxed); }
+
+ private:
+  ServiceBase& service_;  // until Begin()
+  const ServiceSignature& signature_;
+  const std::shared_ptr<const CallForm> form_;
+  std::unique_ptr<CallSlots> slots_;
+  CallBase* const call_;
+  CallStatus status_ = CallStatus::kNotConnected;
+  std::string error_;
+};
+
+}  // namespace
+
+/// What it is to those who call it from outside.
+class ServiceAtRunTime::Offer final : public Callable {
+ public:
+  Offer(ServiceAtRunTime& service, const ServiceSignature& signature, std::string description, Extra extra)
+      : service_(service), signature_(signature), description_(std::move(description)), extra_(std::move(extra)) {}
+  [[nodiscard]] const TypeInfo* arguments() const override { return service_.form_->arguments(); }
+  [[nodiscard]] const TypeInfo* reply() const override { return service_.form_->reply(); }
+  [[nodiscard]] const std::string& description() const override { return description_; }
+  [[nodiscard]] bool is_activity() const override { return extra_.is_activity; }
+  [[nodiscard]] bool are_arguments_optional() const override { return extra_.are_arguments_optional; }
+  [[nodiscard]] std::unique_ptr<AnyCall> NewCall() override {
+    auto call = std::make_unique<CallOfOffer>(service_, signature_, service_.form_);
+    if (!extra_.defaults.empty()) (void)SetFromText(*arguments(), extra_.defaults, call->arguments());
+    return call;
+  }
+  [[nodiscard]] ServiceState state() const override { return service_.state(); }
+  bool Abort() override { return service_.Abort(); }
+
+ private:
+  ServiceAtRunTime& service_;
+  const ServiceSignature& signature_;
+  const std::string description_;
+  const Extra extra_;
+};
+
+ServiceAtRunTime::ServiceAtRunTime(FrameworkElement& group, const std::string& name, const SignatureTypes& types,
+                                   ServiceOptions options, Extra extra, Handler handler)
+    : handler_(std::move(handler)) {
+  const auto found = SignatureAtRunTime(types);
+  if (!found) throw ElementError(found.error());
+  form_ = found->signature->MakeForm(options.arguments);
+  if (!extra.defaults.empty()) {
+    // Once, so that NewCall() need not fail.
+    const auto slots = found->signature->MakeSlots(1);
+    void* const at = const_cast<void*>(form_->ArgumentsOf(*slots->Acquire()));
+    if (auto set = SetFromText(*form_->arguments(), extra.defaults, at); !set) throw ElementError(set.error());
+  }
+  port_ = MakeLinkOutput(*found->link, group, name, {.description = options.description});
+  auto endpoint = std::make_unique<ServiceEndpoint>(options.queue);
+  const auto published = port_->PublishFilled([&](void* link) -> Result<void> {
+    *static_cast<ServiceEndpoint**>(link) = endpoint.get();
+    return {};
+  });
+  if (!published) throw ElementError(published.error());
+  (void)endpoint.release();  // the channel's from here on
+  Open(*port_, extra.is_activity);
+  port_->Annotate<Callable>(std::make_unique<Offer>(*this, *found->signature, options.description, std::move(extra)));
+  records_ = found->signature->MakeRecorder(group, name);
+}
+
+ServiceAtRunTime::~ServiceAtRunTime() { Close(); }
+
+CallStatus ServiceAtRunTime::Invoke(CallBase& call, Activity* activity) {
+  const auto done = handler_(*form_, call, activity);
+  if (!done) call.error = done.error().ToString();
+  const CallStatus status = done ? CallStatus::kAnswered : CallStatus::kFailed;
+  if (records_ != nullptr) records_->Record(call, status);
+  return status;
+}
+
+}  // namespace runnel
