@@ -6,6 +6,7 @@
 
 #include "core/base/exception_text.h"
 #include "core/lockfree/thread_epoch.h"
+#include "core/module/after_cycle.h"
 #include "plugins/timing/latency_chain.h"
 #include "plugins/timing/trace_track.h"
 
@@ -74,6 +75,7 @@ bool CycleRunner::RunCycle(Cycle cycle, FaultDispatcher& faults) noexcept {
   const EpochGuard guard;
   if (gate_.is_closed()) [[unlikely]]
     return false;
+  const AfterCycleScope after;
   const CycleScope scope(cycle);
   const Schedule* const schedule = this->schedule();
   if (schedule == nullptr) return true;
