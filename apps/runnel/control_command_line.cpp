@@ -104,7 +104,7 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   Entry& take = add("take", "has values of a topic of the network go to an input; with --stop, no more");
   word(take, "topic", "its name: /cmd_vel")->type_name("TOPIC");
   word(take, "port", "input")->type_name(kPort);
-  for (const char* const each : {"topic", "as", "frame", "child_frame", "qos", "rate", "strength"}) {
+  for (const char* const each : {"topic", "as", "frame", "child_frame", "qos", "sending", "rate", "strength"}) {
     option(offer, (std::string("--") + each).c_str(), each, "as in <offer>");
   }
   for (const char* const each : {"as", "qos", "stamp", "exclusive", "live"}) {

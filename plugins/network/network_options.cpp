@@ -7,6 +7,11 @@ const std::vector<std::string>& ValueQualityNames() {
   return names;
 }
 
+const std::vector<std::string>& ValueSendingNames() {
+  static const std::vector<std::string> names = {"network", "after_cycle"};
+  return names;
+}
+
 const std::vector<std::string>& FarCommandNames() {
   static const std::vector<std::string> names = {"set", "swap"};
   return names;

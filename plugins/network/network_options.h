@@ -25,6 +25,15 @@ enum class ValueQuality {
 [[nodiscard]] const std::vector<std::string>& ValueQualityNames();
 [[nodiscard]] WireQos QosOf(ValueQuality quality);
 
+/// Which thread makes octets of values and hands them to the engine.
+enum class ValueSending {
+  kNetwork,     ///< the network's, which is woken
+  kAfterCycle,  ///< of small ones that whose cycle they have been published in, when it has ended; not with a rate
+};
+
+/// network, after_cycle. In its order.
+[[nodiscard]] const std::vector<std::string>& ValueSendingNames();
+
 /// A port, or ports, that others may read.
 struct OfferOptions {
   std::vector<std::string> patterns = {};  ///< of ports (PortPatterns), or
@@ -34,6 +43,7 @@ struct OfferOptions {
   std::string frame = {};        ///< of coordinates, for headers
   std::string child_frame = {};  ///< what moves, of transforms and odometry
   ValueQuality quality = ValueQuality::kNewest;
+  ValueSending sending = ValueSending::kNetwork;
   double rate = 0;                           ///< most values a second; 0: no bound
   std::optional<std::int32_t> strength = {};  ///< the only one that counts, if no stronger one is there
   SourcePosition position = {};

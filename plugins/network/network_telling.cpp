@@ -188,6 +188,7 @@ std::string NetworkLink::Text() const {
   for (const auto& each : offered_) {
     add(each->endpoint(), "offers " + each->path() + " as " + each->options().topic,
         ", " + std::to_string(each->sent()) + " sent" +
+            (each->sent_after_cycles() > 0 ? " (" + std::to_string(each->sent_after_cycles()) + " after cycles)" : "") +
             (each->dropped() > 0 ? ", " + std::to_string(each->dropped()) + " lost" : ""));
     add_partners(each->endpoint(), true);
   }

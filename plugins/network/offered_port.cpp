@@ -16,23 +16,14 @@ Duration ClockOffset::Now() const {
   return since_1970 - SteadyClock().Now().time_since_epoch();
 }
 
-/// Rung by publishers.
-class OfferedPort::Bell final : public Waker {
- public:
-  explicit Bell(std::shared_ptr<WakeEvent> wake) : wake_(std::move(wake)) {}
-  void Wake() noexcept override {
-    // release: who answers sees what has been published before.
-    has_rung_.store(true, std::memory_order_release);
-    wake_->Notify();
-  }
-  // relaxed: only who answers looks at what has been published.
-  [[nodiscard]] bool has_rung() const noexcept { return has_rung_.load(std::memory_order_relaxed); }
-  [[nodiscard]] bool Answer() noexcept { return has_rung() && has_rung_.exchange(false, std::memory_order_acquire); }
+namespace {
 
- private:
-  const std::shared_ptr<WakeEvent> wake_;
-  std::atomic<bool> has_rung_{false};
-};
+// Of a value as octets: above, making and sending it takes longer than to wake a thread for it.
+constexpr std::size_t kMostAfterCycle = 8192;
+// Of one queue, after one cycle.
+constexpr std::size_t kFew = 8;
+
+}  // namespace
 
 /// An input that only rings: whoever hears it looks at the newest value where it lies.
 class OfferedPort::NewestInput final : public InputBase {
@@ -61,8 +52,7 @@ OfferedPort::OfferedPort(FrameworkElement& beside, const std::string& name, cons
       topic_(options_.topic),
       form_(std::move(form)),
       clock_(clock),
-      wake_(std::move(wake)),
-      bell_(std::make_shared<Bell>(wake_)) {
+      bell_(std::make_shared<OfferBell>(std::move(wake), [this](OfferBell::By by) { SendBy(by); })) {
   if (options_.quality == ValueQuality::kEach) {
     auto each = std::make_unique<ProbePort>(beside, name, type);
     each_ = each.get();
@@ -74,6 +64,7 @@ OfferedPort::OfferedPort(FrameworkElement& beside, const std::string& name, cons
 }
 
 OfferedPort::~OfferedPort() {
+  bell_->Close();
   writer_.reset();
   input_.reset();
   // Publishers that have found it may still be about to ring it.
@@ -115,8 +106,10 @@ void OfferedPort::Attach(Port* port) {
   const Port* const source = sources.empty() ? nullptr : sources.front();
   // release: pairs with the load in SendNewest().
   if (source_.exchange(source, std::memory_order_release) == source) return;
-  shown_.reset();
-  if (source != nullptr) bell_->Wake();
+  // release: who sees it sees that source or a later one. Who does not see it yet may take a value of the new source for one
+  // that has been sent; the bell is rung afterwards.
+  attached_.fetch_add(1, std::memory_order_release);
+  if (source != nullptr) bell_->Ring();
 }
 
 void OfferedPort::Forget(const FrameworkElement& element) noexcept {
@@ -129,20 +122,33 @@ std::uint64_t OfferedPort::dropped() const noexcept { return input_->dropped(); 
 bool OfferedPort::has_value() const noexcept { return options_.rate <= 0 && bell_->has_rung(); }
 
 std::optional<Time> OfferedPort::Send(Time now) {
-  if (options_.rate > 0 && now < next_) {
-    return next_;  // the bell keeps on ringing
-  }
-  if (!bell_->Answer() || writer_ == nullptr) return {};
-  if (each_ != nullptr) {
-    SendEach(now);
-  } else {
-    if (SendNewest() && options_.rate > 0) next_ = now + FromSeconds(1 / options_.rate);
-  }
+  if (options_.rate > 0 && now < next_) return next_;  // the bell keeps on ringing
+  if (writer_ != nullptr && bell_->Answer()) bell_->SendByNetwork();
   return {};
 }
 
-void OfferedPort::Encode(const void* value, ValueTimes times, Octets& octets) const {
-  form_->Write(value, times.timestamp + clock_.Now(), octets);
+void OfferedPort::SendBy(OfferBell::By by) {
+  const std::uint64_t before = sent();
+  try {
+    if (each_ != nullptr) {
+      SendEach(by == OfferBell::By::kCycle ? kFew : each_->capacity());
+    } else if (SendNewest() && options_.rate > 0) {
+      next_ = SteadyClock().Now() + FromSeconds(1 / options_.rate);
+    }
+  } catch (...) {
+    Fail({.message = "a value cannot be sent: " + DescribeException()});
+  }
+  if (by == OfferBell::By::kCycle) sent_after_cycles_.fetch_add(sent() - before, std::memory_order_relaxed);
+}
+
+bool OfferedPort::Encode(const void* value, ValueTimes times, Octets& octets) {
+  try {
+    form_->Write(value, times.timestamp + clock_.Now(), octets);
+  } catch (...) {
+    Fail({.message = "a value cannot be sent: " + DescribeException()});
+    octets.clear();
+  }
+  return !octets.empty();
 }
 
 bool OfferedPort::SendNewest() {
@@ -150,57 +156,66 @@ bool OfferedPort::SendNewest() {
   ValueTimes times;
   {
     const EpochGuard guard;  // what is loaded now stays so long
+    // acquire: pairs with Attach().
+    const std::uint64_t attached = attached_.load(std::memory_order_acquire);
     const Port* const source = source_.load(std::memory_order_acquire);
     if (source == nullptr) return false;
-    const std::uint64_t count = source->publications();
-    if (count == shown_) return false;
+    const Shown newest{attached, source->publications()};
+    if (newest == shown_) return false;
     octets = pool_.Take();
+    bool is_whole = false;
     const bool is_there = source->VisitLatest([&](const void* value, ValueTimes of) {
       times = of;
-      try {
-        Encode(value, of, *octets);
-      } catch (...) {
-        error_ = Error{.message = "a value cannot be sent: " + DescribeException(), .path = path_};
-        octets->clear();
-      }
+      is_whole = Encode(value, of, *octets);
     });
-    if (!is_there || octets->empty()) return false;
-    shown_ = count;
+    if (!is_there || !is_whole) return false;
+    shown_ = newest;
   }
   Write(octets, times);
   return true;
 }
 
-void OfferedPort::SendEach(Time now) {
+void OfferedPort::SendEach(std::size_t most) {
   std::shared_ptr<Octets> octets;
   ValueTimes times;
-  const auto encode = [&](const void* value, ValueTimes of) {
-    times = of;
-    try {
-      Encode(value, of, *octets);
-    } catch (...) {
-      error_ = Error{.message = "a value cannot be sent: " + DescribeException(), .path = path_};
-      octets->clear();
-    }
-  };
-  for (std::size_t i = 0; i < each_->capacity(); ++i) {
+  bool is_whole = false;
+  const Time now = options_.rate > 0 ? SteadyClock().Now() : Time{};
+  for (std::size_t i = 0; i < most; ++i) {
     octets = pool_.Take();
-    if (!each_->Take(encode)) return;
+    const bool is_there = each_->Take([&](const void* value, ValueTimes of) {
+      times = of;
+      is_whole = Encode(value, of, *octets);
+    });
+    if (!is_there) return;
     if (options_.rate > 0 && now < next_) continue;
     if (options_.rate > 0) next_ = now + FromSeconds(1 / options_.rate);
-    if (!octets->empty()) Write(octets, times);
+    if (is_whole) Write(octets, times);
   }
-  bell_->Wake();  // others have their turn first
+  bell_->Ring();  // others have their turn first
 }
 
 void OfferedPort::Write(const std::shared_ptr<Octets>& octets, ValueTimes times) {
+  is_large_ = is_large_ || octets->size() > kMostAfterCycle;
+  bell_->set_sent_after_cycles(options_.sending == ValueSending::kAfterCycle && options_.rate <= 0 && !is_large_);
   const auto written = writer_->Write(octets, (times.timestamp + clock_.Now()).time_since_epoch().count());
-  if (written) {
-    sent_.fetch_add(1, std::memory_order_relaxed);
-  } else {
-    error_ = written.error();
-    error_->path = path_;
-  }
+  if (!written) return Fail(written.error());
+  sent_.fetch_add(1, std::memory_order_relaxed);
+}
+
+void OfferedPort::Fail(Error error) {
+  error.path = path_;
+  const std::lock_guard lock(mutex_);
+  error_ = std::move(error);
+}
+
+bool OfferedPort::has_error() const {
+  const std::lock_guard lock(mutex_);
+  return error_.has_value();
+}
+
+std::optional<Error> OfferedPort::TakeError() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(error_, {});
 }
 
 }  // namespace runnel

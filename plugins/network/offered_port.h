@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 
 #include "core/base/clock.h"
 #include "core/port/probe_port.h"
 #include "plugins/network/network_options.h"
+#include "plugins/network/offer_bell.h"
 #include "plugins/network/value_forecast.h"
 #include "plugins/network/value_form.h"
 #include "plugins/wire/octet_pool.h"
@@ -28,8 +30,12 @@ struct ClockOffset {
 /// One port whose values go to the network, each as soon as it is published, while somebody there reads it. Until then
 /// nothing of the port knows of it.
 ///
+/// Which thread sends them: the network's, which publishers wake by a few nanoseconds, and a call of the system if it
+/// sleeps. With ValueSending::kAfterCycle, what has been published in a cycle is sent by that cycle's thread when it has
+/// ended, if values are small. Both may be at it in turn (OfferBell).
+///
 /// Threads:     all by the network's thread, outside of cycles, Attach() under the structure lock, too; but Forget(), by
-///              who has that lock. Publishers wake that thread: a few nanoseconds, and a call of the system if it sleeps.
+///              who has that lock.
 /// Allocation:  of octets, which are used again.
 class OfferedPort {
  public:
@@ -73,27 +79,29 @@ class OfferedPort {
   [[nodiscard]] std::size_t matched() const noexcept { return matched_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::uint64_t sent() const noexcept { return sent_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::uint64_t dropped() const noexcept;
-  [[nodiscard]] bool has_error() const noexcept { return error_.has_value(); }
-  /// What went wrong since the last call. By the network's thread.
-  [[nodiscard]] std::optional<Error> TakeError() { return std::exchange(error_, {}); }
+  /// Of those sent: how many by threads of cycles.
+  [[nodiscard]] std::uint64_t sent_after_cycles() const noexcept { return sent_after_cycles_.load(std::memory_order_relaxed); }
+  [[nodiscard]] bool has_error() const;
+  /// What went wrong since the last call.
+  [[nodiscard]] std::optional<Error> TakeError();
 
  private:
-  class Bell;
   class NewestInput;
 
-  // Whether there was one.
-  bool SendNewest();
-  void SendEach(Time now);
-  void Encode(const void* value, ValueTimes times, Octets& octets) const;
+  // By who has the turn.
+  void SendBy(OfferBell::By by);
+  bool SendNewest();  // whether there was one
+  void SendEach(std::size_t most);
+  bool Encode(const void* value, ValueTimes times, Octets& octets);
   void Write(const std::shared_ptr<Octets>& octets, ValueTimes times);
+  void Fail(Error error);
 
   const std::string path_;
   const OfferOptions options_;
   const std::string topic_;
   const std::shared_ptr<const ValueForm> form_;
   const ClockOffset clock_;
-  const std::shared_ptr<WakeEvent> wake_;
-  const std::shared_ptr<Bell> bell_;
+  const std::shared_ptr<OfferBell> bell_;
   std::unique_ptr<InputBase> input_;
   ProbePort* each_ = nullptr;  // the input, if each value is wanted
   std::function<void()> on_matched_;
@@ -102,12 +110,22 @@ class OfferedPort {
   // Where values are looked at: the output that feeds the port. Cleared, under the structure lock, before that goes;
   // who has loaded it in an EpochGuard may use it as long as that lives.
   std::atomic<const Port*> source_{nullptr};
+  std::atomic<std::uint64_t> attached_{0};  // how often that has changed
   OctetPool pool_;
   ValueForecast forecast_;
   Time next_{};  // not before
-  std::optional<std::uint64_t> shown_;  // how many the source had published when its newest value was sent
+  /// Of the newest value that was sent.
+  struct Shown {
+    std::uint64_t attached;
+    std::uint64_t count;  // how many the source had published
+    bool operator==(const Shown&) const = default;
+  };
+  std::optional<Shown> shown_;  // by who has the turn
+  bool is_large_ = false;       // by who has the turn
   std::atomic<std::uint64_t> sent_{0};
-  std::optional<Error> error_;
+  std::atomic<std::uint64_t> sent_after_cycles_{0};
+  mutable std::mutex mutex_;
+  std::optional<Error> error_;  // guarded by mutex_
 };
 
 }  // namespace runnel

@@ -112,7 +112,7 @@ Result<ExtensionStep> CheckOffer(NetworkElement& network, const ExtensionChange&
   if (!stops) {
     const auto form = ValueForm::Make((*port)->type(), offer.as, offer.frame, offer.child_frame, network.options().messages.get());
     if (!form) return form.error();
-    if (offer.rate < 0) return Error{.message = "the rate is a number above 0, of values a second"};
+    if (const auto wrong = WhatIsWrong(offer)) return *wrong;
   }
   return StepOf(network, change, [&network, path, offer, stops](const Offers& offers) -> Result<Offers> {
     OfferList list{network.options().member.name, offers};

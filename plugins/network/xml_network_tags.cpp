@@ -145,7 +145,7 @@ FrameworkElement* HandleOffer(const TagUse& use) {
                use.xml.position());
     return &use.parent;
   }
-  if (offer.rate < 0) use.Report({.message = "the rate is a number above 0, of values a second"}, use.Find("rate")->value_position);
+  if (const auto wrong = WhatIsWrong(offer)) use.Report(*wrong, use.Find("rate")->value_position);
   if (ports != nullptr) {
     for (const char* const only : {"topic", "as", "frame", "child_frame"}) {
       if (const XmlAttribute* const said = use.Find(only)) {

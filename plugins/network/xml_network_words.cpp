@@ -29,6 +29,10 @@ std::optional<ValueQuality> QualityIn(const std::string& text) {
   return static_cast<ValueQuality>(std::ranges::find(ValueQualityNames(), text) - ValueQualityNames().begin());
 }
 
+ValueSending SendingIn(const std::string& text) {
+  return text == ValueSendingNames()[1] ? ValueSending::kAfterCycle : ValueSending::kNetwork;
+}
+
 const std::string& NameOf(ValueQuality quality) { return ValueQualityNames()[static_cast<std::size_t>(quality)]; }
 
 // Those that are usual are left out.
@@ -57,6 +61,8 @@ std::vector<AttributeRule> OfferRules() {
       {.name = "child_frame", .kind = AttributeKind::kName, .summary = "what moves, for transforms and odometry"},
       Quality("newest (default): reliable; each: every value, in a queue; sensor: best effort; latched: "
               "who comes late gets the newest"),
+      Choice("sending", "which thread sends: network (default), the network's; after_cycle: for small values, the one that has "
+             "published them, when its cycle has ended", ValueSendingNames()),
       {.name = "rate", .kind = AttributeKind::kNumber, .summary = "most values a second; the newest wins"},
       {.name = "strength",
        .kind = AttributeKind::kCount,
@@ -87,9 +93,18 @@ OfferOptions OfferSaid(const SaidOf& said) {
                      .frame = said("frame"),
                      .child_frame = said("child_frame"),
                      .quality = QualityIn(said("qos")).value_or(ValueQuality::kNewest),
+                     .sending = SendingIn(said("sending")),
                      .rate = NumberIn(said("rate")).value_or(0)};
   if (const auto strength = NumberIn(said("strength"))) offer.strength = static_cast<std::int32_t>(*strength);
   return offer;
+}
+
+std::optional<Error> WhatIsWrong(const OfferOptions& offer) {
+  if (offer.rate < 0) return Error{.message = "the rate is a number above 0, of values a second"};
+  if (offer.rate > 0 && offer.sending == ValueSending::kAfterCycle) {
+    return Error{.message = "values of a bounded rate are sent by the network's thread", .hint = "leave out rate, or sending"};
+  }
+  return {};
 }
 
 TakeOptions TakeSaid(const SaidOf& said) {
@@ -108,6 +123,7 @@ std::vector<Setting> WordsOf(const OfferOptions& offer) {
       .Add("frame", offer.frame)
       .Add("child_frame", offer.child_frame)
       .Add("qos", offer.quality == ValueQuality::kNewest ? "" : NameOf(offer.quality))
+      .Add("sending", offer.sending == ValueSending::kNetwork ? "" : ValueSendingNames()[1])
       .Add("rate", offer.rate > 0 ? fmt::format("{}", offer.rate) : "")
       .Add("strength", offer.strength ? std::to_string(*offer.strength) : "")
       .Take();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,8 @@ namespace runnel {
 using SaidOf = std::function<std::string(const char* name)>;
 /// All but the ports, of what has been checked by the rules.
 [[nodiscard]] OfferOptions OfferSaid(const SaidOf& said);
+/// What does not go together, of what each word alone allows.
+[[nodiscard]] std::optional<Error> WhatIsWrong(const OfferOptions& offer);
 [[nodiscard]] TakeOptions TakeSaid(const SaidOf& said);
 
 /// The same as words, without those that are usual: what a file or a change says besides ports and topic of a take.

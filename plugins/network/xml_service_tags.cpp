@@ -54,7 +54,7 @@ bool OfferService(const TagUse& use, const Port& port) {
                name->position);
     return true;
   }
-  if (!CheckName(use) || !SaysNothingElse(use, {"topic", "frame", "child_frame", "qos", "rate", "strength"})) return true;
+  if (!CheckName(use) || !SaysNothingElse(use, {"topic", "frame", "child_frame", "qos", "sending", "rate", "strength"})) return true;
   NetworkElement& network = *NetworkElement::FindIn(use.parent);
   const NetworkOptions& options = network.options();
   const MessageLibrary& messages = options.messages != nullptr ? *options.messages : MessageLibrary::Standard();

@@ -31,13 +31,13 @@ TEST_F(NetworkChanges, OffersComeAndGoAndAreUndoneAndSaved) {
   const Program other("run " + Write("other", kOther));
   const Program follower("run " + file);
   WaitForText("network --app other", "written /follower/gate/allowed");
-  ASSERT_EQ(Runnel("offer --app follower /gate/allowed --topic /go --qos latched").code, kDone);
+  ASSERT_EQ(Runnel("offer --app follower /gate/allowed --topic /go --qos latched --sending after_cycle").code, kDone);
   WaitForText("network --app other", "written /go");
   ASSERT_EQ(Runnel("offer --app follower /gate/allowed --topic /follower/gate/allowed --stop").code, kDone);
   WaitUntil("it is gone", [] { return Runnel("network --app other").text.find("/follower/gate/allowed") == std::string::npos; });
   ASSERT_EQ(Runnel("save --app follower").code, kDone);
   EXPECT_THAT(Read(file), AllOf(HasSubstr(R"(<offer ports="gate/* !/gate/allowed"/>)"),
-                                HasSubstr(R"(<offer port="gate/allowed" topic="/go" qos="latched"/>)")));
+                                HasSubstr(R"(<offer port="gate/allowed" topic="/go" qos="latched" sending="after_cycle"/>)")));
   EXPECT_EQ(Runnel("check " + file).code, kDone);
   ASSERT_EQ(Runnel("undo --app follower").code, kDone);
   ASSERT_EQ(Runnel("undo --app follower").code, kDone);
@@ -51,7 +51,7 @@ TEST_F(NetworkChanges, OffersComeAndGoAndAreUndoneAndSaved) {
   ASSERT_EQ(Runnel("rename --app follower /gate door").code, kDone);
   WaitForText("network --app follower", "offers /follower/door/output/allowed as /go");
   ASSERT_EQ(Runnel("save --app follower").code, kDone);
-  EXPECT_THAT(Read(file), HasSubstr(R"(<offer port="door/allowed" topic="/go" qos="latched"/>)"));
+  EXPECT_THAT(Read(file), HasSubstr(R"(<offer port="door/allowed" topic="/go" qos="latched" sending="after_cycle"/>)"));
 }
 
 TEST_F(NetworkChanges, MistakesAreToldAndNothingIsChanged) {
@@ -65,6 +65,8 @@ TEST_F(NetworkChanges, MistakesAreToldAndNothingIsChanged) {
   EXPECT_THAT(told("offer --app follower /gate/alowed"), HasSubstr("did you mean 'allowed'?"));
   EXPECT_THAT(told("offer --app follower /gate/wanted"), HasSubstr("wanted"));
   EXPECT_THAT(told("offer --app follower /gate/allowed --qos quick"), HasSubstr("qos: "));
+  EXPECT_THAT(told("offer --app follower /gate/allowed --sending after_cycles"), HasSubstr("did you mean 'after_cycle'?"));
+  EXPECT_THAT(told("offer --app follower /gate/allowed --sending after_cycle --rate 5"), HasSubstr("by the network's thread"));
   EXPECT_THAT(told("offer --app follower /gate/allowed --topic 'go there'"), HasSubstr("topic: "));
   EXPECT_THAT(told("offer --app follower /gate/allowed"), HasSubstr("is offered as /follower/gate/allowed already"));
   EXPECT_THAT(told("offer --app follower /gate/allowed --topic /x --stop"), HasSubstr("is not offered as /x"));

@@ -106,6 +106,9 @@ TEST_F(TwoRobots, MistakesAreToldWithTheirPlaces) {
   EXPECT_THAT(check(R"(<network engine="carrier_pigeon"/>)"), HasSubstr("'carrier_pigeon' is not installed"));
   EXPECT_THAT(check(R"(<network/><network/>)"), HasSubstr("there is a network already"));
   EXPECT_THAT(check(R"(<network><offer ports="gate/*" topic="/x"/></network>)"), HasSubstr("topic is said of one port"));
+  EXPECT_THAT(check(R"(<network><offer ports="gate/*" sending="after_cycles"/></network>)"), HasSubstr("did you mean 'after_cycle'?"));
+  EXPECT_THAT(check(R"(<network><offer ports="gate/*" sending="after_cycle" rate="5"/></network>)"),
+              testing::AllOf(HasSubstr("by the network's thread"), HasSubstr("leave out rate, or sending")));
   EXPECT_THAT(check(R"(<network><offer/></network>)"), HasSubstr("<offer> says which ports"));
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <new>
+#include <random>
 #include <thread>
 
 #include <sys/mman.h>
@@ -35,8 +36,13 @@ void Course::Write(const std::function<void()>& send) {
   const double began = Now();
   const double processor = ProcessorTime();
   Time next = SteadyClock().Now();
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> share(0.5, 1.5);
   while (load_.period.count() > 0 ? sent_ < load_.count : Now() - began < 1) {
-    if (load_.period.count() > 0) SleepUntil(next += load_.period);
+    if (load_.period.count() > 0) {
+      next += load_.is_even ? Duration(load_.period) : FromSeconds(share(random) * ToSeconds(load_.period));
+      SleepUntil(next);
+    }
     send();
     ++sent_;
   }

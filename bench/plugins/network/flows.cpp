@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "bench/plugins/network/network_bench.h"
+#include "core/module/after_cycle.h"
 #include "core/port/own_cycle.h"
 
 namespace runnel {
@@ -34,7 +35,7 @@ class Reading final : public Waker {
 };
 
 template <typename T>
-Figures MeasurePorts(const Load& load, ValueQuality quality, void (*fill)(T&), double (*sent)(const T&)) {
+Figures MeasurePorts(const Load& load, ValueQuality quality, ValueSending sending, void (*fill)(T&), double (*sent)(const T&)) {
   const auto read = [&](Course& course) {
     Application<Receiver<T>> application;
     Input<T>& input = application.element.input;
@@ -50,10 +51,13 @@ Figures MeasurePorts(const Load& load, ValueQuality quality, void (*fill)(T&), d
     Application<Sender<T>> application;
     Output<T>& output = application.element.output;
     application.Begin({.member = {.name = "writer"},
-                       .offers = {{.port = "/application/element/output", .topic = "/values", .quality = quality}}},
+                       .offers = {{.port = "/application/element/output", .topic = "/values", .quality = quality, .sending = sending}}},
                       nullptr);
     while (output.outgoing().empty()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     course.Write([&] {
+      // As executors do.
+      const EpochGuard guard;
+      const AfterCycleScope after;
       auto loan = output.Loan();
       fill(*loan);
       const OwnCycle cycle(SteadyClock().Now());
@@ -111,13 +115,13 @@ Figures MeasureEngine(const Load& load, std::size_t size) {
   return Measure(load, read, write);
 }
 
-Figures MeasureBlocks(const Load& load, ValueQuality quality) {
-  return MeasurePorts<Block>(load, quality, [](Block& block) { block.values[0] = Now(); },
+Figures MeasureBlocks(const Load& load, ValueQuality quality, ValueSending sending) {
+  return MeasurePorts<Block>(load, quality, sending, [](Block& block) { block.values[0] = Now(); },
                              [](const Block& block) { return block.values[0]; });
 }
 
 Figures MeasurePictures(const Load& load) {
-  return MeasurePorts<Picture>(load, ValueQuality::kNewest,
+  return MeasurePorts<Picture>(load, ValueQuality::kNewest, ValueSending::kNetwork,
                                [](Picture& picture) {
                                  picture.data.resize(kPicture);
                                  picture.sent = Now();

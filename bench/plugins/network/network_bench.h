@@ -46,6 +46,7 @@ inline constexpr std::size_t kPicture = 1920 * 1080 * 3;
 struct Load {
   int count;
   std::chrono::microseconds period;
+  bool is_even = true;  ///< false: at intervals from half of the period to one and a half, as they like
 };
 
 /// What has been measured of one writing and one reading process.
@@ -93,7 +94,7 @@ class Course {
 /// The engine alone, by the seam of octets.
 [[nodiscard]] Figures MeasureEngine(const Load& load, std::size_t size);
 /// From port to port.
-[[nodiscard]] Figures MeasureBlocks(const Load& load, ValueQuality quality);
+[[nodiscard]] Figures MeasureBlocks(const Load& load, ValueQuality quality, ValueSending sending);
 [[nodiscard]] Figures MeasurePictures(const Load& load);
 
 /// What it costs to publish through a port that is offered, in this process.
