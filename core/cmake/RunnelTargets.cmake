@@ -13,6 +13,9 @@ function(runnel_compile_together target count)
   set_target_properties(${target} PROPERTIES
     UNITY_BUILD "${RUNNEL_COMPILE_TOGETHER}" UNITY_BUILD_BATCH_SIZE ${count})
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  # GCC then has much to look after; that it looks for what it needs no more only once it holds 500 MB saves a seventh
+  # of its time for a fifth more memory.
+  target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:--param=ggc-min-heapsize=500000>)
 endfunction()
 
 # runnel_library(<name> [STATIC] [SOURCES ...] [APART ...] HEADERS ... [DEPENDS ...] [PRIVATE_DEPENDS ...])

@@ -14,9 +14,9 @@ set(CMAKE_INSTALL_RPATH "$ORIGIN" "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}" "$ORIGIN/
 
 find_program(RUNNEL_CCACHE ccache)
 if(RUNNEL_CCACHE)
-  # Only so does it keep what is compiled with precompiled headers.
+  # Only so does it keep what is compiled with precompiled headers. When GCC collects its garbage makes no difference.
   set(CMAKE_CXX_COMPILER_LAUNCHER
-    "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros "${RUNNEL_CCACHE}")
+    "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_IGNOREOPTIONS=--param=ggc-min-heapsize=* "${RUNNEL_CCACHE}")
 endif()
 
 add_library(runnel_warnings INTERFACE)

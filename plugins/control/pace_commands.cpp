@@ -23,7 +23,7 @@ std::string SpeedText(double speed) {
 }
 
 // Says what has been done; what could not be is the command's error.
-CommandResult Say(std::string text) {
+CommandResult SayAtOnce(std::string text) {
   return Command([text = std::move(text)](Answer& answer) -> CommandStep {
     answer.Write(text + "\n");
     return ControlCode::kDone;
@@ -35,7 +35,7 @@ CommandResult Do(const ServedApplication& application, const Result<void>& done,
                  const std::string& what) {
   if (!done) return done.error();
   application.log.Add(ApplicationLog::Kind::kChange, what);
-  return Say(what + " at " + TimeText(application));
+  return SayAtOnce(what + " at " + TimeText(application));
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ CommandResult MakeSpeedCommand(const Request& request, const CommandContext& con
     if (pace.has_ended()) {
       return Error{.message = "the run has ended", .hint = "'runnel restart' runs the application again"};
     }
-    return Say(SpeedText(pace.speed()) + (pace.is_paused() ? ", but paused" : ""));
+    return SayAtOnce(SpeedText(pace.speed()) + (pace.is_paused() ? ", but paused" : ""));
   }
   const auto speed = NumberIn<double>(request.arguments[0]);
   if (!speed) return Error{.message = "'" + request.arguments[0] + "' is not a number"};

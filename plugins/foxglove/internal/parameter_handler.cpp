@@ -14,8 +14,8 @@ namespace runnel::internal {
 
 namespace {
 
-constexpr auto kBetweenLooks = std::chrono::milliseconds(250);
-constexpr auto kSoon = std::chrono::milliseconds(5);
+constexpr auto kBetweenLooksAtValues = std::chrono::milliseconds(250);
+constexpr auto kSoonAgain = std::chrono::milliseconds(5);
 constexpr auto kLongTime = std::chrono::hours(1);
 constexpr std::size_t kMostWaiting = 100;  // requests of one client
 constexpr std::size_t kMostAtOnce = 1000;
@@ -84,14 +84,14 @@ void ParameterHandler::Subscribe(const SubscribeParametersMessage& message) {
 }
 
 ParameterHandler::SteadyTime ParameterHandler::Continue(SteadyTime now) {
-  if (send_queue_.is_long()) return now + kSoon;
+  if (send_queue_.is_long()) return now + kSoonAgain;
   const bool has_answered = AnswerGets();
   const bool has_set = ContinueSets();
   if (!subscribed_.empty() && now >= look_at_) {
-    look_at_ = now + kBetweenLooks;
+    look_at_ = now + kBetweenLooksAtValues;
     SendChanges();
   }
-  if (!has_answered || !has_set) return now + kSoon;
+  if (!has_answered || !has_set) return now + kSoonAgain;
   return subscribed_.empty() ? now + kLongTime : look_at_;
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/element/runtime.h"
 #include "plugins/command_service/caught_error.h"
+#include "plugins/foxglove/internal/client_message.h"
 #include "plugins/foxglove/internal/foxglove_shared.h"
 #include "plugins/foxglove/internal/send_queue.h"
 #include "plugins/foxglove/internal/server_messages.h"

@@ -29,7 +29,7 @@ using SteadyTime = WebSession::SteadyTime;
 // However soon a session wants its next turn, others have theirs before.
 constexpr auto kShortestPause = std::chrono::milliseconds(1);
 // For a client to answer that it ends.
-constexpr auto kTimeToClose = std::chrono::milliseconds(1000);
+constexpr auto kTimeToSayGoodbye = std::chrono::milliseconds(1000);
 // What is longer does not fit into a closing frame.
 constexpr std::size_t kLongestReason = 120;
 
@@ -246,7 +246,7 @@ class WebSocketConnection final : public WebConnection,
     is_closing_ = true;
     // Not here: it may be the session itself that has asked for it.
     boost::asio::post(registry_.context(), [self = shared_from_this()] { self->session_.reset(); });
-    poll_timer_.expires_after(kTimeToClose);
+    poll_timer_.expires_after(kTimeToSayGoodbye);
     poll_timer_.async_wait([self = shared_from_this()](beast::error_code cancelled) {
       if (!cancelled) self->Cut();
     });
