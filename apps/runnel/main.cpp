@@ -23,7 +23,8 @@ ExitCode CheckDescription(int count, char** words) {
   std::string command = "generate";
   std::vector<char*> all(words, words + count + 1);  // with the null at the end
   all[0] = command.data();
-  std::cerr << "error: " << BecomeProgram(command, all.data()) << '\n';
+  const std::string why_not = BecomeProgram(command, all.data());  // returns only then
+  std::cerr << "error: " << why_not << '\n';
   return ExitCode::kRunFailed;
 }
 

@@ -203,7 +203,7 @@ void ComponentRules::AddService(Service draft) {
   }
   if (IsNameUsed(draft.name, draft.place, true) || !CheckServiceCodels(draft)) return;
   for (const Parameter& each : draft.parameters) {
-    if (each.is_variable || each.source == ParameterSource::kIds || !Holds(each.type, TypeKind::kNative)) continue;
+    if (each.is_variable || !Holds(each.type, TypeKind::kNative)) continue;
     problems_.Add(each.place, "parameter '" + each.name + "' cannot be native, nor hold something native",
                   "only the ids and codels have native types");
     return;

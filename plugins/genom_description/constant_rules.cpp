@@ -112,7 +112,12 @@ std::optional<Constant> Cast(const Constant& value, const Type* type, Place plac
     problems.Add(place, "there are no constants of " + KindAndName(*type), problems.DeclaredAt(type->place));
     return std::nullopt;
   }
-  if (final_type.Is(TypeKind::kCharacter) && value.kind == Kind::kCharacter) return value;
+  if (final_type.Is(TypeKind::kCharacter) && value.kind == Kind::kCharacter) {
+    const bool is_escaped = value.text.starts_with('\\');
+    if (value.text.size() == (is_escaped ? 2 : 1)) return value;
+    problems.Add(place, "'" + value.text + "' is not one character");
+    return std::nullopt;
+  }
   const auto converted = Converted(value, kind);
   const bool is_other_enum =
       kind == Kind::kEnumerator && converted && FinalType(converted->enumerator->type) != &final_type;

@@ -65,10 +65,6 @@ void Parser::TypedefDeclaration() {
   const Token& next = reader_.Peek();
   const bool is_constructed = next.IsWord("struct") || next.IsWord("union") || next.IsWord("enum");
   Type* type = is_constructed ? TypeSpecification() : SimpleType(true);
-  if (type != nullptr && type->Is(TypeKind::kException) && type->members.empty()) {
-    problems_.Add(reader_.Peek().place, "exception '" + type->name + "' has no members, so it is no type");
-    type = nullptr;
-  }
   do {
     const Declarator declarator = ReadDeclarator("a type");
     if (type == nullptr) {
@@ -141,12 +137,7 @@ Type* Parser::TypeSpecification() {
   if (begin.IsWord("struct")) return Struct();
   if (begin.IsWord("union")) return Union();
   if (begin.IsWord("enum")) return Enum();
-  Type* type = SimpleType();
-  if (type != nullptr && type->Is(TypeKind::kException) && type->members.empty()) {
-    problems_.Add(begin.place, "exception '" + type->name + "' has no members, so it is no type");
-    return nullptr;
-  }
-  return type;
+  return SimpleType();
 }
 
 Type* Parser::SimpleType(bool may_be_forward) {
@@ -169,6 +160,10 @@ Type* Parser::SimpleType(bool may_be_forward) {
     reader_.Fail("a type", is_inline ? "declare it before, and name it here" : "");
   }
   Type* type = NamedType();
+  if (type != nullptr && type->Is(TypeKind::kException) && type->members.empty()) {
+    problems_.Add(begin.place, "exception '" + type->name + "' has no members, so it is no type");
+    return nullptr;
+  }
   if (type == nullptr || may_be_forward) return type;
   if ((type->Is(TypeKind::kForwardStruct) || type->Is(TypeKind::kForwardUnion)) && type->type == nullptr) {
     problems_.Add(begin.place, KindAndName(*type) + " is only announced yet",

@@ -1,6 +1,7 @@
 #include "plugins/genom_templates/template_run.h"
 
 #include <charconv>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 
@@ -39,7 +40,7 @@ end
 
 local function run(name, is_text, environment)
   local program, chunk = host_source(name, is_text)
-  if not program then error(chunk, 0) end
+  if not program then error(chunk) end
   local loaded, message = load(program, chunk, "t", environment)
   if not loaded then error(message, 0) end
   return loaded
@@ -59,7 +60,7 @@ function library(name)
   return libraries[name]
 end
 function has(table, field) return rawget(table, field) ~= nil end
-function fail(message) error(message, 0) end
+function fail(message) error(setmetatable({}, {__tostring = function() return tostring(message) end})) end
 
 setmetatable(_G, {__index = function(_, name) error("there is no '" .. tostring(name) .. "' here", 2) end})
 run("template.lua", false, _G)()
@@ -67,7 +68,8 @@ run("template.lua", false, _G)()
 
 class Run {
  public:
-  Run(fs::path folder) : folder_(std::move(folder)), lua_(luaL_newstate(), lua_close) {}
+  Run(fs::path folder, const TemplateLimits& limits)
+      : folder_(std::move(folder)), limits_(limits), lua_(lua_newstate(Allocate, this), lua_close) {}
 
   Result<TemplateOutput> Go(const std::string& model, const std::map<std::string, std::string>& options) {
     if (!lua_) return Error{.message = "there is no memory for the template"};
@@ -77,18 +79,78 @@ class Run {
     lua_setglobal(lua, "model");
     PushTexts(lua, options);
     lua_setglobal(lua, "options");
+    *static_cast<Run**>(lua_getextraspace(lua)) = this;
+    lua_sethook(lua, CountSteps, LUA_MASKCOUNT, kStepsAtOnce);
+    lua_pushcfunction(lua, AddPlace);
     if (luaL_loadbuffer(lua, kPrelude, std::char_traits<char>::length(kPrelude), "=runnel") == LUA_OK) {
       lua_pushlightuserdata(lua, this);
       lua_pushcclosure(lua, Source, 1);
       lua_pushlightuserdata(lua, this);
       lua_pushcclosure(lua, Add, 1);
-      if (lua_pcall(lua, 2, 0, 0) == LUA_OK) return std::move(output_);
+      is_limited_ = true;
+      const int status = lua_pcall(lua, 2, 0, -4);
+      is_limited_ = false;
+      if (status == LUA_OK) return std::move(output_);
+      if (status == LUA_ERRMEM) return TooMuch("memory");
     }
     const char* message = luaL_tolstring(lua, -1, nullptr);
     return ErrorOf(message == nullptr ? "" : message);
   }
 
  private:
+  static constexpr int kStepsAtOnce = 10'000;
+
+  [[nodiscard]] Error TooMuch(const std::string& what) const {
+    return {.message = "the template needs too much " + what, .position = {output_.sources.empty() ? "" : output_.sources.back(), 0}};
+  }
+
+  static void* Allocate(void* context, void* before, std::size_t size_before, std::size_t size) {
+    Run& self = *static_cast<Run*>(context);
+    if (before == nullptr) size_before = 0;  // it says what is to be made, then
+    if (self.is_limited_ && size > size_before && self.bytes_ + (size - size_before) > self.limits_.bytes) return nullptr;
+    if (size == 0) {
+      std::free(before);
+    } else if (void* const after = std::realloc(before, size); after != nullptr) {
+      before = after;
+    } else {
+      return nullptr;
+    }
+    self.bytes_ += size - size_before;  // wraps around where it is less
+    return size == 0 ? nullptr : before;
+  }
+
+  static void CountSteps(lua_State* lua, lua_Debug* /*at*/) {
+    Run& self = **static_cast<Run**>(lua_getextraspace(lua));
+    self.steps_ += kStepsAtOnce;
+    if (self.steps_ <= self.limits_.steps) return;
+    luaL_where(lua, 0);
+    lua_pushliteral(lua, "the template does not come to an end");
+    lua_concat(lua, 2);
+    lua_error(lua);
+  }
+
+  // Errors of what is called get the place in the template from where it is.
+  static int AddPlace(lua_State* lua) {
+    if (lua_type(lua, 1) != LUA_TSTRING) return 1;
+    std::string_view message = lua_tostring(lua, 1);
+    if (message.starts_with('#')) return 1;
+    constexpr std::string_view kOfPrelude = "runnel:";
+    if (message.starts_with(kOfPrelude)) {
+      const std::size_t end = message.find(": ");
+      if (end != std::string_view::npos) message.remove_prefix(end + 2);
+    }
+    lua_Debug at{};
+    for (int level = 1; lua_getstack(lua, level, &at) != 0; ++level) {
+      lua_getinfo(lua, "Sl", &at);
+      if (std::string_view(at.source).starts_with("@#") && at.currentline > 0) {
+        lua_pushfstring(lua, "%s:%d: %s", at.short_src, at.currentline, message.data());
+        return 1;
+      }
+    }
+    lua_pushlstring(lua, message.data(), message.size());
+    return 1;
+  }
+
   static Run& Self(lua_State* lua) { return *static_cast<Run*>(lua_touserdata(lua, lua_upvalueindex(1))); }
 
   // source(name, is_text) gives the program and the name of its chunk, or false and why not. What has a destructor ends
@@ -173,6 +235,10 @@ class Run {
   }
 
   fs::path folder_;
+  const TemplateLimits limits_;
+  std::size_t bytes_ = 0;
+  bool is_limited_ = false;  // only while errors are caught
+  std::uint64_t steps_ = 0;
   std::unique_ptr<lua_State, decltype(&lua_close)> lua_;
   TemplateOutput output_ = {};
   std::string program_ = {};
@@ -183,9 +249,9 @@ class Run {
 }  // namespace
 
 Result<TemplateOutput> RunTemplate(const fs::path& folder, const std::string& model,
-                                   const std::map<std::string, std::string>& options) {
+                                   const std::map<std::string, std::string>& options, const TemplateLimits& limits) {
   const fs::path whole = fs::absolute(folder).lexically_normal();
-  return Run(whole.filename().empty() ? whole.parent_path() : whole).Go(model, options);
+  return Run(whole.filename().empty() ? whole.parent_path() : whole, limits).Go(model, options);
 }
 
 }  // namespace runnel::genom

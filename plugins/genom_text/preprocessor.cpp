@@ -257,10 +257,9 @@ void Preprocessor::OtherDirective(const std::string& word, Place place) {
 
 void Preprocessor::Line(const std::vector<TextToken>& line_tokens, Place place) {
   const std::vector<TextToken> tokens = macros_.ExpandAll(line_tokens);
-  if (tokens.empty() || tokens[0].kind != Kind::kNumber) return;
   int line = 0;
-  const std::string& text = tokens[0].text;
-  if (std::from_chars(text.data(), text.data() + text.size(), line).ec != std::errc() || line < 1) {
+  const std::string text = tokens.empty() || tokens[0].kind != Kind::kNumber ? "" : tokens[0].text;
+  if (std::from_chars(text.data(), text.data() + text.size(), line).ec != std::errc() || line < 0) {
     problems_.Add(place, "#line needs the number of a line");
     return;
   }

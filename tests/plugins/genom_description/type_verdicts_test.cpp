@@ -21,6 +21,11 @@ TEST(GenomWordsTest, NumbersAndTexts) {
       {kRight, "const string a = \"over\nlines, with \\\" and ü\";"},
       {kWrong, "const string a = \"no end;"},
       {kRight, "const char a = 'q'; const char b = \"q\";"},
+      {kWrong, "const char a = 'ab';"},
+      {kWrong, "const char a = '';"},
+      {kRight, "const char a = '\\n';"},
+      {kWrong, "const char a = 65;"},
+      {kWrong, "const string a = 'c';"},
       {kWrong, "typedef double größe;"},
       {kWrong, "typedef double a@b;"},
       {kRight, "typedef double _speed;"},
@@ -133,6 +138,11 @@ TEST(GenomTypesTest, Unions) {
       {kWrong, "enum e { A, B }; enum f { C }; union u switch(e) { case C: double a; };"},
       {kWrong, "union u switch(enum e { A }) { case A: double a; };"},
       {kWrong, "enum e { A }; union u switch(e) { case A: double e; };"},
+      {kRight, "typedef short s; union u switch(s) { case 1 + 1: long a; default: string b; };"},
+      {kWrong, "typedef float s; union u switch(s) { case 3: long a; };"},
+      {kWrong, "typedef octet s; union u switch(s) { case 3: long a; };"},
+      {kWrong, "union u switch(unsigned short) { case -1: long a; };"},
+      {kWrong, "union u switch(short) { case 1: long a; case 2: long a; };"},
       {kWrong, "union u switch(short) { };"},
       {kWrong, "union u switch(short) { double a; };"},
   });
@@ -143,6 +153,10 @@ TEST(GenomTypesTest, Exceptions) {
       {kRight, "exception lost, late { double by; };"},
       {kRight, "exception late { double by; }; struct s { late a; };"},
       {kWrong, "exception lost; struct s { lost a; };"},
+      {kWrong, "exception lost; typedef lost b;"},
+      {kWrong, "exception lost; typedef sequence<lost> b;"},
+      {kWrong, "exception lost; struct s { optional<lost> a; };"},
+      {kRight, "exception late { struct when { long s; } at; }; typedef late::when w;"},
   });
 }
 

@@ -69,9 +69,27 @@ TEST_F(TemplateRunTest, ErrorsHaveFileAndLineOfTheTemplate) {
   Write("own/template.lua", "fail('as a whole')\n");
   EXPECT_EQ(Wrong(), "as a whole");
   Write("own/template.lua", "file('missing.in', 'a')\n");
-  EXPECT_EQ(Wrong(), "there is no file 'missing.in' in the template");
+  EXPECT_THAT(Wrong(), EndsWith("own/template.lua:1: there is no file 'missing.in' in the template"));
+  Write("own/template.lua", "\nlocal a = has(nil, 'b')\n");
+  EXPECT_THAT(Wrong(), HasSubstr("own/template.lua:2: bad argument #1 to"));
+  Write("own/template.lua", "\nlocal own = library({})\n");
+  EXPECT_THAT(Wrong(), HasSubstr("own/template.lua:2: "));
   std::filesystem::remove(folder_.path() / "own/template.lua");
   EXPECT_EQ(Wrong(), "there is no file 'template.lua' in the template");
+}
+
+TEST_F(TemplateRunTest, WhatDoesNotComeToAnEndIsEnded) {
+  const auto wrong = [this](const std::string& text, std::size_t bytes = 10'000'000) {
+    Write("own/template.lua", text);
+    const auto result = RunTemplate(folder_.path() / "own", "{}", {}, {.steps = 2'000'000, .bytes = bytes});
+    return result ? "" : result.error().ToString();
+  };
+  EXPECT_THAT(wrong("\nwhile true do\nend\n"), HasSubstr("the template does not come to an end"));
+  EXPECT_THAT(wrong("\nwhile true do\nend\n"), HasSubstr("own/template.lua:2: "));
+  EXPECT_THAT(wrong("local function f() return f() end f()"), HasSubstr("own/template.lua:1: the template does not come to an end"));
+  EXPECT_THAT(wrong("local function f() return 1 + f() end f()", 500'000'000), HasSubstr("own/template.lua:1: stack overflow"));
+  EXPECT_THAT(wrong("local all = {} while true do all[#all + 1] = string.rep('a', 1000000 + #all) end"),
+              HasSubstr("own/template.lua: the template needs too much memory"));
 }
 
 }  // namespace
