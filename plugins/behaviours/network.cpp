@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/port/input_base.h"
+#include "plugins/scheduling/thread_container.h"
 
 namespace runnel {
 
@@ -22,6 +23,34 @@ const Behaviour* OwnerOf(const FrameworkElement& port) {
 
 void AddOnce(std::vector<std::size_t>& list, std::size_t place) {
   if (std::ranges::find(list, place) == list.end()) list.push_back(place);
+}
+
+bool IsFedBy(const Port& port, const Port& source) {
+  const auto sources = port.Sources();
+  return std::ranges::find(sources, &source) != sources.end();
+}
+
+// Whether a connection by which `source` feeds the port, through whatever groups, is late.
+bool IsLate(const Port& port, const Port& source) {
+  for (const Port* const from : port.incoming()) {
+    const auto edge = std::ranges::find(from->outgoing(), &port, [](const Connection& each) -> const Port* { return each.to; });
+    const bool is_late = edge != from->outgoing().end() && edge->options.late;
+    if ((from == &source && is_late) || (from->is_proxy() && IsFedBy(*from, source) && (is_late || IsLate(*from, source)))) return true;
+  }
+  return false;
+}
+
+void AddLateSources(const Port& port, const Places& places, NetworkNode& node) {
+  for (const Port* const source : port.Sources()) {
+    const Behaviour* const owner = OwnerOf(*source);
+    const auto place = owner != nullptr ? places.find(owner) : places.end();
+    if (place == places.end()) continue;
+    if (AssignedThread(*owner) != AssignedThread(*node.behaviour)) {
+      AddOnce(node.elsewhere, place->second);
+    } else if (IsLate(port, *source)) {
+      AddOnce(node.late, place->second);
+    }
+  }
 }
 
 // The behaviours that feed the port. True: something else does, too.
@@ -69,6 +98,11 @@ NetworkNode ReadNode(Behaviour& behaviour, const FrameworkElement& application, 
     if (sources.size() == 1) AddOnce(node.needs_all, sources.front());
   }
   node.needs_any = SourcesOfAll(needs.any_of, places);
+  AddLateSources(behaviour.stimulation, places, node);
+  for (std::size_t i = 0; i < behaviour.inhibition_count(); ++i) AddLateSources(behaviour.inhibition(i), places, node);
+  for (const auto* const list : {&needs.all_of, &needs.any_of}) {
+    for (const Port* const each : *list) AddLateSources(*each, places, node);
+  }
   return node;
 }
 

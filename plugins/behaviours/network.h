@@ -18,6 +18,8 @@ struct NetworkNode {
   std::vector<std::size_t> inhibitors = {};
   std::vector<std::size_t> needs_all = {};  ///< it is active only while all of these are
   std::vector<std::size_t> needs_any = {};  ///< … it is active if and only if any of these is; none: as it likes
+  std::vector<std::size_t> late = {};       ///< of all of these, those whose connection says that it is late
+  std::vector<std::size_t> elsewhere = {};  ///< of all of these, those that another thread runs
 };
 
 /// Something that is no behaviour, to whose one input several behaviours say what they want, without a fusion.
@@ -46,7 +48,10 @@ struct NetworkFlaw {
 /// Behaviours that can never be active: nobody stimulates them, or only some who never are, or whoever stimulates them
 /// has them inhibited at the same time.
 [[nodiscard]] std::vector<NetworkFlaw> FindUnreachable(const BehaviourNetwork& network);
-/// Loops with an odd number of inhibitions: who is active in them has itself inhibited some cycles later.
+/// Loops with an odd number of inhibitions: who is active in them has itself inhibited some cycles later. And such with an
+/// even number of which two connections or more can be a cycle late: as none knows yet of the others, they go on and off
+/// together. (With one that is late, who runs first holds the others down.) From another thread each is; within a thread
+/// those that say so, but one at least is not, as somebody runs behind another one.
 [[nodiscard]] std::vector<NetworkFlaw> FindOscillations(const BehaviourNetwork& network);
 /// Two behaviours that can be active at once and command one actuator without a fusion.
 [[nodiscard]] std::vector<NetworkFlaw> FindConflicts(const BehaviourNetwork& network);

@@ -103,58 +103,6 @@ std::vector<NetworkFlaw> FindUnreachable(const BehaviourNetwork& network) {
   return flaws;
 }
 
-std::vector<NetworkFlaw> FindOscillations(const BehaviourNetwork& network) {
-  // Edges from who decides to who depends, with whether by inhibition.
-  struct Edge {
-    std::size_t to;
-    bool inhibits;
-  };
-  std::vector<std::vector<Edge>> edges(network.nodes.size());
-  for (std::size_t to = 0; to < network.nodes.size(); ++to) {
-    const NetworkNode& node = network.nodes[to];
-    for (const std::size_t from : node.inhibitors) edges[from].push_back({to, true});
-    for (const auto* const list : {&node.stimulators, &node.needs_all, &node.needs_any}) {
-      for (const std::size_t from : *list) edges[from].push_back({to, false});
-    }
-  }
-  std::vector<NetworkFlaw> flaws;
-  std::set<Set> told;
-  for (std::size_t start = 0; start < network.nodes.size(); ++start) {
-    // The shortest way back to itself with an odd number of inhibitions.
-    using State = std::pair<std::size_t, bool>;
-    std::map<State, State> came_from;
-    std::deque<State> waiting{{start, false}};
-    bool is_closed = false;
-    while (!waiting.empty() && !is_closed) {
-      const State at = waiting.front();
-      waiting.pop_front();
-      for (const Edge& edge : edges[at.first]) {
-        const State next{edge.to, at.second != edge.inhibits};
-        if (next == State{start, false} || !came_from.try_emplace(next, at).second) continue;
-        waiting.push_back(next);
-        is_closed = is_closed || next == State{start, true};
-      }
-    }
-    if (!is_closed) continue;
-    std::vector<std::size_t> loop;
-    for (State at{start, true}; at != State{start, false}; at = came_from.at(at)) loop.push_back(at.first);
-    std::ranges::reverse(loop);
-    if (!told.insert(Set(loop.begin(), loop.end())).second) continue;
-    std::string text = network.nodes[start].name;
-    std::size_t before = start;
-    for (const std::size_t each : loop) {
-      const bool inhibits = std::ranges::find(network.nodes[each].inhibitors, before) != network.nodes[each].inhibitors.end();
-      text += (inhibits ? " inhibits " : " activates ") + network.nodes[each].name;
-      before = each;
-      if (each != loop.back()) text += ", which";
-    }
-    flaws.push_back({network.nodes[start].behaviour->path(),
-                     "can oscillate, for its own activity inhibits it in the end: " + text,
-                     "take one of these connections away"});
-  }
-  return flaws;
-}
-
 std::vector<NetworkFlaw> FindConflicts(const BehaviourNetwork& network) {
   std::vector<NetworkFlaw> flaws;
   const std::vector<bool> can_be = CanBeStimulated(network);

@@ -58,7 +58,7 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
                    "plugins/behaviours/xml_",
                    {"core", "plugins/application", "plugins/application_files", "plugins/behaviours"}});
   rules.push_back({"plugins/behaviours/algorithm", "plugins/behaviours/algorithm", {}, true});
-  rules.push_back({"plugins/behaviours", "plugins/behaviours", {"core", "plugins/parameters", "plugins/behaviours/algorithm", "plugins/model_checker"}});
+  rules.push_back({"plugins/behaviours", "plugins/behaviours", {"core", "plugins/parameters", "plugins/behaviours/algorithm", "plugins/model_checker", "plugins/scheduling"}});
   rules.push_back({"plugins/model_checker", "plugins/model_checker", {"core"}});
   rules.push_back({"plugins/values", "plugins/values", {"core"}});
   rules.push_back({"plugins/cdr_values", "plugins/cdr_values", {"core"}});

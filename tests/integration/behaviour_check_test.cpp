@@ -108,6 +108,14 @@ TEST(NetworkCheckTest, FindsLoopsThatCanOscillate) {
                                 "to=\"avoid/stimulation\"/>"
                                 "<connect from=\"drive/activity\" to=\"escape/inhibition1\" late=\"true\"/>");
   EXPECT_THAT(FlawsOf(even), Not(::testing::Contains(HasSubstr("can oscillate")))) << "each holds the other down";
+  const std::string both_late = With(even, "to=\"drive/inhibition1 follow_wall/stimulation\"/>",
+                                     "to=\"follow_wall/stimulation\"/>"
+                                     "<connect from=\"escape/activity\" to=\"drive/inhibition1\" late=\"true\"/>");
+  EXPECT_THAT(FlawsOf(both_late), Not(::testing::Contains(HasSubstr("can oscillate")))) << "one of the two runs behind the other";
+  const std::string apart = With(With(even, "<module name=\"escape\"", "<module name=\"escape\" thread=\"other\""), "<thread ",
+                                 "<thread name=\"other\" period=\"50ms\"/> <thread ");
+  EXPECT_THAT(FlawsOf(apart), ::testing::Contains(AllOf(HasSubstr("can oscillate, for all go on and off together"),
+                                                        HasSubstr("; 2 of these can come a cycle late")))) << "two threads";
 }
 
 TEST(NetworkCheckTest, FindsTwoOnOneActuatorWithoutFusion) {
