@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/markup.h"
-#include "plugins/wire/loopback_filter.h"
+#include "plugins/wire/reach_filter.h"
 
 namespace runnel {
 
@@ -125,9 +125,7 @@ Result<std::shared_ptr<CycloneDomain>> CycloneDomain::Join(const WireMemberOptio
   const dds_entity_t domain = dds_create_domain(options.domain, configuration.c_str());
   if (domain < 0) return CycloneError("domain " + std::to_string(options.domain) + " cannot be joined", domain);
   const std::shared_ptr<CycloneDomain> made(new CycloneDomain(domain, std::move(configuration)));
-  if (options.reach == WireReach::kLoopback) {
-    if (const auto kept = KeepToLoopback(options.domain); !kept) return kept.error();
-  }
+  if (const auto kept = KeepWithinReach(options); !kept) return kept.error();
   const std::lock_guard lock(AllDomains().mutex);
   AllDomains().all[options.domain] = made;
   return made;

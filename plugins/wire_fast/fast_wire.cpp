@@ -7,7 +7,7 @@
 #include <fastrtps/attributes/LibrarySettingsAttributes.h>
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 
-#include "plugins/wire/loopback_filter.h"
+#include "plugins/wire/reach_filter.h"
 #include "plugins/wire_fast/fast_discovery.h"
 #include "plugins/wire_fast/fast_endpoints.h"
 #include "plugins/wire_fast/fast_log.h"
@@ -36,9 +36,7 @@ class FastParticipant final : public WireParticipant {
     if (!qos) return qos.error();
     participant_ = factory_->create_participant(options.domain, *qos, &discovery_, dds::StatusMask::none());
     if (participant_ == nullptr) return FastError("the network cannot be joined");
-    if (options.reach == WireReach::kLoopback) {
-      if (const auto kept = KeepToLoopback(options.domain); !kept) return kept;
-    }
+    if (const auto kept = KeepWithinReach(options); !kept) return kept;
     member_ = std::make_unique<FastMember>(*participant_, discovery_);
     discovery_.TellMember({.id = id(), .name = options.name, .user_data = options.user_data});
     return {};

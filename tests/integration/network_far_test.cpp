@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/integration/other_network.h"
 #include "tests/integration/two_robots.h"
 #include "tests/support/lossy_cable.h"
 
@@ -95,17 +96,11 @@ TEST_F(FarApplications, OfTwoMastersTheStrongerIsHeardAndTold) {
 // As over a bad radio.
 TEST_F(FarApplications, TheyDriveOverACableThatIsLongAndLosesFrames) {
   if (OwnDomain() != 0) GTEST_SKIP() << "needs the right to make networks";
-  const Program other("--net sleep 1000", "unshare");
-  const std::string process = std::to_string(other.process());
-  WaitUntil("it has a network of its own", [&] {
-    std::error_code failed;
-    return std::filesystem::read_symlink("/proc/" + process + "/ns/net", failed) !=
-           std::filesystem::read_symlink("/proc/self/ns/net", failed);
-  });
+  const OtherNetwork other;
   const LossyCable cable(other.process(), {.loss = 0.05, .delay = std::chrono::milliseconds(100), .seed = 5});
   if (!cable.is_there()) GTEST_SKIP() << "needs iproute2, and /dev/net/tun";
   const auto robot = StartWith("two_robots.xml", "reach=\"network\"");
-  const std::string within = "nsenter -t " + process + " --net " + RUNNEL_PROGRAM;
+  const std::string within = other.within() + RUNNEL_PROGRAM;
   auto planner = StartWith("two_robots_planner.xml", "reach=\"network\"", within);
   WaitUntilItDrives();
   planner.reset();

@@ -10,6 +10,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "tests/integration/other_network.h"
 #include "tests/integration/two_robots.h"
 
 namespace runnel::test {
@@ -121,24 +122,14 @@ TEST_F(TwoRobots, TheyFindEachOtherWithoutMulticast) {
 // As on two machines, between which a cable is pulled and put back.
 TEST_F(TwoRobots, TheyGoOnAfterTheNetworkHasBeenDown) {
   if (OwnDomain() != 0) GTEST_SKIP() << "needs the right to make networks";
-  const Program other("--net sleep 1000", "unshare");
-  const std::string process = std::to_string(other.process());
-  const auto run = [](const std::string& command) { return std::system((command + " 2>/dev/null").c_str()) == 0; };
-  const std::string within = "nsenter -t " + process + " --net ";
-  if (!run("ip link add cable type veth peer name end")) GTEST_SKIP() << "needs iproute2, and networks of pairs";
-  WaitUntil("it has a network of its own", [&] {
-    std::error_code failed;
-    return std::filesystem::read_symlink("/proc/" + process + "/ns/net", failed) !=
-           std::filesystem::read_symlink("/proc/self/ns/net", failed);
-  });
-  ASSERT_TRUE(run("ip link set end netns " + process) && run("ip addr add 10.77.0.1/24 dev cable") && run("ip link set cable up") &&
-              run(within + "ip addr add 10.77.0.2/24 dev end") && run(within + "ip link set end up"));
+  const OtherNetwork other;
+  if (!other.Connect("cable")) GTEST_SKIP() << "needs iproute2, and networks of pairs";
   const auto robot = StartWith("two_robots.xml", "reach=\"network\"");
-  const auto planner = StartWith("two_robots_planner.xml", "reach=\"network\"", within + RUNNEL_PROGRAM);
+  const auto planner = StartWith("two_robots_planner.xml", "reach=\"network\"", other.within() + RUNNEL_PROGRAM);
   WaitUntilItDrives();
-  ASSERT_TRUE(run("ip link set cable down"));
+  ASSERT_TRUE(RunsWell("ip link set cable down"));
   ASSERT_TRUE(robot->WaitFor("published {forward: 0, turn: 0} at /robot/gate/input/wanted"));
-  ASSERT_TRUE(run("ip link set cable up"));
+  ASSERT_TRUE(RunsWell("ip link set cable up"));
   ASSERT_TRUE(robot->WaitFor("values come again"));
 }
 

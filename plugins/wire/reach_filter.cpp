@@ -1,0 +1,106 @@
+#include "plugins/wire/reach_filter.h"
+
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <vector>
+
+#include <arpa/inet.h>
+#include <ifaddrs.h>
+#include <linux/filter.h>
+#include <net/if.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+namespace runnel {
+
+namespace {
+
+constexpr int kFirstPort = 7400;
+constexpr int kPortsOfDomain = 250;
+
+bool IsOpenPortOf(int socket, std::uint32_t domain) {
+  int type = 0;
+  socklen_t size = sizeof type;
+  if (getsockopt(socket, SOL_SOCKET, SO_TYPE, &type, &size) != 0 || type != SOCK_DGRAM) return false;
+  sockaddr_in address{};
+  size = sizeof address;
+  if (getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size) != 0 || address.sin_family != AF_INET) return false;
+  const int first = kFirstPort + kPortsOfDomain * static_cast<int>(domain);
+  const int port = ntohs(address.sin_port);
+  return port >= first && port < first + kPortsOfDomain && address.sin_addr.s_addr != htonl(INADDR_LOOPBACK);
+}
+
+using FilterProgram = std::vector<sock_filter>;
+
+// What `load` finds passes if it is one of these.
+FilterProgram OnlyIf(int load, std::uint32_t offset, const std::vector<std::uint32_t>& allowed) {
+  FilterProgram program = {BPF_STMT(static_cast<std::uint16_t>(load), offset)};
+  for (std::size_t i = 0; i < allowed.size(); ++i) {
+    program.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, allowed[i], static_cast<std::uint8_t>(allowed.size() - i), 0));
+  }
+  program.push_back(BPF_STMT(BPF_RET | BPF_K, 0));
+  program.push_back(BPF_STMT(BPF_RET | BPF_K, 0xffffffff));
+  return program;
+}
+
+// Where a datagram comes from is in the header of the network below it; the kernel takes 127.x.y.z from nobody else.
+FilterProgram OnlyLoopbackAddresses() {
+  constexpr std::uint32_t kSource = 12;  // in the header
+  return OnlyIf(BPF_LD | BPF_B | BPF_ABS, static_cast<std::uint32_t>(SKF_NET_OFF) + kSource, {IN_LOOPBACKNET});
+}
+
+// What one process of a machine sends to another comes by the loopback interface, whichever addresses both have.
+FilterProgram OnlyInterfaces(std::vector<std::uint32_t> indices) {
+  indices.push_back(if_nametoindex("lo"));
+  return OnlyIf(BPF_LD | BPF_W | BPF_ABS, static_cast<std::uint32_t>(SKF_AD_OFF + SKF_AD_IFINDEX), indices);
+}
+
+// By its name or its address; 0: there is none.
+std::uint32_t IndexOfInterface(const std::string& interface) {
+  std::uint32_t found = if_nametoindex(interface.c_str());
+  in_addr wanted{};
+  ifaddrs* all = nullptr;
+  if (found != 0 || inet_pton(AF_INET, interface.c_str(), &wanted) != 1 || getifaddrs(&all) != 0) return found;
+  for (const ifaddrs* each = all; each != nullptr; each = each->ifa_next) {
+    if (each->ifa_addr == nullptr || each->ifa_addr->sa_family != AF_INET) continue;
+    if (reinterpret_cast<const sockaddr_in*>(each->ifa_addr)->sin_addr.s_addr == wanted.s_addr) found = if_nametoindex(each->ifa_name);
+  }
+  freeifaddrs(all);
+  return found;
+}
+
+bool Filter(int socket, FilterProgram& program) {
+  const sock_fprog filter{static_cast<unsigned short>(program.size()), program.data()};
+  return setsockopt(socket, SOL_SOCKET, SO_ATTACH_FILTER, &filter, sizeof filter) == 0;
+}
+
+}  // namespace
+
+Result<void> KeepWithinReach(const WireMemberOptions& options) {
+  FilterProgram program;
+  if (options.reach == WireReach::kLoopback) {
+    program = OnlyLoopbackAddresses();
+  } else if (options.reach == WireReach::kMachine) {
+    program = OnlyInterfaces({});
+  } else if (!options.interface.empty()) {
+    const std::uint32_t index = IndexOfInterface(options.interface);
+    if (index == 0) return Error{.message = "there is no interface '" + options.interface + "'"};
+    program = OnlyInterfaces({index});
+  } else {
+    return {};
+  }
+  const Error failure{.message = "the network cannot be kept to what it is to reach"};
+  std::error_code failed;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", failed)) {
+    const int socket = std::atoi(entry.path().filename().c_str());
+    if (!IsOpenPortOf(socket, options.domain) || Filter(socket, program)) continue;
+    return Error{.message = failure.message + ": " + std::strerror(errno)};
+  }
+  if (failed) return Error{.message = failure.message + ": " + failed.message()};
+  return {};
+}
+
+}  // namespace runnel

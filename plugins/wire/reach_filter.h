@@ -1,0 +1,14 @@
+#pragma once
+
+#include "core/base/result.h"
+#include "plugins/wire/wire.h"
+
+namespace runnel {
+
+/// Has the sockets of this process that an engine has opened for the member's domain take only what comes from where the
+/// member reaches: with kLoopback, of this machine's loopback addresses; with kMachine, of this machine; with an interface,
+/// by that, or of this machine. Engines bind to all interfaces, or are in a group that the system has joined on another one,
+/// so that others could send to them, whatever they are told to use. Errors: there is no such interface; the system does not do it.
+Result<void> KeepWithinReach(const WireMemberOptions& options);
+
+}  // namespace runnel
