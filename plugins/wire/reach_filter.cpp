@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <thread>
 #include <vector>
 
 #include <arpa/inet.h>
@@ -12,6 +14,7 @@
 #include <linux/filter.h>
 #include <net/if.h>
 #include <netinet/in.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 
 namespace runnel {
@@ -77,6 +80,16 @@ bool Filter(int socket, FilterProgram& program) {
   return setsockopt(socket, SOL_SOCKET, SO_ATTACH_FILTER, &filter, sizeof filter) == 0;
 }
 
+// What came before its filter, taken by the engine's thread. What comes through the filter does no harm, so it need not be
+// waited for without end.
+void WaitUntilEmpty(int socket) {
+  constexpr int kMostLooks = 1000;
+  int waiting = 0;
+  for (int i = 0; i < kMostLooks && ioctl(socket, FIONREAD, &waiting) == 0 && waiting > 0; ++i) {
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+  }
+}
+
 }  // namespace
 
 Result<void> KeepWithinReach(const WireMemberOptions& options) {
@@ -96,8 +109,9 @@ Result<void> KeepWithinReach(const WireMemberOptions& options) {
   std::error_code failed;
   for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", failed)) {
     const int socket = std::atoi(entry.path().filename().c_str());
-    if (!IsOpenPortOf(socket, options.domain) || Filter(socket, program)) continue;
-    return Error{.message = failure.message + ": " + std::strerror(errno)};
+    if (!IsOpenPortOf(socket, options.domain)) continue;
+    if (!Filter(socket, program)) return Error{.message = failure.message + ": " + std::strerror(errno)};
+    WaitUntilEmpty(socket);
   }
   if (failed) return Error{.message = failure.message + ": " + failed.message()};
   return {};

@@ -5,10 +5,16 @@
 
 namespace runnel {
 
+/// Whether there is anybody whom the member is not to hear.
+[[nodiscard]] inline bool HasBoundedReach(const WireMemberOptions& options) {
+  return options.reach != WireReach::kNetwork || !options.interface.empty();
+}
+
 /// Has the sockets of this process that an engine has opened for the member's domain take only what comes from where the
 /// member reaches: with kLoopback, of this machine's loopback addresses; with kMachine, of this machine; with an interface,
 /// by that, or of this machine. Engines bind to all interfaces, or are in a group that the system has joined on another one,
-/// so that others could send to them, whatever they are told to use. Errors: there is no such interface; the system does not do it.
+/// so that others could send to them, whatever they are told to use. What had come before is out of the sockets when it returns: until then an engine is not to
+/// listen. Errors: there is no such interface; the system does not do it.
 Result<void> KeepWithinReach(const WireMemberOptions& options);
 
 }  // namespace runnel

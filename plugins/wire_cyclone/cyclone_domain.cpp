@@ -102,8 +102,8 @@ std::string CycloneConfiguration(const WireMemberOptions& options) {
          "<SPDPInterval>500ms</SPDPInterval><LeaseDuration>" +
          std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(options.lease).count()) + "ms</LeaseDuration>" +
          PeersText(options) +
-         "</Discovery><Internal><GenerateKeyhash>true</GenerateKeyhash><SocketReceiveBufferSize max=\"4MB\"/><SocketSendBufferSize max=\"4MB\"/></Internal>"
-         "</Domain>";
+         "</Discovery><Internal><GenerateKeyhash>true</GenerateKeyhash><SocketReceiveBufferSize max=\"4MB\"/><SocketSendBufferSize max=\"4MB\"/>" +
+         (HasBoundedReach(options) ? "<ControlTopic><Deaf>true</Deaf></ControlTopic>" : "") + "</Internal></Domain>";
 }
 
 Result<std::shared_ptr<CycloneDomain>> CycloneDomain::Join(const WireMemberOptions& options) {
@@ -125,7 +125,9 @@ Result<std::shared_ptr<CycloneDomain>> CycloneDomain::Join(const WireMemberOptio
   const dds_entity_t domain = dds_create_domain(options.domain, configuration.c_str());
   if (domain < 0) return CycloneError("domain " + std::to_string(options.domain) + " cannot be joined", domain);
   const std::shared_ptr<CycloneDomain> made(new CycloneDomain(domain, std::move(configuration)));
+  // Until then it is deaf.
   if (const auto kept = KeepWithinReach(options); !kept) return kept.error();
+  if (HasBoundedReach(options)) (void)dds_domain_set_deafmute(domain, false, false, DDS_INFINITY);
   const std::lock_guard lock(AllDomains().mutex);
   AllDomains().all[options.domain] = made;
   return made;

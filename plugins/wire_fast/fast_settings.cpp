@@ -11,6 +11,9 @@
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
 
+#include "plugins/wire/reach_filter.h"
+#include "plugins/wire_fast/reach_transport.h"
+
 namespace runnel {
 
 namespace {
@@ -120,7 +123,11 @@ Result<dds::DomainParticipantQos> MemberQos(const WireMemberOptions& options) {
     udp->interfaceWhiteList = {*address};
   }
   qos.transport().use_builtin_transports = false;
-  qos.transport().user_transports = {udp};
+  if (HasBoundedReach(options)) {
+    qos.transport().user_transports.push_back(WithinReach(udp, options));
+  } else {
+    qos.transport().user_transports.push_back(udp);
+  }
 
   auto& builtin = qos.wire_protocol().builtin;
   builtin.discovery_config.leaseDuration = Duration_t(static_cast<long double>(ToSeconds(options.lease)));
