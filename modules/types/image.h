@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/types/builtin_types.h"
+#include "core/types/shared_vector_types.h"
 #include "core/types/type_of.h"
 #include "modules/types/algorithm/image.h"
 

@@ -8,7 +8,7 @@
 
 namespace runnel {
 
-Result<CdrReader> CdrReader::Begin(std::span<const std::byte> octets) {
+Result<CdrReader> CdrReader::Begin(std::span<const std::byte> octets, std::shared_ptr<const void> holder) {
   constexpr std::size_t kHeader = CdrWriter::kHeader;
   if (octets.size() < kHeader) {
     return Error{.message = "a value in CDR begins with 4 octets, and here are " +
@@ -23,7 +23,7 @@ Result<CdrReader> CdrReader::Begin(std::span<const std::byte> octets) {
   const std::size_t padding = std::to_integer<std::size_t>(octets[3]) & 3;
   octets = octets.subspan(kHeader);
   octets = octets.first(octets.size() - std::min(padding, octets.size()));
-  return CdrReader(octets, (kind == 1) != (std::endian::native == std::endian::little));
+  return CdrReader(octets, (kind == 1) != (std::endian::native == std::endian::little), std::move(holder));
 }
 
 const std::byte* CdrReader::Take(std::size_t size, std::size_t count) {
@@ -42,6 +42,11 @@ bool CdrReader::GetPlain(void* first, std::size_t size, std::size_t count) {
   auto* const bytes = static_cast<std::byte*>(first);
   for (std::size_t i = 0; i < count; ++i) std::reverse(bytes + i * size, bytes + (i + 1) * size);
   return true;
+}
+
+const std::byte* CdrReader::FindKept(std::size_t size, std::size_t count) {
+  const bool is_readable = holder_ != nullptr && (!is_swapped_ || size == 1);
+  return is_readable ? Take(size, count) : nullptr;
 }
 
 bool CdrReader::Skip(std::size_t size, std::size_t count) {

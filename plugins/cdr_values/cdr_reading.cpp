@@ -3,8 +3,10 @@
 #include <memory>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "core/types/leaf_types.h"
+#include "core/types/shared_vector_types.h"
 #include "core/types/signal.h"
 #include "core/types/type_info.h"
 #include "core/types/value_copy.h"
@@ -17,6 +19,7 @@ namespace runnel {
 namespace {
 
 constexpr int kDeepest = 100;
+constexpr std::size_t kLeastReferredTo = 4096;  // bytes: less is as soon copied
 
 /// Walks through a description and through octets side by side.
 class ValueReader : public CdrWalk {
@@ -85,7 +88,12 @@ class ValueReader : public CdrWalk {
     const ElementOperations& elements = type.elements();
     const TypeInfo& element = *elements.type;
     std::size_t count = elements.is_fixed ? elements.rows(value) * elements.columns(value) : 0;
-    if (!elements.is_fixed && !MakeRoom(type, value, count)) return false;
+    if (!elements.is_fixed) {
+      std::uint32_t rows = 1, columns = 0;
+      if (!ReadCounts(type, rows, columns, count)) return false;
+      if (Refer(type, value, count)) return true;
+      if (!TakeRoom(element, count) || !Resize(type, value, rows, columns)) return false;
+    }
     if (count == 0) return true;
     if (elements.are_plain_numbers) {
       return IsThere(reader_.GetPlain(elements.element(value, 0), element.size(), count));
@@ -98,10 +106,19 @@ class ValueReader : public CdrWalk {
     return true;
   }
 
-  // Reads how many elements there are, and makes the list as long.
-  bool MakeRoom(const TypeInfo& type, void* value, std::size_t& count) {
+  // Whether the list has become what lies in the octets, without a copy.
+  bool Refer(const TypeInfo& type, void* value, std::size_t count) {
+    const std::size_t size = type.elements().type->size();
+    if (!type.elements().are_plain_numbers || count * size < kLeastReferredTo) return false;
+    CdrReader behind = reader_;
+    const std::byte* const first = behind.FindKept(size, count);
+    if (first == nullptr || !ReferTo(type, value, first, count, reader_.holder())) return false;
+    reader_ = std::move(behind);
+    return true;
+  }
+
+  bool ReadCounts(const TypeInfo& type, std::uint32_t& rows, std::uint32_t& columns, std::size_t& count) {
     const TypeInfo& element = *type.elements().type;
-    std::uint32_t rows = 1, columns = 0;
     const bool is_matrix = type.kind() == TypeKind::kMatrix;
     if (is_matrix && !IsThere(reader_.Get(rows) && reader_.Get(columns))) return false;
     const auto read = GetCount(FewestCdrOctets(element));
@@ -109,7 +126,7 @@ class ValueReader : public CdrWalk {
     count = *read;
     if (!is_matrix) columns = static_cast<std::uint32_t>(count);
     if (std::uint64_t{rows} * columns != count) return Fail(std::to_string(count) + " elements are too many or too few");
-    return TakeRoom(element, count) && Resize(type, value, rows, columns);
+    return true;
   }
 
   int depth_ = 0;
@@ -159,8 +176,9 @@ Result<void> ReadCdr(const TypeInfo& type, CdrReader& reader, void* value) {
   return {};
 }
 
-Result<void> ReadCdr(const TypeInfo& type, std::span<const std::byte> octets, void* value) {
-  auto reader = CdrReader::Begin(octets);
+Result<void> ReadCdr(const TypeInfo& type, std::span<const std::byte> octets, void* value,
+                     std::shared_ptr<const void> holder) {
+  auto reader = CdrReader::Begin(octets, std::move(holder));
   if (!reader) return reader.error();
   if (type.kind() != TypeKind::kStructure) return ReadCdr(type, *reader, value);
   ValueReader values(*reader);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -39,9 +40,11 @@ void WriteCdr(const TypeInfo& type, const void* value, CdrWriter& writer);
 /// missing at the end, as earlier versions of a message have it, become as the type makes them.
 /// Errors: what is wrong and of which field ("points[2].x"); the value may then be half set. Lists are refused that
 /// could not be in so many octets, and what is nested deeper than 100 levels.
+/// Large lists of numbers that can (SharedVector) refer to the octets instead of copying them, if these stay as they are as
+/// long as anybody has `holder`, are of this machine's order, and are aligned.
 /// Allocation: as far as lists and texts grow, in proportion to the octets that are there.
-[[nodiscard]] Result<void> ReadCdr(const TypeInfo& type, std::span<const std::byte> octets,
-                                   void* value);
+[[nodiscard]] Result<void> ReadCdr(const TypeInfo& type, std::span<const std::byte> octets, void* value,
+                                   std::shared_ptr<const void> holder = {});
 /// A part of a message: nothing may be missing.
 [[nodiscard]] Result<void> ReadCdr(const TypeInfo& type, CdrReader& reader, void* value);
 

@@ -98,8 +98,7 @@ void TakenPort::Take(const WireSample& sample) noexcept {
     const auto timestamp = options_.keeps_stamps && is_comparable ? std::optional(std::min(sent, now)) : std::nullopt;
     const auto published = output_.PublishFilled(
         [&](void* value) -> Result<void> {
-          const auto read = form_->Read(sample.octets, value);
-          if (!sample.IsWhole()) return Error{.message = "newer values have taken the place of one while it was read"};
+          const auto read = form_->Read(sample.octets, value, sample.holder);
           return read ? Result<void>() : read.error();
         },
         timestamp);

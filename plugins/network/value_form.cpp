@@ -55,8 +55,9 @@ class MessageForm final : public ValueForm {
   }
 
   void Write(const void* value, Time stamp, Octets& octets) const override { codec_->Encode(value, stamp, octets); }
-  Result<std::optional<Time>> Read(std::span<const std::byte> octets, void* value) const override {
-    const auto decoded = codec_->Decode(octets, value);
+  Result<std::optional<Time>> Read(std::span<const std::byte> octets, void* value,
+                                   std::shared_ptr<const void> holder) const override {
+    const auto decoded = codec_->Decode(octets, value, std::move(holder));
     if (!decoded) return decoded.error();
     return decoded->stamp;
   }

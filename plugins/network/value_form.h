@@ -34,9 +34,10 @@ class ValueForm {
 
   /// `stamp`: since 1970, for headers.
   virtual void Write(const void* value, Time stamp, Octets& octets) const = 0;
-  /// Returns the stamp of the message's own header, if it has one. Errors: what is wrong with the octets; the value may
-  /// then be half set.
-  virtual Result<std::optional<Time>> Read(std::span<const std::byte> octets, void* value) const = 0;
+  /// Returns the stamp of the message's own header, if it has one. Large lists may refer to the octets, which stay as they
+  /// are as long as anybody has `holder`. Errors: what is wrong with the octets; the value may then be half set.
+  virtual Result<std::optional<Time>> Read(std::span<const std::byte> octets, void* value,
+                                           std::shared_ptr<const void> holder = {}) const = 0;
   /// Why messages cannot become values; "" if they can.
   [[nodiscard]] virtual std::string WhyNoReading() const = 0;
 

@@ -36,8 +36,9 @@ class DescribedCodec final : public NamedCodec {
   void Encode(const void* value, Time /*stamp*/, std::vector<std::byte>& octets) const override {
     WriteCdr(type_, value, octets);
   }
-  [[nodiscard]] Result<Decoded> Decode(std::span<const std::byte> octets, void* value) const override {
-    if (auto read = ReadCdr(type_, octets, value); !read) return read.error();
+  [[nodiscard]] Result<Decoded> Decode(std::span<const std::byte> octets, void* value,
+                                       std::shared_ptr<const void> holder) const override {
+    if (auto read = ReadCdr(type_, octets, value, std::move(holder)); !read) return read.error();
     return Decoded{};
   }
 
@@ -59,9 +60,10 @@ class BoundCodec final : public NamedCodec {
     CdrWriter writer(octets);
     internal::WriteBySteps(root_, value, stamp, writer);
   }
-  [[nodiscard]] Result<Decoded> Decode(std::span<const std::byte> octets, void* value) const override {
+  [[nodiscard]] Result<Decoded> Decode(std::span<const std::byte> octets, void* value,
+                                       std::shared_ptr<const void> holder) const override {
     if (!why_no_decoding_.empty()) return Error{.message = why_no_decoding_};
-    auto reader = CdrReader::Begin(octets);
+    auto reader = CdrReader::Begin(octets, std::move(holder));
     if (!reader) return reader.error();
     Decoded decoded;
     auto read = internal::ReadBySteps(root_, *reader, fresh_.get(), value, decoded.stamp);
@@ -86,7 +88,8 @@ class GridCodec final : public NamedCodec {
   void Encode(const void* value, Time stamp, std::vector<std::byte>& octets) const override {
     internal::WriteGrid(type_, value, stamp, frame_, octets);
   }
-  [[nodiscard]] Result<Decoded> Decode(std::span<const std::byte> /*octets*/, void* /*value*/) const override {
+  [[nodiscard]] Result<Decoded> Decode(std::span<const std::byte> /*octets*/, void* /*value*/,
+                                       std::shared_ptr<const void> /*holder*/) const override {
     return Error{.message = why_no_decoding_};
   }
 

@@ -57,8 +57,10 @@ class MessageCodec {
     std::optional<Time> stamp;  ///< of the message's own header, if it has one
   };
   /// Sets `value` from octets that may be anything. Errors: what is wrong with them, and with which field; the value may
-  /// then be half set. Allocates as far as lists and texts of the value grow.
-  [[nodiscard]] virtual Result<Decoded> Decode(std::span<const std::byte> octets, void* value) const = 0;
+  /// then be half set. Large lists of numbers may refer to the octets, which stay as they are as long as anybody has
+  /// `holder` (ReadCdr()). Allocates as far as lists and texts of the value grow.
+  [[nodiscard]] virtual Result<Decoded> Decode(std::span<const std::byte> octets, void* value,
+                                               std::shared_ptr<const void> holder = {}) const = 0;
 
  protected:
   MessageCodec() = default;

@@ -85,26 +85,15 @@ struct WireIdentity {
   bool operator==(const WireIdentity&) const = default;
 };
 
-/// Tells of octets in memory of another process whether they were the value until they had been read.
-class WireHold {
- public:
-  [[nodiscard]] virtual bool IsWhole() const noexcept = 0;
-
- protected:
-  ~WireHold() = default;
-};
-
 /// One value that has come.
 struct WireSample {
-  std::span<const std::byte> octets;  ///< gone when the callback returns; may change only if there is a `hold`
+  std::span<const std::byte> octets;  ///< gone when the callback returns, or, if there is a `holder`, when that goes
   std::int64_t source_time = 0;       ///< nanoseconds since 1970 on the writer's clock
   std::uint64_t writer = 0;           ///< WireEndpoint::handle
   WireIdentity identity = {};         ///< its own
   WireIdentity related = {};          ///< as its writer says: of the value that it answers, or where an answer is to go
-  const WireHold* hold = nullptr;     ///< to be asked after the octets have been read; nullptr: they do not change
-  std::string_view flaw = {};         ///< why there are no octets, though a value has come; else ""
-
-  [[nodiscard]] bool IsWhole() const noexcept { return hold == nullptr || hold->IsWhole(); }
+  std::shared_ptr<const void> holder = {};  ///< whoever has it keeps the octets as they are; nullptr: they go
+  std::string_view flaw = {};               ///< why there are no octets, though a value has come; else ""
 };
 
 /// How many there are at the other ends, after each change. Called by threads of the engine.

@@ -12,6 +12,7 @@ namespace runnel {
 namespace {
 
 constexpr std::string_view kKey = "shared_memory=";
+constexpr const char* kLayout = "/2";  // of what is shared: others are sent octets
 
 }  // namespace
 
@@ -21,7 +22,7 @@ std::string MemoryOfThisProcess() {
   struct stat network {};
   // Without either, alone.
   if (started.empty() || stat("/proc/self/ns/net", &network) != 0) started = std::to_string(getpid());
-  const std::string text = started + '/' + std::to_string(network.st_ino) + '/' + std::to_string(geteuid());
+  const std::string text = started + '/' + std::to_string(network.st_ino) + '/' + std::to_string(geteuid()) + kLayout;
   std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a: others need not know the parts
   for (const char each : text) hash = (hash ^ static_cast<unsigned char>(each)) * 0x100000001b3;
   std::string said(kKey);

@@ -1,7 +1,7 @@
 #include "plugins/wire_shared_memory/segment.h"
 
+#include <algorithm>
 #include <bit>
-#include <cerrno>
 #include <cstring>
 #include <new>
 #include <string>
@@ -14,14 +14,14 @@
 #include <unistd.h>
 
 #include "core/lockfree/cache_line.h"
-#include "plugins/wire_shared_memory/slot_use.h"
 
 namespace runnel {
 
 namespace {
 
 constexpr std::size_t kPage = 4096;
-constexpr std::uint64_t kMagic = 0x524e4c5345473031;  // of this layout
+constexpr std::size_t kHead = 2 * kPage;  // in front of the slots
+constexpr std::uint64_t kMagic = 0x524e4c5345473032;  // of this layout
 // Plain CDR of this machine's, since engines let nothing else pass, with options that nobody has; then what is no length of
 // a list or a text, so that who does not know of places finds no value in it.
 constexpr std::array<std::byte, 12> kBegin = {std::byte{0},    std::byte{std::endian::native == std::endian::little},
@@ -31,21 +31,20 @@ constexpr std::array<std::byte, 12> kBegin = {std::byte{0},    std::byte{std::en
 
 struct Head {
   std::uint64_t magic = kMagic;
-  std::uint64_t room = 0;  // octets of a slot
+  std::uint64_t slot_size = 0;
   struct alignas(kCacheLineSize) Slot {
     SlotUse<> use;
   };
-  std::array<Slot, WrittenSegment::kSlots> slots;
+  std::array<Slot, kSlots> slots;
 };
-static_assert(sizeof(Head) <= kPage && std::atomic<std::uint64_t>::is_always_lock_free);
+static_assert(sizeof(Head) <= kHead && std::atomic<std::uint64_t>::is_always_lock_free);
 
 const Head& HeadOf(const std::byte* memory) { return *reinterpret_cast<const Head*>(memory); }
 
-Error SystemError(const char* what) {
-  return {.message = std::string(what) + ": " + std::strerror(errno)};
-}
+// In each slot: behind the four octets of its encapsulation a value begins on a multiple of 64.
+constexpr std::size_t kLead = 60;
 
-constexpr int kSeals = F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL;
+std::size_t BeginOf(std::uint32_t slot, std::size_t slot_size) { return kHead + slot * slot_size + kLead; }
 
 }  // namespace
 
@@ -58,10 +57,6 @@ SegmentId NewSegmentId() {
     std::memcpy(id.data(), instead.data(), sizeof instead);
   }
   return id;
-}
-
-Descriptor::~Descriptor() {
-  if (is_open()) close(number_);
 }
 
 std::shared_ptr<const Octets> SegmentPlace::ToOctets() const {
@@ -98,20 +93,19 @@ std::optional<SegmentPlace> SegmentPlace::In(std::span<const std::byte> octets) 
   return place;
 }
 
-WrittenSegment::WrittenSegment(Descriptor file, std::byte* memory, std::size_t room)
-    : file_(std::move(file)), memory_(memory), room_(room) {
-  auto* const head = new (memory_) Head;
-  head->room = room;
+WrittenSegment::WrittenSegment(Descriptor file, std::byte* memory, std::size_t slot_size)
+    : file_(std::move(file)), memory_(memory), slot_size_(slot_size) {
+  (new (memory_) Head)->slot_size = slot_size;
 }
 
 Result<std::unique_ptr<WrittenSegment>> WrittenSegment::Make(std::size_t room) {
-  room = (room + kPage - 1) / kPage * kPage;
-  const std::size_t size = kPage + kSlots * room;
+  const std::size_t slot_size = (kLead + room + kPage - 1) / kPage * kPage;
+  const std::size_t size = kHead + kSlots * slot_size;
   Descriptor file(memfd_create("runnel values", MFD_CLOEXEC | MFD_ALLOW_SEALING));
   if (!file.is_open() || ftruncate(file.number(), static_cast<off_t>(size)) != 0) return SystemError("there is no shared memory");
   void* const memory = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, file.number(), 0);
   if (memory == MAP_FAILED) return SystemError("there is no shared memory");
-  std::unique_ptr<WrittenSegment> made(new WrittenSegment(std::move(file), static_cast<std::byte*>(memory), room));
+  std::unique_ptr<WrittenSegment> made(new WrittenSegment(std::move(file), static_cast<std::byte*>(memory), slot_size));
 #ifdef F_SEAL_FUTURE_WRITE
   constexpr int kWanted = kSeals | F_SEAL_FUTURE_WRITE;  // nobody else gets it to write to
 #else
@@ -121,49 +115,75 @@ Result<std::unique_ptr<WrittenSegment>> WrittenSegment::Make(std::size_t room) {
   return made;
 }
 
-WrittenSegment::~WrittenSegment() { munmap(memory_, kPage + kSlots * room_); }
+WrittenSegment::~WrittenSegment() { munmap(memory_, kHead + kSlots * slot_size_); }
 
-SegmentPlace WrittenSegment::Put(std::span<const std::byte> octets) noexcept {
-  const auto slot = static_cast<std::uint32_t>(count_ % kSlots);
-  const std::uint64_t use = 2 * (count_ / kSlots + 1);
-  ++count_;
-  SlotUse<>& used = reinterpret_cast<Head*>(memory_)->slots[slot].use;
-  used.BeginWriting(use);
-  std::memcpy(memory_ + kPage + slot * room_, octets.data(), octets.size());
-  used.EndWriting(use);
-  return {.segment = id_, .use = use, .size = octets.size(), .slot = slot};
+std::size_t WrittenSegment::room() const noexcept { return slot_size_ - kLead; }
+
+std::optional<std::uint32_t> WrittenSegment::FindSlot(std::uint64_t use) noexcept {
+  auto& slots = reinterpret_cast<Head*>(memory_)->slots;
+  const auto mark = [&](std::uint32_t slot) {
+    return slots[slot].use.BeginWriting(use, [&] { return holders_->Hold(slot); });
+  };
+  // Again where a reader has come first: to a value as old as that, one at most for each slot.
+  for (std::uint32_t tries = 0; tries < kSlots; ++tries) {
+    std::uint32_t free = 0, oldest = 0;
+    for (std::uint32_t slot = 0; slot < in_use_; ++slot) {
+      if (holders_->Hold(slot)) continue;
+      if (free++ == 0 || uses_[slot] < uses_[oldest]) oldest = slot;
+    }
+    if (free < kSpare && in_use_ < kSlots) oldest = in_use_++;
+    else if (free == 0) return {};
+    if (mark(oldest)) return oldest;
+  }
+  return {};
 }
 
-Result<std::unique_ptr<ReadSegment>> ReadSegment::Map(const Descriptor& file) {
+std::optional<SegmentPlace> WrittenSegment::Put(std::span<const std::byte> octets) noexcept {
+  const std::uint64_t use = 2 * (count_ + 1);
+  const auto slot = FindSlot(use);
+  if (!slot) return {};
+  ++count_;
+  std::memcpy(memory_ + BeginOf(*slot, slot_size_), octets.data(), octets.size());
+  reinterpret_cast<Head*>(memory_)->slots[*slot].use.EndWriting(use);
+  uses_[*slot] = use;
+  return SegmentPlace{.segment = id_, .use = use, .size = octets.size(), .slot = *slot};
+}
+
+ReadSegment::ReadSegment(const std::byte* memory, std::size_t size, std::unique_ptr<HoldTable> holds, Descriptor link)
+    : memory_(memory), size_(size), holds_(std::move(holds)), link_(std::move(link)) {}
+
+Result<std::shared_ptr<ReadSegment>> ReadSegment::Map(const Descriptor& file, std::unique_ptr<HoldTable> holds,
+                                                      Descriptor link) {
+  const Error none{.message = "what was offered is no memory for values"};
   struct stat about {};
   const int seals = fcntl(file.number(), F_GET_SEALS);
   // Else who has it could make it shorter, and end whoever reads.
-  if (seals < 0 || (seals & F_SEAL_SHRINK) == 0 || fstat(file.number(), &about) != 0) {
-    return Error{.message = "what was offered is no memory for values"};
-  }
+  if (seals < 0 || (seals & F_SEAL_SHRINK) == 0 || fstat(file.number(), &about) != 0) return none;
   const auto size = static_cast<std::size_t>(about.st_size);
-  if (size < kPage) return Error{.message = "what was offered is no memory for values"};
+  if (size < kHead) return none;
   void* const memory = mmap(nullptr, size, PROT_READ, MAP_SHARED, file.number(), 0);
   if (memory == MAP_FAILED) return SystemError("shared memory cannot be read");
-  const Head& head = HeadOf(static_cast<const std::byte*>(memory));
-  const std::uint64_t room = head.room;
-  std::unique_ptr<ReadSegment> mapped(new ReadSegment(static_cast<const std::byte*>(memory), size, room));
-  if (head.magic != kMagic || room > size || kPage + WrittenSegment::kSlots * room != size) {
-    return Error{.message = "what was offered is no memory for values"};
-  }
+  const auto* const begin = static_cast<const std::byte*>(memory);
+  std::shared_ptr<ReadSegment> mapped(new ReadSegment(begin, size, std::move(holds), std::move(link)));
+  const std::uint64_t slot_size = HeadOf(begin).slot_size;
+  if (HeadOf(begin).magic != kMagic || slot_size <= kLead || slot_size > size || kHead + kSlots * slot_size != size) return none;
+  mapped->slot_size_ = slot_size;
   return mapped;
 }
 
 ReadSegment::~ReadSegment() { munmap(const_cast<std::byte*>(memory_), size_); }
 
-std::optional<std::span<const std::byte>> ReadSegment::Find(const SegmentPlace& place) const noexcept {
-  if (place.slot >= WrittenSegment::kSlots || place.size > room_ || place.use % 2 != 0) return {};
-  if (!HeadOf(memory_).slots[place.slot].use.Is(place.use)) return {};
-  return std::span(memory_ + kPage + place.slot * room_, place.size);
+std::shared_ptr<const std::byte> ReadSegment::Hold(const SegmentPlace& place) {
+  if (place.slot >= kSlots || place.size > slot_size_ - kLead || place.use % 2 != 0 || place.use == 0) return {};
+  if (!(*holds_)[place.slot].Take(HeadOf(memory_).slots[place.slot].use, place.use)) return {};
+  held_.fetch_add(1, std::memory_order_relaxed);
+  return {memory_ + BeginOf(place.slot, slot_size_),
+          [self = shared_from_this(), slot = place.slot](const std::byte*) { self->GiveBack(slot); }};
 }
 
-bool ReadSegment::IsStill(const SegmentPlace& place) const noexcept {
-  return HeadOf(memory_).slots[place.slot].use.IsStill(place.use);
+void ReadSegment::GiveBack(std::uint32_t slot) noexcept {
+  (*holds_)[slot].GiveBack();
+  held_.fetch_sub(1, std::memory_order_relaxed);
 }
 
 }  // namespace runnel

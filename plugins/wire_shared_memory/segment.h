@@ -10,6 +10,7 @@
 
 #include "core/base/result.h"
 #include "plugins/wire/wire.h"
+#include "plugins/wire_shared_memory/hold_table.h"
 
 namespace runnel {
 
@@ -17,20 +18,6 @@ using SegmentId = std::array<std::byte, 16>;
 
 /// Never twice, in whatever process.
 [[nodiscard]] SegmentId NewSegmentId();
-
-/// An open file of this process, closed with it.
-class Descriptor {
- public:
-  explicit Descriptor(int number = -1) noexcept : number_(number) {}
-  Descriptor(Descriptor&& from) noexcept : number_(from.number_) { from.number_ = -1; }
-  Descriptor& operator=(Descriptor&&) = delete;
-  ~Descriptor();
-  [[nodiscard]] int number() const noexcept { return number_; }
-  [[nodiscard]] bool is_open() const noexcept { return number_ >= 0; }
-
- private:
-  int number_;
-};
 
 /// Where a value lies: what goes over the wire in the place of its octets.
 struct SegmentPlace {
@@ -45,18 +32,17 @@ struct SegmentPlace {
   static std::optional<SegmentPlace> In(std::span<const std::byte> octets);
 };
 
-/// Memory that one process writes values to, in turn into each of its slots, and others of this machine read. It has no
-/// name: it is gone when nobody has it open any more, however they end.
+/// Memory that one process writes values to, and others of this machine read. It has no name: it is gone when nobody has it
+/// open any more, however they end.
 ///
-///     slot's use:   2 n - 1 while value n is written into it, 2 n once it is there
+/// Each value lies in a slot, which is written to only while no reader holds it (slot_hold.h). Slots come into use as they are
+/// needed: as many as readers hold, and kSpare besides, so that a value is there for a while before the next takes its place.
+/// A value's encapsulation ends on a multiple of 64 octets, so that numbers are aligned in memory as in the message.
 ///
-/// Who reads looks whether the use is that which it was told of, reads, and looks again. So readers write nothing, hold
-/// nothing, and keep nobody waiting; one that is slower than all the slots last finds that its value has gone.
-///
-/// Threads: one at a time.
+/// Threads: one at a time; holders() any.
 class WrittenSegment {
  public:
-  static constexpr std::uint32_t kSlots = 4;
+  static constexpr std::uint32_t kSpare = 4;
 
   /// For values of up to `room` octets. Memory is taken as it is written to. Errors: of the system.
   static Result<std::unique_ptr<WrittenSegment>> Make(std::size_t room);
@@ -66,42 +52,53 @@ class WrittenSegment {
 
   [[nodiscard]] const SegmentId& id() const noexcept { return id_; }
   [[nodiscard]] int descriptor() const noexcept { return file_.number(); }
-  [[nodiscard]] std::size_t room() const noexcept { return room_; }
-  /// Precondition: they have room. The server of the place is left out.
-  SegmentPlace Put(std::span<const std::byte> octets) noexcept;
+  [[nodiscard]] std::size_t room() const noexcept;
+  /// Those who read it.
+  [[nodiscard]] const std::shared_ptr<SegmentHolders>& holders() const noexcept { return holders_; }
+  /// Nothing if all slots are held. Precondition: they have room. The server of the place is left out.
+  [[nodiscard]] std::optional<SegmentPlace> Put(std::span<const std::byte> octets) noexcept;
 
  private:
-  WrittenSegment(Descriptor file, std::byte* memory, std::size_t room);
+  WrittenSegment(Descriptor file, std::byte* memory, std::size_t slot_size);
+  // One that nobody holds, marked as being written.
+  [[nodiscard]] std::optional<std::uint32_t> FindSlot(std::uint64_t use) noexcept;
 
   const Descriptor file_;
   std::byte* const memory_;
-  const std::size_t room_;
+  const std::size_t slot_size_;
   const SegmentId id_ = NewSegmentId();
+  const std::shared_ptr<SegmentHolders> holders_ = std::make_shared<SegmentHolders>();
+  std::array<std::uint64_t, kSlots> uses_{};  // what has been written into each
+  std::uint32_t in_use_ = 0;                  // the first so many
   std::uint64_t count_ = 0;
 };
 
-/// The same memory in a process that reads: it cannot be written there, nor made shorter by whoever has it.
-///
-/// Threads: any.
-class ReadSegment {
+/// The same memory in a process that reads: it cannot be written there, nor made shorter by whoever has it. It stays as long
+/// as anybody holds a value in it.
+class ReadSegment : public std::enable_shared_from_this<ReadSegment> {
  public:
-  /// Errors: it is no such memory, whoever has made it.
-  static Result<std::unique_ptr<ReadSegment>> Map(const Descriptor& file);
+  /// `holds`: where the writer looks what is held; as long as `link` is open. Errors: it is no such memory, whoever has made it.
+  static Result<std::shared_ptr<ReadSegment>> Map(const Descriptor& file, std::unique_ptr<HoldTable> holds, Descriptor link);
   ~ReadSegment();
   ReadSegment(const ReadSegment&) = delete;
   ReadSegment& operator=(const ReadSegment&) = delete;
 
-  /// Nothing if the value has gone, or never was there. The octets may change at any time.
-  [[nodiscard]] std::optional<std::span<const std::byte>> Find(const SegmentPlace& place) const noexcept;
-  /// Whether what has been read was the value.
-  [[nodiscard]] bool IsStill(const SegmentPlace& place) const noexcept;
+  /// The octets of the value, which stay as they are as long as anybody has what is returned; nullptr if the value has gone,
+  /// never was there, or is held. One thread at a time. What is returned may be let go by any, and allocates a little.
+  [[nodiscard]] std::shared_ptr<const std::byte> Hold(const SegmentPlace& place);
+  /// How many values are held. Any thread.
+  [[nodiscard]] std::uint32_t held() const noexcept { return held_.load(std::memory_order_relaxed); }
 
  private:
-  ReadSegment(const std::byte* memory, std::size_t size, std::size_t room) : memory_(memory), size_(size), room_(room) {}
+  ReadSegment(const std::byte* memory, std::size_t size, std::unique_ptr<HoldTable> holds, Descriptor link);
+  void GiveBack(std::uint32_t slot) noexcept;
 
   const std::byte* const memory_;
   const std::size_t size_;
-  const std::size_t room_;
+  std::size_t slot_size_ = 0;
+  const std::unique_ptr<HoldTable> holds_;
+  const Descriptor link_;
+  std::atomic<std::uint32_t> held_{0};
 };
 
 }  // namespace runnel

@@ -42,11 +42,12 @@ void LimitWaiting(int socket) {
   (void)setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &most, sizeof most);
 }
 
-// A file goes along with one octet.
+// Two files go along with one octet: the segment and the table.
 struct Passing {
+  static constexpr std::size_t kFiles = 2 * sizeof(int);
   char octet = 0;
   iovec part{&octet, 1};
-  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(int))> control{};
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(kFiles)> control{};
   msghdr message{};
   Passing() {
     message.msg_iov = &part;
@@ -65,7 +66,7 @@ Result<std::unique_ptr<SegmentServer>> SegmentServer::Start() {
   const sockaddr_un address = AddressOf(id, size);
   if (!socket.is_open() || bind(socket.number(), reinterpret_cast<const sockaddr*>(&address), size) != 0 ||
       listen(socket.number(), kWaiting) != 0) {
-    return Error{.message = std::string("shared memory cannot be handed out: ") + std::strerror(errno)};
+    return SystemError("shared memory cannot be handed out");
   }
   return std::unique_ptr<SegmentServer>(new SegmentServer(std::move(socket), id));
 }
@@ -80,7 +81,7 @@ SegmentServer::~SegmentServer() {
 
 void SegmentServer::Offer(const WrittenSegment& segment) {
   const std::lock_guard lock(mutex_);
-  segments_[segment.id()] = segment.descriptor();
+  segments_[segment.id()] = {segment.descriptor(), segment.holders()};
 }
 
 void SegmentServer::Withdraw(const WrittenSegment& segment) {
@@ -90,9 +91,17 @@ void SegmentServer::Withdraw(const WrittenSegment& segment) {
 
 void SegmentServer::Run() noexcept {
   for (;;) {
-    const Descriptor asking(accept4(socket_.number(), nullptr, nullptr, SOCK_CLOEXEC));
+    std::vector<pollfd> seen = {{socket_.number(), POLLIN, 0}};
+    for (const Reader& each : readers_) seen.push_back({each.link->number(), POLLIN, 0});
+    if (poll(seen.data(), seen.size(), -1) < 0 && errno != EINTR) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));  // out of memory, for now
+      continue;
+    }
+    LookAtReaders(seen);
+    if (seen[0].revents == 0) continue;
+    Descriptor asking(accept4(socket_.number(), nullptr, nullptr, SOCK_CLOEXEC));
     if (asking.is_open()) {
-      Answer(asking);
+      Answer(std::move(asking));
     } else if (errno == EINVAL || errno == EBADF) {
       return;  // shut down
     } else if (errno != EINTR && errno != ECONNABORTED) {
@@ -101,27 +110,43 @@ void SegmentServer::Run() noexcept {
   }
 }
 
-void SegmentServer::Answer(const Descriptor& asking) {
+void SegmentServer::LookAtReaders(const std::vector<pollfd>& seen) {
+  std::size_t place = 0;
+  std::erase_if(readers_, [&](const Reader& each) {
+    if (seen[++place].revents == 0) return false;  // nobody says anything more
+    each.holders->Remove(*each.table);
+    return true;
+  });
+}
+
+void SegmentServer::Answer(Descriptor asking) {
   if (!IsOfThisUser(asking.number())) return;
   LimitWaiting(asking.number());
   SegmentId wanted{};
   if (recv(asking.number(), wanted.data(), wanted.size(), 0) != static_cast<ssize_t>(wanted.size())) return;
+  auto table = HoldTable::Make();
+  if (!table) return;
   const std::lock_guard lock(mutex_);  // as long as the file must be open
   const auto found = segments_.find(wanted);
   if (found == segments_.end()) return;
+  const std::array<int, 2> files = {found->second.descriptor, (*table)->descriptor()};
   Passing passing;
   cmsghdr* const head = CMSG_FIRSTHDR(&passing.message);
   head->cmsg_level = SOL_SOCKET;
   head->cmsg_type = SCM_RIGHTS;
-  head->cmsg_len = CMSG_LEN(sizeof(int));
-  std::memcpy(CMSG_DATA(head), &found->second, sizeof(int));
-  (void)sendmsg(asking.number(), &passing.message, MSG_NOSIGNAL);
+  head->cmsg_len = CMSG_LEN(Passing::kFiles);
+  std::memcpy(CMSG_DATA(head), files.data(), Passing::kFiles);
+  // It counts before the reader has it.
+  found->second.holders->Add(*table);
+  readers_.push_back({std::make_unique<Descriptor>(std::move(asking)), found->second.holders, *table});
+  // If it cannot be sent, the link is closed at the other end.
+  (void)sendmsg(readers_.back().link->number(), &passing.message, MSG_NOSIGNAL);
 }
 
-Result<std::unique_ptr<ReadSegment>> FetchSegment(const SegmentPlace& place) {
+Result<std::shared_ptr<ReadSegment>> FetchSegment(const SegmentPlace& place) {
   const Error gone{.message = "the memory that a value lies in has gone with its writer, or belongs to another user"};
-  const Descriptor socket(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
-  if (!socket.is_open()) return Error{.message = std::string("shared memory cannot be asked for: ") + std::strerror(errno)};
+  Descriptor socket(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
+  if (!socket.is_open()) return SystemError("shared memory cannot be asked for");
   LimitWaiting(socket.number());
   socklen_t size = 0;
   const sockaddr_un address = AddressOf(place.server, size);
@@ -131,10 +156,13 @@ Result<std::unique_ptr<ReadSegment>> FetchSegment(const SegmentPlace& place) {
   Passing passing;
   if (recvmsg(socket.number(), &passing.message, MSG_CMSG_CLOEXEC) <= 0) return gone;
   const cmsghdr* const head = CMSG_FIRSTHDR(&passing.message);
-  if (head == nullptr || head->cmsg_type != SCM_RIGHTS || head->cmsg_len != CMSG_LEN(sizeof(int))) return gone;
-  int number = -1;
-  std::memcpy(&number, CMSG_DATA(head), sizeof number);
-  return ReadSegment::Map(Descriptor(number));
+  if (head == nullptr || head->cmsg_type != SCM_RIGHTS || head->cmsg_len != CMSG_LEN(Passing::kFiles)) return gone;
+  std::array<int, 2> files{};
+  std::memcpy(files.data(), CMSG_DATA(head), Passing::kFiles);
+  const Descriptor values(files[0]);
+  auto holds = HoldTable::Map(Descriptor(files[1]));
+  if (!holds) return holds.error();
+  return ReadSegment::Map(values, std::move(*holds), std::move(socket));
 }
 
 }  // namespace runnel

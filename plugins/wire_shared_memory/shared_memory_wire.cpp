@@ -67,7 +67,7 @@ class SharingWriter final : public WireWriter {
   }
 
  private:
-  // Nothing: there is no shared memory. Values may go the long way as well.
+  // Nothing: there is no shared memory, or others hold all of it. Values may go the long way as well.
   std::optional<SegmentPlace> Put(const Octets& octets) {
     const std::lock_guard lock(mutex_);
     SegmentServer* const server = common_.Server();
@@ -79,8 +79,8 @@ class SharingWriter final : public WireWriter {
       segment_ = std::move(*made);
       server->Offer(*segment_);
     }
-    SegmentPlace place = segment_->Put(octets);
-    place.server = server->id();
+    auto place = segment_->Put(octets);
+    if (place) place->server = server->id();
     return place;
   }
   void Release() {
@@ -98,16 +98,8 @@ class SharingWriter final : public WireWriter {
   std::unique_ptr<WireWriter> inner_;
 };
 
-/// A value in a segment, as long as the callback runs.
-class LyingValue final : public WireHold {
- public:
-  LyingValue(const ReadSegment& segment, const SegmentPlace& place) : segment_(segment), place_(place) {}
-  [[nodiscard]] bool IsWhole() const noexcept override { return segment_.IsStill(place_); }
-
- private:
-  const ReadSegment& segment_;
-  const SegmentPlace& place_;
-};
+/// So many values of a writer one reader may hold. More are copied, so that others find memory, too.
+constexpr std::uint32_t kMostHeld = 16;
 
 /// What readers do with a sample: one at a time for each.
 class Finder {
@@ -124,14 +116,13 @@ class Finder {
       found.flaw = segment.error().message;
       return on_sample_(found);
     }
-    const auto octets = (*segment)->Find(*place);
-    if (!octets) {
+    const auto held = (*segment)->Hold(*place);
+    if (held == nullptr) {
       found.flaw = "newer values had taken the place of one before it was read";
       return on_sample_(found);
     }
-    const LyingValue value(**segment, *place);
-    found.octets = *octets;
-    found.hold = &value;
+    found.octets = std::span(held.get(), place->size);
+    if ((*segment)->held() <= kMostHeld) found.holder = held;
     on_sample_(found);
   }
 
@@ -139,13 +130,13 @@ class Finder {
   struct Known {
     SegmentId id;
     std::uint64_t writer;
-    std::unique_ptr<ReadSegment> segment;
+    std::shared_ptr<ReadSegment> segment;
   };
   static constexpr std::size_t kMost = 8;  // writers with large values, of one topic
 
-  Result<const ReadSegment*> Find(const SegmentPlace& place, std::uint64_t writer) {
+  Result<std::shared_ptr<ReadSegment>> Find(const SegmentPlace& place, std::uint64_t writer) {
     for (const Known& each : known_) {
-      if (each.id == place.segment) return each.segment.get();
+      if (each.id == place.segment) return each.segment;
     }
     auto fetched = FetchSegment(place);
     if (!fetched) return fetched.error();
@@ -155,7 +146,7 @@ class Finder {
     });
     if (known_.size() >= kMost) known_.erase(known_.begin());
     known_.push_back({place.segment, writer, std::move(*fetched)});
-    return known_.back().segment.get();
+    return known_.back().segment;
   }
 
   Common& common_;

@@ -156,7 +156,8 @@ void AddFamily(std::vector<IncludeRule>& rules, const std::string& name,
 }
 
 void AddModules(std::vector<IncludeRule>& rules) {
-  rules.push_back({"modules/types/algorithm", "modules/types/algorithm", {}, true});
+  // A list, as the standard's are.
+  rules.push_back({"modules/types/algorithm", "modules/types/algorithm", {"core/base/shared_vector.h"}, true});
   rules.push_back({"modules/types", "modules/types", {"core", "modules/types/algorithm"}});
   for (const char* family : {"adaptors", "flow", "motion", "planning", "sensors", "signal"}) {
     AddFamily(rules, family);

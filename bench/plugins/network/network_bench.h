@@ -14,6 +14,7 @@
 #include "core/module/group.h"
 #include "core/port/input.h"
 #include "core/port/output.h"
+#include "core/types/shared_vector_types.h"
 #include "plugins/network/network_link.h"
 #include "plugins/wire_cyclone/cyclone_wire.h"
 #include "plugins/wire_shared_memory/shared_memory_wire.h"
@@ -29,7 +30,7 @@ inline void Describe(TypeBuilder<Block>& type) { type.Name("bench::Block").Field
 /// As the image of a camera: a list of numbers.
 struct Picture {
   double sent = 0;
-  std::vector<std::uint8_t> data;
+  SharedVector<std::uint8_t> data;
 };
 inline void Describe(TypeBuilder<Picture>& type) {
   type.Name("bench::Picture").Field("sent", &Picture::sent).Field("data", &Picture::data);

@@ -83,8 +83,8 @@ class StepReader : public CdrWalk {
     const ElementOperations& elements = step.part->elements();
     const auto count = CountOf(step, step.inside.front());
     if (!count || !TakeRoom(*elements.type, *count)) return false;
-    // A fixed matrix has rows of its own.
-    const bool is_as_long = elements.rows(value) * elements.columns(value) == *count;
+    // A matrix has rows of its own; other lists may refer to what is not theirs until they are resized.
+    const bool is_as_long = step.part->kind() == TypeKind::kMatrix && elements.rows(value) * elements.columns(value) == *count;
     if (!is_as_long && !Resize(*step.part, value, 1, *count)) return false;
     return ForEach(*step.part, value, *count, [&](void* each) { return Read(step.inside.front(), each); });
   }

@@ -11,6 +11,8 @@
 
 #include "core/base/check.h"
 #include "core/types/eigen_types.h"
+#include "core/types/shared_vector_types.h"
+#include "core/types/text_format.h"
 #include "core/types/type_of.h"
 #include "core/types/value_copy.h"
 
@@ -282,6 +284,29 @@ TEST(TypeInfo, TellsWhichElementsMayBeCopiedAtOnce) {
   const auto& elements = TypeOf<RowMajor>().elements();
   const auto* const first = static_cast<const float*>(elements.element(&matrix, 0));
   for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(elements.element(&matrix, i), first + i);
+}
+
+TEST(TypeInfo, OfAListWithMemoryOfOthersIsAsOfAnyList) {
+  using List = SharedVector<float>;
+  const TypeInfo& type = TypeOf<List>();
+  EXPECT_EQ(type.name(), "shared float[]");
+  const auto memory = std::make_shared<std::vector<float>>(std::vector<float>{1, 2, 3});
+  List list;
+  EXPECT_FALSE(ReferTo(type, &list, reinterpret_cast<const char*>(memory->data()) + 1, 2, memory)) << "not aligned";
+  std::vector<float> own;
+  EXPECT_FALSE(ReferTo(TypeOf<std::vector<float>>(), &own, memory->data(), 3, memory));
+  ASSERT_TRUE(ReferTo(type, &list, memory->data(), 3, memory));
+  EXPECT_EQ(std::as_const(list).data(), memory->data());
+  EXPECT_EQ(ToText(type, &list), "[1, 2, 3]");
+  EXPECT_TRUE(list.is_reference()) << "looking copies nothing";
+  List copy;
+  ASSERT_TRUE(CopyValue(type, &list, &copy));
+  EXPECT_FALSE(copy.is_reference());
+  EXPECT_EQ(copy, list);
+  ASSERT_TRUE(CopyValue(type, &copy, &list)) << "what is written to by its description becomes its own";
+  EXPECT_FALSE(list.is_reference());
+  EXPECT_EQ(memory.use_count(), 1);
+  EXPECT_EQ(FromText<List>("[4, 5]").value(), (List{4, 5}));
 }
 
 TEST(TypeInfo, MakesValues) {

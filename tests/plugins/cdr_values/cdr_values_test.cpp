@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 
+#include "core/types/shared_vector_types.h"
 #include "core/types/signal.h"
 #include "core/types/text_format.h"
 #include "core/types/type_of.h"
@@ -14,6 +15,21 @@
 #include "tests/plugins/values/example_types.h"
 
 namespace example {
+
+/// With lists whose memory may be that of the octets.
+struct Large {
+  std::string name;
+  runnel::SharedVector<std::uint8_t> bytes;
+  runnel::SharedVector<double> numbers;
+  std::vector<float> own;
+};
+inline void Describe(runnel::TypeBuilder<Large>& type) {
+  type.Name("Large")
+      .Field("name", &Large::name)
+      .Field("bytes", &Large::bytes)
+      .Field("numbers", &Large::numbers)
+      .Field("own", &Large::own);
+}
 
 /// As sensor_msgs/LaserScan.
 struct Scan {
@@ -198,6 +214,53 @@ TEST(Cdr, OfOpaqueTypesIsRefused) {
   TypeInfo secret(typeid(Secret));
   EXPECT_FALSE(CheckCdr(secret));
   EXPECT_TRUE(CheckCdr(TypeOf<Everything>()));
+}
+
+TEST(Cdr, LargeListsReferToOctetsThatAreKept) {
+  example::Large large{.name = "x", .bytes = SharedVector<std::uint8_t>(5001, 7), .numbers = SharedVector<double>(1000, 8.0),
+                       .own = std::vector<float>(2000, 9.0F)};
+  // So that what follows the header is aligned.
+  const auto kept = std::make_shared<std::vector<double>>(5000);
+  const Octets octets = CdrOf(large);
+  auto* const begin = reinterpret_cast<std::byte*>(kept->data()) + 4;
+  std::ranges::copy(octets, begin);
+  const std::span<const std::byte> lying(begin, octets.size());
+  const auto is_inside = [&](const auto& list) {
+    const auto* const first = reinterpret_cast<const std::byte*>(list.data());
+    return first >= begin && first < begin + octets.size();
+  };
+  const auto is_as_written = [&](const example::Large& read) {
+    return read.name == "x" && read.bytes == large.bytes && read.numbers == large.numbers && read.own == large.own;
+  };
+  const TypeInfo& type = TypeOf<example::Large>();
+  example::Large read;
+  ASSERT_TRUE(ReadCdr(type, lying, &read, kept));
+  EXPECT_TRUE(is_inside(std::as_const(read.bytes)) && is_inside(std::as_const(read.numbers)));
+  EXPECT_FALSE(is_inside(read.own));
+  EXPECT_TRUE(is_as_written(read));
+  EXPECT_EQ(kept.use_count(), 3);
+  ASSERT_TRUE(ReadCdr(type, lying, &read)) << "the same value, of octets that go";
+  EXPECT_FALSE(read.bytes.is_reference() || read.numbers.is_reference());
+  EXPECT_TRUE(is_as_written(read));
+  EXPECT_EQ(kept.use_count(), 1);
+
+  std::ranges::copy(octets, begin - 1);  // numbers do not lie where the machine wants them
+  ASSERT_TRUE(ReadCdr(type, {begin - 1, octets.size()}, &read, kept));
+  EXPECT_TRUE(read.bytes.is_reference());
+  EXPECT_FALSE(read.numbers.is_reference());
+  EXPECT_TRUE(is_as_written(read));
+
+  // Of another machine's order: bytes are the same, numbers are not.
+  std::ranges::copy(FromHex("00000000" "00001388"), begin);
+  SharedVector<std::uint8_t> bytes;
+  ASSERT_TRUE(ReadCdr(TypeOf<SharedVector<std::uint8_t>>(), {begin, 8 + 5000}, &bytes, kept));
+  EXPECT_EQ(bytes.size(), 5000U);
+  EXPECT_TRUE(bytes.is_reference());
+  SharedVector<float> numbers;
+  ASSERT_TRUE(ReadCdr(TypeOf<SharedVector<float>>(), {begin, 8 + 20000}, &numbers, kept));
+  EXPECT_EQ(numbers.size(), 5000U);
+  EXPECT_FALSE(numbers.is_reference());
+  EXPECT_FALSE(ReadCdr(TypeOf<SharedVector<float>>(), {begin, 8 + 19999}, &numbers, kept));
 }
 
 TEST(Cdr, OfKnownSizeAllocatesNothing) {

@@ -15,18 +15,12 @@
 
 #include "plugins/wire_cyclone/cyclone_wire.h"
 #include "plugins/wire_shared_memory/shared_memory_wire.h"
+#include "tests/plugins/wire_shared_memory/nobody.h"
 #include "tests/support/own_network.h"
 #include "tests/support/wait_until.h"
 
 namespace runnel::test {
 namespace {
-
-class Nobody final : public WireDiscovery {
-  void OnMember(const WireMember&) override {}
-  void OnMemberGone(const WireId&) override {}
-  void OnEndpoint(const WireEndpoint&) override {}
-  void OnEndpointGone(const WireId&) override {}
-};
 
 const WireEndpointOptions kTopic = {.topic = "rt/image", .type = "Image"};
 
@@ -78,7 +72,7 @@ TEST(KilledWriterTest, ValuesComeFromTheNextOneAndItsMemoryIsNotKept) {
     const auto engine = MakeSharedMemoryWire(MakeCycloneWire());
     const auto joined = engine->Join({.domain = domain}, nobody);
     ASSERT_TRUE(joined);
-    const auto reader = (*joined)->MakeReader(kTopic, [&](const WireSample& sample) { shared += sample.hold != nullptr; }, {});
+    const auto reader = (*joined)->MakeReader(kTopic, [&](const WireSample& sample) { shared += sample.holder != nullptr; }, {});
     ASSERT_TRUE(reader);
     for (const Writer& each : writers) {
       const int before = shared;

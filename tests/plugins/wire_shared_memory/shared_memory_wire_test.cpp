@@ -9,11 +9,9 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include "plugins/wire/fake_wire.h"
-#include "plugins/wire_shared_memory/segment_server.h"
+#include "tests/plugins/wire_shared_memory/nobody.h"
 #include "tests/support/wait_until.h"
 
 namespace runnel::test {
@@ -28,14 +26,15 @@ struct Come {
   std::vector<std::string> flaws;
   bool is_shared = false;  // the last
   std::function<void()> meanwhile;
-  bool is_whole = false;  // the last, after that
+  std::vector<WireSample> kept;  // as many as `keeps`, with what holds them
+  std::size_t keeps = 0;
 
   OnSample Taker() {
     return [this](const WireSample& sample) {
       const std::lock_guard lock(mutex);
-      is_shared = sample.hold != nullptr;
+      is_shared = sample.holder != nullptr;
       if (meanwhile) meanwhile();
-      is_whole = sample.IsWhole();
+      if (is_shared && kept.size() < keeps) kept.push_back(sample);
       if (!sample.flaw.empty()) return flaws.emplace_back(sample.flaw), void();
       values.emplace_back(sample.octets.size(), std::to_integer<int>(sample.octets.back()));
     };
@@ -44,13 +43,6 @@ struct Come {
     const std::lock_guard lock(mutex);
     return values.size();
   }
-};
-
-class Nobody final : public WireDiscovery {
-  void OnMember(const WireMember&) override {}
-  void OnMemberGone(const WireId&) override {}
-  void OnEndpoint(const WireEndpoint&) override {}
-  void OnEndpointGone(const WireId&) override {}
 };
 
 std::shared_ptr<Octets> Large(int last, std::size_t size = kLarge) {
@@ -95,7 +87,6 @@ TEST_F(SharedMemoryWireTest, LargeValuesLieInSharedMemory) {
   }
   ASSERT_EQ(come.count(), 20u);
   EXPECT_TRUE(come.is_shared);
-  EXPECT_TRUE(come.is_whole);
   for (int i = 0; i < 20; ++i) EXPECT_EQ(come.values[static_cast<std::size_t>(i)], std::pair(kLarge, i));
 }
 
@@ -165,7 +156,102 @@ TEST_F(SharedMemoryWireTest, WhoReadsSlowlyIsToldThatNewerValuesHaveTakenThePlac
   });
   WaitUntilQuiet(*fake_);
   EXPECT_EQ(come.flaws.size(), 1u);  // of those five, the first has gone when it is looked for
-  EXPECT_TRUE(come.is_whole);
+  EXPECT_EQ(come.values.front().second, 77);  // held meanwhile
+}
+
+TEST_F(SharedMemoryWireTest, WhatIsHeldStaysAsItIsWhateverIsWritten) {
+  Come keeping;
+  keeping.keeps = 3;
+  Come other;
+  const auto one = b_->MakeReader(Topic(), keeping.Taker(), {});
+  const auto two = b_->MakeReader(Topic(), other.Taker(), {});
+  const auto writer = Write(*a_, 2);
+  for (int i = 0; i < 1000; ++i) {
+    ASSERT_TRUE(writer->Write(Large(i % 200, 40'000), 1));
+    WaitUntilQuiet(*fake_);
+    ASSERT_EQ(other.values.back().second, i % 200);
+    ASSERT_TRUE(other.is_shared);
+  }
+  EXPECT_EQ(keeping.count(), 1000u);
+  EXPECT_EQ(other.count(), 1000u);
+  ASSERT_EQ(keeping.kept.size(), 3u);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(std::to_integer<int>(keeping.kept[static_cast<std::size_t>(i)].octets.back()), i);
+}
+
+TEST_F(SharedMemoryWireTest, WhoHoldsManyIsGivenOctetsToCopyAndOthersGoOn) {
+  Come keeping;
+  keeping.keeps = 100;
+  Come other;
+  const auto one = b_->MakeReader(Topic(), keeping.Taker(), {});
+  const auto two = b_->MakeReader(Topic(), other.Taker(), {});
+  const auto writer = Write(*a_, 2);
+  for (int i = 0; i < 30; ++i) {
+    ASSERT_TRUE(writer->Write(Large(i), 1));
+    WaitUntilQuiet(*fake_);
+    EXPECT_TRUE(other.is_shared);
+    EXPECT_EQ(keeping.values.back(), std::pair(kLarge, i));
+  }
+  EXPECT_EQ(keeping.kept.size(), 16u);
+  EXPECT_FALSE(keeping.is_shared);
+  keeping.kept.clear();
+  ASSERT_TRUE(writer->Write(Large(1), 1));
+  WaitUntilQuiet(*fake_);
+  EXPECT_TRUE(keeping.is_shared);
+}
+
+TEST_F(SharedMemoryWireTest, WhereAllMemoryIsHeldValuesComeAsOctets) {
+  std::vector<std::unique_ptr<Come>> all;
+  std::vector<std::unique_ptr<WireReader>> readers;
+  for (int i = 0; i < 5; ++i) {
+    all.push_back(std::make_unique<Come>());
+    readers.push_back(std::move(*b_->MakeReader(Topic(), all.back()->Taker(), {})));
+  }
+  const auto writer = Write(*a_, 5);
+  // Each holds sixteen of its own.
+  for (int i = 0; i < 80; ++i) {
+    for (auto& each : all) each->keeps = each->kept.size();
+    Come& next = *all[static_cast<std::size_t>(i / 16)];
+    next.keeps = 16;
+    ASSERT_TRUE(writer->Write(Large(i, 40'000), 1));
+    WaitUntilQuiet(*fake_);
+    for (const auto& each : all) ASSERT_EQ(each->values.back().second, i);
+  }
+  EXPECT_FALSE(all.back()->is_shared);
+  EXPECT_TRUE(all.back()->kept.empty());
+  all.front()->kept.clear();
+  ASSERT_TRUE(writer->Write(Large(7), 1));
+  WaitUntilQuiet(*fake_);
+  EXPECT_TRUE(all.back()->is_shared);
+}
+
+TEST_F(SharedMemoryWireTest, WhatIsHeldOutlivesWriterReaderAndMember) {
+  Come come;
+  come.keeps = 1;
+  {
+    const auto other = Join(*engine_);
+    const auto reader = other->MakeReader(Topic(), come.Taker(), {});
+    const auto writer = Write(*a_, 1);
+    ASSERT_TRUE(writer->Write(Large(7), 1));
+    WaitUntilQuiet(*fake_);
+  }
+  ASSERT_EQ(come.kept.size(), 1u);
+  EXPECT_EQ(come.kept[0].octets.size(), kLarge);
+  EXPECT_EQ(std::to_integer<int>(come.kept[0].octets.back()), 7);
+}
+
+TEST_F(SharedMemoryWireTest, NumbersAreAlignedInMemoryAsInTheMessage) {
+  Come come;
+  come.keeps = 3;
+  const auto reader = b_->MakeReader(Topic(), come.Taker(), {});
+  const auto writer = Write(*a_, 1);
+  for (const std::size_t size : {kLarge, kLarge + 1, kLarge + 3}) {
+    ASSERT_TRUE(writer->Write(Large(1, size), 1));
+    WaitUntilQuiet(*fake_);
+  }
+  ASSERT_EQ(come.kept.size(), 3u);
+  for (const WireSample& each : come.kept) {
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(each.octets.data() + 4) % 64, 0u);
+  }
 }
 
 TEST_F(SharedMemoryWireTest, NothingIsLeftWhenAllHaveGone) {
@@ -184,67 +270,6 @@ TEST_F(SharedMemoryWireTest, NothingIsLeftWhenAllHaveGone) {
     EXPECT_TRUE(maps());
   }
   EXPECT_FALSE(maps());
-}
-
-TEST(SegmentServerTest, NamesThatNobodyHasAreAnErrorAndSoIsOtherMemory) {
-  const auto server = SegmentServer::Start();
-  ASSERT_TRUE(server);
-  const auto segment = WrittenSegment::Make(1000);
-  ASSERT_TRUE(segment);
-  SegmentPlace place = (*segment)->Put(*Large(1, 1000));
-  EXPECT_FALSE(FetchSegment(place));  // of a server that is nowhere
-  place.server = (*server)->id();
-  EXPECT_FALSE(FetchSegment(place));  // not offered
-  (*server)->Offer(**segment);
-  const auto fetched = FetchSegment(place);
-  ASSERT_TRUE(fetched);
-  EXPECT_TRUE((*fetched)->Find(place));
-  (*server)->Withdraw(**segment);
-  EXPECT_FALSE(FetchSegment(place));
-  const Descriptor file(memfd_create("other", MFD_CLOEXEC));
-  EXPECT_EQ(ftruncate(file.number(), 100'000), 0);
-  EXPECT_FALSE(ReadSegment::Map(file));
-}
-
-TEST(SegmentTest, PlacesThatSomebodyHasMadeUpAreNowhere) {
-  const auto segment = WrittenSegment::Make(1000);
-  ASSERT_TRUE(segment);
-  const SegmentPlace place = (*segment)->Put(*Large(1, 1000));
-  const auto read = ReadSegment::Map(Descriptor(dup((*segment)->descriptor())));
-  ASSERT_TRUE(read);
-  EXPECT_TRUE((*read)->Find(place));
-  const auto is_nowhere = [&](const auto& change) {
-    SegmentPlace made_up = place;
-    change(made_up);
-    return !(*read)->Find(made_up);
-  };
-  EXPECT_TRUE(is_nowhere([](SegmentPlace& at) { at.slot = 4; }));
-  EXPECT_TRUE(is_nowhere([](SegmentPlace& at) { at.slot = ~0u; }));
-  EXPECT_TRUE(is_nowhere([](SegmentPlace& at) { at.slot = 1; }));
-  EXPECT_TRUE(is_nowhere([](SegmentPlace& at) { at.use = 1; }));
-  EXPECT_TRUE(is_nowhere([](SegmentPlace& at) { at.use = 4; }));
-  EXPECT_TRUE(is_nowhere([](SegmentPlace& at) { at.size = 4097; }));
-  EXPECT_TRUE(is_nowhere([](SegmentPlace& at) { at.size = ~std::uint64_t{0}; }));
-  EXPECT_EQ(mmap(nullptr, 4096, PROT_READ | PROT_WRITE, MAP_SHARED, (*segment)->descriptor(), 0), MAP_FAILED);
-  EXPECT_NE(ftruncate((*segment)->descriptor(), 0), 0);
-}
-
-TEST(SegmentTest, WhatGoesOverTheWireComesBack) {
-  const SegmentPlace place{.server = NewSegmentId(), .segment = NewSegmentId(), .use = 6, .size = 123, .slot = 3};
-  const auto octets = place.ToOctets();
-  EXPECT_EQ(octets->size() % 4, 0u);
-  const auto back = SegmentPlace::In(*octets);
-  ASSERT_TRUE(back);
-  EXPECT_EQ(back->server, place.server);
-  EXPECT_EQ(back->segment, place.segment);
-  EXPECT_EQ(back->use, place.use);
-  EXPECT_EQ(back->size, place.size);
-  EXPECT_EQ(back->slot, place.slot);
-  EXPECT_FALSE(SegmentPlace::In(*Large(1)));
-  EXPECT_FALSE(SegmentPlace::In({}));
-  const auto cut = SegmentPlace::In(std::span(*octets).first(14));  // it is nowhere
-  ASSERT_TRUE(cut);
-  EXPECT_EQ(cut->size, 0u);
 }
 
 }  // namespace
