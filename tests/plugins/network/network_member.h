@@ -13,6 +13,7 @@
 #include "core/module/module.h"
 #include "core/port/input.h"
 #include "core/port/output.h"
+#include "core/types/shared_vector_types.h"
 #include "core/types/type_builder.h"
 #include "plugins/network/network_link.h"
 #include "plugins/wire/fake_wire.h"
@@ -30,7 +31,7 @@ void Describe(TypeBuilder<Place>& type) {
 
 /// Too large to be copied in a queue, so that values are leased.
 struct Row {
-  std::vector<double> values;
+  SharedVector<double> values;
 };
 void Describe(TypeBuilder<Row>& type) { type.Name("test::Row").Field("values", &Row::values); }
 
