@@ -141,9 +141,9 @@ void OfferedPort::SendBy(OfferBell::By by) {
   if (by == OfferBell::By::kCycle) sent_after_cycles_.fetch_add(sent() - before, std::memory_order_relaxed);
 }
 
-bool OfferedPort::Encode(const void* value, ValueTimes times, Octets& octets) {
+bool OfferedPort::Encode(const void* value, Time stamp, Octets& octets) {
   try {
-    form_->Write(value, times.timestamp + clock_.Now(), octets);
+    form_->Write(value, stamp, octets);
   } catch (...) {
     Fail({.message = "a value cannot be sent: " + DescribeException()});
     octets.clear();
@@ -153,7 +153,7 @@ bool OfferedPort::Encode(const void* value, ValueTimes times, Octets& octets) {
 
 bool OfferedPort::SendNewest() {
   std::shared_ptr<Octets> octets;
-  ValueTimes times;
+  Time stamp;
   {
     const EpochGuard guard;  // what is loaded now stays so long
     // acquire: pairs with Attach().
@@ -165,39 +165,39 @@ bool OfferedPort::SendNewest() {
     octets = pool_.Take();
     bool is_whole = false;
     const bool is_there = source->VisitLatest([&](const void* value, ValueTimes of) {
-      times = of;
-      is_whole = Encode(value, of, *octets);
+      stamp = of.timestamp + clock_.Now();
+      is_whole = Encode(value, stamp, *octets);
     });
     if (!is_there || !is_whole) return false;
     shown_ = newest;
   }
-  Write(octets, times);
+  Write(octets, stamp);
   return true;
 }
 
 void OfferedPort::SendEach(std::size_t most) {
   std::shared_ptr<Octets> octets;
-  ValueTimes times;
+  Time stamp;
   bool is_whole = false;
   const Time now = options_.rate > 0 ? SteadyClock().Now() : Time{};
   for (std::size_t i = 0; i < most; ++i) {
     octets = pool_.Take();
     const bool is_there = each_->Take([&](const void* value, ValueTimes of) {
-      times = of;
-      is_whole = Encode(value, of, *octets);
+      stamp = of.timestamp + clock_.Now();
+      is_whole = Encode(value, stamp, *octets);
     });
     if (!is_there) return;
     if (options_.rate > 0 && now < next_) continue;
     if (options_.rate > 0) next_ = now + FromSeconds(1 / options_.rate);
-    if (is_whole) Write(octets, times);
+    if (is_whole) Write(octets, stamp);
   }
   bell_->Ring();  // others have their turn first
 }
 
-void OfferedPort::Write(const std::shared_ptr<Octets>& octets, ValueTimes times) {
+void OfferedPort::Write(const std::shared_ptr<Octets>& octets, Time stamp) {
   is_large_ = is_large_ || octets->size() > kMostAfterCycle;
   bell_->set_sent_after_cycles(options_.sending == ValueSending::kAfterCycle && options_.rate <= 0 && !is_large_);
-  const auto written = writer_->Write(octets, (times.timestamp + clock_.Now()).time_since_epoch().count());
+  const auto written = writer_->Write(octets, stamp.time_since_epoch().count());
   if (!written) return Fail(written.error());
   sent_.fetch_add(1, std::memory_order_relaxed);
 }

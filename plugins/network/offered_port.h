@@ -92,8 +92,8 @@ class OfferedPort {
   void SendBy(OfferBell::By by);
   bool SendNewest();  // whether there was one
   void SendEach(std::size_t most);
-  bool Encode(const void* value, ValueTimes times, Octets& octets);
-  void Write(const std::shared_ptr<Octets>& octets, ValueTimes times);
+  bool Encode(const void* value, Time stamp, Octets& octets);
+  void Write(const std::shared_ptr<Octets>& octets, Time stamp);  // since 1970
   void Fail(Error error);
 
   const std::string path_;
