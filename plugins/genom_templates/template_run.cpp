@@ -99,6 +99,7 @@ class Run {
 
  private:
   static constexpr int kStepsAtOnce = 10'000;
+  static constexpr std::uint64_t kMostOften = 64;  // so many times the memory in all
 
   [[nodiscard]] Error TooMuch(const std::string& what) const {
     return {.message = "the template needs too much " + what, .position = {output_.sources.empty() ? "" : output_.sources.back(), 0}};
@@ -107,7 +108,12 @@ class Run {
   static void* Allocate(void* context, void* before, std::size_t size_before, std::size_t size) {
     Run& self = *static_cast<Run*>(context);
     if (before == nullptr) size_before = 0;  // it says what is to be made, then
-    if (self.is_limited_ && size > size_before && self.bytes_ + (size - size_before) > self.limits_.bytes) return nullptr;
+    if (self.is_limited_ && size > size_before) {
+      // What is made and thrown away counts, too: a text that grows bit by bit takes few steps, and for ever.
+      self.bytes_made_ += size;
+      const bool is_too_much = self.bytes_made_ / kMostOften > self.limits_.bytes;
+      if (is_too_much || self.bytes_ + (size - size_before) > self.limits_.bytes) return nullptr;
+    }
     if (size == 0) {
       std::free(before);
     } else if (void* const after = std::realloc(before, size); after != nullptr) {
@@ -237,6 +243,7 @@ class Run {
   fs::path folder_;
   const TemplateLimits limits_;
   std::size_t bytes_ = 0;
+  std::uint64_t bytes_made_ = 0;
   bool is_limited_ = false;  // only while errors are caught
   std::uint64_t steps_ = 0;
   std::unique_ptr<lua_State, decltype(&lua_close)> lua_;

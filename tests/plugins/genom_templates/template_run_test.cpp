@@ -90,6 +90,8 @@ TEST_F(TemplateRunTest, WhatDoesNotComeToAnEndIsEnded) {
   EXPECT_THAT(wrong("local function f() return 1 + f() end f()", 500'000'000), HasSubstr("own/template.lua:1: stack overflow"));
   EXPECT_THAT(wrong("local all = {} while true do all[#all + 1] = string.rep('a', 1000000 + #all) end"),
               HasSubstr("own/template.lua: the template needs too much memory"));
+  EXPECT_THAT(wrong("local text = string.rep('a', 1000000) while true do text = ('b' .. text):sub(1, 1000000) end"),
+              HasSubstr("own/template.lua: the template needs too much memory"));
 }
 
 }  // namespace
