@@ -1,22 +1,16 @@
 #include "core/module/after_cycle.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace runnel {
 
-namespace {
+thread_local constinit AfterCycleScope* internal::after_cycle __attribute__((tls_model("initial-exec"))) = nullptr;
 
-thread_local constinit AfterCycleScope* current __attribute__((tls_model("initial-exec"))) = nullptr;
+bool AfterCycleWork::DoAfterCycle() noexcept {
+  return internal::after_cycle != nullptr && internal::after_cycle->Add(*this);
+}
 
-}  // namespace
-
-bool AfterCycleWork::DoAfterCycle() noexcept { return current != nullptr && current->Add(*this); }
-
-AfterCycleScope::AfterCycleScope() noexcept : outer_(std::exchange(current, this)) {}
-
-AfterCycleScope::~AfterCycleScope() {
-  current = outer_;  // first, so that work finds no cycle
+void AfterCycleScope::RunAll() noexcept {
   for (std::size_t i = 0; i < count_; ++i) work_[i]->RunAfterCycle();
 }
 

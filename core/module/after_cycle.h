@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <utility>
 
 namespace runnel {
 
@@ -29,18 +30,31 @@ class AfterCycleScope {
  public:
   static constexpr std::size_t kMost = 32;
 
-  AfterCycleScope() noexcept;
-  ~AfterCycleScope();
+  inline AfterCycleScope() noexcept;
+  inline ~AfterCycleScope();
   AfterCycleScope(const AfterCycleScope&) = delete;
   AfterCycleScope& operator=(const AfterCycleScope&) = delete;
 
  private:
   friend class AfterCycleWork;
   bool Add(AfterCycleWork& work) noexcept;
+  [[gnu::cold]] void RunAll() noexcept;
 
   AfterCycleScope* const outer_;
   std::size_t count_ = 0;
   std::array<AfterCycleWork*, kMost> work_;  // not initialised: cycles that have none do not pay for it
 };
+
+namespace internal {
+// Of the cycle that the thread is in; nullptr: none.
+extern thread_local constinit AfterCycleScope* after_cycle __attribute__((tls_model("initial-exec")));
+}  // namespace internal
+
+inline AfterCycleScope::AfterCycleScope() noexcept : outer_(std::exchange(internal::after_cycle, this)) {}
+inline AfterCycleScope::~AfterCycleScope() {
+  internal::after_cycle = outer_;  // first, so that work finds no cycle
+  if (count_ > 0) [[unlikely]]
+    RunAll();
+}
 
 }  // namespace runnel
