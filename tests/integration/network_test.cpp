@@ -1,14 +1,9 @@
 // Two processes that share a robot: one drives, one plans; killed, started again, and what others may say meanwhile.
 
-#include <arpa/inet.h>
 #include <csignal>
 #include <cstdlib>
-#include <random>
 
 #include <gmock/gmock.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include "tests/integration/other_network.h"
 #include "tests/integration/two_robots.h"
@@ -63,34 +58,6 @@ TEST_F(TwoRobots, OneMayHaveAnotherEngineThanTheOther) {
   WaitUntilItDrives();
 }
 #endif
-
-// At the ports of domain and participants (RTPS), as anybody on the machine could.
-TEST_F(TwoRobots, DatagramsThatMeanNothingStopNobody) {
-  const auto robot = Start("two_robots.xml");
-  const auto planner = Start("two_robots_planner.xml");
-  WaitUntilItDrives();
-  const int descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  ASSERT_GE(descriptor, 0);
-  std::mt19937 random(7);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  const std::string header = std::string("RTPS\x02\x01\x01\x10", 8);
-  for (int i = 0; i < 20'000; ++i) {
-    std::string packet(random() % 200, '\0');
-    for (char& each : packet) each = static_cast<char>(random());
-    if (i % 2 == 0) packet = header + packet;
-    // A known submessage with a length that is wrong.
-    if (i % 4 == 0 && packet.size() > 24) packet[20] = static_cast<char>(std::array{0x06, 0x07, 0x08, 0x15, 0x16}[random() % 5]);
-    const int offset = std::array{0, 1, 10, 11, 12, 13}[random() % 6];
-    address.sin_port = htons(static_cast<std::uint16_t>(7400 + 250 * static_cast<int>(OwnDomain()) + offset));
-    (void)sendto(descriptor, packet.data(), packet.size(), 0, reinterpret_cast<const sockaddr*>(&address), sizeof address);
-  }
-  close(descriptor);
-  const std::string before = Runnel("get --app robot /localisation/pose").text;
-  WaitUntil("the robot moves", [&] { return Runnel("get --app robot /localisation/pose").text != before; });
-  WaitUntilItDrives();
-}
 
 TEST_F(TwoRobots, MistakesAreToldWithTheirPlaces) {
   const std::string file = folder_ / "wrong.xml";

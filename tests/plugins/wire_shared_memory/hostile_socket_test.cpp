@@ -1,0 +1,136 @@
+// What processes of the same user may do at the socket by which memory is handed out, and what they may hand out.
+
+#include <array>
+#include <cstddef>
+#include <cstring>
+#include <fstream>
+#include <random>
+#include <string>
+#include <thread>
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include "plugins/wire_shared_memory/segment_server.h"
+#include "tests/support/wait_until.h"
+
+namespace runnel::test {
+namespace {
+
+std::string HexOf(const SegmentId& id) {
+  std::string text;
+  for (const std::byte each : id) {
+    std::array<char, 3> digits{};
+    (void)std::snprintf(digits.data(), digits.size(), "%02x", std::to_integer<unsigned>(each));
+    text += digits.data();
+  }
+  return text;
+}
+
+sockaddr_un AddressOf(const std::string& name, socklen_t& size) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  std::memcpy(address.sun_path + 1, name.data(), name.size());
+  size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
+  return address;
+}
+
+// The name of the socket of this server, as the system tells everybody.
+std::string SocketOf(const SegmentId& server) {
+  std::ifstream file("/proc/net/unix");
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t begin = line.find('@');
+    if (begin != std::string::npos && line.ends_with(HexOf(server))) return line.substr(begin + 1);
+  }
+  return {};
+}
+
+Descriptor ConnectedTo(const std::string& name) {
+  Descriptor connected(socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
+  socklen_t size = 0;
+  const sockaddr_un address = AddressOf(name, size);
+  EXPECT_EQ(connect(connected.number(), reinterpret_cast<const sockaddr*>(&address), size), 0);
+  return connected;
+}
+
+TEST(HostileSocketTest, WhoAsksForNonsenseKeepsNobodyFromTheMemory) {
+  const auto server = SegmentServer::Start();
+  ASSERT_TRUE(server);
+  const auto segment = WrittenSegment::Make(1000);
+  ASSERT_TRUE(segment);
+  SegmentPlace place = (*segment)->Put(Octets(1000));
+  place.server = (*server)->id();
+  (*server)->Offer(**segment);
+  const std::string name = SocketOf((*server)->id());
+  ASSERT_FALSE(name.empty());
+  std::mt19937 random(3);
+  for (int i = 0; i < 500; ++i) {
+    const Descriptor connected = ConnectedTo(name);
+    std::string octets(random() % (i % 10 == 0 ? 60'000 : 40), '\0');
+    for (char& each : octets) each = static_cast<char>(random());
+    if (i % 3 != 0) (void)send(connected.number(), octets.data(), octets.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+  }
+  const Descriptor silent = ConnectedTo(name);  // and stays
+  WaitUntil("the memory is handed out", [&] {
+    const auto fetched = FetchSegment(place);
+    return fetched && (*fetched)->Find(place);
+  });
+}
+
+TEST(HostileSocketTest, MemoryThatIsNoneOfAWriterIsNotTaken) {
+  const SegmentPlace place{.server = NewSegmentId(), .segment = NewSegmentId(), .use = 2, .size = 1000, .slot = 0};
+  // As a server of another's making.
+  const Descriptor listening(socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
+  socklen_t size = 0;
+  const sockaddr_un address = AddressOf("runnel-segments-" + HexOf(place.server), size);
+  ASSERT_EQ(bind(listening.number(), reinterpret_cast<const sockaddr*>(&address), size), 0);
+  ASSERT_EQ(listen(listening.number(), 8), 0);
+
+  std::array<int, 2> pipe_ends{};
+  ASSERT_EQ(pipe2(pipe_ends.data(), O_CLOEXEC), 0);
+  const Descriptor reading(pipe_ends[0]);
+  const Descriptor writing(pipe_ends[1]);
+  const Descriptor folder(open("/", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  const Descriptor zero(open("/dev/zero", O_RDWR | O_CLOEXEC));
+  const Descriptor can_shrink(memfd_create("other", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+  const Descriptor empty(memfd_create("other", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+  const Descriptor nonsense(memfd_create("other", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+  ASSERT_EQ(ftruncate(can_shrink.number(), 100'000), 0);
+  ASSERT_EQ(ftruncate(nonsense.number(), 100'000), 0);
+  const std::string ones(100'000, '\xff');
+  ASSERT_EQ(pwrite(nonsense.number(), ones.data(), ones.size(), 0), 100'000);
+  for (const Descriptor* const each : {&empty, &nonsense}) ASSERT_EQ(fcntl(each->number(), F_ADD_SEALS, F_SEAL_SHRINK), 0);
+
+  for (const Descriptor* const given : {static_cast<const Descriptor*>(nullptr), &reading, &folder, &zero, &can_shrink, &empty, &nonsense}) {
+    std::thread answering([&] {
+      const Descriptor asking(accept4(listening.number(), nullptr, nullptr, SOCK_CLOEXEC));
+      char octet = 0;
+      iovec part{&octet, 1};
+      alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(int))> control{};
+      msghdr message{};
+      message.msg_iov = &part;
+      message.msg_iovlen = 1;
+      if (given != nullptr) {
+        message.msg_control = control.data();
+        message.msg_controllen = control.size();
+        cmsghdr* const head = CMSG_FIRSTHDR(&message);
+        head->cmsg_level = SOL_SOCKET;
+        head->cmsg_type = SCM_RIGHTS;
+        head->cmsg_len = CMSG_LEN(sizeof(int));
+        const int number = given->number();
+        std::memcpy(CMSG_DATA(head), &number, sizeof number);
+      }
+      (void)sendmsg(asking.number(), &message, MSG_NOSIGNAL);
+    });
+    const auto fetched = FetchSegment(place);
+    answering.join();
+    EXPECT_TRUE(!fetched || !(*fetched)->Find(place));
+  }
+}
+
+}  // namespace
+}  // namespace runnel::test
