@@ -62,7 +62,7 @@ TEST(HostileSocketTest, WhoAsksForNonsenseKeepsNobodyFromTheMemory) {
   ASSERT_TRUE(server);
   const auto segment = WrittenSegment::Make(1000);
   ASSERT_TRUE(segment);
-  SegmentPlace place = (*segment)->Put(Octets(1000));
+  SegmentPlace place = *(*segment)->Put(Octets(1000));
   place.server = (*server)->id();
   (*server)->Offer(**segment);
   const std::string name = SocketOf((*server)->id());
@@ -77,12 +77,12 @@ TEST(HostileSocketTest, WhoAsksForNonsenseKeepsNobodyFromTheMemory) {
   const Descriptor silent = ConnectedTo(name);  // and stays
   WaitUntil("the memory is handed out", [&] {
     const auto fetched = FetchSegment(place);
-    return fetched && (*fetched)->Find(place);
+    return fetched && (*fetched)->Hold(place) != nullptr;
   });
 }
 
 TEST(HostileSocketTest, MemoryThatIsNoneOfAWriterIsNotTaken) {
-  const SegmentPlace place{.server = NewSegmentId(), .segment = NewSegmentId(), .use = 2, .size = 1000, .slot = 0};
+  SegmentPlace place{.server = NewSegmentId(), .segment = NewSegmentId(), .use = 2, .size = 1000, .slot = 0};
   // As a server of another's making.
   const Descriptor listening(socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
   socklen_t size = 0;
@@ -105,31 +105,44 @@ TEST(HostileSocketTest, MemoryThatIsNoneOfAWriterIsNotTaken) {
   ASSERT_EQ(pwrite(nonsense.number(), ones.data(), ones.size(), 0), 100'000);
   for (const Descriptor* const each : {&empty, &nonsense}) ASSERT_EQ(fcntl(each->number(), F_ADD_SEALS, F_SEAL_SHRINK), 0);
 
-  for (const Descriptor* const given : {static_cast<const Descriptor*>(nullptr), &reading, &folder, &zero, &can_shrink, &empty, &nonsense}) {
+  const auto table = HoldTable::Make();
+  const auto segment = WrittenSegment::Make(1000);
+  ASSERT_TRUE(table && segment);
+  const auto fetch = [&](int memory, int holds) {
     std::thread answering([&] {
       const Descriptor asking(accept4(listening.number(), nullptr, nullptr, SOCK_CLOEXEC));
       char octet = 0;
       iovec part{&octet, 1};
-      alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(int))> control{};
+      const std::array<int, 2> files = {memory, holds};
+      alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof files)> control{};
       msghdr message{};
       message.msg_iov = &part;
       message.msg_iovlen = 1;
-      if (given != nullptr) {
-        message.msg_control = control.data();
-        message.msg_controllen = control.size();
-        cmsghdr* const head = CMSG_FIRSTHDR(&message);
-        head->cmsg_level = SOL_SOCKET;
-        head->cmsg_type = SCM_RIGHTS;
-        head->cmsg_len = CMSG_LEN(sizeof(int));
-        const int number = given->number();
-        std::memcpy(CMSG_DATA(head), &number, sizeof number);
-      }
-      (void)sendmsg(asking.number(), &message, MSG_NOSIGNAL);
+      message.msg_control = control.data();
+      message.msg_controllen = control.size();
+      cmsghdr* const head = CMSG_FIRSTHDR(&message);
+      head->cmsg_level = SOL_SOCKET;
+      head->cmsg_type = SCM_RIGHTS;
+      head->cmsg_len = CMSG_LEN(sizeof files);
+      std::memcpy(CMSG_DATA(head), files.data(), sizeof files);
+      EXPECT_GT(sendmsg(asking.number(), &message, MSG_NOSIGNAL), 0);
     });
     const auto fetched = FetchSegment(place);
     answering.join();
-    EXPECT_TRUE(!fetched || !(*fetched)->Find(place));
+    return fetched && (*fetched)->Hold(place) != nullptr;
+  };
+  for (const Descriptor* const given : {&reading, &folder, &zero, &can_shrink, &empty, &nonsense}) {
+    EXPECT_FALSE(fetch(given->number(), (*table)->descriptor()));
+    if (given != &nonsense) {
+      EXPECT_FALSE(fetch((*segment)->descriptor(), given->number()));
+    }
   }
+  // What is given is not believed; that it could be is seen here.
+  const auto right = (*segment)->Put(Octets(1000));
+  ASSERT_TRUE(right);
+  place.use = right->use;
+  place.slot = right->slot;
+  EXPECT_TRUE(fetch((*segment)->descriptor(), (*table)->descriptor()));
 }
 
 }  // namespace
