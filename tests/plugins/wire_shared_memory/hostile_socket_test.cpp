@@ -111,6 +111,8 @@ TEST(HostileSocketTest, MemoryThatIsNoneOfAWriterIsNotTaken) {
   const auto fetch = [&](int memory, int holds) {
     std::thread answering([&] {
       const Descriptor asking(accept4(listening.number(), nullptr, nullptr, SOCK_CLOEXEC));
+      SegmentId wanted{};  // who has gone before it is asked is not listened to
+      EXPECT_EQ(recv(asking.number(), wanted.data(), wanted.size(), 0), static_cast<ssize_t>(wanted.size()));
       char octet = 0;
       iovec part{&octet, 1};
       const std::array<int, 2> files = {memory, holds};
