@@ -227,12 +227,12 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   word(profile, "on|off", "without: what has been measured")->required(false)->type_name("WORD");
 
   Entry& latency = add("latency", "how old what a command goes back to is: measures between two ports");
-  latency.command->add_option("ports", latency.arguments.words, "from a sensor's output to a command's; off: no more")
-      ->type_name("FROM TO [off]");
+  latency.command->add_option("ports", latency.arguments.words, "from a sensor's output to a command's; off: no more")->type_name("FROM TO [off]");
 
-  Entry& schedule = add("schedule", "gives a thread another period or priority");
+  Entry& schedule = add("schedule", "gives a thread another period, priority, or way in which its cycles begin");
   word(schedule, "thread", "its name")->type_name("THREAD");
   option(schedule, "--period", "period", "20ms, for example")->type_name("TIME");
+  option(schedule, "--activation", "activation", "period, free_running, trigger (when data comes)")->type_name("WORD");
   option(schedule, "--priority", "priority", "0: ordinary; 1 .. 99: real-time")->type_name("N");
   option(schedule, "--on-overrun", "on_overrun", "skip, catch_up")->type_name("WORD");
 

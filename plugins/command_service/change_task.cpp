@@ -288,6 +288,34 @@ TaskStep RestartSteps(std::string path, const ServedApplication& application,
   };
 }
 
+// A change like others, whose answer says what it means.
+TaskStep LogLevelSteps(const LogLevelRequest& request, const ServedApplication& application,
+                       std::shared_ptr<CommandAnswer> answer) {
+  const bool inherits = request.level == "inherit";
+  const auto level = inherits ? LogLevel::kInfo : LogLevelOf(request.level);
+  const std::string path = request.path.empty() ? "/" : request.path;
+  LogElement change{path};
+  if (!inherits && level) change.level = *level;
+  const auto steps = std::make_shared<TaskStep>(
+      ChangeSteps({.placed = {.changes = {change}, .positions = {}}}, application, answer));
+  return [=, &application, answer = std::move(answer)]() -> std::optional<Duration> {
+    if (!level) {
+      *answer = CommandAnswer::Refused(level.error());
+      return {};
+    }
+    std::string whose = path;
+    if (path != "/") {
+      const std::lock_guard lock(application.runtime.structure_mutex());
+      if (const auto found = PathSearch(application.runtime).Find(path)) whose = (*found)->path();
+    }
+    std::string text = whose + (inherits ? ": logs as what is around it"
+                                         : ": logs " + LogLevelName(*level) + " and more");
+    const auto again = (*steps)();
+    if (!again && *answer) answer->text = std::move(text);
+    return again;
+  };
+}
+
 TaskStep ChangeSteps(ChangeRequest request, const ServedApplication& application,
                      std::shared_ptr<CommandAnswer> answer) {
   const auto task =

@@ -16,4 +16,8 @@ namespace runnel {
 [[nodiscard]] TaskStep RestartSteps(std::string path, const ServedApplication& application,
                                     std::shared_ptr<CommandAnswer> answer);
 
+/// The same for what is logged at and below a path.
+[[nodiscard]] TaskStep LogLevelSteps(const LogLevelRequest& request, const ServedApplication& application,
+                                     std::shared_ptr<CommandAnswer> answer);
+
 }  // namespace runnel

@@ -5,7 +5,6 @@
 #include <utility>
 #include <variant>
 
-#include "core/log/log_levels.h"
 #include "core/plugin/module_type_name.h"
 #include "core/paths/path_search.h"
 #include "core/types/duration_text.h"
@@ -89,6 +88,8 @@ std::unique_ptr<PendingCommand> CommandService::Begin(CommandRequest request, Ta
       [&](auto& each) -> TaskStep {
         if constexpr (std::is_same_v<decltype(each), ChangeRequest&>) {
           return ChangeSteps(std::move(each), application_, answer);
+        } else if constexpr (std::is_same_v<decltype(each), LogLevelRequest&>) {
+          return LogLevelSteps(each, application_, answer);
         } else if constexpr (std::is_same_v<decltype(each), RestartRequest&>) {
           if (!each.path.empty()) return RestartSteps(std::move(each.path), application_, answer);
           return [this, each, answer]() -> std::optional<Duration> {
@@ -162,27 +163,6 @@ CommandAnswer CommandService::Do(const PauseRequest& request) const {
   }
   application_.log.Add(ApplicationLog::Kind::kChange, what);
   return CommandAnswer::Done(what);
-}
-
-CommandAnswer CommandService::Do(const LogLevelRequest& request) const {
-  const bool inherits = request.level == "inherit";
-  const auto level = inherits ? LogLevel::kInfo : LogLevelOf(request.level);
-  if (!level) return CommandAnswer::Refused(level.error());
-  Runtime& runtime = application_.runtime;
-  std::string path;
-  if (!request.path.empty() && request.path != "/") {
-    const std::lock_guard lock(runtime.structure_mutex());
-    const auto found = PathSearch(runtime).Find(request.path);
-    if (!found) return CommandAnswer::Refused(found.error());
-    path = (*found)->path();
-  }
-  const std::string whose = path.empty() ? "/" : path;
-  if (inherits) {
-    ResetLogLevel(runtime, path);
-    return CommandAnswer::Done(whose + ": logs as what is around it");
-  }
-  SetLogLevel(runtime, path, *level);
-  return CommandAnswer::Done(whose + ": logs " + LogLevelName(*level) + " and more");
 }
 
 // Who drives says so many times a second, which is told once.

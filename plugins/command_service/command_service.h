@@ -144,7 +144,6 @@ class CommandService {
   [[nodiscard]] CommandAnswer Do(const SaveRequest& request) const;
   [[nodiscard]] CommandAnswer Do(const PauseRequest& request) const;
   [[nodiscard]] CommandAnswer Do(const ReloadRequest& request) const;
-  [[nodiscard]] CommandAnswer Do(const LogLevelRequest& request) const;
   [[nodiscard]] CommandAnswer Do(const PublishRequest& request);
   [[nodiscard]] CommandAnswer Do(const ReleaseRequest& request);
   [[nodiscard]] CommandAnswer Do(const RestartRequest& request) const;

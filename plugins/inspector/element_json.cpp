@@ -189,6 +189,7 @@ std::uint64_t ElementFingerprint(const FrameworkElement& element,
     const ThreadOptions options = thread->options();
     Mix(static_cast<std::uint64_t>(options.period.count()), hash);
     Mix(static_cast<std::uint64_t>(options.priority) + 2, hash);
+    Mix(static_cast<std::uint64_t>(options.activation), hash);
     return hash;
   }
   if (element.kind() == ElementKind::kParameter) {

@@ -47,21 +47,23 @@ class CycleRunner {
   /// Of its container.
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
   [[nodiscard]] ThreadOptions options() const noexcept {
-    return {activation_, period(), priority_.load(std::memory_order_relaxed),
+    return {activation_.load(std::memory_order_relaxed), period(), priority_.load(std::memory_order_relaxed),
             on_overrun_.load(std::memory_order_relaxed)};
   }
   [[nodiscard]] Duration period() const noexcept {
     // relaxed: a number, which holds from some cycle on.
     return Duration(period_.load(std::memory_order_relaxed));
   }
-  /// All but how its cycles are activated, which stays. From one of the next cycles on.
+  /// From one of the next cycles on. Under the structure lock; with another activation, a new schedule has to follow.
   void set_options(const ThreadOptions& options) noexcept {
+    activation_.store(options.activation, std::memory_order_relaxed);
     period_.store(options.period.count(), std::memory_order_relaxed);
     priority_.store(options.priority, std::memory_order_relaxed);
     on_overrun_.store(options.on_overrun, std::memory_order_relaxed);
   }
   [[nodiscard]] bool waits_for_data() const noexcept {
-    return activation_ == ThreadOptions::Activation::kTrigger;
+    // relaxed: a cycle may still run by the one before; the lock orders it with Install().
+    return activation_.load(std::memory_order_relaxed) == ThreadOptions::Activation::kTrigger;
   }
 
   /// What is noted from the next cycle on. Any thread.
@@ -132,7 +134,7 @@ class CycleRunner {
                       CycleMoment now, FaultDispatcher& faults) noexcept;
 
   const std::string path_;
-  const ThreadOptions::Activation activation_;
+  std::atomic<ThreadOptions::Activation> activation_;
   std::atomic<Duration::rep> period_;
   std::atomic<int> priority_;
   std::atomic<ThreadOptions::OnOverrun> on_overrun_;

@@ -42,7 +42,10 @@ bool SleepUntil(Time due, const GiveUp& give_up) {
 }  // namespace
 
 RealThread::RealThread(std::shared_ptr<CycleRunner> runner, FaultDispatcher& faults, Time first)
-    : runner_(std::move(runner)), faults_(faults), thread_([this, first] { Run(first); }) {}
+    : runner_(std::move(runner)),
+      activation_(runner_->options().activation),
+      faults_(faults),
+      thread_([this, first] { Run(first); }) {}
 
 RealThread::~RealThread() {
   RequestStop();
@@ -59,6 +62,14 @@ std::optional<Error> RealThread::Prioritize() {
 
 void RealThread::RequestStop() noexcept {
   stopping_.store(true, std::memory_order_release);
+  leaves_.store(true, std::memory_order_release);
+  runner_->event().Notify();
+}
+
+void RealThread::FollowActivation() noexcept {
+  const auto wanted = runner_->options().activation;
+  if (wanted == std::exchange(activation_, wanted)) return;
+  leaves_.store(true, std::memory_order_release);
   runner_->event().Notify();
 }
 
@@ -72,13 +83,19 @@ void RealThread::Run(Time first) {
 }
 
 void RealThread::RunCycles(Time first) {
-  switch (runner_->options().activation) {
-    case ThreadOptions::Activation::kPeriod:
-      return RunPeriodically(first);
-    case ThreadOptions::Activation::kFreeRunning:
-      return RunFreely();
-    case ThreadOptions::Activation::kTrigger:
-      return RunOnData();
+  for (; !stopping(); first = SteadyClock().Now()) {
+    switch (runner_->options().activation) {
+      case ThreadOptions::Activation::kPeriod:
+        RunPeriodically(first);
+        break;
+      case ThreadOptions::Activation::kFreeRunning:
+        RunFreely();
+        break;
+      case ThreadOptions::Activation::kTrigger:
+        RunOnData();
+    }
+    // acq_rel: what is stored before the flag is seen by the next round, or the flag is up again then.
+    leaves_.exchange(false, std::memory_order_acq_rel);
   }
 }
 
@@ -86,10 +103,10 @@ void RealThread::RunPeriodically(Time first) {
   const SteadyClock clock;
   ThreadOptions options = runner_->options();
   DueTime due(first, options.period, options.on_overrun);
-  const auto is_disturbed = [&] { return stopping() || runner_->period() != options.period; };
+  const auto is_disturbed = [&] { return leaves() || runner_->period() != options.period; };
   for (;;) {
     const bool is_due = SleepUntil(due.next(), is_disturbed);
-    if (stopping()) return;
+    if (leaves()) return;
     if (runner_->period() != options.period) {
       options = runner_->options();
       due.Change(options.period, options.on_overrun, clock.Now());
@@ -110,7 +127,7 @@ void RealThread::RunPeriodically(Time first) {
 void RealThread::RunFreely() {
   TickClock clock;
   Time now = clock.Now();
-  while (!stopping()) {
+  while (!leaves()) {
     if (!runner_->RunCycle({now, Duration::zero()}, faults_)) {
       runner_->gate().WaitUntilOpen();
       now = clock.Now();
@@ -127,7 +144,7 @@ void RealThread::RunOnData() {
   for (;;) {
     // Data may have come while no thread was waiting for it.
     if (!runner_->is_activated()) runner_->event().Wait();
-    if (stopping()) return;
+    if (leaves()) return;
     if (!runner_->TakeActivation()) continue;
     Time now = clock.Now();
     for (; !runner_->RunCycle({now, Duration::zero()}, faults_); now = clock.Now()) {

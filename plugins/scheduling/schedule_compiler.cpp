@@ -158,6 +158,12 @@ void ScheduleCompiler::Reassign(FrameworkElement& element) noexcept {
   });
 }
 
+void ScheduleCompiler::FollowActivation(const CycleRunner& runner) noexcept {
+  if (needs_all_) return;
+  const bool waited = std::ranges::find(*waiting_, &runner) != waiting_->end();
+  if (waited != runner.waits_for_data()) NeedAll();
+}
+
 void ScheduleCompiler::Connect(const Port& from, const Port& to) noexcept {
   Follow([&] {
     ForEachPair(from, to,

@@ -51,6 +51,8 @@ class ScheduleCompiler {
   void Connect(const Port& from, const Port& to) noexcept;
   void Disconnect(const Port& from, const Port& to) noexcept;
   void Reassign(FrameworkElement& element) noexcept;
+  /// Whether its cycles wait for data may be another now; everybody has to know who does.
+  void FollowActivation(const CycleRunner& runner) noexcept;
   /// All at or below `element` is about to go: unties their trigger inputs and forgets them; the next
   /// schedules do not contain them.
   void Release(FrameworkElement& element) noexcept;

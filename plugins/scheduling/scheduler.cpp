@@ -83,6 +83,7 @@ void Scheduler::OnOptionsChanged(ThreadContainer& thread) {
   has_changes_.store(true, std::memory_order_relaxed);
   for (const auto& each : threads_) {
     if (each->runner() != thread.runner()) continue;
+    each->FollowActivation();
     if (auto warning = each->Prioritize()) {
       faults_.Note({.path = warning->path,
                     .message = warning->message,
@@ -91,6 +92,8 @@ void Scheduler::OnOptionsChanged(ThreadContainer& thread) {
                     .kind = Fault::Kind::kNote});
     }
   }
+  compiler_.FollowActivation(*thread.runner());
+  Changed();
 }
 
 void Scheduler::OnAssigned(FrameworkElement& element) {

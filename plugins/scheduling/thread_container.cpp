@@ -59,11 +59,6 @@ Result<void> ThreadContainer::Check(const ThreadOptions& options, const std::str
 }
 
 Result<void> ThreadContainer::SetOptions(const ThreadOptions& options) {
-  if (options.activation != this->options().activation) {
-    return Error{.message = "what begins the cycles of a thread cannot be changed",
-                 .path = path(),
-                 .hint = "make another thread, and move its modules there"};
-  }
   if (auto good = Check(options, path()); !good) return good;
   const std::lock_guard lock(runtime().structure_mutex());
   runner_->set_options(options);

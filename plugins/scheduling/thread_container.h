@@ -27,8 +27,7 @@ class ThreadContainer final : public FrameworkElement {
   [[nodiscard]] ThreadOptions options() const noexcept;
   /// Errors: a period that is not positive, a priority out of 0 .. 99; `path`: whose.
   [[nodiscard]] static Result<void> Check(const ThreadOptions& options, const std::string& path);
-  /// From one of the next cycles on, all but the activation, which stays as it is. Takes the structure lock. Errors: as
-  /// of the constructor; another activation.
+  /// From one of the next cycles on. Takes the structure lock. Errors: as of the constructor.
   Result<void> SetOptions(const ThreadOptions& options);
   /// Of all cycles so far. Lock-free.
   [[nodiscard]] CycleStatistics statistics() const noexcept;

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/log/log_level.h"
 #include "core/port/port.h"
 #include "core/port/port_options.h"
 #include "plugins/scheduling/thread_options.h"
@@ -113,6 +114,12 @@ struct TagElement {
   std::vector<std::string> tags;  ///< none: nothing is said any more
 };
 
+/// Says from which level on what is at and below the path logs.
+struct LogElement {
+  std::string path;                      ///< "/": of everything
+  std::optional<LogLevel> level = {};  ///< none: as what is around it
+};
+
 /// Makes a thread container.
 struct AddThread {
   std::string name;  ///< or its path
@@ -126,6 +133,7 @@ struct ScheduleThread {
   std::optional<Duration> period = {};
   std::optional<int> priority = {};
   std::optional<ThreadOptions::OnOverrun> on_overrun = {};
+  std::optional<ThreadOptions::Activation> activation = {};
 };
 
 /// What an extension of the application carries out, under the word that it has for it (ExtensionChanges): that a port is
@@ -141,7 +149,7 @@ struct ExtensionChange {
 using Change = std::variant<CreateModule, CreateGroup, CreatePort, CreateParameter, DeleteElement, ConnectPorts,
                             DisconnectPorts, SetParameter, ReplaceModule, AssignToThread,
                             AddThread, ScheduleThread, RenameElement, CopyElement, TagElement,
-                            ExtensionChange>;
+                            LogElement, ExtensionChange>;
 
 /// Changes that belong together, in the order in which they build on one another.
 using ChangeSet = std::vector<Change>;

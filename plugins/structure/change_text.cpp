@@ -6,16 +6,16 @@
 #include <utility>
 
 #include "core/base/nearest_name.h"
-#include "core/base/number_text.h"
 #include "core/types/duration_text.h"
 #include "plugins/scheduling/thread_container.h"
+#include "plugins/structure/argument_reading.h"
 #include "plugins/structure/change_arguments.h"
 
 namespace runnel {
 
 namespace {
 
-using internal::AsArgument;
+using internal::Arguments;
 using internal::ChangeArgument;
 using internal::ChangeLine;
 
@@ -28,99 +28,9 @@ Error At(const SourcePosition& position, std::string message, std::string hint) 
   return {.message = std::move(message), .position = position, .hint = std::move(hint)};
 }
 
-// The arguments of one change, taken one after the other. What is missing or wrong is remembered, the first
-// of it, so that readers read straight on.
-class Arguments {
- public:
-  Arguments(const ChangeLine& line, std::string usage) : line_(line), usage_(std::move(usage)) {}
-
-  std::string Take(const char* what) {
-    if (at_ < line_.size()) return line_[at_++].text;
-    const ChangeArgument& last = line_.back();
-    Complain(last.position, std::string(what) + " is missing after '" + last.text + "'",
-             "write: " + usage_);
-    return {};
-  }
-  [[nodiscard]] const std::string& verb() const { return line_.front().text; }
-  [[nodiscard]] bool IsAtEnd() const { return at_ == line_.size(); }
-  [[nodiscard]] bool IsNext(std::string_view text) const {
-    return at_ < line_.size() && line_[at_].text == text;
-  }
-  void Expect(const std::string& text) {
-    const ChangeArgument* argument = at_ < line_.size() ? &line_[at_] : nullptr;
-    const std::string found = Take(("'" + text + "'").c_str());
-    if (argument != nullptr && found != text) {
-      Complain(argument->position, "there should be '" + text + "' instead of '" + found + "'",
-               "write: " + usage_);
-    }
-  }
-  /// All that is left, one at least, but for options.
-  std::vector<std::string> TakeWords(const char* what) {
-    std::vector<std::string> words{Take(what)};
-    while (at_ < line_.size() && !line_[at_].equals) words.push_back(line_[at_++].text);
-    return words;
-  }
-  std::size_t TakeOneOf(const char* what, const std::vector<std::string>& names) {
-    const ChangeArgument* argument = at_ < line_.size() ? &line_[at_] : nullptr;
-    const std::string found = Take(what);
-    return argument != nullptr ? Choose(*argument, found, names) : 0;
-  }
-  /// The rest, all "name=value", goes to `take`, which says whether it has been interested.
-  template <typename TakeOption>
-  void TakeOptions(const std::vector<std::string>& names, const TakeOption& take) {
-    std::vector<std::string> seen;
-    for (; at_ < line_.size(); ++at_) {
-      const ChangeArgument& argument = line_[at_];
-      if (!argument.equals || *argument.equals == 0) {
-        Complain(argument.position, "'" + argument.text + "' is one word too many",
-                 "write: " + usage_);
-      } else if (std::ranges::count(seen, argument.name()) > 0) {
-        Complain(argument.position, "'" + argument.name() + "' is there twice",
-                 "leave one of them out");
-      } else if (!take(argument)) {
-        Complain(argument.position, "there is no option '" + argument.name() + "'",
-                 NearestNameHint(argument.name(), names));
-      }
-      seen.push_back(argument.name());
-    }
-  }
-  /// What is left has no meaning.
-  void End() {
-    TakeOptions({}, [](const ChangeArgument&) { return false; });
-  }
-
-  std::size_t Choose(const ChangeArgument& argument, const std::string& value,
-                     const std::vector<std::string>& names) {
-    const auto found = std::ranges::find(names, value);
-    if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-    Complain(argument.position, "'" + value + "' is none of the words that can stand here",
-             NearestNameHint(value, names));
-    return 0;
-  }
-  template <typename Number>
-  Number ReadCount(const ChangeArgument& argument, Number largest) {
-    const std::string text = argument.value();
-    const auto number = NumberIn<Number>(text);
-    if (number && *number <= largest) return *number;
-    Complain(argument.position, "'" + text + "' is not a count for '" + argument.name() + "'",
-             "write a whole number from 0 to " + std::to_string(largest));
-    return {};
-  }
-  void Complain(const SourcePosition& position, std::string message, std::string hint) {
-    if (!error_) error_ = At(position, std::move(message), std::move(hint));
-  }
-  [[nodiscard]] const std::optional<Error>& error() const { return error_; }
-
- private:
-  const ChangeLine& line_;
-  const std::string usage_;
-  std::size_t at_ = 1;
-  std::optional<Error> error_;
-};
-
-// period=20ms priority=10 on_overrun=skip; of a new thread activation=trigger, too.
+// period=20ms priority=10 on_overrun=skip activation=trigger
 template <typename Thread>
-void ReadThreadOptions(Arguments& arguments, Thread& thread, ThreadOptions* made) {
+void ReadThreadOptions(Arguments& arguments, Thread& thread) {
   const auto read = [&](const ChangeArgument& argument) {
     if (argument.name() == "period") {
       const auto period = ParseDuration(argument.value());
@@ -131,17 +41,15 @@ void ReadThreadOptions(Arguments& arguments, Thread& thread, ThreadOptions* made
     } else if (argument.name() == "on_overrun") {
       thread.on_overrun = static_cast<ThreadOptions::OnOverrun>(
           arguments.Choose(argument, argument.value(), OverrunNames()));
-    } else if (argument.name() == "activation" && made != nullptr) {
-      made->activation = static_cast<ThreadOptions::Activation>(
+    } else if (argument.name() == "activation") {
+      thread.activation = static_cast<ThreadOptions::Activation>(
           arguments.Choose(argument, argument.value(), ActivationNames()));
     } else {
       return false;
     }
     return true;
   };
-  std::vector<std::string> names{"period", "priority", "on_overrun"};
-  if (made != nullptr) names.emplace_back("activation");
-  arguments.TakeOptions(names, read);
+  arguments.TakeOptions({"period", "priority", "on_overrun", "activation"}, read);
 }
 
 Change ReadCreate(Arguments& arguments) {
@@ -152,7 +60,7 @@ Change ReadCreate(Arguments& arguments) {
   if (arguments.IsNext("thread")) {
     arguments.Take("thread");
     AddThread change{.name = arguments.Take("a name")};
-    ReadThreadOptions(arguments, change.options, &change.options);
+    ReadThreadOptions(arguments, change.options);
     return change;
   }
   if (arguments.IsNext("port")) {
@@ -271,9 +179,21 @@ Change ReadTag(Arguments& arguments) {
   return change;
 }
 
+Change ReadLog(Arguments& arguments) {
+  static const std::vector<std::string> levels = [] {
+    std::vector<std::string> names(LogLevelNames().begin(), LogLevelNames().end());
+    names.emplace_back("inherit");
+    return names;
+  }();
+  LogElement change{arguments.Take("a path")};
+  const std::size_t level = arguments.TakeOneOf("a level", levels);
+  if (level + 1 < levels.size()) change.level = static_cast<LogLevel>(level);
+  return change;
+}
+
 Change ReadSchedule(Arguments& arguments) {
   ScheduleThread change{.thread = arguments.Take("a thread")};
-  ReadThreadOptions(arguments, change, nullptr);
+  ReadThreadOptions(arguments, change);
   return change;
 }
 
@@ -293,7 +213,7 @@ struct Verb {
   const char *name, *usage;
   Change (*read)(Arguments& arguments);
 };
-constexpr std::array<Verb, 13> kVerbs{{
+constexpr std::array<Verb, 14> kVerbs{{
     {"create",
      "create [group] PATH TYPE [NAME=VALUE ...], or create port PATH input|output TYPE "
      "[description=TEXT], or create parameter PATH PARAMETER ... [description=TEXT], or create thread NAME "
@@ -311,9 +231,11 @@ constexpr std::array<Verb, 13> kVerbs{{
     {"copy", "copy PATH [NAME]", ReadCopy},
     {"move", "move PATH to THREAD", ReadMove},
     {"tag", "tag PATH [WORD ...]", ReadTag},
+    {"log", "log PATH debug|info|warning|error|off|inherit", ReadLog},
     {"offer", "offer PORT [NAME=VALUE ...] [stop=true]", ReadExtension<1>},
     {"take", "take TOPIC PORT [NAME=VALUE ...] [stop=true]", ReadExtension<2>},
-    {"schedule", "schedule THREAD [period=TIME] [priority=N] [on_overrun=skip|catch_up]", ReadSchedule},
+    {"schedule", "schedule THREAD [period=TIME] [activation=period|free_running|trigger] [priority=N] "
+     "[on_overrun=skip|catch_up]", ReadSchedule},
 }};
 
 Result<Change> ReadChange(const ChangeLine& line) {

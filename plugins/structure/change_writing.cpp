@@ -76,6 +76,10 @@ std::string Text(const AssignToThread& change) {
   return "move " + AsArgument(change.path) + " to " + AsArgument(change.thread);
 }
 
+std::string Text(const LogElement& change) {
+  return "log " + AsArgument(change.path) + " " +
+         (change.level ? LogLevelName(*change.level) : "inherit");
+}
 std::string Text(const TagElement& change) {
   std::string text = "tag " + AsArgument(change.path);
   for (const std::string& tag : change.tags) text += " " + AsArgument(tag);
@@ -91,11 +95,14 @@ std::string Text(const ExtensionChange& change) {
 std::string OverrunText(ThreadOptions::OnOverrun on_overrun) {
   return " on_overrun=" + OverrunNames()[static_cast<std::size_t>(on_overrun)];
 }
+std::string ActivationOption(ThreadOptions::Activation activation) {
+  return " activation=" + ActivationNames()[static_cast<std::size_t>(activation)];
+}
 std::string Text(const AddThread& change) {
   const ThreadOptions& options = change.options;
   std::string text = "create thread " + AsArgument(change.name);
   if (options.activation != ThreadOptions::Activation::kPeriod) {
-    text += " activation=" + ActivationNames()[static_cast<std::size_t>(options.activation)];
+    text += ActivationOption(options.activation);
   }
   if (options.activation != ThreadOptions::Activation::kTrigger) {
     text += " period=" + DurationText(options.period);
@@ -106,6 +113,7 @@ std::string Text(const AddThread& change) {
 }
 std::string Text(const ScheduleThread& change) {
   std::string text = "schedule " + AsArgument(change.thread);
+  if (change.activation) text += ActivationOption(*change.activation);
   if (change.period) text += " period=" + DurationText(*change.period);
   if (change.priority) text += " priority=" + std::to_string(*change.priority);
   return text + (change.on_overrun ? OverrunText(*change.on_overrun) : "");

@@ -70,6 +70,7 @@ void AddCreation(const FrameworkElement& element, ChangeSet& changes,
   if (auto tags = TagsOf(element); !tags.empty()) {
     changes.push_back(TagElement{element.path(), std::move(tags)});
   }
+  AddLogLevel(element, changes);
   const bool is_whole = !type.empty() || element.kind() != ElementKind::kGroup;
   if (is_whole) return;
   for (const FrameworkElement* each : element.children()) AddCreation(*each, changes, why_not);

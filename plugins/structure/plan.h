@@ -92,6 +92,7 @@ class Plan {
   Result<void> Check(const RenameElement& change);
   Result<void> Check(const CopyElement& change);
   Result<void> Check(const TagElement& change);
+  Result<void> Check(const LogElement& change);
   Result<void> Check(const ExtensionChange& change);
 
   // What becomes of connections that a module which takes another one's place has no port for.
@@ -106,6 +107,7 @@ class Plan {
   Result<void> MovePort(const Placement& place, Port& port);
   // What else names it by its path.
   Result<void> MoveTargets(const FrameworkElement& renamed, const std::string& path);
+  void MoveLogLevels(const std::string& from, const std::string& to);
   void MoveExtensions(const FrameworkElement& renamed, const std::string& name);
   void AddExchange(FrameworkElement& before, UnlistedElement after);
   Result<void> ExchangeComposite(FrameworkElement& before, UnlistedElement after, Misfits misfits);

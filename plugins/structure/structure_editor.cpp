@@ -18,6 +18,19 @@ namespace {
 // How often others may change the structure between checking and carrying out before it is given up.
 constexpr int kAttempts = 100;
 
+// Modules that never run from now on, because their thread waits for data that cannot come.
+void WarnOfIdleModules(const ChangeSet& changes, Scheduler& scheduler, Diagnostics& diagnostics) {
+  for (const Change& each : changes) {
+    const auto* const change = std::get_if<ScheduleThread>(&each);
+    if (change == nullptr || change->activation != ThreadOptions::Activation::kTrigger) continue;
+    const std::string name = change->thread.substr(change->thread.rfind('/') + 1);
+    for (const Error& warning : scheduler.Warnings()) {
+      const bool is_of_it = warning.message.find("/" + name + " waits for data") != std::string::npos;
+      if (is_of_it) diagnostics.AddWarning(warning);
+    }
+  }
+}
+
 }  // namespace
 
 // Shared with the scheduler's fault handler, so that a fault that is just being answered when the editor
@@ -131,6 +144,7 @@ StructureEditor::Attempt StructureEditor::Try(const ChangeRequest& request,
     }
   }
   outcome.is_done = true;
+  if (scheduler_ != nullptr) WarnOfIdleModules(request.changes, *scheduler_, outcome.diagnostics);
   if (hold) {
     outcome.hold_time = SteadyClock().Now() - hold->began();
     hold->Release();

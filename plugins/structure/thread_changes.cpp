@@ -18,6 +18,17 @@ std::string PathOfThread(const std::string& name) {
   return name.find('/') != std::string::npos ? name : std::string(kThreads) + "/" + name;
 }
 
+// Whether any other thread begins cycles by itself.
+bool IsLastToBegin(const ThreadContainer& thread) {
+  bool is_last = true;
+  thread.runtime().root().Visit([&](FrameworkElement& each) {
+    const auto* const other = dynamic_cast<const ThreadContainer*>(&each);
+    if (other == nullptr || other == &thread) return;
+    if (other->options().activation != ThreadOptions::Activation::kTrigger) is_last = false;
+  });
+  return is_last;
+}
+
 }  // namespace
 
 Result<void> Plan::Check(const AddThread& change) {
@@ -50,8 +61,18 @@ Result<void> Plan::Check(const ScheduleThread& change) {
   wanted.period = change.period.value_or(wanted.period);
   wanted.priority = change.priority.value_or(wanted.priority);
   wanted.on_overrun = change.on_overrun.value_or(wanted.on_overrun);
+  wanted.activation = change.activation.value_or(wanted.activation);
   if (change.period && wanted.activation == ThreadOptions::Activation::kTrigger) {
-    return Error{.message = "a thread that waits for data has no period", .path = thread->path()};
+    return Error{.message = "a thread that waits for data has no period",
+                 .path = thread->path(),
+                 .hint = "leave out the period, or say activation=period, too"};
+  }
+  // Nothing would come from anywhere in simulated time, which ends then.
+  const bool is_simulated = dynamic_cast<const ManualClock*>(&runtime_.clock()) != nullptr;
+  if (is_simulated && change.activation == ThreadOptions::Activation::kTrigger && IsLastToBegin(*thread)) {
+    return Error{.message = "no thread would be left that begins cycles without data: simulated time would end",
+                 .path = thread->path(),
+                 .hint = "make another one first: create thread NAME period=10ms"};
   }
   if (auto good = ThreadContainer::Check(wanted, thread->path()); !good) return good;
   auto before = std::make_shared<std::optional<ThreadOptions>>();
@@ -65,7 +86,9 @@ Result<void> Plan::Check(const ScheduleThread& change) {
                     [=](auto&) -> ChangeSet {
                       const ThreadOptions now = thread->options();
                       ScheduleThread back{.thread = thread->path()};
-                      if (change.period) back.period = now.period;
+                      const bool has_period = now.activation != ThreadOptions::Activation::kTrigger;
+                      if (change.period && has_period) back.period = now.period;
+                      if (change.activation) back.activation = now.activation;
                       if (change.priority) back.priority = now.priority;
                       if (change.on_overrun) back.on_overrun = now.on_overrun;
                       return {back};

@@ -7,6 +7,7 @@
 #include "core/element/runtime.h"
 #include "core/types/builtin_types.h"
 #include "core/types/type_of.h"
+#include "plugins/manifest/plugin_manifest.h"
 
 namespace runnel {
 
@@ -46,15 +47,37 @@ void MakeKnown() {
   ((void)TypeOf<Types>(), ...);
 }
 
-void MakePortTypesKnown(const ModuleRegistry& modules) {
+void MakeBuiltinTypesKnown() {
   MakeKnown<bool, std::int8_t, std::int16_t, std::int32_t, std::int64_t, std::uint8_t,
             std::uint16_t, std::uint32_t, std::uint64_t, float, double, std::string, Duration,
             Time>();
-  std::thread([&modules] {
+}
+
+bool HasType(const ModuleDescription& module, std::string_view type) {
+  return std::ranges::find(module.ports, type, &ModuleDescription::Port::type) != module.ports.end() ||
+         std::ranges::find(module.parameters, type, &ModuleDescription::Parameter::type) !=
+             module.parameters.end();
+}
+
+// A type is known once a module that has it has been made. Which modules have it, the manifests of plugins say; only
+// what none of them says, as types within others, is found by making all.
+void MakePortTypeKnown(std::string_view type, const PluginManager& plugins) {
+  const ModuleRegistry& modules = plugins.modules();
+  std::thread([&] {
     Runtime scratch;
-    for (const ModuleType* type : modules.All()) {
+    ModuleDescriber describer(scratch, modules, [&](const std::string& plugin) {
+      const auto file = plugins.FindFile(plugin);
+      return file ? file->string() : "";
+    });
+    for (const ModuleType* each : modules.All()) {
+      const auto description = describer.Describe(each->name);
+      if (!description || !HasType(*description, type)) continue;
+      (void)modules.CreateSample(each->name, scratch.root());
+      if (FindType(type) != nullptr) return;
+    }
+    for (const ModuleType* each : modules.All()) {
       // One that cannot be made here brings no type; if the application asks for it, that is told.
-      (void)modules.CreateSample(type->name, scratch.root());
+      (void)modules.CreateSample(each->name, scratch.root());
     }
   }).join();
 }
@@ -75,7 +98,9 @@ Result<void> CheckModuleType(std::string_view type, const PluginManager& plugins
 
 Result<void> CheckPortType(std::string_view type, const PluginManager& plugins) {
   if (FindType(type) != nullptr) return {};
-  MakePortTypesKnown(plugins.modules());
+  MakeBuiltinTypesKnown();
+  if (FindType(type) != nullptr) return {};
+  MakePortTypeKnown(type, plugins);
   if (FindType(type) != nullptr) return {};
   const std::string nearest = NearestName(type, PortTypeNames());
   return Error{.message = "there is no type '" + std::string(type) + "'",

@@ -90,14 +90,15 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
        "plugins/finroc_files",
        {"core", "plugins/parameters", "plugins/application_files", "plugins/scheduling", "plugins/timing"}});
   rules.push_back({"plugins/timing", "plugins/timing", {"core"}});
-  rules.push_back({"plugins/scheduling", "plugins/scheduling", {"core", "plugins/timing"}});
+  rules.push_back({"plugins/task_order", "plugins/task_order", {"core"}});
+  rules.push_back({"plugins/scheduling", "plugins/scheduling", {"core", "plugins/task_order", "plugins/timing"}});
   rules.push_back(
       {"plugins/real_time_check", "plugins/real_time_check", {"core", "plugins/scheduling", "plugins/timing"}});
   rules.push_back({"plugins/testing",
                    "plugins/testing",
                    {"core", "plugins/real_time_check", "plugins/scheduling", "plugins/timing"}});
   rules.push_back({"plugins/crash_report", "plugins/crash_report", {"core", "plugins/scheduling", "plugins/timing"}});
-  rules.push_back({"plugins/structure", "plugins/structure", {"core", "plugins/scheduling", "plugins/timing"}});
+  rules.push_back({"plugins/structure", "plugins/structure", {"core", "plugins/manifest", "plugins/scheduling", "plugins/timing"}});
   rules.push_back(
       {"plugins/tracing", "plugins/tracing", {"core", "plugins/values", "plugins/scheduling", "plugins/timing"}});
   rules.push_back({"plugins/command_service",

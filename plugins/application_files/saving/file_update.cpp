@@ -113,7 +113,8 @@ void FileUpdate::UpdateAttributes(XmlElement tag, const XmlTag& known, const Sav
                                      : !wanted->is_default)) {
       saving_.CheckAttribute(rule, wanted->value,
                              saved.element != nullptr ? *saved.element : about);
-      editor_.SetAttribute(tag, rule.name, wanted->value);
+      wanted->is_default ? editor_.RemoveAttribute(tag, rule.name)
+                         : editor_.SetAttribute(tag, rule.name, wanted->value);
     }
   }
 }

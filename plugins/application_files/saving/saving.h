@@ -1,11 +1,13 @@
 #pragma once
 
+#include <any>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <typeindex>
 #include <vector>
 
 #include "core/element/configurable.h"
@@ -43,7 +45,14 @@ struct Saving {
   /// Of the modules that the text names anew.
   std::set<std::string> plugins = {};
   std::optional<Error> error = {};  ///< the first
+  std::map<std::type_index, std::any> notes = {};
 
+  /// What those who write one kind of word note for one another; empty when it is first asked for.
+  template <typename Notes>
+  [[nodiscard]] Notes& Note() {
+    std::any& found = notes[typeid(Notes)];
+    return found.has_value() ? *std::any_cast<Notes>(&found) : found.emplace<Notes>();
+  }
   void Fail(Error reason) {
     if (!error) error = std::move(reason);
   }

@@ -98,6 +98,15 @@ Change ReadReplace(JsonMembers& m) {
 Change ReadMove(JsonMembers& m) { return AssignToThread{m.NeedText("path"), m.NeedText("thread")}; }
 Change ReadRename(JsonMembers& m) { return RenameElement{m.NeedText("path"), m.NeedText("name")}; }
 Change ReadTag(JsonMembers& m) { return TagElement{m.NeedText("path"), TagsInText(m.NeedText("tags"))}; }
+Change ReadLog(JsonMembers& m) {
+  std::vector<std::string> levels(LogLevelNames().begin(), LogLevelNames().end());
+  levels.emplace_back("inherit");
+  LogElement change{m.NeedText("path")};
+  (void)m.NeedText("level");
+  const auto level = OneOf<LogLevel>(m, "level", levels);
+  if (static_cast<std::size_t>(level) + 1 < levels.size()) change.level = level;
+  return change;
+}
 Change ReadCopy(JsonMembers& m) { return CopyElement{m.NeedText("path"), m.Text("name").value_or("")}; }
 
 // Of the network.
@@ -122,14 +131,18 @@ Change ReadCreateThread(JsonMembers& m) {
   return change;
 }
 Change ReadSchedule(JsonMembers& m) {
-  return ScheduleThread{.thread = m.NeedText("path"), .period = PeriodIn(m), .priority = PriorityIn(m)};
+  ScheduleThread change{.thread = m.NeedText("path"), .period = PeriodIn(m), .priority = PriorityIn(m)};
+  if (m.Find("activation") != nullptr) {
+    change.activation = OneOf<ThreadOptions::Activation>(m, "activation", ActivationNames());
+  }
+  return change;
 }
 
 struct Kind {
   std::string_view name;
   Change (*read)(JsonMembers& members);
 };
-constexpr std::array<Kind, 17> kKinds{{{"create", ReadCreate},
+constexpr std::array<Kind, 18> kKinds{{{"create", ReadCreate},
                                        {"create_group", ReadCreateGroup},
                                        {"create_port", ReadCreatePort},
                                        {"create_parameter", ReadCreateParameter},
@@ -141,6 +154,7 @@ constexpr std::array<Kind, 17> kKinds{{{"create", ReadCreate},
                                        {"move", ReadMove},
                                        {"rename", ReadRename},
                                        {"tag", ReadTag},
+                                       {"log", ReadLog},
                                        {"copy", ReadCopy},
                                        {"offer", ReadOffer},
                                        {"take", ReadTake},

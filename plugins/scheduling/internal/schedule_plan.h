@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "plugins/scheduling/cycle_runner.h"
-#include "plugins/scheduling/internal/running_order.h"
+#include "plugins/task_order/running_order.h"
 #include "plugins/scheduling/schedule.h"
 
 namespace runnel::internal {

@@ -174,7 +174,16 @@ test('ports of different types are connected by a part of the values, and a modu
   await page.locator('.choice-search').fill('heading');
   await page.keyboard.press('Enter');
   await inspector.closed();
-  await page.locator('[data-edge="/bug_demo/localisation/output/pose → /bug_demo/calm/input/in"]').waitFor({ state: 'attached' });
+  const edge = '/bug_demo/localisation/output/pose → /bug_demo/calm/input/in';
+  await page.locator(`[data-edge="${edge}"]`).waitFor({ state: 'attached' });
+  await inspector.select('/bug_demo/calm/input/in');
+  await inspector.details.locator('.connections button').first().click();
+  await inspector.details.locator('.facts', { hasText: 'heading' }).waitFor();
+  await page.locator('#convert').click();
+  await page.locator('.choice-search').fill('y');
+  await page.keyboard.press('Enter');
+  await inspector.closed();
+  await inspector.details.locator('.facts dd', { hasText: /\.?y\b/ }).first().waitFor();
   await inspector.select('/bug_demo/calm');
   await page.locator('#tags').fill('new slow');
   await page.keyboard.press('Enter');
@@ -192,6 +201,16 @@ test('from which level on a module logs is chosen, and stays after a reload', as
   await page.reload();
   await inspector.select('/bug_demo/robot/planner');
   await inspector.until('the level again', () => document.querySelector('#log-level').value === 'debug');
+});
+
+test('what begins the cycles of a thread is chosen', async (t) => {
+  const { inspector, page } = await Demo(t);
+  await inspector.select('/bug_demo/threads/control');
+  await inspector.until('the activation', () => document.querySelector('#thread-activation')?.value === 'period');
+  await page.locator('#thread-activation').selectOption('free_running');
+  await inspector.until('no period', () => document.querySelector('#thread-period') === null);
+  await page.locator('#thread-activation').selectOption('period');
+  await inspector.until('a period', () => document.querySelector('#thread-period')?.value === '50');
 });
 
 test('what a full queue loses is counted', async (t) => {

@@ -174,6 +174,9 @@ TEST_F(ControlTest, SaysFromWhichLevelOnModulesAreLogged) {
                                    testing::Pair("/app/a", LogLevel::kDebug)));
   EXPECT_EQ(Ask("log level=/a=inherit").output, "/app/a: logs as what is around it\n");
   EXPECT_THAT(ReadLogLevels(runtime), testing::ElementsAre(testing::Pair("", LogLevel::kError)));
+  EXPECT_THAT(Ask("undo").output, HasSubstr("undone: log /a inherit"));
+  EXPECT_THAT(ReadLogLevels(runtime), testing::SizeIs(2));
+  EXPECT_EQ(Ask("redo").code, 0);
   EXPECT_THAT(Ask("log level=/a=loud").errors, HasSubstr("there is no log level 'loud'"));
   EXPECT_THAT(Ask("log level=/aa=info").errors, HasSubstr("did you mean 'a'?"));
   EXPECT_EQ(Ask("log level=/aa=info").code, 2);

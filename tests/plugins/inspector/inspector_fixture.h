@@ -25,8 +25,8 @@
 #include "plugins/parameters/static_parameter.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/structure/change_history.h"
-#include "plugins/structure/change_text.h"
 #include "plugins/web_server/web_server.h"
+#include "tests/plugins/inspector/change_message.h"
 #include "tests/plugins/web_server/raw_client.h"
 
 namespace runnel::test {
@@ -35,7 +35,6 @@ using namespace std::chrono_literals;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using Json = nlohmann::json;
 
 /// Publishes 1, 2, 3 …
 class Counter : public Module {
@@ -101,90 +100,6 @@ class Lists final : public Module {
     list.Publish(std::move(loan));
   }
 };
-
-/// A change in its text format, which is shorter to write, as the protocol has it.
-inline Json ChangeMessage(const std::string& text) {
-  Diagnostics diagnostics;
-  const PlacedChanges placed = ParseChanges(text, {}, diagnostics);
-  if (!diagnostics.ok() || placed.changes.size() != 1) {
-    ADD_FAILURE() << "no change: " << text;
-    return {};
-  }
-  struct Writer {
-    Json operator()(const CreateModule& change) const {
-      Json json{{"change", "create"}, {"path", change.path}, {"type", change.type}};
-      for (const auto& [name, value] : change.settings) json["settings"][name] = value;
-      return json;
-    }
-    Json operator()(const CreateGroup& change) const {
-      return {{"change", "create_group"}, {"path", change.path}};
-    }
-    Json operator()(const CreatePort& change) const {
-      const bool is_input = change.direction == Port::Direction::kInput;
-      return {{"change", "create_port"},
-              {"path", change.path},
-              {"direction", is_input ? "input" : "output"},
-              {"type", change.type}};
-    }
-    Json operator()(const CreateParameter& change) const {
-      return {{"change", "create_parameter"}, {"path", change.path}, {"targets", change.targets}};
-    }
-    Json operator()(const DeleteElement& change) const {
-      return {{"change", "delete"}, {"path", change.path}};
-    }
-    Json operator()(const ConnectPorts& change) const {
-      return {{"change", "connect"},
-              {"from", change.from},
-              {"to", change.to},
-              {"queue", change.options.queue}};
-    }
-    Json operator()(const DisconnectPorts& change) const {
-      return {{"change", "disconnect"}, {"from", change.from}, {"to", change.to}};
-    }
-    Json operator()(const SetParameter& change) const {
-      return {{"change", "set"}, {"path", change.path}, {"value", change.value}};
-    }
-    Json operator()(const ReplaceModule& change) const {
-      return {{"change", "replace"},
-              {"path", change.path},
-              {"type", change.type},
-              {"probation", change.probation_cycles}};
-    }
-    Json operator()(const AssignToThread& change) const {
-      return {{"change", "move"}, {"path", change.path}, {"thread", change.thread}};
-    }
-    Json operator()(const RenameElement& change) const {
-      return {{"change", "rename"}, {"path", change.path}, {"name", change.name}};
-    }
-    Json operator()(const TagElement& change) const {
-      std::string tags;
-      for (const std::string& tag : change.tags) tags += (tags.empty() ? "" : " ") + tag;
-      return {{"change", "tag"}, {"path", change.path}, {"tags", tags}};
-    }
-    Json operator()(const ExtensionChange& change) const {
-      Json json{{"change", change.verb}, {"words", change.words}};
-      for (const auto& [name, value] : change.settings) json["settings"][name] = value;
-      return json;
-    }
-    Json operator()(const CopyElement& change) const {
-      return {{"change", "copy"}, {"path", change.path}, {"name", change.name}};
-    }
-    Json operator()(const AddThread& change) const {
-      return {{"change", "create_thread"},
-              {"path", change.name},
-              {"activation", ActivationNames()[static_cast<std::size_t>(change.options.activation)]},
-              {"period", ToSeconds(change.options.period)},
-              {"priority", change.options.priority}};
-    }
-    Json operator()(const ScheduleThread& change) const {
-      Json json{{"change", "schedule"}, {"path", change.thread}};
-      if (change.period) json["period"] = ToSeconds(*change.period);
-      if (change.priority) json["priority"] = *change.priority;
-      return json;
-    }
-  };
-  return std::visit(Writer{}, placed.changes.front());
-}
 
 /// A viewer as the protocol has it.
 class Viewer {

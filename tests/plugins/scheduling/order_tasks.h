@@ -9,7 +9,7 @@
 #include "core/base/error.h"
 #include "core/module/executable.h"
 #include "core/port/port.h"
-#include "plugins/scheduling/internal/running_order.h"
+#include "plugins/task_order/running_order.h"
 #include "plugins/scheduling/internal/trigger_binding.h"
 
 namespace runnel::testing {

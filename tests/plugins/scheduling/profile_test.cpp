@@ -146,7 +146,6 @@ TEST_F(Measured, AThreadGetsAnotherPeriodWhileItRuns) {
   scheduler.RunUntil(At(200));
   EXPECT_EQ(sensor.out.publications(), before + 50);
   EXPECT_FALSE(fast.SetOptions({.period = 0ms}));
-  EXPECT_FALSE(fast.SetOptions({.activation = ThreadOptions::Activation::kTrigger}));
   EXPECT_FALSE(fast.SetOptions({.priority = 100}));
   EXPECT_EQ(fast.options().period, 2ms);
 }

@@ -1,4 +1,5 @@
 #include "core/element/tags.h"
+#include "core/log/log_levels.h"
 #include "core/paths/late_connections.h"
 #include "plugins/structure/change_history.h"
 
@@ -150,6 +151,57 @@ TEST_F(ChangeHistoryTest, ThreadsComeGoAndChange) {
   EXPECT_FALSE(history.Apply({ScheduleThread{.thread = "brisl", .period = 1ms}}));
   EXPECT_FALSE(history.Apply({AddThread{"brisk", {}}})) << "there is one";
   EXPECT_FALSE(history.Apply({AddThread{"/app/other", {}}})) << "threads are among threads";
+}
+
+TEST_F(ChangeHistoryTest, ThreadsBeginTheirCyclesOtherwise) {
+  using Activation = ThreadOptions::Activation;
+  MustDo({AddThread{"brisk", {.period = 5ms}}, CreateModule{"/app/a", "test/counter"},
+          AssignToThread{"/app/a", "brisk"}});
+  const auto options = [&] { return At<ThreadContainer>("/threads/brisk").options(); };
+  const auto waits = history.Apply({ScheduleThread{.thread = "brisk", .activation = Activation::kTrigger}});
+  MustBe(waits);
+  EXPECT_THAT(waits.diagnostics.ToString(), HasSubstr("/app/a: is never run: its thread /threads/brisk waits for data"));
+  EXPECT_EQ(options().activation, Activation::kTrigger);
+  const auto wrong = history.Apply({ScheduleThread{.thread = "brisk", .period = 1ms}});
+  EXPECT_THAT(wrong.diagnostics.ToString(), HasSubstr("say activation=period, too"));
+  MustDo({ScheduleThread{.thread = "brisk", .period = 1ms, .activation = Activation::kFreeRunning}});
+  EXPECT_EQ(options().period, 1ms);
+  MustBe(history.Undo());
+  EXPECT_EQ(options().activation, Activation::kTrigger);
+  MustBe(history.Undo());
+  EXPECT_EQ(options().activation, Activation::kPeriod);
+  MustBe(history.Redo());
+  MustBe(history.Redo());
+  EXPECT_EQ(options().activation, Activation::kFreeRunning);
+  EXPECT_EQ(options().period, 1ms);
+  MustDo({DeleteElement{"/threads/brisk"}, ScheduleThread{.thread = "fast", .activation = Activation::kTrigger}});
+  const auto last = history.Apply({ScheduleThread{.thread = "slow", .activation = Activation::kTrigger}});
+  EXPECT_FALSE(last);
+  EXPECT_THAT(last.diagnostics.ToString(), HasSubstr("/threads/slow: no thread would be left that begins cycles"));
+}
+
+TEST_F(ChangeHistoryTest, WhatIsLoggedIsUndoneAndGoesWithItsElement) {
+  using enum LogLevel;
+  const auto levels = [&] { return ReadLogLevels(runtime); };
+  MustDo({CreateGroup{"/app/g"}, CreateModule{"/app/g/a", "test/counter"}});
+  MustDo({LogElement{"/app/g", kDebug}, LogElement{"/app/g/a", kError}, LogElement{"/", kOff}});
+  EXPECT_EQ(levels(), (LogLevels{{"", kOff}, {"/app/g", kDebug}, {"/app/g/a", kError}}));
+  MustDo({LogElement{"/app/g/a"}, LogElement{"/app/g", kWarning}});
+  EXPECT_EQ(levels(), (LogLevels{{"", kOff}, {"/app/g", kWarning}}));
+  MustBe(history.Undo());
+  EXPECT_EQ(levels(), (LogLevels{{"", kOff}, {"/app/g", kDebug}, {"/app/g/a", kError}}));
+  MustDo({RenameElement{"/app/g", "front"}});
+  EXPECT_EQ(levels(), (LogLevels{{"", kOff}, {"/app/front", kDebug}, {"/app/front/a", kError}}));
+  MustBe(history.Undo());
+  EXPECT_EQ(levels(), (LogLevels{{"", kOff}, {"/app/g", kDebug}, {"/app/g/a", kError}}));
+  MustDo({CopyElement{"/app/g", "other"}});
+  EXPECT_EQ(levels().size(), 5U) << "a copy logs as what it was made like";
+  MustBe(history.Undo());
+  MustDo({DeleteElement{"/app/g"}});
+  MustBe(history.Undo());
+  EXPECT_EQ(levels()[2].second, kError);
+  MustBe(history.Undo());
+  EXPECT_THAT(history.Apply({LogElement{"/app/gg", kDebug}}).diagnostics.ToString(), HasSubstr("did you mean 'g'?"));
 }
 
 TEST_F(ChangeHistoryTest, PutsTheOldTypeBackWithItsValues) {

@@ -62,9 +62,25 @@ TEST(ChangeText, ReadsWhatIsSaidOfThreads) {
   EXPECT_EQ(schedule.period, std::chrono::milliseconds(2));
   EXPECT_FALSE(schedule.priority);
   EXPECT_EQ(ChangeText(schedule), "schedule /threads/fast period=2ms");
+  const auto otherwise = ParseOne<ScheduleThread>("schedule fast activation=trigger");
+  EXPECT_EQ(otherwise.activation, ThreadOptions::Activation::kTrigger);
+  EXPECT_EQ(ChangeText(otherwise), "schedule fast activation=trigger");
+  EXPECT_THAT(ErrorOf("schedule fast activation=triger"), HasSubstr("did you mean 'trigger'?"));
   EXPECT_THAT(ErrorOf("schedule fast perod=2ms"), HasSubstr("did you mean 'period'?"));
   EXPECT_THAT(ErrorOf("schedule fast priority=100"), HasSubstr("from 0 to 99"));
   EXPECT_THAT(ErrorOf("create thread fast activation=always"), HasSubstr("'always'"));
+}
+
+TEST(ChangeText, ReadsFromWhichLevelOnIsLogged) {
+  const auto debug = ParseOne<LogElement>("log /robot debug");
+  EXPECT_EQ(debug.path, "/robot");
+  EXPECT_EQ(debug.level, LogLevel::kDebug);
+  EXPECT_EQ(ChangeText(debug), "log /robot debug");
+  const auto inherits = ParseOne<LogElement>("log / inherit");
+  EXPECT_FALSE(inherits.level);
+  EXPECT_EQ(ChangeText(inherits), "log / inherit");
+  EXPECT_THAT(ErrorOf("log /robot warn"), HasSubstr("did you mean 'warning'?"));
+  EXPECT_THAT(ErrorOf("log /robot"), HasSubstr("a level is missing"));
 }
 
 TEST(ChangeText, ReadsTheCreationOfGroupsAndPorts) {

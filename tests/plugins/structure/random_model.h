@@ -215,6 +215,7 @@ class StructureModel {
   static bool Do(const RenameElement&) { return false; }
   static bool Do(const CopyElement&) { return false; }
   static bool Do(const TagElement&) { return false; }
+  static bool Do(const LogElement&) { return false; }
   static bool Do(const ExtensionChange&) { return false; }
   bool Do(const AssignToThread& change) {
     const auto found = elements_.find(change.path);

@@ -2,7 +2,8 @@
 
 import { useState } from 'preact/hooks';
 import { html } from 'htm/preact';
-import { SetPull, SetQueue } from '../state/actions.js';
+import { Conversions, SetPull, SetQueue } from '../state/actions.js';
+import { openDialog } from '../state/choices.js';
 import { DisconnectCarefully } from '../state/careful.js';
 import { canChange, structure } from '../state/store.js';
 import { ConnectionKey } from '../model/structure.js';
@@ -25,7 +26,9 @@ export function ConnectionDetails({ connection }) {
       onClick=${() => DisconnectCarefully(from, to)} />
       ${canPull && html`<${ActionButton} id="pull" icon="plug" text=${pull ? 'Push' : 'Pull'} disabled=${!canChange.value}
         title=${pull ? 'Let the output publish when it has a value' : 'Have a value made when the input is read'}
-        onClick=${() => SetPull(connection, !pull)} />`}</div>
+        onClick=${() => SetPull(connection, !pull)} />`}
+      ${connection.conversion && html`<${ActionButton} id="convert" icon="swap" text="Convert" disabled=${!canChange.value}
+        title="Choose another part of the values, or another conversion" onClick=${() => ChooseConversion(connection)} />`}</div>
     <${Queue} key=${`${connection.queue} ${connection.on_full}`} connection=${connection} />
     <${Facts} facts=${[
       ['from', html`<${Link} path=${from} text=${name(from)} />`], ['to', html`<${Link} path=${to}
@@ -39,6 +42,12 @@ export function ConnectionDetails({ connection }) {
     ]} />
     <${Section} title="Value">${item ? html`<${ValueTable} port=${from} type=${type} value=${item.value} />`
       : html`<p class="none">nothing has come yet</p>`}<//>`;
+}
+
+async function ChooseConversion(connection) {
+  const { from, to } = connection;
+  const reply = await Conversions(from, to);
+  if (reply.ok) openDialog.value = { kind: 'convert', from, to, conversions: reply.conversions, connection };
 }
 
 const kOnFull = { drop_oldest: 'the oldest is dropped', drop_newest: 'the newest is dropped', refuse: 'the publisher is refused' };

@@ -1,4 +1,4 @@
-// A thread: its period, how well it keeps it, and what it runs.
+// A thread: what begins its cycles, its period, how well it keeps it, and what it runs.
 
 import { html } from 'htm/preact';
 import { FreeName } from '../model/changes.js';
@@ -7,6 +7,8 @@ import { FormatMilliseconds } from '../model/value_format.js';
 import { CreateThread, Delete, PauseElement, ResumeElement, Schedule } from '../state/actions.js';
 import { canChange, revision, structure, threadStatistics } from '../state/store.js';
 import { ActionButton, Facts, Link, Section, Title } from './parts.js';
+
+const kActivations = { period: 'every period', free_running: 'at the end of the last', trigger: 'when data comes' };
 
 export function ThreadDetails({ element }) {
   revision.value;
@@ -25,10 +27,13 @@ export function ThreadDetails({ element }) {
       <${ActionButton} id="delete" icon="trash" text="Delete" disabled=${locked} onClick=${() => Delete(element.path)} />
     </div>
     <${Facts} facts=${[
+      ['cycles begin', html`<select id="thread-activation" aria-label="Cycles begin" disabled=${locked}
+          value=${element.activation} onChange=${(event) => Schedule(element.path, { activation: event.target.value })}>
+        ${Object.entries(kActivations).map(([name, text]) =>
+          html`<option key=${name} value=${name}>${text}</option>`)}</select>`],
       ['period', element.period ? html`<input id="thread-period" type="number" min="0.001" step="any" aria-label="Period in ms"
           value=${element.period * 1000} disabled=${locked}
-          onChange=${(event) => Schedule(element.path, { period: Number(event.target.value) / 1000 })} /> ms`
-        : 'by data, or free-running'],
+          onChange=${(event) => Schedule(element.path, { period: Number(event.target.value) / 1000 })} /> ms` : null],
       ['priority', html`<input id="thread-priority" type="number" min="0" max="99" aria-label="Priority"
           value=${element.priority} disabled=${locked}
           onChange=${(event) => Schedule(element.path, { priority: Number(event.target.value) })} />`],

@@ -36,7 +36,7 @@ function Row({ thread, brief, modules }) {
     <th scope="row"><button class="link" aria-pressed=${isSelected}
         onClick=${() => { selected.value = isSelected ? null : thread.path; }}>
       <i style=${{ background: ThreadColour(thread.name) }}></i>${thread.name}</button></th>
-    <td>${thread.period ? FormatMilliseconds(thread.period * 1000) : 'by data'}</td>
+    <td>${thread.period ? FormatMilliseconds(thread.period * 1000) : thread.activation === 'free_running' ? 'free-running' : 'by data'}</td>
     <td>${FormatMilliseconds(statistics?.duration_ms?.mean)}${load !== null && !brief && html`
       <span class="load" title=${`${load.toFixed(1)} % of the period`}><i
           style=${{ width: `${Math.min(100, load)}%` }}></i></span>`}</td>

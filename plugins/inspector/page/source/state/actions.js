@@ -74,6 +74,11 @@ export function SetPull(connection, pull) {
   return Reconnect(connection, { pull }, `${pull ? 'pull' : 'push'} from ${Brief(connection.from)} to ${Brief(connection.to)}`);
 }
 
+/** Another part of the values, or by another conversion. */
+export function SetConversion(connection, { part, convert }) {
+  return Reconnect({ ...connection, part }, { convert }, `convert ${Brief(Part(connection.from, part))} for ${Brief(connection.to)}`);
+}
+
 export function SetTags(path, tags) {
   return Apply([Change.tag(path, tags)], tags === '' ? `take away the tags of ${NameOf(path)}` : `tag ${NameOf(path)} ${tags}`);
 }

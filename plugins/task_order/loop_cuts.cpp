@@ -1,4 +1,4 @@
-#include "plugins/scheduling/internal/loop_cuts.h"
+#include "plugins/task_order/loop_cuts.h"
 
 #include <algorithm>
 #include <atomic>

@@ -1,7 +1,7 @@
 // The order of tasks and connections that come and go, against the rules carried out as they are
 // written, and against that of the same tasks and connections in a new order.
 
-#include "plugins/scheduling/internal/running_order.h"
+#include "plugins/task_order/running_order.h"
 
 #include <algorithm>
 #include <deque>
@@ -11,7 +11,7 @@
 
 #include <gmock/gmock.h>
 
-#include "tests/plugins/scheduling/running_order_graph.h"
+#include "tests/plugins/task_order/running_order_graph.h"
 
 namespace runnel::internal {
 namespace {

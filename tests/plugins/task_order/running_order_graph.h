@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugins/scheduling/internal/running_order.h"
+#include "plugins/task_order/running_order.h"
 
 namespace runnel::internal {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "plugins/scheduling/internal/running_order.h"
+#include "plugins/task_order/running_order.h"
 
 namespace runnel::internal {
 

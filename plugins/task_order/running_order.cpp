@@ -1,4 +1,4 @@
-#include "plugins/scheduling/internal/running_order.h"
+#include "plugins/task_order/running_order.h"
 
 #include <algorithm>
 #include <queue>
@@ -6,7 +6,7 @@
 
 #include "core/base/check.h"
 #include "core/port/port.h"
-#include "plugins/scheduling/internal/loop_cuts.h"
+#include "plugins/task_order/loop_cuts.h"
 
 namespace runnel::internal {
 
