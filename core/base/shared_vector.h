@@ -120,10 +120,9 @@ class SharedVector {
   void shrink_to_fit() {
     if (!is_reference()) Change([](auto& own) { own.shrink_to_fit(); });
   }
-  void resize(size_type count) {
-    Change([&](auto& own) { own.resize(count); });
-  }
+  void resize(size_type count) { resize(count, T{}); }
   void resize(size_type count, T value) {
+    if (is_reference()) MakeOwn(count);
     Change([&](auto& own) { own.resize(count, value); });
   }
   void push_back(T value) {
@@ -190,25 +189,26 @@ class SharedVector {
   }
   [[nodiscard]] T* Writable() {
     if (is_reference()) [[unlikely]]
-      MakeOwn();
+      MakeOwn(size_);
     return const_cast<T*>(first_);  // of own_
   }
-  [[gnu::noinline]] void MakeOwn() {
-    own_.assign(first_, first_ + size_);
+  // The first `most`: what goes anyway is not copied.
+  [[gnu::noinline]] void MakeOwn(size_type most) {
+    own_.assign(first_, first_ + std::min(most, size_));
     holder_.reset();
     LookAtOwn();
   }
   template <typename Action>
   void Change(Action&& change) {
-    if (is_reference()) MakeOwn();
+    if (is_reference()) MakeOwn(size_);
     change(own_);
     LookAtOwn();
   }
-  // With what is there no more needed; it is kept as long as it may be copied from.
+  // With what is there no more needed, unless it is copied from, or there is no memory.
   template <typename Action>
   void Replace(Action&& replace) {
-    const auto kept = std::move(holder_);
     replace(own_);
+    holder_.reset();
     LookAtOwn();
   }
   [[nodiscard]] size_type Checked(size_type index) const {

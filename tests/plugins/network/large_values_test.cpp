@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 
@@ -82,6 +83,19 @@ TEST_F(LargeValuesTest, ACopyOfTheValueKeepsItToo) {
   EXPECT_TRUE(IsAll(copy, 7));
   EXPECT_FALSE(changed.values.is_reference());
   EXPECT_EQ(changed.values[1], 7);
+}
+
+TEST_F(LargeValuesTest, WhoHoldsManyHasTheOthersCopied) {
+  using Held = decltype(reading_.module.wanted.Read());
+  std::vector<Held> leases;
+  for (int i = 1; i <= 40; ++i) {
+    Publish(i);
+    WaitForNumber(reading_, i);
+    leases.push_back(reading_.module.wanted.Read());
+  }
+  EXPECT_FALSE(leases.back()->values.is_reference()) << "so many may be held";
+  EXPECT_TRUE(IsShared(other_));
+  for (int i = 1; i <= 40; ++i) EXPECT_TRUE(IsAll(*leases[static_cast<std::size_t>(i - 1)], i));
 }
 
 TEST_F(LargeValuesTest, ALeaseOutlivesTheNetworksOfBothEnds) {
