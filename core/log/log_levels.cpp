@@ -4,6 +4,8 @@
 #include <mutex>
 #include <utility>
 
+#include "core/element/element_listener.h"
+#include "core/element/element_path.h"
 #include "core/element/runtime.h"
 #include "core/log/internal/log_dispatcher.h"
 
@@ -11,16 +13,24 @@ namespace runnel {
 
 namespace {
 
-/// Lies at the root, so that what was set goes with the runtime.
-class LevelsOfRuntime final : public Annotation {
+/// Lies at the root, so that what was set goes with the runtime, and what was set of an application with that.
+class LevelsOfRuntime final : public Annotation, private ElementListener {
  public:
-  explicit LevelsOfRuntime(const Runtime& runtime) : runtime_(runtime) {}
+  explicit LevelsOfRuntime(Runtime& runtime) : runtime_(runtime) { runtime.AddListener(*this); }
   LevelsOfRuntime(const LevelsOfRuntime&) = delete;
   LevelsOfRuntime& operator=(const LevelsOfRuntime&) = delete;
   ~LevelsOfRuntime() override { internal::LogDispatcher::OfProcess().ForgetLevels(runtime_); }
 
  private:
-  const Runtime& runtime_;
+  void OnDeleted(FrameworkElement& element) override {
+    if (element.parent() == nullptr || element.parent()->parent() != nullptr) return;
+    const std::string whole = element.path();
+    for (const auto& [path, level] : ReadLogLevels(runtime_)) {
+      if (IsAtOrBelow(path, whole)) (void)ResetLogLevel(runtime_, path);
+    }
+  }
+
+  Runtime& runtime_;
 };
 
 }  // namespace

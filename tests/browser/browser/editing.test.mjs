@@ -177,7 +177,7 @@ test('ports of different types are connected by a part of the values, and a modu
   const edge = '/bug_demo/localisation/output/pose → /bug_demo/calm/input/in';
   await page.locator(`[data-edge="${edge}"]`).waitFor({ state: 'attached' });
   await inspector.select('/bug_demo/calm/input/in');
-  await inspector.details.locator('.connections button').first().click();
+  await inspector.details.getByTitle('How it passes values on').click();
   await inspector.details.locator('.facts', { hasText: 'heading' }).waitFor();
   await page.locator('#convert').click();
   await page.locator('.choice-search').fill('y');

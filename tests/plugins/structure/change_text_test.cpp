@@ -79,7 +79,7 @@ TEST(ChangeText, ReadsFromWhichLevelOnIsLogged) {
   const auto inherits = ParseOne<LogElement>("log / inherit");
   EXPECT_FALSE(inherits.level);
   EXPECT_EQ(ChangeText(inherits), "log / inherit");
-  EXPECT_THAT(ErrorOf("log /robot warn"), HasSubstr("did you mean 'warning'?"));
+  EXPECT_THAT(ErrorOf("log /robot waring"), HasSubstr("did you mean 'warning'?"));
   EXPECT_THAT(ErrorOf("log /robot"), HasSubstr("a level is missing"));
 }
 
