@@ -110,6 +110,21 @@ TEST_P(NetworkReach, AnInterfaceWithoutMulticastHasPeers) {
   WaitUntilEachKnows("here", "there");
 }
 
+// A cable is pulled and put back.
+TEST_P(NetworkReach, ValuesComeAgainWhenTheNetworkHasBeenDown) {
+  const std::string attributes = "reach=\"network\" engine=\"" + std::string(GetParam()) + "\"";
+  const auto robot = StartWith("two_robots.xml", attributes);
+  const auto planner = StartWith("two_robots_planner.xml", attributes, left_->within() + RUNNEL_PROGRAM);
+  WaitUntilItDrives();
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_TRUE(RunsWell("ip link set left down"));
+    ASSERT_TRUE(robot->WaitFor("published {forward: 0, turn: 0} at /robot/gate/input/wanted"));
+    ASSERT_TRUE(RunsWell("ip link set left up"));
+    ASSERT_TRUE(robot->WaitFor("values come again"));
+    WaitUntilItDrives();
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Cyclone, NetworkReach, testing::Values("cyclone"));
 #if RUNNEL_HAS_FAST
 INSTANTIATE_TEST_SUITE_P(Fast, NetworkReach, testing::Values("fast"));

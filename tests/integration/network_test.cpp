@@ -5,7 +5,6 @@
 
 #include <gmock/gmock.h>
 
-#include "tests/integration/other_network.h"
 #include "tests/integration/two_robots.h"
 
 namespace runnel::test {
@@ -84,20 +83,6 @@ TEST_F(TwoRobots, TheyFindEachOtherWithoutMulticast) {
   const auto robot = StartWith("two_robots.xml", "multicast=\"false\"");
   const auto planner = StartWith("two_robots_planner.xml", "multicast=\"false\"");
   WaitUntilItDrives();
-}
-
-// As on two machines, between which a cable is pulled and put back.
-TEST_F(TwoRobots, TheyGoOnAfterTheNetworkHasBeenDown) {
-  if (OwnDomain() != 0) GTEST_SKIP() << "needs the right to make networks";
-  const OtherNetwork other;
-  if (!other.Connect("cable")) GTEST_SKIP() << "needs iproute2, and networks of pairs";
-  const auto robot = StartWith("two_robots.xml", "reach=\"network\"");
-  const auto planner = StartWith("two_robots_planner.xml", "reach=\"network\"", other.within() + RUNNEL_PROGRAM);
-  WaitUntilItDrives();
-  ASSERT_TRUE(RunsWell("ip link set cable down"));
-  ASSERT_TRUE(robot->WaitFor("published {forward: 0, turn: 0} at /robot/gate/input/wanted"));
-  ASSERT_TRUE(RunsWell("ip link set cable up"));
-  ASSERT_TRUE(robot->WaitFor("values come again"));
 }
 
 TEST_F(TwoRobots, APortOfAnotherApplicationIsConnectedByItsPath) {

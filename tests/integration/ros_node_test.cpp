@@ -1,5 +1,6 @@
 // A robot among nodes of ROS 2: another program, whose types are made by another's compiler.
 
+#include <csignal>
 #include <cstdlib>
 
 #include <gmock/gmock.h>
@@ -13,6 +14,7 @@ namespace runnel::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr const char* kRobot = R"(<application name="robot" thread="control">
   <load plugin="simulation"/> <load plugin="motion"/>
@@ -62,6 +64,27 @@ TEST_F(AmongRosNodes, TheySeeWhereItIsAlsoThoseWhoComeLate) {
   const Program robot("run " + std::string(folder_ / "robot.xml") + " world=" RUNNEL_XML "/worlds/rooms.xml");
   EXPECT_TRUE(Node("tf").WaitFor("transform map to base_link at "));
   EXPECT_TRUE(Node("tf_static").WaitFor("transform map to start at "));
+}
+
+TEST_F(AmongRosNodes, ThoseOfHumbleSeeItAsOneOfTheirs) {
+  std::string humble = kRobot;
+  humble.replace(humble.find("jazzy"), 5, "humble");
+  std::ofstream(folder_ / "robot.xml") << humble;
+  const Program robot("run " + std::string(folder_ / "robot.xml") + " world=" RUNNEL_XML "/worlds/rooms.xml");
+  Program node = Node("graph_of_humble");
+  EXPECT_TRUE(node.WaitFor("node /robots base readers 1 writers 5"));
+  node.Send(SIGTERM);
+  EXPECT_THAT(node.Wait().text, Not(HasSubstr("another participant")));
+}
+
+TEST_F(AmongRosNodes, WhoAsksForSomethingElseIsToldOf) {
+  Program robot("run " + std::string(folder_ / "robot.xml") + " world=" RUNNEL_XML "/worlds/rooms.xml");
+  const Program reliable = Node("reliable_scan");
+  ASSERT_TRUE(robot.WaitFor("does not fit: the writer sends at best effort, and the reader asks for reliable values"));
+  const Program latched = Node("latched_tf");
+  ASSERT_TRUE(robot.WaitFor("does not fit: the writer keeps nothing for who comes late, and the reader asks for it (latched)"));
+  const Program other = Node("other_scan");
+  ASSERT_TRUE(robot.WaitFor("rosgraph_msgs::msg::dds_::Clock_"));
 }
 
 TEST_F(AmongRosNodes, ItDrivesAsTheyTellIt) {

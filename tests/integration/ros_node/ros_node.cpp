@@ -2,17 +2,25 @@
 // it. It says on standard output what it reads:
 //
 //     ros_node DOMAIN scan|clock|log|graph|tf|tf_static  prints what comes
+//     ros_node DOMAIN graph_of_humble                    the same as nodes of Humble read it
+//     ros_node DOMAIN reliable_scan|latched_tf|other_scan  asks for more than is offered, or for another type
 //     ros_node DOMAIN twist                              tells a robot to go, 20 times a second
 
+#include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <iterator>
 #include <string>
 #include <thread>
 
 #include <dds/dds.h>
 #include <ros_messages.h>
+
+#include "humble_graph.h"
 
 namespace {
 
@@ -44,6 +52,26 @@ void Read(dds_entity_t participant, const dds_topic_descriptor_t& type, const ch
   }
 }
 
+template <typename Info>
+void ShowNodes(const Info& info) {
+  for (std::uint32_t i = 0; i < info.node_entities_info_seq._length; ++i) {
+    const auto& node = info.node_entities_info_seq._buffer[i];
+    std::printf("node %s %s readers %u writers %u\n", node.node_namespace, node.node_name, node.reader_gid_seq._length,
+                node.writer_gid_seq._length);
+    for (std::uint32_t j = 0; j < node.writer_gid_seq._length; ++j) {
+      const auto& gid = node.writer_gid_seq._buffer[j].data;
+      const bool is_of_participant = std::memcmp(gid, info.gid.data, 12) == 0;
+      const bool is_filled = std::all_of(gid + 16, std::end(gid), [](std::uint8_t each) { return each == 0; });
+      if (!is_of_participant || !is_filled) std::printf("a writer of another participant\n");
+    }
+  }
+}
+
+// Who reads so gets nothing.
+void Ask(dds_entity_t participant, const dds_topic_descriptor_t& type, const char* name, dds_qos_t* qos) {
+  Read<std::byte>(participant, type, name, qos, [](const std::byte&) { std::printf("a value came\n"); });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -73,14 +101,17 @@ int main(int argc, char** argv) {
   if (what == "graph") {
     Read<rmw_dds_common_msg_dds__ParticipantEntitiesInfo_>(
         participant, rmw_dds_common_msg_dds__ParticipantEntitiesInfo__desc, "ros_discovery_info", Qos(true, true),
-        [](const auto& info) {
-          for (std::uint32_t i = 0; i < info.node_entities_info_seq._length; ++i) {
-            const auto& node = info.node_entities_info_seq._buffer[i];
-            std::printf("node %s %s readers %u writers %u\n", node.node_namespace, node.node_name, node.reader_gid_seq._length,
-                        node.writer_gid_seq._length);
-          }
-        });
+        [](const auto& info) { ShowNodes(info); });
   }
+  if (what == "graph_of_humble") {
+    dds_topic_descriptor_t type = humble_ParticipantEntitiesInfo__desc;
+    type.m_typename = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_";
+    Read<humble_ParticipantEntitiesInfo_>(participant, type, "ros_discovery_info", Qos(true, true),
+                                          [](const auto& info) { ShowNodes(info); });
+  }
+  if (what == "reliable_scan") Ask(participant, sensor_msgs_msg_dds__LaserScan__desc, "rt/scan", Qos(true, false));
+  if (what == "latched_tf") Ask(participant, tf2_msgs_msg_dds__TFMessage__desc, "rt/tf", Qos(true, true));
+  if (what == "other_scan") Ask(participant, rosgraph_msgs_msg_dds__Clock__desc, "rt/scan", Qos(false, false));
   if (what == "tf" || what == "tf_static") {
     Read<tf2_msgs_msg_dds__TFMessage_>(
         participant, tf2_msgs_msg_dds__TFMessage__desc, ("rt/" + what).c_str(), Qos(true, what == "tf_static"), [](const auto& message) {

@@ -1,70 +1,24 @@
 // Processes that hold values and are killed.
 
-#include <array>
 #include <atomic>
-#include <csignal>
-#include <functional>
 #include <memory>
 #include <set>
 #include <thread>
 #include <vector>
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include "plugins/wire_cyclone/cyclone_wire.h"
 #include "plugins/wire_shared_memory/segment_server.h"
 #include "plugins/wire_shared_memory/shared_memory_wire.h"
 #include "tests/plugins/wire_shared_memory/nobody.h"
+#include "tests/support/child_process.h"
 #include "tests/support/own_network.h"
 #include "tests/support/wait_until.h"
 
 namespace runnel::test {
 namespace {
-
-// A process with a pipe to it and one from it. Made before this one has threads.
-class Child {
- public:
-  explicit Child(const std::function<void(int from, int to)>& run) {
-    std::array<int, 2> there{}, back{};
-    if (pipe2(there.data(), O_CLOEXEC) != 0 || pipe2(back.data(), O_CLOEXEC) != 0) return;
-    id_ = fork();
-    if (id_ == 0) {
-      (void)prctl(PR_SET_PDEATHSIG, SIGKILL);
-      close(there[1]);
-      close(back[0]);
-      run(there[0], back[1]);
-      _exit(1);
-    }
-    close(there[0]);
-    close(back[1]);
-    to_ = there[1];
-    from_ = back[0];
-  }
-  ~Child() {
-    Kill();
-    close(to_);
-    close(from_);
-  }
-  void Kill() {
-    if (id_ > 0 && kill(id_, SIGKILL) == 0) waitpid(id_, nullptr, 0);
-    id_ = 0;
-  }
-  [[nodiscard]] int to() const { return to_; }
-  // Waits for an octet.
-  [[nodiscard]] bool HasSaidSo() const {
-    char octet = 0;
-    return read(from_, &octet, 1) == 1;
-  }
-
- private:
-  pid_t id_ = -1;
-  int to_ = -1;
-  int from_ = -1;
-};
 
 TEST(KilledReaderTest, WhatItHeldStaysAsItIsAndIsFreeWhenItHasEnded) {
   Child reader([](int from, int to) {
