@@ -31,7 +31,8 @@ void NetworkLink::TellTroubles() {
       const std::string misfit = is_writer ? Misfit(own, other.options) : Misfit(other.options, own);
       if (misfit.empty()) continue;
       const std::string who = table_.NameOf(other.participant);
-      new_troubles_[path + " " + who] = ReadableTopic(own.topic) + " of " + who + " does not fit: " + misfit;
+      // Many may have no name.
+      new_troubles_[path + " " + who + " " + misfit] = ReadableTopic(own.topic) + " of " + who + " does not fit: " + misfit;
     }
   };
   for (const auto& each : offered_) look(each->endpoint(), each->path(), true);

@@ -78,13 +78,16 @@ TEST_F(AmongRosNodes, ThoseOfHumbleSeeItAsOneOfTheirs) {
 }
 
 TEST_F(AmongRosNodes, WhoAsksForSomethingElseIsToldOf) {
-  Program robot("run " + std::string(folder_ / "robot.xml") + " world=" RUNNEL_XML "/worlds/rooms.xml");
+  const Program robot("run " + std::string(folder_ / "robot.xml") + " world=" RUNNEL_XML "/worlds/rooms.xml");
+  const auto wait_until_told = [](const std::string& what) {
+    WaitUntil("it says " + what, [&] { return Runnel("log --app robot").text.find(what) != std::string::npos; });
+  };
   const Program reliable = Node("reliable_scan");
-  ASSERT_TRUE(robot.WaitFor("does not fit: the writer sends at best effort, and the reader asks for reliable values"));
+  wait_until_told("does not fit: the writer sends at best effort, and the reader asks for reliable values");
   const Program latched = Node("latched_tf");
-  ASSERT_TRUE(robot.WaitFor("does not fit: the writer keeps nothing for who comes late, and the reader asks for it (latched)"));
+  wait_until_told("does not fit: the writer keeps nothing for who comes late, and the reader asks for it (latched)");
   const Program other = Node("other_scan");
-  ASSERT_TRUE(robot.WaitFor("rosgraph_msgs::msg::dds_::Clock_"));
+  wait_until_told("rosgraph_msgs::msg::dds_::Clock_");
 }
 
 TEST_F(AmongRosNodes, ItDrivesAsTheyTellIt) {
