@@ -18,9 +18,8 @@
 #include <thread>
 
 #include <dds/dds.h>
+#include <humble_graph.h>
 #include <ros_messages.h>
-
-#include "humble_graph.h"
 
 namespace {
 
