@@ -105,10 +105,15 @@ std::optional<ServiceMessage> ServiceEndpoints::Read(const WireSample& sample) c
   return message;
 }
 
+// Servers that look only at who has written the request, as DDS without ROS has them, answer to the writer.
+bool ServiceEndpoints::IsForThis(const CallId& id) const noexcept {
+  return id.client == client_ || (topics_.dialect == ServiceDialect::kBeside && id.client == writer_->id());
+}
+
 std::optional<ServiceMessage> ServiceEndpoints::Take() {
   for (;;) {
     auto message = inbox_.Take();
-    if (!message || side_ == Side::kServer || message->id.client == client_) return message;
+    if (!message || side_ == Side::kServer || IsForThis(message->id)) return message;
   }
 }
 

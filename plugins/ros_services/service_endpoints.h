@@ -79,6 +79,7 @@ class ServiceEndpoints {
   ServiceEndpoints(Side side, ServiceTopics topics, std::function<void()> on_news)
       : side_(side), topics_(std::move(topics)), on_news_(std::move(on_news)) {}
   [[nodiscard]] std::optional<ServiceMessage> Read(const WireSample& sample) const;
+  [[nodiscard]] bool IsForThis(const CallId& id) const noexcept;
 
   const Side side_;
   const ServiceTopics topics_;

@@ -1,5 +1,6 @@
 // Services of ROS 2: called by another program, whose types are made by another's compiler, and had by it.
 
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 
@@ -15,6 +16,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 class ServicesOfRos : public testing::Test {
  protected:
@@ -156,16 +158,41 @@ TEST_F(ServicesOfRos, TellNoTimeToClocksOfOthers) {
   EXPECT_THAT(run.text, HasSubstr("say <clock type=\"outside\"/>, or leave clock=\"follow\" out"));
 }
 
-#if RUNNEL_HAS_FAST
+#ifdef RUNNEL_FAST_NODE
 // Where requests and replies say beside the message which call they belong to.
+std::string OverFastDds(std::string lines) { return lines.replace(lines.find("<network "), 9, "<network engine=\"fast\" reach=\"machine\" "); }
+
 TEST_F(ServicesOfRos, GoOverFastDdsAsWell) {
-  std::string lines = kHouse;
-  lines.replace(lines.find("<network "), 9, "<network engine=\"fast\" ");
-  const Program house(Arguments("run", "house", lines));
+  const Program house(Arguments("run", "house", OverFastDds(kHouse)));
   Program room(Arguments("run", "room", R"(<module name="button" type="switches/button"/>
-    <network engine="fast" name="room"> <take service="/lamp/switch" as="std_srvs/srv/SetBool" to="button/set"/> </network>)"));
+    <network engine="fast" name="room" reach="machine"> <take service="/lamp/switch" as="std_srvs/srv/SetBool" to="button/set"/> </network>)"));
   EXPECT_TRUE(room.WaitFor("answered: it burns"));
 }
+
+TEST_F(ServicesOfRos, AreOfferedToNodesOnFastDds) {
+  const Program house(Arguments("run", "house", OverFastDds(kHouse)));
+  Program node(std::to_string(OwnDomain()) + " call", RUNNEL_FAST_NODE);
+  const Ended called = node.Wait();
+  EXPECT_EQ(called.code, 0);
+  EXPECT_EQ(called.text,
+            "switch 1: done 'it burns'\nswitch 2: refused 'it burns for ever'\nswitch 3: done 'it burns'\nwarm: done 'it is warm'\n");
+  EXPECT_THAT(Runnel("network").text, HasSubstr("/lamp/switch  std_srvs::srv::dds_::SetBool_Request_, 2 answered, 1 failed"));
+}
+
+class OfFastDds : public ServicesOfRos, public testing::WithParamInterface<const char*> {};
+
+TEST_P(OfFastDds, AreCalledWhereNodesHaveThem) {
+  Program room(Arguments("run", "room", OverFastDds(kRoom)));
+  ASSERT_TRUE(room.WaitFor("timed_out: there is no service /house/switch in the network"));
+  Program node(std::to_string(OwnDomain()) + " " + GetParam(), RUNNEL_FAST_NODE);
+  ASSERT_TRUE(node.WaitFor("asked 1: on"));
+  ASSERT_TRUE(node.WaitFor("asked 3: on"));  // after what came of the second
+  room.Send(SIGINT);
+  EXPECT_THAT(room.Wait().text, AllOf(HasSubstr("answered: lights are on"), HasSubstr("failed: the fuse is out"),
+                                      Not(HasSubstr("the lights of others"))));
+}
+
+INSTANTIATE_TEST_SUITE_P(Services, OfFastDds, testing::Values("serve", "serve_plain"));
 #endif
 
 TEST_F(ServicesOfRos, MistakesAreToldWithTheirPlaces) {
