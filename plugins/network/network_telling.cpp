@@ -18,6 +18,11 @@ namespace {
 
 constexpr std::size_t kRoomForImages = 4'194'304;
 
+std::string Doubt(const WireEndpointOptions& own, const WireEndpointOptions& other, bool is_writer) {
+  const std::string doubt = is_writer ? TypeDoubt(own.user_data, other.user_data) : TypeDoubt(other.user_data, own.user_data);
+  return doubt.empty() ? "" : "is of another version: " + doubt;
+}
+
 }  // namespace
 
 void NetworkLink::Trouble(const std::string& of, const Error& error) {
@@ -29,10 +34,11 @@ void NetworkLink::TellTroubles() {
   const auto look = [&](const WireEndpointOptions& own, const std::string& path, bool is_writer) {
     for (const WireEndpoint& other : table_.Partners(own.topic, !is_writer)) {
       const std::string misfit = is_writer ? Misfit(own, other.options) : Misfit(other.options, own);
-      if (misfit.empty()) continue;
+      const std::string why = misfit.empty() ? Doubt(own, other.options, is_writer) : "does not fit: " + misfit;
+      if (why.empty()) continue;
       const std::string who = table_.NameOf(other.participant);
       // Many may have no name.
-      new_troubles_[path + " " + who + " " + misfit] = ReadableTopic(own.topic) + " of " + who + " does not fit: " + misfit;
+      new_troubles_[path + " " + who + " " + why] = ReadableTopic(own.topic) + " of " + who + " " + why;
     }
   };
   for (const auto& each : offered_) look(each->endpoint(), each->path(), true);
@@ -180,7 +186,9 @@ std::string NetworkLink::Text() const {
     for (const WireEndpoint& other : table_.Partners(mine.topic, !is_writer)) {
       const std::string misfit = is_writer ? Misfit(mine, other.options) : Misfit(other.options, mine);
       text += std::string(is_writer ? "    read by " : "    written by ") + table_.NameOf(other.participant) + " (" +
-              QosText(other.options.qos) + ")" + (misfit.empty() ? "" : ": NOT MATCHED, " + misfit) + "\n";
+              QosText(other.options.qos) + ")" + (misfit.empty() ? "" : ": NOT MATCHED, " + misfit);
+      const std::string doubt = misfit.empty() ? Doubt(mine, other.options, is_writer) : "";
+      text += (doubt.empty() ? "" : ", " + doubt) + "\n";
     }
   };
   const auto add = [&](const WireEndpointOptions& endpoint, const std::string& arrow, const std::string& counts) {

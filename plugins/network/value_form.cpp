@@ -13,6 +13,7 @@ namespace runnel {
 namespace {
 
 constexpr std::string_view kKey = "runnel_type=";
+constexpr std::string_view kHash = "typehash=";
 constexpr int kDeepest = 20;
 
 void AppendDescription(const TypeInfo& type, int depth, std::string& text) {
@@ -51,7 +52,7 @@ class MessageForm final : public ValueForm {
  public:
   MessageForm(std::shared_ptr<const MessageCodec> codec, std::string description) : codec_(std::move(codec)) {
     wire_type_ = codec_->dds_type();
-    user_data_ = "typehash=" + codec_->type_hash() + ";" + std::move(description);
+    user_data_ = std::string(kHash) + codec_->type_hash() + ";" + std::move(description);
   }
 
   void Write(const void* value, Time stamp, Octets& octets) const override { codec_->Encode(value, stamp, octets); }
@@ -67,10 +68,10 @@ class MessageForm final : public ValueForm {
   const std::shared_ptr<const MessageCodec> codec_;
 };
 
-std::string_view DescriptionIn(std::string_view user_data) {
-  const std::size_t begin = user_data.find(kKey);
+std::string_view PartOf(std::string_view user_data, std::string_view key) {
+  const std::size_t begin = user_data.find(key);
   if (begin == std::string_view::npos) return {};
-  user_data.remove_prefix(begin + kKey.size());
+  user_data.remove_prefix(begin + key.size());
   return user_data.substr(0, user_data.find(';'));
 }
 
@@ -90,8 +91,8 @@ std::string DescriptionText(const TypeInfo& type) {
 }
 
 std::string TypeMisfit(const std::string& writers, const std::string& readers) {
-  const std::string_view theirs = DescriptionIn(writers);
-  const std::string_view ours = DescriptionIn(readers);
+  const std::string_view theirs = PartOf(writers, kKey);
+  const std::string_view ours = PartOf(readers, kKey);
   if (theirs.empty() || ours.empty() || theirs == ours) return {};
   const auto differs = std::ranges::mismatch(theirs, ours).in1 - theirs.begin();
   const auto place = static_cast<std::size_t>(differs);
@@ -101,6 +102,15 @@ std::string TypeMisfit(const std::string& writers, const std::string& readers) {
     return field.empty() ? std::string("nothing more") : "'" + std::string(field) + "'";
   };
   return "they are of two versions: the writer's has " + quoted(its) + " where the reader's has " + quoted(own);
+}
+
+std::string TypeDoubt(const std::string& writers, const std::string& readers) {
+  constexpr std::size_t kBegin = 15;  // of a hash: enough to tell two apart
+  const std::string theirs(PartOf(writers, kHash).substr(0, kBegin));
+  const std::string ours(PartOf(readers, kHash).substr(0, kBegin));
+  if (theirs.empty() || ours.empty() || theirs == ours) return {};
+  return "the writer's message of this name has other fields than the reader's (" + theirs + ", not " + ours +
+         "), so values may be read as what they are not";
 }
 
 Result<std::shared_ptr<const ValueForm>> ValueForm::Make(const TypeInfo& type, const std::string& as,

@@ -53,4 +53,8 @@ class ValueForm {
 /// if they can, as far as is known.
 [[nodiscard]] std::string TypeMisfit(const std::string& writers, const std::string& readers);
 
+/// Why they may be read wrongly: both say hashes of their messages (RIHS01), which differ. ROS 2 matches them all the same, and
+/// between distributions, where fields come to an end of a message, it does no harm. "" if not.
+[[nodiscard]] std::string TypeDoubt(const std::string& writers, const std::string& readers);
+
 }  // namespace runnel

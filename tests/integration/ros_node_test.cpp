@@ -90,6 +90,16 @@ TEST_F(AmongRosNodes, WhoAsksForSomethingElseIsToldOf) {
   wait_until_told("rosgraph_msgs::msg::dds_::Clock_");
 }
 
+// As ROS 2 has it, its values are taken all the same.
+TEST_F(AmongRosNodes, AnotherMessageOfTheSameNameIsToldOf) {
+  const Program robot("run " + std::string(folder_ / "robot.xml") + " world=" RUNNEL_XML "/worlds/rooms.xml");
+  const Program node = Node("other_twist");
+  const std::string told = "is of another version: the writer's message of this name has other fields than the reader's (RIHS01_64c19139, not RIHS01_9c45bf16)";
+  WaitUntil("it is told", [&] { return Runnel("log --app robot").text.find("/cmd_vel of somebody " + told) != std::string::npos; });
+  EXPECT_THAT(Runnel("network --app robot").text, HasSubstr("), " + told));
+  WaitUntil("they have come", [] { return Runnel("network --app robot").text.find(", 0 came") == std::string::npos; });
+}
+
 TEST_F(AmongRosNodes, ItDrivesAsTheyTellIt) {
   const Program robot("run " + std::string(folder_ / "robot.xml") + " world=" RUNNEL_XML "/worlds/rooms.xml");
   const Program node = Node("twist");

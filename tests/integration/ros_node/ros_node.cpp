@@ -4,6 +4,7 @@
 //     ros_node DOMAIN scan|clock|log|graph|tf|tf_static  prints what comes
 //     ros_node DOMAIN graph_of_humble                    the same as nodes of Humble read it
 //     ros_node DOMAIN reliable_scan|latched_tf|other_scan  asks for more than is offered, or for another type
+//     ros_node DOMAIN other_twist                        sends other messages under the name of twists, and says so
 //     ros_node DOMAIN twist                              tells a robot to go, 20 times a second
 
 #include <algorithm>
@@ -71,6 +72,25 @@ void Ask(dds_entity_t participant, const dds_topic_descriptor_t& type, const cha
   Read<std::byte>(participant, type, name, qos, [](const std::byte&) { std::printf("a value came\n"); });
 }
 
+void SendOthers(dds_entity_t participant) {
+  dds_topic_descriptor_t type = sensor_msgs_msg_dds__LaserScan__desc;
+  type.m_typename = geometry_msgs_msg_dds__Twist__desc.m_typename;
+  dds_qos_t* const qos = Qos(true, false);
+  const std::string said = "typehash=RIHS01_64c19139;";
+  dds_qset_userdata(qos, said.data(), said.size());
+  const dds_entity_t topic = dds_create_topic(participant, &type, "rt/cmd_vel", nullptr, nullptr);
+  const dds_entity_t writer = dds_create_writer(participant, topic, qos, nullptr);
+  for (;;) {
+    float ranges[] = {1, 2, 3};
+    sensor_msgs_msg_dds__LaserScan_ scan{};
+    scan.header.frame_id = const_cast<char*>("laser");
+    scan.ranges._buffer = ranges;
+    scan.ranges._length = scan.ranges._maximum = 3;
+    (void)dds_write(writer, &scan);
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -110,6 +130,7 @@ int main(int argc, char** argv) {
   }
   if (what == "reliable_scan") Ask(participant, sensor_msgs_msg_dds__LaserScan__desc, "rt/scan", Qos(true, false));
   if (what == "latched_tf") Ask(participant, tf2_msgs_msg_dds__TFMessage__desc, "rt/tf", Qos(true, true));
+  if (what == "other_twist") SendOthers(participant);
   if (what == "other_scan") Ask(participant, rosgraph_msgs_msg_dds__Clock__desc, "rt/scan", Qos(false, false));
   if (what == "tf" || what == "tf_static") {
     Read<tf2_msgs_msg_dds__TFMessage_>(
