@@ -1,7 +1,9 @@
 #include "plugins/cdr_values/cdr_values.h"
 
+#include <atomic>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -207,6 +209,36 @@ TEST(WrongCdr, DoesNoHarm) {
     ASSERT_EQ(Hex(CdrOf(FromCdr<Everything>(CdrOf(read)))), Hex(CdrOf(read)));
   }
   EXPECT_GT(accepted, 100);
+}
+
+// In memory that processes share, whoever writes may change octets while they are read.
+TEST(WrongCdr, DoesNoHarmWhileItChanges) {
+#ifdef __SANITIZE_THREAD__
+  GTEST_SKIP() << "what is tried is a race";
+#endif
+  RandomValue random(9);
+  Everything value;
+  random.Fill(TypeOf<Everything>(), &value, 6);
+  Octets octets = CdrOf(value);
+  std::atomic<bool> has_ended{false};
+  std::thread changing([&] {
+    RandomValue place(10);
+    while (!has_ended) {
+      volatile std::byte& octet = octets[place.Below(octets.size())];
+      const std::byte before = octet;
+      octet = static_cast<std::byte>(place.Below(2) * 255);
+      std::this_thread::yield();
+      octet = before;
+    }
+  });
+  for (int i = 0; i < 5000; ++i) {
+    Everything read;
+    if (ReadCdr(TypeOf<Everything>(), octets, &read) && i % 100 == 0) {
+      EXPECT_FALSE(CdrOf(read).empty());
+    }
+  }
+  has_ended = true;
+  changing.join();
 }
 
 TEST(Cdr, OfOpaqueTypesIsRefused) {
