@@ -6,6 +6,7 @@
 
 #include "core/base/exception_text.h"
 #include "core/element/element_path.h"
+#include "core/paths/distant_ports.h"
 #include "core/paths/path_search.h"
 
 namespace runnel {
@@ -25,7 +26,8 @@ Ends FindEnds(Runtime& runtime, const std::string& from, const std::string& to) 
     const auto found = search.FindPort(path, kind);
     if (found && (*found)->life_cycle() != LifeCycle::kDeleted) return *found;
     if (ends.missing.empty()) {
-      ends.missing = path + (found ? "" : ": " + found.error().message);
+      const std::string why = found ? "" : found.error().message;
+      ends.missing = IsDistantPath(path) && !found ? why : path + (found ? "" : ": " + why);
     }
     return nullptr;
   };
@@ -39,16 +41,28 @@ std::string ShortPath(std::string_view path) {
   std::vector<std::string_view> names = SplitPath(path);
   const auto is_group = [](std::string_view name) { return name == "output" || name == "input"; };
   if (names.size() > 2 && is_group(names[names.size() - 2])) names.erase(names.end() - 2);
-  std::string text;
+  std::string text = IsDistantPath(path) ? "/" : "";
   for (const std::string_view name : names) text += "/" + std::string(name);
   return text;
+}
+
+const std::string& PathOfSource(const Port& port) {
+  const std::string& distant = DistantPathOf(port);
+  return distant.empty() ? port.path() : distant;
 }
 
 bool AreConnected(const Port& from, const Port& to) {
   return std::ranges::find(from.outgoing(), &to, &Connection::to) != from.outgoing().end();
 }
 
+// Whether an input is missing that a connection has to go with.
+bool IsOver(Runtime& runtime, const LateConnection& late) {
+  return late.is_of_its_input() && !PathSearch(runtime).FindPort(late.to, PathKind::kInput);
+}
+
 }  // namespace
+
+bool LateConnection::is_of_its_input() const noexcept { return IsDistantPath(from) && !options.when_present; }
 
 std::string LateConnection::SourceText() const {
   const std::string& part = options.part;
@@ -89,7 +103,9 @@ std::string LateConnections::WholePath(std::string_view path) const {
        end = path.rfind('/', end - 1)) {
     const auto found = search.Find(path.substr(0, end));
     const bool is_there = found && (*found)->parent() != nullptr;
-    if (is_there) return (*found)->path() + std::string(path.substr(end));
+    if (!is_there) continue;
+    const auto* const port = dynamic_cast<const Port*>(*found);
+    return (port != nullptr ? PathOfSource(*port) : (*found)->path()) + std::string(path.substr(end));
   }
   return (path.starts_with('/') ? "" : "/") + std::string(path);
 }
@@ -103,14 +119,15 @@ bool LateConnections::Awaits(const Port& input) {
 
 Result<void> LateConnections::Add(const std::string& from, const std::string& to,
                                   ConnectOptions options) {
-  options.when_present = true;
+  options.when_present = options.when_present || !IsDistantPath(from);
   const Ends ends = FindEnds(runtime_, from, to);
   // Notes itself.
   if (ends.missing.empty()) return Port::Connect(*ends.from, *ends.to, options);
   if (Find(from, to) != nullptr) {
     return Error{.message = "is to be connected to " + to + " already", .path = from};
   }
-  all_.push_back({WholePath(from), WholePath(to), std::move(options), ends.missing});
+  const auto path_of = [this](const Port* there, const std::string& path) { return there != nullptr ? there->path() : WholePath(path); };
+  all_.push_back({IsDistantPath(from) ? from : path_of(ends.from, from), path_of(ends.to, to), std::move(options), ends.missing});
   // So that viewers look again.
   runtime_.ForEachListener([](ElementListener&) {});
   return {};
@@ -138,29 +155,33 @@ void LateConnections::OnDeleted(FrameworkElement& element) {
   if (element.parent() == nullptr || element.parent()->parent() != nullptr) return;
   const std::string begin = element.path() + "/";
   std::erase_if(all_, [&](const LateConnection& each) {
-    return each.from.starts_with(begin) && each.to.starts_with(begin);
+    return each.to.starts_with(begin) && (each.from.starts_with(begin) || IsDistantPath(each.from));
   });
 }
 
 void LateConnections::OnConnected(FrameworkElement& from, FrameworkElement& to) {
-  std::erase_if(cuts_, [&](const Cut& cut) { return cut.from == from.path() && cut.to == to.path(); });
-  const auto& outgoing = dynamic_cast<const Port&>(from).outgoing();
+  const auto& output = dynamic_cast<const Port&>(from);
+  const std::string& path = PathOfSource(output);
+  std::erase_if(cuts_, [&](const Cut& cut) { return cut.from == path && cut.to == to.path(); });
+  const auto& outgoing = output.outgoing();
   const auto edge = std::ranges::find(outgoing, &to, [](const Connection& each) -> FrameworkElement* {
     return each.to;
   });
-  LateConnection* const known = FindOwn(from.path(), to.path());
+  LateConnection* const known = FindOwn(path, to.path());
   if (edge == outgoing.end() || (known == nullptr && !edge->options.when_present)) return;
   if (known == nullptr) {
-    all_.push_back({from.path(), to.path(), edge->options, {}});
+    all_.push_back({path, to.path(), edge->options, {}});
   } else {
     known->options = edge->options;
     known->waits_for.reset();
+    if (known->is_of_its_input()) all_.erase(all_.begin() + (known - all_.data()));
   }
 }
 
 void LateConnections::OnDisconnected(FrameworkElement& from, FrameworkElement& to) {
-  if (FindOwn(from.path(), to.path()) == nullptr) return;
-  cuts_.push_back({from.path(), to.path(), from.id(), to.id()});
+  const std::string& path = PathOfSource(dynamic_cast<const Port&>(from));
+  if (FindOwn(path, to.path()) == nullptr) return;
+  cuts_.push_back({path, to.path(), from.id(), to.id()});
   must_look_ = true;
   if (!runtime_.is_in_change_scope()) LookAgain();
 }
@@ -184,6 +205,7 @@ void LateConnections::LookAgain() {
       known->waits_for = ends.missing;
     }
   }
+  std::erase_if(all_, [&](const LateConnection& each) { return IsOver(runtime_, each); });
   // By paths: connecting tells this listener, too, and may change the list.
   std::vector<std::pair<std::string, std::string>> waiting;
   for (const LateConnection& each : all_) {
@@ -196,9 +218,12 @@ void LateConnections::Try(const std::string& from, const std::string& to) {
   LateConnection* const late = FindOwn(from, to);
   if (late == nullptr) return;
   const Ends ends = FindEnds(runtime_, from, to);
-  late->waits_for = ends.missing;
-  if (!ends.missing.empty()) return;
-  late->from = ends.from->path();
+  const std::optional<std::string> before = std::exchange(late->waits_for, ends.missing);
+  if (!ends.missing.empty()) {
+    if (before != ends.missing) runtime_.ForEachListener([](ElementListener&) {});  // so that viewers look again
+    return;
+  }
+  if (!IsDistantPath(late->from)) late->from = ends.from->path();
   late->to = ends.to->path();
   const ConnectOptions options = late->options;
   try {
@@ -206,7 +231,10 @@ void LateConnections::Try(const std::string& from, const std::string& to) {
     LateConnection* const tried = FindOwn(from, to);
     if (tried == nullptr) return;
     tried->waits_for.reset();
-    if (!connected) tried->waits_for = connected.error().message;
+    if (connected) return;
+    const Error& error = connected.error();
+    tried->waits_for = error.message + (error.hint.empty() ? "" : "; " + error.hint);
+    if (before != tried->waits_for) runtime_.ForEachListener([](ElementListener&) {});
   } catch (...) {
     if (LateConnection* const tried = FindOwn(from, to)) tried->waits_for = DescribeException();
   }
@@ -228,8 +256,16 @@ std::vector<const LateConnection*> Waiting(Runtime& runtime, const IsMeant& is_m
 }  // namespace
 
 std::vector<const LateConnection*> AwaitedBy(const Port& port) {
-  const std::string path = ShortPath(port.path());
+  const std::string path = ShortPath(PathOfSource(port));
   return Waiting(port.runtime(), [&](const std::string& end) { return ShortPath(end) == path; });
+}
+
+std::vector<LateConnection> AwaitedWith(const FrameworkElement& element) {
+  std::vector<LateConnection> awaited;
+  for (const LateConnection* const each : Waiting(element.runtime(), [&](const std::string& end) { return IsAtOrBelow(end, element.path()); })) {
+    if (each->is_of_its_input()) awaited.push_back(*each);
+  }
+  return awaited;
 }
 
 std::vector<const LateConnection*> AwaitedBelow(const FrameworkElement& element) {

@@ -15,12 +15,15 @@ namespace runnel {
 
 /// A connection that is to be whenever both its ends are there.
 struct LateConnection {
-  std::string from;  ///< absolute paths of ports that may be there or not
+  std::string from;  ///< absolute paths of ports that may be there or not; "//…": of another application
   std::string to;
   ConnectOptions options;
   /// Nothing if it is connected; else what it waits for, or what stands against it.
   std::optional<std::string> waits_for;
 
+  /// Whether it is one as any but that another application has its output, which is waited for without anybody having said so:
+  /// once made it is noted here no more, and it goes with its input.
+  [[nodiscard]] bool is_of_its_input() const noexcept;
   /// The path of the output with the part of its values that is meant: "/world/pose.x".
   [[nodiscard]] std::string SourceText() const;
 };
@@ -44,12 +47,16 @@ class LateConnections final : public Annotation, private ElementListener {
   /// Whether it is to be fed by one of these.
   [[nodiscard]] static bool Awaits(const Port& input);
 
-  /// From now on, and at once if both ends are there. Paths begin at the root; the name of the only application
+  /// From now on, and at once if both ends are there. Those of ports of other applications wait without being told to, so
+  /// their options stay as they are. Paths begin at the root; the name of the only application
   /// may be left out, and groups of ports, too. Errors: they are, and cannot be connected, which has
   /// changed nothing then; it is there already.
   Result<void> Add(const std::string& from, const std::string& to, ConnectOptions options);
   /// No more, and what is connected is disconnected. False: there is no such connection.
   bool Remove(std::string_view from, std::string_view to);
+
+  /// Something may have come, or may be known, of which the tree does not tell.
+  void LookAgain();
 
   /// In the order in which they were added.
   [[nodiscard]] const std::vector<LateConnection>& all() const noexcept { return all_; }
@@ -72,7 +79,6 @@ class LateConnections final : public Annotation, private ElementListener {
 
   [[nodiscard]] LateConnection* FindOwn(std::string_view from, std::string_view to);
   [[nodiscard]] std::string WholePath(std::string_view path) const;
-  void LookAgain();
   void Try(const std::string& from, const std::string& to);
 
   Runtime& runtime_;
@@ -80,6 +86,9 @@ class LateConnections final : public Annotation, private ElementListener {
   std::vector<Cut> cuts_;
   bool must_look_ = false;
 };
+
+/// Those that wait and go with `element`, since their inputs are below it or it is one. Under the structure lock.
+[[nodiscard]] std::vector<LateConnection> AwaitedWith(const FrameworkElement& element);
 
 /// Those that wait and have the port as an end; all that wait and have an end below `element`. Under the
 /// structure lock.

@@ -71,6 +71,12 @@ PathEnd Missing(FrameworkElement& at, std::string_view name, std::vector<std::st
   return {nullptr, &at, std::string(name), std::move(candidates), std::move(error)};
 }
 
+Error WhyNotThere(const DistantPorts* distant, std::string_view path) {
+  if (distant == nullptr) return {.message = "there is no network"};
+  const DistantType type = distant->TypeOf(SplitPortPath(path).path);
+  return {.message = type.type == nullptr ? type.why_not : "nothing here is connected to it"};
+}
+
 }  // namespace
 
 PathEnd PathSearch::Follow(std::string_view path, PathKind kind) const {
@@ -78,7 +84,7 @@ PathEnd PathSearch::Follow(std::string_view path, PathKind kind) const {
     FrameworkElement& root = base_.runtime().root();
     const DistantPorts* const distant = DistantPorts::FindIn(root);
     if (Port* const port = distant != nullptr ? distant->Find(path) : nullptr) return {port, port};
-    return {nullptr, &root, std::string(path), {}, {.message = "nothing here is connected to '" + std::string(path) + "'"}};
+    return {nullptr, &root, std::string(path), {}, WhyNotThere(distant, path)};
   }
   const bool is_from_root = IsAbsolutePath(path) || base_.parent() == nullptr;
   PathEnd end = FollowFrom(is_from_root ? base_.runtime().root() : base_, path, kind);
@@ -223,6 +229,7 @@ std::vector<Port*> PortsOf(const FrameworkElement& module) {
 }
 
 const std::string& LastingPath(const Port& port) {
+  if (const std::string& distant = DistantPathOf(port); !distant.empty()) return distant;
   const FrameworkElement* const parameter = port.parent()->parent();
   const bool is_feed = parameter != nullptr && parameter->kind() == ElementKind::kParameter;
   return is_feed ? parameter->path() : port.path();

@@ -7,6 +7,7 @@
 #include <thread>
 #include <utility>
 
+#include "core/paths/distant_ports.h"
 #include "core/paths/late_connections.h"
 #include "core/paths/path_search.h"
 #include "plugins/application/internal/application_parts.h"
@@ -123,6 +124,17 @@ Result<void> Application::Connect(std::string_view from, std::string_view to,
     if (auto constructed = Runtime::Construct(element()); !constructed) return constructed;
     if (!source) source = structure.FindPortPart(from, PathKind::kOutput);
     if (!sink) sink = structure.FindPort(to, PathKind::kInput);
+  }
+  if (sink && IsDistantPath(from)) {
+    const auto brought = BringDistantPort(from, **sink, options);
+    if (!brought) return brought;
+    source = structure.FindPortPart(from, PathKind::kOutput);
+    if (!source) {
+      const auto [whole, part] = SplitPortPath(from);
+      ConnectOptions wanted = options;
+      if (!part.empty()) wanted.part = part;
+      return LateConnections::Of(parts_->runtime()).Add(whole, std::string(to), wanted);
+    }
   }
   if (!source) return source.error();
   if (!sink) return sink.error();

@@ -58,7 +58,7 @@ std::string RelativePath(const FrameworkElement& home, const std::string& path) 
 
 // As short as it may be, seen from `home`.
 std::string PathFrom(FrameworkElement& home, const Port& port, PathKind kind) {
-  if (const auto* const distant = port.FindAnnotation<DistantPort>(); distant != nullptr && !distant->path.empty()) return distant->path;
+  if (const std::string& distant = DistantPathOf(port); !distant.empty()) return distant;
   const std::string full = LastingPath(port).substr(home.path().size() + 1);
   const FrameworkElement* group = port.parent();
   const FrameworkElement* const fed = group->parent();

@@ -101,7 +101,8 @@ void Connect(Port& from, const PathUse& from_use, Port& to, const PathUse& to_us
 bool AwaitsEnd(const TagUse& use, const PathUse& from, const PathUse& to,
                const ConnectOptions& options) {
   Port* const target = FindPort(to, PathKind::kInput);
-  if (FindPort(from, PathKind::kOutput) != nullptr && target != nullptr) return false;
+  const bool may_wait = options.when_present || (target != nullptr && IsDistantPath(from.path));
+  if (!may_wait || (target != nullptr && FindPort(from, PathKind::kOutput) != nullptr)) return false;
   if (target != nullptr) use.context.MarkUnfed(*target);
   const auto added = LateConnections::Of(use.context.runtime())
                          .Add(internal::AbsolutePath(from), internal::AbsolutePath(to), options);
@@ -120,18 +121,16 @@ void ConnectAll(const TagUse& use) {
   }
   options.part = internal::TakePart(sources[0]);
   std::vector<PathUse> targets;
-  for (const PathUse& to : PathsIn(use.Get("to"), use.parent)) {
-    if (!options.when_present || !AwaitsEnd(use, sources[0], to, options)) targets.push_back(to);
-  }
-  if (targets.empty()) return;
-  for (const PathUse& to_use : targets) {
-    Port* const to = FindPort(to_use, PathKind::kInput);
-    if (to == nullptr) continue;
-    if (const auto brought = BringDistantPort(sources[0].path, *to); !brought) {
+  for (const PathUse& to_use : PathsIn(use.Get("to"), use.parent)) {
+    const Port* const to = FindPort(to_use, PathKind::kInput);
+    const auto brought = to != nullptr ? BringDistantPort(sources[0].path, *to, options) : Result<void>();
+    if (!brought) {
       MarkUnfed(*to, context);
       return use.Report(brought.error(), sources[0].position);
     }
+    if (!AwaitsEnd(use, sources[0], to_use, options)) targets.push_back(to_use);
   }
+  if (targets.empty()) return;
   Port* const from = SearchPort(sources[0], PathKind::kOutput, context);
   for (const PathUse& to_use : targets) {
     Port* const to = SearchPort(to_use, PathKind::kInput, context);

@@ -1,8 +1,12 @@
 // Attaches the network to an application that has a <network>.
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
+#include "core/element/element_path.h"
+#include "core/paths/distant_ports.h"
+#include "core/paths/late_connections.h"
 #include "core/plugin/plugin_entry.h"
 #include "plugins/application/application.h"
 #include "plugins/application/extension_registry.h"
@@ -34,17 +38,24 @@ class ApplicationNetwork final : public ApplicationExtension {
     }
     if (!is_simulated_ || follows_clock) return {};  // whoever follows others has no runs that can be repeated
     element->set_simulated();
-    const auto refuse = [](const Port& output, const SourcePosition& position) {
+    const auto refuse = [](const std::string& path, const SourcePosition& position) {
       return Error{.message = "with simulated time, values that come when they like make runs that cannot be repeated",
-                   .path = output.path(),
+                   .path = path,
                    .position = position,
                    .hint = "say live=\"true\" if that is meant"};
     };
     for (const auto& each : element->takes()) {
-      if (!each.options.is_live) return refuse(*each.output, each.options.position);
+      if (!each.options.is_live) return refuse(each.output->path(), each.options.position);
+    }
+    const LateConnections* const late = LateConnections::FindIn(application.runtime());
+    const auto is_distant = [&](const LateConnection& each) {
+      return IsDistantPath(each.from) && IsAtOrBelow(each.to, application.path());
+    };
+    if (!element->options().is_live && late != nullptr && std::ranges::any_of(late->all(), is_distant)) {
+      return refuse(element->path(), element->options().position);
     }
     for (const auto& each : element->service_takes()) {
-      if (!each.options.is_live) return refuse(*each.output, each.options.position);
+      if (!each.options.is_live) return refuse(each.output->path(), each.options.position);
     }
     return {};
   }

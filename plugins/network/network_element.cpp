@@ -9,7 +9,7 @@
 #include "core/paths/distant_ports.h"
 #include "core/port/typed_ports.h"
 #include "core/types/type_info.h"
-#include "plugins/network/topic_names.h"
+#include "plugins/network/network_ports.h"
 
 namespace runnel {
 
@@ -21,44 +21,6 @@ class TopicGroup final : public FrameworkElement {
   explicit TopicGroup(const Placement& placement) : FrameworkElement(placement, ElementKind::kGroup) {}
 };
 
-/// "//camera_box/camera/image" is what is taken of the topic "/camera_box/camera/image".
-class NetworkPorts final : public DistantPorts {
- public:
-  explicit NetworkPorts(NetworkElement& network) : network_(&network) {}
-  void Forget(const NetworkElement& gone) noexcept {
-    if (network_ == &gone) network_ = nullptr;
-  }
-
-  [[nodiscard]] Port* Find(std::string_view path) const override {
-    if (network_ == nullptr) return nullptr;
-    if (path.find_first_of(".[") != std::string_view::npos) return nullptr;  // a part of its values
-    const auto& takes = network_->takes();
-    const auto found =
-        std::ranges::find(takes, TopicOfDistantPath(path), [](const auto& each) { return each.options.topic; });
-    return found == takes.end() ? nullptr : found->output;
-  }
-  Result<Port*> Make(std::string_view path, const Port& to) override {
-    if (Port* const known = Find(path)) return known;
-    if (const std::size_t part = path.find_first_of(".["); part != std::string_view::npos) {
-      if (Port* const whole = Find(path.substr(0, part))) return whole;
-      return Error{.message = "what '" + std::string(path) + "' is a part of has a type that is not known here",
-                   .hint = "connect all of it to an interface port of a group, and the part from there"};
-    }
-    if (network_ == nullptr) return Error{.message = "the application with the network has gone"};
-    const auto made = network_->AddTake({.topic = TopicOfDistantPath(path),
-                                         .keeps_stamps = true,
-                                         .is_distant = true,
-                                         .is_live = network_->options().is_live,
-                                         .position = network_->options().position},
-                                        to.type());
-    if (made) (*made)->Annotate(std::make_unique<DistantPort>(std::string(path)));
-    return made;
-  }
-
- private:
-  NetworkElement* network_;
-};
-
 }  // namespace
 
 NetworkElement::NetworkElement(const Placement& placement, NetworkOptions options)
@@ -68,7 +30,7 @@ NetworkElement::NetworkElement(const Placement& placement, NetworkOptions option
 }
 
 NetworkElement::~NetworkElement() {
-  if (auto* const ports = static_cast<NetworkPorts*>(DistantPorts::FindIn(*this))) ports->Forget(*this);
+  if (NetworkPorts* const ports = NetworkPorts::Of(*this)) ports->End();
 }
 
 NetworkElement* NetworkElement::FindIn(const FrameworkElement& application) {
@@ -114,12 +76,15 @@ Result<void> NetworkElement::TakeOtherwise(Take& known, const TakeOptions& take)
   return {};
 }
 
-Result<Port*> NetworkElement::AddTake(const TakeOptions& take, const TypeInfo& type) {
-  if (is_simulated_ && !take.is_live) {
-    return Error{.message = "with simulated time, values that come when they like make runs that cannot be repeated",
-                 .path = path(),
-                 .hint = "say live=\"true\" of what is taken, or of <network>, if that is meant"};
-  }
+Result<void> NetworkElement::CheckLiveness(const TakeOptions& take) const {
+  if (!is_simulated_ || take.is_live) return {};
+  return Error{.message = "with simulated time, values that come when they like make runs that cannot be repeated",
+               .path = path(),
+               .hint = "say live=\"true\" of what is taken, or of <network>, if that is meant"};
+}
+
+Result<Port*> NetworkElement::AddTake(const TakeOptions& take, const TypeInfo& type, const std::string& unit) {
+  if (const auto live = CheckLiveness(take); !live) return live.error();
   const auto known = std::ranges::find(takes_, take.topic, [](const Take& each) { return each.options.topic; });
   if (known != takes_.end()) {
     if (&known->output->type() == &type) {
@@ -132,14 +97,14 @@ Result<Port*> NetworkElement::AddTake(const TakeOptions& take, const TypeInfo& t
   }
   auto form = ValueFormOf(take, type);
   if (!form) return form.error();
-  const auto made = MakeOutput(take.topic, type);
+  const auto made = MakeOutput(take.topic, type, unit);
   if (!made) return made.error();
   takes_.push_back({take, *made, std::move(*form)});
   if (on_change_) on_change_();
   return *made;
 }
 
-Result<Port*> NetworkElement::MakeOutput(const std::string& name, const TypeInfo& type) {
+Result<Port*> NetworkElement::MakeOutput(const std::string& name, const TypeInfo& type, const std::string& unit) {
   const TypedPorts* const typed = FindTypedPorts(type);
   FrameworkElement* group = this;
   const auto words = SplitPath(name);
@@ -151,7 +116,7 @@ Result<Port*> NetworkElement::MakeOutput(const std::string& name, const TypeInfo
     return Error{.message = "'" + name + "' is the name of something else that is taken"};
   }
   auto output = typed == nullptr ? nullptr
-                                 : typed->MakeOutput(*group, std::string(words.back()), {.description = "from the network: " + name});
+                                 : typed->MakeOutput(*group, std::string(words.back()), {.description = "from the network: " + name, .unit = unit});
   if (output == nullptr) return Error{.message = "values of type " + type.name() + " can be made by a module only"};
   Port* const made = output.get();
   runtime().Adopt(std::move(output));
@@ -159,6 +124,14 @@ Result<Port*> NetworkElement::MakeOutput(const std::string& name, const TypeInfo
     if (const auto ready = runtime().MakeReady(*this); !ready) return ready.error();
   }
   return made;
+}
+
+Result<UnlistedElement> NetworkElement::DropTake(Port& output) {
+  output.DisconnectAll();
+  auto gone = runtime().Unlist(output);
+  if (gone) std::erase_if(takes_, [&](const Take& each) { return each.output == &output; });
+  if (on_change_) on_change_();
+  return gone;
 }
 
 }  // namespace runnel

@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "core/element/framework_element.h"
+#include "core/element/unlisted_element.h"
 #include "core/log/logger.h"
 #include "core/port/port.h"
 #include "plugins/network/network_options.h"
-#include "plugins/network/value_form.h"
+#include "plugins/network_discovery/value_form.h"
 #include "plugins/ros_services/taken_service.h"
 
 namespace runnel {
@@ -43,7 +44,12 @@ class NetworkElement final : public FrameworkElement {
   /// The output of the topic, for values of this type; made if there is none. Errors: there is one of another type; a
   /// type that only its module can make values of; what cannot be read as such messages; it is taken in another way, and
   /// something is connected to it; simulated time, if that is known and the options do not allow for it.
-  Result<Port*> AddTake(const TakeOptions& take, const TypeInfo& type);
+  Result<Port*> AddTake(const TakeOptions& take, const TypeInfo& type, const std::string& unit = {});
+  /// The topic of that output is taken no more; its connections are cut. Returns the output, for Runtime::Destroy(). In a
+  /// ChangeScope, while nothing publishes there. Errors: of Runtime::Unlist(); it is taken still then.
+  Result<UnlistedElement> DropTake(Port& output);
+  /// Errors: simulated time, if that is known and the options do not allow for it.
+  Result<void> CheckLiveness(const TakeOptions& take) const;
 
   struct ServiceTake {
     ServiceTakeOptions options;
@@ -57,6 +63,10 @@ class NetworkElement final : public FrameworkElement {
   /// one of another type; what is no client; what does not fit.
   Result<Port*> AddServiceTake(const ServiceTakeOptions& take, const Port& client);
 
+  /// Makes all types known that modules here have ports of.
+  void set_know_types(std::function<void()> know_types) { know_types_ = std::move(know_types); }
+  [[nodiscard]] const std::function<void()>& know_types() const noexcept { return know_types_; }
+
   /// Time is simulated, so that what comes when it likes has to be meant.
   void set_simulated() { is_simulated_ = true; }
 
@@ -65,7 +75,7 @@ class NetworkElement final : public FrameworkElement {
 
  private:
   /// An output of this type below the groups that the name says.
-  Result<Port*> MakeOutput(const std::string& name, const TypeInfo& type);
+  Result<Port*> MakeOutput(const std::string& name, const TypeInfo& type, const std::string& unit = {});
   [[nodiscard]] Result<std::shared_ptr<const ValueForm>> ValueFormOf(const TakeOptions& take, const TypeInfo& type) const;
   Result<void> TakeOtherwise(Take& known, const TakeOptions& take);
 
@@ -73,6 +83,7 @@ class NetworkElement final : public FrameworkElement {
   std::vector<Take> takes_;
   std::vector<ServiceTake> service_takes_;
   std::function<void()> on_change_;
+  std::function<void()> know_types_;
   bool is_simulated_ = false;
   Logger log_{*this};
 };

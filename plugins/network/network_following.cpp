@@ -8,7 +8,7 @@
 #include "core/paths/path_search.h"
 #include "core/types/type_info.h"
 #include "plugins/network/network_link.h"
-#include "plugins/network/topic_names.h"
+#include "plugins/network_discovery/topic_names.h"
 #include "plugins/values/port_patterns.h"
 
 namespace runnel {
@@ -46,6 +46,7 @@ void NetworkLink::Follow() {
       each->Attach(found == wanted.end() ? nullptr : found->port);
     }
   }
+  FollowDistantPorts();
   FollowTakes();
   services_.Follow(*participant_, [this](const std::string& of, const Error& error) { Trouble(of, error); });
   TellNode();
@@ -61,6 +62,7 @@ std::vector<NetworkLink::Wanted> NetworkLink::FindOffers() {
     // What only finds it.
     found.options.patterns.clear();
     found.options.position = {};
+    found.options.unit = offer.as.empty() ? port.unit() : "";
     if (offer.topic.empty()) found.options.topic = TopicOfPort(element_.options().member.name, port.path());
     const auto same = std::ranges::find(wanted, found.options.topic, [](const Wanted& each) { return each.options.topic; });
     const bool is_meant = same != wanted.end() && !offer.topic.empty() && same->path != found.path;  // /tf, for one

@@ -10,6 +10,8 @@
 #include "core/base/exception_text.h"
 #include "core/element/not_saved.h"
 #include "core/element/runtime.h"
+#include "plugins/network/network_ports.h"
+#include "plugins/network_discovery/distant_type.h"
 
 namespace runnel {
 
@@ -84,6 +86,11 @@ Result<std::unique_ptr<NetworkLink>> NetworkLink::Start(FrameworkElement& applic
     link->beside_ = std::make_unique<BesideElement>(link->runtime_.root());
     link->runtime_.AddListener(*link);
     element.set_on_change([raw = link.get()] { raw->LookAgain(); });
+    if (NetworkPorts* const ports = NetworkPorts::Of(element)) {
+      ports->set_find_type([raw = link.get()](const std::string& path, const TypeInfo* expected) {
+        return FindDistantType(raw->table_, path, expected, raw->element_.know_types());
+      });
+    }
   }
   link->Follow();  // so that all is offered when the first cycle runs
   link->thread_ = std::thread([raw = link.get()] { raw->Run(); });
@@ -94,6 +101,7 @@ NetworkLink::~NetworkLink() {
   if (beside_ != nullptr) {
     const std::lock_guard lock(runtime_.structure_mutex());
     element_.set_on_change({});
+    if (NetworkPorts* const ports = NetworkPorts::Of(element_)) ports->set_find_type({});
     runtime_.RemoveListener(*this);
   }
   ends_ = true;

@@ -11,13 +11,13 @@
 
 #include "core/element/element_listener.h"
 #include "core/lockfree/wake_event.h"
-#include "plugins/network/discovery_table.h"
 #include "plugins/network/network_element.h"
 #include "plugins/network/network_services.h"
 #include "plugins/network/offered_port.h"
 #include "plugins/network/ros_node.h"
-#include "plugins/network/structure_topic.h"
 #include "plugins/network/taken_port.h"
+#include "plugins/network_discovery/discovery_table.h"
+#include "plugins/network_discovery/structure_topic.h"
 
 namespace runnel {
 
@@ -68,6 +68,8 @@ class NetworkLink final : private ElementListener {
   [[nodiscard]] std::vector<Wanted> FindOffers();
   void MakeOffer(const Wanted& wanted);
   void FollowTakes();
+  void FollowDistantPorts();
+  void TellAwaited(std::string& text) const;
   void TellNode();
   void TellStructure();
   void TellTroubles();

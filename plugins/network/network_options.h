@@ -45,6 +45,7 @@ struct OfferOptions {
   ValueQuality quality = ValueQuality::kNewest;
   ValueSending sending = ValueSending::kNetwork;
   double rate = 0;                           ///< most values a second; 0: no bound
+  std::string unit = {};                      ///< of the port, told to others
   std::optional<std::int32_t> strength = {};  ///< the only one that counts, if no stronger one is there
   SourcePosition position = {};
 

@@ -6,7 +6,7 @@
 
 #include "core/element/runtime.h"
 #include "core/lockfree/wake_event.h"
-#include "plugins/network/discovery_table.h"
+#include "plugins/network_discovery/discovery_table.h"
 #include "plugins/ros_messages/message_library.h"
 
 namespace runnel {

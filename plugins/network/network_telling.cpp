@@ -10,7 +10,7 @@
 #include "core/element/element_path.h"
 #include "core/element/runtime.h"
 #include "plugins/network/network_link.h"
-#include "plugins/network/topic_names.h"
+#include "plugins/network_discovery/topic_names.h"
 
 namespace runnel {
 
@@ -207,6 +207,7 @@ std::string NetworkLink::Text() const {
             (each->refused() > 0 ? ", " + std::to_string(each->refused()) + " could not be read" : ""));
     add_partners(each->endpoint(), false);
   }
+  TellAwaited(text);
   text += services_.Text();
   std::set<std::string> others;
   for (const WireEndpoint& each : table_.endpoints()) {

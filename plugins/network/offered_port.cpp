@@ -6,6 +6,7 @@
 #include "core/base/exception_text.h"
 #include "core/lockfree/thread_epoch.h"
 #include "core/lockfree/wake_event.h"
+#include "plugins/network_discovery/distant_type.h"
 #include "plugins/ros_messages/names.h"
 
 namespace runnel {
@@ -75,7 +76,7 @@ WireEndpointOptions OfferedPort::endpoint() const {
   WireEndpointOptions endpoint{.topic = DdsTopic(topic_),
                                .type = form_->wire_type(),
                                .qos = QosOf(options_.quality),
-                               .user_data = form_->user_data()};
+                               .user_data = form_->user_data() + UnitText(options_.unit)};
   endpoint.qos.is_exclusive = options_.strength.has_value();
   endpoint.qos.strength = options_.strength.value_or(0);
   return endpoint;

@@ -13,7 +13,7 @@
 #include "plugins/network/network_options.h"
 #include "plugins/network/offer_bell.h"
 #include "plugins/network/value_forecast.h"
-#include "plugins/network/value_form.h"
+#include "plugins/network_discovery/value_form.h"
 #include "plugins/wire/octet_pool.h"
 
 namespace runnel {

@@ -6,7 +6,7 @@
 #include "core/base/exception_text.h"
 #include "core/element/runtime.h"
 #include "core/port/own_cycle.h"
-#include "plugins/network/discovery_table.h"
+#include "plugins/network_discovery/discovery_table.h"
 #include "plugins/ros_messages/names.h"
 
 namespace runnel {

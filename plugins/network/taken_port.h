@@ -11,7 +11,7 @@
 #include "core/port/port.h"
 #include "plugins/network/network_options.h"
 #include "plugins/network/offered_port.h"
-#include "plugins/network/value_form.h"
+#include "plugins/network_discovery/value_form.h"
 
 namespace runnel {
 
@@ -81,7 +81,6 @@ class TakenPort {
   const ClockOffset clock_;
   const DiscoveryTable& table_;
   WireEndpointOptions endpoint_;  // changed by the network's thread, under mutex_
-  std::unique_ptr<WireReader> reader_;
   bool is_connected_ = false;
   std::atomic<std::size_t> matched_{0};
   std::atomic<std::uint64_t> taken_{0};
@@ -91,6 +90,7 @@ class TakenPort {
   std::uint64_t last_writer_ = 0;       // likewise
   std::optional<Error> error_;          // likewise
   std::optional<Duration> least_delay_;  // likewise
+  std::unique_ptr<WireReader> reader_;  // goes first: as long as it is there, values come that use all of this
 };
 
 }  // namespace runnel

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
+#include <optional>
 #include <utility>
 
 #include "core/base/nearest_name.h"
@@ -17,6 +18,7 @@
 #include "plugins/network/xml_service_tags.h"
 #include "plugins/ros_messages/message_library.h"
 #include "plugins/ros_messages/names.h"
+#include "plugins/structure/type_names.h"
 #include "plugins/values/port_patterns.h"
 
 namespace runnel {
@@ -106,7 +108,11 @@ FrameworkElement* HandleNetwork(const TagUse& use) {
   if (use.Find("engine") != nullptr) options.engine = TextOf(use, "engine");
   const auto engine = FindWireEngine(options.engine, use.context.plugins());
   if (!engine) use.Report(engine.error(), use.xml.position());
-  use.context.runtime().Create<NetworkElement>(use.parent, "network", std::move(options));
+  auto& network = use.context.runtime().Create<NetworkElement>(use.parent, "network", std::move(options));
+  network.set_know_types([&plugins = use.context.plugins(), known = std::optional<std::size_t>()]() mutable {
+    const std::size_t types = plugins.modules().All().size();
+    if (std::exchange(known, types) != types) MakePortTypesKnown(plugins);
+  });
   AddNetworkChanges(use.context.runtime());
   return &use.parent;
 }

@@ -6,7 +6,7 @@
 #include "plugins/application_files/build_context.h"
 #include "plugins/application_files/path_use.h"
 #include "plugins/network/network_element.h"
-#include "plugins/network/topic_names.h"
+#include "plugins/network_discovery/topic_names.h"
 #include "plugins/ros_messages/message_library.h"
 #include "plugins/ros_messages/names.h"
 

@@ -8,6 +8,7 @@
 #include "core/element/tags.h"
 #include "core/module/group.h"
 #include "core/module/group_parameter.h"
+#include "core/paths/late_connections.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/proxy_port.h"
 #include "core/types/text_format.h"
@@ -124,6 +125,9 @@ Result<void> Plan::Check(const DeleteElement& change) {
     Concern(*tie.from);
     Concern(*tie.to);
   }
+  for (const LateConnection& each : AwaitedWith(element)) {
+    if (auto cut = CheckLateTie(each.SourceText(), each.to, std::nullopt); !cut) return cut;
+  }
   overlay_.Remove(element);
   AddRemoval(element);
   return {};
@@ -233,7 +237,7 @@ Result<void> Plan::CheckReplacement(FrameworkElement& before, const Placement& p
     return ExchangeComposite(before, std::move(*made), misfits);
   }
   PortMatch match =
-      MatchPorts(before, **made, [this](const Port& port) { return overlay_.IsConnected(port); });
+      MatchPorts(before, **made, [this](const Port& port) { return overlay_.IsConnected(port) || !AwaitedWith(port).empty(); });
   if (misfits == Misfits::kAreCut && !match.errors.empty()) {
     if (auto cut = Cut(match.misfits); !cut) return cut;
     match.errors.clear();

@@ -24,20 +24,6 @@ void MustTie(const Outcome& outcome) {
   if (!outcome) throw ElementError(outcome.error());
 }
 
-struct PortPathPart {
-  std::string path;
-  std::string part;
-};
-
-// The path without the part of the values that is meant, as far as that can be told when the port is not there.
-PortPathPart SplitPortPath(const std::string& path) {
-  const std::size_t slash = path.rfind('/');
-  const std::size_t begin = slash == std::string::npos ? 0 : slash + 1;
-  const std::size_t end = path.find_first_of(".[", begin + 1);
-  if (end == std::string::npos) return {path, {}};
-  return {path.substr(0, end), path.substr(path[end] == '.' ? end + 1 : end)};
-}
-
 }  // namespace
 
 Result<void> Plan::CheckLateTie(const std::string& from_path, const std::string& to,
@@ -79,11 +65,12 @@ Result<void> Plan::CheckTie(const std::string& from_path, const std::string& to_
                             const std::optional<ConnectOptions>& asked) {
   const auto found_to = overlay_.FindPort(to_path, PathKind::kInput);
   if (asked && found_to) {
-    if (auto brought = BringDistantPort(from_path, **found_to); !brought) return brought;
+    if (auto brought = BringDistantPort(from_path, **found_to, *asked); !brought) return brought;
   }
   const auto found_from = overlay_.FindPortPart(from_path, PathKind::kOutput);
   const bool are_there = found_from && found_to;
-  if (!are_there && asked && asked->when_present) return CheckLateTie(from_path, to_path, asked);
+  const bool may_wait = asked && (asked->when_present || (found_to && IsDistantPath(from_path)));
+  if (!are_there && may_wait) return CheckLateTie(from_path, to_path, asked);
   if (!asked) {
     const LateConnections* const late = LateConnections::FindIn(runtime_);
     const std::string from = found_from ? found_from->port->path() : SplitPortPath(from_path).path;
@@ -122,8 +109,8 @@ Result<void> Plan::CheckTie(Port& from, Port& to, const std::optional<ConnectOpt
                       done->is_done = false;
                     },
                     [=, &from, &to](auto&) -> ChangeSet {
-                      if (wanted) return {DisconnectPorts{from.path(), LastingPath(to)}};
-                      return {ConnectPorts{from.path(), LastingPath(to), TieOptions(from, to)}};
+                      if (wanted) return {DisconnectPorts{LastingPath(from), LastingPath(to)}};
+                      return {ConnectPorts{LastingPath(from), LastingPath(to), TieOptions(from, to)}};
                     }});
   return {};
 }

@@ -59,6 +59,13 @@ bool HasType(const ModuleDescription& module, std::string_view type) {
              module.parameters.end();
 }
 
+void MakeSamples(const ModuleRegistry& modules, Runtime& scratch) {
+  for (const ModuleType* each : modules.All()) {
+    // One that cannot be made here brings no type; if the application asks for it, that is told.
+    (void)modules.CreateSample(each->name, scratch.root());
+  }
+}
+
 // A type is known once a module that has it has been made. Which modules have it, the manifests of plugins say; only
 // what none of them says, as types within others, is found by making all.
 void MakePortTypeKnown(std::string_view type, const PluginManager& plugins) {
@@ -75,14 +82,19 @@ void MakePortTypeKnown(std::string_view type, const PluginManager& plugins) {
       (void)modules.CreateSample(each->name, scratch.root());
       if (FindType(type) != nullptr) return;
     }
-    for (const ModuleType* each : modules.All()) {
-      // One that cannot be made here brings no type; if the application asks for it, that is told.
-      (void)modules.CreateSample(each->name, scratch.root());
-    }
+    MakeSamples(modules, scratch);
   }).join();
 }
 
 }  // namespace
+
+void MakePortTypesKnown(const PluginManager& plugins) {
+  MakeBuiltinTypesKnown();
+  std::thread([&] {
+    Runtime scratch;
+    MakeSamples(plugins.modules(), scratch);
+  }).join();
+}
 
 std::vector<std::string> ModuleTypeNames(const PluginManager& plugins) {
   return NamesOf(plugins.modules().All(), &ModuleType::name);

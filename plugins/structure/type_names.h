@@ -19,11 +19,15 @@ namespace runnel {
 /// types that end alike.
 [[nodiscard]] Result<void> CheckModuleType(std::string_view type, const PluginManager& plugins);
 
-/// Types become known when something uses them first. If this one is not, one module of each kind is
-/// made, away from any application, and thrown away again: then the types of all their ports are known,
-/// and the built-in ones. Errors: no such type, with the nearest.
+/// Types become known when something uses them first. This makes one module of each kind, away from any application, and
+/// throws it away again: then the types of all their ports are known, and the built-in ones.
 ///
 /// Threads: starts one for that time, since the caller holds the lock of its own runtime.
+void MakePortTypesKnown(const PluginManager& plugins);
+
+/// If this one is not known, all are made known. Errors: no such type, with the nearest.
+///
+/// Threads: as MakePortTypesKnown().
 [[nodiscard]] Result<void> CheckPortType(std::string_view type, const PluginManager& plugins);
 
 }  // namespace runnel

@@ -113,12 +113,15 @@ void AddPlugins(std::vector<IncludeRule>& rules) {
   rules.push_back({"plugins/wire", "plugins/wire", {"core"}});
   rules.push_back({"the words of networks",
                    "plugins/network/xml_",
-                   {"core", "plugins/application_files", "plugins/network", "plugins/ros_messages/message_library.h", "plugins/ros_messages/names.h",
+                   {"core", "plugins/application_files", "plugins/network", "plugins/network_discovery", "plugins/ros_messages/message_library.h", "plugins/ros_messages/names.h",
                     "plugins/ros_services", "plugins/services", "plugins/structure", "plugins/values/port_patterns.h", "plugins/wire"}});
   rules.push_back({"plugins/network",
                    "plugins/network",
-                   {"core", "plugins/cdr_values", "plugins/ros_messages", "plugins/ros_services", "plugins/services/callable.h",
+                   {"core", "plugins/cdr_values", "plugins/network_discovery", "plugins/ros_messages", "plugins/ros_services", "plugins/services/callable.h",
                     "plugins/values/json_writer.h", "plugins/values/port_patterns.h", "plugins/wire"}});
+  rules.push_back({"plugins/network_discovery",
+                   "plugins/network_discovery",
+                   {"core", "plugins/cdr_values", "plugins/ros_messages", "plugins/values/port_patterns.h", "plugins/wire"}});
   rules.push_back({"plugins/ros_services",
                    "plugins/ros_services",
                    {"core", "plugins/cdr_values", "plugins/ros_messages", "plugins/services", "plugins/wire"}});

@@ -24,5 +24,12 @@ if (kind === 'browser') {
   environment.RUNNEL_BROWSER ??= Find(kBrowsers);
   if (!environment.RUNNEL_BROWSER) Skip('chromium is not here (apt-get install chromium)');
 }
-const run = spawnSync(process.execPath, ['--enable-source-maps', '--test', file], { stdio: 'inherit', env: environment });
+// A network of its own, in which there is nothing but the loopback interface, so that no other test is heard; where the system
+// permits none, a domain that is likely to be nobody else's (tests/support/own_network.h does the same).
+const kOwnNetwork = ['--net', 'sh', '-c', 'ip link set lo up && exec "$0" "$@"'];
+const has_own_network = kind === 'browser' && spawnSync('unshare', [...kOwnNetwork, 'true'], { stdio: 'ignore' }).status === 0;
+environment.ROS_DOMAIN_ID = String(has_own_network ? 0 : 1 + process.pid % 100);
+const command = [process.execPath, '--enable-source-maps', '--test', file];
+const [program, ...words] = has_own_network ? ['unshare', ...kOwnNetwork, ...command] : command;
+const run = spawnSync(program, words, { stdio: 'inherit', env: environment });
 process.exit(run.status ?? 1);

@@ -5,6 +5,7 @@
 #include "core/paths/distant_ports.h"
 #include "core/plugin/module_type_name.h"
 #include "core/paths/late_connections.h"
+#include "core/paths/path_search.h"
 #include "plugins/application_files/saving/saving.h"
 
 namespace runnel::internal {
@@ -65,8 +66,7 @@ std::vector<SavedEdge> EdgesOf(FrameworkElement& application) {
     const auto* const port = dynamic_cast<const Port*>(&element);
     if (port == nullptr) return;
     for (const Connection& connection : port->outgoing()) {
-      const auto* const distant = port->FindAnnotation<DistantPort>();
-      const bool is_distant = distant != nullptr && !distant->path.empty() && connection.to->IsAtOrBelow(application);
+      const bool is_distant = !DistantPathOf(*port).empty() && connection.to->IsAtOrBelow(application);
       FrameworkElement* const home = is_distant ? &application : Home(*connection.from, *connection.to, application);
       if (home == nullptr) continue;
       edges.push_back({connection.from, connection.to, connection.options, home});
@@ -76,10 +76,12 @@ std::vector<SavedEdge> EdgesOf(FrameworkElement& application) {
   if (late == nullptr) return edges;
   for (const LateConnection& each : late->all()) {
     if (!each.waits_for) continue;
-    FrameworkElement* const home = HomeOfPaths(each.from, each.to, application);
+    const bool is_distant = IsDistantPath(each.from) && each.to.starts_with(application.path() + "/");
+    FrameworkElement* const home = is_distant ? &application : HomeOfPaths(each.from, each.to, application);
     if (home == nullptr) continue;
+    const auto to = PathSearch(application.runtime()).FindPort(each.to, PathKind::kInput);
     edges.push_back({.from = nullptr,
-                     .to = nullptr,
+                     .to = is_distant && to ? *to : nullptr,
                      .options = each.options,
                      .home = home,
                      .from_path = each.from,

@@ -21,8 +21,8 @@ namespace runnel::internal {
 
 /// A connection that a file has to say: not one within a module, nor one that leads out of the application.
 struct SavedEdge {
-  Port* from;  ///< nullptr, as `to`: of a connection that waits for its ends (LateConnections)
-  Port* to;
+  Port* from;  ///< nullptr: of a connection that waits for its ends (LateConnections)
+  Port* to;    ///< likewise, unless its input is there, and its output another application's
   ConnectOptions options;
   FrameworkElement* home;      ///< the innermost group that has both ends
   bool is_saved = false;       ///< a tag says it

@@ -7,10 +7,10 @@
 #include <utility>
 #include <variant>
 
-#include "core/conversion/conversion.h"
 #include "core/paths/path_search.h"
 #include "plugins/command_service/save_place.h"
 #include "plugins/inspector/internal/call_request.h"
+#include "plugins/inspector/internal/conversion_request.h"
 #include "plugins/values/json_writer.h"
 
 namespace runnel::internal {
@@ -18,7 +18,6 @@ namespace runnel::internal {
 namespace {
 
 constexpr std::size_t kMostErrors = 100;
-constexpr std::size_t kMostConversions = 100;
 
 void AppendError(const RequestError& each, std::string& text) {
   JsonObject json(text);
@@ -156,24 +155,6 @@ std::string PreviewSave(Inspection& inspection, const ViewerMessage& message) {
     AddHead(message.request, true, json);
     json.Add("file", difference->file);
     json.Add("before", difference->before).Add("after", difference->after);
-  });
-}
-
-// How values of the one port could be passed on to the other.
-std::string FindConversions(Inspection& inspection, const ViewerMessage& message) {
-  const std::lock_guard lock(inspection.application().runtime.structure_mutex());
-  const PathSearch paths(inspection.application().runtime.root());
-  const auto from = paths.FindPort(message.from, PathKind::kOutput);
-  if (!from) return Refusal(message.request, {{from.error()}});
-  const auto to = paths.FindPort(message.to, PathKind::kInput);
-  if (!to) return Refusal(message.request, {{to.error()}});
-  const auto candidates = ConversionCandidates(
-      {(*from)->type(), (*to)->type(), {}, {}, (*from)->unit(), (*to)->unit()}, kMostConversions);
-  return JsonObjectText([&](JsonObject& json) {
-    AddHead(message.request, true, json);
-    AppendList(candidates, json.Key("conversions"), [](const ConversionCandidate& each, std::string& text) {
-      JsonObject(text).Add("part", each.part).Add("convert", each.name);
-    });
   });
 }
 

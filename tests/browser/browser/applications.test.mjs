@@ -7,15 +7,27 @@ import { test } from 'node:test';
 import { OpenPage } from '../support/browser.mjs';
 import { DemoFile, RunApplication } from '../support/runnel.mjs';
 
-process.env.ROS_DOMAIN_ID = String(1 + process.pid % 100);
-
 const kFollower = `<application name="follower">
   <load plugin="motion"/>
+  <load plugin="signal"/>
   <network/>
   <module name="gate" type="motion/command_gate"/>
+  <module name="scale" type="signal/linear"/>
+  <module name="other" type="signal/linear"/>
   <connect from="//nobody/twist" to="gate/wanted"/>
+  <connect from="//scout/pose.x" to="other/in"/>
+  <connect from="other/out" to="scale/in"/>
 </application>
 `;
+
+async function Drag(page, from, to) {
+  const [start, end] = [await from.boundingBox(), await to.boundingBox()];
+  await page.mouse.move(start.x + start.width / 2, start.y + start.height / 2);
+  await page.mouse.down();
+  await page.mouse.move((start.x + end.x) / 2, (start.y + end.y) / 2, { steps: 5 });
+  await page.mouse.move(end.x + end.width / 2, end.y + end.height / 2, { steps: 5 });
+  await page.mouse.up();
+}
 
 /** The planner of the two robots, and one that follows what it wants. */
 async function Both(t) {
@@ -38,12 +50,7 @@ test('an edge is drawn between an application elsewhere and a port here', async 
   await from.waitFor();
   await page.locator('.box.absent[data-node="/follower/@nobody"]').waitFor();
   await page.locator('.edge.waiting[data-edge="/follower/network/nobody/twist → /follower/gate/input/wanted"]').waitFor({ state: 'attached' });
-  const [start, end] = [await from.boundingBox(), await to.boundingBox()];
-  await page.mouse.move(start.x + start.width / 2, start.y + start.height / 2);
-  await page.mouse.down();
-  await page.mouse.move((start.x + end.x) / 2, (start.y + end.y) / 2, { steps: 5 });
-  await page.mouse.move(end.x + end.width / 2, end.y + end.height / 2, { steps: 5 });
-  await page.mouse.up();
+  await Drag(page, from, to);
   const edge = page.locator('[data-edge="/follower/network/planner/planner/twist → /follower/gate/input/wanted"]');
   await edge.first().waitFor({ state: 'attached' });
   await page.locator('[data-port="/follower/network/planner/planner/twist"][aria-label*="connected"]').waitFor();
@@ -53,6 +60,24 @@ test('an edge is drawn between an application elsewhere and a port here', async 
   await page.keyboard.press('Control+z');
   await edge.first().waitFor({ state: 'detached' });
   assert.ok((await readFile(follower, 'utf8')).includes('//nobody/twist'));
+});
+
+test('a part of what another application has is connected, and one is shown that waits', async (t) => {
+  const { inspector } = await Both(t);
+  const { page } = inspector;
+  await page.locator('.box.absent[data-node="/follower/@scout"]').waitFor();
+  await page.locator('[data-port="//scout/pose"][aria-label*="waiting"]').waitFor();
+  const from = page.locator('[data-port="//planner/planner/twist"] circle');
+  await from.waitFor();
+  await Drag(page, from, page.locator('[data-port="/follower/scale/input/in"] circle'));
+  await page.getByRole('option', { name: 'forward' }).click();
+  const edge = page.locator('[data-edge="/follower/network/planner/planner/twist → /follower/scale/input/in"]');
+  await edge.first().waitFor({ state: 'attached' });
+  await inspector.picture('network_part');
+  await page.locator('#graph').focus();
+  await page.keyboard.press('Control+s');
+  await page.locator('.difference .new', { hasText: 'from="//planner/planner/twist.forward" to="scale/in"' }).waitFor();
+  assert.equal(await page.locator('.difference .gone').count(), 0, 'what waits is saved as it was');
 });
 
 test('a port is offered from its menu, and no more', async (t) => {

@@ -51,6 +51,17 @@ test('who is waited for is shown, and all is as before when the network has gone
   assert.equal(structure.get('/robot/gate/output/allowed').offers, undefined);
 });
 
+test('who is waited for by a part of what they may offer is shown, too', () => {
+  const structure = Robot();
+  const awaited = { from: '//scout/pose.x', to: '/robot/gate/input/wanted', why: 'scout is not in the network yet' };
+  const more = { from: '//planner/status.items[3].x', to: '/robot/gate/input/wanted', why: 'its type is not known' };
+  structure.change({ revision: 2, elements: [{ ...kPort, path: '/robot/gate/input/wanted', owner: '/robot/gate', direction: 'input', name: 'wanted', awaits: [awaited, more] }] });
+  Show(structure, kNetwork);
+  assert.equal(structure.get('/robot/@scout').is_there, false);
+  assert.deepEqual(structure.portsOf('/robot/@scout').map(({ path, name, state, awaits }) => [path, name, state, awaits]), [['//scout/pose', 'pose', 'waiting', [awaited]]]);
+  assert.deepEqual(structure.get('//planner/status').awaits, [more]);
+});
+
 test('topics of nodes have a box of their own', () => {
   const structure = Robot();
   Show(structure, { ...kNetwork, takes: [], applications: [{ name: null, delay: null, structure: null, offers: [{ topic: '/base/scan', type: 'sensor_msgs/msg/LaserScan' }] }] });

@@ -51,6 +51,17 @@ TEST_F(LateConnectionsTest, OneThatSomebodyDisconnectsIsNotMadeAgain) {
   EXPECT_THAT(receiver.in.incoming(), IsEmpty());
 }
 
+TEST_F(LateConnectionsTest, OneOfAPortOfAnotherApplicationGoesWithItsInput) {
+  auto& receiver = MakeReceiver<double>();
+  ASSERT_TRUE(late().Add("//robot/pose", "/receiver/in", {.part = "x"}));
+  EXPECT_EQ(Only().SourceText(), "//robot/pose.x");
+  EXPECT_THAT(Only().waits_for.value_or(""), HasSubstr("there is no network"));
+  EXPECT_FALSE(late().Add("//robot/pose", "/receiver/in", {}));
+  ASSERT_TRUE(runtime.Delete(receiver));
+  MakeReceiver<double>("another");
+  EXPECT_THAT(late().all(), IsEmpty());
+}
+
 TEST_F(LateConnectionsTest, ChangesThatBelongTogetherAreLookedAtTogether) {
   auto& receiver = MakeReceiver<double>();
   EXPECT_THAT(late().all(), IsEmpty());

@@ -1,5 +1,5 @@
 // Applications in a network of this process: what is offered and taken, without an engine that needs a network.
-#include "plugins/network/topic_names.h"
+#include "plugins/network_discovery/topic_names.h"
 #include "plugins/testing/allocation_guard.h"
 #include "tests/plugins/network/network_member.h"
 

@@ -11,6 +11,9 @@ export const IsFar = (element) => element?.far === true;
 /** "//planner/planner/twist" of a topic. */
 export const FarPath = (topic) => `/${topic}`;
 
+/** "/robot/pose" of "//robot/pose.x"; null of what is a port here. */
+const FarTopic = (path) => (path.startsWith('//') ? path.slice(1).replace(/(\/[^/.[]+)[.[][^/]*$/, '$1') : null);
+
 /**
  * What the structure has besides, because of a message of the network: elements. An output by which something is taken
  * becomes a port of the application that offers it.
@@ -35,6 +38,12 @@ export function NetworkElements(structure, network) {
     return path;
   };
   const short = (topic, box) => (box.endsWith(`${kBox}topics`) ? topic.slice(1) : topic.slice(topic.indexOf('/', 1) + 1));
+  const addPort = (topic, type, state) => {
+    const owner = boxOf(topic);
+    const path = FarPath(topic);
+    elements.set(path, { path, kind: 'port', far: true, owner, name: short(topic, owner), direction: 'output', data_type: type, topic,
+      interface: false, required: false, description: '', unit: '', awaits: [], state });
+  };
   for (const name of applications.keys()) boxOf(`/${name}/x`);
   for (const take of network.takes ?? []) {
     const port = structure.get(take.port);
@@ -47,10 +56,15 @@ export function NetworkElements(structure, network) {
   for (const { offers } of all) {
     for (const { topic, type } of offers) {
       if (taken.has(topic)) continue;
-      const owner = boxOf(topic);
-      const path = FarPath(topic);
-      elements.set(path, { path, kind: 'port', far: true, owner, name: short(topic, owner), direction: 'output', data_type: type, topic,
-        interface: false, required: false, description: '', unit: '', awaits: [], state: 'offered' });
+      addPort(topic, type, 'offered');
+    }
+  }
+  for (const { awaits, direction } of structure.ofKind('port')) {
+    for (const awaited of (direction === 'input' && awaits) || []) {
+      const topic = FarTopic(awaited.from);
+      if (topic === null || taken.has(topic)) continue;
+      if (!elements.has(FarPath(topic))) addPort(topic, '', 'waiting');
+      elements.get(FarPath(topic)).awaits.push(awaited);
     }
   }
   for (const offer of network.offers ?? []) {

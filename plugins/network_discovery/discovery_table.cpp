@@ -1,8 +1,8 @@
-#include "plugins/network/discovery_table.h"
+#include "plugins/network_discovery/discovery_table.h"
 
 #include <algorithm>
 
-#include "plugins/network/value_form.h"
+#include "plugins/network_discovery/value_form.h"
 
 namespace runnel {
 

@@ -1,4 +1,4 @@
-#include "plugins/network/value_form.h"
+#include "plugins/network_discovery/value_form.h"
 
 #include <algorithm>
 #include <string_view>

@@ -1,4 +1,4 @@
-#include "plugins/network/topic_names.h"
+#include "plugins/network_discovery/topic_names.h"
 
 #include "plugins/ros_messages/names.h"
 #include "plugins/values/port_patterns.h"

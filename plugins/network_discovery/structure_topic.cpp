@@ -1,4 +1,4 @@
-#include "plugins/network/structure_topic.h"
+#include "plugins/network_discovery/structure_topic.h"
 
 #include <utility>
 #include <vector>

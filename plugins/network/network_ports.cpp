@@ -1,0 +1,118 @@
+#include "plugins/network/network_ports.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/conversion/conversion.h"
+#include "core/element/runtime.h"
+#include "core/paths/late_connections.h"
+#include "core/port/probe_port.h"
+#include "core/types/signal.h"
+#include "core/types/type_of.h"
+#include "plugins/network_discovery/topic_names.h"
+
+namespace runnel {
+
+namespace {
+
+// Of its type nothing can be said of what is to become it.
+bool TakesAnything(const TypeInfo& type) { return &type == &runnel::TypeOf<Signal>() || &type == &runnel::TypeOf<std::string>(); }
+
+Result<void> CheckEdge(const DistantType& from, const Connection& edge) {
+  const Port& to = *edge.to;
+  if (dynamic_cast<const ProbePort*>(&to) != nullptr) return {};
+  if (from.type == &to.type() && edge.options.part.empty() && edge.options.convert.empty()) return {};
+  const auto found = Conversion::Find({*from.type, to.type(), edge.options.part, edge.options.convert, from.unit, to.unit()});
+  return found ? Result<void>() : found.error();
+}
+
+}  // namespace
+
+NetworkPorts* NetworkPorts::Of(const NetworkElement& network) {
+  auto* const ports = dynamic_cast<NetworkPorts*>(DistantPorts::FindIn(network));
+  return ports != nullptr && ports->network_ == &network ? ports : nullptr;
+}
+
+Port* NetworkPorts::Find(std::string_view path) const {
+  if (network_ == nullptr || !SplitPortPath(path).part.empty()) return nullptr;
+  const auto& takes = network_->takes();
+  const auto found = std::ranges::find(takes, TopicOfDistantPath(path), [](const auto& each) { return each.options.topic; });
+  return found == takes.end() ? nullptr : found->output;
+}
+
+DistantType NetworkPorts::Ask(const std::string& path, const TypeInfo* expected) const {
+  if (!find_type_) return {.why_not = "the network does not run, which says what values it has"};
+  return find_type_(path, expected);
+}
+
+DistantType NetworkPorts::TypeOf(std::string_view path) const { return Ask(std::string(path), nullptr); }
+
+TakeOptions NetworkPorts::OptionsOf(const std::string& path) const {
+  return {.topic = TopicOfDistantPath(path),
+          .keeps_stamps = true,
+          .is_distant = true,
+          .is_live = network_->options().is_live,
+          .position = network_->options().position};
+}
+
+Result<Port*> NetworkPorts::MakeOutput(const std::string& path, const TypeInfo& type, const std::string& unit) {
+  const auto made = network_->AddTake(OptionsOf(path), type, unit);
+  if (made) (*made)->Annotate(std::make_unique<DistantPort>(path));
+  return made;
+}
+
+Result<Port*> NetworkPorts::Make(std::string_view path, const Port& to, const ConnectOptions& options) {
+  if (Port* const known = Find(path)) return known;
+  if (network_ == nullptr) return Error{.message = "the application with the network has gone"};
+  const std::string whole(path);
+  const DistantType type = Ask(whole, &to.type());
+  if (type.type != nullptr) return MakeOutput(whole, *type.type, type.unit);
+  // Of a unit nothing may be guessed: numbers of another one would be taken for it until that is told.
+  const bool can_be_guessed = options.part.empty() && options.convert.empty() && to.unit().empty() && !TakesAnything(to.type());
+  if (can_be_guessed) return MakeOutput(whole, to.type(), {});
+  if (const auto live = network_->CheckLiveness(OptionsOf(whole)); !live) return live.error();
+  return nullptr;
+}
+
+Result<void> NetworkPorts::MakeAwaited(const std::string& path) {
+  if (network_ == nullptr || Find(path) != nullptr) return {};
+  const DistantType type = Ask(path, nullptr);
+  if (type.type == nullptr) return {};
+  const auto made = MakeOutput(path, *type.type, type.unit);
+  return made ? Result<void>() : made.error();
+}
+
+std::optional<DistantType> NetworkPorts::OtherType(const NetworkElement::Take& take, std::string& why_not) const {
+  const Port& output = *take.output;
+  const std::string& path = DistantPathOf(output);
+  if (!take.options.is_distant || path.empty()) return {};
+  DistantType told = Ask(path, &output.type());
+  if (told.type == nullptr) return {};
+  if (told.type == &output.type() && told.unit == output.unit()) return {};
+  for (const Connection& each : output.outgoing()) {
+    const auto possible = CheckEdge(told, each);
+    if (possible) continue;
+    why_not = each.to->path() + ": " + possible.error().message + (possible.error().hint.empty() ? "" : "; " + possible.error().hint);
+    return {};
+  }
+  return told;
+}
+
+Result<void> NetworkPorts::Renew(Port& output, const DistantType& type, UnlistedElement& gone) {
+  const std::string path = DistantPathOf(output);
+  const std::vector<Connection> edges = output.outgoing();
+  auto dropped = network_->DropTake(output);
+  if (dropped) gone = std::move(*dropped);
+  LateConnections& late = LateConnections::Of(network_->runtime());
+  late.LookAgain();  // at those that it knows already
+  for (const Connection& each : edges) {
+    const bool is_of_somebody = dynamic_cast<const ProbePort*>(each.to) != nullptr;  // who looks for what is there now
+    if (is_of_somebody || late.Find(path, each.to->path()) != nullptr) continue;
+    if (const auto noted = late.Add(path, each.to->path(), each.options); !noted) return noted;
+  }
+  if (!dropped) return dropped.error();
+  const auto made = MakeOutput(path, *type.type, type.unit);
+  return made ? Result<void>() : made.error();
+}
+
+}  // namespace runnel

@@ -1,0 +1,84 @@
+#include "plugins/network_discovery/distant_type.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include "core/base/nearest_name.h"
+#include "core/element/element_path.h"
+#include "core/port/typed_ports.h"
+#include "core/types/type_info.h"
+#include "plugins/network_discovery/discovery_table.h"
+#include "plugins/network_discovery/topic_names.h"
+#include "plugins/network_discovery/value_form.h"
+#include "plugins/ros_messages/described_message.h"
+#include "plugins/ros_messages/names.h"
+
+namespace runnel {
+
+namespace {
+
+constexpr std::string_view kUnit = "runnel_unit=";
+
+bool IsOffered(const WireEndpoint& writer, const TypeInfo& type) { return writer.options.type == DdsType(MessageNameOf(type)); }
+
+// Of several that are called so, that with the same description.
+const TypeInfo* FindNamed(const WireEndpoint& writer) {
+  const TypeInfo* found = nullptr;
+  for (const TypeInfo* const each : RegisteredTypes()) {
+    if (each->kind() == TypeKind::kOpaque || FindTypedPorts(*each) == nullptr || !IsOffered(writer, *each)) continue;
+    const bool is_the_same = writer.options.user_data.find("runnel_type=" + DescriptionText(*each) + ";") != std::string::npos;
+    if (found == nullptr || is_the_same) found = each;
+    if (is_the_same) break;
+  }
+  return found;
+}
+
+std::string UnitSaid(const std::string& user_data) {
+  const std::size_t begin = user_data.find(kUnit);
+  if (begin == std::string::npos) return {};
+  const std::size_t end = user_data.find(';', begin);
+  return user_data.substr(begin + kUnit.size(), end - begin - kUnit.size());
+}
+
+std::string WhyNobodyWrites(const DiscoveryTable& table, const std::string& path) {
+  const auto words = SplitPath(path);
+  const std::string name(words.empty() ? "" : words.front());
+  const auto members = table.members();
+  if (std::ranges::none_of(members, [&](const WireMember& each) { return each.name == name; })) {
+    return name + " is not in the network yet, which says what values it has";
+  }
+  std::vector<std::string> offers;
+  for (const WireEndpoint& each : table.endpoints()) {
+    const std::string offered = ReadableTopic(each.options.topic);
+    if (each.is_writer && !each.is_own && offered.starts_with("/" + name + "/")) offers.push_back("/" + offered);
+  }
+  const std::string hint = NearestNameHint(path, offers);
+  return name + " offers no " + path + (hint.empty() ? "" : "; " + hint);
+}
+
+}  // namespace
+
+std::string UnitText(const std::string& unit) { return unit.empty() ? "" : std::string(kUnit) + unit + ";"; }
+
+DistantType FindDistantType(const DiscoveryTable& table, const std::string& path, const TypeInfo* expected,
+                            const std::function<void()>& know_types) {
+  const auto writers = table.Partners(DdsTopic(TopicOfDistantPath(path)), true);
+  if (writers.empty()) return {.why_not = WhyNobodyWrites(table, path)};
+  for (const WireEndpoint& each : writers) {
+    if (expected != nullptr && IsOffered(each, *expected)) return {expected, UnitSaid(each.options.user_data)};
+  }
+  const WireEndpoint& writer = writers.front();
+  const TypeInfo* type = FindNamed(writer);
+  if (type == nullptr && know_types) {
+    know_types();
+    type = FindNamed(writer);
+  }
+  if (type != nullptr) return {type, UnitSaid(writer.options.user_data)};
+  const std::string name = RosType(writer.options.type);
+  const bool is_described = writer.options.user_data.find("runnel_type=") != std::string::npos;
+  return {.why_not = "its values are " + (is_described ? "of the type " + name + ", which is not known here: load a plugin with ports of it"
+                                                       : "messages " + name + ": <take topic=\"" + TopicOfDistantPath(path) +
+                                                             "\" as=\"" + name + "\" to=\"…\"/> takes them")};
+}
+
+}  // namespace runnel
