@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 
 #include "tests/integration/program.h"
+#include "tests/integration/ros_robot.h"
 #include "tests/support/own_network.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/wait_until.h"
@@ -27,22 +27,7 @@ class HeadersByTshark : public testing::TestWithParam<const char*> {
   HeadersByTshark() {
     setenv("ROS_DOMAIN_ID", std::to_string(OwnDomain()).c_str(), 1);
     setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1);
-    std::ofstream(folder_ / "robot.xml") << R"(<application name="robot" thread="control">
-  <load plugin="simulation"/> <load plugin="motion"/>
-  <clock type="simulated" speed="1"/> <thread name="control" period="50ms"/>
-  <network name="base" engine=")" << GetParam() << R"(">
-    <offer port="laser/scan" topic="/scan" as="sensor_msgs/msg/LaserScan" frame="laser" qos="sensor"/>
-    <offer port="world/pose" topic="/tf_static" as="tf2_msgs/msg/TFMessage" frame="map" child_frame="start" qos="latched"/>
-    <take topic="/cmd_vel" as="geometry_msgs/msg/Twist" to="gate/wanted" live="true"/>
-    <ros distribution="jazzy" node="/robots/base"/>
-  </network>
-  <module name="world" type="simulation/world"> <parameter name="world" command_line="world"/> </module>
-  <module name="laser" type="simulation/laser"/>
-  <module name="gate" type="motion/command_gate"/>
-  <module name="drive" type="motion/differential_drive"/>
-  <connect from="world/scene" to="laser/scene"/> <connect from="world/pose" to="laser/pose"/>
-  <connect from="gate/allowed" to="drive/twist"/> <connect from="drive/wheels" to="world/wheels"/>
-</application>)";
+    WriteRosRobot(folder_ / "robot.xml", GetParam());
   }
   ~HeadersByTshark() override {
     unsetenv("XDG_RUNTIME_DIR");
