@@ -3,6 +3,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { NetworkElements } from '../../../plugins/inspector/page/source/model/network.js';
+import { LacksSource } from '../../../plugins/inspector/page/source/model/alarms.js';
 import { Structure } from '../../../plugins/inspector/page/source/model/structure.js';
 
 const kPort = { kind: 'port', data_type: 'Twist2', interface: false, awaits: [] };
@@ -37,6 +38,17 @@ test('an application is a box with what is offered and what is connected', () =>
     [['/robot/network/planner/twist', 'twist', 'connected'], ['//planner/status', 'status', 'offered']]);
   assert.deepEqual(structure.get('/robot/gate/output/allowed').offers.map(({ topic }) => topic), ['/robot/gate/allowed']);
   assert.equal(Show(structure, kNetwork), false, 'the same picture');
+});
+
+test('an input that another application feeds does not lack a source', () => {
+  const structure = Robot();
+  const gate = { ...kPort, path: '/robot/gate/input/wanted', owner: '/robot/gate', direction: 'input', name: 'wanted', required: true };
+  structure.change({ revision: 2, elements: [gate] });
+  Show(structure, kNetwork);
+  assert.equal(LacksSource(structure, structure.get(gate.path)), true);
+  structure.change({ revision: 3, connected: [{ from: '/robot/network/planner/twist', to: gate.path }] });
+  Show(structure, kNetwork);
+  assert.equal(LacksSource(structure, structure.get(gate.path)), false);
 });
 
 test('who is waited for is shown, and all is as before when the network has gone', () => {
