@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "bench/plugins/network/network_bench.h"
+#include "core/port/own_cycle.h"
 
 namespace runnel {
 
@@ -44,11 +45,32 @@ class Members final : public WireDiscovery {
   std::set<WireId> ids_;
 };
 
+/// Counts the writers of values that there are.
+class Endpoints final : public WireDiscovery {
+ public:
+  [[nodiscard]] std::size_t count() const {
+    const std::lock_guard lock(mutex_);
+    return ids_.size();
+  }
+
+ private:
+  void OnMember(const WireMember&) override {}
+  void OnMemberGone(const WireId&) override {}
+  void OnEndpoint(const WireEndpoint& endpoint) override {
+    const std::lock_guard lock(mutex_);
+    if (endpoint.is_writer && endpoint.options.topic.starts_with("rt/writer/element_")) ids_.insert(endpoint.id);
+  }
+  void OnEndpointGone(const WireId&) override {}
+
+  mutable std::mutex mutex_;
+  std::set<WireId> ids_;
+};
+
 /// What processes share.
 struct Common {
   std::atomic<int> ready{0};
   std::atomic<bool> has_ended{false};
-  double took = 0;       // s
+  std::atomic<double> took{0};  // s
   std::atomic<std::int64_t> memory{0};  // kB, of all, what they share counted once
 };
 
@@ -81,37 +103,67 @@ std::int64_t OwnMemory() {
 void PrintDiscovery(int starts) {
   Common& common = MakeCommon();
   const pid_t writing = Fork([&] {
-    Members members;
-    const auto engine = MakeSharedMemoryWire(MakeCycloneWire());
-    const auto member = std::move(*engine->Join({}, members));
-    const auto writer = std::move(*member->MakeWriter(kTopic, {}));
+    Application<Sender<Block>> application;
+    application.Begin({.member = {.name = "writer"},
+                       .offers = {{.port = "/application/element/output", .topic = "/values", .quality = ValueQuality::kLatched}}},
+                      nullptr);
+    {
+      const OwnCycle cycle(SteadyClock().Now());
+      application.element.output.Publish(Block{});
+    }
     common.ready = 1;
     while (!common.has_ended) Nap();
+    application.link.reset();
   });
   while (common.ready == 0) Nap();
   std::vector<double> all;
   for (int i = 0; i < starts; ++i) {
     const pid_t reading = Fork([&] {
-      Members members;
-      std::atomic<bool> is_matched{false};
-      const auto engine = MakeSharedMemoryWire(MakeCycloneWire());
       const double began = Now();
-      const auto member = std::move(*engine->Join({}, members));
-      const auto reader = std::move(*member->MakeReader(kTopic, [](const WireSample&) {}, [&](std::size_t count) {
-        is_matched = count > 0;
-      }));
-      while (!is_matched) std::this_thread::sleep_for(std::chrono::microseconds(100));
+      Application<Receiver<Block>> application;
+      application.Begin({.member = {.name = "reader"}}, &application.element.input);
+      while (!application.element.input.Read().has_value()) std::this_thread::sleep_for(std::chrono::microseconds(100));
       common.took = Now() - began;
+      application.link.reset();
     });
     waitpid(reading, nullptr, 0);
-    all.push_back(common.took);
+    all.push_back(common.took.load());
   }
   common.has_ended = true;
   waitpid(writing, nullptr, 0);
   std::ranges::sort(all);
   const auto soon = std::ranges::count_if(all, [](double each) { return each < 0.1; });
-  fmt::print("{} starts: a reader has found the writer after {:.1f} ms (median), {:.1f} ms (worst); {} within 100 ms\n", starts,
+  fmt::print("{} starts: an application has another one's value after {:.1f} ms (median), {:.1f} ms (worst); {} within 100 ms\n", starts,
              1e3 * all[all.size() / 2], 1e3 * all.back(), soon);
+}
+
+void PrintMany(int count) {
+  Common& common = MakeCommon();
+  const pid_t looking = Fork([&] {
+    Endpoints endpoints;
+    const auto engine = MakeSharedMemoryWire(MakeCycloneWire());
+    const auto member = std::move(*engine->Join({.name = "viewer"}, endpoints));
+    common.ready = 1;
+    while (endpoints.count() < static_cast<std::size_t>(count)) Nap();
+    common.took = Now();
+    while (!common.has_ended) Nap();
+  });
+  while (common.ready == 0) Nap();
+  Runtime runtime;
+  Group& group = runtime.Create<Group>(runtime.root(), "application");
+  for (int i = 0; i < count; ++i) runtime.Create<Sender<Block>>(group, "element_" + std::to_string(i));
+  const auto engine = MakeSharedMemoryWire(MakeCycloneWire());
+  auto& network = runtime.Create<NetworkElement>(group, "network", NetworkOptions{.member = {.name = "writer"}, .offers = {{.patterns = {"**"}}}});
+  (void)runtime.MakeReady(runtime.root());
+  const std::int64_t before = OwnMemory();
+  const double began = Now();
+  auto link = std::move(*NetworkLink::Start(group, network, *engine, false));
+  while (common.took == 0) Nap();
+  fmt::print("{} ports offered: another process knows all after {:.0f} ms; {:.1f} MB\n", count, 1e3 * (common.took - began),
+             1e-3 * static_cast<double>(OwnMemory() - before));
+  common.has_ended = true;
+  waitpid(looking, nullptr, 0);
+  link.reset();
 }
 
 void PrintCrowd(int count) {

@@ -1,7 +1,11 @@
+#include <array>
+#include <cstdlib>
 #include <cstring>
 #include <thread>
 
 #include <fmt/core.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "bench/plugins/network/network_bench.h"
 #include "core/module/after_cycle.h"
@@ -34,10 +38,15 @@ class Reading final : public Waker {
   double (*const sent_)(const T&);
 };
 
+OfferOptions OfferOf(ValueQuality quality, ValueSending sending) {
+  return {.port = "/application/element/output", .topic = "/values", .quality = quality, .sending = sending};
+}
+
 template <typename T>
-Figures MeasurePorts(const Load& load, ValueQuality quality, ValueSending sending, void (*fill)(T&), double (*sent)(const T&)) {
+Figures MeasurePorts(const Load& load, const OfferOptions& offer, bool has_shared_memory, void (*fill)(T&), double (*sent)(const T&)) {
   const auto read = [&](Course& course) {
     Application<Receiver<T>> application;
+    if (!has_shared_memory) application.engine = MakeCycloneWire();
     Input<T>& input = application.element.input;
     Reading<T> reading(input, course, sent);
     application.Begin({.member = {.name = "reader"}}, &input);
@@ -49,10 +58,9 @@ Figures MeasurePorts(const Load& load, ValueQuality quality, ValueSending sendin
   };
   const auto write = [&](Course& course) {
     Application<Sender<T>> application;
+    if (!has_shared_memory) application.engine = MakeCycloneWire();
     Output<T>& output = application.element.output;
-    application.Begin({.member = {.name = "writer"},
-                       .offers = {{.port = "/application/element/output", .topic = "/values", .quality = quality, .sending = sending}}},
-                      nullptr);
+    application.Begin({.member = {.name = "writer"}, .offers = {offer}}, nullptr);
     while (output.outgoing().empty()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     course.Write([&] {
       // As executors do.
@@ -116,12 +124,12 @@ Figures MeasureEngine(const Load& load, std::size_t size) {
 }
 
 Figures MeasureBlocks(const Load& load, ValueQuality quality, ValueSending sending) {
-  return MeasurePorts<Block>(load, quality, sending, [](Block& block) { block.values[0] = Now(); },
+  return MeasurePorts<Block>(load, OfferOf(quality, sending), true, [](Block& block) { block.values[0] = Now(); },
                              [](const Block& block) { return block.values[0]; });
 }
 
-Figures MeasurePictures(const Load& load) {
-  return MeasurePorts<Picture>(load, ValueQuality::kNewest, ValueSending::kNetwork,
+Figures MeasurePictures(const Load& load, bool has_shared_memory) {
+  return MeasurePorts<Picture>(load, OfferOf(ValueQuality::kNewest, ValueSending::kNetwork), has_shared_memory,
                                [](Picture& picture) {
                                  picture.data.resize(kPicture);
                                  picture.sent = Now();
@@ -130,12 +138,35 @@ Figures MeasurePictures(const Load& load) {
 }
 
 void PrintPublishing() {
-  Application<Sender<Block>> application;
-  (void)application.runtime.MakeReady(application.runtime.root());
-  fmt::print("Publish() of 128 B: {:.1f} ns without a network, ", PublishingTime(application.element.output));
-  application.Begin({.member = {.name = "writer"}, .offers = {{.patterns = {"**"}}}}, nullptr);
-  fmt::print("{:.1f} ns offered, and read by nobody\n", PublishingTime(application.element.output));
-  application.link.reset();
+  // Before there are threads. It reads, and waits for the end of this process's end.
+  std::array<int, 2> ends{};
+  if (pipe(ends.data()) != 0) std::abort();
+  const pid_t other = fork();
+  if (other == 0) {
+    close(ends[1]);
+    Application<Receiver<Block>> reading;
+    reading.Begin({.member = {.name = "reader"}}, &reading.element.input);
+    char octet = 0;
+    (void)!read(ends[0], &octet, 1);
+    _exit(0);
+  }
+  {
+    Application<Sender<Block>> application;
+    (void)application.runtime.MakeReady(application.runtime.root());
+    fmt::print("Publish() of 128 B: {:.1f} ns without a network, ", PublishingTime(application.element.output));
+    application.Begin({.member = {.name = "writer"}, .offers = {{.patterns = {"**"}}}}, nullptr);
+    fmt::print("{:.1f} ns offered, and read by nobody, ", PublishingTime(application.element.output));
+    application.link.reset();
+  }
+  {
+    Application<Sender<Block>> application;
+    application.Begin({.member = {.name = "writer"}, .offers = {OfferOf(ValueQuality::kNewest, ValueSending::kNetwork)}}, nullptr);
+    while (application.element.output.outgoing().empty()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    fmt::print("{:.1f} ns read by another process, while the network's thread is awake\n", PublishingTime(application.element.output));
+    application.link.reset();
+  }
+  close(ends[1]);
+  waitpid(other, nullptr, 0);
 }
 
 }  // namespace runnel

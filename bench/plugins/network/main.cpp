@@ -1,5 +1,5 @@
 // What it costs to have ports read by another process: bin/bench_network [publishing] [latency] [uneven] [pictures] [throughput]
-// [discovery] [crowd] [large_crowd], or all of them.
+// [discovery] [many] [crowd] [large_crowd], or all of them.
 // Beside each figure stands that of the engine alone, by the seam of octets, in the same run, one after the other.
 // All processes are in a network of their own if the system permits that.
 
@@ -64,6 +64,7 @@ void CompareLatency(const char* what, int rounds, const std::function<Figures()>
 }
 
 constexpr const char* kByNetwork = "  ports, by the network's thread";
+constexpr const char* kByUdp = "  ports, without shared memory";
 constexpr const char* kAfterCycle = "  ports, sent after the cycle";
 
 void PrintThroughput(const char* what, std::size_t size, const Figures& engine, const std::vector<Way>& ways) {
@@ -94,7 +95,7 @@ void Uneven() { CompareBlocks("128 B at about 1 kHz, unevenly", false); }
 void Pictures() {
   const Load load{40, std::chrono::milliseconds(33)};
   CompareLatency("6.2 MB at 30 Hz", 3, [&] { return MeasureEngine(load, kPicture); },
-                 {{kByNetwork, [&] { return MeasurePictures(load); }}});
+                 {{kByNetwork, [&] { return MeasurePictures(load); }}, {kByUdp, [&] { return MeasurePictures(load, false); }}});
 }
 
 void Throughput() {
@@ -102,13 +103,14 @@ void Throughput() {
   PrintThroughput("128 B, as fast as it goes", sizeof(Block), MeasureEngine(flood, sizeof(Block)),
                   WaysOfBlocks(flood, ValueQuality::kEach));
   PrintThroughput("6.2 MB, as fast as it goes", kPicture, MeasureEngine(flood, kPicture),
-                  {{kByNetwork, [&] { return MeasurePictures(flood); }}});
+                  {{kByNetwork, [&] { return MeasurePictures(flood); }}, {kByUdp, [&] { return MeasurePictures(flood, false); }}});
 }
 
 int Run(const std::vector<std::string>& wanted) {
   const std::vector<std::pair<std::string_view, void (*)()>> parts = {
       {"publishing", PrintPublishing}, {"latency", Latency}, {"uneven", Uneven}, {"pictures", Pictures}, {"throughput", Throughput},
-      {"discovery", [] { PrintDiscovery(50); }}, {"crowd", [] { PrintCrowd(30); }}, {"large_crowd", [] { PrintCrowd(100); }}};
+      {"discovery", [] { PrintDiscovery(50); }}, {"many", [] { PrintMany(500); }},
+      {"crowd", [] { PrintCrowd(30); }}, {"large_crowd", [] { PrintCrowd(100); }}};
   (void)test::EnterOwnNetwork();
   bool is_known = wanted.empty();
   for (const auto& [name, run] : parts) {
@@ -117,7 +119,7 @@ int Run(const std::vector<std::string>& wanted) {
     run();
     std::fflush(stdout);
   }
-  if (!is_known) fmt::print(stderr, "usage: bench_network [publishing] [latency] [uneven] [pictures] [throughput] [discovery] [crowd] [large_crowd]\n");
+  if (!is_known) fmt::print(stderr, "usage: bench_network [publishing] [latency] [uneven] [pictures] [throughput] [discovery] [many] [crowd] [large_crowd]\n");
   return is_known ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 

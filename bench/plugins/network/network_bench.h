@@ -96,10 +96,12 @@ class Course {
 [[nodiscard]] Figures MeasureEngine(const Load& load, std::size_t size);
 /// From port to port.
 [[nodiscard]] Figures MeasureBlocks(const Load& load, ValueQuality quality, ValueSending sending);
-[[nodiscard]] Figures MeasurePictures(const Load& load);
+[[nodiscard]] Figures MeasurePictures(const Load& load, bool has_shared_memory = true);
 
-/// What it costs to publish through a port that is offered, in this process.
+/// What it costs to publish through a port that is offered, read by nobody, and by another process.
 void PrintPublishing();
+/// How long it takes until `count` ports of an application are known to another one, and what memory they need.
+void PrintMany(int count);
 /// How soon two find one another; how long it takes until `count` know each other, and what memory they need.
 void PrintDiscovery(int starts);
 void PrintCrowd(int count);
@@ -110,7 +112,7 @@ struct Application {
   Runtime runtime;
   Group& group = runtime.Create<Group>(runtime.root(), "application");
   Element& element = runtime.Create<Element>(group, "element");
-  const std::shared_ptr<WireEngine> engine = MakeSharedMemoryWire(MakeCycloneWire());
+  std::shared_ptr<WireEngine> engine = MakeSharedMemoryWire(MakeCycloneWire());
   NetworkElement* network = nullptr;
   std::unique_ptr<NetworkLink> link;
 
