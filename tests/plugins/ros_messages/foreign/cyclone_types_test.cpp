@@ -37,6 +37,15 @@ const dds_topic_descriptor_t& TypeFor(const std::string& ros_type) {
   throw std::runtime_error("no foreign type " + name);
 }
 
+TEST(CycloneTypes, AreThereForEachMessage) {
+  for (const MessageDefinition* const each : MessageLibrary::Standard().All()) {
+    const bool is_message = each->name.find("/msg/") != std::string::npos;
+    if (is_message) {
+      EXPECT_NO_THROW((void)TypeFor(each->name));
+    }
+  }
+}
+
 // Of all messages, those of ROS 2's own tests among them, which Runnel reads from their .msg files.
 TEST(CycloneTypes, HaveTheOctetsOfOurDefinitions) {
   MessageLibrary library;
