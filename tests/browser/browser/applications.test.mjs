@@ -78,6 +78,15 @@ test('a part of what another application has is connected, and one is shown that
   await page.keyboard.press('Control+s');
   await page.locator('.difference .new', { hasText: 'from="//planner/planner/twist.forward" to="scale/in"' }).waitFor();
   assert.equal(await page.locator('.difference .gone').count(), 0, 'what waits is saved as it was');
+  await page.keyboard.press('Escape');
+  await page.locator('#undo').click();
+  await edge.first().waitFor({ state: 'detached' });
+  await page.locator('[data-port="//planner/planner/twist"] circle').click({ button: 'right' });
+  await page.getByRole('menuitem', { name: 'Connect …' }).click();
+  await page.locator('.choice-search').fill('scale in');
+  await page.getByRole('option', { name: 'scale/in' }).click();
+  await page.getByRole('option', { name: 'turn' }).click();
+  await edge.first().waitFor({ state: 'attached' });
 });
 
 test('a port is offered from its menu, and no more', async (t) => {
@@ -98,4 +107,30 @@ test('a port is offered from its menu, and no more', async (t) => {
   await page.locator('.port.offered').waitFor({ state: 'detached' });
   await page.keyboard.press('Control+z');
   await page.locator('.port.offered[data-port="/follower/gate/output/allowed"]').waitFor();
+});
+
+test('a port takes a topic, by the words that say how', async (t) => {
+  const { inspector } = await Both(t);
+  const { page } = inspector;
+  await page.locator('[data-node="/follower/@planner"]').waitFor();
+  await page.locator('[data-port="/follower/gate/input/wanted"] circle').click({ button: 'right' });
+  await page.getByRole('menuitem', { name: 'Take from the network …' }).click();
+  await page.locator('#take-topic').fill('go there');
+  await page.locator('#take').click();
+  await page.locator('.problem', { hasText: '/go_there' }).waitFor();
+  await page.locator('#take-topic').fill('/cmd_vel');
+  await page.locator('#take-as').fill('geometry_msgs/msg/Twist');
+  await page.locator('#take-stamp').selectOption('sent');
+  await page.locator('#take-exclusive').selectOption('true');
+  await page.locator('#take').click();
+  const edge = page.locator('[data-edge="/follower/network/cmd_vel → /follower/gate/input/wanted"]');
+  await edge.first().waitFor({ state: 'attached' });
+  await page.locator('#graph').focus();
+  await page.keyboard.press('Control+s');
+  for (const said of ['topic="/cmd_vel"', 'as="geometry_msgs/msg/Twist"', 'stamp="sent"', 'exclusive="true"']) {
+    await page.locator('.difference .new', { hasText: said }).waitFor();
+  }
+  await page.keyboard.press('Escape');
+  await page.locator('#undo').click();
+  await edge.first().waitFor({ state: 'detached' });
 });

@@ -1,8 +1,9 @@
 // Connecting without a mouse: the ports that suit, with a search.
 
 import { html } from 'htm/preact';
-import { Partners } from '../model/compatibility.js';
+import { OtherPartners, Partners } from '../model/compatibility.js';
 import { Connect } from '../state/actions.js';
+import { ConnectOtherwise } from '../state/connecting.js';
 import { structure } from '../state/store.js';
 import { ChoiceList } from './choice_list.js';
 import { CloseDialog, Dialog } from './dialog.js';
@@ -10,15 +11,16 @@ import { CloseDialog, Dialog } from './dialog.js';
 export function ConnectDialog({ path }) {
   const port = structure.get(path);
   const partners = Partners(structure, path);
+  const others = OtherPartners(structure, path); // of which few may suit: those that are asked for
   const find = (text) => {
     const words = text.toLowerCase().split(/\s+/).filter(Boolean);
-    return partners.filter(({ port: other }) => words.every((word) => other.path.toLowerCase().includes(word)))
-      .map(({ port: other, ends }) => ({
-        key: other.path, title: `${structure.get(other.owner)?.name ?? ''}/${other.name}`, ends,
-        note: ends.from === path ? 'takes what this gives' : 'gives what this takes', detail: other.path,
+    return (words.length > 0 ? [...partners, ...others] : partners).filter(({ port: other }) => words.every((word) => other.path.toLowerCase().includes(word)))
+      .map(({ port: other, ends, differs }) => ({
+        key: other.path, title: `${structure.get(other.owner)?.name ?? ''}/${other.name}`, ends, differs,
+        note: differs ? `${other.data_type}: by a part, or a conversion` : ends.from === path ? 'takes what this gives' : 'gives what this takes', detail: other.path,
       }));
   };
-  const choose = ({ ends }) => { CloseDialog(); Connect(ends.from, ends.to); };
+  const choose = ({ ends, differs }) => { CloseDialog(); differs ? ConnectOtherwise(ends.from, ends.to) : Connect(ends.from, ends.to); };
   return html`
     <${Dialog} title=${`Connect ${port?.name}`}>
       <h2>Connect ${port?.name} <small>${port?.data_type}</small></h2>

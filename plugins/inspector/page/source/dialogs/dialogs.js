@@ -14,10 +14,11 @@ import { RenameDialog } from './rename_dialog.js';
 import { HelpDialog, MoveDialog, SaveDialog } from './small_dialogs.js';
 import { SaveDifference } from './save_difference.js';
 import { SwapDialog } from './swap_dialog.js';
+import { TakeDialog } from './take_dialog.js';
 
 const kDialogs = {
   confirm: ConfirmDialog, create: CreateDialog, connect: ConnectDialog, convert: ConvertDialog, swap: SwapDialog, move: MoveDialog, port: PortDialog,
-  difference: SaveDifference, save: SaveDialog, help: HelpDialog, menu: Menu, note: NoteDialog, offer: OfferDialog, rename: RenameDialog,
+  difference: SaveDifference, save: SaveDialog, help: HelpDialog, menu: Menu, note: NoteDialog, offer: OfferDialog, rename: RenameDialog, take: TakeDialog,
 };
 
 export function OpenDialog() {

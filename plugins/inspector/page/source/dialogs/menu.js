@@ -47,6 +47,7 @@ function MenuItems(path) {
   if (element.kind === 'port') {
     return [{ text: 'Connect …', changes: true, action: open('connect') },
       ...OfferItems(element, open),
+      ...TakeItems(element, open),
       ...(CanBeDeleted(element) ? [{ text: 'Delete', changes: true, danger: true, action: () => DeleteCarefully([path]) }] : [])];
   }
   if (element.kind === 'module') return ModuleItems(element, open);
@@ -58,6 +59,12 @@ function OfferItems({ path, direction, far, offers, interface: isInterface }, op
   if (network.value === null || far || (direction === 'input' && !isInterface)) return [];
   return [{ text: 'Offer in the network …', changes: true, action: open('offer') },
     ...(offers ?? []).map(({ topic }) => ({ text: `Stop offering ${topic}`, changes: true, action: () => StopOffering(path, topic) }))];
+}
+
+/** Of others, too. */
+function TakeItems({ direction, far, interface: isInterface }, open) {
+  if (network.value === null || far || (direction === 'output' && !isInterface)) return [];
+  return [{ text: 'Take from the network …', changes: true, action: open('take') }];
 }
 
 function ChosenItems() {

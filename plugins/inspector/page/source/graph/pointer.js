@@ -1,12 +1,12 @@
 // Mouse, pen and touch on the graph: selecting, moving, zooming, connecting, menus.
 
 import { Outermost } from '../model/copies.js';
-import { OnlyTypesDiffer, Partners, WhyNot } from '../model/compatibility.js';
-import { Connect, Conversions } from '../state/actions.js';
+import { Partners } from '../model/compatibility.js';
+import { Connect } from '../state/actions.js';
+import { ConnectOtherwise } from '../state/connecting.js';
 import { canChange, structure } from '../state/store.js';
 import { Choose, SetPanels, chosen, openDialog, selected } from '../state/choices.js';
 import { isNarrow } from '../state/window.js';
-import { Toast } from '../state/toasts.js';
 import { BoxAt, MoveView, ToggleGroup, band, candidates, connecting, layout, shown, view } from './graph_state.js';
 import { hovered } from './hover_card.js';
 import { kGroupHeader } from './measure.js';
@@ -225,14 +225,6 @@ function FinishConnecting() {
   StopConnecting();
   if (ends) Connect(ends.from, ends.to);
   else if (blocked) ConnectOtherwise(port, blocked);
-}
-
-/** By a part of the values, or a conversion, if there is one; else says why not. */
-async function ConnectOtherwise(port, other) {
-  const ends = OnlyTypesDiffer(structure, port, other);
-  const reply = ends ? await Conversions(ends.from, ends.to) : { ok: false };
-  if (reply.ok && reply.conversions.length > 0) openDialog.value = { kind: 'convert', ...ends, conversions: reply.conversions };
-  else Toast('refused', 'Not connected', [WhyNot(structure, port, other)]);
 }
 
 export function StopConnecting() {

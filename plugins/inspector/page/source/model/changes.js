@@ -14,6 +14,7 @@ export const Change = {
   schedule: (path, options) => ({ change: 'schedule', path, ...options }),
   tag: (path, tags) => ({ change: 'tag', path, tags }),
   offer: (path, settings) => ({ change: 'offer', words: [path], settings }),
+  take: (topic, path, settings) => ({ change: 'take', words: [topic, path], settings }),
   move: (path, thread) => ({ change: 'move', path, thread }),
 };
 

@@ -43,6 +43,16 @@ export function WhyNot(structure, first, second) {
   return `${name(from)} and ${name(to)} are connected already`;
 }
 
+/** Those that it may be connected with if there is a part of the values, or a conversion, that suits. */
+export function OtherPartners(structure, path) {
+  const partners = [];
+  for (const port of structure.ofKind('port')) {
+    const ends = OnlyTypesDiffer(structure, path, port.path);
+    if (ends) partners.push({ port, ends, differs: true });
+  }
+  return partners;
+}
+
 /** All ports that a port may be connected with, those of the same surroundings first. */
 export function Partners(structure, path) {
   const partners = [];

@@ -8,6 +8,9 @@ export const kFarDetail = 'in the network, 10.00 ms'; // as wide as any
 /** Whether the element is another application, or a port of one. */
 export const IsFar = (element) => element?.far === true;
 
+/** Whether what another one offers are messages of ROS 2, and no values of Runnel. */
+export const IsMessage = (port) => IsFar(port) && port.data_type.includes('/msg/');
+
 /** "//planner/planner/twist" of a topic. */
 export const FarPath = (topic) => `/${topic}`;
 
