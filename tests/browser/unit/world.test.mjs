@@ -23,6 +23,16 @@ test('layers are the outputs of modules whose types have a meaning, the map at t
   assert.equal(pose, '/mock/world/pose');
 });
 
+test('what another application has is drawn as what modules have, and not once more where it leaves a group', () => {
+  const structure = Robot();
+  const port = { kind: 'port', direction: 'output', data_type: 'RangeScan', name: 'scan' };
+  structure.change({ revision: 2, elements: [{ path: '/mock/network', kind: 'group' }, { path: '/mock/eyes', kind: 'group' },
+    { ...port, path: '/mock/network/scan', owner: '/mock/network', interface: false },
+    { ...port, path: '/mock/eyes/scan', owner: '/mock/eyes', interface: true }] });
+  const scans = FindLayers(structure, catalogue).layers.filter(({ meaning }) => meaning === 'range_scan');
+  assert.deepEqual(scans.map(({ port: path }) => path), ['/mock/laser/scan', '/mock/network/scan']);
+});
+
 test('of hundreds of scans only a few are shown at first', () => {
   const structure = Robot();
   for (let i = 0; i < 20; ++i) {

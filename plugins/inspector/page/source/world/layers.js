@@ -1,8 +1,8 @@
 // What of an application can be drawn in its world: the outputs whose types have a meaning. Knows no
 // module and no type by name.
 
-import { OriginsOf } from '../model/origin.js';
-import { IsGroup, NameOf } from '../model/structure.js';
+import { IsSource, OriginsOf } from '../model/origin.js';
+import { NameOf } from '../model/structure.js';
 
 const kAtFirst = 3; // of a kind that are shown until the user chooses others; an application may have hundreds
 
@@ -16,8 +16,7 @@ const kDrawable = ['world_map', 'path', 'hit_and_leave_points', 'range_scan', 'd
 export function FindLayers(structure, catalogue) {
   const layers = [];
   for (const port of structure.ofKind('port')) {
-    const owner = structure.get(port.owner);
-    if (port.direction !== 'output' || !owner || IsGroup(owner)) continue;
+    if (!IsSource(structure, port)) continue;
     const meaning = catalogue.meaning(port.data_type);
     if (kDrawable.includes(meaning)) {
       layers.push({ port: port.path, meaning, label: `${NameOf(port.owner)}/${port.name}`, owner: port.owner });
@@ -62,8 +61,7 @@ function PoseSeenBy(structure, catalogue, owner) {
 function FindCameras(structure, catalogue, pose) {
   const cameras = [];
   for (const port of structure.ofKind('port')) {
-    const owner = structure.get(port.owner);
-    if (port.direction !== 'output' || !owner || IsGroup(owner) || catalogue.meaning(port.data_type) !== 'image') continue;
+    if (!IsSource(structure, port) || catalogue.meaning(port.data_type) !== 'image') continue;
     const number = (name) => Number(structure.parametersOf(port.owner).find((parameter) => parameter.name === name)?.value);
     const fov = number('field_of_view');
     const from = PoseSeenBy(structure, catalogue, port.owner) ?? pose;
