@@ -70,6 +70,9 @@ Result<void> Plan::CheckTie(const std::string& from_path, const std::string& to_
   const auto found_from = overlay_.FindPortPart(from_path, PathKind::kOutput);
   const bool are_there = found_from && found_to;
   const bool may_wait = asked && (asked->when_present || (found_to && IsDistantPath(from_path)));
+  if (!are_there && may_wait && found_to && IsDistantPath(from_path)) {
+    warnings_.push_back({.message = "waits for " + from_path + ": " + found_from.error().message, .path = (*found_to)->path()});
+  }
   if (!are_there && may_wait) return CheckLateTie(from_path, to_path, asked);
   if (!asked) {
     const LateConnections* const late = LateConnections::FindIn(runtime_);

@@ -40,7 +40,8 @@ TEST_F(NetworkParts, AreConnectedWhenTheOtherApplicationTellsWhatTheyAreOf) {
   WaitForText("network --app display", "waits for //robot/localisation/pose.x to /display/place/input/in");
   EXPECT_THAT(Runnel("network --app display").text, HasSubstr("robot is not in the network yet"));
   // What waits is a connection as any.
-  Told("connect --app display //robot/laser/scan.ranges[0] /range/in", kDone);
+  EXPECT_THAT(Told("connect --app display //robot/laser/scan.ranges[0] /range/in", kDone),
+              HasSubstr("waits for //robot/laser/scan.ranges[0]: robot is not in the network yet"));
   Told("save --app display", kDone);
   EXPECT_THAT(Read(file), HasSubstr(R"(<connect from="//robot/laser/scan.ranges[0]" to="range/in"/>)"));
   Told("undo --app display", kDone);
@@ -58,6 +59,8 @@ TEST_F(NetworkParts, AreConnectedWhenTheOtherApplicationTellsWhatTheyAreOf) {
   });
   EXPECT_THAT(Told("connect --app display //robot/localisation/pose.z /spare/in", kBadInput),
               AllOf(HasSubstr("Pose2 has no field 'z'"), HasSubstr("did you mean 'x'?")));
+  EXPECT_THAT(Told("connect --app display //robot/laser/scam.ranges[0] /spare/in", kDone), HasSubstr("did you mean '//robot/laser/scan'?"));
+  Told("undo --app display", kDone);
   Told("swap --app display /place signal/dead_band", kDone);
   Told("undo --app display", kDone);
   Told("disconnect --app display //robot/localisation/pose /place/in", kDone);

@@ -72,6 +72,7 @@ test('who is waited for by a part of what they may offer is shown, too', () => {
   assert.equal(structure.get('/robot/@scout').is_there, false);
   assert.deepEqual(structure.portsOf('/robot/@scout').map(({ path, name, state, awaits }) => [path, name, state, awaits]), [['//scout/pose', 'pose', 'waiting', [awaited]]]);
   assert.deepEqual(structure.get('//planner/status').awaits, [more]);
+  assert.equal(LacksSource(structure, { ...structure.get('/robot/gate/input/wanted'), required: true }), false);
 });
 
 test('topics of nodes have a box of their own', () => {

@@ -25,9 +25,9 @@ export function AlarmsOf(structure, silent) {
   return [...stopped, ...unconnected, ...quiet];
 }
 
-/** Whether it is a required input of a module that nothing can come to, not even through groups around it. */
+/** Whether it is a required input of a module that nothing can come to, not even through groups around it, or is waited for. */
 export function LacksSource(structure, element) {
-  return element.kind === 'port' && element.direction === 'input' && element.required && !element.by_hand &&
+  return element.kind === 'port' && element.direction === 'input' && element.required && !element.by_hand && !element.awaits?.length &&
     structure.get(element.owner)?.kind === 'module' && OriginsOf(structure, element.path).length === 0;
 }
 
