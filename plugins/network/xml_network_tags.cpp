@@ -26,6 +26,8 @@ namespace runnel {
 namespace {
 
 constexpr std::size_t kLargestDomain = 101;  // those beyond may collide with ports that the system gives out
+constexpr std::size_t kSmallestDatagram = 1000;
+constexpr std::size_t kLargestDatagram = 65'500;
 constexpr Duration kShortestLease = std::chrono::seconds(1);
 constexpr Duration kLongestLease = std::chrono::hours(1);
 const std::vector<std::string> kReaches = {"loopback", "machine", "network"};
@@ -95,6 +97,14 @@ FrameworkElement* HandleNetwork(const TagUse& use) {
     use.Report({.message = "an interface is chosen only where the network is reached",
                 .hint = "say reach=\"network\", or leave it out"},
                interface->position);
+  }
+  if (const XmlAttribute* const datagram = use.Find("datagram")) {
+    const std::size_t octets = *ParseCount(datagram->value);
+    member.datagram = static_cast<std::uint32_t>(octets);
+    if (octets < kSmallestDatagram || octets > kLargestDatagram) {
+      use.Report({.message = "a datagram has from " + std::to_string(kSmallestDatagram) + " to " + std::to_string(kLargestDatagram) + " octets"},
+                 datagram->value_position);
+    }
   }
   if (const XmlAttribute* const lease = use.Find("lease")) {
     member.lease = ParseDuration(lease->value).value();
@@ -250,6 +260,9 @@ void AddNetworkTags(XmlTagRegistry& tags) {
                               {.name = "peers", .summary = "addresses of others, where not all can be asked at once; separated by blanks"},
                               {.name = "interface", .summary = "the only one that is used, by its name or address"},
                               Choice("multicast", "false: only peers, and this machine, are asked"),
+                              {.name = "datagram",
+                               .kind = AttributeKind::kCount,
+                               .summary = "octets of the largest one: 1400 where the reach is the network, so that it fits into a frame; else 65500"},
                               {.name = "lease",
                                .kind = AttributeKind::kDuration,
                                .summary = "so long after its last sign of life the application counts as gone, as after kill -9; 10 s"},

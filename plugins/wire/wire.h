@@ -149,8 +149,15 @@ struct WireMemberOptions {
   std::string name = {};
   std::string user_data = {};
   std::optional<WireSecurity> security = {};  ///< nothing: whoever is within reach may join, and listen
+  std::uint32_t datagram = 0;           ///< octets of the largest one, 1000 to 65500; 0: as is best for the reach
   Duration lease = std::chrono::seconds(10);  ///< so long after its last sign of life it counts as gone; 1 s at least
 };
+
+/// Octets of the largest datagram. Beyond this machine it fits into a frame: of one that is cut into many, none of which may get
+/// lost, the system keeps what has come for half a minute, and has little room for that.
+[[nodiscard]] constexpr std::uint32_t LargestDatagram(const WireMemberOptions& options) {
+  return options.datagram != 0 ? options.datagram : options.reach == WireReach::kNetwork ? 1400 : 65'500;
+}
 
 /// One member of the network.
 ///

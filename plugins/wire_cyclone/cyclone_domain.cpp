@@ -92,12 +92,14 @@ Error CycloneError(const std::string& what, dds_return_t code) {
   return {.message = what + ": " + dds_strretcode(code) + (said.empty() ? "" : " (" + said + ")")};
 }
 
-// Fragments of 65 kB and buffers of 4 MB: with its defaults half of all images are lost. Participants have indices, so
-// that those who cannot be asked all at once are asked one by one.
+// Buffers of 4 MB, and large datagrams where none gets lost: with its defaults half of all images are lost. Participants have
+// indices, so that those who cannot be asked all at once are asked one by one.
 std::string CycloneConfiguration(const WireMemberOptions& options) {
   const char* const multicast = !options.has_multicast ? "false" : options.reach == WireReach::kMachine ? "false" : "true";
-  return "<Domain Id=\"any\"><General>" + InterfacesText(options) + "<AllowMulticast>" + multicast +
-         "</AllowMulticast><MaxMessageSize>65500B</MaxMessageSize><FragmentSize>65000B</FragmentSize></General>"
+  constexpr std::uint32_t kHeaders = 200;  // of a fragment, with those of keys
+  const std::uint32_t datagram = LargestDatagram(options);
+  return "<Domain Id=\"any\"><General>" + InterfacesText(options) + "<AllowMulticast>" + multicast + "</AllowMulticast><MaxMessageSize>" +
+         std::to_string(datagram) + "B</MaxMessageSize><FragmentSize>" + std::to_string(datagram - kHeaders) + "B</FragmentSize></General>"
          "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>119</MaxAutoParticipantIndex>"
          "<SPDPInterval>500ms</SPDPInterval><LeaseDuration>" +
          std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(options.lease).count()) + "ms</LeaseDuration>" +

@@ -115,6 +115,8 @@ Result<dds::DomainParticipantQos> MemberQos(const WireMemberOptions& options) {
   const auto udp = std::make_shared<UDPv4TransportDescriptor>();
   udp->sendBufferSize = kRoom;
   udp->receiveBufferSize = kRoom;
+  // What members with keys say to begin with must not be cut.
+  if (!options.security) udp->maxMessageSize = LargestDatagram(options);
   udp->maxInitialPeersRange = kProcessesOfAMachine;
   if (options.reach == WireReach::kLoopback) udp->interfaceWhiteList = {"127.0.0.1"};
   if (!options.interface.empty()) {

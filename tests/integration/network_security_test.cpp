@@ -63,13 +63,13 @@ class NetworkSecurity : public testing::TestWithParam<const char*> {
     unsetenv("ROS_DOMAIN_ID");
   }
 
-  /// The shipped application, with `keys` unless they are "".
+  /// The shipped application, with `keys` unless they are "", and datagrams as between machines.
   std::unique_ptr<Program> Start(const std::string& name, const std::string& keys) {
     const std::string file = name == "robot" ? "two_robots.xml" : "two_robots_planner.xml";
     std::ifstream stream(std::string(RUNNEL_XML) + "/apps/" + file);
     std::string text{std::istreambuf_iterator<char>(stream), {}};
     const std::string tag = "<network name=\"" + name + "\"";
-    text.insert(text.find(tag) + tag.size(), std::string(" engine=\"") + GetParam() + "\"");
+    text.insert(text.find(tag) + tag.size(), std::string(" datagram=\"1400\" engine=\"") + GetParam() + "\"");
     if (!keys.empty()) text.insert(text.find('>', text.find(tag)) + 1, "<security keys=\"" + keys + "\"/>");
     std::ofstream(folder_ / file) << text;
     const std::string world = name == "robot" ? " world=" RUNNEL_XML "/worlds/rooms.xml" : "";

@@ -70,6 +70,7 @@ TEST_F(TwoRobots, MistakesAreToldWithTheirPlaces) {
   EXPECT_THAT(check(R"(<network><take topic="cmd vel" to="gate/wanted"/></network>)"), testing::AllOf(HasSubstr("wrong.xml:3:23"), HasSubstr("write '/cmd_vel'"), HasSubstr("1 error")));
   EXPECT_THAT(check(R"(<network reach="everywhere"/>)"), HasSubstr("loopback"));
   EXPECT_THAT(check(R"(<network domain="500"/>)"), HasSubstr("from 0 to 101"));
+  EXPECT_THAT(check(R"(<network datagram="70000"/>)"), HasSubstr("from 1000 to 65500 octets"));
   EXPECT_THAT(check(R"(<network engine="carrier_pigeon"/>)"), HasSubstr("'carrier_pigeon' is not installed"));
   EXPECT_THAT(check(R"(<network/><network/>)"), HasSubstr("there is a network already"));
   EXPECT_THAT(check(R"(<network><offer ports="gate/*" topic="/x"/></network>)"), HasSubstr("topic is said of one port"));

@@ -51,6 +51,7 @@ class Child {
     waitpid(id_, nullptr, WUNTRACED);
   }
   void GoOn() const { (void)kill(id_, SIGCONT); }
+  [[nodiscard]] pid_t process() const { return id_; }
   [[nodiscard]] int to() const { return to_; }
   /// Waits for the octet that it says next; 0: it has ended, or says nothing for a minute.
   [[nodiscard]] char Said() const {
