@@ -12,6 +12,7 @@
 #include "core/element/runtime.h"
 #include "plugins/network/network_ports.h"
 #include "plugins/network_discovery/distant_type.h"
+#include "plugins/wire/own_interfaces.h"
 
 namespace runnel {
 
@@ -69,6 +70,10 @@ Result<std::unique_ptr<NetworkLink>> NetworkLink::Start(FrameworkElement& applic
     return error;
   }
   link->participant_ = std::move(*joined);
+  if (member.reach == WireReach::kNetwork && !IsInNetwork()) {
+    element.log().Warn("this machine is in no network, so nobody else is reached, nor when it comes into one later: start the "
+                       "application again then");
+  }
   auto topic = StructureTopic::Start(*link->participant_, member.name, [raw = link.get()] { raw->LookAgain(); });
   if (!topic) return topic.error();
   link->structure_topic_ = std::move(*topic);

@@ -122,6 +122,23 @@ TEST_P(NetworkReach, ValuesComeAgainWhenTheNetworkHasBeenDown) {
   ASSERT_TRUE(robot->WaitFor("values come again"));
 }
 
+TEST_F(TwoRobots, ThatThereIsNoNetworkIsTold) {
+  if (OwnDomain() != 0) GTEST_SKIP() << "needs the right to make networks";
+  const std::string gate = "  <module name=\"gate\" type=\"motion/command_gate\"/>\n  <connect from=\"//nobody/twist\" to=\"gate/wanted\"/>\n";
+  const auto log_with = [&](const std::string& name) {
+    const Program lonely("run " + Write(name, "  <network reach=\"network\"/>\n" + gate));
+    WaitForText("network --app " + name, name + " in domain");
+    return Runnel("log --app " + name).text;
+  };
+  const std::string told = "this machine is in no network";
+  EXPECT_THAT(log_with("lonely"), HasSubstr(told));
+  if (!RunsWell("ip link add cable type veth peer name end && ip addr add 10.77.9.1/24 dev cable && ip link set cable up")) {
+    GTEST_SKIP() << "needs iproute2, and networks of pairs";
+  }
+  EXPECT_THAT(log_with("connected"), Not(HasSubstr(told)));
+  ASSERT_TRUE(RunsWell("ip link del cable"));
+}
+
 INSTANTIATE_TEST_SUITE_P(Cyclone, NetworkReach, testing::Values("cyclone"));
 #if RUNNEL_HAS_FAST
 INSTANTIATE_TEST_SUITE_P(Fast, NetworkReach, testing::Values("fast"));
