@@ -87,6 +87,11 @@ test('a part of what another application has is connected, and one is shown that
   await page.getByRole('option', { name: 'scale/in' }).click();
   await page.getByRole('option', { name: 'turn' }).click();
   await edge.first().waitFor({ state: 'attached' });
+  await inspector.select('/follower/other/input/in');
+  await inspector.details.locator('.awaited', { hasText: '//scout/pose.x' }).getByTitle('Wait no more').click();
+  await page.locator('[data-node="/follower/@scout"]').waitFor({ state: 'detached' });
+  await page.locator('#undo').click();
+  await page.locator('[data-node="/follower/@scout"]').waitFor();
 });
 
 test('a port is offered from its menu, and no more', async (t) => {

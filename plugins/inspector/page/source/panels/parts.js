@@ -2,7 +2,9 @@
 
 import { html } from 'htm/preact';
 import { NameOf } from '../model/structure.js';
+import { Disconnect } from '../state/actions.js';
 import { Reveal } from '../state/choices.js';
+import { canChange } from '../state/store.js';
 import { Select } from '../graph/graph_keys.js';
 import { Icon } from './icon.js';
 
@@ -32,7 +34,9 @@ export function Link({ path, text }) {
 export function Awaited({ awaits }) {
   if (!awaits?.length) return null;
   return html`<ul class="connections">${awaits.map(({ from, to, why }) => html`<li key=${`${from} ${to}`} class="awaited">
-    <span class="arrow">waits</span> ${from} → ${to} <small>${why}</small></li>`)}</ul>`;
+    <span class="arrow">waits</span> ${from} → ${to} <small>${why}</small>
+    <button class="remove" disabled=${!canChange.value} title="Wait no more" aria-label=${`Do not connect ${from} to ${to}`}
+      onClick=${() => Disconnect(from, to)}>✕</button></li>`)}</ul>`;
 }
 
 export function ActionButton({ icon, text, onClick, disabled, id, title }) {
