@@ -4,6 +4,7 @@
 #include <cstring>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <sys/socket.h>
 #include <sys/time.h>
@@ -56,6 +57,20 @@ struct Passing {
     message.msg_controllen = control.size();
   }
 };
+
+// All that have come with it, and are to be closed, however many another program has sent.
+std::vector<Descriptor> FilesIn(const msghdr& message) {
+  std::vector<Descriptor> files;
+  const cmsghdr* const head = CMSG_FIRSTHDR(&message);
+  if (head == nullptr || head->cmsg_level != SOL_SOCKET || head->cmsg_type != SCM_RIGHTS) return files;
+  const unsigned char* at = CMSG_DATA(head);
+  for (std::size_t left = head->cmsg_len - CMSG_LEN(0); left >= sizeof(int); left -= sizeof(int), at += sizeof(int)) {
+    int file = 0;
+    std::memcpy(&file, at, sizeof file);
+    files.emplace_back(file);
+  }
+  return files;
+}
 
 }  // namespace
 
@@ -155,14 +170,11 @@ Result<std::shared_ptr<ReadSegment>> FetchSegment(const SegmentPlace& place) {
   if (send(socket.number(), place.segment.data(), place.segment.size(), MSG_NOSIGNAL) < 0) return gone;
   Passing passing;
   if (recvmsg(socket.number(), &passing.message, MSG_CMSG_CLOEXEC) <= 0) return gone;
-  const cmsghdr* const head = CMSG_FIRSTHDR(&passing.message);
-  if (head == nullptr || head->cmsg_type != SCM_RIGHTS || head->cmsg_len != CMSG_LEN(Passing::kFiles)) return gone;
-  std::array<int, 2> files{};
-  std::memcpy(files.data(), CMSG_DATA(head), Passing::kFiles);
-  const Descriptor values(files[0]);
-  auto holds = HoldTable::Map(Descriptor(files[1]));
+  std::vector<Descriptor> files = FilesIn(passing.message);
+  if (files.size() != 2) return gone;
+  auto holds = HoldTable::Map(std::move(files[1]));
   if (!holds) return holds.error();
-  return ReadSegment::Map(values, std::move(*holds), std::move(socket));
+  return ReadSegment::Map(files[0], std::move(*holds), std::move(socket));
 }
 
 }  // namespace runnel

@@ -3,10 +3,13 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <random>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -108,25 +111,27 @@ TEST(HostileSocketTest, MemoryThatIsNoneOfAWriterIsNotTaken) {
   const auto table = HoldTable::Make();
   const auto segment = WrittenSegment::Make(1000);
   ASSERT_TRUE(table && segment);
-  const auto fetch = [&](int memory, int holds) {
+  const auto fetch = [&](const std::vector<int>& files) {
     std::thread answering([&] {
       const Descriptor asking(accept4(listening.number(), nullptr, nullptr, SOCK_CLOEXEC));
       SegmentId wanted{};  // who has gone before it is asked is not listened to
       EXPECT_EQ(recv(asking.number(), wanted.data(), wanted.size(), 0), static_cast<ssize_t>(wanted.size()));
       char octet = 0;
       iovec part{&octet, 1};
-      const std::array<int, 2> files = {memory, holds};
-      alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof files)> control{};
+      const std::size_t octets = files.size() * sizeof(int);
+      alignas(cmsghdr) std::array<char, CMSG_SPACE(3 * sizeof(int))> control{};
       msghdr message{};
       message.msg_iov = &part;
       message.msg_iovlen = 1;
-      message.msg_control = control.data();
-      message.msg_controllen = control.size();
-      cmsghdr* const head = CMSG_FIRSTHDR(&message);
-      head->cmsg_level = SOL_SOCKET;
-      head->cmsg_type = SCM_RIGHTS;
-      head->cmsg_len = CMSG_LEN(sizeof files);
-      std::memcpy(CMSG_DATA(head), files.data(), sizeof files);
+      if (!files.empty()) {
+        message.msg_control = control.data();
+        message.msg_controllen = CMSG_SPACE(octets);
+        cmsghdr* const head = CMSG_FIRSTHDR(&message);
+        head->cmsg_level = SOL_SOCKET;
+        head->cmsg_type = SCM_RIGHTS;
+        head->cmsg_len = CMSG_LEN(octets);
+        std::memcpy(CMSG_DATA(head), files.data(), octets);
+      }
       EXPECT_GT(sendmsg(asking.number(), &message, MSG_NOSIGNAL), 0);
     });
     const auto fetched = FetchSegment(place);
@@ -134,17 +139,25 @@ TEST(HostileSocketTest, MemoryThatIsNoneOfAWriterIsNotTaken) {
     return fetched && (*fetched)->Hold(place) != nullptr;
   };
   for (const Descriptor* const given : {&reading, &folder, &zero, &can_shrink, &empty, &nonsense}) {
-    EXPECT_FALSE(fetch(given->number(), (*table)->descriptor()));
+    EXPECT_FALSE(fetch({given->number(), (*table)->descriptor()}));
     if (given != &nonsense) {
-      EXPECT_FALSE(fetch((*segment)->descriptor(), given->number()));
+      EXPECT_FALSE(fetch({(*segment)->descriptor(), given->number()}));
     }
   }
+  const auto open_files = [] { return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {}); };
+  const auto before = open_files();
+  for (std::size_t count = 0; count <= 3; ++count) {
+    if (count != 2) {
+      EXPECT_FALSE(fetch(std::vector<int>(count, (*segment)->descriptor())));
+    }
+  }
+  EXPECT_EQ(open_files(), before) << "what has been sent is closed";
   // What is given is not believed; that it could be is seen here.
   const auto right = (*segment)->Put(Octets(1000));
   ASSERT_TRUE(right);
   place.use = right->use;
   place.slot = right->slot;
-  EXPECT_TRUE(fetch((*segment)->descriptor(), (*table)->descriptor()));
+  EXPECT_TRUE(fetch({(*segment)->descriptor(), (*table)->descriptor()}));
 }
 
 }  // namespace
