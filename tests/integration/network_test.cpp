@@ -136,5 +136,31 @@ TEST_F(TwoRobots, SimulatedTimeTakesNothingFromElsewhereUnlessToldTo) {
   EXPECT_THAT(ended.text, testing::AllOf(HasSubstr("simulated.xml:2:10"), HasSubstr("live=\"true\"")));
 }
 
+// Nothing is published any more when they come. The first reader of a port gets what is there in any case.
+TEST_F(TwoRobots, WhoComesLateGetsWhatIsLatchedAndNothingElse) {
+  const Program early("run " + Write("early", R"(  <network>
+    <offer port="gate/allowed" topic="/kept" qos="latched"/>
+    <offer port="gate/allowed" topic="/gone"/>
+  </network>
+  <module name="gate" type="motion/command_gate"/>
+  <connect from="//nobody/twist" to="gate/wanted"/>
+)"));
+  WaitForText("get --app early /gate/allowed", "forward: 0");
+  WaitForText("pause --app early /gate", "paused");
+  const std::string reader = R"(  <network>
+    <take topic="/kept" to="one/wanted"/>
+    <take topic="/gone" to="other/wanted"/>
+  </network>
+  <module name="one" type="motion/command_gate"/>
+  <module name="other" type="motion/command_gate"/>
+)";
+  const Program late("run " + Write("late", reader));
+  WaitForText("network --app late", "network/gone  runnel_msgs::msg::dds_::Twist2_, reliable, newest 1, 1 came");
+  const Program later("run " + Write("later", reader));
+  WaitForText("network --app later", "network/kept  runnel_msgs::msg::dds_::Twist2_, reliable, latched, newest 1, 1 came");
+  EXPECT_THAT(Runnel("get --app later /one/wanted").text, HasSubstr("forward: 0"));
+  EXPECT_THAT(Runnel("network --app later").text, HasSubstr("network/gone  runnel_msgs::msg::dds_::Twist2_, reliable, newest 1, 0 came"));
+}
+
 }  // namespace
 }  // namespace runnel::test
