@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "apps/runnel/commands.h"
+#include "apps/runnel/meant_application.h"
 #include "apps/runnel/output.h"
 #include "plugins/control/control_client.h"
 #include "plugins/control/control_folder.h"
@@ -152,18 +153,6 @@ std::string TakeApplication(const std::vector<RunningApplication>& running, Requ
   return first;
 }
 
-// "/bug_demo/robot" is of the application bug_demo: the first word that begins with the name of one that runs.
-std::string ApplicationInPaths(const std::vector<RunningApplication>& running,
-                               const std::vector<std::string>& words) {
-  for (const std::string& word : words) {
-    if (!word.starts_with('/')) continue;
-    const std::string first = word.substr(1, word.find('/', 1) - 1);
-    const auto is_called = [&](const RunningApplication& each) { return each.hello.application == first; };
-    if (std::ranges::any_of(running, is_called)) return first;
-  }
-  return {};
-}
-
 std::atomic<bool> interrupted{false};
 
 // The first Ctrl-C ends the recording, a second the program.
@@ -228,12 +217,47 @@ void WaitForProcess(pid_t process) {
   }
 }
 
-Result<int> Ask(const ControlArguments& arguments, Request request) {
+// What each of them says of the network; those without one are passed over if another has one.
+Result<int> AskAllForNetwork(const std::vector<RunningApplication>& applications, const Request& request) {
+  std::string why;
+  bool is_any = false;
+  for (const RunningApplication& each : applications) {
+    auto client = ControlClient::Connect(each.socket);
+    if (!client) return client.error();
+    std::string text;
+    std::string errors;
+    const auto keep = [](std::string& in) {
+      return [&in](std::string_view more) {
+        in += more;
+        return true;
+      };
+    };
+    const auto code = client->Ask(request.ToText(), keep(text), keep(errors));
+    if (!code) return code.error();
+    if (*code != 0) {
+      why = errors;
+      continue;
+    }
+    std::cout << (is_any ? "\n" : "") << Coloured(text, STDOUT_FILENO) << std::flush;
+    is_any = true;
+  }
+  if (!is_any) std::cerr << Coloured(why, STDERR_FILENO) << std::flush;
+  return static_cast<int>(is_any ? ExitCode::kDone : ExitCode::kBadInput);
+}
+
+Result<int> Ask(ControlArguments arguments, Request request) {
   const auto applications = FindThem();
   if (!applications) return applications.error();
   std::string wanted = arguments.application;
+  if (wanted.empty() && arguments.command == "network" && applications->size() > 1) return AskAllForNetwork(*applications, request);
   if (wanted.empty()) wanted = TakeApplication(*applications, request);
-  if (wanted.empty() && applications->size() > 1) wanted = ApplicationInPaths(*applications, arguments.words);
+  if (wanted.empty()) {
+    const std::vector<std::string> words = arguments.words;
+    wanted = ApplicationByWords(*applications, arguments);
+    const auto again = arguments.words != words ? RequestOf(arguments) : Result<Request>(request);
+    if (!again) return again.error();
+    request = *again;
+  }
   const auto chosen = ChooseApplication(*applications, wanted);
   if (!chosen) return chosen.error();
   auto client = ControlClient::Connect(chosen->socket);

@@ -1,0 +1,70 @@
+#include "apps/runnel/meant_application.h"
+
+#include <algorithm>
+#include <string_view>
+
+namespace runnel::program {
+
+namespace {
+
+// "/bug_demo/robot" is of the application bug_demo: the first word that begins with the name of one that runs.
+std::string ApplicationInPaths(const std::vector<RunningApplication>& running, const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    if (!word.starts_with('/')) continue;
+    const std::string first = word.substr(1, word.find('/', 1) - 1);
+    const auto is_called = [&](const RunningApplication& each) { return each.hello.application == first; };
+    if (std::ranges::any_of(running, is_called)) return first;
+  }
+  return {};
+}
+
+// Of "//robot/laser": "robot".
+std::string NameInNetwork(std::string_view path) {
+  path.remove_prefix(2);
+  return std::string(path.substr(0, path.find('/')));
+}
+
+// What `runnel network` says there; "" if it has none.
+std::string NetworkTextOf(const RunningApplication& application) {
+  auto client = ControlClient::Connect(application.socket);
+  if (!client) return {};
+  std::string text;
+  const auto code = client->Ask(
+      Request{.command = "network", .arguments = {}, .options = {}, .body = {}}.ToText(),
+      [&](std::string_view more) {
+        text += more;
+        return true;
+      },
+      [](std::string_view) { return true; });
+  return code && *code == 0 ? text : "";
+}
+
+std::string ProcessOf(const RunningApplication& application) { return std::to_string(application.hello.process); }
+
+}  // namespace
+
+std::string ApplicationByWords(const std::vector<RunningApplication>& running, ControlArguments& arguments) {
+  if (running.size() < 2) return {};
+  if (const std::string named = ApplicationInPaths(running, arguments.words); !named.empty()) return named;
+  const auto far = std::ranges::find_if(arguments.words, [](const std::string& word) { return word.starts_with("//"); });
+  if (far == arguments.words.end()) return {};
+  const std::string name = NameInNetwork(*far);
+  const auto is_called = [&](const RunningApplication& each) { return each.hello.application == name; };
+  if (arguments.command == "connect" || arguments.command == "disconnect") {
+    if (running.size() > 2 || std::ranges::count_if(running, is_called) != 1) return {};
+    return ProcessOf(*std::ranges::find_if_not(running, is_called));
+  }
+  if (std::ranges::any_of(running, is_called)) {
+    far->erase(0, 1);  // it is there itself
+    return name;
+  }
+  std::string found;
+  for (const RunningApplication& each : running) {
+    const std::string text = NetworkTextOf(each);
+    if (text.find("member " + name + "\n") != std::string::npos) return ProcessOf(each);
+    if (found.empty() && !text.empty()) found = ProcessOf(each);
+  }
+  return found;
+}
+
+}  // namespace runnel::program
