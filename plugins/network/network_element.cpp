@@ -50,6 +50,14 @@ void NetworkElement::set_offers(std::vector<OfferOptions> offers) {
   if (on_change_) on_change_();
 }
 
+Result<void> NetworkElement::CheckIsOwn(const Port& port) const {
+  if (!port.IsAtOrBelow(*this)) return {};
+  const std::string& distant = DistantPathOf(port);
+  return Error{.message = "comes from the network itself, where others take it, too",
+               .path = distant.empty() ? port.path() : distant,
+               .hint = "to pass it on, offer an output of a module or an interface port of a group that it goes to"};
+}
+
 Result<std::shared_ptr<const ValueForm>> NetworkElement::ValueFormOf(const TakeOptions& take, const TypeInfo& type) const {
   auto form = ValueForm::Make(type, take.as, {}, {}, options_.messages.get());
   if (!form) return form.error();
@@ -88,6 +96,7 @@ Result<Port*> NetworkElement::AddTake(const TakeOptions& take, const TypeInfo& t
   const auto known = std::ranges::find(takes_, take.topic, [](const Take& each) { return each.options.topic; });
   if (known != takes_.end()) {
     if (&known->output->type() == &type) {
+      known->is_over = false;
       const auto taken = TakeOtherwise(*known, take);
       return taken ? Result<Port*>(known->output) : taken.error();
     }
@@ -124,6 +133,13 @@ Result<Port*> NetworkElement::MakeOutput(const std::string& name, const TypeInfo
     if (const auto ready = runtime().MakeReady(*this); !ready) return ready.error();
   }
   return made;
+}
+
+void NetworkElement::GiveUp(const Port& output) {
+  const auto known = std::ranges::find(takes_, &output, [](const Take& each) { return static_cast<const Port*>(each.output); });
+  if (known == takes_.end()) return;
+  known->is_over = true;
+  if (on_change_) on_change_();
 }
 
 Result<UnlistedElement> NetworkElement::DropTake(Port& output) {

@@ -31,6 +31,8 @@ class NetworkElement final : public FrameworkElement {
 
   void AddOffer(OfferOptions offer);
   void set_offers(std::vector<OfferOptions> offers);
+  /// Errors: the values of the port come from the network, so that they are no offer of this application.
+  Result<void> CheckIsOwn(const Port& port) const;
   /// Before the link starts.
   void set_ros(RosOptions ros) { options_.ros = std::move(ros); }
   void set_security(WireSecurity security) { options_.member.security = std::move(security); }
@@ -39,12 +41,15 @@ class NetworkElement final : public FrameworkElement {
     TakeOptions options;
     Port* output;
     std::shared_ptr<const ValueForm> form;
+    bool is_over = false;  ///< the output is to make room for one of another type
   };
   [[nodiscard]] const std::vector<Take>& takes() const noexcept { return takes_; }
   /// The output of the topic, for values of this type; made if there is none. Errors: there is one of another type; a
   /// type that only its module can make values of; what cannot be read as such messages; it is taken in another way, and
   /// something is connected to it; simulated time, if that is known and the options do not allow for it.
   Result<Port*> AddTake(const TakeOptions& take, const TypeInfo& type, const std::string& unit = {});
+  /// Of an output without connections: it is found no more, and the network's thread drops it. Nothing of what is not taken.
+  void GiveUp(const Port& output);
   /// The topic of that output is taken no more; its connections are cut. Returns the output, for Runtime::Destroy(). In a
   /// ChangeScope, while nothing publishes there. Errors: of Runtime::Unlist(); it is taken still then.
   Result<UnlistedElement> DropTake(Port& output);

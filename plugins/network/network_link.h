@@ -73,7 +73,7 @@ class NetworkLink final : private ElementListener {
   void TellNode();
   void TellStructure();
   void TellTroubles();
-  void TellMissing(const TakenPort& taken);
+  void TellMissing();
   void TellMembers();
   [[nodiscard]] bool IsStranger(const WireMember& member) const;
   void TellOwners();
@@ -113,6 +113,8 @@ class NetworkLink final : private ElementListener {
   std::map<std::string, std::string> new_troubles_;  // as they are now
   std::map<WireId, std::string> members_;
   std::map<WireId, Time> strangers_;  // since when they are there
+  std::map<std::string, Time> missing_;  // topics that who should write them does not: since when
+  bool is_missing_young_ = false;        // some of them are to be looked at again soon
   std::map<std::string, std::string> owners_;  // of outputs that listen to one writer only
   std::thread thread_;
 };

@@ -33,19 +33,28 @@ NetworkPorts* NetworkPorts::Of(const NetworkElement& network) {
   return ports != nullptr && ports->network_ == &network ? ports : nullptr;
 }
 
-Port* NetworkPorts::Find(std::string_view path) const {
+const NetworkElement::Take* NetworkPorts::FindTake(std::string_view path) const {
   if (network_ == nullptr || !SplitPortPath(path).part.empty()) return nullptr;
   const auto& takes = network_->takes();
   const auto found = std::ranges::find(takes, TopicOfDistantPath(path), [](const auto& each) { return each.options.topic; });
-  return found == takes.end() ? nullptr : found->output;
+  return found == takes.end() ? nullptr : &*found;
 }
 
-DistantType NetworkPorts::Ask(const std::string& path, const TypeInfo* expected) const {
-  if (!find_type_) return {.why_not = "the network does not run, which says what values it has"};
-  return find_type_(path, expected);
+Port* NetworkPorts::Find(std::string_view path) const {
+  const NetworkElement::Take* const take = FindTake(path);
+  return take == nullptr || take->is_over ? nullptr : take->output;
 }
 
-DistantType NetworkPorts::TypeOf(std::string_view path) const { return Ask(std::string(path), nullptr); }
+OfferedType NetworkPorts::Ask(const std::string& path, const TypeInfo* expected) const {
+  if (!find_type_) return {.type = {.why_not = "the network does not run, which says what values it has"}};
+  OfferedType offered = find_type_(path, expected);
+  if (expected == nullptr || offered.message.empty() || network_ == nullptr) return offered;
+  const auto form = ValueForm::Make(*expected, offered.message, {}, {}, network_->options().messages.get());
+  if (form && (*form)->WhyNoReading().empty()) offered.type.type = expected;
+  return offered;
+}
+
+DistantType NetworkPorts::TypeOf(std::string_view path) const { return Ask(std::string(path), nullptr).type; }
 
 TakeOptions NetworkPorts::OptionsOf(const std::string& path) const {
   return {.topic = TopicOfDistantPath(path),
@@ -55,42 +64,55 @@ TakeOptions NetworkPorts::OptionsOf(const std::string& path) const {
           .position = network_->options().position};
 }
 
-Result<Port*> NetworkPorts::MakeOutput(const std::string& path, const TypeInfo& type, const std::string& unit) {
-  const auto made = network_->AddTake(OptionsOf(path), type, unit);
+Result<Port*> NetworkPorts::MakeOutput(const std::string& path, const OfferedType& offered) {
+  TakeOptions options = OptionsOf(path);
+  options.as = offered.message;
+  const auto made = network_->AddTake(options, *offered.type.type, offered.type.unit);
   if (made) (*made)->Annotate(std::make_unique<DistantPort>(path));
   return made;
 }
 
 Result<Port*> NetworkPorts::Make(std::string_view path, const Port& to, const ConnectOptions& options) {
-  if (Port* const known = Find(path)) return known;
   if (network_ == nullptr) return Error{.message = "the application with the network has gone"};
+  const NetworkElement::Take* const take = FindTake(path);
+  Port* const known = take != nullptr ? take->output : nullptr;
+  const bool makes_room = known != nullptr && known->outgoing().empty() && &known->type() != &to.type();
+  if (known != nullptr && !makes_room) return known;
   const std::string whole(path);
-  const DistantType type = Ask(whole, &to.type());
-  if (type.type != nullptr) return MakeOutput(whole, *type.type, type.unit);
   // Of a unit nothing may be guessed: numbers of another one would be taken for it until that is told.
-  const bool can_be_guessed = options.part.empty() && options.convert.empty() && to.unit().empty() && !TakesAnything(to.type());
-  if (can_be_guessed) return MakeOutput(whole, to.type(), {});
+  const bool is_plain = options.part.empty() && options.convert.empty() && to.unit().empty() && !TakesAnything(to.type());
+  OfferedType offered = Ask(whole, &to.type());
+  if (!offered.message.empty() && !is_plain) offered.type.type = nullptr;
+  if (known != nullptr) {
+    if (offered.type.type == &known->type() && offered.type.unit == known->unit()) return known;
+    network_->GiveUp(*known);
+    return nullptr;
+  }
+  if (offered.type.type != nullptr) return MakeOutput(whole, offered);
+  if (offered.is_offered) return Error{.message = "cannot be connected: " + offered.type.why_not, .path = whole};
+  if (is_plain) return MakeOutput(whole, {.type = {.type = &to.type()}});
   if (const auto live = network_->CheckLiveness(OptionsOf(whole)); !live) return live.error();
   return nullptr;
 }
 
 Result<void> NetworkPorts::MakeAwaited(const std::string& path) {
   if (network_ == nullptr || Find(path) != nullptr) return {};
-  const DistantType type = Ask(path, nullptr);
-  if (type.type == nullptr) return {};
-  const auto made = MakeOutput(path, *type.type, type.unit);
+  const OfferedType offered = Ask(path, nullptr);
+  if (offered.type.type == nullptr) return {};
+  const auto made = MakeOutput(path, offered);
   return made ? Result<void>() : made.error();
 }
 
-std::optional<DistantType> NetworkPorts::OtherType(const NetworkElement::Take& take, std::string& why_not) const {
+std::optional<OfferedType> NetworkPorts::OtherType(const NetworkElement::Take& take, std::string& why_not) const {
   const Port& output = *take.output;
   const std::string& path = DistantPathOf(output);
   if (!take.options.is_distant || path.empty()) return {};
-  DistantType told = Ask(path, &output.type());
-  if (told.type == nullptr) return {};
-  if (told.type == &output.type() && told.unit == output.unit()) return {};
+  OfferedType told = Ask(path, &output.type());
+  if (take.is_over && output.outgoing().empty()) return OfferedType{};
+  if (told.type.type == nullptr) return {};
+  if (told.type.type == &output.type() && told.type.unit == output.unit() && told.message == take.options.as) return {};
   for (const Connection& each : output.outgoing()) {
-    const auto possible = CheckEdge(told, each);
+    const auto possible = CheckEdge(told.type, each);
     if (possible) continue;
     why_not = each.to->path() + ": " + possible.error().message + (possible.error().hint.empty() ? "" : "; " + possible.error().hint);
     return {};
@@ -98,7 +120,7 @@ std::optional<DistantType> NetworkPorts::OtherType(const NetworkElement::Take& t
   return told;
 }
 
-Result<void> NetworkPorts::Renew(Port& output, const DistantType& type, UnlistedElement& gone) {
+Result<void> NetworkPorts::Renew(Port& output, const OfferedType& type, UnlistedElement& gone) {
   const std::string path = DistantPathOf(output);
   const std::vector<Connection> edges = output.outgoing();
   auto dropped = network_->DropTake(output);
@@ -111,7 +133,8 @@ Result<void> NetworkPorts::Renew(Port& output, const DistantType& type, Unlisted
     if (const auto noted = late.Add(path, each.to->path(), each.options); !noted) return noted;
   }
   if (!dropped) return dropped.error();
-  const auto made = MakeOutput(path, *type.type, type.unit);
+  if (type.type.type == nullptr) return {};
+  const auto made = MakeOutput(path, type);
   return made ? Result<void>() : made.error();
 }
 

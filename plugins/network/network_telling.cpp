@@ -10,6 +10,7 @@
 #include "core/element/element_path.h"
 #include "core/element/runtime.h"
 #include "plugins/network/network_link.h"
+#include "plugins/network_discovery/distant_type.h"
 #include "plugins/network_discovery/topic_names.h"
 
 namespace runnel {
@@ -42,10 +43,10 @@ void NetworkLink::TellTroubles() {
     }
   };
   for (const auto& each : offered_) look(each->endpoint(), each->path(), true);
-  for (const auto& each : taken_) look(each->endpoint(), each->output().path(), false);
   for (const auto& each : taken_) {
-    if (each->options().is_distant) TellMissing(*each);
+    if (each->is_connected()) look(each->endpoint(), each->output().path(), false);
   }
+  TellMissing();
   for (const auto& each : offered_) {
     if (const auto error = each->TakeError()) Trouble(each->path(), *error);
   }
@@ -60,20 +61,28 @@ void NetworkLink::TellTroubles() {
   troubles_ = new_troubles_;
 }
 
-// That who is there does not offer what is to be had of it.
-void NetworkLink::TellMissing(const TakenPort& taken) {
-  const std::string& topic = taken.options().topic;
-  if (taken.matched() > 0 || !table_.Partners(taken.endpoint().topic, true).empty()) return;
-  const std::string name = topic.substr(1, topic.find('/', 1) - 1);
-  const auto members = table_.members();
-  const auto is_named = [&](const WireMember& each) { return each.name == name; };
-  if (std::ranges::none_of(members, is_named)) return;
-  std::vector<std::string> offers;
-  for (const WireEndpoint& each : table_.endpoints()) {
-    const std::string offered = ReadableTopic(each.options.topic);
-    if (each.is_writer && !each.is_own && offered.starts_with("/" + name + "/")) offers.push_back("/" + offered);
+// That who is there does not offer what is to be had of it: not at once, as discovery tells one after the other.
+void NetworkLink::TellMissing() {
+  constexpr auto kPatience = std::chrono::seconds(1);
+  const Time now = SteadyClock().Now();
+  std::map<std::string, Time> missing;
+  is_missing_young_ = false;
+  for (const auto& each : taken_) {
+    const std::string topic = each->endpoint().topic;
+    if (!each->options().is_distant || !each->is_connected() || each->matched() > 0 || !table_.Partners(topic, true).empty()) continue;
+    const std::string path = "/" + each->options().topic;
+    const auto member = MemberOfPath(table_, path);
+    if (!member) continue;
+    const auto known = missing_.find(topic);
+    const Time since = known != missing_.end() ? known->second : now;
+    missing[topic] = since;
+    if (now - since < kPatience) {
+      is_missing_young_ = true;
+    } else {
+      Trouble(each->output().path(), {.message = member->name + " offers no " + path, .hint = NearestNameHint(path, OfferedBeside(table_, path))});
+    }
   }
-  Trouble(taken.output().path(), {.message = name + " offers no /" + topic, .hint = NearestNameHint("/" + topic, offers)});
+  missing_ = std::move(missing);
 }
 
 // Of those without keys that are trusted here nothing is known but that they are there.
@@ -202,6 +211,7 @@ std::string NetworkLink::Text() const {
     add_partners(each->endpoint(), true);
   }
   for (const auto& each : taken_) {
+    if (!each->is_connected()) continue;
     add(each->endpoint(), "takes " + each->options().topic + " to " + each->output().path(),
         ", " + std::to_string(each->taken()) + " came" + (each->Owner().empty() ? "" : ", " + each->Owner() + " has it") +
             (each->refused() > 0 ? ", " + std::to_string(each->refused()) + " could not be read" : ""));

@@ -42,6 +42,7 @@ class TakenPort {
 
   /// Whether somebody here wants its values. Under the structure lock, by the network's thread.
   void NoteConnections() { is_connected_ = !output_.outgoing().empty(); }
+  [[nodiscard]] bool is_connected() const noexcept { return is_connected_; }
   /// Asks for what the writers that are there offer, if nobody has said what is to be asked for; leaves out those whose
   /// values are of another kind. Errors: of the engine.
   Result<void> Follow(WireParticipant& participant);

@@ -110,6 +110,7 @@ Result<ExtensionStep> CheckOffer(NetworkElement& network, const ExtensionChange&
   const OfferOptions offer = OfferSaid([&](const char* name) { return SaidIn(change, name); });
   const bool stops = Stops(change);
   if (!stops) {
+    if (const auto is_own = network.CheckIsOwn(**port); !is_own) return is_own.error();
     const auto form = ValueForm::Make((*port)->type(), offer.as, offer.frame, offer.child_frame, network.options().messages.get());
     if (!form) return form.error();
     if (const auto wrong = WhatIsWrong(offer)) return *wrong;

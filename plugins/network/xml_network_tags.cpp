@@ -141,7 +141,9 @@ void AddOffer(const TagUse& use, OfferOptions offer) {
     const Port* const port = SearchPort(PathIn(*path, use.parent), PathKind::kOutput, use.context);
     if (port == nullptr || OfferService(use, *port)) return;
     offer.port = port->path();
-    const NetworkOptions& network = NetworkElement::FindIn(use.parent)->options();
+    const NetworkElement& element = *NetworkElement::FindIn(use.parent);
+    if (const auto is_own = element.CheckIsOwn(*port); !is_own) return use.Report(is_own.error(), path->value_position);
+    const NetworkOptions& network = element.options();
     const auto form = ValueForm::Make(port->type(), offer.as, offer.frame, offer.child_frame, network.messages.get());
     if (!form) {
       const XmlAttribute* const as = use.Find("as");

@@ -43,29 +43,48 @@ std::string UnitSaid(const std::string& user_data) {
 std::string WhyNobodyWrites(const DiscoveryTable& table, const std::string& path) {
   const auto words = SplitPath(path);
   const std::string name(words.empty() ? "" : words.front());
-  const auto members = table.members();
-  if (std::ranges::none_of(members, [&](const WireMember& each) { return each.name == name; })) {
-    return name + " is not in the network yet, which says what values it has";
+  const auto with_hint = [](const std::string& text, const std::string& hint) { return text + (hint.empty() ? "" : "; " + hint); };
+  if (!MemberOfPath(table, path)) {
+    std::vector<std::string> names;
+    for (const WireMember& each : table.members()) names.push_back("//" + each.name);
+    return with_hint(name + " is not in the network yet, which says what values it has", NearestNameHint("//" + name, names));
   }
-  std::vector<std::string> offers;
-  for (const WireEndpoint& each : table.endpoints()) {
-    const std::string offered = ReadableTopic(each.options.topic);
-    if (each.is_writer && !each.is_own && offered.starts_with("/" + name + "/")) offers.push_back("/" + offered);
-  }
-  const std::string hint = NearestNameHint(path, offers);
-  return name + " offers no " + path + (hint.empty() ? "" : "; " + hint);
+  return with_hint(name + " offers no " + path, NearestNameHint(path, OfferedBeside(table, path)));
+}
+
+std::string NameInTopics(const std::string& path) {
+  const auto words = SplitPath(path);
+  return NearestRosName("/" + std::string(words.empty() ? "" : words.front()));
 }
 
 }  // namespace
 
+std::optional<WireMember> MemberOfPath(const DiscoveryTable& table, const std::string& path) {
+  const std::string name = NameInTopics(path);
+  const auto members = table.members();
+  const auto found = std::ranges::find(members, name, [](const WireMember& each) { return NearestRosName("/" + each.name); });
+  return found == members.end() ? std::nullopt : std::optional(*found);
+}
+
+std::vector<std::string> OfferedBeside(const DiscoveryTable& table, const std::string& path) {
+  std::vector<std::string> offers;
+  const std::string begin = NameInTopics(path) + "/";
+  for (const WireEndpoint& each : table.endpoints()) {
+    const std::string offered = ReadableTopic(each.options.topic);
+    const bool is_meant = each.is_writer && !each.is_own && !IsInternalTopic(each.options.topic) && offered.starts_with(begin);
+    if (is_meant) offers.push_back("/" + offered);
+  }
+  return offers;
+}
+
 std::string UnitText(const std::string& unit) { return unit.empty() ? "" : std::string(kUnit) + unit + ";"; }
 
-DistantType FindDistantType(const DiscoveryTable& table, const std::string& path, const TypeInfo* expected,
+OfferedType FindDistantType(const DiscoveryTable& table, const std::string& path, const TypeInfo* expected,
                             const std::function<void()>& know_types) {
   const auto writers = table.Partners(DdsTopic(TopicOfDistantPath(path)), true);
-  if (writers.empty()) return {.why_not = WhyNobodyWrites(table, path)};
+  if (writers.empty()) return {.type = {.why_not = WhyNobodyWrites(table, path)}};
   for (const WireEndpoint& each : writers) {
-    if (expected != nullptr && IsOffered(each, *expected)) return {expected, UnitSaid(each.options.user_data)};
+    if (expected != nullptr && IsOffered(each, *expected)) return {.type = {expected, UnitSaid(each.options.user_data)}, .is_offered = true};
   }
   const WireEndpoint& writer = writers.front();
   const TypeInfo* type = FindNamed(writer);
@@ -73,12 +92,18 @@ DistantType FindDistantType(const DiscoveryTable& table, const std::string& path
     know_types();
     type = FindNamed(writer);
   }
-  if (type != nullptr) return {type, UnitSaid(writer.options.user_data)};
+  if (type != nullptr) return {.type = {type, UnitSaid(writer.options.user_data)}, .is_offered = true};
   const std::string name = RosType(writer.options.type);
   const bool is_described = writer.options.user_data.find("runnel_type=") != std::string::npos;
-  return {.why_not = "its values are " + (is_described ? "of the type " + name + ", which is not known here: load a plugin with ports of it"
-                                                       : "messages " + name + ": <take topic=\"" + TopicOfDistantPath(path) +
-                                                             "\" as=\"" + name + "\" to=\"…\"/> takes them")};
+  if (is_described) {
+    return {.type = {.why_not = "its values are of the type " + name + ", which is not known here: load a plugin with ports of it"},
+            .is_offered = true};
+  }
+  const std::string topic = TopicOfDistantPath(path);
+  return {.type = {.why_not = "its values are messages " + name + ": runnel take " + topic + " PORT --as " + name + " takes them, or <take topic=\"" +
+                              topic + "\" as=\"" + name + "\" to=\"…\"/> in the file"},
+          .is_offered = true,
+          .message = name};
 }
 
 }  // namespace runnel

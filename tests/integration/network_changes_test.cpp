@@ -64,6 +64,7 @@ TEST_F(NetworkChanges, MistakesAreToldAndNothingIsChanged) {
   };
   EXPECT_THAT(told("offer --app follower /gate/alowed"), HasSubstr("did you mean 'allowed'?"));
   EXPECT_THAT(told("offer --app follower /gate/wanted"), HasSubstr("wanted"));
+  EXPECT_THAT(told("offer --app follower //nobody/twist"), AllOf(HasSubstr("//nobody/twist"), HasSubstr("comes from the network itself")));
   EXPECT_THAT(told("offer --app follower /gate/allowed --qos quick"), HasSubstr("qos: "));
   EXPECT_THAT(told("offer --app follower /gate/allowed --sending after_cycles"), HasSubstr("did you mean 'after_cycle'?"));
   EXPECT_THAT(told("offer --app follower /gate/allowed --sending after_cycle --rate 5"), HasSubstr("by the network's thread"));

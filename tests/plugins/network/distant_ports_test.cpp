@@ -43,6 +43,7 @@ class Taker final : public Module {
   Input<double> second{this, "second"};
   Input<Signal> event{this, "event"};
   Input<std::string> text{this, "text"};
+  Input<Place> spot{this, "spot"};
 
  private:
   void Update() override {}
@@ -71,6 +72,12 @@ class Peer {
     options.part = part;
     const auto connected = LateConnections::Of(runtime).Add(path, to.path(), options);
     if (!connected) throw std::runtime_error(connected.error().ToString());
+  }
+
+  void Disconnect(const std::string& from, Port& to) {
+    const std::lock_guard lock(runtime.structure_mutex());
+    Port* const output = DistantPorts::FindIn(runtime.root())->Find(from);
+    if (output == nullptr || !Port::Disconnect(*output, to)) throw std::runtime_error("is not connected");
   }
 
   /// What the first connection waits for; "" if none does.
@@ -210,6 +217,33 @@ TEST_F(DistantPortsTest, WhoComesBackWithAnotherTypeIsHeardIfAllCanBecomeWhatIsW
     giver->module.count.Publish(8);
     return taker_.module.second.Get() == 5 && taker_.module.number.Get() == 8;
   });
+}
+
+TEST_F(DistantPortsTest, AnOutputThatNobodyUsesAnyMoreMakesRoomForOneOfAnotherType) {
+  taker_.Connect("//giver/module/place", taker_.module.number);  // nobody has told of which type it is
+  taker_.Disconnect("//giver/module/place", taker_.module.number);
+  taker_.Connect("//giver/module/place", taker_.module.spot);
+  taker_.Begin();
+  giver_.Begin();
+  EXPECT_EQ(Next<Place>([&] { giver_.module.place.Publish({3, 4}); }, taker_.module.spot).y, 4);
+  const std::lock_guard lock(taker_.runtime.structure_mutex());
+  EXPECT_EQ(taker_.network->takes().size(), 1U);
+}
+
+TEST_F(DistantPortsTest, WhatIsNotOfferedIsToldOfWhatIsConnectedOnly) {
+  Peer<Giver> robot(*engine_, "my-robot", kAll);
+  taker_.Connect("//my-robot/module/plase", taker_.module.number);
+  taker_.Connect("//my-robot/runnel_structur", taker_.module.second);
+  taker_.Connect("//my-robot/module/kount", taker_.module.spot);
+  taker_.Disconnect("//my-robot/module/kount", taker_.module.spot);
+  taker_.Begin();
+  robot.Begin();
+  WaitUntil("both are told", [&] {
+    const std::string said = taker_.said();
+    return said.find("my-robot offers no //my_robot/module/plase; did you mean '//my_robot/module/place'?") != std::string::npos &&
+           said.find("my-robot offers no //my_robot/runnel_structur") != std::string::npos;
+  });
+  EXPECT_THAT(taker_.said(), testing::AllOf(testing::Not(HasSubstr("runnel_structure")), testing::Not(HasSubstr("kount"))));
 }
 
 TEST_F(DistantPortsTest, ANetworkThatEndsLeavesWhatIsConnected) {

@@ -1,0 +1,102 @@
+// What people are told, and by whom, where several applications are running.
+
+#include <csignal>
+
+#include <gmock/gmock.h>
+
+#include "tests/integration/two_robots.h"
+
+namespace runnel::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+using NetworkTold = TwoRobots;
+
+const std::string kEyes = R"(  <network/>
+  <module name="gate" type="motion/command_gate"/>
+  <connect from="//nobody/twist" to="gate/wanted"/>
+)";
+
+TEST_F(NetworkTold, CommandsOfTwoApplicationsNeedNotSayWhich) {
+  const auto robot = Start("two_robots.xml");
+  const auto planner = Start("two_robots_planner.xml");
+  WaitUntilItDrives();
+  const auto told = [](const std::string& command) {
+    const Ended ended = Runnel(command);
+    EXPECT_EQ(ended.code, kDone) << command << ": " << ended.text;
+    return ended.text;
+  };
+  EXPECT_THAT(told("network"), AllOf(HasSubstr("robot in domain"), HasSubstr("planner in domain")));
+  EXPECT_THAT(told("ls //robot/laser"), HasSubstr("scan"));
+  told("set //planner/planner/cruise_speed 0.2");
+  EXPECT_THAT(told("ls //planner"), HasSubstr("cruise_speed     parameter  double = 0.2"));
+  // Of one that is not running here who has a network knows more.
+  EXPECT_THAT(Runnel("set //robt/world/goal_x 4").text, HasSubstr("did you mean '//robot'?"));
+  const Program lonely("run " + Write("lonely", "  <module name=\"gate\" type=\"motion/command_gate\"/>\n  <connect from=\"gate/allowed\" to=\"gate/wanted\" late=\"true\"/>\n"));
+  WaitForText("ps", "lonely");
+  EXPECT_THAT(told("network"), AllOf(HasSubstr("robot in domain"), Not(HasSubstr("lonely"))));
+}
+
+TEST_F(NetworkTold, AConnectionIsForTheApplicationThatHasItsInput) {
+  const auto planner = Start("two_robots_planner.xml");
+  const Program follower("run " + Write("follower", kEyes));
+  WaitForText("network --app follower", "member planner");
+  EXPECT_EQ(Runnel("disconnect //nobody/twist /follower/gate/wanted").code, kDone);
+  EXPECT_EQ(Runnel("connect //planner/planner/twist /gate/wanted").code, kDone);
+  WaitForText("network --app follower", "written by planner");
+}
+
+TEST_F(NetworkTold, AnOutputThatNobodyUsesAnyMoreIsMadeOfTheTypeThatIsWanted) {
+  const std::string file = Write("follower", R"(  <load plugin="planning"/>
+  <load plugin="adaptors"/>
+  <network/>
+  <module name="eyes" type="adaptors/laser"/>
+  <module name="gate" type="motion/command_gate"/>
+  <connect from="//robot/localisation/pose" to="eyes/pose"/>
+  <connect from="//nobody/scan" to="eyes/scan"/>
+  <connect from="//robot/laser/scan" to="gate/wanted"/>
+)");
+  const Program follower("run " + file);
+  WaitForText("network --app follower", "takes /robot/laser/scan");
+  ASSERT_EQ(Runnel("disconnect --app follower //robot/laser/scan /gate/wanted").code, kDone);
+  ASSERT_EQ(Runnel("disconnect --app follower //nobody/scan /eyes/scan").code, kDone);
+  const Ended right = Runnel("connect --app follower //robot/laser/scan /eyes/scan");
+  ASSERT_EQ(right.code, kDone) << right.text;
+  const auto robot = Start("two_robots.xml");
+  WaitUntil("scans come", [] { return Runnel("get --app follower /eyes/scan").code == kDone; });
+  EXPECT_THAT(Runnel("network --app follower").text, Not(HasSubstr("NOT MATCHED")));
+}
+
+TEST_F(NetworkTold, MessagesOfRos2AreConnectedAsTheirWriterSaysOrRefused) {
+  const Program base("run " + Write("base", R"(  <network>
+    <offer port="gate/allowed" topic="/cmd_vel" as="geometry_msgs/msg/Twist" qos="latched"/>
+  </network>
+  <module name="gate" type="motion/command_gate"/>
+  <connect from="//nobody/twist" to="gate/wanted"/>
+)"));
+  const std::string file = Write("follower", "  <load plugin=\"signal\"/>\n  <module name=\"line\" type=\"signal/linear\"/>\n  <connect from=\"//nobody/number\" to=\"line/in\"/>\n" +
+                                                 kEyes);
+  auto follower = std::make_unique<Program>("run " + file);
+  WaitForText("network --app follower", "written /cmd_vel");
+  const Ended refused = Runnel("connect --app follower //cmd_vel /line/in");
+  EXPECT_EQ(refused.code, kBadInput);
+  EXPECT_THAT(refused.text, HasSubstr("runnel take /cmd_vel PORT --as geometry_msgs/msg/Twist"));
+  ASSERT_EQ(Runnel("disconnect --app follower //nobody/twist /gate/wanted").code, kDone);
+  const Ended connected = Runnel("connect --app follower //cmd_vel /gate/wanted");
+  ASSERT_EQ(connected.code, kDone) << connected.text;
+  ASSERT_EQ(Runnel("publish --app base /gate/wanted '{forward: 0.25, turn: 0}' --rate 20").code, kDone);
+  WaitForText("get --app follower /gate/wanted", "forward: 0.25");
+  ASSERT_EQ(Runnel("save --app follower").code, kDone);
+  EXPECT_THAT(Read(file), HasSubstr(R"(<connect from="//cmd_vel" to="gate/wanted"/>)"));
+  // What the file does not say is found again when the writer is.
+  follower->Send(SIGTERM);
+  EXPECT_EQ(follower->Wait().code, kDone);
+  follower = std::make_unique<Program>("run " + file);
+  WaitForText("get --app follower /gate/wanted", "forward: 0.25");
+}
+
+}  // namespace
+}  // namespace runnel::test
