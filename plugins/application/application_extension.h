@@ -51,6 +51,9 @@ class ApplicationExtension {
   [[nodiscard]] virtual std::optional<Duration> limit() const { return std::nullopt; }
   /// Whether the run is over, asked some fifty times a second; nullopt: its run monitors decide.
   virtual std::optional<bool> IsOver() { return std::nullopt; }
+  /// Whether values come from a recording, known from the beginning: whoever reaches others, or is reached by them, stays
+  /// away then.
+  [[nodiscard]] virtual bool Replays() const { return false; }
   /// What has gone wrong here since the last call, and did not end the run.
   virtual std::optional<Error> TakeFailure() { return std::nullopt; }
   /// No cycle will run any more: brings what it does to an end, and says in whole lines what has come of it. What

@@ -63,6 +63,13 @@ class ApplicationNetwork final : public ApplicationExtension {
   Result<void> Begin(Application& application, Diagnostics&) override {
     NetworkElement* const element = NetworkElement::FindIn(application.element());
     if (element == nullptr) return {};
+    if (std::ranges::any_of(application.extensions(), [](const auto& each) { return each->Replays(); })) {
+      LeaveOut(application);
+      if (!element->options().ros || !element->options().ros->follows_clock) return {};
+      return Error{.message = "the time of /clock is not told in a replay, which leaves the network out",
+                   .position = element->options().position,
+                   .hint = "replay it with <clock type=\"simulated\" speed=\"1\"/>, and without clock=\"follow\""};
+    }
     engine_ = FindEngine(application, *element);
     if (engine_ == nullptr) return Error{.message = "the network has no engine", .position = element->options().position};
     FrameworkElement& group = application.element();
@@ -87,8 +94,12 @@ class ApplicationNetwork final : public ApplicationExtension {
     return {};
   }
 
+  [[nodiscard]] std::string StartText() const override {
+    return is_left_out_ ? std::string("the network is left out: ") + kLeftOut + "\n" : "";
+  }
+
   void End() noexcept override {
-    if (link_ == nullptr) return;
+    if (application_ == nullptr) return;
     {
       const std::lock_guard lock(application_->runtime().structure_mutex());
       if (auto* const texts = application_->element().FindAnnotation<ExtensionTexts>()) texts->texts.clear();
@@ -98,6 +109,19 @@ class ApplicationNetwork final : public ApplicationExtension {
   }
 
  private:
+  // Commands would drive who is there now, and what it sends would come between what is played.
+  void LeaveOut(Application& application) {
+    is_left_out_ = true;
+    application_ = &application;
+    const std::lock_guard lock(application.runtime().structure_mutex());
+    auto texts = std::make_unique<ExtensionTexts>();
+    for (const char* const name : {"network", "command", "structure"}) {
+      texts->texts[name] = [](const std::string&) -> Result<std::optional<std::string>> {
+        return Error{.message = "the network is left out", .hint = kLeftOut};
+      };
+    }
+    application.element().Annotate(std::move(texts));
+  }
   // Between two cycles, as any change: it can be undone.
   static Result<void> SetParameters(Application& application, const std::vector<ParameterChange>& wanted) {
     ChangeSet changes;
@@ -113,7 +137,9 @@ class ApplicationNetwork final : public ApplicationExtension {
     return found ? MakeSharedMemoryWire(std::move(*found)) : nullptr;
   }
 
+  static constexpr const char* kLeftOut = "values come from a recording";
   bool is_simulated_ = false;
+  bool is_left_out_ = false;
   Application* application_ = nullptr;
   std::shared_ptr<WireEngine> engine_;
   std::unique_ptr<NetworkLink> link_;

@@ -28,6 +28,7 @@ class ApplicationReplay final : public ApplicationExtension {
   void OnStart() override;
   [[nodiscard]] std::optional<Duration> limit() const override;
   std::optional<bool> IsOver() override;
+  [[nodiscard]] bool Replays() const override { return true; }
   std::string Finish(Diagnostics& problems) override;
   void End() noexcept override { player_.reset(); }
 
