@@ -71,10 +71,14 @@ PathEnd Missing(FrameworkElement& at, std::string_view name, std::vector<std::st
   return {nullptr, &at, std::string(name), std::move(candidates), std::move(error)};
 }
 
-Error WhyNotThere(const DistantPorts* distant, std::string_view path) {
+Error WhyNotThere(const DistantPorts* distant, std::string_view path, PathKind kind) {
   if (distant == nullptr) return {.message = "there is no network"};
+  if (kind == PathKind::kInput) {
+    return {.message = "inputs of another application are connected there", .hint = "'runnel connect --app NAME //THIS/PORT /INPUT' where it runs"};
+  }
   const DistantType type = distant->TypeOf(SplitPortPath(path).path);
-  return {.message = type.type == nullptr ? type.why_not : "nothing here is connected to it"};
+  if (type.type == nullptr) return {.message = type.why_not};
+  return {.message = "nothing here is connected to it", .hint = "connect an input to it, or ask the other application: --app NAME where it runs"};
 }
 
 }  // namespace
@@ -84,7 +88,7 @@ PathEnd PathSearch::Follow(std::string_view path, PathKind kind) const {
     FrameworkElement& root = base_.runtime().root();
     const DistantPorts* const distant = DistantPorts::FindIn(root);
     if (Port* const port = distant != nullptr ? distant->Find(path) : nullptr) return {port, port};
-    return {nullptr, &root, std::string(path), {}, WhyNotThere(distant, path)};
+    return {nullptr, &root, std::string(path), {}, WhyNotThere(distant, path, kind)};
   }
   const bool is_from_root = IsAbsolutePath(path) || base_.parent() == nullptr;
   PathEnd end = FollowFrom(is_from_root ? base_.runtime().root() : base_, path, kind);

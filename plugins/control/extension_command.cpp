@@ -20,7 +20,9 @@ Command ShowExtensionText(Runtime& runtime, const std::string& name, const std::
       return ControlCode::kDone;
     }
     if (std::chrono::steady_clock::now() < latest) return kLookAgain;
-    answer.WriteError(ErrorLine({.message = "nobody in the network answers", .path = argument}));
+    answer.WriteError(ErrorLine({.message = "nobody in the network has answered",
+                                 .path = argument,
+                                 .hint = "who is listed by 'runnel network' all the same is held up, or cannot reach this application"}));
     return ControlCode::kFailed;
   }));
 }

@@ -219,9 +219,10 @@ void ApplicationCommands::Hear(const std::string& message) {
   if (errands_.size() >= kMostErrands) {
     return Reply(id, CommandAnswer::Failed({.message = "too much has been asked for already"}));
   }
-  element_.log().Info("{} has it done: {}", message.substr(first + 1, second - first - 1), ChangeText(placed.changes.front()));
-  ChangeRequest request{.placed = std::move(placed), .client = message.substr(first + 1, second - first - 1)};
-  errands_.push_back({id, service_.Begin(std::move(request), tasks_, [this] { Tend(); })});
+  const std::string who = message.substr(first + 1, second - first - 1);
+  std::string text = ChangeText(placed.changes.front());
+  ChangeRequest request{.placed = std::move(placed), .client = who};
+  errands_.push_back({id, who + " has it done: " + text, service_.Begin(std::move(request), tasks_, [this] { Tend(); })});
 }
 
 // What is asked again is answered again.
@@ -251,7 +252,11 @@ void ApplicationCommands::Tend() {
       each = errands_.erase(each);
     }
   }
-  for (const Errand& each : done) Reply(each.id, each.command->Take());
+  for (const Errand& each : done) {
+    const CommandAnswer answer = each.command->Take();
+    if (answer) element_.log().Info("{}", each.text);
+    Reply(each.id, answer);
+  }
 }
 
 void ApplicationCommands::Reply(const std::string& id, const CommandAnswer& answer) {

@@ -36,6 +36,7 @@ class ApplicationCommands {
   /// One that is being carried out here.
   struct Errand {
     std::string id;
+    std::string text;  // "//planner has it done: set …"
     std::unique_ptr<PendingCommand> command;
   };
 

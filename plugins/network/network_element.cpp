@@ -122,7 +122,12 @@ Result<Port*> NetworkElement::MakeOutput(const std::string& name, const TypeInfo
     group = inner != nullptr ? inner : &runtime().Create<TopicGroup>(*group, std::string(words[i]));
   }
   if (group->FindChild(words.back()) != nullptr) {
-    return Error{.message = "'" + name + "' is the name of something else that is taken"};
+    std::string others;
+    for (const Take& each : takes_) {
+      if (each.options.topic.starts_with(name + "/")) others += (others.empty() ? "" : ", ") + each.options.topic;
+    }
+    return Error{.message = "'" + name + "' is no port, but what others that are taken begin with",
+                 .hint = others.empty() ? "name one of its ports" : "there are " + others};
   }
   auto output = typed == nullptr ? nullptr
                                  : typed->MakeOutput(*group, std::string(words.back()), {.description = "from the network: " + name, .unit = unit});

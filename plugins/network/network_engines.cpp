@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "core/base/nearest_name.h"
+
 namespace runnel {
 
 namespace {
@@ -21,6 +23,7 @@ Result<std::shared_ptr<WireEngine>> FindWireEngine(const std::string& name, Plug
   if (const auto loaded = plugins.Load(plugin); !loaded) {
     Error error = loaded.error();
     error.message = "the network's engine '" + name + "' is not installed: " + error.message;
+    error.hint = NearestNameHint(name, std::vector<std::string>{"cyclone", "fast"});
     if (name == "cyclone") error.hint = "install Cyclone DDS (cyclonedds-dev), and build Runnel again";
     if (name == "fast") error.hint = "install Fast DDS (libfastrtps-dev), and build Runnel again";
     return error;

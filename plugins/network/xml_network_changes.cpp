@@ -8,6 +8,7 @@
 #include "core/element/runtime.h"
 #include "plugins/network/network_element.h"
 #include "plugins/network/offer_list.h"
+#include "plugins/network/xml_network_checks.h"
 #include "plugins/network/xml_network_words.h"
 #include "plugins/ros_messages/names.h"
 #include "plugins/structure/extension_changes.h"
@@ -113,6 +114,7 @@ Result<ExtensionStep> CheckOffer(NetworkElement& network, const ExtensionChange&
     if (const auto is_own = network.CheckIsOwn(**port); !is_own) return is_own.error();
     const auto form = ValueForm::Make((*port)->type(), offer.as, offer.frame, offer.child_frame, network.options().messages.get());
     if (!form) return form.error();
+    if (const auto fits = CheckTopicType(network, **port, offer, **form); !fits) return fits.error();
     if (const auto wrong = WhatIsWrong(offer)) return *wrong;
   }
   return StepOf(network, change, [&network, path, offer, stops](const Offers& offers) -> Result<Offers> {

@@ -13,6 +13,7 @@
 #include "plugins/network/network_element.h"
 #include "plugins/network/network_engines.h"
 #include "plugins/network/xml_network_changes.h"
+#include "plugins/network/xml_network_checks.h"
 #include "plugins/network/xml_network_saving.h"
 #include "plugins/network/xml_network_words.h"
 #include "plugins/network/xml_service_tags.h"
@@ -91,6 +92,7 @@ FrameworkElement* HandleNetwork(const TagUse& use) {
     member.reach = static_cast<WireReach>(std::ranges::find(kReaches, reach->value) - kReaches.begin());
   }
   member.peers = SplitPaths(TextOf(use, "peers"));
+  CheckPeers(use, member);
   member.interface = TextOf(use, "interface");
   member.has_multicast = TextOf(use, "multicast") != "false";
   if (const XmlAttribute* const interface = use.Find("interface"); interface != nullptr && member.reach != WireReach::kNetwork) {
@@ -117,7 +119,7 @@ FrameworkElement* HandleNetwork(const TagUse& use) {
   options.is_live = IsTrue(use, "live");
   if (use.Find("engine") != nullptr) options.engine = TextOf(use, "engine");
   const auto engine = FindWireEngine(options.engine, use.context.plugins());
-  if (!engine) use.Report(engine.error(), use.xml.position());
+  if (!engine) use.Report(engine.error(), use.Find("engine") != nullptr ? use.Find("engine")->value_position : use.xml.position());
   auto& network = use.context.runtime().Create<NetworkElement>(use.parent, "network", std::move(options));
   network.set_know_types([&plugins = use.context.plugins(), known = std::optional<std::size_t>()]() mutable {
     const std::size_t types = plugins.modules().All().size();
@@ -149,7 +151,10 @@ void AddOffer(const TagUse& use, OfferOptions offer) {
       const XmlAttribute* const as = use.Find("as");
       return use.Report(form.error(), (as != nullptr ? as : path)->value_position);
     }
+    const auto fits = CheckTopicType(element, *port, offer, **form);
+    if (!fits) return use.Report(fits.error(), use.Get("topic").value_position);
   }
+  if (offer.port.empty()) CheckPatterns(use, offer);
   NetworkElement::FindIn(use.parent)->AddOffer(std::move(offer));
 }
 
@@ -218,6 +223,7 @@ FrameworkElement* HandleRos(const TagUse& use) {
     use.Report({.message = "<ros> stands there already"}, use.xml.position());
     return &use.parent;
   }
+  CheckReachOfNodes(use, network.options().member);
   RosOptions ros{.distribution = TextOf(use, "distribution"),
                  .node = use.Find("node") != nullptr ? TextOf(use, "node") : NearestRosName("/" + network.options().member.name),
                  .sends_clock = IsTrue(use, "clock"),

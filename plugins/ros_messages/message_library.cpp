@@ -80,6 +80,9 @@ Result<std::vector<MessageDefinition>> ReadDefinitionFile(const fs::path& path) 
 
 Result<std::vector<fs::path>> FindMessageFiles(const fs::path& place) {
   std::error_code problem;
+  if (!fs::exists(place, problem)) {
+    return Error{.message = "there is no file and no folder '" + place.string() + "'", .hint = "the path begins at the application's file"};
+  }
   if (!fs::is_directory(place, problem)) return std::vector{place};
   std::vector<fs::path> files;
   for (fs::recursive_directory_iterator at(place, problem), end; !problem && at != end; at.increment(problem)) {

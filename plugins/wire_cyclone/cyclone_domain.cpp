@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/markup.h"
+#include "plugins/wire/own_interfaces.h"
 #include "plugins/wire/reach_filter.h"
 
 namespace runnel {
@@ -111,6 +112,9 @@ std::string CycloneConfiguration(const WireMemberOptions& options) {
 Result<std::shared_ptr<CycloneDomain>> CycloneDomain::Join(const WireMemberOptions& options) {
   static std::mutex joining;
   const std::lock_guard one(joining);
+  if (!options.interface.empty()) {
+    if (const auto is_there = AddressOfInterface(options.interface); !is_there) return is_there.error();
+  }
   std::string configuration = CycloneConfiguration(options);
   if (options.security) configuration += "<!-- with keys -->";
   {

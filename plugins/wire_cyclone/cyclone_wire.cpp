@@ -6,6 +6,7 @@
 
 #include <dds/dds.h>
 
+#include "plugins/wire/key_files.h"
 #include "plugins/wire_cyclone/cyclone_discovery.h"
 #include "plugins/wire_cyclone/cyclone_domain.h"
 #include "plugins/wire_cyclone/cyclone_security.h"
@@ -196,7 +197,11 @@ class CycloneWire final : public WireEngine {
     }
     const dds_entity_t participant = dds_create_participant(options.domain, qos, nullptr);
     dds_delete_qos(qos);
-    if (participant < 0) return CycloneError("the network cannot be joined", participant);
+    if (participant < 0) {
+      Error error = CycloneError("the network cannot be joined", participant);
+      if (options.security) error.hint = KeyFilesHint(*options.security);
+      return error;
+    }
     std::shared_ptr<void> refusals;
     if (options.security) {
       refusals = HearRefusals([&discovery](const std::string& why) { discovery.OnRefused(why); });

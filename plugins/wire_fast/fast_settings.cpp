@@ -3,7 +3,6 @@
 #include <memory>
 
 #include <arpa/inet.h>
-#include <ifaddrs.h>
 #include <netdb.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -11,6 +10,7 @@
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
 
+#include "plugins/wire/own_interfaces.h"
 #include "plugins/wire/reach_filter.h"
 #include "plugins/wire_fast/reach_transport.h"
 
@@ -28,30 +28,6 @@ constexpr std::uint32_t kRoom = 4'194'304;          // of sockets: for images
 constexpr std::uint32_t kProcessesOfAMachine = 120;  // that are asked one by one
 constexpr std::uint32_t kMillisecond = 1'000'000;
 constexpr const char* kGroup = "239.255.0.1";
-
-std::string AddressText(const sockaddr& address) {
-  char text[INET_ADDRSTRLEN] = {};
-  const auto& internet = reinterpret_cast<const sockaddr_in&>(address);
-  return inet_ntop(AF_INET, &internet.sin_addr, text, sizeof text) != nullptr ? text : "";
-}
-
-// Fast DDS knows interfaces by their addresses only.
-Result<std::string> AddressOfInterface(const std::string& interface) {
-  ifaddrs* all = nullptr;
-  std::string found;
-  std::string others;
-  if (getifaddrs(&all) == 0) {
-    for (const ifaddrs* each = all; each != nullptr; each = each->ifa_next) {
-      if (each->ifa_addr == nullptr || each->ifa_addr->sa_family != AF_INET) continue;
-      const std::string address = AddressText(*each->ifa_addr);
-      if (interface == each->ifa_name || interface == address) found = address;
-      others += std::string(others.empty() ? "" : ", ") + each->ifa_name + " (" + address + ")";
-    }
-    freeifaddrs(all);
-  }
-  if (!found.empty()) return found;
-  return Error{.message = "there is no interface '" + interface + "' with an address", .hint = "there are " + others};
-}
 
 Result<Locator_t> Peer(const std::string& name) {
   const addrinfo hints{.ai_flags = 0, .ai_family = AF_INET, .ai_socktype = SOCK_DGRAM, .ai_protocol = 0, .ai_addrlen = 0,

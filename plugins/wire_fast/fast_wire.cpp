@@ -7,6 +7,7 @@
 #include <fastrtps/attributes/LibrarySettingsAttributes.h>
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 
+#include "plugins/wire/key_files.h"
 #include "plugins/wire/reach_filter.h"
 #include "plugins/wire_fast/fast_discovery.h"
 #include "plugins/wire_fast/fast_endpoints.h"
@@ -35,7 +36,11 @@ class FastParticipant final : public WireParticipant {
     const auto qos = MemberQos(options);
     if (!qos) return qos.error();
     participant_ = factory_->create_participant(options.domain, *qos, &discovery_, dds::StatusMask::none());
-    if (participant_ == nullptr) return FastError("the network cannot be joined");
+    if (participant_ == nullptr) {
+      Error error = FastError("the network cannot be joined");
+      if (options.security) error.hint = KeyFilesHint(*options.security);
+      return error;
+    }
     if (const auto kept = KeepWithinReach(options); !kept) return kept;
     member_ = std::make_unique<FastMember>(*participant_, discovery_);
     discovery_.TellMember({.id = id(), .name = options.name, .user_data = options.user_data});

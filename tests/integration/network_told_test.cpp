@@ -98,5 +98,37 @@ TEST_F(NetworkTold, MessagesOfRos2AreConnectedAsTheirWriterSaysOrRefused) {
   WaitForText("get --app follower /gate/wanted", "forward: 0.25");
 }
 
+TEST_F(NetworkTold, WhatWouldDoNothingInAFileIsTold) {
+  const std::string file = folder_ / "wrong.xml";
+  const auto check = [&](const std::string& network) {
+    std::ofstream(file) << "<application name=\"base\">\n<load plugin=\"motion\"/>\n" << network
+                        << "\n<module name=\"gate\" type=\"motion/command_gate\"/>\n<connect from=\"//nobody/twist\" to=\"gate/wanted\"/>\n</application>\n";
+    return Runnel("check " + file).text;
+  };
+  EXPECT_THAT(check(R"(<network><offer ports="gate/* gtae/*"/></network>)"), AllOf(HasSubstr("wrong.xml:3:24"), HasSubstr("did you mean 'gate/*'?")));
+  EXPECT_THAT(check(R"(<network><offer ports="gate/* !**/state"/></network>)"), Not(HasSubstr("means no port")));
+  EXPECT_THAT(check(R"(<network reach="network" peers="10.0.0.300"/>)"), AllOf(HasSubstr("wrong.xml:3:33"), HasSubstr("'10.0.0.300' is no address")));
+  EXPECT_THAT(check(R"(<network peers="10.0.0.2"/>)"), AllOf(HasSubstr("wrong.xml:3:17"), HasSubstr("reach=\"loopback\"")));
+  EXPECT_THAT(check(R"(<network reach="network" peers="nobody.invalid"/>)"), HasSubstr("no machine is known here by the name 'nobody.invalid'"));
+  EXPECT_THAT(check(R"(<network><offer port="gate/allowed" topic="/x"/><offer port="gate/state" topic="/x"/></network>)"),
+              AllOf(HasSubstr("the topic /x has values of /base/gate/output/allowed already"), HasSubstr("runnel_msgs/msg/Twist2, and not std_msgs/msg/UInt32")));
+  EXPECT_THAT(check(R"(<network><ros distribution="jazzy"/></network>)"), AllOf(HasSubstr("wrong.xml:3:10"), HasSubstr("reach=\"machine\"")));
+  EXPECT_THAT(check(R"(<network reach="machine"><ros distribution="jazzy"/></network>)"), Not(HasSubstr("are not met")));
+  EXPECT_THAT(check(R"(<network messages="nothere"/>)"), AllOf(HasSubstr("wrong.xml:3:20"), HasSubstr("there is no file and no folder")));
+  EXPECT_THAT(check(R"(<network engine="cyclon"/>)"), AllOf(HasSubstr("wrong.xml:3:18"), HasSubstr("did you mean 'cyclone'?")));
+  (void)check(R"(<network reach="network" interface="wlan7"/>)");
+  const Ended ended = Runnel("run --duration 0.1 " + file);
+  EXPECT_NE(ended.code, kDone);
+  EXPECT_THAT(ended.text, AllOf(HasSubstr("there is no interface 'wlan7'"), HasSubstr("lo (127.0.0.1)")));
+}
+
+TEST_F(NetworkTold, WhereAPathOfAnotherApplicationIsNoUseIsTold) {
+  const Program follower("run " + Write("follower", kEyes));
+  WaitForText("network --app follower", "takes /nobody/twist");
+  EXPECT_THAT(Runnel("connect /gate/allowed //nobody/wanted").text, HasSubstr("inputs of another application are connected there"));
+  EXPECT_THAT(Runnel("connect //nobody /gate/wanted").text, AllOf(HasSubstr("'/nobody' is no port"), HasSubstr("/nobody/twist")));
+  EXPECT_THAT(Runnel("get //nobdy/twist").text, HasSubstr("nobdy is not in the network yet"));
+}
+
 }  // namespace
 }  // namespace runnel::test
