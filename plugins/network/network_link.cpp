@@ -165,7 +165,8 @@ void NetworkLink::SendAll() {
     next_look_ = now + kLookAround;
     TellOwners();
     const auto has_error = [](const auto& each) { return each->has_error(); };
-    if (!strangers_.empty() || is_missing_young_ || std::ranges::any_of(taken_, has_error) || std::ranges::any_of(offered_, has_error)) {
+    const auto has_news = [](const auto& each) { return each->has_news(); };
+    if (!strangers_.empty() || is_missing_young_ || std::ranges::any_of(taken_, has_news) || std::ranges::any_of(offered_, has_error)) {
       return LookAgain();
     }
   }

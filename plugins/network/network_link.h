@@ -77,6 +77,9 @@ class NetworkLink final : private ElementListener {
   void TellMembers();
   [[nodiscard]] bool IsStranger(const WireMember& member) const;
   void TellOwners();
+  /// Who write what goes to one input, and are all heard, of which nobody has said that it is meant; "" if that is not so.
+  [[nodiscard]] std::string Masters(TakenPort& taken) const;
+  void TellMasters();
   /// Who is at the other end of an endpoint, and why somebody who is there is not.
   struct Partner {
     std::vector<std::string> names = {};

@@ -54,7 +54,7 @@ std::string NetworkLink::Picture() {
         if (!is_new) known->second = std::min(known->second, *delay);
       }
       JsonObject object(text);
-      object.Add("port", each->output().path()).Add("topic", each->options().topic).AddTextOrNull("misfit", writers.misfit);
+      object.Add("port", each->output().path()).Add("topic", each->options().topic).AddTextOrNull("misfit", writers.misfit.empty() ? Masters(*each) : writers.misfit);
       object.Add("is_wanted", !each->output().outgoing().empty());
       AppendList(writers.names, object.Key("writers"), [](const std::string& name, std::string& to) { AppendJsonString(name, to); });
       object.AddTextOrNull("owner", each->Owner());

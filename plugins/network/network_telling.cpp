@@ -47,6 +47,7 @@ void NetworkLink::TellTroubles() {
     if (each->is_connected()) look(each->endpoint(), each->output().path(), false);
   }
   TellMissing();
+  TellMasters();
   for (const auto& each : offered_) {
     if (const auto error = each->TakeError()) Trouble(each->path(), *error);
   }
@@ -123,21 +124,6 @@ void NetworkLink::TellMembers() {
   members_ = std::move(now);
 }
 
-// Two masters: who is heard.
-void NetworkLink::TellOwners() {
-  for (const auto& each : taken_) {
-    const std::string owner = each->Owner();
-    std::string& told = owners_[each->output().path()];
-    if (owner == told) continue;
-    if (owner.empty()) {
-      element_.log().Warn("{}: {} has it no more", each->output().path(), told);
-    } else {
-      element_.log().Info("{}: {} has it now{}", each->output().path(), owner, told.empty() ? "" : " instead of " + told);
-    }
-    told = owner;
-  }
-}
-
 Result<std::optional<std::string>> NetworkLink::StructureOf(const std::string& path) {
   const auto words = SplitPath(path);
   if (words.empty()) return Error{.message = "'" + path + "' names no application", .hint = "//NAME, as runnel network lists them"};
@@ -191,13 +177,14 @@ std::string NetworkLink::Text() const {
   }
   for (const std::string& why : table_.refusals()) text += "NOT LET IN " + why + "\n";
   const std::lock_guard lock(runtime_.structure_mutex());
-  const auto add_partners = [&](const WireEndpointOptions& mine, bool is_writer) {
+  const auto add_partners = [&](const WireEndpointOptions& mine, bool is_writer, std::uint64_t chosen = 0) {
     for (const WireEndpoint& other : table_.Partners(mine.topic, !is_writer)) {
       const std::string misfit = is_writer ? Misfit(mine, other.options) : Misfit(other.options, mine);
       text += std::string(is_writer ? "    read by " : "    written by ") + table_.NameOf(other.participant) + " (" +
               QosText(other.options.qos) + ")" + (misfit.empty() ? "" : ": NOT MATCHED, " + misfit);
       const std::string doubt = misfit.empty() ? Doubt(mine, other.options, is_writer) : "";
-      text += (doubt.empty() ? "" : ", " + doubt) + "\n";
+      const bool is_heard = chosen == 0 || chosen == other.handle || !misfit.empty();
+      text += (doubt.empty() ? "" : ", " + doubt) + (is_heard ? "\n" : ": NOT HEARD, as another one has it\n");
     }
   };
   const auto add = [&](const WireEndpointOptions& endpoint, const std::string& arrow, const std::string& counts) {
@@ -215,7 +202,8 @@ std::string NetworkLink::Text() const {
     add(each->endpoint(), "takes " + each->options().topic + " to " + each->output().path(),
         ", " + std::to_string(each->taken()) + " came" + (each->Owner().empty() ? "" : ", " + each->Owner() + " has it") +
             (each->refused() > 0 ? ", " + std::to_string(each->refused()) + " could not be read" : ""));
-    add_partners(each->endpoint(), false);
+    add_partners(each->endpoint(), false, each->chosen());
+    if (const std::string masters = Masters(*each); !masters.empty()) text += "    TWO MASTERS: " + masters + "\n";
   }
   TellAwaited(text);
   text += services_.Text();

@@ -23,20 +23,25 @@ TakenPort::TakenPort(Port& output, TakeOptions options, std::shared_ptr<const Va
 // As much as all of them offer, so that none is left out and nothing that they keep is missed.
 WireQos TakenPort::WantedQos(const std::vector<WireEndpoint>& writers) const {
   WireQos qos = QosOf(options_.quality.value_or(ValueQuality::kNewest));
-  qos.is_exclusive = options_.is_exclusive;
+  const auto fits = [&](const WireEndpoint& each) { return each.options.type == endpoint_.type; };
+  // Readers have writers with a strength, or those without, as ROS 2's are: who has said one counts more.
+  qos.is_exclusive = options_.is_exclusive && std::ranges::any_of(writers, [&](const WireEndpoint& each) {
+    return fits(each) && each.options.qos.is_exclusive;
+  });
   if (options_.quality) return qos;
+  bool all_are_exclusive = true;
   bool is_latched = false;
   bool is_first = true;
   for (const WireEndpoint& each : writers) {
-    if (each.options.type != endpoint_.type) continue;
+    if (!fits(each)) continue;
     qos.is_reliable = qos.is_reliable && each.options.qos.is_reliable;
     is_latched = (is_first || is_latched) && each.options.qos.is_latched;
-    qos.is_exclusive = (is_first || qos.is_exclusive) && each.options.qos.is_exclusive;
+    all_are_exclusive = all_are_exclusive && each.options.qos.is_exclusive;
     qos.depth = std::max(qos.depth, std::min(each.options.qos.depth, 128u));
     is_first = false;
   }
   qos.is_latched = is_latched;
-  qos.is_exclusive = qos.is_exclusive || options_.is_exclusive;
+  qos.is_exclusive = qos.is_exclusive || (!is_first && all_are_exclusive);
   return qos;
 }
 
@@ -50,6 +55,7 @@ Result<void> TakenPort::Follow(WireParticipant& participant) {
   {
     const std::lock_guard lock(mutex_);
     writers_.clear();
+    ForgetGone(writers);
   }
   const WireQos qos = WantedQos(writers);
   if (reader_ != nullptr && (qos == endpoint_.qos || writers.empty())) return {};
@@ -79,6 +85,44 @@ TakenPort::Writer TakenPort::Find(std::uint64_t handle) {
   return writer;
 }
 
+// Under mutex_, as the next one.
+void TakenPort::ForgetGone(const std::vector<WireEndpoint>& writers) {
+  const auto is_gone = [&](std::uint64_t handle) { return std::ranges::find(writers, handle, &WireEndpoint::handle) == writers.end(); };
+  if (is_gone(chosen_)) chosen_ = 0;
+  if (writers.size() < 2) come_in_turn_ = is_turn_told_ = false;
+}
+
+// Of those without a strength the first keeps it. One that was killed is there until its lease is over: whoever has been
+// started again in its place, under its name, has it sooner.
+bool TakenPort::IsHeard(std::uint64_t writer) {
+  constexpr auto kSilent = std::chrono::seconds(1);
+  if (ChoosesItself()) {
+    const Time now = SteadyClock().Now();
+    const auto name = [&](std::uint64_t handle) {
+      const auto endpoint = table_.FindWriter(handle);
+      return endpoint ? table_.NameOf(endpoint->participant) : std::string();
+    };
+    if (chosen_ != 0 && chosen_ != writer && (now - chosen_came_ < kSilent || name(chosen_) != name(writer))) return false;
+    chosen_ = writer;
+    chosen_came_ = now;
+  }
+  if (last_writer_ == writer) return true;
+  come_in_turn_ = come_in_turn_ || (writer_before_ == writer && !options_.is_exclusive && !endpoint_.qos.is_exclusive);
+  writer_before_ = std::exchange(last_writer_, writer);
+  return true;
+}
+
+std::uint64_t TakenPort::chosen() const {
+  const std::lock_guard lock(mutex_);
+  return ChoosesItself() ? chosen_ : 0;
+}
+
+bool TakenPort::AskWhetherTheyComeInTurn() {
+  const std::lock_guard lock(mutex_);
+  is_turn_told_ = come_in_turn_;
+  return come_in_turn_;
+}
+
 void TakenPort::Take(const WireSample& sample) noexcept {
   try {
     const Duration offset = clock_.Now();
@@ -89,7 +133,7 @@ void TakenPort::Take(const WireSample& sample) noexcept {
       const std::lock_guard lock(mutex_);
       const Writer writer = Find(sample.writer);
       if (!writer.fits) return;
-      last_writer_ = sample.writer;
+      if (!IsHeard(sample.writer)) return;
       is_comparable = !clock_.is_simulated && !writer.has_simulated_time;
       if (is_comparable) least_delay_ = std::min(least_delay_.value_or(Duration::max()), now - sent);
     }
@@ -125,9 +169,10 @@ std::optional<Error> TakenPort::TakeError() {
 
 std::string TakenPort::Owner() const {
   const std::lock_guard lock(mutex_);
-  if (!endpoint_.qos.is_exclusive || last_writer_ == 0) return {};
-  const auto writer = table_.FindWriter(last_writer_);
+  const std::uint64_t owner = ChoosesItself() ? chosen_ : endpoint_.qos.is_exclusive ? last_writer_ : 0;
+  const auto writer = owner != 0 ? table_.FindWriter(owner) : std::nullopt;
   if (!writer) return {};
+  if (!writer->options.qos.is_exclusive) return table_.NameOf(writer->participant);
   return table_.NameOf(writer->participant) + " (strength " + std::to_string(writer->options.qos.strength) + ")";
 }
 

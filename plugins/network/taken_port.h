@@ -53,14 +53,20 @@ class TakenPort {
   [[nodiscard]] std::uint64_t taken() const noexcept { return taken_.load(std::memory_order_relaxed); }
   /// Values that could not be read.
   [[nodiscard]] std::uint64_t refused() const noexcept { return refused_.load(std::memory_order_relaxed); }
-  [[nodiscard]] bool has_error() const {
+  /// Whether there is something new to be told: an error, or that values of two come in turn.
+  [[nodiscard]] bool has_news() const {
     const std::lock_guard lock(mutex_);
-    return error_.has_value();
+    return error_.has_value() || (come_in_turn_ && !is_turn_told_);
   }
   /// Why the last of them could not, once.
   [[nodiscard]] std::optional<Error> TakeError();
-  /// "planner (strength 5)": of those who write to who listens to one only, the one whose value came last; "" otherwise.
+  /// "planner (strength 5)": of those who write to who listens to one only, the one whose value came last, or that has been
+  /// chosen here; "" otherwise.
   [[nodiscard]] std::string Owner() const;
+  /// Of writers without a strength, who all match, the one that an exclusive take listens to; 0: none, or the engine chooses.
+  [[nodiscard]] std::uint64_t chosen() const;
+  /// Whether values of two writers come in turn, who are both heard.
+  [[nodiscard]] bool AskWhetherTheyComeInTurn();
   /// By how much the clocks of the writers are behind this one's at least, as far as is known (arrival after sending).
   [[nodiscard]] std::optional<Duration> least_delay() const;
 
@@ -73,6 +79,9 @@ class TakenPort {
   };
   [[nodiscard]] Writer Find(std::uint64_t handle);
   void Take(const WireSample& sample) noexcept;
+  [[nodiscard]] bool ChoosesItself() const noexcept { return options_.is_exclusive && !endpoint_.qos.is_exclusive; }
+  [[nodiscard]] bool IsHeard(std::uint64_t writer);
+  void ForgetGone(const std::vector<WireEndpoint>& writers);
   [[nodiscard]] WireQos WantedQos(const std::vector<WireEndpoint>& writers) const;
   void Refuse(Error error);
 
@@ -89,6 +98,11 @@ class TakenPort {
   mutable std::mutex mutex_;
   std::vector<Writer> writers_;         // that values have come of since Follow(); guarded by mutex_
   std::uint64_t last_writer_ = 0;       // likewise
+  std::uint64_t writer_before_ = 0;     // likewise: before the last one, another one
+  bool come_in_turn_ = false;           // likewise
+  bool is_turn_told_ = false;           // likewise
+  std::uint64_t chosen_ = 0;            // likewise
+  Time chosen_came_{};                  // likewise: the last value of that
   std::optional<Error> error_;          // likewise
   std::optional<Duration> least_delay_;  // likewise
   std::unique_ptr<WireReader> reader_;  // goes first: as long as it is there, values come that use all of this
