@@ -57,6 +57,7 @@ Result<std::unique_ptr<NetworkLink>> NetworkLink::Start(FrameworkElement& applic
   std::unique_ptr<NetworkLink> link(new NetworkLink(application, element, is_simulated));
   WireMemberOptions member = element.options().member;
   member.user_data = "enclave=/;";  // without which nodes of ROS 2 look past it
+  member.user_data += MachineWords();
   if (is_simulated) member.user_data += kSimulatedTime;
   if (!element.options().commands.empty()) {
     member.user_data += kAllowedCommands;
@@ -164,6 +165,7 @@ void NetworkLink::SendAll() {
   if (now >= next_look_) {
     next_look_ = now + kLookAround;
     TellOwners();
+    TellClocks();
     const auto has_error = [](const auto& each) { return each->has_error(); };
     const auto has_news = [](const auto& each) { return each->has_news(); };
     if (!strangers_.empty() || is_missing_young_ || std::ranges::any_of(taken_, has_news) || std::ranges::any_of(offered_, has_error)) {

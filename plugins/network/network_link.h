@@ -80,6 +80,7 @@ class NetworkLink final : private ElementListener {
   /// Who write what goes to one input, and are all heard, of which nobody has said that it is meant; "" if that is not so.
   [[nodiscard]] std::string Masters(TakenPort& taken) const;
   void TellMasters();
+  void TellClocks();
   /// Who is at the other end of an endpoint, and why somebody who is there is not.
   struct Partner {
     std::vector<std::string> names = {};
@@ -118,6 +119,7 @@ class NetworkLink final : private ElementListener {
   std::map<WireId, Time> strangers_;  // since when they are there
   std::map<std::string, Time> missing_;  // topics that who should write them does not: since when
   bool is_missing_young_ = false;        // some of them are to be looked at again soon
+  std::set<WireId> other_clocks_;              // of members whose clock is another one, as has been told
   std::map<std::string, std::string> owners_;  // of outputs that listen to one writer only
   std::thread thread_;
 };

@@ -1,4 +1,4 @@
-// Two masters: who is heard, and that both are.
+// Several writers: who is heard, that both are, and whose clock is another one.
 
 #include <set>
 
@@ -28,6 +28,28 @@ void NetworkLink::TellMasters() {
     if (masters.empty()) continue;
     const char* const exclusive = "say <take … exclusive=\"true\"/> if one is enough";
     Trouble(each->output().path(), {.message = masters, .hint = each->options().is_distant ? "end one of them" : exclusive});
+  }
+}
+
+// Once of each: how far they are apart changes.
+void NetworkLink::TellClocks() {
+  for (const auto& each : taken_) {
+    if (!each->options().keeps_stamps) continue;
+    for (const WireEndpoint& other : table_.Partners(each->endpoint().topic, true)) {
+      const Duration behind = each->behind(other.handle);
+      const Duration delay = each->least_delay(other.handle).value_or(Duration{});
+      const bool is_old = delay > WriterClock::kMostOfNetworks && !each->endpoint().qos.is_latched;
+      const bool is_apart = is_old || -delay > WriterClock::kMostOfNetworks;
+      if (!is_apart || !other_clocks_.insert(other.participant).second) continue;
+      const std::string name = table_.NameOf(other.participant);
+      const double seconds = ToSeconds(std::chrono::abs(delay));
+      if (behind == Duration{}) {
+        element_.log().Warn("values of {} are {:.3f} s old when they come", name, seconds);
+      } else {
+        element_.log().Warn("the clock of {} is {:.3f} s {} this one's: ages of its values are counted from when the soonest came; "
+                            "synchronise the clocks (chrony, ptp4l)", name, seconds, is_old ? "behind" : "ahead of");
+      }
+    }
   }
 }
 

@@ -9,6 +9,7 @@
 #include "core/base/nearest_name.h"
 #include "core/element/element_path.h"
 #include "core/element/runtime.h"
+#include "core/types/duration_text.h"
 #include "plugins/network/network_link.h"
 #include "plugins/network_discovery/distant_type.h"
 #include "plugins/network_discovery/topic_names.h"
@@ -177,12 +178,15 @@ std::string NetworkLink::Text() const {
   }
   for (const std::string& why : table_.refusals()) text += "NOT LET IN " + why + "\n";
   const std::lock_guard lock(runtime_.structure_mutex());
-  const auto add_partners = [&](const WireEndpointOptions& mine, bool is_writer, std::uint64_t chosen = 0) {
+  const auto add_partners = [&](const WireEndpointOptions& mine, bool is_writer, const TakenPort* taken = nullptr) {
+    const std::uint64_t chosen = taken != nullptr ? taken->chosen() : 0;
     for (const WireEndpoint& other : table_.Partners(mine.topic, !is_writer)) {
       const std::string misfit = is_writer ? Misfit(mine, other.options) : Misfit(other.options, mine);
       text += std::string(is_writer ? "    read by " : "    written by ") + table_.NameOf(other.participant) + " (" +
               QosText(other.options.qos) + ")" + (misfit.empty() ? "" : ": NOT MATCHED, " + misfit);
       const std::string doubt = misfit.empty() ? Doubt(mine, other.options, is_writer) : "";
+      const auto delay = taken != nullptr ? taken->least_delay(other.handle) : std::nullopt;
+      if (delay) text += ", " + DurationText(*delay) + " on its way by both clocks";
       const bool is_heard = chosen == 0 || chosen == other.handle || !misfit.empty();
       text += (doubt.empty() ? "" : ", " + doubt) + (is_heard ? "\n" : ": NOT HEARD, as another one has it\n");
     }
@@ -202,7 +206,7 @@ std::string NetworkLink::Text() const {
     add(each->endpoint(), "takes " + each->options().topic + " to " + each->output().path(),
         ", " + std::to_string(each->taken()) + " came" + (each->Owner().empty() ? "" : ", " + each->Owner() + " has it") +
             (each->refused() > 0 ? ", " + std::to_string(each->refused()) + " could not be read" : ""));
-    add_partners(each->endpoint(), false, each->chosen());
+    add_partners(each->endpoint(), false, each.get());
     if (const std::string masters = Masters(*each); !masters.empty()) text += "    TWO MASTERS: " + masters + "\n";
   }
   TellAwaited(text);

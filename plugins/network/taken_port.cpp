@@ -54,7 +54,7 @@ Result<void> TakenPort::Follow(WireParticipant& participant) {
   const auto writers = table_.Partners(endpoint_.topic, true);
   {
     const std::lock_guard lock(mutex_);
-    writers_.clear();
+    for (Writer& each : writers_) each.is_looked_up = false;
     ForgetGone(writers);
   }
   const WireQos qos = WantedQos(writers);
@@ -73,15 +73,17 @@ Result<void> TakenPort::Follow(WireParticipant& participant) {
 }
 
 // The table has been told of it before its first value comes.
-TakenPort::Writer TakenPort::Find(std::uint64_t handle) {
-  const auto known = std::ranges::find(writers_, handle, &Writer::handle);
-  if (known != writers_.end()) return *known;
-  Writer writer{handle, true, false};
+TakenPort::Writer& TakenPort::Find(std::uint64_t handle) {
+  auto known = std::ranges::find(writers_, handle, &Writer::handle);
+  if (known != writers_.end() && known->is_looked_up) return *known;
+  if (known == writers_.end()) known = writers_.insert(known, Writer{handle, true, false, false});
+  Writer& writer = *known;
+  writer.is_looked_up = true;
   if (const auto endpoint = table_.FindWriter(handle)) {
     writer.fits = TypeMisfit(endpoint->options.user_data, endpoint_.user_data).empty();
     writer.has_simulated_time = table_.HasSimulatedTime(endpoint->participant);
+    writer.shares_clock = table_.SharesClock(endpoint->participant);
   }
-  writers_.push_back(writer);
   return writer;
 }
 
@@ -89,6 +91,7 @@ TakenPort::Writer TakenPort::Find(std::uint64_t handle) {
 void TakenPort::ForgetGone(const std::vector<WireEndpoint>& writers) {
   const auto is_gone = [&](std::uint64_t handle) { return std::ranges::find(writers, handle, &WireEndpoint::handle) == writers.end(); };
   if (is_gone(chosen_)) chosen_ = 0;
+  std::erase_if(writers_, [&](const Writer& each) { return is_gone(each.handle); });
   if (writers.size() < 2) come_in_turn_ = is_turn_told_ = false;
 }
 
@@ -127,15 +130,16 @@ void TakenPort::Take(const WireSample& sample) noexcept {
   try {
     const Duration offset = clock_.Now();
     const Time now = output_.runtime().clock().Now();
-    const Time sent = Time(Duration(sample.source_time)) - offset;
+    Time sent = Time(Duration(sample.source_time)) - offset;
     bool is_comparable = false;
     {
       const std::lock_guard lock(mutex_);
-      const Writer writer = Find(sample.writer);
+      Writer& writer = Find(sample.writer);
       if (!writer.fits) return;
       if (!IsHeard(sample.writer)) return;
       is_comparable = !clock_.is_simulated && !writer.has_simulated_time;
-      if (is_comparable) least_delay_ = std::min(least_delay_.value_or(Duration::max()), now - sent);
+      if (is_comparable) writer.clock.Note(now - sent, now);
+      if (is_comparable) sent += Behind(writer);
     }
     if (!sample.flaw.empty()) return Refuse({.message = std::string(sample.flaw)});
     const OwnCycle cycle(now);
@@ -176,9 +180,31 @@ std::string TakenPort::Owner() const {
   return table_.NameOf(writer->participant) + " (strength " + std::to_string(writer->options.qos.strength) + ")";
 }
 
+// What is latched may be old, and on this machine nobody but who fakes the time has another clock.
+Duration TakenPort::Behind(const Writer& writer) const {
+  return writer.clock.behind(endpoint_.qos.is_latched || writer.shares_clock);
+}
+
+Duration TakenPort::behind(std::uint64_t writer) const {
+  const std::lock_guard lock(mutex_);
+  const auto known = std::ranges::find(writers_, writer, &Writer::handle);
+  return known == writers_.end() ? Duration{} : Behind(*known);
+}
+
+std::optional<Duration> TakenPort::least_delay(std::uint64_t writer) const {
+  const std::lock_guard lock(mutex_);
+  const auto known = std::ranges::find(writers_, writer, &Writer::handle);
+  return known == writers_.end() ? std::nullopt : known->clock.least();
+}
+
 std::optional<Duration> TakenPort::least_delay() const {
   const std::lock_guard lock(mutex_);
-  return least_delay_;
+  std::optional<Duration> least;
+  for (const Writer& each : writers_) {
+    const auto delay = each.clock.least();
+    if (delay) least = std::min(least.value_or(*delay), *delay);
+  }
+  return least;
 }
 
 }  // namespace runnel

@@ -12,6 +12,7 @@
 #include "plugins/network/network_options.h"
 #include "plugins/network/offered_port.h"
 #include "plugins/network_discovery/value_form.h"
+#include "plugins/network_discovery/writer_clock.h"
 
 namespace runnel {
 
@@ -69,6 +70,10 @@ class TakenPort {
   [[nodiscard]] bool AskWhetherTheyComeInTurn();
   /// By how much the clocks of the writers are behind this one's at least, as far as is known (arrival after sending).
   [[nodiscard]] std::optional<Duration> least_delay() const;
+  /// The same of one writer.
+  [[nodiscard]] std::optional<Duration> least_delay(std::uint64_t writer) const;
+  /// By how much the clock of a writer is evidently behind this one's; below 0: ahead; 0: neither.
+  [[nodiscard]] Duration behind(std::uint64_t writer) const;
 
  private:
   /// What is known of who writes.
@@ -76,8 +81,12 @@ class TakenPort {
     std::uint64_t handle;
     bool fits;                 // by its type
     bool has_simulated_time;  // which says nothing here
+    bool shares_clock;        // so that delays are what they are
+    WriterClock clock = {};
+    bool is_looked_up = true;  // since Follow()
   };
-  [[nodiscard]] Writer Find(std::uint64_t handle);
+  [[nodiscard]] Writer& Find(std::uint64_t handle);
+  [[nodiscard]] Duration Behind(const Writer& writer) const;
   void Take(const WireSample& sample) noexcept;
   [[nodiscard]] bool ChoosesItself() const noexcept { return options_.is_exclusive && !endpoint_.qos.is_exclusive; }
   [[nodiscard]] bool IsHeard(std::uint64_t writer);
@@ -96,7 +105,7 @@ class TakenPort {
   std::atomic<std::uint64_t> taken_{0};
   std::atomic<std::uint64_t> refused_{0};
   mutable std::mutex mutex_;
-  std::vector<Writer> writers_;         // that values have come of since Follow(); guarded by mutex_
+  std::vector<Writer> writers_;         // that values have come of; guarded by mutex_
   std::uint64_t last_writer_ = 0;       // likewise
   std::uint64_t writer_before_ = 0;     // likewise: before the last one, another one
   bool come_in_turn_ = false;           // likewise
@@ -104,7 +113,6 @@ class TakenPort {
   std::uint64_t chosen_ = 0;            // likewise
   Time chosen_came_{};                  // likewise: the last value of that
   std::optional<Error> error_;          // likewise
-  std::optional<Duration> least_delay_;  // likewise
   std::unique_ptr<WireReader> reader_;  // goes first: as long as it is there, values come that use all of this
 };
 

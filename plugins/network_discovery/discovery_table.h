@@ -34,6 +34,8 @@ class DiscoveryTable final : public WireDiscovery {
   [[nodiscard]] std::vector<WireEndpoint> Partners(const std::string& topic, bool writers) const;
   [[nodiscard]] std::optional<WireEndpoint> FindWriter(std::uint64_t handle) const;
   [[nodiscard]] std::string NameOf(const WireId& member) const;
+  /// Whether it is on this machine, as it says itself, and so has its clock.
+  [[nodiscard]] bool SharesClock(const WireId& member) const;
   /// Whether it says that its time is simulated.
   [[nodiscard]] bool HasSimulatedTime(const WireId& member) const;
 
@@ -47,6 +49,9 @@ class DiscoveryTable final : public WireDiscovery {
 
 /// What a member with simulated time says of itself, among other things.
 inline constexpr const char* kSimulatedTime = "clock=simulated;";
+
+/// "machine=…;": likewise, of the machine whose clock a member has.
+[[nodiscard]] const std::string& MachineWords();
 
 /// "commands=set,swap;": what one allows others, said by itself.
 inline constexpr const char* kAllowedCommands = "commands=";

@@ -1,0 +1,75 @@
+// Values of a machine with another clock.
+#include <cstring>
+
+#include "plugins/network_discovery/writer_clock.h"
+#include "tests/plugins/network/network_member.h"
+
+namespace runnel::test {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using testing::HasSubstr;
+
+TEST(WriterClockTest, TheSmallestDelayOfLateTells) {
+  WriterClock clock;
+  const Time start(seconds(100));
+  EXPECT_FALSE(clock.least().has_value());
+  clock.Note(milliseconds(40), start);
+  EXPECT_EQ(clock.behind(false), Duration{});  // as the network takes it
+  clock.Note(-milliseconds(900), start + milliseconds(1));
+  clock.Note(-milliseconds(700), start + milliseconds(2));
+  EXPECT_EQ(clock.behind(false), -milliseconds(900));
+  EXPECT_EQ(clock.behind(true), -milliseconds(900));
+  // The clock is set.
+  for (int i = 1; i < 15; ++i) clock.Note(seconds(1), start + seconds(i));
+  EXPECT_EQ(clock.behind(false), seconds(1));
+  EXPECT_EQ(clock.behind(true), Duration{});
+}
+
+class OtherClockTest : public testing::Test {
+ protected:
+  // Sent by that clock, so long ago by this one; returns when it is said to have been measured here.
+  Time Send(double x, Duration ahead, Duration ago) {
+    auto octets = std::make_shared<Octets>(20);
+    (*octets)[1] = std::byte(1);
+    std::memcpy(octets->data() + 4, &x, sizeof x);
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    EXPECT_TRUE(writer_->Write(octets, (std::chrono::duration_cast<Duration>(now) + ahead - ago).count()));
+    WaitUntil("it has come", [&] { return robot_.module.goal.Get().x == x; });
+    return robot_.module.goal.Read().timestamp();
+  }
+  void Begin() {
+    robot_.Take({.topic = "/a/place", .keeps_stamps = true}, robot_.module.goal);
+    robot_.Begin();
+    other_ = Must(engine_->Join({.name = "other"}, table_));
+    const auto form = Must(ValueForm::Make(TypeOf<Place>(), "", ""));
+    writer_ = Must(other_->MakeWriter({.topic = "rt/a/place", .type = form->wire_type(), .user_data = form->user_data()}, {}));
+    WaitUntil("it is read", [&] { return robot_.Text().find("written by other") != std::string::npos; });
+  }
+
+  const std::shared_ptr<WireEngine> engine_ = MakeFakeWire();
+  Member robot_{*engine_, "robot"};
+  DiscoveryTable table_{[] {}};
+  std::unique_ptr<WireParticipant> other_;
+  std::unique_ptr<WireWriter> writer_;
+};
+
+TEST_F(OtherClockTest, OfAClockThatIsAheadAgesAreSeen) {
+  Begin();
+  const Time fresh = Send(1, seconds(10), {});
+  const Time old = Send(2, seconds(10), seconds(5));
+  EXPECT_LT(old, fresh);  // it would be as old as its arrival
+  robot_.WaitFor("s ahead of this one's");
+  EXPECT_THAT(robot_.Text(), HasSubstr("on its way by both clocks"));
+}
+
+TEST_F(OtherClockTest, OfAClockThatIsBehindNothingIsOld) {
+  Begin();
+  const Time before = robot_.runtime.clock().Now();
+  EXPECT_GE(Send(1, -seconds(10), {}), before);
+  robot_.WaitFor("s behind this one's");
+}
+
+}  // namespace
+}  // namespace runnel::test
