@@ -1,6 +1,8 @@
 #include <chrono>
 #include <utility>
 
+#include "core/paths/distant_ports.h"
+#include "core/paths/path_search.h"
 #include "plugins/command_service/caught_error.h"
 #include "plugins/control/command.h"
 
@@ -108,11 +110,22 @@ CommandResult MakeRecordCommand(const Request& request, const CommandContext& co
   if (request.Option("file").empty()) {
     return Error{.message = "'record' needs the file to record to, as file=…"};
   }
-  const auto recording = std::make_shared<RecordCommand>(
-      record,
-      RecordingRequest{request.Option("file"), request.arguments, request.Option("compression")},
-      *seconds, context.tasks);
-  return Command([recording](Answer& answer) { return recording->Continue(answer); });
+  auto recording = std::make_shared<std::unique_ptr<RecordCommand>>();
+  const RecordingRequest wanted{request.Option("file"), request.arguments, request.Option("compression")};
+  Runtime& runtime = context.application.runtime;
+  const Command::Step begin =
+      UnderLock(runtime, [&runtime, &tasks = context.tasks, record, wanted, seconds = *seconds, recording](Answer& answer) -> CommandStep {
+        RecordingRequest here = wanted;
+        for (std::string& each : here.ports) {
+          if (!IsDistantPath(each)) continue;
+          const auto port = PathSearch(runtime).FindPort(each, PathKind::kOutput);
+          if (!port) return Refuse(answer, port.error());
+          each = (*port)->path();  // the output that its values come to
+        }
+        *recording = std::make_unique<RecordCommand>(record, std::move(here), seconds, tasks);
+        return (*recording)->Continue(answer);
+      });
+  return Command([recording, begin](Answer& answer) { return *recording ? (*recording)->Continue(answer) : begin(answer); });
 }
 
 }  // namespace runnel

@@ -54,7 +54,10 @@ OfferedType NetworkPorts::Ask(const std::string& path, const TypeInfo* expected)
   return offered;
 }
 
-DistantType NetworkPorts::TypeOf(std::string_view path) const { return Ask(std::string(path), nullptr).type; }
+DistantType NetworkPorts::TypeOf(std::string_view path) const {
+  const Port* const known = Find(path);
+  return Ask(std::string(path), known != nullptr ? &known->type() : nullptr).type;
+}
 
 TakeOptions NetworkPorts::OptionsOf(const std::string& path) const {
   return {.topic = TopicOfDistantPath(path),

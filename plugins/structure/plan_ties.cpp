@@ -82,6 +82,11 @@ Result<void> Plan::CheckTie(const std::string& from_path, const std::string& to_
   }
   if (!found_from) return found_from.error();
   if (!found_to) return found_to.error();
+  const DistantPorts* const distant = asked && IsDistantPath(from_path) ? DistantPorts::FindIn(**found_to) : nullptr;
+  if (distant != nullptr) {
+    const DistantType told = distant->TypeOf(SplitPortPath(from_path).path);
+    if (told.type == nullptr) warnings_.push_back({.message = "waits for " + from_path + ": " + told.why_not, .path = (*found_to)->path()});
+  }
   std::optional<ConnectOptions> wanted = asked;
   if (wanted && !found_from->part.empty()) wanted->part = found_from->part;
   return CheckTie(*found_from->port, **found_to, wanted);

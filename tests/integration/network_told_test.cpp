@@ -128,6 +128,16 @@ TEST_F(NetworkTold, WhereAPathOfAnotherApplicationIsNoUseIsTold) {
   EXPECT_THAT(Runnel("connect /gate/allowed //nobody/wanted").text, HasSubstr("inputs of another application are connected there"));
   EXPECT_THAT(Runnel("connect //nobody /gate/wanted").text, AllOf(HasSubstr("'/nobody' is no port"), HasSubstr("/nobody/twist")));
   EXPECT_THAT(Runnel("get //nobdy/twist").text, HasSubstr("nobdy is not in the network yet"));
+  const Program other("run " + Write("planer", kEyes));
+  WaitForText("network --app follower", "member planer");
+  ASSERT_EQ(Runnel("disconnect --app follower //nobody/twist /gate/wanted").code, kDone);
+  const Ended typo = Runnel("connect --app follower //planner/gate/allowed /gate/wanted");
+  EXPECT_EQ(typo.code, kDone);
+  EXPECT_THAT(typo.text, AllOf(HasSubstr("planner is not in the network yet"), HasSubstr("did you mean '//planer'?")));
+  // The output that stands for it is recorded as any.
+  const std::string recording = folder_ / "told.mcap";
+  const Ended recorded = Runnel("record --app follower //planner/gate/allowed -n 1 -o " + recording);
+  EXPECT_EQ(recorded.code, kDone) << recorded.text;
 }
 
 }  // namespace
