@@ -1,6 +1,7 @@
 // Two applications that know each other by keys, which openssl makes: what they say, and who is let in.
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 
 #include <gmock/gmock.h>
@@ -92,6 +93,14 @@ class NetworkSecurity : public testing::TestWithParam<const char*> {
 
   const TemporaryFolder folder_;
 };
+
+TEST_P(NetworkSecurity, AKeyOfSomebodyElseIsToldWithItsFiles) {
+  MakeKeys("keys", "robot planner");
+  std::filesystem::copy_file(folder_ / "keys/planner/key.pem", folder_ / "keys/robot/key.pem", std::filesystem::copy_options::overwrite_existing);
+  const Ended ended = Start("robot", "keys/robot")->Wait();
+  EXPECT_NE(ended.code, kDone);
+  EXPECT_THAT(ended.text, AllOf(HasSubstr("keys/robot/key.pem"), HasSubstr("keys/robot/cert.pem")));
+}
 
 TEST_P(NetworkSecurity, WithTheKeysOfOneAuthorityValuesFlowAndNobodyReadsThemOnTheWay) {
   if (OwnDomain() != 0) GTEST_SKIP() << "needs the right to see what goes through networks";
