@@ -9,6 +9,8 @@
 
 #include "core/base/characters.h"
 #include "core/element/configurable.h"
+#include "core/element/element_path.h"
+#include "core/element/runtime.h"
 #include "core/element/tags.h"
 #include "core/plugin/module_type_name.h"
 #include "core/port/converted_flow.h"
@@ -153,6 +155,12 @@ std::string PortText(const Port& port, const ListingOptions& options) {
     text += ", from " + edge->SourceText();
   }
   for (const Connection& each : port.outgoing()) {
+    const auto words = SplitPath(each.to->path());
+    const bool is_beside = words.size() > 1 && !port.runtime().root().Find(each.to->path());
+    if (is_beside) {  // who looks on, and is no part of the tree
+      text += ", to the " + std::string(words.front());
+      continue;
+    }
     text += ", to " + each.to->path();
     if (each.options.queue > 0) text += " (queue " + std::to_string(each.options.queue) + ")";
     if (each.options.pull) text += " (pulled)";

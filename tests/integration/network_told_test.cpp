@@ -89,6 +89,7 @@ TEST_F(NetworkTold, MessagesOfRos2AreConnectedAsTheirWriterSaysOrRefused) {
   ASSERT_EQ(connected.code, kDone) << connected.text;
   ASSERT_EQ(Runnel("publish --app base /gate/wanted '{forward: 0.25, turn: 0}' --rate 20").code, kDone);
   WaitForText("get --app follower /gate/wanted", "forward: 0.25");
+  EXPECT_THAT(Runnel("ls --long --app base /gate").text, AllOf(HasSubstr(", to the network"), Not(HasSubstr("offer_"))));
   ASSERT_EQ(Runnel("save --app follower").code, kDone);
   EXPECT_THAT(Read(file), HasSubstr(R"(<connect from="//cmd_vel" to="gate/wanted"/>)"));
   // What the file does not say is found again when the writer is.
