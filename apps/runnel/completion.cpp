@@ -213,7 +213,7 @@ Candidates Propose(ControlClient& client, const Candidates& plain) {
 Candidates WithoutOptions(const Candidates& words, std::string& application) {
   static const Candidates kWithValue{"--app",       "-n", "--queue",  "--on-full",
                                      "--probation", "-o", "--output", "--compression", "--rate", "--deadline", "--convert", "--timeout",
-                                     "--topic", "--as", "--frame", "--child_frame", "--qos", "--sending", "--strength", "--stamp", "--exclusive", "--live"};
+                                     "--topic", "--as", "--field", "--frame", "--child_frame", "--qos", "--sending", "--strength", "--stamp", "--exclusive", "--live"};
   Candidates plain;
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (std::ranges::count(kWithValue, words[i]) > 0 && i + 1 < words.size()) {

@@ -107,7 +107,7 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   for (const char* const each : {"topic", "as", "frame", "child_frame", "qos", "sending", "rate", "strength"}) {
     option(offer, (std::string("--") + each).c_str(), each, "as in <offer>");
   }
-  for (const char* const each : {"as", "qos", "stamp", "exclusive", "live"}) {
+  for (const char* const each : {"as", "field", "qos", "stamp", "exclusive", "live"}) {
     option(take, (std::string("--") + each).c_str(), each, "as in <take>");
   }
   for (Entry* const each : {&offer, &take}) truth(*each, "--stop", "stop", "takes it back");

@@ -21,6 +21,12 @@ class TopicGroup final : public FrameworkElement {
   explicit TopicGroup(const Placement& placement) : FrameworkElement(placement, ElementKind::kGroup) {}
 };
 
+// Of what is said about a topic a second time.
+std::string HintFor(const TakeOptions& known, const TakeOptions& take, std::string otherwise) {
+  if (known.field == take.field) return otherwise;
+  return "of one topic one field is taken, or all of the message: 'runnel ros2 import' makes a type for that";
+}
+
 }  // namespace
 
 NetworkElement::NetworkElement(const Placement& placement, NetworkOptions options)
@@ -59,7 +65,7 @@ Result<void> NetworkElement::CheckIsOwn(const Port& port) const {
 }
 
 Result<std::shared_ptr<const ValueForm>> NetworkElement::ValueFormOf(const TakeOptions& take, const TypeInfo& type) const {
-  auto form = ValueForm::Make(type, take.as, {}, {}, options_.messages.get());
+  auto form = ValueForm::Make(type, take.as, {}, {}, options_.messages.get(), take.field);
   if (!form) return form.error();
   if (const std::string why = (*form)->WhyNoReading(); !why.empty()) return Error{.message = why};
   return form;
@@ -73,7 +79,7 @@ Result<void> NetworkElement::TakeOtherwise(Take& known, const TakeOptions& take)
   if (!known.output->outgoing().empty()) {
     return Error{.message = "'" + take.topic + "' is taken already, in another way",
                  .path = known.output->path(),
-                 .hint = "say the same of it, or connect " + known.output->path()};
+                 .hint = HintFor(known.options, take, "say the same of it, or connect " + known.output->path())};
   }
   auto form = ValueFormOf(take, known.output->type());
   if (!form) return form.error();
@@ -102,7 +108,8 @@ Result<Port*> NetworkElement::AddTake(const TakeOptions& take, const TypeInfo& t
     }
     return Error{.message = "'" + take.topic + "' is taken as " + known->output->type().name() +
                             " already, and cannot be " + type.name() + " as well",
-                 .path = known->output->path()};
+                 .path = known->output->path(),
+                 .hint = HintFor(known->options, take, "")};
   }
   auto form = ValueFormOf(take, type);
   if (!form) return form.error();

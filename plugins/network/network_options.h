@@ -56,6 +56,7 @@ struct OfferOptions {
 struct TakeOptions {
   std::string topic = {};
   std::string as = {};
+  std::string field = {};                       ///< of the message, of which alone the values are made: "ranges[0]"
   std::optional<ValueQuality> quality = {};     ///< nothing: as much as all writers offer
   bool is_exclusive = false;                    ///< of several writers only the strongest counts
   bool keeps_stamps = false;                    ///< values are as old as their writer says, by synchronised clocks

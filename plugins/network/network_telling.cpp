@@ -203,7 +203,8 @@ std::string NetworkLink::Text() const {
   }
   for (const auto& each : taken_) {
     if (!each->is_connected()) continue;
-    add(each->endpoint(), "takes " + each->options().topic + " to " + each->output().path(),
+    const std::string field = each->options().field.empty() ? "" : "." + each->options().field;
+    add(each->endpoint(), "takes " + each->options().topic + field + " to " + each->output().path(),
         ", " + std::to_string(each->taken()) + " came" + (each->Owner().empty() ? "" : ", " + each->Owner() + " has it") +
             (each->refused() > 0 ? ", " + std::to_string(each->refused()) + " could not be read" : ""));
     add_partners(each->endpoint(), false, each.get());

@@ -194,7 +194,8 @@ void AddTake(const TagUse& use, const TakeOptions& take) {
     const auto connected = output ? Port::Connect(**output, *to) : Result<void>(output.error());
     if (connected) continue;
     use.context.MarkUnfed(*to);
-    use.Report(connected.error(), to_use.position);
+    const XmlAttribute* const field = output ? nullptr : use.Find("field");
+    use.Report(connected.error(), field != nullptr ? field->value_position : to_use.position);
   }
 }
 

@@ -73,6 +73,7 @@ std::vector<AttributeRule> TakeRules() {
   return {{.name = "topic", .summary = "its name: /cmd_vel"},
       {.name = "service", .summary = "instead: one that clients of this application call: /save_map"},
       MessageTypeRule(),
+      {.name = "field", .summary = "of the messages, of which alone the values are made: percentage, pose.pose.position, ranges[0]"},
       {.name = "to",
        .kind = AttributeKind::kPathList,
        .required = true,
@@ -110,6 +111,7 @@ std::optional<Error> WhatIsWrong(const OfferOptions& offer) {
 TakeOptions TakeSaid(const SaidOf& said) {
   return {.topic = said("topic"),
           .as = said("as"),
+          .field = said("field"),
           .quality = QualityIn(said("qos")),
           .is_exclusive = said("exclusive") == "true",
           .keeps_stamps = said("stamp") == "sent",
@@ -132,6 +134,7 @@ std::vector<Setting> WordsOf(const OfferOptions& offer) {
 std::vector<Setting> WordsOf(const TakeOptions& take) {
   return Words()
       .Add("as", take.as)
+      .Add("field", take.field)
       .Add("qos", take.quality ? NameOf(*take.quality) : "")
       .Add("stamp", take.keeps_stamps ? "sent" : "")
       .AddIf(take.is_exclusive, "exclusive")

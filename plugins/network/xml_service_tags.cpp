@@ -71,7 +71,7 @@ bool OfferService(const TagUse& use, const Port& port) {
 }
 
 FrameworkElement* TakeService(const TagUse& use) {
-  const bool is_right = CheckName(use) && SaysNothingElse(use, {"topic", "qos", "stamp", "exclusive"});
+  const bool is_right = CheckName(use) && SaysNothingElse(use, {"topic", "field", "qos", "stamp", "exclusive"});
   NetworkElement& network = *NetworkElement::FindIn(use.parent);
   const XmlAttribute* const live = use.Find("live");
   ServiceTakeOptions take{.service = use.Get("service").value,

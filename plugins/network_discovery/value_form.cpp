@@ -115,8 +115,8 @@ std::string TypeDoubt(const std::string& writers, const std::string& readers) {
 
 Result<std::shared_ptr<const ValueForm>> ValueForm::Make(const TypeInfo& type, const std::string& as,
                                                          const std::string& frame, const std::string& child_frame,
-                                                         const MessageLibrary* messages) {
-  auto codec = MessageCodec::Make(type, {.as = as, .by_description = as.empty(), .frame = frame, .child_frame = child_frame},
+                                                         const MessageLibrary* messages, const std::string& field) {
+  auto codec = MessageCodec::Make(type, {.as = as, .by_description = as.empty(), .frame = frame, .child_frame = child_frame, .field = field},
                                   messages != nullptr ? *messages : MessageLibrary::Standard());
   if (!codec) return codec.error();
   std::string description = as.empty() ? std::string(kKey) + DescriptionText(type) + ";" : std::string();

@@ -21,10 +21,12 @@ class ValueForm {
  public:
   /// `as`: "sensor_msgs/msg/LaserScan"; "": by the type's own description. Errors: there is no such message; the type
   /// cannot become it; a part of the type is opaque. `messages`: which there are; nullptr: those of ROS 2.
+  /// `field`: of the message, of which alone values are made (MessageOptions); nothing can be written then.
   static Result<std::shared_ptr<const ValueForm>> Make(const TypeInfo& type, const std::string& as,
                                                        const std::string& frame = {},
                                                        const std::string& child_frame = {},
-                                                       const MessageLibrary* messages = nullptr);
+                                                       const MessageLibrary* messages = nullptr,
+                                                       const std::string& field = {});
   virtual ~ValueForm() = default;
 
   /// By which the wire knows the type.

@@ -123,6 +123,18 @@ Made MakeBound(const TypeInfo& type, const std::string& as, const MessageOptions
   return {std::make_shared<BoundCodec>(type, std::move(*binding), **definition, library)};
 }
 
+Made MakeField(const TypeInfo& type, const MessageOptions& options, const MessageLibrary& library) {
+  if (options.as.empty()) {
+    return Error{.message = "the field '" + options.field + "' is one of a message, and nobody says of which",
+                 .hint = "say it: as=\"sensor_msgs/msg/BatteryState\""};
+  }
+  const auto definition = library.Get(options.as);
+  if (!definition) return definition.error();
+  auto binding = internal::BindField(**definition, type, options, library);
+  if (!binding) return binding.error();
+  return {std::make_shared<BoundCodec>(type, std::move(*binding), **definition, library)};
+}
+
 std::string DefaultMessageOf(const TypeInfo& type) {
   for (const internal::DefaultMessage& each : internal::kDefaultMessages) {
     if (each.semantic_tag == type.semantic_tag()) return std::string(each.message);
@@ -138,6 +150,7 @@ std::string DefaultMessageOf(const TypeInfo& type) {
 Made MessageCodec::Make(const TypeInfo& type, const MessageOptions& options,
                         const MessageLibrary& library) {
   if (auto checked = CheckCdr(type); !checked) return checked.error();
+  if (!options.field.empty()) return MakeField(type, options, library);
   if (options.by_description) return MakeDescribed(type, library);
   if (!options.as.empty()) {
     const bool is_own = library.Find(options.as) == nullptr && options.as == MessageNameOf(type);

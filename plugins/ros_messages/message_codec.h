@@ -23,6 +23,8 @@ struct MessageOptions {
   bool by_description = false;
   std::string frame = {};        ///< of headers
   std::string child_frame = {};  ///< of transforms and odometry: what moves
+  /// "percentage", "pose.pose.position", "ranges[0]": values are made of that field of messages `as` only, by the same rules.
+  std::string field = {};
 };
 
 /// Values of one type as messages of ROS 2, and back: what the type of the messages is called, and their octets.
@@ -50,11 +52,11 @@ class MessageCodec {
   [[nodiscard]] const std::vector<std::string>& left_out() const noexcept { return left_out_; }
 
   /// Sets `octets` to the message, with the encapsulation header in front. `stamp`: for headers, since the begin of 1970
-  /// or of simulated time. Allocates as far as the vector grows.
+  /// or of simulated time. Allocates as far as the vector grows. Precondition: not of one field only.
   virtual void Encode(const void* value, Time stamp, std::vector<std::byte>& octets) const = 0;
 
   struct Decoded {
-    std::optional<Time> stamp;  ///< of the message's own header, if it has one
+    std::optional<Time> stamp;  ///< of the message's own header, if it has one; not where one field is read
   };
   /// Sets `value` from octets that may be anything. Errors: what is wrong with them, and with which field; the value may
   /// then be half set. Large lists of numbers may refer to the octets, which stay as they are as long as anybody has

@@ -104,5 +104,37 @@ TEST_F(NetworkChanges, TakesComeAndGoAndAreUndoneAndSaved) {
   ASSERT_EQ(Runnel("undo --app follower").code, kDone);
 }
 
+TEST_F(NetworkChanges, OneFieldOfMessagesIsTakenUndoneAndSaved) {
+  const std::string file = Write("follower", kOther);
+  const Program source("run " + Write("source", R"(  <network>
+    <offer port="gate/allowed" topic="/stamped" as="geometry_msgs/msg/TwistStamped"/>
+  </network>
+  <module name="gate" type="motion/command_gate"/>
+  <connect from="//nobody/twist" to="gate/wanted"/>
+)"));
+  const Program follower("run " + file);
+  WaitForText("ps", "follower");
+  const std::string take = "take --app follower /stamped /gate/wanted --as geometry_msgs/msg/TwistStamped --field ";
+  const Ended wrong = Runnel(take + "twst");
+  EXPECT_EQ(wrong.code, kBadInput);
+  EXPECT_THAT(wrong.text, HasSubstr("geometry_msgs/msg/TwistStamped has no field 'twst'; did you mean 'twist'?"));
+  EXPECT_THAT(Runnel("take --app follower /stamped /gate/wanted --field twist").text, HasSubstr("say it: as="));
+  ASSERT_EQ(Runnel(take + "twist").code, kDone);
+  WaitForText("network --app follower", "written by source");
+  WaitUntil("values come", [] {
+    const std::string told = Runnel("network --app follower").text;
+    return told.find("takes /stamped.twist to ") != std::string::npos && told.find(", 0 came") == std::string::npos;
+  });
+  EXPECT_THAT(Runnel("network --app follower").text, Not(HasSubstr("could not be read")));
+  ASSERT_EQ(Runnel("save --app follower").code, kDone);
+  EXPECT_THAT(Read(file), HasSubstr(R"(<take topic="/stamped" to="gate/wanted" as="geometry_msgs/msg/TwistStamped" field="twist"/>)"));
+  EXPECT_EQ(Runnel("check " + file).code, kDone);
+  ASSERT_EQ(Runnel("undo --app follower").code, kDone);
+  ASSERT_EQ(Runnel("save --app follower").code, kDone);
+  EXPECT_THAT(Read(file), Not(HasSubstr("<take")));
+  ASSERT_EQ(Runnel("redo --app follower").code, kDone);
+  WaitForText("network --app follower", "takes /stamped.twist to ");
+}
+
 }  // namespace
 }  // namespace runnel::test

@@ -62,6 +62,12 @@ class Binder {
     return binding;
   }
 
+  Result<Binding> BindPart(const MessageField& field) {
+    auto root = Part(field, root_);
+    if (!root) return root.error();
+    return Binding{.root = std::move(*root), .left_out = {}, .why_no_decoding = why_no_decoding_};
+  }
+
  private:
   // What of the value stands beside the fields of a message.
   struct Place {
@@ -255,6 +261,11 @@ class Binder {
 Result<Binding> Bind(const MessageDefinition& definition, const TypeInfo& type,
                      const MessageOptions& options, const MessageLibrary& library) {
   return Binder(type, options, library).Bind(definition);
+}
+
+Result<Binding> BindPart(const MessageField& field, const TypeInfo& type, const MessageOptions& options,
+                         const MessageLibrary& library) {
+  return Binder(type, options, library).BindPart(field);
 }
 
 }  // namespace runnel::internal

@@ -18,6 +18,7 @@ struct Step {
     kNumber,     ///< a number of one type in the message, of another in the value
     kStructure,  ///< `inside`
     kElements,   ///< a list in both; inside[0] is an element
+    kElement,    ///< that of a list in the message that `index` says; inside[0] is what becomes of it: read only
     kListOfOne,  ///< a list in the message, of which the value is the one element: written only
     kHeading,    ///< a quaternion in the message, an angle about z in the value
     kLastAngle,  ///< of a scan: that of its last ray; computed from the value, skipped in the message
@@ -33,6 +34,7 @@ struct Step {
   MessageCount count = MessageCount::kOne;
   bool is_own_stamp = false;         ///< that of the message's own header
   std::size_t capacity = 0;          ///< of lists
+  std::size_t index = 0;             ///< of kElement
   const FieldInfo* field = nullptr;  ///< of the value in which the step stands; nullptr: that value itself
   const TypeInfo* part = nullptr;    ///< the type of what the step is about; nullptr if the value has nothing of it
   std::string name;                  ///< of the message's field
@@ -55,6 +57,15 @@ struct Binding {
 /// Errors: as MessageCodec::Make().
 Result<Binding> Bind(const MessageDefinition& definition, const TypeInfo& type,
                      const MessageOptions& options, const MessageLibrary& library);
+
+/// The same of one field of a message only, "pose.pose.position" or "ranges[0]": what stands before it is passed over, and what
+/// comes after it is not looked at. It can be read only.
+/// Errors: also, there is no such field, with the nearest name, or no such element.
+Result<Binding> BindField(const MessageDefinition& definition, const TypeInfo& type, const MessageOptions& options,
+                          const MessageLibrary& library);
+/// Of a field by itself, wherever it stands. Errors: it does not become the type.
+Result<Binding> BindPart(const MessageField& field, const TypeInfo& type, const MessageOptions& options,
+                         const MessageLibrary& library);
 
 /// Whether the type's own description has the same octets.
 [[nodiscard]] bool IsSame(const MessageField& field, const TypeInfo& type, const MessageLibrary& library);

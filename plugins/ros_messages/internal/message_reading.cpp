@@ -36,6 +36,8 @@ class StepReader : public CdrWalk {
         return std::ranges::all_of(step.inside, [&](const Step& each) { return Read(each, value); });
       case Kind::kElements:
         return ReadElements(step, value);
+      case Kind::kElement:
+        return ReadElement(step, value);
       case Kind::kListOfOne:
         return Fail("a list is no value");
       case Kind::kHeading:
@@ -97,12 +99,24 @@ class StepReader : public CdrWalk {
   bool SkipList(const Step& step) {
     const Step& element = step.element.front();
     const auto count = CountOf(step, element);
-    if (!count) return false;
-    if (element.kind == Kind::kNoNumber) return IsThere(reader_.Skip(SizeOf(element.type), *count));
-    for (std::size_t i = 0; i < *count; ++i) {
+    return count && Skip(element, *count);
+  }
+
+  bool Skip(const Step& element, std::size_t count) {
+    if (element.kind == Kind::kNoNumber) return IsThere(reader_.Skip(SizeOf(element.type), count));
+    for (std::size_t i = 0; i < count; ++i) {
       if (!Read(element, nullptr)) return false;
     }
     return true;
+  }
+
+  bool ReadElement(const Step& step, void* value) {
+    const auto count = CountOf(step, step.element.front());
+    if (!count) return false;
+    if (step.index >= *count) {
+      return Fail("it has no element [" + std::to_string(step.index) + "], but " + std::to_string(*count) + " of them");
+    }
+    return Skip(step.element.front(), step.index) && Read(step.inside.front(), value);
   }
 
   std::optional<Time>& stamp_;

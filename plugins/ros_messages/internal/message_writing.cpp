@@ -41,6 +41,8 @@ class StepWriter {
         return;
       case Kind::kElements:
         return WriteElements(step, value);
+      case Kind::kElement:
+        return;  // read only
       case Kind::kListOfOne:
         writer_.PutCount(1);
         return Write(step.inside.front(), value);

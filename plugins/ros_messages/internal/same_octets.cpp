@@ -55,6 +55,7 @@ std::size_t FewestOctets(const Step& step) {
     case Kind::kStamp:
       return 2 * SizeOf(MessageType::kInt32);
     case Kind::kElements:
+    case Kind::kElement:
     case Kind::kNoList:
       return step.count == MessageCount::kArray ? step.capacity * FewestOctets(step.element.front()) : 4;
     case Kind::kListOfOne:

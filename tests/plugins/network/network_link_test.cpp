@@ -1,4 +1,5 @@
 // Applications in a network of this process: what is offered and taken, without an engine that needs a network.
+#include "plugins/cdr_values/cdr_writer.h"
 #include "plugins/network_discovery/topic_names.h"
 #include "plugins/testing/allocation_guard.h"
 #include "tests/plugins/network/network_member.h"
@@ -149,6 +150,41 @@ TEST_F(NetworkLinkTest, AnotherTypeUnderTheSameNameIsToldWithBothSidesWords) {
   const auto of_other_type =
       Must(other->MakeWriter({.topic = "rt/a/place", .type = "sensor_msgs::msg::dds_::Image_"}, {}));
   b.WaitFor("sends values of type sensor_msgs::msg::dds_::Image_");
+}
+
+TEST_F(NetworkLinkTest, OfAMessageOneFieldIsTaken) {
+  Member b(*engine_, "b");
+  b.Take({.topic = "/area", .as = "geometry_msgs/msg/PolygonStamped", .field = "polygon.points[1]"}, b.module.goal);
+  b.Begin();
+  const auto again = [&](const std::string& field, const TypeInfo& type) {
+    const auto taken = b.network->AddTake({.topic = "/area", .as = "geometry_msgs/msg/PolygonStamped", .field = field}, type);
+    return taken ? "" : taken.error().ToString();
+  };
+  EXPECT_EQ(again("polygon.points[1]", TypeOf<Place>()), "");
+  for (const std::string& refused : {again("polygon.points[0]", TypeOf<Place>()), again("polygon.points[1].x", TypeOf<double>())}) {
+    EXPECT_THAT(refused, testing::AllOf(HasSubstr("'/area' is taken"), HasSubstr("of one topic one field is taken")));
+  }
+  DiscoveryTable table([] {});
+  const auto other = Must(engine_->Join({.name = "other"}, table));
+  const auto writer = Must(other->MakeWriter({.topic = "rt/area", .type = "geometry_msgs::msg::dds_::PolygonStamped_"}, {}));
+  WaitUntil("it is read", [&] { return b.Text().find("written by other") != std::string::npos; });
+  const auto write = [&](std::uint32_t points) {
+    auto octets = std::make_shared<Octets>();
+    CdrWriter message(*octets);
+    message.Put(std::int64_t{0});
+    message.PutText("map");
+    message.PutCount(points);
+    for (std::uint32_t i = 0; i < 3 * points; ++i) message.Put(static_cast<float>(i));
+    return writer->Write(octets, 1).has_value();
+  };
+  ASSERT_TRUE(write(3));
+  WaitUntil("it has come", [&] { return b.module.goal.Read().has_value(); });
+  EXPECT_EQ(b.module.goal.Get().x, 3);
+  EXPECT_EQ(b.module.goal.Get().y, 4);
+  ASSERT_TRUE(write(1));
+  b.WaitFor("polygon.points: it has no element [1], but 1 of them");
+  EXPECT_EQ(b.module.goal.Get().x, 3);
+  EXPECT_THAT(b.Text(), testing::AllOf(HasSubstr("takes /area.polygon.points[1] to "), HasSubstr("1 came, 1 could not be read")));
 }
 
 TEST_F(NetworkLinkTest, OctetsThatAreNoValueAreCountedAndChangeNothing) {

@@ -8,6 +8,7 @@ import { WordForm } from './word_form.js';
 const kFields = [
   { name: 'topic', text: 'Topic', hint: '/cmd_vel' },
   { name: 'as', text: 'Messages', hint: 'by their description; geometry_msgs/msg/Twist' },
+  { name: 'field', text: 'Field', hint: 'the whole message; percentage, ranges[0]' },
   { name: 'qos', text: 'Values', choices: [['', 'as they are offered'], ['newest', 'the newest value, reliably'], ['each', 'each value, in a queue'], ['sensor', 'at best effort'], ['latched', 'the newest of before, too']] },
   { name: 'stamp', text: 'Stamps', choices: [['', 'when they arrive'], ['sent', 'as their writer says']] },
   { name: 'exclusive', text: 'Writers', choices: [['', 'all are heard'], ['true', 'only the strongest is heard']] },
