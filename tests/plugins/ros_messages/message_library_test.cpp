@@ -171,7 +171,7 @@ TEST_F(MessageFiles, ThatAreWrongAreToldWithTheirPlace) {
   EXPECT_THAT(WhyNot("loose/A.msg"), HasSubstr("put it into a folder <package>/msg"));
   Write("my_msgs/msg/a_track.msg", "");
   EXPECT_THAT(WhyNot("my_msgs/msg/a_track.msg"), HasSubstr("call the file ATrack.msg"));
-  EXPECT_THAT(WhyNot("my_msgs/msg/None.msg"), HasSubstr("cannot be read"));
+  EXPECT_THAT(WhyNot("my_msgs/msg/None.msg"), HasSubstr("there is no file and no folder"));
   Write("geometry_msgs/msg/Point.msg", "float32 x\n");
   EXPECT_THAT(WhyNot("geometry_msgs"), HasSubstr("there is already another message 'geometry_msgs/msg/Point'"));
 }
