@@ -112,6 +112,7 @@ class NetworkLink final : private ElementListener {
   bool is_late_ = false;  // by that, since it slept when a value came
   bool is_early_ = false;  // woken by somebody, and not by the time
   Time awake_{};           // when as much time has passed as makes up for what has been spent awake
+  const Time began_ = SteadyClock().Now();
   Time next_look_{};    // for what has gone wrong
   std::map<std::string, std::string> troubles_;      // by whom they are, as they have been told
   std::map<std::string, std::string> new_troubles_;  // as they are now

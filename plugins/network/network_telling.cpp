@@ -120,7 +120,9 @@ void NetworkLink::TellMembers() {
     }
   }
   for (const auto& [id, name] : members_) {
-    if (!now.contains(id)) element_.log().Info("{} has left the network", name);
+    if (now.contains(id)) continue;
+    element_.log().Info("{} has left the network", name);
+    structure_topic_->Forget(name);
   }
   members_ = std::move(now);
 }
@@ -129,7 +131,13 @@ Result<std::optional<std::string>> NetworkLink::StructureOf(const std::string& p
   const auto words = SplitPath(path);
   if (words.empty()) return Error{.message = "'" + path + "' names no application", .hint = "//NAME, as runnel network lists them"};
   const std::string name(words.front());
-  const auto text = structure_topic_->Find(name);
+  std::vector<std::string> names;
+  for (const WireMember& each : table_.members()) names.push_back(each.name);
+  const bool is_there = std::ranges::find(names, name) != names.end();
+  if (!is_there && SteadyClock().Now() - began_ > std::chrono::seconds(1)) {  // until then others may not have been found yet
+    return Error{.message = "there is no '" + name + "' in the network", .path = path, .hint = NearestNameHint(name, names)};
+  }
+  const auto text = is_there ? structure_topic_->Find(name) : std::nullopt;
   if (!text) return std::optional<std::string>();
   if (words.size() == 1) return text;
   // The lines of the element: from its own to the next that is indented no deeper.

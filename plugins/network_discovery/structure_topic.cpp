@@ -62,6 +62,12 @@ void StructureTopic::Follow() {
   }
 }
 
+void StructureTopic::Forget(const std::string& name) {
+  readers_.erase(name);  // first, without the lock: it waits for who writes the text
+  const std::lock_guard lock(mutex_);
+  texts_.erase(name);
+}
+
 std::optional<std::string> StructureTopic::Find(const std::string& name) {
   {
     const std::lock_guard lock(mutex_);

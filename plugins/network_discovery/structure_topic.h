@@ -24,6 +24,8 @@ class StructureTopic {
   void Tell(const std::string& structure);
   /// Reads what has been asked for.
   void Follow();
+  /// That application has gone; one of its name that comes, or is there, is read anew.
+  void Forget(const std::string& name);
   /// Of the application of that name; nothing: it has not come yet.
   [[nodiscard]] std::optional<std::string> Find(const std::string& name);
 

@@ -267,5 +267,26 @@ TEST(TopicNamesTest, PathsBecomeNamesThatRosAllows) {
   EXPECT_EQ(ReadableTopic("rt/scan"), "/scan");
 }
 
+TEST_F(NetworkLinkTest, WhatOneIsMadeOfGoesWithItAndComesAnew) {
+  Member b(*engine_, "b");
+  b.Begin();
+  const auto looks = [&](const std::string& path) {
+    const auto text = b.StructureOf(path);
+    return !text ? text.error().ToString() : text->value_or("");
+  };
+  for (const std::string text : {"/robot  group\n  laser  module\n", "/robot  group\n  sonar  module\n"}) {
+    Member a(*engine_, "robot");
+    a.structure = text;
+    a.Begin();
+    WaitUntil("it tells", [&] { return looks("//robot") == text; });
+    WaitUntil("a wrong name is told with the nearest one", [&] {
+      return looks("//robt").find("there is no 'robt' in the network; did you mean 'robot'?") != std::string::npos;
+    });
+    a.End();
+    WaitUntil("that it is gone is told", [&] { return looks("//robot").find("there is no 'robot' in the network") != std::string::npos; });
+    b.WaitFor("robot has left the network");
+  }
+}
+
 }  // namespace
 }  // namespace runnel::test

@@ -73,10 +73,11 @@ class Member {
       if (const auto connected = Port::Connect(*output, *to); !connected) throw std::runtime_error(connected.error().ToString());
     }
     (void)runtime.MakeReady(runtime.root());
-    link_ = Must(NetworkLink::Start(group, *network, engine_, is_simulated));
+    link_ = Must(NetworkLink::Start(group, *network, engine_, is_simulated, [this] { return structure; }));
   }
   void End() { link_.reset(); }
   [[nodiscard]] std::string Text() const { return link_->Text(); }
+  [[nodiscard]] auto StructureOf(const std::string& path) const { return link_->StructureOf(path); }
   [[nodiscard]] std::string said() {
     FlushLog();
     const std::lock_guard lock(mutex_);
@@ -86,6 +87,7 @@ class Member {
     WaitUntil("it says " + text, [&] { return said().find(text) != std::string::npos; });
   }
 
+  std::string structure;  // before Begin()
   Runtime runtime;
   Group& group = runtime.Create<Group>(runtime.root(), name_of_group());
   Module1& module = runtime.Create<Module1>(group, "module");
