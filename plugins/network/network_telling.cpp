@@ -4,7 +4,6 @@
 #include <fstream>
 #include <mutex>
 #include <set>
-#include <sstream>
 
 #include "core/base/nearest_name.h"
 #include "core/element/element_path.h"
@@ -139,35 +138,7 @@ Result<std::optional<std::string>> NetworkLink::StructureOf(const std::string& p
   }
   const auto text = is_there ? structure_topic_->Find(name) : std::nullopt;
   if (!text) return std::optional<std::string>();
-  if (words.size() == 1) return text;
-  // The lines of the element: from its own to the next that is indented no deeper.
-  std::istringstream lines(*text);
-  std::string found;
-  std::vector<std::string> candidates;
-  std::size_t word = 0;
-  std::size_t depth = 0;
-  for (std::string line; std::getline(lines, line);) {
-    const std::size_t indent = line.find_first_not_of(' ');
-    if (word == words.size() && indent <= depth) break;
-    if (word == words.size()) {
-      found += line + "\n";
-      continue;
-    }
-    if (word > 0 && indent <= depth) break;  // past the element around
-    std::string here = line.substr(indent, line.find(' ', indent) - indent);
-    if (word == 0) here.erase(0, 1);  // "/base"
-    if (word > 0 && indent != depth + 2) continue;
-    candidates.push_back(here);
-    if (here != words[word]) continue;
-    candidates.clear();
-    depth = indent;
-    if (++word == words.size()) found = line + "\n";
-  }
-  if (found.empty()) {
-    const std::string missing(words[std::min(word, words.size() - 1)]);
-    return Error{.message = name + " has no '" + missing + "' there", .path = path, .hint = NearestNameHint(missing, candidates)};
-  }
-  return std::optional(found);
+  return FindInStructure(*text, path);
 }
 
 std::string NetworkLink::Text() const {

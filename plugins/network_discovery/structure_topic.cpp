@@ -1,8 +1,12 @@
 #include "plugins/network_discovery/structure_topic.h"
 
+#include <algorithm>
+#include <sstream>
 #include <utility>
 #include <vector>
 
+#include "core/base/nearest_name.h"
+#include "core/element/element_path.h"
 #include "plugins/cdr_values/cdr_reader.h"
 #include "plugins/cdr_values/cdr_writer.h"
 #include "plugins/ros_messages/names.h"
@@ -78,6 +82,39 @@ std::optional<std::string> StructureTopic::Find(const std::string& name) {
   }
   on_wanted_();
   return {};
+}
+
+Result<std::optional<std::string>> FindInStructure(const std::string& text, const std::string& path) {
+  const auto words = SplitPath(path);
+  if (words.size() == 1) return std::optional(text);
+  // The lines of the element: from its own to the next that is indented no deeper.
+  std::istringstream lines(text);
+  std::string found;
+  std::vector<std::string> candidates;
+  std::size_t word = 0;
+  std::size_t depth = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t indent = line.find_first_not_of(' ');
+    if (word == words.size() && indent <= depth) break;
+    if (word == words.size()) {
+      found += line + "\n";
+      continue;
+    }
+    if (word > 0 && indent <= depth) break;  // past the element around
+    std::string here = line.substr(indent, line.find(' ', indent) - indent);
+    if (word == 0) here.erase(0, 1);  // "/base"
+    if (word > 0 && indent != depth + 2) continue;
+    candidates.push_back(here);
+    if (here != words[word]) continue;
+    candidates.clear();
+    depth = indent;
+    if (++word == words.size()) found = line + "\n";
+  }
+  if (found.empty()) {
+    const std::string missing(words[std::min(word, words.size() - 1)]);
+    return Error{.message = std::string(words.front()) + " has no '" + missing + "' there", .path = path, .hint = NearestNameHint(missing, candidates)};
+  }
+  return std::optional(found);
 }
 
 }  // namespace runnel

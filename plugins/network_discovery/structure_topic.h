@@ -41,4 +41,7 @@ class StructureTopic {
   std::map<std::string, std::unique_ptr<WireReader>> readers_;
 };
 
+/// The lines of "//base/laser" in what an application has told. Errors: it has no such element, with the nearest name.
+[[nodiscard]] Result<std::optional<std::string>> FindInStructure(const std::string& text, const std::string& path);
+
 }  // namespace runnel
