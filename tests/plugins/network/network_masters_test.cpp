@@ -79,7 +79,7 @@ TEST_F(NetworkMastersTest, OfThoseWithoutAStrengthTheFirstIsHeardThenTheNext) {
   robot_.WaitFor("first has it now");
   first.reset();
   WaitUntilHeard(next, 3);
-  robot_.WaitFor("next has it now instead of first");
+  robot_.WaitFor("next has it now");
   EXPECT_THAT(robot_.said(), Not(HasSubstr("all of them are heard")));
 }
 
