@@ -11,7 +11,7 @@ namespace runnel::test {
 
 /// How long a test waits for what other threads or processes do. No test says how long something
 /// takes: whoever waits so long waits for something that does not come.
-inline constexpr std::chrono::seconds kLongestWait{30};
+inline constexpr std::chrono::seconds kLongestWait{60};
 
 /// WaitUntil(), with `pause` between two looks.
 template <typename Condition, typename Pause>
