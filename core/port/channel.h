@@ -129,7 +129,7 @@ class Channel final : public ChannelBase {
     if constexpr (kIsInlined<T>) {
       return storage_.sequence();
     } else {
-      return storage_.published.load(std::memory_order_relaxed);
+      return storage_.published.load(std::memory_order_acquire);
     }
   }
   void ReserveFor([[maybe_unused]] std::size_t leases) override {
@@ -213,7 +213,7 @@ class Channel final : public ChannelBase {
     typename BufferPool<T>::Owner pool;
     const std::uint32_t first_capacity;
     LatestBuffer<T> newest;
-    // Written by the publisher alone. relaxed: a count; who reads the value looks again.
+    // Written by the publisher alone, when the value is there.
     std::atomic<std::uint64_t> published{0};
   };
 
@@ -289,7 +289,6 @@ class Channel final : public ChannelBase {
   [[gnu::always_inline]] PublishStatus PublishNow(Buffer<T>& buffer, ValueTimes times) noexcept
       requires(!kIsInlined<T>) {
     const std::uint64_t sequence = storage_.published.load(std::memory_order_relaxed) + 1;
-    storage_.published.store(sequence, std::memory_order_relaxed);
     const std::int64_t timestamp = times.timestamp.time_since_epoch().count();
     const std::int64_t published = times.publication_time.time_since_epoch().count();
     const std::uint64_t order = kPath == PublishPath::kFast ? 0 : OrderNumber();
@@ -299,6 +298,8 @@ class Channel final : public ChannelBase {
     // Without flags no buffer has ever had an order: once numbered, always numbered.
     if constexpr (kPath != PublishPath::kFast) buffer.publication.order = order;
     storage_.newest.Publish(buffer);
+    // release: pairs with the acquire in publications(). Who finds the count finds this value, or a later one.
+    storage_.published.store(sequence, std::memory_order_release);
     if (subscribers(kPath) == nullptr) [[likely]]
       return PublishStatus::kPublished;
     // The buffer stays the newest while this goes on, which keeps it.

@@ -97,6 +97,30 @@ TEST_F(PortThreadsTest, SmallTypesToo) {
   EXPECT_EQ(backward, 0);
 }
 
+// Viewers and networks show a value once for each count: of a count that is there before its value they would keep the one before.
+TEST_F(PortThreadsTest, WhoFindsACountFindsThatValueOrALaterOne) {
+  auto& sender = MakeSender<Scan>();
+  constexpr int kMost = 100 * kThreadRounds;
+  std::uint64_t early = 0;
+  RunTogether(2, [&](unsigned index) {
+    if (index == 0) {
+      for (int number = 1; number <= kMost; ++number) {
+        auto loan = sender.out.Loan();
+        loan->number = number;
+        (void)sender.out.Publish(std::move(loan));
+      }
+    } else {
+      for (std::uint64_t count = 0; count < kMost;) {
+        count = sender.out.publications();
+        sender.out.VisitLatest([&](const void* value, ValueTimes) {
+          if (static_cast<std::uint64_t>(static_cast<const Scan*>(value)->number) < count) ++early;
+        });
+      }
+    }
+  });
+  EXPECT_EQ(early, 0U);
+}
+
 TEST_F(PortThreadsTest, InterfacePortsAreConnectedAnewWhileTwoSourcesPublish) {
   auto& a = MakeSender<Scan>("a");
   auto& b = MakeSender<Scan>("b");
