@@ -257,6 +257,7 @@ TEST_F(NetworkLinkTest, NoMoreValuesASecondThanAskedFor) {
     a.module.place.Publish({1.0 * i, 0});
     WaitUntil("the first has come", [&] { return b.module.goal.Read().has_value(); });
   }
+  WaitUntil("it is counted", [&] { return a.Text().find(", 0 sent") == std::string::npos; });
   EXPECT_THAT(a.Text(), HasSubstr(", 1 sent"));
 }
 
