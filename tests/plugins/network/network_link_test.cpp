@@ -157,6 +157,7 @@ TEST_F(NetworkLinkTest, OfAMessageOneFieldIsTaken) {
   b.Take({.topic = "/area", .as = "geometry_msgs/msg/PolygonStamped", .field = "polygon.points[1]"}, b.module.goal);
   b.Begin();
   const auto again = [&](const std::string& field, const TypeInfo& type) {
+    const std::lock_guard lock(b.runtime.structure_mutex());
     const auto taken = b.network->AddTake({.topic = "/area", .as = "geometry_msgs/msg/PolygonStamped", .field = field}, type);
     return taken ? "" : taken.error().ToString();
   };
