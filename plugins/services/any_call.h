@@ -4,62 +4,36 @@
 #include <string>
 #include <utility>
 
-#include "core/lockfree/thread_epoch.h"
 #include "plugins/services/argument_type.h"
 #include "plugins/services/call_record.h"
 #include "plugins/services/callable.h"
+#include "plugins/services/own_call.h"
 #include "plugins/services/service_base.h"
 
 namespace runnel {
 
-/// A call with a slot of its own.
+/// A call of a service whose types are known.
 template <typename Signature>
 class AnyCallOf;
 template <typename Reply, typename... Arguments>
-class AnyCallOf<Reply(Arguments...)> final : public AnyCall {
+class AnyCallOf<Reply(Arguments...)> final : public OwnCall {
  public:
   using Signature = Reply(Arguments...);
   AnyCallOf(ServiceBase& service, void* (*find)(ArgumentPack<Arguments...>&))
-      : service_(service), find_(find), call_(static_cast<Call<Signature>*>(slots_->Acquire())) {}
-  ~AnyCallOf() override {
-    slots_->GiveUpAll();
-    CallSlots::Release(*call_);
-    RetireCalls(std::move(slots_));
-  }
+      : OwnCall(service, std::make_unique<CallSlotsOf<Signature>>(1)), find_(find) {}
 
-  [[nodiscard]] void* arguments() override { return find_(call_->arguments); }
+  [[nodiscard]] void* arguments() override { return find_(typed().arguments); }
   void TakeArguments(const CallRecordBase& record) override {
-    call_->arguments = static_cast<const CallRecord<Signature>&>(record).arguments;
-  }
-  CallStatus Begin(Time now, Duration timeout) override {
-    return status_ = BeginCall(service_.endpoint(), *call_, now, timeout);
-  }
-  CallStatus Poll(Time now) override {
-    if (status_ != CallStatus::kPending) return status_;
-    if (call_->is_answered()) {
-      status_ = call_->status;
-      error_ = call_->error;
-    } else if (now >= call_->deadline) {
-      call_->is_given_up.store(true, std::memory_order_relaxed);
-      status_ = CallStatus::kTimedOut;
-    }
-    return status_;
+    typed().arguments = static_cast<const CallRecord<Signature>&>(record).arguments;
   }
   [[nodiscard]] const void* reply() const override {
-    return std::is_void_v<Reply> ? nullptr : &call_->reply;
+    return std::is_void_v<Reply> ? nullptr : &typed().reply;
   }
-  [[nodiscard]] std::string error() const override { return error_; }
-  [[nodiscard]] double progress() const override { return call_->progress.load(std::memory_order_relaxed); }
-  [[nodiscard]] const char* doing() const override { return call_->doing.load(std::memory_order_relaxed); }
-  void Abort() override { call_->is_given_up.store(true, std::memory_order_relaxed); }
 
  private:
-  ServiceBase& service_;  // until Begin()
+  [[nodiscard]] Call<Signature>& typed() const noexcept { return static_cast<Call<Signature>&>(call()); }
+
   void* (*const find_)(ArgumentPack<Arguments...>&);
-  std::unique_ptr<CallSlots> slots_ = std::make_unique<CallSlotsOf<Signature>>(1);
-  Call<Signature>* const call_;
-  CallStatus status_ = CallStatus::kNotConnected;
-  std::string error_;
 };
 
 /// What a service is to those who do not know its types.

@@ -4,54 +4,26 @@
 
 #include "core/element/framework_element.h"
 #include "core/types/text_format.h"
+#include "plugins/services/own_call.h"
 
 namespace runnel {
 
 namespace {
 
-/// A call with a place of its own.
-class CallOfOffer final : public AnyCall {
+class CallOfOffer final : public OwnCall {
  public:
   CallOfOffer(ServiceBase& service, const ServiceSignature& signature, std::shared_ptr<const CallForm> form)
-      : service_(service), signature_(signature), form_(std::move(form)), slots_(signature.MakeSlots(1)), call_(slots_->Acquire()) {}
-  ~CallOfOffer() override {
-    slots_->GiveUpAll();
-    CallSlots::Release(*call_);
-    RetireCalls(std::move(slots_));
-  }
+      : OwnCall(service, signature.MakeSlots(1)), signature_(signature), form_(std::move(form)) {}
 
   [[nodiscard]] void* arguments() override {
-    return form_->arguments() == nullptr ? nullptr : const_cast<void*>(form_->ArgumentsOf(*call_));
+    return form_->arguments() == nullptr ? nullptr : const_cast<void*>(form_->ArgumentsOf(call()));
   }
-  void TakeArguments(const CallRecordBase& record) override { signature_.TakeArguments(record, *call_); }
-  CallStatus Begin(Time now, Duration timeout) override {
-    return status_ = BeginCall(service_.endpoint(), *call_, now, timeout);
-  }
-  CallStatus Poll(Time now) override {
-    if (status_ != CallStatus::kPending) return status_;
-    if (call_->is_answered()) {
-      status_ = call_->status;
-      error_ = call_->error;
-    } else if (now >= call_->deadline) {
-      Abort();
-      status_ = CallStatus::kTimedOut;
-    }
-    return status_;
-  }
-  [[nodiscard]] const void* reply() const override { return form_->reply() == nullptr ? nullptr : form_->ReplyOf(*call_); }
-  [[nodiscard]] std::string error() const override { return error_; }
-  [[nodiscard]] double progress() const override { return call_->progress.load(std::memory_order_relaxed); }
-  [[nodiscard]] const char* doing() const override { return call_->doing.load(std::memory_order_relaxed); }
-  void Abort() override { call_->is_given_up.store(true, std::memory_order_relaxed); }
+  void TakeArguments(const CallRecordBase& record) override { signature_.TakeArguments(record, call()); }
+  [[nodiscard]] const void* reply() const override { return form_->reply() == nullptr ? nullptr : form_->ReplyOf(call()); }
 
  private:
-  ServiceBase& service_;  // until Begin()
   const ServiceSignature& signature_;
   const std::shared_ptr<const CallForm> form_;
-  std::unique_ptr<CallSlots> slots_;
-  CallBase* const call_;
-  CallStatus status_ = CallStatus::kNotConnected;
-  std::string error_;
 };
 
 }  // namespace

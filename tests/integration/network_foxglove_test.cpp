@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -34,7 +35,7 @@ TEST_P(FoxgloveNode, FindsTopicsAndReadsValues) {
   }
   // By another interface it would not hear those on loopback; without a way for multicast it hears nobody.
   if (OwnDomain() != 0 || std::system("ip route replace 224.0.0.0/4 dev lo") != 0) GTEST_SKIP() << "needs the right to make networks";
-  WriteRosRobot(folder_ / "robot.xml", GetParam());
+  std::ofstream(folder_ / "robot.xml") << RosRobot(GetParam());
   Program robot("run " + std::string(folder_ / "robot.xml") + " world=" RUNNEL_XML "/worlds/rooms.xml");
   Program node(RUNNEL_FOXGLOVE_NODE "/listen.mjs /scan=sensor_msgs/msg/LaserScan /tf_static=tf2_msgs/msg/TFMessage"
                                     " /clock=rosgraph_msgs/msg/Clock", RUNNEL_NODE);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,7 @@ class HeadersByTshark : public testing::TestWithParam<const char*> {
   HeadersByTshark() {
     setenv("ROS_DOMAIN_ID", std::to_string(OwnDomain()).c_str(), 1);
     setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1);
-    WriteRosRobot(folder_ / "robot.xml", GetParam());
+    std::ofstream(folder_ / "robot.xml") << RosRobot(GetParam());
   }
   ~HeadersByTshark() override {
     unsetenv("XDG_RUNTIME_DIR");

@@ -1,20 +1,20 @@
 #pragma once
 
-#include <fstream>
 #include <string>
 
 namespace runnel::test {
 
-/// A robot that is a node of ROS 2 by that engine: `run FILE world=WORLD`.
-inline void WriteRosRobot(const std::string& file, const std::string& engine) {
-  std::ofstream(file) << R"(<application name="robot" thread="control">
+/// The file of a robot that is a node of ROS 2 by that engine: `run FILE world=WORLD`.
+inline std::string RosRobot(const std::string& engine) {
+  return R"(<application name="robot" thread="control">
   <load plugin="simulation"/> <load plugin="motion"/>
   <clock type="simulated" speed="1"/> <thread name="control" period="50ms"/>
-  <network name="base" engine=")" << engine << R"(">
+  <network name="base" engine=")" + engine + R"(">
     <offer port="laser/scan" topic="/scan" as="sensor_msgs/msg/LaserScan" frame="laser" qos="sensor"/>
+    <offer port="world/pose" topic="/tf" as="tf2_msgs/msg/TFMessage" frame="map" child_frame="base_link"/>
     <offer port="world/pose" topic="/tf_static" as="tf2_msgs/msg/TFMessage" frame="map" child_frame="start" qos="latched"/>
     <take topic="/cmd_vel" as="geometry_msgs/msg/Twist" to="gate/wanted" live="true"/>
-    <ros distribution="jazzy" node="/robots/base" clock="true"/>
+    <ros distribution="jazzy" node="/robots/base" clock="true" log="true"/>
   </network>
   <module name="world" type="simulation/world"> <parameter name="world" command_line="world"/> </module>
   <module name="laser" type="simulation/laser"/>
