@@ -9,9 +9,11 @@ namespace runnel {
 class Annotation {
  public:
   virtual ~Annotation() = default;
-  /// What an element that replaces this one, under the same path, is to be annotated with; nullptr: with
-  /// nothing, or with what it brings itself.
+  /// What an element that stands for this one from now on is to be annotated with (it replaces it, has another name,
+  /// is made again by an undo); nullptr: with nothing, or with what it brings itself.
   [[nodiscard]] virtual std::unique_ptr<Annotation> ForReplacement() const { return nullptr; }
+  /// The same of an element like this one, at another place. Nothing of what is said of the place in a file.
+  [[nodiscard]] virtual std::unique_ptr<Annotation> ForCopy() const { return ForReplacement(); }
 };
 
 }  // namespace runnel

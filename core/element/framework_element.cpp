@@ -144,13 +144,14 @@ bool FrameworkElement::IsAtOrBelow(const FrameworkElement& ancestor) const noexc
   return element != nullptr;
 }
 
-void FrameworkElement::InheritAnnotations(const FrameworkElement& from) {
+void FrameworkElement::InheritAnnotations(const FrameworkElement& from, Inherit how) {
   for (const auto& [type, annotation] : from.annotations_) {
-    if (auto left = annotation->ForReplacement()) annotations_[type] = std::move(left);
+    auto left = how == Inherit::kAsCopy ? annotation->ForCopy() : annotation->ForReplacement();
+    if (left) annotations_[type] = std::move(left);
   }
   for (FrameworkElement* child : children_) {
     if (const FrameworkElement* counterpart = from.FindChild(child->name_)) {
-      child->InheritAnnotations(*counterpart);
+      child->InheritAnnotations(*counterpart, how);
     }
   }
 }

@@ -97,8 +97,9 @@ class FrameworkElement {
     return reference;
   }
   /// Takes on what the annotations of `from`, and of what is below it under the same names, leave to an
-  /// element that replaces it. Under the structure lock.
-  void InheritAnnotations(const FrameworkElement& from);
+  /// element that replaces it, or to one like it at another place. Under the structure lock.
+  enum class Inherit { kAsReplacement, kAsCopy };
+  void InheritAnnotations(const FrameworkElement& from, Inherit how = Inherit::kAsReplacement);
   /// nullptr if there is none.
   template <typename T>
   [[nodiscard]] T* FindAnnotation() const {

@@ -10,6 +10,7 @@
 #include "core/base/ordered_mutex.h"
 #include "core/element/element_listener.h"
 #include "core/element/framework_element.h"
+#include "core/element/robot_stop.h"
 #include "core/element/unlisted_element.h"
 
 namespace runnel {
@@ -30,6 +31,8 @@ class Runtime {
 
   [[nodiscard]] FrameworkElement& root() noexcept { return root_; }
   [[nodiscard]] OrderedMutex& structure_mutex() noexcept { return structure_mutex_; }
+  /// Any thread.
+  [[nodiscard]] RobotStop& robot_stop() noexcept { return robot_stop_; }
 
   /// Makes a T from Placement{parent, name} and the further arguments; the parent owns it. Throws
   /// what T's constructor throws, ElementError among it, and then nothing has changed.
@@ -118,6 +121,7 @@ class Runtime {
   std::uint64_t revision_ = 0;
   std::vector<ElementListener*> listeners_;
   int change_scopes_ = 0;
+  RobotStop robot_stop_{*this};
   FrameworkElement root_;
 };
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/element/annotation.h"
-#include "core/port/waker.h"
+#include "core/channel/waker.h"
 
 namespace runnel {
 

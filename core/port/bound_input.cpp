@@ -1,8 +1,12 @@
 #include "core/port/bound_input.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "core/element/runtime.h"
 #include "core/lockfree/thread_epoch.h"
+#include "core/port/stand_in.h"
+#include "core/port/stop_link.h"
 
 namespace runnel {
 
@@ -32,6 +36,7 @@ std::uint64_t BoundInput::publications() const noexcept {
   const EpochGuard guard;
   std::uint64_t sum = 0;
   for (const auto& link : binding()->links) sum += link->channel->publications();
+  for (const auto& stop : binding()->stops) sum += stop->channel().publications();
   return sum;
 }
 
@@ -69,13 +74,37 @@ QueueSink* BoundInput::Bind(const std::vector<Source>& sources) {
   }
   if (sources.size() == 1) {
     next->only = next->links.front().get();
-    if (!next->pulls) next->channel = next->only->channel;
+  }
+  BindStops(*before, *next);
+  next->ages = ageing() == Ageing::kTimesOut;
+  if (next->only != nullptr && !next->pulls && !next->ages && next->stops.empty()) {
+    next->channel = next->only->channel;
   }
   if (options.queue > 0) next->queue = KeepOrMakeQueue(*before, *next, options);
   KeepWaitingValues(*before, *next);
   InputQueueBase* const queue = next->queue.get();
   Replace(next.release());
   return queue;
+}
+
+void BoundInput::BindStops(const Binding& before, Binding& next) {
+  std::vector<internal::PassedStop> stops;
+  CollectStops(stops);
+  for (internal::PassedStop& stop : stops) {
+    const auto is_it = [&](const auto& link) { return link->Is(stop); };
+    if (const auto kept = std::ranges::find_if(before.stops, is_it); kept != before.stops.end()) {
+      next.stops.push_back(*kept);
+    } else if (auto channel = internal::MakeChannelFor(type())) {
+      next.stops.push_back(std::make_shared<internal::StopLink>(std::move(stop), std::move(channel),
+                                                                runtime().clock()));
+    }
+  }
+}
+
+void BoundInput::TellStops(const Subscribers& subscribers) {
+  for (const auto& stop : binding_.load(std::memory_order_relaxed)->stops) {
+    stop->channel().SetSubscribers(subscribers);
+  }
 }
 
 std::shared_ptr<internal::InputLink> BoundInput::KeepOrMakeLink(const Binding& before,
@@ -133,9 +162,14 @@ void BoundInput::KeepWaitingValues(const Binding& before, Binding& next) {
 // A new connection delivers the last value at once. It is read after publishers have begun to fill
 // the queue, so that none is lost; Take() leaves out one that is there twice for that reason.
 void BoundInput::Bound() {
-  for (auto& each : replaced_) Retire([replaced = each.release()] { delete replaced; });
-  replaced_.clear();
   const Binding* binding = binding_.load(std::memory_order_relaxed);
+  for (auto& each : replaced_) {
+    for (const auto& stop : each->stops) {
+      if (std::ranges::find(binding->stops, stop) == binding->stops.end()) stop->End();
+    }
+    Retire([replaced = each.release()] { delete replaced; });
+  }
+  replaced_.clear();
   for (const auto& older : binding->older_queues) {
     if (older->left_in_epoch == 0) older->left_in_epoch = ProcessEpochs().Advance();
   }

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/channel/channel_base.h"
 #include "core/lockfree/thread_epoch.h"
-#include "core/port/channel_base.h"
 #include "core/port/input_base.h"
 #include "core/port/input_binding.h"
 
@@ -55,6 +55,8 @@ class BoundInput : public InputBase {
 
  private:
   QueueSink* Bind(const std::vector<Source>& sources) override;
+  void TellStops(const Subscribers& subscribers) override;
+  void BindStops(const Binding& before, Binding& next);
   void TakeOverBinding(InputBase& from) noexcept override;
   void Bound() override;
 

@@ -9,9 +9,9 @@
 #include "core/element/runtime.h"
 #include "core/lockfree/taking_turns.h"
 #include "core/lockfree/thread_epoch.h"
-#include "core/port/channel_base.h"
+#include "core/channel/channel_base.h"
 #include "core/port/input_base.h"
-#include "core/port/probe_queue.h"
+#include "core/channel/probe_queue.h"
 #include "core/port/stand_in.h"
 
 namespace runnel::internal {

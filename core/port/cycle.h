@@ -9,6 +9,9 @@ namespace runnel {
 struct Cycle {
   Time now{};         ///< when the cycle began, on the application's clock
   Duration period{};  ///< planned time from cycle to cycle; 0 if there is no plan
+  /// The oldest measurement that the module has read in this cycle (Ageing::kTimesOut); what it publishes is no
+  /// newer than that.
+  Time stamp = Time::max();
 };
 
 /// nullptr outside of a cycle. Threads: each has its own.
@@ -24,11 +27,11 @@ class CycleScope {
 
  private:
   Cycle cycle_;
-  const Cycle* outer_;
+  Cycle* outer_;
 };
 
 namespace internal {
-extern thread_local constinit const Cycle* current_cycle __attribute__((tls_model("initial-exec")));
+extern thread_local constinit Cycle* current_cycle __attribute__((tls_model("initial-exec")));
 }  // namespace internal
 
 inline CycleScope::CycleScope(const Cycle& cycle) noexcept
@@ -38,5 +41,16 @@ inline CycleScope::CycleScope(const Cycle& cycle) noexcept
 inline CycleScope::~CycleScope() { internal::current_cycle = outer_; }
 
 inline const Cycle* CurrentCycle() noexcept { return internal::current_cycle; }
+
+namespace internal {
+/// What the module publishes in this cycle from now on is of `measured`, or older.
+inline void AgeCycle(Time measured) noexcept {
+  if (current_cycle != nullptr && measured < current_cycle->stamp) current_cycle->stamp = measured;
+}
+/// For executors: what the next module publishes has an age of its own.
+inline void BeginModule() noexcept {
+  if (current_cycle != nullptr) current_cycle->stamp = Time::max();
+}
+}  // namespace internal
 
 }  // namespace runnel

@@ -1,16 +1,19 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "core/lockfree/queue_succession.h"
 #include "core/port/bound_input.h"
-#include "core/port/channel.h"
-#include "core/port/lease.h"
+#include "core/channel/channel.h"
+#include "core/channel/lease.h"
 #include "core/port/output.h"
 #include "core/port/port.h"
 #include "core/port/port_owner.h"
+#include "core/port/stop_link.h"
 #include "core/types/type_of.h"
 
 namespace runnel {
@@ -38,6 +41,7 @@ class Input final : public BoundInput {
   Input(FrameworkElement& group, std::string name, InputOptions options = {})
       : BoundInput(group, std::move(name), TypeOf<T>(), std::move(options)) {
     internal::MakeTypedPortsKnown<T>();
+    if (declares_driving()) DeclareDriving();
   }
   ~Input() override { DisconnectForEver(); }
 
@@ -96,6 +100,16 @@ class Input final : public BoundInput {
     return count;
   }
 
+  /// Whether readers find the safe value because of a stop, or because nothing has come since: who ramps or
+  /// integrates begins from a standstill then. Any thread.
+  [[nodiscard]] bool is_stopped() const noexcept {
+    const EpochGuard guard;
+    const Binding& binding = *this->binding();
+    const Link* link = nullptr;
+    const Lease<T> newest = Newest(binding, link);
+    return std::ranges::any_of(binding.stops, [&](const auto& stop) { return link == &stop->link(); });
+  }
+
   bool VisitLatest(const Visitor& visit) const override {
     const Lease<T> lease = PeekForViewer();
     if (lease) visit(&*lease, lease.times());
@@ -127,6 +141,7 @@ class Input final : public BoundInput {
     const Link* link = nullptr;
     Lease<T> lease = Newest(binding, link);
     if (lease) lease.last_ = const_cast<Link*>(link)->Note(lease.sequence());
+    if (lease && binding.ages) internal::AgeCycle(lease.timestamp());
     return lease;
   }
   [[gnu::noinline]] bool CopyOutsideOfGuards(T& value) const noexcept {
@@ -145,6 +160,7 @@ class Input final : public BoundInput {
     const Link* link = nullptr;
     const Lease<T> newest = Newest(binding, link);
     if (newest) value = *newest;
+    if (newest && binding.ages) internal::AgeCycle(newest.timestamp());
     return newest.has_value();
   }
   // The type is that of the input: connecting has checked it.
@@ -184,13 +200,24 @@ class Input final : public BoundInput {
     Lease<T> lease;
     lease.held_ = std::move(last.held);
     newest = last.link;
+    if (!binding.stops.empty()) LookForStop(binding, lease, newest);
     return lease;
+  }
+  [[gnu::noinline]] static void LookForStop(const Binding& binding, Lease<T>& lease,
+                                            const Link*& newest) noexcept {
+    std::optional<ValueTimes> times;
+    if (lease) times = lease.times();
+    internal::StopLink* const stop = binding.StopBefore(times);
+    if (stop == nullptr) return;
+    lease.held_ = Typed(stop->channel()).Read();
+    newest = &stop->link();
   }
   bool HasNew() const override {
     const EpochGuard guard;
     const Binding* const binding = this->binding();
     // Where there is a queue, nobody may ever call Read().
-    return binding->HasNext() || (!binding->queue && PeekForViewer().is_new());
+    return binding->HasNext() ||
+           (binding->queue ? binding->StopToTake() != nullptr : PeekForViewer().is_new());
   }
 
   using Queued = internal::Queued<T>;
@@ -219,6 +246,7 @@ class Input final : public BoundInput {
   }
   void TakeInside(Lease<T>& lease) noexcept {
     const Binding* const binding = this->binding();
+    if (!binding->stops.empty() && TakeOfStop(*binding, lease)) return;
     std::uint64_t source = 0;
     while (Pop(*binding, lease.held_, source)) {
       Link* link = binding->FindLink(source);
@@ -226,9 +254,19 @@ class Input final : public BoundInput {
       // A value may lie in the queue twice just after connecting (see Bound()).
       if (link != nullptr && sequence <= link->taken) continue;
       lease.last_ = link != nullptr ? std::exchange(link->taken, sequence) : 0;
+      if (!binding->stops.empty() && binding->StopBefore(lease.times()) != nullptr) continue;
+      if (binding->ages) internal::AgeCycle(lease.timestamp());
       return;
     }
     lease.held_ = {};  // what had been taken already
+  }
+  // The safe value, once for each press, where there is a queue.
+  [[gnu::noinline]] static bool TakeOfStop(const Binding& binding, Lease<T>& lease) noexcept {
+    internal::StopLink* const stop = binding.queue ? binding.StopToTake() : nullptr;
+    if (stop == nullptr) return false;
+    lease.held_ = Typed(stop->channel()).Read();
+    lease.last_ = std::exchange(stop->link().taken, lease.sequence());
+    return true;
   }
 
   [[nodiscard]] std::unique_ptr<InputQueueBase> MakeQueue(std::size_t capacity, OnFull on_full,

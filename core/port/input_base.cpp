@@ -5,9 +5,9 @@
 #include <mutex>
 #include <span>
 
+#include "core/channel/channel_base.h"
 #include "core/element/runtime.h"
 #include "core/lockfree/thread_epoch.h"
-#include "core/port/channel_base.h"
 #include "core/port/given_limits.h"
 
 namespace runnel {
@@ -42,12 +42,22 @@ void InputBase::SetWaker(Waker* waker) {
   if (waker_ == waker) return;
   Waker* const before = std::exchange(waker_, waker);
   try {
-    for (const Source& source : sources_) UpdateChannel(*source.output);
+    UpdateChannels();
   } catch (...) {
     waker_ = before;  // so that the same call does the rest
     throw;
   }
   if (waker_ != nullptr && HasValue(*this)) Wake(*waker_);
+}
+
+void InputBase::DeclareDriving() {
+  const InputOptions& declared = options_;
+  const auto safe =
+      FindSafeValue(declared.safe_value ? declared.safe_value : declared.limits.default_value);
+  if (!safe) throw ElementError(safe.error());
+  if (auto set = SetStop(*safe, runtime().robot_stop().signal()); !set) {
+    throw ElementError(set.error());
+  }
 }
 
 Result<void> InputBase::Prepare() {
@@ -86,7 +96,7 @@ ArrivalEvent& InputBase::PrepareToWait() {
   if (arrival_) return *arrival_;
   const std::lock_guard lock(runtime().structure_mutex());
   arrival_ = std::make_unique<ArrivalEvent>();
-  for (const Source& source : sources_) UpdateChannel(*source.output);
+  UpdateChannels();
   return *arrival_;
 }
 
@@ -105,6 +115,7 @@ void InputBase::Rebind(const std::vector<Source>& sources) {
   // Whom publishers need not know, they are not told of: an output may have thousands of these.
   if (was_visited || IsVisited()) {
     for (Port* output : outputs) UpdateChannel(*output);
+    UpdateStops();
   }
   Bound();
   // What a new connection brings is there already, and no publisher tells of it.
@@ -132,7 +143,8 @@ void InputBase::TakeOverFlow(Port& from) {
   if (strategy() != other.strategy()) {
     Rebind(std::vector<Source>(sources_));
   } else if (is_told(*this) || is_told(other)) {
-    for (const Source& source : sources_) UpdateChannel(*source.output);
+    UpdateChannels();
+    other.UpdateStops();
   }
   if (arrival_) arrival_->Wake();
   if (waker_ != nullptr && HasValue(*this)) Wake(*waker_);
@@ -147,6 +159,18 @@ void InputBase::TakeOverFlow(Port& from) {
 // Whether publishers have to do anything for this input.
 bool InputBase::IsVisited() const noexcept {
   return sink_ != nullptr || waker_ != nullptr || arrival_ != nullptr || sources_.size() > 1;
+}
+
+void InputBase::UpdateChannels() {
+  for (const Source& source : sources_) UpdateChannel(*source.output);
+  UpdateStops();
+}
+
+void InputBase::UpdateStops() {
+  Subscribers subscribers;
+  if (waker_ != nullptr) subscribers.wakers.push_back(waker_);
+  if (arrival_) subscribers.wakers.push_back(arrival_.get());
+  TellStops(subscribers);
 }
 
 // Works out anew whom publishers into the output's channel have to visit, and what they have to

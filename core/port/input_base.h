@@ -5,10 +5,10 @@
 #include <memory>
 #include <vector>
 
-#include "core/port/arrival_event.h"
+#include "core/channel/arrival_event.h"
+#include "core/channel/subscribers.h"
+#include "core/channel/waker.h"
 #include "core/port/port.h"
-#include "core/port/subscribers.h"
-#include "core/port/waker.h"
 
 namespace runnel {
 
@@ -48,12 +48,16 @@ class InputBase : public Port {
   /// Values lost because the queue was full, since something was connected to the input first, or
   /// first again. Where another connection has changed the queue meanwhile, its drops count on.
   [[nodiscard]] virtual std::uint64_t dropped() const noexcept = 0;
+  [[nodiscard]] Ageing ageing() const noexcept { return options_.ageing; }
 
  protected:
   InputBase(const Placement& placement, const TypeInfo& type, InputOptions options);
 
   /// What it is bound to. Under the structure lock.
   [[nodiscard]] const std::vector<Source>& sources() const noexcept { return sources_; }
+  /// By the constructor of typed inputs, when their type is known. Throws ElementError if there is no safe value.
+  void DeclareDriving();
+  [[nodiscard]] bool declares_driving() const noexcept final { return options_.drives; }
 
   Result<void> Prepare() override;
   void Rebind(const std::vector<Source>& sources) final;
@@ -66,12 +70,16 @@ class InputBase : public Port {
   virtual void TakeOverBinding(InputBase& from) noexcept = 0;
   /// Typed inputs: Bind() has taken effect everywhere; put first values into a new queue.
   virtual void Bound() = 0;
+  /// Typed inputs: whom a stop wakes.
+  virtual void TellStops(const Subscribers& /*subscribers*/) {}
   /// Typed inputs: what Wait() waits for. By the reader.
   [[nodiscard]] virtual bool HasNew() const = 0;
 
  private:
   ArrivalEvent& PrepareToWait();
   [[nodiscard]] bool IsVisited() const noexcept;
+  void UpdateChannels();
+  void UpdateStops();
   static void UpdateChannel(Port& output);
 
   const InputOptions options_;

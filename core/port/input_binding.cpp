@@ -1,5 +1,7 @@
 #include "core/port/input_binding.h"
 
+#include "core/port/stop_link.h"
+
 namespace runnel::internal {
 
 bool IsLater(const Publication& a, const InputLink& from_a, const Publication& b,
@@ -26,6 +28,24 @@ bool InputBinding::HasNext() const noexcept {
     if (older->HasNext()) return true;
   }
   return queue && queue->HasNext();
+}
+
+StopLink* InputBinding::StopBefore(std::optional<ValueTimes> times) const noexcept {
+  StopLink* before = nullptr;
+  for (const auto& each : stops) {
+    const PortStop& stop = each->stop();
+    const std::int64_t bar = stop.bar();
+    if (times ? stop.LetsPass(*times) : bar == StopSignal::kNever) continue;
+    if (before == nullptr || bar > before->stop().bar()) before = each.get();
+  }
+  return before;
+}
+
+StopLink* InputBinding::StopToTake() const noexcept {
+  for (const auto& each : stops) {
+    if (each->has_to_take()) return each.get();
+  }
+  return nullptr;
 }
 
 std::shared_ptr<InputLink> InputBinding::LinkOf(const ChannelBase& source) const noexcept {

@@ -3,11 +3,13 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "core/channel/channel_base.h"
+#include "core/channel/input_queue_base.h"
+#include "core/channel/value_times.h"
 #include "core/lockfree/publication.h"
-#include "core/port/channel_base.h"
-#include "core/port/input_queue_base.h"
 
 namespace runnel::internal {
 
@@ -46,15 +48,20 @@ struct InputLink {
 [[nodiscard]] bool IsLater(const Publication& a, const InputLink& from_a, const Publication& b,
                            const InputLink& from_b) noexcept;
 
+class StopLink;
+
 /// What reading needs, but for the type of the values; never changed but for
 /// the reader's own notes, replaced as a whole.
 struct InputBinding {
   using Link = InputLink;
 
-  // If there is one source and no pulling, the fast path to it; else nullptr.
+  // If there is one source and nothing else to be looked at, the fast path to it; else nullptr.
   ChannelBase* channel = nullptr;
   Link* only = nullptr;  // if there is one source
   bool pulls = false;
+  bool ages = false;  // what is read ages what is published in the same cycle
+  std::vector<std::shared_ptr<StopLink>>
+      stops;                                 // on the way from the sources; shared as `links` are
   std::vector<std::shared_ptr<Link>> links;  // shared by the binding before and after a change
   std::shared_ptr<InputQueueBase> queue;     // likewise
   // Queues that another one has replaced: what waits in them comes first.
@@ -65,6 +72,11 @@ struct InputBinding {
   [[nodiscard]] std::size_t WaitingInOlder() const noexcept;
   [[nodiscard]] std::uint64_t dropped() const noexcept;
   [[nodiscard]] bool HasNext() const noexcept;
+  /// The stop whose safe value readers find instead of what was published at these times, or instead of nothing;
+  /// nullptr: none. Of several the one that was released last.
+  [[nodiscard]] StopLink* StopBefore(std::optional<ValueTimes> times) const noexcept;
+  /// The first one whose safe value has to be taken (Input::Take()); nullptr: none.
+  [[nodiscard]] StopLink* StopToTake() const noexcept;
   [[nodiscard]] std::shared_ptr<Link> LinkOf(const ChannelBase& source) const noexcept;
   [[nodiscard]] Link* FindLink(std::uint64_t number) const noexcept {
     if (only != nullptr && only->number == number) [[likely]]

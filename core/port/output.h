@@ -7,8 +7,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "core/port/channel.h"
-#include "core/port/loan.h"
+#include "core/channel/channel.h"
+#include "core/channel/loan.h"
 #include "core/port/output_base.h"
 #include "core/port/port_owner.h"
 #include "core/types/type_of.h"
@@ -69,14 +69,14 @@ class Output final : public OutputBase {
 
   /// Errors: the loan of another output (but for inlined values) throws ProgrammingError.
   [[gnu::always_inline]] PublishStatus Publish(runnel::Loan<T>&& loan) {
-    return own().Publish(std::move(loan), ValueTimes::Of(PublicationTime()));
+    return own().Publish(std::move(loan), PublicationTimes());
   }
   /// Copies or moves the value into a buffer (inlined values: straight into the slot).
   PublishStatus Publish(const T& value) requires(kIsInlined<T> || std::is_copy_assignable_v<T>) {
-    return PublishAt(value, ValueTimes::Of(PublicationTime()));
+    return PublishAt(value, PublicationTimes());
   }
   PublishStatus Publish(T&& value) requires(!kIsInlined<T>) {
-    return PublishAt(std::move(value), ValueTimes::Of(PublicationTime()));
+    return PublishAt(std::move(value), PublicationTimes());
   }
   /// The same with the time at which the value was measured, on the application's clock: what readers
   /// see as timestamp(). Values need not come in the order of their timestamps.
@@ -110,7 +110,7 @@ class Output final : public OutputBase {
   /// Threads:   as Publish(). Allocation: none, but for a growing pool.
   /// Errors:    if it returns kNoBuffer or kBusy nothing is published and the value stays with the caller.
   PublishStatus PublishInPlace(const T& value, std::shared_ptr<ValueOwner<T>> owner) {
-    return PublishInPlaceAt(value, std::move(owner), ValueTimes::Of(PublicationTime()));
+    return PublishInPlaceAt(value, std::move(owner), PublicationTimes());
   }
   PublishStatus PublishInPlace(const T& value, std::shared_ptr<ValueOwner<T>> owner,
                                Time timestamp) {

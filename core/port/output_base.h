@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "core/port/channel_base.h"
+#include "core/channel/channel_base.h"
 #include "core/port/port.h"
 
 namespace runnel {

@@ -10,7 +10,7 @@
 #include "core/base/exception_text.h"
 #include "core/base/retry.h"
 #include "core/element/runtime.h"
-#include "core/port/channel_base.h"
+#include "core/channel/channel_base.h"
 #include "core/port/connection_rules.h"
 #include "core/port/connection_search.h"
 #include "core/conversion/conversion.h"
@@ -22,7 +22,7 @@
 
 namespace runnel {
 
-thread_local constinit const Cycle* internal::current_cycle = nullptr;
+thread_local constinit Cycle* internal::current_cycle = nullptr;
 
 using internal::FindConnection;
 
@@ -107,11 +107,6 @@ std::string Connection::SourceText() const {
 
 const std::vector<std::string>& OutOfBoundsNames() {
   static const std::vector<std::string> names{"discard", "clamp", "default"};
-  return names;
-}
-
-const std::vector<std::string>& OnFullNames() {
-  static const std::vector<std::string> names{"drop_oldest", "drop_newest", "refuse"};
   return names;
 }
 
@@ -224,7 +219,9 @@ Result<void> Port::Disconnect(Port& from, Port& to) {
 
 void Port::DisconnectAll() {
   const std::lock_guard lock(runtime().structure_mutex());
-  if (is_set_by_hand()) Retry([this] { Release(); });
+  for (const Setter setter : {Setter::kPerson, Setter::kRule}) {
+    if (is_set_by_hand(setter)) Retry([&] { Release(setter); });
+  }
   while (!outgoing_.empty()) CutOrWait(*this, *outgoing_.back().to);
   while (!incoming_.empty()) CutOrWait(*incoming_.back(), *this);
 }
@@ -258,14 +255,14 @@ Result<PublishStatus> Port::PublishInto(ChannelBase& channel, const Fill& fill,
     const Fill& fill;
     Result<void> filled = {};
   } filling{fill};
-  const Time now = PublicationTime();
+  const ValueTimes now = PublicationTimes();
   const auto published = channel.PublishFilled(
       [](void* context, void* value) {
         auto& by = *static_cast<Filling*>(context);
         by.filled = by.fill(value);
         return by.filled.has_value();
       },
-      &filling, {timestamp.value_or(now), now});
+      &filling, {timestamp.value_or(now.timestamp), now.publication_time});
   if (!published) return filling.filled.error();
   if (*published == PublishStatus::kNoBuffer) return CannotPublish("its pool has no free buffer");
   return *published;

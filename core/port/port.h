@@ -12,17 +12,20 @@
 #include "core/element/runtime.h"
 #include "core/port/cycle.h"
 #include "core/port/port_options.h"
-#include "core/port/value_times.h"
-#include "core/port/waker.h"
+#include "core/channel/value_times.h"
+#include "core/channel/waker.h"
 
 namespace runnel {
 
 class ChannelBase;
 class Port;
+class PortStop;
+class StopSignal;
 class TypeInfo;
 
 namespace internal {
 class ConvertedFlow;
+struct PassedStop;
 struct PortExtras;
 }  // namespace internal
 
@@ -105,13 +108,33 @@ class Port : public FrameworkElement {
   /// Release(); the next time, a new value. Inputs: this one alone; outputs and interface ports: all that
   /// reads from them. Modules publish on, and are not read. It goes over to a module that takes the place of
   /// this port's.
+  /// Each setter has a value of its own, and releases no other's: a person's wins over a rule's.
   /// Threads: locks, allocates. Errors: those of `fill`; a type that only its module can make.
   using Fill = std::function<Result<void>(void* value)>;
-  Result<void> PublishByHand(const Fill& fill);
+  enum class Setter { kPerson, kRule };
+  Result<void> PublishByHand(const Fill& fill, Setter setter = Setter::kPerson);
   /// Readers find again what is published. False: it was not set by hand.
-  bool Release();
+  bool Release(Setter setter = Setter::kPerson);
   /// Under the structure lock.
-  [[nodiscard]] bool is_set_by_hand() const noexcept { return by_hand() != nullptr; }
+  [[nodiscard]] bool is_set_by_hand(Setter setter = Setter::kPerson) const noexcept;
+
+  /// That something moves by what is read here: readers find the safe value while the robot is stopped, whatever is
+  /// published or set by hand, and after that until a value comes that is stamped and published later than the release.
+  /// Inputs: this one; outputs and interface ports: all that reads from them. A module may say so of its inputs
+  /// (InputOptions::drives). Stopping takes no lock (RobotStop). It goes over to a port that takes the place of this one.
+  /// `safe_value`: of the port's type; without one, the default value of its limits, or zero of a velocity.
+  /// Threads: locks, allocates. Errors: there is no safe value; the module says that something moves by it.
+  Result<void> SetDriving(bool drives, AnyValue safe_value = {});
+  /// Stops this port alone, as the robot's STOP would; of ports that do not drive, too.
+  /// Errors: there is no safe value. Locks.
+  Result<void> Block();
+  /// False: it was not blocked. Locks.
+  bool Unblock();
+  /// All three under the structure lock.
+  [[nodiscard]] bool is_driving() const noexcept;
+  [[nodiscard]] bool is_blocked() const noexcept;
+  /// For who sends on what is published here: what lets values pass, and the safe value; nullptr: all pass.
+  [[nodiscard]] std::shared_ptr<const PortStop> stop() const noexcept;
 
   /// Inputs: which values it takes from now on, and what its readers find while there is none. Values are
   /// looked at in the publisher's thread, as those that are converted; inputs without limits pay nothing.
@@ -181,6 +204,19 @@ class Port : public FrameworkElement {
   /// Gives derived ports access to one another's channel.
   static ChannelBase* ChannelOf(Port& port) noexcept { return port.channel(); }
 
+  /// Whether the module of this port says that something moves by it.
+  [[nodiscard]] virtual bool declares_driving() const noexcept { return false; }
+  /// Of this port; `declared`: none, or what somebody has declared.
+  [[nodiscard]] Result<AnyValue> FindSafeValue(const AnyValue& declared) const;
+  /// Binds the readers behind it anew. `robot`: nullptr for a port that does not drive.
+  Result<void> SetStop(AnyValue safe_value, std::shared_ptr<StopSignal> robot);
+  /// Of this port and of all that feeds it.
+  void CollectStops(std::vector<internal::PassedStop>& stops) const;
+  internal::PortExtras& Extras();
+
+  /// The times that a value published now by the calling thread bears: in a cycle, it is as old as the oldest
+  /// measurement that its module has read.
+  [[nodiscard]] inline ValueTimes PublicationTimes() const noexcept;
   /// The time that a value published now by the calling thread bears.
   [[nodiscard]] inline Time PublicationTime() const noexcept;
   /// The same of a value that was measured at `timestamp`, for which the clock's coarse time is good enough outside
@@ -196,7 +232,8 @@ class Port : public FrameworkElement {
   [[nodiscard]] Time TimeOutsideOfCycles() const noexcept;
   [[nodiscard]] Time CoarseTimeOutsideOfCycles(Time timestamp) const noexcept;
   [[nodiscard]] Port* by_hand() const noexcept;
-  internal::PortExtras& Extras();
+  void TellOfChange();
+  bool ExchangeStops(Port& from) noexcept;
   static Result<void> CheckConnection(const Port& from, const Port& to,
                                       const ConnectOptions& options);
   /// What this port passes on to who is connected to it: itself, or what it receives.
@@ -230,6 +267,12 @@ class Port : public FrameworkElement {
   std::unique_ptr<internal::PortExtras> extras_;  // what few ports have
 };
 
+inline ValueTimes Port::PublicationTimes() const noexcept {
+  const Cycle* cycle = CurrentCycle();
+  if (cycle == nullptr) [[unlikely]]
+    return ValueTimes::Of(TimeOutsideOfCycles());
+  return {cycle->stamp < cycle->now ? cycle->stamp : cycle->now, cycle->now};
+}
 inline Time Port::PublicationTime() const noexcept {
   const Cycle* cycle = CurrentCycle();
   if (cycle == nullptr) [[unlikely]]

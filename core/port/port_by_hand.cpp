@@ -1,5 +1,6 @@
 // Values that are set by hand (Port::PublishByHand()).
 
+#include <cstddef>
 #include <mutex>
 #include <utility>
 
@@ -9,57 +10,69 @@
 
 namespace runnel {
 
+namespace {
+std::size_t SlotOf(Port::Setter setter) noexcept { return static_cast<std::size_t>(setter); }
+}  // namespace
+
 // So that viewers look again.
-static void TellOfChange(Runtime& runtime) {
-  runtime.ForEachListener([](ElementListener&) {});
+void Port::TellOfChange() {
+  runtime().ForEachListener([](ElementListener&) {});
 }
 
-Port* Port::by_hand() const noexcept { return extras_ ? extras_->by_hand.get() : nullptr; }
+Port* Port::by_hand() const noexcept {
+  if (!extras_) return nullptr;
+  const auto& [person, rule] = extras_->by_hand;
+  return person ? person.get() : rule.get();
+}
+
+bool Port::is_set_by_hand(Setter setter) const noexcept {
+  return extras_ && extras_->by_hand[SlotOf(setter)];
+}
 
 internal::PortExtras& Port::Extras() {
   if (!extras_) extras_ = std::make_unique<internal::PortExtras>();
   return *extras_;
 }
 
-Result<void> Port::PublishByHand(const Fill& fill) {
+Result<void> Port::PublishByHand(const Fill& fill, Setter setter) {
   const std::lock_guard lock(runtime().structure_mutex());
   const Fill fill_within = [&](void* value) -> Result<void> {
     if (auto filled = fill(value); !filled) return filled;
     return internal::CheckWithin(*this, limits(), value);
   };
-  if (Port* const known = by_hand()) {
-    const auto published = known->PublishFilled(fill_within);
+  if (is_set_by_hand(setter)) {
+    const auto published = extras_->by_hand[SlotOf(setter)]->PublishFilled(fill_within);
     return published ? Result<void>() : published.error();
   }
   auto channel = internal::MakeChannelFor(type_);
   if (!channel) return CannotPublish("only a module can make values of its type");
   auto output = std::make_unique<internal::StandIn>(*this, std::move(channel));
   if (auto published = output->PublishFilled(fill_within); !published) return published.error();
-  Extras().by_hand = std::move(output);
+  Extras().by_hand[SlotOf(setter)] = std::move(output);
   try {
     RebindSinks();
     PruneConversions();
   } catch (...) {
-    Release();
+    Release(setter);
     throw;
   }
-  TellOfChange(runtime());
+  TellOfChange();
   return {};
 }
 
-bool Port::Release() {
+bool Port::Release(Setter setter) {
   const std::lock_guard lock(runtime().structure_mutex());
-  if (!is_set_by_hand()) return false;
-  auto released = std::move(extras_->by_hand);
+  if (!is_set_by_hand(setter)) return false;
+  auto released = std::move(extras_->by_hand[SlotOf(setter)]);
   try {
     RebindSinks();
     PruneConversions();
   } catch (...) {  // some are still bound to it
-    extras_->by_hand = std::move(released);
+    extras_->by_hand[SlotOf(setter)] = std::move(released);
     throw;
   }
   internal::DeleteLater(std::move(released));
-  TellOfChange(runtime());
+  TellOfChange();
   return true;
 }
 

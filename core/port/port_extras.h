@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
 
 #include "core/port/converted_flow.h"
 #include "core/port/port_options.h"
+#include "core/port/port_stop.h"
 #include "core/port/stand_in.h"
 
 namespace runnel::internal {
@@ -22,11 +24,15 @@ struct HeldToLimits {
 /// What few ports have.
 struct PortExtras {
   std::unique_ptr<HeldToLimits> limits;
-  std::unique_ptr<StandIn> by_hand;  // what readers find instead of what is published
+  // What readers find instead of what is published: by Port::Setter, of which the first that is there counts.
+  std::array<std::unique_ptr<StandIn>, 2> by_hand;
+  std::shared_ptr<const PortStop> stop;
 
   /// `port` has them now.
   void StandFor(const Port& port) const noexcept {
-    if (by_hand) by_hand->set_goes_on_at(port);
+    for (const auto& each : by_hand) {
+      if (each) each->set_goes_on_at(port);
+    }
     if (!limits) return;
     limits->flow->set_target(port);
     if (limits->default_value) limits->default_value->set_goes_on_at(port);

@@ -98,7 +98,7 @@ void Port::RebindSinks() {
 void Port::PruneConversions() const {
   if (extras_ && extras_->limits) {
     std::vector<Source> sources;
-    if (!is_set_by_hand()) CollectSources({}, Links::kKeep, sources);
+    if (by_hand() == nullptr) CollectSources({}, Links::kKeep, sources);
     std::vector<Port*> outputs;
     for (const Source& source : sources) outputs.push_back(source.output);
     extras_->limits->flow->KeepOnly(outputs);
@@ -119,7 +119,7 @@ void Port::CollectBound(const Port& port, const Port& source, std::vector<Port*>
   for (const Connection& each : port.outgoing_) {
     if (each.converted) {
       if (Port* const input = each.converted->InputFor(source)) sinks.push_back(input);
-    } else if (each.to->is_set_by_hand()) {
+    } else if (each.to->by_hand() != nullptr) {
       continue;
     } else if (each.to->is_proxy()) {
       CollectBound(*each.to, source, sinks);
@@ -132,7 +132,8 @@ void Port::CollectBound(const Port& port, const Port& source, std::vector<Port*>
 std::vector<Port*> Port::BoundSinks() const {
   const Port* at = goes_on_at();
   // What is published by hand goes on where it is set, all else only where nothing is.
-  const bool is_covered = at == nullptr ? is_set_by_hand() : at->is_set_by_hand() && at->by_hand() != this;
+  const Port* const covers = at == nullptr ? by_hand() : at->by_hand();
+  const bool is_covered = covers != nullptr && covers != this;
   if (is_covered) return {};
   if (at == nullptr) at = this;
   if (!at->is_proxy() && at->direction() == Direction::kInput) {

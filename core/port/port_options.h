@@ -5,27 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "core/channel/channel_options.h"
 #include "core/lockfree/buffer_pool.h"
 #include "core/types/any_value.h"
 
 namespace runnel {
-
-/// What reading an input found.
-enum class Freshness {
-  kNoData,  ///< nothing has ever been published, or nothing is connected
-  kOld,     ///< the value that the last Read() returned already
-  kNew,     ///< not read before through this input
-};
-
-/// What a full queue does with one more value. Whatever is lost is counted.
-enum class OnFull {
-  kDropOldest,  ///< makes room: a reader that lags sees the newest values
-  kDropNewest,  ///< keeps what it has
-  kRefuse,      ///< keeps what it has, and Publish() returns kRefused
-};
-
-/// How files, commands and messages write it: drop_oldest, drop_newest, refuse. In its order.
-[[nodiscard]] const std::vector<std::string>& OnFullNames();
 
 /// How one connection behaves.
 struct ConnectOptions {
@@ -70,6 +54,13 @@ struct InputLimits {
 /// "0.1 .. 5", "0 ..", ".. 5"; "" for none.
 [[nodiscard]] std::string BoundsText(const InputLimits& limits);
 
+/// Whether what is read at an input grows old.
+enum class Ageing {
+  kUnspecified,
+  kTimesOut,  ///< a measurement, or what was made of one: what is published by it is as old as it is
+  kSetOnce,   ///< a goal, a map, a mode: it holds until there is another
+};
+
 struct InputOptions {
   std::string description = {};
   bool required = false;  ///< an application in which nothing is connected to it is wrong
@@ -78,6 +69,11 @@ struct InputOptions {
   Strategy strategy = Strategy::kPush;
   std::string unit = {};  ///< SI, of numbers: what comes from a connection in another unit is converted
   InputLimits limits = {};
+  /// Something moves by what is read here: readers find the safe value while the robot is stopped (RobotStop).
+  bool drives = false;
+  /// Of the input's type; without one, the default value of the limits, or zero of a velocity.
+  AnyValue safe_value = {};
+  Ageing ageing = Ageing::kUnspecified;
 };
 
 struct OutputOptions {
@@ -85,13 +81,6 @@ struct OutputOptions {
   PoolOptions pool = {};  ///< for types that travel in buffers; others have none
   bool pullable = false;  ///< may have a provider; the provider's buffers are a second such pool
   std::string unit = {};  ///< SI, of numbers
-};
-
-enum class PublishStatus {
-  kPublished,
-  kRefused,   ///< published, but a full queue that refuses did not take it
-  kNoBuffer,  ///< not published: a pool of fixed size had no free buffer (an empty loan)
-  kBusy,      ///< not published: a reader's pull is just publishing a newer value (pullable only)
 };
 
 }  // namespace runnel

@@ -28,11 +28,11 @@ Result<void> Port::CheckTakeOver(const Port& port, const Port& from) {
   };
   if (kind(port) != kind(from)) {
     return CannotTakeOver(port, "cannot take over from " + from.path() + ": one is " + kind(port) +
-                             ", the other is " + kind(from));
+                                    ", the other is " + kind(from));
   }
   if (&port.type() != &from.type()) {
     return CannotTakeOver(port, "carries " + port.type().name() + " and cannot take over from " +
-                             from.path() + ", which carries " + from.type().name());
+                                    from.path() + ", which carries " + from.type().name());
   }
   if (!port.incoming_.empty() || !port.outgoing_.empty()) {
     return CannotTakeOver(port, "is connected and cannot take over from " + from.path());
@@ -51,9 +51,11 @@ void Port::TakeOver(Port& from) {
   ExchangeConnections(from, sinks);
   try {
     TakeOverFlow(from);
+    if (ExchangeStops(from)) RebindSinks();
   } catch (...) {
     // Each as it was, and what has been exchanged by then is exchanged again.
     from.ExchangeConnections(*this, sinks);
+    ExchangeStops(from);
     from.TakeOverFlow(*this);
     throw;
   }
@@ -82,6 +84,19 @@ void Port::ExchangeConnections(Port& from, const std::vector<Port*>& sinks) noex
   for (Port* sink : sinks) {
     if (sink != &from && sink != this) sink->ReplaceSource(from, *this);
   }
+}
+
+// What this port's module has declared comes back to it where the other port brings nothing of the kind. True if
+// something has changed.
+bool Port::ExchangeStops(Port& from) noexcept {
+  if (!declares_driving() || from.declares_driving() || !from.extras_ || stop()) return false;
+  if (extras_) {
+    extras_->stop.swap(from.extras_->stop);
+  } else {
+    extras_.swap(from.extras_);
+    extras_->StandFor(*this);
+  }
+  return true;
 }
 
 }  // namespace runnel

@@ -7,7 +7,7 @@
 
 #include "core/element/runtime.h"
 #include "core/lockfree/thread_epoch.h"
-#include "core/port/channel.h"
+#include "core/channel/channel.h"
 #include "core/port/typed_ports.h"
 #include "core/types/signal.h"
 #include "core/types/type_of.h"

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "core/port/channel_base.h"
+#include "core/channel/channel_base.h"
 #include "core/port/port.h"
 
 namespace runnel::internal {

@@ -21,6 +21,7 @@ struct PartInstance final : Annotation {
   [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override {
     return std::make_unique<PartInstance>(file);
   }
+  [[nodiscard]] std::unique_ptr<Annotation> ForCopy() const override { return nullptr; }
   std::string file;  ///< as errors call it
 };
 

@@ -3,7 +3,7 @@
 #include <atomic>
 
 #include "core/lockfree/thread_epoch.h"
-#include "core/port/waker.h"
+#include "core/channel/waker.h"
 
 namespace runnel::genom_modules {
 

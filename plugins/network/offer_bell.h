@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/module/after_cycle.h"
-#include "core/port/waker.h"
+#include "core/channel/waker.h"
 #include "plugins/network/sending_turns.h"
 
 namespace runnel {

@@ -14,6 +14,7 @@ struct ConfigurationEntry final : Annotation {
   [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override {
     return std::make_unique<ConfigurationEntry>(path);
   }
+  [[nodiscard]] std::unique_ptr<Annotation> ForCopy() const override { return nullptr; }
   std::string path;  ///< "/safety/distance"
 };
 
@@ -24,6 +25,7 @@ struct ConfigurationSection final : Annotation {
   [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override {
     return std::make_unique<ConfigurationSection>(path, said);
   }
+  [[nodiscard]] std::unique_ptr<Annotation> ForCopy() const override { return nullptr; }
   std::string path;  ///< "/car/left"
   std::string said;  ///< how the file has it: "left", in the section "/car"
 };

@@ -8,7 +8,7 @@
 
 #include "core/lockfree/latest_value.h"
 #include "core/lockfree/thread_epoch.h"
-#include "core/port/channel.h"
+#include "core/channel/channel.h"
 #include "plugins/parameters/parameter_base.h"
 
 namespace runnel {

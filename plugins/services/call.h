@@ -12,7 +12,7 @@
 
 #include "core/base/clock.h"
 #include "core/lockfree/wake_event.h"
-#include "core/port/waker.h"
+#include "core/channel/waker.h"
 #include "core/types/type_of.h"
 #include "plugins/services/call_status.h"
 

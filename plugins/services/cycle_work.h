@@ -6,7 +6,7 @@
 
 #include "core/element/annotation.h"
 #include "core/module/executable.h"
-#include "core/port/waker.h"
+#include "core/channel/waker.h"
 
 namespace runnel {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "core/lockfree/bounded_queue.h"
-#include "core/port/waker.h"
+#include "core/channel/waker.h"
 #include "plugins/services/call.h"
 
 namespace runnel {

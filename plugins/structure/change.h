@@ -15,12 +15,17 @@
 namespace runnel {
 
 class TypeInfo;
+namespace internal {
+class ElementState;
+}
 
 /// The value of a parameter in its text format, by the parameter's name: {"stop_distance", "0.3"}.
 struct Setting {
   std::string parameter;
   std::string value;
 };
+
+using GivenState = std::shared_ptr<const internal::ElementState>;
 
 // Paths are absolute: "/application/robot/planner". The name of the only application may be left out:
 // "/robot/planner". Those of ports and parameters may leave out the group: "/robot/planner/pose".
@@ -30,10 +35,13 @@ struct CreateModule {
   std::string path;
   std::string type;
   std::vector<Setting> settings = {};
+  /// Of a change that makes again, or makes another one like: all that had been set there. So of the others.
+  GivenState state = {};
 };
 
 struct CreateGroup {
   std::string path;
+  GivenState state = {};
 };
 
 /// A port in the interface of a group.
@@ -42,6 +50,7 @@ struct CreatePort {
   Port::Direction direction = Port::Direction::kInput;
   std::string type;  ///< name of the data type, as a loaded plugin has described it
   std::string description = {};
+  GivenState state = {};
 };
 
 /// A parameter of a group that stands for some of what is within (GroupParameter).
@@ -49,6 +58,7 @@ struct CreateParameter {
   std::string path;
   std::vector<std::string> targets;  ///< parameters as seen from the group: "motor/radius"
   std::string description = {};
+  GivenState state = {};
 };
 
 /// With all that is below it and all its connections.
@@ -85,6 +95,8 @@ struct ReplaceModule {
   std::vector<Setting> settings = {};
   /// If the new module throws in one of so many first cycles, the old one comes back as it was.
   std::uint64_t probation_cycles = 10;
+  /// Of a change that takes another one back: what had been set at ports that the module has not, and gets again.
+  GivenState state = {};
 };
 
 /// Gives a module or group another name, at the same place. Connections (with what waits in queues), values, kept states

@@ -5,13 +5,13 @@
 #include <utility>
 
 #include "core/element/element_path.h"
-#include "core/element/tags.h"
 #include "core/module/group_parameter.h"
 #include "core/plugin/module_type_name.h"
 #include "core/paths/path_search.h"
 #include "core/port/port.h"
 #include "core/types/type_info.h"
 #include "plugins/scheduling/thread_container.h"
+#include "plugins/structure/element_state.h"
 #include "plugins/structure/plan.h"
 
 namespace runnel::internal {
@@ -47,33 +47,33 @@ void AddDefaults(const FrameworkElement& before, const FrameworkElement& after,
 }
 
 // Nothing for what comes with a module.
-void AddCreation(const FrameworkElement& element, ChangeSet& changes,
+void AddCreation(const FrameworkElement& element, FrameworkElement::Inherit how, ChangeSet& changes,
                  std::optional<Error>& why_not) {
+  using Below = ElementState::Below;
+  const bool is_group = FindModuleType(element).empty() && element.kind() == ElementKind::kGroup;
+  const auto state =
+      std::make_shared<const ElementState>(element, how, is_group ? Below::kLeftOut : Below::kIncluded);
   const std::string type = FindModuleType(element);
   const auto* const port = dynamic_cast<const Port*>(&element);
   if (!type.empty()) {
-    changes.push_back(CreateModule{element.path(), type, Settings(element)});
+    changes.push_back(CreateModule{element.path(), type, Settings(element), state});
   } else if (const auto* const container = dynamic_cast<const ThreadContainer*>(&element)) {
     AddThreadAgain(*container, changes);
-  } else if (element.kind() == ElementKind::kGroup) {
-    changes.push_back(CreateGroup{element.path()});
+  } else if (is_group) {
+    changes.push_back(CreateGroup{element.path(), state});
   } else if (port != nullptr && port->is_proxy()) {
     changes.push_back(
-        CreatePort{element.path(), port->direction(), port->type().name(), port->description()});
+        CreatePort{element.path(), port->direction(), port->type().name(), port->description(), state});
   } else if (const auto* const group = dynamic_cast<const GroupParameter*>(&element)) {
-    changes.push_back(CreateParameter{group->path(), group->targets(), group->info().description});
+    changes.push_back(
+        CreateParameter{group->path(), group->targets(), group->info().description, state});
   } else if (!why_not) {
     why_not = CannotBeMade(element);
   }
   const std::string thread = OwnThreadPath(element);
   if (!thread.empty()) changes.push_back(AssignToThread{element.path(), thread});
-  if (auto tags = TagsOf(element); !tags.empty()) {
-    changes.push_back(TagElement{element.path(), std::move(tags)});
-  }
-  AddLogLevel(element, changes);
-  const bool is_whole = !type.empty() || element.kind() != ElementKind::kGroup;
-  if (is_whole) return;
-  for (const FrameworkElement* each : element.children()) AddCreation(*each, changes, why_not);
+  if (!is_group) return;
+  for (const FrameworkElement* each : element.children()) AddCreation(*each, how, changes, why_not);
 }
 
 // Whether a composite has made it, and makes it again by itself.
@@ -150,7 +150,7 @@ std::string OwnThreadPath(const FrameworkElement& element) {
 
 ChangeSet MakeAgain(FrameworkElement& element, std::optional<Error>& why_not) {
   ChangeSet changes;
-  AddCreation(element, changes, why_not);
+  AddCreation(element, FrameworkElement::Inherit::kAsReplacement, changes, why_not);
   AddInnerConnections(element, changes);
   for (const Connection& tie : ExternalConnectionsOf(element)) AddConnection(tie, changes);
   return changes;
@@ -159,7 +159,7 @@ ChangeSet MakeAgain(FrameworkElement& element, std::optional<Error>& why_not) {
 ChangeSet MakeLike(FrameworkElement& element, const std::string& path,
                    std::optional<Error>& why_not) {
   ChangeSet changes;
-  AddCreation(element, changes, why_not);
+  AddCreation(element, FrameworkElement::Inherit::kAsCopy, changes, why_not);
   AddInnerConnections(element, changes);
   const Rebase rebase{element.path(), path};
   for (Change& each : changes) std::visit(rebase, each);
@@ -175,7 +175,9 @@ ChangeSet ReplaceBack(const FrameworkElement& before, const FrameworkElement& af
   }
   std::vector<Setting> settings = Settings(before);
   AddDefaults(before, after, settings);
-  return {ReplaceModule{before.path(), type, std::move(settings), probation_cycles}};
+  return {ReplaceModule{before.path(), type, std::move(settings), probation_cycles,
+                        std::make_shared<const ElementState>(before, FrameworkElement::Inherit::kAsReplacement,
+                                                             ElementState::Below::kIncluded)}};
 }
 
 UndoRecord UndoRecordOf(const std::vector<ChangeSet>& inverses, std::optional<Error> why_not,

@@ -31,9 +31,6 @@ namespace runnel::internal {
 /// The same for a thread, with what is assigned to it.
 void AddThreadAgain(const ThreadContainer& thread, ChangeSet& changes);
 
-/// What the element itself logs, if that has been said.
-void AddLogLevel(const FrameworkElement& element, ChangeSet& changes);
-
 /// Puts a module like `before` in the place of `after`, with the values that it has now.
 [[nodiscard]] ChangeSet ReplaceBack(const FrameworkElement& before, const FrameworkElement& after,
                                     std::uint64_t probation_cycles, std::optional<Error>& why_not);

@@ -16,6 +16,7 @@ struct NameInFile final : Annotation {
   [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override {
     return std::make_unique<NameInFile>(name);
   }
+  [[nodiscard]] std::unique_ptr<Annotation> ForCopy() const override { return nullptr; }
   std::string name;
 
   /// Of any element.

@@ -9,6 +9,7 @@
 #include "core/lockfree/thread_epoch.h"
 #include "core/paths/late_connections.h"
 #include "core/paths/path_search.h"
+#include "plugins/structure/element_state.h"
 #include "plugins/structure/replacement.h"
 
 namespace runnel::internal {
@@ -136,12 +137,15 @@ void Plan::WarnOfMissingSources(Diagnostics& diagnostics) const {
   }
 }
 
-void Plan::AddCreation(UnlistedElement element, const FrameworkElement* sibling) {
+void Plan::AddCreation(UnlistedElement element, const FrameworkElement* sibling, GivenState state) {
   FrameworkElement& made = *element;
   overlay_.Add(made);
   made_.push_back(&made);
   auto kept = std::make_shared<UnlistedElement>(std::move(element));
-  steps_.push_back({[this, kept, sibling]() -> Result<void> {
+  steps_.push_back({[this, kept, sibling, state = std::move(state)]() -> Result<void> {
+                      if (state) {
+                        if (auto given = state->GivePorts(**kept); !given) return given;
+                      }
                       const FrameworkElement* const place = sibling != nullptr ? NextSibling(*sibling) : nullptr;
                       const auto listed = runtime_.List(std::move(*kept), place);
                       return listed ? Result<void>() : listed.error();
@@ -208,6 +212,9 @@ void Plan::AddReplacement(FrameworkElement& before, UnlistedElement after,
                       if (auto set = CopyLateSettings(before, values, change.settings, next); !set)
                         return set;
                       next.InheritAnnotations(before);
+                      if (change.state) {
+                        if (auto given = change.state->GivePorts(next); !given) return given;
+                      }
                       if (auto copied = CopyState(before, next); !copied) return copied;
                       Replaced replaced{{}, next.path(), next.id(), change.probation_cycles};
                       replaced_.reserve(replaced_.size() + 1);

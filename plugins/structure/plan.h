@@ -107,7 +107,6 @@ class Plan {
   Result<void> MovePort(const Placement& place, Port& port);
   // What else names it by its path.
   Result<void> MoveTargets(const FrameworkElement& renamed, const std::string& path);
-  void MoveLogLevels(const std::string& from, const std::string& to);
   void MoveExtensions(const FrameworkElement& renamed, const std::string& name);
   void AddExchange(FrameworkElement& before, UnlistedElement after);
   Result<void> ExchangeComposite(FrameworkElement& before, UnlistedElement after, Misfits misfits);
@@ -127,8 +126,10 @@ class Plan {
   Result<UnlistedElement> MakeModule(const std::string& type, const Placement& placement);
   void WarnOfMissingSources(Diagnostics& diagnostics) const;
 
+  // Prepares what has just been made, with what had been set at another one, and adds it.
+  Result<void> AddNew(UnlistedElement made, const GivenState& state);
   // Behind `sibling`; without, after all.
-  void AddCreation(UnlistedElement element, const FrameworkElement* sibling = nullptr);
+  void AddCreation(UnlistedElement element, const FrameworkElement* sibling = nullptr, GivenState state = {});
   void AddRemoval(FrameworkElement& element);
   void AddReplacement(FrameworkElement& before, UnlistedElement after,
                       std::vector<std::pair<Port*, Port*>> ports, const ReplaceModule& change);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
 #include "plugins/scheduling/thread_container.h"
+#include "plugins/structure/element_state.h"
 #include "plugins/structure/name_in_file.h"
 #include "plugins/structure/plan.h"
 #include "plugins/structure/replacement.h"
@@ -44,24 +46,27 @@ Result<UnlistedElement> Plan::MakeModule(const std::string& type, const Placemen
   return error;
 }
 
+Result<void> Plan::AddNew(UnlistedElement made, const GivenState& state) {
+  if (state) state->GiveAnnotations(*made);
+  if (auto prepared = Runtime::Prepare(made); !prepared) return prepared;
+  AddCreation(std::move(made), nullptr, state);
+  return {};
+}
+
 Result<void> Plan::Check(const CreateModule& change) {
   const auto place = overlay_.PlaceFor(change.path);
   if (!place) return place.error();
   auto made = MakeModule(change.type, *place);
   if (!made) return made.error();
   if (auto set = ConfigureNew(**made, nullptr, change.settings); !set) return set;
-  if (auto prepared = Runtime::Prepare(*made); !prepared) return prepared;
-  AddCreation(std::move(*made));
-  return {};
+  return AddNew(std::move(*made), change.state);
 }
 
 Result<void> Plan::Check(const CreateGroup& change) {
   const auto place = overlay_.PlaceFor(change.path);
   if (!place) return place.error();
   UnlistedElement made(std::make_unique<Group>(*place));
-  if (auto prepared = Runtime::Prepare(made); !prepared) return prepared;
-  AddCreation(std::move(made));
-  return {};
+  return AddNew(std::move(made), change.state);
 }
 
 Result<void> Plan::Check(const CreatePort& change) {
@@ -78,9 +83,7 @@ Result<void> Plan::Check(const CreatePort& change) {
   }
   UnlistedElement made(
       std::make_unique<ProxyPort>(*place, change.direction, *type, change.description));
-  if (auto prepared = Runtime::Prepare(made); !prepared) return prepared;
-  AddCreation(std::move(made));
-  return {};
+  return AddNew(std::move(made), change.state);
 }
 
 Result<void> Plan::Check(const CreateParameter& change) {
@@ -99,9 +102,7 @@ Result<void> Plan::Check(const CreateParameter& change) {
   }
   UnlistedElement made(
       std::make_unique<GroupParameter>(*place, change.targets, change.description));
-  if (auto prepared = Runtime::Prepare(made); !prepared) return prepared;
-  AddCreation(std::move(made));
-  return {};
+  return AddNew(std::move(made), change.state);
 }
 
 Result<void> Plan::Check(const DeleteElement& change) {
@@ -230,6 +231,7 @@ Result<void> Plan::CheckReplacement(FrameworkElement& before, const Placement& p
   auto made = MakeModule(change.type, place);
   if (!made) return made.error();
   if (auto set = ConfigureNew(**made, &before, change.settings); !set) return set;
+  if (change.state) change.state->GiveAnnotations(**made);
   (*made)->InheritAnnotations(before);
   NameInFile::Note(**made, before);
   if (auto prepared = Runtime::Prepare(*made); !prepared) return prepared;
@@ -248,6 +250,13 @@ Result<void> Plan::CheckReplacement(FrameworkElement& before, const Placement& p
     return match.errors.front();
   }
   // Made anew by its own type it is to go on where it was. Another type takes over what it can.
+  before.Visit([&](FrameworkElement& each) {
+    const auto* const port = dynamic_cast<const Port*>(&each);
+    if (port == nullptr || std::ranges::count(match.ports, port, &std::pair<Port*, Port*>::first) > 0) return;
+    if (const std::string what = WhatIsSetAt(*port); !what.empty()) {
+      warnings_.push_back({.message = what + " went with it: the new module has no such port", .path = port->path()});
+    }
+  });
   const bool is_made_anew = FindModuleType(before) == change.type;
   for (Error& each : StateRefusals(before, **made)) {
     (is_made_anew ? further_errors_ : warnings_).push_back(std::move(each));

@@ -27,15 +27,6 @@ void SetLevel(Runtime& runtime, const std::string& path, std::optional<LogLevel>
   (void)ResetLogLevel(runtime, path);
 }
 
-// What has been set below `from`, or there, is from now on of what is at the same place below `to`.
-void MoveLevels(Runtime& runtime, const std::string& from, const std::string& to) {
-  for (const auto& [path, level] : ReadLogLevels(runtime)) {
-    if (!IsAtOrBelow(path, from)) continue;
-    SetLogLevel(runtime, to + path.substr(from.size()), level);
-    (void)ResetLogLevel(runtime, path);
-  }
-}
-
 }  // namespace
 
 Result<void> Plan::Check(const LogElement& change) {
@@ -58,25 +49,6 @@ Result<void> Plan::Check(const LogElement& change) {
                       return {LogElement{path.empty() ? "/" : path, LevelOf(runtime_, path)}};
                     }});
   return {};
-}
-
-void Plan::MoveLogLevels(const std::string& from, const std::string& to) {
-  auto has_moved = std::make_shared<bool>(false);
-  steps_.push_back({[=, this]() -> Result<void> {
-                      *has_moved = true;
-                      MoveLevels(runtime_, from, to);
-                      return {};
-                    },
-                    [=, this] {
-                      if (*has_moved) MoveLevels(runtime_, to, from);
-                    },
-                    [](auto&) { return ChangeSet(); }});
-}
-
-void AddLogLevel(const FrameworkElement& element, ChangeSet& changes) {
-  if (const auto level = LevelOf(element.runtime(), element.path())) {
-    changes.push_back(LogElement{element.path(), level});
-  }
 }
 
 }  // namespace runnel::internal

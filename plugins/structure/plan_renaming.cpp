@@ -118,7 +118,6 @@ Result<void> Plan::Check(const RenameElement& change) {
   for (const LateConnection& each : late) {
     if (auto cut = Check(DisconnectPorts{each.from, each.to}); !cut) return cut;
   }
-  MoveLogLevels(before, after);
   if (auto targets = MoveTargets(element, change.name); !targets) return targets;
   if (auto moved = MoveTo(*place, element); !moved) return moved;
   for (const LateConnection& each : late) {

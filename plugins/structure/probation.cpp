@@ -85,6 +85,7 @@ Result<UnlistedElement> Probation::PutBack(Waiting& waiting) {
   // Connections may have changed meanwhile: what the old module has no port for goes with the new one.
   const PortMatch match =
       MatchPorts(*after, *waiting.replaced.before, [](const Port&) { return false; });
+  waiting.replaced.before->InheritAnnotations(*after);
   auto gone = runtime_.Unlist(*after);
   if (!gone) return gone.error();
   std::size_t moved = 0;

@@ -6,7 +6,7 @@ namespace {
 
 // Bottom to top: each may know those before it.
 const std::vector<std::string> kCoreOrder = {
-    "base", "xml", "types", "conversion", "lockfree", "element", "port", "paths",
+    "base", "xml", "types", "conversion", "lockfree", "element", "channel", "port", "paths",
     "log",  "module", "plugin"};
 
 void AddCore(std::vector<IncludeRule>& rules) {

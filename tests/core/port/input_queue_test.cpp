@@ -1,4 +1,4 @@
-#include "core/port/input_queue.h"
+#include "core/channel/input_queue.h"
 
 #include <array>
 #include <string>

@@ -8,7 +8,7 @@
 #include <thread>
 #include <utility>
 
-#include "core/port/queued_value.h"
+#include "core/channel/queued_value.h"
 #include "plugins/real_time_check/sanitizer.h"
 #include "tests/core/port/port_fixture.h"
 #include "tests/support/threads.h"

@@ -5,7 +5,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/port/input_queue.h"
+#include "core/channel/input_queue.h"
 #include "tests/core/port/port_fixture.h"
 #include "tests/support/threads.h"
 #include "tests/support/wait_until.h"

@@ -115,5 +115,32 @@ TYPED_TEST(TimestampTest, DoesNotDecideWhichOfSeveralSourcesCounts) {
   EXPECT_EQ(this->receiver.in.Read().timestamp(), this->kMeasured - 1s);
 }
 
+TEST_F(PortTest, WhatIsPublishedIsAsOldAsTheOldestMeasurementReadInTheCycle) {
+  auto& laser = MakeSender<double>("laser");
+  auto& goal = MakeSender<double>("goal");
+  auto& scan = MakeReceiver<double>("scan", {.ageing = Ageing::kTimesOut});
+  auto& target = MakeReceiver<double>("target", {.ageing = Ageing::kSetOnce});
+  auto& command = MakeSender<double>("command");
+  auto& drive = MakeReceiver<double>("drive");
+  Connect(laser.out, scan.in);
+  Connect(goal.out, target.in);
+  Connect(command.out, drive.in);
+  goal.out.Publish(1.0, Time(1s));
+  laser.out.Publish(2.0, Time(5s));
+  const CycleScope cycle({.now = Time(20s)});
+  command.out.Publish(0.0);
+  EXPECT_EQ(drive.in.Read().timestamp(), Time(20s)) << "nothing has been read";
+  (void)target.in.Read();
+  (void)scan.in.Get();
+  command.out.Publish(1.0);
+  EXPECT_EQ(drive.in.Read().timestamp(), Time(5s));
+  EXPECT_EQ(drive.in.Read().publication_time(), Time(20s));
+  command.out.Publish(1.0, Time(15s));
+  EXPECT_EQ(drive.in.Read().timestamp(), Time(15s)) << "who knows better says so";
+  internal::BeginModule();
+  command.out.Publish(1.0);
+  EXPECT_EQ(drive.in.Read().timestamp(), Time(20s)) << "another module has read nothing";
+}
+
 }  // namespace
 }  // namespace runnel::test

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/lockfree/event.h"
-#include "core/port/waker.h"
+#include "core/channel/waker.h"
 
 namespace runnel {
 

@@ -11,12 +11,12 @@
 #include "core/lockfree/latest_buffer.h"
 #include "core/lockfree/latest_value.h"
 #include "core/lockfree/thread_epoch.h"
-#include "core/port/channel_base.h"
-#include "core/port/distribution.h"
-#include "core/port/lease.h"
-#include "core/port/loan.h"
-#include "core/port/queued_value.h"
-#include "core/port/value_times.h"
+#include "core/channel/channel_base.h"
+#include "core/channel/distribution.h"
+#include "core/channel/lease.h"
+#include "core/channel/loan.h"
+#include "core/channel/queued_value.h"
+#include "core/channel/value_times.h"
 
 namespace runnel {
 

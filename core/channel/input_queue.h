@@ -11,8 +11,8 @@
 #include "core/lockfree/overwriting_queue.h"
 #include "core/lockfree/publication.h"
 #include "core/lockfree/stream_queue.h"
-#include "core/port/input_queue_base.h"
-#include "core/port/queued_value.h"
+#include "core/channel/input_queue_base.h"
+#include "core/channel/queued_value.h"
 
 namespace runnel {
 

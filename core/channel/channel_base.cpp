@@ -1,10 +1,10 @@
-#include "core/port/channel_base.h"
+#include "core/channel/channel_base.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "core/lockfree/thread_epoch.h"
-#include "core/port/input_queue_base.h"
+#include "core/channel/input_queue_base.h"
 
 namespace runnel {
 
@@ -17,6 +17,11 @@ std::uint64_t NextChannelNumber() noexcept {
 }
 
 }  // namespace
+
+const std::vector<std::string>& OnFullNames() {
+  static const std::vector<std::string> names{"drop_oldest", "drop_newest", "refuse"};
+  return names;
+}
 
 ChannelBase::ChannelBase(bool pullable)
     : number_(NextChannelNumber()),

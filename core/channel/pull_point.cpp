@@ -1,4 +1,4 @@
-#include "core/port/pull_point.h"
+#include "core/channel/pull_point.h"
 
 #include <memory>
 #include <utility>

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/port/waker.h"
+#include "core/channel/waker.h"
 
 namespace runnel {
 

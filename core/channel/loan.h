@@ -6,7 +6,7 @@
 
 #include "core/base/check.h"
 #include "core/lockfree/buffer_pool.h"
-#include "core/port/lease.h"
+#include "core/channel/lease.h"
 
 namespace runnel {
 

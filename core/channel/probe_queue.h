@@ -8,8 +8,8 @@
 
 #include "core/lockfree/bounded_queue.h"
 #include "core/lockfree/publication.h"
-#include "core/port/buffer_reference.h"
-#include "core/port/subscribers.h"
+#include "core/channel/buffer_reference.h"
+#include "core/channel/subscribers.h"
 
 namespace runnel {
 

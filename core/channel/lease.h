@@ -12,8 +12,8 @@
 #include "core/base/clock.h"
 #include "core/lockfree/latest_buffer.h"
 #include "core/lockfree/latest_value.h"
-#include "core/port/port_options.h"
-#include "core/port/value_times.h"
+#include "core/channel/channel_options.h"
+#include "core/channel/value_times.h"
 
 namespace runnel {
 

@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "core/lockfree/publication.h"
-#include "core/port/buffer_reference.h"
-#include "core/port/lease.h"
-#include "core/port/probe_queue.h"
+#include "core/channel/buffer_reference.h"
+#include "core/channel/lease.h"
+#include "core/channel/probe_queue.h"
 
 namespace runnel {
 

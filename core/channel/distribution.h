@@ -6,11 +6,11 @@
 
 #include "core/lockfree/publication.h"
 #include "core/lockfree/thread_epoch.h"
-#include "core/port/channel_base.h"
-#include "core/port/input_queue.h"
-#include "core/port/port_options.h"
-#include "core/port/probe_queue.h"
-#include "core/port/subscribers.h"
+#include "core/channel/channel_base.h"
+#include "core/channel/input_queue.h"
+#include "core/channel/channel_options.h"
+#include "core/channel/probe_queue.h"
+#include "core/channel/subscribers.h"
 
 namespace runnel::internal {
 

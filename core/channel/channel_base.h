@@ -9,10 +9,10 @@
 
 #include "core/base/clock.h"
 #include "core/lockfree/asymmetric_fence.h"
-#include "core/port/port_options.h"
-#include "core/port/pull_point.h"
-#include "core/port/subscribers.h"
-#include "core/port/value_times.h"
+#include "core/channel/channel_options.h"
+#include "core/channel/pull_point.h"
+#include "core/channel/subscribers.h"
+#include "core/channel/value_times.h"
 
 namespace runnel {
 

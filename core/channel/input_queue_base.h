@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "core/lockfree/cache_line.h"
-#include "core/port/port_options.h"
-#include "core/port/subscribers.h"
+#include "core/channel/channel_options.h"
+#include "core/channel/subscribers.h"
 
 namespace runnel {
 

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "core/base/clock.h"
+#include "core/element/stop_signal.h"
+
+namespace runnel {
+
+class Runtime;
+
+/// The STOP of the robot: one for each Runtime. While it is in force, readers of each driving port (Port::SetDriving(),
+/// InputOptions::drives) find its safe value, whoever publishes there, ports that come later included.
+///
+/// It needs neither the structure lock nor any thread but the caller's, so nothing that goes on in the application
+/// delays it. It is no safety function in the sense of ISO 13850: a base must stand still by itself when
+/// nobody commands it.
+///
+/// Threads:  any.
+class RobotStop {
+ public:
+  struct State {
+    bool in_force = false;
+    std::string by = {};        ///< who changed it last, for people: "a terminal", "/robot/button"
+    Time since{};               ///< of the last change, on the application's clock
+    std::uint64_t changes = 0;  ///< 0: it was never in force
+  };
+
+  explicit RobotStop(const Runtime& runtime);
+
+  /// It is in force when this returns. False: it was so before; `by` is not noted then.
+  bool Press(std::string by);
+  /// Driving ports count what is stamped and published later than now. False: it was not in force.
+  bool Release(std::string by);
+
+  [[nodiscard]] bool in_force() const noexcept { return signal_->in_force(); }
+  [[nodiscard]] State state() const;
+  /// For who follows it: StopSignal::Listen().
+  [[nodiscard]] const std::shared_ptr<StopSignal>& signal() const noexcept { return signal_; }
+
+ private:
+  void Note(bool in_force, std::string by);
+
+  const Runtime& runtime_;
+  const std::shared_ptr<StopSignal> signal_ =
+      std::make_shared<StopSignal>();  // outlives the runtime at readers
+  mutable std::mutex mutex_;
+  State state_;  // guarded by mutex_
+};
+
+}  // namespace runnel

@@ -1,0 +1,131 @@
+// Ports that drive, and what stops them (Port::SetDriving(), Port::Block()).
+
+#include "core/port/port_stop.h"
+
+#include <algorithm>
+#include <mutex>
+#include <utility>
+
+#include "core/element/runtime.h"
+#include "core/port/connection_search.h"
+#include "core/port/converted_flow.h"
+#include "core/port/port.h"
+#include "core/port/port_extras.h"
+#include "core/types/type_info.h"
+
+namespace runnel {
+
+bool IsVelocity(const TypeInfo& type, const std::string& unit) {
+  if (type.semantic_tag() == "twist" || unit == "m/s" || unit == "rad/s") return true;
+  return !type.fields().empty() && std::ranges::all_of(type.fields(), [](const FieldInfo& field) {
+    return IsVelocity(*field.type, field.unit);
+  });
+}
+
+Result<AnyValue> Port::FindSafeValue(const AnyValue& declared) const {
+  const auto refuse = [&](std::string message) {
+    return Error{.message = std::move(message), .path = path()};
+  };
+  const AnyValue& given = declared ? declared : limits().default_value;
+  if (given && &given.type() != &type_) {
+    return refuse("its safe value is a " + given.type().name() + " and not a " + type_.name());
+  }
+  if (given && !type_.is_transparent()) return refuse("a " + type_.name() + " cannot be copied");
+  if (given) return given;
+  if (!IsVelocity(type_, unit())) {
+    Error error = refuse("something moves by it, and it has no safe value");
+    error.hint = "declare which " + type_.name() + " is a standstill";
+    return error;
+  }
+  const std::shared_ptr<const void> zero = type_.Make();
+  if (!zero) return refuse("only a module can make values of type " + type_.name());
+  return AnyValue(type_, zero);
+}
+
+Result<void> Port::SetDriving(bool drives, AnyValue safe_value) {
+  const std::lock_guard lock(runtime().structure_mutex());
+  if (!drives && declares_driving()) {
+    return Error{.message = "its module says that something moves by it", .path = path()};
+  }
+  if (!drives && !is_driving()) return {};
+  auto safe = FindSafeValue(safe_value);
+  if (!safe) return safe.error();
+  return SetStop(std::move(*safe), drives ? runtime().robot_stop().signal() : nullptr);
+}
+
+Result<void> Port::Block() {
+  const std::lock_guard lock(runtime().structure_mutex());
+  if (!extras_ || !extras_->stop) {
+    auto safe = FindSafeValue({});
+    if (!safe) return safe.error();
+    if (auto set = SetStop(std::move(*safe), nullptr); !set) return set;
+  }
+  if (extras_->stop->block()->Press()) TellOfChange();
+  return {};
+}
+
+bool Port::Unblock() {
+  const std::lock_guard lock(runtime().structure_mutex());
+  if (!extras_ || !extras_->stop) return false;
+  if (!extras_->stop->block()->Release([this] { return runtime().clock().Now(); })) return false;
+  TellOfChange();
+  return true;
+}
+
+bool Port::is_driving() const noexcept {
+  return extras_ && extras_->stop && extras_->stop->robot();
+}
+bool Port::is_blocked() const noexcept {
+  return extras_ && extras_->stop && extras_->stop->block()->in_force();
+}
+std::shared_ptr<const PortStop> Port::stop() const noexcept {
+  return extras_ ? extras_->stop : nullptr;
+}
+
+Result<void> Port::SetStop(AnyValue safe_value, std::shared_ptr<StopSignal> robot) {
+  // Readers must be able to hold a value of the type.
+  if (!internal::MakeChannelFor(type_)) {
+    return CannotPublish("only a module can make values of its type");
+  }
+  auto stop = extras_ && extras_->stop
+                  ? std::make_shared<PortStop>(std::move(safe_value), std::move(robot),
+                                               extras_->stop->block())
+                  : std::make_shared<PortStop>(std::move(safe_value), std::move(robot));
+  auto before = std::exchange(Extras().stop, std::move(stop));
+  try {
+    RebindSinks();
+  } catch (...) {
+    extras_->stop = std::move(before);
+    throw;
+  }
+  TellOfChange();
+  return {};
+}
+
+// Also of what is covered by a value by hand: that does not take a stop away.
+void Port::CollectStops(std::vector<internal::PassedStop>& stops) const {
+  const auto is_known = [&](const auto& stop) {
+    return std::ranges::find(stops, stop, &internal::PassedStop::stop) != stops.end();
+  };
+  if (extras_ && extras_->stop && !is_known(extras_->stop)) {
+    stops.push_back({extras_->stop, extras_->stop->safe_value()});
+  }
+  for (const Port* from : incoming_) {
+    const auto edge = internal::FindConnection(from->outgoing_, *this);
+    std::vector<internal::PassedStop> passed;
+    from->CollectStops(passed);
+    for (auto& each : passed) {
+      if (is_known(each.stop)) continue;
+      if (edge->converted) {
+        const std::shared_ptr<void> value = type_.Make();
+        if (!value) continue;
+        // What becomes nothing leaves the value as it is made.
+        (void)edge->converted->conversion()(each.safe_value.get(), value.get());
+        each.safe_value = AnyValue(type_, value);
+      }
+      stops.push_back(std::move(each));
+    }
+  }
+}
+
+}  // namespace runnel

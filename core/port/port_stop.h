@@ -1,0 +1,64 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "core/channel/value_times.h"
+#include "core/element/stop_signal.h"
+#include "core/types/any_value.h"
+
+namespace runnel {
+
+class Port;
+
+/// What readers of a port find while it is stopped, and whether it is: by the STOP of the robot, which all driving ports
+/// follow, or by a block of this port alone. It belongs to the port, and goes over to one that takes its place.
+///
+/// Threads:  any; LetsPass() is wait-free. What it refers to outlives the runtime.
+class PortStop {
+ public:
+  /// `robot`: nullptr for a port that does not drive. `block`: of a PortStop before, or a new one.
+  PortStop(AnyValue safe_value, std::shared_ptr<StopSignal> robot,
+           std::shared_ptr<StopSignal> block = std::make_shared<StopSignal>())
+      : safe_value_(std::move(safe_value)), robot_(std::move(robot)), block_(std::move(block)) {}
+
+  [[nodiscard]] const AnyValue& safe_value() const noexcept { return safe_value_; }
+  [[nodiscard]] const std::shared_ptr<StopSignal>& robot() const noexcept { return robot_; }
+  [[nodiscard]] const std::shared_ptr<StopSignal>& block() const noexcept { return block_; }
+
+  /// The later one of both (StopSignal::bar()).
+  [[nodiscard]] std::int64_t bar() const noexcept {
+    return robot_ ? std::max(robot_->bar(), block_->bar()) : block_->bar();
+  }
+  [[nodiscard]] bool in_force() const noexcept { return bar() == StopSignal::kInForce; }
+  /// Whether readers may find a value of these times, or find the safe value instead: no command from before a
+  /// release moves anything after it, nor one whose measurements are from before.
+  [[nodiscard]] bool LetsPass(ValueTimes times) const noexcept {
+    const std::int64_t bar = this->bar();
+    return bar == StopSignal::kNever || (times.timestamp.time_since_epoch().count() > bar &&
+                                         times.publication_time.time_since_epoch().count() > bar);
+  }
+
+ private:
+  const AnyValue safe_value_;
+  const std::shared_ptr<StopSignal> robot_;
+  const std::shared_ptr<StopSignal> block_;
+};
+
+/// Whether zero of the type is a standstill: a twist, or all that is inside is in m/s or rad/s. `unit`: of the port.
+[[nodiscard]] bool IsVelocity(const TypeInfo& type, const std::string& unit = {});
+
+namespace internal {
+
+/// A stop on the way to an input, with its safe value as it comes there.
+struct PassedStop {
+  std::shared_ptr<const PortStop> stop;
+  AnyValue safe_value;
+};
+
+}  // namespace internal
+
+}  // namespace runnel

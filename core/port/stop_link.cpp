@@ -1,0 +1,42 @@
+#include "core/port/stop_link.h"
+
+#include <utility>
+
+#include "core/base/check.h"
+#include "core/lockfree/thread_epoch.h"
+#include "core/port/stand_in.h"
+
+namespace runnel::internal {
+
+StopLink::StopLink(PassedStop stop, std::unique_ptr<ChannelBase> channel, const Clock& clock)
+    : stop_(std::move(stop)), channel_(std::move(channel)), clock_(clock) {
+  Publish();
+  const auto look = [this] {
+    if (stop_.stop->in_force()) Publish();
+  };
+  if (stop_.stop->robot()) robot_ = stop_.stop->robot()->Listen(look);
+  block_ = stop_.stop->block()->Listen(look);
+  // A press between the two has published; one from before has to be told of.
+  if (!stop_.stop->in_force()) link_.taken = 1;
+}
+
+StopLink::~StopLink() { End(); }
+
+void StopLink::End() noexcept {
+  robot_ = {};
+  block_ = {};
+}
+
+void StopLink::Publish() {
+  const std::lock_guard lock(publisher_);
+  const EpochGuard guard;
+  const Time now = clock_.Now();
+  const auto published = channel_->PublishFilled(
+      [](void* context, void* value) {
+        return FillWith(static_cast<const PassedStop*>(context)->safe_value)(value).has_value();
+      },
+      const_cast<PassedStop*>(&stop_), ValueTimes::Of(now));
+  RUNNEL_CHECK(published, "a safe value can be copied");
+}
+
+}  // namespace runnel::internal

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/element/framework_element.h"
+#include "core/element/unlisted_element.h"
+#include "core/port/port.h"
+#include "core/port/port_options.h"
+#include "core/types/any_value.h"
+
+namespace runnel::internal {
+
+/// What has been set at an element, and at all below it, while the application ran: its annotations (tags, level of the
+/// log, given limits, …), and of ports what holds the values that readers find. The one way by which undo, copy and
+/// whatever else makes an element again hand that over: who adds something that belongs to an element keeps it as an
+/// annotation with ForReplacement(), or with the port (PortExtras), and it goes along everywhere.
+///
+/// Threads: under the structure lock.
+class ElementState {
+ public:
+  using Inherit = FrameworkElement::Inherit;
+  enum class Below { kIncluded, kLeftOut };
+
+  ElementState(const FrameworkElement& element, Inherit how, Below below);
+
+  /// Before `made` is prepared: that may go by what it is annotated with.
+  void GiveAnnotations(FrameworkElement& made) const { made.InheritAnnotations(*noted_, how_); }
+  /// When nobody but its readers can see `made` yet. Errors: as Port::PublishByHand().
+  Result<void> GivePorts(FrameworkElement& made) const;
+
+ private:
+  Inherit how_;
+  // Elements of no kind beside the tree, under the names of those whose annotations they keep.
+  UnlistedElement noted_;
+};
+
+/// What of a person would get lost with `port`, as nothing stands for it any more: "a value by hand, limits"; "" for
+/// nothing.
+[[nodiscard]] std::string WhatIsSetAt(const Port& port);
+
+}  // namespace runnel::internal
