@@ -138,7 +138,11 @@ std::string PortText(const Port& port, const ListingOptions& options) {
   if (const auto silent = SilentFor(port, options.began, options.now)) {
     text += fmt::format(", SILENT for {:.3g} s", ToSeconds(*silent));
   }
-  if (port.is_set_by_hand()) text += ", set by hand" + HandValue(port);
+  if (port.is_set_by_hand()) {
+    text += ", set by hand" + HandValue(port);
+  } else if (port.is_set_by_hand(Port::Setter::kRule)) {
+    text += ", set by a rule" + HandValue(port);
+  }
   text += LimitsText(port) + AwaitedText(port);
   if (!options.is_long) return text + (port.is_required() && !LacksSource(port) ? ", required" : "");
   const std::uint64_t count = port.publications();
