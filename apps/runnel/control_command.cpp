@@ -63,9 +63,7 @@ std::optional<std::string> ChangeTextOf(const ControlArguments& arguments) {
                                       : words[0] == "port"    ? 4
                                                               : 2);
   if (command == "schedule") return command + WordsText(words, 1) + OptionsText(arguments);
-  if (command == "copy") {
-    return command + WordsText({words.begin(), words.begin() + (words.size() > 1 && !words[1].empty() ? 2 : 1)}, 2);
-  }
+  if (command == "copy") return command + WordsText(words, 2);
   if (command == "offer" || command == "take") return command + WordsText(words, words.size()) + OptionsText(arguments);
   if (command == "set" || command == "disconnect" || command == "delete" || command == "rename" ||
       command == "tag") {
@@ -84,7 +82,20 @@ Result<std::string> ReadChanges(const std::string& file) {
   return text;
 }
 
+// Most often a variable of a shell that is not set: it must not become "all of them". Values may be empty texts; so may
+// the thread of "move", which is that of the group then.
+Result<void> RefuseEmptyWords(const ControlArguments& arguments) {
+  const std::string& command = arguments.command;
+  const bool has_value = command == "set" || command == "publish" || command == "call" || command == "move";
+  const auto end = has_value && !arguments.words.empty() ? arguments.words.begin() + 1 : arguments.words.end();
+  const bool is_empty = std::find(arguments.words.begin(), end, "") != end ||
+                        std::ranges::any_of(arguments.options, [](const auto& each) { return each.second.empty(); });
+  if (!is_empty) return {};
+  return Error{.message = "'" + command + "': one of its words is empty", .hint = "is a variable of the shell not set?"};
+}
+
 Result<Request> RequestOf(const ControlArguments& arguments) {
+  if (auto good = RefuseEmptyWords(arguments); !good) return good.error();
   if (const auto change = ChangeTextOf(arguments)) {
     Request request{.command = "change", .arguments = {}, .options = {}, .body = *change};
     if (arguments.options.contains("yes")) request.options["yes"] = "yes";
@@ -100,9 +111,7 @@ Result<Request> RequestOf(const ControlArguments& arguments) {
     request.body = *text;
     return request;
   }
-  for (const std::string& word : arguments.words) {
-    if (!word.empty()) request.arguments.push_back(word);
-  }
+  request.arguments = arguments.words;
   // The application may be at home in another folder.
   if (arguments.command == "save" && !request.arguments.empty()) {
     request.arguments[0] = std::filesystem::absolute(request.arguments[0]).string();

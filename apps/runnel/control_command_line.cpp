@@ -21,7 +21,8 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
     entry.command
         ->add_option("--app", entry.arguments.application,
                      "which one, by name or process, if several are running")
-        ->type_name("NAME|PROCESS");
+        ->type_name("NAME|PROCESS")
+        ->check([](const std::string& text) { return text.empty() ? "an empty word names no application" : ""; });
     return entry;
   };
   const auto word = [](Entry& entry, const char* name, const char* description) {
@@ -326,6 +327,11 @@ std::optional<ControlArguments> ControlCommandLine::Parsed() const {
     if (!entry.command->parsed()) continue;
     ControlArguments arguments = entry.arguments;
     if (arguments.command == "complete") arguments.words = entry.command->remaining();
+    // What was left out goes; what was given as "" stays, and is refused.
+    const auto has_room = [](const CLI::Option* option) { return option->get_positional(); };
+    std::size_t given = 0;
+    for (const CLI::Option* each : entry.command->get_options(has_room)) given += each->count();
+    if (arguments.command != "complete") arguments.words.resize(given);
     return arguments;
   }
   return {};

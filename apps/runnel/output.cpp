@@ -18,7 +18,7 @@ namespace {
 // Words that nobody shall overlook.
 constexpr std::array<std::pair<const char*, const char*>, 6> kColours{{{"error:", "1;31"},
                                                                        {"warning:", "1;33"},
-                                                                       {"STOPPED", "1;31"},
+                                                                       {"FAILED", "1;31"},
                                                                        {"NOT CONNECTED", "1;31"},
                                                                        {"PAUSED", "1;33"},
                                                                        {"ended, held", "1;33"}}};

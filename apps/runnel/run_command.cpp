@@ -84,10 +84,10 @@ class Session {
       PrintError(error);
       return ExitCode::kBadInput;
     }
-    const bool was_asked = stop_signal.has_come() || control_.is_asked();
+    const bool was_asked = StopSignal::has_come() || control_.is_asked();
     const ExitCode code = Conclude(*ran, real, was_asked);
     const auto is_held = [](const auto& extension) { return extension->IsHeld(); };
-    if (!was_asked && std::ranges::any_of(application_.extensions(), is_held)) Hold(stop_signal);
+    if (!was_asked && std::ranges::any_of(application_.extensions(), is_held)) Hold();
     return code;
   }
 
@@ -100,9 +100,9 @@ class Session {
   }
 
   // What has come of the run can still be looked at.
-  void Hold(const StopSignal& stop_signal) const {
+  void Hold() const {
     std::cout << "held for viewers; Ctrl-C ends it, 'runnel restart' runs it again\n" << std::flush;
-    while (!stop_signal.has_come() && !control_.is_asked()) std::this_thread::sleep_for(kLookForSignal);
+    while (!StopSignal::has_come() && !control_.is_asked()) std::this_thread::sleep_for(kLookForSignal);
   }
 
   void LookAround(Duration so_far) {
@@ -157,7 +157,7 @@ class Session {
   std::string WhyItEnded(bool was_stopped, bool was_asked) {
     if (was_stopped) return "the run was stopped because of a fault\n";
     if (application_.is_deleted()) return "the application has been deleted\n";
-    if (control_.shall_restart()) return "the run ends, to begin again\n";
+    if (control_.shall_restart() && !StopSignal::has_come()) return "the run ends, to begin again\n";
     if (was_asked) return "stopped by the user\n";
     return report_.IsOver() || !MonitorsDecide() ? "" : "the time is up\n";
   }
@@ -273,7 +273,8 @@ RunOutcome RunOnce(const RunArguments& arguments) {
   std::cout << std::flush;
   const ExitCode code = Session(arguments, *application, *control).Run();
   LeaveIfStuck(*application, code);
-  return {code, control->shall_restart()};
+  // Who has sent a signal wants it to end, whoever wants it to begin again.
+  return {code, control->shall_restart() && !StopSignal::has_come()};
 }
 
 }  // namespace

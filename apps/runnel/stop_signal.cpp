@@ -47,6 +47,6 @@ StopSignal::~StopSignal() {
   while (handlers.load() != 0) std::this_thread::yield();
 }
 
-bool StopSignal::has_come() const noexcept { return signal_has_come.load(); }
+bool StopSignal::has_come() noexcept { return signal_has_come.load(); }
 
 }  // namespace runnel::program

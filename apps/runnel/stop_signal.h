@@ -22,7 +22,8 @@ class StopSignal {
   StopSignal(const StopSignal&) = delete;
   StopSignal& operator=(const StopSignal&) = delete;
 
-  [[nodiscard]] bool has_come() const noexcept;
+  /// While the newest of them has lived; also after it has gone, since what comes then ends the program at once.
+  [[nodiscard]] static bool has_come() noexcept;
 
  private:
   std::array<struct sigaction, kSignals.size()> before_{};

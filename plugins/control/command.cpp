@@ -66,6 +66,11 @@ Result<void> CheckArguments(const Request& request, const CommandKind& kind) {
     return Error{.message = "'" + request.arguments[kind.most_arguments] +
                             "' is one word too many for '" + kind.name + "'"};
   }
+  // Only values may be empty texts.
+  const std::size_t words = kind.name == "publish" || kind.name == "call" ? 1 : request.arguments.size();
+  for (std::size_t i = 0; i < std::min(words, request.arguments.size()); ++i) {
+    if (request.arguments[i].empty()) return Error{.message = "'" + kind.name + "': one of its words is empty"};
+  }
   for (const auto& [name, value] : request.options) {
     if (std::ranges::count(kind.options, name) > 0) continue;
     return Error{.message = "'" + kind.name + "' has no option '" + name + "'",

@@ -18,12 +18,10 @@
 
 #include "core/port/port.h"
 #include "core/types/duration_text.h"
+#include "plugins/control/application_state.h"
 #include "plugins/control/client_connection.h"
 #include "plugins/control/control_folder.h"
-#include "plugins/control/element_listing.h"
 #include "plugins/control/protocol.h"
-#include "plugins/scheduling/pace.h"
-#include "plugins/scheduling/scheduler.h"
 
 namespace runnel {
 
@@ -154,36 +152,8 @@ class ControlServer::Loop {
     hello.file = options_.file;
     hello.time = service_.application().runtime.clock().Now() - start_;
     hello.real = SteadyClock().Now() - started_;
-    hello.state = StateText();
+    hello.state = StateText(service_.application());
     return hello.ToText();
-  }
-
-  // What is wrong with it is left out while somebody changes its structure.
-  [[nodiscard]] std::string StateText() const {
-    const ServedApplication& application = service_.application();
-    std::string text = "running";
-    if (application.pace != nullptr && application.pace->is_paused()) text = "paused";
-    if (application.pace != nullptr && application.pace->has_ended()) text = "ended, held";
-    const std::unique_lock lock(application.runtime.structure_mutex(), std::try_to_lock);
-    if (!lock || application.scheduler == nullptr) return text;
-    FrameworkElement& root = application.runtime.root();
-    const std::size_t stopped = StoppedModules(root, *application.scheduler, nullptr).size();
-    const Time now = application.runtime.clock().Now();
-    std::size_t unfed = 0;
-    std::size_t silent = 0;
-    root.Visit([&](FrameworkElement& each) {
-      const auto* const port = dynamic_cast<const Port*>(&each);
-      if (port == nullptr) return;
-      if (LacksSource(*port)) ++unfed;
-      if (SilentFor(*port, application.log.start(), now)) ++silent;
-    });
-    const auto add = [&](std::size_t count, const char* one, const char* many) {
-      if (count > 0) text += ", " + std::to_string(count) + (count == 1 ? one : many);
-    };
-    add(stopped, " module STOPPED", " modules STOPPED");
-    add(silent, " output SILENT", " outputs SILENT");
-    add(unfed, " required input NOT CONNECTED", " required inputs NOT CONNECTED");
-    return text;
   }
 
   CommandService& service_;

@@ -19,7 +19,7 @@
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
 #include "plugins/command_service/caught_error.h"
-#include "plugins/command_service/application_log.h"
+#include "plugins/control/application_state.h"
 #include "plugins/scheduling/scheduler.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/services/callable.h"
@@ -62,6 +62,7 @@ std::string ThreadText(const ThreadContainer& thread, bool is_long) {
   const ThreadOptions& options = thread.options();
   std::string text = ActivationText(options);
   if (options.priority > 0) text += ", priority " + std::to_string(options.priority);
+  if (Overruns(thread)) text += ", OVERRUNS";
   if (!is_long) return text;
   const CycleStatistics all = thread.statistics();
   return text + ", " + std::to_string(all.cycles) + " cycles, " + std::to_string(all.overruns) +
@@ -115,15 +116,6 @@ std::string AwaitedText(const Port& port) {
   return text;
 }
 
-std::optional<Time> NewestAt(const Port& port) {
-  std::optional<Time> published;
-  for (const auto* const shown : port.ShownPorts()) {
-    shown->VisitLatest([&](const void*, ValueTimes times) { published = times.publication_time; });
-    if (published) break;
-  }
-  return published;
-}
-
 // ", newest 3.2 s old"; "" if there is none.
 std::string AgeText(const Port& port, Time now) {
   const auto published = NewestAt(port);
@@ -138,7 +130,10 @@ std::string PortText(const Port& port, const ListingOptions& options) {
   if (const auto silent = SilentFor(port, options.began, options.now)) {
     text += fmt::format(", SILENT for {:.3g} s", ToSeconds(*silent));
   }
+  if (port.is_driving()) text += port.runtime().robot_stop().in_force() ? ", driving, IN STOP" : ", driving";
+  if (port.is_blocked()) text += ", BLOCKED";
   if (port.is_set_by_hand()) text += ", set by hand" + HandValue(port);
+  if (port.is_set_by_hand(Port::Setter::kRule)) text += ", set by a rule" + HandValue(port);
   text += LimitsText(port) + AwaitedText(port);
   if (!options.is_long) return text + (port.is_required() && !LacksSource(port) ? ", required" : "");
   const std::uint64_t count = port.publications();
@@ -178,11 +173,11 @@ std::string TagMarks(const FrameworkElement& element) {
   return text;
 }
 
-// ", STOPPED by a fault: sensor gone"
+// ", FAILED: sensor gone"
 std::string StateText(FrameworkElement& element, const ListingOptions& options,
                       const std::map<std::string, std::string>& stopped) {
   const auto found = stopped.find(element.path());
-  if (found != stopped.end()) return ", STOPPED by a fault" + (found->second.empty() ? "" : ": " + found->second);
+  if (found != stopped.end()) return ", FAILED" + (found->second.empty() ? "" : ": " + found->second);
   if (options.scheduler != nullptr && IsModule(element) && options.scheduler->IsPaused(element)) return ", PAUSED";
   return {};
 }
@@ -228,46 +223,6 @@ std::string RateText(double hertz) {
   return hertz >= 10'000 ? fmt::format("{:.0f}", hertz) : fmt::format("{:.5g}", hertz);
 }
 
-std::optional<Duration> SilentFor(const Port& port, Time began, Time now) {
-  constexpr std::uint64_t kSteadyValues = 20;
-  constexpr Duration kSteady = std::chrono::seconds(3);
-  constexpr Duration kPatience = std::chrono::milliseconds(1500);
-  constexpr int kPeriods = 10;
-  const std::uint64_t count = port.publications();
-  if (port.direction() != Port::Direction::kOutput || count < kSteadyValues) return {};
-  const auto newest = NewestAt(port);
-  if (!newest || *newest - began < kSteady) return {};
-  const Duration period = (*newest - began) / static_cast<Duration::rep>(count);
-  const Duration silent = now - *newest;
-  if (silent <= std::max(kPatience, kPeriods * period)) return {};
-  return silent;
-}
-
-bool LacksSource(const Port& port) {
-  return port.is_required() && port.Sources().empty() && !port.is_set_by_hand() &&
-         !LateConnections::Awaits(port);
-}
-
-std::map<std::string, std::string> StoppedModules(FrameworkElement& start, Scheduler& scheduler,
-                                                  const ApplicationLog* log) {
-  std::map<std::string, std::string> stopped;
-  try {
-    start.Visit([&](FrameworkElement& each) {
-      if (!IsModule(each)) return;
-      const auto progress = scheduler.ProgressOf(each.path());
-      if (progress && progress->is_stopped) stopped.emplace(each.path(), "");
-    });
-  } catch (const ElementError&) {  // the threads are such that nothing can be run; the scheduler tells
-    return {};
-  }
-  if (stopped.empty() || log == nullptr) return stopped;
-  for (const auto& entry : log->ReadEntries(0, ApplicationLog::kMostEntries).entries) {
-    const auto found = stopped.find(entry.module);
-    if (found != stopped.end() && !entry.cause.empty()) found->second = entry.cause;
-  }
-  return stopped;
-}
-
 PublicationCounts CountPublications(FrameworkElement& start) {
   PublicationCounts counts;
   start.Visit([&](FrameworkElement& element) {
@@ -299,7 +254,8 @@ std::string ListElements(FrameworkElement& start, const ListingOptions& options)
     name_width = std::max(name_width, CharacterCount(rows.back().name));
     kind_width = std::max(kind_width, rows.back().kind.size());
   }
-  std::string text;
+  std::string text = StopText(start.runtime());
+  if (!text.empty()) text += ": all that drives has its safe value\n";
   for (const Row& row : rows) {
     text += row.name + std::string(name_width - CharacterCount(row.name) + 2, ' ') + row.kind;
     if (!row.about.empty()) {

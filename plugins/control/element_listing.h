@@ -15,7 +15,6 @@ using PublicationCounts = std::map<std::string, std::uint64_t, std::less<>>;
 [[nodiscard]] PublicationCounts CountPublications(FrameworkElement& start);
 
 class ApplicationLog;
-class Port;
 class Scheduler;
 
 /// What a listing tells besides names and types.
@@ -32,17 +31,6 @@ struct ListingOptions {
 
 /// `start` and all below it as a tree, one line each. Under the structure lock.
 [[nodiscard]] std::string ListElements(FrameworkElement& start, const ListingOptions& options);
-
-/// Whether nothing feeds the input although its module requires it.
-[[nodiscard]] bool LacksSource(const Port& port);
-
-/// How long an output has been silent that published steadily since the application began, for 3 s and 20 values at least;
-/// what is published now and then is not silent. Under the structure lock.
-[[nodiscard]] std::optional<Duration> SilentFor(const Port& port, Time began, Time now);
-
-/// Modules that faults have stopped, by path, with what they have thrown. Under the structure lock.
-[[nodiscard]] std::map<std::string, std::string> StoppedModules(FrameworkElement& start, Scheduler& scheduler,
-                                                                const ApplicationLog* log);
 
 /// One line for each element: kind (of ports "input" or "output"), path; of ports and parameters also "interface" for
 /// those of groups, their type, and the values that they may have, if these have names; separated by tabulators. For

@@ -17,6 +17,18 @@ std::uint64_t CountOf(const std::vector<const Port*>& ports) {
   return count;
 }
 
+// What changes when other values are read there, which may be as many as those before.
+std::vector<std::uint64_t> IdsOf(Runtime& runtime, const Port& port) {
+  std::vector<std::uint64_t> ids{port.id()};
+  const auto add = [&](const Port& shows) {
+    for (const Port* each : shows.ShownPorts()) ids.push_back(each->id());
+  };
+  add(port);
+  for (const Port* from : port.incoming()) add(*from);
+  if (port.is_set_by_hand() || port.is_set_by_hand(Port::Setter::kRule)) ids.push_back(runtime.revision());
+  return ids;
+}
+
 }  // namespace
 
 Result<void> WatchedPort::Find(Runtime& runtime) {
@@ -26,8 +38,9 @@ Result<void> WatchedPort::Find(Runtime& runtime) {
   if (!found) return found.error();
   const auto* const port = dynamic_cast<const Port*>(*found);
   if (port == nullptr) return Error{.message = "this is not a port", .path = path_};
-  if (port->id() != id_) shown_.reset();  // made anew: it counts from 0 again
-  id_ = port->id();
+  std::vector<std::uint64_t> ids = IdsOf(runtime, *port);
+  if (ids != ids_) shown_.reset();  // of others: they count anew
+  ids_ = std::move(ids);
   port_ = port;
   type_ = &port->type();
   input_ = dynamic_cast<const InputBase*>(port);

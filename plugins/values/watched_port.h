@@ -52,7 +52,7 @@ class WatchedPort {
   const Port* port_ = nullptr;
   const InputBase* input_ = nullptr;  // the port that was found, if it is one
   const TypeInfo* type_ = nullptr;
-  std::uint64_t id_ = 0;  // of the port that was found last
+  std::vector<std::uint64_t> ids_;  // of the port that was found last, and of those whose values it showed
   std::optional<std::uint64_t> shown_;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -109,7 +110,22 @@ class FaultyWorker final : public Module {
   std::uint32_t cycles_ = 0;
 };
 
-/// Judges a run, and throws in the function that the parameter names.
+inline void WaitForFile(const std::string& file) {
+  while (!file.empty() && !std::filesystem::exists(file)) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+}
+
+/// Is made only when there is the file that its parameter names.
+class SlowToMake final : public Module {
+ public:
+  explicit SlowToMake(const Placement& placement) : Module(placement) { WaitForFile(made_after.Get()); }
+
+  StaticParameter<std::string> made_after{this, "made_after", {.default_value = ""}};
+
+ private:
+  void Update() override {}
+};
+
+/// Judges a run, and throws in the function that the parameter names; finishes only when there is a file.
 class FaultyMonitor final : public Module {
  public:
   explicit FaultyMonitor(const Placement& placement) : Module(placement) {
@@ -117,6 +133,7 @@ class FaultyMonitor final : public Module {
   }
 
   StaticParameter<std::string> throws_in{this, "throws_in", {.default_value = ""}};
+  StaticParameter<std::string> finishes_after{this, "finishes_after", {.default_value = ""}};
 
  private:
   void ThrowIn(const std::string& function) const {
@@ -137,6 +154,7 @@ class FaultyMonitor final : public Module {
     }
     Result<std::string> Finish() override {
       module_.ThrowIn("finish");
+      WaitForFile(module_.finishes_after.Get());
       if (module_.throws_in.Get() == "nothing") return Error{.message = "cannot be finished"};
       return std::string("finished");
     }

@@ -10,12 +10,14 @@
 #include <gmock/gmock.h>
 
 #include "tests/integration/program.h"
+#include "tests/support/temporary_folder.h"
 
 namespace runnel::test {
 namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 /// What each test's own files are called.
 std::filesystem::path TestFile(const std::string& extension) {
@@ -154,6 +156,31 @@ TEST_F(RunEnd, ByASignalAfterAFaultIsStillAFailure) {
   EXPECT_TRUE(program.WaitFor("worn out"));
   program.Send(SIGINT);
   EXPECT_EQ(program.Wait().code, kRunFailed);
+}
+
+// Whichever of them has come first: who ends it does not want to see the robot drive again.
+TEST_F(RunEnd, ByASignalWinsOverARestart) {
+  for (const bool signal_is_first : {false, true}) {
+    const TemporaryFolder folder;
+    setenv("XDG_RUNTIME_DIR", folder.path().c_str(), 1);
+    const std::string go_on = folder / "go_on";
+    Program program("run --duration 5 " + Write(real_, "period='10ms'", R"(
+<module name="judge" type="faulty/monitor"><parameter name="finishes_after" value=")" + go_on + R"("/></module>)"));
+    ASSERT_TRUE(program.WaitFor("going well"));
+    const auto signal = [&] {
+      program.Send(SIGTERM);
+      program.WaitUntilHandles(SIGTERM, false);
+    };
+    if (signal_is_first) signal();
+    Program restart("restart");
+    EXPECT_TRUE(restart.WaitFor("runs again from its file"));
+    if (!signal_is_first) signal();
+    std::ofstream(go_on) << "\n";
+    const Ended ended = program.Wait();
+    EXPECT_EQ(ended.code, kDone) << ended.text;
+    EXPECT_THAT(ended.text, AllOf(HasSubstr("stopped by the user"), Not(HasSubstr("the time is up"))));
+    unsetenv("XDG_RUNTIME_DIR");
+  }
 }
 
 TEST_F(RunEnd, IsInOrderWhenNobodyReadsTheProgress) {

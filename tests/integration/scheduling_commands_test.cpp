@@ -136,5 +136,26 @@ TEST_F(SchedulingCommands, APausedModuleMakesRoomForTheSafeValue) {
   EXPECT_EQ(program.Wait().code, kDone);
 }
 
+// A variable of a shell that is not set must not become "all of them".
+TEST_F(SchedulingCommands, AnEmptyWordIsAnError) {
+  Write("");
+  Program program("run --quiet " + application_);
+  ASSERT_TRUE(program.WaitFor("reads"));
+  ASSERT_EQ(Runnel("publish /sink/in 3").code, kDone);
+  for (const std::string command : {"release", "pause", "resume", "stop", "restart", "ls", "hz", "echo", "get", "copy relay", "save",
+                                    "step", "speed", "activities", "profile", "deadline", "reload", "delete", "rename relay",
+                                    "disconnect source/count", "tag relay", "record -o a.mcap", "ls --app", "publish /sink/in 3 --rate"}) {
+    const Ended refused = Runnel(command + " \"\"");
+    EXPECT_EQ(refused.code, kBadInput) << command;
+    EXPECT_THAT(refused.text, testing::AnyOf(HasSubstr("one of its words is empty; is a variable of the shell not set?"),
+                                             HasSubstr("an empty word names no application")))
+        << command;
+  }
+  EXPECT_EQ(Runnel("get /sink/in").text, "3\n");
+  EXPECT_THAT(Runnel("ps").text, HasSubstr("running"));
+  program.Send(SIGTERM);
+  EXPECT_EQ(program.Wait().code, kDone);
+}
+
 }  // namespace
 }  // namespace runnel::test

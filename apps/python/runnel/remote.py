@@ -50,7 +50,7 @@ class _Socket:
             self.socket.connect(str(path))
             self.stream = self.socket.makefile("rb")
             kind, hello = self.receive()
-        except OSError:
+        except BaseException:
             self.close()
             raise
         self.hello = dict(re.findall(r'(\w+)="?((?:[^"\s]|(?<=\\)")*)"?', hello.decode()))
@@ -60,11 +60,11 @@ class _Socket:
 
     def receive(self):
         head = self.stream.readline().decode().split()
-        if len(head) != 2:
+        size = int(head[1]) if len(head) == 2 else 0
+        payload = self.stream.read(size + 1)
+        if len(head) != 2 or len(payload) != size + 1:
             raise _extension.Error("the application has gone")
-        payload = self.stream.read(int(head[1]))
-        self.stream.read(1)
-        return head[0], payload
+        return head[0], payload[:-1]
 
     def close(self):
         with contextlib.suppress(OSError, AttributeError):
@@ -107,12 +107,15 @@ def connect(application="", timeout=30.0):
 class Remote:
     """A running application in another process: the same words as runnel.Application.
 
-    Threads: any; requests of several wait for one another.
+    Whatever ends a request before its answer is there (a time-out, Ctrl-C) closes the connection, and the next request
+    opens another: the application may have carried out the request all the same. Threads: any; requests of several wait
+    for one another.
     """
 
     def __init__(self, path, connection, timeout):
         self._path = path
         self._connection = connection
+        self._is_closed = False
         self._timeout = timeout
         self._lock = threading.Lock()
         self._types = {}
@@ -130,19 +133,48 @@ class Remote:
         self.close()
 
     def close(self):
-        """Hangs up; the application runs on."""
-        self._connection.close()
+        """Hangs up for good; the application runs on."""
+        self._is_closed = True
+        self._hang_up()
+
+    def _hang_up(self):
+        connection, self._connection = self._connection, None
+        if connection is not None:
+            connection.close()
 
     def ask(self, command, *arguments, body="", **options):
         """What `runnel COMMAND` would print; what it would print as an error is a runnel.Error."""
+        return self._ask(command, arguments, options, body)
+
+    def _ask(self, command, arguments, options, body="", besides=0.0):
+        request = _request(command, arguments, options, body)
+        patience = None if self._timeout is None else self._timeout + besides
         with self._lock:
-            self._connection.socket.sendall(_request(command, arguments, options, body))
-            out, errors = [], []
-            while True:
-                kind, payload = self._connection.receive()
-                if kind == "end":
-                    break
-                (errors if kind == "err" else out).append(payload)
+            if self._is_closed:
+                raise _extension.Error("this Remote has been closed")
+            if self._connection is None:
+                try:
+                    self._connection = _Socket(self._path, self._timeout)
+                except OSError as why:
+                    raise _extension.Error(f"'{command}' has not been sent: {self.name} cannot be reached: {why}") from None
+            connection = self._connection
+            try:
+                connection.socket.settimeout(patience)
+                connection.socket.sendall(request)
+                out, errors = [], []
+                while True:
+                    kind, payload = connection.receive()
+                    if kind == "end":
+                        break
+                    (errors if kind == "err" else out).append(payload)
+            except BaseException as why:
+                self._hang_up()  # an answer that is still on its way is nobody's
+                perhaps = "; the application may have carried it out all the same"
+                if isinstance(why, TimeoutError):
+                    raise TimeoutError(f"'{command}' was not answered within {patience:g} s{perhaps}") from None
+                if isinstance(why, (OSError, _extension.Error)):
+                    raise _extension.Error(f"'{command}': {why}{perhaps}") from None
+                raise
         if payload.split()[:1] != [b"0"]:
             raise _error(b"".join(errors).decode() or b"".join(out).decode())
         return b"".join(out).decode()
@@ -263,9 +295,9 @@ class Remote:
         self.ask("release", path)
 
     def call(self, path, argument=None, timeout=30.0, **arguments):
-        """Calls a service; its reply in the text format."""
+        """Calls a service; its reply in the text format. timeout -- s, on the application's clock."""
         words = [text_of(arguments or argument)] if arguments or argument is not None else []
-        return self.ask("call", path, *words, timeout=f"{timeout}s").removesuffix("\n")
+        return self._ask("call", [path, *words], {"timeout": f"{timeout}s"}, besides=timeout).removesuffix("\n")
 
     def record(self, file, seconds=None, ports=()):
         """Records for so many seconds of the machine's, or until the returned object is closed."""

@@ -1,6 +1,7 @@
 // What people read of values and states: numbers, ages, what is stopped, what lacks a connection.
 
 #include "core/base/clock.h"
+#include "plugins/control/application_state.h"
 #include "plugins/control/element_listing.h"
 #include "plugins/control/readable_text.h"
 #include "tests/plugins/control/control_fixture.h"
@@ -28,6 +29,7 @@ TEST_F(ControlTest, GetsOneValue) {
   ASSERT_EQ(Change("set /a/speed 0.123456789").code, 0);
   EXPECT_EQ(Ask("get /a/speed").output, "0.123457\n");
   EXPECT_EQ(Ask("get /app/a/parameter/speed full=yes").output, "0.123456789\n");
+  WaitUntil("something is published", [&] { return Ask("get /a/out").code == 0; });
   EXPECT_THAT(Ask("get /a/out").output, ::testing::ContainsRegex("^[0-9]+\n$"));
   EXPECT_THAT(Ask("get /a/spede").errors, HasSubstr("did you mean 'speed'?"));
   ASSERT_EQ(Change("create /silent test/failing").code, 0);
@@ -36,30 +38,36 @@ TEST_F(ControlTest, GetsOneValue) {
   EXPECT_THAT(nothing.errors, HasSubstr("nothing has been published there yet"));
 }
 
-TEST_F(ControlTest, ListsWhatIsStoppedPausedOrNotConnected) {
-  EXPECT_THAT(Ask("ls").output, Not(HasSubstr("STOPPED")));
+TEST_F(ControlTest, ListsWhatHasFailed) {
+  EXPECT_THAT(Ask("ls").output, Not(HasSubstr("FAILED")));
   ASSERT_EQ(Change("create /worn test/failing").code, 0);
   const auto is_stopped = [&] {
     for (const Fault& fault : scheduler.TakeFaults()) {
       log.Add(ApplicationLog::Kind::kFault, fault.path + " is worn", fault.path, fault.message);
     }
-    return Ask("ls /worn").output.find("STOPPED by a fault: is worn out") != std::string::npos;
+    return Ask("ls /worn").output.find("FAILED: is worn out") != std::string::npos;
   };
   WaitUntil("the module is stopped", is_stopped);
-  EXPECT_THAT(Client().hello().state, HasSubstr("1 module STOPPED"));
+  EXPECT_THAT(Client().hello().state, HasSubstr("1 module FAILED"));
 }
 
-// On a clock of its own: an output that published every 100 ms, and one that published twice.
+// On a clock of its own: an output that published every 100 ms, one that published twice, and one that did so while a
+// viewer was there, who has gone.
 TEST(SilenceTest, IsToldOfWhatPublishedSteadilyAndDoesSoNoMore) {
   ManualClock clock;
   Runtime runtime;
   runtime.set_clock(clock);
   auto& steady = runtime.Create<Counter>(runtime.root(), "steady");
   auto& seldom = runtime.Create<Counter>(runtime.root(), "seldom");
+  auto& watched = runtime.Create<Counter>(runtime.root(), "watched");
+  auto& sink = runtime.Create<Sink>(runtime.root(), "sink");
+  ASSERT_TRUE(Port::Connect(steady.out, sink.in));
+  ASSERT_TRUE(Port::Connect(seldom.out, sink.in));
   ASSERT_TRUE(runtime.MakeReady(runtime.root()));
   for (int i = 1; i <= 40; ++i) {
     clock.Advance(100ms);
     steady.out.Publish(i);
+    watched.out.Publish(i);
     if (i % 20 == 0) seldom.out.Publish(i);
   }
   const std::lock_guard lock(runtime.structure_mutex());
@@ -70,13 +78,14 @@ TEST(SilenceTest, IsToldOfWhatPublishedSteadilyAndDoesSoNoMore) {
   EXPECT_THAT(listed(), HasSubstr("SILENT for 2 s"));
   EXPECT_TRUE(SilentFor(steady.out, Time{}, clock.Now()));
   EXPECT_FALSE(SilentFor(seldom.out, Time{}, clock.Now()));
+  EXPECT_FALSE(SilentFor(watched.out, Time{}, clock.Now()));
   steady.out.Publish(41);
   EXPECT_THAT(listed(), Not(HasSubstr("SILENT")));
 }
 
 TEST_F(ControlTest, MakesAStoppedModuleAnew) {
   ASSERT_EQ(Change("create /worn test/failing").code, 0);
-  const auto is_stopped = [&] { return Ask("ls /worn").output.find("STOPPED") != std::string::npos; };
+  const auto is_stopped = [&] { return Ask("ls /worn").output.find("FAILED") != std::string::npos; };
   WaitUntil("the module is stopped", is_stopped);
   const auto id = [&] {
     const std::lock_guard lock(runtime.structure_mutex());

@@ -1,5 +1,7 @@
 #include "plugins/values/watched_port.h"
 
+#include <array>
+
 #include <gmock/gmock.h>
 
 #include "core/lockfree/thread_epoch.h"
@@ -13,7 +15,9 @@ namespace runnel::test {
 
 namespace {
 
+using ::testing::Each;
 using ::testing::HasSubstr;
+using ::testing::Optional;
 
 class Source final : public Module {
  public:
@@ -70,6 +74,47 @@ TEST_F(WatchedPortTest, FollowsAPortThatIsMadeAnew) {
   again.out.Publish(7);
   EXPECT_EQ(Look(watched), 7);  // the first again, and another one
   EXPECT_EQ(count, 1U);
+}
+
+Port::Fill FillWith(int value) {
+  return [value](void* place) -> Result<void> {
+    *static_cast<int*>(place) = value;
+    return {};
+  };
+}
+
+// Each has published as many values as the other.
+TEST_F(WatchedPortTest, ShowsWhatIsSetByHandAndWhatIsReadAfterIt) {
+  Input<int> in(app, "in");
+  ASSERT_TRUE(Port::Connect(source.out, in));
+  WatchedPort output("/app/source/output/out");
+  WatchedPort input("/app/in");
+  const auto look = [&] { return std::array{Look(output), Look(input)}; };
+  source.out.Publish(1);
+  EXPECT_THAT(look(), Each(Optional(1)));
+  ASSERT_TRUE(source.out.PublishByHand(FillWith(42)));
+  EXPECT_THAT(look(), Each(Optional(42)));
+  EXPECT_THAT(look(), Each(std::nullopt));
+  ASSERT_TRUE(source.out.Release());
+  EXPECT_THAT(look(), Each(Optional(1)));
+  ASSERT_TRUE(in.PublishByHand(FillWith(7)));
+  EXPECT_EQ(Look(input), 7);
+  ASSERT_TRUE(in.Release());
+  ASSERT_TRUE(in.PublishByHand(FillWith(8)));
+  EXPECT_EQ(Look(input), 8);
+}
+
+TEST_F(WatchedPortTest, ShowsTheValueOfAnotherSource) {
+  Source& other = runtime.Create<Source>(app, "other");
+  Input<int> in(app, "in");
+  ASSERT_TRUE(Port::Connect(source.out, in));
+  source.out.Publish(1);
+  other.out.Publish(2);
+  WatchedPort input("/app/in");
+  EXPECT_EQ(Look(input), 1);
+  ASSERT_TRUE(Port::Disconnect(source.out, in));
+  ASSERT_TRUE(Port::Connect(other.out, in));
+  EXPECT_EQ(Look(input), 2);
 }
 
 TEST_F(WatchedPortTest, ShowsWhatComesThroughAPortOfAGroup) {

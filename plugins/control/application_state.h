@@ -1,0 +1,39 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "core/base/clock.h"
+#include "plugins/command_service/command_service.h"
+
+namespace runnel {
+
+class Port;
+class ThreadContainer;
+
+/// How an application is, for people: "running", and all that somebody should know, as "running, STOP in force for 4 s,
+/// by a terminal, 1 module PAUSED". Does not wait: what needs the structure lock is left out while somebody else has it.
+[[nodiscard]] std::string StateText(const ServedApplication& application);
+
+/// "STOP in force for 4 s, by a terminal"; "" if it is not. Any thread.
+[[nodiscard]] std::string StopText(Runtime& runtime);
+
+/// Whether its cycles often take longer than their period.
+[[nodiscard]] bool Overruns(const ThreadContainer& thread);
+
+/// When the newest value came there. Under the structure lock.
+[[nodiscard]] std::optional<Time> NewestAt(const Port& port);
+
+/// Whether nothing feeds the input although its module requires it.
+[[nodiscard]] bool LacksSource(const Port& port);
+
+/// How long an output has been silent that published steadily since the application began, for 3 s and 20 values at least;
+/// what is published now and then is not silent. Under the structure lock.
+[[nodiscard]] std::optional<Duration> SilentFor(const Port& port, Time began, Time now);
+
+/// Modules that faults have stopped, by path, with what they have thrown. Under the structure lock.
+[[nodiscard]] std::map<std::string, std::string> StoppedModules(FrameworkElement& start, Scheduler& scheduler,
+                                                                const ApplicationLog* log);
+
+}  // namespace runnel

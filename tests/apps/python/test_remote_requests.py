@@ -1,0 +1,107 @@
+"""Requests of a Remote that do not end as they should: an answer must never be taken for that of another request."""
+
+import contextlib
+import os
+import signal
+import socket
+import threading
+
+import pytest
+
+import runnel
+
+
+class Served:
+    """The other end of a control socket: answers each request with its words, "slow" ones when it is allowed to."""
+
+    def __init__(self, folder):
+        folder.mkdir(mode=0o700)
+        self.asked = []
+        self.on_slow = lambda: None
+        self.may_answer = threading.Event()
+        self.listening = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+        self.listening.bind(str(folder / "1.sock"))
+        self.listening.listen()
+        threading.Thread(target=self.accept, daemon=True).start()
+
+    def accept(self):
+        while True:
+            try:
+                connection, _ = self.listening.accept()
+            except OSError:
+                return
+            threading.Thread(target=self.serve, args=(connection,), daemon=True).start()
+
+    def serve(self, connection):
+        def send(kind, text):
+            connection.sendall(f"{kind} {len(text)}\n{text}\n".encode())
+
+        try:
+            send("hello", 'runnel protocol=1 process=1 application="robot" file=""')
+            stream = connection.makefile("rb")
+            for head in iter(stream.readline, b""):
+                request = stream.read(int(head.split()[1]) + 1).decode().strip()
+                self.asked.append(request)
+                if "slow" in request:
+                    self.on_slow()
+                    self.may_answer.wait(60)
+                send("out", request)
+                send("end", "0")
+        except OSError:
+            pass  # the client has hung up, or is hung up on
+        with contextlib.suppress(OSError):
+            connection.shutdown(socket.SHUT_RDWR)
+
+
+@pytest.fixture
+def served(tmp_path):
+    served = Served(tmp_path / "run/runnel")
+    yield served
+    served.may_answer.set()
+    served.listening.close()
+
+
+def test_an_interrupted_request_leaves_no_answer_behind(served):
+    served.on_slow = lambda: os.kill(os.getpid(), signal.SIGINT)
+    with runnel.connect("robot") as app:
+        with pytest.raises(KeyboardInterrupt):
+            app.ask("get", "/slow")
+        served.may_answer.set()
+        assert app.ask("get", "/laser/noise") == 'get "/laser/noise"'
+        assert app.ask("get", "/planner/speed") == 'get "/planner/speed"'
+
+
+def test_after_a_time_out_requests_go_on_and_each_is_sent_once(served):
+    with runnel.connect("robot") as app:
+        app._timeout = 0.5
+        with pytest.raises(TimeoutError, match="'get' was not answered within 0.5 s; .* may have carried it out"):
+            app.ask("get", "/slow")
+        app._timeout = 30  # whatever else the machine does
+        assert app.ask("stop") == "stop"
+        assert served.asked == ['get "/slow"', "stop"]
+
+
+def test_a_call_may_take_its_own_time_besides(served):
+    answered = threading.Timer(1, served.may_answer.set)
+    served.on_slow = answered.start
+    with runnel.connect("robot") as app:
+        app._timeout = 0.2
+        assert "slow" in app.call("/slow", timeout=60)
+
+
+def test_an_application_that_goes_during_a_request_is_told_as_such(served):
+    def hang_up():
+        raise OSError
+
+    served.on_slow = hang_up
+    with runnel.connect("robot") as app:
+        with pytest.raises(runnel.Error, match="has gone; .* may have carried it out"):
+            app.ask("get", "/slow")
+
+
+def test_a_closed_remote_stays_closed(served):
+    app = runnel.connect("robot")
+    app.close()
+    with pytest.raises(runnel.Error, match="closed"):
+        app.ask("get", "/laser/noise")
+    assert served.asked == []

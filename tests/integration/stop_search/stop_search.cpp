@@ -1,0 +1,272 @@
+#include "tests/integration/stop_search/stop_search.h"
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <random>
+#include <stdexcept>
+
+#include "core/element/runtime.h"
+#include "core/plugin/module_type_name.h"
+#include "core/plugin/plugin_manager.h"
+#include "core/port/port_stop.h"
+#include "core/types/text_format.h"
+#include "modules/types/pose.h"
+#include "modules/types/wheel_speeds.h"
+#include "plugins/application_files/application_builder.h"
+#include "plugins/application_tags/application_tags.h"
+#include "plugins/application_tags/run_description.h"
+#include "plugins/parameters/configuration.h"
+#include "plugins/structure/change_history.h"
+#include "plugins/structure/change_text.h"
+#include "plugins/structure/structure_editor.h"
+
+namespace runnel::test {
+
+namespace {
+
+class Search {
+ public:
+  Search(std::uint64_t seed, std::uint64_t steps) : random_(seed), steps_(steps) { Build(); }
+
+  StopSearchResult Run() {
+    for (; result_.steps < steps_ && result_.violations.size() < 10; ++result_.steps) {
+      DoSomething();
+      Check();
+      if (DrivingPorts().size() < 3) Build();  // too much has been deleted
+    }
+    return std::move(result_);
+  }
+
+ private:
+  using Action = std::pair<int, std::function<void()>>;  // how often, and what
+
+  // Begins anew, under STOP if it was under STOP.
+  void Build() {
+    history_.reset();
+    editor_.reset();
+    scheduler_.reset();
+    runtime_.emplace();
+    released_at_.reset();
+    if (is_stopped_) runtime_->robot_stop().Press("the search");
+    const auto folder = std::filesystem::path(RUNNEL_XML) / "apps";
+    auto document = XmlDocument::Load((folder / "bug_demo.xml").string());
+    if (!document) throw std::runtime_error(document.error().ToString());
+    XmlTagRegistry tags = ApplicationTags();
+    plugins_.registry().Offer(tags);
+    Configuration configuration;
+    for (const std::string argument : {"picture=", "world=" RUNNEL_XML "/worlds/rooms.xml"}) {
+      if (auto added = configuration.AddArgument(argument); !added) {
+        throw std::runtime_error(added.error().ToString());
+      }
+    }
+    const BuildOutcome built = BuildApplication(
+        *document, folder, {*runtime_, plugins_, tags, configuration}, BuildMode::kConstruct);
+    if (built.application == nullptr) throw std::runtime_error(built.diagnostics.ToString());
+    SchedulerOptions options = SchedulerOptionsOf(*built.application);
+    options.speed = 0;
+    scheduler_.emplace(*runtime_, options);
+    editor_.emplace(*runtime_, plugins_.modules(), &*scheduler_);
+    history_.emplace(*editor_);
+    if (auto ready = MakeApplicationReady(*built.application); !ready) {
+      throw std::runtime_error(ready.error().ToString());
+    }
+    for (Port* const port :
+         Ports([](const Port& port) { return port.name() == "wheels" || port.name() == "twist"; }))
+      (void)port->SetDriving(true);
+  }
+
+  FrameworkElement* application() {
+    const auto& children = runtime_->root().children();
+    const auto group = std::ranges::find(children, ElementKind::kGroup, &FrameworkElement::kind);
+    return group == children.end() ? nullptr : *group;
+  }
+
+  std::vector<Port*> Ports(const std::function<bool(const Port&)>& is_meant) {
+    std::vector<Port*> ports;
+    runtime_->root().Visit([&](FrameworkElement& element) {
+      auto* const port = dynamic_cast<Port*>(&element);
+      if (port != nullptr && is_meant(*port)) ports.push_back(port);
+    });
+    return ports;
+  }
+  std::vector<Port*> DrivingPorts() {
+    return Ports([](const Port& port) { return port.is_driving(); });
+  }
+  std::vector<FrameworkElement*> Parts() {
+    std::vector<FrameworkElement*> parts;
+    application()->Visit([&](FrameworkElement& element) {
+      const bool is_part =
+          element.kind() == ElementKind::kModule || element.kind() == ElementKind::kGroup;
+      if (is_part && &element != application()) parts.push_back(&element);
+    });
+    return parts;
+  }
+
+  std::size_t Below(std::size_t count) {
+    return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_);
+  }
+  template <typename T>
+  T* OneOf(const std::vector<T*>& all) {
+    return all.empty() ? nullptr : all[Below(all.size())];
+  }
+
+  void Change(ChangeSet changes) {
+    last_ = ChangeText(changes.front());
+    if (!history_->Apply(changes)) ++result_.refused;
+  }
+  void SetByHand(Port::Setter setter) {
+    Port* const port = OneOf(DrivingPorts());
+    if (port == nullptr) return;
+    last_ = "set " + port->path();
+    (void)port->PublishByHand(
+        [&](void* value) -> Result<void> {
+          if (&port->type() == &TypeOf<Twist2>()) *static_cast<Twist2*>(value) = {0.3, 0.1};
+          if (&port->type() == &TypeOf<WheelSpeeds>()) *static_cast<WheelSpeeds*>(value) = {4, 5};
+          return {};
+        },
+        setter);
+  }
+  void ReleaseByHand(Port::Setter setter) {
+    last_ = "release";
+    if (Port* const port = OneOf(DrivingPorts())) port->Release(setter);
+  }
+  void CutOrMend() {
+    Port* const to = OneOf(DrivingPorts());
+    if (to == nullptr) return;
+    if (!to->incoming().empty()) {
+      return Change({DisconnectPorts{to->incoming().front()->path(), to->path()}});
+    }
+    Port* const from = OneOf(Ports([&](const Port& port) {
+      return &port.type() == &to->type() && port.direction() == Port::Direction::kOutput;
+    }));
+    if (from != nullptr) Change({ConnectPorts{from->path(), to->path()}});
+  }
+  void RunCycles(std::size_t cycles) {
+    last_ += ", then " + std::to_string(cycles) + " cycles";
+    for (std::size_t i = 0; i < cycles; ++i) {
+      if (!scheduler_->Step()) throw std::runtime_error("the scheduler has ended");
+      Check();
+    }
+  }
+
+  void DoSomething() {
+    const std::vector<Action> actions = {
+        {4, [&] { Press(); }},
+        {5, [&] { Release(); }},
+        {2,
+         [&] {
+           if (Port* port = OneOf(DrivingPorts())) (void)port->Block();
+         }},
+        {2,
+         [&] {
+           if (Port* port = OneOf(DrivingPorts())) (void)port->Unblock();
+         }},
+        {4, [&] { SetByHand(Port::Setter::kPerson); }},
+        {2, [&] { SetByHand(Port::Setter::kRule); }},
+        {3, [&] { ReleaseByHand(Port::Setter::kPerson); }},
+        {2, [&] { ReleaseByHand(Port::Setter::kRule); }},
+        {2, [&] { CutOrMend(); }},
+        {3,
+         [&] {
+           if (auto* part = OneOf(Parts()))
+             Change({RenameElement{part->path(), "part" + std::to_string(++names_)}});
+         }},
+        {1,
+         [&] {
+           if (auto* part = OneOf(Parts())) Change({DeleteElement{part->path()}});
+         }},
+        {1,
+         [&] {
+           if (auto* part = OneOf(Parts())) Change({CopyElement{part->path()}});
+         }},
+        {3, [&] { MakeAnew(); }},
+        {5,
+         [&] {
+           last_ = "undo";
+           (void)history_->Undo();
+         }},
+        {2,
+         [&] {
+           last_ = "redo";
+           (void)history_->Redo();
+         }},
+        {14, [&] { RunCycles(1 + Below(4)); }},
+    };
+    int sum = 0;
+    for (const auto& [weight, act] : actions) sum += weight;
+    auto place = static_cast<int>(Below(static_cast<std::size_t>(sum)));
+    for (const auto& [weight, act] : actions) {
+      if ((place -= weight) < 0) return act();
+    }
+  }
+  void MakeAnew() {
+    FrameworkElement* const part = OneOf(Parts());
+    if (part == nullptr || part->kind() != ElementKind::kModule) return;
+    static const char* const kPlanners[] = {"bug1", "bug2", "tangent_bug", "dist_bug"};
+    const std::string type = FindModuleType(*part);
+    const bool is_planner = type.starts_with("planning/");
+    Change({ReplaceModule{part->path(),
+                          is_planner ? std::string("planning/") + kPlanners[Below(4)] : type}});
+  }
+  void Press() {
+    last_ = "press";
+    if (!runtime_->robot_stop().Press("the search")) return;
+    is_stopped_ = true;
+    ++result_.presses;
+  }
+  void Release() {
+    last_ = "release of the robot";
+    if (!runtime_->robot_stop().Release("the search")) return;
+    is_stopped_ = false;
+    released_at_ = runtime_->clock().Now();
+  }
+
+  static bool IsSafe(const Port& port, const void* value) {
+    return ToText(port.type(), value) == ToText(port.type(), port.stop()->safe_value().get());
+  }
+  void Check() {
+    for (Port* const port : DrivingPorts()) {
+      for (Port* const reader : port->Sinks()) {
+        if (&reader->type() == &port->type()) Check(*port, *reader);
+      }
+    }
+  }
+  void Check(const Port& port, const Port& reader) {
+    ++result_.checks;
+    if (is_stopped_) ++result_.checks_in_force;
+    reader.VisitLatest([&](const void* value, ValueTimes times) {
+      if (IsSafe(port, value)) return;
+      ++result_.moving;
+      const bool is_late_enough = !released_at_ || (times.timestamp > *released_at_ &&
+                                                    times.publication_time > *released_at_);
+      if (!is_stopped_ && !port.is_blocked() && is_late_enough) return;
+      result_.violations.push_back("step " + std::to_string(result_.steps) + ", after '" + last_ +
+                                   "': " + reader.path() + " is " + ToText(port.type(), value));
+    });
+  }
+
+  std::mt19937_64 random_;
+  const std::uint64_t steps_;
+  StopSearchResult result_;
+  std::string last_;
+  std::uint64_t names_ = 0;
+  bool is_stopped_ = false;  // as it has to be, whatever the robot says
+  std::optional<Time> released_at_;
+
+  PluginManager plugins_;
+  std::optional<Runtime> runtime_;
+  std::optional<Scheduler> scheduler_;
+  std::optional<StructureEditor> editor_;
+  std::optional<ChangeHistory> history_;
+};
+
+}  // namespace
+
+StopSearchResult SearchForWaysAroundStop(std::uint64_t seed, std::uint64_t steps) {
+  return Search(seed, steps).Run();
+}
+
+}  // namespace runnel::test

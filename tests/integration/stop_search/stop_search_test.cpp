@@ -1,0 +1,19 @@
+#include "tests/integration/stop_search/stop_search.h"
+
+#include <gmock/gmock.h>
+
+namespace runnel::test {
+namespace {
+
+TEST(StopSearch, NothingGetsAroundAStop) {
+  const StopSearchResult found = SearchForWaysAroundStop(1, 300);
+  EXPECT_THAT(found.violations, testing::IsEmpty());
+  // It has looked at what it is about.
+  EXPECT_GT(found.presses, 5u);
+  EXPECT_GT(found.checks_in_force, 100u);
+  EXPECT_GT(found.moving, 100u) << "a robot that never moves need not be stopped";
+  EXPECT_LT(found.refused, found.steps / 4);
+}
+
+}  // namespace
+}  // namespace runnel::test
