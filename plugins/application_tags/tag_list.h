@@ -27,6 +27,7 @@ namespace runnel {
 [[nodiscard]] XmlTag OnPauseTag();
 [[nodiscard]] XmlTag OnStuckTag();
 [[nodiscard]] XmlTag ProfileTag();
+[[nodiscard]] XmlTag StopButtonTag();
 [[nodiscard]] XmlTag OtherwiseTag();
 [[nodiscard]] XmlTag ParameterTag();
 [[nodiscard]] XmlTag PortTag();
