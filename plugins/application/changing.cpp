@@ -234,6 +234,11 @@ bool Application::is_deleted() {
 }
 
 Result<void> Application::LoadPlugin(std::string_view plugin) {
+  const auto find = [&] {
+    const std::lock_guard lock(parts_->runtime().structure_mutex());
+    return parts_->plugins().FindFile(plugin);
+  };
+  if (const auto file = find()) PluginManager::OpenAhead(*file);
   const std::lock_guard lock(parts_->runtime().structure_mutex());
   return parts_->plugins().Load(plugin);
 }

@@ -54,18 +54,25 @@ Result<std::string> SetPortByHand(Runtime& runtime, const std::string& path,
   return (*found)->path();
 }
 
+// What a person has set there, and what a rule has.
+bool Release(Port& port) {
+  const bool was_a_person = port.Release();
+  return port.Release(Port::Setter::kRule) || was_a_person;
+}
+
 Result<std::string> ReleasePort(Runtime& runtime, const std::string& path) {
   const std::lock_guard lock(runtime.structure_mutex());
   if (!path.empty()) {
     const auto found = PathSearch(runtime).FindPort(path, PathKind::kElement);
     if (!found) return found.error();
-    if ((*found)->Release()) return (*found)->path();
+    if (Release(**found)) return (*found)->path();
     return At(**found, "is not set by hand");
   }
   std::string released;
   runtime.root().Visit([&](FrameworkElement& element) {
     auto* const port = dynamic_cast<Port*>(&element);
-    if (port != nullptr && port->Release()) released += (released.empty() ? "" : ", ") + port->path();
+    if (port != nullptr && Release(*port))
+      released += (released.empty() ? "" : ", ") + port->path();
   });
   if (released.empty()) return Error{.message = "no port is set by hand"};
   return released;

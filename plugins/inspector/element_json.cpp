@@ -89,7 +89,7 @@ void AddPort(const Port& port, JsonObject& json) {
   json.Add("data_type", port.type().name()).Add("interface", port.is_proxy());
   json.Add("required", port.is_required()).Add("pullable", port.is_pullable());
   json.Add("description", port.description()).Add("unit", port.unit());
-  json.Add("by_hand", port.is_set_by_hand());
+  json.Add("by_hand", port.is_set_by_hand() || port.is_set_by_hand(Port::Setter::kRule));
   const InputLimits& limits = port.limits();
   json.Add("bounds", BoundsText(limits));
   json.AddTextOrNull("default", limits.default_value ? ToText(limits.default_value.type(),
@@ -179,7 +179,7 @@ std::uint64_t ElementFingerprint(const FrameworkElement& element,
   if (element.kind() == ElementKind::kPort) {
     const auto* const port = dynamic_cast<const Port*>(&element);
     if (port == nullptr) return hash;
-    Mix(port->is_set_by_hand() ? 1 : 0, hash);
+    Mix(port->is_set_by_hand() || port->is_set_by_hand(Port::Setter::kRule) ? 1 : 0, hash);
     Mix(BoundsText(port->limits()), hash);
     MixAwaited(AwaitedBy(*port), hash);
     return hash;

@@ -42,7 +42,9 @@ void RunInTurn(std::span<const Schedule::Entry> entries, CycleMoment now,
   while (entry != entries.end()) {
     try {
       for (; entry != entries.end(); ++entry) {
-        if (!entry->element->is_at_rest()) entry->run();
+        if (entry->element->is_at_rest()) continue;
+        internal::BeginModule();
+        entry->run();
       }
     } catch (const std::exception& exception) {
       fail(exception.what());

@@ -1,9 +1,10 @@
 // Modules that a Scheduler leaves out of cycles for a while.
 
-#include <algorithm>
 #include <mutex>
+#include <utility>
 
 #include "core/paths/path_search.h"
+#include "plugins/scheduling/internal/pause_mark.h"
 #include "plugins/scheduling/scheduler.h"
 
 namespace runnel {
@@ -22,7 +23,8 @@ Result<void> Scheduler::SetPaused(std::string_view path, bool is_paused) {
     if (!found) return found.error();
     whose = (*found)->path();
     BringUpToDate();
-    compiler_.SetPaused(whose, is_paused);
+    compiler_.SetPaused(**found, is_paused);
+    runtime_.ForEachListener([](ElementListener&) {});  // so that viewers look again
   }
   if (!is_paused) return {};
   // Between two cycles, once: what was under way is over.
@@ -30,16 +32,22 @@ Result<void> Scheduler::SetPaused(std::string_view path, bool is_paused) {
   return held ? Result<void>() : held.error();
 }
 
+// Looked for when the structure has changed.
 std::vector<std::string> Scheduler::PausedPaths() const {
   const std::lock_guard lock(runtime_.structure_mutex());
-  return compiler_.paused();
+  if (std::exchange(paused_at_, runtime_.revision()) == runtime_.revision()) return paused_;
+  paused_.clear();
+  runtime_.root().Visit([this](const FrameworkElement& each) {
+    if (internal::PauseMark::IsAt(each)) paused_.push_back(each.path());
+  });
+  return paused_;
 }
 
 bool Scheduler::IsPaused(FrameworkElement& element, std::string_view but_for) const {
   const std::lock_guard lock(runtime_.structure_mutex());
-  std::string left_out;
+  const FrameworkElement* left_out = nullptr;
   if (!but_for.empty()) {
-    if (const auto found = PathSearch(runtime_).Find(but_for)) left_out = (*found)->path();
+    if (const auto found = PathSearch(runtime_).Find(but_for)) left_out = *found;
   }
   return compiler_.IsPaused(element, left_out);
 }
@@ -48,10 +56,9 @@ Result<void> Scheduler::CheckPaused(std::string_view path) const {
   const std::lock_guard lock(runtime_.structure_mutex());
   const auto found = PathSearch(runtime_).Find(path);
   if (!found) return found.error();
-  const auto& paused = compiler_.paused();
-  if (std::ranges::count(paused, (*found)->path()) > 0) return {};
+  if (internal::PauseMark::IsAt(**found)) return {};
   std::string all;
-  for (const std::string& each : paused) all += (all.empty() ? "paused is " : ", ") + each;
+  for (const std::string& each : PausedPaths()) all += (all.empty() ? "paused is " : ", ") + each;
   return Error{.message = "is not paused", .path = (*found)->path(), .hint = all};
 }
 

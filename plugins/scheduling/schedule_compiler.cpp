@@ -8,8 +8,9 @@
 #include "core/port/late_edge.h"
 #include "core/port/port.h"
 #include "plugins/scheduling/cycle_runner.h"
-#include "plugins/timing/cycle_tracer.h"
+#include "plugins/scheduling/internal/pause_mark.h"
 #include "plugins/scheduling/internal/trigger_binding.h"
+#include "plugins/timing/cycle_tracer.h"
 
 namespace runnel {
 
@@ -89,6 +90,7 @@ void ScheduleCompiler::MakeThreadSchedules(const std::vector<ThreadContainer*>& 
     auto& thread = threads_[container->id()] =
         std::make_unique<ThreadSchedule>(container->runner());
     thread->name = container->name();
+    thread->is_paused = internal::PauseMark::IsAt(*container);
     if (tracer_ != nullptr) {
       thread->track = &tracer_->TrackOf(container->id(), container->path());
     }

@@ -77,12 +77,12 @@ class ScheduleCompiler {
   void ResetMeters();
   /// By the ids of elements; those that are not named have none from now on.
   void SetChains(std::map<std::uint64_t, std::unique_ptr<ChainSteps>> steps);
-  /// Leaves what is at or below the path out of cycles, or all that a thread of this path runs, also what comes later;
-  /// or no more.
-  void SetPaused(const std::string& path, bool is_paused);
-  [[nodiscard]] const std::vector<std::string>& paused() const noexcept { return paused_; }
-  /// Whether anything at or below the element is to be left out, by another path than `but_for`.
-  [[nodiscard]] bool IsPaused(FrameworkElement& element, const std::string& but_for = {}) const;
+  /// Leaves what is at or below the element out of cycles, or all that it runs if it is a thread, also what comes
+  /// later; or no more. It is kept with the element, and goes along with it.
+  void SetPaused(FrameworkElement& element, bool is_paused);
+  /// Whether anything at or below the element is to be left out, for another reason than that `but_for` is paused.
+  [[nodiscard]] bool IsPaused(FrameworkElement& element,
+                              const FrameworkElement* but_for = nullptr) const;
 
   /// Loops that were cut, modules that never run or that name no thread where there are several.
   [[nodiscard]] std::vector<Error> Warnings() const;
@@ -106,8 +106,8 @@ class ScheduleCompiler {
   void NoteChange(internal::ThreadSchedule& thread);
   [[nodiscard]] internal::ThreadSchedule* ChooseThread(const FrameworkElement& element) const;
   [[nodiscard]] bool IsAChoiceMissing(const FrameworkElement& element) const;
-  [[nodiscard]] bool IsToBePaused(const internal::PlannedElement& planned,
-                                  const std::string& but_for = {}) const;
+  [[nodiscard]] static bool IsToBePaused(const internal::PlannedElement& planned,
+                                         const FrameworkElement* but_for = nullptr);
   std::unique_ptr<Schedule> MakeSchedule(internal::ThreadSchedule& thread);
 
   const std::string default_thread_;
@@ -124,7 +124,6 @@ class ScheduleCompiler {
   std::shared_ptr<const std::vector<CycleRunner*>> waiting_;
   std::shared_ptr<Installation> installation_ = std::make_shared<Installation>();  // the next one
   std::uint64_t schedules_made_ = 0;
-  std::vector<std::string> paused_;
 };
 
 }  // namespace runnel

@@ -185,7 +185,7 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   [[nodiscard]] std::vector<Latency> ReadLatencies();
 
   /// Leaves all at or below the path out of cycles, on either clock, or all that a thread of this path runs; what comes
-  /// there later, too. When it returns none of them runs any more, but for one that a StuckRule has found stuck. Not
+  /// there later, too. It is kept with the element: other names, replacements, undoing and copies have it, too. When it returns none of them runs any more, but for one that a StuckRule has found stuck. Not
   /// within a cycle, nor under the structure lock. Errors: no such element; a cycle that does not end in 5 s.
   Result<void> SetPaused(std::string_view path, bool is_paused);
   [[nodiscard]] std::vector<std::string> PausedPaths() const;
@@ -283,6 +283,8 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   bool is_profiled_ = false;  // whether or not somebody uses it
   int profile_uses_ = 0;
   std::optional<Time> profile_began_;  // by the machine
+  mutable std::vector<std::string> paused_;  // as of the structure's revision ...
+  mutable std::uint64_t paused_at_ = ~std::uint64_t{};
   std::vector<std::shared_ptr<LatencyChain>> chains_;
   bool have_chains_changed_ = false;
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/element/element_path.h"
 #include "core/lockfree/thread_epoch.h"
+#include "plugins/scheduling/internal/pause_mark.h"
 #include "plugins/scheduling/schedule_compiler.h"
 
 namespace runnel {
@@ -42,16 +42,16 @@ void ScheduleCompiler::SetChains(std::map<std::uint64_t, std::unique_ptr<ChainSt
 }
 
 bool ScheduleCompiler::IsToBePaused(const internal::PlannedElement& planned,
-                                    const std::string& but_for) const {
-  const std::string path = planned.element->path();
-  return std::ranges::any_of(paused_, [&](const std::string& each) {
-    if (each == but_for) return false;
-    return IsAtOrBelow(path, each) ||
-           (planned.thread != nullptr && planned.thread->runner->path() == each);
-  });
+                                    const FrameworkElement* but_for) {
+  for (const FrameworkElement* at = planned.element; at != nullptr; at = at->parent()) {
+    if (at != but_for && internal::PauseMark::IsAt(*at)) return true;
+  }
+  const internal::ThreadSchedule* const thread = planned.thread;
+  if (thread == nullptr || !thread->is_paused) return false;
+  return but_for == nullptr || thread->runner->path() != but_for->path();
 }
 
-bool ScheduleCompiler::IsPaused(FrameworkElement& element, const std::string& but_for) const {
+bool ScheduleCompiler::IsPaused(FrameworkElement& element, const FrameworkElement* but_for) const {
   bool is_paused = false;
   element.Visit([&](FrameworkElement& each) {
     const auto known = elements_.find(each.id());
@@ -61,9 +61,11 @@ bool ScheduleCompiler::IsPaused(FrameworkElement& element, const std::string& bu
 }
 
 // Who goes on looks at what has come meanwhile.
-void ScheduleCompiler::SetPaused(const std::string& path, bool is_paused) {
-  std::erase(paused_, path);
-  if (is_paused) paused_.push_back(path);
+void ScheduleCompiler::SetPaused(FrameworkElement& element, bool is_paused) {
+  element.Annotate(std::make_unique<internal::PauseMark>(is_paused));
+  if (const auto thread = threads_.find(element.id()); thread != threads_.end()) {
+    thread->second->is_paused = is_paused;
+  }
   const EpochGuard guard;  // as publishers have one
   for (auto& [id, planned] : elements_) {
     if (!planned.state) continue;

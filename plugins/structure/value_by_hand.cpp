@@ -32,11 +32,12 @@ Result<std::shared_ptr<const void>> ValueOf(const Port& port, const std::string&
   return std::shared_ptr<const void>(value);
 }
 
-Result<void> PublishByHand(Port& port, const void* value) {
-  return port.PublishByHand([&](void* to) -> Result<void> {
+Result<void> PublishByHand(Port& port, const void* value, Port::Setter setter) {
+  const auto fill = [&](void* to) -> Result<void> {
     if (CopyValue(port.type(), value, to)) return {};
     return At(port, "the value does not fit into a buffer of the port");
-  });
+  };
+  return port.PublishByHand(fill, setter);
 }
 
 Result<std::shared_ptr<const void>> SafeValueOf(const Port& port) {

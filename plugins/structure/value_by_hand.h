@@ -17,6 +17,7 @@ Result<std::shared_ptr<const void>> ValueOf(const Port& port, const std::string&
 /// with, a command of no motion.
 Result<std::shared_ptr<const void>> SafeValueOf(const Port& port);
 /// `value`: an object of the port's type.
-Result<void> PublishByHand(Port& port, const void* value);
+Result<void> PublishByHand(Port& port, const void* value,
+                           Port::Setter setter = Port::Setter::kPerson);
 
 }  // namespace runnel

@@ -34,7 +34,7 @@ struct Supervisor::Shared {
   }
   void React(const Reaction& reaction, const std::string& path, const std::string& why, Time now, bool is_recovery = false);
   Result<void> Publish(const SafeValue& safe);
-  void Release(const std::string& port);
+  Result<void> Release(const std::string& port);
   Time Watch(Time now);
   void ServeRequests(Time now);
 
@@ -60,14 +60,16 @@ Result<void> Supervisor::Shared::Publish(const SafeValue& safe) {
   if (!found) return found.error();
   const auto value = safe.value ? ValueOf(**found, *safe.value) : SafeValueOf(**found);
   if (!value) return value.error();
-  return PublishByHand(**found, value->get());
+  return PublishByHand(**found, value->get(), Port::Setter::kRule);
 }
 
-// Somebody else may have released it, or taken it away.
-void Supervisor::Shared::Release(const std::string& port) {
+// Somebody else may have released it. What a person has set there stays.
+Result<void> Supervisor::Shared::Release(const std::string& port) {
   const std::lock_guard lock(runtime.structure_mutex());
   const auto found = PathSearch(runtime).FindPort(port, PathKind::kElement);
-  if (found) (*found)->Release();
+  if (!found) return found.error();
+  (*found)->Release(Port::Setter::kRule);
+  return {};
 }
 
 // Safe values come first, and also if the rest fails. What can be said of a reaction that failed is told; the
@@ -81,7 +83,9 @@ void Supervisor::Shared::React(const Reaction& reaction, const std::string& path
   if (!reaction.changes.empty()) {
     if (auto changed = perform(reaction.changes); !changed && done) done = changed;
   }
-  for (const std::string& each : reaction.released) Release(each);
+  for (const std::string& each : reaction.released) {
+    if (auto released = Release(each); !released && done) done = released;
+  }
   Notice notice{path, why, now, !done, is_recovery};
   if (!done) {
     notice.message += "; what was to be done about it failed: " + done.error().ToString();

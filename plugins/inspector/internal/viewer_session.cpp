@@ -26,6 +26,7 @@ constexpr std::size_t kMostLogEntries = 500;
 // A viewer for which more is waiting gets no values, rates and states until it has taken it.
 constexpr std::size_t kSlow = 1 << 20;
 constexpr auto kState = milliseconds(100);
+constexpr auto kAlive = milliseconds(1000);
 constexpr auto kTimeAlone = milliseconds(200);
 constexpr double kFastestWatch = 60;
 constexpr double kFastestRates = 10;
@@ -68,6 +69,11 @@ WebSession::SteadyTime ViewerSession::OnPoll() {
   SendArrangement();
   SendLog();
   const SteadyTime now = std::chrono::steady_clock::now();
+  if (now >= alive_due_) {
+    client_.SendText("{\"op\":\"alive\"}");
+    alive_due_ = now + kAlive;
+  }
+  next = std::min(next, alive_due_);
   if (now >= state_due_) SendState(now);
   next = std::min(next, state_due_);
   if (now >= network_due_) SendNetwork(now);
@@ -221,9 +227,10 @@ void ViewerSession::OnBinary(std::string_view /*message*/) {
 }
 
 void ViewerSession::OnText(std::string_view text) {
-  auto parsed = ParseViewerMessage(text);
+  std::optional<std::uint64_t> request;
+  auto parsed = ParseViewerMessage(text, &request);
   if (!parsed) {
-    Refuse({}, parsed.error());
+    replies_.push_back(Refusal(request, {{parsed.error()}}));
     return;
   }
   ViewerMessage& message = *parsed;
@@ -235,12 +242,14 @@ void ViewerSession::OnText(std::string_view text) {
   }
   const WebRole needed = RoleFor(*operation, message);
   if (role() < needed) return RefuseRole(message, needed);
-  if (operation->kind == Operation::Kind::kRequest) return BeginRequest(std::move(message));
+  if (operation->begin != nullptr) return BeginRequest(*operation, std::move(message));
   if (message.op == "watch") return BeginWatching(message);
   if (message.op == "unwatch") {
     watches_.erase(message.path);
     return;
   }
+  if (message.op != "watch_rates")
+    return Refuse(message, {.message = "nothing does '" + message.op + "'"});
   const double rate = std::min(message.rate.value_or(1), kFastestRates);
   rates_interval_ = rate > 0 ? IntervalOf(std::max(rate, 0.01)) : Duration{};
   rates_due_ = {};
@@ -277,12 +286,12 @@ void ViewerSession::BeginWatching(const ViewerMessage& message) {
   watches_.emplace(message.path, Watch{WatchedPort(message.path), IntervalOf(rate), elements, message.wants_image});
 }
 
-void ViewerSession::BeginRequest(ViewerMessage message) {
+void ViewerSession::BeginRequest(const Operation& operation, ViewerMessage message) {
   if (pending_.size() + replies_.size() >= kMostPending) {
     return Refuse(message, {.message = "too many requests are waiting already"});
   }
   message.client = name_;
-  pending_.push_back(internal::BeginRequest(inspection_, std::move(message), client_.Waker()));
+  pending_.push_back(operation.begin(inspection_, std::move(message), client_.Waker()));
 }
 
 }  // namespace runnel::internal

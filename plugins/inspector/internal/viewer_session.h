@@ -58,7 +58,7 @@ class ViewerSession final : public WebSession {
   void SendRates(SteadyTime now);
   void SendProfile();
   void BeginWatching(const ViewerMessage& message);
-  void BeginRequest(ViewerMessage message);
+  void BeginRequest(const Operation& operation, ViewerMessage message);
   void Refuse(const ViewerMessage& message, Error error);
   void RefuseRole(const ViewerMessage& message, WebRole needed);
   [[nodiscard]] bool IsSlow() const;
@@ -76,6 +76,7 @@ class ViewerSession final : public WebSession {
   std::string state_;  // as it was told, without the time
   Duration state_time_{-1};
   SteadyTime state_due_{};
+  SteadyTime alive_due_{};  // of the next sign of life
   std::vector<ViewerRequest> pending_;
   std::deque<std::string> replies_;  // that the client has not taken yet
   std::map<std::string, Watch, std::less<>> watches_;

@@ -42,6 +42,7 @@ struct ThreadSchedule {
   std::string name;             ///< of the container
   TraceTrack* track = nullptr;  ///< nullptr: nothing is written down
   bool is_changed = false;      ///< since the last schedule
+  bool is_paused = false;       ///< the container is, with all that it runs
   RunningOrder order;
 };
 

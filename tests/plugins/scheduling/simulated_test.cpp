@@ -262,5 +262,38 @@ TEST(SimulatedApplication, ComputesTheSameEveryTime) {
   EXPECT_EQ(once, RunApplication());
 }
 
+/// Reads an old measurement; beside it one that reads nothing.
+struct Aged final : Module {
+  using Module::Module;
+  Input<double> scan{this, "scan", {.ageing = Ageing::kTimesOut}};
+  Output<double> out{this, "out"};
+
+ private:
+  void Update() override {
+    (void)scan.Read();
+    out.Publish(1);
+  }
+};
+
+TEST(SimulatedApplication, WhatAModuleReadsAgesNothingThatTheNextOnePublishes) {
+  Runtime runtime;
+  Scheduler scheduler(runtime, {.clock = SchedulerOptions::ClockKind::kSimulated});
+  auto& laser = runtime.Create<testing::Feeder>(runtime.root(), "laser");
+  auto& aged = runtime.Create<Aged>(runtime.root(), "aged");
+  auto& next = runtime.Create<Relay>(runtime.root(), "next");
+  MustSucceed(Port::Connect(laser.out, aged.scan));
+  MustSucceed(Port::Connect(aged.out, next.in));  // so it runs after it
+  MustSucceed(runtime.MakeReady(runtime.root()));
+  laser.out.Publish(1, At(1));
+  scheduler.RunUntil(At(100));
+  const auto stamp = [](const Port& port) {
+    Time found{};
+    port.VisitLatest([&](const void*, ValueTimes times) { found = times.timestamp; });
+    return found;
+  };
+  EXPECT_EQ(stamp(aged.out), At(1));
+  EXPECT_EQ(stamp(next.out), At(90));
+}
+
 }  // namespace
 }  // namespace runnel

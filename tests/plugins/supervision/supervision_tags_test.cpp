@@ -69,7 +69,7 @@ TEST_F(SupervisionTags, PublishValuesUntilAllIsWellAgain) {
   ASSERT_TRUE(found);
   auto& input = dynamic_cast<Port&>(**found);
   scheduler.RunUntil(Time(std::chrono::milliseconds(100)));  // the source publishes nothing
-  ASSERT_TRUE(input.is_set_by_hand());
+  ASSERT_TRUE(input.is_set_by_hand(Port::Setter::kRule));
   const auto stale = supervisor.TakeNotices();
   ASSERT_EQ(stale.size(), 1u);
   EXPECT_FALSE(stale[0].is_failure);
@@ -81,7 +81,7 @@ TEST_F(SupervisionTags, PublishValuesUntilAllIsWellAgain) {
     dynamic_cast<Source&>(**source).value.Publish(ms);
     scheduler.RunUntil(Time(std::chrono::milliseconds(ms)));
   }
-  EXPECT_FALSE(input.is_set_by_hand());  // what is published is read again
+  EXPECT_FALSE(input.is_set_by_hand(Port::Setter::kRule));  // what is published is read again
 }
 
 TEST_F(SupervisionTags, RefuseValuesThatThePortCannotHave) {

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "plugins/structure/structure_editor.h"
+#include "plugins/structure/value_by_hand.h"
 #include "tests/plugins/scheduling/test_modules.h"
 #include "tests/support/wait_until.h"
 
@@ -193,6 +194,40 @@ TEST_F(Supervised, ATimeOutOfCenturiesNeverComes) {
   robot.scheduler.RunUntil(At(100'000));
   EXPECT_THAT(robot.Messages(), IsEmpty());
   EXPECT_EQ(robot.seen, 1);
+}
+
+TEST_F(Supervised, ARuleThatTakesItsValueBackLeavesWhatAPersonHasSet) {
+  StaleRule rule = robot.SwitchingRule();
+  rule.on_stale = {.published = {{robot.reader.in.path(), "5"}}};
+  rule.on_fresh = {};
+  rule.on_fresh.TakeBack(rule.on_stale);
+  MustSucceed(robot.supervisor.Add(rule));
+  robot.laser_works = false;
+  robot.scheduler.RunUntil(At(100));
+  EXPECT_EQ(robot.seen, 5);
+  const double nine = 9;
+  MustSucceed(PublishByHand(robot.reader.in, &nine));
+  robot.scheduler.RunUntil(At(150));
+  EXPECT_EQ(robot.seen, 9) << "a person's value wins";
+  robot.laser_works = true;
+  robot.scheduler.RunUntil(At(400));
+  EXPECT_THAT(robot.Messages(), SizeIs(2)) << "it is fresh again";
+  EXPECT_EQ(robot.seen, 9);
+  EXPECT_TRUE(robot.reader.in.Release());
+  robot.scheduler.RunUntil(At(450));
+  EXPECT_EQ(robot.seen, 1);
+}
+
+TEST_F(Supervised, ARuleThatCannotTakeItsValueBackSaysSo) {
+  StaleRule rule = robot.SwitchingRule();
+  rule.on_stale = {.published = {{robot.reader.in.path(), "5"}}};
+  rule.on_fresh = {.released = {"/was_renamed/in"}};
+  MustSucceed(robot.supervisor.Add(rule));
+  robot.laser_works = false;
+  robot.scheduler.RunUntil(At(100));
+  robot.laser_works = true;
+  robot.scheduler.RunUntil(At(400));
+  EXPECT_THAT(robot.Messages(), ElementsAre(HasSubstr("nothing new"), HasSubstr("was_renamed")));
 }
 
 // What is latched, such as a goal, sets off the module that is fed by it from now on.

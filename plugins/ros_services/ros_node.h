@@ -8,13 +8,29 @@
 #include "core/base/clock.h"
 #include "core/element/runtime.h"
 #include "core/log/log_sink.h"
-#include "plugins/network/network_options.h"
 #include "plugins/ros_services/diagnostics_topic.h"
 #include "plugins/ros_services/parameter_services.h"
+#include "plugins/wire/wire.h"
 
 namespace runnel {
 
 class Logger;
+
+/// What nodes of ROS 2 may do with parameters. In the order of RosParameterUses().
+enum class RosParameterUse { kNone, kRead, kWrite };
+/// none, read, write.
+[[nodiscard]] const std::vector<std::string>& RosParameterUses();
+
+/// What nodes of ROS 2 are told besides.
+struct RosOptions {
+  std::string distribution = {};  ///< humble, iron, jazzy: "" if the application is to be no node
+  std::string node = {};          ///< "/base"
+  bool sends_clock = false;       ///< on /clock
+  bool follows_clock = false;     ///< the application's time is that of /clock
+  bool sends_log = false;         ///< on /rosout
+  bool sends_diagnostics = false;  ///< on /diagnostics
+  RosParameterUse parameters = RosParameterUse::kNone;
+};
 
 /// What an application does for nodes of ROS 2. All optional.
 struct RosHooks {
