@@ -86,17 +86,17 @@ CommandOrErrors CommandOf(const Inspection& inspection, ViewerMessage& message) 
   if (message.op == "redo") return CommandRequest(RedoRequest{});
   if (message.op == "reload") return CommandRequest(ReloadRequest{message.plugin});
   if (message.op == "restart") return CommandRequest(RestartRequest{message.path});
-  if (message.op == "stop") return CommandRequest(StopRequest{});
+  if (message.op == "stop") return CommandRequest(QuitRequest{});
   if (message.op == "pause") return CommandRequest(PauseRequest{message.path, true});
   if (message.op == "resume") return CommandRequest(PauseRequest{message.path, false});
   if (message.op == "log_level") return CommandRequest(LogLevelRequest{message.path, message.level});
   if (message.op == "release") return CommandRequest(ReleaseRequest{message.path});
+  if (message.op == "publish" && message.is_stop) return CommandRequest(BlockRequest{message.path});
   if (message.op == "publish") {
     PublishRequest publish{message.path, message.value, message.rate};
     // Of what no duration can hold the service says so.
     if (message.deadline) publish.deadline = FromSeconds(std::min(*message.deadline, 1e6));
     publish.lease = message.lease;
-    publish.is_stop = message.is_stop;
     return CommandRequest(std::move(publish));
   }
   return CommandRequest(SaveRequest{
