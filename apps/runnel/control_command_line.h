@@ -21,8 +21,6 @@ class ControlCommandLine {
   [[nodiscard]] std::optional<ControlArguments> Parsed() const;
 
  private:
-  void Group();
-
   struct Entry {
     CLI::App* command = nullptr;
     ControlArguments arguments;

@@ -54,18 +54,19 @@ CommandRequest RequestOf(const Request& request, PlacedChanges placed) {
   }
   if (request.command == "reload") return ReloadRequest{argument};
   if (request.command == "restart") return RestartRequest{argument};
-  if (request.command == "stop" && argument.empty()) return StopRequest{};
+  if (request.command == "stop" && argument.empty()) return QuitRequest{};
   if (request.command == "stop") return PauseRequest{argument, true};
   if (request.command == "pause") return PauseRequest{argument, true};
   if (request.command == "resume") return PauseRequest{argument, false};
   if (request.command == "log") return LevelOf(request.Option("level"));
+  if (request.command == "release" && argument.empty()) return RobotStopRequest{false, "a terminal"};
   if (request.command == "release") return ReleaseRequest{argument};
+  if (request.command == "publish" && request.Has("stop")) return BlockRequest{argument};
   if (request.command == "publish") {
     // What is no number is out of the bounds.
     const auto rate = request.Has("rate") ? std::optional(NumberIn<double>(request.Option("rate")).value_or(0))
                                           : std::nullopt;
     PublishRequest publish{argument, request.arguments.size() > 1 ? request.arguments[1] : "", rate};
-    publish.is_stop = request.Has("stop");
     // So is what is no duration.
     if (request.Has("deadline")) {
       const auto deadline = ParseDuration(request.Option("deadline"));

@@ -76,11 +76,11 @@ CommandOrErrors ReadChanges(ViewerMessage& message) {
 }
 
 CommandOrErrors MakePublish(ViewerMessage& message) {
+  if (message.is_stop) return CommandRequest(BlockRequest{message.path});
   PublishRequest publish{message.path, message.value, message.rate};
   // Of what no duration can hold the service says so.
   if (message.deadline) publish.deadline = FromSeconds(std::min(*message.deadline, 1e6));
   publish.lease = message.lease;
-  publish.is_stop = message.is_stop;
   return CommandRequest(std::move(publish));
 }
 
@@ -322,7 +322,7 @@ std::span<const Operation> AllOperations() {
       Operation("restart", kChange,
                 ByService<[](Message& of) { return CommandRequest(RestartRequest{of.path}); }>),
       Operation("quit", kChange,
-                ByService<[](Message&) { return CommandRequest(StopRequest{}); }>)};
+                ByService<[](Message&) { return CommandRequest(QuitRequest{}); }>)};
   return kAll;
 }
 
