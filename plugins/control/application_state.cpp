@@ -61,6 +61,7 @@ std::string StateText(const ServedApplication& application) {
     if (count > 0) text += ", " + std::to_string(count) + (count == 1 ? one : many);
   };
   add(StoppedModules(root, *application.scheduler, nullptr).size(), " module FAILED", " modules FAILED");
+  add(application.scheduler->StuckModules().size(), " module STUCK", " modules STUCK");
   add(paused, " module PAUSED", " modules PAUSED");
   add(blocked, " port BLOCKED", " ports BLOCKED");
   add(by_hand, " port set by hand", " ports set by hand");
