@@ -28,7 +28,7 @@ std::string DrivingText(Runtime& runtime) {
     const auto* const port = dynamic_cast<const Port*>(&each);
     if (port != nullptr && port->is_driving()) paths += (paths.empty() ? "" : ", ") + port->path();
   });
-  return paths.empty() ? "but NO PORT of this application is marked as driving" : "what drives: " + paths;
+  return paths.empty() ? "warning: no port of this application is marked as driving, so nothing has its safe value" : "what drives: " + paths;
 }
 
 std::string StateText(const ServedApplication& application) {

@@ -90,7 +90,7 @@ TEST_F(StatesTest, StopIsPressedWhoeverHasTheStructureAndTheWorker) {
 }
 
 TEST_F(StatesTest, WhatDrivesIsNamedOrThatNothingDoes) {
-  EXPECT_THAT(Ask("stop").output, HasSubstr("STOP is in force; 'runnel release' ends it; but NO PORT of this application is"));
+  EXPECT_THAT(Ask("stop").output, HasSubstr("STOP is in force; 'runnel release' ends it; warning: no port of this application is marked as driving"));
   {
     const std::lock_guard lock(runtime.structure_mutex());
     EXPECT_TRUE(PortAt("/app/b/input/in").SetDriving(true, AnyValue(0)));
