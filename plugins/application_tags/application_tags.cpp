@@ -9,7 +9,7 @@ namespace runnel {
 XmlTagRegistry ApplicationTags() {
   XmlTagRegistry tags;
   for (const auto& make : {ApplicationTag, GroupTypeTag, LoadTag, ClockTag, ThreadTag, PortTag,
-                           ModuleTag, ParameterTag, InputTag, GroupTag, ConnectTag, LogTag, OnFaultTag,
+                           ModuleTag, ParameterTag, InputTag, DrivingTag, GroupTag, ConnectTag, LogTag, OnFaultTag,
                            OnStaleTag, OnStuckTag, OnPauseTag, StopButtonTag, LatencyTag, ProfileTag, OtherwiseTag}) {
     tags.AddTag(make());
   }

@@ -86,6 +86,7 @@ std::string WhatIsSetAt(const Port& port) {
     if (is_set) text += (text.empty() ? "" : ", ") + std::string(what);
   };
   add(port.is_blocked(), "its block");
+  add(port.is_driving(), "its mark as driving");
   add(port.is_set_by_hand(), "its value by hand");
   add(port.FindAnnotation<GivenLimits>() != nullptr, "its limits");
   add(!TagsOf(port).empty(), "its tags");
