@@ -9,6 +9,11 @@
 
 namespace runnel {
 
+namespace internal {
+thread_local std::uint64_t made_by_this_thread =
+    0;  // elements, by which Construct() tells what was made
+}
+
 FrameworkElement::FrameworkElement(RootTag, Runtime& runtime)
     : path_("/"),
       kind_(ElementKind::kRuntime),
@@ -29,6 +34,7 @@ FrameworkElement::FrameworkElement(const Placement& placement, ElementKind kind)
   }
   if (placement.is_listed) JoinParent(nullptr);
   id_ = runtime_->NextId();
+  ++internal::made_by_this_thread;
 }
 
 void FrameworkElement::JoinParent(const FrameworkElement* place) {
@@ -62,7 +68,7 @@ bool FrameworkElement::IsInTree() const noexcept {
 FrameworkElement::~FrameworkElement() {
   if (!is_listed_) return;
   const std::lock_guard lock(runtime_->structure_mutex());
-  if (life_cycle_ != LifeCycle::kDeleted && IsInTree()) ++runtime_->revision_;
+  if (life_cycle_ != LifeCycle::kDeleted && IsInTree()) runtime_->NoteChange();
   DestroyOwned();
   // Members of an object above, which outlive this group: a module's parameters.
   for (FrameworkElement* child : children_) {

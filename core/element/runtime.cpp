@@ -7,6 +7,11 @@
 
 namespace runnel {
 
+namespace internal {
+extern thread_local std::uint64_t made_by_this_thread;
+thread_local std::uint64_t changes_by_this_thread = 0;
+}  // namespace internal
+
 namespace {
 
 Error Refuse(const FrameworkElement& element, std::string message, std::string hint = {}) {
@@ -24,8 +29,14 @@ Runtime::~Runtime() {
   }
 }
 
+std::unique_lock<OrderedMutex> Runtime::LockUnlessBeside(const FrameworkElement& element) {
+  std::unique_lock lock(structure_mutex_);
+  if (!element.IsInTree()) lock.unlock();
+  return lock;
+}
+
 void Runtime::Adopt(std::unique_ptr<FrameworkElement> element) {
-  const std::lock_guard lock(structure_mutex_);
+  const auto lock = LockUnlessBeside(*element->parent_);
   FrameworkElement& parent = *element->parent_;
   parent.owned_.push_back(std::move(element));
 }
@@ -38,12 +49,12 @@ FrameworkElement* Runtime::Adopt(UnlistedElement&& element) {
 
 Result<void> Runtime::Construct(FrameworkElement& element) {
   Runtime& runtime = element.runtime();
-  const std::lock_guard lock(runtime.structure_mutex());
+  const auto lock = runtime.LockUnlessBeside(element);
   Result<void> result;
   // What is made on the way comes later in the same visit.
   element.Visit([&](FrameworkElement& each) {
     if (!result || each.is_whole_ || each.life_cycle_ != LifeCycle::kConstructed) return;
-    const std::uint64_t made_before = runtime.next_id_;
+    const std::uint64_t made_before = internal::made_by_this_thread;
     try {
       result = each.Construct();
     } catch (const ElementError& error) {
@@ -52,7 +63,7 @@ Result<void> Runtime::Construct(FrameworkElement& element) {
       result = Error{.message = DescribeException()};
     }
     each.is_whole_ = true;
-    each.has_constructed_ = runtime.next_id_ != made_before;
+    each.has_constructed_ = internal::made_by_this_thread != made_before;
     if (result) return;
     Error error = result.error();
     if (error.path.empty()) error.path = each.path();
@@ -69,10 +80,7 @@ Result<void> Runtime::MakeReady(FrameworkElement& element) {
   return {};
 }
 
-Result<void> Runtime::Prepare(UnlistedElement& element) {
-  const std::lock_guard lock(element->runtime().structure_mutex());
-  return PrepareAll(*element);
-}
+Result<void> Runtime::Prepare(UnlistedElement& element) { return PrepareAll(*element); }
 
 Result<void> Runtime::PrepareAll(FrameworkElement& element) {
   std::vector<FrameworkElement*> prepared;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <concepts>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -14,6 +15,10 @@
 #include "core/element/unlisted_element.h"
 
 namespace runnel {
+
+namespace internal {
+extern thread_local std::uint64_t changes_by_this_thread;
+}
 
 /// The root of one tree of elements, with the lock that guards its structure. There may be several
 /// in a process; they know nothing of each other.
@@ -38,7 +43,7 @@ class Runtime {
   /// what T's constructor throws, ElementError among it, and then nothing has changed.
   template <std::derived_from<FrameworkElement> T, typename... Arguments>
   T& Create(FrameworkElement& parent, std::string name, Arguments&&... arguments) {
-    const std::lock_guard lock(structure_mutex_);
+    const auto lock = LockUnlessBeside(parent);
     auto element = std::make_unique<T>(Placement{parent, std::move(name)},
                                        std::forward<Arguments>(arguments)...);
     T& reference = *element;
@@ -50,7 +55,8 @@ class Runtime {
   FrameworkElement* Adopt(UnlistedElement&& element);
 
   /// Calls Construct() of the element and all below for which that has not been done, parents first, so that
-  /// all ports are there: who connects ports before MakeReady() calls it when the parameters are set. Locks.
+  /// all ports are there: who connects ports before MakeReady() calls it when the parameters are set. Locks, unless the
+  /// element is beside the tree, so that a slow module keeps nobody waiting; so do Create() and Prepare().
   /// Errors: what an element says, with its path; the element is to be deleted then.
   static Result<void> Construct(FrameworkElement& element);
   /// Calls Prepare() of the element and all below that are not ready yet, parents first, and Construct() before if
@@ -89,7 +95,7 @@ class Runtime {
   template <typename Notify>
   void ForEachListener(Notify&& notify) {
     const std::lock_guard lock(structure_mutex_);
-    ++revision_;
+    NoteChange();
     for (std::size_t i = 0; i < listeners_.size(); ++i) notify(*listeners_[i]);
   }
 
@@ -101,6 +107,10 @@ class Runtime {
   /// anybody having been told: a port that was destroyed with the object that it is a member of. Under the
   /// structure lock.
   [[nodiscard]] std::uint64_t revision() const noexcept { return revision_; }
+  /// Stays the same for the calling thread while no other thread changes the structure. Under the structure lock.
+  [[nodiscard]] std::uint64_t revision_by_others() const noexcept {
+    return revision_ - internal::changes_by_this_thread;
+  }
 
   /// The time outside of cycles. The steady clock unless another is set before anything runs; the
   /// clock must outlive the runtime.
@@ -109,10 +119,16 @@ class Runtime {
 
  private:
   friend class FrameworkElement;
+  // Nobody else sees what is beside the tree.
+  std::unique_lock<OrderedMutex> LockUnlessBeside(const FrameworkElement& element);
   static Result<void> PrepareAll(FrameworkElement& element);
   void DestroyAll(UnlistedElement* elements, std::size_t count);
   friend class ChangeScope;
   std::uint64_t NextId() noexcept { return next_id_++; }
+  void NoteChange() noexcept {
+    ++revision_;
+    ++internal::changes_by_this_thread;
+  }
 
   OrderedMutex structure_mutex_{LockLevel::kStructure};
   SteadyClock steady_clock_;

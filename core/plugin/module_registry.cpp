@@ -58,17 +58,24 @@ std::vector<const ModuleType*> ModuleRegistry::All() const {
 
 Result<UnlistedElement> ModuleRegistry::Make(std::string_view type,
                                              const Placement& placement) const {
-  const auto known = Get(type);
-  if (!known) return known.error();
+  // A copy: the plugin may be loaded anew while its module is made.
+  ModuleType known;
+  {
+    const std::lock_guard lock(placement.parent.runtime().structure_mutex());
+    const auto found = Get(type);
+    if (!found) return found.error();
+    known = **found;
+  }
   const auto failed = [&](const std::string& why) {
     return Error{
         .message = "a module of type '" + std::string(type) + "' could not be made: " + why,
         .path = placement.parent.path()};
   };
-  const std::lock_guard lock(placement.parent.runtime().structure_mutex());
+  std::unique_lock lock(placement.parent.runtime().structure_mutex(), std::defer_lock);
+  if (placement.is_listed) lock.lock();
   try {
-    UnlistedElement element((*known)->make(placement));
-    element->Annotate(std::make_unique<ModuleTypeName>((*known)->name));
+    UnlistedElement element(known.make(placement));
+    element->Annotate(std::make_unique<ModuleTypeName>(known.name));
     return element;
   } catch (const ElementError& error) {
     return error.error();

@@ -149,37 +149,55 @@ Result<void> PluginManager::Register(const std::string& name, const fs::path& fi
   return {};
 }
 
+void PluginManager::OpenAhead(const fs::path& file) { (void)OpenLibrary(file); }
+
+Result<TemporaryCopy> PluginManager::OpenCopy(const fs::path& file) {
+  auto copy = TemporaryCopy::Make(file);
+  if (!copy) return copy;
+  if (const auto outdated = FindOutdatedDependency(copy->file())) {
+    return Refusal(file, "it needs " + outdated->string() + ", which has been built anew, too",
+                   "start the application again, or link that library into the plugin (STATIC)");
+  }
+  OpenAhead(copy->file());
+  return copy;
+}
+
 Result<PluginReload> PluginManager::Reload(std::string_view name) {
+  const auto file = FindKnown(name);
+  if (!file) return file.error();
+  const auto copy = OpenCopy(*file);
+  if (!copy) return copy.error();
+  return Reload(name, *copy);
+}
+
+Result<PluginReload> PluginManager::Reload(std::string_view name, const TemporaryCopy& copy) {
   try {
-    return ReloadKnown(name);
+    return ReloadKnown(name, copy);
   } catch (...) {
     return Error{.message = "the plugin '" + std::string(name) +
                             "' cannot be loaded anew: " + DescribeException()};
   }
 }
 
-Result<PluginReload> PluginManager::ReloadKnown(std::string_view name) {
+Result<fs::path> PluginManager::FindKnown(std::string_view name) const {
   const auto known = files_.find(name);
-  if (known == files_.end()) {
-    return Error{.message = "no plugin '" + std::string(name) + "' is loaded",
-                 .hint = NearestNameHint(name, loaded_)};
-  }
-  const std::string plugin = known->first;
+  if (known != files_.end()) return known->second;
+  return Error{.message = "no plugin '" + std::string(name) + "' is loaded",
+               .hint = NearestNameHint(name, loaded_)};
+}
+
+Result<PluginReload> PluginManager::ReloadKnown(std::string_view name, const TemporaryCopy& copy) {
+  const auto known = FindKnown(name);
+  if (!known) return known.error();
+  const std::string plugin(name);
   PluginReload reload(registry_, plugin, registry_.SetAside(plugin));
-  const auto copy = TemporaryCopy::Make(known->second);
-  if (!copy) return copy.error();
-  if (const auto outdated = FindOutdatedDependency(copy->file())) {
-    return Refusal(known->second,
-                   "it needs " + outdated->string() + ", which has been built anew, too",
-                   "start the application again, or link that library into the plugin (STATIC)");
-  }
-  auto registered = Register(plugin, copy->file());
+  auto registered = Register(plugin, copy.file());
   if (!registered) {
     Error error = registered.error();
     // The copy is nobody's business.
-    const std::string own = copy->file().string();
+    const std::string own = copy.file().string();
     if (const auto at = error.message.find(own); at != std::string::npos) {
-      error.message.replace(at, own.size(), known->second.string());
+      error.message.replace(at, own.size(), known->string());
     }
     return error;
   }

@@ -12,6 +12,7 @@
 #include "core/base/retry.h"
 #include "core/plugin/module_registry.h"
 #include "core/plugin/plugin_registry.h"
+#include "core/plugin/temporary_copy.h"
 
 namespace runnel {
 
@@ -71,11 +72,17 @@ class PluginManager {
   /// and the nearest name), not loadable, no entry, another ABI, throwing registration, duplicate
   /// type, another file of that name loaded already.
   Result<void> Load(std::string_view name);
+  /// The part of Load() that reads the disk, for who must not keep others waiting: the library stays in memory, and
+  /// Load() finds it there. `file`: by FindFile(). What is wrong with it Load() says. Any thread.
+  static void OpenAhead(const std::filesystem::path& file);
   /// Loads the file of a plugin that is loaded as it is now, beside the library of before, whose code
   /// stays for what was made with it. New modules are made by the new one; if the returned object goes
   /// without Keep(), by the old one again. Errors: as Load(), and a library that it needs has been built anew,
   /// too; everything is as before then.
   Result<PluginReload> Reload(std::string_view name);
+  /// The same in two parts, of which the first reads the disk: `file` by FindFile(). Any thread.
+  static Result<TemporaryCopy> OpenCopy(const std::filesystem::path& file);
+  Result<PluginReload> Reload(std::string_view name, const TemporaryCopy& copy);
   /// The names of the plugins that could be loaded from the search path, sorted.
   [[nodiscard]] std::vector<std::string> Available() const;
   [[nodiscard]] const std::vector<std::string>& loaded() const noexcept { return loaded_; }
@@ -86,7 +93,8 @@ class PluginManager {
   using Files = std::map<std::string, std::filesystem::path, std::less<>>;
 
   Result<void> LoadUnlessKnown(std::string_view name);
-  Result<PluginReload> ReloadKnown(std::string_view name);
+  [[nodiscard]] Result<std::filesystem::path> FindKnown(std::string_view name) const;
+  Result<PluginReload> ReloadKnown(std::string_view name, const TemporaryCopy& copy);
   Result<void> Register(const std::string& name, const std::filesystem::path& file);
 
   ModuleRegistry modules_;

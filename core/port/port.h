@@ -117,6 +117,8 @@ class Port : public FrameworkElement {
   bool Release(Setter setter = Setter::kPerson);
   /// Under the structure lock.
   [[nodiscard]] bool is_set_by_hand(Setter setter = Setter::kPerson) const noexcept;
+  /// A copy of what is set by hand; none if nothing is, or if values of its type cannot be copied. Under the structure lock.
+  [[nodiscard]] AnyValue ValueByHand(Setter setter = Setter::kPerson) const;
 
   /// That something moves by what is read here: readers find the safe value while the robot is stopped, whatever is
   /// published or set by hand, and after that until a value comes that is stamped and published later than the release.

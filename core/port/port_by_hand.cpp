@@ -1,12 +1,15 @@
 // Values that are set by hand (Port::PublishByHand()).
 
 #include <cstddef>
+#include <memory>
 #include <mutex>
 #include <utility>
 
 #include "core/element/runtime.h"
 #include "core/port/port.h"
 #include "core/port/port_extras.h"
+#include "core/types/type_info.h"
+#include "core/types/value_copy.h"
 
 namespace runnel {
 
@@ -27,6 +30,16 @@ Port* Port::by_hand() const noexcept {
 
 bool Port::is_set_by_hand(Setter setter) const noexcept {
   return extras_ && extras_->by_hand[SlotOf(setter)];
+}
+
+AnyValue Port::ValueByHand(Setter setter) const {
+  if (!is_set_by_hand(setter) || !type_.is_transparent()) return {};
+  const std::shared_ptr<void> copy = type_.Make();
+  bool is_copied = false;
+  extras_->by_hand[SlotOf(setter)]->VisitLatest([&](const void* value, ValueTimes) {
+    is_copied = copy != nullptr && CopyValue(type_, value, copy.get());
+  });
+  return is_copied ? AnyValue(type_, copy) : AnyValue();
 }
 
 internal::PortExtras& Port::Extras() {

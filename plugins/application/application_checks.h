@@ -45,4 +45,7 @@ class ApplicationChecks final : public OfferedRegistry {
   std::string plugin_;
 };
 
+/// Warns where something moves, by the types of ports, and no port is marked as driving.
+void WarnOfUnmarkedMotion(const ApplicationCheckUse& use);
+
 }  // namespace runnel

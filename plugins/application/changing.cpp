@@ -234,6 +234,11 @@ bool Application::is_deleted() {
 }
 
 Result<void> Application::LoadPlugin(std::string_view plugin) {
+  const auto find = [&] {
+    const std::lock_guard lock(parts_->runtime().structure_mutex());
+    return parts_->plugins().FindFile(plugin);
+  };
+  if (const auto file = find()) PluginManager::OpenAhead(*file);
   const std::lock_guard lock(parts_->runtime().structure_mutex());
   return parts_->plugins().Load(plugin);
 }
@@ -284,8 +289,8 @@ CommandService& Application::service() {
   hooks.set_paused = [this](const std::string& path, bool is_paused) {
     return is_paused ? Pause(path) : Resume(path);
   };
-  if (!hooks.stop) {
-    hooks.stop = [this]() -> Result<std::string> {
+  if (!hooks.quit) {
+    hooks.quit = [this]() -> Result<std::string> {
       RequestStop();
       return std::string("stops");
     };

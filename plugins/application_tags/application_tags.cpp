@@ -9,8 +9,8 @@ namespace runnel {
 XmlTagRegistry ApplicationTags() {
   XmlTagRegistry tags;
   for (const auto& make : {ApplicationTag, GroupTypeTag, LoadTag, ClockTag, ThreadTag, PortTag,
-                           ModuleTag, ParameterTag, InputTag, GroupTag, ConnectTag, LogTag, OnFaultTag,
-                           OnStaleTag, OnStuckTag, OnPauseTag, LatencyTag, ProfileTag, OtherwiseTag}) {
+                           ModuleTag, ParameterTag, InputTag, DrivingTag, GroupTag, ConnectTag, LogTag, OnFaultTag,
+                           OnStaleTag, OnStuckTag, OnPauseTag, StopButtonTag, LatencyTag, ProfileTag, OtherwiseTag}) {
     tags.AddTag(make());
   }
   for (XmlTag& tag : internal::ReactionTags()) tags.AddTag(std::move(tag));

@@ -16,10 +16,7 @@
 
 namespace runnel {
 
-namespace {
-
-// A value of the input's type; nothing after reporting that the text is none.
-AnyValue ReadDefault(const TagUse& use, const XmlAttribute& text, const Port& input) {
+AnyValue internal::ReadValue(const TagUse& use, const XmlAttribute& text, const Port& input) {
   const TypeInfo& type = input.type();
   const std::shared_ptr<void> value = type.is_transparent() ? type.Make() : nullptr;
   if (!value) {
@@ -34,6 +31,8 @@ AnyValue ReadDefault(const TagUse& use, const XmlAttribute& text, const Port& in
   return {type, value};
 }
 
+namespace {
+
 void SetInputLimits(const TagUse& use) {
   Port* const input =
       SearchPort(PathIn(use.Get("name"), use.parent), PathKind::kInput, use.context);
@@ -46,7 +45,7 @@ void SetInputLimits(const TagUse& use) {
   limits.minimum = number("minimum");
   limits.maximum = number("maximum");
   if (const XmlAttribute* const default_value = use.Find("default")) {
-    limits.default_value = ReadDefault(use, *default_value, *input);
+    limits.default_value = internal::ReadValue(use, *default_value, *input);
     if (!limits.default_value) return;
   }
   if (const XmlAttribute* const out = use.Find("out_of_bounds")) {

@@ -20,6 +20,9 @@ Result<void> AddRules(const FrameworkElement& application, Scheduler& scheduler,
   for (const FaultReaction& reaction : rules->fault_reactions) supervisor.Add(reaction);
   for (const StuckReaction& reaction : rules->stuck_reactions) supervisor.Add(reaction);
   for (const PauseReaction& reaction : rules->pause_reactions) supervisor.Add(reaction);
+  for (const StopButtonRule& rule : rules->stop_buttons) {
+    if (auto added = supervisor.Add(rule); !added) return added;
+  }
   for (const LatencyRequest& each : rules->latencies) {
     if (auto added = scheduler.AddLatency(each); !added) return added;
   }

@@ -14,13 +14,14 @@ namespace runnel {
 
 // What an application file says of how the application is run. It has been checked; paths in it are absolute.
 
-/// Kept with the application by <on_fault>, <on_stale>, <on_stuck>, <on_pause>, <latency> and <profile>; in the order of the file.
+/// Kept with the application by <on_fault>, <on_stale>, <on_stuck>, <on_pause>, <stop_button>, <latency> and <profile>; in the order of the file.
 struct RunRules final : Annotation {
   std::vector<FaultRule> fault_rules;
   std::vector<FaultReaction> fault_reactions;
   std::vector<StuckReaction> stuck_reactions;
   std::vector<std::pair<StaleRule, SourcePosition>> stale_rules;
   std::vector<PauseReaction> pause_reactions;
+  std::vector<StopButtonRule> stop_buttons;
   std::vector<LatencyRequest> latencies;
   /// Of the application and of threads; the path of the application is left out.
   std::vector<std::pair<std::string, Duration>> stuck_limits;

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "core/port/port.h"
+#include "core/types/any_value.h"
 #include "plugins/application_files/xml_tag.h"
 #include "plugins/supervision/supervision_rules.h"
 
@@ -12,6 +14,7 @@ namespace runnel {
 [[nodiscard]] XmlTag ApplicationTag();
 [[nodiscard]] XmlTag ClockTag();
 [[nodiscard]] XmlTag ConnectTag();
+[[nodiscard]] XmlTag DrivingTag();
 [[nodiscard]] XmlTag GroupTag();
 [[nodiscard]] XmlTag GroupTypeTag();
 [[nodiscard]] XmlTag InputTag();
@@ -24,6 +27,7 @@ namespace runnel {
 [[nodiscard]] XmlTag OnPauseTag();
 [[nodiscard]] XmlTag OnStuckTag();
 [[nodiscard]] XmlTag ProfileTag();
+[[nodiscard]] XmlTag StopButtonTag();
 [[nodiscard]] XmlTag OtherwiseTag();
 [[nodiscard]] XmlTag ParameterTag();
 [[nodiscard]] XmlTag PortTag();
@@ -44,6 +48,9 @@ namespace runnel {
 }
 
 namespace internal {
+
+/// A value of the port's type; nothing after reporting that the text is none.
+[[nodiscard]] AnyValue ReadValue(const TagUse& use, const XmlAttribute& text, const Port& port);
 
 /// The tags <publish>, <switch>, <set>, <replace> and <stop>, which are read by the tag that they stand in.
 [[nodiscard]] std::vector<XmlTag> ReactionTags();

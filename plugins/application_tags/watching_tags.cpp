@@ -4,6 +4,7 @@
 #include "plugins/application_files/path_use.h"
 #include "plugins/application_tags/run_description.h"
 #include "plugins/application_tags/tag_list.h"
+#include "plugins/supervision/stop_button.h"
 
 namespace runnel {
 
@@ -40,6 +41,14 @@ void AddLatency(const TagUse& use) {
   const auto path = FindDataPath(use.context.runtime().root(), request);
   if (!path) return use.Report(path.error(), use.Get("to").value_position);
   internal::RunRulesAround(use.parent).latencies.push_back(request);
+}
+
+void AddStopButton(const TagUse& use) {
+  const XmlAttribute* const releases = use.Find("releases");
+  const Port* const port = SearchPort(PathIn(use.Get("port"), use.parent), PathKind::kOutput, use.context);
+  if (port == nullptr) return;
+  if (auto good = CheckStopButton(*port); !good) return use.Report(good.error(), use.Get("port").value_position);
+  internal::RunRulesAround(use.parent).stop_buttons.push_back({port->path(), releases && releases->value == "true"});
 }
 
 void BeginProfile(const TagUse& use) { internal::RunRulesAround(use.parent).is_profiled = true; }
@@ -82,6 +91,17 @@ XmlTag OnPauseTag() {
           .parents = {"application", "group"},
           .attributes = {PathRule("of", true, "a module, or a group of which any module may be paused")},
           .handle = InTheEnd<AddWatch>};
+}
+XmlTag StopButtonTag() {
+  return {.name = "stop_button",
+          .summary = "a port by which somebody presses the STOP of the robot: true, or a number that is not 0",
+          .parents = {"application", "group"},
+          .attributes = {PathRule("port", true, "what publishes the state of the button"),
+                         {.name = "releases",
+                          .kind = AttributeKind::kChoice,
+                          .summary = "whether letting go of the button releases the STOP; else somebody has to do so",
+                          .choices = {"false", "true"}}},
+          .handle = InTheEnd<AddStopButton>};
 }
 XmlTag LatencyTag() {
   return {.name = "latency",

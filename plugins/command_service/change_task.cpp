@@ -58,14 +58,18 @@ std::string TypeIn(const Change& change) {
   return {};
 }
 
-// The plugin of type "planning/bug1" is called planning.
+// The plugin of type "planning/bug1" is called planning. Loaded without the structure lock, from which a slow disk would
+// keep others.
 void LoadMissingPlugins(const ChangeSet& changes, const ServedApplication& application) {
   if (!application.hooks.load_plugin) return;
-  const std::lock_guard lock(application.runtime.structure_mutex());
+  const auto is_known = [&](const std::string& type) {
+    const std::lock_guard lock(application.runtime.structure_mutex());
+    return application.modules.Find(type) != nullptr;
+  };
   for (const Change& change : changes) {
     const std::string type = TypeIn(change);
     const std::size_t slash = type.find('/');
-    if (slash == std::string::npos || application.modules.Find(type) != nullptr) continue;
+    if (slash == std::string::npos || is_known(type)) continue;
     // If it cannot be loaded, the error that there is no such type names the nearest.
     (void)application.hooks.load_plugin(type.substr(0, slash));
   }

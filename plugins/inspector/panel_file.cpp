@@ -1,9 +1,12 @@
 #include "plugins/inspector/panel_file.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "core/base/nearest_name.h"
@@ -28,12 +31,41 @@ const std::vector<std::string>& Kinds() {
   return kinds;
 }
 
+enum class Kind { kText, kNumber, kFlag, kCurves };
+
 // What widgets say of themselves; which of them have what, the page knows.
-const std::vector<std::string>& Settings() {
-  static const std::vector<std::string> settings{
-      "title",   "target", "field", "forward", "turn", "minimum", "maximum", "step",
-      "pressed", "on",     "off",   "held",    "text", "curves",  "seconds", "unit"};
-  return settings;
+constexpr std::array kSettings{
+    std::pair("title", Kind::kText),     std::pair("target", Kind::kText),
+    std::pair("field", Kind::kText),     std::pair("text", Kind::kText),
+    std::pair("pressed", Kind::kText),   std::pair("on", Kind::kText),
+    std::pair("off", Kind::kText),       std::pair("unit", Kind::kText),
+    std::pair("forward", Kind::kNumber), std::pair("turn", Kind::kNumber),
+    std::pair("minimum", Kind::kNumber), std::pair("maximum", Kind::kNumber),
+    std::pair("step", Kind::kNumber),    std::pair("seconds", Kind::kNumber),
+    std::pair("held", Kind::kFlag),      std::pair("curves", Kind::kCurves)};
+
+void CheckCurves(JsonMembers& members, const std::string& name) {
+  for (const JsonPart& each : members.List(name).value_or(std::vector<JsonPart>())) {
+    JsonMembers curve(each);
+    curve.NeedText("target");
+    curve.Text("field");
+    curve.RefuseOthers();
+    if (!each.is_object() || curve.error())
+      members.Complain("\"" + name + "\" must be a list of {\"target\", \"field\"}");
+  }
+}
+
+// One of a wrong kind would leave every viewer without a panel.
+void CheckSetting(JsonMembers& members, const std::string& name, Kind kind) {
+  if (kind == Kind::kCurves) return CheckCurves(members, name);
+  const JsonPart* const found = members.Find(name);
+  if (found == nullptr || found->is_null()) return;
+  const auto number = found->number();
+  if (kind == Kind::kText && !found->text()) members.Complain("\"" + name + "\" must be a text");
+  if (kind == Kind::kFlag && !found->boolean())
+    members.Complain("\"" + name + "\" must be true or false");
+  if (kind == Kind::kNumber && !(number && std::isfinite(*number)))
+    members.Complain("\"" + name + "\" must be a number");
 }
 
 Error Of(std::size_t index, const Error& error) {
@@ -51,7 +83,7 @@ Result<void> CheckWidget(const JsonPart& json, std::set<std::string>& ids) {
   members.NeedCount("y", kMostRows);
   const std::uint64_t width = members.NeedCount("w", kColumns);
   const std::uint64_t height = members.NeedCount("h", kMostRows);
-  for (const std::string& name : Settings()) members.Find(name);
+  for (const auto& [name, its_kind] : kSettings) CheckSetting(members, name, its_kind);
   members.RefuseOthers();
   if (members.error()) return *members.error();
   if (std::ranges::find(Kinds(), kind) == Kinds().end()) {

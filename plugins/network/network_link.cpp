@@ -57,7 +57,7 @@ Result<std::unique_ptr<NetworkLink>> NetworkLink::Start(FrameworkElement& applic
   std::unique_ptr<NetworkLink> link(new NetworkLink(application, element, is_simulated));
   WireMemberOptions member = element.options().member;
   member.user_data = "enclave=/;";  // without which nodes of ROS 2 look past it
-  member.user_data += MachineWords();
+  member.user_data += kIsApplication;
   if (is_simulated) member.user_data += kSimulatedTime;
   if (!element.options().commands.empty()) {
     member.user_data += kAllowedCommands;

@@ -14,10 +14,10 @@
 #include "plugins/network/network_element.h"
 #include "plugins/network/network_services.h"
 #include "plugins/network/offered_port.h"
-#include "plugins/network/ros_node.h"
 #include "plugins/network/taken_port.h"
 #include "plugins/network_discovery/discovery_table.h"
 #include "plugins/network_discovery/structure_topic.h"
+#include "plugins/ros_services/ros_node.h"
 
 namespace runnel {
 
@@ -121,7 +121,7 @@ class NetworkLink final : private ElementListener {
   std::map<std::string, Time> missing_;  // topics that who should write them does not: since when
   bool is_missing_young_ = false;        // some of them are to be looked at again soon
   std::set<WireId> other_clocks_;              // of members whose clock is another one, as has been told
-  std::map<std::string, std::string> owners_;  // of outputs that listen to one writer only
+  std::map<std::string, TakenPort::WriterInCharge> owners_;  // of outputs that listen to one writer only
   std::thread thread_;
 };
 

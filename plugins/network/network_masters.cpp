@@ -36,18 +36,18 @@ void NetworkLink::TellClocks() {
   for (const auto& each : taken_) {
     if (!each->options().keeps_stamps) continue;
     for (const WireEndpoint& other : table_.Partners(each->endpoint().topic, true)) {
-      const Duration behind = each->behind(other.handle);
       const Duration delay = each->least_delay(other.handle).value_or(Duration{});
       const bool is_old = delay > WriterClock::kMostOfNetworks && !each->endpoint().qos.is_latched;
-      const bool is_apart = is_old || -delay > WriterClock::kMostOfNetworks;
-      if (!is_apart || !other_clocks_.insert(other.participant).second) continue;
+      const bool is_ahead = -delay > WriterClock::kMostOfNetworks;
+      if ((!is_old && !is_ahead) || !other_clocks_.insert(other.participant).second) continue;
       const std::string name = table_.NameOf(other.participant);
       const double seconds = ToSeconds(std::chrono::abs(delay));
-      if (behind == Duration{}) {
-        element_.log().Warn("values of {} are {:.3f} s old when they come", name, seconds);
+      if (is_old) {
+        element_.log().Warn("values of {} are {:.3f} s old when they come, by both clocks: if nothing holds them up, its clock is "
+                            "behind this one's; synchronise the clocks (chrony, ptp4l)", name, seconds);
       } else {
-        element_.log().Warn("the clock of {} is {:.3f} s {} this one's: ages of its values are counted from when the soonest came; "
-                            "synchronise the clocks (chrony, ptp4l)", name, seconds, is_old ? "behind" : "ahead of");
+        element_.log().Warn("the clock of {} is {:.3f} s ahead of this one's: ages of its values are counted from when the soonest "
+                            "came; synchronise the clocks (chrony, ptp4l)", name, seconds);
       }
     }
   }
@@ -55,15 +55,15 @@ void NetworkLink::TellClocks() {
 
 void NetworkLink::TellOwners() {
   for (const auto& each : taken_) {
-    const std::string owner = each->Owner();
-    std::string& told = owners_[each->output().path()];
-    if (owner == told) continue;
-    if (owner.empty()) {
-      element_.log().Warn("{}: {} has it no more", each->output().path(), told);
+    TakenPort::WriterInCharge owner = each->Owner();
+    TakenPort::WriterInCharge& told = owners_[each->output().path()];
+    if (owner.handle == told.handle && owner.name == told.name) continue;
+    if (owner.name.empty()) {
+      element_.log().Warn("{}: {} has it no more", each->output().path(), told.name);
     } else {
-      element_.log().Info("{}: {} has it now{}", each->output().path(), owner, told.empty() ? "" : " instead of " + told);
+      element_.log().Info("{}: {} has it now{}", each->output().path(), owner.name, told.name.empty() ? "" : " instead of " + told.name);
     }
-    told = owner;
+    told = std::move(owner);
   }
 }
 

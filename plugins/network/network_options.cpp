@@ -31,9 +31,4 @@ WireQos QosOf(ValueQuality quality) {
   return {};
 }
 
-const std::vector<std::string>& RosParameterUses() {
-  static const std::vector<std::string> names = {"none", "read", "write"};
-  return names;
-}
-
 }  // namespace runnel

@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "plugins/ros_services/offered_service.h"
+#include "plugins/ros_services/ros_node.h"
 #include "plugins/wire/wire.h"
 
 namespace runnel {
@@ -67,24 +68,8 @@ struct TakeOptions {
   bool operator==(const TakeOptions&) const = default;
 };
 
-/// What nodes of ROS 2 may do with parameters. In the order of RosParameterUses().
-enum class RosParameterUse { kNone, kRead, kWrite };
-/// none, read, write.
-[[nodiscard]] const std::vector<std::string>& RosParameterUses();
-
 /// set, swap.
 [[nodiscard]] const std::vector<std::string>& FarCommandNames();
-
-/// What nodes of ROS 2 are told besides.
-struct RosOptions {
-  std::string distribution = {};  ///< humble, iron, jazzy: "" if the application is to be no node
-  std::string node = {};          ///< "/base"
-  bool sends_clock = false;       ///< on /clock
-  bool follows_clock = false;     ///< the application's time is that of /clock
-  bool sends_log = false;         ///< on /rosout
-  bool sends_diagnostics = false;  ///< on /diagnostics
-  RosParameterUse parameters = RosParameterUse::kNone;
-};
 
 /// What <network> says.
 struct NetworkOptions {

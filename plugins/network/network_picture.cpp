@@ -42,7 +42,7 @@ std::string NetworkLink::Picture() {
     AppendList(offered_, json.Key("offers"), [&](const auto& each, std::string& text) {
       const Partner readers = PartnerOf(each->endpoint(), true);
       JsonObject object(text);
-      object.Add("port", each->path()).Add("topic", each->options().topic).AddTextOrNull("misfit", readers.misfit);
+      object.Add("port", each->path()).Add("topic", each->options().topic).AddTextOrNull("misfit", readers.misfit).Add("is_stopped", each->is_stopped());
       AppendList(readers.names, object.Key("readers"), [](const std::string& name, std::string& to) { AppendJsonString(name, to); });
     });
     AppendList(taken_, json.Key("takes"), [&](const auto& each, std::string& text) {
@@ -57,7 +57,7 @@ std::string NetworkLink::Picture() {
       object.Add("port", each->output().path()).Add("topic", each->options().topic).AddTextOrNull("misfit", writers.misfit.empty() ? Masters(*each) : writers.misfit);
       object.Add("is_wanted", !each->output().outgoing().empty());
       AppendList(writers.names, object.Key("writers"), [](const std::string& name, std::string& to) { AppendJsonString(name, to); });
-      object.AddTextOrNull("owner", each->Owner());
+      object.AddTextOrNull("owner", each->Owner().name);
     });
     std::vector<WireMember> others = table_.members();
     std::erase_if(others, [&](const WireMember& each) { return each.id == participant_->id(); });

@@ -177,14 +177,15 @@ std::string NetworkLink::Text() const {
     add(each->endpoint(), "offers " + each->path() + " as " + each->options().topic,
         ", " + std::to_string(each->sent()) + " sent" +
             (each->sent_after_cycles() > 0 ? " (" + std::to_string(each->sent_after_cycles()) + " after cycles)" : "") +
-            (each->dropped() > 0 ? ", " + std::to_string(each->dropped()) + " lost" : ""));
+            (each->dropped() > 0 ? ", " + std::to_string(each->dropped()) + " lost" : "") +
+            (each->is_stopped() ? ", STOPPED: its safe value is sent" : ""));
     add_partners(each->endpoint(), true);
   }
   for (const auto& each : taken_) {
     if (!each->is_connected()) continue;
     const std::string field = each->options().field.empty() ? "" : "." + each->options().field;
     add(each->endpoint(), "takes " + each->options().topic + field + " to " + each->output().path(),
-        ", " + std::to_string(each->taken()) + " came" + (each->Owner().empty() ? "" : ", " + each->Owner() + " has it") +
+        ", " + std::to_string(each->taken()) + " came" + (each->Owner().name.empty() ? "" : ", " + each->Owner().name + " has it") +
             (each->refused() > 0 ? ", " + std::to_string(each->refused()) + " could not be read" : ""));
     add_partners(each->endpoint(), false, each.get());
     if (const std::string masters = Masters(*each); !masters.empty()) text += "    TWO MASTERS: " + masters + "\n";

@@ -21,7 +21,7 @@ class WakeEvent;
 /// Allocation:  none but of what `send` does.
 class OfferBell final : public Waker, private AfterCycleWork {
  public:
-  enum class By { kNetwork, kCycle };
+  enum class By { kNetwork, kCycle, kStop };
   /// Sends what is there. By whose turn it is; must not throw.
   using Send = std::function<void(By by)>;
 
@@ -36,6 +36,8 @@ class OfferBell final : public Waker, private AfterCycleWork {
 
   /// Has what is there sent, by this thread or by who is at it already.
   void SendByNetwork() noexcept { TakeTurn(By::kNetwork); }
+  /// Any thread: who stops the robot.
+  void SendStop() noexcept { TakeTurn(By::kStop); }
   /// Whether values of cycles are sent after them from now on. By whose turn it is.
   void set_sent_after_cycles(bool value) noexcept { is_sent_after_cycles_.store(value, std::memory_order_relaxed); }
 

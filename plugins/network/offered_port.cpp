@@ -23,25 +23,52 @@ namespace {
 constexpr std::size_t kMostAfterCycle = 8192;
 // Of one queue, after one cycle.
 constexpr std::size_t kFew = 8;
+// The safe value, while it is stopped: for those who come, or have missed it.
+constexpr auto kAgain = std::chrono::milliseconds(100);
 
 }  // namespace
 
-/// An input that only rings: whoever hears it looks at the newest value where it lies.
-class OfferedPort::NewestInput final : public InputBase {
+/// Where the values are that readers of the port find. It stays as it is, but for a source that goes.
+struct OfferedPort::Binding {
+  std::atomic<const Port*> source;          // that readers are bound to; nullptr: none
+  std::vector<internal::PassedStop> stops;  // on the way to them
+  std::uint64_t number;
+
+  [[nodiscard]] bool LetsPass(ValueTimes times) const noexcept {
+    return std::ranges::all_of(stops, [&](const auto& each) { return each.stop->LetsPass(times); });
+  }
+  [[nodiscard]] bool IsOf(const Port* other, const std::vector<internal::PassedStop>& others) const noexcept {
+    constexpr auto kStop = &internal::PassedStop::stop;
+    return source.load(std::memory_order_relaxed) == other && std::ranges::equal(stops, others, {}, kStop, kStop);
+  }
+};
+
+/// An input that only rings: whoever hears it looks at the newest value where it lies, which is where readers find it: what
+/// is set by hand, or converted, too.
+class OfferedPort::Reader final : public InputBase {
  public:
-  NewestInput(FrameworkElement& group, const std::string& name, const TypeInfo& type)
-      : InputBase({group, name}, type, {}) {}
-  ~NewestInput() override {
+  Reader(FrameworkElement& group, const std::string& name, const TypeInfo& type, OfferedPort& offered)
+      : InputBase({group, name}, type, {}), offered_(offered) {}
+  ~Reader() override {
     SetWaker(nullptr);
     DisconnectAll();
   }
   [[nodiscard]] std::uint64_t dropped() const noexcept override { return 0; }
+  /// Of one port that takes the place of another it is not told.
+  void LookAgain() { (void)Bind(sources()); }
 
  private:
-  QueueSink* Bind(const std::vector<Source>&) override { return nullptr; }
+  QueueSink* Bind(const std::vector<Source>& from) override {
+    std::vector<internal::PassedStop> stops;
+    CollectStops(stops);
+    offered_.SetBinding(from.empty() ? nullptr : from.front().output, std::move(stops));
+    return nullptr;
+  }
   void TakeOverBinding(InputBase&) noexcept override {}
   void Bound() override {}
   [[nodiscard]] bool HasNew() const override { return false; }
+
+  OfferedPort& offered_;
 };
 
 OfferedPort::OfferedPort(FrameworkElement& beside, const std::string& name, const TypeInfo& type,
@@ -54,20 +81,26 @@ OfferedPort::OfferedPort(FrameworkElement& beside, const std::string& name, cons
       form_(std::move(form)),
       clock_(clock),
       bell_(std::make_shared<OfferBell>(std::move(wake), [this](OfferBell::By by) { SendBy(by); })) {
-  if (options_.quality == ValueQuality::kEach) {
-    auto each = std::make_unique<ProbePort>(beside, name, type);
-    each_ = each.get();
-    input_ = std::move(each);
-  } else {
-    input_ = std::make_unique<NewestInput>(beside, name, type);
+  // A command of motion stops whoever moves by it elsewhere, whether or not anybody has marked it here.
+  if (const std::shared_ptr<const void> zero = IsVelocity(type) ? type.Make() : nullptr) {
+    command_stop_ = std::make_shared<PortStop>(AnyValue(type, zero), beside.runtime().robot_stop().signal());
   }
-  input_->SetWaker(bell_.get());
+  reader_ = std::make_unique<Reader>(beside, name, type, *this);
+  if (options_.quality == ValueQuality::kEach) {
+    each_ = std::make_unique<ProbePort>(beside, name + "_each", type);
+    each_->SetWaker(bell_.get());
+  } else {
+    reader_->SetWaker(bell_.get());
+  }
 }
 
 OfferedPort::~OfferedPort() {
   bell_->Close();
   writer_.reset();
-  input_.reset();
+  each_.reset();
+  reader_.reset();
+  stop_subscriptions_.clear();
+  Retire([binding = binding_.load(std::memory_order_relaxed)] { delete binding; });
   // Publishers that have found it may still be about to ring it.
   Retire([bell = bell_] {});
 }
@@ -95,34 +128,60 @@ Result<void> OfferedPort::Begin(WireParticipant& participant) {
 void OfferedPort::Attach(Port* port) {
   // What is latched is kept for those who may come.
   const bool is_wanted = matched() > 0 || options_.quality == ValueQuality::kLatched;
-  const bool fits = port != nullptr && &port->type() == &input_->type();
+  const bool fits = port != nullptr && &port->type() == &type();
   Port* const wanted = is_wanted && fits ? port : nullptr;
-  Port* const before = input_->incoming().empty() ? nullptr : input_->incoming().front();
-  if (before != wanted) {
-    input_->DisconnectAll();
+  for (InputBase* const input : {static_cast<InputBase*>(reader_.get()), static_cast<InputBase*>(each_.get())}) {
+    if (input == nullptr || (input->incoming().empty() ? nullptr : input->incoming().front()) == wanted) continue;
+    input->DisconnectAll();
     // Refused only if it is about to go.
-    if (wanted != nullptr && !Port::Connect(*wanted, *input_)) return source_.store(nullptr);
+    if (wanted != nullptr) (void)Port::Connect(*wanted, *input);
   }
-  const auto sources = wanted != nullptr ? wanted->Sources() : std::vector<Port*>();
-  const Port* const source = sources.empty() ? nullptr : sources.front();
-  // release: pairs with the load in SendNewest().
-  if (source_.exchange(source, std::memory_order_release) == source) return;
-  // release: who sees it sees that source or a later one. Who does not see it yet may take a value of the new source for one
-  // that has been sent; the bell is rung afterwards.
-  attached_.fetch_add(1, std::memory_order_release);
-  if (source != nullptr) bell_->Ring();
+  reader_->LookAgain();
+}
+
+void OfferedPort::SetBinding(const Port* source, std::vector<internal::PassedStop> stops) {
+  if (command_stop_) stops.push_back({command_stop_, command_stop_->safe_value()});
+  Binding* const before = binding_.load(std::memory_order_relaxed);
+  if (before != nullptr && before->IsOf(source, stops)) return;
+  // Who stops the robot sends the safe value itself: the network's thread may wait for the structure lock.
+  std::vector<StopSignal::Subscription> subscriptions;
+  for (const internal::PassedStop& each : stops) {
+    for (const auto& signal : {each.stop->robot(), each.stop->block()}) {
+      if (signal) subscriptions.push_back(signal->Listen([bell = bell_] { bell->SendStop(); }));
+    }
+  }
+  const std::uint64_t number = before != nullptr ? before->number + 1 : 1;
+  // release: pairs with the acquire of those who send.
+  binding_.store(new Binding{source, std::move(stops), number}, std::memory_order_release);
+  Retire([before] { delete before; });
+  stop_subscriptions_ = std::move(subscriptions);
+  bell_->Ring();
 }
 
 void OfferedPort::Forget(const FrameworkElement& element) noexcept {
-  const Port* const source = source_.load(std::memory_order_relaxed);
-  if (source != nullptr && source->IsAtOrBelow(element)) source_.store(nullptr, std::memory_order_release);
+  Binding* const binding = binding_.load(std::memory_order_relaxed);
+  const Port* const source = binding != nullptr ? binding->source.load(std::memory_order_relaxed) : nullptr;
+  if (source != nullptr && source->IsAtOrBelow(element)) binding->source.store(nullptr, std::memory_order_release);
 }
 
-std::uint64_t OfferedPort::dropped() const noexcept { return input_->dropped(); }
+const TypeInfo& OfferedPort::type() const noexcept { return reader_->type(); }
+
+std::uint64_t OfferedPort::dropped() const noexcept { return each_ ? each_->dropped() : 0; }
+
+bool OfferedPort::is_stopped() const noexcept {
+  const EpochGuard guard;
+  const Binding* const binding = binding_.load(std::memory_order_acquire);
+  return binding != nullptr && std::ranges::any_of(binding->stops, [](const auto& each) { return each.stop->in_force(); });
+}
 
 bool OfferedPort::has_value() const noexcept { return options_.rate <= 0 && bell_->has_rung(); }
 
 std::optional<Time> OfferedPort::Send(Time now) {
+  if (is_stopped() && writer_ != nullptr) {
+    (void)bell_->Answer();
+    bell_->SendByNetwork();
+    return now + kAgain;
+  }
   if (options_.rate > 0 && now < next_) return next_;  // the bell keeps on ringing
   if (writer_ != nullptr && bell_->Answer()) bell_->SendByNetwork();
   return {};
@@ -131,6 +190,8 @@ std::optional<Time> OfferedPort::Send(Time now) {
 void OfferedPort::SendBy(OfferBell::By by) {
   const std::uint64_t before = sent();
   try {
+    SendSafeValue();
+    if (by == OfferBell::By::kStop) return;
     if (each_ != nullptr) {
       SendEach(by == OfferBell::By::kCycle ? kFew : each_->capacity());
     } else if (SendNewest() && options_.rate > 0) {
@@ -152,22 +213,45 @@ bool OfferedPort::Encode(const void* value, Time stamp, Octets& octets) {
   return !octets.empty();
 }
 
+// Once for each stop and release that has been seen: nobody elsewhere goes on by a value from before.
+void OfferedPort::SendSafeValue() {
+  std::shared_ptr<Octets> octets;
+  Time stamp;
+  {
+    const EpochGuard guard;
+    const Binding* const binding = binding_.load(std::memory_order_acquire);
+    if (binding == nullptr || binding->stops.empty()) return;
+    const auto latest = std::ranges::max_element(binding->stops, {}, [](const auto& each) { return each.stop->bar(); });
+    const std::int64_t bar = latest->stop->bar();
+    const std::int64_t before = std::exchange(bar_, bar);
+    const Time now = SteadyClock().Now();
+    const bool is_new = bar != before && before != StopSignal::kInForce;
+    if (bar == StopSignal::kNever || !(is_new || (bar == StopSignal::kInForce && now >= again_))) return;
+    again_ = now + kAgain / 2;
+    octets = pool_.Take();
+    stamp = reader_->runtime().clock().Now() + clock_.Now();
+    if (!Encode(latest->safe_value.get(), stamp, *octets)) return;
+    shown_.reset();  // what counts again comes after it
+  }
+  Write(octets, stamp);
+}
+
 bool OfferedPort::SendNewest() {
   std::shared_ptr<Octets> octets;
   Time stamp;
   {
     const EpochGuard guard;  // what is loaded now stays so long
-    // acquire: pairs with Attach().
-    const std::uint64_t attached = attached_.load(std::memory_order_acquire);
-    const Port* const source = source_.load(std::memory_order_acquire);
+    // acquire: pairs with SetBinding().
+    const Binding* const binding = binding_.load(std::memory_order_acquire);
+    const Port* const source = binding != nullptr ? binding->source.load(std::memory_order_acquire) : nullptr;
     if (source == nullptr) return false;
-    const Shown newest{attached, source->publications()};
+    const Shown newest{binding->number, source->publications()};
     if (newest == shown_) return false;
     octets = pool_.Take();
     bool is_whole = false;
     const bool is_there = source->VisitLatest([&](const void* value, ValueTimes of) {
       stamp = of.timestamp + clock_.Now();
-      is_whole = Encode(value, stamp, *octets);
+      is_whole = binding->LetsPass(of) && Encode(value, stamp, *octets);
     });
     if (!is_there || !is_whole) return false;
     shown_ = newest;
@@ -184,8 +268,9 @@ void OfferedPort::SendEach(std::size_t most) {
   for (std::size_t i = 0; i < most; ++i) {
     octets = pool_.Take();
     const bool is_there = each_->Take([&](const void* value, ValueTimes of) {
+      const EpochGuard guard;
       stamp = of.timestamp + clock_.Now();
-      is_whole = Encode(value, stamp, *octets);
+      is_whole = binding_.load(std::memory_order_acquire)->LetsPass(of) && Encode(value, stamp, *octets);
     });
     if (!is_there) return;
     if (options_.rate > 0 && now < next_) continue;

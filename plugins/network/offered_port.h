@@ -7,8 +7,10 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/clock.h"
+#include "core/port/port_stop.h"
 #include "core/port/probe_port.h"
 #include "plugins/network/network_options.h"
 #include "plugins/network/offer_bell.h"
@@ -34,8 +36,11 @@ struct ClockOffset {
 /// sleeps. With ValueSending::kAfterCycle, what has been published in a cycle is sent by that cycle's thread when it has
 /// ended, if values are small. Both may be at it in turn (OfferBell).
 ///
+/// While the robot is stopped, a port that drives, or whose values are velocities, sends its safe value instead, at once, by
+/// the thread of who presses, and again and again; after the release only what is later than that.
+///
 /// Threads:     all by the network's thread, outside of cycles, Attach() under the structure lock, too; but Forget(), by
-///              who has that lock.
+///              who has that lock, and is_stopped(), by any.
 /// Allocation:  of octets, which are used again.
 class OfferedPort {
  public:
@@ -48,7 +53,7 @@ class OfferedPort {
   OfferedPort& operator=(const OfferedPort&) = delete;
 
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
-  [[nodiscard]] const TypeInfo& type() const noexcept { return input_->type(); }
+  [[nodiscard]] const TypeInfo& type() const noexcept;
   [[nodiscard]] const OfferOptions& options() const noexcept { return options_; }
   [[nodiscard]] WireEndpointOptions endpoint() const;
   /// Once it has begun.
@@ -76,6 +81,8 @@ class OfferedPort {
     if (has_value()) forecast_.Note(time);
   }
 
+  /// Whether its safe value is sent, as the robot or this port is stopped.
+  [[nodiscard]] bool is_stopped() const noexcept;
   [[nodiscard]] std::size_t matched() const noexcept { return matched_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::uint64_t sent() const noexcept { return sent_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::uint64_t dropped() const noexcept;
@@ -86,10 +93,13 @@ class OfferedPort {
   [[nodiscard]] std::optional<Error> TakeError();
 
  private:
-  class NewestInput;
+  struct Binding;
+  class Reader;
 
+  void SetBinding(const Port* source, std::vector<internal::PassedStop> stops);  // under the structure lock
   // By who has the turn.
   void SendBy(OfferBell::By by);
+  void SendSafeValue();
   bool SendNewest();  // whether there was one
   void SendEach(std::size_t most);
   bool Encode(const void* value, Time stamp, Octets& octets);
@@ -102,26 +112,28 @@ class OfferedPort {
   const std::shared_ptr<const ValueForm> form_;
   const ClockOffset clock_;
   const std::shared_ptr<OfferBell> bell_;
-  std::unique_ptr<InputBase> input_;
-  ProbePort* each_ = nullptr;  // the input, if each value is wanted
+  std::shared_ptr<const PortStop> command_stop_;  // of velocities
+  std::unique_ptr<Reader> reader_;
+  std::unique_ptr<ProbePort> each_;  // if each value is wanted
   std::function<void()> on_matched_;
   std::unique_ptr<WireWriter> writer_;
   std::atomic<std::size_t> matched_{0};
-  // Where values are looked at: the output that feeds the port. Cleared, under the structure lock, before that goes;
-  // who has loaded it in an EpochGuard may use it as long as that lives.
-  std::atomic<const Port*> source_{nullptr};
-  std::atomic<std::uint64_t> attached_{0};  // how often that has changed
+  // Changed under the structure lock; who has loaded it in an EpochGuard may use it, and its source, as long as that lives.
+  std::atomic<Binding*> binding_{nullptr};
+  std::vector<StopSignal::Subscription> stop_subscriptions_;  // under the structure lock
   OctetPool pool_;
   ValueForecast forecast_;
   Time next_{};  // not before
   /// Of the newest value that was sent.
   struct Shown {
-    std::uint64_t attached;
+    std::uint64_t binding;
     std::uint64_t count;  // how many the source had published
     bool operator==(const Shown&) const = default;
   };
   std::optional<Shown> shown_;  // by who has the turn
   bool is_large_ = false;       // by who has the turn
+  std::int64_t bar_ = StopSignal::kNever;  // of the stops, as it was seen last; by who has the turn
+  Time again_{};                           // not before; by who has the turn
   std::atomic<std::uint64_t> sent_{0};
   std::atomic<std::uint64_t> sent_after_cycles_{0};
   mutable std::mutex mutex_;

@@ -63,6 +63,7 @@ Result<void> TakenPort::Follow(WireParticipant& participant) {
   {
     const std::lock_guard lock(mutex_);
     endpoint_.qos = qos;
+    for (Writer& each : writers_) each.before = each.newest;
   }
   auto reader = participant.MakeReader(
       endpoint_, [this](const WireSample& sample) { Take(sample); },
@@ -76,13 +77,13 @@ Result<void> TakenPort::Follow(WireParticipant& participant) {
 TakenPort::Writer& TakenPort::Find(std::uint64_t handle) {
   auto known = std::ranges::find(writers_, handle, &Writer::handle);
   if (known != writers_.end() && known->is_looked_up) return *known;
-  if (known == writers_.end()) known = writers_.insert(known, Writer{handle, true, false, false});
+  if (known == writers_.end()) known = writers_.insert(known, Writer{handle});
   Writer& writer = *known;
   writer.is_looked_up = true;
   if (const auto endpoint = table_.FindWriter(handle)) {
     writer.fits = TypeMisfit(endpoint->options.user_data, endpoint_.user_data).empty();
     writer.has_simulated_time = table_.HasSimulatedTime(endpoint->participant);
-    writer.shares_clock = table_.SharesClock(endpoint->participant);
+    writer.application = table_.ApplicationName(endpoint->participant);
   }
   return writer;
 }
@@ -95,17 +96,17 @@ void TakenPort::ForgetGone(const std::vector<WireEndpoint>& writers) {
   if (writers.size() < 2) come_in_turn_ = is_turn_told_ = false;
 }
 
-// Of those without a strength the first keeps it. One that was killed is there until its lease is over: whoever has been
-// started again in its place, under its name, has it sooner.
+// Of those without a strength the first keeps it. An application that was killed is there until its lease is over: whoever has
+// been started again in its place, under its name, has it sooner. Of others' names, as nodes of ROS 2 have them, nothing follows.
 bool TakenPort::IsHeard(std::uint64_t writer) {
   constexpr auto kSilent = std::chrono::seconds(1);
   if (ChoosesItself()) {
     const Time now = SteadyClock().Now();
-    const auto name = [&](std::uint64_t handle) {
-      const auto endpoint = table_.FindWriter(handle);
-      return endpoint ? table_.NameOf(endpoint->participant) : std::string();
-    };
-    if (chosen_ != 0 && chosen_ != writer && (now - chosen_came_ < kSilent || name(chosen_) != name(writer))) return false;
+    if (chosen_ != 0 && chosen_ != writer) {
+      const std::string& application = Find(chosen_).application;
+      const bool is_started_again = !application.empty() && application == Find(writer).application;
+      if (!is_started_again || now - chosen_came_ < kSilent) return false;
+    }
     chosen_ = writer;
     chosen_came_ = now;
   }
@@ -136,10 +137,13 @@ void TakenPort::Take(const WireSample& sample) noexcept {
       const std::lock_guard lock(mutex_);
       Writer& writer = Find(sample.writer);
       if (!writer.fits) return;
+      // What a writer keeps is delivered again to a reader that has been made anew.
+      if (endpoint_.qos.is_latched && sample.source_time <= writer.before) return;
+      writer.newest = std::max(writer.newest, sample.source_time);
       if (!IsHeard(sample.writer)) return;
       is_comparable = !clock_.is_simulated && !writer.has_simulated_time;
       if (is_comparable) writer.clock.Note(now - sent, now);
-      if (is_comparable) sent += Behind(writer);
+      if (is_comparable) sent -= writer.clock.ahead();
     }
     if (!sample.flaw.empty()) return Refuse({.message = std::string(sample.flaw)});
     const OwnCycle cycle(now);
@@ -171,24 +175,13 @@ std::optional<Error> TakenPort::TakeError() {
   return std::exchange(error_, {});
 }
 
-std::string TakenPort::Owner() const {
+TakenPort::WriterInCharge TakenPort::Owner() const {
   const std::lock_guard lock(mutex_);
   const std::uint64_t owner = ChoosesItself() ? chosen_ : endpoint_.qos.is_exclusive ? last_writer_ : 0;
   const auto writer = owner != 0 ? table_.FindWriter(owner) : std::nullopt;
   if (!writer) return {};
-  if (!writer->options.qos.is_exclusive) return table_.NameOf(writer->participant);
-  return table_.NameOf(writer->participant) + " (strength " + std::to_string(writer->options.qos.strength) + ")";
-}
-
-// What is latched may be old, and on this machine nobody but who fakes the time has another clock.
-Duration TakenPort::Behind(const Writer& writer) const {
-  return writer.clock.behind(endpoint_.qos.is_latched || writer.shares_clock);
-}
-
-Duration TakenPort::behind(std::uint64_t writer) const {
-  const std::lock_guard lock(mutex_);
-  const auto known = std::ranges::find(writers_, writer, &Writer::handle);
-  return known == writers_.end() ? Duration{} : Behind(*known);
+  const WireQos& qos = writer->options.qos;
+  return {owner, table_.NameOf(writer->participant) + (qos.is_exclusive ? " (strength " + std::to_string(qos.strength) + ")" : "")};
 }
 
 std::optional<Duration> TakenPort::least_delay(std::uint64_t writer) const {

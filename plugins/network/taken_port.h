@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -61,9 +62,12 @@ class TakenPort {
   }
   /// Why the last of them could not, once.
   [[nodiscard]] std::optional<Error> TakeError();
-  /// "planner (strength 5)": of those who write to who listens to one only, the one whose value came last, or that has been
-  /// chosen here; "" otherwise.
-  [[nodiscard]] std::string Owner() const;
+  /// Of those who write to who listens to one only, the one whose value came last, or that has been chosen here.
+  struct WriterInCharge {
+    std::uint64_t handle = 0;  ///< 0: none
+    std::string name = {};     ///< "planner (strength 5)"; "" if there is none
+  };
+  [[nodiscard]] WriterInCharge Owner() const;
   /// Of writers without a strength, who all match, the one that an exclusive take listens to; 0: none, or the engine chooses.
   [[nodiscard]] std::uint64_t chosen() const;
   /// Whether values of two writers come in turn, who are both heard.
@@ -72,21 +76,21 @@ class TakenPort {
   [[nodiscard]] std::optional<Duration> least_delay() const;
   /// The same of one writer.
   [[nodiscard]] std::optional<Duration> least_delay(std::uint64_t writer) const;
-  /// By how much the clock of a writer is evidently behind this one's; below 0: ahead; 0: neither.
-  [[nodiscard]] Duration behind(std::uint64_t writer) const;
 
  private:
+  static constexpr std::int64_t kNoTime = std::numeric_limits<std::int64_t>::min();
   /// What is known of who writes.
   struct Writer {
     std::uint64_t handle;
-    bool fits;                 // by its type
-    bool has_simulated_time;  // which says nothing here
-    bool shares_clock;        // so that delays are what they are
+    bool fits = true;                 // by its type
+    bool has_simulated_time = false;  // which says nothing here
+    std::string application = {};     // of Runnel that has it; else ""
     WriterClock clock = {};
-    bool is_looked_up = true;  // since Follow()
+    bool is_looked_up = true;         // since Follow()
+    std::int64_t newest = kNoTime;    // by its own time: of what has come
+    std::int64_t before = kNoTime;    // of that, by the reader of before
   };
   [[nodiscard]] Writer& Find(std::uint64_t handle);
-  [[nodiscard]] Duration Behind(const Writer& writer) const;
   void Take(const WireSample& sample) noexcept;
   [[nodiscard]] bool ChoosesItself() const noexcept { return options_.is_exclusive && !endpoint_.qos.is_exclusive; }
   [[nodiscard]] bool IsHeard(std::uint64_t writer);

@@ -1,8 +1,6 @@
 #include "plugins/network_discovery/discovery_table.h"
 
 #include <algorithm>
-#include <fstream>
-#include <functional>
 
 #include "plugins/network_discovery/value_form.h"
 
@@ -92,26 +90,17 @@ std::string DiscoveryTable::NameOf(const WireId& member) const {
   return found == members_.end() || found->second.name.empty() ? "somebody" : found->second.name;
 }
 
-bool DiscoveryTable::SharesClock(const WireId& member) const {
+std::string DiscoveryTable::ApplicationName(const WireId& member) const {
   const std::lock_guard lock(mutex_);
   const auto found = members_.find(member);
-  return found != members_.end() && found->second.user_data.find(MachineWords()) != std::string::npos;
+  const bool is_one = found != members_.end() && found->second.user_data.find(kIsApplication) != std::string::npos;
+  return is_one ? found->second.name : "";
 }
 
 bool DiscoveryTable::HasSimulatedTime(const WireId& member) const {
   const std::lock_guard lock(mutex_);
   const auto found = members_.find(member);
   return found != members_.end() && found->second.user_data.find(kSimulatedTime) != std::string::npos;
-}
-
-// Since its start; not the number itself, which is nobody else's business.
-const std::string& MachineWords() {
-  static const std::string words = [] {
-    std::string boot;
-    std::ifstream("/proc/sys/kernel/random/boot_id") >> boot;
-    return "machine=" + std::to_string(std::hash<std::string>{}(boot)) + ";";
-  }();
-  return words;
 }
 
 bool IsInternalTopic(std::string_view topic) {

@@ -34,8 +34,8 @@ class DiscoveryTable final : public WireDiscovery {
   [[nodiscard]] std::vector<WireEndpoint> Partners(const std::string& topic, bool writers) const;
   [[nodiscard]] std::optional<WireEndpoint> FindWriter(std::uint64_t handle) const;
   [[nodiscard]] std::string NameOf(const WireId& member) const;
-  /// Whether it is on this machine, as it says itself, and so has its clock.
-  [[nodiscard]] bool SharesClock(const WireId& member) const;
+  /// Its name, if it says that it is an application of Runnel; else "". All nodes of ROS 2 may have one name.
+  [[nodiscard]] std::string ApplicationName(const WireId& member) const;
   /// Whether it says that its time is simulated.
   [[nodiscard]] bool HasSimulatedTime(const WireId& member) const;
 
@@ -50,8 +50,8 @@ class DiscoveryTable final : public WireDiscovery {
 /// What a member with simulated time says of itself, among other things.
 inline constexpr const char* kSimulatedTime = "clock=simulated;";
 
-/// "machine=…;": likewise, of the machine whose clock a member has.
-[[nodiscard]] const std::string& MachineWords();
+/// What an application of Runnel says of itself.
+inline constexpr const char* kIsApplication = "runnel=application;";
 
 /// "commands=set,swap;": what one allows others, said by itself.
 inline constexpr const char* kAllowedCommands = "commands=";

@@ -8,13 +8,14 @@
 
 namespace runnel {
 
-/// What is known of another machine's clock by when values were sent there and came here: no delay is below 0, and none that
-/// a network makes is large, so the smallest one of late tells how far the clocks are apart at least.
+/// What is known of another machine's clock by when values were measured there and came here: no delay is below 0, so the
+/// smallest one of late tells how far that clock is ahead at least. A clock that is behind cannot be told from values that are
+/// held up.
 class WriterClock {
  public:
-  /// `delay`: from sending to arrival, by the two clocks.
+  /// `delay`: from measuring to arrival, by the two clocks.
   void Note(Duration delay, Time now) {
-    constexpr auto kWindow = std::chrono::seconds(5);  // so that a clock that is set is followed
+    constexpr auto kWindow = std::chrono::minutes(1);  // so that a clock that is set is followed
     if (!least_) began_ = now;
     if (now - began_ > kWindow) {
       before_ = least_;
@@ -27,12 +28,8 @@ class WriterClock {
   [[nodiscard]] std::optional<Duration> least() const {
     return before_ && least_ ? std::min(before_, least_) : least_;
   }
-  /// By how much it is evidently behind; below 0: ahead; 0: neither. `may_be_old`: values may have been there long before
-  /// they were sent.
-  [[nodiscard]] Duration behind(bool may_be_old) const {
-    const Duration delay = least().value_or(Duration{});
-    return delay < Duration{} || (delay > kMostOfNetworks && !may_be_old) ? delay : Duration{};
-  }
+  /// By how much it is evidently ahead; 0: not so.
+  [[nodiscard]] Duration ahead() const { return std::max(Duration{}, -least().value_or(Duration{})); }
   /// More than a network takes.
   static constexpr Duration kMostOfNetworks = std::chrono::milliseconds(250);
 

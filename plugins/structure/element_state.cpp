@@ -6,8 +6,8 @@
 #include "core/element/runtime.h"
 #include "core/element/tags.h"
 #include "core/port/given_limits.h"
+#include "core/port/port_stop.h"
 #include "core/types/type_info.h"
-#include "core/types/value_copy.h"
 #include "plugins/structure/value_by_hand.h"
 
 namespace runnel::internal {
@@ -17,19 +17,24 @@ namespace {
 /// Of a port, among what is noted.
 struct PortState final : Annotation {
   InputLimits limits;
-  AnyValue by_hand;
+  AnyValue by_hand;  // of a person; rules set again what they have set
+  AnyValue safe_value;
+  bool is_driving = false;
+  bool is_blocked = false;
 };
 
-AnyValue ValueByHand(const Port& port) {
-  AnyValue value;
-  if (!port.is_set_by_hand() || !port.type().is_transparent()) return value;
-  for (const Port* shown : port.ShownPorts()) {
-    shown->VisitLatest([&](const void* latest, ValueTimes) {
-      const std::shared_ptr<void> copy = port.type().Make();
-      if (copy && CopyValue(port.type(), latest, copy.get())) value = {port.type(), copy};
-    });
+Result<void> GiveTo(Port& port, const PortState& state) {
+  const bool is_input = !port.is_proxy() && port.direction() == Port::Direction::kInput;
+  if (is_input) {
+    if (auto set = port.SetLimits(state.limits); !set) return set;
   }
-  return value;
+  if (state.is_driving) {
+    if (auto set = port.SetDriving(true, state.safe_value); !set) return set;
+  }
+  if (state.is_blocked) {
+    if (auto blocked = port.Block(); !blocked) return blocked;
+  }
+  return state.by_hand ? PublishByHand(port, state.by_hand.get()) : Result<void>();
 }
 
 void Note(FrameworkElement& noted, const FrameworkElement& element, FrameworkElement::Inherit how,
@@ -37,7 +42,10 @@ void Note(FrameworkElement& noted, const FrameworkElement& element, FrameworkEle
   if (const auto* const port = dynamic_cast<const Port*>(&element)) {
     auto state = std::make_unique<PortState>();
     state->limits = port->limits();
-    state->by_hand = ValueByHand(*port);
+    state->by_hand = port->ValueByHand();
+    state->is_driving = port->is_driving();
+    state->is_blocked = port->is_blocked();
+    if (port->stop() != nullptr) state->safe_value = port->stop()->safe_value();
     noted.Annotate(std::move(state));
   }
   if (below == ElementState::Below::kLeftOut) return;
@@ -50,13 +58,7 @@ Result<void> Give(const FrameworkElement& noted, FrameworkElement& made) {
   auto* const port = dynamic_cast<Port*>(&made);
   const auto* const state = noted.FindAnnotation<PortState>();
   if (port != nullptr && state != nullptr) {
-    const bool is_input = !port->is_proxy() && port->direction() == Port::Direction::kInput;
-    if (is_input) {
-      if (auto set = port->SetLimits(state->limits); !set) return set;
-    }
-    if (state->by_hand) {
-      if (auto published = PublishByHand(*port, state->by_hand.get()); !published) return published;
-    }
+    if (auto given = GiveTo(*port, *state); !given) return given;
   }
   for (const FrameworkElement* child : noted.children()) {
     FrameworkElement* const counterpart = made.FindChild(child->name());
@@ -83,6 +85,8 @@ std::string WhatIsSetAt(const Port& port) {
   const auto add = [&](bool is_set, const char* what) {
     if (is_set) text += (text.empty() ? "" : ", ") + std::string(what);
   };
+  add(port.is_blocked(), "its block");
+  add(port.is_driving(), "its mark as driving");
   add(port.is_set_by_hand(), "its value by hand");
   add(port.FindAnnotation<GivenLimits>() != nullptr, "its limits");
   add(!TagsOf(port).empty(), "its tags");

@@ -6,13 +6,14 @@
 
 #include "core/element/element_path.h"
 #include "core/module/group_parameter.h"
-#include "core/plugin/module_type_name.h"
 #include "core/paths/path_search.h"
+#include "core/plugin/module_type_name.h"
 #include "core/port/port.h"
 #include "core/types/type_info.h"
 #include "plugins/scheduling/thread_container.h"
 #include "plugins/structure/element_state.h"
 #include "plugins/structure/plan.h"
+#include "plugins/structure/replacement.h"
 
 namespace runnel::internal {
 
@@ -21,18 +22,6 @@ namespace {
 Error CannotBeMade(const FrameworkElement& element) {
   return {.message = "could not be made again by a change: it is of no registered type",
           .path = element.path()};
-}
-
-// The values that a module of the same type would not have by itself.
-std::vector<Setting> Settings(const FrameworkElement& module) {
-  std::vector<Setting> settings;
-  for (const auto& [element, parameter] : ConfigurablesOf(module)) {
-    std::string value = parameter->ToText();
-    if (value != parameter->info().default_value) {
-      settings.push_back({element->name(), std::move(value)});
-    }
-  }
-  return settings;
 }
 
 // Those that `after` would otherwise hand over.
@@ -56,7 +45,7 @@ void AddCreation(const FrameworkElement& element, FrameworkElement::Inherit how,
   const std::string type = FindModuleType(element);
   const auto* const port = dynamic_cast<const Port*>(&element);
   if (!type.empty()) {
-    changes.push_back(CreateModule{element.path(), type, Settings(element), state});
+    changes.push_back(CreateModule{element.path(), type, SettingsOf(element), state});
   } else if (const auto* const container = dynamic_cast<const ThreadContainer*>(&element)) {
     AddThreadAgain(*container, changes);
   } else if (is_group) {
@@ -173,7 +162,7 @@ ChangeSet ReplaceBack(const FrameworkElement& before, const FrameworkElement& af
     if (!why_not) why_not = CannotBeMade(before);
     return {};
   }
-  std::vector<Setting> settings = Settings(before);
+  std::vector<Setting> settings = SettingsOf(before);
   AddDefaults(before, after, settings);
   return {ReplaceModule{before.path(), type, std::move(settings), probation_cycles,
                         std::make_shared<const ElementState>(before, FrameworkElement::Inherit::kAsReplacement,

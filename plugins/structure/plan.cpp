@@ -61,6 +61,8 @@ void Plan::Make(const ChangeSet& changes, const std::vector<SourcePosition>& pla
     try {
       const auto check = [this](const auto& change) { return Check(change); };
       if (const auto possible = std::visit(check, changes[i]); !possible) tell(possible.error());
+    } catch (const Workshop::Overtaken&) {
+      throw;
     } catch (...) {  // the projection may have been told of something that is gone again
       return tell({.message = DescribeException()});
     }
@@ -137,11 +139,10 @@ void Plan::WarnOfMissingSources(Diagnostics& diagnostics) const {
   }
 }
 
-void Plan::AddCreation(UnlistedElement element, const FrameworkElement* sibling, GivenState state) {
-  FrameworkElement& made = *element;
+void Plan::AddCreation(New kept, const FrameworkElement* sibling, GivenState state) {
+  FrameworkElement& made = **kept;
   overlay_.Add(made);
   made_.push_back(&made);
-  auto kept = std::make_shared<UnlistedElement>(std::move(element));
   steps_.push_back({[this, kept, sibling, state = std::move(state)]() -> Result<void> {
                       if (state) {
                         if (auto given = state->GivePorts(**kept); !given) return given;
@@ -193,10 +194,10 @@ void Plan::AddRemoval(FrameworkElement& element) {
                     [&element](auto& why_not) { return MakeAgain(element, why_not); }});
 }
 
-void Plan::AddReplacement(FrameworkElement& before, UnlistedElement after,
+void Plan::AddReplacement(FrameworkElement& before, const Workshop::Work& work,
                           std::vector<std::pair<Port*, Port*>> ports, const ReplaceModule& change) {
   struct Done {
-    UnlistedElement after;   // until it is listed
+    New after;               // until it is listed
     UnlistedElement before;  // once it is not
     const FrameworkElement* place = nullptr;  // of `before`
     std::size_t moved = 0;                    // of the ports
@@ -204,10 +205,10 @@ void Plan::AddReplacement(FrameworkElement& before, UnlistedElement after,
   };
   Concern(before);
   going_.push_back(before.path());
-  FrameworkElement& next = *after;
+  FrameworkElement& next = **work.element;
   auto done = std::make_shared<Done>();
-  done->after = std::move(after);
-  steps_.push_back({[=, this, &before, &next, values = ValuesOf(before)]() -> Result<void> {
+  done->after = work.element;
+  steps_.push_back({[=, this, &before, &next, values = work.values]() -> Result<void> {
                       // What has been set or assigned since the new module was made, by this change set or others.
                       if (auto set = CopyLateSettings(before, values, change.settings, next); !set)
                         return set;
@@ -227,7 +228,7 @@ void Plan::AddReplacement(FrameworkElement& before, UnlistedElement after,
                         ++done->moved;
                       }
                       const bool is_same_place = next.parent() == before.parent();
-                      if (auto listed = runtime_.List(std::move(done->after),
+                      if (auto listed = runtime_.List(std::move(*done->after),
                                                       is_same_place ? done->place : nullptr);
                           !listed) {
                         return listed.error();
@@ -244,9 +245,9 @@ void Plan::AddReplacement(FrameworkElement& before, UnlistedElement after,
                         done->is_noted = false;
                       }
                       if (!done->before) return;
-                      if (!done->after) {
+                      if (!*done->after) {
                         if (next.parent() == before.parent()) done->place = NextSibling(next);
-                        done->after = runtime_.Unlist(next).value();
+                        *done->after = runtime_.Unlist(next).value();
                       }
                       for (; done->moved > 0; --done->moved) {
                         const auto& [from, to] = ports[done->moved - 1];

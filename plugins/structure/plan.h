@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +15,7 @@
 #include "plugins/structure/change.h"
 #include "plugins/structure/inverse.h"
 #include "plugins/structure/structure_overlay.h"
+#include "plugins/structure/workshop.h"
 
 namespace runnel {
 class GroupParameter;
@@ -29,23 +31,28 @@ struct Replaced {
   std::uint64_t probation_cycles = 0;
 };
 
+/// Made beside the tree, until it is listed.
+using New = std::shared_ptr<UnlistedElement>;
+
 /// The connections between what is at or below `element` and the rest. Under the structure lock.
 [[nodiscard]] std::vector<Connection> ExternalConnectionsOf(FrameworkElement& element);
 
 /// A change set that has been checked against the structure, with everything made that it needs: all that
 /// is left is to carry it out, between two cycles, and quickly.
 ///
-/// Threads:  under the structure lock, from Make() to Commit().
+/// Threads:  under the structure lock, taken once, from Make() to Commit().
 class Plan {
  public:
-  Plan(Runtime& runtime, const ModuleRegistry& modules)
-      : runtime_(runtime), modules_(modules), overlay_(runtime) {}
+  /// `workshop` has what attempts before have made, and outlives it.
+  Plan(Runtime& runtime, const ModuleRegistry& modules, Workshop& workshop)
+      : runtime_(runtime), modules_(modules), workshop_(workshop), overlay_(runtime) {}
   /// Outside of cycles and without the structure lock: waits until no thread can see any more what has been in
   /// the tree and is destroyed now.
   ~Plan();
 
   /// Checks the changes one after the other, each as if those before had been made, and makes what is
-  /// new, beside the tree. All that is wrong goes to `diagnostics`, at `places`, if there are any.
+  /// new, beside the tree. All that is wrong goes to `diagnostics`, at `places`, if there are any. Lets go of the
+  /// structure lock while it makes a module; throws Workshop::Overtaken if others have changed something then.
   void Make(const ChangeSet& changes, const std::vector<SourcePosition>& places,
             Diagnostics& diagnostics);
 
@@ -109,7 +116,7 @@ class Plan {
   Result<void> MoveTargets(const FrameworkElement& renamed, const std::string& path);
   void MoveExtensions(const FrameworkElement& renamed, const std::string& name);
   void AddExchange(FrameworkElement& before, UnlistedElement after);
-  Result<void> ExchangeComposite(FrameworkElement& before, UnlistedElement after, Misfits misfits);
+  Result<void> ExchangeComposite(FrameworkElement& before, New after, Misfits misfits);
   Result<void> CheckAll(const GroupParameter& group, const SetParameter& change);
   Result<void> CheckStatic(const FrameworkElement& element, const Configurable& parameter,
                            const void* value);
@@ -123,21 +130,29 @@ class Plan {
                         const std::optional<ConnectOptions>& wanted);
   Result<void> CheckTie(Port& from, Port& to, const std::optional<ConnectOptions>& wanted);
   Result<void> Apply(UndoRecord* back, std::size_t& begun);
-  Result<UnlistedElement> MakeModule(const std::string& type, const Placement& placement);
+  // Constructed, configured, with what had been set at `before`, if there is one, and prepared.
+  Result<Workshop::Work> MakeModule(const Placement& place, const ReplaceModule& change,
+                                    const FrameworkElement* before);
+  Result<Workshop::Work> MakeGroup(const Placement& place, const FrameworkElement* before,
+                                   const GivenState& state);
+  // By what `key` is distinguished among what goes there.
+  std::string KeyOf(const Placement& place, std::string key, const FrameworkElement* before);
   void WarnOfMissingSources(Diagnostics& diagnostics) const;
 
   // Prepares what has just been made, with what had been set at another one, and adds it.
-  Result<void> AddNew(UnlistedElement made, const GivenState& state);
+  Result<void> AddNew(UnlistedElement made, const GivenState& state = {});
   // Behind `sibling`; without, after all.
-  void AddCreation(UnlistedElement element, const FrameworkElement* sibling = nullptr, GivenState state = {});
+  void AddCreation(New element, const FrameworkElement* sibling = nullptr, GivenState state = {});
   void AddRemoval(FrameworkElement& element);
-  void AddReplacement(FrameworkElement& before, UnlistedElement after,
+  void AddReplacement(FrameworkElement& before, const Workshop::Work& work,
                       std::vector<std::pair<Port*, Port*>> ports, const ReplaceModule& change);
   // The module that a port or parameter belongs to, or the group.
   void Concern(const FrameworkElement& element);
 
   Runtime& runtime_;
   const ModuleRegistry& modules_;
+  Workshop& workshop_;
+  std::map<std::string, int> keys_;  // of what has been asked of it, and how often
   StructureOverlay overlay_;
   std::vector<Step> steps_;
   bool has_failed_ = false;  // in carrying it out, so that others may have seen what is new

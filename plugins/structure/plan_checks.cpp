@@ -38,35 +38,92 @@ Result<std::shared_ptr<const void>> ValueIn(const SetParameter& change,
 
 }  // namespace
 
-Result<UnlistedElement> Plan::MakeModule(const std::string& type, const Placement& placement) {
-  auto made = modules_.Make(type, placement);
-  if (made || !made.error().path.empty()) return made;
-  Error error = made.error();
-  error.path = placement.parent.path() + "/" + placement.name;
-  return error;
+std::string Plan::KeyOf(const Placement& place, std::string key, const FrameworkElement* before) {
+  key += " " + std::to_string(place.parent.id()) + "/" + place.name;
+  if (before != nullptr) key += " " + std::to_string(before->id());
+  return key + " " + std::to_string(keys_[key]++);
+}
+
+Result<Workshop::Work> Plan::MakeModule(const Placement& place, const ReplaceModule& change,
+                                        const FrameworkElement* before) {
+  std::string key = change.type;
+  for (const Setting& each : change.settings) key += " " + each.parameter + "=" + each.value;
+  // Whatever is to be known of others is looked at first: they may go while it is made.
+  const std::uint64_t revision = runtime_.revision_by_others();
+  const auto& work =
+      workshop_.Get(KeyOf(place, std::move(key), before), [&]() -> Result<Workshop::Work> {
+        std::vector<Setting> inherited;
+        Values values;
+        std::optional<ElementState> state;
+        std::string name = place.name;
+        if (before != nullptr) {
+          inherited = SettingsOf(*before);
+          values = ValuesOf(*before);
+          state.emplace(*before, FrameworkElement::Inherit::kAsReplacement,
+                        ElementState::Below::kIncluded);
+          name = NameInFile::Of(*before);
+        }
+        const Unlocked unlocked(runtime_);
+        auto made = modules_.Make(change.type, place);
+        if (!made) {
+          Error error = made.error();
+          if (error.path.empty()) error.path = place.parent.path() + "/" + place.name;
+          return error;
+        }
+        if (auto set = ConfigureNew(**made, inherited, change.settings); !set) return set.error();
+        if (change.state) change.state->GiveAnnotations(**made);
+        if (state) state->GiveAnnotations(**made);
+        if (name != place.name) (*made)->Annotate(std::make_unique<NameInFile>(name));
+        if (auto prepared = Runtime::Prepare(*made); !prepared) return prepared.error();
+        return Workshop::Work{std::make_shared<UnlistedElement>(std::move(*made)),
+                              std::move(values)};
+      });
+  if (runtime_.revision_by_others() != revision) throw Workshop::Overtaken();
+  return work;
+}
+
+Result<Workshop::Work> Plan::MakeGroup(const Placement& place, const FrameworkElement* before,
+                                       const GivenState& state) {
+  return workshop_.Get(KeyOf(place, "group", before), [&]() -> Result<Workshop::Work> {
+    auto made = std::make_shared<UnlistedElement>(std::make_unique<Group>(place));
+    if (state) state->GiveAnnotations(**made);
+    if (before != nullptr) {
+      (*made)->InheritAnnotations(*before);
+      NameInFile::Note(**made, *before);
+    }
+    if (auto prepared = Runtime::Prepare(*made); !prepared) return prepared.error();
+    return Workshop::Work{std::move(made)};
+  });
 }
 
 Result<void> Plan::AddNew(UnlistedElement made, const GivenState& state) {
   if (state) state->GiveAnnotations(*made);
   if (auto prepared = Runtime::Prepare(made); !prepared) return prepared;
-  AddCreation(std::move(made), nullptr, state);
+  AddCreation(std::make_shared<UnlistedElement>(std::move(made)), nullptr, state);
   return {};
 }
 
 Result<void> Plan::Check(const CreateModule& change) {
   const auto place = overlay_.PlaceFor(change.path);
   if (!place) return place.error();
-  auto made = MakeModule(change.type, *place);
-  if (!made) return made.error();
-  if (auto set = ConfigureNew(**made, nullptr, change.settings); !set) return set;
-  return AddNew(std::move(*made), change.state);
+  const auto work = MakeModule(*place,
+                               {.path = change.path,
+                                .type = change.type,
+                                .settings = change.settings,
+                                .state = change.state},
+                               nullptr);
+  if (!work) return work.error();
+  AddCreation(work->element, nullptr, change.state);
+  return {};
 }
 
 Result<void> Plan::Check(const CreateGroup& change) {
   const auto place = overlay_.PlaceFor(change.path);
   if (!place) return place.error();
-  UnlistedElement made(std::make_unique<Group>(*place));
-  return AddNew(std::move(made), change.state);
+  const auto work = MakeGroup(*place, nullptr, change.state);
+  if (!work) return work.error();
+  AddCreation(work->element, nullptr, change.state);
+  return {};
 }
 
 Result<void> Plan::Check(const CreatePort& change) {
@@ -228,18 +285,15 @@ Result<void> Plan::CheckReplacement(const ReplaceModule& change, Misfits misfits
 
 Result<void> Plan::CheckReplacement(FrameworkElement& before, const Placement& place,
                                     const ReplaceModule& change, Misfits misfits) {
-  auto made = MakeModule(change.type, place);
-  if (!made) return made.error();
-  if (auto set = ConfigureNew(**made, &before, change.settings); !set) return set;
-  if (change.state) change.state->GiveAnnotations(**made);
-  (*made)->InheritAnnotations(before);
-  NameInFile::Note(**made, before);
-  if (auto prepared = Runtime::Prepare(*made); !prepared) return prepared;
-  if (before.kind() == ElementKind::kGroup || (*made)->kind() == ElementKind::kGroup) {
-    return ExchangeComposite(before, std::move(*made), misfits);
+  const auto work = MakeModule(place, change, &before);
+  if (!work) return work.error();
+  FrameworkElement& made = **work->element;
+  if (before.kind() == ElementKind::kGroup || made.kind() == ElementKind::kGroup) {
+    return ExchangeComposite(before, work->element, misfits);
   }
-  PortMatch match =
-      MatchPorts(before, **made, [this](const Port& port) { return overlay_.IsConnected(port) || !AwaitedWith(port).empty(); });
+  PortMatch match = MatchPorts(before, made, [this](const Port& port) {
+    return overlay_.IsConnected(port) || !AwaitedWith(port).empty();
+  });
   if (misfits == Misfits::kAreCut && !match.errors.empty()) {
     if (auto cut = Cut(match.misfits); !cut) return cut;
     match.errors.clear();
@@ -258,19 +312,18 @@ Result<void> Plan::CheckReplacement(FrameworkElement& before, const Placement& p
     }
   });
   const bool is_made_anew = FindModuleType(before) == change.type;
-  for (Error& each : StateRefusals(before, **made)) {
+  for (Error& each : StateRefusals(before, made)) {
     (is_made_anew ? further_errors_ : warnings_).push_back(std::move(each));
   }
-  overlay_.Replace(before, **made, match.ports);
-  made_.push_back(made->get());
-  AddReplacement(before, std::move(*made), std::move(match.ports), change);
+  overlay_.Replace(before, made, match.ports);
+  made_.push_back(&made);
+  AddReplacement(before, *work, std::move(match.ports), change);
   return {};
 }
 
 // What a composite consists of is its own: only its interface is connected anew, and there is no state to be kept.
-Result<void> Plan::ExchangeComposite(FrameworkElement& before, UnlistedElement after,
-                                     Misfits misfits) {
-  FrameworkElement& made = *after;
+Result<void> Plan::ExchangeComposite(FrameworkElement& before, New after, Misfits misfits) {
+  FrameworkElement& made = **after;
   std::vector<Connection> ties;
   for (const Connection& tie : ExternalConnectionsOf(before)) {
     Port& own = tie.from->IsAtOrBelow(before) ? *tie.from : *tie.to;

@@ -154,9 +154,7 @@ Result<void> Plan::MoveTo(const Placement& place, FrameworkElement& element) {
     UnlistedElement made(std::make_unique<GroupParameter>(place, parameter->targets(),
                                                           parameter->info().description));
     made->InheritAnnotations(element);
-    if (auto prepared = Runtime::Prepare(made); !prepared) return prepared;
-    AddCreation(std::move(made));
-    return {};
+    return AddNew(std::move(made));
   }
   if (element.kind() == ElementKind::kGroup) return MoveGroup(place, element);
   return Error{.message = "cannot be moved with its group", .path = element.path()};
@@ -164,13 +162,11 @@ Result<void> Plan::MoveTo(const Placement& place, FrameworkElement& element) {
 
 // One after the other goes into a new group; what ties them stays.
 Result<void> Plan::MoveGroup(const Placement& place, FrameworkElement& group) {
-  UnlistedElement made(std::make_unique<Group>(place));
-  FrameworkElement& after = *made;
-  after.InheritAnnotations(group);
-  NameInFile::Note(after, group);
+  const auto work = MakeGroup(place, &group, {});
+  if (!work) return work.error();
+  FrameworkElement& after = **work->element;
   KeepPlace(after, group);
-  if (auto prepared = Runtime::Prepare(made); !prepared) return prepared;
-  AddCreation(std::move(made), &place.parent == group.parent() ? &group : nullptr);
+  AddCreation(work->element, &place.parent == group.parent() ? &group : nullptr);
   for (FrameworkElement* child : std::vector(group.children())) {
     if (auto moved = MoveTo({after, child->name(), false}, *child); !moved) return moved;
   }

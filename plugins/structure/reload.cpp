@@ -1,5 +1,7 @@
 #include "plugins/structure/reload.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <mutex>
 #include <optional>
 
@@ -20,6 +22,15 @@ ChangeSet AllAnew(const ModuleRegistry& modules, FrameworkElement& root, std::st
   return changes;
 }
 
+// Of one that is loaded; what is to be said of others is said when it is to be loaded anew.
+std::optional<std::filesystem::path> FileOf(const PluginManager& plugins, Runtime& runtime,
+                                            std::string_view plugin) {
+  const std::lock_guard lock(runtime.structure_mutex());
+  if (std::ranges::find(plugins.loaded(), plugin) == plugins.loaded().end()) return {};
+  const auto file = plugins.FindFile(plugin);
+  return file ? std::optional(*file) : std::nullopt;
+}
+
 }  // namespace
 
 ChangeOutcome ReloadPlugin(PluginManager& plugins, StructureEditor& editor, Runtime& runtime,
@@ -28,10 +39,19 @@ ChangeOutcome ReloadPlugin(PluginManager& plugins, StructureEditor& editor, Runt
   ChangeOutcome outcome;
   try {
     ChangeSet changes;
+    std::optional<TemporaryCopy> copy;
+    if (const auto file = FileOf(plugins, runtime, plugin)) {
+      auto opened = PluginManager::OpenCopy(*file);
+      if (!opened) {
+        outcome.diagnostics.Add(opened.error());
+        return outcome;
+      }
+      copy.emplace(std::move(*opened));
+    }
     {
       const std::lock_guard lock(runtime.structure_mutex());
       changes = AllAnew(plugins.modules(), runtime.root(), plugin);
-      auto loaded = plugins.Reload(plugin);
+      auto loaded = copy ? plugins.Reload(plugin, *copy) : plugins.Reload(plugin);
       if (!loaded) {
         outcome.diagnostics.Add(loaded.error());
         return outcome;

@@ -64,30 +64,36 @@ Result<void> Configure(FrameworkElement& module, const Setting& setting, bool st
   return set ? set : Refused(set, *parameter.element);
 }
 
-Result<void> CopySettings(const FrameworkElement& before, FrameworkElement& after,
+Result<void> CopySettings(const std::vector<Setting>& inherited, FrameworkElement& after,
                           bool stand_for_others) {
   for (const auto& [element, target] : ConfigurablesOf(after)) {
     if (StandsForOthers({element, target}) != stand_for_others) continue;
-    const ConfigurableElement source = FindConfigurable(before, element->name());
-    if (!source) continue;
-    const std::string value = source.configurable->ToText();
-    if (value == source.configurable->info().default_value) continue;
-    if (const auto set = target->SetFromText(value); !set) return Refused(set, *element);
+    const auto source = std::ranges::find(inherited, element->name(), &Setting::parameter);
+    if (source == inherited.end()) continue;
+    if (const auto set = target->SetFromText(source->value); !set) return Refused(set, *element);
   }
   return {};
 }
 
 }  // namespace
 
-Result<void> ConfigureNew(FrameworkElement& made, const FrameworkElement* before,
+std::vector<Setting> SettingsOf(const FrameworkElement& module) {
+  std::vector<Setting> settings;
+  for (const auto& [element, parameter] : ConfigurablesOf(module)) {
+    std::string value = parameter->ToText();
+    if (value != parameter->info().default_value)
+      settings.push_back({element->name(), std::move(value)});
+  }
+  return settings;
+}
+
+Result<void> ConfigureNew(FrameworkElement& made, const std::vector<Setting>& inherited,
                           const std::vector<Setting>& settings) {
   for (const bool stand_for_others : {false, true}) {
     if (stand_for_others) {
       if (auto constructed = Runtime::Construct(made); !constructed) return constructed;
     }
-    if (before != nullptr) {
-      if (auto copied = CopySettings(*before, made, stand_for_others); !copied) return copied;
-    }
+    if (auto copied = CopySettings(inherited, made, stand_for_others); !copied) return copied;
     for (const Setting& each : settings) {
       if (auto set = Configure(made, each, stand_for_others); !set) return set;
     }

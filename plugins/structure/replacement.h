@@ -13,10 +13,13 @@
 
 namespace runnel::internal {
 
-/// Sets the parameters of a module that has just been made: to the values that parameters of the same name have in
-/// `before`, if there is one, where these are not the default ones, then to `settings`; and has it make the ports that
+/// The values that a module of the same type would not have by itself.
+[[nodiscard]] std::vector<Setting> SettingsOf(const FrameworkElement& module);
+
+/// Sets the parameters of a module that has just been made: to `inherited`, as far as it has parameters of these names,
+/// then to `settings`; and has it make the ports that
 /// follow from them. What stands for parameters within (GroupParameter) is set when these are there.
-Result<void> ConfigureNew(FrameworkElement& made, const FrameworkElement* before,
+Result<void> ConfigureNew(FrameworkElement& made, const std::vector<Setting>& inherited,
                           const std::vector<Setting>& settings);
 
 /// The values of a module's parameters as they are now, for CopyLateSettings().

@@ -36,6 +36,8 @@ void WarnOfIdleModules(const ChangeSet& changes, Scheduler& scheduler, Diagnosti
 // Shared with the scheduler's fault handler, so that a fault that is just being answered when the editor
 // goes still finds it.
 struct StructureEditor::Shared {
+  std::recursive_mutex
+      applying;  // change sets, one after the other; comes first. Faults are answered meanwhile
   OrderedMutex mutex{LockLevel::kEditor};
   std::optional<internal::Probation> probation;  // guarded by mutex; none without a scheduler
 };
@@ -81,12 +83,15 @@ ChangeOutcome StructureEditor::Apply(const ChangeRequest& request) {
   RUNNEL_CHECK(!EpochGuard::HeldByThisThread() && !runtime_.structure_mutex().HeldByThisThread(),
                "the structure cannot be changed by an editor from within a cycle, nor under the "
                "structure lock");
-  const std::lock_guard lock(shared_->mutex);
+  const std::lock_guard lock(shared_->applying);
   ChangeOutcome outcome;
+  internal::Workshop workshop;
   try {
-    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    for (int idle = 0; idle < kAttempts;) {
+      const std::size_t made = workshop.size();
       outcome = {};
-      if (Try(request, outcome) != Attempt::kOvertaken) return outcome;
+      if (Try(request, workshop, outcome) != Attempt::kOvertaken) return outcome;
+      if (workshop.size() == made) ++idle;
     }
     outcome.diagnostics.Add({.message = "others change the structure all the time; gave up after " +
                                         std::to_string(kAttempts) + " attempts"});
@@ -105,10 +110,11 @@ ChangeOutcome StructureEditor::Apply(const ChangeRequest& request) {
 }
 
 StructureEditor::Attempt StructureEditor::Try(const ChangeRequest& request,
+                                              internal::Workshop& workshop,
                                               ChangeOutcome& outcome) {
-  internal::Plan plan(runtime_, modules_);
+  internal::Plan plan(runtime_, modules_, workshop);
   std::uint64_t revision = 0;
-  {
+  try {
     const std::lock_guard lock(runtime_.structure_mutex());
     if (request.undo_record != nullptr) {
       const auto possible = internal::CheckExpected(*request.undo_record, runtime_.root());
@@ -116,9 +122,12 @@ StructureEditor::Attempt StructureEditor::Try(const ChangeRequest& request,
     }
     if (outcome.diagnostics.ok()) plan.Make(request.changes, request.places, outcome.diagnostics);
     revision = runtime_.revision();
+  } catch (const internal::Workshop::Overtaken&) {
+    return Attempt::kOvertaken;
   }
   outcome.is_refused = !outcome.diagnostics.ok();
   if (outcome.is_refused) return Attempt::kFailed;
+  const std::lock_guard lock(shared_->mutex);
   std::optional<CycleHold> hold;
   if (scheduler_ != nullptr) {
     auto held = scheduler_->HoldCycles(plan.concerned(), options_.timeout, plan.going());
@@ -130,10 +139,10 @@ StructureEditor::Attempt StructureEditor::Try(const ChangeRequest& request,
   }
   {
     // Threads are not kept waiting for somebody who holds the lock.
-    std::unique_lock lock(runtime_.structure_mutex(), std::try_to_lock);
-    if (!lock.owns_lock()) {
+    std::unique_lock structure(runtime_.structure_mutex(), std::try_to_lock);
+    if (!structure.owns_lock()) {
       hold.reset();
-      lock.lock();
+      structure.lock();
       return Attempt::kOvertaken;
     }
     if (runtime_.revision() != revision) return Attempt::kOvertaken;

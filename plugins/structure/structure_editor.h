@@ -14,6 +14,7 @@ namespace runnel {
 
 namespace internal {
 struct UndoRecord;
+class Workshop;
 }
 
 /// What has become of a change set.
@@ -32,7 +33,8 @@ struct EditorOptions {
 };
 
 /// Changes the structure of a running application. A change set is checked as a whole and what is new is
-/// made, configured and prepared beside the tree, while everything runs; then the threads concerned are
+/// made, configured and prepared beside the tree, while everything runs: modules without the structure lock, so that a
+/// slow constructor keeps nobody waiting. Then the threads concerned are
 /// kept between two of their cycles for as long as it takes to put the new in its place. If anything is
 /// wrong, nothing has happened.
 ///
@@ -72,7 +74,7 @@ class StructureEditor {
     internal::UndoRecord* back = nullptr;               // is to be filled
   };
   ChangeOutcome Apply(const ChangeRequest& request);
-  Attempt Try(const ChangeRequest& request, ChangeOutcome& outcome);
+  Attempt Try(const ChangeRequest& request, internal::Workshop& workshop, ChangeOutcome& outcome);
 
   Runtime& runtime_;
   const ModuleRegistry& modules_;

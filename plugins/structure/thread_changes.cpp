@@ -45,9 +45,7 @@ Result<void> Plan::Check(const AddThread& change) {
                  .hint = "leave out the path"};
   }
   UnlistedElement made(std::make_unique<ThreadContainer>(*place, change.options));
-  if (auto prepared = Runtime::Prepare(made); !prepared) return prepared;
-  AddCreation(std::move(made));
-  return {};
+  return AddNew(std::move(made));
 }
 
 Result<void> Plan::Check(const ScheduleThread& change) {

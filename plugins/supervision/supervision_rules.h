@@ -64,6 +64,12 @@ struct PauseReaction {
   Reaction on_resume = {};
 };
 
+/// A port by which somebody presses the STOP of the robot: each value but 0 and false does.
+struct StopButtonRule {
+  std::string port;       ///< path: what sends there is a number or a truth value
+  bool releases = false;  ///< letting go, a 0 after another value, releases it
+};
+
 /// Something that has been done by a rule, or could not be.
 struct Notice {
   std::string path;  ///< of what the rule watches

@@ -11,6 +11,7 @@
 #include "plugins/structure/structure_request.h"
 #include "plugins/structure/value_by_hand.h"
 #include "plugins/supervision/stale_watch.h"
+#include "plugins/supervision/stop_button.h"
 
 namespace runnel {
 
@@ -210,6 +211,16 @@ void Supervisor::Add(StuckReaction rule) {
   if (!rule.on_stuck.is_empty()) watched.on_stuck = CallOf(rule.on_stuck, "is stuck");
   if (!rule.on_return.is_empty()) watched.on_return = CallOf(rule.on_return, "has returned");
   scheduler_.AddStuckRule(std::move(watched));
+}
+
+Result<void> Supervisor::Add(StopButtonRule rule) {
+  const std::lock_guard lock(shared_->runtime.structure_mutex());
+  const auto port = PathSearch(shared_->runtime).FindPort(rule.port, PathKind::kOutput);
+  if (!port) return port.error();
+  if (auto good = CheckStopButton(**port); !good) return good;
+  buttons_.push_back(std::make_unique<internal::StopButton>(
+      shared_->runtime, std::move(rule), [shared = shared_](Notice notice) { shared->Note(std::move(notice)); }));
+  return {};
 }
 
 void Supervisor::Add(PauseReaction rule) {

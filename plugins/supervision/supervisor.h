@@ -12,6 +12,10 @@
 
 namespace runnel {
 
+namespace internal {
+class StopButton;
+}
+
 /// Keeps an application going when a sensor falls silent or a module fails: carries out what its rules
 /// say, and takes it back when all is well again.
 ///
@@ -41,6 +45,8 @@ class Supervisor {
   void Add(StuckReaction rule);
 
   void Add(PauseReaction rule);
+  /// From now on, in a thread of its own. Errors: no such port, or another type.
+  Result<void> Add(StopButtonRule rule);
   /// As Scheduler::SetPaused(), and then what the rules say. Errors: the same.
   Result<void> SetPaused(std::string_view path, bool is_paused);
 
@@ -54,6 +60,7 @@ class Supervisor {
 
   Scheduler& scheduler_;
   const std::shared_ptr<Shared> shared_;  // with the rules that the scheduler keeps
+  std::vector<std::unique_ptr<internal::StopButton>> buttons_;
 };
 
 }  // namespace runnel

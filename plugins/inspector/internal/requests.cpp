@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <initializer_list>
 #include <memory>
 #include <utility>
 #include <variant>
@@ -11,6 +10,7 @@
 #include "plugins/command_service/save_place.h"
 #include "plugins/inspector/internal/call_request.h"
 #include "plugins/inspector/internal/conversion_request.h"
+#include "plugins/inspector/internal/stop_messages.h"
 #include "plugins/values/json_writer.h"
 
 namespace runnel::internal {
@@ -29,10 +29,6 @@ void AppendError(const RequestError& each, std::string& text) {
 
 void AddHead(std::optional<std::uint64_t> request, bool is_ok, JsonObject& json) {
   json.Add("op", "reply").AddOrNull("request", request).Add("ok", is_ok);
-}
-
-bool IsOneOf(std::string_view word, std::initializer_list<std::string_view> words) {
-  return std::ranges::find(words, word) != words.end();
 }
 
 // Each change is a line of its own in the places, so that errors say which it is.
@@ -79,32 +75,13 @@ CommandOrErrors ReadChanges(ViewerMessage& message) {
   return CommandRequest(std::move(request));
 }
 
-// What the service is to be asked for.
-CommandOrErrors CommandOf(const Inspection& inspection, ViewerMessage& message) {
-  if (message.op == "change") return ReadChanges(message);
-  if (message.op == "undo") return CommandRequest(UndoRequest{});
-  if (message.op == "redo") return CommandRequest(RedoRequest{});
-  if (message.op == "reload") return CommandRequest(ReloadRequest{message.plugin});
-  if (message.op == "restart") return CommandRequest(RestartRequest{message.path});
-  if (message.op == "stop") return CommandRequest(StopRequest{});
-  if (message.op == "pause") return CommandRequest(PauseRequest{message.path, true});
-  if (message.op == "resume") return CommandRequest(PauseRequest{message.path, false});
-  if (message.op == "log_level") return CommandRequest(LogLevelRequest{message.path, message.level});
-  if (message.op == "release") return CommandRequest(ReleaseRequest{message.path});
-  if (message.op == "publish") {
-    PublishRequest publish{message.path, message.value, message.rate};
-    // Of what no duration can hold the service says so.
-    if (message.deadline) publish.deadline = FromSeconds(std::min(*message.deadline, 1e6));
-    publish.lease = message.lease;
-    publish.is_stop = message.is_stop;
-    return CommandRequest(std::move(publish));
-  }
-  return CommandRequest(SaveRequest{
-      .file = message.file,
-      .is_confined = true,
-      .application_file = inspection.options().file,
-      .is_configuration = message.what == "configuration",
-      .overwrites = message.overwrites});
+CommandOrErrors MakePublish(ViewerMessage& message) {
+  if (message.is_stop) return CommandRequest(BlockRequest{message.path});
+  PublishRequest publish{message.path, message.value, message.rate};
+  // Of what no duration can hold the service says so.
+  if (message.deadline) publish.deadline = FromSeconds(std::min(*message.deadline, 1e6));
+  publish.lease = message.lease;
+  return CommandRequest(std::move(publish));
 }
 
 std::string FindCompatible(Inspection& inspection, const ViewerMessage& message) {
@@ -166,17 +143,6 @@ std::string SetLatency(Inspection& inspection, const ViewerMessage& message) {
   return done ? Reply(message.request, "done") : Refusal(message.request, {{done.error()}});
 }
 
-// What the worker does for this viewer alone, because it may wait.
-std::string AnswerOf(Inspection& inspection, const ViewerMessage& message) {
-  if (message.op == "abort") return AbortCall(inspection, message);
-  if (message.op == "panel") return ReadPanel(inspection, message);
-  if (message.op == "save_panel") return SavePanel(inspection, message);
-  if (message.op == "latency") return SetLatency(inspection, message);
-  if (message.op == "preview") return PreviewSave(inspection, message);
-  if (message.op == "conversions") return FindConversions(inspection, message);
-  return FindCompatible(inspection, message);
-}
-
 std::string SetPace(Inspection& inspection, const ViewerMessage& message) {
   Pace& pace = inspection.scheduler().pace();
   Result<void> done;
@@ -186,6 +152,8 @@ std::string SetPace(Inspection& inspection, const ViewerMessage& message) {
     done = pace.Resume();
   } else if (message.op == "step") {
     done = pace.StepCycles(message.cycles);
+  } else if (message.op != "speed") {
+    done = Error{.message = "time has no '" + message.op + "'"};
   } else if (!message.speed) {
     done = Error{.message = "the speed is missing",
                  .hint = "\"speed\": 1 is real time, 0 as fast as it can"};
@@ -196,7 +164,7 @@ std::string SetPace(Inspection& inspection, const ViewerMessage& message) {
 }
 
 // At once for all viewers; the reply comes when it has been written.
-ViewerRequest Arrange(Inspection& inspection, const ViewerMessage& message,
+ViewerRequest Arrange(Inspection& inspection, ViewerMessage message,
                       std::function<void()> on_done) {
   const auto request = message.request;
   const auto done = inspection.arrangement().Change(message.entries);
@@ -225,6 +193,81 @@ void CopyArrangement(Inspection& inspection, const std::string& wanted) {
   });
 }
 
+ViewerRequest BeginCommand(Inspection& inspection, const ViewerMessage& message,
+                           CommandOrErrors command, std::function<void()> on_done) {
+  const auto request = message.request;
+  if (const auto* const errors = std::get_if<std::vector<RequestError>>(&command)) {
+    return {nullptr, [reply = Refusal(request, *errors)] { return reply; }};
+  }
+  const std::string copy = message.op == "save" && message.what.empty() ? message.file : "";
+  const std::shared_ptr<PendingCommand> pending = inspection.service().Begin(
+      std::move(std::get<CommandRequest>(command)), inspection.tasks(), std::move(on_done));
+  return {pending->task(), [&inspection, request, pending, copy] {
+            const CommandAnswer answer = pending->Take();
+            if (answer && !copy.empty()) CopyArrangement(inspection, copy);
+            return ReplyTo(request, answer);
+          }};
+}
+
+// How an operation is carried out: by the service, which is asked for what `kMake` makes of the message.
+template <auto kMake>
+ViewerRequest ByService(Inspection& inspection, ViewerMessage message,
+                        std::function<void()> on_done) {
+  CommandOrErrors command = kMake(message);
+  return BeginCommand(inspection, message, std::move(command), std::move(on_done));
+}
+
+// By the worker for this viewer alone, because it may wait.
+template <auto kAnswer>
+ViewerRequest ByWorker(Inspection& inspection, ViewerMessage message,
+                       std::function<void()> on_done) {
+  const auto request = message.request;
+  const auto reply = std::make_shared<std::string>();
+  auto task = inspection.tasks().Post(
+      [&inspection, reply, message = std::move(message)] { *reply = kAnswer(inspection, message); },
+      std::move(on_done));
+  return {task, [request, reply, task = task.get()] {
+            return task->failure() ? Refusal(request, {{*task->failure()}}) : *reply;
+          }};
+}
+
+// At once, whatever the worker is waiting for.
+template <auto kAnswer>
+ViewerRequest AtOnce(Inspection& inspection, ViewerMessage message,
+                     std::function<void()> /*on_done*/) {
+  return {nullptr, [reply = kAnswer(inspection, message)] { return reply; }};
+}
+
+// Of all of it at once, of modules by the service.
+ViewerRequest PauseOrResume(Inspection& inspection, ViewerMessage message,
+                            std::function<void()> on_done) {
+  if (message.path.empty())
+    return AtOnce<SetPace>(inspection, std::move(message), std::move(on_done));
+  PauseRequest pause{message.path, message.op == "pause"};
+  return BeginCommand(inspection, message, CommandRequest(std::move(pause)), std::move(on_done));
+}
+
+ViewerRequest Save(Inspection& inspection, ViewerMessage message, std::function<void()> on_done) {
+  return BeginCommand(
+      inspection, message,
+      CommandRequest(SaveRequest{.file = message.file,
+                                 .is_confined = true,
+                                 .application_file = inspection.options().file,
+                                 .is_configuration = message.what == "configuration",
+                                 .overwrites = message.overwrites}),
+      std::move(on_done));
+}
+
+std::string SetProfiled(Inspection& inspection, const ViewerMessage& message) {
+  inspection.scheduler().SetProfiled(message.is_on);
+  return Reply(message.request, "done");
+}
+
+ViewerRequest Call(Inspection& inspection, ViewerMessage message,
+                   std::function<void()> /*on_done*/) {
+  return BeginCallRequest(inspection, message);
+}
+
 }  // namespace
 
 std::string Reply(std::optional<std::uint64_t> request, const std::string& text) {
@@ -244,38 +287,42 @@ std::string Refusal(std::optional<std::uint64_t> request, const std::vector<Requ
 }
 
 std::span<const Operation> AllOperations() {
-  using enum Operation::Kind;
   using enum WebRole;
+  using Message = ViewerMessage;
   static constexpr std::array kAll{
-      Operation("watch", kTold, kLook),
-      Operation("unwatch", kTold, kLook),
-      Operation("watch_rates", kTold, kLook),
-      Operation("compatible", kRequest, kLook),
-      Operation("conversions", kRequest, kLook),
-      Operation("panel", kRequest, kLook),
-      Operation("publish", kRequest, kDrive),
-      Operation("release", kRequest, kDrive),
-      Operation("call", kRequest, kDrive),
-      Operation("abort", kRequest, kDrive),
+      Operation("watch", kLook, nullptr), Operation("unwatch", kLook, nullptr),
+      Operation("watch_rates", kLook, nullptr),
+      Operation("compatible", kLook, ByWorker<FindCompatible>),
+      Operation("conversions", kLook, ByWorker<FindConversions>),
+      Operation("panel", kLook, ByWorker<ReadPanel>),
+      Operation("stop", kLook, AtOnce<PressStop>),  // whoever sees the robot
+      Operation("release_stop", kDrive, AtOnce<ReleaseStop>),
+      Operation("publish", kDrive, ByService<MakePublish>),
+      Operation("release", kDrive,
+                ByService<[](Message& of) { return CommandRequest(ReleaseRequest{of.path}); }>),
+      Operation("call", kDrive, Call), Operation("abort", kDrive, ByWorker<AbortCall>),
       // Who drives may stop all of it and let it go on, but not leave out one module, which may be what
       // keeps the robot from colliding.
-      Operation("pause", kRequest, kDrive, kChange),
-      Operation("resume", kRequest, kDrive, kChange),
-      Operation("change", kRequest, kChange),
-      Operation("undo", kRequest, kChange),
-      Operation("redo", kRequest, kChange),
-      Operation("save", kRequest, kChange),
-      Operation("save_panel", kRequest, kChange),
-      Operation("arrange", kRequest, kChange),
-      Operation("step", kRequest, kChange),
-      Operation("speed", kRequest, kChange),
-      Operation("reload", kRequest, kChange),
-      Operation("log_level", kRequest, kChange),
-      Operation("profile", kRequest, kChange),
-      Operation("latency", kRequest, kChange),
-      Operation("preview", kRequest, kChange),
-      Operation("restart", kRequest, kChange),
-      Operation("stop", kRequest, kChange)};
+      Operation("pause", kDrive, kChange, PauseOrResume),
+      Operation("resume", kDrive, kChange, PauseOrResume),
+      Operation("change", kChange, ByService<ReadChanges>),
+      Operation("undo", kChange, ByService<[](Message&) { return CommandRequest(UndoRequest{}); }>),
+      Operation("redo", kChange, ByService<[](Message&) { return CommandRequest(RedoRequest{}); }>),
+      Operation("save", kChange, Save), Operation("save_panel", kChange, ByWorker<SavePanel>),
+      Operation("arrange", kChange, Arrange), Operation("step", kChange, AtOnce<SetPace>),
+      Operation("speed", kChange, AtOnce<SetPace>),
+      Operation("reload", kChange,
+                ByService<[](Message& of) { return CommandRequest(ReloadRequest{of.plugin}); }>),
+      Operation("log_level", kChange, ByService<[](Message& of) {
+                  return CommandRequest(LogLevelRequest{of.path, of.level});
+                }>),
+      Operation("profile", kChange, AtOnce<SetProfiled>),
+      Operation("latency", kChange, ByWorker<SetLatency>),
+      Operation("preview", kChange, ByWorker<PreviewSave>),
+      Operation("restart", kChange,
+                ByService<[](Message& of) { return CommandRequest(RestartRequest{of.path}); }>),
+      Operation("quit", kChange,
+                ByService<[](Message&) { return CommandRequest(QuitRequest{}); }>)};
   return kAll;
 }
 
@@ -287,44 +334,6 @@ const Operation* FindOperation(std::string_view name) {
 WebRole RoleFor(const Operation& operation, const ViewerMessage& message) {
   return message.path.empty() ? operation.role
                               : std::max(operation.role, operation.role_of_modules);
-}
-
-ViewerRequest BeginRequest(Inspection& inspection, ViewerMessage message,
-                           std::function<void()> on_done) {
-  const auto request = message.request;
-  // At once, whatever the worker is waiting for.
-  if (message.op == "profile") {
-    inspection.scheduler().SetProfiled(message.is_on);
-    return {nullptr, [reply = Reply(request, "done")] { return reply; }};
-  }
-  if (message.path.empty() && IsOneOf(message.op, {"pause", "resume", "step", "speed"})) {
-    return {nullptr, [reply = SetPace(inspection, message)] { return reply; }};
-  }
-  if (message.op == "call") return BeginCallRequest(inspection, message);
-  if (IsOneOf(message.op, {"abort", "compatible", "conversions", "latency", "panel", "preview", "save_panel"})) {
-    const auto reply = std::make_shared<std::string>();
-    auto task = inspection.tasks().Post(
-        [&inspection, reply, message = std::move(message)] {
-          *reply = AnswerOf(inspection, message);
-        },
-        std::move(on_done));
-    return {task, [request, reply, task = task.get()] {
-              return task->failure() ? Refusal(request, {{*task->failure()}}) : *reply;
-            }};
-  }
-  if (message.op == "arrange") return Arrange(inspection, message, std::move(on_done));
-  const std::string copy = message.op == "save" && message.what.empty() ? message.file : "";
-  auto command = CommandOf(inspection, message);
-  if (const auto* const errors = std::get_if<std::vector<RequestError>>(&command)) {
-    return {nullptr, [reply = Refusal(request, *errors)] { return reply; }};
-  }
-  const std::shared_ptr<PendingCommand> pending = inspection.service().Begin(
-      std::move(std::get<CommandRequest>(command)), inspection.tasks(), std::move(on_done));
-  return {pending->task(), [&inspection, request, pending, copy] {
-            const CommandAnswer answer = pending->Take();
-            if (answer && !copy.empty()) CopyArrangement(inspection, copy);
-            return ReplyTo(request, answer);
-          }};
 }
 
 }  // namespace runnel::internal

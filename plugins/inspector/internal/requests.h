@@ -22,39 +22,37 @@ namespace runnel::internal {
                                   const std::vector<RequestError>& errors,
                                   const std::string& needs = {});
 
-/// What viewers may say, and who may say it.
-struct Operation {
-  enum class Kind {
-    kTold,     ///< is not answered
-    kRequest,  ///< gets one reply
-  };
-  // Not an aggregate: what has no role does not compile.
-  constexpr Operation(std::string_view its_name, Kind its_kind, WebRole of_all, WebRole of_modules)
-      : name(its_name), kind(its_kind), role(of_all), role_of_modules(of_modules) {}
-  constexpr Operation(std::string_view its_name, Kind its_kind, WebRole its_role)
-      : Operation(its_name, its_kind, its_role, its_role) {}
-
-  std::string_view name;
-  Kind kind;
-  WebRole role;             ///< that is needed for it
-  WebRole role_of_modules;  ///< the same, if the message names a path
-};
-[[nodiscard]] std::span<const Operation> AllOperations();
-/// nullptr: there is none.
-[[nodiscard]] const Operation* FindOperation(std::string_view name);
-/// That is needed for what `message` asks for.
-[[nodiscard]] WebRole RoleFor(const Operation& operation, const ViewerMessage& message);
-
 /// A request while it is being carried out; a change that is destroyed before it has begun is not done.
 ///
 /// Threads:  the server's; waits for nothing.
 struct ViewerRequest {
   std::shared_ptr<WorkerTask> task;         ///< nullptr: it has been answered at once
   std::function<std::string()> take_reply;  ///< once the task is done
-  std::function<bool()> is_done = {};       ///< in the place of a task: asked with each look; none: at once
+  std::function<bool()> is_done =
+      {};  ///< in the place of a task: asked with each look; none: at once
 };
-/// `on_done` is called by the worker when the task is done.
-[[nodiscard]] ViewerRequest BeginRequest(Inspection& inspection, ViewerMessage message,
-                                         std::function<void()> on_done);
+
+/// What viewers may say, and who may say it.
+struct Operation {
+  /// `on_done` is called by the worker when the task is done.
+  using Begin = ViewerRequest (*)(Inspection& inspection, ViewerMessage message,
+                                  std::function<void()> on_done);
+  // Not an aggregate: what has no role does not compile. Without `its_begin` it is the session's and gets no reply.
+  constexpr Operation(std::string_view its_name, WebRole of_all, WebRole of_modules,
+                      Begin its_begin)
+      : name(its_name), role(of_all), role_of_modules(of_modules), begin(its_begin) {}
+  constexpr Operation(std::string_view its_name, WebRole its_role, Begin its_begin)
+      : Operation(its_name, its_role, its_role, its_begin) {}
+
+  std::string_view name;
+  WebRole role;             ///< that is needed for it
+  WebRole role_of_modules;  ///< the same, if the message names a path
+  Begin begin;              ///< nullptr: is not answered
+};
+[[nodiscard]] std::span<const Operation> AllOperations();
+/// nullptr: there is none.
+[[nodiscard]] const Operation* FindOperation(std::string_view name);
+/// That is needed for what `message` asks for.
+[[nodiscard]] WebRole RoleFor(const Operation& operation, const ViewerMessage& message);
 
 }  // namespace runnel::internal

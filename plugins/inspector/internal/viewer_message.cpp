@@ -21,14 +21,24 @@ void ReadChanges(const std::vector<JsonPart>& changes, ViewerMessage& message) {
   }
 }
 
+void ReadFlag(JsonMembers& members, const std::string& name, bool& flag) {
+  const JsonPart* const found = members.Find(name);
+  if (found == nullptr || found->is_null()) return;
+  if (!found->boolean()) members.Complain("\"" + name + "\" is neither true nor false");
+  flag = found->boolean().value_or(flag);
+}
+
 }  // namespace
 
-Result<ViewerMessage> ParseViewerMessage(std::string_view text) {
+Result<ViewerMessage> ParseViewerMessage(std::string_view text,
+                                         std::optional<std::uint64_t>* number) {
   const auto json = JsonPart::Parse(text, kDeepest);
   if (!json) return Error{.message = "the message cannot be read: " + json.error().message};
   if (!json->is_object()) return Error{.message = "the message is not a JSON object"};
   ViewerMessage message;
   JsonMembers members(*json);
+  message.request = members.Count("request", kLargestWhole);
+  if (number != nullptr) *number = message.request;
   message.op = members.Text("op").value_or("");
   message.path = members.Text("path").value_or("");
   message.label = members.Text("label").value_or("");
@@ -43,23 +53,15 @@ Result<ViewerMessage> ParseViewerMessage(std::string_view text) {
   message.from = members.Text("from").value_or("");
   message.to = members.Text("to").value_or("");
   message.wants_image = members.Text("as").value_or("") == "image";
-  if (const JsonPart* const on = members.Find("on")) message.is_on = on->boolean().value_or(true);
-  if (const JsonPart* const overwrite = members.Find("overwrite")) {
-    message.overwrites = overwrite->boolean().value_or(false);
-  }
-  if (const JsonPart* const yes = members.Find("yes")) {
-    message.may_end_application = yes->boolean().value_or(false);
-  }
+  ReadFlag(members, "on", message.is_on);
+  ReadFlag(members, "overwrite", message.overwrites);
+  ReadFlag(members, "yes", message.may_end_application);
+  ReadFlag(members, "stop", message.is_stop);
   message.value = members.Text("value").value_or("");
   message.rate = members.Number("rate");
   message.deadline = members.Number("deadline");
   message.lease = members.Text("lease").value_or("");
-  if (const JsonPart* const stop = members.Find("stop"); stop != nullptr && !stop->is_null()) {
-    if (!stop->boolean()) members.Complain("\"stop\" is neither true nor false");
-    message.is_stop = stop->boolean().value_or(false);
-  }
   message.speed = members.Number("speed");
-  message.request = members.Count("request", kLargestWhole);
   message.elements = members.Count("elements", kLargestWhole).value_or(message.elements);
   message.cycles = members.Count("cycles", kLargestWhole).value_or(message.cycles);
   if (members.error()) {

@@ -56,7 +56,8 @@ struct ViewerMessage {
 [[nodiscard]] Result<Change> ParseChange(const JsonPart& json);
 
 /// Errors: it is no JSON object, is nested deeper than any message is, or a member is of another kind
-/// than the protocol has it.
-[[nodiscard]] Result<ViewerMessage> ParseViewerMessage(std::string_view text);
+/// than the protocol has it. `number` is the request's, so that what is wrong can be answered with it.
+[[nodiscard]] Result<ViewerMessage> ParseViewerMessage(
+    std::string_view text, std::optional<std::uint64_t>* number = nullptr);
 
 }  // namespace runnel::internal

@@ -39,13 +39,12 @@ Duration IntervalOf(double rate) { return FromSeconds(1 / rate); }
 ViewerSession::ViewerSession(Inspection& inspection, WebClient& client)
     : inspection_(inspection),
       client_(client),
-      name_("viewer " + std::to_string(inspection.NumberViewer())) {
+      name_("viewer " + std::to_string(inspection.NumberViewer())),
+      life_(inspection, client) {
   SendHello();
 }
 
-WebRole ViewerSession::role() const {
-  return inspection_.options().is_read_only ? WebRole::kLook : client_.role();
-}
+WebRole ViewerSession::role() const { return inspection_.RoleOf(client_); }
 
 bool ViewerSession::IsSlow() const { return client_.waiting_bytes() > kSlow; }
 
@@ -62,7 +61,7 @@ void ViewerSession::SendHello() {
 }
 
 WebSession::SteadyTime ViewerSession::OnPoll() {
-  SteadyTime next = inspection_.Look();
+  SteadyTime next = std::min(life_.Send(), inspection_.Look());
   SendReplies();
   SendStructure();
   SendArrangement();
@@ -221,9 +220,10 @@ void ViewerSession::OnBinary(std::string_view /*message*/) {
 }
 
 void ViewerSession::OnText(std::string_view text) {
-  auto parsed = ParseViewerMessage(text);
+  std::optional<std::uint64_t> request;
+  auto parsed = ParseViewerMessage(text, &request);
   if (!parsed) {
-    Refuse({}, parsed.error());
+    replies_.push_back(Refusal(request, {{parsed.error()}}));
     return;
   }
   ViewerMessage& message = *parsed;
@@ -235,12 +235,14 @@ void ViewerSession::OnText(std::string_view text) {
   }
   const WebRole needed = RoleFor(*operation, message);
   if (role() < needed) return RefuseRole(message, needed);
-  if (operation->kind == Operation::Kind::kRequest) return BeginRequest(std::move(message));
+  if (operation->begin != nullptr) return BeginRequest(*operation, std::move(message));
   if (message.op == "watch") return BeginWatching(message);
   if (message.op == "unwatch") {
     watches_.erase(message.path);
     return;
   }
+  if (message.op != "watch_rates")
+    return Refuse(message, {.message = "nothing does '" + message.op + "'"});
   const double rate = std::min(message.rate.value_or(1), kFastestRates);
   rates_interval_ = rate > 0 ? IntervalOf(std::max(rate, 0.01)) : Duration{};
   rates_due_ = {};
@@ -277,12 +279,13 @@ void ViewerSession::BeginWatching(const ViewerMessage& message) {
   watches_.emplace(message.path, Watch{WatchedPort(message.path), IntervalOf(rate), elements, message.wants_image});
 }
 
-void ViewerSession::BeginRequest(ViewerMessage message) {
-  if (pending_.size() + replies_.size() >= kMostPending) {
+void ViewerSession::BeginRequest(const Operation& operation, ViewerMessage message) {
+  // STOP outranks every limit.
+  if (message.op != "stop" && pending_.size() + replies_.size() >= kMostPending) {
     return Refuse(message, {.message = "too many requests are waiting already"});
   }
   message.client = name_;
-  pending_.push_back(internal::BeginRequest(inspection_, std::move(message), client_.Waker()));
+  pending_.push_back(operation.begin(inspection_, std::move(message), client_.Waker()));
 }
 
 }  // namespace runnel::internal

@@ -9,6 +9,7 @@
 
 #include "plugins/inspector/internal/inspection.h"
 #include "plugins/inspector/internal/requests.h"
+#include "plugins/inspector/internal/stop_messages.h"
 #include "plugins/inspector/internal/viewer_message.h"
 #include "plugins/values/foxglove_channel.h"
 #include "plugins/values/watched_port.h"
@@ -58,7 +59,7 @@ class ViewerSession final : public WebSession {
   void SendRates(SteadyTime now);
   void SendProfile();
   void BeginWatching(const ViewerMessage& message);
-  void BeginRequest(ViewerMessage message);
+  void BeginRequest(const Operation& operation, ViewerMessage message);
   void Refuse(const ViewerMessage& message, Error error);
   void RefuseRole(const ViewerMessage& message, WebRole needed);
   [[nodiscard]] bool IsSlow() const;
@@ -67,6 +68,7 @@ class ViewerSession final : public WebSession {
   Inspection& inspection_;
   WebClient& client_;
   const std::string name_;
+  LifeSign life_;
   std::shared_ptr<const Catalogue> catalogue_;
   std::uint64_t structure_ = 0;  // the revision that has been told
   std::uint64_t arrangement_ = 0;  // the revision that has been told

@@ -10,6 +10,11 @@ export class MockApplication {
     this.connections = [...structure.connections];
     this.revision = 1;
     this.layout = {}; // what viewers have arranged
+    this.panel = '';  // the operator's, as it is saved
+    this.delay = 0;   // ms, before the structure is told
+    this.isFrozen = false; // says nothing any more, and answers nothing
+    this.asked = [];  // all requests
+    this.answers = {}; // op -> function (reply, message, socket), in the place of the mock's own answer
     this.time = 0;
     this.paused = false;
     this.speed = 1;

@@ -6,12 +6,12 @@ import { join } from 'node:path';
 import { WebSocketServer } from 'ws';
 
 const kTypes = { '/': ['index.html', 'text/html'], '/page.js': ['page.js', 'text/javascript'],
-  '/page.css': ['page.css', 'text/css'], '/world_3d.js': ['world_3d.js', 'text/javascript'], '/icon.svg': ['icon.svg', 'image/svg+xml'] };
+  '/page.css': ['page.css', 'text/css'], '/panel': ['panel.html', 'text/html'], '/panel.js': ['panel.js', 'text/javascript'], '/panel.css': ['panel.css', 'text/css'], '/world_3d.js': ['world_3d.js', 'text/javascript'], '/icon.svg': ['icon.svg', 'image/svg+xml'] };
 let runs = 0;
 let viewers = 0;
 
 /**
- * {url, port, close(), application, watched(), asked(path)}; watched(): the ports that pages look at; asked(): how one was asked for
+ * {url, port, close(), restart(), application, watched(), asked(path)}; watched(): the ports that pages look at; asked(): how one was asked for
  * last; `page`: the folder of the bundle.
  */
 export async function ServeMock(application, { page, port = 0, readOnly = false }) {
@@ -21,7 +21,7 @@ export async function ServeMock(application, { page, port = 0, readOnly = false 
     response.writeHead(200, { 'content-type': entry[1] }).end(await readFile(join(page, entry[0])));
   });
   const sockets = new WebSocketServer({ server: http });
-  const run = `run ${++runs}`;
+  let run = `run ${++runs}`;
   const clients = new Set();
   sockets.on('connection', (socket) => {
     const client = new Client(socket, application, { run, readOnly, tellAll: (message) => clients.forEach((each) => each.send(message)) });
@@ -37,6 +37,11 @@ export async function ServeMock(application, { page, port = 0, readOnly = false 
     application, port: http.address().port, url: `http://127.0.0.1:${http.address().port}/`,
     watched: () => [...clients].flatMap((client) => client.watched),
     asked: (path) => [...clients].map((client) => client.asked.get(path)).find(Boolean),
+    /** As if the application began anew. */
+    restart: () => {
+      run = `run ${++runs}`;
+      for (const socket of sockets.clients) socket.terminate();
+    },
     close: async () => {
       clearInterval(timer);
       for (const socket of sockets.clients) socket.terminate();
@@ -50,6 +55,7 @@ class Client {
   #told = new Map();    // path -> what has been sent last, and when that was
   #lastState = '';
   #rated = 0;
+  #turns = 0;
 
   constructor(socket, application, { run, readOnly, tellAll }) {
     Object.assign(this, { socket, application, readOnly, tellAll });
@@ -60,6 +66,13 @@ class Client {
     this.send({ op: 'hello', protocol: 1, application: application.name, file: `/mock/${application.name}.xml`, run,
       clock: 'simulated', viewer: this.name, read_only: readOnly, runnel: '0.0.0' });
     this.send({ op: 'catalogue', ...application.catalogue });
+    this.isTold = false;
+    setTimeout(() => this.#tell(), application.delay);
+  }
+
+  #tell() {
+    const { application } = this;
+    this.isTold = true;
     this.send({ op: 'structure', revision: application.revision, ...application.structure });
     this.send({ op: 'layout', entries: application.layout });
     this.send({ op: 'log', entries: application.log });
@@ -76,6 +89,8 @@ class Client {
 
   turn() {
     const { application } = this;
+    if (!this.isTold || application.isFrozen) return;
+    if (++this.#turns % 20 === 1) this.send({ op: 'alive' });
     const state = JSON.stringify(application.state);
     if (state !== this.#lastState) this.send({ op: 'state', ...application.state });
     this.#lastState = state;
@@ -118,9 +133,12 @@ class Client {
 
   #answer({ op, request, ...asked }) {
     const { application } = this;
+    if (application.isFrozen) return undefined;
     const reply = (told) => this.send({ op: 'reply', request, ...told });
+    application.asked.push({ op, ...asked });
+    if (application.answers[op]) return application.answers[op](reply, asked, this.socket);
     const refuse = (text) => reply({ ok: false, errors: [{ message: text, path: '', hint: '', change: null }] });
-    if (this.readOnly && op !== 'compatible') return refuse('the application can be watched only');
+    if (this.readOnly && !['compatible', 'panel'].includes(op)) return refuse('the application can be watched only');
     const before = application.structure;
     const count = application.log.length;
     const finish = (ok, told = {}) => {
@@ -143,6 +161,12 @@ class Client {
       const types = application.catalogue.modules.map(({ type, summary }) => ({ type, summary, lost: application.lost ?? [] }));
       return reply({ ok: true, text: '', types });
     }
+    if (op === 'panel') return reply({ ok: true, text: application.panel, file: '/mock/robot.panel.json' });
+    if (op === 'save_panel') {
+      application.panel = asked.value;
+      return reply({ ok: true, text: 'saved the panel' });
+    }
+    if (op === 'publish' || op === 'release') return reply({ ok: true, text: '' });
     if (op === 'arrange') {
       Object.assign(application.layout, asked.entries);
       this.tellAll({ op: 'layout', entries: asked.entries });

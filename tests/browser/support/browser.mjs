@@ -31,13 +31,13 @@ function PageIsGone() {
 }
 
 /** Opens a page, which is closed after the test. */
-export async function OpenPage(t, url, { width = 1280, height = 800, colours = 'light', lost = false, touch = false, shows = '[data-node]' } = {}) {
+export async function OpenPage(t, url, { width = 1280, height = 800, colours = 'light', lost = false, touch = false, shows = '[data-node]', forgive = [] } = {}) {
   const browser = await Browser();
   const context = await browser.newContext({ viewport: { width, height }, colorScheme: colours, reducedMotion: 'reduce', hasTouch: touch });
   const page = await context.newPage();
   page.setDefaultTimeout(kPatience);
   const complaints = [];
-  const forgiven = [];
+  const forgiven = [...forgive];
   page.on('pageerror', (error) => complaints.push(error.stack));
   page.on('console', (message) => {
     if (message.type() !== 'error' && message.type() !== 'warning') return;

@@ -7,7 +7,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { Cleanup } from './cleanup.mjs';
 
-/** Starts an application file, which is ended after the test. {url, port, ended, output(), stop()} */
+/** Starts an application file, which is ended after the test. {url, port, ended, output(), stop(), freeze(), thaw()} */
 export async function RunApplication(t, file, { port = 0, options = [] } = {}) {
   const process_ = spawn(process.env.RUNNEL_PROGRAM, ['run', file, `--inspect=${port}`, ...options], { stdio: ['ignore', 'pipe', 'pipe'] });
   let output = '';
@@ -30,7 +30,8 @@ export async function RunApplication(t, file, { port = 0, options = [] } = {}) {
     process_.kill('SIGKILL'); // one that is held for viewers would wait for them
     return ended;
   });
-  return { url, port: Number(new URL(url).port), ended, stop, output: () => output };
+  return { url, port: Number(new URL(url).port), ended, stop, output: () => output,
+    freeze: () => process_.kill('SIGSTOP'), thaw: () => process_.kill('SIGCONT') };
 }
 
 /** A folder of its own with the demonstration in it; `change` may rewrite its text. */

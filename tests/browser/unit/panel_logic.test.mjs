@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { mock, test } from 'node:test';
-import { Hold, kPeriod } from '../../../plugins/inspector/panel/source/driving/hold.js';
+import { Hold, kPatience, kPeriod } from '../../../plugins/inspector/panel/source/driving/hold.js';
 import { DefaultPanel, DrivableInputs } from '../../../plugins/inspector/panel/source/model/default_panel.js';
 import { NumberFields } from '../../../plugins/inspector/panel/source/model/fields.js';
 import { FreePlace, InOrder, Overlaps, Placed, Within } from '../../../plugins/inspector/panel/source/model/grid.js';
@@ -75,10 +75,12 @@ test('keys and gamepads drive only while they are held', () => {
   assert.deepEqual(MotionOfWays(new Set(), limits), { forward: 0, turn: 0 });
   assert.deepEqual(MotionOfWays(new Set(['up', 'right']), limits), { forward: 0.4, turn: -2 });
   assert.deepEqual(MotionOfWays(new Set(['up', 'down']), limits), { forward: 0, turn: 0 });
-  const pad = (pressed) => ({ connected: true, id: 'Pad (Vendor: 1)', axes: [0, -1], buttons: [0, 1, 2, 3, 4].map((at) => ({ pressed: at === pressed })) });
+  const pad = (pressed, mapping = 'standard') => ({ connected: true, index: 0, mapping, id: 'Pad (Vendor: 1)', axes: [0, -1], buttons: [0, 1, 2, 3, 4].map((at) => ({ pressed: at === pressed })) });
   assert.equal(ReadGamepad([null, undefined]), null);
   assert.equal(ReadGamepad([null, pad(0)]).isHeld, false, 'not a shoulder');
-  assert.deepEqual(ReadGamepad([pad(4)]), { name: 'Pad', isHeld: true, stick: { x: 0, y: 1 } });
+  assert.deepEqual(ReadGamepad([pad(4)]), { id: '0 Pad (Vendor: 1)', name: 'Pad', isStandard: true, isHeld: true, stick: { x: 0, y: 1 } });
+  assert.equal(ReadGamepad([pad(4, '')]).isHeld, false, 'nobody knows which button that is');
+  assert.equal(ReadGamepad([pad(4, ''), pad(4)]).isHeld, true);
 });
 
 test('numbers in values are found by the types', () => {
@@ -93,7 +95,7 @@ function Held(t) {
   const sent = [];
   const ended = [];
   const request = (message) => new Promise((reply) => sent.push({ message, reply }));
-  return { hold: new Hold('/p', 'go', { request, onEnd: (errors) => ended.push(errors) }), sent, ended };
+  return { hold: new Hold('/p', 'go', { rest: 'rest', request, onEnd: (errors) => ended.push(errors) }), sent, ended };
 }
 const Turn = () => new Promise(setImmediate);
 
@@ -109,7 +111,7 @@ test('while it is held it is sent at least ten times a second, with a deadline a
   assert.ok(kPeriod <= 100);
   assert.ok(sent.every(({ message }) => message.deadline <= 0.3 && message.lease === sent[0].message.lease));
   assert.equal(sent.at(-1).message.value, 'faster');
-  hold.end('rest');
+  hold.end();
   mock.timers.tick(10 * kPeriod);
   assert.deepEqual(sent.slice(21).map(({ message }) => [message.value, message.deadline, message.lease]), [['rest', undefined, sent[0].message.lease]]);
 });
@@ -119,13 +121,21 @@ test('a hold that the server refuses has ended, and sends nothing more', async (
   sent[0].reply({ ok: false, errors: [{ message: 'this hold has ended' }] });
   await Turn();
   mock.timers.tick(10 * kPeriod);
-  hold.end('rest');
+  hold.end();
   assert.equal(sent.length, 1);
   assert.deepEqual(ended, [[{ message: 'this hold has ended' }]]);
 });
 
-test('on a network that is stuck no crowd of old commands waits', async (t) => {
-  const { sent } = Held(t);
-  mock.timers.tick(100 * kPeriod);
+test('on a network that is stuck no crowd of old commands waits, and the hold ends by itself, with a rest', async (t) => {
+  const { hold, sent, ended } = Held(t);
+  mock.timers.tick(kPatience * kPeriod);
   assert.ok(sent.length <= 4, `${sent.length} wait`);
+  assert.deepEqual(ended, []);
+  mock.timers.tick(100 * kPeriod);
+  assert.equal(ended.length, 1);
+  assert.match(ended[0][0].message, /has not answered/);
+  assert.ok(sent.length <= 5, `${sent.length} wait`);
+  assert.deepEqual([sent.at(-1).message.value, sent.at(-1).message.deadline], ['rest', undefined]);
+  hold.end();
+  assert.ok(sent.length <= 5);
 });

@@ -1,6 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { EditableText, FilterPorts, FormatAge, FormatBandwidth, FormatPortValue, PortRows, SortPorts, VisibleRows } from '../../../plugins/inspector/page/source/model/port_table.js';
+import { EditableText, FilterPorts, FormatAge, FormatBandwidth, FormatPortValue, IsExact, PortRows, SortPorts, VisibleRows } from '../../../plugins/inspector/page/source/model/port_table.js';
+import { Catalogue } from '../../../plugins/inspector/page/source/model/catalogue.js';
 import { Structure } from '../../../plugins/inspector/page/source/model/structure.js';
 import { RobotStructure } from '../mock/mock_structures.mjs';
 
@@ -60,4 +61,13 @@ test('bandwidths, ages and pictures are short', () => {
   assert.equal(FormatAge(180), '3 min');
   assert.equal(FormatAge(7200), '2.0 h');
   assert.equal(FormatPortValue('image', { width: 64, height: 48, encoding: 'rgb8', data: [] }), '64 × 48 rgb8');
+});
+
+test('a value whose whole numbers a browser has rounded is known as one', () => {
+  const catalogue = new Catalogue({ modules: [], types: [{ name: 'Ticket', kind: 'structure', fields: [{ name: 'id', type: 'uint64' }, { name: 'far', type: 'double' }] },
+    { name: 'Tickets', kind: 'sequence', element: 'Ticket' }] });
+  assert.equal(IsExact(catalogue, 'Ticket', { id: 7, far: 1e300 }), true);
+  assert.equal(IsExact(catalogue, 'Ticket', { id: JSON.parse('9007199254740993'), far: 1 }), false);
+  assert.equal(IsExact(catalogue, 'Tickets', [{ id: 7, far: 1 }, { id: 2 ** 60, far: 1 }]), false);
+  assert.equal(IsExact(catalogue, 'double', 2 ** 60), true);
 });

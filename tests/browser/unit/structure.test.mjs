@@ -45,6 +45,17 @@ test('an element that is told again keeps its place and its children', () => {
   assert.equal(ThreadOf(structure, '/mock/laser'), 'control');
 });
 
+test('an element that is told again is what is told of it: what is left out is not so any more', () => {
+  const structure = Robot();
+  const told = structure.get('/mock/robot/planner');
+  structure.change({ revision: 2, elements: [{ ...told, paused: true, tags: 'safety', children: undefined }] });
+  assert.equal(structure.get(told.path).paused, true);
+  const { children, name, ...plain } = told;
+  structure.change({ revision: 3, elements: [plain] });
+  assert.deepEqual(structure.get(told.path), told);
+  assert.ok(!('paused' in structure.get(told.path)) && !('tags' in structure.get(told.path)));
+});
+
 test('connections come and go', () => {
   const structure = Robot();
   const ends = { from: '/mock/robot/planner/twist', to: '/mock/robot/twist' };

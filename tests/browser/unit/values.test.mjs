@@ -4,7 +4,7 @@ import { NumberScales } from '../../../plugins/inspector/page/source/model/numbe
 import { FormatBounds, FormatMilliseconds, FormatNumber, FormatRate, FormatTime, FormatValue } from '../../../plugins/inspector/page/source/model/value_format.js';
 import { FieldText, IsPlottable, NumberAt, ValueRows } from '../../../plugins/inspector/page/source/model/value_rows.js';
 import { Catalogue } from '../../../plugins/inspector/page/source/model/catalogue.js';
-import { CheckValue } from '../../../plugins/inspector/page/source/model/parameter_check.js';
+import { CheckNumber, CheckValue } from '../../../plugins/inspector/page/source/model/parameter_check.js';
 import { Change, FreeName, NameProblem } from '../../../plugins/inspector/page/source/model/changes.js';
 import { AddLogEntries, FilterLog, TroublesOf } from '../../../plugins/inspector/page/source/state/log.js';
 import { Series } from '../../../plugins/inspector/page/source/plots/series.js';
@@ -193,4 +193,12 @@ test('live numbers stay where they are: as many decimals as the largest needs, r
   assert.equal(new NumberScales().format(-1.073e-7), '−0.000000107');
   assert.equal(new NumberScales().format(7), '7');
   assert.equal(FormatValue({ x: -1, y: [2, 0.5] }, 60, new NumberScales()), 'x −1, y [2, 0.500]');
+});
+
+test('what is no number is not taken as one', () => {
+  const bounds = { minimum: 0, maximum: 99, isWhole: true };
+  for (const text of ['', ' ', '10 Hz', 'x', '-1', '100', '1.5', 'nan', 'inf', '1e999']) assert.notEqual(CheckNumber(text, bounds), '', text);
+  for (const text of ['0', ' 40 ', '99']) assert.equal(CheckNumber(text, bounds), '', text);
+  assert.equal(CheckNumber('0.5', { minimum: 0.001, unit: 'Hz' }), '');
+  assert.equal(CheckNumber('0', { minimum: 0.001, unit: 'Hz' }), 'at least 0.001 Hz is needed');
 });

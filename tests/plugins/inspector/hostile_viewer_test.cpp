@@ -21,6 +21,36 @@ class HostileViewer : public RunningInspectorTest {
   }
 };
 
+TEST_F(HostileViewer, IsAnsweredWithTheNumberOfItsRequestWhateverIsWrong) {
+  bool has_saved = false;
+  hooks.save = [&](const std::string&) -> Result<std::string> {
+    has_saved = true;
+    return std::string("saved");
+  };
+  Start();
+  Viewer viewer = View();
+  const auto refused = [&](Json message) {
+    return viewer.Ask(std::move(message))["errors"][0]["message"];
+  };
+  EXPECT_THAT(
+      refused({{"op", "publish"}, {"path", "/app/a/output/out"}, {"value", "7"}, {"rate", -5}}),
+      HasSubstr("\"rate\" must be a number, not below 0"));
+  EXPECT_THAT(refused({{"op", "speed"}, {"speed", -1}}), HasSubstr("\"speed\" must be"));
+  EXPECT_THAT(refused({{"op", "profile"}, {"on", "no"}}),
+              HasSubstr("\"on\" is neither true nor false"));
+  EXPECT_THAT(refused({{"op", "save"}, {"overwrite", 1}}), HasSubstr("neither true nor false"));
+  EXPECT_THAT(refused({{"op", 7}}), HasSubstr("must be a text"));
+  EXPECT_THAT(refused({{"path", "/"}}), HasSubstr("no \"op\""));
+  EXPECT_THAT(refused({{"op", "safe"}}), HasSubstr("no operation 'safe'"));
+  EXPECT_FALSE(has_saved);
+}
+
+TEST_F(HostileViewer, OfAnApplicationThatStandsStillASignOfLifeComesAllTheSame) {
+  Start();
+  Viewer viewer = View();
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(viewer.Next("alive")["op"], "alive");
+}
+
 TEST_F(HostileViewer, WhatIsNoMessageIsAnsweredAndDoesNothing) {
   Start();
   Viewer viewer = View();

@@ -83,6 +83,90 @@ TEST_F(NetworkMastersTest, OfThoseWithoutAStrengthTheFirstIsHeardThenTheNext) {
   EXPECT_THAT(robot_.said(), Not(HasSubstr("all of them are heard")));
 }
 
+TEST_F(NetworkMastersTest, WhoIsStartedAgainUnderItsNameHasItSoonerThanTheLeaseOfBeforeIsOver) {
+  Begin(true);
+  Member killed(*engine_, "planner");  // there still, as its lease is not over
+  Offer(killed);
+  WaitUntilHeard(killed, 1);
+  robot_.WaitFor("planner has it now");
+  Member again(*engine_, "planner");
+  Offer(again);
+  WaitUntilHeard(again, 2);
+  robot_.WaitFor("planner has it now instead of planner");
+}
+
+// Those of ROS 2 are all called "/", or have no name.
+class ForeignMastersTest : public NetworkMastersTest, public testing::WithParamInterface<std::string> {};
+
+TEST_P(ForeignMastersTest, AHandThatRestsKeepsWhatItHas) {
+  Begin(true);
+  DiscoveryTable table{[] {}};
+  const auto form = Must(ValueForm::Make(TypeOf<Place>(), "", ""));
+  struct Node {
+    std::unique_ptr<WireParticipant> participant;
+    std::unique_ptr<WireWriter> writer;
+  };
+  const auto make = [&] {
+    Node node{.participant = Must(engine_->Join({.name = GetParam(), .user_data = "enclave=/;"}, table)), .writer = {}};
+    node.writer = Must(node.participant->MakeWriter({.topic = "rt/drive", .type = form->wire_type(), .user_data = form->user_data()}, {}));
+    return node;
+  };
+  const auto write = [&](Node& node, double x) {
+    auto octets = std::make_shared<Octets>();
+    form->Write(std::make_unique<Place>(Place{x, 0}).get(), Time(), *octets);
+    ASSERT_TRUE(node.writer->Write(octets, 1));
+    WaitUntilQuiet(*engine_);
+  };
+  Node joystick = make();
+  WaitUntil("it is heard", [&] {
+    write(joystick, 1);
+    return robot_.module.goal.Get().x == 1;
+  });
+  Node navigator = make();
+  // Longer than who has been started again waits.
+  for (const Time begun = SteadyClock().Now(); SteadyClock().Now() - begun < std::chrono::milliseconds(1500);) {
+    write(navigator, 2);
+    ASSERT_EQ(robot_.module.goal.Get().x, 1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  joystick.writer.reset();
+  WaitUntil("the other has it", [&] {
+    write(navigator, 2);
+    return robot_.module.goal.Get().x == 2;
+  });
+  const std::string name = GetParam().empty() ? "somebody" : GetParam();
+  robot_.WaitFor(name + " has it now instead of " + name);
+}
+
+INSTANTIATE_TEST_SUITE_P(Names, ForeignMastersTest, testing::Values("", "/"));
+
+// The reader is made anew as the writers that are there change, and an engine then delivers again what they keep.
+TEST_F(NetworkMastersTest, WhatIsLatchedComesOnce) {
+  Begin(false);
+  Member planner(*engine_, "planner");
+  planner.Offer({.port = "/application/module/place", .topic = "/drive", .quality = ValueQuality::kLatched});
+  planner.Begin();
+  planner.module.place.Publish({7, 0});
+  WaitUntil("it is heard", [&] { return robot_.module.goal.Get().x == 7; });
+  {
+    Member person(*engine_, "person");
+    Offer(person);
+    WaitUntilHeard(person, 8);
+  }
+  WaitUntil("it is so for the latched one alone", [&] {
+    return robot_.Text().find("by person") == std::string::npos && robot_.Text().find("Place_, reliable, latched") != std::string::npos;
+  });
+  WaitUntilQuiet(*engine_);
+  EXPECT_EQ(robot_.module.goal.Get().x, 8);
+  WaitUntilHeard(planner, 9);
+  // Of who comes now, what it keeps is new.
+  Member other(*engine_, "other");
+  other.Offer({.port = "/application/module/place", .topic = "/drive", .quality = ValueQuality::kLatched});
+  other.Begin();
+  other.module.place.Publish({10, 0});
+  WaitUntil("it is heard", [&] { return robot_.module.goal.Get().x == 10; });
+}
+
 TEST_F(NetworkMastersTest, WhoSaysAStrengthCountsMoreThanWhoSaysNone) {
   Begin(true);
   Member plain(*engine_, "plain");

@@ -25,7 +25,7 @@ struct Place {
   double x = 0;
   double y = 0;
 };
-void Describe(TypeBuilder<Place>& type) {
+inline void Describe(TypeBuilder<Place>& type) {
   type.Name("test::Place").Field("x", &Place::x, {.unit = "m"}).Field("y", &Place::y, {.unit = "m"});
 }
 
@@ -33,7 +33,7 @@ void Describe(TypeBuilder<Place>& type) {
 struct Row {
   SharedVector<double> values;
 };
-void Describe(TypeBuilder<Row>& type) { type.Name("test::Row").Field("values", &Row::values); }
+inline void Describe(TypeBuilder<Row>& type) { type.Name("test::Row").Field("values", &Row::values); }
 
 class Module1 final : public Module {
  public:

@@ -5,6 +5,7 @@
 #include "core/element/tags.h"
 #include "core/log/log_levels.h"
 #include "core/port/given_limits.h"
+#include "core/port/port_stop.h"
 #include "plugins/structure/change_history.h"
 #include "plugins/structure/value_by_hand.h"
 #include "tests/plugins/structure/editor_fixture.h"
@@ -84,6 +85,23 @@ TEST_F(KeptStateTest, IsThatOfACopyToo) {
   MustDo({CopyElement{"/app/sink", "sink2"}, CopyElement{"/app/source", "source2"}});
   EXPECT_EQ(SetAtSink("/app/sink2"), kAtSink);
   EXPECT_EQ(SetAtSource("/app/source2"), kAtSource);
+}
+
+TEST_F(KeptStateTest, IsAStopThatIsBackWhenADeletionIsUndone) {
+  Port& side = At<Port>("/app/sink/input/side");
+  ASSERT_TRUE(side.SetDriving(true, AnyValue(1)));
+  ASSERT_TRUE(side.Block());
+  MustDo({DeleteElement{"/app/sink"}});
+  MustBe(history.Undo());
+  MustDo({CopyElement{"/app/sink", "sink2"}});
+  for (const char* path : {"/app/sink/input/side", "/app/sink2/input/side"}) {
+    const Port& again = At<Port>(path);
+    EXPECT_TRUE(again.is_blocked()) << path;
+    EXPECT_TRUE(again.is_driving()) << path;
+    EXPECT_EQ(*static_cast<const int*>(again.stop()->safe_value().get()), 1);
+  }
+  MustDo({RenameElement{"/app/sink", "drain"}});
+  EXPECT_TRUE(At<Port>("/app/drain/input/side").is_blocked());
 }
 
 TEST_F(KeptStateTest, GoesWithAnotherName) {

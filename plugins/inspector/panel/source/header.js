@@ -5,10 +5,9 @@ import { FormatTime } from '../../page/source/model/value_format.js';
 import { Icon } from '../../page/source/panels/icon.js';
 import { Pause, Resume } from '../../page/source/state/actions.js';
 import { theme } from '../../page/source/state/choices.js';
-import { canChange, canDrive, connection, hello, isConnected, role, run } from '../../page/source/state/store.js';
+import { canChange, canDrive, connection, hello, isConnected, isSilent, role, run } from '../../page/source/state/store.js';
 import { KindIcon } from './editing/kind_icon.js';
-import { LetGoOfAll } from './driving/driving.js';
-import { Discard, SavePanel, chosen, file, isChanged, isEditing, isLoaded, isStopSeen, isUnsaved, widgets } from './panel_state.js';
+import { Discard, SavePanel, chosen, file, isChanged, isEditing, isLoaded, isOverwriting, isStopSeen, isUnsaved, widgets } from './panel_state.js';
 import { StopButton } from './widgets/stop.js';
 
 export function Header() {
@@ -30,7 +29,6 @@ export function Header() {
 }
 
 function ToggleEditing() {
-  LetGoOfAll();
   isEditing.value = !isEditing.value;
   chosen.value = null;
 }
@@ -38,7 +36,7 @@ function ToggleEditing() {
 function State() {
   const { ended, verdict } = run.value;
   const [kind, text] = isConnected.value ? (ended ? ['ended', verdict ?? 'ended'] : ['good', 'connected'])
-    : connection.value.state === 'connecting' && !hello.value ? ['wait', 'connecting'] : ['bad', 'disconnected'];
+    : connection.value.state === 'connecting' && !hello.value ? ['wait', 'connecting'] : ['bad', isSilent.value ? 'silent' : 'disconnected'];
   return html`<span class=${`state ${kind}`} role="status" id="connection-state">${text}</span>
     ${hello.value && role.value !== 'change' && html`<span class="state read-only">${role.value === 'look' ? 'read-only' : 'drive'}</span>`}`;
 }
@@ -56,8 +54,8 @@ function Keeping() {
   const place = file.value ? `beside the application, in ${file.value}` : 'in memory, until the application ends: it came from no file';
   return html`
     <div class="cluster keeping"><span class="keeping-note" id="panel-state" title=${place}>${isChanged.value ? 'changed' : isUnsaved.value ? 'not saved' : 'saved'}${file.value ? '' : ', in memory'}</span>
-      <button id="discard" disabled=${!isChanged.value} onClick=${Discard}>Discard</button>
-      <button id="save-panel" class="primary" disabled=${!canChange.value || (!isChanged.value && !isUnsaved.value)} title=${`Keep it ${place}`} onClick=${SavePanel}>Save</button></div>`;
+      <button id="discard" disabled=${!isChanged.value && !isOverwriting.value} onClick=${Discard}>Discard</button>
+      <button id="save-panel" class="primary" disabled=${!canChange.value || (!isChanged.value && !isUnsaved.value)} title=${`Keep it ${place}`} onClick=${SavePanel}>${isOverwriting.value ? 'Overwrite' : 'Save'}</button></div>`;
 }
 
 function Theme() {

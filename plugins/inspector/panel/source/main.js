@@ -3,11 +3,12 @@
 import { render } from 'preact';
 import { effect, signal } from '@preact/signals';
 import { html } from 'htm/preact';
+import { Boundary } from '../../page/source/panels/boundary.js';
 import { Toasts } from '../../page/source/panels/toast_view.js';
 import { TokenBanner } from '../../page/source/panels/token_banner.js';
 import { LostBanner } from '../../page/source/panels/toolbar.js';
 import { StartKeeping } from '../../page/source/state/choices.js';
-import { Start, catalogue, hello, isConnected, revision } from '../../page/source/state/store.js';
+import { Start, catalogue, hello, isConnected, structureOf } from '../../page/source/state/store.js';
 import { WatchThePage } from './driving/driving.js';
 import { Frame } from './editing/frame.js';
 import { Palette } from './editing/palette.js';
@@ -62,7 +63,7 @@ function Column() {
 StartKeeping();
 WatchThePage();
 effect(() => {
-  if (isConnected.value && revision.value > 0 && catalogue.value.types.size > 0) Load();
+  if (isConnected.value && structureOf.value === hello.value.run && catalogue.value.types.size > 0) Load();
 });
 effect(() => {
   const name = hello.value?.application;
@@ -70,4 +71,4 @@ effect(() => {
 });
 const { protocol, host } = location;
 Start(`${protocol === 'https:' ? 'wss' : 'ws'}://${host}/`);
-render(html`<${Page} />`, document.getElementById('panel'));
+render(html`<${Boundary} what="The panel" of=${0}><${Page} /><//>`, document.getElementById('panel'));

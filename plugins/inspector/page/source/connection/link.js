@@ -5,6 +5,9 @@ import { Refusal, TokenProtocols } from './token.js';
 const kProtocol = 'runnel.inspector.v1';
 const kFirstPause = 250;   // ms before the next attempt
 const kLongestPause = 2000;
+const kSilent = 2000;      // ms without a word of the server, which gives a sign of life each second
+const kGivenUp = 10000;    // ms of it after which another connection is tried
+const kLook = 250;
 
 export class Link {
   #socket = null;
@@ -14,13 +17,19 @@ export class Link {
   #onMessage;
   #onState;
   #timer = null;
+  #heard = 0; // when something came last
+  #isSilent = false;
 
-  /** `onState` is told 'connecting', 'open', 'lost' or 'refused' (then it is for show() to go on), and why. */
+  /**
+   * `onState` is told 'connecting', 'open', 'silent' (nothing has come for a while; 'open' again when something does), 'lost' or
+   * 'refused' (then it is for show() to go on), and why.
+   */
   constructor(url, token, { onMessage, onState }) {
     this.url = url;
     this.token = token;
     this.#onMessage = onMessage;
     this.#onState = onState;
+    setInterval(() => this.#listen(), kLook);
   }
 
   open() {
@@ -28,10 +37,31 @@ export class Link {
     this.#onState('connecting', '');
     const socket = new WebSocket(this.url, [kProtocol, ...TokenProtocols(this.token)]);
     this.#socket = socket;
+    this.#heard = performance.now();
+    this.#isSilent = false;
     let wasOpen = false;
-    socket.onopen = () => { wasOpen = true; this.#pause = kFirstPause; this.#onState('open', ''); };
-    socket.onmessage = (event) => this.#receive(event.data);
-    socket.onclose = (event) => this.#lost(event.reason, wasOpen);
+    socket.onopen = () => { wasOpen = true; this.#pause = kFirstPause; this.#hear('open'); };
+    socket.onmessage = (event) => { this.#hear(); this.#receive(event.data); };
+    socket.onclose = (event) => { if (this.#socket === socket) this.#lost(event.reason, wasOpen); };
+  }
+
+  #hear(state = this.#isSilent ? 'open' : '') {
+    this.#heard = performance.now();
+    this.#isSilent = false;
+    if (state) this.#onState(state, '');
+  }
+
+  #listen() {
+    if (this.#socket === null) return;
+    const silence = performance.now() - this.#heard;
+    if (silence > kGivenUp) {
+      const socket = this.#socket;
+      this.#lost('no sign of life', true);
+      socket.close();
+    } else if (silence > kSilent && !this.#isSilent && this.#socket.readyState === WebSocket.OPEN) {
+      this.#isSilent = true;
+      this.#onState('silent', '');
+    }
   }
 
   /** Tries again with another token. */
@@ -52,7 +82,7 @@ export class Link {
     const number = this.#next++;
     return new Promise((resolve) => {
       this.#requests.set(number, resolve);
-      if (!this.send({ ...message, request: number })) this.#answer(number, NotConnected());
+      if (!this.send({ ...message, request: number })) this.#answer(number, Lost('there is no connection to the application: nothing has been sent'));
     });
   }
 
@@ -69,7 +99,7 @@ export class Link {
 
   async #lost(reason, wasOpen) {
     this.#socket = null;
-    for (const number of [...this.#requests.keys()]) this.#answer(number, NotConnected());
+    for (const number of [...this.#requests.keys()]) this.#answer(number, Lost('the connection was lost before the answer came: it may have been carried out'));
     // Browsers do not say why a WebSocket is refused.
     const refusal = wasOpen ? '' : await Refusal(this.token);
     if (refusal) return this.#onState('refused', refusal);
@@ -79,6 +109,6 @@ export class Link {
   }
 }
 
-function NotConnected() {
-  return { ok: false, errors: [{ message: 'the application does not answer: the connection is lost', path: '', hint: '' }] };
+function Lost(message) {
+  return { ok: false, lost: true, errors: [{ message, path: '', hint: '' }] };
 }

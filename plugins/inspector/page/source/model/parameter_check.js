@@ -20,3 +20,12 @@ export function CheckValue(parameter, text, catalogue) {
   if (maximum !== null && maximum !== undefined && number > maximum) return `at most ${maximum}${suffix} is allowed`;
   return '';
 }
+
+/** What is wrong with the text of a number that is needed, or "": it is finite, and in bounds. */
+export function CheckNumber(text, { isWhole = false, ...bounds }) {
+  const trimmed = text.trim();
+  if (trimmed === '' || !Number.isFinite(Number(trimmed))) return `'${trimmed}' is not a number`;
+  return CheckValue({ data_type: isWhole ? 'int' : 'double', ...bounds }, trimmed, kNoTypes);
+}
+
+const kNoTypes = { type: () => undefined };

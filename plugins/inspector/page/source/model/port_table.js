@@ -63,6 +63,15 @@ export function EditableText(value) {
   return Written(value, false);
 }
 
+/** Whether the text of a value is that value: whole numbers above 2^53 have been rounded on their way into this page. */
+export function IsExact(catalogue, type, value) {
+  if (typeof value === 'number') return !/^(u?int64(_t)?|size_t)$/.test(type) || Number.isSafeInteger(value);
+  if (value === null || typeof value !== 'object') return true;
+  const known = catalogue.type(type);
+  if (Array.isArray(value)) return value.every((each) => IsExact(catalogue, known?.element ?? '', each));
+  return (known?.fields ?? []).every((field) => IsExact(catalogue, field.type, value[field.name]));
+}
+
 function Written(value, isInside) {
   if (typeof value === 'string') return isInside && !/^[A-Za-z_][A-Za-z0-9_]*$/.test(value) ? JSON.stringify(value) : value;
   if (value === null || typeof value !== 'object') return value === null ? 'nan' : String(value).replace('Infinity', 'inf');

@@ -114,7 +114,8 @@ export class Structure {
     for (const told of elements) {
       const known = this.elements.get(told.path);
       if (known) {
-        this.elements.set(told.path, { ...known, ...told }); // another object, so that views see it
+        // In its place, for what is not said of it is not so any more; another object, so that views see it.
+        this.elements.set(told.path, { ...told, name: told.name ?? known.name, children: known.children });
         continue;
       }
       const element = { ...told, name: told.name ?? NameOf(told.path), children: [] };

@@ -2,8 +2,11 @@
 
 import { useState } from 'preact/hooks';
 import { html } from 'htm/preact';
+import { CheckNumber } from '../model/parameter_check.js';
 import { ErrorText, PublishByHand, Release } from '../state/actions.js';
 import { canDrive } from '../state/store.js';
+
+const kRate = { minimum: 0.001, maximum: 1000, unit: 'Hz' };
 
 export function ByHand({ port }) {
   const [text, setText] = useState('');
@@ -11,9 +14,11 @@ export function ByHand({ port }) {
   const [problem, setProblem] = useState('');
   const id = `by-hand:${port.path}`;
   const send = async () => {
-    if (text === '') return;
-    const reply = await PublishByHand(port.path, text, rate === '' ? null : Number(rate));
-    setProblem(reply.ok ? '' : (reply.errors ?? []).map(ErrorText).join('\n') || 'it was refused');
+    if (text === '') return undefined;
+    const wrong = rate.trim() === '' ? '' : CheckNumber(rate, kRate);
+    if (wrong) return setProblem(`how often a second: ${wrong}`);
+    const reply = await PublishByHand(port.path, text, rate.trim() === '' ? null : Number(rate));
+    return setProblem(reply.ok ? '' : (reply.errors ?? []).map(ErrorText).join('\n') || 'it was refused');
   };
   const onKey = (event) => {
     if (event.key === 'Enter') send();

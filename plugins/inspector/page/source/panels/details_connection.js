@@ -1,13 +1,13 @@
 // A connection: its ends, and what it does with values that nobody takes.
 
-import { useState } from 'preact/hooks';
 import { html } from 'htm/preact';
 import { Conversions, SetPull, SetQueue } from '../state/actions.js';
 import { openDialog } from '../state/choices.js';
 import { DisconnectCarefully } from '../state/careful.js';
-import { canChange, structure } from '../state/store.js';
+import { canChange, refusals, structure } from '../state/store.js';
 import { ConnectionKey } from '../model/structure.js';
 import { NoteLine } from './note_line.js';
+import { NumberField } from './number_field.js';
 import { ActionButton, Facts, Link, Section, Title } from './parts.js';
 import { useWatched } from './use_watched.js';
 import { ValueTable } from './value_table.js';
@@ -55,22 +55,12 @@ const kOnFull = { drop_oldest: 'the oldest is dropped', drop_newest: 'the newest
 /** How many values wait for the reader: Enter sets it, as of parameters. */
 function Queue({ connection }) {
   const { queue, on_full: onFull, pull } = connection;
-  const [draft, setDraft] = useState(null);
-  const send = (text) => {
-    const length = Math.round(Number(text));
-    if (Number.isFinite(length) && length >= 0 && length !== queue) SetQueue(connection, length, onFull);
-    else setDraft(null);
-  };
-  const onKey = (event) => {
-    if (event.key === 'Enter') send(event.target.value);
-    else if (event.key === 'Escape') event.target.blur(); else return;
-    event.stopPropagation();
-  };
+  refusals.value;
   const locked = !canChange.value || pull;
-  return html`<div class=${`parameter ${draft !== null ? 'edited' : ''}`}>
+  return html`<div class="parameter">
     <label for="queue">queue</label>
-    <div class="field"><input type="text" id="queue" inputmode="numeric" autocomplete="off" disabled=${locked} value=${draft ?? String(queue)}
-        onInput=${(event) => setDraft(event.target.value)} onKeyDown=${onKey} onBlur=${() => setDraft(null)} />
+    <div class="field"><${NumberField} id="queue" label="queue" bounds=${{ isWhole: true, minimum: 0 }} value=${String(queue)} disabled=${locked}
+        set=${(length) => SetQueue(connection, length, onFull)} />
       <span class="unit">values</span></div>
     <p class="note">${queue > 0 ? 'each value is read, in order' : '0: the reader finds the newest value only'}</p>
     ${queue > 0 && html`<label for="on-full">if it is full</label>

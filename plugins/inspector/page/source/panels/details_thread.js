@@ -5,13 +5,15 @@ import { FreeName } from '../model/changes.js';
 import { ThreadOf } from '../model/structure.js';
 import { FormatMilliseconds } from '../model/value_format.js';
 import { CreateThread, Delete, PauseElement, ResumeElement, Schedule } from '../state/actions.js';
-import { canChange, revision, structure, threadStatistics } from '../state/store.js';
+import { canChange, refusals, revision, structure, threadStatistics } from '../state/store.js';
+import { NumberField } from './number_field.js';
 import { ActionButton, Facts, Link, Section, Title } from './parts.js';
 
 const kActivations = { period: 'every period', free_running: 'at the end of the last', trigger: 'when data comes' };
 
 export function ThreadDetails({ element }) {
   revision.value;
+  refusals.value;
   const statistics = threadStatistics.value[element.path];
   const duration = statistics?.duration_ms;
   const locked = !canChange.value;
@@ -31,12 +33,10 @@ export function ThreadDetails({ element }) {
           value=${element.activation} onChange=${(event) => Schedule(element.path, { activation: event.target.value })}>
         ${Object.entries(kActivations).map(([name, text]) =>
           html`<option key=${name} value=${name}>${text}</option>`)}</select>`],
-      ['period', element.period ? html`<input id="thread-period" type="number" min="0.001" step="any" aria-label="Period in ms"
-          value=${element.period * 1000} disabled=${locked}
-          onChange=${(event) => Schedule(element.path, { period: Number(event.target.value) / 1000 })} /> ms` : null],
-      ['priority', html`<input id="thread-priority" type="number" min="0" max="99" aria-label="Priority"
-          value=${element.priority} disabled=${locked}
-          onChange=${(event) => Schedule(element.path, { priority: Number(event.target.value) })} />`],
+      ['period', element.period ? html`<${NumberField} id="thread-period" label="Period in ms" bounds=${{ minimum: 0.001 }} value=${String(Number((element.period * 1000).toPrecision(12)))}
+          disabled=${locked} set=${(number) => Schedule(element.path, { period: number / 1000 })} /> ms` : null],
+      ['priority', html`<${NumberField} id="thread-priority" label="Priority" bounds=${{ isWhole: true, minimum: 0, maximum: 99 }} value=${String(element.priority ?? '')}
+          disabled=${locked} set=${(priority) => Schedule(element.path, { priority })} />`],
       ['cycles', statistics && String(statistics.cycles)],
       ['cycle takes', duration && `${FormatMilliseconds(duration.mean)}, at most ${FormatMilliseconds(duration.max)}`],
       ['measured period', statistics && FormatMilliseconds(statistics.period_ms)],

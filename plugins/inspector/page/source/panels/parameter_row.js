@@ -6,7 +6,7 @@ import { html } from 'htm/preact';
 import { CheckValue } from '../model/parameter_check.js';
 import { FormatBounds } from '../model/value_format.js';
 import { ErrorText, SetParameter } from '../state/actions.js';
-import { canChange, catalogue } from '../state/store.js';
+import { canChange, catalogue, refusals } from '../state/store.js';
 
 export function ParameterRow({ parameter }) {
   const [draft, setDraft] = useState(null);   // what is being typed, or null
@@ -14,6 +14,7 @@ export function ParameterRow({ parameter }) {
   const [dropped, setDropped] = useState(''); // what was typed and not set
   const sent = useRef(null); // until it has become the value: it is not sent again
   const id = `parameter:${parameter.path}`;
+  refusals.value;
   const canBeSet = parameter.settable || parameter.remakes;
   const locked = !canBeSet || !canChange.value;
   useEffect(() => {

@@ -5,7 +5,7 @@ import { html } from 'htm/preact';
 import { FormatTime } from '../model/value_format.js';
 import { Pause, Redo, Resume, SetSpeed, Step, Undo, WhoseChange } from '../state/actions.js';
 import { GroupForNew, SetPanels, openDialog, panels, theme } from '../state/choices.js';
-import { canChange, canDrive, connection, hello, isConnected, role, run } from '../state/store.js';
+import { canChange, canDrive, connection, hello, isConnected, isSilent, refusals, role, run } from '../state/store.js';
 import { isNarrow, isPhone } from '../state/window.js';
 import { hasWorld } from '../world/world_view.js';
 import { AlarmCounter } from './alarms.js';
@@ -36,7 +36,7 @@ function ConnectionState() {
   const { state } = connection.value;
   const { ended, verdict } = run.value;
   const [kind, text] = isConnected.value ? (ended ? ['ended', verdict ?? 'ended'] : ['good', 'connected'])
-    : state === 'connecting' && !hello.value ? ['wait', 'connecting'] : ['bad', 'disconnected'];
+    : state === 'connecting' && !hello.value ? ['wait', 'connecting'] : ['bad', isSilent.value ? 'silent' : 'disconnected'];
   return html`<span class=${`state ${kind}`} role="status" id="connection-state"
       title=${hello.value ? `${hello.value.file}, Runnel ${hello.value.runnel}` : ''}>${text}</span>
     ${hello.value && role.value !== 'change' && html`<span class="state read-only" title=${kRoleTitles[role.value]}>${
@@ -68,6 +68,7 @@ function Pace() {
 }
 
 function Speed({ speed, locked }) {
+  refusals.value;
   const known = speed === null || kSpeeds.includes(speed) ? kSpeeds : [...kSpeeds.slice(0, -1), speed, 0];
   return html`<select id="speed" disabled=${locked || speed === null} value=${speed ?? ''}
       aria-label="Speed of the simulation"
@@ -139,5 +140,6 @@ export function LostBanner() {
   return html`<div class=${`lost ${ended ? 'ended' : ''}`} role="alert" id="lost">
     ${!hello.value ? 'Trying to reach the application …'
       : ended ? `The application has ended${verdict ? `: ${verdict.trim().replace(/\.$/, '')}` : ''}. The page goes on when it is started again.`
+      : isSilent.value ? 'The application has given no sign of life for 2 s or more: it hangs, or the network does. What you see is how it was last; whoever drove by this page drives no more.'
       : 'The application does not answer. What you see is how it was last. Trying to reach it again …'}</div>`;
 }

@@ -17,12 +17,15 @@ export const hello = signal(null);
 export const catalogue = signal(new Catalogue());
 export const structure = new Structure();
 export const revision = signal(0);      // counts the changes of `structure`
+export const structureOf = signal(null); // the run that `structure` is of, as this connection has told it
 export const shapeRevision = signal(0); // the same, but for changes of parameters' values alone
 export const run = signal({ time: 0, paused: false, speed: null, undo: null, redo: null, undo_client: null, redo_client: null, faults: 0, ended: false, verdict: null, log_levels: {} });
 export const log = signal([]);
 export const threadStatistics = signal({});
 
 export const isConnected = computed(() => connection.value.state === 'open' && hello.value !== null);
+/** There is a connection, and no sign of life has come over it for 2 s: what is shown is old. */
+export const isSilent = computed(() => connection.value.state === 'silent');
 /** What this page may: look, drive (publish by hand, pause), change. */
 export const role = computed(() => hello.value?.role ?? (hello.value?.read_only ? 'look' : 'change'));
 /** Whether changes may be asked for now. */
@@ -50,8 +53,13 @@ let link = null;
 export const profile = signal({ on: false, seconds: 0, tasks: [], latencies: [] });
 export const watches = new Watches((message) => link?.send(message) ?? false);
 
-export function Request(message) {
-  return link.request(message);
+/** Counts what the application has refused: what a browser has shown before the answer (a switch, a choice) is drawn again then. */
+export const refusals = signal(0);
+
+export async function Request(message) {
+  const reply = await link.request(message);
+  if (!reply.ok) refusals.value += 1;
+  return reply;
 }
 
 /** Begins to talk with the application that has sent this page. */
@@ -103,11 +111,13 @@ function OnHello(message) {
   for (const rate of rates.values()) rate.value = null;
   ForgetArrangement();
   network.value = null;
+  structureOf.value = null;
   hello.value = message;
 }
 
 function OnStructure(message) {
   structure.replaceAll(message);
+  structureOf.value = hello.value.run;
   ShowNetwork(structure);
   CountChange(true);
   watches.askAgain();

@@ -14,6 +14,7 @@ const kPatience = 400; // ms without a key before a move by keys is sent
 export function GoalHandle({ layer, place, point, scene }) {
   const [moved, setMoved] = useState(null); // where it has been put, until the application says so, too
   const timer = useRef(0);
+  const cancel = useRef(null); // ends the drag that is under way, without a word to the application
   useEffect(() => { setMoved(null); }, [place.x, place.y]);
   useEffect(() => () => clearTimeout(timer.current), []);
 
@@ -30,15 +31,26 @@ export function GoalHandle({ layer, place, point, scene }) {
     const box = scene.host.getBoundingClientRect();
     let to = null;
     button.setPointerCapture(event.pointerId);
+    const end = () => { button.onpointermove = button.onpointerup = button.onpointercancel = cancel.current = null; };
     button.onpointermove = (move) => {
       to = ToWorld(scene.camera.value, scene.size.value, { x: move.clientX - box.left, y: move.clientY - box.top });
       setMoved(to);
     };
-    button.onpointerup = button.onpointercancel = () => {
-      button.onpointermove = button.onpointerup = button.onpointercancel = null;
-      if (to) send(to);
-    };
+    button.onpointerup = () => { end(); if (to) send(to); };
+    // By the browser (a gesture of the system, a palm), or by Escape: nothing has been said.
+    button.onpointercancel = cancel.current = () => { end(); setMoved(null); };
   };
+  const takeBack = () => {
+    clearTimeout(timer.current);
+    cancel.current?.();
+    setMoved(null);
+  };
+  useEffect(() => {
+    if (!moved) return undefined;
+    const onEscape = (event) => { if (event.key === 'Escape') takeBack(); };
+    window.addEventListener('keydown', onEscape, true);
+    return () => window.removeEventListener('keydown', onEscape, true);
+  }, [moved === null]);
   const onKey = (event) => {
     const [dx, dy] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key] ?? [];
     if (dx === undefined || !canChange.value) return;

@@ -3,14 +3,20 @@
 import { computed, effect, signal } from '@preact/signals';
 import { ErrorText, Release } from '../../../page/source/state/actions.js';
 import { Request, canDrive, isConnected, run } from '../../../page/source/state/store.js';
+import { isEditing } from '../panel_state.js';
 import { Hold } from './hold.js';
 
-const holds = new Map(); // port -> {widget, hold, rest}
+const holds = new Map(); // port -> {widget, hold}
 export const held = signal({});     // port -> id of the widget that holds it
 export const problems = signal({}); // id of a widget -> why its hold has ended by itself
 
 /** How it stands with ports that are set by hand: path -> 'set', 'driven', 'lost', 'stopped'. */
 export const hands = computed(() => Object.fromEntries((run.value.hands ?? []).map(({ path, state }) => [path, state])));
+
+/** A hold begins only by an act in a page that somebody looks at, and not while it is arranged. */
+function MayBegin() {
+  return canDrive.value && !isEditing.value && !document.hidden && document.hasFocus();
+}
 
 /** Takes hold, or says what is wanted now. False: another widget has the port, or it cannot be had. */
 export function Drive(port, widget, text, rest) {
@@ -20,13 +26,13 @@ export function Drive(port, widget, text, rest) {
     known.hold.set(text);
     return true;
   }
-  if (!canDrive.value || !port) return false;
+  if (!port || !MayBegin()) return false;
   Note(problems, widget, undefined);
   const onEnd = (errors) => {
     Forget(port);
     Note(problems, widget, errors.map(ErrorText).join('\n') || 'it was refused');
   };
-  holds.set(port, { widget, rest, hold: new Hold(port, text, { request: Request, onEnd }) });
+  holds.set(port, { widget, hold: new Hold(port, text, { rest, request: Request, onEnd }) });
   Note(held, port, widget);
   return true;
 }
@@ -34,7 +40,7 @@ export function Drive(port, widget, text, rest) {
 export function LetGo(port, widget) {
   const known = holds.get(port);
   if (known?.widget !== widget) return;
-  known.hold.end(known.rest);
+  known.hold.end();
   Forget(port);
 }
 
@@ -82,5 +88,6 @@ export function WatchThePage() {
   window.addEventListener('blur', LetGoOfAll);
   window.addEventListener('pagehide', LetGoOfAll);
   document.addEventListener('visibilitychange', () => { if (document.hidden) LetGoOfAll(); });
+  effect(() => { if (isEditing.value) LetGoOfAll(); });
   effect(() => { if (isConnected.value && stopsWaiting.value.length > 0) SendStops(); });
 }

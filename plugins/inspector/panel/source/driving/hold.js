@@ -6,24 +6,28 @@ export const kPeriod = 50;     // ms, between two values
 export const kDeadline = 0.25; // s, without a value, after which the server has the robot rest
 const kRate = 20;              // Hz of the application's time: what looks at the age of commands has a fresh one
 const kUnanswered = 4;         // values on their way: more would come late, all at once, when a network is back
+export const kPatience = 20;   // periods without an answer: nobody says any more that the robot does what is wanted
 
 export class Hold {
   #port;
   #request;
   #onEnd;
   #text;
+  #rest;
   #lease;
   #timer = 0;
   #unanswered = 0;
+  #silent = 0; // periods since the last answer
 
-  /** `request` sends a message and promises the reply; `onEnd` is told why the hold has ended by itself. */
-  constructor(port, text, { request, onEnd }) {
+  /** `rest` is the last value, which stays until the port is released; `onEnd` is told why the hold has ended by itself. */
+  constructor(port, text, { rest, request, onEnd }) {
     this.#port = port;
     this.#text = text;
+    this.#rest = rest;
     this.#request = request;
     this.#onEnd = onEnd;
     this.#lease = crypto.getRandomValues(new Uint32Array(3)).join('-');
-    this.#timer = setInterval(() => this.#send(), kPeriod);
+    this.#timer = setInterval(() => this.#turn(), kPeriod);
     this.#send();
   }
 
@@ -32,16 +36,25 @@ export class Hold {
     this.#text = text;
   }
 
-  /** Lets go: `rest` is the last value, which stays until the port is released. */
-  end(rest) {
+  /** Lets go. */
+  end() {
     if (this.#timer === 0) return;
     this.#stop();
-    this.#request({ op: 'publish', path: this.#port, value: rest, lease: this.#lease });
+    this.#request({ op: 'publish', path: this.#port, value: this.#rest, lease: this.#lease });
   }
 
   #stop() {
     clearInterval(this.#timer);
     this.#timer = 0;
+  }
+
+  #turn() {
+    if (this.#timer === 0) return undefined;
+    this.#silent += 1;
+    if (this.#silent <= kPatience) return this.#send();
+    this.end();
+    this.#onEnd([{ message: `the application has not answered for ${kPatience * kPeriod / 1000} s: this hold has ended` }]);
+    return undefined;
   }
 
   async #send() {
@@ -50,6 +63,7 @@ export class Hold {
     const reply = await this.#request({ op: 'publish', path: this.#port, value: this.#text, rate: kRate,
       deadline: kDeadline, lease: this.#lease });
     this.#unanswered -= 1;
+    this.#silent = 0;
     if (reply.ok || this.#timer === 0) return;
     this.#stop();
     this.#onEnd(reply.errors ?? []);

@@ -4,6 +4,7 @@
 import { useEffect, useRef } from 'preact/hooks';
 import { html } from 'htm/preact';
 import { NameOf } from '../../../page/source/model/structure.js';
+import { Boundary } from '../../../page/source/panels/boundary.js';
 import { Icon } from '../../../page/source/panels/icon.js';
 import { kColumns } from '../model/grid.js';
 import { kKinds } from '../model/kinds.js';
@@ -53,7 +54,9 @@ export function Frame({ widget }) {
       const { columns, rows } = Cells(card.current, move.clientX - startX, move.clientY - startY);
       MoveWidget(before, id, place(columns, rows));
     };
-    handle.onpointerup = handle.onpointercancel = () => { handle.onpointermove = handle.onpointerup = handle.onpointercancel = null; };
+    const end = () => { handle.onpointermove = handle.onpointerup = handle.onpointercancel = null; };
+    handle.onpointerup = end;
+    handle.onpointercancel = () => { end(); widgets.value = before; };
   };
   const byKey = (event, place) => {
     const [dx, dy] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key] ?? [];
@@ -73,7 +76,7 @@ export function Frame({ widget }) {
         <h2>${TitleOf(widget)}</h2>
         ${editing && html`<span class="card-tools"><button class="remove" aria-label=${`Remove ${TitleOf(widget)}`} title="Remove"
           onClick=${() => RemoveWidget(id)}><${Icon} name="trash" size=${14} /></button></span>`}</header>`}
-      <div class="card-body" inert=${editing} onPointerDown=${undefined}><${WidgetView} widget=${widget} /></div>
+      <div class="card-body" inert=${editing} onPointerDown=${undefined}><${Boundary} what=${`“${TitleOf(widget)}”`} of=${widget}><${WidgetView} widget=${widget} /><//></div>
       ${editing && html`<div class="card-cover" onPointerDown=${(event) => drag(event, move)}></div>
         <button class="card-corner" aria-label=${`Size of ${TitleOf(widget)}: arrow keys change it`} title="Size"
           onPointerDown=${(event) => drag(event, resize)} onKeyDown=${(event) => byKey(event, resize)}></button>`}

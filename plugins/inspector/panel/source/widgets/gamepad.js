@@ -10,11 +10,17 @@ const kShoulders = [4, 5, 6, 7]; // of the standard layout
 const kStill = { forward: 0, turn: 0 };
 const kPeriod = 40; // ms, between two looks
 
-/** {name, isHeld, stick} of the first gamepad there is, or null. */
+/**
+ * {id, name, isHeld, stick, isStandard} of the first gamepad there is, those of the standard layout before others, or null. Which
+ * buttons another one has at the places of the shoulders nobody knows: they may be switches that stay on.
+ */
 export function ReadGamepad(pads) {
-  const pad = [...pads].find((each) => each?.connected);
+  const there = [...pads].filter((each) => each?.connected);
+  const pad = there.find(({ mapping }) => mapping === 'standard') ?? there[0];
   if (!pad) return null;
-  return { name: pad.id.replace(/\s*\(.*/, ''), isHeld: kShoulders.some((button) => pad.buttons[button]?.pressed),
+  const isStandard = pad.mapping === 'standard';
+  return { id: `${pad.index} ${pad.id}`, name: pad.id.replace(/\s*\(.*/, ''), isStandard,
+    isHeld: isStandard && kShoulders.some((button) => pad.buttons[button]?.pressed),
     stick: WithinCircle({ x: pad.axes[0] ?? 0, y: -(pad.axes[1] ?? 0) }) };
 }
 
@@ -24,13 +30,16 @@ export function Gamepad({ widget }) {
   const path = port?.path;
   const mine = held.value[widget.target] === widget.id;
   useEffect(() => {
-    // A shoulder that is still pressed when a hold has ended by itself does not begin another one.
-    let [isHolding, isBlocked] = [false, false];
+    // A shoulder begins a hold by being pressed: it must have been seen released. One that is still pressed when a hold has
+    // ended by itself, or that was pressed before this page looked, begins none.
+    let [isHolding, isBlocked, before] = [false, true, null];
     const look = () => {
       const seen = ReadGamepad(navigator.getGamepads());
       setPad(seen);
-      if (!seen?.isHeld) {
-        [isHolding, isBlocked] = [false, false];
+      const isOther = seen?.id !== before;
+      before = seen?.id;
+      if (!seen?.isHeld || isOther) {
+        [isHolding, isBlocked] = [false, seen?.isHeld ?? true];
         return LetGo(widget.target, widget.id);
       }
       isBlocked ||= isHolding && held.peek()[path] !== widget.id;
@@ -42,9 +51,11 @@ export function Gamepad({ widget }) {
     return () => { clearInterval(timer); LetGo(widget.target, widget.id); };
   }, [path, widget]);
   const motion = mine && pad ? MotionOf(pad.stick, widget) : kStill;
+  const name = !pad ? 'No gamepad: connect one and press a button'
+    : pad.isStandard ? pad.name : `${pad.name} has no standard layout: it cannot drive here`;
   return html`
     <div class="gamepad">
-      <p class=${`gamepad-name ${pad ? '' : 'none'}`}>${pad ? pad.name : 'No gamepad: connect one and press a button'}</p>
+      <p class=${`gamepad-name ${pad?.isStandard ? '' : 'none'}`}>${name}</p>
       <p class="hint">Hold a shoulder button, and push the left stick.</p>
       <${DrivingState} widget=${widget} problem=${problem} motion=${motion} />
     </div>`;

@@ -1,9 +1,10 @@
-// A stick for mouse and touch: drives while it is held, and goes back to the middle when it is let go.
+// A stick for mouse, touch and arrow keys: drives while it is held, and goes back to the middle when it is let go.
 
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { html } from 'htm/preact';
 import { canDrive } from '../../../page/source/state/store.js';
 import { Drive, LetGo, held } from '../driving/driving.js';
+import { PlaceOfWays, usePointerHold, useWays } from '../driving/held_by.js';
 import { MotionOf, TwistText, WithinCircle } from '../model/twist.js';
 import { DriveOf, DrivingState } from './driving_state.js';
 
@@ -21,9 +22,12 @@ export function Joystick({ widget }) {
   useEffect(() => () => LetGo(widget.target, widget.id), [widget.target, widget.id]);
 
   const motion = stick ? MotionOf(stick, widget) : kStill;
+  const isLocked = Boolean(problem) || !canDrive.value;
+  const letGo = () => { LetGo(widget.target, widget.id); setStick(null); };
   const take = (place) => {
-    const rest = TwistText(axes, kStill);
-    if (Drive(port.path, widget.id, TwistText(axes, MotionOf(place, widget)), rest)) setStick(place);
+    const isTaken = Drive(port.path, widget.id, TwistText(axes, MotionOf(place, widget)), TwistText(axes, kStill));
+    if (isTaken) setStick(place);
+    return isTaken;
   };
   // As it was when it was pressed: what is drawn meanwhile moves nothing.
   const placeOf = ({ clientX, clientY }) => {
@@ -31,22 +35,23 @@ export function Joystick({ widget }) {
     const radius = width / 2 * kRange;
     return WithinCircle({ x: (clientX - left - width / 2) / radius, y: -(clientY - top - height / 2) / radius });
   };
-  const onDown = (event) => {
-    if (problem || !canDrive.value || event.button !== 0) return;
-    event.preventDefault();
-    pad.current.setPointerCapture(event.pointerId);
-    box.current = pad.current.getBoundingClientRect();
-    take(placeOf(event));
-  };
-  const onMove = (event) => { if (held.peek()[widget.target] === widget.id) take(placeOf(event)); };
-  const onUp = () => { LetGo(widget.target, widget.id); setStick(null); };
+  const pointer = usePointerHold({
+    begin: (event) => {
+      if (isLocked) return false;
+      box.current = pad.current.getBoundingClientRect();
+      return take(placeOf(event));
+    },
+    move: (event) => { if (held.peek()[widget.target] === widget.id) take(placeOf(event)); },
+    end: letGo,
+  });
+  const keys = useWays({ mine, change: (ways) => (ways.size === 0 ? letGo() : !isLocked && take(WithinCircle(PlaceOfWays(ways)))) });
   const at = stick ?? { x: 0, y: 0 };
   return html`
     <div class="joystick">
       <div class="stick-room">
-        <div class=${`stick-pad ${stick ? 'held' : ''}`} ref=${pad} data-stick=${widget.id} role="application" aria-disabled=${Boolean(problem) || !canDrive.value}
-            aria-label="Joystick: hold and push to drive; letting go stops" onPointerDown=${onDown} onPointerMove=${onMove}
-            onPointerUp=${onUp} onPointerCancel=${onUp} onLostPointerCapture=${onUp} onContextMenu=${(event) => event.preventDefault()}>
+        <div class=${`stick-pad ${stick ? 'held' : ''}`} ref=${pad} data-stick=${widget.id} role="application" tabindex="0" aria-disabled=${isLocked}
+            aria-label="Joystick: hold and push, or hold arrow keys, to drive; letting go stops" ...${pointer}
+            onKeyDown=${(event) => keys.onKey(event)} onKeyUp=${(event) => keys.onKey(event)} onBlur=${keys.letGo}>
           <svg viewBox="-100 -100 200 200" aria-hidden="true">
             <circle class="stick-ring" r="96" /><circle class="stick-range" r="69" />
             ${[0, 90, 180, 270].map((angle) => html`<path class="stick-arrow" key=${angle} d="M-7,-80 L0,-87 L7,-80" transform=${`rotate(${angle})`} />`)}

@@ -5,6 +5,7 @@ import { html } from 'htm/preact';
 import { FormatNumber } from '../../../page/source/model/value_format.js';
 import { canDrive } from '../../../page/source/state/store.js';
 import { Drive, LetGo, held } from '../driving/driving.js';
+import { usePointerHold } from '../driving/held_by.js';
 import { useTarget } from './target.js';
 
 /** From where to where, and in which steps; what the widget does not say, the parameter's bounds do. */
@@ -46,13 +47,16 @@ export function Button({ widget }) {
   const letGo = () => LetGo(widget.target, widget.id);
   useEffect(() => letGo, [widget.target, widget.id]);
   // Held, it is sent again and again, as driving is: the server has the port rest when it is not heard of.
-  const holding = widget.held && isPort ? {
-    onPointerDown: (event) => {
-      if (!canDrive.value) return;
-      event.currentTarget.setPointerCapture(event.pointerId);
-      Drive(widget.target, widget.id, text, widget.off ?? Rest(element?.data_type));
+  const begin = () => canDrive.value && Drive(widget.target, widget.id, text, widget.off ?? Rest(element?.data_type));
+  const pointer = usePointerHold({ begin, end: letGo });
+  const isKey = ({ key }) => key === ' ' || key === 'Enter';
+  const holding = widget.held && isPort ? { ...pointer, onBlur: letGo,
+    onKeyDown: (event) => {
+      if (!isKey(event)) return;
+      event.preventDefault();
+      if (!event.repeat) begin();
     },
-    onPointerUp: letGo, onPointerCancel: letGo,
+    onKeyUp: (event) => { if (isKey(event)) letGo(); },
   } : { onClick: () => set(text) };
   return html`
     <div class="push"><button class=${`push-button ${isHeld ? 'down' : ''}`} disabled=${locked || text === ''} ...${holding}

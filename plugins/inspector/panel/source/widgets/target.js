@@ -4,12 +4,13 @@ import { html } from 'htm/preact';
 import { useState } from 'preact/hooks';
 import { useWatched } from '../../../page/source/panels/use_watched.js';
 import { ErrorText, PublishByHand, SetParameter } from '../../../page/source/state/actions.js';
-import { canChange, canDrive, revision, structure } from '../../../page/source/state/store.js';
+import { canChange, canDrive, refusals, revision, structure } from '../../../page/source/state/store.js';
 import { GiveBack, hands } from '../driving/driving.js';
 
 /** {element, isPort, value, locked, problem, set(text), note}: `value` as the application has it, a number, text, flag or null. */
 export function useTarget(widget) {
   revision.value;
+  refusals.value;
   const [problem, setProblem] = useState('');
   const element = widget.target ? structure.get(widget.target) : null;
   const isPort = element?.kind === 'port';

@@ -1,4 +1,4 @@
-#include "plugins/network/ros_node.h"
+#include "plugins/ros_services/ros_node.h"
 
 #include <algorithm>
 #include <array>
@@ -9,6 +9,7 @@
 #include "plugins/cdr_values/cdr_reader.h"
 #include "plugins/cdr_values/cdr_writer.h"
 #include "plugins/ros_messages/node_messages.h"
+#include "plugins/ros_services/ros_time.h"
 
 namespace runnel {
 
@@ -29,11 +30,12 @@ void PutId(CdrWriter& to, const WireId& id, bool is_long) {
   if (is_long) to.PutPlain(kRest.data(), 1, kRest.size());
 }
 
-std::int64_t SinceEpoch() {
-  return std::chrono::duration_cast<Duration>(std::chrono::system_clock::now().time_since_epoch()).count();
-}
-
 }  // namespace
+
+const std::vector<std::string>& RosParameterUses() {
+  static const std::vector<std::string> names = {"none", "read", "write"};
+  return names;
+}
 
 Result<std::unique_ptr<RosNode>> RosNode::Start(const RosOptions& options, WireParticipant& participant,
                                                 FrameworkElement& application, bool is_simulated, Logger& log,
@@ -56,6 +58,9 @@ Result<std::unique_ptr<RosNode>> RosNode::Start(const RosOptions& options, WireP
     if (!made) return made.error();
     node->parameters_ = std::move(*made);
   }
+  auto stop = StopService::Start(runtime.robot_stop(), options.stop_releases, options.node, participant, hooks.dialect);
+  if (!stop) return stop.error();
+  node->stop_ = std::move(*stop);
   return node;
 }
 
@@ -114,6 +119,8 @@ void RosNode::Tell(std::vector<WireId> readers, std::vector<WireId> writers) {
   if (followed_ != nullptr) readers.push_back(followed_->id());
   if (diagnostics_ != nullptr) writers.push_back(diagnostics_->id());
   if (parameters_ != nullptr) parameters_->AddIds(readers, writers);
+  readers.push_back(stop_->endpoints().reader_id());
+  writers.push_back(stop_->endpoints().writer_id());
   if (entities_ == nullptr || (has_told_ && readers == readers_ && writers == writers_)) return;
   has_told_ = true;
   readers_ = std::move(readers);
@@ -130,7 +137,7 @@ void RosNode::Tell(std::vector<WireId> readers, std::vector<WireId> writers) {
     to.PutCount(ids.size());
     for (const WireId& id : ids) PutId(to, id, is_long);
   }
-  (void)entities_->Write(octets, SinceEpoch());
+  (void)entities_->Write(octets, SinceEpoch().time_since_epoch().count());
 }
 
 std::optional<Time> RosNode::Work(Time now) {
@@ -147,7 +154,7 @@ std::optional<Time> RosNode::SendClock(Time now) {
     auto octets = std::make_shared<Octets>();
     CdrWriter to(*octets);
     PutTime(to, time);
-    (void)time_->Write(octets, SinceEpoch());
+    (void)time_->Write(octets, SinceEpoch().time_since_epoch().count());
   }
   return now + kClockPeriod;
 }
@@ -155,7 +162,7 @@ std::optional<Time> RosNode::SendClock(Time now) {
 void RosNode::Say(const LogMessage& message, bool is_simulated) {
   auto octets = std::make_shared<Octets>();
   CdrWriter to(*octets);
-  const Duration offset = is_simulated ? Duration() : Duration(SinceEpoch()) - clock_.Now().time_since_epoch();
+  const Duration offset = is_simulated ? Duration() : SinceEpoch() - clock_.Now();
   PutTime(to, message.time + offset);
   to.Put(RosLevel(message.level));
   to.PutText(message.path);
@@ -163,7 +170,7 @@ void RosNode::Say(const LogMessage& message, bool is_simulated) {
   to.PutText("");
   to.PutText("");
   to.Put(std::uint32_t{0});
-  (void)log_->Write(octets, SinceEpoch());
+  (void)log_->Write(octets, SinceEpoch().time_since_epoch().count());
 }
 
 }  // namespace runnel

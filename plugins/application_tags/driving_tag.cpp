@@ -1,0 +1,105 @@
+// Ports by which something moves, though no module says so of them: <driving port="drive/twist" safe="…"/>.
+
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/port/port.h"
+#include "core/types/text_format.h"
+#include "core/types/type_info.h"
+#include "plugins/application_files/build_context.h"
+#include "plugins/application_files/path_use.h"
+#include "plugins/application_files/saving/file_update.h"
+#include "plugins/application_tags/tag_list.h"
+
+namespace runnel {
+
+namespace {
+
+using internal::FileUpdate;
+using internal::Saving;
+
+/// Kept with the port, for files.
+struct DrivingMark final : Annotation {
+  explicit DrivingMark(AnyValue safe_value) : safe(std::move(safe_value)) {}
+  [[nodiscard]] std::unique_ptr<Annotation> ForReplacement() const override {
+    return std::make_unique<DrivingMark>(safe);
+  }
+  AnyValue safe;  // none: the port has one by itself
+};
+
+/// The ports that one saving has found marked in the file.
+struct SaidMarks {
+  std::set<const Port*> ports;
+};
+
+// Short paths mean inputs, as far as there are any.
+Port* FindMarked(const PathUse& use) {
+  Port* const input = FindPort(use, PathKind::kInput);
+  return input != nullptr ? input : FindPort(use, PathKind::kOutput);
+}
+
+void MarkDriving(const TagUse& use) {
+  const PathUse path = PathIn(use.Get("port"), use.parent);
+  Port* port = FindMarked(path);
+  if (port == nullptr) port = SearchPort(path, PathKind::kInput, use.context);
+  if (port == nullptr) return;
+  AnyValue safe;
+  if (const XmlAttribute* const text = use.Find("safe")) {
+    safe = internal::ReadValue(use, *text, *port);
+    if (!safe) return;
+  }
+  if (auto set = port->SetDriving(true, safe); !set) {
+    if (set.error().hint.empty()) return use.Report(set.error(), use.xml.position());
+    Error error = set.error();
+    error.hint = "add safe=\"…\": the " + port->type().name() + " at which it stands still";
+    return use.Report(std::move(error), use.xml.position());
+  }
+  port->Annotate(std::make_unique<DrivingMark>(std::move(safe)));
+}
+
+void UpdateDriving(XmlElement tag, FrameworkElement& parent, FileUpdate& update) {
+  const Port* const port = FindMarked(PathIn(*tag.Attribute("port"), parent));
+  const auto* const mark = port != nullptr ? port->FindAnnotation<DrivingMark>() : nullptr;
+  if (mark == nullptr) return update.editor().Remove(tag);
+  update.saving().Note<SaidMarks>().ports.insert(port);
+}
+
+// Those of copies: the application says it of them.
+std::vector<NewElement> MissingMarks(FrameworkElement& home, Saving& saving) {
+  std::vector<NewElement> elements;
+  if (&home != &saving.application) return elements;
+  const auto& said = saving.Note<SaidMarks>().ports;
+  home.Visit([&](FrameworkElement& element) {
+    const auto* const port = dynamic_cast<const Port*>(&element);
+    const auto* const mark = element.FindAnnotation<DrivingMark>();
+    if (port == nullptr || mark == nullptr || said.contains(port)) return;
+    NewElement& made = elements.emplace_back(
+        NewElement{.name = "driving", .attributes = {{"port", port->path().substr(home.path().size() + 1)}}});
+    if (mark->safe) made.attributes.emplace_back("safe", ToText(port->type(), mark->safe.get()));
+  });
+  return elements;
+}
+
+}  // namespace
+
+XmlTag DrivingTag() {
+  return {.name = "driving",
+          .summary = "something moves by what is read behind this port: the STOP of the robot holds it at its safe value",
+          .parents = {"application", "group"},
+          .attributes = {PathRule("port", true, "an input of a module, or a port of a group; an output: all that read from it"),
+                         {.name = "safe",
+                          .summary = "the value at which it stands still; if left out, the input's default, or zero of a velocity"}},
+          .handle = [](const TagUse& use) -> FrameworkElement* {
+            use.context.Defer(BuildStage::kChecks, [use] { MarkDriving(use); });
+            return &use.parent;
+          },
+          .update = UpdateDriving,
+          .missing = [](const XmlElement*, FrameworkElement& home, Saving& saving,
+                        FileUpdate*) { return MissingMarks(home, saving); },
+          .place = 5};
+}
+
+}  // namespace runnel

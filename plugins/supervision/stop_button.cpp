@@ -1,0 +1,94 @@
+#include "plugins/supervision/stop_button.h"
+
+#include <mutex>
+#include <utility>
+
+#include "core/conversion/number_conversion.h"
+#include "core/paths/path_search.h"
+#include "core/port/probe_port.h"
+#include "core/types/type_info.h"
+
+namespace runnel {
+
+Result<void> CheckStopButton(const Port& port) {
+  if (internal::IsNumber(port.type())) return {};
+  return Error{.message = "cannot be a stop button, as it sends a " + port.type().name(),
+               .path = port.path(),
+               .hint = "a button sends bool, true while it is pressed, or a number"};
+}
+
+namespace internal {
+
+namespace {
+constexpr Duration kLookForPort = std::chrono::milliseconds(50);
+}  // namespace
+
+/// Beside the tree, as no part of the application.
+class ButtonElement final : public FrameworkElement {
+ public:
+  ButtonElement(FrameworkElement& root, const TypeInfo& type)
+      : FrameworkElement(Placement{root, "stop_button", false}), probe(*this, "pressed", type) {}
+  ProbePort probe;
+};
+
+StopButton::StopButton(Runtime& runtime, StopButtonRule rule, Tell tell)
+    : runtime_(runtime), rule_(std::move(rule)), tell_(std::move(tell)) {
+  {
+    const std::lock_guard lock(runtime_.structure_mutex());
+    Port& port = **PathSearch(runtime_).FindPort(rule_.port, PathKind::kOutput);
+    element_ = std::make_unique<ButtonElement>(runtime_.root(), port.type());
+    (void)Port::Connect(port, element_->probe);
+  }
+  thread_ = std::thread([this] { Work(); });
+}
+
+StopButton::~StopButton() {
+  ends_.store(true);
+  thread_.join();
+}
+
+void StopButton::Work() {
+  while (!ends_.load()) {
+    (void)element_->probe.Wait(kLookForPort);
+    TakeValues();
+    LookForPort();
+  }
+}
+
+void StopButton::TakeValues() {
+  bool is_down = false;
+  const auto look = [&](const void* value, ValueTimes) { is_down = NumberIn(element_->probe.type(), value) != 0; };
+  while (element_->probe.Take(look)) {
+    if (is_down) Press(rule_.port);
+    // Letting go releases, not being up: others may have pressed.
+    if (is_down_ && !is_down && rule_.releases && runtime_.robot_stop().Release(rule_.port)) {
+      tell_({rule_.port, "the STOP is released by its button", runtime_.clock().Now(), false, true});
+    }
+    is_down_ = is_down;
+  }
+}
+
+// Whoever has the structure lock is not waited for.
+void StopButton::LookForPort() {
+  const std::unique_lock lock(runtime_.structure_mutex(), std::try_to_lock);
+  if (!lock) return;
+  const auto& sources = element_->probe.incoming();
+  if (!sources.empty()) {
+    rule_.port = sources.front()->path();
+    is_gone_ = false;
+    return;
+  }
+  if (!is_gone_) Press(rule_.port + ", which is gone");
+  is_gone_ = true;
+  const auto found = PathSearch(runtime_).FindPort(rule_.port, PathKind::kOutput);
+  if (found && &(*found)->type() == &element_->probe.type()) (void)Port::Connect(**found, element_->probe);
+}
+
+void StopButton::Press(const std::string& by) {
+  if (!runtime_.robot_stop().Press("the button " + by)) return;
+  tell_({rule_.port, "STOP, by the button " + by, runtime_.clock().Now()});
+}
+
+}  // namespace internal
+
+}  // namespace runnel

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "core/element/runtime.h"
+#include "core/port/port.h"
+#include "plugins/supervision/supervision_rules.h"
+
+namespace runnel {
+
+/// Errors: its type is neither a number nor bool.
+[[nodiscard]] Result<void> CheckStopButton(const Port& port);
+
+namespace internal {
+
+class ButtonElement;
+
+/// Presses the STOP of the robot for each value that is not 0 at a port; follows the port through renames and swaps. When
+/// the port is gone nobody can press any more: that presses, too.
+///
+/// Threads: has one of its own, which waits for values, and for no lock. Construct and destroy outside of cycles.
+class StopButton {
+ public:
+  using Tell = std::function<void(Notice)>;
+  /// Precondition: the port is there, and good.
+  StopButton(Runtime& runtime, StopButtonRule rule, Tell tell);
+  ~StopButton();
+  StopButton(const StopButton&) = delete;
+  StopButton& operator=(const StopButton&) = delete;
+
+ private:
+  void Work();
+  void TakeValues();
+  void LookForPort();
+  void Press(const std::string& by);
+
+  Runtime& runtime_;
+  StopButtonRule rule_;  // with the path where the port is now
+  const Tell tell_;
+  std::unique_ptr<ButtonElement> element_;
+  bool is_down_ = false;
+  bool is_gone_ = false;
+  std::atomic<bool> ends_{false};
+  std::thread thread_;
+};
+
+}  // namespace internal
+
+}  // namespace runnel

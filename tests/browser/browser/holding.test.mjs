@@ -1,0 +1,209 @@
+// A hold ends with its cause, and begins only by an act in a page that somebody looks at.
+
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { OpenMockPanel } from '../support/open_mock.mjs';
+import { OpenPanel } from '../support/panel.mjs';
+import { DemoFile, RunApplication } from '../support/runnel.mjs';
+
+const kTarget = '/mock/world/twist';
+const kDrives = { target: kTarget, forward: 0.4, turn: 1 };
+const kWidgets = [
+  { id: 'joystick', kind: 'joystick', x: 0, y: 0, w: 4, h: 6, ...kDrives }, { id: 'keys', kind: 'keys', x: 4, y: 0, w: 3, h: 4, ...kDrives },
+  { id: 'gamepad', kind: 'gamepad', x: 7, y: 0, w: 3, h: 4, ...kDrives },
+  { id: 'button', kind: 'button', x: 10, y: 0, w: 2, h: 4, target: kTarget, pressed: '{forward: 0.4}', held: true },
+];
+
+/** A panel at an application that takes all. `holds(widget)` waits until it holds the port, `ends()` until nobody does. */
+async function Open(t, options) {
+  const opened = await OpenMockPanel(t, { widgets: kWidgets, shows: '[data-widget="gamepad"]', ...options });
+  const { application, page, panel } = opened;
+  const chip = (id) => page.locator(`[data-widget="${id}"] [data-driving="mine"], [data-widget="${id}"] .push-button.down`);
+  return { ...opened,
+    holds: (id) => chip(id).waitFor(),
+    /** Let go, and the application has been told: the last value has no deadline. */
+    ends: async (id) => {
+      await chip(id).waitFor({ state: 'detached' });
+      await panel.drawn();
+      assert.equal(application.asked.filter(({ op }) => op === 'publish').at(-1).deadline, undefined, 'the last value is a rest');
+    },
+    isFree: async (id) => { await panel.drawn(); assert.equal(await chip(id).count(), 0); } };
+}
+
+const Dispatch = (page, type, init) => page.evaluate(([name, how]) => document.body.dispatchEvent(
+  new KeyboardEvent(name, { bubbles: true, cancelable: true, ...how })), [type, init]);
+
+test('keys: up is up, whatever else is down, and a modifier lets go', async (t) => {
+  const { page, holds, ends, isFree } = await Open(t);
+  await page.keyboard.down('w');
+  await holds('keys');
+  await page.keyboard.down('Control');
+  await ends('keys');
+  await page.keyboard.up('w');
+  await page.keyboard.up('Control');
+  await isFree('keys');
+  // As where the coming down of the modifier went to another window.
+  await page.keyboard.down('w');
+  await holds('keys');
+  await Dispatch(page, 'keyup', { code: 'KeyW', key: 'w', ctrlKey: true });
+  await ends('keys');
+  await page.keyboard.up('w');
+  await page.keyboard.down('Alt');
+  await page.keyboard.down('w');
+  await isFree('keys');
+  await page.keyboard.up('w');
+  await page.keyboard.up('Alt');
+});
+
+test('a page that loses the focus, or is hidden, lets go, and takes no hold until it has the focus again', async (t) => {
+  const { page, holds, ends, isFree } = await Open(t);
+  for (const leave of [() => window.dispatchEvent(new Event('blur')), () => {
+    Object.defineProperty(document, 'hidden', { value: true, configurable: true });
+    document.dispatchEvent(new Event('visibilitychange'));
+    delete document.hidden;
+  }]) {
+    await page.keyboard.down('w');
+    await holds('keys');
+    await page.evaluate(leave);
+    await ends('keys');
+    await page.keyboard.up('w');
+  }
+  await page.evaluate(() => { document.hasFocus = () => false; });
+  await Dispatch(page, 'keydown', { code: 'KeyW', key: 'w' });
+  await isFree('keys');
+  await page.evaluate(() => { delete document.hasFocus; });
+  await Dispatch(page, 'keyup', { code: 'KeyW', key: 'w' });
+  await page.keyboard.down('w');
+  await holds('keys');
+  await page.keyboard.up('w');
+  await ends('keys');
+});
+
+test('the stick: a cancelled pointer and a second finger let go', async (t) => {
+  const { page, panel, holds, ends, isFree } = await Open(t, { touch: true });
+  const debug = await page.context().newCDPSession(page);
+  await panel.drawn();
+  const { x, y, width, height } = await page.locator('[data-stick]').boundingBox();
+  const finger = (id, dx, dy) => ({ id, x: x + width / 2 + dx, y: y + height / 2 + dy });
+  const touch = (type, ...touchPoints) => debug.send('Input.dispatchTouchEvent', { type, touchPoints });
+  await touch('touchStart', finger(0, 0, -30));
+  await holds('joystick');
+  await touch('touchCancel');
+  await ends('joystick');
+  await touch('touchStart', finger(0, 0, -30));
+  await holds('joystick');
+  await touch('touchStart', finger(0, 0, -30), finger(1, 20, 20));
+  await ends('joystick');
+  await touch('touchMove', finger(0, 0, -40), finger(1, 30, 20));
+  await isFree('joystick');
+  await touch('touchEnd');
+  await touch('touchStart', finger(0, 0, -30));
+  await holds('joystick');
+  await touch('touchEnd');
+  await ends('joystick');
+});
+
+test('without a pointer: arrow keys at the stick, and keys at a button that is held', async (t) => {
+  const { application, page, holds, ends } = await Open(t);
+  await page.locator('[data-stick]').focus();
+  await page.keyboard.down('ArrowUp');
+  await holds('joystick');
+  assert.match(application.asked.findLast(({ op }) => op === 'publish').value, /forward: 0.4, turn: 0/);
+  await page.keyboard.up('ArrowUp');
+  await ends('joystick');
+  await page.keyboard.down('ArrowUp');
+  await holds('joystick');
+  await page.locator('#edit').focus();
+  await ends('joystick');
+  await page.keyboard.up('ArrowUp');
+  const button = page.locator('[data-widget="button"] button');
+  await button.focus();
+  await page.keyboard.down(' ');
+  await holds('button');
+  await page.keyboard.up(' ');
+  await ends('button');
+  await page.keyboard.down('Enter');
+  await holds('button');
+  await page.locator('#edit').focus();
+  await ends('button');
+  await page.keyboard.up('Enter');
+});
+
+test('a gamepad begins by a shoulder that has been seen released, of the standard layout, in a page that has the focus', async (t) => {
+  const pad = (pressed, mapping = 'standard') => ({ connected: true, index: 0, id: 'Pad', mapping, axes: [0, -1, 0, 0],
+    buttons: Array.from({ length: 17 }, (_, at) => ({ pressed: at === pressed })) });
+  const { page, panel, holds, ends, isFree } = await Open(t);
+  const set = (pads) => page.evaluate((all) => { window.pads = all; }, pads);
+  const seen = async (text) => { await page.locator('.gamepad-name', { hasText: text }).waitFor(); await panel.drawn(); };
+  await page.addInitScript((first) => { window.pads = first; navigator.getGamepads = () => window.pads; }, [pad(6)]);
+  await page.reload();
+  await seen('Pad');
+  await page.waitForTimeout(200); // several looks: what must not happen has no sign
+  await isFree('gamepad');
+  await set([pad(-1)]);
+  await page.waitForTimeout(100);
+  await set([pad(6)]);
+  await holds('gamepad');
+
+  await t.test('unplugged', async () => {
+    await set([null]);
+    await ends('gamepad');
+    await set([pad(6)]);
+    await seen('Pad');
+    await page.waitForTimeout(100);
+    await isFree('gamepad');
+  });
+  await t.test('without the focus, and pressed again', async () => {
+    await set([pad(-1)]);
+    await page.waitForTimeout(100);
+    await set([pad(6)]);
+    await holds('gamepad');
+    await page.evaluate(() => { document.hasFocus = () => false; window.dispatchEvent(new Event('blur')); });
+    await ends('gamepad');
+    await set([pad(-1)]);
+    await page.waitForTimeout(100);
+    await set([pad(6)]);
+    await page.waitForTimeout(200);
+    await isFree('gamepad');
+    await page.evaluate(() => { delete document.hasFocus; });
+  });
+  await t.test('of another layout', async () => {
+    await set([pad(-1, '')]);
+    await seen('no standard layout');
+    await set([pad(6, '')]);
+    await page.waitForTimeout(200);
+    await isFree('gamepad');
+  });
+  await t.test('while the panel is arranged', async () => {
+    await set([pad(-1)]);
+    await page.waitForTimeout(100);
+    await set([pad(6)]);
+    await holds('gamepad');
+    await page.locator('#edit').click();
+    await ends('gamepad');
+    await set([pad(-1)]);
+    await page.waitForTimeout(100);
+    await set([pad(6)]);
+    await page.waitForTimeout(200);
+    await isFree('gamepad');
+  });
+});
+
+test('a process that hangs: all that is shown is old, and the hold has ended', async (t) => {
+  const { file } = await DemoFile(t);
+  const application = await RunApplication(t, file, { options: ['--speed', '1'] });
+  const panel = await OpenPanel(t, application.url);
+  const { page } = panel;
+  await panel.turns(0.9, 1.1, { begin: () => panel.push(-1, 0), end: () => panel.letGo() });
+  application.freeze();
+  await panel.widget('joystick').getByText('this hold has ended').waitFor();
+  await page.locator('#lost', { hasText: 'no sign of life' }).waitFor();
+  await page.locator('#connection-state', { hasText: 'silent' }).waitFor();
+  await page.locator('[data-widget="speed"] .gauge.old').waitFor();
+  assert.equal(await page.locator('[data-driving="mine"]').count(), 0);
+  application.thaw();
+  await page.locator('#connection-state', { hasText: 'connected' }).waitFor();
+  await panel.rests();
+  await panel.drives('lost');
+  await panel.letGo();
+});

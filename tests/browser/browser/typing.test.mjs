@@ -1,0 +1,102 @@
+// What is typed, dragged and edited is what is meant: nothing cut, nothing that is no number, nothing that was taken back.
+
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { OpenMock } from '../support/open_mock.mjs';
+import { OpenPage } from '../support/browser.mjs';
+import { DemoFile, RunApplication } from '../support/runnel.mjs';
+
+const kScan = '/bug_demo/laser/output/scan';
+
+test('a drag of the goal that the browser cancels, or Escape takes back, moves nothing', async (t) => {
+  const { application, inspector, page } = await OpenMock(t, { touch: true });
+  const goal = page.locator('.goal');
+  await goal.waitFor();
+  const debug = await page.context().newCDPSession(page);
+  const changes = () => application.asked.filter(({ op }) => op === 'change').length;
+  const touch = (type, ...touchPoints) => debug.send('Input.dispatchTouchEvent', { type, touchPoints });
+  const middle = async () => {
+    await inspector.drawn();
+    const { x, y, width, height } = await goal.boundingBox();
+    return { x: x + width / 2, y: y + height / 2 };
+  };
+  let at = await middle();
+  await touch('touchStart', at);
+  await touch('touchMove', { x: at.x - 40, y: at.y });
+  await page.locator('.goal.moved').waitFor();
+  await touch('touchCancel');
+  await page.locator('.goal:not(.moved)').waitFor();
+  at = await middle();
+  await page.mouse.move(at.x, at.y);
+  await page.mouse.down();
+  await page.mouse.move(at.x - 40, at.y, { steps: 3 });
+  await page.locator('.goal.moved').waitFor();
+  await page.keyboard.press('Escape');
+  await page.locator('.goal:not(.moved)').waitFor();
+  await page.mouse.up();
+  await goal.focus();
+  await page.keyboard.press('ArrowLeft');
+  await page.locator('.goal.moved').waitFor();
+  await page.keyboard.press('Escape');
+  await page.locator('.goal:not(.moved)').waitFor();
+  await page.waitForTimeout(500); // longer than a move by keys waits
+  assert.equal(changes(), 0);
+  at = await middle();
+  await page.mouse.move(at.x, at.y);
+  await page.mouse.down();
+  await page.mouse.move(at.x - 40, at.y, { steps: 3 });
+  await page.mouse.up();
+  await inspector.until('the goal elsewhere', () => document.querySelector('.goal').getAttribute('aria-label').includes('x 3 m') === false);
+  assert.equal(changes(), 1);
+});
+
+test('what is no number is neither a rate nor a priority, and a field that is left sets nothing', async (t) => {
+  const { application, inspector, page } = await OpenMock(t);
+  const asked = (op) => application.asked.filter((each) => each.op === op);
+  await inspector.select('/mock/world/twist');
+  await page.locator('.by-hand input').first().fill('{forward: 1}');
+  for (const rate of ['10 Hz', '-5', '0', 'nan']) {
+    await page.locator('.by-hand .rate').fill(rate);
+    await page.locator('.by-hand .rate').press('Enter');
+    await page.locator('.by-hand .problem', { hasText: 'how often a second' }).waitFor();
+    await page.locator('.by-hand .rate').fill('');
+    assert.equal(asked('publish').length, 0, rate);
+  }
+  await page.locator('.by-hand .rate').fill('10');
+  await page.locator('.by-hand .rate').press('Enter');
+  await page.locator('.by-hand .problem').waitFor({ state: 'detached' });
+  assert.equal(asked('publish')[0].rate, 10);
+  // A choice that is refused shows what is so.
+  await inspector.select('/mock/threads/control');
+  const priority = page.locator('#thread-priority');
+  const before = await priority.inputValue();
+  for (const leave of ['Tab', 'Escape']) {
+    await priority.fill('');
+    await priority.press(leave);
+    await inspector.until('as it was', (text) => document.querySelector('#thread-priority').value === text, before);
+  }
+  await priority.fill('fast');
+  await priority.press('Enter');
+  await page.locator('#details .problem', { hasText: 'is not a number' }).waitFor();
+  assert.equal(asked('change').length, 0);
+  await priority.fill('40');
+  await priority.press('Enter');
+  await page.locator('.toast.error').waitFor();
+  assert.deepEqual(asked('change').map(({ changes }) => changes[0].priority), [40]);
+});
+
+test('a value that its row shows cut is edited whole, or not at all', async (t) => {
+  const { file } = await DemoFile(t);
+  const application = await RunApplication(t, file, { options: ['--speed', '1'] });
+  const { page } = await OpenPage(t, application.url);
+  await page.locator('#tab-ports').click();
+  await page.locator('#port-filter').fill('laser scan rangescan');
+  const line = page.locator(`[data-port-line="${kScan}"]`);
+  await line.locator('.value', { hasText: 'ranges' }).waitFor();
+  await line.hover();
+  await line.locator('.edit').click();
+  await page.waitForFunction(() => document.querySelector('[data-port-line] input')?.value !== '');
+  const text = await line.locator('input').inputValue();
+  const ranges = text.match(/ranges: \[([^\]]*)\]/)[1].split(',').length;
+  assert.ok(ranges > 100, `${ranges} ranges in ${text.slice(0, 200)}`);
+});

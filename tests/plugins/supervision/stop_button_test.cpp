@@ -1,0 +1,133 @@
+// The STOP of the robot, pressed by values at a port.
+
+#include <limits>
+
+#include <gmock/gmock.h>
+
+#include "core/module/group.h"
+#include "plugins/application_tags/run_description.h"
+#include "plugins/structure/structure_editor.h"
+#include "plugins/supervision/supervisor.h"
+#include "tests/plugins/application_files/reading/test_application.h"
+#include "tests/plugins/scheduling/test_modules.h"
+#include "tests/support/wait_until.h"
+
+namespace runnel::testing {
+namespace {
+
+using namespace std::chrono_literals;
+using test::WaitUntil;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// Nothing runs but the button: what it is fed with is the test's.
+class StopButtonTest : public ::testing::Test {
+ protected:
+  StopButtonTest() { MustSucceed(runtime.MakeReady(runtime.root())); }
+  void Press(double value) { panel.out.Publish(value); }
+  void WaitForStop(const std::string& by) {
+    WaitUntil("the STOP is in force", [&] { return runtime.robot_stop().in_force(); });
+    WaitUntil("it is known who has pressed it",
+              [&] { return runtime.robot_stop().state().by.find(by) != std::string::npos; });
+  }
+  /// Values are taken in their order: when something has come of this one, those before have been looked at.
+  void WaitUntilTaken() {
+    const auto before = runtime.robot_stop().state().changes;
+    Press(1);
+    WaitUntil("the button has been pressed", [&] { return runtime.robot_stop().state().changes > before; });
+  }
+
+  Runtime runtime;
+  Group& app = runtime.Create<Group>(runtime.root(), "app");
+  Doing& panel = runtime.Create<Doing>(app, "panel");
+  Scheduler scheduler{runtime, {.clock = SchedulerOptions::ClockKind::kSimulated}};
+  Supervisor supervisor{runtime, scheduler, [](const ChangeSet&) { return Result<void>{}; }};
+};
+
+TEST_F(StopButtonTest, TruePressesWhoeverHasTheStructureLock) {
+  MustSucceed(supervisor.Add(StopButtonRule{panel.out.path()}));
+  const std::lock_guard lock(runtime.structure_mutex());
+  Press(1);
+  WaitForStop("the button /app/panel/output/out");
+  WaitUntil("it is told", [&] { return !supervisor.TakeNotices().empty(); });
+}
+
+TEST_F(StopButtonTest, FalseDoesNothingUnlessTheFileSaysSo) {
+  MustSucceed(supervisor.Add(StopButtonRule{panel.out.path()}));
+  Press(0);
+  WaitUntilTaken();
+  for (int i = 0; i < 3; ++i) Press(0);
+  ASSERT_TRUE(runtime.robot_stop().Release("the test"));
+  WaitUntilTaken();
+  EXPECT_EQ(runtime.robot_stop().state().changes, 3u) << "pressed, released by the test, pressed";
+}
+
+TEST_F(StopButtonTest, WhatIsNotMeasuredPresses) {
+  MustSucceed(supervisor.Add(StopButtonRule{panel.out.path()}));
+  Press(std::numeric_limits<double>::quiet_NaN());
+  WaitForStop("the button /app/panel/output/out");
+}
+
+TEST_F(StopButtonTest, WhereItReleasesOnlyLettingGoDoes) {
+  MustSucceed(supervisor.Add(StopButtonRule{panel.out.path(), true}));
+  runtime.robot_stop().Press("a terminal");
+  for (int i = 0; i < 3; ++i) Press(0);  // as a button that is up says again and again
+  Press(1);
+  Press(0);
+  WaitUntil("it is released", [&] { return !runtime.robot_stop().in_force(); });
+  EXPECT_EQ(runtime.robot_stop().state().changes, 2u) << "by the 0 after the 1, and not by those before";
+}
+
+TEST_F(StopButtonTest, GoesWithItsPortAndPressesWhenThatIsGone) {
+  Workshop workshop;
+  RobotStop& stop = workshop.runtime.robot_stop();
+  workshop.Build("<application name=\"demo\"><module name=\"panel\" type=\"test/source\"/></application>");
+  Scheduler idle(workshop.runtime, {.clock = SchedulerOptions::ClockKind::kSimulated});
+  StructureEditor changes(workshop.runtime, workshop.plugins.modules(), &idle);
+  Supervisor watching(workshop.runtime, idle, [](const ChangeSet&) { return Result<void>{}; });
+  MustSucceed(watching.Add(StopButtonRule{"/demo/panel/value"}));
+  const auto change = [&](const ChangeSet& set) {
+    const ChangeOutcome outcome = changes.Apply(set);
+    EXPECT_TRUE(outcome) << outcome.diagnostics.ToString();
+  };
+  change({RenameElement{"/demo/panel", "desk"}});
+  WaitUntil("it is known by its new name", [&] {
+    workshop.Get<Source>("/demo/desk").value.Publish(1);
+    if (stop.in_force() && stop.state().by == "the button /demo/desk/output/value") return true;
+    stop.Release("the test");
+    return false;
+  });
+  ASSERT_TRUE(stop.Release("the test"));
+  change({DeleteElement{"/demo/desk"}});
+  WaitUntil("it presses", [&] { return stop.in_force(); });
+  EXPECT_EQ(stop.state().by, "the button /demo/desk/output/value, which is gone");
+  ASSERT_TRUE(stop.Release("the test"));
+  change({CreateModule{"/demo/desk", "test/source"}});
+  WaitUntil("it is heard again", [&] {
+    workshop.Get<Source>("/demo/desk").value.Publish(1);
+    return stop.in_force();
+  });
+}
+
+TEST(StopButtonTag, IsReadWithItsPortAndRefusesWhatIsNoNumber) {
+  Workshop workshop;
+  const auto errors = [&](const std::string& words) {
+    return workshop.Errors("<application name=\"demo\"><module name=\"a\" type=\"test/source\"/>" + words + "</application>");
+  };
+  EXPECT_THAT(errors("<stop_button port=\"a/label\"/>"),
+              HasSubstr("/demo/a/output/label: cannot be a stop button, as it sends a string"));
+  Workshop other;
+  EXPECT_THAT(other.Errors("<application name=\"demo\"><module name=\"a\" type=\"test/source\"/>"
+                           "<stop_button port=\"a/value\" releases=\"true\"/></application>"),
+              IsEmpty());
+  Scheduler scheduler(other.runtime, {.clock = SchedulerOptions::ClockKind::kSimulated});
+  Supervisor supervisor(other.runtime, scheduler, [](const ChangeSet&) { return Result<void>{}; });
+  ASSERT_TRUE(AddRules(**other.runtime.root().Find("/demo"), scheduler, supervisor));
+  other.Get<Source>("/demo/a").value.Publish(1);
+  WaitUntil("the STOP is in force", [&] { return other.runtime.robot_stop().in_force(); });
+  other.Get<Source>("/demo/a").value.Publish(0);
+  WaitUntil("it is released", [&] { return !other.runtime.robot_stop().in_force(); });
+}
+
+}  // namespace
+}  // namespace runnel::testing
