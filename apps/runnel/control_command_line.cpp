@@ -7,6 +7,10 @@ namespace runnel::program {
 
 namespace {
 
+constexpr const char* kStop = "Stopping the robot";
+constexpr const char* kLooking = "Looking at a running application";
+constexpr const char* kChanging = "Changing it";
+constexpr const char* kRun = "Its run";
 constexpr const char* kElement = "PATH";
 constexpr const char* kPort = "PORT";
 constexpr std::size_t kMostWords = 2;  // of those that are parsed one by one
@@ -14,13 +18,18 @@ constexpr std::size_t kMostWords = 2;  // of those that are parsed one by one
 }  // namespace
 
 ControlCommandLine::ControlCommandLine(CLI::App& program) {
-  const auto add = [&](const char* name, const char* description) -> Entry& {
+  // `example`: what is written behind "runnel".
+  const auto add_plain = [&](const char* group, const char* name, const char* example, const char* description) -> Entry& {
     Entry& entry = entries_.emplace_back();
-    entry.command = program.add_subcommand(name, description);
+    entry.command = program.add_subcommand(name, description)->group(group);
+    entry.command->footer(std::string("For example: runnel ") + example);
     entry.arguments.command = name;
+    return entry;
+  };
+  const auto add = [&](const char* group, const char* name, const char* example, const char* description) -> Entry& {
+    Entry& entry = add_plain(group, name, example, description);
     entry.command
-        ->add_option("--app", entry.arguments.application,
-                     "which one, by name or process, if several are running")
+        ->add_option("--app", entry.arguments.application, "which one, by name or process, if several are running")
         ->type_name("NAME|PROCESS")
         ->check([](const std::string& text) { return text.empty() ? "an empty word names no application" : ""; });
     return entry;
@@ -48,61 +57,58 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
     option(entry, "-n", "count", description)->type_name("N")->check(CLI::Range(1, 1'000'000'000));
   };
 
-  Entry& ps = entries_.emplace_back();
-  ps.command = program.add_subcommand("ps", "lists the running applications");
-  ps.arguments.command = "ps";
+  add(kStop, "stop", "stop", "STOP: all that moves something has its safe value, in each running application, or in that of --app");
+  Entry& release = add(kStop, "release", "release", "ends the STOP; with a port, its block or the value set by hand there");
+  word(release, "port", "one that is blocked or set by hand")->required(false)->type_name(kPort);
+  Entry& block = add(kStop, "block", "block /drive/twist", "stops one port: its readers have the safe value, until release");
+  word(block, "port", "input or output")->type_name(kPort);
 
-  Entry& ls = add("ls", "shows what a running application is made of");
+  add_plain(kLooking, "ps", "ps", "lists the running applications, and how they are");
+
+  Entry& ls = add(kLooking, "ls", "ls /robot -l", "shows what a running application is made of");
   word(ls, "path", "only this and what is below it")->required(false)->type_name(kElement);
   flag(ls, "-l,--long", "long", "also connections, rates, threads and their cycles");
 
-  Entry& echo = add("echo", "shows the values of a port, until Ctrl-C");
+  Entry& echo = add(kLooking, "echo", "echo /robot/planner/twist -n 5", "shows the values of a port, until Ctrl-C");
   word(echo, "port", "input or output")->type_name(kPort);
   count(echo, "ends after so many values");
   flag(echo, "--full", "full", "all digits, and all of long lists and texts");
 
-  Entry& get = add("get", "says the value of a parameter, or the newest at a port, once");
+  Entry& get = add(kLooking, "get", "get /robot/planner/cruise_speed", "says the value of a parameter, or the newest at a port, once");
   word(get, "path", "parameter or port")->type_name(kElement);
   flag(get, "--full", "full", "with all digits");
 
-  Entry& hz = add("hz", "shows each second how often a port publishes, until Ctrl-C");
+  Entry& hz = add(kLooking, "hz", "hz /laser/scan", "shows each second how often a port publishes, until Ctrl-C");
   word(hz, "port", "input or output")->type_name(kPort);
   count(hz, "ends after so many seconds");
 
-  Entry& set = add("set", "gives a parameter another value");
+  Entry& set = add(kChanging, "set", "set /robot/planner/cruise_speed 0.3", "gives a parameter another value");
   word(set, "parameter", "its path")->type_name(kElement);
   word(set, "value", "in its text format")->type_name("VALUE");
 
-  Entry& publish = add("publish", "sets the value at a port by hand, until it is released");
+  Entry& publish = add(kChanging, "publish", "publish /robot/goal '{x: 2, y: 1}'", "sets by hand the value that readers of a port see, until release");
   word(publish, "port", "input or output")->type_name(kPort);
-  word(publish, "value", "in its text format; none with --stop")->required(false)->type_name("VALUE");
+  word(publish, "value", "in its text format")->type_name("VALUE");
   option(publish, "--rate", "rate", "publishes it again so often, in Hz of the application's time")
       ->type_name("HZ");
   option(publish, "--deadline", "deadline",
-         "if nothing new has come by then, readers find the safe value, until it is released: 300ms")
+         "if no new value comes within TIME, the safe value is used until release: 300ms")
       ->type_name("TIME");
-  flag(publish, "--stop", "stop",
-       "instead of a value: the safe one, and nobody may set another, until it is released");
 
-  Entry& release = add("release", "lets readers of a port find again what is published");
-  word(release, "port", "one that is set by hand; without, all of them")
-      ->required(false)
-      ->type_name(kPort);
-
-  Entry& call = add("call", "calls a service of a module, and shows its reply");
+  Entry& call = add(kChanging, "call", "call /mapper/save '{file: map.pgm}'", "calls a service of a module, and shows its reply");
   word(call, "service", "its path")->type_name("SERVICE");
   word(call, "arguments", "in their text format: {file: map.pgm}")->required(false)->type_name("VALUE");
   option(call, "--timeout", "timeout", "on the application's clock: 30s")->type_name("TIME");
 
-  Entry& activities = add("activities", "shows services that take long, and how far they are");
+  Entry& activities = add(kLooking, "activities", "activities", "shows services that take long, and how far they are");
   word(activities, "service", "one, to be aborted")->required(false)->type_name("SERVICE");
   flag(activities, "--all", "all", "also those that do not take long");
   flag(activities, "--abort", "abort", "asks what is under way there to end");
 
-  add("network", "shows who is in the network, what is offered and taken, and what does not fit");
-  Entry& offer = add("offer", "lets others in the network read a port; with --stop, no more");
+  add(kLooking, "network", "network", "shows who is in the network, what is offered and taken, and what does not fit");
+  Entry& offer = add(kChanging, "offer", "offer /laser/scan --topic /scan", "lets others in the network read a port; --remove ends it");
   word(offer, "port", "output or interface port")->type_name(kPort);
-  Entry& take = add("take", "has values of a topic of the network go to an input; with --stop, no more");
+  Entry& take = add(kChanging, "take", "take /cmd_vel /drive/twist", "feeds a topic of the network into an input; --remove ends it");
   word(take, "topic", "its name: /cmd_vel")->type_name("TOPIC");
   word(take, "port", "input")->type_name(kPort);
   for (const char* const each : {"topic", "as", "frame", "child_frame", "qos", "sending", "rate", "strength"}) {
@@ -111,9 +117,9 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   for (const char* const each : {"as", "field", "qos", "stamp", "exclusive", "live"}) {
     option(take, (std::string("--") + each).c_str(), each, "as in <take>");
   }
-  for (Entry* const each : {&offer, &take}) truth(*each, "--stop", "stop", "takes it back");
+  for (Entry* const each : {&offer, &take}) truth(*each, "--remove", "remove", "ends it");
 
-  Entry& connect = add("connect", "connects two ports");
+  Entry& connect = add(kChanging, "connect", "connect /laser/scan /robot/planner/scan --queue 10", "connects two ports");
   word(connect, "from", "output; PORT.x, PORT[0]: that part of its values")->type_name(kPort);
   word(connect, "to", "input")->type_name(kPort);
   option(connect, "--queue", "queue", "so many values may wait")->type_name("N");
@@ -129,23 +135,22 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
       "as soon as both are there, and again after one went");
   truth(connect, "--late", "late", "in a loop of modules, values come one cycle late by this one");
 
-  Entry& disconnect = add("disconnect", "takes the connection of two ports back");
+  Entry& disconnect = add(kChanging, "disconnect", "disconnect /laser/scan /robot/planner/scan", "takes the connection of two ports back");
   word(disconnect, "from", "output")->type_name(kPort);
   word(disconnect, "to", "input")->type_name(kPort);
 
-  Entry& create = add("create",
-                      "makes a module; 'create group PATH'; 'create port PATH input TYPE'; 'create "
+  Entry& create = add(kChanging, "create", "create /robot/filter sensors/scan_filter window=5", "makes a module; 'create group PATH'; 'create port PATH input TYPE'; 'create "
                       "parameter PATH PARAMETER ...'; 'create thread NAME period=10ms'");
   create.command
       ->add_option("words", create.arguments.words, "path, module type and values of parameters")
       ->required()
       ->type_name("PATH TYPE NAME=VALUE");
 
-  Entry& remove = add("delete", "deletes a module, a group or an interface port");
+  Entry& remove = add(kChanging, "delete", "delete /robot/filter", "deletes a module, a group or an interface port");
   word(remove, "path", "of what is to go")->type_name(kElement);
   flag(remove, "--yes", "yes", "also if it is the whole application, which ends its run");
 
-  Entry& swap = add("swap", "puts another module in the place of one, with its connections");
+  Entry& swap = add(kChanging, "swap", "swap /robot/planner planning/tangent_bug", "puts another module in the place of one, with its connections");
   swap.command->add_option("words", swap.arguments.words, "path, new type and values of parameters")
       ->required()
       ->type_name("PATH TYPE NAME=VALUE");
@@ -153,31 +158,31 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
          "the old one comes back if the new one throws in so many first cycles (10)")
       ->type_name("CYCLES");
 
-  Entry& rename = add("rename", "gives a module or group another name; connections and state stay");
+  Entry& rename = add(kChanging, "rename", "rename /robot/planner old_planner", "gives a module or group another name; connections and state stay");
   word(rename, "path", "module or group")->type_name(kElement);
   word(rename, "name", "the new one")->type_name("NAME");
 
-  Entry& copy = add("copy", "makes another module or group like one, beside it, with its values");
+  Entry& copy = add(kChanging, "copy", "copy /robot/planner second_planner", "makes another module or group like one, beside it, with its values");
   word(copy, "path", "module or group")->type_name(kElement);
   word(copy, "name", "of the copy; without, the first that is free")->required(false)->type_name("NAME");
 
-  Entry& move = add("move", "has a module or group run by another thread");
+  Entry& move = add(kChanging, "move", "move /robot/planner control", "has a module or group run by another thread");
   word(move, "path", "module or group")->type_name(kElement);
   word(move, "thread", "its name; \"\": that of the group again")->type_name("THREAD");
 
-  Entry& tag = add("tag", "says something of an element to viewers: safety, hidden; without a word, nothing any more");
+  Entry& tag = add(kChanging, "tag", "tag /robot/planner safety", "says something of an element to viewers: safety, hidden; without a word, nothing any more");
   tag.command->add_option("words", tag.arguments.words, "path, and its tags")
       ->required()
       ->type_name("PATH [WORD ...]");
 
-  Entry& change = add("change", "carries out a file of changes, all or none");
+  Entry& change = add(kChanging, "change", "change changes.txt", "carries out a file of changes, all or none");
   word(change, "file", "one change a line; -: standard input")->type_name("FILE|-");
   flag(change, "--yes", "yes", "also if they delete the whole application, which ends its run");
 
-  add("undo", "takes back what was changed last");
-  add("redo", "does again what was undone last");
+  add(kChanging, "undo", "undo", "takes back what was changed last");
+  add(kChanging, "redo", "redo", "does again what was undone last");
 
-  Entry& save = add("save", "saves the application as it is now");
+  Entry& save = add(kChanging, "save", "save robot.xml", "saves the application as it is now");
   word(save, "file", "instead of the one that it came from")->required(false)->type_name("FILE");
   save.command->add_flag_callback(
       "--config", [&save] { save.arguments.options["config"] = "yes"; },
@@ -186,16 +191,14 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   flag(save, "--overwrite", "overwrite",
        "also over the file of another application, which is kept as FILE~");
 
-  Entry& reload = add("reload", "loads a plugin anew and makes its modules anew by it");
+  Entry& reload = add(kChanging, "reload", "reload planning", "loads a plugin anew and makes its modules anew by it");
   word(reload, "plugin", "its name, as in <load>; build its library first")->type_name("PLUGIN");
 
-  Entry& restart = add("restart", "runs the application again from its file; with a path, makes a module anew, as after a fault");
+  Entry& restart = add(kRun, "restart", "restart /robot/planner", "runs the application again from its file; with a path, makes a module anew, as after a fault");
   word(restart, "path", "module; group: those that faults have stopped")->required(false)->type_name(kElement);
-  Entry& stop = add("stop", "ends the run; with a path, leaves modules out of cycles until 'resume'");
-  word(stop, "path", "module, group or thread")->required(false)->type_name(kElement);
+  add(kRun, "quit", "quit", "ends the run");
 
-  Entry& record =
-      add("record", "records what ports of a running application publish, until Ctrl-C");
+  Entry& record = add(kLooking, "record", "record /robot/pose -o run.mcap", "records what ports of a running application publish, until Ctrl-C");
   record.command
       ->add_option("patterns", record.arguments.words,
                    "the application, if several are running, and which ports: /robot/pose, */pose, "
@@ -207,38 +210,37 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
          "zstd, lz4 or none; without, the first that is there")
       ->type_name("WORD");
 
-  Entry& pause = add("pause", "lets simulated time stand still; with a path, leaves modules or a thread out, on any clock");
+  Entry& pause = add(kRun, "pause", "pause", "lets simulated time stand still; with a path, leaves modules or a thread out, on any clock");
   word(pause, "path", "module, group or thread")->required(false)->type_name(kElement);
-  Entry& resume = add("resume", "lets simulated time, or what is at the path, go on");
+  Entry& resume = add(kRun, "resume", "resume", "lets simulated time, or what is at the path, go on");
   word(resume, "path", "that was paused")->required(false)->type_name(kElement);
 
-  Entry& step = add("step", "lets a paused application run one cycle, or some");
+  Entry& step = add(kRun, "step", "step 5", "lets a paused application run one cycle, or some");
   word(step, "cycles", "how many; without, one")->required(false)->type_name("N");
 
-  Entry& speed = add("speed", "says how fast simulated time passes, or changes it");
+  Entry& speed = add(kRun, "speed", "speed 4", "says how fast simulated time passes, or changes it");
   word(speed, "factor", "1 is real time, 0 as fast as it can")
       ->required(false)
       ->type_name("FACTOR");
 
-  Entry& top = add("top", "shows how long modules take, and the latency of chains of them, once a second");
+  Entry& top = add(kLooking, "top", "top", "shows how long modules take, and the latency of chains of them, once a second");
   flag(top, "--once", "once", "one table, of one second");
   count(top, "ends after so many tables");
 
-  Entry& profile = add("profile", "says how long modules have taken; on, off: begins and ends measuring");
+  Entry& profile = add(kLooking, "profile", "profile on", "says how long modules have taken; on, off: begins and ends measuring");
   word(profile, "on|off", "without: what has been measured")->required(false)->type_name("WORD");
 
-  Entry& latency = add("latency", "how old what a command goes back to is: measures between two ports");
+  Entry& latency = add(kLooking, "latency", "latency /laser/scan /robot/planner/twist", "how old what a command goes back to is: measures between two ports");
   latency.command->add_option("ports", latency.arguments.words, "from a sensor's output to a command's; off: no more")->type_name("FROM TO [off]");
 
-  Entry& schedule = add("schedule", "gives a thread another period, priority, or way in which its cycles begin");
+  Entry& schedule = add(kChanging, "schedule", "schedule control --period 10ms", "gives a thread another period, priority, or way in which its cycles begin");
   word(schedule, "thread", "its name")->type_name("THREAD");
   option(schedule, "--period", "period", "20ms, for example")->type_name("TIME");
   option(schedule, "--activation", "activation", "period, free_running, trigger (when data comes)")->type_name("WORD");
   option(schedule, "--priority", "priority", "0: ordinary; 1 .. 99: real-time")->type_name("N");
   option(schedule, "--on-overrun", "on_overrun", "skip, catch_up")->type_name("WORD");
 
-  Entry& deadline = add(
-      "deadline", "shows who does not return from its cycle, and says how long modules may take");
+  Entry& deadline = add(kRun, "deadline", "deadline /robot 50ms", "shows who does not return from its cycle, and says how long modules may take");
   word(deadline, "path", "module or group; without, only shows")
       ->required(false)
       ->type_name(kElement);
@@ -246,7 +248,7 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
       ->required(false)
       ->type_name("TIME");
 
-  Entry& log = add("log", "shows faults, warnings, changes and what modules say, since the start");
+  Entry& log = add(kLooking, "log", "log -f", "shows faults, warnings, changes and what modules say, since the start");
   flag(log, "-f,--follow", "follow", "goes on with what comes");
   option(log, "--level", "level",
          "instead: from now on, what modules at and below PATH say is logged from this level on: "
@@ -254,72 +256,8 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
          "warning, error, off, or again as around them: inherit; without PATH all of them")
       ->type_name("[PATH=]LEVEL");
 
-  Group();
-
-  Entry& complete = add("complete", "for the completion of shells");
-  complete.command->group("");
+  Entry& complete = add("", "complete", "complete ls /robot", "for the completion of shells");
   complete.command->prefix_command();
-}
-
-// In which order they are listed, with an example of each.
-void ControlCommandLine::Group() {
-  struct Kind {
-    const char* name;
-    std::vector<std::pair<const char*, const char*>> examples;
-  };
-  static const std::vector<Kind> kinds{
-      {"Looking at a running application",
-       {{"ps", "runnel ps"},
-        {"ls", "runnel ls /robot -l"},
-        {"get", "runnel get /robot/planner/cruise_speed"},
-        {"echo", "runnel echo /robot/planner/twist -n 5"},
-        {"hz", "runnel hz /laser/scan"},
-        {"top", "runnel top"},
-        {"log", "runnel log -f"},
-        {"activities", "runnel activities"},
-        {"network", "runnel network"},
-        {"profile", "runnel profile on"},
-        {"latency", "runnel latency /laser/scan /robot/planner/twist"},
-        {"record", "runnel record /robot/pose -o run.mcap"}}},
-      {"Changing it",
-       {{"set", "runnel set /robot/planner/cruise_speed 0.3"},
-        {"publish", "runnel publish /robot/goal '{x: 2, y: 1}'"},
-        {"release", "runnel release /robot/goal"},
-        {"call", "runnel call /mapper/save '{file: map.pgm}'"},
-        {"connect", "runnel connect /laser/scan /robot/planner/scan --queue 10"},
-        {"offer", "runnel offer /laser/scan --topic /scan"},
-        {"take", "runnel take /cmd_vel /drive/twist"},
-        {"disconnect", "runnel disconnect /laser/scan /robot/planner/scan"},
-        {"create", "runnel create /robot/filter sensors/scan_filter window=5"},
-        {"delete", "runnel delete /robot/filter"},
-        {"swap", "runnel swap /robot/planner planning/tangent_bug"},
-        {"rename", "runnel rename /robot/planner old_planner"},
-        {"copy", "runnel copy /robot/planner second_planner"},
-        {"move", "runnel move /robot/planner control"},
-        {"tag", "runnel tag /robot/planner safety"},
-        {"schedule", "runnel schedule control --period 10ms"},
-        {"change", "runnel change changes.txt"},
-        {"reload", "runnel reload planning"},
-        {"undo", "runnel undo"},
-        {"redo", "runnel redo"},
-        {"save", "runnel save robot.xml"}}},
-      {"Its run",
-       {{"pause", "runnel pause"},
-        {"resume", "runnel resume"},
-        {"step", "runnel step 5"},
-        {"speed", "runnel speed 4"},
-        {"restart", "runnel restart /robot/planner"},
-        {"stop", "runnel stop"},
-        {"deadline", "runnel deadline /robot 50ms"}}}};
-  for (const Kind& kind : kinds) {
-    for (const auto& [name, example] : kind.examples) {
-      for (Entry& entry : entries_) {
-        if (entry.command->get_name() != name) continue;
-        entry.command->group(kind.name);
-        entry.command->footer(std::string("For example: ") + example);
-      }
-    }
-  }
 }
 
 std::optional<ControlArguments> ControlCommandLine::Parsed() const {
@@ -335,6 +273,15 @@ std::optional<ControlArguments> ControlCommandLine::Parsed() const {
     return arguments;
   }
   return {};
+}
+
+std::string WordsOfNow(const std::string& command, const std::vector<std::string>& left) {
+  if (command == "stop" && !left.empty()) {
+    return "'runnel stop' is the STOP of the robot, 'runnel pause PATH' leaves modules out of cycles, "
+           "'runnel block PORT' stops one port";
+  }
+  if (std::ranges::find(left, "--stop") == left.end()) return "";
+  return command == "publish" ? "'runnel block PORT'" : "'runnel " + command + " … --remove'";
 }
 
 std::vector<const char*> WithNegativeValues(int count, const char* const* words) {

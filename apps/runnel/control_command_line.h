@@ -21,14 +21,15 @@ class ControlCommandLine {
   [[nodiscard]] std::optional<ControlArguments> Parsed() const;
 
  private:
-  void Group();
-
   struct Entry {
     CLI::App* command = nullptr;
     ControlArguments arguments;
   };
   std::deque<Entry> entries_;  // whose addresses the parser keeps
 };
+
+/// What to say instead of words that a version before took for this; "" if they are none. `left`: those that nobody knows.
+[[nodiscard]] std::string WordsOfNow(const std::string& command, const std::vector<std::string>& left);
 
 /// Lets numbers below 0 stand where a value is asked for: `runnel set /a/b -1`, which would be taken
 /// for an option.

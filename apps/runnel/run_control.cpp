@@ -3,7 +3,7 @@
 namespace runnel::program {
 
 void RunControl::AddHooks(Application& application, ServiceHooks& hooks) {
-  hooks.stop = [this, &application]() -> Result<std::string> {
+  hooks.quit = [this, &application]() -> Result<std::string> {
     is_asked_ = true;
     application.RequestStop();
     return std::string("the run ends");

@@ -58,7 +58,7 @@ void Measure(const std::string& name, CommandService& service, const Base& base)
     Drive(service, tasks, name + std::to_string(round));
     while (base.speed.Get() != 0) std::this_thread::sleep_for(100us);
     late.push_back(Milliseconds(Clock::now() - last_heard).count());
-    if (!service.Begin(ReleaseRequest{}, tasks)) Fail("cannot release");
+    if (!service.Begin(ReleaseRequest{"/base/input/speed"}, tasks)) Fail("cannot release");
   }
   std::ranges::sort(late);
   std::printf("%-24s %8.1f %8.1f %8.1f\n", name.c_str(), late.front(), late[late.size() / 2], late.back());

@@ -314,8 +314,8 @@ CommandService& Application::service() {
   hooks.set_paused = [this](const std::string& path, bool is_paused) {
     return is_paused ? Pause(path) : Resume(path);
   };
-  if (!hooks.stop) {
-    hooks.stop = [this]() -> Result<std::string> {
+  if (!hooks.quit) {
+    hooks.quit = [this]() -> Result<std::string> {
       RequestStop();
       return std::string("stops");
     };

@@ -64,14 +64,22 @@ struct PublishRequest {
   std::optional<Duration> deadline = {};
   /// Who drives gives each hold another name: see HandLeases. "": none.
   std::string lease = {};
-  /// Readers find the safe value until it is released, and nobody may set another one; instead of a value.
-  bool is_stop = false;
   /// By the machine's clock, from which the deadline counts; CommandService::Begin() says so.
   std::optional<Time> received = {};
 };
-/// Readers of the port find again what is published.
+/// Readers of the port find its safe value until a ReleaseRequest, and nobody may set another one (Port::Block()).
+struct BlockRequest {
+  std::string port;
+};
+/// Readers of the port find again what is published: ends its block, and its value by hand.
 struct ReleaseRequest {
-  std::string port = {};  ///< "": all that are set by hand
+  std::string port;
+};
+/// Presses or releases the STOP of the robot (RobotStop). CommandService::Begin() does it at once, in the caller's
+/// thread: neither the worker nor the structure lock is waited for.
+struct RobotStopRequest {
+  bool is_pressed = true;
+  std::string by = {};  ///< who wants it, for people: "a terminal", "viewer 2"
 };
 
 /// Leaves modules, or what a thread runs, out of cycles, with what the application does then; or no more.
@@ -87,12 +95,13 @@ struct RestartRequest {
   std::string path = {};
 };
 /// Ends the run in order, as Ctrl-C does, also one that has ended and is held.
-struct StopRequest {};
+struct QuitRequest {};
 
 /// What a client may ask a CommandService for.
 using CommandRequest = std::variant<ChangeRequest, UndoRequest, RedoRequest, SaveRequest,
                                     ReloadRequest, LogLevelRequest, PauseRequest, PublishRequest,
-                                    ReleaseRequest, RestartRequest, StopRequest>;
+                                    BlockRequest, ReleaseRequest, RobotStopRequest, RestartRequest,
+                                    QuitRequest>;
 
 /// What has come of a request.
 struct CommandAnswer {

@@ -69,7 +69,12 @@ CommandAnswer Call(const Hook& hook, const std::string& argument, const char* wh
 CommandService::CommandService(ServedApplication application)
     : application_(std::move(application)),
       recorder_(std::make_unique<StructureRecorder>(application_.runtime, application_.log)),
-      hand_settings_(application_.runtime, worker_, application_.log) {}
+      hand_settings_(application_.runtime, worker_, application_.log),
+      stop_(application_.runtime.robot_stop().signal()->Listen([this] {
+        const auto state = application_.runtime.robot_stop().state();
+        application_.log.Add(ApplicationLog::Kind::kWarning,
+                             (state.in_force ? "STOP is in force, pressed by " : "STOP is released by ") + state.by);
+      })) {}
 
 CommandAnswer PendingCommand::Take() {
   if (task_->failure()) return CommandAnswer::Failed(*task_->failure());
@@ -84,6 +89,11 @@ std::unique_ptr<PendingCommand> CommandService::Begin(CommandRequest request, Ta
     if (!publish->received) publish->received = hand_settings_.Now();
   }
   const std::shared_ptr<CommandAnswer>& answer = pending->answer_;
+  if (const auto* const stop = std::get_if<RobotStopRequest>(&request)) {
+    *answer = Do(*stop);
+    pending->task_ = tasks.Done(std::move(on_done));
+    return pending;
+  }
   TaskStep step = std::visit(
       [&](auto& each) -> TaskStep {
         if constexpr (std::is_same_v<decltype(each), ChangeRequest&>) {
@@ -142,11 +152,29 @@ CommandAnswer CommandService::Do(const RestartRequest&) const {
   return AnswerOf(restart());
 }
 
-CommandAnswer CommandService::Do(const StopRequest&) const {
-  const auto& stop = application_.hooks.stop;
-  if (!stop) return Cannot("end its run");
-  application_.log.Add(ApplicationLog::Kind::kChange, "stop");
-  return AnswerOf(stop());
+CommandAnswer CommandService::Do(const QuitRequest&) const {
+  const auto& quit = application_.hooks.quit;
+  if (!quit) return Cannot("end its run");
+  application_.log.Add(ApplicationLog::Kind::kChange, "quit");
+  return AnswerOf(quit());
+}
+
+CommandAnswer CommandService::Do(const RobotStopRequest& request) const {
+  RobotStop& stop = application_.runtime.robot_stop();
+  if (request.is_pressed) {
+    const char* const since = stop.Press(request.by) ? "" : " already";
+    return CommandAnswer::Done(std::string("STOP is in force") + since + "; 'runnel release' ends it");
+  }
+  const std::string pressed_by = stop.state().by;
+  if (stop.Release(request.by)) return CommandAnswer::Done("released the STOP that " + pressed_by + " had pressed");
+  return CommandAnswer::Refused({.message = "STOP is not in force"});
+}
+
+CommandAnswer CommandService::Do(const BlockRequest& request) {
+  const auto blocked = hand_settings_.Block(request);
+  if (!blocked) return CommandAnswer::Refused(blocked.error());
+  application_.log.Add(ApplicationLog::Kind::kChange, "block " + *blocked);
+  return CommandAnswer::Done(*blocked + " is blocked: it has its safe value; 'runnel release " + *blocked + "' ends that");
 }
 
 CommandAnswer CommandService::Do(const PauseRequest& request) const {
@@ -171,13 +199,11 @@ CommandAnswer CommandService::Do(const PublishRequest& request) {
   if (!set) return CommandAnswer::Refused(set.error());
   const std::string& port = set->port;
   if (!set->goes_on) {
-    std::string text = "publish " + port + " " +
-                       (request.is_stop ? "--stop" : internal::AsArgument(request.value));
+    std::string text = "publish " + port + " " + internal::AsArgument(request.value);
     if (request.deadline) text += " --deadline " + DurationText(*request.deadline);
     application_.log.Add(ApplicationLog::Kind::kChange, std::move(text));
   }
   const std::string ends = "'runnel release " + port + "' ends that";
-  if (request.is_stop) return CommandAnswer::Done(port + " is stopped; " + ends);
   if (request.deadline) {
     return CommandAnswer::Done(port + " is set by hand for " + DurationText(*request.deadline) +
                                ", then at rest; " + ends);

@@ -72,7 +72,7 @@ struct ServiceHooks {
   /// Pauses what is at or below the path, or lets it go on.
   std::function<Result<void>(const std::string& path, bool is_paused)> set_paused = {};
   /// Ends the run, or ends it and runs the application again from its file, and says so; both after the answer.
-  std::function<Result<std::string>()> stop = {};
+  std::function<Result<std::string>()> quit = {};
   std::function<Result<std::string>()> restart = {};
   /// Records ports until the client goes.
   RecordingHook record = {};
@@ -134,7 +134,7 @@ class CommandService {
   [[nodiscard]] const HandSettings& hand_settings() const noexcept { return hand_settings_; }
 
   /// Carries it out behind what was asked for before. `on_done` is called by the worker when the answer is
-  /// there; without it, that of the tasks.
+  /// there; without it, that of the tasks. A RobotStopRequest is carried out, and `on_done` called, before this returns.
   [[nodiscard]] std::unique_ptr<PendingCommand> Begin(CommandRequest request, TaskGroup& tasks,
                                                       std::function<void()> on_done = {});
 
@@ -147,13 +147,16 @@ class CommandService {
   [[nodiscard]] CommandAnswer Do(const PublishRequest& request);
   [[nodiscard]] CommandAnswer Do(const ReleaseRequest& request);
   [[nodiscard]] CommandAnswer Do(const RestartRequest& request) const;
-  [[nodiscard]] CommandAnswer Do(const StopRequest& request) const;
+  [[nodiscard]] CommandAnswer Do(const QuitRequest& request) const;
+  [[nodiscard]] CommandAnswer Do(const BlockRequest& request);
+  [[nodiscard]] CommandAnswer Do(const RobotStopRequest& request) const;
   [[nodiscard]] CommandAnswer TakeHistoryStep(bool goes_back) const;
 
   const ServedApplication application_;
   const std::unique_ptr<ElementListener> recorder_;  // of what others than clients change
   CommandWorker worker_;                             // its tasks use the rest
   HandSettings hand_settings_;                       // first to go: tasks of the worker
+  const StopSignal::Subscription stop_;              // logs what becomes of the robot's STOP
 };
 
 }  // namespace runnel

@@ -114,6 +114,13 @@ std::shared_ptr<WorkerTask> TaskGroup::PostSteps(TaskStep step, std::function<vo
   return task;
 }
 
+std::shared_ptr<WorkerTask> TaskGroup::Done(std::function<void()> on_done) {
+  auto task = std::make_shared<WorkerTask>();
+  task->on_done_ = on_done ? std::move(on_done) : on_done_;
+  CommandWorker::Conclude(*task);
+  return task;
+}
+
 std::shared_ptr<WorkerTask> TaskGroup::Post(std::function<void()> work,
                                             std::function<void()> on_done) {
   return PostSteps(

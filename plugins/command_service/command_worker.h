@@ -92,6 +92,8 @@ class TaskGroup {
 
   /// `on_done` is called by the worker's thread when the task is done; it must not wait.
   std::shared_ptr<WorkerTask> PostSteps(TaskStep step, std::function<void()> on_done = {});
+  /// One that needs no step. `on_done` is called before this returns.
+  std::shared_ptr<WorkerTask> Done(std::function<void()> on_done = {});
   /// A task of one step.
   std::shared_ptr<WorkerTask> Post(std::function<void()> work, std::function<void()> on_done = {});
 

@@ -24,12 +24,8 @@ const char* HandStateName(HandState state) noexcept {
 }
 
 Result<void> HandLeases::Check(const std::string& port, const Request& request, Time now) const {
-  if (request.is_stop) return {};
   const auto found = holds_.find(port);
   const Hold* const hold = found == holds_.end() ? nullptr : &found->second;
-  if (hold != nullptr && hold->state == HandState::kStopped) {
-    return Error{.message = "is stopped by hand", .path = port, .hint = "release it first"};
-  }
   if (!request.lease.empty()) {
     if (std::ranges::find(ended_, request.lease) != ended_.end()) {
       return Error{.message = "this hold has ended", .path = port, .hint = kTakeHoldAgain};
@@ -52,14 +48,12 @@ bool HandLeases::Note(const std::string& port, const Request& request) {
   bool goes_on = false;
   if (found != holds_.end()) {
     const Hold& before = found->second;
-    goes_on = before.state == HandState::kDriven && request.deadline && !request.is_stop &&
+    goes_on = before.state == HandState::kDriven && request.deadline &&
               !request.lease.empty() && before.lease == request.lease;
     if (!goes_on) EndLeaseOf(before);
   }
   Hold hold{.state = HandState::kSet, .lease = request.lease};
-  if (request.is_stop) {
-    hold.state = HandState::kStopped;
-  } else if (request.deadline) {
+  if (request.deadline) {
     hold.state = HandState::kDriven;
     hold.deadline = *request.deadline;
     hold.due = request.received + *request.deadline;

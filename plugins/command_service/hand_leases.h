@@ -25,7 +25,7 @@ enum class HandState {
 ///
 /// Who drives gives his hold a name, a lease, which ends with the hold: what comes of it later, from a network that was
 /// stuck or a page that was asleep, is refused. Who has a lease keeps others with leases off; people who just publish
-/// take the port over, and a stop ends everything.
+/// take the port over, and a block ends everything.
 ///
 /// Threads: one at a time. Times are the machine's.
 class HandLeases {
@@ -33,11 +33,10 @@ class HandLeases {
   struct Request {
     std::string lease = {};                 ///< "": none
     std::optional<Duration> deadline = {};  ///< nothing: the last value of the lease, or one without
-    bool is_stop = false;
     Time received{};  ///< the deadline counts from here
   };
 
-  /// Whether it may be published at the port. Errors: the port is stopped, driven by another one, the lease has
+  /// Whether it may be published at the port. Errors: the port is driven by another one, the lease has
   /// ended, its deadline has passed already.
   [[nodiscard]] Result<void> Check(const std::string& port, const Request& request, Time now) const;
   /// That it has been. True: it goes on with a lease that is there.

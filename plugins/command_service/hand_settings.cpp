@@ -22,6 +22,13 @@ Error At(const Port& port, std::string message) {
   return {.message = std::move(message), .path = port.path()};
 }
 
+// What a person has set there, what a rule has, and a block.
+bool Free(Port& port) {
+  const bool was_by_person = port.Release();
+  const bool was_by_rule = port.Release(Port::Setter::kRule);
+  return port.Unblock() || was_by_person || was_by_rule;
+}
+
 Result<void> CheckRequest(const PublishRequest& request) {
   if (request.rate && (*request.rate <= 0 || *request.rate > PublishRequest::kFastestRate)) {
     return Error{.message = "the rate must be above 0 and at most 1000 Hz"};
@@ -34,9 +41,6 @@ Result<void> CheckRequest(const PublishRequest& request) {
   }
   if (request.lease.size() > PublishRequest::kLongestLease) {
     return Error{.message = "the name of the lease is too long"};
-  }
-  if (request.is_stop && (request.deadline || !request.value.empty())) {
-    return Error{.message = "a stop has no value and no deadline: it lasts until it is released"};
   }
   return {};
 }
@@ -54,25 +58,18 @@ Result<std::string> SetPortByHand(Runtime& runtime, const std::string& path,
   return (*found)->path();
 }
 
-// What a person has set there, and what a rule has.
-bool Release(Port& port) {
-  const bool was_a_person = port.Release();
-  return port.Release(Port::Setter::kRule) || was_a_person;
-}
-
 Result<std::string> ReleasePort(Runtime& runtime, const std::string& path) {
   const std::lock_guard lock(runtime.structure_mutex());
   if (!path.empty()) {
     const auto found = PathSearch(runtime).FindPort(path, PathKind::kElement);
     if (!found) return found.error();
-    if (Release(**found)) return (*found)->path();
+    if (Free(**found)) return (*found)->path();
     return At(**found, "is not set by hand");
   }
   std::string released;
   runtime.root().Visit([&](FrameworkElement& element) {
     auto* const port = dynamic_cast<Port*>(&element);
-    if (port != nullptr && Release(*port))
-      released += (released.empty() ? "" : ", ") + port->path();
+    if (port != nullptr && Free(*port)) released += (released.empty() ? "" : ", ") + port->path();
   });
   if (released.empty()) return Error{.message = "no port is set by hand"};
   return released;
@@ -96,19 +93,47 @@ HandSettings::~HandSettings() {
 }
 
 std::vector<std::pair<std::string, HandState>> HandSettings::All() const {
+  if (const std::unique_lock structure(runtime_.structure_mutex(), std::try_to_lock); structure) {
+    const std::lock_guard lock(mutex_);
+    told_.clear();
+    runtime_.root().Visit([&](FrameworkElement& element) {
+      const auto* const port = dynamic_cast<const Port*>(&element);
+      if (port == nullptr) return;
+      if (port->is_blocked()) {
+        told_.emplace_back(port->path(), HandState::kStopped);
+      } else if (port->is_set_by_hand()) {
+        told_.emplace_back(port->path(), leases_.StateOf(port->path()).value_or(HandState::kSet));
+      }
+    });
+  }
   const std::lock_guard lock(mutex_);
-  return leases_.All();
+  return told_;
+}
+
+Result<std::string> HandSettings::Block(const BlockRequest& request) {
+  const std::lock_guard structure(runtime_.structure_mutex());
+  const auto found = PathSearch(runtime_).FindPort(request.port, PathKind::kElement);
+  if (!found) return found.error();
+  if (auto blocked = (*found)->Block(); !blocked) return blocked.error();
+  std::string path = (*found)->path();
+  const std::lock_guard lock(mutex_);
+  last_.erase(path);
+  leases_.Forget(path);
+  (*found)->Release();
+  return path;
 }
 
 Result<HandSettings::Published> HandSettings::Publish(const PublishRequest& request) {
   if (auto good = CheckRequest(request); !good) return good.error();
-  const HandLeases::Request wish{request.lease, request.deadline, request.is_stop,
-                                 request.received.value_or(Now())};
+  const HandLeases::Request wish{request.lease, request.deadline, request.received.value_or(Now())};
   const std::lock_guard structure(runtime_.structure_mutex());
   const auto found = PathSearch(runtime_).FindPort(request.port, PathKind::kElement);
   if (!found) return found.error();
   Port& port = **found;
-  const auto value = request.is_stop ? SafeValueOf(port) : ValueOf(port, request.value);
+  if (port.is_blocked()) {
+    return Error{.message = "is blocked", .path = port.path(), .hint = "release it first"};
+  }
+  const auto value = ValueOf(port, request.value);
   if (!value) return value.error();
   // Who asks for a deadline is told at once if nothing could be done when it has passed.
   if (request.deadline) {
@@ -156,17 +181,13 @@ bool HandSettings::IsLast(const std::string& port, std::uint64_t number) const {
 }
 
 Result<std::string> HandSettings::Release(const ReleaseRequest& request) {
+  if (request.port.empty()) return Error{.message = "'release' needs the name of what is released"};
   const std::lock_guard structure(runtime_.structure_mutex());
   auto released = ReleasePort(runtime_, request.port);
   if (!released) return released;
   const std::lock_guard lock(mutex_);
-  if (request.port.empty()) {
-    last_.clear();
-    leases_.ForgetAll();
-  } else {
-    last_.erase(*released);
-    leases_.Forget(*released);
-  }
+  last_.erase(*released);
+  leases_.Forget(*released);
   return released;
 }
 

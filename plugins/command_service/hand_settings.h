@@ -24,8 +24,8 @@ namespace runnel {
 /// its type; a type without a text format.
 Result<std::string> SetPortByHand(Runtime& runtime, const std::string& path,
                                   const std::string& value);
-/// Gives it back to its publishers; "" : all that are set. Which these were. Errors: no such port; nothing is
-/// set by hand there.
+/// Gives it back to its publishers, ends its block, too; "" : all that are set. Which these were. Errors: no such port;
+/// nothing is set by hand there.
 Result<std::string> ReleasePort(Runtime& runtime, const std::string& path);
 
 /// What people set at the ports of an application: once, again and again, or with a deadline, by the machine's clock,
@@ -48,10 +48,12 @@ class HandSettings {
     bool goes_on = false;  ///< with a lease that was there
   };
   Result<Published> Publish(const PublishRequest& request);
+  Result<std::string> Block(const BlockRequest& request);
   Result<std::string> Release(const ReleaseRequest& request);
 
   /// Publishes the safe value where a deadline has passed.
   void LookAtDeadlines();
+  /// Ports that are set by hand or blocked, by path. Waits for nobody: while the structure is being changed, as before.
   [[nodiscard]] std::vector<std::pair<std::string, HandState>> All() const;
   /// Of the machine, from which deadlines count.
   [[nodiscard]] Time Now() const { return clock_.Now(); }
@@ -77,6 +79,7 @@ class HandSettings {
   HandLeases leases_;                                     // guarded by mutex_
   std::map<std::string, std::uint64_t, std::less<>> last_;  // so: which publishing at a port is the last one
   std::uint64_t count_ = 0;                               // so
+  mutable std::vector<std::pair<std::string, HandState>> told_;  // so: by All()
   bool ends_ = false;                                     // so
   std::thread watch_;
   TaskGroup tasks_;  // first to go: its tasks use the rest

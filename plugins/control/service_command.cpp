@@ -5,6 +5,7 @@
 #include "core/base/number_text.h"
 #include "core/paths/distant_ports.h"
 #include "core/types/duration_text.h"
+#include "plugins/control/application_state.h"
 #include "plugins/control/command.h"
 #include "plugins/structure/change_text.h"
 
@@ -13,6 +14,7 @@ namespace runnel {
 namespace {
 
 constexpr std::size_t kMostErrors = 100;
+constexpr const char* kClient = "a terminal";
 constexpr auto kFarPatience = std::chrono::seconds(10);
 
 // Of what is in another application.
@@ -54,18 +56,19 @@ CommandRequest RequestOf(const Request& request, PlacedChanges placed) {
   }
   if (request.command == "reload") return ReloadRequest{argument};
   if (request.command == "restart") return RestartRequest{argument};
-  if (request.command == "stop" && argument.empty()) return StopRequest{};
-  if (request.command == "stop") return PauseRequest{argument, true};
+  if (request.command == "quit") return QuitRequest{};
+  if (request.command == "stop") return RobotStopRequest{true, kClient};
   if (request.command == "pause") return PauseRequest{argument, true};
   if (request.command == "resume") return PauseRequest{argument, false};
   if (request.command == "log") return LevelOf(request.Option("level"));
+  if (request.command == "release" && argument.empty()) return RobotStopRequest{false, kClient};
   if (request.command == "release") return ReleaseRequest{argument};
+  if (request.command == "block") return BlockRequest{argument};
   if (request.command == "publish") {
     // What is no number is out of the bounds.
     const auto rate = request.Has("rate") ? std::optional(NumberIn<double>(request.Option("rate")).value_or(0))
                                           : std::nullopt;
     PublishRequest publish{argument, request.arguments.size() > 1 ? request.arguments[1] : "", rate};
-    publish.is_stop = request.Has("stop");
     // So is what is no duration.
     if (request.Has("deadline")) {
       const auto deadline = ParseDuration(request.Option("deadline"));
@@ -74,7 +77,7 @@ CommandRequest RequestOf(const Request& request, PlacedChanges placed) {
     return publish;
   }
   return ChangeRequest{.placed = std::move(placed),
-                       .client = "a terminal",
+                       .client = kClient,
                        .may_end_application = request.Option("yes") == "yes"};
 }
 
@@ -96,19 +99,20 @@ CommandResult MakeServiceCommand(const Request& request, const CommandContext& c
   if (placed.changes.size() == 1 && IsFar(placed.changes.front())) {
     return ShowExtensionText(context.application.runtime, "command", request.body, kFarPatience);
   }
-  if (request.command == "publish" && request.arguments.size() < 2 && !request.Has("stop")) {
-    return Error{.message = "'publish' wants a value", .hint = "or --stop"};
+  if (request.command == "publish" && request.arguments.size() < 2) {
+    return Error{.message = "'publish' wants a value"};
   }
   const std::shared_ptr<PendingCommand> pending =
       context.service.Begin(RequestOf(request, std::move(placed)), context.tasks);
-  return Command([pending](Answer& answer) -> CommandStep {
+  const bool is_of_robot = request.command == "stop" || (request.command == "release" && request.arguments.empty());
+  return Command([pending, is_of_robot, &runtime = context.application.runtime](Answer& answer) -> CommandStep {
     if (!pending->is_done()) return std::shared_ptr<const WorkerTask>(pending->task());
     const CommandAnswer done = pending->Take();
     const std::string diagnostics = DiagnosticsText(done.diagnostics);
     if (!diagnostics.empty()) answer.WriteError(diagnostics);
     if (done.outcome == CommandAnswer::Outcome::kRefused) return ControlCode::kBadInput;
     if (done.outcome == CommandAnswer::Outcome::kFailed) return ControlCode::kFailed;
-    answer.Write(done.text + "\n");
+    answer.Write(done.text + (is_of_robot ? "; " + DrivingText(runtime) : "") + "\n");
     return ControlCode::kDone;
   });
 }

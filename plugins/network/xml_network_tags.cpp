@@ -230,7 +230,8 @@ FrameworkElement* HandleRos(const TagUse& use) {
                  .sends_clock = IsTrue(use, "clock"),
                  .follows_clock = TextOf(use, "clock") == "follow",
                  .sends_log = IsTrue(use, "log"),
-                 .sends_diagnostics = IsTrue(use, "diagnostics")};
+                 .sends_diagnostics = IsTrue(use, "diagnostics"),
+                 .stop_releases = IsTrue(use, "stop_releases")};
   if (use.Find("parameters") != nullptr) {
     ros.parameters = static_cast<RosParameterUse>(std::ranges::find(RosParameterUses(), TextOf(use, "parameters")) - RosParameterUses().begin());
   }
@@ -304,7 +305,8 @@ void AddNetworkTags(XmlTagRegistry& tags) {
                               Choice("diagnostics", "true: publishes faults, silent inputs and late threads on /diagnostics"),
                               Choice("parameters",
                                      "read: nodes may look at the application's parameters; write: and set them; none by default",
-                                     RosParameterUses())},
+                                     RosParameterUses()),
+                              Choice("stop_releases", "true: false, sent to the service ~/stop, releases the STOP of the robot; else it does nothing")},
                .handle = HandleRos});
   tags.AddTag({.name = "take",
                .summary = "a topic whose values go to ports of this application, or a service that they call",

@@ -58,6 +58,9 @@ Result<std::unique_ptr<RosNode>> RosNode::Start(const RosOptions& options, WireP
     if (!made) return made.error();
     node->parameters_ = std::move(*made);
   }
+  auto stop = StopService::Start(runtime.robot_stop(), options.stop_releases, options.node, participant, hooks.dialect);
+  if (!stop) return stop.error();
+  node->stop_ = std::move(*stop);
   return node;
 }
 
@@ -116,6 +119,8 @@ void RosNode::Tell(std::vector<WireId> readers, std::vector<WireId> writers) {
   if (followed_ != nullptr) readers.push_back(followed_->id());
   if (diagnostics_ != nullptr) writers.push_back(diagnostics_->id());
   if (parameters_ != nullptr) parameters_->AddIds(readers, writers);
+  readers.push_back(stop_->endpoints().reader_id());
+  writers.push_back(stop_->endpoints().writer_id());
   if (entities_ == nullptr || (has_told_ && readers == readers_ && writers == writers_)) return;
   has_told_ = true;
   readers_ = std::move(readers);

@@ -10,6 +10,7 @@
 #include "core/log/log_sink.h"
 #include "plugins/ros_services/diagnostics_topic.h"
 #include "plugins/ros_services/parameter_services.h"
+#include "plugins/ros_services/stop_service.h"
 #include "plugins/wire/wire.h"
 
 namespace runnel {
@@ -30,6 +31,7 @@ struct RosOptions {
   bool sends_log = false;         ///< on /rosout
   bool sends_diagnostics = false;  ///< on /diagnostics
   RosParameterUse parameters = RosParameterUse::kNone;
+  bool stop_releases = false;  ///< the service ~/stop releases the STOP, too
 };
 
 /// What an application does for nodes of ROS 2. All optional.
@@ -42,7 +44,7 @@ struct RosHooks {
 };
 
 /// What nodes of ROS 2 are told of this application besides its topics: that it is a node, its clock, its log, its parameters,
-/// its health.
+/// its health. They stop the robot by it.
 ///
 /// Threads: Start(), Tell(), Work() and destroying by one; the log and the parameters by threads of their own.
 class RosNode {
@@ -79,6 +81,7 @@ class RosNode {
   std::unique_ptr<WireReader> followed_;
   std::unique_ptr<DiagnosticsTopic> diagnostics_;
   std::unique_ptr<ParameterServices> parameters_;
+  std::unique_ptr<StopService> stop_;
 };
 
 }  // namespace runnel

@@ -10,6 +10,7 @@
 #include "plugins/command_service/save_place.h"
 #include "plugins/inspector/internal/call_request.h"
 #include "plugins/inspector/internal/conversion_request.h"
+#include "plugins/inspector/internal/stop_messages.h"
 #include "plugins/values/json_writer.h"
 
 namespace runnel::internal {
@@ -75,11 +76,11 @@ CommandOrErrors ReadChanges(ViewerMessage& message) {
 }
 
 CommandOrErrors MakePublish(ViewerMessage& message) {
+  if (message.is_stop) return CommandRequest(BlockRequest{message.path});
   PublishRequest publish{message.path, message.value, message.rate};
   // Of what no duration can hold the service says so.
   if (message.deadline) publish.deadline = FromSeconds(std::min(*message.deadline, 1e6));
   publish.lease = message.lease;
-  publish.is_stop = message.is_stop;
   return CommandRequest(std::move(publish));
 }
 
@@ -294,6 +295,8 @@ std::span<const Operation> AllOperations() {
       Operation("compatible", kLook, ByWorker<FindCompatible>),
       Operation("conversions", kLook, ByWorker<FindConversions>),
       Operation("panel", kLook, ByWorker<ReadPanel>),
+      Operation("stop", kLook, AtOnce<PressStop>),  // whoever sees the robot
+      Operation("release_stop", kDrive, AtOnce<ReleaseStop>),
       Operation("publish", kDrive, ByService<MakePublish>),
       Operation("release", kDrive,
                 ByService<[](Message& of) { return CommandRequest(ReleaseRequest{of.path}); }>),
@@ -318,8 +321,8 @@ std::span<const Operation> AllOperations() {
       Operation("preview", kChange, ByWorker<PreviewSave>),
       Operation("restart", kChange,
                 ByService<[](Message& of) { return CommandRequest(RestartRequest{of.path}); }>),
-      Operation("stop", kChange,
-                ByService<[](Message&) { return CommandRequest(StopRequest{}); }>)};
+      Operation("quit", kChange,
+                ByService<[](Message&) { return CommandRequest(QuitRequest{}); }>)};
   return kAll;
 }
 

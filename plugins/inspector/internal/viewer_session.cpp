@@ -26,7 +26,6 @@ constexpr std::size_t kMostLogEntries = 500;
 // A viewer for which more is waiting gets no values, rates and states until it has taken it.
 constexpr std::size_t kSlow = 1 << 20;
 constexpr auto kState = milliseconds(100);
-constexpr auto kAlive = milliseconds(1000);
 constexpr auto kTimeAlone = milliseconds(200);
 constexpr double kFastestWatch = 60;
 constexpr double kFastestRates = 10;
@@ -40,13 +39,12 @@ Duration IntervalOf(double rate) { return FromSeconds(1 / rate); }
 ViewerSession::ViewerSession(Inspection& inspection, WebClient& client)
     : inspection_(inspection),
       client_(client),
-      name_("viewer " + std::to_string(inspection.NumberViewer())) {
+      name_("viewer " + std::to_string(inspection.NumberViewer())),
+      life_(inspection, client) {
   SendHello();
 }
 
-WebRole ViewerSession::role() const {
-  return inspection_.options().is_read_only ? WebRole::kLook : client_.role();
-}
+WebRole ViewerSession::role() const { return inspection_.RoleOf(client_); }
 
 bool ViewerSession::IsSlow() const { return client_.waiting_bytes() > kSlow; }
 
@@ -63,17 +61,12 @@ void ViewerSession::SendHello() {
 }
 
 WebSession::SteadyTime ViewerSession::OnPoll() {
-  SteadyTime next = inspection_.Look();
+  SteadyTime next = std::min(life_.Send(), inspection_.Look());
   SendReplies();
   SendStructure();
   SendArrangement();
   SendLog();
   const SteadyTime now = std::chrono::steady_clock::now();
-  if (now >= alive_due_) {
-    client_.SendText("{\"op\":\"alive\"}");
-    alive_due_ = now + kAlive;
-  }
-  next = std::min(next, alive_due_);
   if (now >= state_due_) SendState(now);
   next = std::min(next, state_due_);
   if (now >= network_due_) SendNetwork(now);
@@ -287,7 +280,8 @@ void ViewerSession::BeginWatching(const ViewerMessage& message) {
 }
 
 void ViewerSession::BeginRequest(const Operation& operation, ViewerMessage message) {
-  if (pending_.size() + replies_.size() >= kMostPending) {
+  // STOP outranks every limit.
+  if (message.op != "stop" && pending_.size() + replies_.size() >= kMostPending) {
     return Refuse(message, {.message = "too many requests are waiting already"});
   }
   message.client = name_;

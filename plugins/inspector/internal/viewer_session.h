@@ -9,6 +9,7 @@
 
 #include "plugins/inspector/internal/inspection.h"
 #include "plugins/inspector/internal/requests.h"
+#include "plugins/inspector/internal/stop_messages.h"
 #include "plugins/inspector/internal/viewer_message.h"
 #include "plugins/values/foxglove_channel.h"
 #include "plugins/values/watched_port.h"
@@ -67,6 +68,7 @@ class ViewerSession final : public WebSession {
   Inspection& inspection_;
   WebClient& client_;
   const std::string name_;
+  LifeSign life_;
   std::shared_ptr<const Catalogue> catalogue_;
   std::uint64_t structure_ = 0;  // the revision that has been told
   std::uint64_t arrangement_ = 0;  // the revision that has been told
@@ -76,7 +78,6 @@ class ViewerSession final : public WebSession {
   std::string state_;  // as it was told, without the time
   Duration state_time_{-1};
   SteadyTime state_due_{};
-  SteadyTime alive_due_{};  // of the next sign of life
   std::vector<ViewerRequest> pending_;
   std::deque<std::string> replies_;  // that the client has not taken yet
   std::map<std::string, Watch, std::less<>> watches_;

@@ -1,6 +1,7 @@
 #include "plugins/command_service/command_service.h"
 
 #include <atomic>
+#include <future>
 #include <mutex>
 #include <new>
 #include <semaphore>
@@ -112,6 +113,36 @@ TEST_F(CommandServiceTest, EndsARequestByWhateverAPluginThrowsAndServesTheNext) 
   ChangeRequest unknown{{.changes = {CreateModule{"/a", "other/type"}}, .positions = {}}};
   EXPECT_EQ(ErrorOf(Ask(service, std::move(unknown))), "exception of type int");
   EXPECT_EQ(Ask(service, ReloadRequest{"good"}).text, "loaded good");
+}
+
+// A slow constructor, a library that is being loaded: both hold the structure lock, in the worker.
+TEST_F(CommandServiceTest, StopIsInForceWhileTheWorkerAndTheStructureLockAreTaken) {
+  std::promise<void> begun;
+  std::promise<void> may_end;
+  application.hooks.reload = [&](const std::string&) -> Result<std::string> {
+    const std::lock_guard lock(runtime.structure_mutex());
+    begun.set_value();
+    may_end.get_future().wait();
+    return std::string("loaded");
+  };
+  CommandService service(application);
+  TaskGroup tasks(service.worker());
+  const auto slow = service.Begin(ReloadRequest{"slow"}, tasks);
+  begun.get_future().wait();
+  int told = 0;
+  const auto press = service.Begin(RobotStopRequest{true, "a test"}, tasks, [&] { ++told; });
+  EXPECT_TRUE(runtime.robot_stop().in_force());
+  EXPECT_TRUE(press->is_done());
+  EXPECT_EQ(told, 1);
+  EXPECT_THAT(press->Take().text, HasSubstr("STOP is in force;"));
+  EXPECT_THAT(service.Begin(RobotStopRequest{true, "another"}, tasks)->Take().text, HasSubstr("already"));
+  EXPECT_THAT(service.Begin(RobotStopRequest{false, "a test"}, tasks)->Take().text,
+              HasSubstr("the STOP that a test had pressed"));
+  EXPECT_FALSE(runtime.robot_stop().in_force());
+  EXPECT_THAT(ErrorOf(service.Begin(RobotStopRequest{false, "a test"}, tasks)->Take()), HasSubstr("not in force"));
+  EXPECT_FALSE(slow->is_done());
+  may_end.set_value();
+  EXPECT_THAT(log.ReadEntries(0, 9).entries.back().text, HasSubstr("STOP is released by a test"));
 }
 
 TEST_F(CommandServiceTest, ConfinesWhereClientsOfOthersMaySave) {

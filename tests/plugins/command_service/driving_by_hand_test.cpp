@@ -41,7 +41,7 @@ class Planner final : public Module {
 class Base final : public Module {
  public:
   using Module::Module;
-  Input<Motion> motion{this, "motion"};
+  Input<Motion> motion{this, "motion", {.limits = {.default_value = Motion{}}}};
   Input<double> height{this, "height", {.limits = {.default_value = 0.2, .minimum = 0.1}}};
   Input<double> sealed{this, "sealed", {.limits = {.minimum = 0.1}}};
 
@@ -116,25 +116,28 @@ TEST_F(DrivingByHand, WithoutASafeValueItIsReleased) {
   EXPECT_THAT(by_hand.All(), ::testing::IsEmpty());
 }
 
-TEST_F(DrivingByHand, AStopKeepsEverybodyElseOff) {
+TEST_F(DrivingByHand, ABlockKeepsEverybodyElseOff) {
   HandSettings by_hand(runtime, worker, log, &machine);
   EXPECT_EQ(Drive(by_hand, "{forward: 0.3}"), "");
-  EXPECT_EQ(Publish(by_hand, {.port = kMotion, .is_stop = true}), "");
+  EXPECT_TRUE(by_hand.Block({kMotion}));
+  EXPECT_THAT(by_hand.All(), ElementsAre(Pair(kMotion, HandState::kStopped)));
   EXPECT_EQ(Read(), Motion{});
-  EXPECT_THAT(Drive(by_hand, "{forward: 0.3}", "b"), HasSubstr("stopped"));
-  EXPECT_THAT(Publish(by_hand, {kMotion, "{forward: 0.3}"}), HasSubstr("stopped"));
+  EXPECT_THAT(Drive(by_hand, "{forward: 0.3}", "b"), HasSubstr("blocked"));
+  EXPECT_THAT(Publish(by_hand, {kMotion, "{forward: 0.3}"}), HasSubstr("blocked"));
   EXPECT_EQ(Read(), Motion{});
   machine.Advance(1h);
   by_hand.LookAtDeadlines();
   EXPECT_EQ(Read(), Motion{});
-  EXPECT_TRUE(by_hand.Release({}));
+  EXPECT_FALSE(by_hand.Release({""})) << "the name is missing";
+  EXPECT_TRUE(by_hand.Release({kMotion}));
+  EXPECT_THAT(Drive(by_hand, "{forward: 0.3}"), HasSubstr("has ended")) << "who held it lets go first";
   EXPECT_EQ(Drive(by_hand, "{forward: 0.3}", "b"), "");
 }
 
-TEST_F(DrivingByHand, WhatIsReleasedBehindItsBackIsNotStoppedAnyMore) {
+TEST_F(DrivingByHand, WhatIsReleasedBehindItsBackIsNotBlockedAnyMore) {
   HandSettings by_hand(runtime, worker, log, &machine);
-  EXPECT_EQ(Publish(by_hand, {.port = kMotion, .is_stop = true}), "");
-  EXPECT_TRUE(base.motion.Release());
+  EXPECT_TRUE(by_hand.Block({kMotion}));
+  EXPECT_TRUE(base.motion.Unblock());
   EXPECT_EQ(Drive(by_hand, "{forward: 0.3}"), "");
   EXPECT_EQ(Read(), (Motion{0.3, 0}));
 }
@@ -146,8 +149,6 @@ TEST_F(DrivingByHand, ADeadlineMustMakeSense) {
   };
   EXPECT_THAT(with(Duration::zero()), HasSubstr("from 10ms to 60s"));
   EXPECT_THAT(with(2min), HasSubstr("from 10ms to 60s"));
-  EXPECT_THAT(Publish(by_hand, {.port = kMotion, .value = "{}", .is_stop = true}),
-              HasSubstr("a stop has no value"));
   EXPECT_EQ(Read(), (Motion{0.4, 0})) << "nothing has been set";
 }
 

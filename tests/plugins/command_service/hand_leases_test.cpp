@@ -96,19 +96,6 @@ TEST_F(HandLeasesTest, WhoPublishesWithoutALeaseTakesOver) {
   EXPECT_THAT(leases.Expire(now), IsEmpty());
 }
 
-TEST_F(HandLeasesTest, AStopLastsUntilItIsReleased) {
-  Drive("a");
-  EXPECT_TRUE(Ask({.is_stop = true}));
-  EXPECT_EQ(leases.StateOf("/drive"), HandState::kStopped);
-  for (const char* lease : {"a", "b", ""}) EXPECT_FALSE(Drive(lease));
-  EXPECT_FALSE(Ask({}));
-  EXPECT_THAT(problem, HasSubstr("stopped"));
-  EXPECT_TRUE(Ask({.is_stop = true}));
-  leases.Forget("/drive");
-  EXPECT_FALSE(Drive("a")) << "who held it when it was stopped lets go first";
-  EXPECT_TRUE(Drive("b"));
-}
-
 TEST_F(HandLeasesTest, ReleasedNobodyIsWaitedFor) {
   Drive("a");
   leases.ForgetAll();

@@ -15,7 +15,7 @@ TEST_F(ControlTest, SetsAPortByHandAndReleasesIt) {
   EXPECT_EQ(Ask("release /b/in").code, 0);
   EXPECT_THAT(Ask("ls /b").output, ::testing::Not(HasSubstr("by hand")));
   EXPECT_THAT(Ask("release /b/in").errors, HasSubstr("is not set by hand"));
-  EXPECT_THAT(Ask("release").errors, HasSubstr("no port is set by hand"));
+  EXPECT_THAT(Ask("release").errors, HasSubstr("STOP is not in force"));
 }
 
 TEST_F(ControlTest, PublishesByHandAgainAndAgain) {
@@ -24,12 +24,14 @@ TEST_F(ControlTest, PublishesByHandAgainAndAgain) {
   EXPECT_EQ(std::count(told.output.begin(), told.output.end(), '\n'), 3);
   EXPECT_THAT(told.output, HasSubstr("  9"));
   EXPECT_THAT(Ask("ls /a").output, HasSubstr("set by hand = 9"));
-  EXPECT_THAT(Ask("release").output, HasSubstr("released /app/a/output/out"));
+  EXPECT_THAT(Ask("release /a/out").output, HasSubstr("released /app/a/output/out"));
 }
 
-TEST_F(ControlTest, APortThatIsStoppedTakesNoOtherValue) {
-  EXPECT_THAT(Ask("publish /b/in stop=yes").output, HasSubstr("/app/b/input/in is stopped"));
-  EXPECT_THAT(Ask("publish /b/in 5").errors, HasSubstr("is stopped by hand; release it first"));
+TEST_F(ControlTest, APortThatIsBlockedTakesNoOtherValue) {
+  EXPECT_THAT(Ask("block /b/in").errors, HasSubstr("no safe value"));
+  ASSERT_TRUE(dynamic_cast<Port&>(*runtime.root().Find("/app/b/input/in").value()).SetLimits({.default_value = 0}));
+  EXPECT_THAT(Ask("block /b/in").output, HasSubstr("/app/b/input/in is blocked"));
+  EXPECT_THAT(Ask("publish /b/in 5").errors, HasSubstr("is blocked; release it first"));
   EXPECT_EQ(Ask("release /b/in").code, 0);
   EXPECT_THAT(Ask("publish /b/in 5 deadline=60s").output, HasSubstr("for 60s, then at rest"));
   EXPECT_EQ(Ask("release /b/in").code, 0);
@@ -38,7 +40,6 @@ TEST_F(ControlTest, APortThatIsStoppedTakesNoOtherValue) {
 TEST_F(ControlTest, RefusesWhatCannotBeSetByHand) {
   EXPECT_THAT(Ask("publish /b/in many").errors, HasSubstr("many"));
   EXPECT_THAT(Ask("publish /b/in 5 deadline=soon").errors, HasSubstr("from 10ms to 60s"));
-  EXPECT_THAT(Ask("publish /b/in 5 stop=yes").errors, HasSubstr("a stop has no value"));
   EXPECT_THAT(Ask("publish /b/inn 5").errors, HasSubstr("did you mean 'in'?"));
   EXPECT_THAT(Ask("publish /b/in 5 rate=often").errors, HasSubstr("rate"));
   EXPECT_THAT(Ask("publish /b/in").errors, HasSubstr("wants a value"));

@@ -1,5 +1,7 @@
 // What people read of an application that somebody has stopped, paused, set by hand, or asked too much of.
 
+#include <atomic>
+
 #include "core/port/port.h"
 #include "tests/plugins/control/control_fixture.h"
 #include "tests/support/wait_until.h"
@@ -55,6 +57,55 @@ TEST_F(StatesTest, WhatIsPausedByHandOrBlockedIsCounted) {
   }
   EXPECT_EQ(State(), "running, 1 port BLOCKED, 1 port set by hand");
   EXPECT_THAT(Ask("ls").output, AllOf(HasSubstr(", BLOCKED"), HasSubstr(", set by hand = 3")));
+}
+
+// Neither the structure lock nor the worker is waited for.
+TEST_F(StatesTest, StopIsPressedWhoeverHasTheStructureAndTheWorker) {
+  TaskGroup tasks(service->worker());
+  std::atomic<bool> goes_on{false};
+  tasks.Post([&] {
+    while (!goes_on.load()) std::this_thread::sleep_for(1ms);
+  });
+  {
+    const std::lock_guard lock(runtime.structure_mutex());
+    const Told told = Ask("stop");
+    EXPECT_EQ(told.code, 0) << told.errors;
+    EXPECT_THAT(told.output, HasSubstr("STOP is in force"));
+    EXPECT_TRUE(runtime.robot_stop().in_force());
+    EXPECT_EQ(Ask("release").code, 0);
+  }
+  goes_on = true;
+}
+
+TEST_F(StatesTest, WhatDrivesIsNamedOrThatNothingDoes) {
+  EXPECT_THAT(Ask("stop").output, HasSubstr("STOP is in force; 'runnel release' ends it; but NO PORT of this application is"));
+  {
+    const std::lock_guard lock(runtime.structure_mutex());
+    EXPECT_TRUE(PortAt("/app/b/input/in").SetDriving(true, AnyValue(0)));
+  }
+  EXPECT_THAT(Ask("stop").output, HasSubstr("STOP is in force already; 'runnel release' ends it; what drives: /app/b/input/in\n"));
+  EXPECT_THAT(Ask("release").output, HasSubstr("released the STOP that a terminal had pressed; what drives: /app/b/input/in\n"));
+  const Told again = Ask("release");
+  EXPECT_EQ(again.code, 2);
+  EXPECT_THAT(again.errors, HasSubstr("STOP is not in force"));
+}
+
+TEST_F(StatesTest, TheWordsOfBeforeAreRefusedWithThoseOfNow) {
+  EXPECT_THAT(Ask("stop /app/a").errors, AllOf(HasSubstr("it is the STOP of the robot"), HasSubstr("'pause PATH'")));
+  EXPECT_THAT(Ask("publish /b/in stop=yes").errors, HasSubstr("'block PORT'"));
+  EXPECT_FALSE(runtime.robot_stop().in_force());
+}
+
+TEST_F(StatesTest, QuitEndsTheRunAndNotTheRobot) {
+  std::atomic<bool> has_quit{false};
+  hooks.quit = [&]() -> Result<std::string> {
+    has_quit = true;
+    return std::string("the run ends");
+  };
+  StartServer({.application = "app", .folder = folder.path() / "runnel"});
+  EXPECT_THAT(Ask("quit").output, HasSubstr("the run ends"));
+  EXPECT_TRUE(has_quit);
+  EXPECT_FALSE(runtime.robot_stop().in_force());
 }
 
 TEST_F(StatesTest, AThreadThatOverrunsIsTold) {

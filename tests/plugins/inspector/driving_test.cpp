@@ -34,6 +34,7 @@ TEST_F(Driving, WhoIsNotHeardOfIsToldToAllViewersAsLost) {
 }
 
 TEST_F(Driving, AStopHoldsUntilItIsReleased) {
+  ASSERT_TRUE(PortAt(kIn).SetLimits({.default_value = 0}));
   Start();
   Viewer viewer = View();
   Viewer other = View();
@@ -59,7 +60,7 @@ TEST_F(Driving, MembersOfAnotherKindAreRefused) {
   EXPECT_EQ(with("lease", 7), false);
   EXPECT_EQ(with("lease", std::string(200, 'a')), false);
   EXPECT_EQ(with("stop", "yes"), false);
-  EXPECT_EQ(with("stop", true), false) << "it has a value, too";
+  EXPECT_EQ(with("stop", true), false) << "it has no safe value";
 }
 
 TEST_F(Driving, APanelIsKeptAndGivenToAllViewers) {

@@ -105,9 +105,10 @@ class Lists final : public Module {
 class Viewer {
  public:
   /// `token`: as a protocol of its own; "": none.
-  explicit Viewer(std::uint16_t port, const std::string& token = {}) : client_(port) {
-    EXPECT_THAT(client_.Upgrade("runnel.inspector.v1" + (token.empty() ? "" : ", " + token)),
-                HasSubstr("101 "));
+  explicit Viewer(std::uint16_t port, const std::string& token = {},
+                  const std::string& protocol = "runnel.inspector.v1")
+      : client_(port) {
+    EXPECT_THAT(client_.Upgrade(protocol + (token.empty() ? "" : ", " + token)), HasSubstr("101 "));
   }
   void Send(const Json& message) const { client_.SendText(message.dump()); }
   RawClient& raw() { return client_; }

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "core/base/result.h"
+#include "plugins/command_service/command_request.h"
+
+namespace runnel {
+
+/// One named part of a described request.
+struct RequestField {
+  enum class Kind {
+    kText,      ///< any; not empty
+    kValue,     ///< any
+    kNumber,    ///< a number, or the text of one
+    kDuration,  ///< "300ms", or a number of seconds
+  };
+  std::string_view name;
+  Kind kind = Kind::kText;
+  bool is_required = false;
+  std::string_view help = {};
+};
+
+/// A request that every client offers under the same name: the terminal, pages, Foxglove, Python.
+struct DescribedRequest {
+  std::string_view name;
+  std::span<const RequestField> fields;
+  std::string_view role;     ///< that a client needs: "look", "drive", "change"
+  std::string_view help;     ///< one line
+  std::string_view example;  ///< as words of the terminal; required fields without their names
+};
+
+/// All of them. Static.
+[[nodiscard]] std::span<const DescribedRequest> RequestTable();
+/// Errors: there is no such request, with the nearest name.
+[[nodiscard]] Result<const DescribedRequest*> FindRequest(std::string_view name);
+
+/// What releases the STOP of the robot, in the place of a port's path.
+inline constexpr std::string_view kRobotStopName = "stop";
+
+/// By name. Numbers and texts, as a client has them.
+using RequestFields = std::map<std::string, std::variant<std::string, double>, std::less<>>;
+
+/// The request for CommandService::Begin(). `client`: who wants it, for people: "a terminal", "viewer 2".
+/// Errors: an unknown request or field, with the nearest name; a field that is missing, empty or of the wrong kind.
+[[nodiscard]] Result<CommandRequest> MakeRequest(std::string_view name, const RequestFields& fields,
+                                                 const std::string& client);
+
+}  // namespace runnel

@@ -1,0 +1,59 @@
+#include "plugins/ros_services/stop_service.h"
+
+#include <utility>
+
+#include "plugins/cdr_values/cdr_reader.h"
+#include "plugins/cdr_values/cdr_writer.h"
+#include "plugins/ros_messages/names.h"
+
+namespace runnel {
+
+namespace {
+constexpr std::uint32_t kStopIdentity = 0x80000100u;  // beyond those of parameters
+}  // namespace
+
+Result<std::unique_ptr<StopService>> StopService::Start(RobotStop& stop, bool may_release, const std::string& node,
+                                                        WireParticipant& participant, ServiceDialect dialect) {
+  std::unique_ptr<StopService> made(new StopService(stop, may_release, (node == "/" ? "" : node) + "/stop"));
+  auto endpoints = ServiceEndpoints::Start(ServiceEndpoints::Side::kServer,
+                                           {.service = made->name_,
+                                            .request_type = DdsType("std_srvs/srv/SetBool_Request"),
+                                            .response_type = DdsType("std_srvs/srv/SetBool_Response"),
+                                            .dialect = dialect},
+                                           participant, kStopIdentity, [self = made.get()] { self->Serve(); });
+  if (!endpoints) return endpoints.error();
+  made->endpoints_ = std::move(*endpoints);
+  made->known_ = made->endpoints_.get();
+  made->Serve();  // what has come meanwhile
+  return made;
+}
+
+void StopService::Serve() noexcept {
+  ServiceEndpoints* const endpoints = known_;
+  if (endpoints == nullptr) return;
+  try {
+    const std::lock_guard lock(serving_);
+    while (const auto request = endpoints->Take()) {
+      const Answer answer = Do(*request);
+      Octets octets;
+      CdrWriter to(octets);
+      to.Put(answer.success);
+      to.PutText(answer.message);
+      (void)endpoints->Reply(request->id, octets);  // who does not hear it asks again
+    }
+  } catch (...) {
+    // For lack of memory: there is no answer, which whoever waits for one takes for what it is.
+  }
+}
+
+StopService::Answer StopService::Do(const ServiceMessage& request) {
+  auto from = CdrReader::Begin(request.message);
+  bool is_press = false;
+  if (!from || !from->Get(is_press)) return {false, "the request is no std_srvs/srv/SetBool"};
+  const std::string by = "the service " + name_;
+  if (is_press) return {true, stop_.Press(by) ? "the robot is stopped" : "the robot was stopped already"};
+  if (!may_release_) return {false, "the STOP is not released by this service: its file does not say <ros stop_releases=\"true\">"};
+  return {true, stop_.Release(by) ? "the STOP is released" : "the robot was not stopped"};
+}
+
+}  // namespace runnel

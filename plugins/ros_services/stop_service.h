@@ -1,0 +1,45 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "core/element/robot_stop.h"
+#include "plugins/ros_services/service_endpoints.h"
+
+namespace runnel {
+
+/// The STOP of the robot as a service of its node, `~/stop` (std_srvs/srv/SetBool): true presses it, false releases it if
+/// that is allowed. Its answer says what has happened.
+///
+/// Threads:  requests are served by a thread of the engine, so nothing that the application does delays them; the rest any.
+/// Ownership: participant and `stop` must outlive it.
+class StopService {
+ public:
+  /// Errors: of the engine.
+  static Result<std::unique_ptr<StopService>> Start(RobotStop& stop, bool may_release, const std::string& node,
+                                                    WireParticipant& participant, ServiceDialect dialect);
+
+  [[nodiscard]] const ServiceEndpoints& endpoints() const noexcept { return *endpoints_; }
+
+ private:
+  StopService(RobotStop& stop, bool may_release, std::string name)
+      : stop_(stop), may_release_(may_release), name_(std::move(name)) {}
+  void Serve() noexcept;
+  struct Answer {
+    bool success;
+    std::string message;
+  };
+  Answer Do(const ServiceMessage& request);
+
+  RobotStop& stop_;
+  const bool may_release_;
+  const std::string name_;  // "/base/stop"
+  std::mutex serving_;
+  std::atomic<ServiceEndpoints*> known_{nullptr};  // by then they may take requests
+  std::unique_ptr<ServiceEndpoints> endpoints_;
+};
+
+}  // namespace runnel

@@ -1,0 +1,104 @@
+// The STOP of the robot by viewers: whoever looks presses, whatever else goes on, and all are told.
+
+#include <future>
+
+#include "core/element/robot_stop.h"
+#include "tests/plugins/inspector/inspector_fixture.h"
+
+namespace runnel::test {
+namespace {
+
+WebServerOptions LookAndDrive() {
+  WebServerOptions options{.port = 0};
+  for (const WebRole role : {WebRole::kLook, WebRole::kDrive}) {
+    options.tokens.push_back({role, "secret-of-" + std::string(WebRoleName(role))});
+  }
+  return options;
+}
+
+auto InForce(bool in_force) {
+  return [in_force](const Json& each) {
+    return each["op"] == "alive" && each["stop"]["in_force"] == in_force;
+  };
+}
+
+class ViewersStop : public RunningInspectorTest {
+ protected:
+  [[nodiscard]] Viewer Connect(const std::string& protocol, WebRole role) const {
+    return Viewer(server->port(), "runnel.token.secret-of-" + std::string(WebRoleName(role)),
+                  protocol);
+  }
+  [[nodiscard]] bool in_force() { return runtime.robot_stop().in_force(); }
+};
+
+TEST_F(ViewersStop, WhoeverLooksPressesAndWhoDrivesReleases) {
+  Start({}, LookAndDrive());
+  Viewer other = Connect("runnel.inspector.v1", WebRole::kLook);
+  other.Next(InForce(false), "no STOP yet");
+  for (const char* protocol : {"runnel.inspector.v1", "runnel.stop.v1"}) {
+    Viewer looks = Connect(protocol, WebRole::kLook);
+    Viewer drives = Connect(protocol, WebRole::kDrive);
+    const Json pressed = looks.Ask({{"op", "stop"}});
+    EXPECT_EQ(pressed["ok"], true) << protocol << pressed;
+    EXPECT_TRUE(in_force());
+    EXPECT_THAT(other.Next(InForce(true), "STOP")["stop"]["by"], HasSubstr("viewer "));
+    drives.Next(InForce(true), "STOP, to who drives");
+    const Json refused = looks.Ask({{"op", "release_stop"}});
+    EXPECT_EQ(refused["ok"], false) << protocol;
+    EXPECT_THAT(refused["errors"][0]["hint"], HasSubstr("'drive'"));
+    EXPECT_TRUE(in_force());
+    EXPECT_EQ(looks.Ask({{"op", "stop"}})["text"], "STOP was in force already");
+    EXPECT_EQ(drives.Ask({{"op", "release_stop"}})["ok"], true);
+    EXPECT_FALSE(in_force());
+    other.Next(InForce(false), "no STOP any more");
+  }
+}
+
+TEST_F(ViewersStop, ReadOnlyItIsPressedAllTheSame) {
+  Start({.is_read_only = true});
+  Viewer viewer(server->port(), "", "runnel.stop.v1");
+  EXPECT_EQ(viewer.Ask({{"op", "stop"}})["ok"], true);
+  EXPECT_EQ(viewer.Ask({{"op", "release_stop"}})["ok"], false);
+  EXPECT_TRUE(in_force());
+}
+
+TEST_F(ViewersStop, NeedsNeitherWorkerNorStructureNorRoomForRequests) {
+  std::promise<void> saving;
+  std::promise<void> may_end;
+  hooks.save = [&](const std::string&) -> Result<std::string> {
+    saving.set_value();
+    may_end.get_future().wait();
+    return std::string("saved");
+  };
+  Start();
+  Viewer viewer = View();
+  Viewer stop(server->port(), "", "runnel.stop.v1");
+  viewer.Next("structure");
+  viewer.Send({{"op", "save"}});
+  saving.get_future().wait();
+  const std::unique_lock lock(runtime.structure_mutex());
+  for (int i = 0; i < 100; ++i) viewer.Send({{"op", "undo"}});
+  viewer.Next([](const Json& each) { return each["op"] == "reply" && each["ok"] == false; },
+              "refusal");
+  EXPECT_EQ(viewer.Ask({{"op", "stop"}})["ok"], true);
+  EXPECT_TRUE(in_force());
+  EXPECT_EQ(stop.Ask({{"op", "release_stop"}})["ok"], true);
+  EXPECT_FALSE(in_force());
+  EXPECT_EQ(stop.Ask({{"op", "stop"}})["ok"], true);
+  EXPECT_TRUE(in_force());
+  may_end.set_value();
+}
+
+TEST_F(ViewersStop, ItsOwnConnectionKnowsNothingElse) {
+  Start();
+  Viewer stop(server->port(), "", "runnel.stop.v1");
+  const Json reply = stop.Ask({{"op", "save"}});
+  EXPECT_EQ(reply["ok"], false);
+  EXPECT_THAT(reply["errors"][0]["message"], HasSubstr("knows no 'save'"));
+  EXPECT_EQ(stop.Ask({{"op", 7}})["ok"], false);
+  EXPECT_FALSE(in_force());
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(stop.Next("alive")["stop"]["in_force"], false);
+}
+
+}  // namespace
+}  // namespace runnel::test

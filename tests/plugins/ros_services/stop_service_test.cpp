@@ -1,0 +1,89 @@
+// The STOP of the robot as a service of its node, called as nodes of ROS 2 call it.
+#include <gmock/gmock.h>
+
+#include "core/element/runtime.h"
+#include "plugins/cdr_values/cdr_reader.h"
+#include "plugins/cdr_values/cdr_writer.h"
+#include "plugins/ros_services/stop_service.h"
+#include "plugins/wire/fake_wire.h"
+#include "tests/support/wait_until.h"
+
+namespace runnel::test {
+namespace {
+
+using testing::HasSubstr;
+
+struct NobodyThere final : WireDiscovery {
+  void OnMember(const WireMember&) override {}
+  void OnMemberGone(const WireId&) override {}
+  void OnEndpoint(const WireEndpoint&) override {}
+  void OnEndpointGone(const WireId&) override {}
+};
+
+class StopServiceTest : public testing::TestWithParam<ServiceDialect> {
+ protected:
+  void Begin(bool may_release) {
+    service_ = std::move(*StopService::Start(stop_, may_release, "/base", *there_, GetParam()));
+    client_ = std::move(*ServiceEndpoints::Start(ServiceEndpoints::Side::kClient,
+                                                 {.service = "/base/stop",
+                                                  .request_type = "std_srvs::srv::dds_::SetBool_Request_",
+                                                  .response_type = "std_srvs::srv::dds_::SetBool_Response_",
+                                                  .dialect = GetParam()},
+                                                 *near_, 1, [] {}));
+    WaitUntil("it is there", [&] { return client_->is_matched(); });
+  }
+  std::pair<bool, std::string> Call(const Octets& request) {
+    EXPECT_TRUE(client_->Request(request));
+    std::optional<ServiceMessage> reply;
+    WaitUntil("it has answered", [&] { return (reply = client_->Take()).has_value(); });
+    std::pair<bool, std::string> answer;
+    auto from = CdrReader::Begin(reply->message);
+    EXPECT_TRUE(from && from->Get(answer.first) && from->GetText(answer.second));
+    return answer;
+  }
+  std::pair<bool, std::string> Call(bool data) {
+    Octets request;
+    CdrWriter(request).Put(data);
+    return Call(request);
+  }
+
+  Runtime runtime_;
+  RobotStop& stop_ = runtime_.robot_stop();
+  NobodyThere nobody_;
+  const std::shared_ptr<WireEngine> engine_ = MakeFakeWire();
+  std::unique_ptr<WireParticipant> near_ = std::move(*engine_->Join({.name = "near"}, nobody_));
+  std::unique_ptr<WireParticipant> there_ = std::move(*engine_->Join({.name = "there"}, nobody_));
+  std::unique_ptr<StopService> service_;
+  std::unique_ptr<ServiceEndpoints> client_;
+};
+
+TEST_P(StopServiceTest, TrueStopsTheRobotAndFalseDoesNothing) {
+  Begin(false);
+  const std::lock_guard lock(runtime_.structure_mutex());  // a STOP waits for none
+  EXPECT_THAT(Call(true), testing::Pair(true, "the robot is stopped"));
+  EXPECT_TRUE(stop_.in_force());
+  EXPECT_EQ(stop_.state().by, "the service /base/stop");
+  EXPECT_THAT(Call(true), testing::Pair(true, "the robot was stopped already"));
+  EXPECT_THAT(Call(false), testing::Pair(false, HasSubstr("stop_releases")));
+  EXPECT_TRUE(stop_.in_force());
+}
+
+TEST_P(StopServiceTest, FalseReleasesWhereThatIsSaid) {
+  Begin(true);
+  EXPECT_THAT(Call(false), testing::Pair(true, "the robot was not stopped"));
+  EXPECT_THAT(Call(true), testing::Pair(true, "the robot is stopped"));
+  EXPECT_THAT(Call(false), testing::Pair(true, "the STOP is released"));
+  EXPECT_FALSE(stop_.in_force());
+}
+
+TEST_P(StopServiceTest, WhatIsNoRequestDoesNothing) {
+  Begin(true);
+  ASSERT_TRUE(stop_.Press("a test"));
+  EXPECT_THAT(Call(Octets{}), testing::Pair(false, HasSubstr("SetBool")));
+  EXPECT_TRUE(stop_.in_force());
+}
+
+INSTANTIATE_TEST_SUITE_P(Dialects, StopServiceTest, testing::Values(ServiceDialect::kInFront, ServiceDialect::kBeside));
+
+}  // namespace
+}  // namespace runnel::test
