@@ -1,6 +1,6 @@
 // The table of states and operations: what has been set at an element, tried with everything that can be done to it. No
 // cell is silent: a state is kept, or whoever does it is told that it is gone, or it is refused. The table stands in
-// plugins/structure/STATES.md.
+// apps/documentation/pages/concepts/states.md.
 
 #include <filesystem>
 #include <fstream>
@@ -307,7 +307,7 @@ TEST_F(StateTable, IsTheOneThatIsPrinted) {
       EXPECT_NE(cells[i].back(), "SILENT") << States()[i].name << ", " << operation.name;
     }
   }
-  std::ifstream stream(std::filesystem::path(RUNNEL_TEST_SOURCES) / "plugins/structure/STATES.md");
+  std::ifstream stream(std::filesystem::path(RUNNEL_TEST_SOURCES) / "apps/documentation/pages/concepts/states.md");
   const std::string printed{std::istreambuf_iterator<char>(stream), {}};
   EXPECT_THAT(printed, ::testing::HasSubstr(Table(cells))) << "the table is now:\n" << Table(cells);
 }
