@@ -149,14 +149,18 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   };
   [[nodiscard]] std::optional<Progress> ProgressOf(const std::string& path);
 
-  /// kReal: names modules that do not return from their cycles in time; see CycleWatchdog. On a simulated clock nothing
-  /// comes of it.
+  /// Names modules that do not return from their cycles in time; see CycleWatchdog. On a simulated clock the watchdog's
+  /// thread does what the rule says, as the one that steps is stuck.
   void AddStuckRule(StuckRule rule);
-  /// Names all at or below `of` that take longer than `after`; zero: no more. Errors: a negative time.
+  /// Names all at or below `of` that take longer than `after`; "": all that no other rule is about; zero: no more.
+  /// Errors: a negative time.
   Result<void> SetStuckLimit(const std::string& of, Duration after);
   [[nodiscard]] std::vector<StuckRule> StuckRules() const { return cycle_watchdog_.rules(); }
   /// Those that are stuck now, also after Stop().
   [[nodiscard]] std::vector<StuckModule> StuckModules() const { return cycle_watchdog_.Stuck(); }
+  /// kSimulated: is called again and again while a module is stuck, by another thread than the one that steps, which
+  /// cannot. Waits for a call that is under way.
+  void SetStuckListener(std::function<void()> listener);
 
   /// How long each task takes is measured from now on, or no more unless a ProfileUse lives. What is measured begins at
   /// nothing whenever the measuring begins.
@@ -265,7 +269,7 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   FaultDispatcher faults_;
   SimulatedExecutor simulation_{faults_};
   SteadyClock machine_;
-  CycleWatchdog cycle_watchdog_{faults_, clock_before_};
+  CycleWatchdog cycle_watchdog_;
   Pace pace_;
   Backpressure backpressure_;
 

@@ -35,6 +35,22 @@ TEST_F(TwoRobots, APlannerThatIsHeldUpHoldsNobodyUpAndGoesOnWithWhatIsNew) {
   ASSERT_TRUE(robot->WaitFor("values come again"));
 }
 
+// The robot itself is not told: a twist that is stopped where it comes from stops who moves by it.
+TEST_F(TwoRobots, AStopOfThePlannerStopsTheRobotAndNothingElseThatItSends) {
+  const auto robot = Start("two_robots.xml");
+  const auto planner = Start("two_robots_planner.xml");
+  WaitUntilItDrives();
+  ASSERT_EQ(Runnel("stop --app planner").code, kDone);
+  WaitForText("get --app robot /gate/wanted", "{forward: 0, turn: 0}");
+  EXPECT_THAT(Runnel("network --app planner").text, HasSubstr("STOPPED: its safe value is sent"));
+  EXPECT_THAT(Runnel("network --app robot").text, Not(HasSubstr("STOPPED")));
+  ASSERT_EQ(Runnel("release --app planner").code, kDone);
+  WaitUntilItDrives();
+  // What somebody sets by hand is sent, too.
+  ASSERT_EQ(Runnel("publish --app planner /planner/output/twist '{forward: 0.125, turn: 0}'").code, kDone);
+  WaitForText("get --app robot /gate/wanted", "forward: 0.125");
+}
+
 TEST_F(TwoRobots, ARobotThatIsKilledAndStartedAgainFindsItsPlannerAndTheLatchedGoal) {
   const auto planner = Start("two_robots_planner.xml");
   auto robot = Start("two_robots.xml");
