@@ -89,6 +89,9 @@ Command RefuseParsing(const CLI::App& program, const CLI::ParseError& error) {
   if (parsed.empty()) return Refuse(error.what(), help);
   const std::vector<std::string> left = parsed.front()->remaining();
   const auto unknown = std::ranges::find_if(left, [](const std::string& each) { return each.starts_with('-'); });
+  if (const std::string now = WordsOfNow(name, left); !now.empty()) {
+    return Refuse("'" + name + " " + left.front() + "' is of a version before", now);
+  }
   if (unknown != left.end()) {
     const std::string option = unknown->substr(0, unknown->find('='));
     if (name == "run" && option == "--inspect") {
@@ -218,11 +221,14 @@ ApplicationOptions ApplicationArguments::Options() const {
 }
 
 Command ParseCommandLine(int count, const char* const* words) {
-  const auto catalogue = ExtensionCatalogue::Read(PluginManager().search_path());
-  if (!catalogue) {
-    PrintError(catalogue.error());
+  const auto read = ExtensionCatalogue::Read(PluginManager().search_path());
+  const ExtensionCatalogue none;
+  // Whatever is installed: the robot can be stopped.
+  if (!read && (count < 2 || std::string_view(words[1]) != "stop")) {
+    PrintError(read.error());
     return Ends(ExitCode::kBadInput);
   }
+  const ExtensionCatalogue* const catalogue = read ? &*read : &none;
   CLI::App program("Runs robot applications that are described in XML files.", "runnel");
   program.require_subcommand(1);
   program.set_version_flag("--version", "runnel " RUNNEL_VERSION, "says which version this is");
@@ -246,16 +252,12 @@ Command ParseCommandLine(int count, const char* const* words) {
       ->type_name("FILE")
       ->check(CheckFile);
   CLI::App& modules = *program.add_subcommand("modules", "lists module types, ports, parameters");
-  modules.add_option("plugins", modules_arguments.plugins, "only of these; without, of all")
-      ->type_name("PLUGIN");
-  CLI::Option* const names =
-      modules.add_flag("--names", modules_arguments.names_only, "only the names of the types");
-  modules.add_flag("--json", modules_arguments.as_json, "all that is known of them, as JSON")
-      ->excludes(names);
+  modules.add_option("plugins", modules_arguments.plugins, "only of these; without, of all")->type_name("PLUGIN");
+  CLI::Option* const names = modules.add_flag("--names", modules_arguments.names_only, "only the names of the types");
+  modules.add_flag("--json", modules_arguments.as_json, "all that is known of them, as JSON")->excludes(names);
   CLI::App& schema = *program.add_subcommand(
       "schema", "writes the XML schema of application files, for editors and checkers");
-  schema.add_option("plugins", schema_arguments.plugins, "only of these; without, of all")
-      ->type_name("PLUGIN");
+  schema.add_option("plugins", schema_arguments.plugins, "only of these; without, of all")->type_name("PLUGIN");
   schema.add_option("-o,--output", schema_arguments.output, "file; without, standard output")
       ->type_name("FILE")
       ->check(CheckFile);

@@ -25,6 +25,9 @@ namespace runnel::program {
 /// Asks a running application and shows the answer: on stdout what was asked for, on stderr what is wrong.
 [[nodiscard]] ExitCode Control(const ControlArguments& arguments);
 
+/// The STOP of the robot, in each running application, or in the one that is named; says what has become of it in each.
+[[nodiscard]] ExitCode Stop(const ControlArguments& arguments);
+
 /// Writes what could stand in place of the last of the words, one a line: paths, types and threads of a
 /// running application. For the completion of shells, so it says nothing where it knows nothing.
 [[nodiscard]] ExitCode Complete(const ControlArguments& arguments);

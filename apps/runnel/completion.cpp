@@ -175,7 +175,7 @@ Candidates Propose(ControlClient& client, const Candidates& plain) {
   if (command == "ls" && is_first) return Paths(client, [](const Element&) { return true; });
   if (command == "offer" && is_first) return Paths(client, Sends);
   if (command == "take" && place == 1) return Paths(client, Receives);
-  const bool is_of_port = command == "echo" || command == "hz" || command == "publish" || command == "release";
+  const bool is_of_port = command == "echo" || command == "hz" || command == "publish" || command == "release" || command == "block";
   if (is_of_port && is_first) return Paths(client, IsPort);
   if ((command == "call" || command == "activities") && is_first) return Paths(client, IsService);
   if (command == "call" && place == 1) return ArgumentsOf(client, word(0));
@@ -187,7 +187,7 @@ Candidates Propose(ControlClient& client, const Candidates& plain) {
   if ((command == "rename" || command == "copy" || command == "restart" || command == "tag") && is_first) return Paths(client, IsPart);
   if (command == "connect" && place == 1) return Takers(client, word(0));
   if (command == "swap" && place > 1) return SettingsOf(client, word(0));
-  if ((command == "pause" || command == "resume" || command == "stop") && is_first) {
+  if ((command == "pause" || command == "resume") && is_first) {
     return Paths(client, [](const Element& each) { return IsPart(each) || each.kind == "thread"; });
   }
   if ((command == "connect" || command == "disconnect") && place < 2) {

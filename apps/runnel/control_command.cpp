@@ -290,7 +290,7 @@ Result<int> Ask(ControlArguments arguments, Request request) {
   };
   const auto code = client->Ask(request.ToText(), show(std::cout, STDOUT_FILENO), show(std::cerr, STDERR_FILENO));
   const bool ends = code && *code == 0 && request.arguments.empty() &&
-                    (request.command == "restart" || request.command == "stop");
+                    (request.command == "restart" || request.command == "quit");
   if (ends) client->WaitForEnd();
   if (ends && request.command == "restart") WaitForProcess(chosen->hello.process);
   return code;
@@ -300,6 +300,7 @@ Result<int> Ask(ControlArguments arguments, Request request) {
 
 ExitCode Control(const ControlArguments& arguments) {
   if (arguments.command == "ps") return ListApplications();
+  if (arguments.command == "stop") return Stop(arguments);
   if (arguments.command == "complete") return Complete(arguments);
   const auto request = RequestOf(arguments);
   if (!request) {

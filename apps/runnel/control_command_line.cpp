@@ -7,6 +7,7 @@ namespace runnel::program {
 
 namespace {
 
+constexpr const char* kStop = "Stopping the robot";
 constexpr const char* kLooking = "Looking at a running application";
 constexpr const char* kChanging = "Changing it";
 constexpr const char* kRun = "Its run";
@@ -56,6 +57,12 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
     option(entry, "-n", "count", description)->type_name("N")->check(CLI::Range(1, 1'000'000'000));
   };
 
+  add(kStop, "stop", "stop", "STOP: all that moves something has its safe value, in each running application, or in that of --app");
+  Entry& release = add(kStop, "release", "release", "ends the STOP; with a port, its block or the value set by hand there");
+  word(release, "port", "one that is blocked or set by hand")->required(false)->type_name(kPort);
+  Entry& block = add(kStop, "block", "block /drive/twist", "stops one port: its readers have the safe value, until release");
+  word(block, "port", "input or output")->type_name(kPort);
+
   add_plain(kLooking, "ps", "ps", "lists the running applications, and how they are");
 
   Entry& ls = add(kLooking, "ls", "ls /robot -l", "shows what a running application is made of");
@@ -79,21 +86,14 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   word(set, "parameter", "its path")->type_name(kElement);
   word(set, "value", "in its text format")->type_name("VALUE");
 
-  Entry& publish = add(kChanging, "publish", "publish /robot/goal '{x: 2, y: 1}'", "sets the value at a port by hand, until it is released");
+  Entry& publish = add(kChanging, "publish", "publish /robot/goal '{x: 2, y: 1}'", "sets by hand the value that readers of a port see, until release");
   word(publish, "port", "input or output")->type_name(kPort);
-  word(publish, "value", "in its text format; none with --stop")->required(false)->type_name("VALUE");
+  word(publish, "value", "in its text format")->type_name("VALUE");
   option(publish, "--rate", "rate", "publishes it again so often, in Hz of the application's time")
       ->type_name("HZ");
   option(publish, "--deadline", "deadline",
-         "if nothing new has come by then, readers find the safe value, until it is released: 300ms")
+         "if no new value comes within TIME, the safe value is used until release: 300ms")
       ->type_name("TIME");
-  flag(publish, "--stop", "stop",
-       "instead of a value: the safe one, and nobody may set another, until it is released");
-
-  Entry& release = add(kChanging, "release", "release /robot/goal", "lets readers of a port find again what is published");
-  word(release, "port", "one that is set by hand; without, all of them")
-      ->required(false)
-      ->type_name(kPort);
 
   Entry& call = add(kChanging, "call", "call /mapper/save '{file: map.pgm}'", "calls a service of a module, and shows its reply");
   word(call, "service", "its path")->type_name("SERVICE");
@@ -106,9 +106,9 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   flag(activities, "--abort", "abort", "asks what is under way there to end");
 
   add(kLooking, "network", "network", "shows who is in the network, what is offered and taken, and what does not fit");
-  Entry& offer = add(kChanging, "offer", "offer /laser/scan --topic /scan", "lets others in the network read a port; with --stop, no more");
+  Entry& offer = add(kChanging, "offer", "offer /laser/scan --topic /scan", "lets others in the network read a port; --remove ends it");
   word(offer, "port", "output or interface port")->type_name(kPort);
-  Entry& take = add(kChanging, "take", "take /cmd_vel /drive/twist", "has values of a topic of the network go to an input; with --stop, no more");
+  Entry& take = add(kChanging, "take", "take /cmd_vel /drive/twist", "feeds a topic of the network into an input; --remove ends it");
   word(take, "topic", "its name: /cmd_vel")->type_name("TOPIC");
   word(take, "port", "input")->type_name(kPort);
   for (const char* const each : {"topic", "as", "frame", "child_frame", "qos", "sending", "rate", "strength"}) {
@@ -117,7 +117,7 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
   for (const char* const each : {"as", "field", "qos", "stamp", "exclusive", "live"}) {
     option(take, (std::string("--") + each).c_str(), each, "as in <take>");
   }
-  for (Entry* const each : {&offer, &take}) truth(*each, "--stop", "stop", "takes it back");
+  for (Entry* const each : {&offer, &take}) truth(*each, "--remove", "remove", "ends it");
 
   Entry& connect = add(kChanging, "connect", "connect /laser/scan /robot/planner/scan --queue 10", "connects two ports");
   word(connect, "from", "output; PORT.x, PORT[0]: that part of its values")->type_name(kPort);
@@ -196,8 +196,7 @@ ControlCommandLine::ControlCommandLine(CLI::App& program) {
 
   Entry& restart = add(kRun, "restart", "restart /robot/planner", "runs the application again from its file; with a path, makes a module anew, as after a fault");
   word(restart, "path", "module; group: those that faults have stopped")->required(false)->type_name(kElement);
-  Entry& stop = add(kRun, "stop", "stop", "ends the run; with a path, leaves modules out of cycles until 'resume'");
-  word(stop, "path", "module, group or thread")->required(false)->type_name(kElement);
+  add(kRun, "quit", "quit", "ends the run");
 
   Entry& record = add(kLooking, "record", "record /robot/pose -o run.mcap", "records what ports of a running application publish, until Ctrl-C");
   record.command
@@ -274,6 +273,15 @@ std::optional<ControlArguments> ControlCommandLine::Parsed() const {
     return arguments;
   }
   return {};
+}
+
+std::string WordsOfNow(const std::string& command, const std::vector<std::string>& left) {
+  if (command == "stop" && !left.empty()) {
+    return "'runnel stop' is the STOP of the robot, 'runnel pause PATH' leaves modules out of cycles, "
+           "'runnel block PORT' stops one port";
+  }
+  if (std::ranges::find(left, "--stop") == left.end()) return "";
+  return command == "publish" ? "'runnel block PORT'" : "'runnel " + command + " … --remove'";
 }
 
 std::vector<const char*> WithNegativeValues(int count, const char* const* words) {

@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "apps/runnel/commands.h"
+#include "apps/runnel/end_watch.h"
 #include "apps/runnel/log_file.h"
 #include "apps/runnel/output.h"
 #include "apps/runnel/preloading.h"
@@ -73,11 +74,13 @@ class Session {
       LookAround(so_far);
       return false;
     };
+    const EndWatch end_watch(
+        application_, [this] { PrintEvents(); }, [this] { FinishFiles(); });
     const auto real_start = std::chrono::steady_clock::now();
     const auto ran = RunReportingCrashes(options);
     const auto real = std::chrono::steady_clock::now() - real_start;
     PrintEvents();
-    display_.Clear();
+    ClearProgress();
     if (!ran) {
       Error error = ran.error();
       if (error.position.file.empty()) error.position.file = arguments_.application.file;
@@ -108,6 +111,7 @@ class Session {
   void LookAround(Duration so_far) {
     PrintEvents();
     Pace& pace = application_.scheduler().pace();
+    const std::lock_guard lock(printing_);
     if (display_.IsDue()) display_.Show(so_far, pace.is_paused(), report_.Progress());
     if (arguments_.steps) LookForTypedSteps(pace);
   }
@@ -124,7 +128,13 @@ class Session {
     if (lines > 0) (void)pace.StepCycles(static_cast<std::uint64_t>(lines));
   }
 
+  void ClearProgress() {
+    const std::lock_guard lock(printing_);
+    display_.Clear();
+  }
+
   void PrintEvents() {
+    const std::lock_guard lock(printing_);
     for (const ApplicationEvent& event : application_.TakeEvents()) {
       display_.Clear();
       std::cerr << Coloured(event.text, STDERR_FILENO) << std::flush;
@@ -143,6 +153,11 @@ class Session {
                            (crash.module.empty() ? "the program" : crash.module) +
                                " has crashed: " + crash.signal,
                            crash.module);
+    FinishFiles();
+  }
+
+  // While anything may still use them.
+  void FinishFiles() {
     FlushLog();
     AppendToLogFile();
     for (const auto& extension : application_.extensions()) extension->OnCrash();
@@ -194,6 +209,7 @@ class Session {
   const RunControl& control_;
   RunReport& report_;
   ProgressDisplay display_;
+  std::mutex printing_;  // before the next one
   std::mutex log_file_mutex_;
   std::optional<LogFile> log_file_;
   bool input_has_ended_ = false;
@@ -220,14 +236,14 @@ ApplicationOptions OptionsOf(const RunArguments& arguments) {
 }
 
 // A thread that does not end can be left, but what it uses cannot be destroyed: the process ends without.
-void LeaveIfStuck(Application& application, ExitCode code) {
+void LeaveIfStuck(Application& application) {
   const auto stuck = application.scheduler().StuckModules();
   if (stuck.empty()) return;
   for (const StuckModule& each : stuck) {
     PrintError({.message = "has still not returned; the program ends without it", .path = each.path});
   }
-  const bool is_written = FinishOutput();
-  std::_Exit(static_cast<int>(is_written || code != ExitCode::kDone ? code : ExitCode::kRunFailed));
+  (void)FinishOutput();
+  std::_Exit(static_cast<int>(ExitCode::kRunFailed));
 }
 
 // What the file would be refused for, if it were loaded now.
@@ -272,7 +288,7 @@ RunOutcome RunOnce(const RunArguments& arguments) {
   for (const auto& extension : application->extensions()) std::cout << extension->StartText();
   std::cout << std::flush;
   const ExitCode code = Session(arguments, *application, *control).Run();
-  LeaveIfStuck(*application, code);
+  LeaveIfStuck(*application);
   // Who has sent a signal wants it to end, whoever wants it to begin again.
   return {code, control->shall_restart() && !StopSignal::has_come()};
 }

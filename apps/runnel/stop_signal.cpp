@@ -9,16 +9,16 @@ namespace {
 
 std::atomic<Scheduler*> to_be_stopped{nullptr};
 std::atomic<int> handlers{0};  // that are under way, in whichever thread
-std::atomic<bool> signal_has_come{false};
+std::atomic<int> signals{0};   // that have come
 static_assert(std::atomic<Scheduler*>::is_always_lock_free, "a signal handler must not lock");
 
-// The first one stops the run; those that come after it end the program.
+// The first one stops the run, the second has the program end in order, the third ends it at once.
 void Handle(int) {
-  signal_has_come.store(true);
+  const bool is_last = signals.fetch_add(1) > 0;
   for (const int signal : StopSignal::kSignals) {
     struct sigaction current {};
     sigaction(signal, nullptr, &current);
-    if (current.sa_handler == Handle) std::signal(signal, SIG_DFL);
+    if (is_last && current.sa_handler == Handle) std::signal(signal, SIG_DFL);
   }
   // All of them seq_cst: either the destructor sees this handler, or this sees that there is nothing to
   // stop any more.
@@ -30,7 +30,7 @@ void Handle(int) {
 }  // namespace
 
 StopSignal::StopSignal(Scheduler& scheduler) {
-  signal_has_come.store(false);
+  signals.store(0);
   to_be_stopped.store(&scheduler);
   struct sigaction action {};
   action.sa_handler = Handle;
@@ -47,6 +47,8 @@ StopSignal::~StopSignal() {
   while (handlers.load() != 0) std::this_thread::yield();
 }
 
-bool StopSignal::has_come() noexcept { return signal_has_come.load(); }
+bool StopSignal::has_come() noexcept { return signals.load() > 0; }
+
+bool StopSignal::has_come_again() noexcept { return signals.load() > 1; }
 
 }  // namespace runnel::program

@@ -15,6 +15,9 @@ namespace {
 
 using ClockKind = SchedulerOptions::ClockKind;
 
+// A module that does not return from its cycle for so long is told as stuck, unless somebody says otherwise.
+constexpr Duration kStuckAfter = std::chrono::seconds(1);
+
 Error Refusal(const char* message, const char* option) {
   return {.message = message,
           .hint = std::string("leave out ") + option +
@@ -64,6 +67,7 @@ Result<void> Application::Parts::Schedule() {
   if (auto possible = Choose(options(), made); !possible) return possible;
   scheduler.emplace(runtime(), made);
   if (options().is_profiled) scheduler->SetProfiled(true);
+  (void)scheduler->SetStuckLimit("", kStuckAfter);
   editor.emplace(runtime(), plugins().modules(), &*scheduler);
   history.emplace(*editor);
   supervisor.emplace(runtime(), *scheduler, [this](const ChangeSet& changes) -> Result<void> {

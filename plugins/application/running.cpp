@@ -117,6 +117,7 @@ Result<Duration> Application::Parts::RunCycles(std::optional<Duration> limit, bo
 void Application::Attend() {
   using Kind = ApplicationEvent::Kind;
   Parts& parts = *parts_;
+  const std::lock_guard one_at_a_time(parts.attending);
   FrameworkElement& root = parts.runtime().root();
   FlushLog();
   // Not before the start, which only shows what the system refuses to real-time threads.
@@ -184,6 +185,11 @@ Result<void> Application::MakeReady() {
 
 void Application::NoteStart() {
   parts_->scheduler->pace().Begin();
+  // The thread that steps looks around itself, unless one of its modules is stuck.
+  parts_->scheduler->SetStuckListener([this] {
+    parts_->supervisor->KeepSafe();
+    Attend();
+  });
   if (std::exchange(parts_->has_started, true)) return;
   for (const auto& extension : parts_->extensions()) extension->OnStart();
 }
@@ -224,6 +230,7 @@ Result<void> Application::Start() {
 void Application::Stop() {
   parts_->Join();
   if (!parts_->scheduler) return;  // it has not been loaded
+  parts_->scheduler->SetStuckListener({});
   parts_->scheduler->Stop();
   parts_->is_running = false;
 }

@@ -19,6 +19,7 @@ XmlTagRegistry ApplicationTags() {
     tags.AddAttribute(ConfigurationAttribute(tag));
     tags.AddAttribute(TagsAttribute(tag));
   }
+  for (const char* tag : {"application", "thread"}) tags.AddAttribute(StuckAfterAttribute(tag));
   return tags;
 }
 

@@ -8,6 +8,7 @@ Result<void> AddRules(const FrameworkElement& application, Scheduler& scheduler,
                       Supervisor& supervisor) {
   const auto* const rules = application.FindAnnotation<RunRules>();
   if (rules == nullptr) return {};
+  for (const auto& [of, after] : rules->stuck_limits) (void)scheduler.SetStuckLimit(of, after);
   for (const FaultRule& rule : rules->fault_rules) scheduler.AddFaultRule(rule);
   for (const auto& [rule, position] : rules->stale_rules) {
     if (auto added = supervisor.Add(rule); !added) {

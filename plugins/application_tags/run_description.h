@@ -23,6 +23,8 @@ struct RunRules final : Annotation {
   std::vector<PauseReaction> pause_reactions;
   std::vector<StopButtonRule> stop_buttons;
   std::vector<LatencyRequest> latencies;
+  /// Of the application and of threads; the path of the application is left out.
+  std::vector<std::pair<std::string, Duration>> stuck_limits;
   bool is_profiled = false;
 };
 

@@ -34,7 +34,9 @@ namespace runnel {
 [[nodiscard]] XmlTag ThreadTag();
 /// thread="control", of <application>, <group> and <module>.
 [[nodiscard]] AddedAttribute ThreadAttribute(std::string tag);
-/// tags="safety hidden", of the same.
+/// stuck_after="2s", of <application> and <thread>.
+[[nodiscard]] AddedAttribute StuckAfterAttribute(std::string tag);
+/// tags="safety hidden", of <application>, <group> and <module>.
 [[nodiscard]] AddedAttribute TagsAttribute(std::string tag);
 
 /// config="/car/left", of the same.

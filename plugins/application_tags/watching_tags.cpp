@@ -53,18 +53,37 @@ void AddStopButton(const TagUse& use) {
 
 void BeginProfile(const TagUse& use) { internal::RunRulesAround(use.parent).is_profiled = true; }
 
+// Of a thread or of the whole application. Nobody changes it while the application runs, so the file keeps it.
+void LimitStuck(const XmlAttribute& after, FrameworkElement& element, BuildContext&) {
+  const bool is_application = element.parent()->parent() == nullptr;
+  internal::RunRulesAround(element).stuck_limits.emplace_back(is_application ? "" : element.path(),
+                                                              ParseDuration(after.value).value());
+}
+
 }  // namespace
 
+AddedAttribute StuckAfterAttribute(std::string tag) {
+  return {.tag = std::move(tag),
+          .rule = {.name = "stuck_after",
+                   .kind = AttributeKind::kDuration,
+                   .summary = "a module that does not return from its cycle for so long is told as "
+                              "stuck, by the machine's "
+                              "clock; without it, 1s"},
+          .handle = LimitStuck};
+}
+
 XmlTag OnStuckTag() {
-  return {.name = "on_stuck",
-          .summary = "what happens when a module does not return from its cycle, on the real clock; it is told of in any case",
-          .parents = {"application", "group"},
-          .attributes = {PathRule("of", true, "a module, or a group of which any module may be stuck"),
-                         {.name = "after",
-                          .kind = AttributeKind::kDuration,
-                          .required = true,
-                          .summary = "the longest time in one cycle, by the machine's clock"}},
-          .handle = InTheEnd<AddWatch>};
+  return {
+      .name = "on_stuck",
+      .summary =
+          "what happens when a module does not return from its cycle; it is told of in any case",
+      .parents = {"application", "group"},
+      .attributes = {PathRule("of", true, "a module, or a group of which any module may be stuck"),
+                     {.name = "after",
+                      .kind = AttributeKind::kDuration,
+                      .required = true,
+                      .summary = "the longest time in one cycle, by the machine's clock"}},
+      .handle = InTheEnd<AddWatch>};
 }
 XmlTag OnPauseTag() {
   return {.name = "on_pause",

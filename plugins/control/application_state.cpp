@@ -20,6 +20,17 @@ std::string StopText(Runtime& runtime) {
   return fmt::format("STOP in force for {:.0f} s, by {}", ToSeconds(runtime.clock().Now() - stop.since), stop.by);
 }
 
+std::string DrivingText(Runtime& runtime) {
+  const std::unique_lock lock(runtime.structure_mutex(), std::try_to_lock);
+  if (!lock) return "which ports drive cannot be told while the structure is being changed";
+  std::string paths;
+  runtime.root().Visit([&](FrameworkElement& each) {
+    const auto* const port = dynamic_cast<const Port*>(&each);
+    if (port != nullptr && port->is_driving()) paths += (paths.empty() ? "" : ", ") + port->path();
+  });
+  return paths.empty() ? "warning: no port of this application is marked as driving, so nothing has its safe value" : "what drives: " + paths;
+}
+
 std::string StateText(const ServedApplication& application) {
   std::string text = "running";
   if (application.pace != nullptr && application.pace->is_paused()) text = "paused";
@@ -50,6 +61,7 @@ std::string StateText(const ServedApplication& application) {
     if (count > 0) text += ", " + std::to_string(count) + (count == 1 ? one : many);
   };
   add(StoppedModules(root, *application.scheduler, nullptr).size(), " module FAILED", " modules FAILED");
+  add(application.scheduler->StuckModules().size(), " module STUCK", " modules STUCK");
   add(paused, " module PAUSED", " modules PAUSED");
   add(blocked, " port BLOCKED", " ports BLOCKED");
   add(by_hand, " port set by hand", " ports set by hand");

@@ -19,6 +19,9 @@ class ThreadContainer;
 /// "STOP in force for 4 s, by a terminal"; "" if it is not. Any thread.
 [[nodiscard]] std::string StopText(Runtime& runtime);
 
+/// "what drives: /drive/input/twist", or that nothing is marked so; as StateText() while the structure is locked.
+[[nodiscard]] std::string DrivingText(Runtime& runtime);
+
 /// Whether its cycles often take longer than their period.
 [[nodiscard]] bool Overruns(const ThreadContainer& thread);
 

@@ -38,6 +38,8 @@ class ClientConnection final : private Answer {
   /// Sends a frame, behind what is still to be sent.
   void Send(std::string_view kind, std::string_view payload);
   void SendEnd(ControlCode code);
+  /// Every other request is refused, for this reason.
+  void AllowOnlyStop(Error why) { why_only_stop_ = std::move(why); }
   /// Says why, and sends no more after what is still to be sent.
   void Refuse(const Error& error);
 
@@ -68,6 +70,7 @@ class ClientConnection final : private Answer {
   bool is_broken_ = false;   // the client has gone
   bool is_refused_ = false;
   bool may_have_request_ = false;  // among what has been read
+  std::optional<Error> why_only_stop_;
   SteadyTime quiet_since_ = std::chrono::steady_clock::now();
 };
 

@@ -46,9 +46,11 @@ const std::vector<CommandKind>& Kinds() {
       {"deadline", 0, 2, {}, MakeDeadlineCommand, Needs::kScheduler},
       {"reload", 1, 1, {}, MakeServiceCommand},
       {"restart", 0, 1, {}, MakeServiceCommand},
-      {"stop", 0, 1, {}, MakeServiceCommand},
-      {"publish", 1, 2, {"rate", "deadline", "stop"}, MakeServiceCommand},
+      {"stop", 0, 0, {}, MakeServiceCommand},
       {"release", 0, 1, {}, MakeServiceCommand},
+      {"block", 1, 1, {}, MakeServiceCommand},
+      {"quit", 0, 0, {}, MakeServiceCommand},
+      {"publish", 2, 2, {"rate", "deadline"}, MakeServiceCommand},
       {"call", 1, 2, {"timeout"}, MakeCallCommand},
       {"network", 0, 0, {}, MakeNetworkCommand},
       {"activities", 0, 1, {"all", "abort"}, MakeActivitiesCommand},
@@ -58,6 +60,14 @@ const std::vector<CommandKind>& Kinds() {
 }
 
 Result<void> CheckArguments(const Request& request, const CommandKind& kind) {
+  // In this version, what clients of before ask for.
+  if (kind.name == "stop" && !request.arguments.empty()) {
+    return Error{.message = "'stop' has no path any more: it is the STOP of the robot",
+                 .hint = "'pause PATH' leaves modules out of cycles, 'block PORT' stops one port"};
+  }
+  if (kind.name == "publish" && request.Has("stop")) {
+    return Error{.message = "'publish PORT stop=yes' is called otherwise now", .hint = "'block PORT'"};
+  }
   if (request.arguments.size() < kind.least_arguments) {
     const bool lacks_value = kind.least_arguments > 1 && !request.arguments.empty();
     return Error{.message = "'" + kind.name + "' wants " + (lacks_value ? "a value" : "a path")};

@@ -25,14 +25,6 @@ Error Lost(const std::string& why) {
   return {.message = "the connection to the application is lost: " + why};
 }
 
-// How long reading waits; 0: for ever.
-void SetPatience(int descriptor, Duration timeout) {
-  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(timeout);
-  const auto rest = std::chrono::ceil<std::chrono::microseconds>(timeout - seconds);
-  const timeval wait{.tv_sec = seconds.count(), .tv_usec = rest.count()};
-  setsockopt(descriptor, SOL_SOCKET, SO_RCVTIMEO, &wait, sizeof wait);
-}
-
 std::string Described(const RunningApplication& application) {
   return application.hello.application + " (" + std::to_string(application.hello.process) + ")";
 }
@@ -55,9 +47,9 @@ Result<ControlClient> ControlClient::Connect(const std::filesystem::path& socket
   const auto descriptor = ConnectToSocket(socket);
   if (!descriptor) return descriptor.error();
   ControlClient client(*descriptor);
-  SetPatience(*descriptor, timeout);
+  client.SetPatience(timeout);
   const auto frame = client.Receive();
-  SetPatience(*descriptor, {});
+  client.SetPatience({});
   if (!frame) return frame.error();
   if (frame->kind == "err") return Error{.message = frame->payload};
   auto hello = frame->kind == "hello" ? Hello::Parse(frame->payload) : Hello::Parse("");
@@ -112,6 +104,13 @@ Result<int> ControlClient::Ask(const std::string& request, const Use& output, co
 void ControlClient::WaitForEnd() {
   while (Receive()) {
   }
+}
+
+void ControlClient::SetPatience(Duration timeout) noexcept {
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(timeout);
+  const auto rest = std::chrono::ceil<std::chrono::microseconds>(timeout - seconds);
+  const timeval wait{.tv_sec = seconds.count(), .tv_usec = rest.count()};
+  setsockopt(descriptor_, SOL_SOCKET, SO_RCVTIMEO, &wait, sizeof wait);
 }
 
 void ControlClient::EndRequests() noexcept { shutdown(descriptor_, SHUT_WR); }

@@ -23,6 +23,8 @@ class ControlClient {
   ControlClient(ControlClient&& other) noexcept;
   ControlClient& operator=(ControlClient&&) = delete;
 
+  /// How long each answer is waited for from now on; 0: for ever.
+  void SetPatience(Duration timeout) noexcept;
   [[nodiscard]] const Hello& hello() const noexcept { return hello_; }
 
   /// Where an answer goes, as it comes. False: the answer is not wanted any more.

@@ -29,6 +29,8 @@ namespace {
 
 // A client that has been quiet for so long makes room for another one, if there is no other room.
 constexpr auto kQuiet = std::chrono::seconds(5);
+// Clients besides the others who can press STOP, and nothing else.
+constexpr std::size_t kKeptForStop = 8;
 // After accepting has failed, for want of descriptors.
 constexpr int kPauseMilliseconds = 100;
 
@@ -126,10 +128,13 @@ class ControlServer::Loop {
     auto client = std::make_unique<ClientConnection>(descriptor, options_.longest_request);
     if (!IsOwner(descriptor)) return;
     if (clients_.size() >= options_.most_clients && !EvictQuietClient()) {
-      client->Refuse({.message = "there are " + std::to_string(clients_.size()) +
-                                 " clients already, and all are busy"});
-      client->Finish();
-      return;
+      const Error full{.message = "there are " + std::to_string(options_.most_clients) +
+                                  " clients already, and all are busy"};
+      if (clients_.size() >= options_.most_clients + kKeptForStop) {
+        client->Refuse(full);
+        return client->Finish();
+      }
+      client->AllowOnlyStop(full);
     }
     client->Send("hello", HelloText());
     clients_.push_back(std::move(client));

@@ -7,10 +7,15 @@ namespace runnel {
 
 namespace {
 
+std::string LimitText(Duration after) {
+  return after > Duration{} ? ": at most " + DurationText(after) + " in a cycle\n"
+                            : ": no deadline\n";
+}
+
 std::string StuckText(const Scheduler& scheduler) {
   std::string text;
   for (const StuckRule& rule : scheduler.StuckRules()) {
-    text += rule.of + ": at most " + DurationText(rule.after) + " in a cycle\n";
+    text += (rule.of.empty() ? "all others" : rule.of) + LimitText(rule.after);
   }
   if (text.empty()) text = "no module has a deadline\n";
   for (const StuckModule& stuck : scheduler.StuckModules()) {
@@ -35,9 +40,6 @@ CommandResult MakeDeadlineCommand(const Request& request, const CommandContext& 
     return Error{.message = "'deadline PATH' wants a time",
                  .hint = "for example 200ms; off: modules may take as long as they like"};
   }
-  if (scheduler.options().clock == SchedulerOptions::ClockKind::kSimulated) {
-    return Error{.message = "on a simulated clock modules take as long as they take"};
-  }
   Duration after{};
   if (request.arguments[1] != "off") {
     const auto time = ParseDuration(request.arguments[1]);
@@ -52,9 +54,7 @@ CommandResult MakeDeadlineCommand(const Request& request, const CommandContext& 
     if (auto set = scheduler.SetStuckLimit((*found)->path(), after); !set) {
       return Refuse(answer, set.error());
     }
-    answer.Write((*found)->path() + (after > Duration::zero()
-                                         ? ": at most " + DurationText(after) + " in a cycle\n"
-                                         : ": no deadline\n"));
+    answer.Write((*found)->path() + LimitText(after));
     return ControlCode::kDone;
   }));
 }

@@ -32,8 +32,8 @@ NetworkElement* FindNetwork(Runtime& runtime) {
   return nullptr;
 }
 
-bool Stops(const ExtensionChange& change) {
-  return std::ranges::any_of(change.settings, [](const Setting& each) { return each.parameter == "stop" && each.value == "true"; });
+bool Removes(const ExtensionChange& change) {
+  return std::ranges::any_of(change.settings, [](const Setting& each) { return each.parameter == "remove" && each.value == "true"; });
 }
 
 std::string SaidIn(const ExtensionChange& change, std::string_view name) {
@@ -44,8 +44,11 @@ std::string SaidIn(const ExtensionChange& change, std::string_view name) {
 // `ports`: the attributes that are no options, but words of the change.
 Result<void> CheckWords(const ExtensionChange& change, std::vector<AttributeRule> rules, const std::vector<std::string>& ports) {
   std::erase_if(rules, [&](const AttributeRule& each) { return std::ranges::count(ports, each.name) > 0; });
-  rules.push_back({.name = "stop", .kind = AttributeKind::kChoice, .choices = {"false", "true"}});
+  rules.push_back({.name = "remove", .kind = AttributeKind::kChoice, .choices = {"false", "true"}});
   for (const Setting& each : change.settings) {
+    if (each.parameter == "stop") {  // of before
+      return Error{.message = "'" + change.verb + " … stop' is called otherwise now", .hint = "'remove'"};
+    }
     const auto rule = std::ranges::find(rules, each.parameter, &AttributeRule::name);
     if (rule == rules.end()) {
       std::vector<std::string> names;
@@ -82,9 +85,9 @@ ExtensionStep StepOf(NetworkElement& network, const ExtensionChange& change, std
     const auto then = next(now);
     if (!then) return {};  // the step is not applied
     ExtensionChange back{change.verb, change.words, change.settings, std::make_shared<OffersBefore>(OffersBefore{*then, now})};
-    const bool stops = Stops(change);
-    std::erase_if(back.settings, [](const Setting& each) { return each.parameter == "stop"; });
-    if (!stops) back.settings.push_back({"stop", "true"});
+    const bool removes = Removes(change);
+    std::erase_if(back.settings, [](const Setting& each) { return each.parameter == "remove"; });
+    if (!removes) back.settings.push_back({"remove", "true"});
     return {std::move(back)};
   };
   return step;
@@ -109,17 +112,17 @@ Result<ExtensionStep> CheckOffer(NetworkElement& network, const ExtensionChange&
     return Error{.message = "is an input, which has no values of its own", .path = path, .hint = "offer what feeds it"};
   }
   const OfferOptions offer = OfferSaid([&](const char* name) { return SaidIn(change, name); });
-  const bool stops = Stops(change);
-  if (!stops) {
+  const bool removes = Removes(change);
+  if (!removes) {
     if (const auto is_own = network.CheckIsOwn(**port); !is_own) return is_own.error();
     const auto form = ValueForm::Make((*port)->type(), offer.as, offer.frame, offer.child_frame, network.options().messages.get());
     if (!form) return form.error();
     if (const auto fits = CheckTopicType(network, **port, offer, **form); !fits) return fits.error();
     if (const auto wrong = WhatIsWrong(offer)) return *wrong;
   }
-  return StepOf(network, change, [&network, path, offer, stops](const Offers& offers) -> Result<Offers> {
+  return StepOf(network, change, [&network, path, offer, removes](const Offers& offers) -> Result<Offers> {
     OfferList list{network.options().member.name, offers};
-    const auto changed = stops ? list.Remove(path, offer.topic) : list.Add(path, offer);
+    const auto changed = removes ? list.Remove(path, offer.topic) : list.Add(path, offer);
     return changed ? Result<Offers>(std::move(list.offers)) : changed.error();
   });
 }
@@ -132,7 +135,7 @@ Result<ExtensionStep> CheckTake(NetworkElement& network, const ExtensionChange& 
   const auto to = find(change.words[1], PathKind::kInput);
   if (!to) return to.error();
   ExtensionStep step;
-  if (Stops(change)) {
+  if (Removes(change)) {
     std::vector<std::string> topics;
     for (const NetworkElement::Take& each : network.takes()) {
       topics.push_back(each.options.topic);

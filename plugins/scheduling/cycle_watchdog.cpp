@@ -13,7 +13,7 @@ namespace runnel {
 namespace {
 
 constexpr Duration kShortestInterval = std::chrono::milliseconds(1);
-constexpr Duration kLongestInterval = std::chrono::milliseconds(250);
+constexpr Duration kLongestInterval = std::chrono::milliseconds(100);
 constexpr int kLooksInTime = 4;
 
 Time Now() { return SteadyClock().Now(); }
@@ -32,7 +32,9 @@ void CycleWatchdog::SetLimit(const std::string& of, Duration after) {
   {
     const std::lock_guard lock(mutex_);
     std::erase_if(rules_, [&](const auto& each) { return each->is_limit && each->rule.of == of; });
-    if (after > Duration{}) {
+    const bool has_default =
+        std::ranges::any_of(rules_, [](const auto& each) { return each->IsDefault(); });
+    if (after > Duration{} || has_default) {
       rules_.push_back(
           std::make_shared<KnownRule>(KnownRule{{.of = of, .after = after}, true}));
     }
@@ -98,7 +100,9 @@ void CycleWatchdog::End() {
 // Under the mutex.
 Duration CycleWatchdog::Interval() const {
   Duration shortest = kLongestInterval * kLooksInTime;
-  for (const auto& each : rules_) shortest = std::min(shortest, each->rule.after);
+  for (const auto& each : rules_) {
+    if (each->rule.after > Duration{}) shortest = std::min(shortest, each->rule.after);
+  }
   return std::max(shortest / kLooksInTime, kShortestInterval);
 }
 
@@ -110,8 +114,28 @@ void CycleWatchdog::Run() {
       has_changed_.wait(lock, is_woken);
     } else if (!has_changed_.wait_for(lock, Interval(), is_woken)) {
       Look(Now());
+      if (std::ranges::all_of(watched_, [](const Watched& each) { return each.fired.empty(); }))
+        continue;
+      lock.unlock();
+      {
+        const std::lock_guard listening(listening_);
+        if (listener_) listener_();
+      }
+      lock.lock();
     }
   }
+}
+
+void CycleWatchdog::SetListener(std::function<void()> listener) {
+  const std::lock_guard listening(listening_);
+  listener_ = std::move(listener);
+}
+
+bool CycleWatchdog::IsAbout(const KnownRule& known, const std::string& path,
+                            const std::string& thread) const {
+  if (!known.IsDefault()) return thread == known.rule.of || IsAtOrBelow(path, known.rule.of);
+  return std::ranges::none_of(
+      rules_, [&](const auto& each) { return !each->IsDefault() && IsAbout(*each, path, thread); });
 }
 
 void CycleWatchdog::Look(Time now) {
@@ -128,14 +152,16 @@ void CycleWatchdog::Look(Watched& watched, Time now) {
   }
   const Duration since = now - watched.seen;
   for (const auto& known : rules_) {
-    if (since < known->rule.after || std::ranges::count(watched.fired, known) > 0) continue;
+    const Duration after = known->rule.after;
+    if (after == Duration{} || since < after || std::ranges::count(watched.fired, known) > 0)
+      continue;
     const auto path = ScheduledElement::PathOf(state.element);
-    if (!path || !IsAtOrBelow(*path, known->rule.of)) continue;
+    if (!path || !IsAbout(*known, *path, watched.runner->path())) continue;
     watched.path = *path;
     watched.fired.push_back(known);
     Tell(watched, Fault::Kind::kStuck,
          "has not returned from its cycle for " + DurationText(since) + "; at most " +
-             DurationText(known->rule.after) + " is allowed",
+             DurationText(after) + " is allowed",
          known->rule.on_stuck);
   }
 }

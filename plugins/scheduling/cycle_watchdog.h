@@ -17,8 +17,9 @@ namespace runnel {
 
 /// How long a module may take for one run of a task, and what is done when it takes longer.
 struct StuckRule {
-  std::string of = "/";  ///< path: this element and all below it
-  Duration after{};      ///< of the machine's clock; > 0
+  std::string of =
+      "/";  ///< path: this element and all below it, or all that a thread of this path runs
+  Duration after{};  ///< of the machine's clock; 0: it may take as long as it likes
   /// Called as a FaultRule's are, once for each run that takes too long ...
   std::function<void(const Fault&)> on_stuck = {};
   /// ... and when it has come to its end after all.
@@ -32,7 +33,7 @@ struct StuckModule {
   Duration since{};    ///< at least
 };
 
-/// Looks at what the threads of real time are running, and names who does not return: as a fault (kStuck) for each
+/// Looks at what the threads of either clock are running, and names who does not return: as a fault (kStuck) for each
 /// rule, while it is stuck.
 ///
 /// Cycles note the element that they run by plain stores. A thread of this class compares what it finds from look to
@@ -50,8 +51,11 @@ class CycleWatchdog {
 
   /// Counts from the next look on. Precondition: after > 0.
   void Add(StuckRule rule);
-  /// A time for all at and below `of` that is only told of, in the place of one that was set so before; zero: none.
+  /// A time for all at and below `of` that is only told of, in the place of one that was set so before. "": for all of
+  /// which no other rule says anything. Zero: none.
   void SetLimit(const std::string& of, Duration after);
+  /// Is called again and again while a module is stuck, by the watchdog's thread. Waits for the one before.
+  void SetListener(std::function<void()> listener);
   /// All of the rules, those of SetLimit() too.
   [[nodiscard]] std::vector<StuckRule> rules() const;
   [[nodiscard]] bool has_rules() const;
@@ -69,6 +73,7 @@ class CycleWatchdog {
   struct KnownRule {
     StuckRule rule;
     bool is_limit = false;  // by SetLimit()
+    [[nodiscard]] bool IsDefault() const { return rule.of.empty(); }
   };
   // What one runner runs, as of the last look.
   struct Watched {
@@ -82,6 +87,8 @@ class CycleWatchdog {
   void Run();
   void Look(Time now);
   void Look(Watched& watched, Time now);
+  [[nodiscard]] bool IsAbout(const KnownRule& known, const std::string& path,
+                             const std::string& thread) const;
   void Return(Watched& watched, Time now);
   void Tell(const Watched& watched, Fault::Kind kind, std::string message,
             const std::function<void(const Fault&)>& call);
@@ -99,6 +106,8 @@ class CycleWatchdog {
   bool is_running_ = false;
   bool looks_anew_ = false;
   std::thread thread_;
+  std::mutex listening_;            // not under mutex_
+  std::function<void()> listener_;  // guarded by listening_
 };
 
 }  // namespace runnel

@@ -41,6 +41,18 @@ void FaultDispatcher::Raise(std::unique_ptr<FaultRecord> record) noexcept {
 void FaultDispatcher::Dispatch() {
   // relaxed: only whether there is something; simulated time asks in each step.
   if (raised_.load(std::memory_order_relaxed) == nullptr) return;
+  // acquire, release: what the thread before has done is seen.
+  if (is_dispatching_.exchange(true, std::memory_order_acquire)) return;
+  try {
+    DispatchAlone();
+  } catch (...) {
+    is_dispatching_.store(false, std::memory_order_release);
+    throw;
+  }
+  is_dispatching_.store(false, std::memory_order_release);
+}
+
+void FaultDispatcher::DispatchAlone() {
   // acquire: pairs with the release in Raise().
   FaultRecord* newest = raised_.exchange(nullptr, std::memory_order_acquire);
   FaultRecord* oldest = nullptr;

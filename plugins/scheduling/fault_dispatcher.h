@@ -48,7 +48,8 @@ class FaultDispatcher {
 
   void Raise(std::unique_ptr<FaultRecord> record) noexcept;
 
-  /// Applies the rules to what has been raised, in the order of raising, and logs it.
+  /// Applies the rules to what has been raised, in the order of raising, and logs it. Nothing while another thread
+  /// is about it.
   void Dispatch();
   /// Logs the fault and applies the rules to it, at once. Outside of cycles.
   void Report(const Fault& fault);
@@ -85,6 +86,7 @@ class FaultDispatcher {
   [[nodiscard]] WakeEvent& event() noexcept { return event_; }
 
  private:
+  void DispatchAlone();
   void Answer(const FaultRecord& record);
   void Log(Fault fault);
   [[nodiscard]] std::optional<std::string> Handle(const Fault& fault);
@@ -92,6 +94,7 @@ class FaultDispatcher {
 
   // A stack that is only ever pushed to and taken as a whole, so no address can come back to life.
   std::atomic<FaultRecord*> raised_{nullptr};
+  std::atomic<bool> is_dispatching_{false};
   std::atomic<bool> stop_requested_{false};
   std::atomic<bool> stopped_by_fault_{false};
   WakeEvent event_;

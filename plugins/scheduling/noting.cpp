@@ -23,6 +23,13 @@ void Scheduler::AddStuckRule(StuckRule rule) {
   UpdateInstruments();
 }
 
+void Scheduler::SetStuckListener(std::function<void()> listener) {
+  cycle_watchdog_.SetListener([this, listener = std::move(listener)] {
+    faults_.Dispatch();
+    if (listener) listener();
+  });
+}
+
 Result<void> Scheduler::SetStuckLimit(const std::string& of, Duration after) {
   if (after < Duration::zero()) {
     return Error{.message = "a time that a module may take is positive", .path = of};

@@ -27,10 +27,14 @@ Scheduler::Scheduler(Runtime& runtime, SchedulerOptions options)
     : runtime_(runtime),
       options_(std::move(options)),
       clock_before_(runtime.clock()),
+      cycle_watchdog_(faults_, IsSimulated(options_) ? simulation_.clock() : clock_before_),
       pace_(IsSimulated(options_), options_.speed, options_.is_paused, machine_,
             IsSimulated(options_) && options_.follows_outside_clock),
       compiler_(options_.default_thread, options_.tracer, options_.watch) {
-  if (IsSimulated(options_)) runtime_.set_clock(simulation_.clock());
+  if (IsSimulated(options_)) {
+    runtime_.set_clock(simulation_.clock());
+    SetStuckListener({});
+  }
   runtime_.AddListener(*this);
 }
 
@@ -155,7 +159,11 @@ void Scheduler::FollowChanges() {
   const std::lock_guard lock(runtime_.structure_mutex());
   has_stepped_ = true;
   BringUpToDate();
-  if (std::exchange(has_other_runners_, false)) simulation_.SetRunners(runners_);
+  if (std::exchange(has_other_runners_, false)) {
+    simulation_.SetRunners(runners_);
+    cycle_watchdog_.Follow(runners_);
+  }
+  cycle_watchdog_.Begin();
   simulation_.FollowOptions();
   has_changes_.store(false, std::memory_order_relaxed);
 }

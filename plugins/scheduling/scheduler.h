@@ -149,14 +149,18 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   };
   [[nodiscard]] std::optional<Progress> ProgressOf(const std::string& path);
 
-  /// kReal: names modules that do not return from their cycles in time; see CycleWatchdog. On a simulated clock nothing
-  /// comes of it.
+  /// Names modules that do not return from their cycles in time; see CycleWatchdog. On a simulated clock the watchdog's
+  /// thread does what the rule says, as the one that steps is stuck.
   void AddStuckRule(StuckRule rule);
-  /// Names all at or below `of` that take longer than `after`; zero: no more. Errors: a negative time.
+  /// Names all at or below `of` that take longer than `after`; "": all that no other rule is about; zero: no more.
+  /// Errors: a negative time.
   Result<void> SetStuckLimit(const std::string& of, Duration after);
   [[nodiscard]] std::vector<StuckRule> StuckRules() const { return cycle_watchdog_.rules(); }
   /// Those that are stuck now, also after Stop().
   [[nodiscard]] std::vector<StuckModule> StuckModules() const { return cycle_watchdog_.Stuck(); }
+  /// kSimulated: is called again and again while a module is stuck, by another thread than the one that steps, which
+  /// cannot. Waits for a call that is under way.
+  void SetStuckListener(std::function<void()> listener);
 
   /// How long each task takes is measured from now on, or no more unless a ProfileUse lives. What is measured begins at
   /// nothing whenever the measuring begins.
@@ -191,6 +195,9 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   [[nodiscard]] std::vector<std::string> PausedPaths() const;
   /// Whether cycles leave out any module at or below the element; what this path pauses does not count, if it is given.
   [[nodiscard]] bool IsPaused(FrameworkElement& element, std::string_view but_for = {}) const;
+  /// Why nothing new comes from the module that has the element, as "/planner is paused": it has failed, or its thread is
+  /// stuck. "": it runs. Under the structure lock.
+  [[nodiscard]] std::string WhyAtRest(const FrameworkElement& element) const;
   /// Errors: no such element; it is not this path that has been paused.
   [[nodiscard]] Result<void> CheckPaused(std::string_view path) const;
 
@@ -265,7 +272,7 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   FaultDispatcher faults_;
   SimulatedExecutor simulation_{faults_};
   SteadyClock machine_;
-  CycleWatchdog cycle_watchdog_{faults_, clock_before_};
+  CycleWatchdog cycle_watchdog_;
   Pace pace_;
   Backpressure backpressure_;
 

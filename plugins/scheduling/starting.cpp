@@ -116,6 +116,8 @@ bool Scheduler::EndAll() noexcept {
   for (const auto& thread : ended) thread->RequestStop();
   EndThreads(ended);
   cycle_watchdog_.End();
+  has_changes_.store(true,
+                     std::memory_order_relaxed);  // so that it begins again with the next step
   EndSupervision();
   const std::lock_guard lock(runtime_.structure_mutex());
   ending_.swap(ended);

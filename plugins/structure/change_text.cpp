@@ -232,8 +232,8 @@ constexpr std::array<Verb, 14> kVerbs{{
     {"move", "move PATH to THREAD", ReadMove},
     {"tag", "tag PATH [WORD ...]", ReadTag},
     {"log", "log PATH debug|info|warning|error|off|inherit", ReadLog},
-    {"offer", "offer PORT [NAME=VALUE ...] [stop=true]", ReadExtension<1>},
-    {"take", "take TOPIC PORT [NAME=VALUE ...] [stop=true]", ReadExtension<2>},
+    {"offer", "offer PORT [NAME=VALUE ...] [remove=true]", ReadExtension<1>},
+    {"take", "take TOPIC PORT [NAME=VALUE ...] [remove=true]", ReadExtension<2>},
     {"schedule", "schedule THREAD [period=TIME] [activation=period|free_running|trigger] [priority=N] "
      "[on_overrun=skip|catch_up]", ReadSchedule},
 }};

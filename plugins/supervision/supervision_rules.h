@@ -49,7 +49,7 @@ struct FaultReaction {
   Reaction reaction;
 };
 
-/// A module that does not return from its cycle, on the real clock. It goes on when it returns.
+/// A module that does not return from its cycle. It goes on when it returns.
 struct StuckReaction {
   std::string of;    ///< path: this element and all below it
   Duration after{};  ///< stuck when one run of a task takes longer, on the machine's clock; > 0

@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -114,15 +115,37 @@ inline void WaitForFile(const std::string& file) {
   while (!file.empty() && !std::filesystem::exists(file)) std::this_thread::sleep_for(std::chrono::milliseconds(5));
 }
 
-/// Is made only when there is the file that its parameter names.
+/// Is made only when there is the file that its parameter names; until then there is another one, FILE.begun.
 class SlowToMake final : public Module {
  public:
-  explicit SlowToMake(const Placement& placement) : Module(placement) { WaitForFile(made_after.Get()); }
+  using Module::Module;
 
   StaticParameter<std::string> made_after{this, "made_after", {.default_value = ""}};
 
  private:
+  Result<void> Construct() override {
+    std::ofstream(made_after.Get() + ".begun") << "\n";
+    WaitForFile(made_after.Get());
+    return {};
+  }
   void Update() override {}
+};
+
+/// A motor, which moves by what it reads, and says when it begins to and when it stands.
+class Motor final : public Module {
+ public:
+  using Module::Module;
+
+  Input<double> speed{this, "speed", {.drives = true, .safe_value = AnyValue(0.0)}};
+
+ private:
+  void Update() override {
+    const bool moves = speed.Get() != 0;
+    if (moves != moves_) log().Warn("{}", moves ? "moves" : "stands");
+    moves_ = moves;
+  }
+
+  bool moves_ = false;
 };
 
 /// Judges a run, and throws in the function that the parameter names; finishes only when there is a file.

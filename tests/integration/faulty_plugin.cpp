@@ -9,6 +9,7 @@ RUNNEL_PLUGIN(faulty, registry) {
   registry.Add<FaultyRelay>("faulty/relay", "hands on, and fails after a while");
   registry.Add<FaultyWorker>("faulty/worker", "does nothing, and fails after a while");
   registry.Add<SlowToMake>("faulty/slow_to_make", "is made when there is a file");
+  registry.Add<Motor>("faulty/motor", "moves by what it reads");
   registry.Add<FaultyMonitor>("faulty/monitor", "judges the run, and fails at it");
   registry.Add<Counter>("faulty/counter", "counts, a value a cycle");
   registry.Add<Listener>("faulty/listener", "says what it reads first, and after a jump");

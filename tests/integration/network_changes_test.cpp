@@ -33,7 +33,7 @@ TEST_F(NetworkChanges, OffersComeAndGoAndAreUndoneAndSaved) {
   WaitForText("network --app other", "written /follower/gate/allowed");
   ASSERT_EQ(Runnel("offer --app follower /gate/allowed --topic /go --qos latched --sending after_cycle").code, kDone);
   WaitForText("network --app other", "written /go");
-  ASSERT_EQ(Runnel("offer --app follower /gate/allowed --topic /follower/gate/allowed --stop").code, kDone);
+  ASSERT_EQ(Runnel("offer --app follower /gate/allowed --topic /follower/gate/allowed --remove").code, kDone);
   WaitUntil("it is gone", [] { return Runnel("network --app other").text.find("/follower/gate/allowed") == std::string::npos; });
   ASSERT_EQ(Runnel("save --app follower").code, kDone);
   EXPECT_THAT(Read(file), AllOf(HasSubstr(R"(<offer ports="gate/* !/gate/allowed"/>)"),
@@ -70,8 +70,8 @@ TEST_F(NetworkChanges, MistakesAreToldAndNothingIsChanged) {
   EXPECT_THAT(told("offer --app follower /gate/allowed --sending after_cycle --rate 5"), HasSubstr("by the network's thread"));
   EXPECT_THAT(told("offer --app follower /gate/allowed --topic 'go there'"), HasSubstr("topic: "));
   EXPECT_THAT(told("offer --app follower /gate/allowed"), HasSubstr("is offered as /follower/gate/allowed already"));
-  EXPECT_THAT(told("offer --app follower /gate/allowed --topic /x --stop"), HasSubstr("is not offered as /x"));
-  EXPECT_THAT(told("take --app follower /x /gate/wanted --stop"), HasSubstr("'/x' is not taken"));
+  EXPECT_THAT(told("offer --app follower /gate/allowed --topic /x --remove"), HasSubstr("is not offered as /x"));
+  EXPECT_THAT(told("take --app follower /x /gate/wanted --remove"), HasSubstr("'/x' is not taken"));
   EXPECT_THAT(told("take --app follower /x /gate/wanted --as geometry_msgs/msg/Twst"), HasSubstr("did you mean"));
   const Program lonely("run " + Write("lonely", "  <module name=\"gate\" type=\"motion/command_gate\"/>\n  <connect from=\"gate/allowed\" to=\"gate/wanted\" late=\"true\"/>\n"));
   WaitForText("ps", "lonely");
@@ -91,7 +91,7 @@ TEST_F(NetworkChanges, TakesComeAndGoAndAreUndoneAndSaved) {
   EXPECT_THAT(Read(file), HasSubstr(R"(<take topic="/planner/planner/twist" to="gate/wanted" qos="newest"/>)"));
   EXPECT_EQ(Runnel("check " + file).code, kDone);
   EXPECT_EQ(Runnel("take --app follower /planner/planner/twist /gate/wanted --qos sensor").code, kBadInput);
-  ASSERT_EQ(Runnel("take --app follower /planner/planner/twist /gate/wanted --stop").code, kDone);
+  ASSERT_EQ(Runnel("take --app follower /planner/planner/twist /gate/wanted --remove").code, kDone);
   WaitUntil("nobody takes it", [] {
     return Runnel("network --app planner").text.find("read by follower") == std::string::npos;
   });

@@ -116,7 +116,7 @@ TEST_F(RunningTime, IsOverAtTheEndAndBeginsAgainWhenAsked) {
   EXPECT_EQ(again.code, kDone) << again.text;
   EXPECT_THAT(Runnel("ls /robot").text, HasSubstr("planner"));
   EXPECT_EQ(TraceText(), first) << "of the run before";
-  EXPECT_EQ(Runnel("stop").code, kDone);
+  EXPECT_EQ(Runnel("quit").code, kDone);
   const Ended ended = program.Wait();
   EXPECT_EQ(ended.code, kDone) << ended.text;
   EXPECT_TRUE(std::filesystem::exists(folder_ / "trace_2.json"));
@@ -143,7 +143,7 @@ TEST_F(RunningTime, OnlySaysSoWhenAnotherFileWouldBeOverwritten) {
   EXPECT_THAT(refused.text, HasSubstr("is the file of the application 'other', and would be lost"));
   EXPECT_EQ(Runnel("save " + other + " --overwrite").code, kDone);
   EXPECT_TRUE(std::filesystem::exists(other + "~"));
-  EXPECT_EQ(Runnel("stop").code, kDone);
+  EXPECT_EQ(Runnel("quit").code, kDone);
 }
 
 TEST_F(RunningTime, OfTheMachineCannotBePaused) {

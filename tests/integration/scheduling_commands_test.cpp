@@ -142,7 +142,7 @@ TEST_F(SchedulingCommands, AnEmptyWordIsAnError) {
   Program program("run --quiet " + application_);
   ASSERT_TRUE(program.WaitFor("reads"));
   ASSERT_EQ(Runnel("publish /sink/in 3").code, kDone);
-  for (const std::string command : {"release", "pause", "resume", "stop", "restart", "ls", "hz", "echo", "get", "copy relay", "save",
+  for (const std::string command : {"release", "pause", "resume", "block", "restart", "ls", "hz", "echo", "get", "copy relay", "save",
                                     "step", "speed", "activities", "profile", "deadline", "reload", "delete", "rename relay",
                                     "disconnect source/count", "tag relay", "record -o a.mcap", "ls --app", "publish /sink/in 3 --rate"}) {
     const Ended refused = Runnel(command + " \"\"");

@@ -46,7 +46,7 @@ TEST_F(ServicesOfAnApplication, AreCalledFromTheTerminalSwappedAndRecorded) {
   EXPECT_THAT(Runnel("activities").text, HasSubstr("/places_demo/driver/output/go: 0 waiting, 1 answered, 1 failed"));
   EXPECT_THAT(Runnel("complete call /book/n").text, HasSubstr("/book/names"));
   EXPECT_EQ(Runnel("complete call /driver/go \"\"").text, "'{name: \"\"}'\n");
-  EXPECT_EQ(Runnel("stop").code, kDone);
+  EXPECT_EQ(Runnel("quit").code, kDone);
   (void)program.Wait();
   EXPECT_THAT(Runnel("info " + recording).text,
               AllOf(HasSubstr("/book/output/remember_calls"), HasSubstr("/driver/output/go_calls")));
@@ -70,7 +70,7 @@ TEST_F(ServicesOfAnApplication, ABlackboardIsChangedByModulesAndFromTheTerminal)
   EXPECT_EQ(Runnel("swap /book places/book").code, kDone);
   EXPECT_THAT(Runnel("call /book/where '{name: door}'").text, HasSubstr("x: 1, y: 2"));
   EXPECT_THAT(Runnel("call /book/names").text, AllOf(HasSubstr("door"), Not(HasSubstr("late"))));
-  EXPECT_EQ(Runnel("stop").code, kDone);
+  EXPECT_EQ(Runnel("quit").code, kDone);
   (void)program.Wait();
   EXPECT_THAT(Runnel("info " + recording).text, HasSubstr("/book/output/places_changes_calls")) << "the changes";
 }

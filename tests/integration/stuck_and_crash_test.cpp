@@ -55,7 +55,7 @@ TEST_F(StuckAndCrash, AStuckModuleIsNamedAndTheRestDoesWhatTheFileSays) {
   EXPECT_TRUE(program.WaitFor("reads 1")) << "the sink has the other source";
   program.Send(SIGTERM);
   const Ended ended = program.Wait();
-  EXPECT_EQ(ended.code, kDone) << ended.text;
+  EXPECT_EQ(ended.code, kRunFailed) << ended.text;
   EXPECT_THAT(ended.text, HasSubstr("/demo/worker: has still not returned; the program ends"));
 }
 
@@ -86,15 +86,54 @@ TEST_F(StuckAndCrash, DeadlinesAreSetFromTheTerminal) {
   setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1);
   Program program("run " + application_);
   ASSERT_TRUE(program.WaitFor("reads"));
-  EXPECT_EQ(deadline(""), "no module has a deadline\n");
+  EXPECT_EQ(deadline(""), "all others: at most 1s in a cycle\n");
   EXPECT_EQ(deadline("/worker 200ms"), "/demo/worker: at most 200ms in a cycle\n");
-  EXPECT_EQ(deadline(""), "/demo/worker: at most 200ms in a cycle\n");
+  EXPECT_EQ(deadline(""),
+            "all others: at most 1s in a cycle\n/demo/worker: at most 200ms in a cycle\n");
   EXPECT_THAT(deadline("/wroker 1s"), HasSubstr("did you mean 'worker'?"));
   EXPECT_THAT(deadline("/worker soon"), HasSubstr("soon"));
   EXPECT_EQ(deadline("/worker off"), "/demo/worker: no deadline\n");
   program.Send(SIGTERM);
   EXPECT_EQ(program.Wait().code, kDone);
   unsetenv("XDG_RUNTIME_DIR");
+}
+
+constexpr const char* kSimulated = "<clock type=\"simulated\"/>";
+constexpr const char* kTold = "error: /demo/worker: has not returned from its cycle for ";
+
+TEST_F(StuckAndCrash, AStuckModuleIsNamedThoughNoRuleIsAboutIt) {
+  Write(kHangs, "");
+  Program program(Run());
+  EXPECT_TRUE(program.WaitFor(kTold));
+  program.Send(SIGINT);
+  const Ended ended = program.Wait();
+  EXPECT_EQ(ended.code, kRunFailed);
+  EXPECT_THAT(ended.text, HasSubstr("/demo/worker: has still not returned; the program ends"));
+}
+
+TEST_F(StuckAndCrash, OnASimulatedClockASecondSignalEndsWhatIsStuckInOrder) {
+  Write(kHangs, kSimulated);
+  Program program(Run() + " --record " + Path("run.mcap") + " --log " + Path("log"));
+  EXPECT_TRUE(program.WaitFor(kTold));
+  program.Send(SIGINT);
+  EXPECT_TRUE(program.WaitFor(
+      "the run waits for /demo/worker to return from its cycle; Ctrl-C again ends the program"));
+  program.Send(SIGINT);
+  const Ended ended = program.Wait();
+  EXPECT_EQ(ended.code, kRunFailed) << ended.text;
+  EXPECT_THAT(TextOf(Path("log")), HasSubstr("/demo/worker: has not returned from its cycle"));
+  const Ended info = Runnel("info " + Path("run.mcap"));
+  EXPECT_EQ(info.code, kDone);
+  EXPECT_THAT(info.text, HasSubstr("as its writer wanted it"));
+}
+
+TEST_F(StuckAndCrash, OnASimulatedClockAStuckModuleCanEndTheRunToo) {
+  Write(kHangs, std::string(kSimulated) + R"(<on_stuck of="." after="50ms"><stop/></on_stuck>)");
+  const Ended ended = Runnel(Run());
+  EXPECT_EQ(ended.code, kRunFailed);
+  EXPECT_THAT(ended.text,
+              AllOf(HasSubstr(kTold), HasSubstr("is stuck; stops the application"),
+                    HasSubstr("/demo/worker: has still not returned; the program ends")));
 }
 
 class Crashing : public StuckAndCrash, public testing::WithParamInterface<std::pair<const char*, int>> {

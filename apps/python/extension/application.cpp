@@ -9,6 +9,7 @@
 #include "apps/python/extension/bindings.h"
 #include "apps/python/extension/errors.h"
 #include "apps/python/extension/ports.h"
+#include "core/paths/path_search.h"
 #include "plugins/application/run_report.h"
 #include "plugins/command_service/application_log.h"
 
@@ -49,6 +50,23 @@ ApplicationOptions OptionsOf(const LoadWords& words) {
   options.has_control = words.has_control;
   for (const auto& [name, arguments] : words.extensions) options.extensions_by_name.push_back({name, {arguments}});
   return options;
+}
+
+Result<void> Block(Application& application, const std::string& path) {
+  const std::lock_guard lock(application.runtime().structure_mutex());
+  const auto port = PathSearch(application.runtime()).FindPort(path, PathKind::kElement);
+  return port ? (*port)->Block() : port.error();
+}
+
+// Without a lock, by whichever thread.
+Result<void> SetStop(Application& application, bool is_pressed) {
+  RobotStop& stop = application.runtime().robot_stop();
+  if (is_pressed) {
+    stop.Press("Python");
+  } else if (!stop.Release("Python")) {
+    return Error{.message = "STOP is not in force"};
+  }
+  return {};
 }
 
 Open Load(const std::string& kind, const std::string& text, const std::string& folder, const LoadWords& words) {
@@ -212,17 +230,19 @@ void BindApplication(py::module_& module) {
       .def("_writer", [](const Open& open, const std::string& path) { return std::make_shared<TiedPort>(open, path, PathKind::kInput, ConnectOptions{}); })
       .def("_publish", PublishByHand)
       .def("_release", [](const Open& open, const std::string& path) { Checked(WithoutGil([&] { return (*open)->Release(path); })); })
+      .def("_block", [](const Open& open, const std::string& path) { Checked(WithoutGil([&] { return Block(**open, path); })); })
+      .def("_robot_stop", [](const Open& open, bool is_pressed) { Checked(WithoutGil([&] { return SetStop(**open, is_pressed); })); })
       .def("_call", Call)
       .def("_run", Run)
       .def("_run_for", RunFor)
       .def("_step", Step)
       .def("_start", [](const Open& open) { Checked(WithoutGil([&] { return (*open)->Start(); })); })
-      .def("_stop", [](const Open& open) { WithoutGil([&] { if (open->application) open->application->Stop(); }); })
-      .def("_pause", [](const Open& open, const std::string& path) {
-        Checked(WithoutGil([&] { return path.empty() ? (*open)->Pause() : (*open)->Pause(path); }));
+      .def("_quit", [](const Open& open) { WithoutGil([&] { if (open->application) open->application->Stop(); }); })
+      .def("_pause", [](const Open& open, const std::optional<std::string>& path) {
+        Checked(WithoutGil([&] { return path ? (*open)->Pause(*path) : (*open)->Pause(); }));
       })
-      .def("_resume", [](const Open& open, const std::string& path) {
-        Checked(WithoutGil([&] { return path.empty() ? (*open)->Resume() : (*open)->Resume(path); }));
+      .def("_resume", [](const Open& open, const std::optional<std::string>& path) {
+        Checked(WithoutGil([&] { return path ? (*open)->Resume(*path) : (*open)->Resume(); }));
       })
       .def("_set_speed", [](const Open& open, double speed) { Checked(WithoutGil([&] { return (*open)->SetSpeed(speed); })); })
       .def("_close",

@@ -62,6 +62,13 @@ def text_of(value, inside=False):
     return str(value) if isinstance(value, _extension.Value) else repr(value)
 
 
+def _given(path):
+    """The path, or None for all; what is empty by mistake is not all."""
+    if path == "":
+        raise _extension.Error("the path is empty")
+    return path
+
+
 def _words(values):
     return [(str(name), text_of(value)) for name, value in values.items()]
 
@@ -259,9 +266,20 @@ class Application(_extension.Application):
         """Sets the value at a port by hand: readers find it instead of what is published, until release()."""
         self._publish(path, value)
 
-    def release(self, path):
-        """Readers find again what is published."""
-        self._release(path)
+    def stop(self):
+        """STOP of the robot: all that moves something has its safe value, until release(). At once, whatever else goes on."""
+        self._robot_stop(True)
+
+    def release(self, path=None):
+        """Ends the STOP; with the path of a port, its block and the value set by hand there."""
+        if path is None:
+            self._robot_stop(False)
+        else:
+            self._release(_given(path))
+
+    def block(self, path):
+        """Stops one port: its readers have the safe value, whatever anybody publishes, until release(path)."""
+        self._block(path)
 
     def call(self, path, *argument, timeout=30.0, **arguments):
         """Calls a service with its arguments by name, and returns its reply. While nothing runs on simulated time, cycles are
@@ -306,20 +324,20 @@ class Application(_extension.Application):
         self._step(cycles)
 
     def start(self):
-        """Lets it run in threads of its own, until stop()."""
+        """Lets it run in threads of its own, until quit()."""
         self._start()
 
-    def stop(self):
-        """Ends all cycles. It can be started again."""
-        self._stop()
+    def quit(self):
+        """Ends all cycles. It can be started again. (The STOP of the robot is stop().)"""
+        self._quit()
 
-    def pause(self, path=""):
+    def pause(self, path=None):
         """Pauses simulated time, or leaves what is at or below `path` out of cycles."""
-        self._pause(path)
+        self._pause(_given(path))
 
-    def resume(self, path=""):
+    def resume(self, path=None):
         """Takes that back."""
-        self._resume(path)
+        self._resume(_given(path))
 
     def set_speed(self, factor):
         """How many times faster than real time simulated time passes; 0: as fast as it can."""

@@ -72,6 +72,23 @@ class _Socket:
         self.socket.close()
 
 
+def _exchange(connection, request):
+    """Exit code, output and errors."""
+    connection.socket.sendall(request)
+    said = {"out": [], "err": []}
+    while True:
+        kind, payload = connection.receive()
+        if kind == "end":
+            return payload.split()[:1], b"".join(said["out"]).decode(), b"".join(said["err"]).decode()
+        said.setdefault(kind, []).append(payload)
+
+
+def _outcome(code, out, errors):
+    if code != [b"0"]:
+        raise _error(errors or out)
+    return out
+
+
 def applications():
     """The running applications of this user that can be reached: {process: name}."""
     found = {}
@@ -160,13 +177,7 @@ class Remote:
             connection = self._connection
             try:
                 connection.socket.settimeout(patience)
-                connection.socket.sendall(request)
-                out, errors = [], []
-                while True:
-                    kind, payload = connection.receive()
-                    if kind == "end":
-                        break
-                    (errors if kind == "err" else out).append(payload)
+                code, out, errors = _exchange(connection, request)
             except BaseException as why:
                 self._hang_up()  # an answer that is still on its way is nobody's
                 perhaps = "; the application may have carried it out all the same"
@@ -175,9 +186,7 @@ class Remote:
                 if isinstance(why, (OSError, _extension.Error)):
                     raise _extension.Error(f"'{command}': {why}{perhaps}") from None
                 raise
-        if payload.split()[:1] != [b"0"]:
-            raise _error(b"".join(errors).decode() or b"".join(out).decode())
-        return b"".join(out).decode()
+        return _outcome(code, out, errors)
 
     # Looking.
 
@@ -290,9 +299,23 @@ class Remote:
         """Sets the value at a port by hand, until release()."""
         self.ask("publish", path, text_of(value))
 
-    def release(self, path):
-        """Readers find again what is published."""
-        self.ask("release", path)
+    def stop(self):
+        """STOP of the robot: all that moves something has its safe value, until release(). By a connection of its own: no
+        request of another thread delays it.
+        """
+        try:
+            with contextlib.closing(_Socket(self._path, 5)) as connection:
+                return _outcome(*_exchange(connection, _request("stop", [], {}, "")))
+        except (OSError, _extension.Error) as why:
+            raise _extension.Error(f"the STOP of {self.name} is not confirmed: {why}") from None
+
+    def release(self, path=None):
+        """Ends the STOP; with the path of a port, its block or the value set by hand there."""
+        return self.ask("release", *([] if path is None else [path]))
+
+    def block(self, path):
+        """Stops one port: its readers have the safe value, whatever anybody publishes, until release(path)."""
+        return self.ask("block", path)
 
     def call(self, path, argument=None, timeout=30.0, **arguments):
         """Calls a service; its reply in the text format. timeout -- s, on the application's clock."""
@@ -312,13 +335,13 @@ class Remote:
 
     # Its time.
 
-    def pause(self, path=""):
+    def pause(self, path=None):
         """Pauses simulated time, or leaves what is at or below `path` out of cycles."""
-        return self.ask("pause", *([path] if path else []))
+        return self.ask("pause", *([] if path is None else [path]))
 
-    def resume(self, path=""):
+    def resume(self, path=None):
         """Takes that back."""
-        return self.ask("resume", *([path] if path else []))
+        return self.ask("resume", *([] if path is None else [path]))
 
     def step(self, cycles=1):
         """Pauses, and lets so many cycles run."""
@@ -328,9 +351,9 @@ class Remote:
         """How many times faster than real time simulated time passes; 0: as fast as it can."""
         return self.ask("speed", repr(float(factor)))
 
-    def stop(self):
+    def quit(self):
         """Ends the run."""
-        return self.ask("stop")
+        return self.ask("quit")
 
     async def values(self, path):
         """The values of a port as they come, as (time in s, value): ``async for time, twist in app.values(path)``.

@@ -50,6 +50,7 @@ struct Application::Parts final : ApplicationDescription {
   Time start{};                         // of the run, on the application's clock
   bool has_started = false;             // once, at least
   bool has_warned = false;              // of what the scheduler finds doubtful
+  std::mutex attending;                 // one at a time; before all others
   std::mutex events_mutex;              // a leaf
   std::deque<ApplicationEvent> events;  // guarded by events_mutex
   std::atomic<std::uint64_t> ties{0};   // made so far

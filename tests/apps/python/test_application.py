@@ -139,7 +139,7 @@ def test_threads_of_its_own_and_values_as_they_come(xml):
         app.pause()
         app.step(2)
         app.resume()
-        app.stop()
+        app.quit()
         assert not app.is_running
 
 

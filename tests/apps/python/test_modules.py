@@ -182,7 +182,7 @@ def test_a_thread_of_its_own_in_real_time():
         while len(seen := list(reader)) < 1:
             assert reader.wait(10)
         assert seen[0].shape == (4,)
-        app.stop()
+        app.quit()
 
 
 def test_the_program_runs_them_too(files, program):

@@ -182,7 +182,7 @@ def test_the_program_calls_them(empty_folder, program):
             house.reload("python")
             assert house.call("/doubler/double") == "63"
             assert house.call("/doubler/count") == "5", "what it remembers is kept"
-            house.stop()
+            house.quit()
         assert running.wait(60) == 0
     finally:
         running.kill()

@@ -121,18 +121,33 @@ TEST_F(ControlTest, TakesOnlySoManyClientsAndSaysSo) {
   StartServer({.application = "app", .folder = folder.path() / "runnel", .most_clients = 4});
   std::vector<ControlClient> clients;
   for (int i = 0; i < 4; ++i) clients.push_back(Client());
-  const auto refused = ControlClient::Connect(server->socket());
-  ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().message, HasSubstr("4 clients already"));
+  EXPECT_THAT(Ask("ls").errors, HasSubstr("4 clients already"));
   EXPECT_EQ(test::Ask(clients[0], "ls").code, 0);
   clients.pop_back();
   // The server learns of it in a moment.
-  for (;;) {
-    auto next = ControlClient::Connect(server->socket());
-    if (!next) continue;
-    EXPECT_EQ(test::Ask(*next, "ls").code, 0);
-    break;
+  while (Ask("ls").code != 0) continue;
+}
+
+// Whoever occupies the others, or floods them: who comes to stop the robot does so.
+TEST_F(ControlTest, HasRoomForWhoPressesStop) {
+  StartServer({.application = "app", .folder = folder.path() / "runnel", .most_clients = 2});
+  std::vector<ControlClient> busy;
+  for (int i = 0; i < 2; ++i) busy.push_back(Client());
+  std::string requests;
+  for (int i = 0; i < 2000; ++i) requests += FrameBytes("request", "ls");
+  const int flooding = RawClient();
+  SendAll(flooding, requests.substr(0, 20'000));
+  EXPECT_EQ(Ask("stop").code, 0);
+  EXPECT_TRUE(runtime.robot_stop().in_force());
+  std::vector<ControlClient> more;
+  for (int i = 0; i < 8; ++i) {
+    auto client = ControlClient::Connect(server->socket());
+    if (client) more.push_back(std::move(*client));
   }
+  const auto refused = ControlClient::Connect(server->socket());
+  ASSERT_FALSE(refused) << "memory and descriptors have a bound, too";
+  EXPECT_THAT(refused.error().message, HasSubstr("2 clients already"));
+  close(flooding);
 }
 
 TEST_F(ControlTest, ServesManyAtOnce) {

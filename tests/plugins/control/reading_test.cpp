@@ -98,7 +98,7 @@ TEST_F(ControlTest, MakesAStoppedModuleAnew) {
   EXPECT_EQ(Ask("restart /a").code, 0);
   EXPECT_THAT(Ask("restart /app/b/in").errors, HasSubstr("neither a module nor a group"));
   EXPECT_THAT(Ask("restart").errors, HasSubstr("cannot run it again"));
-  EXPECT_THAT(Ask("stop").errors, HasSubstr("cannot end its run"));
+  EXPECT_THAT(Ask("quit").errors, HasSubstr("cannot end its run"));
 }
 
 TEST_F(ControlTest, RenamesAndCopies) {

@@ -1,5 +1,7 @@
 // What people read of an application that somebody has stopped, paused, set by hand, or asked too much of.
 
+#include <atomic>
+
 #include "core/port/port.h"
 #include "tests/plugins/control/control_fixture.h"
 #include "tests/support/wait_until.h"
@@ -17,6 +19,18 @@ class Slow final : public Module {
 
  private:
   void Update() override { std::this_thread::sleep_for(5ms); }
+};
+
+/// Does not return from its cycle as long as somebody wants that.
+class Hanging final : public Module {
+ public:
+  using Module::Module;
+  static inline std::atomic<bool> hangs{false};
+
+ private:
+  void Update() override {
+    while (hangs.load()) std::this_thread::sleep_for(1ms);
+  }
 };
 
 class StatesTest : public ControlTest {
@@ -55,6 +69,66 @@ TEST_F(StatesTest, WhatIsPausedByHandOrBlockedIsCounted) {
   }
   EXPECT_EQ(State(), "running, 1 port BLOCKED, 1 port set by hand");
   EXPECT_THAT(Ask("ls").output, AllOf(HasSubstr(", BLOCKED"), HasSubstr(", set by hand = 3")));
+}
+
+// Neither the structure lock nor the worker is waited for.
+TEST_F(StatesTest, StopIsPressedWhoeverHasTheStructureAndTheWorker) {
+  TaskGroup tasks(service->worker());
+  std::atomic<bool> goes_on{false};
+  tasks.Post([&] {
+    while (!goes_on.load()) std::this_thread::sleep_for(1ms);
+  });
+  {
+    const std::lock_guard lock(runtime.structure_mutex());
+    const Told told = Ask("stop");
+    EXPECT_EQ(told.code, 0) << told.errors;
+    EXPECT_THAT(told.output, HasSubstr("STOP is in force"));
+    EXPECT_TRUE(runtime.robot_stop().in_force());
+    EXPECT_EQ(Ask("release").code, 0);
+  }
+  goes_on = true;
+}
+
+TEST_F(StatesTest, WhatDrivesIsNamedOrThatNothingDoes) {
+  EXPECT_THAT(Ask("stop").output, HasSubstr("STOP is in force; 'runnel release' ends it; warning: no port of this application is marked as driving"));
+  {
+    const std::lock_guard lock(runtime.structure_mutex());
+    EXPECT_TRUE(PortAt("/app/b/input/in").SetDriving(true, AnyValue(0)));
+  }
+  EXPECT_THAT(Ask("stop").output, HasSubstr("STOP is in force already; 'runnel release' ends it; what drives: /app/b/input/in\n"));
+  EXPECT_THAT(Ask("release").output, HasSubstr("released the STOP that a terminal had pressed; what drives: /app/b/input/in\n"));
+  const Told again = Ask("release");
+  EXPECT_EQ(again.code, 2);
+  EXPECT_THAT(again.errors, HasSubstr("STOP is not in force"));
+}
+
+TEST_F(StatesTest, TheWordsOfBeforeAreRefusedWithThoseOfNow) {
+  EXPECT_THAT(Ask("stop /app/a").errors, AllOf(HasSubstr("it is the STOP of the robot"), HasSubstr("'pause PATH'")));
+  EXPECT_THAT(Ask("publish /b/in stop=yes").errors, HasSubstr("'block PORT'"));
+  EXPECT_FALSE(runtime.robot_stop().in_force());
+}
+
+TEST_F(StatesTest, QuitEndsTheRunAndNotTheRobot) {
+  std::atomic<bool> has_quit{false};
+  hooks.quit = [&]() -> Result<std::string> {
+    has_quit = true;
+    return std::string("the run ends");
+  };
+  StartServer({.application = "app", .folder = folder.path() / "runnel"});
+  EXPECT_THAT(Ask("quit").output, HasSubstr("the run ends"));
+  EXPECT_TRUE(has_quit);
+  EXPECT_FALSE(runtime.robot_stop().in_force());
+}
+
+TEST_F(StatesTest, AModuleThatDoesNotReturnIsTold) {
+  Register<Hanging>("test/hanging");
+  ASSERT_EQ(Change("create thread other period=1ms\ncreate /hang test/hanging\nmove /hang to other").code, 0);
+  ASSERT_TRUE(scheduler.SetStuckLimit("/app/hang", 20ms));
+  Hanging::hangs = true;
+  WaitUntil("it is told", [&] { return State().find("1 module STUCK") != std::string::npos; });
+  EXPECT_THAT(Ask("ls /hang").output, HasSubstr(", STUCK for "));
+  Hanging::hangs = false;
+  WaitUntil("it is well again", [&] { return State().find("STUCK") == std::string::npos; });
 }
 
 TEST_F(StatesTest, AThreadThatOverrunsIsTold) {

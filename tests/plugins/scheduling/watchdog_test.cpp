@@ -99,6 +99,47 @@ TEST_F(Watchdog, ALimitIsSetAndTakenBackWhileItRuns) {
   LetGo();
 }
 
+TEST_F(Watchdog, TheDefaultIsForThoseThatNoOtherRuleIsAbout) {
+  MustSucceed(scheduler.SetStuckLimit("", 5ms));
+  scheduler.AddStuckRule({.of = "/threads/stuck", .after = 50ms});
+  const Running running(scheduler);
+  EXPECT_THAT(WaitForFault().at(0).message, HasSubstr("at most 50ms"));
+  MustSucceed(scheduler.SetStuckLimit("/stays", {}));
+  EXPECT_THAT(scheduler.StuckRules(), SizeIs(3))
+      << "that it may take as long as it likes is a rule, too";
+  LetGo();
+}
+
+// The thread that steps is the one that is stuck.
+TEST(StuckInSimulatedTime, IsToldAndAnsweredByAnotherThread) {
+  Runtime runtime;
+  Scheduler scheduler(runtime, {.clock = SchedulerOptions::ClockKind::kSimulated});
+  auto& module = runtime.Create<Doing>(runtime.root(), "stays");
+  std::atomic<int> stuck{0}, listened{0}, returned{0};
+  scheduler.AddStuckRule({.of = "/stays",
+                          .after = 20ms,
+                          .on_stuck =
+                              [&](const Fault& fault) {
+                                EXPECT_EQ(fault.time, testing::At(10));
+                                ++stuck;
+                              },
+                          .on_return = [&](const Fault&) { ++returned; }});
+  scheduler.SetStuckListener([&] { ++listened; });
+  module.action = [&](Doing& of) {
+    if (of.cycle_time() != testing::At(10)) return;
+    test::WaitUntil("the rule has been applied", [&] { return stuck == 1 && listened > 0; });
+    EXPECT_EQ(scheduler.StuckModules().at(0).path, "/stays");
+  };
+  MustSucceed(runtime.MakeReady(runtime.root()));
+  scheduler.RunUntil(testing::At(50));
+  test::WaitUntil("it is told that it has returned", [&] {
+    (void)scheduler.TakeFaults();
+    return returned == 1;
+  });
+  EXPECT_EQ(stuck, 1);
+  EXPECT_THAT(scheduler.StuckModules(), IsEmpty());
+}
+
 TEST_F(Watchdog, StoppingDoesNotWaitForWhoIsStuckAndStartingDoes) {
   scheduler.AddStuckRule({.of = "/", .after = 10ms});
   MustSucceed(scheduler.Start());

@@ -57,7 +57,7 @@ export async function Connect(from, to, { part = '', convert = '' } = {}) {
 export const Offer = (path, settings) => Apply([Change.offer(path, settings)], `offer ${Brief(path)}`, { quiet: true });
 /** What others write; `settings`: as texts, by the words of <take>. */
 export const Take = (topic, path, settings) => Apply([Change.take(topic, path, settings)], `take ${topic}`, { quiet: true });
-export const StopOffering = (path, topic) => Apply([Change.offer(path, { topic, stop: 'true' })], `stop offering ${Brief(path)}`);
+export const StopOffering = (path, topic) => Apply([Change.offer(path, { topic, remove: 'true' })], `stop offering ${Brief(path)}`);
 
 export async function Disconnect(from, to) {
   const reply = await Apply([Change.disconnect(from, to)], `disconnect ${Brief(from)} from ${Brief(to)}`);

@@ -1,0 +1,71 @@
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include <unistd.h>
+
+#include "apps/runnel/commands.h"
+#include "apps/runnel/output.h"
+#include "plugins/control/control_client.h"
+#include "plugins/control/control_folder.h"
+
+namespace runnel::program {
+
+namespace {
+
+constexpr Duration kPatience = std::chrono::seconds(2);
+
+// What has come of the STOP of one application. Text: its answer; "": it is another application than the one that is meant.
+Result<std::string> StopOne(const std::filesystem::path& socket, const std::string& wanted) {
+  auto client = ControlClient::Connect(socket, kPatience);
+  if (!client) return client.error();
+  const Hello& hello = client->hello();
+  if (!wanted.empty() && wanted != hello.application && wanted != std::to_string(hello.process)) return std::string();
+  client->SetPatience(kPatience);
+  std::string text;
+  const auto keep = [&text](std::string_view more) {
+    text += more;
+    return true;
+  };
+  const auto code = client->Ask("stop", keep, keep);
+  const std::string name = hello.application + " (" + std::to_string(hello.process) + "): ";
+  if (code && *code == 0) return name + text;
+  return Error{.message = name + (code ? text : code.error().message)};
+}
+
+}  // namespace
+
+ExitCode Stop(const ControlArguments& arguments) {
+  const auto sockets = FindControlSockets(ControlFolder());
+  if (!sockets) {
+    PrintError(sockets.error());
+    return ExitCode::kRunFailed;
+  }
+  std::mutex mutex;
+  std::size_t stopped = 0;                // guarded by mutex
+  ExitCode code = ExitCode::kDone;  // guarded by mutex
+  const auto stop = [&](const std::filesystem::path& socket) {
+    const auto told = StopOne(socket, arguments.application);
+    const std::lock_guard lock(mutex);
+    if (told) {
+      std::cout << Coloured(*told, STDOUT_FILENO) << std::flush;
+      if (!told->empty()) ++stopped;
+      return;
+    }
+    PrintError({.message = "the STOP is not confirmed: " + told.error().message, .position = {socket.string()}});
+    code = ExitCode::kRunFailed;
+  };
+  // All at once: one that hangs delays no other.
+  std::vector<std::thread> asking;
+  for (const auto& socket : *sockets) asking.emplace_back(stop, socket);
+  for (std::thread& each : asking) each.join();
+  if (stopped > 0 || code != ExitCode::kDone) return code;
+  const std::string name = arguments.application.empty() ? "" : " called '" + arguments.application + "'";
+  PrintError({.message = "no application" + name + " is running that could be reached, so nothing has been stopped"});
+  return ExitCode::kRunFailed;
+}
+
+}  // namespace runnel::program

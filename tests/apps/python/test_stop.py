@@ -1,0 +1,88 @@
+"""STOP of the robot, the block of one port, and the end of a run, in this process and from another."""
+
+import threading
+import time
+
+import pytest
+
+import runnel
+
+APPLICATION = """
+<application name="base"> <load plugin="motion"/> <clock type="real"/> <thread name="control" period="5ms"/>
+  <module name="gate" type="motion/command_gate"/> <module name="after" type="motion/command_gate"/>
+  <connect from="gate/allowed" to="after/wanted"/> <connect from="after/allowed" to="gate/wanted" late="true"/>
+</application>"""
+
+
+@pytest.fixture
+def base():
+    with runnel.load_text(APPLICATION, control=True) as app:
+        app.start()
+        yield app
+
+
+def test_stop_is_in_force_until_it_is_released(base):
+    base.stop()
+    base.stop()  # twice does no harm
+    base.release()
+    with pytest.raises(runnel.Error, match="not in force"):
+        base.release()
+
+
+def test_one_port_is_blocked_until_it_is_released(base):
+    base.block("/gate/wanted")
+    with pytest.raises(runnel.Error, match="no 'gat'"):
+        base.block("/gat/wanted")
+    base.release("/gate/wanted")
+    with pytest.raises(runnel.Error):
+        base.release("/gate/wanted")
+    with pytest.raises(runnel.Error, match="the path is empty"):
+        base.release("")
+
+
+def test_an_empty_path_is_not_the_whole_application(base):
+    for do in (base.pause, base.resume, base.release):
+        with pytest.raises(runnel.Error):
+            do("")
+    with runnel.connect("base") as far:
+        for do in (far.pause, far.resume, far.release, far.block):
+            with pytest.raises(runnel.Error, match="one of its words is empty"):
+                do("")
+
+
+def test_a_stop_that_is_not_confirmed_says_so(base, tmp_path):
+    with runnel.connect("base") as far:
+        far._path = tmp_path / "nobody.sock"
+        with pytest.raises(runnel.Error, match="the STOP of base is not confirmed: "):
+            far.stop()
+
+
+def test_the_same_from_another_process(base):
+    with runnel.connect("base") as far:
+        assert "STOP is in force" in far.stop()
+        with pytest.raises(runnel.Error, match="not in force"):
+            far.release(), far.release()
+        assert "is blocked" in far.block("/gate/wanted")
+        far.release("/gate/wanted")
+        with pytest.raises(runnel.Error, match="one of its words is empty"):
+            far.release("")
+
+
+def test_stop_does_not_wait_for_another_request(base):
+    with runnel.connect("base") as far:
+        with far._lock:  # as while another thread waits for an answer
+            asking = threading.Thread(target=far.stop, daemon=True)
+            asking.start()
+            asking.join(30)
+            assert not asking.is_alive()
+        assert "released" in far.release()
+
+
+def test_quit_ends_the_run(base):
+    with runnel.connect("base") as far:
+        far.quit()
+    for _ in range(3000):
+        if not base.is_running:
+            return
+        time.sleep(0.02)
+    raise AssertionError("it runs on")

@@ -1,0 +1,124 @@
+// The STOP of the robot from a terminal: at once, whatever goes on, in all applications, and no one drives on by himself.
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gmock/gmock.h>
+
+#include "tests/integration/program.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/wait_until.h"
+
+namespace runnel::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+/// Two motors: one is commanded in every cycle, the other by hand.
+class StopCommand : public testing::Test {
+ protected:
+  StopCommand() { setenv("XDG_RUNTIME_DIR", folder_.path().c_str(), 1); }
+  ~StopCommand() override { unsetenv("XDG_RUNTIME_DIR"); }
+
+  [[nodiscard]] std::string Write(const std::string& name) const {
+    const std::string file = folder_ / (name + ".xml");
+    std::ofstream(file) << "<application name=\"" << name << R"("> <load plugin="faulty"/>
+  <clock type="real"/> <thread name="main" period="5ms"/>
+  <module name="commander" type="faulty/counter"> <parameter name="first" value="1"/> </module>
+  <module name="motor" type="faulty/motor"/> <module name="other" type="faulty/motor"/>
+  <connect from="commander/count" to="motor/speed"/>
+</application>)";
+    return "run --quiet " + file;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(StopCommand, TakesEffectWhileAModuleIsBeingMadeAndEndsWithNewCommandsOnly) {
+  Program program(Write("robot"));
+  ASSERT_TRUE(program.WaitFor("/robot/motor: moves"));
+  ASSERT_EQ(Runnel("publish /other/speed 2").code, kDone);
+  ASSERT_TRUE(program.WaitFor("/robot/other: moves"));
+  const std::string made_after = folder_ / "made";
+  Program create("create /slow faulty/slow_to_make made_after=" + made_after);
+  WaitUntil("the module is being made", [&] { return std::filesystem::exists(made_after + ".begun"); });
+
+  const Ended stopped = Runnel("stop");
+  EXPECT_EQ(stopped.code, kDone);
+  EXPECT_THAT(stopped.text, AllOf(HasSubstr("robot ("), HasSubstr("): STOP is in force; 'runnel release' ends it")));
+  EXPECT_TRUE(program.WaitFor("/robot/motor: stands"));
+  EXPECT_TRUE(program.WaitFor("/robot/other: stands"));
+  EXPECT_THAT(Runnel("ps").text, HasSubstr("running, STOP in force for"));
+  std::ofstream(made_after) << "\n";
+  EXPECT_EQ(create.Wait().code, kDone);
+
+  const Ended released = Runnel("release");
+  EXPECT_EQ(released.code, kDone);
+  EXPECT_THAT(released.text, HasSubstr("released the STOP that a terminal had pressed; what drives: "
+                                       "/robot/motor/input/speed, /robot/other/input/speed"));
+  WaitUntil("the motor that is commanded again moves again", [&] {
+    const std::string log = Runnel("log").text;
+    return log.rfind("/robot/motor: moves") > log.rfind("/robot/motor: stands");
+  });
+  EXPECT_THAT(Runnel("get /other/speed").text, HasSubstr("0")) << "its command is from before";
+  EXPECT_EQ(Runnel("publish /other/speed 3").code, kDone);
+  WaitUntil("by a new command the other one moves, too", [&] {
+    const std::string log = Runnel("log").text;
+    return log.rfind("/robot/other: moves") > log.rfind("/robot/other: stands");
+  });
+  EXPECT_EQ(Runnel("quit").code, kDone);
+  EXPECT_EQ(program.Wait().code, kDone);
+}
+
+TEST_F(StopCommand, StopsAllApplicationsAndSaysOfEachWhetherItHas) {
+  Program first(Write("first"));
+  Program second(Write("second"));
+  Program third(Write("third"));
+  for (Program* each : {&first, &second, &third}) ASSERT_TRUE(each->WaitFor("motor: moves"));
+  EXPECT_THAT(Runnel("stop --app third").text, AllOf(HasSubstr("third ("), Not(HasSubstr("first ("))));
+  EXPECT_TRUE(third.WaitFor("/third/motor: stands"));
+  second.Send(SIGSTOP);
+  const Ended ended = Runnel("stop");
+  EXPECT_EQ(ended.code, kRunFailed);
+  EXPECT_THAT(ended.text, AllOf(HasSubstr("first ("), HasSubstr("): STOP is in force;"), HasSubstr("): STOP is in force already;"),
+                                HasSubstr("error: the STOP is not confirmed: ")));
+  EXPECT_TRUE(first.WaitFor("/first/motor: stands"));
+  second.Send(SIGCONT);
+  EXPECT_THAT(Runnel("release --app first").text, HasSubstr("released the STOP"));
+  EXPECT_EQ(Runnel("release").code, kRunFailed) << "of which one must be said";
+}
+
+TEST_F(StopCommand, NeedsNothingThatIsInstalledAndSaysWhenNothingRuns) {
+  const Ended nothing = Runnel("stop");
+  EXPECT_EQ(nothing.code, kRunFailed);
+  EXPECT_THAT(nothing.text, HasSubstr("no application is running that could be reached, so nothing has been stopped"));
+  Program program(Write("robot"));
+  ASSERT_TRUE(program.WaitFor("/robot/motor: moves"));
+  std::ofstream(folder_ / "broken.extension.xml") << "<extens";
+  const std::string broken = "env RUNNEL_PLUGIN_PATH=" + folder_.path().string() + " " RUNNEL_PROGRAM;
+  EXPECT_EQ(Program("ps", broken).Wait().code, kBadInput);
+  EXPECT_EQ(Program("stop", broken).Wait().code, kDone);
+  EXPECT_TRUE(program.WaitFor("/robot/motor: stands"));
+  EXPECT_THAT(Runnel("stop --app robt").text, HasSubstr("no application called 'robt' is running"));
+}
+
+TEST_F(StopCommand, WordsOfBeforeAreRefusedWithThoseOfNow) {
+  const auto refused = [](const std::string& words, const std::string& now) {
+    const Ended ended = Runnel(words);
+    EXPECT_EQ(ended.code, kBadInput) << words;
+    EXPECT_THAT(ended.text, HasSubstr(now)) << words;
+  };
+  refused("stop /robot", "'runnel stop' is the STOP of the robot, 'runnel pause PATH' leaves modules out of cycles");
+  refused("publish /a/in --stop", "'runnel block PORT'");
+  refused("publish /a/in 3 --stop", "'runnel block PORT'");
+  refused("offer /a/out --stop", "'runnel offer … --remove'");
+  refused("take /x /a/in --stop", "'runnel take … --remove'");
+}
+
+}  // namespace
+}  // namespace runnel::test
