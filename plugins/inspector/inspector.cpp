@@ -3,26 +3,17 @@
 #include <utility>
 
 #include "plugins/inspector/internal/inspection.h"
-#include "plugins/inspector/internal/stop_messages.h"
 #include "plugins/inspector/internal/viewer_session.h"
 
 namespace runnel {
-
-namespace {
-
-constexpr const char* kStopProtocol = "runnel.stop.v1";
-
-}  // namespace
 
 Inspector::Inspector(CommandService& service, Scheduler& scheduler, InspectorOptions options)
     : shared_(std::make_unique<internal::Inspection>(service, scheduler, std::move(options))) {}
 Inspector::~Inspector() = default;
 
 WebProtocol Inspector::Protocol() {
-  return {.names = {"runnel.inspector.v1", kStopProtocol},
+  return {.names = {"runnel.inspector.v1", internal::ViewerSession::kStopProtocol},
           .start = [shared = shared_.get()](WebClient& client) -> std::unique_ptr<WebSession> {
-            if (client.protocol() == kStopProtocol)
-              return std::make_unique<internal::StopSession>(*shared, client);
             return std::make_unique<internal::ViewerSession>(*shared, client);
           }};
 }

@@ -50,7 +50,7 @@ void CheckCurves(JsonMembers& members, const std::string& name) {
     curve.NeedText("target");
     curve.Text("field");
     curve.RefuseOthers();
-    if (!each.is_object() || curve.error())
+    if (curve.error())
       members.Complain("\"" + name + "\" must be a list of {\"target\", \"field\"}");
   }
 }

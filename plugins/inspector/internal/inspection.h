@@ -12,7 +12,6 @@
 #include "plugins/inspector/internal/catalogue.h"
 #include "plugins/inspector/panel_file.h"
 #include "plugins/inspector/structure_mirror.h"
-#include "plugins/web_server/web_session.h"
 
 namespace runnel::internal {
 
@@ -29,9 +28,6 @@ class Inspection {
   [[nodiscard]] const ServedApplication& application() const noexcept { return application_; }
   [[nodiscard]] Scheduler& scheduler() const noexcept { return scheduler_; }
   [[nodiscard]] const InspectorOptions& options() const noexcept { return options_; }
-  [[nodiscard]] WebRole RoleOf(const WebClient& client) const {
-    return options_.is_read_only ? WebRole::kLook : client.role();
-  }
   /// How viewers are called in what they change: the first is 1.
   [[nodiscard]] std::uint64_t NumberViewer() noexcept { return ++viewers_; }
   /// Another one with each start.

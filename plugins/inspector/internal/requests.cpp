@@ -43,6 +43,17 @@ std::vector<RequestError> ErrorsOf(const Diagnostics& diagnostics) {
   return errors;
 }
 
+std::string ReplyTo(std::optional<std::uint64_t> request, const CommandAnswer& answer) {
+  if (!answer) return Refusal(request, ErrorsOf(answer.diagnostics), answer.needs);
+  std::string text = answer.text;
+  for (const Error& warning : answer.diagnostics.warnings()) text += "\n" + warning.ToString();
+  if (answer.client.empty()) return Reply(request, text);
+  return JsonObjectText([&](JsonObject& json) {
+    AddHead(request, true, json);
+    json.Add("text", text).Add("client", answer.client);
+  });
+}
+
 using CommandOrErrors = std::variant<CommandRequest, std::vector<RequestError>>;
 
 CommandOrErrors ReadChanges(ViewerMessage& message) {
@@ -278,17 +289,6 @@ std::string Refusal(std::optional<std::uint64_t> request, const std::vector<Requ
     AddHead(request, false, json);
     if (!needs.empty()) json.Add("needs", needs);
     AppendList(errors, json.Key("errors"), AppendError);
-  });
-}
-
-std::string ReplyTo(std::optional<std::uint64_t> request, const CommandAnswer& answer) {
-  if (!answer) return Refusal(request, ErrorsOf(answer.diagnostics), answer.needs);
-  std::string text = answer.text;
-  for (const Error& warning : answer.diagnostics.warnings()) text += "\n" + warning.ToString();
-  if (answer.client.empty()) return Reply(request, text);
-  return JsonObjectText([&](JsonObject& json) {
-    AddHead(request, true, json);
-    json.Add("text", text).Add("client", answer.client);
   });
 }
 

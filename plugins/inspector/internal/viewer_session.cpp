@@ -10,6 +10,7 @@
 #include "core/log/log_levels.h"
 #include "core/types/type_info.h"
 #include "plugins/command_service/caught_error.h"
+#include "plugins/command_service/request_table.h"
 #include "plugins/structure/change_history.h"
 #include "plugins/values/json_writer.h"
 #include "plugins/values/value_bytes.h"
@@ -26,6 +27,7 @@ constexpr std::size_t kMostLogEntries = 500;
 // A viewer for which more is waiting gets no values, rates and states until it has taken it.
 constexpr std::size_t kSlow = 1 << 20;
 constexpr auto kState = milliseconds(100);
+constexpr auto kAlive = milliseconds(1000);
 constexpr auto kTimeAlone = milliseconds(200);
 constexpr double kFastestWatch = 60;
 constexpr double kFastestRates = 10;
@@ -40,11 +42,14 @@ ViewerSession::ViewerSession(Inspection& inspection, WebClient& client)
     : inspection_(inspection),
       client_(client),
       name_("viewer " + std::to_string(inspection.NumberViewer())),
-      life_(inspection, client) {
-  SendHello();
+      is_for_stop_(client.protocol() == kStopProtocol),
+      pressed_(inspection.application().runtime.robot_stop().signal()->Listen(client.Waker())) {
+  if (!is_for_stop_) SendHello();
 }
 
-WebRole ViewerSession::role() const { return inspection_.RoleOf(client_); }
+WebRole ViewerSession::role() const {
+  return inspection_.options().is_read_only ? WebRole::kLook : client_.role();
+}
 
 bool ViewerSession::IsSlow() const { return client_.waiting_bytes() > kSlow; }
 
@@ -60,9 +65,24 @@ void ViewerSession::SendHello() {
   }));
 }
 
+WebSession::SteadyTime ViewerSession::SendAlive() {
+  const SteadyTime now = std::chrono::steady_clock::now();
+  const auto stop = inspection_.application().runtime.robot_stop().state();
+  if (now < alive_due_ && told_stop_ == stop.changes) return alive_due_;
+  const bool is_sent = client_.SendText(JsonObjectText([&](JsonObject& json) {
+    JsonObject told(json.Add("op", "alive").Key("stop"));
+    told.Add("in_force", stop.in_force).Add("by", stop.by);
+    told.Add("since", ToSeconds(stop.since - inspection_.start()));
+  }));
+  if (is_sent) told_stop_ = stop.changes;
+  return alive_due_ = now + kAlive;
+}
+
 WebSession::SteadyTime ViewerSession::OnPoll() {
-  SteadyTime next = std::min(life_.Send(), inspection_.Look());
+  SteadyTime next = SendAlive();
   SendReplies();
+  if (is_for_stop_) return next;
+  next = std::min(next, inspection_.Look());
   SendStructure();
   SendArrangement();
   SendLog();
@@ -232,6 +252,11 @@ void ViewerSession::OnText(std::string_view text) {
     return Refuse(message, {.message = "there is no operation '" + message.op + "'",
                             .hint = NearestNameHint(message.op,
                                                     NamesOf(AllOperations(), &Operation::name))});
+  }
+  if (is_for_stop_ && message.op != "stop" &&
+      (message.op != "release" || message.path != kRobotStopName)) {
+    return Refuse(message, {.message = "this connection knows no '" + message.op + "'",
+                            .hint = "it bears 'stop', and 'release' with the path 'stop'"});
   }
   const WebRole needed = RoleFor(*operation, message);
   if (role() < needed) return RefuseRole(message, needed);

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "core/element/robot_stop.h"
 #include "plugins/inspector/internal/inspection.h"
 #include "plugins/inspector/internal/requests.h"
-#include "plugins/inspector/internal/stop_messages.h"
 #include "plugins/inspector/internal/viewer_message.h"
 #include "plugins/values/foxglove_channel.h"
 #include "plugins/values/watched_port.h"
@@ -22,6 +22,9 @@ namespace runnel::internal {
 /// Threads:  the server's.
 class ViewerSession final : public WebSession {
  public:
+  /// Of connections that bear the STOP, signs of life, and nothing else, so that nothing delays it.
+  static constexpr const char* kStopProtocol = "runnel.stop.v1";
+
   ViewerSession(Inspection& inspection, WebClient& client);
 
   void OnText(std::string_view message) override;
@@ -41,6 +44,8 @@ class ViewerSession final : public WebSession {
     std::optional<FoxgloveChannel> picture = {};  // as Foxglove has it, which browsers can show
   };
   void SendHello();
+  // How it stands with the STOP: each second, and when it changes. When it wants the next turn.
+  SteadyTime SendAlive();
   void SendStructure();
   void SendArrangement();
   void SendLog();
@@ -68,7 +73,10 @@ class ViewerSession final : public WebSession {
   Inspection& inspection_;
   WebClient& client_;
   const std::string name_;
-  LifeSign life_;
+  const bool is_for_stop_;
+  const StopSignal::Subscription pressed_;  // gives the session a turn
+  std::optional<std::uint64_t> told_stop_;  // of its changes
+  SteadyTime alive_due_{};
   std::shared_ptr<const Catalogue> catalogue_;
   std::uint64_t structure_ = 0;  // the revision that has been told
   std::uint64_t arrangement_ = 0;  // the revision that has been told
