@@ -186,7 +186,10 @@ Result<void> Application::MakeReady() {
 void Application::NoteStart() {
   parts_->scheduler->pace().Begin();
   // The thread that steps looks around itself, unless one of its modules is stuck.
-  parts_->scheduler->SetStuckListener([this] { Attend(); });
+  parts_->scheduler->SetStuckListener([this] {
+    parts_->supervisor->KeepSafe();
+    Attend();
+  });
   if (std::exchange(parts_->has_started, true)) return;
   for (const auto& extension : parts_->extensions()) extension->OnStart();
 }

@@ -52,6 +52,18 @@ bool Scheduler::IsPaused(FrameworkElement& element, std::string_view but_for) co
   return compiler_.IsPaused(element, left_out);
 }
 
+std::string Scheduler::WhyAtRest(const FrameworkElement& element) const {
+  const internal::PlannedElement* const around = compiler_.FindAround(element);
+  if (around == nullptr) return "";
+  const std::string path = around->element->path();
+  if (around->state->is_stopped()) return path + " has failed";
+  if (around->state->is_paused()) return path + " is paused";
+  const CycleRunner& runner = *around->thread->runner;
+  return cycle_watchdog_.IsStuck(runner)
+             ? "a module of " + runner.path() + ", which runs " + path + ", does not return"
+             : "";
+}
+
 Result<void> Scheduler::CheckPaused(std::string_view path) const {
   const std::lock_guard lock(runtime_.structure_mutex());
   const auto found = PathSearch(runtime_).Find(path);

@@ -69,6 +69,8 @@ class ScheduleCompiler {
   [[nodiscard]] bool HasTasks() const;
   /// Whether the element has thrown.
   [[nodiscard]] bool IsStopped(const FrameworkElement& element) const;
+  /// Of the nearest element at or above it that is run; nullptr: none is.
+  [[nodiscard]] const internal::PlannedElement* FindAround(const FrameworkElement& element) const;
   /// Adds those that run anything at or below `element`, as planned, and are not in `runners` yet.
   void AddRunnersOf(FrameworkElement& element, Runners& runners) const;
 

@@ -195,6 +195,9 @@ class Scheduler final : public ElementListener, public AssignmentListener {
   [[nodiscard]] std::vector<std::string> PausedPaths() const;
   /// Whether cycles leave out any module at or below the element; what this path pauses does not count, if it is given.
   [[nodiscard]] bool IsPaused(FrameworkElement& element, std::string_view but_for = {}) const;
+  /// Why nothing new comes from the module that has the element, as "/planner is paused": it has failed, or its thread is
+  /// stuck. "": it runs. Under the structure lock.
+  [[nodiscard]] std::string WhyAtRest(const FrameworkElement& element) const;
   /// Errors: no such element; it is not this path that has been paused.
   [[nodiscard]] Result<void> CheckPaused(std::string_view path) const;
 

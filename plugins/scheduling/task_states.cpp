@@ -51,6 +51,15 @@ bool ScheduleCompiler::IsToBePaused(const internal::PlannedElement& planned,
   return but_for == nullptr || thread->runner->path() != but_for->path();
 }
 
+const internal::PlannedElement* ScheduleCompiler::FindAround(
+    const FrameworkElement& element) const {
+  for (const FrameworkElement* at = &element; at != nullptr; at = at->parent()) {
+    const auto known = elements_.find(at->id());
+    if (known != elements_.end() && known->second.thread != nullptr) return &known->second;
+  }
+  return nullptr;
+}
+
 bool ScheduleCompiler::IsPaused(FrameworkElement& element, const FrameworkElement* but_for) const {
   bool is_paused = false;
   element.Visit([&](FrameworkElement& each) {

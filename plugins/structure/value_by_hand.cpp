@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/port/port_stop.h"
 #include "core/types/any_value.h"
 #include "core/types/text_format.h"
 #include "core/types/type_info.h"
@@ -41,6 +42,9 @@ Result<void> PublishByHand(Port& port, const void* value, Port::Setter setter) {
 }
 
 Result<std::shared_ptr<const void>> SafeValueOf(const Port& port) {
+  if (const auto stop = port.stop()) {
+    return std::shared_ptr<const void>(stop, stop->safe_value().get());
+  }
   if (const AnyValue& value = port.limits().default_value) {
     // The limits may be set anew while it is used: the value is shared.
     const auto kept = std::make_shared<AnyValue>(value);

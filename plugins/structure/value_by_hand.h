@@ -13,7 +13,7 @@ namespace runnel {
 
 /// An object of the port's type, from its text format; what the text leaves out keeps the type's defaults.
 Result<std::shared_ptr<const void>> ValueOf(const Port& port, const std::string& text);
-/// What readers shall find when nobody says anything better: the port's default (InputLimits), else what its type begins
+/// What readers shall find when nobody says anything better: the safe value of a port that drives, else the port's default (InputLimits), else what its type begins
 /// with, a command of no motion.
 Result<std::shared_ptr<const void>> SafeValueOf(const Port& port);
 /// `value`: an object of the port's type.

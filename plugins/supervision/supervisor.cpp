@@ -11,6 +11,7 @@
 #include "plugins/structure/structure_request.h"
 #include "plugins/structure/value_by_hand.h"
 #include "plugins/supervision/stale_watch.h"
+#include "plugins/supervision/standstill.h"
 #include "plugins/supervision/stop_button.h"
 
 namespace runnel {
@@ -37,6 +38,7 @@ struct Supervisor::Shared {
   Result<void> Release(const std::string& port);
   Time Watch(Time now);
   void ServeRequests(Time now);
+  void KeepSafe(Time now);
 
   Runtime& runtime;
   Scheduler& scheduler;
@@ -47,6 +49,7 @@ struct Supervisor::Shared {
     bool is_applied = false;
   };
 
+  internal::Standstill standstill;  // under the structure lock
   std::vector<StaleWatch> watches;  // of the thread that looks out
   std::mutex pausing;               // one after the other; before all others
   std::vector<KnownPause> pauses;   // guarded by pausing
@@ -60,6 +63,7 @@ Result<void> Supervisor::Shared::Publish(const SafeValue& safe) {
   if (!found) return found.error();
   const auto value = safe.value ? ValueOf(**found, *safe.value) : SafeValueOf(**found);
   if (!value) return value.error();
+  internal::Standstill::LeaveToRule(**found);
   return PublishByHand(**found, value->get(), Port::Setter::kRule);
 }
 
@@ -137,8 +141,17 @@ void Supervisor::Shared::ServeRequests(Time now) {
   }
 }
 
+void Supervisor::Shared::KeepSafe(Time now) {
+  const std::lock_guard lock(runtime.structure_mutex());
+  standstill.Look(runtime, scheduler, now,
+                  [&](const Port& port, std::string what, bool is_recovery) {
+                    Note({port.path(), std::move(what), now, false, is_recovery});
+                  });
+}
+
 Time Supervisor::Shared::Watch(Time now) {
   ServeRequests(now);
+  KeepSafe(now);
   std::vector<std::pair<const StaleWatch*, StaleWatch::Turn>> turns;
   Time next = now + kLookForRequests;
   if (!watches.empty()) {
@@ -242,15 +255,19 @@ Result<void> Supervisor::SetPaused(std::string_view path, bool is_paused) {
     {
       const std::lock_guard structure(runtime.structure_mutex());
       const auto found = runtime.root().Find(each.rule.of);
-      applies = found && scheduler_.IsPaused(**found, is_paused ? "" : path);
+      if (!found) continue;  // it stays as it is
+      applies = scheduler_.IsPaused(**found, is_paused ? "" : path);
     }
     if (applies == std::exchange(each.is_applied, applies)) continue;
     const Reaction& reaction = applies ? each.rule.on_pause : each.rule.on_resume;
     if (reaction.is_empty()) continue;
     shared_->React(reaction, each.rule.of, applies ? "is paused" : "goes on", runtime.clock().Now());
   }
+  if (is_paused) KeepSafe();
   return is_paused ? Result<void>() : scheduler_.SetPaused(path, false);
 }
+
+void Supervisor::KeepSafe() { shared_->KeepSafe(shared_->runtime.clock().Now()); }
 
 std::vector<Notice> Supervisor::TakeNotices() {
   const std::lock_guard lock(shared_->mutex);

@@ -50,6 +50,10 @@ class Supervisor {
   /// As Scheduler::SetPaused(), and then what the rules say. Errors: the same.
   Result<void> SetPaused(std::string_view path, bool is_paused);
 
+  /// Gives ports that drive their safe value where what feeds them is paused, has failed or is stuck, and takes it back
+  /// when it publishes again. Done now and then by itself; on a simulated clock by others while a module is stuck.
+  void KeepSafe();
+
   /// What has been done since the last call, oldest first.
   [[nodiscard]] std::vector<Notice> TakeNotices();
 

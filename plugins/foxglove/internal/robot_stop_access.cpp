@@ -49,7 +49,7 @@ std::string SetStop(FoxgloveShared& shared, std::string_view name, std::string_v
   CommandAnswer answer = CommandAnswer::Done("false does nothing; " + std::string(kReleaseName) + " releases");
   const bool is_release = name == kReleaseName;
   if (is_release || !SaysFalse(json)) {
-    answer = shared.application.service.Begin(RobotStopRequest{!is_release, "a viewer"}, *shared.tasks)->Take();
+    answer = shared.application.service.Begin(RobotStopRequest{!is_release, "Foxglove"}, *shared.tasks)->Take();
   }
   const std::string text = answer ? answer.text : answer.diagnostics.ToString();
   return JsonObjectText([&](JsonObject& reply) { reply.Add("success", static_cast<bool>(answer)).Add("message", text); });
